@@ -1,0 +1,105 @@
+//! Frames and conventions. This is the only file that changes a sign.
+
+/// Tangents of corners, one per corner: unit xyz and the sign w, bitangent = w * cross(normal, xyz).
+///
+/// These are not vertex tangents. Corners of one vertex may disagree (at mirrored seams they do), so there is no way to use
+/// them with the old index list: [`crate::split_vertices`] gives vertices and new indices.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CornerTangents(pub(crate) Vec<[f32; 4]>);
+
+impl CornerTangents {
+    /// The number of corners.
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// True when there are no corners.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// One tangent per corner, in corner order: for unindexed vertex buffers and for comparing. Not in vertex order.
+    pub fn per_corner(&self) -> &[[f32; 4]] {
+        &self.0
+    }
+
+    /// As [`CornerTangents::per_corner`], giving up the allocation.
+    pub fn into_per_corner(self) -> Vec<[f32; 4]> {
+        self.0
+    }
+
+    /// The same frames written in another convention: w is negated where the bitangent's direction differs.
+    pub fn converted(mut self, from: Convention, to: Convention) -> Self {
+        if from.bitangent != to.bitangent {
+            for tangent in &mut self.0 {
+                tangent[3] = -tangent[3];
+            }
+        }
+        self
+    }
+}
+
+/// One corner's whole MikkTSpace result.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// The direction of increasing u, unit length, perpendicular to the normal.
+    pub tangent: [f32; 3],
+    /// The direction of increasing v, unit length, perpendicular to the normal but not always to the tangent.
+    pub bitangent: [f32; 3],
+    /// World units per unit of u and per unit of v.
+    pub magnitude: [f32; 2],
+    /// +1 where the UV map keeps its orientation, -1 where it mirrors.
+    pub sign: f32,
+}
+
+/// Frames of corners, one per corner, in corner order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CornerFrames(pub(crate) Vec<Frame>);
+
+impl CornerFrames {
+    /// One frame per corner, in corner order. Not in vertex order.
+    pub fn per_corner(&self) -> &[Frame] {
+        &self.0
+    }
+
+    /// As [`CornerFrames::per_corner`], giving up the allocation.
+    pub fn into_per_corner(self) -> Vec<Frame> {
+        self.0
+    }
+
+    /// The tangents and signs alone.
+    pub fn tangents(&self) -> CornerTangents {
+        CornerTangents(self.0.iter().map(Frame::tangent_and_sign).collect())
+    }
+}
+
+impl Frame {
+    /// Tangent xyz and sign w.
+    pub fn tangent_and_sign(&self) -> [f32; 4] {
+        let [x, y, z] = self.tangent;
+        [x, y, z, self.sign]
+    }
+}
+
+/// What the numbers of a tangent mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Convention {
+    /// Where w * cross(normal, tangent) points.
+    pub bitangent: BitangentDirection,
+}
+
+/// Where the bitangent that a shader rebuilds points, on the surface, with respect to the stored UVs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BitangentDirection {
+    /// Towards increasing v.
+    AlongV,
+    /// Towards decreasing v.
+    AgainstV,
+}
+
+impl Convention {
+    /// MikkTSpace's own: the bitangent follows v of the UVs as they were given. What this crate returns.
+    pub const MIKKTSPACE: Self = Self { bitangent: BitangentDirection::AlongV };
+    /// glTF: v points down the image, the bitangent up (glTF 2.0, 3.7.2.1: bitangent = cross(normal, tangent.xyz) * tangent.w).
+    pub const GLTF: Self = Self { bitangent: BitangentDirection::AgainstV };
+}

@@ -1,0 +1,32 @@
+//! Tangent frames for normal mapping: MikkTSpace bit for bit, and the vertex splitting that its seams demand.
+//!
+//! Borrow a mesh, get one tangent per *corner* (a vertex of one face), then [`split_vertices`] to go back to an
+//! indexed mesh. Corner tangents cannot be written through the old index list by accident: they have a type of their own.
+//!
+//! ```
+//! use darboux::{Mesh, TangentOptions, generate_tangents, split_vertices};
+//!
+//! let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+//! let normals = [[0.0, 0.0, 1.0]; 4];
+//! let uvs = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+//! let indices = [0u16, 1, 2, 0, 2, 3];
+//!
+//! let mesh = Mesh::triangles(&positions, &normals, &uvs, &indices)?;
+//! let tangents = generate_tangents(&mesh, &TangentOptions::default());
+//! let split = split_vertices(&mesh, &tangents.corners)?;
+//! assert_eq!(split.tangent_of_vertex, [[1.0, 0.0, 0.0, 1.0]; 4]);
+//! assert_eq!(split.indices, [0, 1, 2, 0, 2, 3]);
+//! # Ok::<(), darboux::MeshError>(())
+//! ```
+
+mod frame;
+mod mesh;
+mod plan;
+mod split;
+mod tangents;
+
+pub use frame::{BitangentDirection, Convention, CornerFrames, CornerTangents, Frame};
+pub use mesh::{Faces, Indices, Mesh, MeshError, Strided};
+pub use plan::Plan;
+pub use split::{Splitter, VertexSplit, split_vertices};
+pub use tangents::{Frames, Mode, Report, TangentOptions, Tangents, generate_frames, generate_tangents};

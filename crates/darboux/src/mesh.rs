@@ -1,0 +1,395 @@
+//! The borrowed mesh: strided vertex data, indices, faces. Validated once, here; everything behind it trusts it.
+
+use std::fmt;
+
+/// `N` floats per vertex, borrowed from any layout: packed arrays, an interleaved vertex buffer, raw bytes.
+///
+/// Any `&[[f32; N]]`, `&[[f32; N]; M]` or `&Vec<[f32; N]>` converts into it. Values may be anything, NaN and infinity included.
+#[derive(Clone, Copy, Debug)]
+pub struct Strided<'a, const N: usize> {
+    source: Source<'a>,
+    len: usize,
+    stride: usize,
+    offset: usize,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Source<'a> {
+    Floats(&'a [f32]),
+    Bytes(&'a [u8]),
+}
+
+impl<'a, const N: usize> Strided<'a, N> {
+    /// Reads `N` floats from every `stride` floats of `data`, the first at `offset`.
+    ///
+    /// `stride` and `offset` count floats. The length is the number of whole elements that fit. Errors: a stride below `N`;
+    /// for packed data (`stride == N`), floats left over at the end.
+    pub fn from_floats(data: &'a [f32], stride: usize, offset: usize) -> Result<Self, MeshError> {
+        let len = count(data.len(), stride, offset, N, N)?;
+        Ok(Self { source: Source::Floats(data), len, stride, offset })
+    }
+
+    /// Reads `N` floats in native byte order from every `stride` bytes of `data`, the first at `offset`.
+    ///
+    /// `stride` and `offset` count bytes and need no alignment. Errors as for [`Strided::from_floats`].
+    pub fn from_bytes(data: &'a [u8], stride: usize, offset: usize) -> Result<Self, MeshError> {
+        let len = count(data.len(), stride, offset, N * 4, N)?;
+        Ok(Self { source: Source::Bytes(data), len, stride, offset })
+    }
+
+    /// The number of elements.
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// True when there are no elements.
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// The element at `index`. Panics when `index` is not below [`Strided::len`].
+    #[inline]
+    pub fn get(&self, index: usize) -> [f32; N] {
+        let start = self.offset + index * self.stride;
+        match self.source {
+            Source::Floats(data) => {
+                let element = &data[start..start + N];
+                std::array::from_fn(|i| element[i])
+            }
+            Source::Bytes(data) => {
+                let element = &data[start..start + 4 * N];
+                std::array::from_fn(|i| {
+                    let bytes = &element[4 * i..4 * i + 4];
+                    f32::from_ne_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])
+                })
+            }
+        }
+    }
+}
+
+/// How many elements of `size` units fit, `stride` units apart, from `offset` on.
+fn count(
+    len: usize,
+    stride: usize,
+    offset: usize,
+    size: usize,
+    components: usize,
+) -> Result<usize, MeshError> {
+    if stride < size {
+        return Err(MeshError::StrideTooSmall { stride, needed: size });
+    }
+    let room = len.saturating_sub(offset);
+    if stride == size && room % size != 0 {
+        return Err(MeshError::PartialElement { len: room, components });
+    }
+    Ok(if room < size { 0 } else { (room - size) / stride + 1 })
+}
+
+impl<'a, const N: usize> From<&'a [[f32; N]]> for Strided<'a, N> {
+    fn from(data: &'a [[f32; N]]) -> Self {
+        Self { source: Source::Floats(data.as_flattened()), len: data.len(), stride: N, offset: 0 }
+    }
+}
+
+impl<'a, const N: usize, const M: usize> From<&'a [[f32; N]; M]> for Strided<'a, N> {
+    fn from(data: &'a [[f32; N]; M]) -> Self {
+        data.as_slice().into()
+    }
+}
+
+impl<'a, const N: usize> From<&'a Vec<[f32; N]>> for Strided<'a, N> {
+    fn from(data: &'a Vec<[f32; N]>) -> Self {
+        data.as_slice().into()
+    }
+}
+
+/// Which vertex each corner uses.
+#[derive(Clone, Copy, Debug, Default)]
+pub enum Indices<'a> {
+    /// Corner i is vertex i.
+    #[default]
+    Unindexed,
+    /// 16-bit indices.
+    U16(&'a [u16]),
+    /// 32-bit indices.
+    U32(&'a [u32]),
+}
+
+macro_rules! indices_from {
+    ($($source:ty, $variant:ident, $index:ty, [$($generic:tt)*]);* $(;)?) => {$(
+        impl<'a, $($generic)*> From<$source> for Indices<'a> {
+            fn from(data: $source) -> Self {
+                Indices::$variant(data as &'a [$index])
+            }
+        }
+    )*};
+}
+
+indices_from! {
+    &'a [u16], U16, u16, [];
+    &'a [u32], U32, u32, [];
+    &'a [u16; M], U16, u16, [const M: usize];
+    &'a [u32; M], U32, u32, [const M: usize];
+    &'a Vec<u16>, U16, u16, [];
+    &'a Vec<u32>, U32, u32, [];
+}
+
+/// How corners make faces.
+#[derive(Clone, Copy, Debug)]
+pub enum Faces<'a> {
+    /// Three corners each.
+    Triangles,
+    /// Four corners each.
+    Quads,
+    /// The corner count of each face. Faces of other than 3 or 4 corners are allowed, but MikkTSpace does not define them:
+    /// they are counted as unsupported.
+    Mixed(&'a [u32]),
+}
+
+/// A mesh, borrowed: positions, normals and UVs per vertex, indices and faces over them.
+///
+/// A *corner* is a vertex of one face; corners are numbered face after face, in the order of the index list.
+#[derive(Clone, Copy, Debug)]
+pub struct Mesh<'a> {
+    positions: Strided<'a, 3>,
+    normals: Strided<'a, 3>,
+    uvs: Strided<'a, 2>,
+    indices: Indices<'a>,
+    faces: Faces<'a>,
+    corner_count: usize,
+}
+
+/// The largest number of corners: ids of corners and half-edges stay within 32 bits, with room for marks.
+const MAX_CORNERS: usize = (1 << 30) - 1;
+
+impl<'a> Mesh<'a> {
+    /// A triangle mesh.
+    ///
+    /// `positions`, `normals`: V by 3; `uvs`: V by 2, any values; `indices`: 3 per triangle, or [`Indices::Unindexed`] where
+    /// every three vertices are a triangle. Normals are used as given (MikkTSpace expects unit length).
+    /// Errors: lengths that differ, an index out of range, corners that are not whole triangles, more than 2^30 - 1 corners.
+    pub fn triangles(
+        positions: impl Into<Strided<'a, 3>>,
+        normals: impl Into<Strided<'a, 3>>,
+        uvs: impl Into<Strided<'a, 2>>,
+        indices: impl Into<Indices<'a>>,
+    ) -> Result<Self, MeshError> {
+        Self::new(positions.into(), normals.into(), uvs.into(), indices.into(), Faces::Triangles)
+    }
+
+    /// A mesh of quads, or of mixed faces. As [`Mesh::triangles`], with the corners per face given by `faces`.
+    ///
+    /// Further error: face sizes whose sum is not the number of corners.
+    pub fn with_faces(
+        positions: impl Into<Strided<'a, 3>>,
+        normals: impl Into<Strided<'a, 3>>,
+        uvs: impl Into<Strided<'a, 2>>,
+        indices: impl Into<Indices<'a>>,
+        faces: Faces<'a>,
+    ) -> Result<Self, MeshError> {
+        Self::new(positions.into(), normals.into(), uvs.into(), indices.into(), faces)
+    }
+
+    fn new(
+        positions: Strided<'a, 3>,
+        normals: Strided<'a, 3>,
+        uvs: Strided<'a, 2>,
+        indices: Indices<'a>,
+        faces: Faces<'a>,
+    ) -> Result<Self, MeshError> {
+        let vertices = positions.len();
+        for (what, found) in [("normals", normals.len()), ("uvs", uvs.len())] {
+            if found != vertices {
+                return Err(MeshError::LengthMismatch { what, expected: vertices, found });
+            }
+        }
+        let corner_count = match indices {
+            Indices::Unindexed => vertices,
+            Indices::U16(list) => in_range(list, vertices)?,
+            Indices::U32(list) => in_range(list, vertices)?,
+        };
+        if corner_count > MAX_CORNERS {
+            return Err(MeshError::TooManyCorners { corners: corner_count, limit: MAX_CORNERS });
+        }
+        let mesh = Self { positions, normals, uvs, indices, faces, corner_count };
+        mesh.check_faces()?;
+        Ok(mesh)
+    }
+
+    fn check_faces(&self) -> Result<(), MeshError> {
+        let corners = self.corner_count;
+        let size = match self.faces {
+            Faces::Triangles => 3,
+            Faces::Quads => 4,
+            Faces::Mixed(sizes) => {
+                let sum: u64 = sizes.iter().map(|&size| u64::from(size)).sum();
+                return if sum == corners as u64 {
+                    Ok(())
+                } else {
+                    Err(MeshError::FaceSizes { sum, corners })
+                };
+            }
+        };
+        if corners % size == 0 { Ok(()) } else { Err(MeshError::PartialFace { corners, size }) }
+    }
+
+    /// The number of vertices, used or not.
+    pub fn vertex_count(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// The number of corners: the length of the index list.
+    pub fn corner_count(&self) -> usize {
+        self.corner_count
+    }
+
+    /// The number of faces.
+    pub fn face_count(&self) -> usize {
+        match self.faces {
+            Faces::Triangles => self.corner_count / 3,
+            Faces::Quads => self.corner_count / 4,
+            Faces::Mixed(sizes) => sizes.len(),
+        }
+    }
+
+    /// How corners make faces.
+    pub fn faces(&self) -> Faces<'a> {
+        self.faces
+    }
+
+    /// The vertex that `corner` uses. Panics when `corner` is out of range.
+    #[inline]
+    pub fn vertex_of_corner(&self, corner: usize) -> usize {
+        match self.indices {
+            Indices::Unindexed => corner,
+            Indices::U16(list) => list[corner] as usize,
+            Indices::U32(list) => list[corner] as usize,
+        }
+    }
+
+    /// Positions, V by 3.
+    pub fn positions(&self) -> Strided<'a, 3> {
+        self.positions
+    }
+
+    /// Normals, V by 3.
+    pub fn normals(&self) -> Strided<'a, 3> {
+        self.normals
+    }
+
+    /// UVs, V by 2.
+    pub fn uvs(&self) -> Strided<'a, 2> {
+        self.uvs
+    }
+}
+
+/// The number of indices, when all are below `vertices`.
+fn in_range<I: Copy + Into<u32>>(list: &[I], vertices: usize) -> Result<usize, MeshError> {
+    match list.iter().position(|&index| index.into() as usize >= vertices) {
+        None => Ok(list.len()),
+        Some(at) => Err(MeshError::IndexOutOfRange { at, index: list[at].into(), vertices }),
+    }
+}
+
+/// What can be wrong with the structure of a mesh. Degenerate or non-finite values are not errors: reports count them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum MeshError {
+    /// Two per-vertex arrays have different lengths.
+    LengthMismatch {
+        /// Which array.
+        what: &'static str,
+        /// The number of positions.
+        expected: usize,
+        /// The length found.
+        found: usize,
+    },
+    /// An index names no vertex.
+    IndexOutOfRange {
+        /// Its place in the index list.
+        at: usize,
+        /// Its value.
+        index: u32,
+        /// The number of vertices.
+        vertices: usize,
+    },
+    /// The corners do not make whole faces.
+    PartialFace {
+        /// The number of corners.
+        corners: usize,
+        /// Corners per face.
+        size: usize,
+    },
+    /// The sizes of mixed faces do not add up to the number of corners.
+    FaceSizes {
+        /// Their sum.
+        sum: u64,
+        /// The number of corners.
+        corners: usize,
+    },
+    /// A stride is smaller than the element it steps over.
+    StrideTooSmall {
+        /// The stride, in floats or bytes as given.
+        stride: usize,
+        /// The smallest that works.
+        needed: usize,
+    },
+    /// A packed array ends within an element.
+    PartialElement {
+        /// Its length, in floats or bytes as given.
+        len: usize,
+        /// Components per element.
+        components: usize,
+    },
+    /// More corners than 32-bit ids can hold.
+    TooManyCorners {
+        /// The number of corners.
+        corners: usize,
+        /// The largest number that works.
+        limit: usize,
+    },
+    /// Tangents or a mesh that belong to another mesh: the number of corners (or vertices) differs.
+    OtherMesh {
+        /// What is counted: "corners" or "vertices".
+        what: &'static str,
+        /// The number that was expected.
+        expected: usize,
+        /// The number found.
+        found: usize,
+    },
+}
+
+impl fmt::Display for MeshError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            MeshError::LengthMismatch { what, expected, found } => write!(
+                f,
+                "{what} has {found} elements but there are {expected} positions; give one per vertex"
+            ),
+            MeshError::IndexOutOfRange { at, index, vertices } => {
+                write!(f, "index {index} at place {at} is out of range: there are {vertices} vertices")
+            }
+            MeshError::PartialFace { corners, size } => {
+                write!(f, "{corners} corners do not make whole faces of {size}")
+            }
+            MeshError::FaceSizes { sum, corners } => {
+                write!(f, "the face sizes add up to {sum} but there are {corners} corners")
+            }
+            MeshError::StrideTooSmall { stride, needed } => {
+                write!(f, "a stride of {stride} is too small: an element needs {needed}")
+            }
+            MeshError::PartialElement { len, components } => {
+                write!(f, "a length of {len} is not a whole number of {components}-component elements")
+            }
+            MeshError::TooManyCorners { corners, limit } => {
+                write!(f, "{corners} corners are too many: the limit is {limit}; split the mesh")
+            }
+            MeshError::OtherMesh { what, expected, found } => write!(
+                f,
+                "{found} {what} where the mesh has {expected}; pass what was computed from this mesh"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for MeshError {}
