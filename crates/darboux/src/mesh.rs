@@ -79,7 +79,7 @@ fn count(
         return Err(MeshError::StrideTooSmall { stride, needed: size });
     }
     let room = len.saturating_sub(offset);
-    if stride == size && room % size != 0 {
+    if stride == size && !room.is_multiple_of(size) {
         return Err(MeshError::PartialElement { len: room, components });
     }
     Ok(if room < size { 0 } else { (room - size) / stride + 1 })
@@ -230,7 +230,7 @@ impl<'a> Mesh<'a> {
                 };
             }
         };
-        if corners % size == 0 { Ok(()) } else { Err(MeshError::PartialFace { corners, size }) }
+        if corners.is_multiple_of(size) { Ok(()) } else { Err(MeshError::PartialFace { corners, size }) }
     }
 
     /// The number of vertices, used or not.
