@@ -1,0 +1,244 @@
+//! Which file is read and which is written, decided and checked before any work.
+
+use std::collections::HashMap;
+use std::ffi::OsStr;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use walkdir::{DirEntry, WalkDir};
+
+use crate::arguments::TangentsArguments;
+
+/// Where a file comes from.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Input {
+    Stdin,
+    File(PathBuf),
+}
+
+/// Where a file goes.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Output {
+    Stdout,
+    File(PathBuf),
+}
+
+/// One file's way.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Job {
+    pub input: Input,
+    pub output: Output,
+}
+
+/// The files below the arguments.
+#[derive(Debug, Default)]
+pub struct Found {
+    /// Each file, and the folder argument that it was found in, if any.
+    pub files: Vec<(Input, Option<PathBuf>)>,
+    /// Places that could not be searched, or that hold no model, with the reason.
+    pub failed: Vec<(PathBuf, String)>,
+    /// How many earlier outputs were left out.
+    pub left_out: usize,
+}
+
+/// Wrong usage, in one sentence.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Usage(pub String);
+
+impl fmt::Display for Input {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Input::Stdin => f.write_str("<stdin>"),
+            Input::File(path) => path.display().fmt(f),
+        }
+    }
+}
+
+impl fmt::Display for Output {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Output::Stdout => f.write_str("<stdout>"),
+            Output::File(path) => path.display().fmt(f),
+        }
+    }
+}
+
+/// Searches the arguments for models: folders recursively, in the order of names; `except` and below it is left out.
+///
+/// A path that is no folder is taken as a file, missing ones too: reading it says what is wrong.
+pub fn find(inputs: &[PathBuf], except: Option<&Path>) -> Found {
+    let except = except.map(identity);
+    let mut found = Found::default();
+    for path in inputs {
+        if path == Path::new("-") {
+            found.files.push((Input::Stdin, None));
+        } else if path.is_dir() {
+            found.search(path, except.as_deref());
+        } else {
+            found.files.push((Input::File(path.clone()), None));
+        }
+    }
+    found
+}
+
+impl Found {
+    fn search(&mut self, folder: &Path, except: Option<&Path>) {
+        let (files, left_out, failed) = (self.files.len(), self.left_out, self.failed.len());
+        let entered =
+            |entry: &DirEntry| !entry.file_type().is_dir() || Some(&*identity(entry.path())) != except;
+        for entry in WalkDir::new(folder).sort_by_file_name().into_iter().filter_entry(entered) {
+            match entry {
+                Ok(entry) if entry.file_type().is_file() && is_model(entry.path()) => {
+                    if is_output(entry.path()) {
+                        self.left_out += 1;
+                    } else {
+                        self.files.push((Input::File(entry.into_path()), Some(folder.to_path_buf())));
+                    }
+                }
+                Ok(_) => {}
+                Err(error) => {
+                    let path = error.path().unwrap_or(folder).to_path_buf();
+                    let reason =
+                        error.into_io_error().map_or("it contains itself".into(), |error| error.to_string());
+                    self.failed.push((path, reason));
+                }
+            }
+        }
+        if (files, left_out, failed) == (self.files.len(), self.left_out, self.failed.len()) {
+            self.failed.push((folder.to_path_buf(), "the folder holds no .gltf or .glb file".into()));
+        }
+    }
+}
+
+/// The jobs of `darboux tangents`, in the order of the inputs, each once.
+///
+/// Errors: an output that does not fit the inputs, two inputs with one output, an output that is an input.
+pub fn plan(arguments: &TangentsArguments, found: &Found) -> Result<Vec<Job>, Usage> {
+    check_usage(arguments)?;
+    let mut jobs = Vec::new();
+    let mut input_of_output: HashMap<PathBuf, &Input> = HashMap::new();
+    for (input, folder) in &found.files {
+        let output = destination(arguments, input, folder.as_deref());
+        if let Output::File(path) = &output {
+            match input_of_output.insert(identity(path), input) {
+                Some(other) if other == input => continue,
+                Some(other) => {
+                    return Err(Usage(format!(
+                        "{other} and {input} would both be written to {output}; give them different folders"
+                    )));
+                }
+                None => {}
+            }
+        }
+        jobs.push(Job { input: input.clone(), output });
+    }
+    if !arguments.in_place {
+        check_inputs_survive(&jobs, &input_of_output)?;
+    }
+    Ok(jobs)
+}
+
+fn check_usage(arguments: &TangentsArguments) -> Result<(), Usage> {
+    let usage = |message: &str| Err(Usage(message.into()));
+    let stdin = arguments.inputs.iter().any(|path| path == Path::new("-"));
+    if stdin && arguments.inputs.len() > 1 {
+        return usage("- (standard input) must be the only input");
+    }
+    if stdin && (arguments.in_place || arguments.out_dir.is_some()) {
+        return usage("standard input has no name and no place; use -o FILE");
+    }
+    let Some(output) = &arguments.output else {
+        return match arguments.json && stdin {
+            true => usage("the model and the report cannot both go to standard output; use -o FILE"),
+            false => Ok(()),
+        };
+    };
+    if arguments.inputs.len() > 1 {
+        return usage("-o takes a single input; use --out-dir for several");
+    }
+    if arguments.inputs[0].is_dir() {
+        return usage("-o takes a single file, but the input is a folder; use --out-dir");
+    }
+    if output == Path::new("-") {
+        return match arguments.json {
+            true => usage("the model and the report cannot both go to standard output; use -o FILE"),
+            false => Ok(()),
+        };
+    }
+    if output.is_dir() {
+        return Err(Usage(format!("{} is a folder; use --out-dir", output.display())));
+    }
+    if !is_model(output) {
+        return Err(Usage(format!("{} must end in .glb or .gltf", output.display())));
+    }
+    Ok(())
+}
+
+fn destination(arguments: &TangentsArguments, input: &Input, folder: Option<&Path>) -> Output {
+    let path = match (&arguments.output, input) {
+        (Some(output), _) if output != Path::new("-") => return Output::File(output.clone()),
+        (Some(_), _) | (None, Input::Stdin) => return Output::Stdout,
+        (None, Input::File(path)) => path,
+    };
+    Output::File(match &arguments.out_dir {
+        Some(out_dir) => {
+            let name = || Path::new(path.file_name().unwrap_or_default());
+            let kept = folder.and_then(|folder| path.strip_prefix(folder).ok());
+            let kept = out_dir.join(kept.unwrap_or_else(name));
+            if is_model(&kept) { kept } else { kept.with_extension("glb") }
+        }
+        None if arguments.in_place => path.clone(),
+        None => {
+            let extension = if is_model(path) { path.extension() } else { None };
+            let extension = extension.unwrap_or(OsStr::new("glb"));
+            let mut name = path.file_stem().unwrap_or_default().to_os_string();
+            name.push(".tangents.");
+            name.push(extension);
+            path.with_file_name(name)
+        }
+    })
+}
+
+fn check_inputs_survive(jobs: &[Job], input_of_output: &HashMap<PathBuf, &Input>) -> Result<(), Usage> {
+    for job in jobs {
+        let Input::File(path) = &job.input else { continue };
+        if let Some(&writer) = input_of_output.get(&identity(path)) {
+            let whose = if *writer == job.input {
+                "its own output".into()
+            } else {
+                format!("the output of {writer}")
+            };
+            return Err(Usage(format!(
+                "{} would be replaced by {whose}; name another output, or use --in-place to replace inputs",
+                path.display()
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// One path for all spellings of a file's path, whether it exists yet or not.
+fn identity(path: &Path) -> PathBuf {
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+    for ancestor in path.ancestors() {
+        if let Ok(existing) = ancestor.canonicalize() {
+            return match path.strip_prefix(ancestor) {
+                Ok(rest) if rest != Path::new("") => existing.join(rest),
+                _ => existing,
+            };
+        }
+    }
+    path
+}
+
+/// True for .gltf and .glb.
+fn is_model(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|extension| ["gltf", "glb"].iter().any(|model| extension.eq_ignore_ascii_case(model)))
+}
+
+/// True for names that outputs get when none is given.
+fn is_output(path: &Path) -> bool {
+    let stem = Path::new(path.file_stem().unwrap_or_default());
+    stem.extension() == Some(OsStr::new("tangents"))
+}

@@ -1,0 +1,66 @@
+//! Files that are generated and committed: written by `cargo xtask gen`, compared by `cargo xtask ci`.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::run::{Outcome, program, root, run};
+
+/// Where generated files lie. Folders hold nothing else.
+const PLACES: &[&str] = &["docs/cli.md", "crates/darboux-cli/generated"];
+
+/// Writes all generated files in their places.
+pub fn write() -> Outcome {
+    for place in PLACES {
+        remove(&root().join(place))?;
+    }
+    generate(root())
+}
+
+/// Errors: a committed file differs from a freshly generated one, is missing, or is no longer generated.
+pub fn compare() -> Outcome {
+    let fresh = root().join("target/generated");
+    remove(&fresh)?;
+    generate(&fresh)?;
+    let (fresh, committed) = (read(&fresh)?, read(root())?);
+    let names = fresh.keys().chain(committed.keys());
+    match names.into_iter().find(|&name| fresh.get(name) != committed.get(name)) {
+        None => {
+            println!("{} generated files are as committed", fresh.len());
+            Ok(())
+        }
+        Some(name) => {
+            Err(format!("{} is not what is generated now; run `cargo xtask gen` and commit", name.display()))
+        }
+    }
+}
+
+fn generate(into: &Path) -> Outcome {
+    run(program("cargo run --quiet --package darboux-cli --example generate --").arg(into))
+}
+
+fn remove(path: &Path) -> Outcome {
+    let removed = if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) };
+    match removed {
+        Err(error) if path.exists() => Err(format!("{} cannot be removed: {error}", path.display())),
+        _ => Ok(()),
+    }
+}
+
+/// All files in the places below `base`, by their path below it.
+fn read(base: &Path) -> Result<BTreeMap<PathBuf, Vec<u8>>, String> {
+    let mut files = BTreeMap::new();
+    let mut waiting: Vec<PathBuf> = PLACES.iter().map(|place| base.join(place)).collect();
+    while let Some(path) = waiting.pop() {
+        let fault = |error| format!("{} cannot be read: {error}", path.display());
+        if path.is_dir() {
+            for entry in fs::read_dir(&path).map_err(fault)? {
+                waiting.push(entry.map_err(fault)?.path());
+            }
+        } else if path.exists() {
+            let bytes = fs::read(&path).map_err(fault)?;
+            files.insert(path.strip_prefix(base).unwrap_or(&path).to_path_buf(), bytes);
+        }
+    }
+    Ok(files)
+}

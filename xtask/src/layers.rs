@@ -1,0 +1,59 @@
+//! Who may import whom: ARCHITECTURE.md's table as data, checked against `cargo metadata`.
+
+use serde_json::Value;
+
+use crate::run::{Outcome, output_of, program, root};
+
+/// Each package of ours and those of ours that it may import, tests and build scripts included.
+const MAY_IMPORT: &[(&str, &[&str])] = &[
+    ("darboux", &[]),
+    ("darboux-io", &["darboux"]),
+    ("darboux-cli", &["darboux", "darboux-io"]),
+    ("darboux-tests", &["darboux", "darboux-io", "darboux-cli"]),
+    ("darboux-fuzz", &["darboux", "darboux-io", "darboux-tests"]),
+    ("xtask", &[]),
+];
+
+/// Errors: a package imports one that it may not, the core a third-party crate that is not optional, or a package has no row.
+pub fn check() -> Outcome {
+    let mut packages = packages_of("Cargo.toml")?;
+    if root().join("fuzz/Cargo.toml").exists() {
+        packages.extend(packages_of("fuzz/Cargo.toml")?);
+    }
+    let faults: Vec<String> = packages.iter().flat_map(faults).collect();
+    if faults.is_empty() {
+        println!("{} packages import only what they may", packages.len());
+        Ok(())
+    } else {
+        Err(faults.join("; "))
+    }
+}
+
+fn packages_of(manifest: &str) -> Result<Vec<Value>, String> {
+    let mut metadata = program("cargo metadata --format-version 1 --no-deps --manifest-path");
+    let text = output_of(metadata.arg(manifest))?;
+    let mut metadata: Value =
+        serde_json::from_slice(&text).map_err(|error| format!("cargo metadata: {error}"))?;
+    match metadata["packages"].take() {
+        Value::Array(packages) => Ok(packages),
+        _ => Err("cargo metadata lists no packages".into()),
+    }
+}
+
+fn faults(package: &Value) -> Vec<String> {
+    let name = package["name"].as_str().unwrap_or_default();
+    let Some(&(_, allowed)) = MAY_IMPORT.iter().find(|row| row.0 == name) else {
+        return vec![format!("{name} has no row in xtask/src/layers.rs")];
+    };
+    let dependencies = package["dependencies"].as_array().map(Vec::as_slice).unwrap_or_default();
+    dependencies.iter().filter_map(|dependency| fault(name, allowed, dependency)).collect()
+}
+
+fn fault(name: &str, allowed: &[&str], dependency: &Value) -> Option<String> {
+    let import = dependency["name"].as_str().unwrap_or_default();
+    if MAY_IMPORT.iter().any(|row| row.0 == import) {
+        return (!allowed.contains(&import)).then(|| format!("{name} may not import {import}"));
+    }
+    let required = dependency["kind"].is_null() && dependency["optional"] == false;
+    (name == "darboux" && required).then(|| format!("the core may not require {import}"))
+}

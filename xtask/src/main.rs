@@ -1,0 +1,42 @@
+//! `cargo xtask <task>`: everything a person or CI runs.
+
+mod ci;
+mod generated;
+mod layers;
+mod run;
+mod validate;
+
+use std::process::ExitCode;
+
+const USAGE: &str = "\
+usage: cargo xtask <task>
+
+  ci [--full]   what must hold before a change lands; --full adds what is long
+  gen           write the generated files (command-line reference, man pages, completions)
+  layers        check who imports whom
+  validate      check the command's outputs for all models with independent tools (needs node and npm)
+  acos          compare acos with the platform's on every float of [-1, 1]";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let result = match arguments[..] {
+        ["ci"] => ci::quick(),
+        ["ci", "--full"] => ci::full(),
+        ["gen"] => generated::write(),
+        ["layers"] => layers::check(),
+        ["validate"] => validate::all_models(validate::WithoutNpm::Fail),
+        ["acos"] => ci::acos(),
+        _ => {
+            eprintln!("{USAGE}");
+            return ExitCode::from(2);
+        }
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("xtask: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}

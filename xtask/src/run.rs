@@ -1,0 +1,50 @@
+//! Starting other programs from the repository's root.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// Nothing, or one sentence that says what went wrong.
+pub type Outcome = Result<(), String>;
+
+/// The repository's root.
+pub fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("xtask lies in the repository's root")
+}
+
+/// A program to be started in the root: `line` is its name and arguments, separated by spaces.
+pub fn program(line: &str) -> Command {
+    let mut words = line.split_whitespace();
+    let mut command = Command::new(words.next().expect("a program's name"));
+    command.args(words).current_dir(root()).stdin(Stdio::null());
+    command
+}
+
+/// Runs a program to its end. Errors: it cannot start, or it fails.
+pub fn run(command: &mut Command) -> Outcome {
+    let status = command.status().map_err(|error| format!("{} cannot start: {error}", shown(command)))?;
+    if status.success() { Ok(()) } else { Err(format!("{} failed ({status})", shown(command))) }
+}
+
+/// Runs a program to its end for what it writes to standard output. Errors as for [`run`].
+pub fn output_of(command: &mut Command) -> Result<Vec<u8>, String> {
+    let output = command
+        .stderr(Stdio::inherit())
+        .output()
+        .map_err(|error| format!("{} cannot start: {error}", shown(command)))?;
+    if output.status.success() {
+        Ok(output.stdout)
+    } else {
+        Err(format!("{} failed ({})", shown(command), output.status))
+    }
+}
+
+/// True when the program starts and succeeds; what it prints is dropped.
+pub fn works(command: &mut Command) -> bool {
+    command.stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok_and(|status| status.success())
+}
+
+/// The command line as a person would type it.
+pub fn shown(command: &Command) -> String {
+    let words = std::iter::once(command.get_program()).chain(command.get_args());
+    words.map(|word| word.to_string_lossy()).collect::<Vec<_>>().join(" ")
+}
