@@ -1,0 +1,19 @@
+//! What judges the rest of the workspace: engines, comparators, generators and the corpus.
+//!
+//! [`engine`] runs one mesh through one implementation, [`compare`] judges the answers, [`generate`] makes meshes from a seed
+//! or from a fuzzer's bytes, [`corpus`] reads the collected ones, [`shrink`] makes a failing one small enough to join them.
+
+pub mod check;
+pub mod compare;
+pub mod corpus;
+pub mod engine;
+pub mod families;
+pub mod generate;
+pub mod mesh;
+pub mod shrink;
+
+pub use check::check_frames;
+pub use compare::{Difference, assert_equal, first_difference};
+pub use engine::{Engine, engines};
+pub use generate::{Case, Dice};
+pub use mesh::{FaceSizes, OwnedMesh};
