@@ -28,6 +28,13 @@ impl CornerTangents {
         self.0
     }
 
+    /// Sets the signs of these tangents to those of others of the same mesh.
+    pub(crate) fn take_signs(&mut self, others: &CornerTangents) {
+        for (tangent, other) in self.0.iter_mut().zip(&others.0) {
+            tangent[3] = other[3];
+        }
+    }
+
     /// The same frames written in another convention: w is negated where the bitangent's direction differs.
     pub fn converted(mut self, from: Convention, to: Convention) -> Self {
         if from.bitangent != to.bitangent {

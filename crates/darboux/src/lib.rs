@@ -19,11 +19,20 @@
 //! # Ok::<(), darboux::MeshError>(())
 //! ```
 
+#![allow(
+    clippy::neg_cmp_op_on_partial_ord,
+    reason = "where NaN must take a branch, the negated comparison is the statement"
+)]
+
 mod frame;
+mod math;
 mod mesh;
 mod plan;
 mod split;
 mod tangents;
+mod topology;
+mod triangles;
+mod weld;
 
 pub use frame::{BitangentDirection, Convention, CornerFrames, CornerTangents, Frame};
 pub use mesh::{Faces, Indices, Mesh, MeshError, Strided};

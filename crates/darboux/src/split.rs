@@ -89,6 +89,7 @@ impl Splitter {
     }
 }
 
-fn expect(what: &'static str, expected: usize, found: usize) -> Result<(), MeshError> {
+/// An error unless as many were found as expected.
+pub(crate) fn expect(what: &'static str, expected: usize, found: usize) -> Result<(), MeshError> {
     if expected == found { Ok(()) } else { Err(MeshError::OtherMesh { what, expected, found }) }
 }

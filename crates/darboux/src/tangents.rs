@@ -1,6 +1,20 @@
 //! Options to method: the entry points of tangent generation.
 
+mod degenerate;
+mod derivatives;
+mod evaluate;
+mod groups;
+pub(crate) mod mikktspace;
+mod repair;
+mod report;
+mod shape;
+mod signs;
+mod subgroups;
+
 use crate::{CornerFrames, CornerTangents, Mesh};
+
+use mikktspace::Topology;
+pub use report::Report;
 
 /// How faithfully defects of the MikkTSpace reference are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -30,30 +44,6 @@ impl Default for TangentOptions {
     }
 }
 
-/// What a user must know of a run. Quads count as the two triangles that they are split into.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct Report {
-    /// Triangles, quad halves included.
-    pub triangles: usize,
-    /// Faces of other than 3 or 4 corners. MikkTSpace gives them no tangents; they get ones from their normals alone.
-    pub unsupported_faces: usize,
-    /// Triangles with two equal positions.
-    pub degenerate_triangles: usize,
-    /// Triangles, not degenerate, whose UVs span no area (or too little for a direction).
-    pub uv_degenerate_triangles: usize,
-    /// Corners with a NaN or an infinity in position, normal or UV.
-    pub non_finite_corners: usize,
-    /// Corners whose reference tangent is unusable and, but for [`Mode::Reference`], was replaced.
-    pub repaired_corners: usize,
-    /// Faces whose corners carry both signs.
-    pub mixed_sign_faces: usize,
-    /// Edges between two triangles of opposite UV orientation.
-    pub mirrored_edges: usize,
-    /// Vertices of the mesh that need more than one tangent: what [`crate::split_vertices`] will split.
-    pub split_vertices: usize,
-}
-
 /// Tangents of corners and the report of the run.
 #[derive(Clone, Debug, Default)]
 pub struct Tangents {
@@ -79,6 +69,7 @@ pub fn generate_tangents(mesh: &Mesh<'_>, options: &TangentOptions) -> Tangents 
 }
 
 /// Computes the whole MikkTSpace frame of every corner: tangent, bitangent, magnitudes, sign.
-pub fn generate_frames(_mesh: &Mesh<'_>, _options: &TangentOptions) -> Frames {
-    todo!("the core lands within the hour")
+pub fn generate_frames(mesh: &Mesh<'_>, options: &TangentOptions) -> Frames {
+    let (frames, report) = Topology::new(mesh, options).frames(mesh);
+    Frames { corners: CornerFrames(frames), report }
 }

@@ -1,0 +1,71 @@
+//! Degenerate triangles take the frames of their neighbours.
+//!
+//! Source: mikktspace.c, `DegenEpilogue`; there the good corner is searched linearly for every degenerate one.
+
+use std::collections::HashMap;
+
+use crate::math::equal;
+use crate::triangles::{Triangles, Triangulation};
+
+use super::evaluate::RawFrames;
+use super::shape::Shape;
+
+/// Writes the corners that only degenerate triangles have, and returns them, ascending.
+///
+/// A corner copies the first good corner at the same welded vertex, if there is one. The missing corner of a quad with one good
+/// half copies the first corner of that half that has the same position.
+pub(crate) fn fill_degenerate(
+    triangulation: &Triangulation,
+    shape: &Shape<'_>,
+    raw: &mut RawFrames,
+) -> Vec<u32> {
+    let Triangulation { good, degenerate, .. } = triangulation;
+    let mut copied = Vec::new();
+    if degenerate.len() == 0 {
+        return copied;
+    }
+    let half_of_good_quad: Vec<bool> =
+        degenerate.face.iter().map(|face| good.face.binary_search(face).is_ok()).collect();
+    let first_good = first_good_corners(good, degenerate);
+    for t in (0..degenerate.len()).filter(|&t| !half_of_good_quad[t]) {
+        for (&corner, vertex) in degenerate.corners[t].iter().zip(&degenerate.vertices[t]) {
+            if let Some(&source) = first_good.get(vertex) {
+                copy(raw, source, corner);
+                copied.push(corner);
+            }
+        }
+    }
+    for t in (0..degenerate.len()).filter(|&t| half_of_good_quad[t]) {
+        let Ok(half) = good.face.binary_search(&degenerate.face[t]) else { continue };
+        let present = good.corners[half];
+        for corner in degenerate.corners[t].into_iter().filter(|corner| !present.contains(corner)) {
+            let at_same_place = |source: &u32| equal(shape.position(*source), shape.position(corner));
+            if let Some(source) = present.into_iter().find(at_same_place) {
+                copy(raw, source, corner);
+                copied.push(corner);
+            }
+        }
+    }
+    copied.sort_unstable();
+    copied.dedup();
+    copied
+}
+
+fn copy(raw: &mut RawFrames, source: u32, corner: u32) {
+    raw.of_corner[corner as usize] = raw.of_corner[source as usize];
+    if let Some(&mean) = raw.mean_of_corner.get(&source) {
+        raw.mean_of_corner.insert(corner, mean);
+    }
+}
+
+/// The first good corner at each welded vertex of the degenerate triangles.
+fn first_good_corners(good: &Triangles, degenerate: &Triangles) -> HashMap<u32, u32> {
+    let mut first: HashMap<u32, Option<u32>> =
+        degenerate.vertices.as_flattened().iter().map(|&vertex| (vertex, None)).collect();
+    for (vertex, &corner) in good.vertices.as_flattened().iter().zip(good.corners.as_flattened()) {
+        if let Some(free @ None) = first.get_mut(vertex) {
+            *free = Some(corner);
+        }
+    }
+    first.into_iter().filter_map(|(vertex, corner)| Some((vertex, corner?))).collect()
+}

@@ -1,0 +1,216 @@
+//! From groups to frames: weighted sums over subgroups, and output to corners.
+//!
+//! Source: mikktspace.c, `GenerateTSpaces`, `EvalTspace`, `AvgTSpace`. There the members of each subgroup are listed, sorted and
+//! compared; here a group whose members all join each other, which is nearly every group, is summed once.
+
+use std::cell::OnceCell;
+use std::collections::HashMap;
+
+use crate::Frame;
+use crate::math::{V3, add, angle, direction_in_plane, dot, equal, normalized_unless_zero, scale, sub};
+use crate::triangles::Triangles;
+
+use super::derivatives::Derivative;
+use super::groups::Groups;
+use super::repair::{is_usable, mean_in_plane};
+use super::shape::Shape;
+use super::subgroups::Subgroups;
+
+/// What corners have that nothing reached.
+pub(crate) const DEFAULT_FRAME: Frame =
+    Frame { tangent: [1.0, 0.0, 0.0], bitangent: [0.0, 1.0, 0.0], magnitude: [1.0, 1.0], sign: -1.0 };
+
+/// At most this many bytes of subgroups are remembered per group, to find those that several members share.
+const REMEMBERED_BYTES: usize = 1 << 24;
+
+/// What depends on the positions and normals that groups are evaluated on.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Values {
+    pub derivatives: Vec<Derivative>,
+    pub normal_of_group: Vec<V3>,
+}
+
+impl Values {
+    pub fn new(
+        triangles: &Triangles,
+        groups: &Groups,
+        derivatives: Vec<Derivative>,
+        shape: &Shape<'_>,
+    ) -> Self {
+        let vertices = triangles.vertices.as_flattened();
+        let normal = |group| shape.normal(vertices[groups.members(group)[0] as usize]);
+        Self { derivatives, normal_of_group: (0..groups.len()).map(normal).collect() }
+    }
+}
+
+/// The frame of every corner, and what is needed to repair the unusable ones.
+#[derive(Debug)]
+pub(crate) struct RawFrames {
+    pub of_corner: Vec<Frame>,
+    /// For corners with an unusable tangent: the mean of their subgroup's tangents, where that has a direction.
+    pub mean_of_corner: HashMap<u32, V3>,
+}
+
+/// Evaluates every group, in order, and writes the results to the groups' corners.
+///
+/// `membership` decides which members join (a plan's base), `values` what they add; on a fresh run they are the same.
+pub(crate) fn evaluate(
+    triangles: &Triangles,
+    groups: &Groups,
+    threshold_cosine: f32,
+    (membership, values): (&Values, &Values),
+    shape: &Shape<'_>,
+) -> RawFrames {
+    let mut evaluator = Evaluator {
+        triangles,
+        values,
+        shape,
+        terms: Vec::new(),
+        written: vec![false; shape.corner_count()],
+        of_corner: vec![DEFAULT_FRAME; shape.corner_count()],
+        mean_of_corner: HashMap::new(),
+    };
+    let mut subgroups = Subgroups::new(threshold_cosine);
+    let mut row = Vec::new();
+    for group in 0..groups.len() {
+        let members = groups.members(group);
+        let sign = if groups.preserves(group) { 1.0 } else { -1.0 };
+        evaluator.take_terms(members, values.normal_of_group[group]);
+        subgroups.set(triangles, members, &membership.derivatives, membership.normal_of_group[group]);
+        if subgroups.all_joined() {
+            row.clear();
+            row.resize(members.len(), true);
+            let subgroup = evaluator.subgroup(&row, sign);
+            members.iter().for_each(|&member| evaluator.write(member, &subgroup, &row));
+        } else {
+            evaluator.write_split_group(members, &subgroups, sign, &mut row);
+        }
+    }
+    RawFrames { of_corner: evaluator.of_corner, mean_of_corner: evaluator.mean_of_corner }
+}
+
+struct Evaluator<'a> {
+    triangles: &'a Triangles,
+    values: &'a Values,
+    shape: &'a Shape<'a>,
+    /// What each member of the current group adds.
+    terms: Vec<Term>,
+    /// Corners that a group has written.
+    written: Vec<bool>,
+    of_corner: Vec<Frame>,
+    mean_of_corner: HashMap<u32, V3>,
+}
+
+/// One member's part in the sums: its derivatives in the plane of the vertex, times the angle of its corner there.
+#[derive(Clone, Copy, Debug, Default)]
+struct Term {
+    s: V3,
+    t: V3,
+    magnitude: [f32; 2],
+    weight: f32,
+    /// The tangent that counts for a repair: the triangle's own, unweighted. Absent on UV-degenerate triangles.
+    direction: Option<V3>,
+}
+
+/// One subgroup's frame, and the mean of its tangents for when the frame is unusable.
+struct Subgroup {
+    frame: Frame,
+    mean: OnceCell<Option<V3>>,
+}
+
+impl Evaluator<'_> {
+    fn take_terms(&mut self, members: &[u32], normal: V3) {
+        self.terms.clear();
+        for &member in members {
+            let (triangle, k) = (member as usize / 3, member as usize % 3);
+            let derivative = &self.values.derivatives[triangle];
+            self.terms.push(if derivative.any {
+                Term::default()
+            } else {
+                term(derivative, self.shape.positions(self.triangles, triangle), k, normal)
+            });
+        }
+    }
+
+    /// Sums the terms that `row` names, in triangle order.
+    fn subgroup(&self, row: &[bool], sign: f32) -> Subgroup {
+        let mut sum = Term::default();
+        for (term, _) in
+            self.terms.iter().zip(row).filter(|(term, joins)| **joins && term.direction.is_some())
+        {
+            sum.s = add(sum.s, term.s);
+            sum.t = add(sum.t, term.t);
+            sum.magnitude = [sum.magnitude[0] + term.magnitude[0], sum.magnitude[1] + term.magnitude[1]];
+            sum.weight += term.weight;
+        }
+        let magnitude = if sum.weight > 0.0 { sum.magnitude.map(|m| m / sum.weight) } else { sum.magnitude };
+        let (tangent, bitangent) = (normalized_unless_zero(sum.s), normalized_unless_zero(sum.t));
+        Subgroup { frame: Frame { tangent, bitangent, magnitude, sign }, mean: OnceCell::new() }
+    }
+
+    fn write_split_group(&mut self, members: &[u32], subgroups: &Subgroups, sign: f32, row: &mut Vec<bool>) {
+        let mut known: HashMap<Vec<bool>, Subgroup> = HashMap::new();
+        for (at, &member) in members.iter().enumerate() {
+            subgroups.row(at, row);
+            if let Some(subgroup) = known.get(row) {
+                self.write(member, subgroup, row);
+                continue;
+            }
+            let subgroup = self.subgroup(row, sign);
+            self.write(member, &subgroup, row);
+            if (known.len() + 1) * row.len() <= REMEMBERED_BYTES {
+                known.insert(row.clone(), subgroup);
+            }
+        }
+    }
+
+    /// Writes a subgroup's frame to a member's corner. A quad's diagonal corner can be written twice: then it has the average.
+    fn write(&mut self, member: u32, subgroup: &Subgroup, row: &[bool]) {
+        let corner = self.triangles.corners.as_flattened()[member as usize];
+        let slot = &mut self.of_corner[corner as usize];
+        let again = std::mem::replace(&mut self.written[corner as usize], true);
+        *slot = if again { average(slot, &subgroup.frame) } else { subgroup.frame };
+        if again {
+            self.mean_of_corner.remove(&corner);
+        }
+        let normal = self.shape.normal(corner);
+        if !is_usable(slot.tangent, normal) {
+            let directions = || {
+                self.terms.iter().zip(row).filter(|(_, joins)| **joins).filter_map(|(term, _)| term.direction)
+            };
+            if let Some(mean) = subgroup.mean.get_or_init(|| mean_in_plane(directions(), normal)) {
+                self.mean_of_corner.insert(corner, *mean);
+            }
+        }
+    }
+}
+
+/// What corner `k` of a triangle adds to the sums at its vertex.
+fn term(derivative: &Derivative, positions: [V3; 3], k: usize, normal: V3) -> Term {
+    let [before, here, after] = [(k + 2) % 3, k, (k + 1) % 3].map(|k| positions[k]);
+    let to_before = direction_in_plane(normal, sub(before, here));
+    let to_after = direction_in_plane(normal, sub(after, here));
+    let weight = angle(dot(to_before, to_after));
+    Term {
+        s: scale(weight, direction_in_plane(normal, derivative.s)),
+        t: scale(weight, direction_in_plane(normal, derivative.t)),
+        magnitude: derivative.magnitude.map(|magnitude| weight * magnitude),
+        weight,
+        direction: Some(derivative.s),
+    }
+}
+
+/// The mean of two frames, or the first when they are equal. The sign is the second's.
+fn average(a: &Frame, b: &Frame) -> Frame {
+    let same =
+        equal(a.magnitude, b.magnitude) && equal(a.tangent, b.tangent) && equal(a.bitangent, b.bitangent);
+    if same {
+        return Frame { sign: b.sign, ..*a };
+    }
+    Frame {
+        tangent: normalized_unless_zero(add(a.tangent, b.tangent)),
+        bitangent: normalized_unless_zero(add(a.bitangent, b.bitangent)),
+        magnitude: [0, 1].map(|i| 0.5 * (a.magnitude[i] + b.magnitude[i])),
+        sign: b.sign,
+    }
+}

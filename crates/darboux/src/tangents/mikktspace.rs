@@ -1,0 +1,131 @@
+//! MikkTSpace: Morten S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited" (2008), as mikktspace.c computes it, bit for bit.
+//!
+//! Every operation on floats is rounded to `f32` in the reference's order; see docs/algorithms/mikktspace.md for what "exact" means.
+
+use crate::math::cosine_of_degrees;
+use crate::topology::{EdgeOrder, NONE, neighbours};
+use crate::triangles::{Triangulation, triangulate};
+use crate::{Frame, Mesh};
+
+use super::degenerate::fill_degenerate;
+use super::derivatives::{Derivative, agree_in_quads, derivatives};
+use super::evaluate::{RawFrames, Values, evaluate};
+use super::groups::{Groups, group};
+use super::repair::{is_usable, repair, repair_bitangents};
+use super::shape::Shape;
+use super::signs::{mixed_faces, unify_signs};
+use super::{Mode, Report, TangentOptions, report};
+
+/// What does not depend on where vertices are, once they are welded and grouped.
+#[derive(Debug)]
+pub(crate) struct Topology {
+    pub triangulation: Triangulation,
+    pub groups: Groups,
+    /// The derivatives and normals of the mesh that was grouped.
+    pub base: Values,
+    uv_degenerate: usize,
+    mirrored_edges: usize,
+    threshold_cosine: f32,
+    mode: Mode,
+}
+
+impl Topology {
+    /// Welds, finds neighbours and groups.
+    pub fn new(mesh: &Mesh<'_>, options: &TangentOptions) -> Self {
+        let shape = Shape::welded(mesh);
+        let triangulation = triangulate(mesh);
+        let good = &triangulation.good;
+        let mut derivatives = derivatives(good, &shape);
+        agree_in_quads(good, &shape, &mut derivatives);
+        let order = if options.mode == Mode::Corrected { EdgeOrder::Complete } else { EdgeOrder::Reference };
+        let neighbours = neighbours(good, order);
+        let uv_degenerate = derivatives.iter().filter(|derivative| derivative.any).count();
+        let mirrored_edges = count_mirrored_edges(&neighbours, &derivatives);
+        let groups = group(good, &neighbours, &mut derivatives);
+        let base = Values::new(good, &groups, derivatives, &shape);
+        let threshold_cosine = cosine_of_degrees(options.threshold);
+        Self {
+            triangulation,
+            groups,
+            base,
+            uv_degenerate,
+            mirrored_edges,
+            threshold_cosine,
+            mode: options.mode,
+        }
+    }
+
+    /// The frames of the mesh that was welded and grouped.
+    pub fn frames(&self, mesh: &Mesh<'_>) -> (Vec<Frame>, Report) {
+        self.finish(mesh, &self.base, &Shape::welded(mesh))
+    }
+
+    /// The frames of a mesh whose vertices have moved since.
+    pub fn frames_of_moved(&self, mesh: &Mesh<'_>) -> (Vec<Frame>, Report) {
+        let shape = Shape::moved(mesh);
+        let good = &self.triangulation.good;
+        let mut moved = derivatives(good, &shape);
+        for (moved, base) in moved.iter_mut().zip(&self.base.derivatives) {
+            (moved.preserves, moved.any) = (base.preserves, base.any);
+        }
+        self.finish(mesh, &Values::new(good, &self.groups, moved, &shape), &shape)
+    }
+
+    fn finish(&self, mesh: &Mesh<'_>, values: &Values, shape: &Shape<'_>) -> (Vec<Frame>, Report) {
+        let good = &self.triangulation.good;
+        let mut raw = evaluate(good, &self.groups, self.threshold_cosine, (&self.base, values), shape);
+        let copied = fill_degenerate(&self.triangulation, shape, &mut raw);
+        let mut report = self.report(mesh);
+        let mixed = mixed_faces(mesh, &raw.of_corner);
+        report.mixed_sign_faces = mixed.len();
+        let mut needs = Vec::new();
+        if self.mode == Mode::Corrected {
+            needs = unify_signs(mesh, &self.triangulation, &values.derivatives, &copied, &mixed, &mut raw);
+        }
+        needs.extend(self.unusable_corners(mesh, &raw));
+        needs.sort_unstable();
+        needs.dedup();
+        report.repaired_corners = needs.len();
+        if self.mode != Mode::Reference {
+            repair(mesh, &self.triangulation, &mut raw, &needs);
+            repair_bitangents(mesh, &mut raw.of_corner);
+        }
+        report.split_vertices = report::count_split_vertices(mesh, &raw.of_corner);
+        (raw.of_corner, report)
+    }
+
+    /// Corners without a usable tangent, and those of unsupported faces, which have none.
+    fn unusable_corners(&self, mesh: &Mesh<'_>, raw: &RawFrames) -> Vec<u32> {
+        let normal = |corner| mesh.normals().get(mesh.vertex_of_corner(corner));
+        let unusable = |&corner: &usize| !is_usable(raw.of_corner[corner].tangent, normal(corner));
+        let corners = (0..mesh.corner_count()).filter(unusable).map(|corner| corner as u32);
+        corners.chain(self.triangulation.unsupported_corners.iter().copied()).collect()
+    }
+
+    /// What is known before evaluation.
+    fn report(&self, mesh: &Mesh<'_>) -> Report {
+        let Triangulation { good, degenerate, unsupported_faces, .. } = &self.triangulation;
+        Report {
+            triangles: good.len() + degenerate.len(),
+            unsupported_faces: *unsupported_faces,
+            degenerate_triangles: degenerate.len(),
+            uv_degenerate_triangles: self.uv_degenerate,
+            non_finite_corners: report::count_non_finite_corners(mesh),
+            mirrored_edges: self.mirrored_edges,
+            ..Report::default()
+        }
+    }
+}
+
+/// Edges between two triangles, neither UV-degenerate, of opposite orientation.
+fn count_mirrored_edges(neighbours: &[[u32; 3]], derivatives: &[Derivative]) -> usize {
+    let mirrored = |t: usize, other: u32| {
+        other != NONE && (t as u32) < other && {
+            let (a, b) = (&derivatives[t], &derivatives[other as usize]);
+            !a.any && !b.any && a.preserves != b.preserves
+        }
+    };
+    let of_triangle =
+        |(t, around): (usize, &[u32; 3])| around.iter().filter(|&&other| mirrored(t, other)).count();
+    neighbours.iter().enumerate().map(of_triangle).sum()
+}

@@ -1,0 +1,82 @@
+//! What a user must know of a run.
+
+use std::collections::{HashMap, HashSet};
+
+use crate::{Frame, Mesh};
+
+/// What was met on the way. Quads count as the two triangles that they are split into.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Report {
+    /// Triangles, quad halves included.
+    pub triangles: usize,
+    /// Faces of other than 3 or 4 corners. MikkTSpace gives them no tangents; they get ones from their normals alone.
+    pub unsupported_faces: usize,
+    /// Triangles with two equal positions.
+    pub degenerate_triangles: usize,
+    /// Triangles, not degenerate, whose UVs span no area (or too little for a direction).
+    pub uv_degenerate_triangles: usize,
+    /// Corners with a NaN or an infinity in position, normal or UV.
+    pub non_finite_corners: usize,
+    /// Corners whose reference tangent is absent or unusable, or had the wrong sign for its face and no other to take
+    /// ([`Mode::Corrected`](crate::Mode::Corrected)). Replaced, but for [`Mode::Reference`](crate::Mode::Reference).
+    pub repaired_corners: usize,
+    /// Faces whose corners carry both signs; [`Mode::Corrected`](crate::Mode::Corrected) gave them one.
+    pub mixed_sign_faces: usize,
+    /// Edges between two triangles of opposite UV orientation.
+    pub mirrored_edges: usize,
+    /// Vertices of the mesh that need more than one tangent: what [`split_vertices`](crate::split_vertices) splits.
+    pub split_vertices: usize,
+}
+
+pub(super) fn count_non_finite_corners(mesh: &Mesh<'_>) -> usize {
+    let finite = |vertex| {
+        let [positions, normals] = [mesh.positions().get(vertex), mesh.normals().get(vertex)];
+        positions.iter().chain(&normals).chain(&mesh.uvs().get(vertex)).all(|x| x.is_finite())
+    };
+    (0..mesh.corner_count()).filter(|&corner| !finite(mesh.vertex_of_corner(corner))).count()
+}
+
+/// Vertices with corners of different tangents, compared as bits. Costs time in the corners, however many vertices there are.
+pub(super) fn count_split_vertices(mesh: &Mesh<'_>, frames: &[Frame]) -> usize {
+    let mut split = HashSet::new();
+    let mut first = FirstCorners::new(mesh);
+    for corner in 0..mesh.corner_count() {
+        let vertex = mesh.vertex_of_corner(corner);
+        let held = first.of(vertex, corner);
+        let [ours, theirs] = [corner, held].map(|corner| frames[corner].tangent_and_sign().map(f32::to_bits));
+        if ours != theirs {
+            split.insert(vertex);
+        }
+    }
+    split.len()
+}
+
+/// The first corner of each vertex: a table, or a map where vertices by far outnumber corners.
+enum FirstCorners {
+    Table(Vec<u32>),
+    Map(HashMap<usize, usize>),
+}
+
+impl FirstCorners {
+    fn new(mesh: &Mesh<'_>) -> Self {
+        if mesh.vertex_count() <= 4 * mesh.corner_count() {
+            Self::Table(vec![u32::MAX; mesh.vertex_count()])
+        } else {
+            Self::Map(HashMap::new())
+        }
+    }
+
+    /// The first corner of `vertex`, which is `corner` when none was asked for before.
+    fn of(&mut self, vertex: usize, corner: usize) -> usize {
+        match self {
+            Self::Table(table) => {
+                if table[vertex] == u32::MAX {
+                    table[vertex] = corner as u32;
+                }
+                table[vertex] as usize
+            }
+            Self::Map(map) => *map.entry(vertex).or_insert(corner),
+        }
+    }
+}

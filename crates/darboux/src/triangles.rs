@@ -1,0 +1,115 @@
+//! Faces to triangles, welded, with the degenerate ones set aside.
+
+use crate::math::{dot, equal, sub};
+use crate::weld::weld;
+use crate::{Faces, Mesh};
+
+/// Triangles as parallel arrays.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Triangles {
+    /// The corner of the mesh at each of the three corners.
+    pub corners: Vec<[u32; 3]>,
+    /// The welded vertex there, named by the corner that represents it.
+    pub vertices: Vec<[u32; 3]>,
+    /// The face that the triangle is, or is half of.
+    pub face: Vec<u32>,
+}
+
+impl Triangles {
+    pub fn len(&self) -> usize {
+        self.face.len()
+    }
+
+    /// True when triangles `t` and `t + 1` are the halves of one quad.
+    pub fn is_pair(&self, t: usize) -> bool {
+        t + 1 < self.len() && self.face[t] == self.face[t + 1]
+    }
+
+    fn push(&mut self, corners: [u32; 3], face: usize) {
+        self.corners.push(corners);
+        self.face.push(face as u32);
+    }
+
+    fn push_welded(&mut self, corners: [u32; 3], vertices: [u32; 3], face: u32) {
+        self.corners.push(corners);
+        self.vertices.push(vertices);
+        self.face.push(face);
+    }
+}
+
+/// The triangles of a mesh, welded.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Triangulation {
+    /// Triangles with three distinct positions.
+    pub good: Triangles,
+    /// Triangles with two equal positions.
+    pub degenerate: Triangles,
+    /// Faces of other than 3 or 4 corners, and the corners that they hold.
+    pub unsupported_faces: usize,
+    pub unsupported_corners: Vec<u32>,
+}
+
+/// Splits faces into triangles, welds their corners and sets degenerate triangles aside; both lists keep the faces' order.
+pub(crate) fn triangulate(mesh: &Mesh<'_>) -> Triangulation {
+    let mut out = Triangulation::default();
+    let all = split_faces(mesh, &mut out);
+    let vertices = weld(mesh, all.corners.as_flattened());
+    for (t, vertices) in vertices.as_chunks().0.iter().enumerate() {
+        let [a, b, c] = vertices.map(|vertex| position(mesh, vertex));
+        let degenerate = equal(a, b) || equal(a, c) || equal(b, c);
+        let list = if degenerate { &mut out.degenerate } else { &mut out.good };
+        list.push_welded(all.corners[t], *vertices, all.face[t]);
+    }
+    out
+}
+
+fn split_faces(mesh: &Mesh<'_>, out: &mut Triangulation) -> Triangles {
+    let mut all = Triangles::default();
+    let mut first = 0;
+    for face in 0..mesh.face_count() {
+        let size = match mesh.faces() {
+            Faces::Triangles => 3,
+            Faces::Quads => 4,
+            Faces::Mixed(sizes) => sizes[face],
+        };
+        match size {
+            3 => all.push([first, first + 1, first + 2], face),
+            4 => {
+                for half in split_quad(mesh, first) {
+                    all.push(half, face);
+                }
+            }
+            _ => {
+                out.unsupported_faces += 1;
+                out.unsupported_corners.extend(first..first + size);
+            }
+        }
+        first += size;
+    }
+    all
+}
+
+/// The halves of the quad whose first corner is `first`, cut along the shorter diagonal in UV space; where neither is shorter
+/// (or one is NaN), along the one that is shorter in space, 0-2 unless 1-3 is strictly shorter.
+fn split_quad(mesh: &Mesh<'_>, first: u32) -> [[u32; 3]; 2] {
+    let [a, b, c, d] = [first, first + 1, first + 2, first + 3];
+    let uv = |corner: u32| {
+        let [u, v] = mesh.uvs().get(mesh.vertex_of_corner(corner as usize));
+        [u, v, 1.0]
+    };
+    let squared = |p: [f32; 3], q: [f32; 3]| dot(sub(p, q), sub(p, q));
+    let (ac, bd) = (squared(uv(c), uv(a)), squared(uv(d), uv(b)));
+    let cut_ac = ac < bd
+        || !(bd < ac) && {
+            let (ac, bd) = (
+                squared(position(mesh, c), position(mesh, a)),
+                squared(position(mesh, d), position(mesh, b)),
+            );
+            !(bd < ac)
+        };
+    if cut_ac { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
+}
+
+fn position(mesh: &Mesh<'_>, corner: u32) -> [f32; 3] {
+    mesh.positions().get(mesh.vertex_of_corner(corner as usize))
+}

@@ -1,0 +1,217 @@
+//! Welding: which corners are one vertex.
+//!
+//! Corners with equal position, normal and UV (as floats: -0 equals +0, NaN equals nothing) are one vertex. Its name is the
+//! corner that represents it, and which one that is can show in the last bits of a tangent: copies may differ in the sign of
+//! a zero, and edges are ordered by these names. So the representative is the reference's: the first corner in an order
+//! made by
+//! 1. sorting the corners into 2048 cells along the longest axis of the bounding box, keeping their order in a cell;
+//! 2. in every cell, cutting the box of the corners in half along its longest axis, again and again, with an exchange of
+//!    corners from both ends as in quicksort, until a range has no float strictly between its ends.
+//!
+//! Source: mikktspace.c (M. S. Mikkelsen, 2011), `GenerateSharedVerticesIndexList`; there every final range is compared
+//! pairwise, here large ones go through a hash table.
+
+use std::collections::HashMap;
+
+use crate::Mesh;
+use crate::math::{V3, equal, sub};
+
+const CELLS: usize = 2048;
+
+/// Final ranges up to this size are compared pairwise.
+const SMALL_RANGE: usize = 24;
+
+/// The vertex of every entry of `corners`, named by the corner that represents it.
+///
+/// `corners`: corner ids in the order of the triangle list, three per triangle.
+pub(crate) fn weld(mesh: &Mesh<'_>, corners: &[u32]) -> Vec<u32> {
+    let mut vertex_of_entry = corners.to_vec();
+    if corners.is_empty() {
+        return vertex_of_entry;
+    }
+    let (mut points, cell_ends) = points_by_cell(mesh, corners);
+    let mut welder = Welder { mesh, corners, vertex_of_entry: &mut vertex_of_entry };
+    let mut start = 0;
+    for end in cell_ends {
+        welder.weld_range(&mut points[start..end]);
+        start = end;
+    }
+    vertex_of_entry
+}
+
+/// A corner's position and its place in the triangle list.
+#[derive(Clone, Copy, Default)]
+struct Point {
+    position: V3,
+    entry: u32,
+}
+
+/// All corners sorted into cells along the longest axis, in list order within a cell, and the end of each cell.
+fn points_by_cell(mesh: &Mesh<'_>, corners: &[u32]) -> (Vec<Point>, Vec<usize>) {
+    let position = |corner: u32| mesh.positions().get(mesh.vertex_of_corner(corner as usize));
+    // The reference seeds the box with its corner id 0, whether or not that is in the list, and leaves out the list's first.
+    let bounds = Bounds::of(position(0), corners[1..].iter().map(|&corner| position(corner)));
+    let axis = bounds.longest_axis();
+    let (low, extent) = (bounds.min[axis], bounds.max[axis] - bounds.min[axis]);
+
+    let mut ends = vec![0; CELLS];
+    for &corner in corners {
+        ends[cell(position(corner)[axis], low, extent)] += 1;
+    }
+    let mut next = Vec::with_capacity(CELLS);
+    let mut sum = 0;
+    for end in &mut ends {
+        next.push(sum);
+        sum += *end;
+        *end = sum;
+    }
+    let mut points = vec![Point::default(); corners.len()];
+    for (entry, &corner) in corners.iter().enumerate() {
+        let position = position(corner);
+        let slot = &mut next[cell(position[axis], low, extent)];
+        points[*slot] = Point { position, entry: entry as u32 };
+        *slot += 1;
+    }
+    (points, ends)
+}
+
+/// The cell of a coordinate. A quotient that is NaN or beyond 32 bits goes to cell 0, as the reference's cast does on x86-64.
+fn cell(value: f32, low: f32, extent: f32) -> usize {
+    let place = CELLS as f32 * ((value - low) / extent);
+    if (0.0..2_147_483_648.0).contains(&place) { (place as usize).min(CELLS - 1) } else { 0 }
+}
+
+/// A bounding box in which NaN never counts, unless it is the first.
+struct Bounds {
+    min: V3,
+    max: V3,
+}
+
+impl Bounds {
+    fn of(first: V3, others: impl Iterator<Item = V3>) -> Self {
+        let mut bounds = Self { min: first, max: first };
+        for position in others {
+            for (axis, &value) in position.iter().enumerate() {
+                bounds.min[axis] = if value < bounds.min[axis] { value } else { bounds.min[axis] };
+                bounds.max[axis] = if value > bounds.max[axis] { value } else { bounds.max[axis] };
+            }
+        }
+        bounds
+    }
+
+    /// x unless another is longer; y only when it beats both others.
+    fn longest_axis(&self) -> usize {
+        let [x, y, z] = sub(self.max, self.min);
+        match (y > x && y > z, z > x) {
+            (true, _) => 1,
+            (_, true) => 2,
+            _ => 0,
+        }
+    }
+}
+
+struct Welder<'a, 'm> {
+    mesh: &'a Mesh<'m>,
+    corners: &'a [u32],
+    vertex_of_entry: &'a mut [u32],
+}
+
+impl Welder<'_, '_> {
+    /// Cuts `points` in halves down to final ranges, and welds each.
+    fn weld_range(&mut self, points: &mut [Point]) {
+        if points.len() < 2 {
+            return;
+        }
+        let bounds = Bounds::of(points[0].position, points[1..].iter().map(|point| point.position));
+        let axis = bounds.longest_axis();
+        let (low, high) = (bounds.min[axis], bounds.max[axis]);
+        let middle = 0.5 * (high + low);
+        if !middle.is_finite() {
+            return;
+        }
+        if middle >= high || middle <= low {
+            return self.weld_all(points);
+        }
+        let below = partition(points, axis, middle);
+        let (below, above) = points.split_at_mut(below);
+        self.weld_range(below);
+        self.weld_range(above);
+    }
+
+    /// Gives every corner of a final range the name of the first one that equals it.
+    fn weld_all(&mut self, points: &[Point]) {
+        if points.len() > SMALL_RANGE {
+            return self.weld_hashed(points);
+        }
+        for (at, point) in points.iter().enumerate() {
+            let found = points[..at].iter().find(|earlier| self.equal(earlier.entry, point.entry));
+            if let Some(earlier) = found {
+                self.vertex_of_entry[point.entry as usize] = self.vertex_of_entry[earlier.entry as usize];
+            }
+        }
+    }
+
+    fn weld_hashed(&mut self, points: &[Point]) {
+        let mut first = HashMap::with_capacity(points.len());
+        for point in points {
+            let (position, normal, uv) = self.values(point.entry);
+            // Adding zero turns -0 into +0, so that bits are equal where floats are.
+            let key = (
+                position.map(|x| (x + 0.0).to_bits()),
+                normal.map(|x| (x + 0.0).to_bits()),
+                uv.map(|x| (x + 0.0).to_bits()),
+            );
+            let is_nan = position.iter().chain(&normal).chain(&uv).any(|x| x.is_nan());
+            if !is_nan {
+                let own = self.corners[point.entry as usize];
+                self.vertex_of_entry[point.entry as usize] = *first.entry(key).or_insert(own);
+            }
+        }
+    }
+
+    fn equal(&self, a: u32, b: u32) -> bool {
+        let (a, b) = (self.values(a), self.values(b));
+        equal(a.0, b.0) && equal(a.1, b.1) && equal(a.2, b.2)
+    }
+
+    fn values(&self, entry: u32) -> (V3, V3, [f32; 2]) {
+        let vertex = self.mesh.vertex_of_corner(self.corners[entry as usize] as usize);
+        (self.mesh.positions().get(vertex), self.mesh.normals().get(vertex), self.mesh.uvs().get(vertex))
+    }
+}
+
+/// Moves the points below `middle` to the front, exchanging from both ends, and returns how many they are.
+fn partition(points: &mut [Point], axis: usize, middle: f32) -> usize {
+    let (mut left, mut right) = (0, points.len());
+    loop {
+        while left < right && points[left].position[axis] < middle {
+            left += 1;
+        }
+        // NaN is not below either: it stays on the right.
+        while left < right && !(points[right - 1].position[axis] < middle) {
+            right -= 1;
+        }
+        if left == right {
+            return left;
+        }
+        points.swap(left, right - 1);
+        left += 1;
+        right -= 1;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn partition_exchanges_from_both_ends() {
+        let mut points: Vec<Point> = [5.0, 1.0, 7.0, f32::NAN, 2.0, 0.0]
+            .iter()
+            .zip(0..)
+            .map(|(&x, entry)| Point { position: [x, 0.0, 0.0], entry })
+            .collect();
+        assert_eq!(partition(&mut points, 0, 3.0), 3);
+        assert_eq!(points.iter().map(|point| point.entry).collect::<Vec<_>>(), [5, 1, 4, 3, 2, 0]);
+    }
+}
