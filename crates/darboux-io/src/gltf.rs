@@ -2,8 +2,15 @@
 
 mod accessor;
 mod document;
+mod inspect;
 pub mod schema;
+mod tangents;
 
 pub use accessor::{Elements, NewAccessor, Target};
 pub use document::{Document, LoadOptions, SaveOptions};
+pub use inspect::{PrimitiveInfo, inspect};
 pub use schema::{ComponentType, ElementType};
+pub use tangents::{
+    Counts, Outcome, PrimitiveName, PrimitiveSummary, Progress, Summary, TangentsOptions, Totals, Written,
+    add_tangents,
+};
