@@ -1,14 +1,20 @@
 //! glTF 2.0 and GLB: a document that is read, edited in place and written back with everything else untouched.
 
 mod accessor;
+mod container;
 mod document;
 mod inspect;
+mod json;
+mod layout;
+mod resources;
+mod save;
 pub mod schema;
 mod tangents;
 
 pub use accessor::{Elements, NewAccessor, Target};
-pub use document::{Document, LoadOptions, SaveOptions};
+pub use document::{Document, LoadOptions};
 pub use inspect::{PrimitiveInfo, inspect};
+pub use save::SaveOptions;
 pub use schema::{ComponentType, ElementType};
 pub use tangents::{
     Counts, Outcome, PrimitiveName, PrimitiveSummary, Progress, Summary, TangentsOptions, Totals, Written,

@@ -1,6 +1,12 @@
-//! Accessors: values behind them, and new ones.
+//! Accessors: the values behind them, and new ones. Every number from the file is checked before it is used.
 
-use super::{ComponentType, ElementType};
+use std::fmt::Write as _;
+
+use super::document::Document;
+use super::schema::{Accessor, Sparse};
+use super::{ComponentType, ElementType, json};
+use crate::Error;
+use crate::error::Fault;
 
 /// The elements of an accessor as stored, one after the other; sparse elements are in place.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,6 +28,65 @@ impl Elements {
     pub fn element_size(&self) -> usize {
         self.element_type.size(self.component_type)
     }
+
+    /// The elements as vectors, when they have `N` components.
+    fn vectors<const N: usize>(&self) -> Vec<[f32; N]> {
+        let bytes = &self.bytes;
+        match (self.component_type, self.normalized) {
+            (ComponentType::F32, _) => decode(bytes, f32::from_le_bytes),
+            (ComponentType::U8, false) => decode(bytes, |b: [u8; 1]| f32::from(b[0])),
+            (ComponentType::I8, false) => decode(bytes, |b| f32::from(i8::from_le_bytes(b))),
+            (ComponentType::U16, false) => decode(bytes, |b| f32::from(u16::from_le_bytes(b))),
+            (ComponentType::I16, false) => decode(bytes, |b| f32::from(i16::from_le_bytes(b))),
+            (ComponentType::U8, true) => decode(bytes, |b: [u8; 1]| f32::from(b[0]) / 255.0),
+            (ComponentType::I8, true) => {
+                decode(bytes, |b| (f32::from(i8::from_le_bytes(b)) / 127.0).max(-1.0))
+            }
+            (ComponentType::U16, true) => decode(bytes, |b| f32::from(u16::from_le_bytes(b)) / 65535.0),
+            (ComponentType::I16, true) => {
+                decode(bytes, |b| (f32::from(i16::from_le_bytes(b)) / 32767.0).max(-1.0))
+            }
+            (ComponentType::U32, _) => decode(bytes, |b| u32::from_le_bytes(b) as f32),
+        }
+    }
+
+    /// The least and greatest finite value of every component as JSON arrays; none where a component has no finite value.
+    fn bounds(&self) -> Option<(String, String)> {
+        let (components, size) = (self.element_type.components(), self.component_type.size());
+        let mut bounds = vec![(f64::INFINITY, f64::NEG_INFINITY); components];
+        for element in self.bytes.chunks_exact(self.element_size()) {
+            for (bound, bytes) in bounds.iter_mut().zip(element.chunks_exact(size)) {
+                let value = self.component_type.value(bytes);
+                if value.is_finite() {
+                    *bound = (bound.0.min(value), bound.1.max(value));
+                }
+            }
+        }
+        let known = bounds.iter().all(|(min, max)| min <= max);
+        known.then(|| (array(bounds.iter().map(|bound| bound.0)), array(bounds.iter().map(|bound| bound.1))))
+    }
+}
+
+fn decode<const N: usize, const S: usize>(bytes: &[u8], value: impl Fn([u8; S]) -> f32) -> Vec<[f32; N]> {
+    let components = bytes.as_chunks::<S>().0;
+    components.as_chunks::<N>().0.iter().map(|element| element.map(&value)).collect()
+}
+
+impl ComponentType {
+    /// The number that `bytes` store, not normalised.
+    fn value(self, bytes: &[u8]) -> f64 {
+        let word = bytes.iter().rev().fold(0u32, |word, &byte| word << 8 | u32::from(byte));
+        match self {
+            Self::U8 | Self::U16 | Self::U32 => f64::from(word),
+            Self::I8 => f64::from(word as u8 as i8),
+            Self::I16 => f64::from(word as u16 as i16),
+            Self::F32 => f64::from(f32::from_bits(word)),
+        }
+    }
+}
+
+fn array(values: impl Iterator<Item = f64>) -> String {
+    serde_json::Value::from_iter(values).to_string()
 }
 
 /// An accessor to append, with its bytes. The layout is that of [`Elements`]; alignment is the document's matter.
@@ -29,7 +94,7 @@ impl Elements {
 pub struct NewAccessor {
     /// The elements.
     pub elements: Elements,
-    /// What the elements are for: vertex attributes (34962), indices (34963), or neither.
+    /// What the elements are for: vertex attributes or indices.
     pub target: Target,
     /// Whether `min` and `max` are written, as they must be for positions. Non-finite values are left out of them.
     pub bounds: bool,
@@ -44,4 +109,221 @@ pub enum Target {
     Vertices,
     /// Indices: tightly packed.
     Indices,
+}
+
+impl Target {
+    /// glTF's number.
+    pub(super) fn code(self) -> u32 {
+        match self {
+            Self::Vertices => 34962,
+            Self::Indices => 34963,
+        }
+    }
+}
+
+/// The JSON of a new accessor over the buffer view `view`.
+pub(super) fn accessor_json(new: &NewAccessor, view: usize, like: Option<&Accessor>) -> String {
+    let elements = &new.elements;
+    let mut text = format!("{{\"bufferView\":{view},\"componentType\":{}", elements.component_type.code());
+    if elements.normalized {
+        text.push_str(",\"normalized\":true");
+    }
+    let _ = write!(text, ",\"count\":{},\"type\":\"{}\"", elements.count, elements.element_type.name());
+    if let Some((min, max)) = new.bounds.then(|| elements.bounds()).flatten() {
+        let _ = write!(text, ",\"min\":{min},\"max\":{max}");
+    }
+    for (key, value) in like.map(Accessor::descriptions).into_iter().flatten() {
+        let _ = write!(text, ",{}:{value}", json::quoted(key));
+    }
+    text.push('}');
+    text
+}
+
+/// Accessors without a buffer view may have this many elements even where no accessor with one has as many.
+const MAX_ZEROS: usize = 1 << 16;
+
+impl Document {
+    /// The values of an accessor as floats: normalised integers as fractions, other integers as numbers, sparse elements in
+    /// place, zeros without a buffer view. Errors: another number of components than `N`; bytes that are not there.
+    pub fn read_vectors<const N: usize>(&self, accessor: usize) -> Result<Vec<[f32; N]>, Error> {
+        self.vectors(accessor).map_err(|fault| fault.in_file(self.name()))
+    }
+
+    /// The values of an accessor of unsigned integers. Errors: another type; bytes that are not there.
+    pub fn read_indices(&self, accessor: usize) -> Result<Vec<u32>, Error> {
+        self.indices(accessor).map_err(|fault| fault.in_file(self.name()))
+    }
+
+    /// The elements of an accessor as bytes, to gather and to write again. Errors: bytes that are not there.
+    pub fn read_elements(&self, accessor: usize) -> Result<Elements, Error> {
+        self.elements(accessor).map_err(|fault| fault.in_file(self.name()))
+    }
+
+    fn vectors<const N: usize>(&self, index: usize) -> Result<Vec<[f32; N]>, Fault> {
+        let accessor = self.accessor(index)?;
+        let kind = accessor.element_type;
+        if kind.components() != N || kind == ElementType::Mat2 {
+            let problem = format!("is {}; it must have {N} components here", kind.name());
+            return Err(Fault::invalid(format!("accessors[{index}].type"), problem));
+        }
+        Ok(self.elements(index)?.vectors())
+    }
+
+    fn indices(&self, index: usize) -> Result<Vec<u32>, Fault> {
+        let accessor = self.accessor(index)?;
+        let at = |member| format!("accessors[{index}].{member}");
+        if accessor.element_type != ElementType::Scalar {
+            let problem = format!("is {}; indices must be SCALAR", accessor.element_type.name());
+            return Err(Fault::invalid(at("type"), problem));
+        }
+        unsigned(accessor.component_type, &self.elements(index)?.bytes).ok_or_else(|| {
+            Fault::invalid(at("componentType"), "is signed or float; indices must be unsigned")
+        })
+    }
+
+    fn accessor(&self, index: usize) -> Result<&Accessor, Fault> {
+        let accessors = self.accessors();
+        accessors.get(index).ok_or_else(|| {
+            let problem =
+                format!("does not exist: there are {} accessors; export the file again", accessors.len());
+            Fault::invalid(format!("accessors[{index}]"), problem)
+        })
+    }
+
+    fn elements(&self, index: usize) -> Result<Elements, Fault> {
+        let accessor = self.accessor(index)?;
+        let Accessor { component_type, element_type, count, normalized, .. } = *accessor;
+        let size = element_type.size(component_type);
+        let at = format!("accessors[{index}]");
+        let mut bytes = match accessor.buffer_view {
+            Some(view) => {
+                let (bytes, stride) = self.view(view, &format!("{at}.bufferView"))?;
+                packed(bytes, Layout { offset: accessor.byte_offset, count, size, stride }, &at)?
+            }
+            None if count <= self.most_zeros() => vec![0; count.saturating_mul(size)],
+            None => {
+                let problem =
+                    format!("{count} elements are too many without a buffer view; export the file again");
+                return Err(Fault::invalid(format!("{at}.count"), problem));
+            }
+        };
+        if let Some(sparse) = &accessor.sparse {
+            self.apply_sparse(sparse, &mut bytes, count, size, &format!("{at}.sparse"))?;
+        }
+        Ok(Elements { bytes, count, component_type, element_type, normalized })
+    }
+
+    fn apply_sparse(
+        &self,
+        sparse: &Sparse,
+        bytes: &mut [u8],
+        count: usize,
+        size: usize,
+        at: &str,
+    ) -> Result<(), Fault> {
+        if sparse.count > count {
+            let problem = format!("{} is more than the accessor's count of {count}", sparse.count);
+            return Err(Fault::invalid(format!("{at}.count"), problem));
+        }
+        let places = self.sparse_indices(sparse, at)?;
+        let at_values = format!("{at}.values");
+        let (values, _) = self.view(sparse.values.buffer_view, &format!("{at_values}.bufferView"))?;
+        let layout = Layout { offset: sparse.values.byte_offset, count: sparse.count, size, stride: None };
+        let values = packed(values, layout, &at_values)?;
+        let mut next = 0;
+        for (i, (&place, value)) in places.iter().zip(values.chunks_exact(size)).enumerate() {
+            let place = place as usize;
+            if place < next || place >= count {
+                let problem = format!("index {place} at place {i} does not increase or is not below {count}");
+                return Err(Fault::invalid(format!("{at}.indices"), problem));
+            }
+            bytes[place * size..(place + 1) * size].copy_from_slice(value);
+            next = place + 1;
+        }
+        Ok(())
+    }
+
+    fn sparse_indices(&self, sparse: &Sparse, at: &str) -> Result<Vec<u32>, Fault> {
+        let at = format!("{at}.indices");
+        let indices = &sparse.indices;
+        let (bytes, _) = self.view(indices.buffer_view, &format!("{at}.bufferView"))?;
+        let size = indices.component_type.size();
+        let layout = Layout { offset: indices.byte_offset, count: sparse.count, size, stride: None };
+        unsigned(indices.component_type, &packed(bytes, layout, &at)?).ok_or_else(|| {
+            Fault::invalid(format!("{at}.componentType"), "is signed or float; indices must be unsigned")
+        })
+    }
+
+    /// How many zeros an accessor without a buffer view may stand for: as many as another has real elements.
+    fn most_zeros(&self) -> usize {
+        *self.backed_count.get_or_init(|| {
+            let backed = self.accessors().iter().filter(|accessor| self.is_backed(accessor));
+            backed.map(|accessor| accessor.count).max().unwrap_or(0).max(MAX_ZEROS)
+        })
+    }
+
+    fn is_backed(&self, accessor: &Accessor) -> bool {
+        let Some(Ok((bytes, stride))) = accessor.buffer_view.map(|view| self.view(view, "")) else {
+            return false;
+        };
+        let size = accessor.element_type.size(accessor.component_type);
+        let layout = Layout { offset: accessor.byte_offset, count: accessor.count, size, stride };
+        layout.end().is_some_and(|end| end <= bytes.len())
+    }
+}
+
+/// Where elements lie in a buffer view.
+struct Layout {
+    offset: usize,
+    count: usize,
+    size: usize,
+    stride: Option<usize>,
+}
+
+impl Layout {
+    /// The first byte after the last element, unless that overflows or elements overlap.
+    fn end(&self) -> Option<usize> {
+        let stride = self.stride.unwrap_or(self.size);
+        let steps = self.count.saturating_sub(1);
+        let length = if self.count == 0 { 0 } else { steps.checked_mul(stride)?.checked_add(self.size)? };
+        if stride < self.size { None } else { length.checked_add(self.offset) }
+    }
+}
+
+/// The elements of `view`, one after the other.
+fn packed(view: &[u8], layout: Layout, at: &str) -> Result<Vec<u8>, Fault> {
+    let Layout { offset, count, size, stride } = layout;
+    if let Some(stride) = stride.filter(|&stride| stride < size) {
+        let problem =
+            format!("its buffer view's byteStride of {stride} is less than an element's {size} bytes");
+        return Err(Fault::invalid(at, format!("{problem}; export the file again")));
+    }
+    let Some(end) = layout.end().filter(|&end| end <= view.len()) else {
+        let problem = format!(
+            "{count} elements of {size} bytes from byte {offset} on do not fit its buffer view of {} bytes",
+            view.len()
+        );
+        return Err(Fault::invalid(at, format!("{problem}; export the file again")));
+    };
+    let bytes = &view[offset.min(end)..end];
+    match stride {
+        Some(stride) if stride != size => {
+            Ok(bytes.chunks(stride).flat_map(|element| &element[..size]).copied().collect())
+        }
+        _ => Ok(bytes.to_vec()),
+    }
+}
+
+/// The values of unsigned integers; none for other types.
+fn unsigned(kind: ComponentType, bytes: &[u8]) -> Option<Vec<u32>> {
+    match kind {
+        ComponentType::U8 => Some(bytes.iter().map(|&byte| byte.into()).collect()),
+        ComponentType::U16 => {
+            Some(bytes.as_chunks().0.iter().map(|&bytes| u16::from_le_bytes(bytes).into()).collect())
+        }
+        ComponentType::U32 => {
+            Some(bytes.as_chunks().0.iter().map(|&bytes| u32::from_le_bytes(bytes)).collect())
+        }
+        ComponentType::I8 | ComponentType::I16 | ComponentType::F32 => None,
+    }
 }

@@ -1,12 +1,23 @@
-//! The document: what was read, what is edited.
+//! The document: what was read, and what is edited.
 
+use std::collections::BTreeMap;
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
 
 use darboux::MeshError;
+use serde::Deserialize;
+use serde_json::value::RawValue;
 use serde_json::{Map, Value};
 
-use super::{Elements, NewAccessor, schema};
+use super::accessor::{NewAccessor, Target, accessor_json};
+use super::container::Container;
+use super::json;
+use super::resources::{File, Reference, Resources, decode_data_uri};
+use super::schema::{self, Probe, Root};
 use crate::Error;
+use crate::error::Fault;
 
 /// How a document is read.
 #[derive(Clone, Copy, Debug, Default)]
@@ -15,36 +26,120 @@ pub struct LoadOptions {
     pub allow_outside: bool,
 }
 
-/// How a document is written.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct SaveOptions {
-    /// Replace an existing output; without, that is an error.
-    pub force: bool,
-}
-
 /// A glTF document: read once, edited, written elsewhere or in place.
+///
+/// What no edit names is kept as text and bytes, unknown extensions and the spelling of numbers included.
 #[derive(Debug)]
 pub struct Document {
     name: String,
+    /// The input file, links resolved.
+    pub(super) input: Option<PathBuf>,
+    pub(super) file: Vec<u8>,
+    pub(super) container: Container,
+    pub(super) root: Root,
+    pub(super) resources: Resources,
+    pub(super) stores: Vec<Store>,
+    pub(super) edits: Edits,
+    pub(super) backed_count: OnceLock<usize>,
+    primitive_texts: OnceLock<Vec<Vec<Box<RawValue>>>>,
+    warnings: Vec<String>,
+}
+
+/// Where the bytes of a buffer are.
+#[derive(Debug)]
+pub(super) enum Store {
+    /// In the GLB's binary chunk.
+    Chunk,
+    /// In a file.
+    File(Arc<File>),
+    /// In a `data:` URI, decoded.
+    Data(Vec<u8>),
+    /// Decompressed into a buffer that had no bytes.
+    Decoded(Vec<u8>),
+    /// Nowhere in reach; the clause says why.
+    Absent(&'static str),
+}
+
+/// Changes to the JSON, by index as JSON text, and new bytes.
+#[derive(Debug, Default)]
+pub(super) struct Edits {
+    pub primitives: BTreeMap<(usize, usize), String>,
+    pub accessors: BTreeMap<usize, String>,
+    pub views: BTreeMap<usize, String>,
+    pub buffers: BTreeMap<usize, String>,
+    pub removed_extensions: Vec<&'static str>,
+    pub new_accessors: Vec<String>,
+    pub new_views: Vec<NewView>,
+    pub new_bytes: Vec<u8>,
+}
+
+/// A buffer view over new bytes.
+#[derive(Debug)]
+pub(super) struct NewView {
+    pub offset: usize,
+    pub length: usize,
+    pub stride: Option<usize>,
+    pub target: Target,
 }
 
 impl Document {
-    /// Reads a `.glb` or `.gltf` file; its first bytes decide which. Errors: see [`Error`].
+    /// Reads a `.glb` or `.gltf` file and the buffers it names; the first bytes decide which it is.
+    ///
+    /// Errors: anything that makes the file unreadable, in one sentence; see [`Error`].
     pub fn open(path: &Path, options: &LoadOptions) -> Result<Self, Error> {
-        let _ = (path, options);
-        todo!()
+        let failed = |source| Error::Read { file: path.to_owned(), source };
+        let input = path.canonicalize().map_err(failed)?;
+        if !fs::metadata(&input).map_err(failed)?.is_file() {
+            return Err(failed(io::Error::other("it is not a regular file")));
+        }
+        let bytes = fs::read(&input).map_err(failed)?;
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let mut document = Self::from_bytes(&path.display().to_string(), bytes, Some(folder), options)?;
+        document.input = Some(input);
+        Ok(document)
     }
 
-    /// Reads a document from memory. `name` stands for the file in messages; `base` is the folder of external files, without
-    /// which buffers must be embedded.
+    /// Reads a document from memory.
+    ///
+    /// `name` stands for the file in messages; `base` is the folder of external files, without which buffers must be embedded
+    /// and images stay where they are. Errors: as [`Document::open`].
     pub fn from_bytes(
         name: &str,
         bytes: Vec<u8>,
         base: Option<&Path>,
         options: &LoadOptions,
     ) -> Result<Self, Error> {
-        let _ = (name, bytes, base, options);
-        todo!()
+        let resources = Resources::new(base, options.allow_outside)
+            .map_err(|source| Error::Read { file: base.unwrap_or(Path::new("")).to_owned(), source })?;
+        Self::parse(name, bytes, resources).map_err(|fault| fault.in_file(name))
+    }
+
+    fn parse(name: &str, file: Vec<u8>, mut resources: Resources) -> Result<Self, Fault> {
+        let container = Container::parse(&file)?;
+        let text = std::str::from_utf8(&file[container.json.clone()])
+            .map_err(|error| Fault::invalid("", format!("the JSON is not UTF-8: {error}")))?;
+        let root = parse_root(text)?;
+        let chunk = container.bin.clone().map(|range| &file[range]);
+        let stores = root
+            .buffers
+            .iter()
+            .enumerate()
+            .map(|(i, buffer)| load_buffer(i, buffer, chunk, &mut resources))
+            .collect::<Result<_, _>>()?;
+        let warnings = image_warnings(name, &root, &resources);
+        Ok(Self {
+            name: name.to_owned(),
+            input: None,
+            file,
+            container,
+            root,
+            resources,
+            stores,
+            edits: Edits::default(),
+            backed_count: OnceLock::new(),
+            primitive_texts: OnceLock::new(),
+            warnings,
+        })
     }
 
     /// The name in messages.
@@ -54,103 +149,307 @@ impl Document {
 
     /// What is odd but not an error, such as missing images: one sentence each.
     pub fn warnings(&self) -> &[String] {
-        todo!()
+        &self.warnings
     }
 
     /// The meshes, edits included.
     pub fn meshes(&self) -> &[schema::Mesh] {
-        todo!()
+        &self.root.meshes
     }
 
     /// The materials.
     pub fn materials(&self) -> &[schema::Material] {
-        todo!()
+        &self.root.materials
     }
 
     /// The accessors, new ones included.
     pub fn accessors(&self) -> &[schema::Accessor] {
-        todo!()
-    }
-
-    /// The values of an accessor as floats: normalised integers as fractions, other integers as numbers, sparse elements in
-    /// place, zeros without a buffer view. Errors: another number of components than `N`; bytes that are not there.
-    pub fn read_vectors<const N: usize>(&self, accessor: usize) -> Result<Vec<[f32; N]>, Error> {
-        let _ = accessor;
-        todo!()
-    }
-
-    /// The values of an accessor of unsigned integers. Errors: another type; bytes that are not there.
-    pub fn read_indices(&self, accessor: usize) -> Result<Vec<u32>, Error> {
-        let _ = accessor;
-        todo!()
-    }
-
-    /// The elements of an accessor as bytes, to gather and to write again. Errors: bytes that are not there.
-    pub fn read_elements(&self, accessor: usize) -> Result<Elements, Error> {
-        let _ = accessor;
-        todo!()
+        &self.root.accessors
     }
 
     /// Appends an accessor with a buffer view of its own; gives its index.
-    pub fn push_accessor(&mut self, data: NewAccessor) -> usize {
-        let _ = data;
-        todo!()
+    ///
+    /// Panics when `new.elements.bytes` is not `count` elements long.
+    pub fn push_accessor(&mut self, new: NewAccessor) -> usize {
+        let view = self.push_view(&new);
+        let like = new.like.and_then(|index| self.root.accessors.get(index)).cloned();
+        self.edits.new_accessors.push(accessor_json(&new, view, like.as_ref()));
+        let elements = new.elements;
+        self.root.accessors.push(schema::Accessor {
+            buffer_view: Some(view),
+            byte_offset: 0,
+            component_type: elements.component_type,
+            normalized: elements.normalized,
+            count: elements.count,
+            element_type: elements.element_type,
+            sparse: None,
+            name: None,
+            extras: None,
+            extensions: None,
+        });
+        self.root.accessors.len() - 1
     }
 
-    /// Edits a primitive. The map holds what is understood (`attributes`, `indices`, `material`, `mode`, `targets`,
-    /// `extensions`); its other members, and those that `edit` leaves equal, stay as they are written in the file.
-    /// Errors: no such primitive; a result that is no primitive.
+    fn push_view(&mut self, new: &NewAccessor) -> usize {
+        let size = new.elements.element_size();
+        assert_eq!(new.elements.bytes.len(), new.elements.count * size, "bytes are not whole elements");
+        let out = &mut self.edits.new_bytes;
+        out.resize(out.len().next_multiple_of(4), 0);
+        let offset = out.len();
+        let stride = match new.target {
+            Target::Vertices => size.next_multiple_of(4),
+            Target::Indices => size,
+        };
+        for element in new.elements.bytes.chunks_exact(size) {
+            out.extend_from_slice(element);
+            out.resize(out.len() + stride - size, 0);
+        }
+        let (length, stride) = (out.len() - offset, (stride != size).then_some(stride));
+        self.edits.new_views.push(NewView { offset, length, stride, target: new.target });
+        self.root.buffer_views.len() + self.edits.new_views.len() - 1
+    }
+
+    /// Edits a primitive.
+    ///
+    /// The map holds what is understood: `attributes`, `indices`, `material`, `mode`, `targets`. Other members, and those that
+    /// `edit` leaves equal, stay as they are spelled in the file. Errors: no such primitive; a result that is no primitive.
     pub fn edit_primitive(
         &mut self,
         mesh: usize,
         primitive: usize,
         edit: impl FnOnce(&mut Map<String, Value>),
     ) -> Result<(), Error> {
-        let _ = (mesh, primitive, edit);
-        todo!()
+        let at = || format!("meshes[{mesh}].primitives[{primitive}]");
+        let text =
+            self.primitive_text(mesh, primitive).ok_or_else(|| self.invalid(at(), "does not exist"))?;
+        let edited = edited_primitive(text, edit).map_err(|error| self.invalid(at(), error.to_string()))?;
+        self.replace_primitive(mesh, primitive, edited)
+            .map_err(|error| self.invalid(at(), format!("the edit is no primitive: {error}")))
+    }
+
+    /// The JSON of a primitive, edits included.
+    pub(super) fn primitive_text(&self, mesh: usize, primitive: usize) -> Option<&str> {
+        if let Some(edited) = self.edits.primitives.get(&(mesh, primitive)) {
+            return Some(edited);
+        }
+        let texts = self.primitive_texts.get_or_init(|| split_primitives(self.text()));
+        Some(texts.get(mesh)?.get(primitive)?.get())
+    }
+
+    /// Sets the JSON of a primitive that exists.
+    pub(super) fn replace_primitive(
+        &mut self,
+        mesh: usize,
+        primitive: usize,
+        text: String,
+    ) -> serde_json::Result<()> {
+        self.root.meshes[mesh].primitives[primitive] = serde_json::from_str(&text)?;
+        self.edits.primitives.insert((mesh, primitive), text);
+        Ok(())
     }
 
     /// Whether any data is compressed, so that [`Document::decompress`] has work.
     pub fn is_compressed(&self) -> bool {
-        todo!()
+        let draco =
+            self.root.meshes.iter().flat_map(|mesh| &mesh.primitives).any(|p| p.extensions.draco.is_some());
+        draco || self.root.buffer_views.iter().any(|view| view.extensions.meshopt.is_some())
     }
 
     /// Decodes all compressed meshes and buffer views and removes the extensions. Must come before accessors are read.
+    ///
+    /// Errors: streams that are broken, or do not hold what the accessors promise.
     pub fn decompress(&mut self) -> Result<(), Error> {
-        todo!()
+        if self.is_compressed() {
+            return Err(Fault::unsupported("", "compression is not supported yet").in_file(&self.name));
+        }
+        Ok(())
     }
 
     /// Whether there are edits.
     pub fn is_changed(&self) -> bool {
-        todo!()
+        let Edits { primitives, accessors, views, buffers, removed_extensions, new_accessors, .. } =
+            &self.edits;
+        !(primitives.is_empty()
+            && accessors.is_empty()
+            && views.is_empty()
+            && buffers.is_empty()
+            && removed_extensions.is_empty()
+            && new_accessors.is_empty())
     }
 
-    /// The document as a GLB that holds everything but `http(s)` resources.
-    pub fn to_glb(&self) -> Result<Vec<u8>, Error> {
-        todo!()
+    /// The JSON text as it was read.
+    pub(super) fn text(&self) -> &str {
+        std::str::from_utf8(&self.file[self.container.json.clone()]).expect("checked when it was read")
     }
 
-    /// Writes the document; gives the files written, the document itself last. The extension decides the container.
-    ///
-    /// Errors: an existing output without [`SaveOptions::force`]; the input itself as output; see [`Error`]. What an error
-    /// leaves behind: nothing.
-    pub fn save(&self, path: &Path, options: &SaveOptions) -> Result<Vec<PathBuf>, Error> {
-        let _ = (path, options);
-        todo!()
+    /// The bytes of a buffer view and its stride. `at` is the JSON path that refers to it.
+    pub(super) fn view(&self, index: usize, at: &str) -> Result<(&[u8], Option<usize>), Fault> {
+        let views = &self.root.buffer_views;
+        if let Some(new) = index.checked_sub(views.len()).and_then(|new| self.edits.new_views.get(new)) {
+            return Ok((&self.edits.new_bytes[new.offset..new.offset + new.length], new.stride));
+        }
+        let view = views.get(index).ok_or_else(|| {
+            let problem = format!("buffer view {index} does not exist: there are {}", views.len());
+            Fault::invalid(at, format!("{problem}; export the file again"))
+        })?;
+        let at = format!("bufferViews[{index}]");
+        let bytes = self.buffer_range(view.buffer, view.byte_offset, view.byte_length, &at)?;
+        Ok((bytes, view.byte_stride))
     }
 
-    /// Replaces the input file, keeping its container and its permissions.
-    pub fn save_in_place(&self) -> Result<Vec<PathBuf>, Error> {
-        todo!()
+    /// Some bytes of a buffer. `at` is the JSON path that refers to them.
+    pub(super) fn buffer_range(
+        &self,
+        buffer: usize,
+        offset: usize,
+        length: usize,
+        at: &str,
+    ) -> Result<&[u8], Fault> {
+        let bytes = self.buffer(buffer, &format!("{at}.buffer"))?;
+        offset.checked_add(length).and_then(|end| bytes.get(offset..end)).ok_or_else(|| {
+            let problem = format!(
+                "{length} bytes from byte {offset} on do not fit the buffer of {} bytes",
+                bytes.len()
+            );
+            Fault::invalid(at, format!("{problem}; export the file again"))
+        })
+    }
+
+    /// The bytes of a buffer. `at` is the JSON path that refers to it.
+    pub(super) fn buffer(&self, index: usize, at: &str) -> Result<&[u8], Fault> {
+        let (Some(buffer), Some(store)) = (self.root.buffers.get(index), self.stores.get(index)) else {
+            let problem = format!("buffer {index} does not exist: there are {}", self.root.buffers.len());
+            return Err(Fault::invalid(at, format!("{problem}; export the file again")));
+        };
+        let bytes = match store {
+            Store::Chunk => &self.file[self.container.bin.clone().unwrap_or_default()],
+            Store::File(file) => &file.bytes,
+            Store::Data(bytes) | Store::Decoded(bytes) => bytes,
+            Store::Absent(why) => return Err(Fault::resource(format!("buffers[{index}]"), *why)),
+        };
+        // Longer sources are legal: the GLB's chunk is padded.
+        Ok(&bytes[..buffer.byte_length.min(bytes.len())])
     }
 
     /// The error that says `problem` about the JSON path `at`.
     pub fn invalid(&self, at: impl Into<String>, problem: impl Into<String>) -> Error {
-        Error::Invalid { file: self.name.clone(), at: at.into(), problem: problem.into() }
+        Fault::invalid(at, problem).in_file(&self.name)
     }
 
     /// The error that says what is wrong with the mesh of the primitive at `at`.
     pub fn mesh_error(&self, at: impl Into<String>, source: MeshError) -> Error {
         Error::Mesh { file: self.name.clone(), at: at.into(), source }
     }
+}
+
+fn parse_root(text: &str) -> Result<Root, Fault> {
+    // The path of a failure is only looked for when there is one: it costs time.
+    let parsed: Result<Root, _> = serde_json::from_str(text);
+    let version = match &parsed {
+        Ok(root) => Some(root.asset.version.clone()),
+        Err(_) => serde_json::from_str(text).ok().map(|probe: Probe| probe.asset.version),
+    };
+    if let Some(version) = version.filter(|version| !version.starts_with("2.")) {
+        let problem = format!("is {version:?}; convert the file to glTF 2.0");
+        return Err(Fault::invalid("asset.version", problem));
+    }
+    parsed.or_else(|_| {
+        let mut parser = serde_json::Deserializer::from_str(text);
+        let root = serde_path_to_error::deserialize(&mut parser).map_err(json_fault)?;
+        parser
+            .end()
+            .map_err(|error| Fault::invalid("", format!("is not JSON: {error}; export the file again")))?;
+        Ok(root)
+    })
+}
+
+fn json_fault(error: serde_path_to_error::Error<serde_json::Error>) -> Fault {
+    let at = error.path().to_string();
+    let problem = error.inner();
+    if problem.is_data() {
+        Fault::invalid(
+            if at == "." { String::new() } else { at },
+            format!("{problem}; export the file again"),
+        )
+    } else {
+        Fault::invalid("", format!("is not JSON: {problem}; export the file again"))
+    }
+}
+
+fn load_buffer(
+    index: usize,
+    buffer: &schema::Buffer,
+    chunk: Option<&[u8]>,
+    resources: &mut Resources,
+) -> Result<Store, Fault> {
+    let at = || format!("buffers[{index}].uri");
+    let store = match buffer.uri.as_deref().map(|uri| resources.resolve(uri)) {
+        None if index == 0 && chunk.is_some() => Store::Chunk,
+        None => return Ok(Store::Absent("has no bytes; export the file again")),
+        Some(Ok(Reference::Remote)) => {
+            return Ok(Store::Absent("is on another machine; download it and refer to the file"));
+        }
+        Some(Ok(Reference::Data(data))) => {
+            Store::Data(decode_data_uri(data).map_err(|problem| Fault::invalid(at(), problem))?)
+        }
+        Some(Ok(Reference::File(located))) => {
+            let file = resources.read(&located);
+            Store::File(file.map_err(|error| Fault::resource(at(), format!("cannot be read: {error}")))?)
+        }
+        Some(Err(problem)) => return Err(Fault::resource(at(), problem)),
+    };
+    let found = match &store {
+        Store::File(file) => file.bytes.len(),
+        Store::Data(bytes) => bytes.len(),
+        _ => chunk.unwrap_or_default().len(),
+    };
+    if buffer.byte_length > found {
+        let problem = format!("is {} but there are {found} bytes; export the file again", buffer.byte_length);
+        return Err(Fault::invalid(format!("buffers[{index}].byteLength"), problem));
+    }
+    Ok(store)
+}
+
+fn image_warnings(name: &str, root: &Root, resources: &Resources) -> Vec<String> {
+    let uris = root.images.iter().enumerate().filter_map(|(i, image)| Some((i, image.uri.as_deref()?)));
+    uris.filter_map(|(i, uri)| {
+        let problem = resources.resolve(uri).err()?;
+        Some(format!("{name}: images[{i}].uri: {problem}; left as it is"))
+    })
+    .collect()
+}
+
+/// The text of every primitive of every mesh.
+fn split_primitives(text: &str) -> Vec<Vec<Box<RawValue>>> {
+    #[derive(Deserialize)]
+    struct Meshes {
+        #[serde(default)]
+        meshes: Vec<Primitives>,
+    }
+    #[derive(Deserialize)]
+    struct Primitives {
+        primitives: Vec<Box<RawValue>>,
+    }
+    let parsed: Meshes = serde_json::from_str(text).expect("parsed before, more strictly");
+    parsed.meshes.into_iter().map(|mesh| mesh.primitives).collect()
+}
+
+fn edited_primitive(text: &str, edit: impl FnOnce(&mut Map<String, Value>)) -> serde_json::Result<String> {
+    const UNDERSTOOD: [&str; 5] = ["attributes", "indices", "material", "mode", "targets"];
+    let mut before = Map::new();
+    for key in UNDERSTOOD {
+        if let Some(value) = json::member(text, key)? {
+            before.insert(key.to_owned(), serde_json::from_str(value)?);
+        }
+    }
+    let mut after = before.clone();
+    edit(&mut after);
+    let mut text = text.to_owned();
+    for key in before.keys().filter(|key| !after.contains_key(*key)) {
+        text = json::set_member(&text, key, None)?;
+    }
+    for (key, value) in after.iter().filter(|&(key, value)| before.get(key) != Some(value)) {
+        text = json::set_member(&text, key, Some(&value.to_string()))?;
+    }
+    Ok(text)
 }

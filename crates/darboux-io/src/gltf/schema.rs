@@ -5,6 +5,42 @@
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
+use serde_json::value::RawValue;
+
+/// The top level.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Root {
+    pub asset: Asset,
+    #[serde(default)]
+    pub meshes: Vec<Mesh>,
+    #[serde(default)]
+    pub materials: Vec<Material>,
+    #[serde(default)]
+    pub accessors: Vec<Accessor>,
+    #[serde(default)]
+    pub buffer_views: Vec<BufferView>,
+    #[serde(default)]
+    pub buffers: Vec<Buffer>,
+    #[serde(default)]
+    pub images: Vec<Image>,
+    #[serde(default)]
+    pub extensions_used: Vec<String>,
+    #[serde(default)]
+    pub extensions_required: Vec<String>,
+}
+
+/// What the file says about itself.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct Asset {
+    pub version: String,
+}
+
+/// Just the version, for files whose other contents make no sense.
+#[derive(Debug, Deserialize)]
+pub(super) struct Probe {
+    pub asset: Asset,
+}
 
 /// A mesh: its primitives.
 #[derive(Clone, Debug, Deserialize)]
@@ -172,6 +208,21 @@ pub struct Accessor {
     pub element_type: ElementType,
     /// Elements that replace others.
     pub sparse: Option<Box<Sparse>>,
+    /// Its name, as JSON text.
+    pub(super) name: Option<Box<RawValue>>,
+    /// Its extras, as JSON text.
+    pub(super) extras: Option<Box<RawValue>>,
+    /// Its extensions, as JSON text.
+    pub(super) extensions: Option<Box<RawValue>>,
+}
+
+impl Accessor {
+    /// The members that describe the accessor to people and programs, as key and JSON text.
+    pub(super) fn descriptions(&self) -> impl Iterator<Item = (&'static str, &str)> {
+        [("name", &self.name), ("extras", &self.extras), ("extensions", &self.extensions)]
+            .into_iter()
+            .filter_map(|(key, value)| Some((key, value.as_ref()?.get())))
+    }
 }
 
 /// The elements of an accessor that differ from its buffer view.
@@ -280,6 +331,9 @@ pub struct Buffer {
 pub struct Image {
     /// Where the image is; without, in a buffer view.
     pub uri: Option<String>,
+    /// What it is.
+    #[serde(rename = "mimeType")]
+    pub mime_type: Option<String>,
 }
 
 /// The type of a component, by glTF's number.

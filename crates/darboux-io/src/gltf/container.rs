@@ -1,0 +1,125 @@
+//! The two containers: a GLB's header and chunks, or bare JSON.
+
+use std::ops::Range;
+
+use crate::error::Fault;
+
+const MAGIC: &[u8] = b"glTF";
+const JSON: u32 = 0x4E4F_534A;
+const BIN: u32 = 0x004E_4942;
+const BOM: &[u8] = b"\xEF\xBB\xBF";
+
+/// Where the parts of a file are.
+#[derive(Clone, Debug)]
+pub struct Container {
+    /// Whether the file is a GLB.
+    pub is_glb: bool,
+    /// The JSON text, without byte order mark and padding.
+    pub json: Range<usize>,
+    /// The binary chunk's content.
+    pub bin: Option<Range<usize>>,
+    /// Chunks of other types: type and content.
+    pub other_chunks: Vec<(u32, Range<usize>)>,
+}
+
+impl Container {
+    /// Finds the parts of `file`; its first bytes decide what it is.
+    pub fn parse(file: &[u8]) -> Result<Self, Fault> {
+        if file.starts_with(MAGIC) {
+            return parse_glb(file);
+        }
+        let start = if file.starts_with(BOM) { BOM.len() } else { 0 };
+        let first = file[start..].iter().find(|byte| !byte.is_ascii_whitespace());
+        if first != Some(&b'{') {
+            let what = if file.is_empty() { "is empty" } else { "is neither a GLB nor glTF's JSON" };
+            return Err(Fault::invalid("", format!("{what}; give a .glb or .gltf file of glTF 2.0")));
+        }
+        Ok(Self { is_glb: false, json: start..file.len(), bin: None, other_chunks: Vec::new() })
+    }
+}
+
+fn parse_glb(file: &[u8]) -> Result<Container, Fault> {
+    let broken = |problem: String| Fault::invalid("", format!("{problem}; export or download it again"));
+    let (Some(version), Some(length)) = (word(file, 4), word(file, 8)) else {
+        return Err(broken("is cut off within the GLB header".into()));
+    };
+    if version != 2 {
+        return Err(Fault::invalid("", format!("is a GLB of version {version}; convert it to glTF 2.0")));
+    }
+    if length as usize != file.len() {
+        return Err(broken(format!("the GLB header says {length} bytes but there are {}", file.len())));
+    }
+    let mut container = Container { is_glb: true, json: 0..0, bin: None, other_chunks: Vec::new() };
+    let mut at = 12;
+    while at < file.len() {
+        let (Some(length), Some(kind)) = (word(file, at), word(file, at + 4)) else {
+            return Err(broken(format!("is cut off within the chunk header at byte {at}")));
+        };
+        let content = at + 8..(at + 8).saturating_add(length as usize);
+        if content.end > file.len() {
+            return Err(broken(format!(
+                "the chunk at byte {at} says {length} bytes but {} are left",
+                file.len() - content.start
+            )));
+        }
+        match kind {
+            JSON if at == 12 => {
+                container.json = content.start..content.start + unpadded(&file[content.clone()])
+            }
+            _ if at == 12 => return Err(broken("the first chunk is not JSON".into())),
+            BIN if container.bin.is_none() => container.bin = Some(content.clone()),
+            _ => container.other_chunks.push((kind, content.clone())),
+        }
+        at = content.end;
+    }
+    if container.json.is_empty() {
+        return Err(broken("has no JSON chunk".into()));
+    }
+    Ok(container)
+}
+
+/// The length of `json` without the spaces, and the zeros of careless exporters, at its end.
+fn unpadded(json: &[u8]) -> usize {
+    json.iter().rposition(|&byte| byte != b' ' && byte != 0).map_or(0, |at| at + 1)
+}
+
+fn word(file: &[u8], at: usize) -> Option<u32> {
+    Some(u32::from_le_bytes(*file.get(at..)?.first_chunk()?))
+}
+
+/// A GLB of `json`, the binary chunk `bin` (parts, one after the other) and further chunks.
+///
+/// Error: more than the 4 GiB that a GLB can hold.
+pub fn glb(json: &str, bin: Option<&[&[u8]]>, other_chunks: &[(u32, &[u8])]) -> Result<Vec<u8>, Fault> {
+    let bin_length = bin.map(|parts| parts.iter().map(|part| part.len()).sum::<usize>());
+    let chunks = [Some(json.len()), bin_length].into_iter().flatten();
+    let length = 12
+        + chunks.map(|length| 8 + length.next_multiple_of(4)).sum::<usize>()
+        + other_chunks.iter().map(|(_, chunk)| 8 + chunk.len().next_multiple_of(4)).sum::<usize>();
+    let too_large =
+        || Fault::unsupported("", format!("{length} bytes are too many for a GLB; write a .gltf"));
+    let total = u32::try_from(length).map_err(|_| too_large())?;
+
+    let mut out = Vec::with_capacity(length);
+    out.extend_from_slice(MAGIC);
+    out.extend_from_slice(&2u32.to_le_bytes());
+    out.extend_from_slice(&total.to_le_bytes());
+    push_chunk(&mut out, JSON, &[json.as_bytes()], b' ');
+    if let Some(parts) = bin {
+        push_chunk(&mut out, BIN, parts, 0);
+    }
+    for &(kind, chunk) in other_chunks {
+        push_chunk(&mut out, kind, &[chunk], 0);
+    }
+    Ok(out)
+}
+
+fn push_chunk(out: &mut Vec<u8>, kind: u32, parts: &[&[u8]], padding: u8) {
+    let length = parts.iter().map(|part| part.len()).sum::<usize>().next_multiple_of(4);
+    out.extend_from_slice(&(length as u32).to_le_bytes());
+    out.extend_from_slice(&kind.to_le_bytes());
+    for part in parts {
+        out.extend_from_slice(part);
+    }
+    out.resize(out.len().next_multiple_of(4), padding);
+}

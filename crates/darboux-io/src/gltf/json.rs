@@ -1,0 +1,213 @@
+//! Edits of JSON as text: what is not named by an edit keeps its exact spelling, numbers, order and white space included.
+//!
+//! Values are skipped over, never parsed: neither their depth nor their content matters.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::ops::Range;
+
+use serde::Deserializer as _;
+use serde::de::{MapAccess, Visitor};
+use serde_json::value::RawValue;
+
+/// `object` with its member `key` set to the JSON `value`, or without the member. A new member becomes the last.
+///
+/// Errors: `object` is not the text of a JSON object.
+pub fn set_member(object: &str, key: &str, value: Option<&str>) -> serde_json::Result<String> {
+    let members = members(object)?;
+    let found = members.iter().position(|member| member.is(key));
+    let (range, new) = match (found, value) {
+        (Some(at), Some(value)) => (members[at].value.clone(), value.to_owned()),
+        (Some(at), None) => (removal(&members, at), String::new()),
+        (None, None) => return Ok(object.to_owned()),
+        (None, Some(value)) => {
+            let member = format!("{}:{value}", quoted(key));
+            insertion(object, members.iter().map(|member| member.key.start..member.value.end), &member)
+        }
+    };
+    Ok(splice(object, range, &new))
+}
+
+/// The text of the member `key`, where `object` has it.
+pub fn member<'a>(object: &'a str, key: &str) -> serde_json::Result<Option<&'a str>> {
+    let found = members(object)?.into_iter().find(|member| member.is(key));
+    Ok(found.map(|member| &object[member.value]))
+}
+
+/// The keys of `object`, as decoded text.
+pub fn keys(object: &str) -> serde_json::Result<Vec<String>> {
+    members(object)?.iter().map(|member| serde_json::from_str(member.key_text)).collect()
+}
+
+/// `array` with some elements replaced and others appended.
+///
+/// Errors: `array` is not the text of a JSON array.
+pub fn edit_array(
+    array: &str,
+    replaced: &BTreeMap<usize, String>,
+    appended: &[String],
+) -> serde_json::Result<String> {
+    let elements: Vec<&RawValue> = serde_json::from_str(array)?;
+    let mut out = String::with_capacity(array.len());
+    let mut copied = 0;
+    for (&index, new) in replaced {
+        if let Some(element) = elements.get(index) {
+            let range = range_in(array, element.get());
+            out.push_str(&array[copied..range.start]);
+            out.push_str(new);
+            copied = range.end;
+        }
+    }
+    let mut appended = appended.iter();
+    let close = array.rfind(']').unwrap_or(array.len());
+    if let Some(last) = elements.last().map(|last| range_in(array, last.get())) {
+        let separator = format!(",{}", space_before(array, last.start));
+        out.push_str(&array[copied..last.end.max(copied)]);
+        copied = last.end.max(copied);
+        for element in appended {
+            out.push_str(&separator);
+            out.push_str(element);
+        }
+    } else if let Some(first) = appended.next() {
+        out.push_str(&array[copied..close]);
+        copied = close;
+        out.push_str(first);
+        for element in appended {
+            out.push(',');
+            out.push_str(element);
+        }
+    }
+    out.push_str(&array[copied..]);
+    Ok(out)
+}
+
+/// `text` as a JSON string.
+pub fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
+
+/// A member of an object: where its key and value are.
+struct Member<'a> {
+    key_text: &'a str,
+    key: Range<usize>,
+    value: Range<usize>,
+}
+
+impl Member<'_> {
+    fn is(&self, key: &str) -> bool {
+        let inner = &self.key_text[1..self.key_text.len() - 1];
+        if inner.contains('\\') {
+            serde_json::from_str::<String>(self.key_text).is_ok_and(|decoded| decoded == key)
+        } else {
+            inner == key
+        }
+    }
+}
+
+fn members(object: &str) -> serde_json::Result<Vec<Member<'_>>> {
+    let mut parser = serde_json::Deserializer::from_str(object);
+    let members = parser.deserialize_map(Members(object))?;
+    parser.end()?;
+    Ok(members)
+}
+
+struct Members<'a>(&'a str);
+
+impl<'de> Visitor<'de> for Members<'de> {
+    type Value = Vec<Member<'de>>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("an object")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+        let mut members = Vec::new();
+        while let Some((key, value)) = map.next_entry::<&RawValue, &RawValue>()? {
+            let key_text = key.get();
+            let (key, value) = (range_in(self.0, key_text), range_in(self.0, value.get()));
+            members.push(Member { key_text, key, value });
+        }
+        Ok(members)
+    }
+}
+
+/// Where `part`, a slice of `text`, lies in it.
+fn range_in(text: &str, part: &str) -> Range<usize> {
+    let start = part.as_ptr() as usize - text.as_ptr() as usize;
+    start..start + part.len()
+}
+
+/// What to cut to remove a member with one of its commas.
+fn removal(members: &[Member<'_>], at: usize) -> Range<usize> {
+    match (at.checked_sub(1), members.get(at + 1)) {
+        (_, Some(next)) => members[at].key.start..next.key.start,
+        (Some(previous), None) => members[previous].value.end..members[at].value.end,
+        (None, None) => members[at].key.start..members[at].value.end,
+    }
+}
+
+/// Where `new` goes as the last of `items`, and with which comma and white space.
+fn insertion(
+    text: &str,
+    items: impl DoubleEndedIterator<Item = Range<usize>>,
+    new: &str,
+) -> (Range<usize>, String) {
+    match items.last() {
+        Some(last) => (last.end..last.end, format!(",{}{new}", space_before(text, last.start))),
+        None => {
+            let open = text.find('{').map_or(0, |at| at + 1);
+            (open..open, new.to_owned())
+        }
+    }
+}
+
+/// The white space right before `at`, which lays out what follows like its neighbour.
+fn space_before(text: &str, at: usize) -> &str {
+    let before = &text[..at];
+    &before[before.trim_end_matches([' ', '\t', '\r', '\n']).len()..]
+}
+
+fn splice(text: &str, range: Range<usize>, new: &str) -> String {
+    let mut out = String::with_capacity(text.len() + new.len());
+    out.push_str(&text[..range.start]);
+    out.push_str(new);
+    out.push_str(&text[range.end..]);
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn members_are_set_added_and_removed_without_touching_the_rest() {
+        let text = "{ \"a\" : 1E+5 ,\n \"b\":0.10, \"\\u0063\": [1.0e-7] }";
+        assert_eq!(
+            set_member(text, "b", Some("2")).unwrap(),
+            "{ \"a\" : 1E+5 ,\n \"b\":2, \"\\u0063\": [1.0e-7] }"
+        );
+        assert_eq!(set_member(text, "c", None).unwrap(), "{ \"a\" : 1E+5 ,\n \"b\":0.10 }");
+        assert_eq!(set_member(text, "a", None).unwrap(), "{ \"b\":0.10, \"\\u0063\": [1.0e-7] }");
+        assert_eq!(
+            set_member(text, "d", Some("{}")).unwrap(),
+            "{ \"a\" : 1E+5 ,\n \"b\":0.10, \"\\u0063\": [1.0e-7], \"d\":{} }"
+        );
+        assert_eq!(set_member("{}", "d", Some("1")).unwrap(), "{\"d\":1}");
+        assert_eq!(set_member("{\"d\":1}", "d", None).unwrap(), "{}");
+    }
+
+    #[test]
+    fn elements_are_replaced_and_appended() {
+        let replaced = BTreeMap::from([(1, "9".to_owned())]);
+        let appended = ["7".to_owned(), "8".to_owned()];
+        assert_eq!(edit_array("[ 1, [2]\n]", &replaced, &appended).unwrap(), "[ 1, 9, 7, 8\n]");
+        assert_eq!(edit_array("[]", &BTreeMap::new(), &appended).unwrap(), "[7,8]");
+        assert_eq!(edit_array("[1]", &BTreeMap::new(), &[]).unwrap(), "[1]");
+    }
+
+    #[test]
+    fn depth_does_not_matter() {
+        let deep = format!("{{\"a\":{}{},\"b\":1}}", "[".repeat(200_000), "]".repeat(200_000));
+        assert_eq!(set_member(&deep, "a", None).unwrap(), "{\"b\":1}");
+    }
+}

@@ -1,0 +1,415 @@
+//! What is written: where the bytes of every buffer go, and the JSON that says so.
+//!
+//! A *home* is a place for bytes: the binary chunk of a GLB, or a new file beside a `.gltf`. A GLB has one home, into which all
+//! buffers move; a `.gltf` has one for each buffer that was in memory only. Buffer views follow their buffers.
+
+use std::borrow::Cow;
+use std::collections::{BTreeMap, HashMap};
+use std::fs;
+use std::path::PathBuf;
+
+use serde_json::value::RawValue;
+
+use super::document::{Document, NewView, Store};
+use super::json::{edit_array, keys, member, quoted, set_member};
+use super::resources::{Reference, encode_data_uri, image_type};
+use crate::error::Fault;
+
+/// Bytes to be written as one.
+#[derive(Debug, Default)]
+pub struct Home<'a> {
+    pub parts: Vec<Cow<'a, [u8]>>,
+    length: usize,
+}
+
+impl<'a> Home<'a> {
+    /// Appends bytes at the next multiple of four; gives their offset.
+    fn push(&mut self, bytes: Cow<'a, [u8]>) -> usize {
+        let offset = self.length.next_multiple_of(4);
+        if offset > self.length {
+            self.parts.push(Cow::Borrowed(&[0; 4][..offset - self.length]));
+        }
+        self.length = offset + bytes.len();
+        self.parts.push(bytes);
+        offset
+    }
+}
+
+/// A buffer of the output.
+#[derive(Debug)]
+struct Slot {
+    /// The buffer whose JSON it keeps.
+    source: Option<usize>,
+    content: Content,
+}
+
+#[derive(Debug)]
+enum Content {
+    /// As before.
+    Kept,
+    /// A home.
+    Home(usize),
+    /// A `data:` URI.
+    Embedded,
+}
+
+/// A place in the output's buffers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Place {
+    slot: usize,
+    offset: usize,
+}
+
+/// An image that moves into the GLB.
+#[derive(Debug)]
+struct EmbeddedImage {
+    index: usize,
+    view: usize,
+    media_type: String,
+}
+
+/// Where everything goes.
+#[derive(Debug)]
+pub struct Layout<'a> {
+    document: &'a Document,
+    pub homes: Vec<Home<'a>>,
+    slots: Vec<Slot>,
+    /// By buffer of the input.
+    places: Vec<Place>,
+    /// The buffer view JSON of new data and of images.
+    new_views: Vec<String>,
+    images: Vec<EmbeddedImage>,
+}
+
+impl<'a> Layout<'a> {
+    /// Everything in one GLB: buffers of one home, images in buffer views.
+    ///
+    /// Buffers with extras or extensions of their own, beyond the first, become `data:` URIs so that these survive. Buffers
+    /// without bytes in reach stay as they are, behind the home.
+    pub fn glb(document: &'a Document) -> Result<Self, Fault> {
+        let mut layout = Self::empty(document);
+        let texts = document.buffer_texts().map_err(broken)?;
+        let mut home = Home::default();
+        let mut source = None;
+        let mut aside = Vec::new();
+        let mut merged: HashMap<(&PathBuf, usize), Place> = HashMap::new();
+        for (i, buffer) in document.root.buffers.iter().enumerate() {
+            if let Store::Absent(_) = document.stores[i] {
+                aside.push(Slot { source: Some(i), content: Content::Kept });
+            } else if source.is_some() && !is_plain(&texts[i]).map_err(broken)? {
+                aside.push(Slot { source: Some(i), content: Content::Embedded });
+            } else {
+                source.get_or_insert(i);
+                let mut push = || -> Result<Place, Fault> {
+                    let bytes = document.buffer(i, "buffers")?;
+                    Ok(Place { slot: 0, offset: home.push(bytes.into()) })
+                };
+                layout.places[i] = match &document.stores[i] {
+                    Store::File(file) => match merged.get(&(&file.located.path, buffer.byte_length)) {
+                        Some(&place) => place,
+                        None => {
+                            let place = push()?;
+                            merged.insert((&file.located.path, buffer.byte_length), place);
+                            place
+                        }
+                    },
+                    _ => push()?,
+                };
+            }
+        }
+        layout.push_new_views(&mut home, 0);
+        layout.push_images(&mut home)?;
+        if source.is_some() || home.length > 0 {
+            layout.slots.push(Slot { source, content: Content::Home(0) });
+            layout.homes.push(home);
+        }
+        for slot in aside {
+            let place = Place { slot: layout.slots.len(), offset: 0 };
+            layout.places[slot.source.unwrap_or_default()] = place;
+            layout.slots.push(slot);
+        }
+        Ok(layout)
+    }
+
+    /// Buffers as they are; those that were only in memory get homes, and new bytes follow the first of these.
+    pub fn gltf(document: &'a Document) -> Result<Self, Fault> {
+        let mut layout = Self::empty(document);
+        for (i, store) in document.stores.iter().enumerate() {
+            let in_memory = matches!(store, Store::Chunk | Store::Decoded(_));
+            let content = if in_memory { Content::Home(layout.homes.len()) } else { Content::Kept };
+            if in_memory {
+                let mut home = Home::default();
+                home.push(document.buffer(i, "buffers")?.into());
+                layout.homes.push(home);
+            }
+            layout.places[i] = Place { slot: i, offset: 0 };
+            layout.slots.push(Slot { source: Some(i), content });
+        }
+        if document.edits.new_views.is_empty() {
+            return Ok(layout);
+        }
+        let first = layout.slots.iter().position(|slot| matches!(slot.content, Content::Home(_)));
+        let slot = first.unwrap_or_else(|| {
+            layout.slots.push(Slot { source: None, content: Content::Home(layout.homes.len()) });
+            layout.homes.push(Home::default());
+            layout.slots.len() - 1
+        });
+        let mut home = std::mem::take(&mut layout.homes[0]);
+        layout.push_new_views(&mut home, slot);
+        layout.homes[0] = home;
+        Ok(layout)
+    }
+
+    fn empty(document: &'a Document) -> Self {
+        let places = vec![Place { slot: 0, offset: 0 }; document.root.buffers.len()];
+        let (homes, slots, new_views, images) = Default::default();
+        Self { document, homes, slots, places, new_views, images }
+    }
+
+    fn push_new_views(&mut self, home: &mut Home<'a>, slot: usize) {
+        let edits = &self.document.edits;
+        if edits.new_views.is_empty() {
+            return;
+        }
+        let base = home.push(edits.new_bytes.as_slice().into());
+        for NewView { offset, length, stride, target } in &edits.new_views {
+            let stride = stride.map(|stride| format!(",\"byteStride\":{stride}")).unwrap_or_default();
+            let target = target.code();
+            self.new_views.push(format!(
+                "{{\"buffer\":{slot},\"byteOffset\":{},\"byteLength\":{length}{stride},\"target\":{target}}}",
+                base + offset
+            ));
+        }
+    }
+
+    /// Moves images from files into the home. Images that are missing, remote or of unknown type stay where they are.
+    fn push_images(&mut self, home: &mut Home<'a>) -> Result<(), Fault> {
+        let document = self.document;
+        let mut known: HashMap<PathBuf, Option<(usize, &str)>> = HashMap::new();
+        for (index, image) in document.root.images.iter().enumerate() {
+            let reference = image.uri.as_deref().map(|uri| document.resources.resolve(uri));
+            let Some(Ok(Reference::File(located))) = reference else { continue };
+            let stored = match known.get(&located.path) {
+                Some(stored) => *stored,
+                None => {
+                    let bytes = fs::read(&located.path).map_err(|error| {
+                        Fault::resource(format!("images[{index}].uri"), format!("cannot be read: {error}"))
+                    })?;
+                    let stored = image_type(&bytes).map(|kind| {
+                        let length = bytes.len();
+                        let offset = home.push(bytes.into());
+                        self.new_views.push(format!(
+                            "{{\"buffer\":0,\"byteOffset\":{offset},\"byteLength\":{length}}}"
+                        ));
+                        (document.root.buffer_views.len() + self.new_views.len() - 1, kind)
+                    });
+                    known.insert(located.path, stored);
+                    stored
+                }
+            };
+            if let Some((view, kind)) = stored {
+                let media_type = image.mime_type.clone().unwrap_or_else(|| kind.to_owned());
+                self.images.push(EmbeddedImage { index, view, media_type });
+            }
+        }
+        Ok(())
+    }
+
+    /// The JSON. `home_uris`: the URI of each home, none in a GLB. `renamed`: new URIs of files that are copied under another
+    /// name, by where they are.
+    pub fn json(&self, home_uris: &[String], renamed: &HashMap<PathBuf, String>) -> Result<String, Fault> {
+        let edits = &self.document.edits;
+        let mut root = self.document.text().to_owned();
+        let mut set =
+            |key: &str, edit: &dyn Fn(&str) -> serde_json::Result<String>| -> serde_json::Result<()> {
+                let old = member(&root, key)?;
+                let new = edit(old.unwrap_or("[]"))?;
+                if new != old.unwrap_or("[]") {
+                    root = set_member(&root, key, (new != "[]").then_some(&new))?;
+                }
+                Ok(())
+            };
+        (|| {
+            set("meshes", &|meshes| self.meshes(meshes))?;
+            set("accessors", &|accessors| edit_array(accessors, &edits.accessors, &edits.new_accessors))?;
+            set("bufferViews", &|views| self.views(views))?;
+            set("buffers", &|buffers| self.buffers(buffers, home_uris, renamed))?;
+            set("images", &|images| self.images(images, renamed))?;
+            for key in ["extensionsUsed", "extensionsRequired"] {
+                set(key, &|names| self.extensions(names))?;
+            }
+            Ok(())
+        })()
+        .map_err(broken)?;
+        Ok(root)
+    }
+
+    fn meshes(&self, meshes: &str) -> serde_json::Result<String> {
+        let mut by_mesh: BTreeMap<usize, BTreeMap<usize, String>> = BTreeMap::new();
+        for (&(mesh, primitive), text) in &self.document.edits.primitives {
+            by_mesh.entry(mesh).or_default().insert(primitive, text.clone());
+        }
+        let old: Vec<&RawValue> = serde_json::from_str(meshes)?;
+        let mut edited = BTreeMap::new();
+        for (mesh, primitives) in by_mesh {
+            let text = old[mesh].get();
+            let list = edit_array(member(text, "primitives")?.unwrap_or("[]"), &primitives, &[])?;
+            edited.insert(mesh, set_member(text, "primitives", Some(&list))?);
+        }
+        edit_array(meshes, &edited, &[])
+    }
+
+    fn views(&self, views: &str) -> serde_json::Result<String> {
+        let mut edited = self.document.edits.views.clone();
+        let unmoved = |(i, place): (usize, &Place)| *place == Place { slot: i, offset: 0 };
+        if !self.places.iter().enumerate().all(unmoved) {
+            let old: Vec<&RawValue> = serde_json::from_str(views)?;
+            for (i, old) in old.iter().enumerate() {
+                let text = edited.get(&i).map_or(old.get(), String::as_str);
+                let moved = self.moved_view(text)?;
+                if moved != old.get() {
+                    edited.insert(i, moved);
+                }
+            }
+        }
+        edit_array(views, &edited, &self.new_views)
+    }
+
+    /// A buffer view, and every extension of it that names a buffer of its own, after the move.
+    fn moved_view(&self, view: &str) -> serde_json::Result<String> {
+        let mut moved = self.moved(view)?;
+        if let Some(extensions) = member(view, "extensions")? {
+            let mut moved_extensions = extensions.to_owned();
+            for name in keys(extensions)? {
+                let extension = member(extensions, &name)?.unwrap_or_default();
+                if extension.starts_with('{') {
+                    moved_extensions = set_member(&moved_extensions, &name, Some(&self.moved(extension)?))?;
+                }
+            }
+            moved = set_member(&moved, "extensions", Some(&moved_extensions))?;
+        }
+        Ok(moved)
+    }
+
+    /// An object with `buffer` and `byteOffset` after the move.
+    fn moved(&self, range: &str) -> serde_json::Result<String> {
+        let number = |key| Ok(member(range, key)?.and_then(|text| text.parse::<usize>().ok()));
+        let Some(buffer) = number("buffer")? else { return Ok(range.to_owned()) };
+        let Some(&Place { slot, offset }) = self.places.get(buffer) else { return Ok(range.to_owned()) };
+        let mut moved = range.to_owned();
+        if slot != buffer {
+            moved = set_member(&moved, "buffer", Some(&slot.to_string()))?;
+        }
+        if offset != 0 {
+            let sum = number("byteOffset")?.unwrap_or(0).saturating_add(offset);
+            moved = set_member(&moved, "byteOffset", Some(&sum.to_string()))?;
+        }
+        Ok(moved)
+    }
+
+    fn buffers(
+        &self,
+        buffers: &str,
+        home_uris: &[String],
+        renamed: &HashMap<PathBuf, String>,
+    ) -> serde_json::Result<String> {
+        let old: Vec<&RawValue> = serde_json::from_str(buffers)?;
+        let texts = self.document.buffer_texts()?;
+        let mut written = Vec::with_capacity(self.slots.len());
+        for slot in &self.slots {
+            written.push(self.buffer(slot, &texts, home_uris, renamed)?);
+        }
+        let in_place = self.slots.iter().take(old.len()).enumerate().all(|(i, slot)| slot.source == Some(i));
+        if !in_place || written.len() < old.len() {
+            return Ok(format!("[{}]", written.join(",")));
+        }
+        let appended = written.split_off(old.len());
+        let changed = written.into_iter().enumerate().filter(|(i, text)| text != old[*i].get());
+        edit_array(buffers, &changed.collect(), &appended)
+    }
+
+    fn buffer(
+        &self,
+        slot: &Slot,
+        texts: &[String],
+        home_uris: &[String],
+        renamed: &HashMap<PathBuf, String>,
+    ) -> serde_json::Result<String> {
+        let text = slot.source.map_or("{}", |source| texts[source].as_str());
+        match (&slot.content, slot.source) {
+            (Content::Home(home), _) => {
+                let length = self.homes[*home].length;
+                let before = slot.source.map(|source| self.document.root.buffers[source].byte_length);
+                let text = if before == Some(length) {
+                    text.to_owned()
+                } else {
+                    set_member(text, "byteLength", Some(&length.to_string()))?
+                };
+                set_member(&text, "uri", home_uris.get(*home).map(|uri| quoted(uri)).as_deref())
+            }
+            (Content::Embedded, Some(source)) => {
+                let bytes = self.document.buffer(source, "").unwrap_or_default();
+                set_member(text, "uri", Some(&quoted(&encode_data_uri(bytes))))
+            }
+            (_, source) => match source.map(|source| &self.document.stores[source]) {
+                Some(Store::File(file)) => match renamed.get(&file.located.path) {
+                    Some(uri) => set_member(text, "uri", Some(&quoted(uri))),
+                    None => Ok(text.to_owned()),
+                },
+                _ => Ok(text.to_owned()),
+            },
+        }
+    }
+
+    fn images(&self, images: &str, renamed: &HashMap<PathBuf, String>) -> serde_json::Result<String> {
+        if self.images.is_empty() && renamed.is_empty() {
+            return Ok(images.to_owned());
+        }
+        let old: Vec<&RawValue> = serde_json::from_str(images)?;
+        let mut edited = BTreeMap::new();
+        for EmbeddedImage { index, view, media_type } in &self.images {
+            let text = set_member(old[*index].get(), "uri", None)?;
+            let text = set_member(&text, "mimeType", Some(&quoted(media_type)))?;
+            edited.insert(*index, set_member(&text, "bufferView", Some(&view.to_string()))?);
+        }
+        for (i, image) in self.document.root.images.iter().enumerate().filter(|_| !renamed.is_empty()) {
+            let reference = image.uri.as_deref().map(|uri| self.document.resources.resolve(uri));
+            let Some(Ok(Reference::File(located))) = reference else { continue };
+            if let Some(uri) = renamed.get(&located.path) {
+                edited.insert(i, set_member(old[i].get(), "uri", Some(&quoted(uri)))?);
+            }
+        }
+        edit_array(images, &edited, &[])
+    }
+
+    fn extensions(&self, names: &str) -> serde_json::Result<String> {
+        let removed = &self.document.edits.removed_extensions;
+        let old: Vec<String> = serde_json::from_str(names)?;
+        if !old.iter().any(|name| removed.contains(&name.as_str())) {
+            return Ok(names.to_owned());
+        }
+        let kept = old.iter().filter(|name| !removed.contains(&name.as_str()));
+        Ok(format!("[{}]", kept.map(|name| quoted(name)).collect::<Vec<_>>().join(",")))
+    }
+}
+
+impl Document {
+    /// The JSON of every buffer, edits included.
+    fn buffer_texts(&self) -> serde_json::Result<Vec<String>> {
+        let array = member(self.text(), "buffers")?.unwrap_or("[]");
+        let texts: Vec<&RawValue> = serde_json::from_str(array)?;
+        let edited = &self.edits.buffers;
+        let text =
+            |(i, text): (usize, &&RawValue)| edited.get(&i).cloned().unwrap_or_else(|| text.get().to_owned());
+        Ok(texts.iter().enumerate().map(text).collect())
+    }
+}
+
+/// Whether a buffer's JSON says nothing that is lost when it is merged into another.
+fn is_plain(buffer: &str) -> serde_json::Result<bool> {
+    Ok(keys(buffer)?.iter().all(|key| ["uri", "byteLength", "name"].contains(&key.as_str())))
+}
+
+fn broken(error: serde_json::Error) -> Fault {
+    Fault::invalid("", format!("the JSON cannot be edited: {error}; export the file again"))
+}

@@ -1,0 +1,351 @@
+//! Writing: every file beside its target first, then all of them renamed, the document last.
+
+use std::collections::{HashMap, HashSet};
+use std::ffi::OsStr;
+use std::fs::{self, File};
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::TempPath;
+
+use super::container::glb;
+use super::document::{Document, Store};
+use super::layout::{Home, Layout};
+use super::resources::{Located, Reference, encode_path};
+use crate::Error;
+use crate::error::Fault;
+
+/// How a document is written.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SaveOptions {
+    /// Replace an existing output; without, that is an error.
+    pub force: bool,
+}
+
+impl Document {
+    /// The document as a GLB that holds all its buffers and images, but for remote and missing ones.
+    ///
+    /// Without edits, and with nothing to embed, a GLB is given back byte for byte. Errors: more than 4 GiB; files that cannot
+    /// be read.
+    pub fn to_glb(&self) -> Result<Vec<u8>, Error> {
+        self.glb_bytes().map_err(|fault| fault.in_file(self.name()))
+    }
+
+    /// Writes the document and, for a `.gltf`, the files that it needs; gives the files written, the document last.
+    ///
+    /// The extension decides the container: `.glb` (or `.vrm`) or `.gltf`. New data of a `.gltf` goes to a fresh file; existing
+    /// files are never changed, but a file with the same content is used again. Missing folders are made. Errors: an existing
+    /// output without [`SaveOptions::force`]; the input, or a file that it uses, as output; a GLB's chunks of unknown type in a
+    /// `.gltf`. After an error nothing is left behind.
+    pub fn save(&self, path: &Path, options: &SaveOptions) -> Result<Vec<PathBuf>, Error> {
+        let is_glb = is_glb_path(path)?;
+        let target = self.checked_target(path, options)?;
+        self.write(&target, is_glb, options.force)
+    }
+
+    /// Replaces the input file, keeping its container and permissions; gives the files written, none when there are no edits.
+    ///
+    /// Errors: as [`Document::save`]; a document that was not read from a file.
+    pub fn save_in_place(&self) -> Result<Vec<PathBuf>, Error> {
+        let input = self.input.as_ref().ok_or_else(|| Error::Output {
+            file: self.name().into(),
+            problem: "was not read from a file; name an output".into(),
+        })?;
+        if !self.is_changed() {
+            return Ok(Vec::new());
+        }
+        self.write(input, self.container.is_glb, true)
+    }
+
+    /// The file to write: `path`, or what it links to.
+    fn checked_target(&self, path: &Path, options: &SaveOptions) -> Result<PathBuf, Error> {
+        let refuse = |problem: &str| Error::Output { file: path.to_owned(), problem: problem.to_owned() };
+        let Ok(target) = path.canonicalize() else {
+            return if path.is_symlink() {
+                Err(refuse("is a broken link; remove it"))
+            } else {
+                Ok(path.to_owned())
+            };
+        };
+        if self.input.as_ref() == Some(&target) {
+            return Err(refuse("is the input; name another output or write in place"));
+        }
+        if !target.is_file() {
+            return Err(refuse("exists and is not a regular file; name another output"));
+        }
+        if self.files().iter().any(|file| file.path == target) {
+            return Err(refuse("is a file that the input uses; name another output"));
+        }
+        if !options.force {
+            return Err(refuse("exists; force its replacement or name another output"));
+        }
+        Ok(target)
+    }
+
+    fn write(&self, target: &Path, is_glb: bool, replace: bool) -> Result<Vec<PathBuf>, Error> {
+        let mut staging = Staging::default();
+        let content = if is_glb { self.to_glb()? } else { self.stage_gltf(target, &mut staging)? };
+        staging.stage(target, replace, |file| file.write_all(&content))?;
+        staging.commit()
+    }
+
+    fn glb_bytes(&self) -> Result<Vec<u8>, Fault> {
+        if self.container.is_glb && !self.is_changed() && self.files().is_empty() {
+            return Ok(self.file.clone());
+        }
+        let layout = Layout::glb(self)?;
+        let json = layout.json(&[], &HashMap::new())?;
+        let parts: Option<Vec<&[u8]>> =
+            layout.homes.first().map(|home| home.parts.iter().map(|part| &**part).collect());
+        let chunks =
+            self.container.other_chunks.iter().map(|(kind, range)| (*kind, &self.file[range.clone()]));
+        glb(&json, parts.as_deref(), &chunks.collect::<Vec<_>>())
+    }
+
+    /// Stages what a `.gltf` needs beside it; gives its text.
+    fn stage_gltf(&self, target: &Path, staging: &mut Staging) -> Result<Vec<u8>, Error> {
+        if !self.container.other_chunks.is_empty() {
+            let problem = "has chunks of unknown type, which a .gltf cannot hold; write a .glb";
+            return Err(Fault::unsupported("", problem).in_file(self.name()));
+        }
+        let folder = target.parent().unwrap_or(Path::new(""));
+        let mut names = Names { folder, taken: HashSet::from([target.to_owned()]) };
+        let renamed = self.stage_files(&mut names, staging)?;
+        if !self.container.is_glb && !self.is_changed() && renamed.is_empty() {
+            return Ok(self.file.clone());
+        }
+        let in_file = |fault: Fault| fault.in_file(self.name());
+        let layout = Layout::gltf(self).map_err(in_file)?;
+        let name = Path::new(target.file_stem().unwrap_or(OsStr::new("buffer"))).with_added_extension("bin");
+        let mut uris = Vec::new();
+        for home in &layout.homes {
+            let relative = stage_home(home, &name, &mut names, staging)?;
+            uris.push(encode_path(&relative));
+        }
+        Ok(layout.json(&uris, &renamed).map_err(in_file)?.into_bytes())
+    }
+
+    /// Stages copies of the files that the document refers to, unless it stays in its folder; gives those whose name had to
+    /// change, with their new URI.
+    fn stage_files(
+        &self,
+        names: &mut Names,
+        staging: &mut Staging,
+    ) -> Result<HashMap<PathBuf, String>, Error> {
+        let mut renamed = HashMap::new();
+        let there = names.folder.canonicalize().ok();
+        if there.is_some() && there.as_deref() == self.resources.base() {
+            return Ok(renamed);
+        }
+        for file in self.files() {
+            let failed = |source| Error::Read { file: file.path.clone(), source };
+            let same = |existing: &Path| {
+                Ok(existing.canonicalize()? == file.path || same_files(existing, &file.path)?)
+            };
+            let chosen = names.choose(&file.relative, same).map_err(failed)?;
+            let path = names.folder.join(&chosen.relative);
+            if !chosen.exists {
+                let mut source = File::open(&file.path).map_err(failed)?;
+                staging.stage(&path, false, |copy| io::copy(&mut source, copy).map(drop))?;
+            }
+            if chosen.relative != file.relative || file.is_outside {
+                renamed.insert(file.path.clone(), encode_path(&chosen.relative));
+            }
+        }
+        Ok(renamed)
+    }
+
+    /// The files that the document refers to, each once.
+    fn files(&self) -> Vec<Located> {
+        let buffers = self.stores.iter().filter_map(|store| match store {
+            Store::File(file) => Some(file.located.clone()),
+            _ => None,
+        });
+        let uris = self.root.images.iter().filter_map(|image| image.uri.as_deref());
+        let images = uris.filter_map(|uri| match self.resources.resolve(uri) {
+            Ok(Reference::File(located)) => Some(located),
+            _ => None,
+        });
+        let mut seen = HashSet::new();
+        buffers.chain(images).filter(|file| seen.insert(file.path.clone())).collect()
+    }
+}
+
+fn is_glb_path(path: &Path) -> Result<bool, Error> {
+    let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+    match extension.to_str() {
+        Some("glb" | "vrm") => Ok(true),
+        Some("gltf") => Ok(false),
+        _ => {
+            let problem = "does not say what to write; name it .glb or .gltf".to_owned();
+            Err(Error::Output { file: path.to_owned(), problem })
+        }
+    }
+}
+
+fn stage_home(
+    home: &Home<'_>,
+    name: &Path,
+    names: &mut Names,
+    staging: &mut Staging,
+) -> Result<PathBuf, Error> {
+    let folder = names.folder;
+    let chosen = names
+        .choose(name, |existing| holds(existing, home))
+        .map_err(|source| Error::Read { file: folder.join(name), source })?;
+    if !chosen.exists {
+        staging.stage(&folder.join(&chosen.relative), false, |file| {
+            home.parts.iter().try_for_each(|part| file.write_all(part))
+        })?;
+    }
+    Ok(chosen.relative)
+}
+
+/// Names for files in the output's folder that change no file that is there.
+struct Names<'a> {
+    folder: &'a Path,
+    taken: HashSet<PathBuf>,
+}
+
+struct Chosen {
+    relative: PathBuf,
+    /// Whether a file of that name and content is there.
+    exists: bool,
+}
+
+impl Names<'_> {
+    /// `wanted`, or the first of `wanted_1`, `wanted_2`, ... that is free or that `same` content already has.
+    fn choose(&mut self, wanted: &Path, same: impl Fn(&Path) -> io::Result<bool>) -> io::Result<Chosen> {
+        let stem = wanted.file_stem().unwrap_or_default().to_string_lossy();
+        let extension = wanted.extension().map(|text| format!(".{}", text.to_string_lossy()));
+        let mut relative = wanted.to_owned();
+        for number in 1u32.. {
+            let path = self.folder.join(&relative);
+            let is_there = path.symlink_metadata().is_ok();
+            let reusable = is_there && path.is_file() && same(&path)?;
+            if (!is_there || reusable) && self.taken.insert(path) {
+                return Ok(Chosen { relative, exists: is_there });
+            }
+            relative =
+                wanted.with_file_name(format!("{stem}_{number}{}", extension.as_deref().unwrap_or("")));
+        }
+        Err(io::Error::other("no name is free"))
+    }
+}
+
+fn same_files(a: &Path, b: &Path) -> io::Result<bool> {
+    if fs::metadata(a)?.len() != fs::metadata(b)?.len() {
+        return Ok(false);
+    }
+    let (mut a, mut b) = (io::BufReader::new(File::open(a)?), io::BufReader::new(File::open(b)?));
+    let (mut left, mut right) = (vec![0; 1 << 16], vec![0; 1 << 16]);
+    loop {
+        let length = a.read(&mut left)?;
+        if length == 0 {
+            return Ok(true);
+        }
+        if b.read_exact(&mut right[..length]).is_err() || left[..length] != right[..length] {
+            return Ok(false);
+        }
+    }
+}
+
+/// Whether a file holds just the bytes of `home`.
+fn holds(file: &Path, home: &Home<'_>) -> io::Result<bool> {
+    let length: usize = home.parts.iter().map(|part| part.len()).sum();
+    if fs::metadata(file)?.len() != length as u64 {
+        return Ok(false);
+    }
+    let bytes = fs::read(file)?;
+    Ok(bytes.iter().eq(home.parts.iter().flat_map(|part| part.iter())))
+}
+
+/// Files written beside their targets, to be renamed together. Dropped before that, it removes everything it made.
+#[derive(Default)]
+struct Staging {
+    staged: Vec<Staged>,
+    made_folders: Vec<PathBuf>,
+    renamed: Vec<PathBuf>,
+}
+
+struct Staged {
+    temporary: TempPath,
+    target: PathBuf,
+    replace: bool,
+}
+
+impl Staging {
+    /// Writes the content of `target` to a file beside it, down to the disk.
+    fn stage(
+        &mut self,
+        target: &Path,
+        replace: bool,
+        write: impl FnOnce(&mut File) -> io::Result<()>,
+    ) -> Result<(), Error> {
+        let failed = |source| Error::Write { file: target.to_owned(), source };
+        let folder =
+            target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        self.make_folders(folder).map_err(failed)?;
+        let temporary = || -> io::Result<TempPath> {
+            let mut file = new_file(folder)?;
+            write(file.as_file_mut())?;
+            if let Some(existing) = fs::metadata(target).ok().filter(|_| replace) {
+                file.as_file().set_permissions(existing.permissions())?;
+            }
+            file.as_file().sync_all()?;
+            Ok(file.into_temp_path())
+        };
+        let temporary = temporary().map_err(failed)?;
+        self.staged.push(Staged { temporary, target: target.to_owned(), replace });
+        Ok(())
+    }
+
+    fn make_folders(&mut self, folder: &Path) -> io::Result<()> {
+        if folder.as_os_str().is_empty() || folder.is_dir() {
+            return Ok(());
+        }
+        if let Some(parent) = folder.parent() {
+            self.make_folders(parent)?;
+        }
+        fs::create_dir(folder)?;
+        self.made_folders.push(folder.to_owned());
+        Ok(())
+    }
+
+    /// Renames every file to its target, in the order of staging; gives the targets.
+    fn commit(mut self) -> Result<Vec<PathBuf>, Error> {
+        for Staged { temporary, target, replace } in std::mem::take(&mut self.staged) {
+            let renamed =
+                if replace { temporary.persist(&target) } else { temporary.persist_noclobber(&target) };
+            renamed.map_err(|error| Error::Write { file: target.clone(), source: error.error })?;
+            self.renamed.push(target);
+        }
+        self.made_folders.clear();
+        Ok(std::mem::take(&mut self.renamed))
+    }
+}
+
+impl Drop for Staging {
+    fn drop(&mut self) {
+        // Temporary files first: their folders must be empty. A failure to clean up has no one to be told to.
+        self.staged.clear();
+        for file in &self.renamed {
+            let _ = fs::remove_file(file);
+        }
+        for folder in self.made_folders.iter().rev() {
+            let _ = fs::remove_dir(folder);
+        }
+    }
+}
+
+/// A temporary file with the permissions of an ordinary new file.
+fn new_file(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".darboux-");
+    #[cfg(unix)]
+    let builder = {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666))
+    };
+    builder.tempfile_in(folder)
+}
