@@ -71,19 +71,22 @@ pub(crate) fn evaluate(
         mean_of_corner: HashMap::new(),
     };
     let mut subgroups = Subgroups::new(threshold_cosine);
-    let mut row = Vec::new();
+    let (mut sorted, mut row) = (Vec::new(), Vec::new());
     for group in 0..groups.len() {
         let members = groups.members(group);
+        sorted.clear();
+        sorted.extend_from_slice(members);
+        sorted.sort_unstable();
         let sign = if groups.preserves(group) { 1.0 } else { -1.0 };
-        evaluator.take_terms(members, values.normal_of_group[group]);
-        subgroups.set(triangles, members, &membership.derivatives, membership.normal_of_group[group]);
+        evaluator.take_terms(&sorted, values.normal_of_group[group]);
+        subgroups.set(triangles, &sorted, &membership.derivatives, membership.normal_of_group[group]);
         if subgroups.all_joined() {
             row.clear();
             row.resize(members.len(), true);
             let subgroup = evaluator.subgroup(&row, sign);
             members.iter().for_each(|&member| evaluator.write(member, &subgroup, &row));
         } else {
-            evaluator.write_split_group(members, &subgroups, sign, &mut row);
+            evaluator.write_split_group(members, &sorted, &subgroups, sign, &mut row);
         }
     }
     RawFrames { of_corner: evaluator.of_corner, mean_of_corner: evaluator.mean_of_corner }
@@ -148,10 +151,19 @@ impl Evaluator<'_> {
         Subgroup { frame: Frame { tangent, bitangent, magnitude, sign }, mean: OnceCell::new() }
     }
 
-    fn write_split_group(&mut self, members: &[u32], subgroups: &Subgroups, sign: f32, row: &mut Vec<bool>) {
+    /// Evaluates each member's own subgroup. The order of writes shows where both halves of a quad are members and their frames
+    /// differ in the sign of a zero only.
+    fn write_split_group(
+        &mut self,
+        members: &[u32],
+        sorted: &[u32],
+        subgroups: &Subgroups,
+        sign: f32,
+        row: &mut Vec<bool>,
+    ) {
         let mut known: HashMap<Vec<bool>, Subgroup> = HashMap::new();
-        for (at, &member) in members.iter().enumerate() {
-            subgroups.row(at, row);
+        for &member in members {
+            subgroups.row(sorted.partition_point(|&other| other < member), row);
             if let Some(subgroup) = known.get(row) {
                 self.write(member, subgroup, row);
                 continue;

@@ -21,7 +21,7 @@ impl Groups {
         self.ends.len()
     }
 
-    /// The members of a group in triangle order: corner `k` of triangle `t` as `3 t + k`.
+    /// The members of a group, corner `k` of triangle `t` as `3 t + k`, in the order in which the reference reaches and writes them.
     pub fn members(&self, group: usize) -> &[u32] {
         let start = if group == 0 { 0 } else { self.ends[group - 1] };
         &self.members[start as usize..self.ends[group] as usize]
@@ -49,7 +49,6 @@ pub(crate) fn group(
                 continue;
             }
             let (vertex, preserves) = (triangles.vertices[t][k], derivatives[t].preserves);
-            let start = groups.members.len();
             pending.push(t as u32);
             while let Some(t) = pending.pop() {
                 let reached = t as usize;
@@ -57,11 +56,11 @@ pub(crate) fn group(
                 if joins(&mut derivatives[reached], grouped[reached], k, preserves) {
                     grouped[reached][k] = true;
                     groups.members.push(3 * t + k as u32);
-                    let around = [neighbours[reached][k], neighbours[reached][(k + 2) % 3]];
+                    // The last pushed is the next reached: the edge that starts at the corner, with all behind it.
+                    let around = [neighbours[reached][(k + 2) % 3], neighbours[reached][k]];
                     pending.extend(around.into_iter().filter(|&neighbour| neighbour != NONE));
                 }
             }
-            groups.members[start..].sort_unstable();
             groups.ends.push(groups.members.len() as u32);
             groups.preserves.push(preserves);
         }
