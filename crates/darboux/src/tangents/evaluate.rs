@@ -66,6 +66,8 @@ pub(crate) fn evaluate(
         values,
         shape,
         terms: Vec::new(),
+        directions: Vec::new(),
+        sums: Vec::new(),
         written: vec![false; shape.corner_count()],
         of_corner: vec![DEFAULT_FRAME; shape.corner_count()],
         mean_of_corner: HashMap::new(),
@@ -98,6 +100,10 @@ struct Evaluator<'a> {
     shape: &'a Shape<'a>,
     /// What each member of the current group adds.
     terms: Vec<Term>,
+    /// The triangles' own tangents, which count for a repair; none on UV-degenerate members.
+    directions: Vec<Option<V3>>,
+    /// `sums[n]` is the sum of the first `n` terms.
+    sums: Vec<Term>,
     /// Corners that a group has written.
     written: Vec<bool>,
     of_corner: Vec<Frame>,
@@ -105,14 +111,29 @@ struct Evaluator<'a> {
 }
 
 /// One member's part in the sums: its derivatives in the plane of the vertex, times the angle of its corner there.
+///
+/// Four lanes each, so that a sum is three vector additions: s and the angle; t; the magnitudes.
 #[derive(Clone, Copy, Debug, Default)]
-struct Term {
-    s: V3,
-    t: V3,
-    magnitude: [f32; 2],
-    weight: f32,
-    /// The tangent that counts for a repair: the triangle's own, unweighted. Absent on UV-degenerate triangles.
-    direction: Option<V3>,
+struct Term([[f32; 4]; 3]);
+
+impl Term {
+    #[inline]
+    fn add(&mut self, other: &Term) {
+        for (sums, terms) in self.0.iter_mut().zip(&other.0) {
+            for (sum, term) in sums.iter_mut().zip(terms) {
+                *sum += term;
+            }
+        }
+    }
+
+    /// The frame that the sums make.
+    fn frame(&self, sign: f32) -> Frame {
+        let [[s0, s1, s2, weight], [t0, t1, t2, _], [m0, m1, _, _]] = self.0;
+        let magnitude = if weight > 0.0 { [m0 / weight, m1 / weight] } else { [m0, m1] };
+        let (tangent, bitangent) =
+            (normalized_unless_zero([s0, s1, s2]), normalized_unless_zero([t0, t1, t2]));
+        Frame { tangent, bitangent, magnitude, sign }
+    }
 }
 
 /// One subgroup's frame, and the mean of its tangents for when the frame is unusable.
@@ -122,33 +143,41 @@ struct Subgroup {
 }
 
 impl Evaluator<'_> {
+    /// Computes what every member adds, and the sums of the first 0, 1, 2, ... of them.
     fn take_terms(&mut self, members: &[u32], normal: V3) {
         self.terms.clear();
+        self.directions.clear();
+        self.sums.clear();
+        let mut sum = Term::default();
+        self.sums.push(sum);
         for &member in members {
             let (triangle, k) = (member as usize / 3, member as usize % 3);
             let derivative = &self.values.derivatives[triangle];
-            self.terms.push(if derivative.any {
-                Term::default()
-            } else {
-                term(derivative, self.shape.positions(self.triangles, triangle), k, normal)
-            });
+            let (mut added, mut direction) = (Term::default(), None);
+            if !derivative.any {
+                added = term(derivative, self.shape.positions(self.triangles, triangle), k, normal);
+                direction = Some(derivative.s);
+                sum.add(&added);
+            }
+            self.terms.push(added);
+            self.directions.push(direction);
+            self.sums.push(sum);
         }
     }
 
     /// Sums the terms that `row` names, in triangle order.
+    ///
+    /// UV-degenerate members add nothing, not even a zero. Up to the first member left out, the sum is one that all rows share.
     fn subgroup(&self, row: &[bool], sign: f32) -> Subgroup {
-        let mut sum = Term::default();
-        for (term, _) in
-            self.terms.iter().zip(row).filter(|(term, joins)| **joins && term.direction.is_some())
-        {
-            sum.s = add(sum.s, term.s);
-            sum.t = add(sum.t, term.t);
-            sum.magnitude = [sum.magnitude[0] + term.magnitude[0], sum.magnitude[1] + term.magnitude[1]];
-            sum.weight += term.weight;
+        let shared = row.iter().position(|joins| !joins).unwrap_or(row.len());
+        let mut sum = self.sums[shared];
+        let rest = row[shared..].iter().zip(&self.directions[shared..]).zip(&self.terms[shared..]);
+        for ((&joins, direction), term) in rest {
+            if joins && direction.is_some() {
+                sum.add(term);
+            }
         }
-        let magnitude = if sum.weight > 0.0 { sum.magnitude.map(|m| m / sum.weight) } else { sum.magnitude };
-        let (tangent, bitangent) = (normalized_unless_zero(sum.s), normalized_unless_zero(sum.t));
-        Subgroup { frame: Frame { tangent, bitangent, magnitude, sign }, mean: OnceCell::new() }
+        Subgroup { frame: sum.frame(sign), mean: OnceCell::new() }
     }
 
     /// Evaluates each member's own subgroup. The order of writes shows where both halves of a quad are members and their frames
@@ -187,10 +216,9 @@ impl Evaluator<'_> {
         }
         let normal = self.shape.normal(corner);
         if !is_usable(slot.tangent, normal) {
-            let directions = || {
-                self.terms.iter().zip(row).filter(|(_, joins)| **joins).filter_map(|(term, _)| term.direction)
-            };
-            if let Some(mean) = subgroup.mean.get_or_init(|| mean_in_plane(directions(), normal)) {
+            let joined =
+                || self.directions.iter().zip(row).filter(|(_, joins)| **joins).filter_map(|(s, _)| *s);
+            if let Some(mean) = subgroup.mean.get_or_init(|| mean_in_plane(joined(), normal)) {
                 self.mean_of_corner.insert(corner, *mean);
             }
         }
@@ -203,13 +231,10 @@ fn term(derivative: &Derivative, positions: [V3; 3], k: usize, normal: V3) -> Te
     let to_before = direction_in_plane(normal, sub(before, here));
     let to_after = direction_in_plane(normal, sub(after, here));
     let weight = angle(dot(to_before, to_after));
-    Term {
-        s: scale(weight, direction_in_plane(normal, derivative.s)),
-        t: scale(weight, direction_in_plane(normal, derivative.t)),
-        magnitude: derivative.magnitude.map(|magnitude| weight * magnitude),
-        weight,
-        direction: Some(derivative.s),
-    }
+    let [s0, s1, s2] = scale(weight, direction_in_plane(normal, derivative.s));
+    let [t0, t1, t2] = scale(weight, direction_in_plane(normal, derivative.t));
+    let [m0, m1] = derivative.magnitude.map(|magnitude| weight * magnitude);
+    Term([[s0, s1, s2, weight], [t0, t1, t2, 0.0], [m0, m1, 0.0, 0.0]])
 }
 
 /// The mean of two frames, or the first when they are equal. The sign is the second's.

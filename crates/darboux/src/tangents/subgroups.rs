@@ -55,8 +55,19 @@ impl Subgroups {
 
     /// Writes to `row` which members join member `at`.
     pub fn row(&self, at: usize, row: &mut Vec<bool>) {
+        let count = self.any.len();
+        let ([sx, sy, sz], [tx, ty, tz]) =
+            (self.s.each_ref().map(|x| &x[..count]), self.t.each_ref().map(|x| &x[..count]));
+        let (s, t) = ([sx[at], sy[at], sz[at]], [tx[at], ty[at], tz[at]]);
         row.clear();
-        row.extend((0..self.any.len()).map(|other| self.joins(at, other)));
+        // Plain arithmetic over arrays, so that it runs several members at a time.
+        row.extend((0..count).map(|other| {
+            (dot(s, [sx[other], sy[other], sz[other]]) > self.threshold_cosine)
+                & (dot(t, [tx[other], ty[other], tz[other]]) > self.threshold_cosine)
+        }));
+        for (joins, (&any, &face)) in row.iter_mut().zip(self.any.iter().zip(&self.face)) {
+            *joins |= any | self.any[at] | (face == self.face[at]);
+        }
     }
 
     #[inline]
