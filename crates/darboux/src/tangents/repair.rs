@@ -28,12 +28,12 @@ pub(crate) fn repair(mesh: &Mesh<'_>, triangulation: &Triangulation, raw: &mut R
         let normal = unit(mesh.normals().get(vertex).map(f64::from));
         let site = *site_of_vertex.entry(vertex).or_insert(place.map_or(corner, |place| place.vertex));
         let frame = &mut raw.of_corner[corner as usize];
-        let replacement = || match normal {
-            None => [1.0, 0.0, 0.0],
-            Some(normal) => raw.mean_of_corner.get(&corner).copied().unwrap_or_else(|| {
-                let own = place.and_then(|place| in_plane(u_direction(mesh, place.triangle), normal));
-                own.unwrap_or_else(|| perpendicular(normal)).map(|x| x as f32)
-            }),
+        let replacement = || {
+            let Some(normal) = normal else { return [1.0, 0.0, 0.0] };
+            // A corner of a quad may have its mean from another corner, with another normal.
+            let mean = raw.mean_of_corner.get(&corner).and_then(|mean| in_plane(mean.map(f64::from), normal));
+            let own = || place.and_then(|place| in_plane(u_direction(mesh, place.triangle), normal));
+            mean.or_else(own).unwrap_or_else(|| perpendicular(normal)).map(|x| x as f32)
         };
         frame.tangent =
             *known.entry((site, bits(frame.tangent), frame.sign > 0.0)).or_insert_with(replacement);
