@@ -1,0 +1,53 @@
+# Print an optspec for argparse to handle cmd's options that are independent of any subcommand.
+function __fish_darboux_global_optspecs
+    string join \n h/help V/version
+end
+
+function __fish_darboux_needs_command
+    # Figure out if the current invocation already has a command.
+    set -l cmd (commandline -opc)
+    set -e cmd[1]
+    argparse -s (__fish_darboux_global_optspecs) -- $cmd 2>/dev/null
+    or return
+    if set -q argv[1]
+        # Also print the command, so this can be used to figure out what it is.
+        echo $argv[1]
+        return 1
+    end
+    return 0
+end
+
+function __fish_darboux_using_subcommand
+    set -l cmd (__fish_darboux_needs_command)
+    test -z "$cmd"
+    and return 1
+    contains -- $cmd[1] $argv
+end
+
+complete -c darboux -n "__fish_darboux_needs_command" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c darboux -n "__fish_darboux_needs_command" -s V -l version -d 'Print version'
+complete -c darboux -n "__fish_darboux_needs_command" -f -a "tangents" -d 'Add tangents to glTF and GLB files'
+complete -c darboux -n "__fish_darboux_needs_command" -f -a "inspect" -d 'Show what each primitive holds and what its tangents would meet'
+complete -c darboux -n "__fish_darboux_needs_command" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s o -l output -d 'Output file for a single input; - is standard output, as GLB' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l out-dir -d 'Folder for all outputs; paths below input folders are kept' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l mode -d 'Which defects of the MikkTSpace reference to keep' -r -f -a "reference\t'Every bit of the reference, zero-length and non-finite tangents included'
+repaired\t'The reference\'s bits where they are usable, a unit tangent elsewhere'
+corrected\t'As repaired, with all edges matched and one sign per triangle'"
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l threshold -d 'Split tangents of faces whose directions differ by this many degrees or more' -r
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l in-place -d 'Replace each input by its output'
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l force -d 'Replace output files that exist'
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l overwrite -d 'Replace tangents that exist; without it such primitives are kept'
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l only-needed -d 'Only primitives whose material uses tangents (normal map, clearcoat normal map, anisotropy)'
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l apply-texture-transform -d 'Apply KHR_texture_transform to the UVs first'
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l strict -d 'Refuse files with non-finite vertex data or corners that have no usable tangent'
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l allow-outside -d 'Allow buffers and images outside the input\'s folder'
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l json -d 'Write a report as JSON to standard output'
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s q -l quiet -d 'Print errors only'
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l allow-outside -d 'Allow buffers and images outside the input\'s folder'
+complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l json -d 'Write the table as JSON'
+complete -c darboux -n "__fish_darboux_using_subcommand inspect" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c darboux -n "__fish_darboux_using_subcommand help; and not __fish_seen_subcommand_from tangents inspect help" -f -a "tangents" -d 'Add tangents to glTF and GLB files'
+complete -c darboux -n "__fish_darboux_using_subcommand help; and not __fish_seen_subcommand_from tangents inspect help" -f -a "inspect" -d 'Show what each primitive holds and what its tangents would meet'
+complete -c darboux -n "__fish_darboux_using_subcommand help; and not __fish_seen_subcommand_from tangents inspect help" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'

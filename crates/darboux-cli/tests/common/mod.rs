@@ -1,0 +1,90 @@
+//! Running the command on the repository's models and on broken ones.
+
+#![allow(dead_code, reason = "each test file uses its part")]
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+
+/// What a run of the command left.
+pub struct Run {
+    pub code: i32,
+    pub stdout: Vec<u8>,
+    pub stderr: String,
+}
+
+impl Run {
+    /// Standard output as JSON.
+    pub fn json(&self) -> Value {
+        serde_json::from_slice(&self.stdout).expect("the report is JSON")
+    }
+
+    /// Expects the exit code; shows what was said if it is another.
+    #[track_caller]
+    pub fn exits(self, code: i32) -> Self {
+        assert_eq!(self.code, code, "stderr: {}", self.stderr);
+        self
+    }
+}
+
+/// Runs `darboux` with these arguments and nothing on standard input.
+pub fn darboux<A: AsRef<std::ffi::OsStr>>(arguments: &[A]) -> Run {
+    darboux_reading(arguments, b"")
+}
+
+/// Runs `darboux` with `stdin` on standard input.
+pub fn darboux_reading<A: AsRef<std::ffi::OsStr>>(arguments: &[A], stdin: &[u8]) -> Run {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_darboux"))
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command starts");
+    let mut pipe = child.stdin.take().expect("a pipe");
+    std::thread::scope(|scope| {
+        // A command that does not read its input closes the pipe: no fault.
+        scope.spawn(move || pipe.write_all(stdin));
+        let Output { status, stdout, stderr } = child.wait_with_output().expect("the command ends");
+        let code = status.code().expect("the command ends by itself");
+        Run { code, stdout, stderr: String::from_utf8(stderr).expect("messages are UTF-8") }
+    })
+}
+
+/// A model of the repository.
+pub fn asset(path: &str) -> PathBuf {
+    let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets").canonicalize().expect("assets");
+    assets.join(path)
+}
+
+/// A fresh folder with copies of these models, without their folders.
+pub fn folder_with(models: &[&str]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for model in models {
+        let name = Path::new(model).file_name().expect("a name");
+        std::fs::copy(asset(model), folder.path().join(name)).expect("a copy");
+    }
+    folder
+}
+
+/// The path as an argument.
+pub fn text(path: &Path) -> &str {
+    path.to_str().expect("a UTF-8 path")
+}
+
+/// The names in a folder, sorted.
+pub fn names_in(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).expect("a folder");
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+/// The JSON of a GLB.
+pub fn glb_json(bytes: &[u8]) -> Value {
+    let length = u32::from_le_bytes(bytes[12..16].try_into().expect("four bytes")) as usize;
+    serde_json::from_slice(&bytes[20..20 + length]).expect("the JSON chunk")
+}

@@ -1,0 +1,90 @@
+//! Wrong usage: exit code 2, one message, no output, decided before any work.
+
+mod common;
+
+use std::fs;
+
+use common::{darboux, folder_with, names_in, text};
+
+const MODEL: &str = "made/skinned-morphed-mirrored.gltf";
+
+#[test]
+fn without_arguments_the_help_says_what_there_is() {
+    let run = darboux::<&str>(&[]).exits(2);
+    assert!(run.stderr.contains("Usage: darboux"), "{}", run.stderr);
+}
+
+#[test]
+fn help_and_version_succeed() {
+    for arguments in [&["--help"][..], &["--version"], &["tangents", "--help"], &["inspect", "-h"]] {
+        let run = darboux(arguments).exits(0);
+        assert!(!run.stdout.is_empty() && run.stderr.is_empty());
+    }
+}
+
+#[test]
+fn what_does_not_fit_together_is_refused() {
+    let folder = folder_with(&[MODEL, "made/degenerate.gltf"]);
+    let (a, b) = (folder.path().join("skinned-morphed-mirrored.gltf"), folder.path().join("degenerate.gltf"));
+    let (a, b, dir) = (text(&a), text(&b), text(folder.path()));
+    let cases: &[&[&str]] = &[
+        &["tangents"],
+        &["tangents", a, "--mode", "fast"],
+        &["tangents", a, "--threshold", "nan"],
+        &["tangents", a, "--threshold", "wide"],
+        &["tangents", a, "-o", "x.glb", "--out-dir", dir],
+        &["tangents", a, "-o", "x.glb", "--in-place"],
+        &["tangents", a, b, "-o", "x.glb"],
+        &["tangents", dir, "-o", "x.glb"],
+        &["tangents", a, "-o", dir],
+        &["tangents", a, "-o", "x.obj"],
+        &["tangents", a, "-o", a],
+        &["tangents", a, "-o", "-", "--json"],
+        &["tangents", "-", "--json"],
+        &["tangents", "-", "--in-place"],
+        &["tangents", "-", "--out-dir", dir],
+        &["tangents", "-", a],
+        &["tangents", dir, "--out-dir", dir],
+        &["inspect"],
+        &["inspect", "-", a],
+    ];
+    for arguments in cases {
+        let run = darboux(arguments).exits(2);
+        assert!(run.stdout.is_empty(), "{arguments:?}");
+        assert!(run.stderr.starts_with("error: "), "{arguments:?}: {}", run.stderr);
+    }
+    assert_eq!(names_in(folder.path()), ["degenerate.gltf", "skinned-morphed-mirrored.gltf"]);
+}
+
+#[test]
+fn equal_names_that_would_collide_are_refused_before_any_work() {
+    let (first, second) = (folder_with(&["Fox/Fox.glb"]), folder_with(&["Fox/Fox.glb"]));
+    let out = tempfile::tempdir().expect("a temporary folder");
+    let out_dir = out.path().join("out");
+    let run = darboux(&["tangents", text(first.path()), text(second.path()), "--out-dir", text(&out_dir)]).exits(2);
+    for part in [text(first.path()), text(second.path()), "Fox.glb"] {
+        assert!(run.stderr.contains(part), "{}", run.stderr);
+    }
+    assert!(!out_dir.exists());
+}
+
+#[test]
+fn an_output_that_is_another_input_is_refused() {
+    let folder = folder_with(&["Fox/Fox.glb"]);
+    let fox = folder.path().join("Fox.glb");
+    fs::create_dir(folder.path().join("sub")).expect("a folder");
+    fs::copy(&fox, folder.path().join("sub/Fox.glb")).expect("a copy");
+    let before = fs::read(&fox).expect("the model");
+    let inner = folder.path().join("sub/Fox.glb");
+    darboux(&["tangents", text(&fox), text(&inner), "--out-dir", text(folder.path()), "--force"]).exits(2);
+    darboux(&["tangents", text(&inner), text(&fox), "--out-dir", text(folder.path()), "--force"]).exits(2);
+    assert_eq!(fs::read(&fox).expect("the model"), before);
+}
+
+#[test]
+fn the_same_file_named_twice_is_done_once() {
+    let folder = folder_with(&["Fox/Fox.glb"]);
+    let fox = folder.path().join("Fox.glb");
+    let run = darboux(&["tangents", text(&fox), text(folder.path()), "--json"]).exits(0);
+    assert_eq!(run.json()["files"].as_array().map(Vec::len), Some(1));
+}
