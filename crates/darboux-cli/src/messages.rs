@@ -4,6 +4,7 @@ use std::io::{self, ErrorKind, IsTerminal, Write};
 
 use anstyle::{AnsiColor, Style};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde::Serialize;
 
 /// Messages to a person. They are coloured on a terminal unless NO_COLOR is set; a closed standard error is no fault.
 pub struct Messages {
@@ -18,8 +19,10 @@ impl Messages {
         if !quiet && total >= LONG_WORK {
             progress.set_draw_target(ProgressDrawTarget::stderr());
             progress.set_style(
-                ProgressStyle::with_template("{bar:30} {binary_bytes}/{binary_total_bytes} {elapsed} {wide_msg}")
-                    .unwrap_or_else(|_| ProgressStyle::default_bar()),
+                ProgressStyle::with_template(
+                    "{bar:30} {binary_bytes}/{binary_total_bytes} {elapsed} {wide_msg}",
+                )
+                .unwrap_or_else(|_| ProgressStyle::default_bar()),
             );
             progress.enable_steady_tick(std::time::Duration::from_millis(200));
         }
@@ -77,6 +80,13 @@ pub fn write_stdout(bytes: &[u8]) -> io::Result<()> {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         result => result,
     }
+}
+
+/// Writes `value` to standard output as JSON for programs.
+pub fn write_json(value: &impl Serialize) -> io::Result<()> {
+    let mut text = serde_json::to_string_pretty(value)?;
+    text.push('\n');
+    write_stdout(text.as_bytes())
 }
 
 /// True when standard output is a terminal.

@@ -61,7 +61,8 @@ fn equal_names_that_would_collide_are_refused_before_any_work() {
     let (first, second) = (folder_with(&["Fox/Fox.glb"]), folder_with(&["Fox/Fox.glb"]));
     let out = tempfile::tempdir().expect("a temporary folder");
     let out_dir = out.path().join("out");
-    let run = darboux(&["tangents", text(first.path()), text(second.path()), "--out-dir", text(&out_dir)]).exits(2);
+    let run =
+        darboux(&["tangents", text(first.path()), text(second.path()), "--out-dir", text(&out_dir)]).exits(2);
     for part in [text(first.path()), text(second.path()), "Fox.glb"] {
         assert!(run.stderr.contains(part), "{}", run.stderr);
     }
