@@ -1,9 +1,14 @@
 //! What a document holds, per primitive, without changing it.
 
+use darboux::CornerTangents;
 use serde::Serialize;
 
 use super::Document;
-use super::tangents::{Counts, PrimitiveName};
+use super::tangents::compute::{self, Vertices};
+use super::tangents::select::{Candidate, Verdict};
+use super::tangents::share::{self, Canonical};
+use super::tangents::topology::{Topology, mode_name};
+use super::tangents::{Counts, PrimitiveName, TangentsOptions, select_readable};
 use crate::Error;
 
 /// What [`inspect`] finds out about a primitive.
@@ -40,8 +45,59 @@ pub struct PrimitiveInfo {
 
 /// Looks at every primitive of the document, computing the tangents that it could have without writing them.
 ///
-/// Errors: broken data behind a primitive that can have tangents.
+/// Compressed documents are decompressed. Errors: broken data behind a primitive that can have tangents.
 pub fn inspect(document: &mut Document) -> Result<Vec<PrimitiveInfo>, Error> {
-    let _ = document;
-    todo!()
+    let options = TangentsOptions { overwrite: true, ..TangentsOptions::default() };
+    let selection = select_readable(document, &options)?;
+    let groups = share::group(&Canonical::new(document), selection.chosen());
+    let mut infos: Vec<_> =
+        selection.candidates.iter().map(|candidate| describe(document, candidate)).collect();
+    for group in &groups {
+        let mut vertices = Vertices::read(document, group)?;
+        let mut found = Vec::with_capacity(group.jobs.len());
+        for job in &group.jobs {
+            let at = infos[job.first].name.path();
+            let surface = compute::surface(document, &at, &mut vertices, job, false, &options)?;
+            found.push((surface.report.into(), mirrored_triangles(&surface.tangents)));
+        }
+        for member in &group.members {
+            let info = &mut infos[member.candidate];
+            (info.counts, info.mirrored_triangles) = found[member.job];
+        }
+    }
+    Ok(infos)
+}
+
+/// What the JSON says about a primitive.
+fn describe(document: &Document, candidate: &Candidate) -> PrimitiveInfo {
+    let name = candidate.name.clone();
+    let primitive = &document.meshes()[name.mesh].primitives[name.primitive];
+    let count = |accessor: usize| document.accessors().get(accessor).map_or(0, |accessor| accessor.count);
+    let vertices = primitive.attributes.get("POSITION").map_or(0, |&accessor| count(accessor));
+    let corners = primitive.indices.map_or(vertices, count);
+    let triangles =
+        Topology::from_mode(primitive.mode).map_or(0, |topology| topology.triangle_count(corners));
+    let ineligible = match &candidate.verdict {
+        Verdict::Chosen(_) => None,
+        Verdict::Kept(reason) | Verdict::Skipped(reason) => Some(reason.clone()),
+    };
+    PrimitiveInfo {
+        mode: mode_name(primitive.mode).unwrap_or_default(),
+        vertices,
+        attributes: primitive.attributes.keys().cloned().collect(),
+        morph_targets: primitive.targets.len(),
+        uv_set: candidate.uv.set,
+        uv_reason: candidate.uv.reason.clone(),
+        has_tangents: primitive.attributes.contains_key("TANGENT"),
+        needs_tangents: candidate.needs_tangents,
+        ineligible,
+        mirrored_triangles: 0,
+        counts: Counts { triangles, ..Counts::default() },
+        name,
+    }
+}
+
+/// Triangles whose sign says that they show their texture mirrored.
+fn mirrored_triangles(tangents: &CornerTangents) -> usize {
+    tangents.per_corner().as_chunks::<3>().0.iter().filter(|[first, ..]| first[3] < 0.0).count()
 }

@@ -87,6 +87,26 @@ pub struct PrimitiveExtensions {
     /// Draco compression.
     #[serde(rename = "KHR_draco_mesh_compression")]
     pub draco: Option<Draco>,
+    /// Materials that may take the place of the primitive's own.
+    #[serde(rename = "KHR_materials_variants")]
+    pub variants: Option<Variants>,
+}
+
+/// `KHR_materials_variants` of a primitive.
+#[derive(Clone, Debug, Deserialize)]
+#[non_exhaustive]
+pub struct Variants {
+    /// Which material in which variants.
+    #[serde(default)]
+    pub mappings: Vec<VariantMapping>,
+}
+
+/// A material for some variants.
+#[derive(Clone, Debug, Deserialize)]
+#[non_exhaustive]
+pub struct VariantMapping {
+    /// The material.
+    pub material: usize,
 }
 
 /// `KHR_draco_mesh_compression` of a primitive.

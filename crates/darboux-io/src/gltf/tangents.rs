@@ -1,13 +1,30 @@
 //! Tangents into a document: chosen, shared, computed, split, morphed and written, with everything else left as it is.
 
+pub(super) mod compute;
+mod foreign;
+mod morph;
+pub(super) mod select;
+pub(super) mod share;
+mod split;
 mod summary;
+pub(super) mod topology;
+mod uv;
+mod write;
 
 pub use summary::{Counts, Outcome, PrimitiveName, PrimitiveSummary, Summary, Totals, Written};
 
-use darboux::TangentOptions;
+use std::collections::{HashMap, HashSet};
 
-use super::Document;
+use darboux::{Mode, TangentOptions};
+
+use super::{Document, ElementType};
 use crate::Error;
+use compute::{Surface, Vertices};
+use morph::{Misfits, Morph, Movement};
+use select::{Selection, Verdict};
+use share::{Canonical, Group, Job};
+use split::Split;
+use write::{Results, Writer};
 
 /// What [`add_tangents`] does. The default is right for today's renderers: every triangle primitive that has no tangents yet.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -42,6 +59,185 @@ pub fn add_tangents(
     options: &TangentsOptions,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Summary, Error> {
-    let _ = (document, options, progress);
-    todo!()
+    let selection = select_readable(document, options)?;
+    let accessors = Canonical::new(document);
+    let groups = share::group(&accessors, selection.chosen());
+    let total = groups.iter().flat_map(|group| &group.jobs).map(|job| job.triangle_count).sum();
+    let at = Progress { done: 0, total };
+    let mut run = Run { selection, accessors, options, progress, at, summary: Summary::default() };
+    let mut written = HashMap::new();
+    for group in &groups {
+        let mut vertices = Vertices::read(document, group)?;
+        let morphs = run.morphs(document, group);
+        let surfaces = run.compute(document, group, &mut vertices, &morphs)?;
+        let split = run.split(document, group, &mut vertices, &surfaces)?;
+        let offsets = run.morph(document, group, &mut vertices, &morphs, &surfaces, &split)?;
+        drop(vertices);
+        written.extend(run.write(document, group, &surfaces, &split, &offsets)?);
+    }
+    Ok(run.summarize(written))
+}
+
+/// Chooses the primitives, decompressing the document where that is needed to read them.
+pub(super) fn select_readable(
+    document: &mut Document,
+    options: &TangentsOptions,
+) -> Result<Selection, Error> {
+    let selection = select::select(document, options)?;
+    if selection.is_empty() || !document.is_compressed() {
+        return Ok(selection);
+    }
+    document.decompress()?;
+    select::select(document, options)
+}
+
+/// Tangent offsets on their way into the document: the accessor, and for each job what does not fit.
+type Offsets = HashMap<Movement, (usize, HashMap<usize, Misfits>)>;
+
+/// One run of [`add_tangents`].
+struct Run<'a> {
+    selection: Selection,
+    accessors: Canonical,
+    options: &'a TangentsOptions,
+    progress: &'a mut dyn FnMut(Progress),
+    at: Progress,
+    summary: Summary,
+}
+
+impl Run<'_> {
+    fn morphs(&self, document: &Document, group: &Group) -> Vec<Morph> {
+        morph::morphs(document, &self.accessors, group, &self.selection, self.options)
+    }
+
+    /// The JSON path of the first primitive with `job`.
+    fn path(&self, job: &Job) -> String {
+        self.selection.candidates[job.first].name.path()
+    }
+
+    fn compute(
+        &mut self,
+        document: &Document,
+        group: &Group,
+        vertices: &mut Vertices,
+        morphs: &[Morph],
+    ) -> Result<Vec<Surface>, Error> {
+        let moved: HashSet<_> = morphs.iter().flat_map(|morph| &morph.jobs).copied().collect();
+        let mut surfaces = Vec::with_capacity(group.jobs.len());
+        for (index, job) in group.jobs.iter().enumerate() {
+            let moves = moved.contains(&index);
+            let surface = compute::surface(document, &self.path(job), vertices, job, moves, self.options)?;
+            self.warn_unusable(job, &surface);
+            self.at.done += job.triangle_count;
+            (self.progress)(self.at);
+            surfaces.push(surface);
+        }
+        Ok(surfaces)
+    }
+
+    fn warn_unusable(&mut self, job: &Job, surface: &Surface) {
+        let unusable = surface.report.repaired_corners;
+        if self.options.tangents.mode == Mode::Reference && unusable > 0 {
+            let name = &self.selection.candidates[job.first].name;
+            self.summary.warnings.push(format!(
+                "{name}: {unusable} corners have an unusable tangent, as the reference has it; validators will complain"
+            ));
+        }
+    }
+
+    fn split(
+        &mut self,
+        document: &Document,
+        group: &Group,
+        vertices: &mut Vertices,
+        surfaces: &[Surface],
+    ) -> Result<Split, Error> {
+        let split = split::split(document, &self.path(&group.jobs[0]), group, vertices, surfaces)?;
+        let totals = &mut self.summary.totals;
+        totals.triangles += group.jobs.iter().map(|job| job.triangle_count).sum::<usize>();
+        totals.vertices_before += split.old_vertex_count();
+        totals.vertices_after += split.vertex_count();
+        Ok(split)
+    }
+
+    fn morph(
+        &self,
+        document: &mut Document,
+        group: &Group,
+        vertices: &mut Vertices,
+        morphs: &[Morph],
+        surfaces: &[Surface],
+        split: &Split,
+    ) -> Result<Offsets, Error> {
+        let mut offsets = Offsets::new();
+        for morph in morphs {
+            let moved = morph::offsets(document, morph, group, vertices, surfaces, split, self.options)?;
+            let accessor = write::push_vectors(document, ElementType::Vec3, &moved.of_vertex);
+            let misfits = morph.jobs.iter().copied().zip(moved.misfits).collect();
+            offsets.insert(morph.movement, (accessor, misfits));
+        }
+        Ok(offsets)
+    }
+
+    /// Writes the members of `group`. Returns what was written for each candidate.
+    fn write(
+        &mut self,
+        document: &mut Document,
+        group: &Group,
+        surfaces: &[Surface],
+        split: &Split,
+        offsets: &Offsets,
+    ) -> Result<Vec<(usize, Written)>, Error> {
+        let tangents = write::push_vectors(document, ElementType::Vec4, &split.tangents);
+        let accessors = offsets.iter().map(|(&movement, &(accessor, _))| (movement, accessor)).collect();
+        let results = Results { surfaces, split, tangents, offsets: accessors };
+        let mut writer = Writer::new(&self.accessors, self.options, group, results);
+        let mut written = Vec::with_capacity(group.members.len());
+        for member in &group.members {
+            let candidate = &self.selection.candidates[member.candidate];
+            if split.is_needed() {
+                self.summary.warnings.extend(foreign_warning(document, &candidate.name));
+            }
+            let morphed = writer.write(document, member, candidate)?;
+            let misfits = morphed.iter().filter_map(|movement| offsets[movement].1.get(&member.job));
+            let misfits = misfits.fold(Misfits::default(), |sum, &misfits| sum + misfits);
+            written.push((
+                member.candidate,
+                Written {
+                    uv_set: candidate.uv.set,
+                    uv_reason: candidate.uv.reason.clone(),
+                    replaced: candidate.replaces(),
+                    vertices_before: split.old_vertex_count(),
+                    vertices_after: split.vertex_count(),
+                    morph_targets: morphed.len(),
+                    regrouped_corners: misfits.regrouped,
+                    conflicting_corners: misfits.conflicting,
+                    counts: surfaces[member.job].report.into(),
+                },
+            ));
+        }
+        Ok(written)
+    }
+
+    fn summarize(self, mut written: HashMap<usize, Written>) -> Summary {
+        let Self { selection, mut summary, .. } = self;
+        summary.warnings.splice(0..0, selection.warnings);
+        for (place, candidate) in selection.candidates.into_iter().enumerate() {
+            let outcome = match candidate.verdict {
+                Verdict::Chosen(_) => Outcome::Written(written.remove(&place).unwrap_or_default()),
+                Verdict::Kept(reason) => Outcome::Kept { reason },
+                Verdict::Skipped(reason) => Outcome::Skipped { reason },
+            };
+            summary.push(PrimitiveSummary { name: candidate.name, outcome });
+        }
+        summary
+    }
+}
+
+/// What a user should know where vertices of `name` are split.
+fn foreign_warning(document: &Document, name: &PrimitiveName) -> Option<String> {
+    let extensions = foreign::left_behind(document.primitive_text(name.mesh, name.primitive)?);
+    (!extensions.is_empty()).then(|| {
+        let names = extensions.join(", ");
+        format!("{name}: vertices were split, which {names} may not expect; it was left as it is")
+    })
 }

@@ -17,6 +17,18 @@ pub struct Summary {
     pub totals: Totals,
 }
 
+impl Summary {
+    /// Appends a primitive and counts it.
+    pub(super) fn push(&mut self, primitive: PrimitiveSummary) {
+        *match primitive.outcome {
+            Outcome::Written(_) => &mut self.totals.written,
+            Outcome::Kept { .. } => &mut self.totals.kept,
+            Outcome::Skipped { .. } => &mut self.totals.skipped,
+        } += 1;
+        self.primitives.push(primitive);
+    }
+}
+
 /// What happened to one primitive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]

@@ -1,0 +1,70 @@
+//! Extensions of a primitive that a split may leave behind.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+use serde_json::Value;
+
+#[derive(Deserialize)]
+struct Primitive {
+    #[serde(default)]
+    extensions: BTreeMap<String, Value>,
+}
+
+/// Those that name materials, textures, or attributes that are extended, or that depend on the order of triangles only.
+const UNAFFECTED: [&str; 4] =
+    ["KHR_materials_variants", "KHR_draco_mesh_compression", "EXT_structural_metadata", "FB_ngon_encoding"];
+
+/// The extensions in the JSON text of a primitive that may refer to vertices, by their number or in accessors of their own.
+pub fn left_behind(primitive: &str) -> Vec<String> {
+    let Ok(Primitive { extensions }) = serde_json::from_str(primitive) else { return Vec::new() };
+    let affected = extensions.into_iter().filter(|(name, json)| match name.as_str() {
+        "EXT_mesh_features" => numbers_vertices(json),
+        name => !UNAFFECTED.contains(&name) && mentions_vertices(json),
+    });
+    affected.map(|(name, _)| name).collect()
+}
+
+/// Whether a feature of `EXT_mesh_features` is the number of a vertex: it has neither an attribute nor a texture.
+fn numbers_vertices(json: &Value) -> bool {
+    let features = json.get("featureIds").and_then(Value::as_array).into_iter().flatten();
+    features.into_iter().any(|feature| feature.get("attribute").is_none() && feature.get("texture").is_none())
+}
+
+/// Whether `json` has a member, at any depth, that names accessors.
+fn mentions_vertices(json: &Value) -> bool {
+    match json {
+        Value::Object(members) => members.iter().any(|(key, value)| {
+            matches!(key.as_str(), "attributes" | "indices" | "accessor" | "accessors" | "targets")
+                || mentions_vertices(value)
+        }),
+        Value::Array(values) => values.iter().any(mentions_vertices),
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::left_behind;
+
+    #[test]
+    fn extensions_with_vertices_of_their_own_are_named() {
+        let primitive = r#"{"attributes":{"POSITION":0},"extensions":{
+            "CESIUM_primitive_outline":{"indices":7},
+            "KHR_materials_variants":{"mappings":[{"material":0,"variants":[0]}]},
+            "EXT_structural_metadata":{"propertyAttributes":[0]},
+            "VENDOR_deep":{"a":[{"accessor":1}]},
+            "VENDOR_other":{"strength":1}}}"#;
+        assert_eq!(left_behind(primitive), ["CESIUM_primitive_outline", "VENDOR_deep"]);
+    }
+
+    #[test]
+    fn features_by_vertex_number_are_named() {
+        let with = |feature: &str| {
+            let ids = format!(r#"{{"featureIds":[{{"featureCount":4{feature}}}]}}"#);
+            left_behind(&format!(r#"{{"extensions":{{"EXT_mesh_features":{ids}}}}}"#))
+        };
+        assert_eq!(with(""), ["EXT_mesh_features"]);
+        assert_eq!(with(r#","attribute":0"#), [] as [String; 0]);
+    }
+}

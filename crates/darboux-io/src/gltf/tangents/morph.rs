@@ -1,0 +1,178 @@
+//! Tangent offsets of morph targets: the base's groups evaluated on base + target, minus the base.
+
+use std::collections::HashMap;
+use std::ops::Add;
+
+use super::TangentsOptions;
+use super::compute::{Surface, Vertices};
+use super::select::Selection;
+use super::share::{Canonical, Group};
+use super::split::Split;
+use crate::Error;
+use crate::gltf::Document;
+use crate::gltf::schema::Attributes;
+
+/// What moves vertices: accessors of position and of normal offsets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Movement {
+    position: Option<usize>,
+    normal: Option<usize>,
+}
+
+impl Movement {
+    /// What moves vertices in `target`, if tangent offsets are to be written for it.
+    ///
+    /// Offsets that exist stay unless they are to be replaced; targets that move neither positions nor normals need none.
+    pub fn of(accessors: &Canonical, target: &Attributes, options: &TangentsOptions) -> Option<Self> {
+        let offsets = |semantic| target.get(semantic).map(|&accessor| accessors.of(accessor));
+        let (position, normal) = (offsets("POSITION"), offsets("NORMAL"));
+        let wanted = options.overwrite || !target.contains_key("TANGENT");
+        (wanted && (position.is_some() || normal.is_some())).then_some(Self { position, normal })
+    }
+}
+
+/// A movement and what it moves.
+#[derive(Debug)]
+pub struct Morph {
+    pub movement: Movement,
+    /// The JSON path of a target that has it.
+    at: String,
+    /// The jobs of the primitives that have it.
+    pub jobs: Vec<usize>,
+}
+
+/// The different movements of a group, in the order in which each is met first.
+pub fn morphs(
+    document: &Document,
+    accessors: &Canonical,
+    group: &Group,
+    selection: &Selection,
+    options: &TangentsOptions,
+) -> Vec<Morph> {
+    let mut morphs: Vec<Morph> = Vec::new();
+    let mut place_of = HashMap::new();
+    let mut moved = HashMap::new();
+    for member in &group.members {
+        let name = &selection.candidates[member.candidate].name;
+        let primitive = &document.meshes()[name.mesh].primitives[name.primitive];
+        for (place, target) in primitive.targets.iter().enumerate() {
+            let Some(movement) = Movement::of(accessors, target, options) else { continue };
+            let place = *place_of.entry(movement).or_insert_with(|| {
+                let at = format!("{}.targets[{place}]", name.path());
+                morphs.push(Morph { movement, at, jobs: Vec::new() });
+                morphs.len() - 1
+            });
+            moved.entry((place, member.job)).or_insert_with(|| morphs[place].jobs.push(member.job));
+        }
+    }
+    morphs
+}
+
+/// Tangent offsets, one per vertex after splitting, and what does not fit them.
+#[derive(Debug)]
+pub struct Offsets {
+    pub of_vertex: Vec<[f32; 3]>,
+    /// One for each of [`Morph::jobs`].
+    pub misfits: Vec<Misfits>,
+}
+
+/// Corners of a morphed job whose tangent is not what a user may expect.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Misfits {
+    /// Those that a fresh run would give another tangent.
+    pub regrouped: usize,
+    /// Those whose vertex, shared with corners of the same base tangent, has another offset.
+    pub conflicting: usize,
+}
+
+impl Add for Misfits {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        let (regrouped, conflicting) =
+            (self.regrouped + other.regrouped, self.conflicting + other.conflicting);
+        Self { regrouped, conflicting }
+    }
+}
+
+/// Evaluates `morph` on the jobs that it moves.
+///
+/// Errors: offsets of another number than vertices; with [`TangentsOptions::strict`], offsets that are not finite.
+pub fn offsets(
+    document: &Document,
+    morph: &Morph,
+    group: &Group,
+    vertices: &mut Vertices,
+    surfaces: &[Surface],
+    split: &Split,
+    options: &TangentsOptions,
+) -> Result<Offsets, Error> {
+    let Movement { position, normal } = morph.movement;
+    let moved = |base: &[_], by| moved(document, &morph.at, base, by, options.strict);
+    let positions = moved(&vertices.positions, position)?;
+    let normals = moved(&vertices.normals, normal)?;
+    let base = vertices.replace(positions, normals);
+    let mut field = Field::new(split.vertex_count());
+    let mut misfits = Vec::with_capacity(morph.jobs.len());
+    for &job in &morph.jobs {
+        let surface = &surfaces[job];
+        let mesh = vertices.mesh(document, &morph.at, &group.jobs[job], &surface.corners)?;
+        let plan = surface.plan.as_ref().expect("jobs that move are computed with a plan");
+        let wrong = |error| document.mesh_error(&morph.at, error);
+        let evaluated = plan.evaluate(&mesh).map_err(wrong)?;
+        let regrouped = plan.count_regrouped(&mesh).map_err(wrong)?;
+        let tangents = evaluated.per_corner().iter().zip(surface.tangents.per_corner());
+        let corners = split.corners[job].iter().zip(tangents);
+        let conflicting =
+            corners.filter(|(vertex, (moved, base))| !field.hold(**vertex, moved, base)).count();
+        misfits.push(Misfits { regrouped, conflicting });
+    }
+    vertices.replace(base.0, base.1);
+    Ok(Offsets { of_vertex: field.offsets, misfits })
+}
+
+/// The base plus the offsets of an accessor, where there is one. `at` is the JSON path of the target.
+fn moved(
+    document: &Document,
+    at: &str,
+    base: &[[f32; 3]],
+    by: Option<usize>,
+    strict: bool,
+) -> Result<Vec<[f32; 3]>, Error> {
+    let Some(accessor) = by else { return Ok(base.to_vec()) };
+    let offsets = document.read_vectors::<3>(accessor)?;
+    if offsets.len() != base.len() {
+        let problem =
+            format!("accessor {accessor} has {} elements for {} vertices", offsets.len(), base.len());
+        return Err(document.invalid(at, format!("{problem}; export the file again")));
+    }
+    let infinite = offsets.iter().filter(|offset| !offset.iter().all(|x| x.is_finite())).count();
+    if strict && infinite > 0 {
+        let problem = format!("{infinite} offsets of accessor {accessor} are not finite");
+        return Err(document.invalid(at, format!("{problem}; mend the model, or run without strict")));
+    }
+    Ok(base.iter().zip(offsets).map(|(base, by)| std::array::from_fn(|i| base[i] + by[i])).collect())
+}
+
+/// One offset per vertex; the first corner that asks decides.
+struct Field {
+    offsets: Vec<[f32; 3]>,
+    held: Vec<bool>,
+}
+
+impl Field {
+    fn new(vertex_count: usize) -> Self {
+        Self { offsets: vec![[0.0; 3]; vertex_count], held: vec![false; vertex_count] }
+    }
+
+    /// Sets the offset of `vertex` if none is set. Returns whether the corner has the vertex's offset.
+    fn hold(&mut self, vertex: u32, moved: &[f32; 4], base: &[f32; 4]) -> bool {
+        let vertex = vertex as usize;
+        let offset = std::array::from_fn(|i| moved[i] - base[i]);
+        if !self.held[vertex] {
+            self.held[vertex] = true;
+            self.offsets[vertex] = offset;
+        }
+        self.offsets[vertex] == offset
+    }
+}

@@ -1,0 +1,229 @@
+//! Which primitives get tangents, and why the others do not.
+
+use std::collections::BTreeSet;
+
+use super::topology::{Topology, mode_name};
+use super::uv::{UvChoice, UvTransform, needs_tangents, turns_tangents};
+use super::{PrimitiveName, TangentsOptions};
+use crate::Error;
+use crate::gltf::Document;
+use crate::gltf::schema::{Material, Primitive};
+
+/// Every primitive of a document, in its order, with what is to be done.
+#[derive(Debug)]
+pub struct Selection {
+    pub candidates: Vec<Candidate>,
+    pub warnings: Vec<String>,
+}
+
+/// A primitive and what is to be done with it.
+#[derive(Debug)]
+pub struct Candidate {
+    pub name: PrimitiveName,
+    pub uv: UvChoice,
+    pub needs_tangents: bool,
+    pub verdict: Verdict,
+}
+
+/// What is to be done with a primitive.
+#[derive(Debug)]
+pub enum Verdict {
+    /// It gets tangents.
+    Chosen(Chosen),
+    /// It keeps those it has, for a reason.
+    Kept(String),
+    /// It is left alone, for a reason.
+    Skipped(String),
+}
+
+/// What tangents are computed from: accessors and how they are read.
+#[derive(Clone, Debug)]
+pub struct Chosen {
+    pub position: usize,
+    pub normal: usize,
+    pub uv: usize,
+    pub indices: Option<usize>,
+    pub topology: Topology,
+    pub transform: Option<UvTransform>,
+    pub index_count: usize,
+    pub replaces: bool,
+}
+
+impl Candidate {
+    /// Whether it gets tangents in place of others.
+    pub fn replaces(&self) -> bool {
+        matches!(&self.verdict, Verdict::Chosen(chosen) if chosen.replaces)
+    }
+}
+
+impl Selection {
+    /// The candidates that get tangents, with their places.
+    pub fn chosen(&self) -> impl Iterator<Item = (usize, &Chosen)> {
+        self.candidates.iter().enumerate().filter_map(|(place, candidate)| match &candidate.verdict {
+            Verdict::Chosen(chosen) => Some((place, chosen)),
+            Verdict::Kept(_) | Verdict::Skipped(_) => None,
+        })
+    }
+
+    /// Whether no primitive gets tangents.
+    pub fn is_empty(&self) -> bool {
+        self.chosen().next().is_none()
+    }
+}
+
+/// Looks at every primitive. Errors: materials or accessors that do not exist.
+pub fn select(document: &Document, options: &TangentsOptions) -> Result<Selection, Error> {
+    let mut warnings = Warnings::default();
+    let mut candidates = Vec::new();
+    for (index, mesh) in document.meshes().iter().enumerate() {
+        for (place, primitive) in mesh.primitives.iter().enumerate() {
+            let name = PrimitiveName { mesh: index, mesh_name: mesh.name.clone(), primitive: place };
+            candidates.push(candidate(document, name, primitive, options, &mut warnings)?);
+        }
+    }
+    Ok(Selection { candidates, warnings: warnings.sentences })
+}
+
+fn candidate(
+    document: &Document,
+    name: PrimitiveName,
+    primitive: &Primitive,
+    options: &TangentsOptions,
+    warnings: &mut Warnings,
+) -> Result<Candidate, Error> {
+    let materials = materials_of(document, &name, primitive)?;
+    let choices: Vec<_> =
+        materials.iter().filter_map(|&(index, material)| UvChoice::of(material, index)).collect();
+    let needs_tangents = materials.iter().any(|(_, material)| needs_tangents(material));
+    let uv = choices.first().cloned().unwrap_or_default();
+    let verdict = judge(document, &name, primitive, &uv, needs_tangents, options)?;
+    if let Verdict::Chosen(chosen) = &verdict {
+        warnings.variants(&name, &choices);
+        warnings.transform(&uv, options);
+        warnings.incomplete(&name, chosen);
+    }
+    Ok(Candidate { name, uv, needs_tangents, verdict })
+}
+
+/// The materials that a primitive can have: its own, then those of its variants.
+fn materials_of<'a>(
+    document: &'a Document,
+    name: &PrimitiveName,
+    primitive: &Primitive,
+) -> Result<Vec<(usize, &'a Material)>, Error> {
+    let variants = primitive.extensions.variants.iter().flat_map(|variants| &variants.mappings);
+    let indices: BTreeSet<_> = variants.map(|mapping| mapping.material).collect();
+    let own = primitive.material;
+    own.into_iter()
+        .chain(indices.into_iter().filter(|&index| Some(index) != own))
+        .map(|index| match document.materials().get(index) {
+            Some(material) => Ok((index, material)),
+            None => Err(document
+                .invalid(name.path(), format!("its material {index} does not exist; export the file again"))),
+        })
+        .collect()
+}
+
+fn judge(
+    document: &Document,
+    name: &PrimitiveName,
+    primitive: &Primitive,
+    uv: &UvChoice,
+    needs_tangents: bool,
+    options: &TangentsOptions,
+) -> Result<Verdict, Error> {
+    let attribute = |semantic: &str| primitive.attributes.get(semantic).copied();
+    let skipped = |reason: &str| Ok(Verdict::Skipped(reason.to_owned()));
+    let Some(mode) = mode_name(primitive.mode) else {
+        let problem = format!("{} is no mode; use 0 to 6", primitive.mode);
+        return Err(document.invalid(format!("{}.mode", name.path()), problem));
+    };
+    let Some(topology) = Topology::from_mode(primitive.mode) else {
+        return Ok(Verdict::Skipped(format!("its mode is {mode}; only triangles have tangents")));
+    };
+    let replaces = attribute("TANGENT").is_some();
+    if replaces && !options.overwrite {
+        return Ok(Verdict::Kept("it has tangents already; overwrite replaces them".to_owned()));
+    }
+    if options.only_needed && !needs_tangents {
+        return skipped("its material does not use tangents");
+    }
+    let Some(position) = attribute("POSITION") else { return skipped("it has no POSITION") };
+    let Some(normal) = attribute("NORMAL") else { return skipped("it has no NORMAL, which tangents need") };
+    let Some(uv_accessor) = attribute(&format!("TEXCOORD_{}", uv.set)) else {
+        return Ok(Verdict::Skipped(missing_uv(primitive, uv)));
+    };
+    let vertex_count = count(document, position)?;
+    let index_count = primitive.indices.map_or(Ok(vertex_count), |indices| count(document, indices))?;
+    if topology.triangle_count(index_count) == 0 {
+        return skipped("it has no whole triangle");
+    }
+    let transform = uv.transform.as_ref().filter(|_| options.apply_texture_transform);
+    Ok(Verdict::Chosen(Chosen {
+        position,
+        normal,
+        uv: uv_accessor,
+        indices: primitive.indices,
+        topology,
+        transform: transform.and_then(UvTransform::new),
+        index_count,
+        replaces,
+    }))
+}
+
+fn missing_uv(primitive: &Primitive, uv: &UvChoice) -> String {
+    if uv.set == 0 && !primitive.attributes.keys().any(|key| key.starts_with("TEXCOORD_")) {
+        "it has no TEXCOORD_0, which tangents need".to_owned()
+    } else {
+        format!("it has no TEXCOORD_{}, which its tangents must follow ({})", uv.set, uv.reason)
+    }
+}
+
+fn count(document: &Document, accessor: usize) -> Result<usize, Error> {
+    match document.accessors().get(accessor) {
+        Some(accessor) => Ok(accessor.count),
+        None => {
+            Err(document.invalid(format!("accessors[{accessor}]"), "does not exist; export the file again"))
+        }
+    }
+}
+
+/// What a user should look at. What concerns a material is said once, not for each of its primitives.
+#[derive(Default)]
+struct Warnings {
+    sentences: Vec<String>,
+    transformed: BTreeSet<String>,
+}
+
+impl Warnings {
+    fn variants(&mut self, name: &PrimitiveName, choices: &[UvChoice]) {
+        let Some((first, others)) = choices.split_first() else { return };
+        if let Some(other) = others.iter().find(|other| other.set != first.set) {
+            self.sentences.push(format!(
+                "{name}: the tangents follow TEXCOORD_{} ({}), so they do not fit the variant whose {} uses TEXCOORD_{}",
+                first.set, first.reason, other.reason, other.set
+            ));
+        }
+    }
+
+    fn transform(&mut self, uv: &UvChoice, options: &TangentsOptions) {
+        let turns = uv.transform.as_ref().is_some_and(turns_tangents);
+        if turns && !options.apply_texture_transform && self.transformed.insert(uv.reason.clone()) {
+            self.sentences.push(format!(
+                "{}: KHR_texture_transform rotates or mirrors its UVs; the tangents follow the stored UVs, as the \
+                 specification says; for renderers that expect transformed ones choose apply-texture-transform",
+                uv.reason
+            ));
+        }
+    }
+
+    fn incomplete(&mut self, name: &PrimitiveName, chosen: &Chosen) {
+        let over = chosen.index_count % 3;
+        if chosen.topology == Topology::Triangles && over != 0 {
+            self.sentences.push(format!(
+                "{name}: its last {over} of {} corners make no triangle; they stay, without tangents of their own",
+                chosen.index_count
+            ));
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! What primitives have in common, so that it is computed, split and written once.
+
+use std::collections::HashMap;
+
+use super::select::Chosen;
+use super::topology::Topology;
+use super::uv::UvTransform;
+use crate::gltf::Document;
+use crate::gltf::schema::Accessor;
+
+/// Primitives over the same positions, normals and UVs: they are split jointly and share one `TANGENT` accessor.
+///
+/// Every other attribute and morph target of a member follows the group's split. A primitive that uses another UV set is in
+/// another group, and gets copies of its own.
+#[derive(Debug)]
+pub struct Group {
+    pub position: usize,
+    pub normal: usize,
+    pub uv: usize,
+    /// The different things to compute.
+    pub jobs: Vec<Job>,
+    /// The primitives, in the order of the file.
+    pub members: Vec<Member>,
+}
+
+/// Tangents to compute: the same for all primitives with these indices.
+#[derive(Debug)]
+pub struct Job {
+    pub indices: Option<usize>,
+    pub topology: Topology,
+    pub transform: Option<UvTransform>,
+    pub triangle_count: usize,
+    /// The place in the selection of the first primitive with it.
+    pub first: usize,
+}
+
+/// A primitive of a group.
+#[derive(Debug)]
+pub struct Member {
+    /// Its place in the selection.
+    pub candidate: usize,
+    /// Its place in [`Group::jobs`].
+    pub job: usize,
+}
+
+/// Sorts primitives into groups, in the order in which each group is met first.
+pub fn group<'a>(accessors: &Canonical, chosen: impl Iterator<Item = (usize, &'a Chosen)>) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    let mut group_of = HashMap::new();
+    let mut job_of = HashMap::new();
+    for (candidate, chosen) in chosen {
+        let [position, normal, uv] =
+            [chosen.position, chosen.normal, chosen.uv].map(|accessor| accessors.of(accessor));
+        let place = *group_of.entry((position, normal, uv)).or_insert_with(|| {
+            groups.push(Group { position, normal, uv, jobs: Vec::new(), members: Vec::new() });
+            groups.len() - 1
+        });
+        let Chosen { topology, transform, .. } = *chosen;
+        let indices = chosen.indices.map(|accessor| accessors.of(accessor));
+        let jobs = &mut groups[place].jobs;
+        let key = (place, indices, topology, transform.map(|transform| transform.bits()));
+        let job = *job_of.entry(key).or_insert_with(|| {
+            let triangle_count = topology.triangle_count(chosen.index_count);
+            jobs.push(Job { indices, topology, transform, triangle_count, first: candidate });
+            jobs.len() - 1
+        });
+        groups[place].members.push(Member { candidate, job });
+    }
+    groups
+}
+
+/// One accessor for all that read the same bytes in the same way: some exporters write an accessor per primitive.
+#[derive(Debug)]
+pub struct Canonical(Vec<usize>);
+
+impl Canonical {
+    /// Compares all accessors of a document.
+    pub fn new(document: &Document) -> Self {
+        let mut first = HashMap::new();
+        let accessors = document.accessors().iter().enumerate();
+        Self(accessors.map(|(index, accessor)| *first.entry(reading(accessor)).or_insert(index)).collect())
+    }
+
+    /// The first accessor that reads what `accessor` reads. Accessors that do not exist are their own.
+    pub fn of(&self, accessor: usize) -> usize {
+        self.0.get(accessor).copied().unwrap_or(accessor)
+    }
+}
+
+/// All that decides what an accessor reads.
+fn reading(accessor: &Accessor) -> impl Eq + std::hash::Hash {
+    let sparse = accessor.sparse.as_deref().map(|sparse| {
+        let (indices, values) = (&sparse.indices, &sparse.values);
+        let places = (indices.buffer_view, indices.byte_offset, indices.component_type.code());
+        (sparse.count, places, values.buffer_view, values.byte_offset)
+    });
+    let element = (accessor.element_type.name(), accessor.component_type.code(), accessor.normalized);
+    (accessor.buffer_view, accessor.byte_offset, accessor.count, element, sparse)
+}

@@ -1,0 +1,73 @@
+//! The split of one group: which vertices are appended, and what each corner uses then.
+
+use darboux::Splitter;
+
+use super::compute::{Surface, Vertices};
+use super::share::Group;
+use crate::Error;
+use crate::gltf::{Document, Elements};
+
+/// The vertices of a group after splitting: the old ones in their places, then copies of some.
+#[derive(Debug)]
+pub struct Split {
+    /// The tangent of every vertex.
+    pub tangents: Vec<[f32; 4]>,
+    /// The old vertex that each appended one copies.
+    pub copies: Vec<u32>,
+    /// For each job the vertices of its corners.
+    pub corners: Vec<Vec<u32>>,
+}
+
+/// Splits the surfaces of `group`, one per job, jointly.
+///
+/// Errors: more vertices than 32-bit indices can tell apart. `at` is the JSON path of the group's first primitive.
+pub fn split(
+    document: &Document,
+    at: &str,
+    group: &Group,
+    vertices: &mut Vertices,
+    surfaces: &[Surface],
+) -> Result<Split, Error> {
+    let corner_count: usize = surfaces.iter().map(|surface| surface.corners.len()).sum();
+    if vertices.positions.len().saturating_add(corner_count) >= u32::MAX as usize {
+        return Err(document.invalid(at, "has too many vertices for 32-bit indices; divide the mesh"));
+    }
+    let mut splitter = Splitter::new(vertices.positions.len());
+    let mut corners = Vec::with_capacity(surfaces.len());
+    for (job, surface) in group.jobs.iter().zip(surfaces) {
+        let mesh = vertices.mesh(document, at, job, &surface.corners)?;
+        let added = splitter.add(&mesh, &surface.tangents);
+        corners.push(added.map_err(|error| document.mesh_error(at, error))?);
+    }
+    let (tangents, mut copies) = splitter.finish();
+    copies.drain(..vertices.positions.len());
+    Ok(Split { tangents, copies, corners })
+}
+
+impl Split {
+    /// The number of vertices now.
+    pub fn vertex_count(&self) -> usize {
+        self.tangents.len()
+    }
+
+    /// The number of vertices before.
+    pub fn old_vertex_count(&self) -> usize {
+        self.tangents.len() - self.copies.len()
+    }
+
+    /// Whether there are vertices that were not there before.
+    pub fn is_needed(&self) -> bool {
+        !self.copies.is_empty()
+    }
+
+    /// Appends the copies to an attribute, bit for bit. `elements` must have one element per old vertex.
+    pub fn extend(&self, elements: &mut Elements) {
+        let size = elements.element_size();
+        elements.bytes.reserve_exact(self.copies.len() * size);
+        for &source in &self.copies {
+            let start = source as usize * size;
+            elements.bytes.extend_from_within(start..start + size);
+        }
+        elements.count += self.copies.len();
+    }
+}

@@ -1,0 +1,81 @@
+//! Triangles out of strips and fans.
+
+/// How corners make triangles (glTF 2.0, 3.7.2.1).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Topology {
+    /// Three corners each.
+    Triangles,
+    /// Every corner with the two after it; every other triangle is turned round.
+    Strip,
+    /// Every two corners with the first of all.
+    Fan,
+}
+
+impl Topology {
+    /// The topology with glTF's number, if it makes triangles.
+    pub fn from_mode(mode: u32) -> Option<Self> {
+        match mode {
+            4 => Some(Self::Triangles),
+            5 => Some(Self::Strip),
+            6 => Some(Self::Fan),
+            _ => None,
+        }
+    }
+
+    /// How many triangles an index list of `length` makes.
+    pub fn triangle_count(self, length: usize) -> usize {
+        match self {
+            Self::Triangles => length / 3,
+            Self::Strip | Self::Fan => length.saturating_sub(2),
+        }
+    }
+
+    /// How many of `length` indices belong to whole triangles.
+    pub fn whole(self, length: usize) -> usize {
+        match self {
+            Self::Triangles => length - length % 3,
+            Self::Strip | Self::Fan => length,
+        }
+    }
+
+    /// The corners of the triangles that `indices` make, three each.
+    pub fn corners(self, indices: Vec<u32>) -> Vec<u32> {
+        let windows = indices.windows(3);
+        match self {
+            Self::Triangles => indices,
+            Self::Strip => {
+                let turned = windows.enumerate();
+                turned.flat_map(|(i, w)| [w[0], w[1 + i % 2], w[2 - i % 2]]).collect()
+            }
+            Self::Fan => windows.flat_map(|w| [w[1], w[2], indices[0]]).collect(),
+        }
+    }
+}
+
+/// glTF's name of a mode, if it has one.
+pub fn mode_name(mode: u32) -> Option<&'static str> {
+    let names = ["POINTS", "LINES", "LINE_LOOP", "LINE_STRIP", "TRIANGLES", "TRIANGLE_STRIP", "TRIANGLE_FAN"];
+    names.get(mode as usize).copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Topology;
+
+    #[test]
+    fn strips_and_fans_wind_as_the_specification_says() {
+        let list = vec![10, 11, 12, 13, 14];
+        assert_eq!(Topology::Strip.corners(list.clone()), [10, 11, 12, 11, 13, 12, 12, 13, 14]);
+        assert_eq!(Topology::Fan.corners(list), [11, 12, 10, 12, 13, 10, 13, 14, 10]);
+    }
+
+    #[test]
+    fn too_few_indices_make_nothing() {
+        assert_eq!(Topology::Triangles.whole(5), 3);
+        assert!(Topology::Strip.corners(vec![0, 1]).is_empty());
+        assert!(Topology::Fan.corners(vec![0, 1]).is_empty());
+        for topology in [Topology::Triangles, Topology::Strip, Topology::Fan] {
+            assert_eq!(topology.triangle_count(2), 0);
+        }
+    }
+}
