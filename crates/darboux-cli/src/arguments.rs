@@ -44,8 +44,8 @@ nothing to do is copied.
 Without -o, --out-dir or --in-place the output lies beside its input: model.glb becomes model.tangents.glb. The output's \
 extension decides the container: .glb embeds everything, .gltf writes its buffer beside it and brings images along.
 
-Folders are searched for .gltf and .glb, inner folders included. Names that end in .tangents.gltf or .tangents.glb are \
-left out there, as they are outputs, and so is the folder of --out-dir; give such a file by name to use it.";
+Folders are searched for .gltf, .glb and .vrm, inner folders included. Names like model.tangents.glb are left out \
+there, as they are outputs, and so is the folder of --out-dir; give such a file by name to use it.";
 
 const TANGENTS_EXAMPLES: &str = "\
 Examples:

@@ -1,133 +1,128 @@
-//! `darboux inspect`: a table per file, a line per primitive.
+//! `darboux inspect`.
 
-use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
-use darboux_io::Error;
+use comfy_table::presets::ASCII_MARKDOWN;
+use comfy_table::{CellAlignment, ContentArrangement, Table};
+use console::Term;
 use darboux_io::gltf::{PrimitiveInfo, inspect};
-use indicatif::HumanCount;
-use serde::Serialize;
 
 use crate::arguments::InspectArguments;
-use crate::jobs::{self, Input};
-use crate::messages::{self, Messages};
-use crate::{DONE, FAILED, USAGE, models};
+use crate::exit;
+use crate::jobs::{self, Input, Scan, Usage};
+use crate::messages::{Messages, write_stdout};
+use crate::report::{InspectReport, InspectedFile, VERSION, to_json};
+use crate::tangents::load;
 
-/// What `--json` prints.
-#[derive(Serialize)]
-struct Report {
-    version: &'static str,
-    files: Vec<FileReport>,
-    failed: usize,
-}
-
-#[derive(Serialize)]
-struct FileReport {
-    input: String,
-    /// Why it failed, in one sentence; null where it did not.
-    error: Option<String>,
-    warnings: Vec<String>,
-    primitives: Vec<PrimitiveInfo>,
-}
-
-/// Runs the command; returns the exit code.
+/// Runs the command; gives its exit code.
 pub fn run(arguments: &InspectArguments) -> u8 {
-    let messages = Messages::new(false, 0);
-    let stdin = arguments.inputs.iter().any(|path| path.as_os_str() == "-");
-    if stdin && arguments.inputs.len() > 1 {
-        messages.error("- (standard input) must be the only input");
-        return USAGE;
+    let messages = Messages::new(false);
+    if let Err(Usage(sentence)) = jobs::check_stdin(&arguments.inputs) {
+        messages.error(&sentence);
+        return exit::USAGE;
     }
-    let found = jobs::find(&arguments.inputs, None);
-    let unsearched = found.failed.iter().map(|(path, reason)| {
-        let input = path.display().to_string();
-        let error = Some(format!("{input}: {reason}"));
-        FileReport { input, error, warnings: Vec::new(), primitives: Vec::new() }
-    });
-    let read = found.files.iter().map(|(input, _)| one_file(input, arguments.allow_outside));
-    let files: Vec<FileReport> = unsearched.chain(read).collect();
-    for file in &files {
-        file.error.iter().for_each(|error| messages.error(error));
-        file.warnings.iter().for_each(|warning| messages.warn(warning));
+    let found = jobs::find(&arguments.inputs, Scan::All);
+    let mut files: Vec<InspectedFile> = Vec::new();
+    for (input, _) in &found.files {
+        files.push(look(input, arguments.allow_outside));
     }
-    let failed = files.iter().filter(|file| file.error.is_some()).count();
-    let printed = if arguments.json {
-        messages::write_json(&Report { version: env!("CARGO_PKG_VERSION"), files, failed })
+    files.extend(found.failed.iter().map(|(path, reason)| {
+        let path = path.display().to_string();
+        let sentence = format!("{path}: {reason}");
+        failed(path, sentence)
+    }));
+    let text = if arguments.json {
+        to_json(&InspectReport { command: "inspect", version: VERSION, files: files.clone() })
     } else {
-        messages::write_stdout(tables(&files).as_bytes())
+        Ok(files.iter().filter(|file| file.error.is_none()).map(described).collect::<String>().into_bytes())
     };
-    match printed {
-        Ok(()) if failed == 0 => DONE,
-        Ok(()) => FAILED,
-        Err(error) => {
-            messages.error(&format!("the table cannot be written: {error}"));
-            FAILED
-        }
+    if let Err(error) = text.map_err(std::io::Error::from).and_then(|text| write_stdout(&text)) {
+        messages.error(&format!("the table cannot be written: {error}"));
+        return exit::FAILED;
     }
+    tell(&files, &messages)
 }
 
-fn one_file(input: &Input, allow_outside: bool) -> FileReport {
-    let inspected: Result<_, Error> = models::read(input, allow_outside)
-        .and_then(|mut document| Ok((inspect(&mut document)?, document.warnings().to_vec())));
-    let (error, (primitives, warnings)) = match inspected {
-        Ok(seen) => (None, seen),
-        Err(error) => (Some(error.to_string()), Default::default()),
-    };
-    FileReport { input: input.to_string(), error, warnings, primitives }
+/// Warnings and errors of all files; gives the exit code.
+fn tell(files: &[InspectedFile], messages: &Messages) -> u8 {
+    for file in files {
+        file.warnings.iter().for_each(|warning| messages.warn(&format!("{}: {warning}", file.input)));
+    }
+    let errors: Vec<&String> = files.iter().filter_map(|file| file.error.as_ref()).collect();
+    errors.iter().for_each(|error| messages.error(error));
+    if errors.is_empty() { exit::DONE } else { exit::FAILED }
 }
 
-fn tables(files: &[FileReport]) -> String {
-    let shown = files.iter().filter(|file| file.error.is_none());
-    shown.map(|file| format!("{}\n{}\n\n", file.input, table(&file.primitives))).collect()
+fn look(input: &Input, allow_outside: bool) -> InspectedFile {
+    let looked = load(input, allow_outside).and_then(|mut document| {
+        let primitives = inspect(&mut document).map_err(|error| error.to_string())?;
+        Ok(InspectedFile {
+            input: input.to_string(),
+            error: None,
+            warnings: document.warnings().to_vec(),
+            primitives,
+        })
+    });
+    looked.unwrap_or_else(|sentence| failed(input.to_string(), sentence))
 }
 
-const HEADER: [&str; 11] = [
-    "primitive",
-    "mode",
-    "vertices",
-    "triangles",
-    "attributes",
-    "UV set",
-    "tangents",
-    "split",
-    "mirrored",
-    "degenerate",
-    "UV-degenerate",
+fn failed(input: String, sentence: String) -> InspectedFile {
+    InspectedFile { input, error: Some(sentence), warnings: Vec::new(), primitives: Vec::new() }
+}
+
+/// The columns: title, whether it holds numbers, and what it says of a primitive.
+type Column = (&'static str, bool, fn(&PrimitiveInfo) -> String);
+
+const COLUMNS: &[Column] = &[
+    ("primitive", false, |info| format!("{}.{}", info.name.mesh, info.name.primitive)),
+    ("mesh", false, |info| info.name.mesh_name.as_deref().unwrap_or_default().escape_debug().to_string()),
+    ("mode", false, |info| info.mode.to_string()),
+    ("vertices", true, |info| info.vertices.to_string()),
+    ("triangles", true, |info| info.counts.triangles.to_string()),
+    ("attributes", false, |info| attributes(info).escape_debug().to_string()),
+    ("UV set", false, |info| info.uv_set.to_string()),
+    ("mirrored", true, |info| info.mirrored_triangles.to_string()),
+    ("degenerate", true, |info| info.counts.degenerate_triangles.to_string()),
+    ("no UV area", true, |info| info.counts.uv_degenerate_triangles.to_string()),
+    ("to split", true, |info| info.counts.split_vertices.to_string()),
+    ("tangents", false, |info| tangents(info).to_string()),
 ];
 
-fn table(primitives: &[PrimitiveInfo]) -> Table {
-    let mut table = Table::new();
-    table.load_style(presets::UTF8_HORIZONTAL_ONLY).set_content_arrangement(ContentArrangement::Dynamic);
-    table.set_header(HEADER);
-    for primitive in primitives {
-        table.add_row(row(primitive));
+fn attributes(info: &PrimitiveInfo) -> String {
+    let mut names = info.attributes.clone();
+    if info.morph_targets > 0 {
+        names.push(format!("{} targets", info.morph_targets));
     }
-    for column in [2, 3, 7, 8, 9, 10] {
-        if let Some(column) = table.column_mut(column) {
+    names.join(", ")
+}
+
+fn tangents(info: &PrimitiveInfo) -> &'static str {
+    match (info.has_tangents, info.needs_tangents, &info.ineligible) {
+        (true, ..) => "yes",
+        (false, _, Some(_)) => "impossible",
+        (false, true, None) => "needed",
+        (false, false, None) => "no",
+    }
+}
+
+/// The file's name, its table, and why primitives cannot have tangents.
+fn described(file: &InspectedFile) -> String {
+    let mut table = Table::new();
+    table.load_style(ASCII_MARKDOWN).set_header(COLUMNS.iter().map(|column| column.0));
+    if let Some((_, width)) = Term::stdout().size_checked() {
+        table.set_content_arrangement(ContentArrangement::Dynamic).set_width(width);
+    }
+    for (index, (_, number, _)) in COLUMNS.iter().enumerate() {
+        if let (true, Some(column)) = (*number, table.column_mut(index)) {
             column.set_cell_alignment(CellAlignment::Right);
         }
     }
-    table
-}
-
-fn row(primitive: &PrimitiveInfo) -> [String; 11] {
-    let count = |count: usize| HumanCount(count as u64).to_string();
-    let counts = &primitive.counts;
-    let tangents = match (&primitive.ineligible, primitive.has_tangents, primitive.needs_tangents) {
-        (_, true, _) => "yes".to_owned(),
-        (Some(reason), ..) => format!("no: {reason}"),
-        (None, _, true) => "no, needed".to_owned(),
-        (None, ..) => "no".to_owned(),
-    };
-    [
-        primitive.name.to_string(),
-        primitive.mode.to_owned(),
-        count(primitive.vertices),
-        count(counts.triangles),
-        primitive.attributes.join(" "),
-        format!("TEXCOORD_{} ({})", primitive.uv_set, primitive.uv_reason),
-        tangents,
-        count(counts.split_vertices),
-        count(counts.mirrored_edges),
-        count(counts.degenerate_triangles),
-        count(counts.uv_degenerate_triangles),
-    ]
+    for info in &file.primitives {
+        table.add_row(COLUMNS.iter().map(|column| column.2(info)));
+    }
+    let mut text = format!("{}\n\n{table}\n\n", file.input);
+    for info in &file.primitives {
+        if let Some(reason) = &info.ineligible {
+            text += &format!("{}.{}: {reason}\n", info.name.mesh, info.name.primitive);
+        }
+    }
+    text
 }

@@ -63,17 +63,28 @@ impl fmt::Display for Output {
     }
 }
 
-/// Searches the arguments for models: folders recursively, in the order of names; `except` and below it is left out.
+/// Which models a search of folders takes.
+#[derive(Clone, Copy)]
+pub enum Scan<'a> {
+    /// All.
+    All,
+    /// Neither those with an output's name nor those below the folder of outputs.
+    Sources {
+        /// That folder.
+        out_dir: Option<&'a Path>,
+    },
+}
+
+/// Searches the arguments for models: folders recursively, in the order of names.
 ///
 /// A path that is no folder is taken as a file, missing ones too: reading it says what is wrong.
-pub fn find(inputs: &[PathBuf], except: Option<&Path>) -> Found {
-    let except = except.map(identity);
+pub fn find(inputs: &[PathBuf], scan: Scan) -> Found {
     let mut found = Found::default();
     for path in inputs {
         if path == Path::new("-") {
             found.files.push((Input::Stdin, None));
         } else if path.is_dir() {
-            found.search(path, except.as_deref());
+            found.search(path, scan);
         } else {
             found.files.push((Input::File(path.clone()), None));
         }
@@ -82,32 +93,36 @@ pub fn find(inputs: &[PathBuf], except: Option<&Path>) -> Found {
 }
 
 impl Found {
-    fn search(&mut self, folder: &Path, except: Option<&Path>) {
-        let (files, left_out, failed) = (self.files.len(), self.left_out, self.failed.len());
-        let entered =
-            |entry: &DirEntry| !entry.file_type().is_dir() || Some(&*identity(entry.path())) != except;
+    fn search(&mut self, folder: &Path, scan: Scan) {
+        let before = (self.files.len(), self.left_out, self.failed.len());
+        let out_dir = match scan {
+            Scan::Sources { out_dir: Some(out_dir) } => Some(identity(out_dir)),
+            _ => None,
+        };
+        let entered = |entry: &DirEntry| {
+            entry.depth() == 0 || !entry.file_type().is_dir() || Some(identity(entry.path())) != out_dir
+        };
         for entry in WalkDir::new(folder).sort_by_file_name().into_iter().filter_entry(entered) {
             match entry {
-                Ok(entry) if entry.file_type().is_file() && is_model(entry.path()) => {
-                    if is_output(entry.path()) {
-                        self.left_out += 1;
-                    } else {
-                        self.files.push((Input::File(entry.into_path()), Some(folder.to_path_buf())));
-                    }
+                Ok(entry) if !entry.file_type().is_file() || !is_model(entry.path()) => {}
+                Ok(entry) if matches!(scan, Scan::Sources { .. }) && is_output(entry.path()) => {
+                    self.left_out += 1
                 }
-                Ok(_) => {}
+                Ok(entry) => self.files.push((Input::File(entry.into_path()), Some(folder.to_path_buf()))),
                 Err(error) => {
                     let path = error.path().unwrap_or(folder).to_path_buf();
-                    let reason =
-                        error.into_io_error().map_or("it contains itself".into(), |error| error.to_string());
-                    self.failed.push((path, reason));
+                    self.failed.push((path, format!("cannot be searched: {}", reason(error))));
                 }
             }
         }
-        if (files, left_out, failed) == (self.files.len(), self.left_out, self.failed.len()) {
+        if before == (self.files.len(), self.left_out, self.failed.len()) {
             self.failed.push((folder.to_path_buf(), "the folder holds no .gltf or .glb file".into()));
         }
     }
+}
+
+fn reason(error: walkdir::Error) -> String {
+    error.into_io_error().map_or("it contains itself".into(), |error| error.to_string())
 }
 
 /// The jobs of `darboux tangents`, in the order of the inputs, each once.
@@ -138,12 +153,18 @@ pub fn plan(arguments: &TangentsArguments, found: &Found) -> Result<Vec<Job>, Us
     Ok(jobs)
 }
 
+/// Errors: standard input beside other inputs.
+pub fn check_stdin(inputs: &[PathBuf]) -> Result<(), Usage> {
+    if inputs.len() > 1 && inputs.iter().any(|path| path == Path::new("-")) {
+        return Err(Usage("- (standard input) must be the only input".into()));
+    }
+    Ok(())
+}
+
 fn check_usage(arguments: &TangentsArguments) -> Result<(), Usage> {
     let usage = |message: &str| Err(Usage(message.into()));
-    let stdin = arguments.inputs.iter().any(|path| path == Path::new("-"));
-    if stdin && arguments.inputs.len() > 1 {
-        return usage("- (standard input) must be the only input");
-    }
+    check_stdin(&arguments.inputs)?;
+    let stdin = arguments.inputs[0] == Path::new("-");
     if stdin && (arguments.in_place || arguments.out_dir.is_some()) {
         return usage("standard input has no name and no place; use -o FILE");
     }
@@ -169,7 +190,7 @@ fn check_usage(arguments: &TangentsArguments) -> Result<(), Usage> {
         return Err(Usage(format!("{} is a folder; use --out-dir", output.display())));
     }
     if !is_model(output) {
-        return Err(Usage(format!("{} must end in .glb or .gltf", output.display())));
+        return Err(Usage(format!("{} must end in .glb, .vrm or .gltf", output.display())));
     }
     Ok(())
 }

@@ -5,7 +5,7 @@ mod inspect;
 mod interrupt;
 mod jobs;
 mod messages;
-mod models;
+mod report;
 mod tangents;
 
 use std::ffi::OsString;
@@ -15,30 +15,27 @@ use clap::Parser;
 pub use arguments::Arguments;
 use arguments::Command;
 
-/// The exit code when all went well, nothing to do included.
-const DONE: u8 = 0;
-/// The exit code when an input is bad or a file failed.
-const FAILED: u8 = 1;
-/// The exit code of wrong usage.
-const USAGE: u8 = 2;
+/// Exit codes, as `darboux --help` lists them.
+mod exit {
+    pub const DONE: u8 = 0;
+    pub const FAILED: u8 = 1;
+    pub const USAGE: u8 = 2;
+}
 
-/// Runs the command with the process's standard streams; the first argument is the program's name. Returns the exit code:
-/// 0 done, 1 an input is bad or a file failed, 2 wrong usage.
-pub fn run<I, A>(arguments: I) -> u8
+/// Runs the command on the process's standard streams and gives its exit code: 0 done, 1 an input is bad or a file failed,
+/// 2 wrong usage. The first argument is the program's name.
+pub fn run<A>(arguments: impl IntoIterator<Item = A>) -> u8
 where
-    I: IntoIterator<Item = A>,
     A: Into<OsString> + Clone,
 {
-    let arguments = match Arguments::try_parse_from(arguments) {
-        Ok(arguments) => arguments,
-        Err(error) => {
-            let _closed_is_no_fault = error.print();
-            return if error.use_stderr() { USAGE } else { DONE };
+    match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => match &arguments.command {
+            Command::Tangents(arguments) => tangents::run(arguments),
+            Command::Inspect(arguments) => inspect::run(arguments),
+        },
+        Err(help_or_error) => {
+            let _closed_is_no_fault = help_or_error.print();
+            if help_or_error.use_stderr() { exit::USAGE } else { exit::DONE }
         }
-    };
-    interrupt::wait_for_writes();
-    match arguments.command {
-        Command::Tangents(arguments) => tangents::run(&arguments),
-        Command::Inspect(arguments) => inspect::run(&arguments),
     }
 }

@@ -1,42 +1,59 @@
 //! What people read, on standard error; what programs read, on standard output.
 
+use std::cell::Cell;
 use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::time::{Duration, Instant};
 
 use anstyle::{AnsiColor, Style};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use serde::Serialize;
 
 /// Messages to a person. They are coloured on a terminal unless NO_COLOR is set; a closed standard error is no fault.
 pub struct Messages {
     quiet: bool,
+    start: Instant,
+    /// Hidden until work turns out to be long.
     progress: ProgressBar,
+    /// The bytes of the current file, and of those before it.
+    file: Cell<(u64, u64)>,
 }
 
+/// After this time there is a progress bar.
+const LONG_WORK: Duration = Duration::from_millis(700);
+
 impl Messages {
-    /// `quiet`: errors only, no progress. `total`: the bytes of all inputs, to show progress against.
-    pub fn new(quiet: bool, total: u64) -> Self {
-        let progress = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
-        if !quiet && total >= LONG_WORK {
-            progress.set_draw_target(ProgressDrawTarget::stderr());
-            progress.set_style(
-                ProgressStyle::with_template(
-                    "{bar:30} {binary_bytes}/{binary_total_bytes} {elapsed} {wide_msg}",
-                )
-                .unwrap_or_else(|_| ProgressStyle::default_bar()),
-            );
-            progress.enable_steady_tick(std::time::Duration::from_millis(200));
+    /// `quiet`: errors only, no progress.
+    pub fn new(quiet: bool) -> Self {
+        let progress = ProgressBar::with_draw_target(Some(0), ProgressDrawTarget::hidden());
+        let style = ProgressStyle::with_template("{bar:30} {percent:>3} % {elapsed} {wide_msg}");
+        progress.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        Self { quiet, start: Instant::now(), progress, file: Cell::new((0, 0)) }
+    }
+
+    /// Announces the bytes of all inputs, against which progress is shown.
+    pub fn expect(&self, bytes: u64) {
+        self.progress.set_length(bytes);
+    }
+
+    /// Begins the work on a file of so many bytes.
+    pub fn start_file(&self, name: &str, bytes: u64) {
+        self.file.set((bytes, self.file.get().1));
+        self.progress.set_message(name.to_owned());
+        self.progress(0, 1);
+    }
+
+    /// The current file is done to this part.
+    pub fn progress(&self, done: usize, total: usize) {
+        if !self.quiet && self.progress.is_hidden() && self.start.elapsed() > LONG_WORK {
+            self.progress.set_draw_target(ProgressDrawTarget::stderr());
         }
-        Self { quiet, progress }
+        let (bytes, before) = self.file.get();
+        self.progress.set_position(before + (bytes as f64 * done as f64 / total.max(1) as f64) as u64);
     }
 
-    /// Shows which file is being worked on.
-    pub fn working_on(&self, file: &str) {
-        self.progress.set_message(file.to_owned());
-    }
-
-    /// Moves progress on by an input's bytes.
-    pub fn done(&self, bytes: u64) {
-        self.progress.inc(bytes);
+    /// Ends the work on the current file.
+    pub fn end_file(&self) {
+        let (bytes, before) = self.file.get();
+        self.file.set((0, before + bytes));
     }
 
     /// Takes the progress bar away.
@@ -70,9 +87,6 @@ impl Messages {
     }
 }
 
-/// Bytes of input from which on progress is shown.
-const LONG_WORK: u64 = 16 << 20;
-
 /// Writes all of `bytes` to standard output. A closed pipe is no fault: its reader has what it wanted.
 pub fn write_stdout(bytes: &[u8]) -> io::Result<()> {
     let mut stdout = io::stdout().lock();
@@ -80,13 +94,6 @@ pub fn write_stdout(bytes: &[u8]) -> io::Result<()> {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         result => result,
     }
-}
-
-/// Writes `value` to standard output as JSON for programs.
-pub fn write_json(value: &impl Serialize) -> io::Result<()> {
-    let mut text = serde_json::to_string_pretty(value)?;
-    text.push('\n');
-    write_stdout(text.as_bytes())
 }
 
 /// True when standard output is a terminal.

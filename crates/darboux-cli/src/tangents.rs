@@ -1,242 +1,252 @@
-//! `darboux tangents`: every file read, given tangents, written and reported.
+//! `darboux tangents`.
 
-use std::path::{Path, PathBuf};
+use std::io::Read;
+use std::path::Path;
 use std::time::Instant;
 
-use darboux_io::Error;
+use darboux::TangentOptions;
 use darboux_io::gltf::{
-    Document, Outcome, PrimitiveSummary, SaveOptions, Summary, TangentsOptions, Written, add_tangents,
+    Document, LoadOptions, Outcome, Progress, SaveOptions, TangentsOptions, Totals, Written, add_tangents,
 };
 use indicatif::HumanCount;
-use serde::Serialize;
 
 use crate::arguments::TangentsArguments;
-use crate::jobs::{self, Found, Job, Output};
-use crate::messages::{self, Messages};
-use crate::{DONE, FAILED, USAGE, interrupt, models};
+use crate::jobs::{self, Input, Job, Output, Scan, Usage};
+use crate::messages::{Messages, stdout_is_terminal, write_stdout};
+use crate::report::{FileReport, Status, TangentsReport, to_json};
+use crate::{exit, interrupt};
 
-/// What `--json` prints: one document for all files.
-#[derive(Serialize)]
-struct Report {
-    /// The version of this program.
-    version: &'static str,
-    /// One entry per input, in order.
-    files: Vec<FileReport>,
-    /// How many inputs failed.
-    failed: usize,
-}
-
-/// What became of one input.
-#[derive(Serialize)]
-struct FileReport {
-    input: String,
-    /// The files written, the model last; empty where nothing was, or the model went to standard output.
-    outputs: Vec<PathBuf>,
-    /// Why it failed, in one sentence; null where it did not.
-    error: Option<String>,
-    #[serde(flatten)]
-    summary: Option<Summary>,
-}
-
-/// Runs the command; returns the exit code.
+/// Runs the command; gives its exit code.
 pub fn run(arguments: &TangentsArguments) -> u8 {
-    let found = jobs::find(&arguments.inputs, arguments.out_dir.as_deref());
-    let messages = Messages::new(arguments.quiet, models::total_bytes(&found));
-    let jobs = match plan(arguments, &found) {
+    let start = Instant::now();
+    let messages = Messages::new(arguments.quiet);
+    let found = jobs::find(&arguments.inputs, Scan::Sources { out_dir: arguments.out_dir.as_deref() });
+    let jobs = match jobs::plan(arguments, &found).and_then(refuse_terminal) {
         Ok(jobs) => jobs,
-        Err(usage) => {
-            messages.error(&usage);
-            return USAGE;
+        Err(Usage(sentence)) => {
+            messages.error(&sentence);
+            return exit::USAGE;
         }
     };
-    let mut files = unsearched(&found, &messages);
+    if found.left_out > 0 {
+        messages.say(&format!(
+            "{} left out: earlier outputs, by their names",
+            counted(found.left_out, "file", "files")
+        ));
+    }
+    interrupt::wait_for_writes();
+    messages.expect(jobs.iter().map(|job| size_of(&job.input)).sum());
+    let unsearched = found.failed.into_iter().map(|(path, reason)| {
+        let path = path.display().to_string();
+        let sentence = format!("{path}: {reason}");
+        FileReport::failed(path, sentence)
+    });
+    let mut files: Vec<FileReport> = unsearched.collect();
     for job in &jobs {
-        messages.working_on(&job.input.to_string());
-        files.push(one_file(arguments, job, &messages));
-        messages.done(models::bytes(&job.input));
+        files.push(work(job, arguments, &messages));
     }
     messages.end_progress();
-    let failed = files.iter().filter(|file| file.error.is_some()).count();
-    say_totals(&files, failed, found.left_out, &messages);
-    let code = if failed == 0 { DONE } else { FAILED };
-    if !arguments.json {
-        return code;
-    }
-    let report = Report { version: env!("CARGO_PKG_VERSION"), files, failed };
-    match messages::write_json(&report) {
-        Ok(()) => code,
-        Err(error) => {
-            messages.error(&format!("the report cannot be written: {error}"));
-            FAILED
-        }
-    }
+    finish(TangentsReport::new(files), arguments, &messages, start)
 }
 
-fn plan(arguments: &TangentsArguments, found: &Found) -> Result<Vec<Job>, String> {
-    let jobs = jobs::plan(arguments, found).map_err(|usage| usage.0)?;
-    if jobs.iter().any(|job| job.output == Output::Stdout) && messages::stdout_is_terminal() {
-        return Err("a GLB is not for a terminal; redirect standard output or use -o FILE".into());
+fn refuse_terminal(jobs: Vec<Job>) -> Result<Vec<Job>, Usage> {
+    if jobs.iter().any(|job| job.output == Output::Stdout) && stdout_is_terminal() {
+        return Err(Usage("a GLB is not for a terminal; use -o FILE, or > FILE".into()));
     }
     Ok(jobs)
 }
 
-/// Reports places that could not be searched.
-fn unsearched(found: &Found, messages: &Messages) -> Vec<FileReport> {
-    let report = |(path, reason): &(PathBuf, String)| {
-        let error = format!("{}: {reason}", path.display());
-        messages.error(&error);
-        FileReport {
-            input: path.display().to_string(),
-            outputs: Vec::new(),
-            error: Some(error),
-            summary: None,
-        }
-    };
-    found.failed.iter().map(report).collect()
-}
-
-fn one_file(arguments: &TangentsArguments, job: &Job, messages: &Messages) -> FileReport {
-    let start = Instant::now();
-    let mut report =
-        FileReport { input: job.input.to_string(), outputs: Vec::new(), error: None, summary: None };
-    match process(arguments, job, messages) {
-        Ok((summary, outputs)) => {
-            say_file(job, &summary, &outputs, start, messages);
-            (report.summary, report.outputs) = (Some(summary), outputs);
-        }
-        Err(error) => {
-            messages.error(&error.to_string());
-            report.error = Some(error.to_string());
-        }
-    }
+/// One file's work, told as it ends. Its error, if any, is told at the end of all.
+fn work(job: &Job, arguments: &TangentsArguments, messages: &Messages) -> FileReport {
+    messages.start_file(&job.input.to_string(), size_of(&job.input));
+    let report = process(job, arguments, messages)
+        .unwrap_or_else(|sentence| FileReport::failed(job.input.to_string(), sentence));
+    messages.end_file();
+    tell(&report, messages);
     report
 }
 
-fn process(
-    arguments: &TangentsArguments,
-    job: &Job,
-    messages: &Messages,
-) -> Result<(Summary, Vec<PathBuf>), Error> {
-    if let Output::File(path) = &job.output {
-        refuse_existing(arguments, path)?;
+/// Reads, adds tangents, writes. Errors are one sentence each.
+fn process(job: &Job, arguments: &TangentsArguments, messages: &Messages) -> Result<FileReport, String> {
+    let sentence = |error: darboux_io::Error| error.to_string();
+    refuse_existing(&job.output, arguments)?;
+    let mut document = load(&job.input, arguments.allow_outside)?;
+    let mut on_progress = |progress: Progress| messages.progress(progress.done, progress.total);
+    let mut summary = add_tangents(&mut document, &options(arguments), &mut on_progress).map_err(sentence)?;
+    summary.warnings.splice(0..0, document.warnings().iter().cloned());
+    let files_written = save(&document, &job.output, arguments)?;
+    let status = match summary.totals.written {
+        _ if arguments.in_place && files_written.is_empty() => Status::Untouched,
+        0 => Status::Copied,
+        _ => Status::Written,
+    };
+    Ok(FileReport {
+        input: job.input.to_string(),
+        output: Some(job.output.to_string()),
+        status,
+        error: None,
+        files_written,
+        summary,
+    })
+}
+
+/// Says before any work that an output is in the way.
+fn refuse_existing(output: &Output, arguments: &TangentsArguments) -> Result<(), String> {
+    match output {
+        Output::File(path) if path.exists() && !arguments.force && !arguments.in_place => {
+            Err(format!("{output}: exists; use --force to replace it, or name another output"))
+        }
+        _ => Ok(()),
     }
-    let mut document = models::read(&job.input, arguments.allow_outside)?;
-    let options = TangentsOptions {
-        tangents: darboux::TangentOptions { mode: arguments.mode.into(), threshold: arguments.threshold },
+}
+
+/// Reads a document; `-` has no folder, so its buffers must be embedded. Errors are one sentence each.
+pub fn load(input: &Input, allow_outside: bool) -> Result<Document, String> {
+    let options = LoadOptions { allow_outside };
+    let document = match input {
+        Input::File(path) => Document::open(path, &options),
+        Input::Stdin => {
+            let mut bytes = Vec::new();
+            std::io::stdin()
+                .lock()
+                .read_to_end(&mut bytes)
+                .map_err(|error| format!("{input}: cannot be read: {error}"))?;
+            Document::from_bytes(&input.to_string(), bytes, None, &options)
+        }
+    };
+    document.map_err(|error| error.to_string())
+}
+
+fn options(arguments: &TangentsArguments) -> TangentsOptions {
+    TangentsOptions {
+        tangents: TangentOptions { mode: arguments.mode.into(), threshold: arguments.threshold },
         overwrite: arguments.overwrite,
         only_needed: arguments.only_needed,
         strict: arguments.strict,
         apply_texture_transform: arguments.apply_texture_transform,
-    };
-    let name = job.input.to_string();
-    let mut summary = add_tangents(&mut document, &options, &mut |progress| {
-        messages.working_on(&format!("{name}: {} of {} triangles", progress.done, progress.total));
-    })?;
-    summary.warnings.extend(document.warnings().iter().cloned());
-    let outputs = save(arguments, job, &document)?;
-    Ok((summary, outputs))
-}
-
-/// Says before any work that an output is in the way.
-fn refuse_existing(arguments: &TangentsArguments, path: &Path) -> Result<(), Error> {
-    if path.exists() && !arguments.force && !arguments.in_place {
-        let problem = "exists; use --force to replace it, or name another output".into();
-        return Err(Error::Output { file: path.to_path_buf(), problem });
     }
-    Ok(())
 }
 
-fn save(arguments: &TangentsArguments, job: &Job, document: &Document) -> Result<Vec<PathBuf>, Error> {
-    match &job.output {
+/// Writes the document where it belongs; gives the files written.
+fn save(document: &Document, output: &Output, arguments: &TangentsArguments) -> Result<Vec<String>, String> {
+    let sentence = |error: darboux_io::Error| error.to_string();
+    let path = match output {
         Output::Stdout => {
-            let bytes = document.to_glb()?;
-            messages::write_stdout(&bytes)
-                .map_err(|source| Error::Write { file: job.output.to_string().into(), source })?;
-            Ok(Vec::new())
+            let bytes = document.to_glb().map_err(sentence)?;
+            write_stdout(&bytes).map_err(|error| format!("{output}: cannot be written: {error}"))?;
+            return Ok(Vec::new());
         }
-        Output::File(path) => {
-            let _guard = interrupt::writing();
-            if arguments.in_place {
-                document.save_in_place()
-            } else {
-                document.save(path, &SaveOptions { force: arguments.force })
-            }
-        }
-    }
+        Output::File(path) => path,
+    };
+    let _guard = interrupt::writing();
+    let written = match arguments.in_place {
+        true => document.save_in_place(),
+        false => document.save(path, &SaveOptions { force: arguments.force }),
+    };
+    Ok(written.map_err(sentence)?.iter().map(|path| path.display().to_string()).collect())
 }
 
-fn say_file(job: &Job, summary: &Summary, outputs: &[PathBuf], start: Instant, messages: &Messages) {
-    let totals = &summary.totals;
-    let target = match (&job.output, outputs) {
-        (Output::File(_), []) => "unchanged".to_owned(),
-        (output, _) => format!("-> {output}"),
-    };
-    messages.say(&format!(
-        "{} {target}: tangents for {} of {} primitives, {} triangles, {} -> {} vertices, {:.2} s",
-        job.input,
-        totals.written,
-        summary.primitives.len(),
-        HumanCount(totals.triangles as u64),
-        HumanCount(totals.vertices_before as u64),
-        HumanCount(totals.vertices_after as u64),
-        start.elapsed().as_secs_f32(),
-    ));
+/// Tells what was done to a file.
+fn tell(report: &FileReport, messages: &Messages) {
+    let (Some(output), FileReport { input, summary, .. }) = (&report.output, report) else { return };
+    match report.status {
+        Status::Written | Status::Copied if input != output => messages.say(&format!("{input} -> {output}")),
+        Status::Untouched => messages.say(&format!("{input}: nothing to do, left as it was")),
+        _ => messages.say(input),
+    }
     for primitive in &summary.primitives {
-        messages.say(&format!("  {}", sentence(primitive)));
+        let what = match &primitive.outcome {
+            Outcome::Written(written) => told(written),
+            Outcome::Kept { reason } => format!("kept: {reason}"),
+            Outcome::Skipped { reason } => format!("left alone: {reason}"),
+            _ => continue,
+        };
+        messages.say(&format!("  {}: {what}", primitive.name));
     }
     for warning in &summary.warnings {
-        messages.warn(warning);
+        messages.warn(&format!("{input}: {warning}"));
     }
 }
 
-/// What was done to a primitive, for people.
-fn sentence(PrimitiveSummary { name, outcome, .. }: &PrimitiveSummary) -> String {
-    match outcome {
-        Outcome::Written(written) => format!("{name}: {}", details(written)),
-        Outcome::Kept { reason } => format!("{name}: kept: {reason}"),
-        Outcome::Skipped { reason } => format!("{name}: skipped: {reason}"),
-        other => format!("{name}: {other:?}"),
-    }
-}
-
-fn details(written: &Written) -> String {
-    let counts = &written.counts;
-    let mut text = format!(
-        "TEXCOORD_{} ({}), {} triangles",
-        written.uv_set,
-        written.uv_reason,
-        HumanCount(counts.triangles as u64)
+/// The tangents of a primitive in words; counts of nothing are left out.
+fn told(written: &Written) -> String {
+    let Written { counts, vertices_before, vertices_after, .. } = written;
+    let mut text = format!("TEXCOORD_{} ({})", written.uv_set, written.uv_reason);
+    text += &format!(
+        ", {}, {}",
+        counted(counts.triangles, "triangle", "triangles"),
+        counted(*vertices_before, "vertex", "vertices")
     );
-    let notes = [
-        (counts.split_vertices, "vertices split"),
-        (counts.mirrored_edges, "mirrored edges"),
-        (counts.degenerate_triangles, "degenerate triangles"),
-        (counts.uv_degenerate_triangles, "UV-degenerate triangles"),
-        (counts.repaired_corners, "corners without a usable tangent"),
-        (counts.mixed_sign_triangles, "triangles with mixed signs"),
-        (counts.non_finite_corners, "corners with NaN or infinity"),
-        (written.morph_targets, "morph targets"),
-        (written.regrouped_corners, "corners that a fresh run on a morph target would group otherwise"),
-        (written.conflicting_corners, "corners whose morph deltas disagree at one vertex"),
+    if vertices_after != vertices_before {
+        text += &format!(" became {}", HumanCount(*vertices_after as u64));
+    }
+    let remarks = [
+        (counts.split_vertices, "vertex split", "vertices split"),
+        (counts.mirrored_edges, "mirrored edge", "mirrored edges"),
+        (counts.degenerate_triangles, "degenerate triangle", "degenerate triangles"),
+        (counts.uv_degenerate_triangles, "UV-degenerate triangle", "UV-degenerate triangles"),
+        (counts.non_finite_corners, "non-finite corner", "non-finite corners"),
+        (counts.repaired_corners, "unusable corner", "unusable corners"),
+        (counts.mixed_sign_triangles, "triangle with both signs", "triangles with both signs"),
+        (written.morph_targets, "morph target", "morph targets"),
+        (
+            written.regrouped_corners,
+            "morphed corner grouped as the base is",
+            "morphed corners grouped as the base is",
+        ),
+        (
+            written.conflicting_corners,
+            "morphed corner unlike its vertex",
+            "morphed corners unlike their vertices",
+        ),
     ];
-    for (count, what) in notes.into_iter().filter(|(count, _)| *count > 0) {
-        text.push_str(&format!(", {} {what}", HumanCount(count as u64)));
+    for (count, one, many) in remarks.into_iter().filter(|remark| remark.0 > 0) {
+        text += &format!(", {}", counted(count, one, many));
     }
     text
 }
 
-/// The end of a batch: how many failed, and which.
-fn say_totals(files: &[FileReport], failed: usize, left_out: usize, messages: &Messages) {
-    if left_out > 0 {
-        messages.say(&format!(
-            "{left_out} files named *.tangents.* in folders were left out, as they are outputs"
-        ));
+fn finish(report: TangentsReport, arguments: &TangentsArguments, messages: &Messages, start: Instant) -> u8 {
+    for error in report.files.iter().filter_map(|file| file.error.as_ref()) {
+        messages.error(error);
     }
-    if files.len() < 2 {
-        return;
+    if !report.files.is_empty() {
+        messages.say(&total(&report, start));
     }
-    messages.say(&format!("{} files, {failed} failed", files.len()));
-    for file in files.iter().filter(|file| file.error.is_some()) {
-        messages.say(&format!("  failed: {}", file.input));
+    if arguments.json {
+        let written = to_json(&report).map_err(std::io::Error::from).and_then(|text| write_stdout(&text));
+        if let Err(error) = written {
+            messages.error(&format!("the report cannot be written: {error}"));
+            return exit::FAILED;
+        }
+    }
+    if report.totals.failed > 0 { exit::FAILED } else { exit::DONE }
+}
+
+/// The last line: what became of all files and primitives.
+fn total(report: &TangentsReport, start: Instant) -> String {
+    let sum =
+        |of: fn(&Totals) -> usize| report.files.iter().map(|file| of(&file.summary.totals)).sum::<usize>();
+    let mut text = format!(
+        "{} got tangents, {} kept, {} left alone in {}",
+        counted(sum(|totals| totals.written), "primitive", "primitives"),
+        sum(|totals| totals.kept),
+        sum(|totals| totals.skipped),
+        counted(report.totals.files - report.totals.failed, "file", "files"),
+    );
+    if report.totals.failed > 0 {
+        text += &format!(", {} failed", counted(report.totals.failed, "file", "files"));
+    }
+    text + &format!("; {:.2} s", start.elapsed().as_secs_f32())
+}
+
+fn counted(count: usize, one: &str, many: &str) -> String {
+    format!("{} {}", HumanCount(count as u64), if count == 1 { one } else { many })
+}
+
+fn size_of(input: &Input) -> u64 {
+    match input {
+        Input::File(path) => Path::metadata(path).map_or(0, |metadata| metadata.len()),
+        Input::Stdin => 0,
     }
 }

@@ -1,0 +1,106 @@
+//! The JSON reports: stable names, described in json.md.
+
+use darboux_io::gltf::{PrimitiveInfo, Summary};
+use serde::Serialize;
+
+/// What `darboux tangents --json` prints.
+#[derive(Serialize)]
+pub struct TangentsReport {
+    pub command: &'static str,
+    pub version: &'static str,
+    pub files: Vec<FileReport>,
+    pub totals: FileTotals,
+}
+
+/// What happened to one file.
+#[derive(Serialize)]
+pub struct FileReport {
+    pub input: String,
+    pub output: Option<String>,
+    pub status: Status,
+    pub error: Option<String>,
+    pub files_written: Vec<String>,
+    #[serde(flatten)]
+    pub summary: Summary,
+}
+
+/// A file's end.
+#[derive(Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    /// The output has new tangents.
+    Written,
+    /// Nothing to do: the output is a copy.
+    Copied,
+    /// Nothing to do in place: the file is as it was.
+    Untouched,
+    /// No output.
+    Failed,
+}
+
+/// How many files met which end.
+#[derive(Default, Serialize)]
+pub struct FileTotals {
+    pub files: usize,
+    pub written: usize,
+    pub copied: usize,
+    pub untouched: usize,
+    pub failed: usize,
+}
+
+/// What `darboux inspect --json` prints.
+#[derive(Serialize)]
+pub struct InspectReport {
+    pub command: &'static str,
+    pub version: &'static str,
+    pub files: Vec<InspectedFile>,
+}
+
+/// What one file holds.
+#[derive(Clone, Serialize)]
+pub struct InspectedFile {
+    pub input: String,
+    pub error: Option<String>,
+    pub warnings: Vec<String>,
+    pub primitives: Vec<PrimitiveInfo>,
+}
+
+/// The version in reports.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+impl FileReport {
+    /// The report of a file without output.
+    pub fn failed(input: String, error: String) -> Self {
+        Self {
+            input,
+            output: None,
+            status: Status::Failed,
+            error: Some(error),
+            files_written: Vec::new(),
+            summary: Summary::default(),
+        }
+    }
+}
+
+impl TangentsReport {
+    /// The report of these files.
+    pub fn new(files: Vec<FileReport>) -> Self {
+        let mut totals = FileTotals { files: files.len(), ..FileTotals::default() };
+        for file in &files {
+            *match file.status {
+                Status::Written => &mut totals.written,
+                Status::Copied => &mut totals.copied,
+                Status::Untouched => &mut totals.untouched,
+                Status::Failed => &mut totals.failed,
+            } += 1;
+        }
+        Self { command: "tangents", version: VERSION, files, totals }
+    }
+}
+
+/// A report as text for standard output.
+pub fn to_json(report: &impl Serialize) -> Result<Vec<u8>, serde_json::Error> {
+    let mut text = serde_json::to_vec_pretty(report)?;
+    text.push(b'\n');
+    Ok(text)
+}
