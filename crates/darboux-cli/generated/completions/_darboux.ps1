@@ -27,7 +27,6 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             [CompletionResult]::new('--version', '--version', [CompletionResultType]::ParameterName, 'Print version')
             [CompletionResult]::new('tangents', 'tangents', [CompletionResultType]::ParameterValue, 'Add tangents to glTF and GLB files')
             [CompletionResult]::new('inspect', 'inspect', [CompletionResultType]::ParameterValue, 'Show what each primitive holds and what its tangents would meet')
-            [CompletionResult]::new('help', 'help', [CompletionResultType]::ParameterValue, 'Print this message or the help of the given subcommand(s)')
             break
         }
         'darboux;tangents' {
@@ -55,21 +54,6 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             [CompletionResult]::new('--json', '--json', [CompletionResultType]::ParameterName, 'Write the table as JSON')
             [CompletionResult]::new('-h', '-h', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
             [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
-            break
-        }
-        'darboux;help' {
-            [CompletionResult]::new('tangents', 'tangents', [CompletionResultType]::ParameterValue, 'Add tangents to glTF and GLB files')
-            [CompletionResult]::new('inspect', 'inspect', [CompletionResultType]::ParameterValue, 'Show what each primitive holds and what its tangents would meet')
-            [CompletionResult]::new('help', 'help', [CompletionResultType]::ParameterValue, 'Print this message or the help of the given subcommand(s)')
-            break
-        }
-        'darboux;help;tangents' {
-            break
-        }
-        'darboux;help;inspect' {
-            break
-        }
-        'darboux;help;help' {
             break
         }
     })

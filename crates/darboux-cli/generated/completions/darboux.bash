@@ -16,23 +16,11 @@ _darboux() {
             ",$1")
                 cmd="darboux"
                 ;;
-            darboux,help)
-                cmd="darboux__subcmd__help"
-                ;;
             darboux,inspect)
                 cmd="darboux__subcmd__inspect"
                 ;;
             darboux,tangents)
                 cmd="darboux__subcmd__tangents"
-                ;;
-            darboux__subcmd__help,help)
-                cmd="darboux__subcmd__help__subcmd__help"
-                ;;
-            darboux__subcmd__help,inspect)
-                cmd="darboux__subcmd__help__subcmd__inspect"
-                ;;
-            darboux__subcmd__help,tangents)
-                cmd="darboux__subcmd__help__subcmd__tangents"
                 ;;
             *)
                 ;;
@@ -41,64 +29,8 @@ _darboux() {
 
     case "${cmd}" in
         darboux)
-            opts="-h -V --help --version tangents inspect help"
+            opts="-h -V --help --version tangents inspect"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
-                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
-                return 0
-            fi
-            case "${prev}" in
-                *)
-                    COMPREPLY=()
-                    ;;
-            esac
-            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
-            return 0
-            ;;
-        darboux__subcmd__help)
-            opts="tangents inspect help"
-            if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
-                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
-                return 0
-            fi
-            case "${prev}" in
-                *)
-                    COMPREPLY=()
-                    ;;
-            esac
-            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
-            return 0
-            ;;
-        darboux__subcmd__help__subcmd__help)
-            opts=""
-            if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
-                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
-                return 0
-            fi
-            case "${prev}" in
-                *)
-                    COMPREPLY=()
-                    ;;
-            esac
-            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
-            return 0
-            ;;
-        darboux__subcmd__help__subcmd__inspect)
-            opts=""
-            if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
-                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
-                return 0
-            fi
-            case "${prev}" in
-                *)
-                    COMPREPLY=()
-                    ;;
-            esac
-            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
-            return 0
-            ;;
-        darboux__subcmd__help__subcmd__tangents)
-            opts=""
-            if [[ ${cur} == -* || ${COMP_CWORD} -eq 3 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
             fi

@@ -28,7 +28,6 @@ complete -c darboux -n "__fish_darboux_needs_command" -s h -l help -d 'Print hel
 complete -c darboux -n "__fish_darboux_needs_command" -s V -l version -d 'Print version'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "tangents" -d 'Add tangents to glTF and GLB files'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "inspect" -d 'Show what each primitive holds and what its tangents would meet'
-complete -c darboux -n "__fish_darboux_needs_command" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s o -l output -d 'Output file for a single input; - is standard output, as GLB' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l out-dir -d 'Folder for all outputs; paths below input folders are kept' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l mode -d 'Which defects of the MikkTSpace reference to keep' -r -f -a "reference\t'Every bit of the reference, zero-length and non-finite tangents included'
@@ -48,6 +47,3 @@ complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s h -l help -
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l allow-outside -d 'Allow buffers and images outside the input\'s folder'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l json -d 'Write the table as JSON'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -s h -l help -d 'Print help (see more with \'--help\')'
-complete -c darboux -n "__fish_darboux_using_subcommand help; and not __fish_seen_subcommand_from tangents inspect help" -f -a "tangents" -d 'Add tangents to glTF and GLB files'
-complete -c darboux -n "__fish_darboux_using_subcommand help; and not __fish_seen_subcommand_from tangents inspect help" -f -a "inspect" -d 'Show what each primitive holds and what its tangents would meet'
-complete -c darboux -n "__fish_darboux_using_subcommand help; and not __fish_seen_subcommand_from tangents inspect help" -f -a "help" -d 'Print this message or the help of the given subcommand(s)'
