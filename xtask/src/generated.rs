@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::run::{Outcome, program, root, run};
+use crate::run::{Outcome, files_below, program, root, run};
 
 /// Where generated files lie. Folders hold nothing else.
 const PLACES: &[&str] = &["docs/cli.md", "crates/darboux-cli/generated"];
@@ -49,18 +49,13 @@ fn remove(path: &Path) -> Outcome {
 
 /// All files in the places below `base`, by their path below it.
 fn read(base: &Path) -> Result<BTreeMap<PathBuf, Vec<u8>>, String> {
-    let mut files = BTreeMap::new();
-    let mut waiting: Vec<PathBuf> = PLACES.iter().map(|place| base.join(place)).collect();
-    while let Some(path) = waiting.pop() {
-        let fault = |error| format!("{} cannot be read: {error}", path.display());
-        if path.is_dir() {
-            for entry in fs::read_dir(&path).map_err(fault)? {
-                waiting.push(entry.map_err(fault)?.path());
-            }
-        } else if path.exists() {
-            let bytes = fs::read(&path).map_err(fault)?;
-            files.insert(path.strip_prefix(base).unwrap_or(&path).to_path_buf(), bytes);
+    let mut contents = BTreeMap::new();
+    for place in PLACES {
+        for path in files_below(&base.join(place))? {
+            let bytes =
+                fs::read(&path).map_err(|error| format!("{} cannot be read: {error}", path.display()))?;
+            contents.insert(path.strip_prefix(base).unwrap_or(&path).to_path_buf(), bytes);
         }
     }
-    Ok(files)
+    Ok(contents)
 }

@@ -1,6 +1,6 @@
 //! Starting other programs from the repository's root.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// Nothing, or one sentence that says what went wrong.
@@ -47,4 +47,22 @@ pub fn works(command: &mut Command) -> bool {
 pub fn shown(command: &Command) -> String {
     let words = std::iter::once(command.get_program()).chain(command.get_args());
     words.map(|word| word.to_string_lossy()).collect::<Vec<_>>().join(" ")
+}
+
+/// The files at or below a path, sorted; none where nothing is there.
+pub fn files_below(path: &Path) -> Result<Vec<PathBuf>, String> {
+    let mut files = Vec::new();
+    let mut waiting = vec![path.to_path_buf()];
+    while let Some(path) = waiting.pop() {
+        let fault = |error| format!("{} cannot be read: {error}", path.display());
+        if path.is_dir() {
+            for entry in std::fs::read_dir(&path).map_err(fault)? {
+                waiting.push(entry.map_err(fault)?.path());
+            }
+        } else if path.exists() {
+            files.push(path);
+        }
+    }
+    files.sort();
+    Ok(files)
 }

@@ -1,8 +1,11 @@
 //! The command's outputs for all models, checked by tools that are not ours: the Khronos validator and glTF-Transform.
 
+use std::ffi::OsStr;
 use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Stdio;
 
-use crate::run::{Outcome, program, root, run, shown, works};
+use crate::run::{Outcome, files_below, program, root, run, shown, works};
 
 /// What to do on a machine without node or npm.
 #[derive(Clone, Copy)]
@@ -44,6 +47,7 @@ fn install() -> Outcome {
     run(program("npm ci --no-audit --no-fund --loglevel=error").current_dir(folder))
 }
 
+/// Runs the command on a folder of models and on each model for the other container, and has the outputs checked.
 fn check(folder: &str, number: usize) -> Outcome {
     if !root().join(folder).is_dir() {
         println!("skipped: {folder} is absent");
@@ -54,13 +58,30 @@ fn check(folder: &str, number: usize) -> Outcome {
         fs::remove_dir_all(&work)
             .map_err(|error| format!("{} cannot be removed: {error}", work.display()))?;
     }
-    fs::create_dir_all(&work).map_err(|error| format!("{} cannot be made: {error}", work.display()))?;
-    let report = work.join("report.json");
-    let mut tangents = program("target/debug/darboux tangents --overwrite --quiet --json");
-    tangents.arg(folder).arg("--out-dir").arg(work.join("out"));
-    let output = tangents.output().map_err(|error| format!("{} cannot start: {error}", shown(&tangents)))?;
-    fs::write(&report, output.stdout)
-        .map_err(|error| format!("{} cannot be written: {error}", report.display()))?;
+    let out = work.join("same");
+    let mut reports = vec![tangents(&[folder.as_ref(), "--out-dir".as_ref(), out.as_os_str()], &work, 0)?];
+    for model in files_below(&root().join(folder))? {
+        let other = match model.extension().and_then(|extension| extension.to_str()) {
+            Some("glb") => "gltf",
+            Some("gltf") => "glb",
+            _ => continue,
+        };
+        let number = reports.len();
+        let out = work.join(format!("other/{number}/model.{other}"));
+        reports.push(tangents(&[model.as_os_str(), "-o".as_ref(), out.as_os_str()], &work, number)?);
+    }
     println!("{folder}:");
-    run(program("node xtask/validate/check.mjs").arg(report))
+    run(program("node xtask/validate/check.mjs").args(reports))
+        .map_err(|_| format!("outputs for the models in {folder} are not as they must be; see above"))
+}
+
+/// Runs `darboux tangents --overwrite` with these arguments; gives the file with its report, which also tells of failures.
+fn tangents(arguments: &[&OsStr], work: &Path, number: usize) -> Result<PathBuf, String> {
+    let mut command = program("target/debug/darboux tangents --overwrite --quiet --json");
+    command.args(arguments).stderr(Stdio::null());
+    let output = command.output().map_err(|error| format!("{} cannot start: {error}", shown(&command)))?;
+    let report = work.join(format!("{number}.json"));
+    let written = fs::create_dir_all(work).and_then(|()| fs::write(&report, output.stdout));
+    written.map_err(|error| format!("{} cannot be written: {error}", report.display()))?;
+    Ok(report)
 }

@@ -1,4 +1,4 @@
-// Checks outputs of `darboux tangents` with tools that are not ours: node check.mjs REPORT.json (the command's --json report).
+// Checks outputs of `darboux tangents` with tools that are not ours: node check.mjs REPORT.json... (its --json reports).
 //
 // For each written file: the Khronos validator finds no kind of error that the input did not have, and glTF-Transform reads
 // the same content from input and output: every corner of every primitive, morph targets included, apart from tangents;
@@ -23,10 +23,10 @@ const io = new NodeIO()
 		'meshopt.decoder': MeshoptDecoder,
 	});
 
-const report = JSON.parse(readFileSync(process.argv[2], 'utf8'));
+const reports = process.argv.slice(2).map((path) => JSON.parse(readFileSync(path, 'utf8')));
 const counts = { same: 0, refused: 0, primitives: 0, corners: 0 };
 const faults = [];
-for (const file of report.files) {
+for (const file of reports.flatMap((report) => report.files)) {
 	try {
 		await check(file);
 	} catch (error) {
