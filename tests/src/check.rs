@@ -1,8 +1,76 @@
 //! What must hold for every answer, whatever the mesh.
 
-use darboux::{Frame, Mode};
+use std::collections::HashSet;
 
-use crate::OwnedMesh;
+use darboux::{Frame, Mode, Plan, TangentOptions, generate_frames, generate_tangents, split_vertices};
+
+use crate::{Case, OwnedMesh, engine};
+
+/// The first promise that any mode breaks on a case.
+pub fn all_modes(case: &Case) -> Result<(), String> {
+    let Case { mesh, threshold } = case;
+    let reference = engine::reference(mesh, *threshold);
+    let supported = mesh.supported_corners();
+    let distinct = |frames: &mut dyn Iterator<Item = Frame>| {
+        let corners = (0..).zip(&supported).filter(|(_, supported)| **supported).map(|(corner, _)| corner);
+        let key = |(corner, frame): (usize, Frame)| (mesh.vertex_of_corner(corner), tangent_bits(&frame));
+        corners.zip(frames).map(key).collect::<HashSet<_>>().len()
+    };
+    let splits = distinct(&mut reference.iter().copied().flatten());
+    for mode in [Mode::Reference, Mode::Repaired, Mode::Corrected] {
+        let frames = generate_frames(&mesh.view(), &TangentOptions { mode, threshold: *threshold });
+        let frames = frames.corners.into_per_corner();
+        check_frames(mesh, &frames, mode, Some(&reference))
+            .map_err(|broken| format!("{mode:?}: {broken}"))?;
+        let mut of_supported = frames.iter().zip(&supported).filter(|(_, is)| **is).map(|(frame, _)| *frame);
+        if mode == Mode::Repaired && distinct(&mut of_supported) > splits {
+            return Err("a repair added a split".into());
+        }
+    }
+    Ok(())
+}
+
+/// The first promise of splitting and of plans that is broken on a case.
+pub fn split_and_plan(case: &Case) -> Result<(), String> {
+    let mesh = case.mesh.view();
+    let options = TangentOptions { threshold: case.threshold, ..TangentOptions::default() };
+    let tangents = generate_tangents(&mesh, &options);
+    let (split, corners) = (split_vertices(&mesh, &tangents.corners), tangents.corners.per_corner());
+    let split = split.map_err(|error| error.to_string())?;
+    let (old, new) = (mesh.vertex_count(), split.source_of_vertex.len());
+    let mut wanted: HashSet<(usize, [u32; 4])> = HashSet::new();
+    for (corner, tangent) in corners.iter().enumerate() {
+        let (vertex, bits) = (split.indices[corner] as usize, tangent.map(f32::to_bits));
+        if split.source_of_vertex[vertex] as usize != mesh.vertex_of_corner(corner) {
+            return Err(format!("corner {corner} changed its vertex"));
+        }
+        if split.tangent_of_vertex[vertex].map(f32::to_bits) != bits {
+            return Err(format!("corner {corner} changed its tangent"));
+        }
+        wanted.insert((mesh.vertex_of_corner(corner), bits));
+    }
+    let used: HashSet<usize> = wanted.iter().map(|(vertex, _)| *vertex).collect();
+    if new != old + wanted.len() - used.len() || split.indices.len() != corners.len() {
+        return Err(format!("{new} vertices where {} are needed", old + wanted.len() - used.len()));
+    }
+    if (0..old).any(|vertex| split.source_of_vertex[vertex] as usize != vertex) {
+        return Err("an old vertex changed its place".into());
+    }
+    let copied: HashSet<u32> = split.source_of_vertex[old..].iter().copied().collect();
+    if copied.len() != tangents.report.split_vertices {
+        return Err(format!("{} vertices split, {} reported", copied.len(), tangents.report.split_vertices));
+    }
+    let planned = Plan::new(&mesh, &options).evaluate(&mesh).map_err(|error| error.to_string())?;
+    let pairs = planned.per_corner().iter().zip(corners);
+    match pairs.into_iter().position(|(a, b)| a.map(f32::to_bits) != b.map(f32::to_bits)) {
+        None => Ok(()),
+        Some(corner) => Err(format!("a plan gives its own base another tangent at corner {corner}")),
+    }
+}
+
+fn tangent_bits(frame: &Frame) -> [u32; 4] {
+    frame.tangent_and_sign().map(|x| if x.is_nan() { f32::NAN } else { x }.to_bits())
+}
 
 /// Where the reference's own result is good enough to keep: finite, of unit length, not along a normal that is not zero.
 pub fn usable(frame: &Frame, normal: [f32; 3]) -> bool {
@@ -45,7 +113,9 @@ pub fn check_frames(
         if mode == Mode::Repaired && frame.sign != original.sign {
             return wrong("a repair changed the sign");
         }
-        if !kept && !keepable && is_direction(normal) && cosine(frame.tangent, normal).abs() > 1e-3 {
+        // In `Corrected` a corner may have another corner's frame, which is as perpendicular as the reference made it.
+        let repaired = mode == Mode::Repaired && !keepable;
+        if repaired && is_direction(normal) && cosine(frame.tangent, normal).abs() > 1e-3 {
             return wrong("a repair that is not perpendicular");
         }
     }

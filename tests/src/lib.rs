@@ -12,7 +12,7 @@ pub mod generate;
 pub mod mesh;
 pub mod shrink;
 
-pub use check::check_frames;
+pub use check::{all_modes, check_frames, split_and_plan};
 pub use compare::{Difference, assert_equal, first_difference};
 pub use engine::{Engine, engines};
 pub use generate::{Case, Dice};

@@ -11,7 +11,7 @@ use super::degenerate::fill_degenerate;
 use super::derivatives::{Derivative, agree_in_quads, derivatives};
 use super::evaluate::{RawFrames, Values, evaluate};
 use super::groups::{Groups, group};
-use super::repair::{is_usable, repair, repair_bitangents};
+use super::repair::{is_usable, repair};
 use super::shape::Shape;
 use super::signs::{mixed_faces, unify_signs};
 use super::{Mode, Report, TangentOptions, report};
@@ -88,7 +88,6 @@ impl Topology {
         report.repaired_corners = needs.len();
         if self.mode != Mode::Reference {
             repair(mesh, &self.triangulation, &mut raw, &needs);
-            repair_bitangents(mesh, &mut raw.of_corner);
         }
         report.split_vertices = report::count_split_vertices(mesh, &raw.of_corner);
         (raw.of_corner, report)

@@ -5,9 +5,9 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::math::V3;
+use crate::Mesh;
+use crate::math::{V3, not_zero};
 use crate::triangles::Triangulation;
-use crate::{Frame, Mesh};
 
 use super::evaluate::RawFrames;
 
@@ -16,7 +16,7 @@ type D3 = [f64; 3];
 /// Replaces what is unusable in `raw`, in place, at the corners of `needs`.
 ///
 /// A tangent is replaced by the mean of its subgroup's; without one by its triangle's own dP/du; without that by a perpendicular of
-/// the normal; without a normal by (1, 0, 0). The sign stays. Corners at one vertex whose raw tangents are equal get one
+/// the normal; without a normal by (1, 0, 0). The bitangent follows, the sign stays. Corners at one vertex whose raw tangents are equal get one
 /// replacement, the first's, so that a repair never adds a split.
 pub(crate) fn repair(mesh: &Mesh<'_>, triangulation: &Triangulation, raw: &mut RawFrames, needs: &[u32]) {
     let places = places(triangulation, needs);
@@ -25,7 +25,7 @@ pub(crate) fn repair(mesh: &Mesh<'_>, triangulation: &Triangulation, raw: &mut R
     for &corner in needs {
         let place = places.get(&corner);
         let vertex = mesh.vertex_of_corner(corner as usize);
-        let normal = unit(mesh.normals().get(vertex).map(f64::from));
+        let normal = direction(mesh.normals().get(vertex));
         let site = *site_of_vertex.entry(vertex).or_insert(place.map_or(corner, |place| place.vertex));
         let frame = &mut raw.of_corner[corner as usize];
         let replacement = || {
@@ -37,22 +37,17 @@ pub(crate) fn repair(mesh: &Mesh<'_>, triangulation: &Triangulation, raw: &mut R
         };
         frame.tangent =
             *known.entry((site, bits(frame.tangent), frame.sign > 0.0)).or_insert_with(replacement);
+        frame.bitangent = bitangent(normal, frame.tangent, frame.sign);
         frame.magnitude =
             frame.magnitude.map(|magnitude| if magnitude.is_finite() { magnitude } else { 1.0 });
     }
 }
 
-/// Replaces unusable bitangents by sign * cross(normal, tangent), or, without a normal, by a perpendicular of the tangent.
-pub(crate) fn repair_bitangents(mesh: &Mesh<'_>, frames: &mut [Frame]) {
-    for (corner, frame) in frames.iter_mut().enumerate() {
-        let normal = mesh.normals().get(mesh.vertex_of_corner(corner));
-        if !is_usable(frame.bitangent, normal) {
-            let [tangent, normal] = [frame.tangent, normal].map(|v| v.map(f64::from));
-            let across = unit(normal).and_then(|normal| unit(cross(normal, tangent)));
-            let bitangent = across.unwrap_or_else(|| perpendicular(tangent));
-            frame.bitangent = bitangent.map(|x| (f64::from(frame.sign) * x) as f32);
-        }
-    }
+/// sign * cross(normal, tangent), unit; without a normal, or where the tangent runs along it, a perpendicular of the tangent.
+fn bitangent(normal: Option<D3>, tangent: V3, sign: f32) -> V3 {
+    let tangent = tangent.map(f64::from);
+    let across = normal.and_then(|normal| unit(cross(normal, tangent)));
+    across.unwrap_or_else(|| perpendicular(tangent)).map(|x| (f64::from(sign) * x) as f32)
 }
 
 /// Where a corner is: its welded vertex and the corners of its first triangle.
@@ -97,16 +92,17 @@ fn u_direction(mesh: &Mesh<'_>, corners: [u32; 3]) -> D3 {
 
 /// True for a finite tangent of unit length to 1e-3 that is not along the normal (|cos| < 0.999, if there is a normal).
 pub(crate) fn is_usable(tangent: V3, normal: V3) -> bool {
+    let has_normal = is_not_zero(normal);
     let (tangent, normal) = (tangent.map(f64::from), normal.map(f64::from));
-    let (length, normal_length) = (length(tangent), length(normal));
+    let length_of_tangent = length(tangent);
     // Written so that NaN and infinity fail.
-    (length - 1.0).abs() < 1e-3
-        && (normal_length == 0.0 || dot(tangent, normal).abs() < 0.999 * length * normal_length)
+    (length_of_tangent - 1.0).abs() < 1e-3
+        && (!has_normal || dot(tangent, normal).abs() < 0.999 * length_of_tangent * length(normal))
 }
 
 /// The mean of the directions in the plane of `normal`, each with the same weight; none where they have or leave no direction.
 pub(crate) fn mean_in_plane(directions: impl Iterator<Item = V3>, normal: V3) -> Option<V3> {
-    let normal = unit(normal.map(f64::from))?;
+    let normal = direction(normal)?;
     let (mut sum, mut count) = ([0.0; 3], 0.0);
     for direction in directions {
         if let Some(direction) = in_plane(direction.map(f64::from), normal) {
@@ -132,6 +128,15 @@ fn perpendicular(normal: D3) -> D3 {
     let sign = 1f64.copysign(z);
     let a = -1.0 / (sign + z);
     [1.0 + sign * x * x * a, sign * (x * y * a), -sign * x]
+}
+
+/// The direction of a normal, if it has one.
+fn direction(normal: V3) -> Option<D3> {
+    if is_not_zero(normal) { unit(normal.map(f64::from)) } else { None }
+}
+
+fn is_not_zero(v: V3) -> bool {
+    v.iter().any(|&x| not_zero(x))
 }
 
 fn unit(v: D3) -> Option<D3> {

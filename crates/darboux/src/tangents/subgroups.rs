@@ -85,7 +85,7 @@ impl Subgroups {
         let sum: V3 =
             axes.each_ref().map(|x| x.iter().zip(&self.any).filter(|(_, any)| !**any).map(|(x, _)| x).sum());
         let length = dot(sum, sum).sqrt();
-        let bound = length * (((1.0 + self.threshold_cosine) / 2.0).max(0.0).sqrt() + 0.001);
+        let bound = length * (((1.0 + self.threshold_cosine) / 2.0).sqrt() + 0.001);
         (0..self.any.len()).all(|at| self.any[at] || dot(axes.each_ref().map(|x| x[at]), sum) > bound)
     }
 }

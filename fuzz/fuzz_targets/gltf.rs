@@ -1,0 +1,21 @@
+//! Any bytes as a file: an error or tangents, never a panic, and what is written reads again.
+
+#![no_main]
+
+use darboux_io::gltf::{Document, LoadOptions, TangentsOptions, add_tangents, inspect};
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    let read = |bytes: &[u8]| Document::from_bytes("input", bytes.to_vec(), None, &LoadOptions::default());
+    if let Ok(mut document) = read(bytes) {
+        let _may_be_refused = inspect(&mut document);
+    }
+    let Ok(mut document) = read(bytes) else { return };
+    let options = TangentsOptions { overwrite: true, ..TangentsOptions::default() };
+    if add_tangents(&mut document, &options, &mut |_| {}).is_err() {
+        return;
+    }
+    if let Ok(written) = document.to_glb() {
+        read(&written).expect("what was written reads again");
+    }
+});
