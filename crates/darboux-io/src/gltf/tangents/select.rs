@@ -148,7 +148,9 @@ fn judge(
     if options.only_needed && !needs_tangents {
         return skipped("its material does not use tangents");
     }
-    let Some(position) = attribute("POSITION") else { return skipped("it has no POSITION") };
+    let Some(position) = attribute("POSITION") else {
+        return skipped("it has no POSITION, which tangents need");
+    };
     let Some(normal) = attribute("NORMAL") else { return skipped("it has no NORMAL, which tangents need") };
     let Some(uv_accessor) = attribute(&format!("TEXCOORD_{}", uv.set)) else {
         return Ok(Verdict::Skipped(missing_uv(primitive, uv)));
