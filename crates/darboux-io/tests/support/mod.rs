@@ -45,6 +45,13 @@ impl Builder {
         self.push("accessors", alias)
     }
 
+    /// An accessor of zeros with sparse elements, and `more` members.
+    pub fn sparse(&mut self, count: usize, kind: &str, sparse: Value, more: Value) -> usize {
+        let mut accessor = json!({"componentType": 5126, "count": count, "type": kind, "sparse": sparse});
+        accessor.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+        self.push("accessors", accessor)
+    }
+
     pub fn vectors<const N: usize>(&mut self, vectors: &[[f32; N]]) -> usize {
         let bytes: Vec<_> = vectors.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
         let kind = ["SCALAR", "VEC2", "VEC3", "VEC4"][N - 1];
