@@ -1,9 +1,10 @@
 //! `darboux inspect`.
 
 use comfy_table::presets::ASCII_MARKDOWN;
-use comfy_table::{CellAlignment, ContentArrangement, Table};
+use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Table};
 use console::Term;
 use darboux_io::gltf::{PrimitiveInfo, inspect};
+use indicatif::HumanCount;
 
 use crate::arguments::InspectArguments;
 use crate::exit;
@@ -68,51 +69,80 @@ fn failed(input: String, sentence: String) -> InspectedFile {
     InspectedFile { input, error: Some(sentence), warnings: Vec::new(), primitives: Vec::new() }
 }
 
-/// The columns: title, whether it holds numbers, and what it says of a primitive.
-type Column = (&'static str, bool, fn(&PrimitiveInfo) -> String);
+/// A column: its title, how it is laid out, and what it says of a primitive.
+type Column = (&'static str, Kind, fn(&PrimitiveInfo) -> String);
+
+/// How a column is laid out.
+#[derive(PartialEq)]
+enum Kind {
+    /// To the left, wrapped where the terminal is narrow.
+    Long,
+    /// To the left, never wrapped.
+    Short,
+    /// To the right, never wrapped.
+    Number,
+}
 
 const COLUMNS: &[Column] = &[
-    ("primitive", false, |info| format!("{}.{}", info.name.mesh, info.name.primitive)),
-    ("mesh", false, |info| info.name.mesh_name.as_deref().unwrap_or_default().escape_debug().to_string()),
-    ("mode", false, |info| info.mode.to_string()),
-    ("vertices", true, |info| info.vertices.to_string()),
-    ("triangles", true, |info| info.counts.triangles.to_string()),
-    ("attributes", false, |info| attributes(info).escape_debug().to_string()),
-    ("UV set", false, |info| info.uv_set.to_string()),
-    ("mirrored", true, |info| info.mirrored_triangles.to_string()),
-    ("degenerate", true, |info| info.counts.degenerate_triangles.to_string()),
-    ("no UV area", true, |info| info.counts.uv_degenerate_triangles.to_string()),
-    ("to split", true, |info| info.counts.split_vertices.to_string()),
-    ("tangents", false, |info| tangents(info).to_string()),
+    ("", Kind::Short, |info| format!("{}.{}", info.name.mesh, info.name.primitive)),
+    ("mesh", Kind::Long, |info| {
+        info.name.mesh_name.as_deref().unwrap_or_default().escape_debug().to_string()
+    }),
+    ("mode", Kind::Short, |info| info.mode.trim_start_matches("TRIANGLE_").to_string()),
+    ("vertices", Kind::Number, |info| count(info.vertices)),
+    ("triangles", Kind::Number, |info| count(info.counts.triangles)),
+    ("attributes", Kind::Long, attributes),
+    ("UV", Kind::Number, |info| info.uv_set.to_string()),
+    ("mirrored", Kind::Number, |info| count(info.mirrored_triangles)),
+    ("degenerate", Kind::Number, degenerate),
+    ("split", Kind::Number, |info| count(info.counts.split_vertices)),
+    ("tangents", Kind::Short, |info| tangents(info).to_string()),
 ];
 
-fn attributes(info: &PrimitiveInfo) -> String {
-    let mut names = info.attributes.clone();
-    if info.morph_targets > 0 {
-        names.push(format!("{} targets", info.morph_targets));
+fn count(count: usize) -> String {
+    HumanCount(count as u64).to_string()
+}
+
+fn degenerate(info: &PrimitiveInfo) -> String {
+    match info.counts.uv_degenerate_triangles {
+        0 => count(info.counts.degenerate_triangles),
+        in_uv => format!("{}, {} UV", count(info.counts.degenerate_triangles), count(in_uv)),
     }
-    names.join(", ")
+}
+
+fn attributes(info: &PrimitiveInfo) -> String {
+    let mut text = info.attributes.join(" ").escape_debug().to_string();
+    if info.morph_targets > 0 {
+        text += &format!(" + {} morph targets", info.morph_targets);
+    }
+    text
 }
 
 fn tangents(info: &PrimitiveInfo) -> &'static str {
     match (info.has_tangents, info.needs_tangents, &info.ineligible) {
         (true, ..) => "yes",
-        (false, _, Some(_)) => "impossible",
+        (false, _, Some(_)) => "-",
         (false, true, None) => "needed",
         (false, false, None) => "no",
     }
 }
+
+/// Columns of a terminal below which lines are left to it to wrap.
+const NARROWEST: u16 = 116;
 
 /// The file's name, its table, and why primitives cannot have tangents.
 fn described(file: &InspectedFile) -> String {
     let mut table = Table::new();
     table.load_style(ASCII_MARKDOWN).set_header(COLUMNS.iter().map(|column| column.0));
     if let Some((_, width)) = Term::stdout().size_checked() {
-        table.set_content_arrangement(ContentArrangement::Dynamic).set_width(width);
+        table.set_content_arrangement(ContentArrangement::Dynamic).set_width(width.max(NARROWEST));
     }
-    for (index, (_, number, _)) in COLUMNS.iter().enumerate() {
-        if let (true, Some(column)) = (*number, table.column_mut(index)) {
+    for (column, (_, kind, _)) in table.column_iter_mut().zip(COLUMNS) {
+        if *kind == Kind::Number {
             column.set_cell_alignment(CellAlignment::Right);
+        }
+        if *kind != Kind::Long {
+            column.set_constraint(ColumnConstraint::ContentWidth);
         }
     }
     for info in &file.primitives {

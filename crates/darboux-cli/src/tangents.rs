@@ -210,7 +210,7 @@ fn finish(report: TangentsReport, arguments: &TangentsArguments, messages: &Mess
     for error in report.files.iter().filter_map(|file| file.error.as_ref()) {
         messages.error(error);
     }
-    if !report.files.is_empty() {
+    if report.totals.failed < report.totals.files || report.totals.files > 1 {
         messages.say(&total(&report, start));
     }
     if arguments.json {

@@ -1,0 +1,215 @@
+//! What is wrong with a file is said in one sentence; nothing is written, and other files are done nevertheless.
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use common::{asset, darboux, darboux_reading, names_in, text};
+use serde_json::{Value, json};
+
+/// A triangle that could get tangents: the JSON, and the buffer of 132 bytes that goes with it.
+fn triangle() -> (Value, Vec<u8>) {
+    let accessor = |view: usize, kind: &str| json!({ "bufferView": view, "componentType": 5126, "count": 3, "type": kind });
+    let json = json!({
+        "asset": { "version": "2.0" },
+        "meshes": [{ "primitives": [{
+            "attributes": { "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2 },
+            "indices": 3,
+        }] }],
+        "accessors": [
+            accessor(0, "VEC3"),
+            accessor(1, "VEC3"),
+            accessor(2, "VEC2"),
+            { "bufferView": 3, "componentType": 5125, "count": 3, "type": "SCALAR" },
+        ],
+        "bufferViews": [
+            { "buffer": 0, "byteOffset": 0, "byteLength": 36 },
+            { "buffer": 0, "byteOffset": 36, "byteLength": 36 },
+            { "buffer": 0, "byteOffset": 72, "byteLength": 24 },
+            { "buffer": 0, "byteOffset": 96, "byteLength": 12 },
+        ],
+        "buffers": [{ "byteLength": 108 }],
+    });
+    let floats: [f32; 24] = [
+        0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, // positions
+        0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, // normals
+        0.0, 0.0, 1.0, 0.0, 0.0, 1.0, // UVs
+    ];
+    let indices = [0u32, 1, 2];
+    let bytes = floats
+        .iter()
+        .flat_map(|float| float.to_le_bytes())
+        .chain(indices.iter().flat_map(|i| i.to_le_bytes()));
+    (json, bytes.collect())
+}
+
+fn glb(json: &[u8], binary: &[u8]) -> Vec<u8> {
+    let mut json = json.to_vec();
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let mut bytes = b"glTF".to_vec();
+    let words = [2, (28 + json.len() + binary.len()) as u32, json.len() as u32, 0x4E4F_534A];
+    words.iter().for_each(|word| bytes.extend(word.to_le_bytes()));
+    bytes.extend(json);
+    [binary.len() as u32, 0x004E_4942].iter().for_each(|word| bytes.extend(word.to_le_bytes()));
+    bytes.extend(binary);
+    bytes
+}
+
+/// The triangle as a GLB, with one place of its JSON replaced.
+fn with(pointer: &str, value: Value) -> Vec<u8> {
+    let (mut json, binary) = triangle();
+    *json.pointer_mut(pointer).unwrap_or_else(|| panic!("{pointer} exists")) = value;
+    glb(json.to_string().as_bytes(), &binary)
+}
+
+/// Broken files, each with a part of the sentence that must say what is wrong.
+fn broken() -> Vec<(&'static str, Vec<u8>, &'static str)> {
+    let (json, binary) = triangle();
+    let good = glb(json.to_string().as_bytes(), &binary);
+    let mut long = good.clone();
+    long[8..12].copy_from_slice(&u32::MAX.to_le_bytes());
+    let mut chunk = good.clone();
+    chunk[12..16].copy_from_slice(&0x7FFF_FFFCu32.to_le_bytes());
+    let mut version = good.clone();
+    version[4] = 1;
+    let mut index = good.clone();
+    let last = index.len() - 4;
+    index[last..].copy_from_slice(&9u32.to_le_bytes());
+    let deep = format!("{}{}", "[".repeat(200_000), "]".repeat(200_000));
+    let attributes = "/meshes/0/primitives/0/attributes";
+    vec![
+        ("empty.glb", Vec::new(), "glTF"),
+        ("text.gltf", b"solid model".to_vec(), "glTF"),
+        ("header.glb", good[..11].to_vec(), "header.glb"),
+        ("truncated.glb", good[..good.len() - 9].to_vec(), "bytes"),
+        ("long.glb", long, "bytes"),
+        ("chunk.glb", chunk, "chunk"),
+        ("version.glb", version, "version"),
+        ("syntax.gltf", b"{ \"asset\": ".to_vec(), "JSON"),
+        ("deep.gltf", format!("{{ \"asset\": {deep} }}").into_bytes(), "deep.gltf"),
+        ("list.gltf", b"[]".to_vec(), "list.gltf"),
+        ("old.gltf", b"{ \"asset\": { \"version\": \"1.0\" } }".to_vec(), "version"),
+        ("index.glb", index, "meshes[0].primitives[0]"),
+        ("accessor.glb", with(&format!("{attributes}/NORMAL"), json!(77)), "77"),
+        ("negative.glb", with(&format!("{attributes}/NORMAL"), json!(-1)), "NORMAL"),
+        ("count.glb", with("/accessors/0/count", json!(4_000_000_000_000u64)), "accessors[0]"),
+        ("overflow.glb", with("/accessors/0/count", json!(u64::MAX)), "accessors[0]"),
+        ("lengths.glb", with("/accessors/1/count", json!(2)), "meshes[0].primitives[0]"),
+        ("past.glb", with("/bufferViews/1/byteLength", json!(12)), "accessors[1]"),
+        ("view.glb", with("/bufferViews/2/byteOffset", json!(1000)), "bufferViews[2]"),
+        ("wrap.glb", with("/bufferViews/2/byteOffset", json!(u64::MAX)), "bufferViews[2]"),
+        ("buffer.glb", with("/buffers/0/byteLength", json!(4_000_000_000u64)), "buffers[0]"),
+        ("kind.glb", with("/accessors/0/type", json!("VEC7")), "accessors[0].type"),
+        ("component.glb", with("/accessors/0/componentType", json!(5124)), "accessors[0].componentType"),
+        ("shape.glb", with("/accessors/0/type", json!("VEC2")), "accessors[0]"),
+        ("string.glb", with("/accessors", json!("none")), "accessors"),
+        ("fraction.glb", with("/accessors/0/count", json!(2.5)), "accessors[0].count"),
+        ("missing.glb", with("/buffers/0", json!({ "byteLength": 108, "uri": "gone.bin" })), "gone.bin"),
+        ("above.glb", with("/buffers/0", json!({ "byteLength": 108, "uri": "../above.bin" })), "outside"),
+        ("root.glb", with("/buffers/0", json!({ "byteLength": 108, "uri": "/etc/hostname" })), "outside"),
+        (
+            "web.glb",
+            with("/buffers/0", json!({ "byteLength": 108, "uri": "https://example.com/a.bin" })),
+            "another machine",
+        ),
+        (
+            "base64.glb",
+            with("/buffers/0", json!({ "byteLength": 108, "uri": "data:;base64,@@" })),
+            "buffers[0]",
+        ),
+        (
+            "material.glb",
+            with("/meshes/0/primitives/0/indices", json!({})),
+            "meshes[0].primitives[0].indices",
+        ),
+    ]
+}
+
+#[test]
+fn every_broken_file_gets_one_sentence_and_no_output() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let out = folder.path().join("out");
+    for (name, bytes, part) in broken() {
+        let path = folder.path().join(name);
+        fs::write(&path, &bytes).expect("a file");
+        let start = Instant::now();
+        for arguments in [&["tangents", text(&path), "--out-dir", text(&out)][..], &["inspect", text(&path)]]
+        {
+            let run = darboux(arguments).exits(1);
+            assert!(run.stdout.is_empty(), "{name}");
+            assert_eq!(run.stderr.lines().count(), 1, "{name}: {}", run.stderr);
+            let sentence = run.stderr.strip_prefix("error: ").expect("an error");
+            assert!(sentence.starts_with(text(&path)), "{name}: {sentence}");
+            assert!(sentence.contains(part), "{name}: {sentence} does not say {part}");
+        }
+        assert!(start.elapsed() < Duration::from_secs(10), "{name} took {:?}", start.elapsed());
+        assert!(!out.exists(), "{name} left something in {:?}", names_in(&out));
+        assert_eq!(fs::read(&path).expect("the input"), bytes, "{name} was touched");
+    }
+    assert_eq!(names_in(folder.path()).len(), broken().len());
+}
+
+#[test]
+fn the_triangle_that_is_broken_there_is_good() {
+    let (json, binary) = triangle();
+    let good = glb(json.to_string().as_bytes(), &binary);
+    let run = darboux_reading(&["tangents", "-"], &good).exits(0);
+    assert_eq!(
+        common::glb_json(&run.stdout)["meshes"][0]["primitives"][0]["attributes"]["TANGENT"],
+        json!(4)
+    );
+}
+
+#[test]
+fn missing_files_and_empty_folders_are_bad_input() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for path in [folder.path().join("none.glb"), folder.path().to_path_buf()] {
+        for command in ["tangents", "inspect"] {
+            let run = darboux(&[command, text(&path)]).exits(1);
+            assert!(run.stderr.starts_with(&format!("error: {}: ", path.display())), "{}", run.stderr);
+            assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
+        }
+    }
+}
+
+#[test]
+fn one_bad_file_does_not_stop_the_others() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let bad = folder.path().join("bad.glb");
+    fs::write(&bad, b"glTF").expect("a file");
+    for model in ["made/degenerate.gltf", "made/quantised-sparse.glb"] {
+        fs::copy(asset(model), folder.path().join(Path::new(model).file_name().expect("a name")))
+            .expect("a copy");
+    }
+    let run = darboux(&["tangents", text(folder.path()), "--json"]).exits(1);
+    let names = [
+        "bad.glb",
+        "degenerate.gltf",
+        "degenerate.tangents.gltf",
+        "quantised-sparse.glb",
+        "quantised-sparse.tangents.glb",
+    ];
+    let outputs: Vec<String> =
+        names_in(folder.path()).into_iter().filter(|name| !name.ends_with(".bin")).collect();
+    assert_eq!(outputs, names);
+    let report = run.json();
+    assert_eq!(report["totals"]["failed"], 1);
+    assert_eq!(report["totals"]["written"], 2);
+    assert_eq!(report["files"][0]["status"], "failed");
+    assert!(report["files"][0]["error"].as_str().is_some_and(|error| error.starts_with(text(&bad))));
+    assert_eq!(run.stderr.matches(&format!("error: {}", bad.display())).count(), 1, "{}", run.stderr);
+}
+
+#[test]
+fn strict_refuses_what_is_repaired_otherwise() {
+    let (json, mut binary) = triangle();
+    binary[0..4].copy_from_slice(&f32::NAN.to_le_bytes());
+    let bytes = glb(json.to_string().as_bytes(), &binary);
+    darboux_reading(&["tangents", "-"], &bytes).exits(0);
+    let run = darboux_reading(&["tangents", "-", "--strict"], &bytes).exits(1);
+    assert!(run.stdout.is_empty());
+    assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
+    assert!(run.stderr.contains("meshes[0].primitives[0]"), "{}", run.stderr);
+}

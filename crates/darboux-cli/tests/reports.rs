@@ -1,0 +1,160 @@
+//! What the command says: for people on standard error, for programs on standard output.
+
+mod common;
+
+use std::process::{Command, Stdio};
+
+use common::{asset, darboux, folder_with, text};
+use serde_json::Value;
+
+const SEAM: &str = "made/skinned-morphed-mirrored.gltf";
+const MODES: &str = "made/strips-fans-lines-points.gltf";
+
+fn keys(value: &Value) -> Vec<&str> {
+    value.as_object().expect("an object").keys().map(String::as_str).collect()
+}
+
+#[test]
+fn the_tangents_report_has_the_documented_fields() {
+    let folder = folder_with(&[SEAM, MODES]);
+    let run = darboux(&["tangents", text(folder.path()), "--json", "--quiet"]).exits(0);
+    assert!(run.stderr.is_empty(), "{}", run.stderr);
+    let report = run.json();
+    assert_eq!(keys(&report), ["command", "version", "files", "totals"]);
+    assert_eq!(keys(&report["totals"]), ["files", "written", "copied", "untouched", "failed"]);
+    let file = &report["files"][0];
+    assert_eq!(
+        keys(file),
+        ["input", "output", "status", "error", "files_written", "primitives", "warnings", "totals"]
+    );
+    assert_eq!(
+        keys(&file["totals"]),
+        ["written", "kept", "skipped", "triangles", "vertices_before", "vertices_after"]
+    );
+    let written = &file["primitives"][0];
+    let counts = [
+        "triangles",
+        "degenerate_triangles",
+        "uv_degenerate_triangles",
+        "non_finite_corners",
+        "repaired_corners",
+        "mixed_sign_triangles",
+        "mirrored_edges",
+        "split_vertices",
+    ];
+    let mut expected = vec!["mesh", "mesh_name", "primitive", "outcome", "uv_set", "uv_reason", "replaced"];
+    expected.extend([
+        "vertices_before",
+        "vertices_after",
+        "morph_targets",
+        "regrouped_corners",
+        "conflicting_corners",
+    ]);
+    expected.extend(counts);
+    assert_eq!(keys(written), expected);
+    assert_eq!(written["outcome"], "written");
+    assert_eq!(written["mesh_name"], "sleeve");
+    assert_eq!(written["mirrored_edges"], 2);
+    assert_eq!(written["split_vertices"], 3);
+    let skipped = &report["files"][1]["primitives"][3];
+    assert_eq!(keys(skipped), ["mesh", "mesh_name", "primitive", "outcome", "reason"]);
+    assert_eq!(skipped["outcome"], "skipped");
+}
+
+#[test]
+fn every_documented_field_is_there_and_every_field_is_documented() {
+    let documented = std::fs::read_to_string(asset("../docs/cli.md")).expect("docs/cli.md");
+    let folder = folder_with(&[SEAM, MODES]);
+    let tangents = darboux(&["tangents", text(folder.path()), "--json", "-q"]).exits(0).json();
+    let inspected = darboux(&["inspect", text(&asset(SEAM)), "--json"]).exits(0).json();
+    let mut waiting = vec![tangents, inspected];
+    while let Some(value) = waiting.pop() {
+        match value {
+            Value::Array(values) => waiting.extend(values),
+            Value::Object(members) => {
+                for (name, value) in members {
+                    let mention = |prefix: &str| documented.contains(&format!("{prefix}{name}`"));
+                    assert!(
+                        mention("`") || mention(".") || documented.contains(&format!("{name}[]")),
+                        "{name}"
+                    );
+                    waiting.push(value);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn people_read_what_was_done_to_each_primitive() {
+    let folder = folder_with(&[MODES]);
+    let run = darboux(&["tangents", text(folder.path())]).exits(0);
+    assert!(run.stdout.is_empty());
+    for part in [
+        "strips-fans-lines-points.tangents.gltf",
+        "meshes[0].primitives[1]: TEXCOORD_0 (normalTexture of materials[0]), 8 triangles, 10 vertices became 12",
+        "meshes[0].primitives[3]: left alone: its mode is LINE_STRIP",
+        "3 primitives got tangents, 0 kept, 3 left alone in 1 file",
+    ] {
+        assert!(run.stderr.contains(part), "{part:?} is not in {}", run.stderr);
+    }
+}
+
+#[test]
+fn inspect_shows_a_line_per_primitive() {
+    let run = darboux(&["inspect", text(&asset(MODES)), text(&asset("Fox/Fox.glb"))]).exits(0);
+    let table = String::from_utf8(run.stdout).expect("UTF-8");
+    assert!(run.stderr.is_empty());
+    let rows: Vec<Vec<&str>> = table
+        .lines()
+        .filter(|line| line.starts_with("| 0."))
+        .map(|line| line.split('|').map(str::trim).collect())
+        .collect();
+    assert_eq!(rows.len(), 7);
+    let strip =
+        ["", "0.1", "", "STRIP", "10", "8", "NORMAL POSITION TEXCOORD_0", "0", "4", "0", "2", "needed", ""];
+    assert_eq!(rows[1], strip);
+    assert_eq!(rows[6][2], "fox1");
+    assert!(table.contains("0.0: it has no NORMAL"), "{table}");
+}
+
+#[test]
+fn inspect_reports_the_same_as_json() {
+    let report = darboux(&["inspect", text(&asset(SEAM)), "--json"]).exits(0).json();
+    assert_eq!(keys(&report), ["command", "version", "files"]);
+    assert_eq!(keys(&report["files"][0]), ["input", "error", "warnings", "primitives"]);
+    let primitive = &report["files"][0]["primitives"][0];
+    assert_eq!(primitive["mode"], "TRIANGLES");
+    assert_eq!(primitive["vertices"], 15);
+    assert_eq!(primitive["triangles"], 16);
+    assert_eq!(primitive["morph_targets"], 2);
+    assert_eq!(primitive["has_tangents"], false);
+    assert_eq!(primitive["needs_tangents"], true);
+    assert_eq!(primitive["mirrored_triangles"], 8);
+}
+
+#[test]
+fn nothing_is_coloured_in_a_pipe() {
+    let run = darboux(&["tangents", "no-such-file.glb"]).exits(1);
+    assert!(!run.stderr.contains('\u{1b}'), "{:?}", run.stderr);
+}
+
+#[test]
+fn a_reader_that_stops_early_is_no_fault() {
+    for arguments in [&["inspect", "--json"][..], &["inspect"], &["tangents", "-o", "-"]] {
+        let (read_end, write_end) = std::io::pipe().expect("a pipe");
+        drop(read_end);
+        let output = Command::new(env!("CARGO_BIN_EXE_darboux"))
+            .args(arguments)
+            .arg(asset(SEAM))
+            .stdin(Stdio::null())
+            .stdout(write_end)
+            .stderr(Stdio::piped())
+            .output()
+            .expect("the command runs");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {stderr}");
+        assert!(!stderr.contains("panicked") && !stderr.contains("error"), "{stderr}");
+    }
+}
