@@ -38,4 +38,5 @@ pub use frame::{BitangentDirection, Convention, CornerFrames, CornerTangents, Fr
 pub use mesh::{Faces, Indices, Mesh, MeshError, Strided};
 pub use plan::Plan;
 pub use split::{Splitter, VertexSplit, split_vertices};
+pub use tangents::naive;
 pub use tangents::{Frames, Mode, Report, TangentOptions, Tangents, generate_frames, generate_tangents};

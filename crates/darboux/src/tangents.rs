@@ -5,6 +5,7 @@ mod derivatives;
 mod evaluate;
 mod groups;
 pub(crate) mod mikktspace;
+pub mod naive;
 mod repair;
 mod report;
 mod shape;
