@@ -79,7 +79,7 @@ fn tangents() -> NewAccessor {
     let bytes = [1f32, 0.0, 0.0, -1.0].repeat(3).iter().flat_map(|x| x.to_le_bytes()).collect();
     let (component_type, element_type) = (ComponentType::F32, ElementType::Vec4);
     let elements = Elements { bytes, count: 3, component_type, element_type, normalized: false };
-    NewAccessor { elements, target: Target::Vertices, bounds: false, like: None }
+    NewAccessor { elements, target: Target::Vertices, bounds: false, sparse: false, like: None }
 }
 
 fn add_tangents(document: &mut Document) {
@@ -240,8 +240,13 @@ fn new_accessors_are_aligned_bounded_and_described() {
         element_type: ElementType::Vec3,
         normalized: true,
     };
-    let new =
-        NewAccessor { elements: elements.clone(), target: Target::Vertices, bounds: true, like: Some(1) };
+    let new = NewAccessor {
+        elements: elements.clone(),
+        target: Target::Vertices,
+        bounds: true,
+        sparse: false,
+        like: Some(1),
+    };
     let index = document.push_accessor(new);
     assert_eq!(document.read_elements(index).unwrap(), elements);
     let written = document.to_glb().unwrap();

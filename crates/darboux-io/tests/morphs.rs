@@ -139,22 +139,45 @@ fn targets_follow_a_split() {
 fn sparse_targets_are_read_and_follow_a_split() {
     let vertices = butterfly();
     let mut document = document(&vertices, &BOTH, |builder| {
-        let places = builder.accessor(&[1, 5], 2, 5121, "SCALAR", json!({}));
+        let places = builder.accessor(&[2, 5], 2, 5121, "SCALAR", json!({}));
         let values = builder.vectors(&[[0.0, 1.0, 0.0], [0.0, 2.0, 0.0]]);
         let sparse = json!({
             "count": 2,
             "indices": {"bufferView": places, "componentType": 5121},
             "values": {"bufferView": values},
         });
-        json!([{"POSITION": builder.sparse(6, "VEC3", sparse, json!({"min": [0, 0, 0], "max": [0, 2, 0]}))}])
+        let more = json!({"sparse": sparse, "min": [0, 0, 0], "max": [0, 2, 0]});
+        json!([{"POSITION": builder.zeros(6, "VEC3", more)}])
     });
     let summary = run(&mut document);
     assert_eq!(written(&summary, 0).morph_targets, 1);
     let targets = &document.meshes()[0].primitives[0].targets[0];
-    let moved = document.read_vectors::<3>(targets["POSITION"]).unwrap();
-    let moved_up: Vec<_> = moved.iter().map(|offset| offset[1]).collect();
-    assert_eq!(moved_up, [0.0, 1.0, 0.0, 0.0, 0.0, 2.0, 1.0, 0.0]);
-    assert!(offsets(&document, 0).iter().flatten().any(|&x| x != 0.0));
+    for semantic in ["POSITION", "TANGENT"] {
+        let accessor = &document.accessors()[targets[semantic]];
+        assert!(accessor.buffer_view.is_none() && accessor.sparse.is_some(), "{semantic}");
+        assert_eq!(accessor.count, 8);
+    }
+    let after = reread(&document);
+    let primitive = after.primitive(0, 0);
+    let (moved, _, turned) = after.reader(&primitive).read_morph_targets().next().unwrap();
+    let moved: Vec<_> = moved.unwrap().map(|offset| offset[1]).collect();
+    assert_eq!(moved, [0.0, 0.0, 1.0, 0.0, 0.0, 2.0, 0.0, 0.0]);
+    let turned: Vec<_> = turned.unwrap().collect();
+    assert_eq!(turned, offsets(&document, 0));
+    assert!(turned.iter().flatten().any(|&x| x != 0.0));
+}
+
+#[test]
+fn sparse_targets_that_turn_nothing_get_zeros_without_bytes() {
+    let mut document = document(
+        &square(),
+        &SQUARE,
+        |builder| json!([{"POSITION": builder.zeros(4, "VEC3", json!({"min": [0, 0, 0], "max": [0, 0, 0]}))}]),
+    );
+    run(&mut document);
+    let accessor = &document.accessors()[document.meshes()[0].primitives[0].targets[0]["TANGENT"]];
+    assert!(accessor.buffer_view.is_none() && accessor.sparse.is_none());
+    assert_eq!(offsets(&document, 0), [[0.0; 3]; 4]);
 }
 
 #[test]

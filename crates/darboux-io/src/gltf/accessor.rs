@@ -50,6 +50,15 @@ impl Elements {
         }
     }
 
+    /// The places of the elements that are not zero, if storing only those takes fewer bytes.
+    pub(super) fn worth_storing(&self) -> Option<Vec<u32>> {
+        let size = self.element_size();
+        let elements = self.bytes.chunks_exact(size).enumerate();
+        let places = elements.filter(|(_, element)| element.iter().any(|&byte| byte != 0));
+        let places: Vec<_> = places.map(|(place, _)| u32::try_from(place)).collect::<Result<_, _>>().ok()?;
+        (places.len() * (4 + size) < self.bytes.len()).then_some(places)
+    }
+
     /// The least and greatest finite value of every component as JSON arrays; none where a component has no finite value.
     fn bounds(&self) -> Option<(String, String)> {
         let (components, size) = (self.element_type.components(), self.component_type.size());
@@ -98,6 +107,8 @@ pub struct NewAccessor {
     pub target: Target,
     /// Whether `min` and `max` are written, as they must be for positions. Non-finite values are left out of them.
     pub bounds: bool,
+    /// Whether only the elements that are not zero may be stored, where that takes fewer bytes.
+    pub sparse: bool,
     /// An accessor whose name, extras and extensions are copied.
     pub like: Option<usize>,
 }
@@ -121,16 +132,27 @@ impl Target {
     }
 }
 
-/// The JSON of a new accessor over the buffer view `view`.
-pub(super) fn accessor_json(new: &NewAccessor, view: usize, like: Option<&Accessor>) -> String {
+/// The JSON of the accessor `new`, whose elements are where `stored` says.
+pub(super) fn accessor_json(new: &NewAccessor, stored: &Accessor, like: Option<&Accessor>) -> String {
     let elements = &new.elements;
-    let mut text = format!("{{\"bufferView\":{view},\"componentType\":{}", elements.component_type.code());
+    let mut text = "{".to_owned();
+    if let Some(view) = stored.buffer_view {
+        let _ = write!(text, "\"bufferView\":{view},");
+    }
+    let _ = write!(text, "\"componentType\":{}", elements.component_type.code());
     if elements.normalized {
         text.push_str(",\"normalized\":true");
     }
     let _ = write!(text, ",\"count\":{},\"type\":\"{}\"", elements.count, elements.element_type.name());
     if let Some((min, max)) = new.bounds.then(|| elements.bounds()).flatten() {
         let _ = write!(text, ",\"min\":{min},\"max\":{max}");
+    }
+    if let Some(Sparse { count, indices, values }) = stored.sparse.as_deref() {
+        let (kind, indices, values) =
+            (indices.component_type.code(), indices.buffer_view, values.buffer_view);
+        let indices = format!("{{\"bufferView\":{indices},\"componentType\":{kind}}}");
+        let values = format!("{{\"bufferView\":{values}}}");
+        let _ = write!(text, ",\"sparse\":{{\"count\":{count},\"indices\":{indices},\"values\":{values}}}");
     }
     for (key, value) in like.map(Accessor::descriptions).into_iter().flatten() {
         let _ = write!(text, ",{}:{value}", json::quoted(key));

@@ -11,11 +11,11 @@ use serde::Deserialize;
 use serde_json::value::RawValue;
 use serde_json::{Map, Value};
 
-use super::accessor::{NewAccessor, Target, accessor_json};
+use super::accessor::{Elements, NewAccessor, Target, accessor_json};
 use super::container::Container;
 use super::json;
 use super::resources::{File, Reference, Resources, decode_data_uri};
-use super::schema::{self, Probe, Root};
+use super::schema::{self, ComponentType, Probe, Root};
 use crate::Error;
 use crate::error::Fault;
 
@@ -79,7 +79,7 @@ pub(super) struct NewView {
     pub offset: usize,
     pub length: usize,
     pub stride: Option<usize>,
-    pub target: Target,
+    pub target: Option<Target>,
 }
 
 impl Document {
@@ -167,45 +167,77 @@ impl Document {
         &self.root.accessors
     }
 
-    /// Appends an accessor with a buffer view of its own; gives its index.
+    /// Appends an accessor with buffer views of its own; gives its index.
     ///
     /// Panics when `new.elements.bytes` is not `count` elements long.
     pub fn push_accessor(&mut self, new: NewAccessor) -> usize {
-        let view = self.push_view(&new);
         let like = new.like.and_then(|index| self.root.accessors.get(index)).cloned();
-        self.edits.new_accessors.push(accessor_json(&new, view, like.as_ref()));
-        let elements = new.elements;
-        self.root.accessors.push(schema::Accessor {
-            buffer_view: Some(view),
+        let stored = self.store(&new);
+        self.edits.new_accessors.push(accessor_json(&new, &stored, like.as_ref()));
+        if let Some(backed) = self.backed_count.get_mut() {
+            *backed = (*backed).max(new.elements.count);
+        }
+        self.root.accessors.push(stored);
+        self.root.accessors.len() - 1
+    }
+
+    /// Stores the elements of `new` in views of their own.
+    fn store(&mut self, new: &NewAccessor) -> schema::Accessor {
+        let elements = &new.elements;
+        let size = elements.element_size();
+        assert_eq!(elements.bytes.len(), elements.count * size, "bytes are not whole elements");
+        let places = new.sparse.then(|| elements.worth_storing()).flatten();
+        let (buffer_view, sparse) = match places {
+            Some(places) if places.is_empty() => (None, None),
+            Some(places) => (None, Some(Box::new(self.push_sparse(elements, &places)))),
+            None => {
+                let stride = if new.target == Target::Vertices { size.next_multiple_of(4) } else { size };
+                (Some(self.push_view(&elements.bytes, size, stride, Some(new.target))), None)
+            }
+        };
+        schema::Accessor {
+            buffer_view,
             byte_offset: 0,
             component_type: elements.component_type,
             normalized: elements.normalized,
             count: elements.count,
             element_type: elements.element_type,
-            sparse: None,
+            sparse,
             name: None,
             extras: None,
             extensions: None,
-        });
-        self.root.accessors.len() - 1
+        }
     }
 
-    fn push_view(&mut self, new: &NewAccessor) -> usize {
-        let size = new.elements.element_size();
-        assert_eq!(new.elements.bytes.len(), new.elements.count * size, "bytes are not whole elements");
+    fn push_sparse(&mut self, elements: &Elements, places: &[u32]) -> schema::Sparse {
+        let size = elements.element_size();
+        let indices: Vec<_> = places.iter().flat_map(|place| place.to_le_bytes()).collect();
+        let values: Vec<_> = places
+            .iter()
+            .flat_map(|&place| &elements.bytes[place as usize * size..(place as usize + 1) * size])
+            .copied()
+            .collect();
+        let indices = schema::SparseIndices {
+            buffer_view: self.push_view(&indices, 4, 4, None),
+            byte_offset: 0,
+            component_type: ComponentType::U32,
+        };
+        let values =
+            schema::SparseValues { buffer_view: self.push_view(&values, size, size, None), byte_offset: 0 };
+        schema::Sparse { count: places.len(), indices, values }
+    }
+
+    /// Appends a view over elements of `size` bytes, put `stride` bytes apart; gives its index.
+    fn push_view(&mut self, bytes: &[u8], size: usize, stride: usize, target: Option<Target>) -> usize {
         let out = &mut self.edits.new_bytes;
         out.resize(out.len().next_multiple_of(4), 0);
         let offset = out.len();
-        let stride = match new.target {
-            Target::Vertices => size.next_multiple_of(4),
-            Target::Indices => size,
-        };
-        for element in new.elements.bytes.chunks_exact(size) {
+        for element in bytes.chunks_exact(size) {
             out.extend_from_slice(element);
             out.resize(out.len() + stride - size, 0);
         }
         let (length, stride) = (out.len() - offset, (stride != size).then_some(stride));
-        self.edits.new_views.push(NewView { offset, length, stride, target: new.target });
+        self.edits.new_views.push(NewView { offset, length, stride, target });
         self.root.buffer_views.len() + self.edits.new_views.len() - 1
     }
 

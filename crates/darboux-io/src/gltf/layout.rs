@@ -174,9 +174,9 @@ impl<'a> Layout<'a> {
         let base = home.push(edits.new_bytes.as_slice().into());
         for NewView { offset, length, stride, target } in &edits.new_views {
             let stride = stride.map(|stride| format!(",\"byteStride\":{stride}")).unwrap_or_default();
-            let target = target.code();
+            let target = target.map(|target| format!(",\"target\":{}", target.code())).unwrap_or_default();
             self.new_views.push(format!(
-                "{{\"buffer\":{slot},\"byteOffset\":{},\"byteLength\":{length}{stride},\"target\":{target}}}",
+                "{{\"buffer\":{slot},\"byteOffset\":{},\"byteLength\":{length}{stride}{target}}}",
                 base + offset
             ));
         }

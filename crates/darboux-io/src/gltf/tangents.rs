@@ -171,7 +171,8 @@ impl Run<'_> {
         let mut offsets = Offsets::new();
         for morph in morphs {
             let moved = morph::offsets(document, morph, group, vertices, surfaces, split, self.options)?;
-            let accessor = write::push_vectors(document, ElementType::Vec3, &moved.of_vertex);
+            let sparse = morph.movement.accessors().all(|accessor| write::is_sparse(document, accessor));
+            let accessor = write::push_vectors(document, ElementType::Vec3, &moved.of_vertex, sparse);
             let misfits = morph.jobs.iter().copied().zip(moved.misfits).collect();
             offsets.insert(morph.movement, (accessor, misfits));
         }
@@ -187,7 +188,7 @@ impl Run<'_> {
         split: &Split,
         offsets: &Offsets,
     ) -> Result<Vec<(usize, Written)>, Error> {
-        let tangents = write::push_vectors(document, ElementType::Vec4, &split.tangents);
+        let tangents = write::push_vectors(document, ElementType::Vec4, &split.tangents, false);
         let accessors = offsets.iter().map(|(&movement, &(accessor, _))| (movement, accessor)).collect();
         let results = Results { surfaces, split, tangents, offsets: accessors };
         let mut writer = Writer::new(&self.accessors, self.options, group, results);

@@ -45,9 +45,9 @@ impl Builder {
         self.push("accessors", alias)
     }
 
-    /// An accessor of zeros with sparse elements, and `more` members.
-    pub fn sparse(&mut self, count: usize, kind: &str, sparse: Value, more: Value) -> usize {
-        let mut accessor = json!({"componentType": 5126, "count": count, "type": kind, "sparse": sparse});
+    /// An accessor of floats without a buffer view, with `more` members.
+    pub fn zeros(&mut self, count: usize, kind: &str, more: Value) -> usize {
+        let mut accessor = json!({"componentType": 5126, "count": count, "type": kind});
         accessor.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
         self.push("accessors", accessor)
     }

@@ -20,6 +20,11 @@ pub struct Movement {
 }
 
 impl Movement {
+    /// The accessors of offsets.
+    pub fn accessors(self) -> impl Iterator<Item = usize> {
+        self.position.into_iter().chain(self.normal)
+    }
+
     /// What moves vertices in `target`, if tangent offsets are to be written for it.
     ///
     /// Offsets that exist stay unless they are to be replaced; targets that move neither positions nor normals need none.

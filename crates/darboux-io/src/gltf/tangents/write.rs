@@ -15,11 +15,12 @@ use crate::Error;
 use crate::gltf::schema::Attributes;
 use crate::gltf::{ComponentType, Document, ElementType, Elements, NewAccessor, Target};
 
-/// Appends an accessor of floats, one element per vertex.
+/// Appends an accessor of floats, one element per vertex; without the zeros, if `sparse`.
 pub fn push_vectors<const N: usize>(
     document: &mut Document,
     element_type: ElementType,
     vectors: &[[f32; N]],
+    sparse: bool,
 ) -> usize {
     let elements = Elements {
         bytes: vectors.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect(),
@@ -28,7 +29,13 @@ pub fn push_vectors<const N: usize>(
         element_type,
         normalized: false,
     };
-    document.push_accessor(NewAccessor { elements, target: Target::Vertices, bounds: false, like: None })
+    let target = Target::Vertices;
+    document.push_accessor(NewAccessor { elements, target, bounds: false, sparse, like: None })
+}
+
+/// Whether an accessor leaves out zeros, so that what follows it should do the same.
+pub fn is_sparse(document: &Document, accessor: usize) -> bool {
+    document.accessors().get(accessor).is_some_and(|accessor| accessor.buffer_view.is_none())
 }
 
 /// What the primitives of a group refer to.
@@ -150,7 +157,8 @@ impl<'a> Writer<'a> {
             return Err(document.invalid(at, format!("{problem}; export the file again")));
         }
         self.results.split.extend(&mut elements);
-        let new = NewAccessor { elements, target: Target::Vertices, bounds, like: Some(old) };
+        let sparse = is_sparse(document, old);
+        let new = NewAccessor { elements, target: Target::Vertices, bounds, sparse, like: Some(old) };
         let extended = document.push_accessor(new);
         self.extended.insert(key, extended);
         Ok(extended)
@@ -169,7 +177,7 @@ impl<'a> Writer<'a> {
         let kind = old.and_then(|old| document.accessors().get(old)).map(|old| old.component_type);
         let values = split.corners[job].iter().chain(&surface.rest).copied();
         let elements = index_elements(kind, values.collect());
-        let new = NewAccessor { elements, target: Target::Indices, bounds: false, like: old };
+        let new = NewAccessor { elements, target: Target::Indices, bounds: false, sparse: false, like: old };
         let indices = document.push_accessor(new);
         self.indices.insert(job, indices);
         Ok(Some(indices))
