@@ -187,7 +187,7 @@ fn one_movement_of_several_primitives_is_evaluated_once() {
     let attributes = vertices.attributes(&mut builder);
     let lift: Vec<_> = (0..6).map(|i| [0.0, 0.0, (i * i) as f32]).collect();
     let lift = builder.vectors(&lift);
-    let targets = json!([{"POSITION": lift}, {"POSITION": builder.alias(lift)}]);
+    let targets = json!([{"POSITION": lift}, {"POSITION": builder.alias(lift, json!({}))}]);
     let ranges = [LEFT, RIGHT].map(|range| builder.indices(&range));
     let primitives =
         ranges.map(|indices| json!({"attributes": attributes, "indices": indices, "targets": targets}));

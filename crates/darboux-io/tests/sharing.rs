@@ -21,7 +21,7 @@ fn the_same_accessors_are_computed_and_written_once() {
     let attributes = butterfly().attributes(&mut builder);
     let mut aliased = attributes.clone();
     for (_, accessor) in aliased.as_object_mut().unwrap() {
-        *accessor = builder.alias(accessor.as_u64().unwrap() as usize).into();
+        *accessor = builder.alias(accessor.as_u64().unwrap() as usize, json!({"name": "alias"})).into();
     }
     let mut coloured = attributes.clone();
     coloured["COLOR_0"] = builder.vectors(&[[1.0; 3]; 6]).into();
@@ -176,4 +176,36 @@ fn a_thousand_primitives_on_one_buffer_stay_linear() {
     assert!(output < 4 * input, "{input} bytes became {output}");
     let first = attributes(&document, 0, 0);
     assert!(document.meshes()[0].primitives.iter().all(|primitive| primitive.attributes == *first));
+}
+
+#[test]
+fn overlapping_accessors_cannot_make_the_output_explode() {
+    let (vertices, copies) = (4000, 400);
+    let grid: Vec<_> = (0..vertices).map(|i| [(i % 2) as f32, (i % 3) as f32, i as f32]).collect();
+    let build = |uv_steps: usize, index_steps: usize| {
+        let mut builder = Builder::new();
+        let position = builder.vectors(&grid);
+        let normal = builder.vectors(&vec![[0.0, 0.0, 1.0]; vertices]);
+        let uv = builder.vectors(&vec![[0.0, 0.0]; vertices + copies]);
+        let list: Vec<_> = (0..50_000 + copies).map(|i| (i % vertices) as u16).collect();
+        let indices = builder.indices(&list);
+        let primitives: Vec<_> = (0..copies)
+            .map(|copy| {
+                let uv = builder.alias(uv, json!({"count": vertices, "byteOffset": 8 * uv_steps * copy}));
+                let count = if index_steps == 0 { 3 } else { 50_000 };
+                let indices =
+                    builder.alias(indices, json!({"count": count, "byteOffset": 2 * index_steps * copy}));
+                let attributes = json!({"POSITION": position, "NORMAL": normal, "TEXCOORD_0": uv});
+                json!({"attributes": attributes, "indices": indices})
+            })
+            .collect();
+        builder.mesh(&primitives);
+        let mut document = builder.build();
+        let result = add_tangents(&mut document, &TangentsOptions::default(), &mut |_| {});
+        result.map(|summary| summary.totals.written).map_err(|error| error.to_string())
+    };
+    assert_eq!(build(0, 0), Ok(copies));
+    for error in [build(1, 0), build(0, 1)] {
+        assert!(error.unwrap_err().contains("so many accessors read the same bytes"));
+    }
 }

@@ -297,6 +297,16 @@ impl Document {
         Ok(())
     }
 
+    /// The size of what was read, decompressed.
+    pub(super) fn stored_bytes(&self) -> usize {
+        let stores = self.stores.iter().map(|store| match store {
+            Store::Chunk | Store::Absent(_) => 0,
+            Store::File(file) => file.bytes.len(),
+            Store::Data(bytes) | Store::Decoded(bytes) => bytes.len(),
+        });
+        self.file.len() + stores.sum::<usize>()
+    }
+
     /// Whether there are edits.
     pub fn is_changed(&self) -> bool {
         let Edits { primitives, accessors, views, buffers, removed_extensions, new_accessors, .. } =

@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::Document;
 use super::tangents::compute::{self, Vertices};
+use super::tangents::excess;
 use super::tangents::select::{Candidate, Verdict};
 use super::tangents::share::{self, Canonical};
 use super::tangents::topology::{Topology, mode_name};
@@ -50,6 +51,7 @@ pub fn inspect(document: &mut Document) -> Result<Vec<PrimitiveInfo>, Error> {
     let options = TangentsOptions { overwrite: true, ..TangentsOptions::default() };
     let selection = select_readable(document, &options)?;
     let groups = share::group(&Canonical::new(document), selection.chosen());
+    excess::check_corners(document, &groups)?;
     let mut infos: Vec<_> =
         selection.candidates.iter().map(|candidate| describe(document, candidate)).collect();
     for group in &groups {

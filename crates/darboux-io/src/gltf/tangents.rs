@@ -1,6 +1,7 @@
 //! Tangents into a document: chosen, shared, computed, split, morphed and written, with everything else left as it is.
 
 pub(super) mod compute;
+pub(super) mod excess;
 mod foreign;
 mod morph;
 pub(super) mod select;
@@ -62,6 +63,7 @@ pub fn add_tangents(
     let selection = select_readable(document, options)?;
     let accessors = Canonical::new(document);
     let groups = share::group(&accessors, selection.chosen());
+    excess::check_corners(document, &groups)?;
     let total = groups.iter().flat_map(|group| &group.jobs).map(|job| job.triangle_count).sum();
     let at = Progress { done: 0, total };
     let mut run = Run { selection, accessors, options, progress, at, summary: Summary::default() };
@@ -173,6 +175,7 @@ impl Run<'_> {
             let moved = morph::offsets(document, morph, group, vertices, surfaces, split, self.options)?;
             let sparse = morph.movement.accessors().all(|accessor| write::is_sparse(document, accessor));
             let accessor = write::push_vectors(document, ElementType::Vec3, &moved.of_vertex, sparse);
+            excess::check_output(document)?;
             let misfits = morph.jobs.iter().copied().zip(moved.misfits).collect();
             offsets.insert(morph.movement, (accessor, misfits));
         }
@@ -189,6 +192,7 @@ impl Run<'_> {
         offsets: &Offsets,
     ) -> Result<Vec<(usize, Written)>, Error> {
         let tangents = write::push_vectors(document, ElementType::Vec4, &split.tangents, false);
+        excess::check_output(document)?;
         let accessors = offsets.iter().map(|(&movement, &(accessor, _))| (movement, accessor)).collect();
         let results = Results { surfaces, split, tangents, offsets: accessors };
         let mut writer = Writer::new(&self.accessors, self.options, group, results);

@@ -39,9 +39,10 @@ impl Builder {
         self.push("accessors", accessor)
     }
 
-    /// A copy of an accessor, over the same bytes.
-    pub fn alias(&mut self, accessor: usize) -> usize {
-        let alias = self.json["accessors"][accessor].clone();
+    /// A copy of an accessor, over the same bytes, with other members.
+    pub fn alias(&mut self, accessor: usize, members: Value) -> usize {
+        let mut alias = self.json["accessors"][accessor].clone();
+        alias.as_object_mut().unwrap().extend(members.as_object().unwrap().clone());
         self.push("accessors", alias)
     }
 

@@ -6,6 +6,7 @@ use serde_json::Value;
 
 use super::TangentsOptions;
 use super::compute::Surface;
+use super::excess;
 use super::morph::Movement;
 use super::select::Candidate;
 use super::share::{Canonical, Group, Member};
@@ -160,6 +161,7 @@ impl<'a> Writer<'a> {
         let sparse = is_sparse(document, old);
         let new = NewAccessor { elements, target: Target::Vertices, bounds, sparse, like: Some(old) };
         let extended = document.push_accessor(new);
+        excess::check_output(document)?;
         self.extended.insert(key, extended);
         Ok(extended)
     }

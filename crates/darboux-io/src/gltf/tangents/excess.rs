@@ -1,0 +1,32 @@
+//! Small files that ask for much: accessors over the same bytes, again and again.
+
+use super::share::Group;
+use crate::Error;
+use crate::gltf::Document;
+
+/// How many corners, or bytes written, each byte of a document may ask for. Real ones stay below 4, however much they share.
+const MOST_PER_BYTE: usize = 16;
+
+/// What a document of any size may ask for.
+const ALWAYS_ALLOWED: usize = 1 << 20;
+
+fn limit(document: &Document) -> usize {
+    document.stored_bytes().saturating_mul(MOST_PER_BYTE).saturating_add(ALWAYS_ALLOWED)
+}
+
+/// Errors: more corners to compute than the document has room for.
+pub fn check_corners(document: &Document, groups: &[Group]) -> Result<(), Error> {
+    let jobs = groups.iter().flat_map(|group| &group.jobs);
+    let corners = jobs.fold(0usize, |sum, job| sum.saturating_add(job.triangle_count.saturating_mul(3)));
+    if corners <= limit(document) { Ok(()) } else { Err(refused(document)) }
+}
+
+/// Errors: more bytes written than the document's size explains.
+pub fn check_output(document: &Document) -> Result<(), Error> {
+    if document.edits.new_bytes.len() <= limit(document) { Ok(()) } else { Err(refused(document)) }
+}
+
+fn refused(document: &Document) -> Error {
+    let problem = "so many accessors read the same bytes that their tangents would dwarf the file; export the file again";
+    document.invalid("accessors", problem)
+}
