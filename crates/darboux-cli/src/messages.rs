@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 use std::io::{self, ErrorKind, IsTerminal, Write};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use anstyle::{AnsiColor, Style};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -10,8 +10,6 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 /// Messages to a person. They are coloured on a terminal unless NO_COLOR is set; a closed standard error is no fault.
 pub struct Messages {
     quiet: bool,
-    start: Instant,
-    /// Hidden until work turns out to be long.
     progress: ProgressBar,
     /// The bytes of the current file, and of those before it.
     file: Cell<(u64, u64)>,
@@ -20,32 +18,42 @@ pub struct Messages {
 /// After this time there is a progress bar.
 const LONG_WORK: Duration = Duration::from_millis(700);
 
+/// The time between its frames.
+const FRAME: Duration = Duration::from_millis(200);
+
 impl Messages {
     /// `quiet`: errors only, no progress.
     pub fn new(quiet: bool) -> Self {
         let progress = ProgressBar::with_draw_target(Some(0), ProgressDrawTarget::hidden());
         let style = ProgressStyle::with_template("{bar:30} {percent:>3} % {elapsed} {wide_msg}");
         progress.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-        Self { quiet, start: Instant::now(), progress, file: Cell::new((0, 0)) }
+        Self { quiet, progress, file: Cell::new((0, 0)) }
     }
 
-    /// Announces the bytes of all inputs, against which progress is shown.
-    pub fn expect(&self, bytes: u64) {
+    /// Announces work on inputs of so many bytes, against which progress is shown if it takes long.
+    pub fn start(&self, bytes: u64) {
         self.progress.set_length(bytes);
+        if self.quiet {
+            return;
+        }
+        let progress = self.progress.clone();
+        std::thread::spawn(move || {
+            std::thread::sleep(LONG_WORK);
+            if !progress.is_finished() {
+                progress.set_draw_target(ProgressDrawTarget::stderr());
+                progress.enable_steady_tick(FRAME);
+            }
+        });
     }
 
     /// Begins the work on a file of so many bytes.
     pub fn start_file(&self, name: &str, bytes: u64) {
         self.file.set((bytes, self.file.get().1));
         self.progress.set_message(name.to_owned());
-        self.progress(0, 1);
     }
 
     /// The current file is done to this part.
     pub fn progress(&self, done: usize, total: usize) {
-        if !self.quiet && self.progress.is_hidden() && self.start.elapsed() > LONG_WORK {
-            self.progress.set_draw_target(ProgressDrawTarget::stderr());
-        }
         let (bytes, before) = self.file.get();
         self.progress.set_position(before + (bytes as f64 * done as f64 / total.max(1) as f64) as u64);
     }
@@ -54,6 +62,7 @@ impl Messages {
     pub fn end_file(&self) {
         let (bytes, before) = self.file.get();
         self.file.set((0, before + bytes));
+        self.progress.set_position(before + bytes);
     }
 
     /// Takes the progress bar away.

@@ -35,7 +35,7 @@ pub fn run(arguments: &TangentsArguments) -> u8 {
         ));
     }
     interrupt::wait_for_writes();
-    messages.expect(jobs.iter().map(|job| size_of(&job.input)).sum());
+    messages.start(jobs.iter().map(|job| size_of(&job.input)).sum());
     let unsearched = found.failed.into_iter().map(|(path, reason)| {
         let path = path.display().to_string();
         let sentence = format!("{path}: {reason}");
