@@ -60,7 +60,7 @@ Examples:
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("destination").args(["output", "out_dir", "in_place"]))]
 pub struct TangentsArguments {
-    /// Files (.gltf, .glb) and folders; - is standard input
+    /// Files (.gltf, .glb, .vrm) and folders; - is standard input
     #[arg(required = true, value_name = "INPUT")]
     pub inputs: Vec<PathBuf>,
 
@@ -169,7 +169,7 @@ Examples:
 /// `darboux inspect`.
 #[derive(Debug, Args)]
 pub struct InspectArguments {
-    /// Files (.gltf, .glb) and folders; - is standard input
+    /// Files (.gltf, .glb, .vrm) and folders; - is standard input
     #[arg(required = true, value_name = "FILE")]
     pub inputs: Vec<PathBuf>,
 

@@ -116,7 +116,7 @@ impl Found {
             }
         }
         if before == (self.files.len(), self.left_out, self.failed.len()) {
-            self.failed.push((folder.to_path_buf(), "the folder holds no .gltf or .glb file".into()));
+            self.failed.push((folder.to_path_buf(), "the folder holds no model (.gltf, .glb, .vrm)".into()));
         }
     }
 }
@@ -252,10 +252,11 @@ fn identity(path: &Path) -> PathBuf {
     path
 }
 
-/// True for .gltf and .glb.
+/// True for .gltf, .glb and .vrm, which is a GLB.
 fn is_model(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|extension| ["gltf", "glb"].iter().any(|model| extension.eq_ignore_ascii_case(model)))
+    path.extension().is_some_and(|extension| {
+        ["gltf", "glb", "vrm"].iter().any(|model| extension.eq_ignore_ascii_case(model))
+    })
 }
 
 /// True for names that outputs get when none is given.

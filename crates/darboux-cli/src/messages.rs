@@ -2,6 +2,7 @@
 
 use std::cell::Cell;
 use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::thread;
 use std::time::Duration;
 
 use anstyle::{AnsiColor, Style};
@@ -37,13 +38,14 @@ impl Messages {
             return;
         }
         let progress = self.progress.clone();
-        std::thread::spawn(move || {
-            std::thread::sleep(LONG_WORK);
+        let show = move || {
+            thread::sleep(LONG_WORK);
             if !progress.is_finished() {
                 progress.set_draw_target(ProgressDrawTarget::stderr());
                 progress.enable_steady_tick(FRAME);
             }
-        });
+        };
+        let _work_goes_on_without = thread::Builder::new().spawn(show);
     }
 
     /// Begins the work on a file of so many bytes.
