@@ -1,0 +1,156 @@
+//! Where outputs go, what they replace, and what they leave alone.
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+
+use common::{asset, darboux, darboux_reading, folder_with, glb_json, names_in, text};
+use serde_json::Value;
+
+const QUANTISED: &str = "made/quantised-sparse.glb";
+
+/// Whether the first primitive of a model has tangents.
+fn has_tangents(path: &Path) -> bool {
+    let report = darboux(&["inspect", "--json", text(path)]).exits(0).json();
+    report["files"][0]["primitives"][0]["has_tangents"] == true
+}
+
+#[test]
+fn an_output_lies_beside_its_input_under_a_name_that_says_so() {
+    let folder = folder_with(&[QUANTISED]);
+    let input = folder.path().join("quantised-sparse.glb");
+    let before = fs::read(&input).expect("the input");
+    darboux(&["tangents", text(&input)]).exits(0);
+    assert_eq!(names_in(folder.path()), ["quantised-sparse.glb", "quantised-sparse.tangents.glb"]);
+    assert!(has_tangents(&folder.path().join("quantised-sparse.tangents.glb")));
+    assert_eq!(fs::read(&input).expect("the input"), before);
+}
+
+#[test]
+fn a_folder_does_not_take_up_its_own_outputs() {
+    let folder = folder_with(&[QUANTISED]);
+    darboux(&["tangents", text(folder.path())]).exits(0);
+    let names = names_in(folder.path());
+    let run = darboux(&["tangents", text(folder.path()), "--force", "--json"]).exits(0);
+    assert_eq!(run.json()["totals"]["files"], 1);
+    assert!(run.stderr.contains("1 file left out"), "{}", run.stderr);
+    assert_eq!(names_in(folder.path()), names);
+}
+
+#[test]
+fn an_existing_output_is_replaced_only_by_force() {
+    let folder = folder_with(&[QUANTISED]);
+    let (input, output) = (folder.path().join("quantised-sparse.glb"), folder.path().join("out.glb"));
+    fs::write(&output, b"precious").expect("a file");
+    let run = darboux(&["tangents", text(&input), "-o", text(&output)]).exits(1);
+    assert!(run.stderr.contains("--force"), "{}", run.stderr);
+    assert_eq!(fs::read(&output).expect("the output"), b"precious");
+    darboux(&["tangents", text(&input), "-o", text(&output), "--force"]).exits(0);
+    assert!(has_tangents(&output));
+}
+
+#[test]
+fn in_place_replaces_what_changes_and_touches_nothing_else() {
+    let folder = folder_with(&[QUANTISED, "Fox/Fox.glb"]);
+    let (changed, fox) = (folder.path().join("quantised-sparse.glb"), folder.path().join("Fox.glb"));
+    let modified = || fs::metadata(&fox).and_then(|file| file.modified()).expect("a time");
+    let before = modified();
+    let run = darboux(&["tangents", text(folder.path()), "--in-place", "--json"]).exits(0);
+    assert!(has_tangents(&changed));
+    assert_eq!(modified(), before);
+    assert_eq!(names_in(folder.path()), ["Fox.glb", "quantised-sparse.glb"]);
+    let report = run.json();
+    let statuses: Vec<&Value> =
+        report["files"].as_array().expect("files").iter().map(|file| &file["status"]).collect();
+    assert_eq!(statuses, ["untouched", "written"]);
+}
+
+#[test]
+fn the_structure_of_folders_is_kept_below_out_dir() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for place in ["a", "b/c"] {
+        fs::create_dir_all(folder.path().join(place)).expect("a folder");
+        fs::copy(asset(QUANTISED), folder.path().join(place).join("model.glb")).expect("a copy");
+    }
+    let out = folder.path().join("out");
+    for _ in 0..2 {
+        let run = darboux(&["tangents", text(folder.path()), "--out-dir", text(&out), "--force", "--json"])
+            .exits(0);
+        assert_eq!(run.json()["totals"]["written"], 2, "the folder of outputs is not searched");
+    }
+    assert_eq!(names_in(&out), ["a", "b"]);
+    assert!(has_tangents(&out.join("a/model.glb")) && has_tangents(&out.join("b/c/model.glb")));
+}
+
+#[test]
+fn the_extension_of_the_output_decides_the_container() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let plane = asset("TwoSidedPlane/TwoSidedPlane.gltf");
+    let (glb, gltf) = (folder.path().join("plane.glb"), folder.path().join("again/plane.gltf"));
+    darboux(&["tangents", text(&plane), "-o", text(&glb), "--overwrite"]).exits(0);
+    let json = glb_json(&fs::read(&glb).expect("the GLB"));
+    let embedded =
+        |list: &str| json[list].as_array().expect("a list").iter().all(|item| item["uri"].is_null());
+    assert!(embedded("buffers") && embedded("images"));
+    let run = darboux(&["tangents", text(&plane), "-o", text(&gltf), "--overwrite", "--json"]).exits(0);
+    let images =
+        ["TwoSidedPlane_BaseColor.png", "TwoSidedPlane_MetallicRoughness.png", "TwoSidedPlane_Normal.png"];
+    let folder = gltf.parent().expect("a folder");
+    for image in images {
+        let original = fs::read(asset("TwoSidedPlane").join(image)).expect("the image");
+        assert_eq!(fs::read(folder.join(image)).expect("its copy"), original);
+    }
+    let report = run.json();
+    let written = report["files"][0]["files_written"].as_array().expect("a list");
+    assert_eq!(written.len(), names_in(folder).len());
+    assert_eq!(written.last(), Some(&Value::from(text(&gltf))));
+}
+
+#[test]
+fn a_pipe_gives_the_bytes_that_a_file_gets() {
+    let folder = folder_with(&[QUANTISED]);
+    let input = folder.path().join("quantised-sparse.glb");
+    darboux(&["tangents", text(&input)]).exits(0);
+    let file = fs::read(folder.path().join("quantised-sparse.tangents.glb")).expect("the output");
+    let bytes = fs::read(&input).expect("the input");
+    assert!(darboux_reading(&["tangents", "-"], &bytes).exits(0).stdout == file);
+    assert!(darboux(&["tangents", text(&input), "-o", "-"]).exits(0).stdout == file);
+    let named = folder.path().join("named.glb");
+    darboux_reading(&["tangents", "-", "-o", text(&named)], &bytes).exits(0);
+    assert!(fs::read(&named).expect("the output") == file);
+}
+
+#[test]
+fn nothing_to_do_is_a_copy_and_a_success() {
+    let folder = folder_with(&["Fox/Fox.glb"]);
+    let (fox, copy) = (folder.path().join("Fox.glb"), folder.path().join("copy.glb"));
+    let run = darboux(&["tangents", text(&fox), "-o", text(&copy)]).exits(0);
+    assert!(fs::read(&fox).ok() == fs::read(&copy).ok());
+    assert!(
+        run.stderr.contains("meshes[0].primitives[0] \"fox1\": left alone: it has no NORMAL"),
+        "{}",
+        run.stderr
+    );
+}
+
+#[test]
+fn options_reach_the_tangents() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let output = folder.path().join("out.glb");
+    let bytes_with = |input: &Path, options: &[&str]| {
+        darboux(&[&["tangents", text(input), "-o", text(&output), "--force"], options].concat()).exits(0);
+        fs::read(&output).expect("the output")
+    };
+    let curved = asset("NormalTangentTest/NormalTangentTest.glb");
+    let usual = bytes_with(&curved, &[]);
+    assert!(usual == bytes_with(&curved, &["--mode", "repaired", "--threshold", "180"]));
+    assert!(usual != bytes_with(&curved, &["--threshold", "5"]));
+    let turned = asset("made/shared-vertices-two-uv-sets.gltf");
+    assert!(bytes_with(&turned, &[]) != bytes_with(&turned, &["--apply-texture-transform"]));
+    let degenerate = asset("made/degenerate.gltf");
+    assert!(bytes_with(&degenerate, &[]) != bytes_with(&degenerate, &["--mode", "reference"]));
+    let morphing = asset("Morphing/morphing.gltf");
+    assert!(bytes_with(&morphing, &[]) != bytes_with(&morphing, &["--overwrite"]));
+    assert!(bytes_with(&morphing, &[]) == bytes_with(&morphing, &["--overwrite", "--only-needed"]));
+}
