@@ -1,6 +1,7 @@
 //! glTF 2.0 and GLB: a document that is read, edited in place and written back with everything else untouched.
 
 mod accessor;
+mod compression;
 mod container;
 mod document;
 mod inspect;

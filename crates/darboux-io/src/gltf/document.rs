@@ -12,6 +12,7 @@ use serde_json::value::RawValue;
 use serde_json::{Map, Value};
 
 use super::accessor::{Elements, NewAccessor, Target, accessor_json};
+use super::compression;
 use super::container::Container;
 use super::json;
 use super::resources::{File, Reference, Resources, decode_data_uri};
@@ -228,7 +229,13 @@ impl Document {
     }
 
     /// Appends a view over elements of `size` bytes, put `stride` bytes apart; gives its index.
-    fn push_view(&mut self, bytes: &[u8], size: usize, stride: usize, target: Option<Target>) -> usize {
+    pub(super) fn push_view(
+        &mut self,
+        bytes: &[u8],
+        size: usize,
+        stride: usize,
+        target: Option<Target>,
+    ) -> usize {
         let out = &mut self.edits.new_bytes;
         out.resize(out.len().next_multiple_of(4), 0);
         let offset = out.len();
@@ -291,10 +298,7 @@ impl Document {
     ///
     /// Errors: streams that are broken, or do not hold what the accessors promise.
     pub fn decompress(&mut self) -> Result<(), Error> {
-        if self.is_compressed() {
-            return Err(Fault::unsupported("", "compression is not supported yet").in_file(&self.name));
-        }
-        Ok(())
+        compression::decompress(self).map_err(|fault| fault.in_file(&self.name))
     }
 
     /// The size of what was read, decompressed.
@@ -304,7 +308,7 @@ impl Document {
             Store::File(file) => file.bytes.len(),
             Store::Data(bytes) | Store::Decoded(bytes) => bytes.len(),
         });
-        self.file.len() + stores.sum::<usize>()
+        self.file.len() + stores.sum::<usize>() + self.edits.new_bytes.len()
     }
 
     /// Whether there are edits.

@@ -24,10 +24,6 @@ pub(super) struct Root {
     pub buffers: Vec<Buffer>,
     #[serde(default)]
     pub images: Vec<Image>,
-    #[serde(default)]
-    pub extensions_used: Vec<String>,
-    #[serde(default)]
-    pub extensions_required: Vec<String>,
 }
 
 /// What the file says about itself.
