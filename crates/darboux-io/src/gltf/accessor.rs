@@ -60,7 +60,7 @@ impl Elements {
     }
 
     /// The least and greatest finite value of every component as JSON arrays; none where a component has no finite value.
-    fn bounds(&self) -> Option<(String, String)> {
+    pub(super) fn bounds(&self) -> Option<(String, String)> {
         let (components, size) = (self.element_type.components(), self.component_type.size());
         let mut bounds = vec![(f64::INFINITY, f64::NEG_INFINITY); components];
         for element in self.bytes.chunks_exact(self.element_size()) {

@@ -41,6 +41,8 @@ pub struct Document {
     pub(super) resources: Resources,
     pub(super) stores: Vec<Store>,
     pub(super) edits: Edits,
+    /// How many of the new bytes came out of compressed meshes.
+    decompressed_bytes: usize,
     pub(super) backed_count: OnceLock<usize>,
     primitive_texts: OnceLock<Vec<Vec<Box<RawValue>>>>,
     warnings: Vec<String>,
@@ -137,6 +139,7 @@ impl Document {
             resources,
             stores,
             edits: Edits::default(),
+            decompressed_bytes: 0,
             backed_count: OnceLock::new(),
             primitive_texts: OnceLock::new(),
             warnings,
@@ -298,7 +301,9 @@ impl Document {
     ///
     /// Errors: streams that are broken, or do not hold what the accessors promise.
     pub fn decompress(&mut self) -> Result<(), Error> {
-        compression::decompress(self).map_err(|fault| fault.in_file(&self.name))
+        compression::decompress(self).map_err(|fault| fault.in_file(&self.name))?;
+        self.decompressed_bytes = self.edits.new_bytes.len();
+        Ok(())
     }
 
     /// The size of what was read, decompressed.
@@ -308,7 +313,7 @@ impl Document {
             Store::File(file) => file.bytes.len(),
             Store::Data(bytes) | Store::Decoded(bytes) => bytes.len(),
         });
-        self.file.len() + stores.sum::<usize>() + self.edits.new_bytes.len()
+        self.file.len() + stores.sum::<usize>() + self.decompressed_bytes
     }
 
     /// Whether there are edits.

@@ -14,9 +14,9 @@ use draco_core::mesh_decoder::MeshDecoder;
 use super::{element_text, unreadable, without_extension};
 use crate::error::Fault;
 use crate::gltf::document::Document;
-use crate::gltf::json::set_member;
+use crate::gltf::json::{member, set_member};
 use crate::gltf::schema::{Accessor, Draco, Primitive};
-use crate::gltf::{ComponentType, ElementType, Target};
+use crate::gltf::{ComponentType, ElementType, Elements, Target};
 
 const NAME: &str = "KHR_draco_mesh_compression";
 
@@ -75,7 +75,7 @@ fn fill_accessors(
             Some(id) => (attribute_bytes(&mesh, id, accessor, &path)?, Target::Vertices),
             None => (index_bytes(&mesh, accessor, &path)?, Target::Indices),
         };
-        fill(document, index, &bytes, target).map_err(unreadable)?;
+        fill(document, index, bytes, target).map_err(unreadable)?;
     }
     Ok(())
 }
@@ -191,17 +191,25 @@ fn index_bytes(mesh: &Mesh, accessor: &Accessor, at: &str) -> Result<Vec<u8>, Fa
     }
 }
 
-/// Gives an accessor a buffer view with these bytes. All else that its JSON says stays.
-fn fill(document: &mut Document, index: usize, bytes: &[u8], target: Target) -> serde_json::Result<()> {
-    let accessor = &document.root.accessors[index];
-    let size = accessor.element_type.size(accessor.component_type);
+/// Gives an accessor a buffer view with these bytes. All else that its JSON says stays, but for bounds: decoded values are quantised, so
+/// those of the original are wrong.
+fn fill(document: &mut Document, index: usize, bytes: Vec<u8>, target: Target) -> serde_json::Result<()> {
+    let Accessor { component_type, element_type, count, normalized, .. } = document.root.accessors[index];
+    let elements = Elements { bytes, count, component_type, element_type, normalized };
+    let size = elements.element_size();
     let stride = if target == Target::Vertices { size.next_multiple_of(4) } else { size };
-    let view = document.push_view(bytes, size, stride, Some(target));
+    let view = document.push_view(&elements.bytes, size, stride, Some(target));
     let mut text = match document.edits.accessors.get(&index) {
         Some(edited) => edited.clone(),
         None => element_text(document, "accessors", index)?,
     };
     text = set_member(&text, "bufferView", Some(&view.to_string()))?;
+    let (min, max) = elements.bounds().unzip();
+    for (key, bound) in [("min", min), ("max", max)] {
+        if member(&text, key)?.is_some() {
+            text = set_member(&text, key, bound.as_deref())?;
+        }
+    }
     for key in ["byteOffset", "sparse"] {
         text = set_member(&text, key, None)?;
     }
