@@ -1,0 +1,54 @@
+//! Meshes on which the reference takes quadratic time: exact, and in a time that a person does not notice.
+
+use std::time::{Duration, Instant};
+
+use darboux::{Mode, TangentOptions, generate_frames, generate_tangents};
+use darboux_tests::{OwnedMesh, assert_equal, engine, families};
+
+/// Quadratic work at these sizes takes minutes in a test build; linear work a fraction of a second.
+const GENEROUS: Duration = Duration::from_secs(20);
+
+fn lone_degenerates(cells: usize, count: usize) -> OwnedMesh {
+    families::with_lone_degenerates(families::grid(cells, cells, false, false), count)
+}
+
+fn assert_exact(what: &str, mesh: &OwnedMesh) {
+    let expected = engine::reference(mesh, 180.0);
+    let options = TangentOptions { mode: Mode::Reference, ..TangentOptions::default() };
+    let found = generate_frames(&mesh.view(), &options).corners.into_per_corner();
+    let found: Vec<_> = found.into_iter().map(Some).collect();
+    assert_equal(what, mesh, 180.0, &expected, &found);
+}
+
+fn assert_quick(what: &str, mesh: &OwnedMesh) {
+    let view = mesh.view();
+    let start = Instant::now();
+    let tangents = generate_tangents(&view, &TangentOptions::default());
+    let time = start.elapsed();
+    println!("{what}: {} triangles, {time:.2?}", tangents.report.triangles);
+    assert!(time < GENEROUS, "{what}: {time:?}");
+}
+
+#[test]
+fn small_ones_are_exact() {
+    assert_exact("fan", &families::fan(1_000, false));
+    assert_exact("polar fan", &families::fan(1_000, true));
+    assert_exact("lone degenerates", &lone_degenerates(40, 500));
+    assert_exact("one position", &families::unwelded_fan(1_000));
+}
+
+#[test]
+fn large_ones_are_quick() {
+    assert_quick("fan of 20,000", &families::fan(20_000, false));
+    assert_quick("20,000 lone degenerates on a grid of 80,000", &lone_degenerates(200, 20_000));
+    assert_quick("20,000 on one position", &families::unwelded_fan(20_000));
+    assert_quick("fan of 200,000", &families::fan(200_000, false));
+}
+
+#[test]
+#[ignore = "long: the reference takes minutes"]
+fn large_ones_are_exact() {
+    assert_exact("fan of 20,000", &families::fan(20_000, false));
+    assert_exact("20,000 lone degenerates on a grid of 80,000", &lone_degenerates(200, 20_000));
+    assert_exact("20,000 on one position", &families::unwelded_fan(20_000));
+}
