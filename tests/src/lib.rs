@@ -17,3 +17,8 @@ pub use compare::{Difference, assert_equal, first_difference};
 pub use engine::{Engine, engines};
 pub use generate::{Case, Dice};
 pub use mesh::{FaceSizes, OwnedMesh};
+
+/// The README's example runs.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;
