@@ -19,6 +19,7 @@ use crate::gltf::schema::{Accessor, Draco, Primitive};
 use crate::gltf::{ComponentType, ElementType, Elements, Target};
 
 const NAME: &str = "KHR_draco_mesh_compression";
+const TRIANGLES: u32 = 4;
 
 /// Decodes every compressed primitive into plain accessors, which keep their numbers.
 pub fn decompress(document: &mut Document) -> Result<(), Fault> {
@@ -81,6 +82,12 @@ fn fill_accessors(
 }
 
 fn decode(document: &Document, draco: &Draco, primitive: &Primitive, at: &str) -> Result<Mesh, Fault> {
+    // A strip's indices are not the faces in sequence, which is all that the decoder gives.
+    if primitive.mode != TRIANGLES {
+        let problem =
+            format!("mode {} is not decoded, only triangles; save the model uncompressed", primitive.mode);
+        return Err(Fault::unsupported(at, problem));
+    }
     let (bytes, _) = document.view(draco.buffer_view, &format!("{at}.bufferView"))?;
     let limits = limits(document, primitive, bytes.len());
     // The decoder reports broken streams, but its indexing is not all checked: a panic is one more report.

@@ -22,7 +22,7 @@ pub fn decompress(document: &mut Document) -> Result<(), Fault> {
     if compressed.is_empty() {
         return Ok(());
     }
-    let mut decoded: BTreeMap<usize, Vec<u8>> = BTreeMap::new();
+    let mut decoded: BTreeMap<usize, Filling> = BTreeMap::new();
     for (index, meshopt) in &compressed {
         let view = &document.root.buffer_views[*index];
         if matches!(document.stores.get(view.buffer), Some(Store::Absent(_))) {
@@ -31,7 +31,7 @@ pub fn decompress(document: &mut Document) -> Result<(), Fault> {
             place(decoded.entry(buffer).or_default(), offset, &bytes, *index)?;
         }
     }
-    for (buffer, bytes) in decoded {
+    for (buffer, Filling { bytes, .. }) in decoded {
         let text = element_text(document, "buffers", buffer);
         let text = text.and_then(|text| set_member(&text, "byteLength", Some(&bytes.len().to_string())));
         document.edits.buffers.insert(buffer, text.map_err(unreadable)?);
@@ -61,20 +61,28 @@ fn remove_extension(document: &mut Document, views: impl Iterator<Item = usize>)
     Ok(())
 }
 
-/// Writes a view's bytes to its place in the buffer. Gaps between views are zeros; a gap as large as all that was decoded is not
+/// A buffer while views are decoded into it.
+#[derive(Default)]
+struct Filling {
+    bytes: Vec<u8>,
+    /// How many bytes were decoded, gaps left out.
+    decoded: usize,
+}
+
+/// Writes a view's bytes to its place in the buffer. Gaps between views are zeros; gaps larger than all that was decoded are not
 /// believed.
-fn place(buffer: &mut Vec<u8>, offset: usize, bytes: &[u8], view: usize) -> Result<(), Fault> {
+fn place(buffer: &mut Filling, offset: usize, bytes: &[u8], view: usize) -> Result<(), Fault> {
     let at = format!("bufferViews[{view}].byteOffset");
-    let end = offset.checked_add(bytes.len());
-    let gap = offset.saturating_sub(buffer.len());
-    let Some(end) = end.filter(|_| gap <= MOST_GAP + buffer.len() + bytes.len()) else {
+    buffer.decoded = buffer.decoded.saturating_add(bytes.len());
+    let most = MOST_GAP.saturating_add(buffer.decoded.saturating_mul(2));
+    let Some(end) = offset.checked_add(bytes.len()).filter(|&end| end <= most) else {
         let problem = format!("{offset} is far beyond the other views of its buffer; export the file again");
         return Err(Fault::invalid(at, problem));
     };
-    if buffer.len() < end {
-        buffer.resize(end, 0);
+    if buffer.bytes.len() < end {
+        buffer.bytes.resize(end, 0);
     }
-    buffer[offset..end].copy_from_slice(bytes);
+    buffer.bytes[offset..end].copy_from_slice(bytes);
     Ok(())
 }
 
