@@ -7,6 +7,7 @@ mod document;
 mod inspect;
 mod json;
 mod layout;
+mod object;
 mod resources;
 mod save;
 pub mod schema;

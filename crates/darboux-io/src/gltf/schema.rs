@@ -7,9 +7,17 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use serde_json::value::RawValue;
 
+use super::object::read_from_objects;
+
+read_from_objects! {
+    Root, Asset, Probe, Mesh, Primitive, PrimitiveExtensions, Variants, VariantMapping, Draco, Material,
+    MaterialExtensions, Clearcoat, Anisotropy, TextureInfo, TextureInfoExtensions, TextureTransform, Accessor,
+    Sparse, SparseIndices, SparseValues, BufferView, BufferViewExtensions, Meshopt, Buffer, Image,
+}
+
 /// The top level.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[serde(remote = "Self", rename_all = "camelCase")]
 pub(super) struct Root {
     pub asset: Asset,
     #[serde(default)]
@@ -28,12 +36,14 @@ pub(super) struct Root {
 
 /// What the file says about itself.
 #[derive(Clone, Debug, Deserialize)]
+#[serde(remote = "Self")]
 pub(super) struct Asset {
     pub version: String,
 }
 
 /// Just the version, for files whose other contents make no sense.
 #[derive(Debug, Deserialize)]
+#[serde(remote = "Self")]
 pub(super) struct Probe {
     pub asset: Asset,
 }
@@ -41,6 +51,7 @@ pub(super) struct Probe {
 /// A mesh: its primitives.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
+#[serde(remote = "Self")]
 pub struct Mesh {
     /// Its name, where it has one.
     pub name: Option<String>,
@@ -54,6 +65,7 @@ pub type Attributes = BTreeMap<String, usize>;
 /// A part of a mesh that is drawn at once.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
+#[serde(remote = "Self")]
 pub struct Primitive {
     /// Vertex attributes.
     pub attributes: Attributes,
@@ -79,6 +91,7 @@ fn triangles() -> u32 {
 /// The extensions of a primitive that are understood.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[non_exhaustive]
+#[serde(remote = "Self")]
 pub struct PrimitiveExtensions {
     /// Draco compression.
     #[serde(rename = "KHR_draco_mesh_compression")]
@@ -91,6 +104,7 @@ pub struct PrimitiveExtensions {
 /// `KHR_materials_variants` of a primitive.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
+#[serde(remote = "Self")]
 pub struct Variants {
     /// Which material in which variants.
     #[serde(default)]
@@ -100,6 +114,7 @@ pub struct Variants {
 /// A material for some variants.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
+#[serde(remote = "Self")]
 pub struct VariantMapping {
     /// The material.
     pub material: usize,
@@ -108,7 +123,7 @@ pub struct VariantMapping {
 /// `KHR_draco_mesh_compression` of a primitive.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
-#[serde(rename_all = "camelCase")]
+#[serde(remote = "Self", rename_all = "camelCase")]
 pub struct Draco {
     /// The buffer view with the compressed bytes.
     pub buffer_view: usize,
@@ -119,7 +134,7 @@ pub struct Draco {
 /// A material, as far as it says which UVs tangents must follow.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[non_exhaustive]
-#[serde(rename_all = "camelCase")]
+#[serde(remote = "Self", rename_all = "camelCase")]
 pub struct Material {
     /// The normal map.
     pub normal_texture: Option<Box<TextureInfo>>,
@@ -131,6 +146,7 @@ pub struct Material {
 /// The extensions of a material that use tangents.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[non_exhaustive]
+#[serde(remote = "Self")]
 pub struct MaterialExtensions {
     /// A clear coat, which may have a normal map.
     #[serde(rename = "KHR_materials_clearcoat")]
@@ -143,7 +159,7 @@ pub struct MaterialExtensions {
 /// `KHR_materials_clearcoat`.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
-#[serde(rename_all = "camelCase")]
+#[serde(remote = "Self", rename_all = "camelCase")]
 pub struct Clearcoat {
     /// The normal map of the coat.
     pub clearcoat_normal_texture: Option<TextureInfo>,
@@ -152,7 +168,7 @@ pub struct Clearcoat {
 /// `KHR_materials_anisotropy`.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
-#[serde(rename_all = "camelCase")]
+#[serde(remote = "Self", rename_all = "camelCase")]
 pub struct Anisotropy {
     /// The map of directions and strength.
     pub anisotropy_texture: Option<TextureInfo>,
@@ -161,7 +177,7 @@ pub struct Anisotropy {
 /// A use of a texture.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
-#[serde(rename_all = "camelCase")]
+#[serde(remote = "Self", rename_all = "camelCase")]
 pub struct TextureInfo {
     /// The UV set: n of `TEXCOORD_n`, unless the transform overrides it.
     #[serde(default)]
@@ -174,6 +190,7 @@ pub struct TextureInfo {
 /// The extensions of a use of a texture that are understood.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[non_exhaustive]
+#[serde(remote = "Self")]
 pub struct TextureInfoExtensions {
     /// A transform of the UVs.
     #[serde(rename = "KHR_texture_transform")]
@@ -183,7 +200,7 @@ pub struct TextureInfoExtensions {
 /// `KHR_texture_transform`: uv' = offset + rotation * scale * uv.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
-#[serde(rename_all = "camelCase")]
+#[serde(remote = "Self", rename_all = "camelCase")]
 pub struct TextureTransform {
     /// Offset in units of the texture.
     #[serde(default)]
@@ -205,7 +222,7 @@ fn ones() -> [f32; 2] {
 /// A typed view of bytes.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
-#[serde(rename_all = "camelCase")]
+#[serde(remote = "Self", rename_all = "camelCase")]
 pub struct Accessor {
     /// The buffer view; without, all values are zero.
     pub buffer_view: Option<usize>,
@@ -244,6 +261,7 @@ impl Accessor {
 /// The elements of an accessor that differ from its buffer view.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
+#[serde(remote = "Self")]
 pub struct Sparse {
     /// How many.
     pub count: usize,
@@ -256,7 +274,7 @@ pub struct Sparse {
 /// Where the indices of a sparse accessor are.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
-#[serde(rename_all = "camelCase")]
+#[serde(remote = "Self", rename_all = "camelCase")]
 pub struct SparseIndices {
     /// The buffer view.
     pub buffer_view: usize,
@@ -270,7 +288,7 @@ pub struct SparseIndices {
 /// Where the values of a sparse accessor are.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
-#[serde(rename_all = "camelCase")]
+#[serde(remote = "Self", rename_all = "camelCase")]
 pub struct SparseValues {
     /// The buffer view.
     pub buffer_view: usize,
@@ -282,7 +300,7 @@ pub struct SparseValues {
 /// A range of a buffer.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
-#[serde(rename_all = "camelCase")]
+#[serde(remote = "Self", rename_all = "camelCase")]
 pub struct BufferView {
     /// The buffer.
     pub buffer: usize,
@@ -301,6 +319,7 @@ pub struct BufferView {
 /// The extensions of a buffer view that are understood.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[non_exhaustive]
+#[serde(remote = "Self")]
 pub struct BufferViewExtensions {
     /// meshoptimizer's compression, under either of its names.
     #[serde(rename = "EXT_meshopt_compression", alias = "KHR_meshopt_compression")]
@@ -310,7 +329,7 @@ pub struct BufferViewExtensions {
 /// `EXT_meshopt_compression` or `KHR_meshopt_compression` of a buffer view.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
-#[serde(rename_all = "camelCase")]
+#[serde(remote = "Self", rename_all = "camelCase")]
 pub struct Meshopt {
     /// The buffer with the compressed bytes.
     pub buffer: usize,
@@ -333,7 +352,7 @@ pub struct Meshopt {
 /// Bytes: the GLB's own chunk, a `data:` URI or a file.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
-#[serde(rename_all = "camelCase")]
+#[serde(remote = "Self", rename_all = "camelCase")]
 pub struct Buffer {
     /// Where the bytes are; without, the GLB's chunk.
     pub uri: Option<String>,
@@ -344,6 +363,7 @@ pub struct Buffer {
 /// An image.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
+#[serde(remote = "Self")]
 pub struct Image {
     /// Where the image is; without, in a buffer view.
     pub uri: Option<String>,
@@ -439,7 +459,7 @@ impl ElementType {
     }
 
     /// Columns, and components per column.
-    fn shape(self) -> (usize, usize) {
+    pub(super) fn shape(self) -> (usize, usize) {
         match self {
             Self::Scalar => (1, 1),
             Self::Vec2 => (1, 2),
