@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use serde_json::Value;
+
 use super::document::Document;
 use super::schema::{Accessor, Sparse};
 use super::{ComponentType, ElementType, json};
@@ -59,12 +61,15 @@ impl Elements {
         (places.len() * (4 + size) < self.bytes.len()).then_some(places)
     }
 
-    /// The least and greatest finite value of every component as JSON arrays; none where a component has no finite value.
-    pub(super) fn bounds(&self) -> Option<(String, String)> {
-        let (components, size) = (self.element_type.components(), self.component_type.size());
-        let mut bounds = vec![(f64::INFINITY, f64::NEG_INFINITY); components];
+    /// The least and the greatest finite value of every component; none where a component has no finite value.
+    pub(super) fn bounds(&self) -> Option<(Vec<f64>, Vec<f64>)> {
+        let (columns, rows) = self.element_type.shape();
+        let (size, column_size) = (self.component_type.size(), self.element_size() / columns);
+        let mut bounds = vec![(f64::INFINITY, f64::NEG_INFINITY); columns * rows];
         for element in self.bytes.chunks_exact(self.element_size()) {
-            for (bound, bytes) in bounds.iter_mut().zip(element.chunks_exact(size)) {
+            let columns = element.chunks_exact(column_size);
+            let components = columns.flat_map(|column| column.chunks_exact(size).take(rows));
+            for (bound, bytes) in bounds.iter_mut().zip(components) {
                 let value = self.component_type.value(bytes);
                 if value.is_finite() {
                     *bound = (bound.0.min(value), bound.1.max(value));
@@ -72,7 +77,7 @@ impl Elements {
             }
         }
         let known = bounds.iter().all(|(min, max)| min <= max);
-        known.then(|| (array(bounds.iter().map(|bound| bound.0)), array(bounds.iter().map(|bound| bound.1))))
+        known.then(|| bounds.into_iter().unzip())
     }
 }
 
@@ -92,10 +97,6 @@ impl ComponentType {
             Self::F32 => f64::from(f32::from_bits(word)),
         }
     }
-}
-
-fn array(values: impl Iterator<Item = f64>) -> String {
-    serde_json::Value::from_iter(values).to_string()
 }
 
 /// An accessor to append, with its bytes. The layout is that of [`Elements`]; alignment is the document's matter.
@@ -130,6 +131,14 @@ impl Target {
             Self::Indices => 34963,
         }
     }
+
+    /// Bytes from one element of `size` bytes to the next.
+    pub(super) fn stride(self, size: usize) -> usize {
+        match self {
+            Self::Vertices => size.next_multiple_of(4),
+            Self::Indices => size,
+        }
+    }
 }
 
 /// The JSON of the accessor `new`, whose elements are where `stored` says.
@@ -145,6 +154,7 @@ pub(super) fn accessor_json(new: &NewAccessor, stored: &Accessor, like: Option<&
     }
     let _ = write!(text, ",\"count\":{},\"type\":\"{}\"", elements.count, elements.element_type.name());
     if let Some((min, max)) = new.bounds.then(|| elements.bounds()).flatten() {
+        let (min, max) = (Value::from(min), Value::from(max));
         let _ = write!(text, ",\"min\":{min},\"max\":{max}");
     }
     if let Some(Sparse { count, indices, values }) = stored.sparse.as_deref() {
@@ -212,7 +222,7 @@ impl Document {
         })
     }
 
-    fn elements(&self, index: usize) -> Result<Elements, Fault> {
+    pub(super) fn elements(&self, index: usize) -> Result<Elements, Fault> {
         let accessor = self.accessor(index)?;
         let Accessor { component_type, element_type, count, normalized, .. } = *accessor;
         let size = element_type.size(component_type);

@@ -1,38 +1,123 @@
-//! Compressed meshes and buffer views become plain ones: decoded, and written without their extension.
+//! Decompression: Draco primitives and meshopt buffer views become plain accessors, and the extensions go.
 
 mod draco;
 mod meshopt;
 
+use std::collections::BTreeSet;
+
+use serde::Deserialize;
+use serde_json::Value;
 use serde_json::value::RawValue;
 
 use super::document::Document;
-use super::json::{keys, member, set_member};
+use super::json::{member, set_member};
+use super::schema::{Accessor, ComponentType};
+use crate::Error;
 use crate::error::Fault;
 
-/// Decodes what is compressed. The bytes that it was decoded from stay in their buffers, unused.
-pub(super) fn decompress(document: &mut Document) -> Result<(), Fault> {
-    meshopt::decompress(document)?;
-    draco::decompress(document)
-}
+/// The most bytes that one document may decompress to. Constant data compresses to almost nothing, so that no ratio separates
+/// honest files from hostile ones.
+const MAX_DECODED: usize = 2 << 30;
 
-/// A JSON object without one of its extensions, and without `extensions` when that was the last.
-fn without_extension(object: &str, names: &[&str]) -> serde_json::Result<String> {
-    let Some(mut extensions) = member(object, "extensions")?.map(str::to_owned) else {
-        return Ok(object.to_owned());
-    };
-    for name in names {
-        extensions = set_member(&extensions, name, None)?;
+impl Document {
+    /// Whether any data is compressed, so that [`Document::decompress`] has work.
+    pub fn is_compressed(&self) -> bool {
+        let mut primitives = self.root.meshes.iter().flat_map(|mesh| &mesh.primitives);
+        primitives.any(|primitive| primitive.extensions.draco.is_some())
+            || self.root.buffer_views.iter().any(|view| view.extensions.meshopt.is_some())
     }
-    let kept = (!keys(&extensions)?.is_empty()).then_some(extensions.as_str());
-    set_member(object, "extensions", kept)
+
+    /// Decodes all compressed meshes and buffer views and removes the extensions. Must come before accessors are read.
+    ///
+    /// Where a file has uncompressed data as a fallback, that is used. Errors: streams that are broken, or do not hold what the
+    /// accessors and buffer views promise; more than 2 GiB.
+    pub fn decompress(&mut self) -> Result<(), Error> {
+        if self.is_compressed() {
+            let mut budget = Budget(MAX_DECODED);
+            self.decode_all(&mut budget).map_err(|fault| fault.in_file(self.name()))?;
+            self.backed_count.take();
+        }
+        Ok(())
+    }
+
+    fn decode_all(&mut self, budget: &mut Budget) -> Result<(), Fault> {
+        let views = self.decode_meshopt(budget)?;
+        let mut accessors = self.decode_draco(budget)?;
+        for (i, accessor) in self.root.accessors.iter().enumerate() {
+            if accessor.buffer_view.is_some_and(|view| views.contains(&view)) {
+                accessors.insert(i);
+            }
+        }
+        self.refresh_bounds(&accessors, budget)
+    }
+
+    /// Corrects `min` and `max` where accessors have them: compression may have moved the values.
+    fn refresh_bounds(&mut self, accessors: &BTreeSet<usize>, budget: &mut Budget) -> Result<(), Fault> {
+        let broken = |error: serde_json::Error| Fault::invalid("accessors", error.to_string());
+        let array = member(self.text(), "accessors").map_err(broken)?.unwrap_or("[]");
+        let texts: Vec<&RawValue> = serde_json::from_str(array).map_err(broken)?;
+        let mut edited = Vec::new();
+        for &index in accessors {
+            let text = self.edits.accessors.get(&index).map_or(texts[index].get(), String::as_str);
+            let stored: StoredBounds = serde_json::from_str(text).map_err(broken)?;
+            if stored.min.is_none() && stored.max.is_none() {
+                continue;
+            }
+            let Accessor { count, element_type, component_type, .. } = self.root.accessors[index];
+            budget.spend(
+                count.saturating_mul(element_type.size(component_type)),
+                &format!("accessors[{index}]"),
+            )?;
+            let Some((min, max)) = self.elements(index)?.bounds() else { continue };
+            let mut new = text.to_owned();
+            for (key, old, found) in [("min", stored.min, min), ("max", stored.max, max)] {
+                if old.is_some_and(|old| !same_values(&old, &found, component_type)) {
+                    new = set_member(&new, key, Some(&Value::from(found).to_string())).map_err(broken)?;
+                }
+            }
+            if new != text {
+                edited.push((index, new));
+            }
+        }
+        self.edits.accessors.extend(edited);
+        Ok(())
+    }
 }
 
-/// The JSON text of one element of a top-level array, as it was read.
-fn element_text(document: &Document, array: &str, index: usize) -> serde_json::Result<String> {
-    let elements: Vec<&RawValue> = serde_json::from_str(member(document.text(), array)?.unwrap_or("[]"))?;
-    Ok(elements.get(index).map_or("{}", |element| element.get()).to_owned())
+/// The bounds that an accessor's JSON states.
+#[derive(Deserialize)]
+struct StoredBounds {
+    min: Option<Vec<f64>>,
+    max: Option<Vec<f64>>,
 }
 
-fn unreadable(error: serde_json::Error) -> Fault {
-    Fault::invalid("", format!("the JSON cannot be edited: {error}; export the file again"))
+/// Whether bounds are the same as numbers of the component type: JSON may have fewer digits.
+fn same_values(a: &[f64], b: &[f64], kind: ComponentType) -> bool {
+    match kind {
+        ComponentType::F32 => a.iter().map(|&x| x as f32).eq(b.iter().map(|&x| x as f32)),
+        _ => a == b,
+    }
+}
+
+/// How many bytes may still be decoded.
+struct Budget(usize);
+
+impl Budget {
+    fn spend(&mut self, bytes: usize, at: &str) -> Result<(), Fault> {
+        self.0 = self.0.checked_sub(bytes).ok_or_else(|| {
+            Fault::unsupported(
+                at,
+                "the file decompresses to more than 2 GiB; decompress it with its exporter",
+            )
+        })?;
+        Ok(())
+    }
+}
+
+/// `object` without an extension, and without an empty `extensions`.
+fn without_extension(object: &str, name: &str) -> serde_json::Result<String> {
+    let Some(extensions) = member(object, "extensions")? else { return Ok(object.to_owned()) };
+    let rest = set_member(extensions, name, None)?;
+    let is_empty = rest.trim_matches(['{', '}', ' ', '\t', '\r', '\n']).is_empty();
+    set_member(object, "extensions", (!is_empty).then_some(&rest))
 }

@@ -12,7 +12,6 @@ use serde_json::value::RawValue;
 use serde_json::{Map, Value};
 
 use super::accessor::{Elements, NewAccessor, Target, accessor_json};
-use super::compression;
 use super::container::Container;
 use super::json;
 use super::resources::{File, Reference, Resources, decode_data_uri};
@@ -42,7 +41,7 @@ pub struct Document {
     pub(super) stores: Vec<Store>,
     pub(super) edits: Edits,
     /// How many of the new bytes came out of compressed meshes.
-    decompressed_bytes: usize,
+    pub(super) decompressed_bytes: usize,
     pub(super) backed_count: OnceLock<usize>,
     primitive_texts: OnceLock<Vec<Vec<Box<RawValue>>>>,
     warnings: Vec<String>,
@@ -195,7 +194,7 @@ impl Document {
             Some(places) if places.is_empty() => (None, None),
             Some(places) => (None, Some(Box::new(self.push_sparse(elements, &places)))),
             None => {
-                let stride = if new.target == Target::Vertices { size.next_multiple_of(4) } else { size };
+                let stride = new.target.stride(size);
                 (Some(self.push_view(&elements.bytes, size, stride, Some(new.target))), None)
             }
         };
@@ -287,22 +286,6 @@ impl Document {
     ) -> serde_json::Result<()> {
         self.root.meshes[mesh].primitives[primitive] = serde_json::from_str(&text)?;
         self.edits.primitives.insert((mesh, primitive), text);
-        Ok(())
-    }
-
-    /// Whether any data is compressed, so that [`Document::decompress`] has work.
-    pub fn is_compressed(&self) -> bool {
-        let draco =
-            self.root.meshes.iter().flat_map(|mesh| &mesh.primitives).any(|p| p.extensions.draco.is_some());
-        draco || self.root.buffer_views.iter().any(|view| view.extensions.meshopt.is_some())
-    }
-
-    /// Decodes all compressed meshes and buffer views and removes the extensions. Must come before accessors are read.
-    ///
-    /// Errors: streams that are broken, or do not hold what the accessors promise.
-    pub fn decompress(&mut self) -> Result<(), Error> {
-        compression::decompress(self).map_err(|fault| fault.in_file(&self.name))?;
-        self.decompressed_bytes = self.edits.new_bytes.len();
         Ok(())
     }
 
@@ -481,8 +464,10 @@ fn split_primitives(text: &str) -> Vec<Vec<Box<RawValue>>> {
     struct Primitives {
         primitives: Vec<Box<RawValue>>,
     }
-    let parsed: Meshes = serde_json::from_str(text).expect("parsed before, more strictly");
-    parsed.meshes.into_iter().map(|mesh| mesh.primitives).collect()
+    let parsed: serde_json::Result<Meshes> = serde_json::from_str(text);
+    // The same text was parsed more strictly when it was read.
+    let meshes = parsed.map(|parsed| parsed.meshes).unwrap_or_default();
+    meshes.into_iter().map(|mesh| mesh.primitives).collect()
 }
 
 fn edited_primitive(text: &str, edit: impl FnOnce(&mut Map<String, Value>)) -> serde_json::Result<String> {

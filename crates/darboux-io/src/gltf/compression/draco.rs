@@ -1,227 +1,260 @@
-//! KHR_draco_mesh_compression: primitives whose attributes and indices are encoded together.
+//! `KHR_draco_mesh_compression`: primitives whose indices and some attributes are in one Draco stream.
 
-use std::collections::HashMap;
-use std::panic::catch_unwind;
+use std::collections::{BTreeSet, HashMap};
+use std::panic;
 
-use draco_core::decode_limits::DecodeLimits;
-use draco_core::decoder_buffer::DecoderBuffer;
-use draco_core::draco_types::DataType;
-use draco_core::geometry_attribute::PointAttribute;
-use draco_core::geometry_indices::PointIndex;
-use draco_core::mesh::Mesh;
-use draco_core::mesh_decoder::MeshDecoder;
+use ::draco_core::{
+    DataType, DecodeLimits, DecoderBuffer, FaceIndex, Mesh, MeshDecoder, PointAttribute, PointIndex,
+};
+use serde_json::value::RawValue;
 
-use super::{element_text, unreadable, without_extension};
+use super::{Budget, without_extension};
 use crate::error::Fault;
+use crate::gltf::accessor::{Elements, Target};
 use crate::gltf::document::Document;
 use crate::gltf::json::{member, set_member};
-use crate::gltf::schema::{Accessor, Draco, Primitive};
-use crate::gltf::{ComponentType, ElementType, Elements, Target};
+use crate::gltf::schema::{Accessor, ComponentType, Draco, ElementType, Primitive};
 
 const NAME: &str = "KHR_draco_mesh_compression";
-const TRIANGLES: u32 = 4;
 
-/// Decodes every compressed primitive into plain accessors, which keep their numbers.
-pub fn decompress(document: &mut Document) -> Result<(), Fault> {
-    let mut decoded = HashMap::new();
-    let mut any = false;
-    for mesh in 0..document.root.meshes.len() {
-        for place in 0..document.root.meshes[mesh].primitives.len() {
-            let primitive = document.root.meshes[mesh].primitives[place].clone();
-            let Some(draco) = &primitive.extensions.draco else { continue };
-            let at = format!("meshes[{mesh}].primitives[{place}].extensions.{NAME}");
-            fill_accessors(document, &primitive, draco, &at, &mut decoded)?;
-            let text = document.primitive_text(mesh, place).unwrap_or("{}");
-            let plain = without_extension(text, &[NAME]).map_err(unreadable)?;
-            document.replace_primitive(mesh, place, plain).map_err(unreadable)?;
-            any = true;
+/// Where decoded accessors came from: buffer view, and Draco's id of the attribute or none for indices.
+type Sources = HashMap<usize, (usize, Option<u32>)>;
+
+impl Document {
+    /// Decodes every compressed primitive; gives the accessors that were filled.
+    pub(super) fn decode_draco(&mut self, budget: &mut Budget) -> Result<BTreeSet<usize>, Fault> {
+        let mut sources = Sources::new();
+        for mesh in 0..self.root.meshes.len() {
+            for i in 0..self.root.meshes[mesh].primitives.len() {
+                let primitive = &self.root.meshes[mesh].primitives[i];
+                let Some(draco) = primitive.extensions.draco.clone() else { continue };
+                let at = format!("meshes[{mesh}].primitives[{i}]");
+                let wanted = wanted_accessors(primitive, &draco, &at)?;
+                if !self.is_there(&wanted, &draco, &sources, &at)? {
+                    self.decode_primitive(&wanted, &draco, budget, &mut sources, &at)?;
+                }
+                let text = self.primitive_text(mesh, i).unwrap_or_default();
+                let stripped = without_extension(text, NAME);
+                stripped
+                    .and_then(|text| self.replace_primitive(mesh, i, text))
+                    .map_err(|error| Fault::invalid(&at, error.to_string()))?;
+            }
         }
+        self.edits.removed_extensions.push(NAME);
+        self.store_accessors(&sources).map_err(|error| Fault::invalid("accessors", error.to_string()))?;
+        Ok(sources.into_keys().collect())
     }
-    if any {
-        document.edits.removed_extensions.push(NAME);
+
+    /// Whether the accessors have their data already: as an uncompressed fallback, or since another primitive has the same.
+    fn is_there(
+        &self,
+        wanted: &[(usize, Option<u32>)],
+        draco: &Draco,
+        sources: &Sources,
+        at: &str,
+    ) -> Result<bool, Fault> {
+        let mut there = 0;
+        for &(index, id) in wanted {
+            let accessor = self.root.accessors.get(index).ok_or_else(|| {
+                Fault::invalid(at, format!("accessor {index} does not exist; export the file again"))
+            })?;
+            if sources.get(&index).is_some_and(|source| *source != (draco.buffer_view, id)) {
+                let problem = format!("accessor {index} has two compressed contents; export the file again");
+                return Err(Fault::invalid(at, problem));
+            }
+            there += usize::from(accessor.buffer_view.is_some());
+        }
+        if there > 0 && there < wanted.len() && !wanted.iter().any(|(index, _)| sources.contains_key(index)) {
+            let problem = "is uncompressed in parts only, whose order is unknown; export the file again";
+            return Err(Fault::unsupported(at, problem));
+        }
+        Ok(there == wanted.len())
     }
-    Ok(())
+
+    fn decode_primitive(
+        &mut self,
+        wanted: &[(usize, Option<u32>)],
+        draco: &Draco,
+        budget: &mut Budget,
+        sources: &mut Sources,
+        at: &str,
+    ) -> Result<(), Fault> {
+        let at = format!("{at}.extensions.{NAME}");
+        let (stream, _) = self.view(draco.buffer_view, &format!("{at}.bufferView"))?;
+        let mesh = decode(stream, budget.0).map_err(|problem| {
+            Fault::invalid(&at, format!("the stream cannot be decoded ({problem}); compress the file again"))
+        })?;
+        for &(index, id) in wanted {
+            let accessor = &self.root.accessors[index];
+            if accessor.buffer_view.is_some() {
+                continue;
+            }
+            let decoded = match id {
+                None => index_elements(&mesh, accessor),
+                Some(id) => attribute_elements(&mesh, id, accessor),
+            };
+            let elements = decoded.map_err(|problem| {
+                Fault::invalid(&at, format!("accessors[{index}]: {problem}; compress the file again"))
+            })?;
+            budget.spend(elements.bytes.len(), &at)?;
+            let target = if id.is_none() { Target::Indices } else { Target::Vertices };
+            let size = elements.element_size();
+            let view = self.push_view(&elements.bytes, size, target.stride(size), Some(target));
+            self.decompressed_bytes += elements.bytes.len();
+            let accessor = &mut self.root.accessors[index];
+            (accessor.buffer_view, accessor.byte_offset) = (Some(view), 0);
+            sources.insert(index, (draco.buffer_view, id));
+        }
+        Ok(())
+    }
+
+    /// Writes the new buffer views into the JSON of the decoded accessors.
+    fn store_accessors(&mut self, sources: &Sources) -> serde_json::Result<()> {
+        let array = member(self.text(), "accessors")?.unwrap_or("[]");
+        let texts: Vec<&RawValue> = serde_json::from_str(array)?;
+        let mut edited = Vec::with_capacity(sources.len());
+        for &index in sources.keys() {
+            if let Some(view) = self.root.accessors[index].buffer_view {
+                let text = set_member(texts[index].get(), "byteOffset", None)?;
+                edited.push((index, set_member(&text, "bufferView", Some(&view.to_string()))?));
+            }
+        }
+        self.edits.accessors.extend(edited);
+        Ok(())
+    }
 }
 
-/// Gives the accessors of one primitive their values. `decoded` holds which view each accessor was filled from.
-fn fill_accessors(
-    document: &mut Document,
+/// The accessors that the stream fills, with Draco's id of each attribute and none for the indices.
+fn wanted_accessors(
     primitive: &Primitive,
     draco: &Draco,
     at: &str,
-    decoded: &mut HashMap<usize, usize>,
-) -> Result<(), Fault> {
-    let attributes = draco.attributes.iter().map(|(semantic, &id)| {
-        let accessor = primitive.attributes.get(semantic).copied();
-        let missing = || {
-            Fault::invalid(at, format!("has {semantic}, which the primitive has not; export the file again"))
-        };
-        Ok((accessor.ok_or_else(missing)?, Some(id)))
-    });
-    let indices = primitive.indices.map(|accessor| Ok((accessor, None)));
-    let wanted: Vec<(usize, Option<u32>)> = attributes.chain(indices).collect::<Result<_, Fault>>()?;
-    if wanted.iter().all(|(accessor, _)| decoded.get(accessor) == Some(&draco.buffer_view)) {
-        return Ok(());
+) -> Result<Vec<(usize, Option<u32>)>, Fault> {
+    let unsupported = |problem: &str| Fault::unsupported(at, format!("{problem}; export the file again"));
+    if primitive.mode != 4 {
+        return Err(unsupported("is compressed by Draco but is no triangle list"));
     }
-    let mesh = decode(document, draco, primitive, at)?;
-    for (index, id) in wanted {
-        if decoded.insert(index, draco.buffer_view).is_some() {
-            continue;
-        }
-        let path = format!("accessors[{index}]");
-        let accessor = document.root.accessors.get(index);
-        let accessor =
-            accessor.ok_or_else(|| Fault::invalid(&path, "does not exist; export the file again"))?;
-        let (bytes, target) = match id {
-            Some(id) => (attribute_bytes(&mesh, id, accessor, &path)?, Target::Vertices),
-            None => (index_bytes(&mesh, accessor, &path)?, Target::Indices),
-        };
-        fill(document, index, bytes, target).map_err(unreadable)?;
+    let indices =
+        primitive.indices.ok_or_else(|| unsupported("is compressed by Draco but has no indices"))?;
+    let mut wanted = vec![(indices, None)];
+    for (name, &id) in &draco.attributes {
+        let accessor = primitive.attributes.get(name).ok_or_else(|| {
+            Fault::invalid(at, format!("{name} is compressed but is no attribute; export the file again"))
+        })?;
+        wanted.push((*accessor, Some(id)));
     }
-    Ok(())
+    Ok(wanted)
 }
 
-fn decode(document: &Document, draco: &Draco, primitive: &Primitive, at: &str) -> Result<Mesh, Fault> {
-    // A strip's indices are not the faces in sequence, which is all that the decoder gives.
-    if primitive.mode != TRIANGLES {
-        let problem =
-            format!("mode {} is not decoded, only triangles; save the model uncompressed", primitive.mode);
-        return Err(Fault::unsupported(at, problem));
-    }
-    let (bytes, _) = document.view(draco.buffer_view, &format!("{at}.bufferView"))?;
-    let limits = limits(document, primitive, bytes.len());
-    // The decoder reports broken streams, but its indexing is not all checked: a panic is one more report.
-    let decoded = catch_unwind(|| {
+fn decode(stream: &[u8], max_bytes: usize) -> Result<Mesh, String> {
+    let limits = DecodeLimits::default().with_max_decoded_bytes(max_bytes as u64);
+    // The decoder has no panics that we know of; should hostile bytes find one, it costs this file, not the program.
+    let decoded = panic::catch_unwind(|| {
         let mut mesh = Mesh::new();
-        let mut buffer = DecoderBuffer::new(bytes).with_limits(limits);
-        MeshDecoder::new().decode(&mut buffer, &mut mesh).map(|()| mesh).map_err(|error| error.to_string())
+        let mut buffer = DecoderBuffer::new(stream).with_limits(limits);
+        MeshDecoder::new().decode(&mut buffer, &mut mesh).map(|()| mesh)
     });
-    let broken =
-        |why: String| Fault::invalid(at, format!("its bytes cannot be decoded{why}; export the file again"));
-    match decoded {
-        Ok(Ok(mesh)) => Ok(mesh),
-        Ok(Err(error)) => Err(broken(format!(" ({error})"))),
-        Err(_panic) => Err(broken(String::new())),
+    decoded.map_err(|_| "the decoder failed".to_owned())?.map_err(|error| error.to_string())
+}
+
+fn index_elements(mesh: &Mesh, accessor: &Accessor) -> Result<Elements, String> {
+    let count = mesh.num_faces().saturating_mul(3);
+    if count != accessor.count || accessor.element_type != ElementType::Scalar {
+        return Err(format!("{} indices are promised but the stream has {count}", accessor.count));
     }
+    let size = accessor.component_type.size();
+    let mut bytes = Vec::with_capacity(count * size);
+    for face in 0..mesh.num_faces() {
+        for PointIndex(point) in mesh.face(FaceIndex(face as u32)) {
+            if point as usize >= mesh.num_points() || !fits(accessor.component_type, i64::from(point)) {
+                return Err(format!("index {point} is out of range"));
+            }
+            bytes.extend_from_slice(&point.to_le_bytes()[..size]);
+        }
+    }
+    Ok(elements(accessor, bytes))
 }
 
-/// What the primitive's accessors promise, as far as so many bytes can hold it.
-fn limits(document: &Document, primitive: &Primitive, bytes: usize) -> DecodeLimits {
-    let count =
-        |accessor: usize| document.root.accessors.get(accessor).map_or(0, |accessor| accessor.count as u64);
-    let points = primitive.attributes.values().map(|&accessor| count(accessor)).max().unwrap_or(0);
-    let faces = primitive.indices.map_or(0, count) / 3;
-    // A face takes at least a fraction of a bit, an attribute at most four numbers of four bytes per point.
-    let believed = (bytes as u64).saturating_mul(1 << 10).max(1 << 20);
-    let size = points.saturating_mul(16 * (1 + primitive.attributes.len() as u64));
-    DecodeLimits::permissive()
-        .with_max_points(points.min(believed))
-        .with_max_faces(faces.max(1).min(believed))
-        .with_max_decoded_bytes(size.min(believed.saturating_mul(4)))
-}
-
-fn attribute_bytes(mesh: &Mesh, id: u32, accessor: &Accessor, at: &str) -> Result<Vec<u8>, Fault> {
-    let invalid = |problem: String| Fault::invalid(at, format!("{problem}; export the file again"));
-    let Some(attribute) = mesh.attribute_by_unique_id(id) else {
-        return Err(invalid(format!("its Draco attribute {id} does not exist")));
-    };
+fn attribute_elements(mesh: &Mesh, id: u32, accessor: &Accessor) -> Result<Elements, String> {
+    let attribute =
+        mesh.attribute_by_unique_id(id).ok_or_else(|| format!("the stream has no attribute {id}"))?;
     if mesh.num_points() != accessor.count {
-        return Err(invalid(format!(
-            "has {} elements but Draco decodes {}",
+        return Err(format!(
+            "{} elements are promised but the stream has {}",
             accessor.count,
             mesh.num_points()
-        )));
-    }
-    let components = accessor.element_type.components();
-    let fits =
-        usize::from(attribute.num_components()) == components && accessor.element_type != ElementType::Mat2;
-    if !fits || Some(accessor.component_type) != component_type(attribute.data_type()) {
-        let found = format!("{} numbers of type {:?}", attribute.num_components(), attribute.data_type());
-        return Err(Fault::unsupported(
-            at,
-            format!("Draco holds {found} for it; save the model uncompressed"),
         ));
     }
-    let size = components * accessor.component_type.size();
-    gather(attribute, mesh.num_points(), size).ok_or_else(|| invalid("its Draco attribute is broken".into()))
-}
-
-/// The values of an attribute, one per point; none where a point has no value.
-fn gather(attribute: &PointAttribute, points: usize, size: usize) -> Option<Vec<u8>> {
-    let (data, stride) = (attribute.buffer().data(), usize::try_from(attribute.byte_stride()).ok()?);
-    let mut bytes = Vec::with_capacity(points.checked_mul(size)?);
-    let values = attribute.explicit_mapping();
-    for point in 0..points {
-        let value = match values {
-            Some(values) => values.get(point)?.0 as usize,
-            None => attribute.mapped_index(PointIndex(point as u32)).0 as usize,
-        };
-        let start = value.checked_mul(stride)?;
-        bytes.extend_from_slice(data.get(start..start.checked_add(size)?)?);
+    let components = usize::from(attribute.num_components());
+    if components != accessor.element_type.components() {
+        return Err(format!(
+            "{} is promised but the stream has {components} components",
+            accessor.element_type.name()
+        ));
     }
-    Some(bytes)
-}
-
-fn component_type(data_type: DataType) -> Option<ComponentType> {
-    match data_type {
-        DataType::Int8 => Some(ComponentType::I8),
-        DataType::Uint8 => Some(ComponentType::U8),
-        DataType::Int16 => Some(ComponentType::I16),
-        DataType::Uint16 => Some(ComponentType::U16),
-        DataType::Uint32 => Some(ComponentType::U32),
-        DataType::Float32 => Some(ComponentType::F32),
-        _ => None,
-    }
-}
-
-fn index_bytes(mesh: &Mesh, accessor: &Accessor, at: &str) -> Result<Vec<u8>, Fault> {
-    let count = 3 * mesh.num_faces();
-    if count != accessor.count {
-        let problem = format!("has {} elements but Draco decodes {count}", accessor.count);
-        return Err(Fault::invalid(at, format!("{problem}; export the file again")));
-    }
-    let indices = mesh.faces().as_flattened().iter().map(|point| point.0);
-    let narrow = |most: u32| {
-        let wide = indices.clone().find(|&index| index > most);
-        let problem = |index| format!("Draco decodes index {index}, which its component type cannot hold");
-        wide.map_or(Ok(()), |index| {
-            Err(Fault::invalid(at, format!("{}; export the file again", problem(index))))
-        })
-    };
-    match accessor.component_type {
-        ComponentType::U8 => narrow(0xff).map(|()| indices.map(|index| index as u8).collect()),
-        ComponentType::U16 => {
-            narrow(0xffff).map(|()| indices.flat_map(|index| (index as u16).to_le_bytes()).collect())
-        }
-        ComponentType::U32 => Ok(indices.flat_map(u32::to_le_bytes).collect()),
-        _ => Err(Fault::invalid(at, "is signed or float; indices must be unsigned")),
-    }
-}
-
-/// Gives an accessor a buffer view with these bytes. All else that its JSON says stays, but for bounds: decoded values are quantised, so
-/// those of the original are wrong.
-fn fill(document: &mut Document, index: usize, bytes: Vec<u8>, target: Target) -> serde_json::Result<()> {
-    let Accessor { component_type, element_type, count, normalized, .. } = document.root.accessors[index];
-    let elements = Elements { bytes, count, component_type, element_type, normalized };
-    let size = elements.element_size();
-    let stride = if target == Target::Vertices { size.next_multiple_of(4) } else { size };
-    let view = document.push_view(&elements.bytes, size, stride, Some(target));
-    let mut text = match document.edits.accessors.get(&index) {
-        Some(edited) => edited.clone(),
-        None => element_text(document, "accessors", index)?,
-    };
-    text = set_member(&text, "bufferView", Some(&view.to_string()))?;
-    let (min, max) = elements.bounds().unzip();
-    for (key, bound) in [("min", min), ("max", max)] {
-        if member(&text, key)?.is_some() {
-            text = set_member(&text, key, bound.as_deref())?;
+    let from = attribute.data_type();
+    let size = components * from.byte_length();
+    let mut bytes = Vec::with_capacity(accessor.count * size);
+    for point in 0..mesh.num_points() {
+        let element = stored(attribute, point as u32, size).ok_or("the stream lacks elements")?;
+        if same_type(from, accessor.component_type) {
+            bytes.extend_from_slice(element);
+        } else {
+            convert(from, element, accessor.component_type, &mut bytes)?;
         }
     }
-    for key in ["byteOffset", "sparse"] {
-        text = set_member(&text, key, None)?;
+    Ok(elements(accessor, bytes))
+}
+
+fn elements(accessor: &Accessor, bytes: Vec<u8>) -> Elements {
+    let Accessor { count, component_type, element_type, normalized, .. } = *accessor;
+    Elements { bytes, count, component_type, element_type, normalized }
+}
+
+/// The bytes of an attribute at a point.
+fn stored(attribute: &PointAttribute, point: u32, size: usize) -> Option<&[u8]> {
+    let start = (attribute.mapped_index(PointIndex(point)).0 as usize).checked_mul(size)?;
+    attribute.buffer().data().get(start..start.checked_add(size)?)
+}
+
+fn same_type(from: DataType, to: ComponentType) -> bool {
+    matches!(
+        (from, to),
+        (DataType::Int8, ComponentType::I8)
+            | (DataType::Uint8, ComponentType::U8)
+            | (DataType::Int16, ComponentType::I16)
+            | (DataType::Uint16, ComponentType::U16)
+            | (DataType::Uint32, ComponentType::U32)
+            | (DataType::Float32, ComponentType::F32)
+    )
+}
+
+/// Integers as integers of another type, when they keep their values.
+fn convert(from: DataType, element: &[u8], to: ComponentType, out: &mut Vec<u8>) -> Result<(), String> {
+    let is_signed = match from {
+        DataType::Int8 | DataType::Int16 | DataType::Int32 => true,
+        DataType::Uint8 | DataType::Uint16 | DataType::Uint32 => false,
+        _ => return Err(format!("{from:?} in the stream is not the promised component type")),
+    };
+    for bytes in element.chunks_exact(from.byte_length()) {
+        let unsigned = bytes.iter().rev().fold(0i64, |value, &byte| value << 8 | i64::from(byte));
+        let wrap = 1i64 << (8 * bytes.len());
+        let value = if is_signed && unsigned >= wrap / 2 { unsigned - wrap } else { unsigned };
+        if !fits(to, value) {
+            return Err(format!("{value} in the stream does not fit the promised component type"));
+        }
+        out.extend_from_slice(&value.to_le_bytes()[..to.size()]);
     }
-    document.edits.accessors.insert(index, text);
-    let accessor = &mut document.root.accessors[index];
-    (accessor.buffer_view, accessor.byte_offset, accessor.sparse) = (Some(view), 0, None);
     Ok(())
+}
+
+fn fits(kind: ComponentType, value: i64) -> bool {
+    match kind {
+        ComponentType::I8 => i8::try_from(value).is_ok(),
+        ComponentType::U8 => u8::try_from(value).is_ok(),
+        ComponentType::I16 => i16::try_from(value).is_ok(),
+        ComponentType::U16 => u16::try_from(value).is_ok(),
+        ComponentType::U32 => u32::try_from(value).is_ok(),
+        ComponentType::F32 => false,
+    }
 }

@@ -1,210 +1,226 @@
-//! EXT_meshopt_compression and KHR_meshopt_compression: buffer views whose bytes are encoded elsewhere.
+//! `EXT_meshopt_compression` and `KHR_meshopt_compression`: buffer views whose bytes are compressed.
 //!
-//! The KHR variant adds version 1 of the vertex codec and the colour filter; the decoder takes either under both names.
+//! The two differ in what their streams may use, not in their JSON: the second adds version 1 of the vertex codec and the
+//! colour filter. Streams name their version, so that one decoder serves both.
+//!
+//! A compressed view refers to a buffer that would hold its decoded bytes, but mostly has none. We fill that buffer, so that
+//! views keep their places.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use super::{element_text, unreadable, without_extension};
+use ::meshopt as codec;
+use serde_json::value::RawValue;
+
+use super::{Budget, without_extension};
 use crate::error::Fault;
 use crate::gltf::document::{Document, Store};
-use crate::gltf::json::set_member;
-use crate::gltf::schema::Meshopt;
+use crate::gltf::json::{member, set_member};
+use crate::gltf::schema::{BufferView, Meshopt};
 
 const NAMES: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
 
-/// Decodes every compressed buffer view into the buffer that it falls back to.
-///
-/// A fallback that has bytes of its own is taken as it is: the extension says that it holds the same.
-pub fn decompress(document: &mut Document) -> Result<(), Fault> {
-    let views = document.root.buffer_views.iter().enumerate();
-    let compressed: Vec<(usize, Meshopt)> =
-        views.filter_map(|(i, view)| Some((i, view.extensions.meshopt.as_deref()?.clone()))).collect();
-    if compressed.is_empty() {
-        return Ok(());
-    }
-    let mut decoded: BTreeMap<usize, Filling> = BTreeMap::new();
-    for (index, meshopt) in &compressed {
-        let view = &document.root.buffer_views[*index];
-        if matches!(document.stores.get(view.buffer), Some(Store::Absent(_))) {
-            let (buffer, offset, length) = (view.buffer, view.byte_offset, view.byte_length);
-            let bytes = decode(document, *index, meshopt, length)?;
-            place(decoded.entry(buffer).or_default(), offset, &bytes, *index)?;
-        }
-    }
-    for (buffer, Filling { bytes, .. }) in decoded {
-        let text = element_text(document, "buffers", buffer);
-        let text = text.and_then(|text| set_member(&text, "byteLength", Some(&bytes.len().to_string())));
-        document.edits.buffers.insert(buffer, text.map_err(unreadable)?);
-        document.root.buffers[buffer].byte_length = bytes.len();
-        document.stores[buffer] = Store::Decoded(bytes);
-    }
-    remove_extension(document, compressed.iter().map(|(index, _)| *index)).map_err(unreadable)
-}
+/// The most that the codecs can save: a quarter of a byte stands for up to 256 zeros.
+const MAX_RATIO: usize = 1024;
 
-fn remove_extension(document: &mut Document, views: impl Iterator<Item = usize>) -> serde_json::Result<()> {
-    for index in views {
-        let text = element_text(document, "bufferViews", index)?;
-        document.edits.views.insert(index, without_extension(&text, &NAMES)?);
-        document.root.buffer_views[index].extensions.meshopt = None;
-    }
-    for index in 0..document.root.buffers.len() {
-        let text = match document.edits.buffers.get(&index) {
-            Some(edited) => edited.clone(),
-            None => element_text(document, "buffers", index)?,
-        };
-        let plain = without_extension(&text, &NAMES)?;
-        if plain != text {
-            document.edits.buffers.insert(index, plain);
+impl Document {
+    /// Decodes every compressed view; gives those that were decoded.
+    pub(super) fn decode_meshopt(&mut self, budget: &mut Budget) -> Result<BTreeSet<usize>, Fault> {
+        let mut views = BTreeSet::new();
+        if self.root.buffer_views.iter().all(|view| view.extensions.meshopt.is_none()) {
+            return Ok(views);
         }
-    }
-    document.edits.removed_extensions.extend(NAMES);
-    Ok(())
-}
-
-/// A buffer while views are decoded into it.
-#[derive(Default)]
-struct Filling {
-    bytes: Vec<u8>,
-    /// How many bytes were decoded, gaps left out.
-    decoded: usize,
-}
-
-/// Writes a view's bytes to its place in the buffer. Gaps between views are zeros; gaps larger than all that was decoded are not
-/// believed.
-fn place(buffer: &mut Filling, offset: usize, bytes: &[u8], view: usize) -> Result<(), Fault> {
-    let at = format!("bufferViews[{view}].byteOffset");
-    buffer.decoded = buffer.decoded.saturating_add(bytes.len());
-    let most = MOST_GAP.saturating_add(buffer.decoded.saturating_mul(2));
-    let Some(end) = offset.checked_add(bytes.len()).filter(|&end| end <= most) else {
-        let problem = format!("{offset} is far beyond the other views of its buffer; export the file again");
-        return Err(Fault::invalid(at, problem));
-    };
-    if buffer.bytes.len() < end {
-        buffer.bytes.resize(end, 0);
-    }
-    buffer.bytes[offset..end].copy_from_slice(bytes);
-    Ok(())
-}
-
-/// Views need not come in the order of their places: so much may be left for later ones.
-const MOST_GAP: usize = 64 << 20;
-
-fn decode(document: &Document, index: usize, meshopt: &Meshopt, length: usize) -> Result<Vec<u8>, Fault> {
-    let at = format!("bufferViews[{index}].extensions.{}", NAMES[0]);
-    let invalid = |problem: String| Fault::invalid(at.clone(), format!("{problem}; export the file again"));
-    let Meshopt { buffer, byte_offset, byte_length, byte_stride: stride, count, ref mode, ref filter } =
-        *meshopt;
-    let source = document.buffer_range(buffer, byte_offset, byte_length, &at)?;
-    if count.checked_mul(stride) != Some(length) {
-        return Err(invalid(format!(
-            "{count} elements of {stride} bytes do not make the view's {length} bytes"
-        )));
-    }
-    if count > most_elements(mode, stride, source.len()) {
-        return Err(invalid(format!("{count} elements cannot come from {} bytes", source.len())));
-    }
-    let unknown = |what: &str| {
-        Fault::unsupported(at.clone(), format!("{what} is not known; save the model uncompressed"))
-    };
-    let decoded = match (mode.as_str(), stride) {
-        ("ATTRIBUTES", 4..=256) if stride % 4 == 0 => vertices(source, count, stride),
-        ("TRIANGLES", 2) if count % 3 == 0 => {
-            meshopt::decode_index_buffer::<u16>(source, count).map(u16_bytes).ok()
+        let mut decoded: BTreeMap<usize, Vec<(usize, Vec<u8>)>> = BTreeMap::new();
+        for (i, view) in self.root.buffer_views.iter().enumerate() {
+            let Some(compressed) = &view.extensions.meshopt else { continue };
+            let has_fallback = !matches!(self.stores.get(view.buffer), Some(Store::Absent(_)) | None);
+            if !has_fallback {
+                let at = format!("bufferViews[{i}].extensions");
+                let bytes = self.decode_view(view, compressed, budget, &at)?;
+                views.insert(i);
+                decoded.entry(view.buffer).or_default().push((view.byte_offset, bytes));
+            }
         }
-        ("TRIANGLES", 4) if count % 3 == 0 => {
-            meshopt::decode_index_buffer::<u32>(source, count).map(u32_bytes).ok()
+        for (buffer, pieces) in decoded {
+            self.fill_buffer(buffer, &pieces, budget)?;
         }
-        ("INDICES", 2) => meshopt::decode_index_sequence::<u16>(source, count).map(u16_bytes).ok(),
-        ("INDICES", 4) => meshopt::decode_index_sequence::<u32>(source, count).map(u32_bytes).ok(),
-        ("ATTRIBUTES" | "TRIANGLES" | "INDICES", _) => {
-            return Err(invalid(format!("{count} elements of {stride} bytes do not fit mode {mode}")));
-        }
-        _ => return Err(unknown(&format!("mode {mode:?}"))),
-    };
-    let mut bytes = decoded.ok_or_else(|| invalid("its bytes are broken".into()))?;
-    match filter.as_deref() {
-        None | Some("NONE") => {}
-        Some(filter) => {
-            apply(filter, stride, &mut bytes)
-                .ok_or_else(|| unknown(&format!("filter {filter:?} of {stride} bytes")))?;
-        }
+        self.remove_meshopt().map_err(|error| Fault::invalid("bufferViews", error.to_string()))?;
+        Ok(views)
     }
-    Ok(bytes)
-}
 
-/// No stream of `length` bytes holds more: triangles and indices take a byte each, 256 vertices a bit for every four bytes.
-fn most_elements(mode: &str, stride: usize, length: usize) -> usize {
-    match mode {
-        "TRIANGLES" => length.saturating_mul(3),
-        "INDICES" => length,
-        _ => length.saturating_mul(1024) / stride.max(1),
+    fn decode_view(
+        &self,
+        view: &BufferView,
+        compressed: &Meshopt,
+        budget: &mut Budget,
+        at: &str,
+    ) -> Result<Vec<u8>, Fault> {
+        let Meshopt { buffer, byte_offset, byte_length, byte_stride: stride, count, .. } = *compressed;
+        let broken = |problem: String| Fault::invalid(at, format!("{problem}; compress the file again"));
+        let stream = self.buffer_range(buffer, byte_offset, byte_length, at)?;
+        let length =
+            count.checked_mul(stride).filter(|&length| length == view.byte_length).ok_or_else(|| {
+                broken(format!(
+                    "{count} elements of {stride} bytes are not the view's {} bytes",
+                    view.byte_length
+                ))
+            })?;
+        if length > stream.len().saturating_mul(MAX_RATIO) {
+            return Err(broken(format!("{} compressed bytes cannot hold {length}", stream.len())));
+        }
+        budget.spend(length, at)?;
+        let filter = compressed.filter.as_deref().unwrap_or("NONE");
+        decode(&compressed.mode, filter, stride, stream, count).ok_or_else(|| {
+            let mode = &compressed.mode;
+            broken(format!(
+                "the stream is broken, or cannot be {mode:?} of {stride} bytes with filter {filter:?}"
+            ))
+        })
+    }
+
+    /// Gives a buffer without bytes the decoded ones.
+    fn fill_buffer(
+        &mut self,
+        buffer: usize,
+        pieces: &[(usize, Vec<u8>)],
+        budget: &mut Budget,
+    ) -> Result<(), Fault> {
+        let at = format!("buffers[{buffer}]");
+        let invalid = |problem: &str| Fault::invalid(&at, format!("{problem}; compress the file again"));
+        let declared = self.root.buffers.get(buffer).map(|buffer| buffer.byte_length);
+        let ends = pieces.iter().map(|(offset, bytes)| offset.saturating_add(bytes.len()));
+        let length = ends.max().unwrap_or(0);
+        if declared.is_none_or(|declared| length > declared) {
+            return Err(invalid("is shorter than the buffer views in it, or does not exist"));
+        }
+        // Zeros between the pieces need no backing in the file, so that they must be few.
+        let backed: usize = pieces.iter().map(|(_, bytes)| bytes.len()).sum();
+        if length > backed.saturating_mul(2).saturating_add(1 << 16) {
+            return Err(invalid("has more space between the buffer views in it than they need themselves"));
+        }
+        budget.spend(length, &at)?;
+        let mut content = vec![0; length];
+        for (offset, bytes) in pieces {
+            content[*offset..offset + bytes.len()].copy_from_slice(bytes);
+        }
+        self.root.buffers[buffer].byte_length = length;
+        self.stores[buffer] = Store::Decoded(content);
+        Ok(())
+    }
+
+    /// Removes the extensions from the JSON.
+    fn remove_meshopt(&mut self) -> serde_json::Result<()> {
+        let text = self.text();
+        let array = |key| Ok(member(text, key)?.unwrap_or("[]"));
+        let views: Vec<&RawValue> = serde_json::from_str(array("bufferViews")?)?;
+        let buffers: Vec<&RawValue> = serde_json::from_str(array("buffers")?)?;
+        let mut edited_views = BTreeMap::new();
+        for (i, view) in views.iter().enumerate() {
+            if self.root.buffer_views[i].extensions.meshopt.is_some() {
+                edited_views.insert(i, without_meshopt(view.get())?);
+            }
+        }
+        let mut edited_buffers = BTreeMap::new();
+        for (i, buffer) in buffers.iter().enumerate() {
+            let mut text = without_meshopt(buffer.get())?;
+            if let Store::Decoded(bytes) = &self.stores[i] {
+                text = set_member(&text, "byteLength", Some(&bytes.len().to_string()))?;
+            }
+            if text != buffer.get() {
+                edited_buffers.insert(i, text);
+            }
+        }
+        self.root.buffer_views.iter_mut().for_each(|view| view.extensions.meshopt = None);
+        self.edits.views.extend(edited_views);
+        self.edits.buffers.extend(edited_buffers);
+        self.edits.removed_extensions.extend(NAMES);
+        Ok(())
     }
 }
 
-fn u16_bytes(values: Vec<u16>) -> Vec<u8> {
+fn without_meshopt(object: &str) -> serde_json::Result<String> {
+    NAMES.into_iter().try_fold(object.to_owned(), |text, name| without_extension(&text, name))
+}
+
+/// Decodes a stream. None: the stream is broken, or the combination is not allowed.
+fn decode(mode: &str, filter: &str, stride: usize, stream: &[u8], count: usize) -> Option<Vec<u8>> {
+    match (mode, stride) {
+        ("ATTRIBUTES", _) => filtered(filter, stride, decode_attributes(stride, stream, count)?),
+        _ if filter != "NONE" => None,
+        ("TRIANGLES", _) if !count.is_multiple_of(3) => None,
+        ("TRIANGLES", 2) => Some(shorts_to_bytes(codec::decode_index_buffer(stream, count).ok()?)),
+        ("TRIANGLES", 4) => Some(words_to_bytes(codec::decode_index_buffer(stream, count).ok()?)),
+        ("INDICES", 2) => Some(shorts_to_bytes(codec::decode_index_sequence(stream, count).ok()?)),
+        ("INDICES", 4) => Some(words_to_bytes(codec::decode_index_sequence(stream, count).ok()?)),
+        _ => None,
+    }
+}
+
+fn shorts_to_bytes(values: Vec<u16>) -> Vec<u8> {
     values.into_iter().flat_map(u16::to_le_bytes).collect()
 }
 
-fn u32_bytes(values: Vec<u32>) -> Vec<u8> {
+fn words_to_bytes(values: Vec<u32>) -> Vec<u8> {
     values.into_iter().flat_map(u32::to_le_bytes).collect()
 }
 
-/// Decodes vertices of `stride` bytes, a multiple of 4 up to 256.
-fn vertices(source: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
-    // The decoder is generic over the vertex, so every size needs a type.
-    macro_rules! by_words {
-        ($($words:literal)*) => {
-            match stride / 4 {
-                $(
-                    $words => meshopt::decode_vertex_buffer::<[u32; $words]>(source, count)
-                        .map(|vertices| words(vertices.as_flattened())).ok(),
-                )*
-                $(
-                    n if n == 32 + $words => meshopt::decode_vertex_buffer::<([u32; 32], [u32; $words])>(source, count)
-                        .map(|vertices| vertices.iter().flat_map(|(a, b)| words(&[&a[..], b].concat())).collect()).ok(),
-                )*
-                _ => None,
-            }
-        };
+/// An element of `N` bytes: the decoder takes its stride from a type.
+#[derive(Clone, Copy)]
+struct Element<const N: usize>([u8; N]);
+
+impl<const N: usize> Default for Element<N> {
+    fn default() -> Self {
+        Self([0; N])
     }
-    by_words!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31 32)
 }
 
-/// Words as they lie in memory, which is what the decoder wrote.
-fn words(words: &[u32]) -> Vec<u8> {
-    words.iter().flat_map(|word| word.to_ne_bytes()).collect()
+fn decode_elements<const N: usize>(stream: &[u8], count: usize) -> Option<Vec<u8>> {
+    let elements: Vec<Element<N>> = codec::decode_vertex_buffer(stream, count).ok()?;
+    Some(elements.iter().flat_map(|element| element.0).collect())
 }
 
-/// Undoes a filter in place; none where there is no such filter for elements of `stride` bytes.
-fn apply(filter: &str, stride: usize, bytes: &mut [u8]) -> Option<()> {
+macro_rules! decode_by_stride {
+    ($stride:ident, $stream:ident, $count:ident: $($n:literal)*) => {
+        match $stride {
+            $($n => decode_elements::<$n>($stream, $count),)*
+            _ => None,
+        }
+    };
+}
+
+#[rustfmt::skip]
+fn decode_attributes(stride: usize, stream: &[u8], count: usize) -> Option<Vec<u8>> {
+    decode_by_stride!(stride, stream, count:
+        4 8 12 16 20 24 28 32 36 40 44 48 52 56 60 64 68 72 76 80 84 88 92 96 100 104 108 112 116 120 124 128
+        132 136 140 144 148 152 156 160 164 168 172 176 180 184 188 192 196 200 204 208 212 216 220 224 228
+        232 236 240 244 248 252 256)
+}
+
+/// Undoes a filter. None: it cannot be used with that stride.
+fn filtered(filter: &str, stride: usize, mut bytes: Vec<u8>) -> Option<Vec<u8>> {
     match (filter, stride) {
-        ("OCTAHEDRAL", 4) => in_place(bytes, i8::from_le_bytes, i8::to_le_bytes, meshopt::decode_filter_oct),
-        ("OCTAHEDRAL", 8) => {
-            in_place(bytes, i16::from_le_bytes, i16::to_le_bytes, meshopt::decode_filter_oct)
-        }
-        ("QUATERNION", 8) => {
-            in_place(bytes, i16::from_le_bytes, i16::to_le_bytes, meshopt::decode_filter_quat)
-        }
+        ("NONE", _) => return Some(bytes),
+        ("OCTAHEDRAL", 4) => codec::decode_filter_oct(bytes.as_chunks_mut::<4>().0),
+        ("COLOR", 4) => codec::decode_filter_color(bytes.as_chunks_mut::<4>().0),
+        ("OCTAHEDRAL", 8) => on_shorts(&mut bytes, codec::decode_filter_oct::<i16>),
+        ("COLOR", 8) => on_shorts(&mut bytes, codec::decode_filter_color::<i16>),
+        ("QUATERNION", 8) => on_shorts(&mut bytes, codec::decode_filter_quat),
         ("EXPONENTIAL", _) => {
-            in_place(bytes, u32::from_le_bytes, u32::to_le_bytes, meshopt::decode_filter_exp::<1>);
+            let words = bytes.as_chunks::<4>().0.iter().map(|&word| [u32::from_le_bytes(word)]);
+            let mut words: Vec<[u32; 1]> = words.collect();
+            codec::decode_filter_exp(&mut words);
+            return Some(words_to_bytes(words.into_iter().flatten().collect()));
         }
-        ("COLOR", 4) => in_place(bytes, u8::from_le_bytes, u8::to_le_bytes, meshopt::decode_filter_color),
-        ("COLOR", 8) => in_place(bytes, u16::from_le_bytes, u16::to_le_bytes, meshopt::decode_filter_color),
         _ => return None,
     }
-    Some(())
+    Some(bytes)
 }
 
-/// Runs `filter` over `bytes` as elements of `N` numbers.
-fn in_place<T: Copy, const S: usize, const N: usize>(
-    bytes: &mut [u8],
-    read: fn([u8; S]) -> T,
-    write: fn(T) -> [u8; S],
-    filter: fn(&mut [[T; N]]),
-) {
-    let mut values: Vec<T> = bytes.as_chunks::<S>().0.iter().map(|bytes| read(*bytes)).collect();
-    filter(values.as_chunks_mut::<N>().0);
-    for (bytes, value) in bytes.as_chunks_mut::<S>().0.iter_mut().zip(values) {
-        *bytes = write(value);
+fn on_shorts(bytes: &mut [u8], filter: impl Fn(&mut [[i16; 4]])) {
+    let shorts = bytes.as_chunks_mut::<2>().0;
+    let mut values: Vec<[i16; 4]> =
+        shorts.as_chunks::<4>().0.iter().map(|v| v.map(i16::from_le_bytes)).collect();
+    filter(&mut values);
+    for (short, value) in shorts.iter_mut().zip(values.into_iter().flatten()) {
+        *short = value.to_le_bytes();
     }
 }
