@@ -128,7 +128,7 @@ impl Document {
             .enumerate()
             .map(|(i, buffer)| load_buffer(i, buffer, chunk, &mut resources))
             .collect::<Result<_, _>>()?;
-        let warnings = image_warnings(name, &root, &resources);
+        let warnings = image_warnings(&root, &resources);
         Ok(Self {
             name: name.to_owned(),
             input: None,
@@ -444,11 +444,11 @@ fn load_buffer(
     Ok(store)
 }
 
-fn image_warnings(name: &str, root: &Root, resources: &Resources) -> Vec<String> {
+fn image_warnings(root: &Root, resources: &Resources) -> Vec<String> {
     let uris = root.images.iter().enumerate().filter_map(|(i, image)| Some((i, image.uri.as_deref()?)));
     uris.filter_map(|(i, uri)| {
         let problem = resources.resolve(uri).err()?;
-        Some(format!("{name}: images[{i}].uri: {problem}; left as it is"))
+        Some(format!("images[{i}].uri: {problem}; left as it is"))
     })
     .collect()
 }
