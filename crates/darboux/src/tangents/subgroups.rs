@@ -86,6 +86,10 @@ impl Subgroups {
             axes.each_ref().map(|x| x.iter().zip(&self.any).filter(|(_, any)| !**any).map(|(x, _)| x).sum());
         let length = dot(sum, sum).sqrt();
         let bound = length * (((1.0 + self.threshold_cosine) / 2.0).sqrt() + 0.001);
-        (0..self.any.len()).all(|at| self.any[at] || dot(axes.each_ref().map(|x| x[at]), sum) > bound)
+        // Directions whose squares underflowed are not of unit length; for them the margin says nothing.
+        let is_unit = |v: V3| (dot(v, v) - 1.0).abs() < 1e-6;
+        let direction = |at: usize| axes.each_ref().map(|x| x[at]);
+        (0..self.any.len())
+            .all(|at| self.any[at] || (is_unit(direction(at)) && dot(direction(at), sum) > bound))
     }
 }
