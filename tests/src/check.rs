@@ -18,7 +18,10 @@ pub fn all_modes(case: &Case) -> Result<(), String> {
     };
     let splits = distinct(&mut reference.iter().copied().flatten());
     for mode in [Mode::Reference, Mode::Repaired, Mode::Corrected] {
-        let frames = generate_frames(&mesh.view(), &TangentOptions { mode, threshold: *threshold });
+        let frames = generate_frames(
+            &mesh.view(),
+            &TangentOptions { mode, threshold: *threshold, ..TangentOptions::default() },
+        );
         let frames = frames.corners.into_per_corner();
         check_frames(mesh, &frames, mode, Some(&reference))
             .map_err(|broken| format!("{mode:?}: {broken}"))?;

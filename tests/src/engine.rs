@@ -43,7 +43,9 @@ impl Engine for Darboux {
 
     fn run(&self, mesh: &OwnedMesh, threshold: f32, mode: Mode) -> Option<Vec<Option<Frame>>> {
         let frames =
-            generate_frames(&mesh.view(), &TangentOptions { mode, threshold }).corners.into_per_corner();
+            generate_frames(&mesh.view(), &TangentOptions { mode, threshold, ..TangentOptions::default() })
+                .corners
+                .into_per_corner();
         let supported = mesh.supported_corners();
         Some(frames.into_iter().zip(supported).map(|(frame, supported)| supported.then_some(frame)).collect())
     }

@@ -8,7 +8,9 @@ fn bits(frames: &[Frame]) -> Vec<[u32; 9]> {
 }
 
 fn frames(mesh: &Mesh<'_>, threshold: f32) -> Vec<Frame> {
-    generate_frames(mesh, &TangentOptions { mode: Mode::Repaired, threshold }).corners.into_per_corner()
+    generate_frames(mesh, &TangentOptions { mode: Mode::Repaired, threshold, ..TangentOptions::default() })
+        .corners
+        .into_per_corner()
 }
 
 /// Position, UV and normal of each vertex in one buffer of 9 floats a vertex, with one that is nobody's.
@@ -58,7 +60,7 @@ fn the_layout_of_the_input_does_not_matter() {
 fn indices_do_not_matter() {
     for seed in 0..3_000 {
         let Case { mesh, threshold } = Case::from_seed(seed);
-        let options = TangentOptions { mode: Mode::Reference, threshold };
+        let options = TangentOptions { mode: Mode::Reference, threshold, ..TangentOptions::default() };
         let [indexed, unindexed] = [&mesh, &mesh.unindexed()]
             .map(|mesh| bits(&generate_frames(&mesh.view(), &options).corners.into_per_corner()));
         assert_eq!(indexed, unindexed, "seed {seed}");

@@ -9,7 +9,7 @@ const TOLERANCE: f32 = 2.4e-5;
 
 fn assert_near(what: &str, mesh: &OwnedMesh, threshold: f32) {
     // The brute force matches every edge, as `Corrected` does; nothing here needs a repair.
-    let options = TangentOptions { mode: Mode::Corrected, threshold };
+    let options = TangentOptions { mode: Mode::Corrected, threshold, ..TangentOptions::default() };
     let found = generate_frames(&mesh.view(), &options).corners.into_per_corner();
     let expected = naive::mikktspace(&mesh.view(), threshold);
     for (corner, (found, expected)) in found.iter().zip(&expected).enumerate() {

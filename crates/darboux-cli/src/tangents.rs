@@ -119,7 +119,11 @@ pub fn load(input: &Input, allow_outside: bool) -> Result<Document, String> {
 
 fn options(arguments: &TangentsArguments) -> TangentsOptions {
     TangentsOptions {
-        tangents: TangentOptions { mode: arguments.mode.into(), threshold: arguments.threshold },
+        tangents: TangentOptions {
+            mode: arguments.mode.into(),
+            threshold: arguments.threshold,
+            ..TangentOptions::default()
+        },
         overwrite: arguments.overwrite,
         only_needed: arguments.only_needed,
         strict: arguments.strict,

@@ -39,4 +39,6 @@ pub use mesh::{Faces, Indices, Mesh, MeshError, Strided};
 pub use plan::Plan;
 pub use split::{Splitter, VertexSplit, split_vertices};
 pub use tangents::naive;
-pub use tangents::{Frames, Mode, Report, TangentOptions, Tangents, generate_frames, generate_tangents};
+pub use tangents::{
+    Frames, Method, Mode, Report, TangentOptions, Tangents, generate_frames, generate_tangents,
+};

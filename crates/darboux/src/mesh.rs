@@ -47,6 +47,17 @@ impl<'a, const N: usize> Strided<'a, N> {
         self.len == 0
     }
 
+    /// The elements, where they lie one after the other.
+    #[inline]
+    pub(crate) fn packed(&self) -> Option<&'a [[f32; N]]> {
+        match self.source {
+            Source::Floats(data) if self.stride == N && self.len > 0 => {
+                Some(data[self.offset..].as_chunks().0)
+            }
+            _ => None,
+        }
+    }
+
     /// The element at `index`. Panics when `index` is not below [`Strided::len`].
     #[inline]
     pub fn get(&self, index: usize) -> [f32; N] {
@@ -255,6 +266,11 @@ impl<'a> Mesh<'a> {
     /// How corners make faces.
     pub fn faces(&self) -> Faces<'a> {
         self.faces
+    }
+
+    /// Which vertex each corner uses.
+    pub fn indices(&self) -> Indices<'a> {
+        self.indices
     }
 
     /// The vertex that `corner` uses. Panics when `corner` is out of range.

@@ -1,20 +1,30 @@
 //! Options to method: the entry points of tangent generation.
 
+mod area;
+mod average;
 mod degenerate;
 mod derivatives;
 mod evaluate;
+mod face;
+mod flat;
+mod from_normal;
 mod groups;
+mod lengyel;
+mod method;
 pub(crate) mod mikktspace;
 pub mod naive;
 mod repair;
 mod report;
+mod seams;
 mod shape;
+mod sides;
 mod signs;
 mod subgroups;
+mod sums;
 
 use crate::{CornerFrames, CornerTangents, Mesh};
 
-use mikktspace::Topology;
+pub use method::Method;
 pub use report::Report;
 
 /// How faithfully defects of the MikkTSpace reference are kept.
@@ -32,16 +42,18 @@ pub enum Mode {
 /// What [`generate_tangents`] and [`generate_frames`] do. The default is right for normal maps from today's bakers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TangentOptions {
+    /// The method; MikkTSpace unless told otherwise.
+    pub method: Method,
     /// How faithfully defects of the reference are kept.
     pub mode: Mode,
     /// Angular threshold in degrees: faces around a vertex share a tangent while their tangents and their bitangents differ by less.
-    /// Default 180, which is what bakers use. Any value is accepted; its cosine counts.
+    /// Default 180, which is what bakers use. [`Method::MikkTSpace`] alone has it. Any value is accepted; its cosine counts.
     pub threshold: f32,
 }
 
 impl Default for TangentOptions {
     fn default() -> Self {
-        Self { mode: Mode::default(), threshold: 180.0 }
+        Self { method: Method::default(), mode: Mode::default(), threshold: 180.0 }
     }
 }
 
@@ -63,14 +75,14 @@ pub struct Frames {
     pub report: Report,
 }
 
-/// Computes the MikkTSpace tangent of every corner.
+/// Computes the tangent of every corner.
 pub fn generate_tangents(mesh: &Mesh<'_>, options: &TangentOptions) -> Tangents {
-    let Frames { corners, report } = generate_frames(mesh, options);
-    Tangents { corners: corners.tangents(), report }
+    let (corners, report) = method::run(mesh, options);
+    Tangents { corners: CornerTangents(corners), report }
 }
 
-/// Computes the whole MikkTSpace frame of every corner: tangent, bitangent, magnitudes, sign.
+/// Computes the whole frame of every corner: tangent, bitangent, magnitudes, sign.
 pub fn generate_frames(mesh: &Mesh<'_>, options: &TangentOptions) -> Frames {
-    let (frames, report) = Topology::new(mesh, options).frames(mesh);
-    Frames { corners: CornerFrames(frames), report }
+    let (corners, report) = method::run(mesh, options);
+    Frames { corners: CornerFrames(corners), report }
 }

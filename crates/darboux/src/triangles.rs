@@ -91,7 +91,7 @@ fn split_faces(mesh: &Mesh<'_>, out: &mut Triangulation) -> Triangles {
 
 /// The halves of the quad whose first corner is `first`, cut along the shorter diagonal in UV space; where neither is shorter
 /// (or one is NaN), along the one that is shorter in space, 0-2 unless 1-3 is strictly shorter.
-fn split_quad(mesh: &Mesh<'_>, first: u32) -> [[u32; 3]; 2] {
+pub(crate) fn split_quad(mesh: &Mesh<'_>, first: u32) -> [[u32; 3]; 2] {
     let [a, b, c, d] = [first, first + 1, first + 2, first + 3];
     let uv = |corner: u32| {
         let [u, v] = mesh.uvs().get(mesh.vertex_of_corner(corner as usize));

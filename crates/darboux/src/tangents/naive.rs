@@ -5,9 +5,13 @@
 //! Source: M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008, and his mikktspace.c. We deviate: vertices weld
 //! to their first corner, and every edge finds its neighbour (the C misses some at the largest vertex number).
 
+mod methods;
+
 use std::array::from_fn;
 
 use crate::{Faces, Frame, Mesh};
+
+pub use methods::{area, average, face, from_normal, lengyel, lengyel_per_vertex};
 
 type Vec3 = [f64; 3];
 
@@ -233,7 +237,7 @@ fn write_group(
             a.any || b.any || a.face == b.face || close()
         };
         let members = group.members.iter().filter(within).map(|&t| &triangles[t]);
-        let space = average(members, group.vertex, normal, corners);
+        let space = weighted_mean(members, group.vertex, normal, corners);
         let space = Space { keeps_orientation: triangles[f].space.keeps_orientation, ..space };
         let i = triangles[f].vertices(corners).iter().position(|&v| v == group.vertex);
         let slot = &mut spaces[triangles[f].corners[i.expect("members touch the vertex")]];
@@ -242,7 +246,7 @@ fn write_group(
 }
 
 /// The sum weighted by the triangles' angles at the vertex, in the plane of its normal.
-fn average<'a>(
+fn weighted_mean<'a>(
     members: impl Iterator<Item = &'a Triangle>,
     vertex: usize,
     normal: Vec3,
@@ -327,6 +331,10 @@ fn scale(factor: f64, v: Vec3) -> Vec3 {
 
 fn dot(a: Vec3, b: Vec3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: Vec3, b: Vec3) -> Vec3 {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 fn length(v: Vec3) -> f64 {

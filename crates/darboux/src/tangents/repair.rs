@@ -11,7 +11,7 @@ use crate::triangles::Triangulation;
 
 use super::evaluate::RawFrames;
 
-type D3 = [f64; 3];
+pub(super) type D3 = [f64; 3];
 
 /// Replaces what is unusable in `raw`, in place, at the corners of `needs`.
 ///
@@ -83,8 +83,16 @@ fn bits(v: V3) -> [u32; 3] {
 /// The direction of dP/du on a triangle, as long as it may be; zero or NaN where UVs or positions give none.
 fn u_direction(mesh: &Mesh<'_>, corners: [u32; 3]) -> D3 {
     let vertices = corners.map(|corner| mesh.vertex_of_corner(corner as usize));
-    let [p0, p1, p2] = vertices.map(|vertex| mesh.positions().get(vertex).map(f64::from));
-    let [t0, t1, t2] = vertices.map(|vertex| mesh.uvs().get(vertex).map(f64::from));
+    u_direction_of(
+        vertices.map(|vertex| mesh.positions().get(vertex)),
+        vertices.map(|vertex| mesh.uvs().get(vertex)),
+    )
+}
+
+/// As [`u_direction`], from a triangle's values.
+pub(super) fn u_direction_of(positions: [V3; 3], uvs: [[f32; 2]; 3]) -> D3 {
+    let [p0, p1, p2] = positions.map(|position| position.map(f64::from));
+    let [t0, t1, t2] = uvs.map(|uv| uv.map(f64::from));
     let [dv1, dv2] = [t1[1] - t0[1], t2[1] - t0[1]];
     let area = (t1[0] - t0[0]) * dv2 - dv1 * (t2[0] - t0[0]);
     [0, 1, 2].map(|i| (dv2 * (p1[i] - p0[i]) - dv1 * (p2[i] - p0[i])) * 1f64.copysign(area))
@@ -115,7 +123,7 @@ pub(crate) fn mean_in_plane(directions: impl Iterator<Item = V3>, normal: V3) ->
 }
 
 /// The unit vector along the part of `v` that is perpendicular to the unit `normal`; none where that part is rounding error.
-fn in_plane(v: D3, normal: D3) -> Option<D3> {
+pub(super) fn in_plane(v: D3, normal: D3) -> Option<D3> {
     let v = unit(v)?;
     let along = dot(v, normal);
     let rest = [0, 1, 2].map(|i| v[i] - along * normal[i]);
@@ -123,7 +131,7 @@ fn in_plane(v: D3, normal: D3) -> Option<D3> {
 }
 
 /// A unit vector perpendicular to the unit `normal` (Duff et al. 2017, "Building an Orthonormal Basis, Revisited", listing 3).
-fn perpendicular(normal: D3) -> D3 {
+pub(super) fn perpendicular(normal: D3) -> D3 {
     let [x, y, z] = normal;
     let sign = 1f64.copysign(z);
     let a = -1.0 / (sign + z);
@@ -131,7 +139,7 @@ fn perpendicular(normal: D3) -> D3 {
 }
 
 /// The direction of a normal, if it has one.
-fn direction(normal: V3) -> Option<D3> {
+pub(super) fn direction(normal: V3) -> Option<D3> {
     if is_not_zero(normal) { unit(normal.map(f64::from)) } else { None }
 }
 
@@ -139,7 +147,7 @@ fn is_not_zero(v: V3) -> bool {
     v.iter().any(|&x| not_zero(x))
 }
 
-fn unit(v: D3) -> Option<D3> {
+pub(super) fn unit(v: D3) -> Option<D3> {
     // Floats' squares neither overflow nor vanish in double precision.
     let length = length(v);
     (length > 0.0 && length.is_finite()).then(|| v.map(|x| x / length))
@@ -149,7 +157,7 @@ fn dot(a: D3, b: D3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn cross(a: D3, b: D3) -> D3 {
+pub(super) fn cross(a: D3, b: D3) -> D3 {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 

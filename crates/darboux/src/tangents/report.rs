@@ -27,6 +27,9 @@ pub struct Report {
     pub mirrored_edges: usize,
     /// Vertices of the mesh that need more than one tangent: what [`split_vertices`](crate::split_vertices) splits.
     pub split_vertices: usize,
+    /// Vertices at which triangles of both UV orientations share one tangent: seams that
+    /// [`Method::LengyelPerVertex`](crate::Method::LengyelPerVertex) breaks. None in all other methods.
+    pub merged_vertices: usize,
 }
 
 pub(super) fn count_non_finite_corners(mesh: &Mesh<'_>) -> usize {

@@ -1,0 +1,34 @@
+//! A frame from the normal alone, for surfaces without UVs: any perpendicular, the same for the same normal.
+//!
+//! Source: T. Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017, listing 3. No continuous choice exists
+//! (the sphere cannot be combed): this one jumps where z changes its sign.
+
+use crate::math::V3;
+use crate::{Frame, Mesh, Mode};
+
+use super::Report;
+use super::flat::Flat;
+use super::repair::{direction, perpendicular};
+use super::seams::survey;
+use super::sides::{Output, across};
+use super::sums::is_degenerate;
+
+/// The frame of every vertex, at each of its corners.
+pub(super) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode) -> (Vec<O>, Report) {
+    let flat = Flat::new(mesh);
+    let mut report = survey(mesh, &flat);
+    let frame = |&normal: &V3| match (direction(normal), mode) {
+        (None, Mode::Reference) => O::NONE,
+        (unit, _) => {
+            let tangent = unit.map_or([1.0, 0.0, 0.0], perpendicular).map(|x| x as f32);
+            let bitangent = across(normal, tangent, 1.0);
+            O::from_frame(&Frame { tangent, bitangent, magnitude: [1.0; 2], sign: 1.0 })
+        }
+    };
+    let of_vertex: Vec<O> = flat.normals.iter().map(frame).collect();
+    let has_normal: Vec<bool> = flat.normals.iter().map(|&normal| direction(normal).is_some()).collect();
+    report.repaired_corners = flat.vertex_of_corner.iter().filter(|&&v| !has_normal[v as usize]).count();
+    report.degenerate_triangles =
+        (0..flat.triangles().len()).filter(|&t| is_degenerate(flat.values(t).0)).count();
+    (flat.vertex_of_corner.iter().map(|&v| of_vertex[v as usize]).collect(), report)
+}

@@ -1,0 +1,41 @@
+//! Lengyel's sum: the derivatives of the triangles around a vertex, as long as they are.
+//!
+//! Source: E. Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001; "Foundations of Game Engine
+//! Development", vol. 2, 2019, section 7.5. The derivation is in docs/algorithms/methods.md.
+
+use crate::math::{length, scale};
+
+use super::sums::{Derivatives, Sum, Weighting};
+
+/// Each triangle adds dP/du and dP/dv; triangles of the two UV orientations sum apart.
+pub(super) struct Lengyel;
+
+impl Weighting<2> for Lengyel {
+    #[inline(always)]
+    fn term(derivatives: &Derivatives) -> Sum<2> {
+        let reciprocal = 1.0 / derivatives.area;
+        let ([s0, s1, s2], [t0, t1, t2]) =
+            (scale(reciprocal, derivatives.s), scale(reciprocal, derivatives.t));
+        [[s0, s1, s2, 1.0], [t0, t1, t2, 1f32.copysign(derivatives.area)]]
+    }
+
+    fn magnitude([[s0, s1, s2, count], [t0, t1, t2, _]]: &Sum<2>) -> [f32; 2] {
+        [[*s0, *s1, *s2], [*t0, *t1, *t2]].map(|sum| length(sum) / count)
+    }
+}
+
+/// As [`Lengyel`], but all triangles of a vertex share one sum, mirrored or not: what tutorials and three.js do.
+pub(super) struct LengyelPerVertex;
+
+impl Weighting<2> for LengyelPerVertex {
+    const SPLITS: bool = false;
+
+    #[inline(always)]
+    fn term(derivatives: &Derivatives) -> Sum<2> {
+        Lengyel::term(derivatives)
+    }
+
+    fn magnitude(sum: &Sum<2>) -> [f32; 2] {
+        Lengyel::magnitude(sum)
+    }
+}

@@ -1,0 +1,64 @@
+//! The choice of a method, and where it leads.
+
+use crate::{Mesh, Mode};
+
+use super::area::Area;
+use super::average::{Average, gather};
+use super::flat::Flat;
+use super::lengyel::{Lengyel, LengyelPerVertex};
+use super::sides::{Output, finish};
+use super::sums::{Weighting, accumulate};
+use super::{Report, TangentOptions, face, from_normal, mikktspace};
+
+/// How tangents are computed. Normal maps need the method that they were baked with, nearly always the default.
+///
+/// All but [`Method::MikkTSpace`] leave out triangles whose values are not finite, give every face one sign, and take
+/// [`Mode::Corrected`](crate::Mode) for [`Mode::Repaired`](crate::Mode). Derivations are in docs/algorithms/methods.md.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Method {
+    /// The standard of bakers and renderers: sums of unit tangents weighted by corner angles, over welded vertices.
+    #[default]
+    MikkTSpace,
+    /// Per vertex the sum of dP/du, as long as they are: large where UVs are dense. One sum per UV orientation (Lengyel 2001).
+    Lengyel,
+    /// As `Lengyel` with one sum per vertex, as three.js and many tutorials have it: mirrored seams break, and are counted in
+    /// [`Report::merged_vertices`]. One tangent per vertex, so nothing splits; signs can differ within a face.
+    LengyelPerVertex,
+    /// Per vertex and UV orientation the mean of the unit tangents, every triangle counting the same.
+    Average,
+    /// Per vertex and UV orientation the mean of the unit tangents, weighted by area. Where a normal is absent (zero) the tangent is
+    /// perpendicular to the mean of the triangles' normals instead.
+    Area,
+    /// Per face dP/du itself, in the plane of the face: exact on each, not smooth.
+    Face,
+    /// A perpendicular of the normal, without any UVs (Duff et al. 2017).
+    FromNormal,
+}
+
+/// Runs the method of `options`: one output per corner.
+pub(super) fn run<O: Output>(mesh: &Mesh<'_>, options: &TangentOptions) -> (Vec<O>, Report) {
+    let mode = options.mode;
+    match options.method {
+        Method::MikkTSpace => {
+            let (frames, report) = mikktspace::Topology::new(mesh, options).frames(mesh);
+            (frames.iter().map(O::from_frame).collect(), report)
+        }
+        Method::Lengyel => summed::<2, Lengyel, O>(mesh, mode),
+        Method::LengyelPerVertex => summed::<2, LengyelPerVertex, O>(mesh, mode),
+        Method::Average => {
+            let flat = Flat::new(mesh);
+            let sums = gather(&flat);
+            finish::<3, Average, O>(mesh, &flat, sums, mode)
+        }
+        Method::Area => summed::<3, Area, O>(mesh, mode),
+        Method::Face => face::run(mesh, mode),
+        Method::FromNormal => from_normal::run(mesh, mode),
+    }
+}
+
+fn summed<const N: usize, W: Weighting<N>, O: Output>(mesh: &Mesh<'_>, mode: Mode) -> (Vec<O>, Report) {
+    let flat = Flat::new(mesh);
+    let sums = accumulate::<N, W>(&flat);
+    finish::<N, W, O>(mesh, &flat, sums, mode)
+}

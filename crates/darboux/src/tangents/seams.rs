@@ -1,0 +1,85 @@
+//! Where triangles of opposite UV orientation meet, and what else a report counts on packed arrays.
+
+use crate::Mesh;
+
+use super::flat::Flat;
+use super::sides::Output;
+use super::sums::Orientation;
+use super::{Report, report};
+
+/// The part of a report that does not depend on the method.
+pub(super) fn survey(mesh: &Mesh<'_>, flat: &Flat<'_>) -> Report {
+    let is_supported = |face: &usize| matches!(flat.corners(*face).len(), 3 | 4);
+    let supported = if flat.is_triangles() {
+        flat.face_count()
+    } else {
+        (0..flat.face_count()).filter(is_supported).count()
+    };
+    let finite = all_finite(flat.positions.as_flattened())
+        && all_finite(flat.normals.as_flattened())
+        && all_finite(flat.uvs.as_flattened());
+    Report {
+        triangles: flat.triangles().len(),
+        unsupported_faces: flat.face_count() - supported,
+        non_finite_corners: if finite { 0 } else { report::count_non_finite_corners(mesh) },
+        ..Report::default()
+    }
+}
+
+fn all_finite(values: &[f32]) -> bool {
+    // The largest exponent, as integers: a loop that runs several lanes at a time.
+    let largest = values.iter().fold(0, |largest: i32, x| largest.max((x.to_bits() & 0x7fff_ffff) as i32));
+    f32::from_bits(largest as u32).is_finite()
+}
+
+/// For each vertex, whether faces of both orientations meet there; none when the mesh has but one.
+pub(super) fn vertices_of_both(flat: &Flat<'_>, orientation_of_face: &[Orientation]) -> Option<Vec<bool>> {
+    let has = |orientation| orientation_of_face.contains(&orientation);
+    if !has(Orientation::Keeps) || !has(Orientation::Mirrors) {
+        return None;
+    }
+    let mut seen = vec![0u8; flat.positions.len()];
+    for (face, &orientation) in orientation_of_face.iter().enumerate() {
+        let mark = [1, 2, 0][orientation as usize];
+        flat.vertex_of_corner[flat.corners(face)].iter().for_each(|&v| seen[v as usize] |= mark);
+    }
+    Some(seen.into_iter().map(|seen| seen == 3).collect())
+}
+
+/// The number of edges between two triangles of opposite orientation. Edges are those of the given indices.
+pub(super) fn count_mirrored_edges(
+    flat: &Flat<'_>,
+    orientation_of_face: &[Orientation],
+    of_both: &[bool],
+) -> usize {
+    let mut edges: Vec<([u32; 2], bool, Orientation)> = Vec::new();
+    for (t, triangle) in flat.triangles().iter().enumerate() {
+        let orientation = orientation_of_face[flat.face(t)];
+        for k in 0..3 {
+            let [a, b] = [triangle[k], triangle[(k + 1) % 3]];
+            if orientation != Orientation::None && of_both[a as usize] && of_both[b as usize] && a != b {
+                edges.push(([a.min(b), a.max(b)], a < b, orientation));
+            }
+        }
+    }
+    edges.sort_unstable_by_key(|&(ends, ..)| ends);
+    edges.chunk_by(|a, b| a.0 == b.0).map(count_mirrored_pairs).sum()
+}
+
+/// Pairs along one edge that run in opposite directions and have opposite orientations.
+fn count_mirrored_pairs(along: &[([u32; 2], bool, Orientation)]) -> usize {
+    let count = |up, orientation| along.iter().filter(|edge| edge.1 == up && edge.2 == orientation).count();
+    let (keeps, mirrors) = (Orientation::Keeps, Orientation::Mirrors);
+    count(true, keeps).min(count(false, mirrors)) + count(true, mirrors).min(count(false, keeps))
+}
+
+/// Vertices with corners of different tangents, compared as bits.
+pub(super) fn count_split_vertices<O: Output>(flat: &Flat<'_>, corners: &[O]) -> usize {
+    let mut first: Vec<Option<[u32; 4]>> = vec![None; flat.positions.len()];
+    let mut split = vec![false; flat.positions.len()];
+    for (&v, corner) in flat.vertex_of_corner.iter().zip(corners) {
+        let bits = corner.tangent().map(f32::to_bits);
+        split[v as usize] |= *first[v as usize].get_or_insert(bits) != bits;
+    }
+    split.into_iter().filter(|split| *split).count()
+}

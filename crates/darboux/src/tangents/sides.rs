@@ -1,0 +1,314 @@
+//! From sums to frames: one per side of a vertex, and from there to corners.
+//!
+//! A *side* is a vertex and a UV orientation: all triangles of that orientation at the vertex share its frame. So the sign of a face is
+//! its orientation, the same at all its corners, and a vertex splits where both of its sides are used.
+
+use std::collections::HashMap;
+
+use crate::math::{V3, dot, scale, sub};
+use crate::{Frame, Mesh, Mode};
+
+use super::Report;
+use super::flat::Flat;
+use super::repair::{cross, direction, in_plane, mean_in_plane, perpendicular, u_direction_of, unit};
+use super::seams::{count_mirrored_edges, survey, vertices_of_both};
+use super::sums::{Orientation, Sum, Sums, Weighting, adds};
+
+/// What corners are given: whole frames, or tangents alone.
+pub(super) trait Output: Copy {
+    /// What nobody reads, or nothing reached.
+    const NONE: Self;
+
+    fn from_frame(frame: &Frame) -> Self;
+
+    /// Tangent xyz and sign w.
+    fn tangent(&self) -> [f32; 4];
+}
+
+impl Output for Frame {
+    const NONE: Self = Frame { tangent: [0.0; 3], bitangent: [0.0; 3], magnitude: [0.0; 2], sign: 1.0 };
+
+    fn from_frame(frame: &Frame) -> Self {
+        *frame
+    }
+
+    fn tangent(&self) -> [f32; 4] {
+        self.tangent_and_sign()
+    }
+}
+
+impl Output for [f32; 4] {
+    const NONE: Self = [0.0, 0.0, 0.0, 1.0];
+
+    #[inline]
+    fn from_frame(frame: &Frame) -> Self {
+        frame.tangent_and_sign()
+    }
+
+    fn tangent(&self) -> [f32; 4] {
+        *self
+    }
+}
+
+/// A vertex and which of its sides: 0 keeps the UV orientation, 1 mirrors it.
+type Side = (u32, usize);
+
+/// Makes frames of sums, repairs those without a direction, and gives every corner its side's.
+pub(super) fn finish<const N: usize, W: Weighting<N>, O: Output>(
+    mesh: &Mesh<'_>,
+    flat: &Flat<'_>,
+    mut sums: Sums<N>,
+    mode: Mode,
+) -> (Vec<O>, Report) {
+    let mut report = survey(mesh, flat);
+    report.degenerate_triangles = sums.degenerate_triangles;
+    report.uv_degenerate_triangles = sums.uv_degenerate_triangles;
+    if let Some(of_both) = vertices_of_both(flat, &sums.orientation_of_face) {
+        report.mirrored_edges = count_mirrored_edges(flat, &sums.orientation_of_face, &of_both);
+        report.merged_vertices = if W::SPLITS { 0 } else { count(&of_both) };
+    }
+    let (mut frames, mut missing) = frames_of_sides::<N, W, O>(flat, &sums);
+    decide_faces::<N, W>(flat, &mut sums, &mut missing);
+    missing.sort_unstable();
+    missing.dedup();
+    if mode != Mode::Reference && !missing.is_empty() {
+        replace::<N, W, O>(flat, &sums, &missing, &mut frames);
+    }
+    report.repaired_corners = count_corners::<N, W>(flat, &sums.orientation_of_face, &missing);
+    let corners = to_corners::<N, W, O>(flat, &sums.orientation_of_face, &frames);
+    if W::SPLITS {
+        report.split_vertices =
+            vertices_of_both(flat, &sums.orientation_of_face).map_or(0, |both| count(&both));
+    } else {
+        report.mixed_sign_faces = count_mixed_faces(flat, &corners);
+    }
+    (corners, report)
+}
+
+fn count(of_vertex: &[bool]) -> usize {
+    of_vertex.iter().filter(|is| **is).count()
+}
+
+/// The corners that have one of `sides`.
+fn count_corners<const N: usize, W: Weighting<N>>(
+    flat: &Flat<'_>,
+    orientation_of_face: &[Orientation],
+    sides: &[Side],
+) -> usize {
+    if sides.is_empty() {
+        return 0;
+    }
+    let mut listed = [vec![false; flat.positions.len()], vec![false; flat.positions.len()]];
+    sides.iter().for_each(|&(v, side)| listed[side][v as usize] = true);
+    let of_face = |(face, &orientation): (usize, &Orientation)| {
+        let listed = &listed[side_of::<N, W>(orientation)];
+        flat.vertex_of_corner[flat.corners(face)].iter().filter(|&&v| listed[v as usize]).count()
+    };
+    orientation_of_face.iter().enumerate().map(of_face).sum()
+}
+
+/// The side that the corners of a face have.
+fn side_of<const N: usize, W: Weighting<N>>(orientation: Orientation) -> usize {
+    usize::from(W::SPLITS && orientation == Orientation::Mirrors)
+}
+
+fn count_mixed_faces<O: Output>(flat: &Flat<'_>, corners: &[O]) -> usize {
+    let is_mixed = |face: &usize| {
+        let corners = &corners[flat.corners(*face)];
+        matches!(corners.len(), 3 | 4)
+            && corners.iter().any(|corner| corner.tangent()[3] != corners[0].tangent()[3])
+    };
+    (0..flat.face_count()).filter(is_mixed).count()
+}
+
+/// The frame of every side, and the sides that have triangles but no direction.
+fn frames_of_sides<const N: usize, W: Weighting<N>, O: Output>(
+    flat: &Flat<'_>,
+    sums: &Sums<N>,
+) -> ([Vec<O>; 2], Vec<Side>) {
+    let mut missing = Vec::new();
+    let frames = [0, 1].map(|side| {
+        let sign = if side == 0 { 1.0 } else { -1.0 };
+        let of_vertex = sums.of_side[side].iter().zip(flat.normals.iter()).zip(0..);
+        let frames = of_vertex.map(|((sum, normal), v)| {
+            if !is_used(sum) {
+                return O::NONE;
+            }
+            frame::<N, W>(sum, normal, sign).map_or_else(
+                || {
+                    missing.push((v, side));
+                    O::from_frame(&Frame { sign, ..Frame::NONE })
+                },
+                |frame| O::from_frame(&frame),
+            )
+        });
+        frames.collect()
+    });
+    (frames, missing)
+}
+
+fn is_used<const N: usize>(sum: &Sum<N>) -> bool {
+    sum[0][3] > 0.0
+}
+
+/// The frame that a sum makes, if its tangent has a direction in the plane of the normal.
+#[inline(always)]
+fn frame<const N: usize, W: Weighting<N>>(sum: &Sum<N>, normal: &V3, sign: f32) -> Option<Frame> {
+    let ([s0, s1, s2, _], [t0, t1, t2, _]) = (sum[0], sum[1]);
+    let (s, t) = ([s0, s1, s2], [t0, t1, t2]);
+    let mut normal = *normal;
+    let square = dot(normal, normal);
+    let is_about_unit = (0.25..4.0).contains(&square);
+    if !is_about_unit && direction(normal).is_none() {
+        normal = W::own_normal(sum);
+    }
+    let inverse = if is_about_unit { 1.0 / square } else { f32::NAN };
+    let tangent = direction_across(s, normal, inverse)?;
+    let sign = if W::SPLITS { sign } else { sign_of(normal, tangent, t) };
+    let bitangent = direction_across(t, normal, inverse).unwrap_or_else(|| across(normal, tangent, sign));
+    Some(Frame { tangent, bitangent, magnitude: W::magnitude(sum), sign })
+}
+
+/// The sign for which sign * cross(normal, tangent) is on the bitangent's side; +1 where it is on neither.
+fn sign_of(normal: V3, tangent: V3, bitangent: V3) -> f32 {
+    let ([a, b, c], [x, y, z]) = (normal, tangent);
+    let across = [b * z - c * y, c * x - a * z, a * y - b * x];
+    if dot(across, bitangent) < 0.0 { -1.0 } else { 1.0 }
+}
+
+/// The direction of `v` in the plane of `normal`; without a normal the direction of `v`.
+///
+/// `inverse`: 1 / dot(normal, normal), or NaN where the normal is far from unit length.
+#[inline(always)]
+fn direction_across(v: V3, normal: V3, inverse: f32) -> Option<V3> {
+    let rest = sub(v, scale(dot(normal, v) * inverse, normal));
+    let size = dot(rest, rest);
+    // Far from overflow, and with enough left of `v` to be sure of the angle: nearly always. NaN is not.
+    if (size > 1e-2 * dot(v, v)) & (size > 1e-24) & (size < 1e24) {
+        return Some(scale(1.0 / size.sqrt(), rest));
+    }
+    precise_direction_across(v, normal)
+}
+
+#[cold]
+fn precise_direction_across(v: V3, normal: V3) -> Option<V3> {
+    let v = v.map(f64::from);
+    let found = match direction(normal) {
+        Some(normal) => in_plane(v, normal),
+        None => unit(v),
+    };
+    found.map(|v| v.map(|x| x as f32))
+}
+
+/// sign * cross(normal, tangent), unit; without a normal a perpendicular of the tangent.
+pub(super) fn across(normal: V3, tangent: V3, sign: f32) -> V3 {
+    let tangent = tangent.map(f64::from);
+    let across = direction(normal).and_then(|normal| unit(cross(normal, tangent)));
+    across.unwrap_or_else(|| perpendicular(tangent)).map(|x| (f64::from(sign) * x) as f32)
+}
+
+/// Gives every face without an orientation the one that more of its corners have triangles of, +1 on a tie, and adds the sides
+/// that no triangle adds to, but a corner has, to `missing`.
+fn decide_faces<const N: usize, W: Weighting<N>>(
+    flat: &Flat<'_>,
+    sums: &mut Sums<N>,
+    missing: &mut Vec<Side>,
+) {
+    for face in 0..flat.face_count() {
+        let orientation = sums.orientation_of_face[face];
+        // Every corner of a triangle with an orientation has that triangle to add to its sum.
+        if orientation != Orientation::None && flat.is_triangles() {
+            continue;
+        }
+        let vertices = &flat.vertex_of_corner[flat.corners(face)];
+        let used = |v: u32, side: usize| sums.of_side[side].get(v as usize).is_some_and(is_used);
+        let count = |side| vertices.iter().filter(|&&v| used(v, side)).count();
+        let side = match orientation {
+            _ if !W::SPLITS => 0,
+            Orientation::None => usize::from(count(1) > count(0)),
+            orientation => orientation as usize,
+        };
+        missing.extend(vertices.iter().filter(|&&v| !used(v, side)).map(|&v| (v, side)));
+        if orientation == Orientation::None {
+            sums.orientation_of_face[face] =
+                if side == 0 { Orientation::Keeps } else { Orientation::Mirrors };
+        }
+    }
+}
+
+/// Gives the sides of `missing`, which is sorted, what [`super::repair`] gives corners: the mean of their triangles' tangents, all
+/// weighted alike; their first triangle's own dP/du; a perpendicular of the normal; (1, 0, 0).
+fn replace<const N: usize, W: Weighting<N>, O: Output>(
+    flat: &Flat<'_>,
+    sums: &Sums<N>,
+    missing: &[Side],
+    frames: &mut [Vec<O>; 2],
+) {
+    let triangles = triangles_around(flat, missing);
+    for &(v, side) in missing {
+        let sum = sums.of_side[side].get(v as usize).filter(|sum| is_used(sum));
+        let normal = flat.normals[v as usize];
+        let own_normal = || sum.map_or(normal, W::own_normal);
+        let normal = if direction(normal).is_some() { normal } else { own_normal() };
+        let around = triangles.get(&v).map_or(&[][..], Vec::as_slice);
+        let sign = if side == 0 { 1.0 } else { -1.0 };
+        let tangent = replacement::<N, W>(flat, &sums.orientation_of_face, around, normal, side);
+        let magnitude = sum.map_or([1.0; 2], |sum| W::magnitude(sum));
+        let magnitude = magnitude.map(|x| if x.is_finite() { x } else { 1.0 });
+        let bitangent = across(normal, tangent, sign);
+        frames[side][v as usize] = O::from_frame(&Frame { tangent, bitangent, magnitude, sign });
+    }
+}
+
+fn replacement<const N: usize, W: Weighting<N>>(
+    flat: &Flat<'_>,
+    orientation_of_face: &[Orientation],
+    around: &[u32],
+    normal: V3,
+    side: usize,
+) -> V3 {
+    let Some(unit_normal) = direction(normal) else { return [1.0, 0.0, 0.0] };
+    let is_of_side = |t: u32| !W::SPLITS || orientation_of_face[flat.face(t as usize)] as usize == side;
+    let own = |t: u32| {
+        let (positions, uvs) = flat.values(t as usize);
+        unit(u_direction_of(positions, uvs))
+    };
+    let counted = around.iter().filter(|&&t| is_of_side(t) && adds::<N, W>(flat, t as usize));
+    let directions = counted.filter_map(|&t| own(t));
+    let mean = mean_in_plane(directions.map(|direction| direction.map(|x| x as f32)), normal);
+    let first = || around.first().and_then(|&t| in_plane(own(t)?, unit_normal));
+    let found = mean.map(|mean| mean.map(f64::from)).or_else(first);
+    found.unwrap_or_else(|| perpendicular(unit_normal)).map(|x| x as f32)
+}
+
+/// The triangles around each vertex of `sides`.
+fn triangles_around(flat: &Flat<'_>, sides: &[Side]) -> HashMap<u32, Vec<u32>> {
+    let mut around: HashMap<u32, Vec<u32>> = sides.iter().map(|&(v, _)| (v, Vec::new())).collect();
+    let mut wanted = vec![false; flat.positions.len()];
+    sides.iter().for_each(|&(v, _)| wanted[v as usize] = true);
+    for (corner, &v) in flat.triangles().as_flattened().iter().enumerate() {
+        if wanted[v as usize]
+            && let Some(list) = around.get_mut(&v)
+            && list.last() != Some(&(corner as u32 / 3))
+        {
+            list.push(corner as u32 / 3);
+        }
+    }
+    around
+}
+
+fn to_corners<const N: usize, W: Weighting<N>, O: Output>(
+    flat: &Flat<'_>,
+    orientation_of_face: &[Orientation],
+    frames: &[Vec<O>; 2],
+) -> Vec<O> {
+    if frames[1].is_empty() {
+        return flat.vertex_of_corner.iter().map(|&v| frames[0][v as usize]).collect();
+    }
+    let mut corners = Vec::with_capacity(flat.vertex_of_corner.len());
+    for (face, &orientation) in orientation_of_face.iter().enumerate() {
+        let side = &frames[side_of::<N, W>(orientation)];
+        corners.extend(flat.vertex_of_corner[flat.corners(face)].iter().map(|&v| side[v as usize]));
+    }
+    corners
+}

@@ -1,0 +1,224 @@
+//! Sums over the triangles around each vertex, apart for the two UV orientations.
+//!
+//! What a triangle adds is a method's business ([`Weighting`]); what becomes of the sums is in sides.rs.
+
+use crate::math::{V3, length, not_zero, scale, sub};
+
+use super::flat::Flat;
+
+/// Rows of four lanes, so that a sum is `N` vector additions. Row 0 is a tangent and a weight, row 1 begins with a bitangent.
+pub(super) type Sum<const N: usize> = [[f32; 4]; N];
+
+/// A method that sums what each triangle adds to all of its vertices alike.
+pub(super) trait Weighting<const N: usize> {
+    /// False: both orientations share one sum, and the sign is the one that the summed bitangent asks for.
+    const SPLITS: bool = true;
+
+    /// What a triangle adds. One without a weight above zero, or with a lane that is not finite, adds nothing.
+    fn term(derivatives: &Derivatives) -> Sum<N>;
+
+    /// The lengths of dP/du and dP/dv that a sum stands for.
+    fn magnitude(sum: &Sum<N>) -> [f32; 2];
+
+    /// A normal to use where the mesh has none, as long as it may be.
+    fn own_normal(_sum: &Sum<N>) -> V3 {
+        [0.0; 3]
+    }
+}
+
+/// A triangle's edges and the derivatives of position by UV, before the division by `area`.
+///
+/// With E = [e1 e2] and the UV edges as columns of U, the derivatives are the columns of E U^-1 (E. Lengyel, "Foundations of
+/// Game Engine Development", vol. 2, 7.5; M. Mikkelsen 2008, equations 18 and 19).
+#[derive(Clone, Copy)]
+pub(super) struct Derivatives {
+    /// From the first corner to the second and to the third, and between these.
+    pub edges: [V3; 3],
+    /// dP/du and dP/dv, times `area`.
+    pub s: V3,
+    pub t: V3,
+    /// Twice the signed area in UV space: the determinant of U.
+    pub area: f32,
+}
+
+impl Derivatives {
+    #[inline(always)]
+    pub fn new([a, b, c]: [&V3; 3], uvs: [&[f32; 2]; 3]) -> Self {
+        let [e1, e2, e3] = [sub(*b, *a), sub(*c, *a), sub(*c, *b)];
+        let [du1, dv1] = [uvs[1][0] - uvs[0][0], uvs[1][1] - uvs[0][1]];
+        let [du2, dv2] = [uvs[2][0] - uvs[0][0], uvs[2][1] - uvs[0][1]];
+        Self {
+            edges: [e1, e2, e3],
+            s: sub(scale(dv2, e1), scale(dv1, e2)),
+            t: sub(scale(du1, e2), scale(du2, e1)),
+            area: du1 * dv2 - dv1 * du2,
+        }
+    }
+
+    /// True where neither derivative is zero and the triangle is not degenerate. No branches: it nearly always is.
+    #[inline(always)]
+    pub fn has_direction(&self) -> bool {
+        let is_not_zero = |v: V3| (v[0] != 0.0) | (v[1] != 0.0) | (v[2] != 0.0);
+        let [a, b, c] = self.edges;
+        let has_corners = is_not_zero(a) & is_not_zero(b) & is_not_zero(c);
+        not_zero(self.area) & is_not_zero(self.s) & is_not_zero(self.t) & has_corners
+    }
+
+    /// The unit directions of dP/du and dP/dv, and their lengths.
+    #[inline(always)]
+    pub fn directions(&self) -> ([V3; 2], [f32; 2]) {
+        let (s_length, t_length) = (length(self.s), length(self.t));
+        let (sign, area) = (1f32.copysign(self.area), self.area.abs());
+        let directions = [scale(sign / s_length, self.s), scale(sign / t_length, self.t)];
+        (directions, [s_length / area, t_length / area])
+    }
+
+    /// Twice the triangle's area times its normal.
+    #[inline(always)]
+    pub fn doubled_area_vector(&self) -> V3 {
+        let [a, b, _] = self.edges;
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    }
+}
+
+/// True for two equal positions.
+#[inline(always)]
+pub(super) fn is_degenerate([a, b, c]: [V3; 3]) -> bool {
+    a == b || b == c || a == c
+}
+
+/// What the UV map does with a face's orientation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Orientation {
+    Keeps = 0,
+    Mirrors = 1,
+    /// No UV area, no area, values that are not finite, or a face of other than 3 or 4 corners.
+    None = 2,
+}
+
+impl Orientation {
+    pub fn of(area: f32) -> Self {
+        if area > 0.0 { Self::Keeps } else { Self::Mirrors }
+    }
+}
+
+/// The sums of all vertices and what was met on the way.
+pub(super) struct Sums<const N: usize> {
+    /// Per orientation and vertex; none of an orientation that no triangle has, but that the first is always there.
+    pub of_side: [Vec<Sum<N>>; 2],
+    pub orientation_of_face: Vec<Orientation>,
+    pub degenerate_triangles: usize,
+    pub uv_degenerate_triangles: usize,
+}
+
+impl<const N: usize> Sums<N> {
+    pub fn new(flat: &Flat<'_>) -> Self {
+        Self {
+            of_side: [vec![[[0.0; 4]; N]; flat.positions.len()], Vec::new()],
+            orientation_of_face: Vec::with_capacity(flat.face_count()),
+            degenerate_triangles: 0,
+            uv_degenerate_triangles: 0,
+        }
+    }
+
+    /// The sums of one orientation, made when they are first asked for.
+    #[inline(always)]
+    pub fn side(&mut self, side: usize) -> &mut [Sum<N>] {
+        if self.of_side[side].is_empty() {
+            self.of_side[side] = vec![[[0.0; 4]; N]; self.of_side[0].len()];
+        }
+        &mut self.of_side[side]
+    }
+
+    #[cold]
+    fn count_flawed(&mut self, positions: [V3; 3]) {
+        if is_degenerate(positions) {
+            self.degenerate_triangles += 1;
+        } else {
+            self.uv_degenerate_triangles += 1;
+        }
+    }
+}
+
+/// Calls `add` with every triangle that has a direction, what it adds, and the side it adds to.
+pub(super) fn for_each_term<const N: usize, W: Weighting<N>>(
+    flat: &Flat<'_>,
+    sums: &mut Sums<N>,
+    mut add: impl FnMut(&mut Sums<N>, usize, &Sum<N>, usize),
+) {
+    let agreed = (!flat.is_triangles()).then(|| agreed_orientations::<N, W>(flat));
+    for (t, &triangle) in flat.triangles().iter().enumerate() {
+        let (positions, uvs) = flat.refer(triangle);
+        let derivatives = Derivatives::new(positions, uvs);
+        let mut orientation = Orientation::None;
+        if let Some(term) = term::<N, W>(&derivatives) {
+            let own = Orientation::of(derivatives.area);
+            orientation = agreed.as_ref().map_or(own, |agreed| agreed[flat.face(t)]);
+            add(sums, t, &term, if W::SPLITS { orientation as usize } else { 0 });
+        } else {
+            sums.count_flawed(flat.values(t).0);
+        }
+        if agreed.is_none() {
+            sums.orientation_of_face.push(orientation);
+        }
+    }
+    if let Some(agreed) = agreed {
+        sums.orientation_of_face = agreed;
+    }
+}
+
+/// Adds up what all triangles add.
+pub(super) fn accumulate<const N: usize, W: Weighting<N>>(flat: &Flat<'_>) -> Sums<N> {
+    let triangles = flat.triangles();
+    let mut sums = Sums::new(flat);
+    for_each_term::<N, W>(flat, &mut sums, |sums, t, term, side| {
+        let sums = sums.side(side);
+        for v in triangles[t] {
+            accumulate_into(&mut sums[v as usize], term);
+        }
+    });
+    sums
+}
+
+#[inline(always)]
+pub(super) fn accumulate_into<const N: usize>(sum: &mut Sum<N>, term: &Sum<N>) {
+    for (sum, term) in sum.as_flattened_mut().iter_mut().zip(term.as_flattened()) {
+        *sum += term;
+    }
+}
+
+/// What a triangle adds; none when it adds nothing.
+#[inline(always)]
+fn term<const N: usize, W: Weighting<N>>(derivatives: &Derivatives) -> Option<Sum<N>> {
+    let term = W::term(derivatives);
+    // One test for all lanes: one that is not finite makes the sum of their zeros NaN.
+    let mut zero = 0.0;
+    for [a, b, c, d] in term {
+        zero += (a * 0.0 + b * 0.0) + (c * 0.0 + d * 0.0);
+    }
+    let is_finite = zero == 0.0;
+    let adds = derivatives.has_direction() & is_finite & (term[0][3] > 0.0);
+    adds.then_some(term)
+}
+
+/// True for a triangle that adds something.
+pub(super) fn adds<const N: usize, W: Weighting<N>>(flat: &Flat<'_>, t: usize) -> bool {
+    let (positions, uvs) = flat.refer(flat.triangles()[t]);
+    term::<N, W>(&Derivatives::new(positions, uvs)).is_some()
+}
+
+/// One orientation for each face: of the halves of a quad that add something the one with the larger UV area decides, the first
+/// on a tie.
+fn agreed_orientations<const N: usize, W: Weighting<N>>(flat: &Flat<'_>) -> Vec<Orientation> {
+    let mut deciding = vec![(Orientation::None, 0.0); flat.face_count()];
+    for (t, &triangle) in flat.triangles().iter().enumerate() {
+        let (positions, uvs) = flat.refer(triangle);
+        let derivatives = Derivatives::new(positions, uvs);
+        let slot = &mut deciding[flat.face(t)];
+        let is_larger = slot.0 == Orientation::None || derivatives.area.abs() > slot.1;
+        if is_larger && term::<N, W>(&derivatives).is_some() {
+            *slot = (Orientation::of(derivatives.area), derivatives.area.abs());
+        }
+    }
+    deciding.into_iter().map(|(orientation, _)| orientation).collect()
+}

@@ -1,0 +1,179 @@
+//! Every method but MikkTSpace against its brute force in double precision, and on odd meshes.
+
+use darboux::{Frame, Method, Mode, Report, TangentOptions, generate_frames, generate_tangents, naive};
+use darboux_tests::{Case, OwnedMesh, families};
+
+/// A method and its brute force.
+type Twin = (Method, fn(&darboux::Mesh<'_>) -> Vec<Option<Frame>>);
+
+const TWINS: [Twin; 6] = [
+    (Method::Lengyel, naive::lengyel),
+    (Method::LengyelPerVertex, naive::lengyel_per_vertex),
+    (Method::Average, naive::average),
+    (Method::Area, naive::area),
+    (Method::Face, naive::face),
+    (Method::FromNormal, naive::from_normal),
+];
+
+/// Rounding to f32 errs by 6e-8; a derivative is some ten roundings from its input, a sum over at most 16 triangles some 30 more, and
+/// the meshes' triangles are no thinner than 1 to 10, which multiplies the errors of edges as much: 40 * 6e-8 * 10.
+const TOLERANCE: f32 = 2.4e-5;
+
+fn run(mesh: &OwnedMesh, method: Method, mode: Mode) -> (Vec<Frame>, Report) {
+    let options = TangentOptions { method, mode, ..TangentOptions::default() };
+    let frames = generate_frames(&mesh.view(), &options);
+    (frames.corners.into_per_corner(), frames.report)
+}
+
+fn numbers(frame: &Frame) -> [f32; 8] {
+    let ([a, b, c], [d, e, f], [g, h]) = (frame.tangent, frame.bitangent, frame.magnitude);
+    [a, b, c, d, e, f, g, h]
+}
+
+/// The largest difference between two frames, relative for numbers above one.
+fn difference(a: &Frame, b: &Frame) -> f32 {
+    let pairs = numbers(a).into_iter().zip(numbers(b));
+    pairs.map(|(a, b)| (a - b).abs() / b.abs().max(1.0)).fold((a.sign - b.sign).abs(), f32::max)
+}
+
+/// Regular meshes without anything degenerate.
+fn regular_meshes() -> Vec<(&'static str, OwnedMesh)> {
+    let mut meshes = vec![
+        ("sphere", families::sphere(8, 13, false)),
+        ("fan", families::fan(16, false)),
+        ("strip", families::strip(20)),
+        ("unindexed grid", families::grid(6, 5, false, true).unindexed()),
+    ];
+    for quads in [false, true] {
+        meshes.push(("grid", families::grid(9, 7, quads, false)));
+        meshes.push(("mirrored grid", families::grid(8, 7, quads, true)));
+        meshes.push(("cube", families::cube(quads)));
+        meshes.push(("Möbius strip", families::moebius(9, quads)));
+    }
+    meshes
+}
+
+#[test]
+fn all_agree_with_their_brute_force() {
+    for (name, mesh) in regular_meshes() {
+        for (method, twin) in TWINS {
+            let (found, _) = run(&mesh, method, Mode::Reference);
+            for (corner, (found, expected)) in found.iter().zip(twin(&mesh.view())).enumerate() {
+                // At a mirrored seam the one sum per vertex cancels: what is left there is rounding.
+                let Some(expected) = expected else { continue };
+                if method == Method::LengyelPerVertex
+                    && name.starts_with("mirrored")
+                    && cancels(&mesh, corner)
+                {
+                    continue;
+                }
+                let worst = difference(found, &expected);
+                assert!(
+                    worst <= TOLERANCE,
+                    "{method:?}, {name}, corner {corner}: {found:?} is not {expected:?} ({worst:e})"
+                );
+            }
+        }
+    }
+}
+
+/// True at the seam of the mirrored grid.
+fn cancels(mesh: &OwnedMesh, corner: usize) -> bool {
+    mesh.positions[mesh.vertex_of_corner(corner)][0] == 0.5
+}
+
+/// The method's frames, but for what `Mode::Reference` may leave.
+fn check(mesh: &OwnedMesh, method: Method, mode: Mode) -> Result<(), String> {
+    let (frames, report) = run(mesh, method, mode);
+    if frames.len() != mesh.corner_count() {
+        return Err(format!("{} frames", frames.len()));
+    }
+    for (corner, frame) in frames.iter().enumerate() {
+        let normal = mesh.normals[mesh.vertex_of_corner(corner)];
+        let wrong = |what: &str| Err(format!("corner {corner}: {what}: {frame:?}, normal {normal:?}"));
+        let size = length(frame.tangent);
+        if frame.sign.abs() != 1.0 {
+            return wrong("the sign is not 1 or -1");
+        }
+        if !((size - 1.0).abs() < 1e-5 && (length(frame.bitangent) - 1.0).abs() < 1e-5) {
+            return wrong("not of unit length");
+        }
+        // A face's frame lies in its own plane.
+        if method != Method::Face
+            && is_direction(normal)
+            && dot(frame.tangent, normal).abs() > 1e-5 * length(normal)
+        {
+            return wrong("not perpendicular to the normal");
+        }
+    }
+    let tangents =
+        generate_tangents(&mesh.view(), &TangentOptions { method, mode, ..TangentOptions::default() });
+    let same = tangents.corners.per_corner().iter().zip(&frames);
+    if let Some(corner) =
+        same.into_iter().position(|(a, b)| a.map(f32::to_bits) != b.tangent_and_sign().map(f32::to_bits))
+    {
+        return Err(format!("corner {corner}: generate_tangents and generate_frames differ"));
+    }
+    if tangents.report != report {
+        return Err(format!("reports differ: {:?} and {report:?}", tangents.report));
+    }
+    check_report(mesh, method, &frames, &report)
+}
+
+fn check_report(mesh: &OwnedMesh, method: Method, frames: &[Frame], report: &Report) -> Result<(), String> {
+    let mut tangents = vec![std::collections::HashSet::new(); mesh.positions.len()];
+    for (corner, frame) in frames.iter().enumerate() {
+        tangents[mesh.vertex_of_corner(corner)].insert(frame.tangent_and_sign().map(f32::to_bits));
+    }
+    let split = tangents.iter().filter(|tangents| tangents.len() > 1).count();
+    let mut first = 0;
+    let mut mixed = 0;
+    for size in mesh.face_sizes().into_iter().map(|size| size as usize) {
+        let signs = &frames[first..first + size];
+        mixed += usize::from(matches!(size, 3 | 4) && signs.iter().any(|frame| frame.sign != signs[0].sign));
+        first += size;
+    }
+    let expected = (split, mixed);
+    let reported = (report.split_vertices, report.mixed_sign_faces);
+    let merges = method == Method::LengyelPerVertex;
+    if expected != reported || (merges && split > 0) || (!merges && mixed > 0) {
+        return Err(format!("(split vertices, mixed faces): {expected:?}, reported {reported:?}"));
+    }
+    Ok(())
+}
+
+fn length(v: [f32; 3]) -> f64 {
+    dot(v, v).sqrt()
+}
+
+fn dot(a: [f32; 3], b: [f32; 3]) -> f64 {
+    (0..3).map(|i| f64::from(a[i]) * f64::from(b[i])).sum()
+}
+
+fn is_direction(v: [f32; 3]) -> bool {
+    v.iter().all(|x| x.is_finite()) && v.iter().any(|x| x.abs() > f32::MIN_POSITIVE)
+}
+
+fn sweep(seeds: std::ops::Range<u64>) {
+    for seed in seeds {
+        let Case { mesh, .. } = Case::from_seed(seed);
+        for (method, _) in TWINS {
+            for mode in [Mode::Repaired, Mode::Corrected] {
+                if let Err(broken) = check(&mesh, method, mode) {
+                    panic!("{method:?}, {mode:?}, seed {seed}: {broken}\n{}", mesh.to_text());
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn random_meshes() {
+    sweep(0..10_000);
+}
+
+#[test]
+#[ignore = "long"]
+fn many_random_meshes() {
+    sweep(10_000..300_000);
+}
