@@ -2,7 +2,10 @@
 
 use std::collections::HashSet;
 
-use darboux::{Frame, Mode, Plan, TangentOptions, generate_frames, generate_tangents, split_vertices};
+use darboux::{
+    CornerTangents, Frame, Frames, Mode, Plan, TangentOptions, generate_frames, generate_tangents,
+    split_vertices,
+};
 
 use crate::{Case, OwnedMesh, engine};
 
@@ -18,11 +21,16 @@ pub fn all_modes(case: &Case) -> Result<(), String> {
     };
     let splits = distinct(&mut reference.iter().copied().flatten());
     for mode in [Mode::Reference, Mode::Repaired, Mode::Corrected] {
-        let frames = generate_frames(
-            &mesh.view(),
-            &TangentOptions { mode, threshold: *threshold, ..TangentOptions::default() },
-        );
-        let frames = frames.corners.into_per_corner();
+        let options = TangentOptions { mode, threshold: *threshold, ..TangentOptions::default() };
+        let Frames { corners, report } = generate_frames(&mesh.view(), &options);
+        let tangents = generate_tangents(&mesh.view(), &options);
+        if tangents.report != report {
+            return Err(format!("{mode:?}: tangents report {:?}, frames {report:?}", tangents.report));
+        }
+        if !same_bits(&tangents.corners, &corners.tangents()) {
+            return Err(format!("{mode:?}: tangents and frames differ"));
+        }
+        let frames = corners.into_per_corner();
         check_frames(mesh, &frames, mode, Some(&reference))
             .map_err(|broken| format!("{mode:?}: {broken}"))?;
         let mut of_supported = frames.iter().zip(&supported).filter(|(_, is)| **is).map(|(frame, _)| *frame);
@@ -69,6 +77,11 @@ pub fn split_and_plan(case: &Case) -> Result<(), String> {
         None => Ok(()),
         Some(corner) => Err(format!("a plan gives its own base another tangent at corner {corner}")),
     }
+}
+
+fn same_bits(a: &CornerTangents, b: &CornerTangents) -> bool {
+    let bits = |tangent: &[f32; 4]| tangent.map(|x| if x.is_nan() { f32::NAN } else { x }.to_bits());
+    a.per_corner().iter().map(bits).eq(b.per_corner().iter().map(bits))
 }
 
 fn tangent_bits(frame: &Frame) -> [u32; 4] {

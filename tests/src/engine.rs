@@ -1,6 +1,8 @@
 //! Implementations under one roof: each takes a mesh, a threshold and a mode and gives one frame per corner.
 
-use darboux::{Frame, Mode, TangentOptions, generate_frames};
+use darboux::{
+    Frame, Mode, Scratch, TangentOptions, Tangents, WidthLimit, generate_frames, generate_tangents_into,
+};
 use mikktspace_sys::{MikkTSpaceInterface, gen_tang_space};
 
 use crate::OwnedMesh;
@@ -17,7 +19,13 @@ pub trait Engine: Sync {
 
 /// Every engine, the reference first.
 pub fn engines() -> Vec<Box<dyn Engine>> {
-    vec![Box::new(Reference), Box::new(Darboux)]
+    vec![
+        Box::new(Reference),
+        Box::new(Darboux),
+        Box::new(DarbouxTangents("darboux tangents, compiled width", WidthLimit::Compiled)),
+        Box::new(DarbouxTangents("darboux tangents, at most 256 bits", WidthLimit::Bits256)),
+        Box::new(DarbouxTangents("darboux tangents, at most 512 bits", WidthLimit::Bits512)),
+    ]
 }
 
 /// mikktspace.c itself, as the registry crate `mikktspace-sys` compiles it.
@@ -48,6 +56,33 @@ impl Engine for Darboux {
                 .into_per_corner();
         let supported = mesh.supported_corners();
         Some(frames.into_iter().zip(supported).map(|(frame, supported)| supported.then_some(frame)).collect())
+    }
+}
+
+/// The library's fast path, which gives tangents and signs only: the other numbers are [`Darboux`]'s.
+pub struct DarbouxTangents(&'static str, WidthLimit);
+
+impl Engine for DarbouxTangents {
+    fn name(&self) -> &'static str {
+        self.0
+    }
+
+    fn run(&self, mesh: &OwnedMesh, threshold: f32, mode: Mode) -> Option<Vec<Option<Frame>>> {
+        let mut frames = Darboux.run(mesh, threshold, mode)?;
+        let mut tangents = Tangents::default();
+        let mut scratch = Scratch::with_width_limit(self.1);
+        generate_tangents_into(
+            &mesh.view(),
+            &TangentOptions { mode, threshold, ..TangentOptions::default() },
+            &mut scratch,
+            &mut tangents,
+        );
+        for (frame, [x, y, z, sign]) in frames.iter_mut().zip(tangents.corners.into_per_corner()) {
+            if let Some(frame) = frame {
+                (frame.tangent, frame.sign) = ([x, y, z], sign);
+            }
+        }
+        Some(frames)
     }
 }
 

@@ -40,5 +40,6 @@ pub use plan::Plan;
 pub use split::{Splitter, VertexSplit, split_vertices};
 pub use tangents::naive;
 pub use tangents::{
-    Frames, Method, Mode, Report, TangentOptions, Tangents, generate_frames, generate_tangents,
+    Frames, Method, Mode, Report, Scratch, TangentOptions, Tangents, WidthLimit, generate_frames,
+    generate_tangents, generate_tangents_into,
 };

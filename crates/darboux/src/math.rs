@@ -4,57 +4,59 @@
 
 pub(crate) type V3 = [f32; 3];
 
-#[inline]
+#[inline(always)]
 pub(crate) fn add(a: V3, b: V3) -> V3 {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
-#[inline]
+#[inline(always)]
 pub(crate) fn sub(a: V3, b: V3) -> V3 {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-#[inline]
+#[inline(always)]
 pub(crate) fn scale(s: f32, v: V3) -> V3 {
     [s * v[0], s * v[1], s * v[2]]
 }
 
-#[inline]
+#[inline(always)]
 pub(crate) fn dot(a: V3, b: V3) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-#[inline]
+#[inline(always)]
 pub(crate) fn length(v: V3) -> f32 {
     dot(v, v).sqrt()
 }
 
 /// MikkTSpace's "not zero": above the smallest normal float. NaN counts as zero.
-#[inline]
+#[inline(always)]
 pub(crate) fn not_zero(x: f32) -> bool {
     x.abs() > f32::MIN_POSITIVE
 }
 
-/// The unit vector along `v`, or `v` itself when every component counts as zero.
-#[inline]
+/// The unit vector along `v`, or `v` itself when every component counts as zero. Without a branch, so that it vectorises.
+#[inline(always)]
 pub(crate) fn normalized_unless_zero(v: V3) -> V3 {
-    if v.iter().any(|&x| not_zero(x)) { scale(1.0 / length(v), v) } else { v }
+    let has_direction = not_zero(v[0]) | not_zero(v[1]) | not_zero(v[2]);
+    let factor = if has_direction { 1.0 / length(v) } else { 1.0 };
+    scale(factor, v)
 }
 
 /// The direction of `v` in the plane perpendicular to `normal`, which is used as given.
-#[inline]
+#[inline(always)]
 pub(crate) fn direction_in_plane(normal: V3, v: V3) -> V3 {
     normalized_unless_zero(sub(v, scale(dot(normal, v), normal)))
 }
 
 /// Equal as floats: -0 equals +0, NaN equals nothing.
-#[inline]
+#[inline(always)]
 pub(crate) fn equal<const N: usize>(a: [f32; N], b: [f32; N]) -> bool {
     a == b
 }
 
 /// The angle between two directions whose dot product is `cosine`, clamped to [-1, 1]. NaN gives NaN.
-#[inline]
+#[inline(always)]
 pub(crate) fn angle(cosine: f32) -> f32 {
     let above = if cosine > 1.0 { 1.0 } else { cosine };
     acos(if above < -1.0 { -1.0 } else { above })
@@ -66,33 +68,23 @@ const HALF_PI_REST: f64 = 6.123_233_995_736_766e-17;
 
 /// The arccosine of `x` in [-1, 1]: `acos` in double precision, rounded to `f32`.
 ///
-/// Below 1/2: acos x = pi/2 - asin x. Above: acos x = 2 asin sqrt((1 - x) / 2). The last steps carry the rounding error of the
-/// leading term along, so that the double is right to about 2^-57 and the float agrees with the platform's on every input
-/// (`cargo xtask acos` checks all of them).
+/// Up to 1/2: acos x = pi/2 - asin x. Above: acos x = 2 asin sqrt((1 - x) / 2).
+#[inline(always)]
 pub(crate) fn acos(x: f32) -> f32 {
     let x = f64::from(x);
     let size = x.abs();
-    if size <= 0.5 {
-        let rest = x * (x * x) * asin_tail(x * x);
-        let (sum, error) = exact_difference(HALF_PI, x);
-        return (sum + (error + HALF_PI_REST - rest)) as f32;
-    }
-    if size == 1.0 {
-        return if x > 0.0 { 0.0 } else { std::f32::consts::PI };
-    }
-    let square = (1.0 - size) / 2.0;
-    let root = square.sqrt();
-    let tail = minus_square(square, root) / (2.0 * root);
-    let rest = tail + root * square * asin_tail(square);
-    let folded = 2.0 * (root + rest);
-    if x >= 0.0 {
-        return folded as f32;
-    }
-    let (sum, error) = exact_difference(2.0 * HALF_PI, 2.0 * root);
-    (sum + (error + 2.0 * HALF_PI_REST - 2.0 * rest)) as f32
+    let is_small = size <= 0.5;
+    let square = if is_small { x * x } else { (1.0 - size) * 0.5 };
+    let z = if is_small { x } else { square.sqrt() };
+    let tail = z * (square * asin_tail(square));
+    let small = HALF_PI - (z + (tail - HALF_PI_REST));
+    let folded = 2.0 * (z + tail);
+    let large = if x > 0.0 { folded } else { 2.0 * HALF_PI - (folded - 2.0 * HALF_PI_REST) };
+    (if is_small { small } else { large }) as f32
 }
 
 /// (asin z - z) / z^3 as a polynomial in t = z^2 on [0, 1/4], fitted at Chebyshev nodes; absolute error below 1e-18.
+#[inline(always)]
 fn asin_tail(t: f64) -> f64 {
     ASIN_TAIL.iter().rev().fold(0.0, |sum, coefficient| sum * t + coefficient)
 }
@@ -113,19 +105,6 @@ const ASIN_TAIL: [f64; 14] = [
     -0.019_241_671_746_743_04,
     0.029_612_011_264_955_12,
 ];
-
-/// a - b and the rounding error of that difference, for |a| >= |b|.
-fn exact_difference(a: f64, b: f64) -> (f64, f64) {
-    let sum = a - b;
-    (sum, (a - sum) - b)
-}
-
-/// a - b^2, for b^2 close to a: b is cut into two halves whose products are exact.
-fn minus_square(a: f64, b: f64) -> f64 {
-    let high = f64::from_bits(b.to_bits() & !((1 << 27) - 1));
-    let low = b - high;
-    ((a - high * high) - 2.0 * high * low) - low * low
-}
 
 /// The cosine of `degrees` as MikkTSpace takes it: the angle in `f32` radians, its cosine in double precision, rounded.
 pub(crate) fn cosine_of_degrees(degrees: f32) -> f32 {

@@ -227,6 +227,14 @@ impl<'a> Mesh<'a> {
         Ok(mesh)
     }
 
+    /// Other triangles over the same vertices; `indices` are in range.
+    pub(crate) fn with_triangles<'b>(&self, indices: &'b [u32]) -> Mesh<'b>
+    where
+        'a: 'b,
+    {
+        Mesh { indices: Indices::U32(indices), faces: Faces::Triangles, corner_count: indices.len(), ..*self }
+    }
+
     fn check_faces(&self) -> Result<(), MeshError> {
         let corners = self.corner_count;
         let size = match self.faces {

@@ -6,10 +6,12 @@ mod degenerate;
 mod derivatives;
 mod evaluate;
 mod face;
+mod fans;
 mod flat;
 mod from_normal;
 mod groups;
 mod lengyel;
+mod local;
 mod method;
 pub(crate) mod mikktspace;
 pub mod naive;
@@ -22,8 +24,11 @@ mod signs;
 mod subgroups;
 mod sums;
 
+use crate::math::cosine_of_degrees;
 use crate::{CornerFrames, CornerTangents, Mesh};
 
+pub use fans::WidthLimit;
+use fans::{Fans, Width};
 pub use method::Method;
 pub use report::Report;
 
@@ -75,10 +80,48 @@ pub struct Frames {
     pub report: Report,
 }
 
+/// Memory that runs of [`generate_tangents_into`] keep from one to the next.
+#[derive(Debug, Default)]
+pub struct Scratch {
+    fans: Fans,
+    width_limit: WidthLimit,
+}
+
+impl Scratch {
+    /// An empty one; it grows to what the largest mesh needs.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// One whose runs use no wider vector instructions than `limit`. The width never shows in a result: this is for comparing.
+    pub fn with_width_limit(limit: WidthLimit) -> Self {
+        Self { width_limit: limit, ..Self::default() }
+    }
+}
+
 /// Computes the tangent of every corner.
 pub fn generate_tangents(mesh: &Mesh<'_>, options: &TangentOptions) -> Tangents {
-    let (corners, report) = method::run(mesh, options);
-    Tangents { corners: CornerTangents(corners), report }
+    let mut out = Tangents::default();
+    generate_tangents_into(mesh, options, &mut Scratch::new(), &mut out);
+    out
+}
+
+/// As [`generate_tangents`], into `out`, whose memory is used again, as is that of `scratch`: repeated calls allocate nothing
+/// but for vertices that need the general path (UV-degenerate, split or mirrored fans; degenerate triangles).
+pub fn generate_tangents_into(
+    mesh: &Mesh<'_>,
+    options: &TangentOptions,
+    scratch: &mut Scratch,
+    out: &mut Tangents,
+) {
+    let width = Width::widest(scratch.width_limit);
+    out.corners.0.resize(mesh.corner_count(), [0.0; 4]);
+    let applies = options.method == Method::MikkTSpace && cosine_of_degrees(options.threshold) == -1.0;
+    if applies && scratch.fans.run(mesh, options.mode, width, &mut out.corners.0) {
+        local::decide(mesh, options, &mut scratch.fans, out);
+    } else {
+        (out.corners.0, out.report) = method::run(mesh, options);
+    }
 }
 
 /// Computes the whole frame of every corner: tangent, bitangent, magnitudes, sign.

@@ -54,13 +54,27 @@ pub(crate) fn triangulate(mesh: &Mesh<'_>) -> Triangulation {
     let mut out = Triangulation::default();
     let all = split_faces(mesh, &mut out);
     let vertices = weld(mesh, all.corners.as_flattened());
-    for (t, vertices) in vertices.as_chunks().0.iter().enumerate() {
-        let [a, b, c] = vertices.map(|vertex| position(mesh, vertex));
-        let degenerate = equal(a, b) || equal(a, c) || equal(b, c);
-        let list = if degenerate { &mut out.degenerate } else { &mut out.good };
-        list.push_welded(all.corners[t], *vertices, all.face[t]);
-    }
+    out.set_aside_degenerate(mesh, &all, &vertices);
     out
+}
+
+/// As [`triangulate`] for a mesh of triangles, whose corners' vertices are known.
+pub(crate) fn triangulate_welded(mesh: &Mesh<'_>, vertex_of_corner: &[u32]) -> Triangulation {
+    let mut out = Triangulation::default();
+    let all = split_faces(mesh, &mut out);
+    out.set_aside_degenerate(mesh, &all, vertex_of_corner);
+    out
+}
+
+impl Triangulation {
+    fn set_aside_degenerate(&mut self, mesh: &Mesh<'_>, all: &Triangles, vertex_of_corner: &[u32]) {
+        for (t, vertices) in vertex_of_corner.as_chunks().0.iter().enumerate() {
+            let [a, b, c] = vertices.map(|vertex| position(mesh, vertex));
+            let degenerate = equal(a, b) || equal(a, c) || equal(b, c);
+            let list = if degenerate { &mut self.degenerate } else { &mut self.good };
+            list.push_welded(all.corners[t], *vertices, all.face[t]);
+        }
+    }
 }
 
 fn split_faces(mesh: &Mesh<'_>, out: &mut Triangulation) -> Triangles {

@@ -16,7 +16,7 @@ use std::collections::HashMap;
 use crate::Mesh;
 use crate::math::{V3, equal, sub};
 
-const CELLS: usize = 2048;
+pub(crate) const CELLS: usize = 2048;
 
 /// Final ranges up to this size are compared pairwise.
 const SMALL_RANGE: usize = 24;
@@ -33,7 +33,7 @@ pub(crate) fn weld(mesh: &Mesh<'_>, corners: &[u32]) -> Vec<u32> {
     let mut welder = Welder { mesh, corners, vertex_of_entry: &mut vertex_of_entry };
     let mut start = 0;
     for end in cell_ends {
-        welder.weld_range(&mut points[start..end]);
+        for_each_final_range(&mut points[start..end], &mut |points| welder.weld_all(points));
         start = end;
     }
     vertex_of_entry
@@ -41,22 +41,19 @@ pub(crate) fn weld(mesh: &Mesh<'_>, corners: &[u32]) -> Vec<u32> {
 
 /// A corner's position and its place in the triangle list.
 #[derive(Clone, Copy, Default)]
-struct Point {
-    position: V3,
-    entry: u32,
+pub(crate) struct Point {
+    pub position: V3,
+    pub entry: u32,
 }
 
 /// All corners sorted into cells along the longest axis, in list order within a cell, and the end of each cell.
 fn points_by_cell(mesh: &Mesh<'_>, corners: &[u32]) -> (Vec<Point>, Vec<usize>) {
     let position = |corner: u32| mesh.positions().get(mesh.vertex_of_corner(corner as usize));
     // The reference seeds the box with its corner id 0, whether or not that is in the list, and leaves out the list's first.
-    let bounds = Bounds::of(position(0), corners[1..].iter().map(|&corner| position(corner)));
-    let axis = bounds.longest_axis();
-    let (low, extent) = (bounds.min[axis], bounds.max[axis] - bounds.min[axis]);
-
+    let cells = Cells::of(&Bounds::of(position(0), corners[1..].iter().map(|&corner| position(corner))));
     let mut ends = vec![0; CELLS];
     for &corner in corners {
-        ends[cell(position(corner)[axis], low, extent)] += 1;
+        ends[cells.at(position(corner))] += 1;
     }
     let mut next = Vec::with_capacity(CELLS);
     let mut sum = 0;
@@ -68,27 +65,43 @@ fn points_by_cell(mesh: &Mesh<'_>, corners: &[u32]) -> (Vec<Point>, Vec<usize>) 
     let mut points = vec![Point::default(); corners.len()];
     for (entry, &corner) in corners.iter().enumerate() {
         let position = position(corner);
-        let slot = &mut next[cell(position[axis], low, extent)];
+        let slot = &mut next[cells.at(position)];
         points[*slot] = Point { position, entry: entry as u32 };
         *slot += 1;
     }
     (points, ends)
 }
 
-/// The cell of a coordinate. A quotient that is NaN or beyond 32 bits goes to cell 0, as the reference's cast does on x86-64.
-fn cell(value: f32, low: f32, extent: f32) -> usize {
-    let place = CELLS as f32 * ((value - low) / extent);
-    if (0.0..2_147_483_648.0).contains(&place) { (place as usize).min(CELLS - 1) } else { 0 }
+/// The cells along the longest axis of a box.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cells {
+    axis: usize,
+    low: f32,
+    extent: f32,
+}
+
+impl Cells {
+    pub fn of(bounds: &Bounds) -> Self {
+        let axis = bounds.longest_axis();
+        Self { axis, low: bounds.min[axis], extent: bounds.max[axis] - bounds.min[axis] }
+    }
+
+    /// The cell of a position. A quotient that is NaN or beyond 32 bits goes to cell 0, as the reference's cast does on x86-64.
+    #[inline]
+    pub fn at(&self, position: V3) -> usize {
+        let place = CELLS as f32 * ((position[self.axis] - self.low) / self.extent);
+        if (0.0..2_147_483_648.0).contains(&place) { (place as usize).min(CELLS - 1) } else { 0 }
+    }
 }
 
 /// A bounding box in which NaN never counts, unless it is the first.
-struct Bounds {
-    min: V3,
-    max: V3,
+pub(crate) struct Bounds {
+    pub min: V3,
+    pub max: V3,
 }
 
 impl Bounds {
-    fn of(first: V3, others: impl Iterator<Item = V3>) -> Self {
+    pub fn of(first: V3, others: impl Iterator<Item = V3>) -> Self {
         let mut bounds = Self { min: first, max: first };
         for position in others {
             for (axis, &value) in position.iter().enumerate() {
@@ -110,6 +123,27 @@ impl Bounds {
     }
 }
 
+/// Cuts the points of a cell in halves down to final ranges, and takes each that the reference welds.
+pub(crate) fn for_each_final_range(points: &mut [Point], take: &mut impl FnMut(&[Point])) {
+    if points.len() < 2 {
+        return take(points);
+    }
+    let bounds = Bounds::of(points[0].position, points[1..].iter().map(|point| point.position));
+    let axis = bounds.longest_axis();
+    let (low, high) = (bounds.min[axis], bounds.max[axis]);
+    let middle = 0.5 * (high + low);
+    if !middle.is_finite() {
+        return;
+    }
+    if middle >= high || middle <= low {
+        return take(points);
+    }
+    let below = partition(points, axis, middle);
+    let (below, above) = points.split_at_mut(below);
+    for_each_final_range(below, take);
+    for_each_final_range(above, take);
+}
+
 struct Welder<'a, 'm> {
     mesh: &'a Mesh<'m>,
     corners: &'a [u32],
@@ -117,27 +151,6 @@ struct Welder<'a, 'm> {
 }
 
 impl Welder<'_, '_> {
-    /// Cuts `points` in halves down to final ranges, and welds each.
-    fn weld_range(&mut self, points: &mut [Point]) {
-        if points.len() < 2 {
-            return;
-        }
-        let bounds = Bounds::of(points[0].position, points[1..].iter().map(|point| point.position));
-        let axis = bounds.longest_axis();
-        let (low, high) = (bounds.min[axis], bounds.max[axis]);
-        let middle = 0.5 * (high + low);
-        if !middle.is_finite() {
-            return;
-        }
-        if middle >= high || middle <= low {
-            return self.weld_all(points);
-        }
-        let below = partition(points, axis, middle);
-        let (below, above) = points.split_at_mut(below);
-        self.weld_range(below);
-        self.weld_range(above);
-    }
-
     /// Gives every corner of a final range the name of the first one that equals it.
     fn weld_all(&mut self, points: &[Point]) {
         if points.len() > SMALL_RANGE {

@@ -53,13 +53,15 @@ pub(crate) struct RawFrames {
 
 /// Evaluates every group, in order, and writes the results to the groups' corners.
 ///
-/// `membership` decides which members join (a plan's base), `values` what they add; on a fresh run they are the same.
+/// `membership` decides which members join (a plan's base), `values` what they add; on a fresh run they are the same. Corners of
+/// no group keep what they have in `known`.
 pub(crate) fn evaluate(
     triangles: &Triangles,
     groups: &Groups,
     threshold_cosine: f32,
     (membership, values): (&Values, &Values),
     shape: &Shape<'_>,
+    known: Vec<Frame>,
 ) -> RawFrames {
     let mut evaluator = Evaluator {
         triangles,
@@ -69,7 +71,7 @@ pub(crate) fn evaluate(
         directions: Vec::new(),
         sums: Vec::new(),
         written: vec![false; shape.corner_count()],
-        of_corner: vec![DEFAULT_FRAME; shape.corner_count()],
+        of_corner: known,
         mean_of_corner: HashMap::new(),
     };
     let mut subgroups = Subgroups::new(threshold_cosine);

@@ -33,11 +33,12 @@ impl Groups {
     }
 }
 
-/// Collects the groups. A UV-degenerate triangle never seeds one, and takes the orientation of the first that reaches it:
+/// Collects the groups around the vertices that count. A UV-degenerate triangle never seeds one, and takes the orientation of the first that reaches it:
 /// the only place where the order of triangles decides.
 pub(crate) fn group(
     triangles: &Triangles,
     neighbours: &[[u32; 3]],
+    counts: impl Fn(u32) -> bool,
     derivatives: &mut [Derivative],
 ) -> Groups {
     let mut groups = Groups::default();
@@ -45,10 +46,10 @@ pub(crate) fn group(
     let mut pending = Vec::new();
     for t in 0..triangles.len() {
         for k in 0..3 {
-            if derivatives[t].any || grouped[t][k] {
+            let (vertex, preserves) = (triangles.vertices[t][k], derivatives[t].preserves);
+            if derivatives[t].any || grouped[t][k] || !counts(vertex) {
                 continue;
             }
-            let (vertex, preserves) = (triangles.vertices[t][k], derivatives[t].preserves);
             pending.push(t as u32);
             while let Some(t) = pending.pop() {
                 let reached = t as usize;

@@ -4,12 +4,12 @@
 
 use crate::math::cosine_of_degrees;
 use crate::topology::{EdgeOrder, NONE, neighbours};
-use crate::triangles::{Triangulation, triangulate};
+use crate::triangles::{Triangulation, triangulate, triangulate_welded};
 use crate::{Frame, Mesh};
 
 use super::degenerate::fill_degenerate;
 use super::derivatives::{Derivative, agree_in_quads, derivatives};
-use super::evaluate::{RawFrames, Values, evaluate};
+use super::evaluate::{DEFAULT_FRAME, RawFrames, Values, evaluate};
 use super::groups::{Groups, group};
 use super::repair::{is_usable, repair};
 use super::shape::Shape;
@@ -29,19 +29,42 @@ pub(crate) struct Topology {
     mode: Mode,
 }
 
+/// Part of a mesh: some triangles, as a mesh of their own, of which some vertices count.
+pub(crate) struct Part<'a> {
+    /// The welded vertex of each corner, named by its first corner here.
+    pub names: &'a [u32],
+    /// Of each corner: its vertex counts, and all triangles around it are here. Other corners stay as they were.
+    pub counts: &'a [bool],
+}
+
 impl Topology {
     /// Welds, finds neighbours and groups.
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions) -> Self {
+        let order = if options.mode == Mode::Corrected { EdgeOrder::Complete } else { EdgeOrder::Reference };
+        Self::of(mesh, triangulate(mesh), order, |_| true, options)
+    }
+
+    /// Of the vertices of `part` that count, where the order of vertices shows nowhere.
+    pub fn of_part(mesh: &Mesh<'_>, part: &Part<'_>, options: &TangentOptions) -> Self {
+        let triangulation = triangulate_welded(mesh, part.names);
+        Self::of(mesh, triangulation, EdgeOrder::Complete, |vertex| part.counts[vertex as usize], options)
+    }
+
+    fn of(
+        mesh: &Mesh<'_>,
+        triangulation: Triangulation,
+        order: EdgeOrder,
+        counts: impl Fn(u32) -> bool,
+        options: &TangentOptions,
+    ) -> Self {
         let shape = Shape::welded(mesh);
-        let triangulation = triangulate(mesh);
         let good = &triangulation.good;
         let mut derivatives = derivatives(good, &shape);
         agree_in_quads(good, &shape, &mut derivatives);
-        let order = if options.mode == Mode::Corrected { EdgeOrder::Complete } else { EdgeOrder::Reference };
         let neighbours = neighbours(good, order);
         let uv_degenerate = derivatives.iter().filter(|derivative| derivative.any).count();
         let mirrored_edges = count_mirrored_edges(&neighbours, &derivatives);
-        let groups = group(good, &neighbours, &mut derivatives);
+        let groups = group(good, &neighbours, counts, &mut derivatives);
         let base = Values::new(good, &groups, derivatives, &shape);
         let threshold_cosine = cosine_of_degrees(options.threshold);
         Self {
@@ -57,7 +80,12 @@ impl Topology {
 
     /// The frames of the mesh that was welded and grouped.
     pub fn frames(&self, mesh: &Mesh<'_>) -> (Vec<Frame>, Report) {
-        self.finish(mesh, &self.base, &Shape::welded(mesh))
+        self.finish(mesh, &self.base, &Shape::welded(mesh), vec![DEFAULT_FRAME; mesh.corner_count()])
+    }
+
+    /// As [`Topology::frames`], where corners that do not count keep what they have in `known`.
+    pub fn frames_of_part(&self, mesh: &Mesh<'_>, known: Vec<Frame>) -> (Vec<Frame>, Report) {
+        self.finish(mesh, &self.base, &Shape::welded(mesh), known)
     }
 
     /// The frames of a mesh whose vertices have moved since.
@@ -68,12 +96,19 @@ impl Topology {
         for (moved, base) in moved.iter_mut().zip(&self.base.derivatives) {
             (moved.preserves, moved.any) = (base.preserves, base.any);
         }
-        self.finish(mesh, &Values::new(good, &self.groups, moved, &shape), &shape)
+        let unknown = vec![DEFAULT_FRAME; mesh.corner_count()];
+        self.finish(mesh, &Values::new(good, &self.groups, moved, &shape), &shape, unknown)
     }
 
-    fn finish(&self, mesh: &Mesh<'_>, values: &Values, shape: &Shape<'_>) -> (Vec<Frame>, Report) {
+    fn finish(
+        &self,
+        mesh: &Mesh<'_>,
+        values: &Values,
+        shape: &Shape<'_>,
+        known: Vec<Frame>,
+    ) -> (Vec<Frame>, Report) {
         let good = &self.triangulation.good;
-        let mut raw = evaluate(good, &self.groups, self.threshold_cosine, (&self.base, values), shape);
+        let mut raw = evaluate(good, &self.groups, self.threshold_cosine, (&self.base, values), shape, known);
         let copied = fill_degenerate(&self.triangulation, shape, &mut raw);
         let mut report = self.report(mesh);
         let mixed = mixed_faces(mesh, &raw.of_corner);

@@ -1,0 +1,300 @@
+//! A block of triangles, evaluated lane by lane.
+//!
+//! Every quantity is an array with one entry per triangle, and every stage one loop over them without branches, so that compilers
+//! turn it into vector code of whatever width the machine has. Each lane rounds every operation as the scalar code does.
+
+use crate::math::{V3, acos, add, direction_in_plane, dot, length, not_zero, scale, sub};
+
+/// Triangles per block.
+pub(super) const BLOCK: usize = if cfg!(small_limits) { 2 } else { 64 };
+
+type Lane<T> = [T; BLOCK];
+
+/// What is known of one vertex: position, normal, UV.
+pub(super) type Record = [f32; 8];
+
+/// One block's arrays; reused from block to block.
+#[derive(Debug)]
+pub(super) struct Block {
+    /// The vertices of each triangle.
+    pub vertex: [Lane<u32>; 3],
+    /// Their records, one component after the other.
+    record: [[Lane<f32>; 8]; 3],
+    /// Cosines, then angles, of the corners.
+    angle: [Lane<f32>; 3],
+    /// Unit derivatives.
+    s: [Lane<f32>; 3],
+    t: [Lane<f32>; 3],
+    /// [`marks`] that hold for all three corners.
+    face_marks: Lane<u32>,
+    /// What each corner adds to its vertex.
+    term: [[Lane<f32>; 3]; 3],
+    /// What each corner says of its vertex.
+    marks: [Lane<u32>; 3],
+    /// Terms and marks, one corner after the other.
+    pub sum: [Lane<[f32; 4]>; 3],
+    /// What each corner adds to its vertex's fingerprint.
+    pub print: [Lane<[u32; 4]>; 3],
+    pub packed: [[Lane<[f32; 4]>; 2]; 3],
+}
+
+/// What corners say of their vertices, as bits that are OR-ed together.
+pub(super) mod marks {
+    /// The directions +u, -u, +v, -v that the corner's wedge in UV space holds.
+    pub const RAYS: u32 = 0xf;
+    /// How far a ray's mark moves when the ray is met again.
+    pub const TWICE: u32 = 4;
+    /// Not clearly positive, x y z, then not clearly negative: the tangent's direction in the vertex's plane.
+    pub const TANGENT: u32 = 8;
+    /// Likewise the bitangent's.
+    pub const BITANGENT: u32 = 14;
+    pub const ALL_AXES: u32 = 0x3f;
+    /// The triangle's UV orientation.
+    pub const PRESERVES: u32 = 1 << 20;
+    pub const MIRRORS: u32 = 1 << 21;
+    /// Something that only the general path decides.
+    pub const TROUBLE: u32 = 1 << 22;
+}
+
+impl Block {
+    /// Takes the vertices of up to [`BLOCK`] triangles; the lanes beyond them keep what they had.
+    #[inline(always)]
+    pub fn set(&mut self, triangles: &[[u32; 3]]) {
+        for (i, triangle) in triangles.iter().take(BLOCK).enumerate() {
+            for k in 0..3 {
+                self.vertex[k][i] = triangle[k];
+            }
+        }
+    }
+}
+
+impl Default for Block {
+    fn default() -> Self {
+        Self {
+            vertex: [[0; BLOCK]; 3],
+            record: [[[0.0; BLOCK]; 8]; 3],
+            angle: [[0.0; BLOCK]; 3],
+            s: [[0.0; BLOCK]; 3],
+            t: [[0.0; BLOCK]; 3],
+            face_marks: [0; BLOCK],
+            term: [[[0.0; BLOCK]; 3]; 3],
+            marks: [[0; BLOCK]; 3],
+            sum: [[[0.0; 4]; BLOCK]; 3],
+            print: [[[0; 4]; BLOCK]; 3],
+            packed: [[[[0.0; 4]; BLOCK]; 2]; 3],
+        }
+    }
+}
+
+impl Block {
+    /// From vertices and records to terms, marks and prints.
+    #[inline(always)]
+    pub fn evaluate(&mut self) {
+        self.unpack();
+        self.derivatives();
+        self.cosines();
+        for k in 0..3 {
+            for i in 0..BLOCK {
+                self.angle[k][i] = acos(self.angle[k][i]);
+            }
+        }
+        self.terms();
+        self.bitangent_marks();
+        self.ray_marks();
+        self.pack();
+        self.prints();
+    }
+
+    #[inline(always)]
+    fn unpack(&mut self) {
+        for k in 0..3 {
+            for half in 0..2 {
+                for i in 0..BLOCK {
+                    let [a, b, c, d] = self.packed[k][half][i];
+                    self.record[k][4 * half][i] = a;
+                    self.record[k][4 * half + 1][i] = b;
+                    self.record[k][4 * half + 2][i] = c;
+                    self.record[k][4 * half + 3][i] = d;
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn pack(&mut self) {
+        for k in 0..3 {
+            for i in 0..BLOCK {
+                let [x, y, z] = [0, 1, 2].map(|axis| self.term[k][axis][i]);
+                self.sum[k][i] = [x, y, z, f32::from_bits(self.marks[k][i])];
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn position(&self, k: usize, i: usize) -> V3 {
+        [self.record[k][0][i], self.record[k][1][i], self.record[k][2][i]]
+    }
+
+    #[inline(always)]
+    fn normal(&self, k: usize, i: usize) -> V3 {
+        [self.record[k][3][i], self.record[k][4][i], self.record[k][5][i]]
+    }
+
+    #[inline(always)]
+    fn uv(&self, k: usize, i: usize) -> [f32; 2] {
+        [self.record[k][6][i], self.record[k][7][i]]
+    }
+
+    #[inline(always)]
+    fn derivatives(&mut self) {
+        for i in 0..BLOCK {
+            let [p0, p1, p2] = [0, 1, 2].map(|k| self.position(k, i));
+            let [t0, t1, t2] = [0, 1, 2].map(|k| self.uv(k, i));
+            let [e1, e2] = [sub(p1, p0), sub(p2, p0)];
+            let [du1, dv1] = [t1[0] - t0[0], t1[1] - t0[1]];
+            let [du2, dv2] = [t2[0] - t0[0], t2[1] - t0[1]];
+            let s = sub(scale(dv2, e1), scale(dv1, e2));
+            let t = add(scale(-du2, e1), scale(du1, e2));
+            let (left, right) = (du1 * dv2, dv1 * du2);
+            let area = left - right;
+            let sign = if area > 0.0 { 1.0 } else { -1.0 };
+            let (s_length, t_length) = (length(s), length(t));
+            let (s, t) = (scale(sign / s_length, s), scale(sign / t_length, t));
+            for axis in 0..3 {
+                self.s[axis][i] = s[axis];
+                self.t[axis][i] = t[axis];
+            }
+            let size = area.abs();
+            let is_good = (size > f32::MIN_POSITIVE)
+                & (s_length > f32::MIN_POSITIVE)
+                & (t_length > f32::MIN_POSITIVE)
+                & (s_length / size > f32::MIN_POSITIVE)
+                & (t_length / size > f32::MIN_POSITIVE)
+                & (size > AREA_DOUBT * (left.abs() + right.abs()))
+                & !(same(p0, p1) | same(p1, p2) | same(p2, p0));
+            let orientation = if area > 0.0 { marks::PRESERVES } else { marks::MIRRORS };
+            self.face_marks[i] = orientation | if is_good { 0 } else { marks::TROUBLE };
+        }
+    }
+
+    #[inline(always)]
+    fn cosines(&mut self) {
+        for k in 0..3 {
+            let [before, after] = [(k + 2) % 3, (k + 1) % 3];
+            for i in 0..BLOCK {
+                let normal = self.normal(k, i);
+                let here = self.position(k, i);
+                let to_before = direction_in_plane(normal, sub(self.position(before, i), here));
+                let to_after = direction_in_plane(normal, sub(self.position(after, i), here));
+                let cosine = dot(to_before, to_after);
+                let above = if cosine > 1.0 { 1.0 } else { cosine };
+                self.angle[k][i] = if above < -1.0 { -1.0 } else { above };
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn terms(&mut self) {
+        for k in 0..3 {
+            for i in 0..BLOCK {
+                let s = in_plane(self.normal(k, i), [self.s[0][i], self.s[1][i], self.s[2][i]]);
+                let squared = dot(s, s);
+                let is_zero = !(not_zero(s[0]) | not_zero(s[1]) | not_zero(s[2]));
+                let factor = if is_zero { 1.0 } else { 1.0 / squared.sqrt() };
+                let s = scale(factor, s);
+                let term = scale(self.angle[k][i], s);
+                for axis in 0..3 {
+                    self.term[k][axis][i] = term[axis];
+                }
+                let is_unit = (squared > 1e-30) & (squared < 1e30);
+                let trouble = if is_unit { 0 } else { marks::TROUBLE };
+                self.marks[k][i] = self.face_marks[i] | trouble | axes(s, CLEAR) << marks::TANGENT;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn bitangent_marks(&mut self) {
+        for k in 0..3 {
+            for i in 0..BLOCK {
+                let t = in_plane(self.normal(k, i), [self.t[0][i], self.t[1][i], self.t[2][i]]);
+                let size = t[0].abs() + t[1].abs() + t[2].abs();
+                let is_sized = (size > 1e-14) & (size < 1e14);
+                let trouble = if is_sized { 0 } else { marks::TROUBLE };
+                self.marks[k][i] |= trouble | axes(t, CLEAR * size) << marks::BITANGENT;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn ray_marks(&mut self) {
+        for i in 0..BLOCK {
+            let [t0, t1, t2] = [0, 1, 2].map(|k| self.uv(k, i));
+            let flip = if self.face_marks[i] & marks::MIRRORS == 0 { 0 } else { u32::MAX };
+            let edges = [edge(t0, t1), edge(t1, t2), edge(t2, t0)];
+            for k in 0..3 {
+                let (out, back) = (edges[k], edges[(k + 2) % 3]);
+                // `back` is seen from its other end.
+                let (after, before) = (out & 0xff, back >> 8);
+                let (entered, left) = (after & !before, before & !after);
+                let (up, down) = ((entered & !flip) | (left & flip), (left & !flip) | (entered & flip));
+                self.marks[k][i] |= (up & 5) | (down & 5) << 1;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn prints(&mut self) {
+        for i in 0..BLOCK {
+            let [f0, f1, f2] = [0, 1, 2].map(|k| print(self.vertex[k][i]));
+            let less = |a: [u32; 4], b: [u32; 4]| [0, 1, 2, 3].map(|lane| a[lane].wrapping_sub(b[lane]));
+            self.print[0][i] = less(f1, f2);
+            self.print[1][i] = less(f2, f0);
+            self.print[2][i] = less(f0, f1);
+        }
+    }
+}
+
+/// Where twice the UV area is below this part of its two products, rounding could have turned its sign.
+///
+/// Differences and products are right to 2^-24 each, three roundings per product and one for the sum: 2^-21 is twice that.
+const AREA_DOUBT: f32 = 1.0 / 2_097_152.0;
+
+/// How large a direction's component must be, against the direction's length, to count as clearly of its sign.
+const CLEAR: f32 = 1.0 / 16.0;
+
+#[inline(always)]
+fn same(a: V3, b: V3) -> bool {
+    (a[0] == b[0]) & (a[1] == b[1]) & (a[2] == b[2])
+}
+
+#[inline(always)]
+fn in_plane(normal: V3, v: V3) -> V3 {
+    sub(v, scale(dot(normal, v), normal))
+}
+
+/// Which components are not above `clear`, and which not below `-clear`.
+#[inline(always)]
+fn axes(v: V3, clear: f32) -> u32 {
+    let above = |x: f32, bit: u32| if x > clear { 0 } else { bit };
+    let below = |x: f32, bit: u32| if x < -clear { 0 } else { bit };
+    (above(v[0], 1) | above(v[1], 2) | above(v[2], 4)) | (below(v[0], 8) | below(v[1], 16) | below(v[2], 32))
+}
+
+/// Where `to` is seen from `from`: bit 0 below, bit 2 to the right; and in bits 8 and 10 where `from` is seen from `to`.
+#[inline(always)]
+fn edge(from: [f32; 2], to: [f32; 2]) -> u32 {
+    let bit = |is: bool, bit: u32| if is { bit } else { 0 };
+    (bit(to[1] < from[1], 1) | bit(to[0] > from[0], 4))
+        | (bit(from[1] < to[1], 0x100) | bit(from[0] > to[0], 0x400))
+}
+
+/// A vertex's number, its square, and two mixtures of its bits.
+#[inline(always)]
+pub(super) fn print(vertex: u32) -> [u32; 4] {
+    let first = (vertex ^ 0x9e37_79b9).wrapping_mul(0x85eb_ca6b);
+    let first = (first ^ first >> 15).wrapping_mul(0xc2b2_ae35);
+    let second = (vertex ^ 0x7f4a_7c15).wrapping_mul(0x27d4_eb2f);
+    let second = (second ^ second >> 13).wrapping_mul(0x1656_67b1);
+    [vertex, vertex.wrapping_mul(vertex), first ^ first >> 16, second ^ second >> 16]
+}

@@ -1,0 +1,168 @@
+//! One cache line per vertex: what it is, and what its corners add up to.
+
+use crate::math::normalized_unless_zero;
+
+use super::block::{BLOCK, Block, Record, marks, print};
+
+/// A welded vertex.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C, align(64))]
+pub(super) struct Vertex {
+    pub record: Record,
+    /// The sum of weighted tangents, and marks as bits; once finished the tangent and the sign.
+    pub sum: [f32; 4],
+    /// The sum of the corners' fingerprints.
+    pub print: [u32; 4],
+}
+
+/// The sign of a vertex whose tangents are not known here.
+pub(in super::super) const UNDECIDED: f32 = 0.0;
+
+impl Vertex {
+    pub fn at(record: Record) -> Self {
+        Self { record, ..Self::default() }
+    }
+
+    /// Equal as floats.
+    #[inline(always)]
+    pub fn is_at(&self, record: &Record) -> bool {
+        self.record == *record
+    }
+
+    /// Turns the sums into the tangent and the sign: [`UNDECIDED`] unless the triangles are certainly one subgroup and the
+    /// result is certainly usable. Returns false where no triangle uses the vertex.
+    #[inline(always)]
+    pub fn finish(&mut self) -> bool {
+        let found = self.sum[3].to_bits();
+        let [x, y, z, _] = self.sum;
+        let tangent = normalized_unless_zero([x, y, z]);
+        let decided =
+            is_one_subgroup(found) & is_surely_usable(tangent, &self.record) && is_one_fan(found, self.print);
+        let sign = if found & marks::PRESERVES != 0 { 1.0 } else { -1.0 };
+        self.sum = [tangent[0], tangent[1], tangent[2], if decided { sign } else { UNDECIDED }];
+        found != 0
+    }
+}
+
+/// Copies the records of the vertices of a block's first `count` triangles.
+#[inline(always)]
+pub(super) fn gather(block: &mut Block, count: usize, vertices: &[Vertex]) {
+    for k in 0..3 {
+        for i in 0..count.min(BLOCK) {
+            let [a, b, c, d, e, f, g, h] = vertices[block.vertex[k][i] as usize].record;
+            block.packed[k][0][i] = [a, b, c, d];
+            block.packed[k][1][i] = [e, f, g, h];
+        }
+    }
+}
+
+/// Adds a block's first `count` triangles to their vertices, in order.
+#[inline(always)]
+pub(super) fn scatter(block: &Block, count: usize, vertices: &mut [Vertex]) {
+    for i in 0..count.min(BLOCK) {
+        for k in 0..3 {
+            let vertex = &mut vertices[block.vertex[k][i] as usize];
+            vertex.sum = joined(vertex.sum, block.sum[k][i]);
+            let (old, new) = (vertex.print, block.print[k][i]);
+            vertex.print = std::array::from_fn(|lane| old[lane].wrapping_add(new[lane]));
+        }
+    }
+}
+
+/// Sums in the first three lanes, marks in the last.
+#[inline(always)]
+fn joined(old: [f32; 4], new: [f32; 4]) -> [f32; 4] {
+    let [x, y, z] = [0, 1, 2].map(|axis| old[axis] + new[axis]);
+    let (old, new) = (old[3].to_bits(), new[3].to_bits());
+    [x, y, z, f32::from_bits(old | new | (old & new & marks::RAYS) << marks::TWICE)]
+}
+
+/// True when the triangles have one orientation, and no two of them opposite tangents or bitangents.
+///
+/// Two unit vectors whose components on one axis are above 1/16 have a dot product above -1 + 2 / 256.
+#[inline(always)]
+fn is_one_subgroup(found: u32) -> bool {
+    let orientation = found & (marks::PRESERVES | marks::MIRRORS | marks::TROUBLE);
+    let has_axis = |shift: u32| found >> shift & marks::ALL_AXES != marks::ALL_AXES;
+    (orientation == marks::PRESERVES) | (orientation == marks::MIRRORS)
+        && has_axis(marks::TANGENT) & has_axis(marks::BITANGENT)
+}
+
+/// Usable in the sense of a repair, with a margin for rounding.
+#[inline(always)]
+fn is_surely_usable([x, y, z]: [f32; 3], record: &Record) -> bool {
+    let [_, _, _, a, b, c, _, _] = *record;
+    let along = x * a + y * b + z * c;
+    let normal_squared = a * a + b * b + c * c;
+    let error = (x * x + y * y + z * z - 1.0).abs();
+    (error < 1e-3)
+        & (normal_squared > 1e-30)
+        & (normal_squared < 1e30)
+        & (along * along < 0.99 * normal_squared)
+}
+
+/// True when all triangles are joined by edges at the vertex.
+///
+/// An edge at the vertex that as many triangles leave along as come back along leaves nothing in the fingerprint. So it is zero
+/// when all triangles lie in closed loops, and a difference of two vertices when there is one open row besides. Every closed
+/// loop of triangles of one orientation turns once or more about the vertex in UV space and meets every ray on its way.
+#[inline(always)]
+fn is_one_fan(found: u32, print: [u32; 4]) -> bool {
+    if print == [0; 4] {
+        found >> marks::TWICE & marks::RAYS != marks::RAYS
+    } else {
+        found & marks::RAYS != marks::RAYS && is_difference_of_two(print)
+    }
+}
+
+/// True when a fingerprint is that of one vertex less that of another.
+///
+/// The first lanes hold a - b and a^2 - b^2 modulo 2^32, the second divided by the first is a + b, and both give a and b; the
+/// other lanes then prove them. A difference with many factors of two leaves several candidates.
+fn is_difference_of_two(fingerprint: [u32; 4]) -> bool {
+    let difference = i64::from(fingerprint[0] as i32);
+    if difference == 0 {
+        return false;
+    }
+    let twos = difference.trailing_zeros();
+    let first_sum = u64::from(fingerprint[1].wrapping_mul(inverse((difference >> twos) as u32)) >> twos);
+    let mut sums = (0..CANDIDATES).map(|n| (first_sum + (n << (32 - twos))) as i64);
+    sums.any(|sum| {
+        let (a, b) = ((sum + difference) / 2, (sum - difference) / 2);
+        let (Ok(a), Ok(b)) = (u32::try_from(a), u32::try_from(b)) else { return false };
+        let (a, b) = (print(a), print(b));
+        (0..4).all(|lane| a[lane].wrapping_sub(b[lane]) == fingerprint[lane])
+    })
+}
+
+/// How many sums are tried; beyond, the vertex is left to the general path.
+const CANDIDATES: u64 = 64;
+
+/// The inverse of an odd number modulo 2^32 (Newton's iteration; each step doubles the right bits, of which an odd number's own are 3).
+fn inverse(odd: u32) -> u32 {
+    (0..4).fold(odd, |inverse, _| inverse.wrapping_mul(2u32.wrapping_sub(odd.wrapping_mul(inverse))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn less(a: u32, b: u32) -> [u32; 4] {
+        let (a, b) = (print(a), print(b));
+        std::array::from_fn(|lane| a[lane].wrapping_sub(b[lane]))
+    }
+
+    #[test]
+    fn a_difference_of_two_vertices_is_recognised() {
+        for (a, b) in [(1, 0), (0, 1), (7, 1_000_000_000), (70_000, 4_464), (1 << 24, (1 << 24) + 4096)] {
+            assert!(is_difference_of_two(less(a, b)), "{a} - {b}");
+        }
+    }
+
+    #[test]
+    fn a_difference_of_more_vertices_is_not() {
+        let [first, second] = [less(10, 11), less(20, 25)];
+        let both = std::array::from_fn(|lane| first[lane].wrapping_add(second[lane]));
+        assert!(!is_difference_of_two(both));
+    }
+}
