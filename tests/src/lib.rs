@@ -10,6 +10,7 @@ pub mod engine;
 pub mod families;
 pub mod generate;
 pub mod mesh;
+pub mod models;
 pub mod shrink;
 
 pub use check::{all_modes, check_frames, split_and_plan};

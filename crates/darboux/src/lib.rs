@@ -26,6 +26,7 @@
 
 mod frame;
 mod math;
+mod measure;
 mod mesh;
 mod plan;
 mod split;
@@ -35,6 +36,7 @@ mod triangles;
 mod weld;
 
 pub use frame::{BitangentDirection, Convention, CornerFrames, CornerTangents, Frame};
+pub use measure::{HISTOGRAM_ENDS, TangentDifference, UvFidelity, measure_tangents, measure_uv_fidelity};
 pub use mesh::{Faces, Indices, Mesh, MeshError, Strided};
 pub use plan::Plan;
 pub use split::{Splitter, VertexSplit, split_vertices};

@@ -1,5 +1,6 @@
 //! Options to method: the entry points of tangent generation.
 
+mod angle_area;
 mod area;
 mod average;
 mod degenerate;

@@ -8,7 +8,7 @@ use super::flat::Flat;
 use super::lengyel::{Lengyel, LengyelPerVertex};
 use super::sides::{Output, finish};
 use super::sums::{Weighting, accumulate};
-use super::{Report, TangentOptions, face, from_normal, mikktspace};
+use super::{Report, TangentOptions, angle_area, face, from_normal, mikktspace};
 
 /// How tangents are computed. Normal maps need the method that they were baked with, nearly always the default.
 ///
@@ -20,6 +20,9 @@ pub enum Method {
     /// The standard of bakers and renderers: sums of unit tangents weighted by corner angles, over welded vertices.
     #[default]
     MikkTSpace,
+    /// MikkTSpace's groups with weights of corner angle times area: nearest to the UVs where the mesh was cut unevenly, so the choice
+    /// where no baked map asks for another.
+    AngleArea,
     /// Per vertex the sum of dP/du, as long as they are: large where UVs are dense. One sum per UV orientation (Lengyel 2001).
     Lengyel,
     /// As `Lengyel` with one sum per vertex, as three.js and many tutorials have it: mirrored seams break, and are counted in
@@ -44,6 +47,7 @@ pub(super) fn run<O: Output>(mesh: &Mesh<'_>, options: &TangentOptions) -> (Vec<
             let (frames, report) = mikktspace::Topology::new(mesh, options).frames(mesh);
             (frames.iter().map(O::from_frame).collect(), report)
         }
+        Method::AngleArea => angle_area::run(mesh, mode),
         Method::Lengyel => summed::<2, Lengyel, O>(mesh, mode),
         Method::LengyelPerVertex => summed::<2, LengyelPerVertex, O>(mesh, mode),
         Method::Average => {

@@ -152,7 +152,7 @@ impl Topology {
 }
 
 /// Edges between two triangles, neither UV-degenerate, of opposite orientation.
-fn count_mirrored_edges(neighbours: &[[u32; 3]], derivatives: &[Derivative]) -> usize {
+pub(super) fn count_mirrored_edges(neighbours: &[[u32; 3]], derivatives: &[Derivative]) -> usize {
     let mirrored = |t: usize, other: u32| {
         other != NONE && (t as u32) < other && {
             let (a, b) = (&derivatives[t], &derivatives[other as usize]);

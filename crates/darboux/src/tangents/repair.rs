@@ -153,7 +153,7 @@ pub(super) fn unit(v: D3) -> Option<D3> {
     (length > 0.0 && length.is_finite()).then(|| v.map(|x| x / length))
 }
 
-fn dot(a: D3, b: D3) -> f64 {
+pub(super) fn dot(a: D3, b: D3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
@@ -161,6 +161,6 @@ pub(super) fn cross(a: D3, b: D3) -> D3 {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-fn length(v: D3) -> f64 {
+pub(super) fn length(v: D3) -> f64 {
     dot(v, v).sqrt()
 }

@@ -1,0 +1,204 @@
+//! How far two sets of tangents are apart, and how well tangents follow the UVs.
+
+use crate::math::V3;
+use crate::split::expect;
+use crate::{Faces, Mesh, MeshError};
+
+type D3 = [f64; 3];
+
+/// The upper ends, in degrees, of the bins of [`TangentDifference::histogram`]; each bin begins above the end before it.
+pub const HISTOGRAM_ENDS: [f64; 10] = [0.0, 0.001, 0.01, 0.1, 1.0, 5.0, 15.0, 45.0, 90.0, 180.0];
+
+/// How many corners [`TangentDifference::worst`] lists at most.
+const WORST: usize = 16;
+
+/// How two sets of tangents of one mesh differ. Angles are between the xyz of a corner in both, in degrees.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct TangentDifference {
+    /// The number of corners.
+    pub corners: usize,
+    /// Corners whose four floats are the same bits.
+    pub identical: usize,
+    /// Corners whose signs differ.
+    pub sign_flips: usize,
+    /// Corners where a tangent is zero or not finite, so that there is no angle. They are in none of the numbers below.
+    pub without_angle: usize,
+    /// The mean angle.
+    pub mean: f64,
+    /// The angle that half of the corners do not exceed.
+    pub median: f64,
+    /// The angle that 95 corners in 100 do not exceed.
+    pub p95: f64,
+    /// The largest angle.
+    pub max: f64,
+    /// Corners per bin of [`HISTOGRAM_ENDS`].
+    pub histogram: [usize; HISTOGRAM_ENDS.len()],
+    /// The corners with the largest angles and these, the largest first, the lower corner first among equals. None with an angle of zero.
+    pub worst: Vec<(usize, f64)>,
+}
+
+/// Compares two sets of tangents, corner by corner.
+///
+/// `a`, `b`: one tangent per corner ([`CornerTangents::per_corner`](crate::CornerTangents::per_corner)) of the same mesh, in the same
+/// convention. Errors: another number of corners.
+pub fn measure_tangents(a: &[[f32; 4]], b: &[[f32; 4]]) -> Result<TangentDifference, MeshError> {
+    expect("corners", a.len(), b.len())?;
+    let mut out = TangentDifference { corners: a.len(), ..TangentDifference::default() };
+    let mut angles = Vec::with_capacity(a.len());
+    for (corner, (a, b)) in a.iter().zip(b).enumerate() {
+        out.identical += usize::from(a.map(f32::to_bits) == b.map(f32::to_bits));
+        out.sign_flips += usize::from(a[3] != b[3]);
+        match angle(xyz(*a), xyz(*b)) {
+            Some(angle) => angles.push((corner, angle)),
+            None => out.without_angle += 1,
+        }
+    }
+    for (_, angle) in &angles {
+        out.histogram[HISTOGRAM_ENDS.partition_point(|end| end < angle).min(HISTOGRAM_ENDS.len() - 1)] += 1;
+    }
+    angles.sort_unstable_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+    out.mean = angles.iter().map(|(_, angle)| angle).sum::<f64>() / (angles.len().max(1) as f64);
+    [out.max, out.p95, out.median] = [1.0, 0.95, 0.5].map(|part| quantile(&angles, part));
+    out.worst = angles.into_iter().take(WORST).filter(|(_, angle)| *angle > 0.0).collect();
+    Ok(out)
+}
+
+/// The least angle that `part` of the corners do not exceed; `descending` is sorted so.
+fn quantile(descending: &[(usize, f64)], part: f64) -> f64 {
+    let count = descending.len();
+    let within = (part * count as f64).ceil() as usize;
+    descending.get(count - within.clamp(usize::from(count > 0), count)).map_or(0.0, |(_, angle)| *angle)
+}
+
+/// How well tangents follow the UVs: the angle between the tangent as shaders interpolate it and the true dP/du, over the surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct UvFidelity {
+    /// The mean angle over the surface, weighted by area, in degrees.
+    pub mean: f64,
+    /// The root of the mean square of the angle, in degrees: dominated by what is worst.
+    pub root_mean_square: f64,
+    /// The area that was measured.
+    pub area: f64,
+    /// Triangles that were not: without area, or without a dP/du.
+    pub left_out: usize,
+}
+
+/// Measures tangents against the derivatives of the UV map.
+///
+/// Each triangle is sampled at the centres of 16 equal parts. There the three corners' tangents are interpolated linearly and compared,
+/// as directions in space, with the triangle's dP/du. A part of the angle is not the tangents' fault: they are perpendicular to
+/// smoothed normals, dP/du lies in the face. `tangents`: one per corner. Quads count as the halves of diagonal 0-2. Errors: tangents of another number
+/// of corners.
+pub fn measure_uv_fidelity(mesh: &Mesh<'_>, tangents: &[[f32; 4]]) -> Result<UvFidelity, MeshError> {
+    expect("corners", mesh.corner_count(), tangents.len())?;
+    let mut out = UvFidelity::default();
+    let (mut sum, mut squares) = (0.0, 0.0);
+    for triangle in triangles(mesh) {
+        let Some((u_direction, area)) = u_direction_and_area(mesh, triangle) else {
+            out.left_out += 1;
+            continue;
+        };
+        let corners = triangle.map(|corner| xyz(tangents[corner]).map(f64::from));
+        for weights in CENTRES {
+            let tangent = [0, 1, 2].map(|i| (0..3).map(|k| weights[k] * corners[k][i]).sum::<f64>());
+            // Where tangents cancel shaders get anything: a right angle stands for it.
+            let angle = angle_of(tangent, u_direction).unwrap_or(90.0);
+            sum += angle * area / CENTRES.len() as f64;
+            squares += angle * angle * area / CENTRES.len() as f64;
+        }
+        out.area += area;
+    }
+    if out.area > 0.0 {
+        (out.mean, out.root_mean_square) = (sum / out.area, (squares / out.area).sqrt());
+    }
+    Ok(out)
+}
+
+/// The corners of every triangle; quads are cut from 0 to 2, other faces have none.
+fn triangles(mesh: &Mesh<'_>) -> impl Iterator<Item = [usize; 3]> {
+    let mut first = 0;
+    (0..mesh.face_count()).flat_map(move |face| {
+        let size = match mesh.faces() {
+            Faces::Triangles => 3,
+            Faces::Quads => 4,
+            Faces::Mixed(sizes) => sizes[face] as usize,
+        };
+        let start = first;
+        first += size;
+        let halves: &[[usize; 3]] = match size {
+            3 => &[[0, 1, 2]],
+            4 => &[[0, 1, 2], [0, 2, 3]],
+            _ => &[],
+        };
+        halves.iter().map(move |half| half.map(|corner| start + corner))
+    })
+}
+
+/// The direction of dP/du, as long as it may be, and the area.
+fn u_direction_and_area(mesh: &Mesh<'_>, triangle: [usize; 3]) -> Option<(D3, f64)> {
+    let vertices = triangle.map(|corner| mesh.vertex_of_corner(corner));
+    let [p0, p1, p2] = vertices.map(|vertex| mesh.positions().get(vertex).map(f64::from));
+    let [t0, t1, t2] = vertices.map(|vertex| mesh.uvs().get(vertex).map(f64::from));
+    let [e1, e2] = [p1, p2].map(|p| [p[0] - p0[0], p[1] - p0[1], p[2] - p0[2]]);
+    let [dv1, dv2] = [t1[1] - t0[1], t2[1] - t0[1]];
+    let uv_area = (t1[0] - t0[0]) * dv2 - dv1 * (t2[0] - t0[0]);
+    let direction = [0, 1, 2].map(|i| (dv2 * e1[i] - dv1 * e2[i]) / uv_area);
+    let area = 0.5 * length(cross(e1, e2));
+    let has_both = area > 0.0 && area.is_finite() && length(direction) > 0.0 && length(direction).is_finite();
+    has_both.then_some((direction, area))
+}
+
+/// The barycentric coordinates of the centres of the 16 parts into which three rounds of lines parallel to the sides cut a triangle.
+const CENTRES: [[f64; 3]; 16] = {
+    let mut centres = [[0.0; 3]; 16];
+    let (mut at, mut i) = (0, 0);
+    while i < 4 {
+        let mut j = 0;
+        while i + j < 4 {
+            // The part that points as the triangle does, and the one that points the other way.
+            let [a, b] = [3.0 * i as f64 + 1.0, 3.0 * j as f64 + 1.0];
+            centres[at] = [a / 12.0, b / 12.0, (12.0 - a - b) / 12.0];
+            at += 1;
+            if i + j < 3 {
+                centres[at] = [(a + 1.0) / 12.0, (b + 1.0) / 12.0, (10.0 - a - b) / 12.0];
+                at += 1;
+            }
+            j += 1;
+        }
+        i += 1;
+    }
+    centres
+};
+
+fn xyz([x, y, z, _]: [f32; 4]) -> V3 {
+    [x, y, z]
+}
+
+fn angle(a: V3, b: V3) -> Option<f64> {
+    angle_of(a.map(f64::from), b.map(f64::from))
+}
+
+/// The angle in degrees; none where a vector has no direction. By the arctangent, which is exact for small and for large angles.
+fn angle_of(a: D3, b: D3) -> Option<f64> {
+    let [a, b] = [unit(a)?, unit(b)?];
+    Some(length(cross(a, b)).atan2(dot(a, b)).to_degrees())
+}
+
+fn unit(v: D3) -> Option<D3> {
+    let length = length(v);
+    (length > 0.0 && length.is_finite()).then(|| v.map(|x| x / length))
+}
+
+fn dot(a: D3, b: D3) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: D3, b: D3) -> D3 {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn length(v: D3) -> f64 {
+    dot(v, v).sqrt()
+}

@@ -1,0 +1,50 @@
+//! Models on disk as meshes.
+
+use std::path::{Path, PathBuf};
+
+use darboux_io::gltf::schema::Primitive;
+use darboux_io::gltf::{Document, LoadOptions};
+
+use crate::OwnedMesh;
+
+/// All .gltf and .glb files below a folder, sorted.
+pub fn models(folder: &Path) -> Vec<PathBuf> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("a readable folder").path()).collect();
+    paths.sort();
+    let is_model =
+        |path: &Path| path.extension().is_some_and(|extension| extension == "gltf" || extension == "glb");
+    paths
+        .into_iter()
+        .flat_map(|path| if path.is_dir() { models(&path) } else { vec![path] })
+        .filter(|path| is_model(path))
+        .collect()
+}
+
+/// The triangles of a primitive, where it is a triangle list with all that tangents need.
+fn mesh(document: &Document, primitive: &Primitive) -> Option<OwnedMesh> {
+    let accessor = |semantic: &str| primitive.attributes.get(semantic).copied();
+    let (position, normal, uv) = (accessor("POSITION")?, accessor("NORMAL")?, accessor("TEXCOORD_0")?);
+    let indices = primitive.indices.map(|indices| document.read_indices(indices)).transpose().ok()?;
+    let mesh = OwnedMesh {
+        positions: document.read_vectors(position).ok()?,
+        normals: document.read_vectors(normal).ok()?,
+        uvs: document.read_vectors(uv).ok()?,
+        indices,
+        ..OwnedMesh::default()
+    };
+    let whole = mesh.corner_count() > 0 && mesh.corner_count().is_multiple_of(3);
+    let in_range =
+        (0..mesh.corner_count()).all(|corner| mesh.vertex_of_corner(corner) < mesh.positions.len());
+    (primitive.mode == 4 && whole && in_range).then_some(mesh)
+}
+
+/// The primitives of a model that are triangle lists with all that tangents need, and their numbers; none of a file that cannot be read.
+pub fn primitives(path: &Path) -> Vec<(usize, OwnedMesh)> {
+    let Ok(mut document) = Document::open(path, &LoadOptions::default()) else { return Vec::new() };
+    if document.decompress().is_err() {
+        return Vec::new();
+    }
+    let numbered = document.meshes().iter().flat_map(|mesh| &mesh.primitives).enumerate();
+    numbered.filter_map(|(number, primitive)| Some((number, mesh(&document, primitive)?))).collect()
+}

@@ -1,0 +1,80 @@
+//! How well the tangents of every method follow the UVs of real models, beside those of meshoptimizer.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use darboux::{Method, TangentOptions, UvFidelity, generate_tangents, measure_uv_fidelity};
+use darboux_tests::OwnedMesh;
+use darboux_tests::models::{models, primitives};
+
+const METHODS: [Method; 5] =
+    [Method::AngleArea, Method::MikkTSpace, Method::Lengyel, Method::Average, Method::Area];
+
+/// The names of a row's numbers: [`METHODS`], then meshoptimizer.
+const COLUMNS: [&str; 6] = ["angle-area", "mikktspace", "lengyel", "average", "area", "meshoptimizer"];
+
+/// The mean angle of every method and of meshoptimizer on a mesh.
+fn measure(mesh: &OwnedMesh) -> Vec<UvFidelity> {
+    let view = mesh.view();
+    let ours = METHODS.map(|method| {
+        let options = TangentOptions { method, ..TangentOptions::default() };
+        measure_uv_fidelity(&view, generate_tangents(&view, &options).corners.per_corner())
+            .expect("the same mesh")
+    });
+    let theirs = meshopt::generate_tangents(
+        mesh.indices.as_deref(),
+        &mesh.positions,
+        &mesh.normals,
+        &mesh.uvs,
+        meshopt::TangentOptions::None,
+    );
+    let theirs = measure_uv_fidelity(&view, &theirs).expect("the same mesh");
+    ours.into_iter().chain([theirs]).collect()
+}
+
+/// The mean angles over all primitives of a model, weighted by area; none where nothing can be measured.
+fn measure_model(path: &Path) -> Option<[f64; COLUMNS.len()]> {
+    let mut sums = [0.0; COLUMNS.len()];
+    let mut area = 0.0;
+    for (_, mesh) in primitives(path) {
+        let measured = measure(&mesh);
+        area += measured[0].area;
+        sums.iter_mut().zip(&measured).for_each(|(sum, measured)| *sum += measured.mean * measured.area);
+    }
+    (area > 0.0).then(|| sums.map(|sum| sum / area))
+}
+
+/// `cargo test -p darboux-tests --test quality -- --ignored --nocapture` prints the table of docs/notes/methods.md.
+#[test]
+#[ignore = "long: a table of many models"]
+fn table() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let folder = root.join("../shared/assets");
+    let folder = if folder.is_dir() { folder } else { root.join("assets") };
+    let mut rows: Vec<(PathBuf, [f64; COLUMNS.len()])> = Vec::new();
+    for path in models(&folder) {
+        if let Some(row) = measure_model(&path)
+            && rows.last().is_none_or(|(_, last)| *last != row)
+        {
+            rows.push((path.strip_prefix(&folder).expect("below it").to_path_buf(), row));
+        }
+    }
+    let mut out = std::io::stdout();
+    writeln!(out, "{:60} {}", "", COLUMNS.map(|name| format!("{name:>14}")).concat())
+        .expect("standard output");
+    for (path, row) in &rows {
+        let numbers = row.map(|mean| format!("{mean:14.4}")).concat();
+        writeln!(out, "{:60} {numbers}", path.display()).expect("standard output");
+    }
+    for (column, name) in COLUMNS.iter().enumerate().skip(1) {
+        let mut ratios: Vec<f64> = rows.iter().map(|(_, row)| row[0] / row[column].max(1e-9)).collect();
+        let lost: Vec<_> = rows.iter().filter(|(_, row)| row[0] > row[column] + 1e-6).collect();
+        ratios.sort_unstable_by(f64::total_cmp);
+        let median = ratios[ratios.len() / 2];
+        writeln!(out, "{name}: median ratio {median:.4}, lost {} of {}", lost.len(), rows.len())
+            .expect("out");
+        for (path, row) in lost {
+            writeln!(out, "  {}: {:.4} > {:.4}", path.display(), row[0], row[column]).expect("out");
+        }
+    }
+}
