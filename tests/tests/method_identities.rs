@@ -9,8 +9,9 @@ use darboux_tests::{OwnedMesh, families};
 const TOLERANCE: f32 = 2.4e-5;
 
 /// The methods that sum, and those that look at one face or vertex alone.
-const METHODS: [Method; 7] = [
+const METHODS: [Method; 8] = [
     Method::MikkTSpace,
+    Method::AngleArea,
     Method::Lengyel,
     Method::LengyelPerVertex,
     Method::Average,

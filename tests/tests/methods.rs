@@ -6,7 +6,8 @@ use darboux_tests::{Case, OwnedMesh, families};
 /// A method and its brute force.
 type Twin = (Method, fn(&darboux::Mesh<'_>) -> Vec<Option<Frame>>);
 
-const TWINS: [Twin; 6] = [
+const TWINS: [Twin; 7] = [
+    (Method::AngleArea, naive::angle_area),
     (Method::Lengyel, naive::lengyel),
     (Method::LengyelPerVertex, naive::lengyel_per_vertex),
     (Method::Average, naive::average),

@@ -2,7 +2,8 @@
 //!
 //! With angles alone a sliver or a thin bevel pulls the tangent of a vertex as much as the wide triangle beside it, which then shows the
 //! error over its whole area. The angle keeps the result independent of how a flat fan is cut; the area makes it follow what is seen.
-//! Threshold and order of sums of mikktspace.c do not matter here: all edges are matched, and sums are in f64.
+//! From there one step goes towards the least-squares fit, which takes into account that a triangle's inside is interpolated from three
+//! vertices. Thresholds do not apply, all edges are matched, and sums are in f64.
 
 use crate::math::{V3, angle};
 use crate::topology::{EdgeOrder, neighbours};
@@ -38,9 +39,11 @@ pub(super) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode) -> (Vec<O>, Report) {
     report.uv_degenerate_triangles = derivatives.iter().filter(|derivative| derivative.any).count();
     report.mirrored_edges = count_mirrored_edges(&neighbours, &derivatives);
     let preserves = orientation_of_faces(&flat, good, &derivatives);
-    let groups = group(good, &neighbours, &mut derivatives);
-    let frames = Evaluation { triangles: good, derivatives: &derivatives, shape: &shape }.frames(&groups);
+    let groups = group(good, &neighbours, |_| true, &mut derivatives);
     let places = Places::new(&flat, &triangulation, &groups);
+    let evaluation = Evaluation { triangles: good, derivatives: &derivatives, shape: &shape };
+    let mut frames = evaluation.frames(&groups);
+    evaluation.fit(&places, &mut frames);
     let corners = to_corners(&flat, &places, &groups, &frames, &preserves, mode, &mut report);
     report.split_vertices = count_split_vertices(&flat, &corners);
     (corners, report)
@@ -70,9 +73,10 @@ struct Evaluation<'a> {
     shape: &'a Shape<'a>,
 }
 
-/// A group's frame, and whether it is a repair.
+/// A group's frame, the direction of its normal, and whether it is a repair.
 struct GroupFrame {
     frame: Frame,
+    normal: Option<D3>,
     repaired: bool,
 }
 
@@ -105,7 +109,11 @@ impl Evaluation<'_> {
         let tangent = found.map_or_else(|| self.mean(members, normal), |s| s.map(|x| x as f32));
         let bitangent = flat_direction_of(t, unit_normal).map(|t| t.map(|x| x as f32));
         let bitangent = bitangent.unwrap_or_else(|| across(normal, tangent, sign));
-        GroupFrame { frame: Frame { tangent, bitangent, magnitude, sign }, repaired: found.is_none() }
+        GroupFrame {
+            frame: Frame { tangent, bitangent, magnitude, sign },
+            normal: unit_normal,
+            repaired: found.is_none(),
+        }
     }
 
     /// The repair of a group: the mean of its tangents, all weighted alike; the first triangle's own; a perpendicular.
@@ -123,13 +131,54 @@ impl Evaluation<'_> {
     }
 }
 
+impl Evaluation<'_> {
+    /// Moves every tangent a part of the way to the least squares of what is seen: the integral over the surface of the squared
+    /// distance between the interpolated tangent T and the direction s of dP/du.
+    ///
+    /// With linear weights w_i over a triangle of area A, integral w_i w_j = A/12, or A/6 for i = j, and integral w_i = A/3; so the
+    /// residual of corner i is A/3 s - A/12 (t_i + t_0 + t_1 + t_2), and its step (Jacobi's) is that over the sum of A/6. The whole step
+    /// overshoots, half of one still does where neighbours differ much; see docs/notes/methods.md.
+    fn fit(&self, places: &Places, frames: &mut [GroupFrame]) {
+        const PART: f64 = 0.25;
+        let mut residuals = vec![([0.0; 3], 0.0); frames.len()];
+        for (t, derivative) in self.derivatives.iter().enumerate() {
+            let groups = self.triangles.corners[t].map(|corner| places.group_of_corner[corner as usize]);
+            if derivative.any || groups.contains(&NONE) {
+                continue;
+            }
+            let area = 0.5 * doubled_area(self.shape.positions(self.triangles, t));
+            let tangents = groups.map(|group| frames[group as usize].frame.tangent.map(f64::from));
+            let sum = tangents.into_iter().fold([0.0; 3], |sum, tangent| add(sum, 1.0, tangent));
+            let target = add(sum, -4.0, derivative.s.map(f64::from));
+            for (group, tangent) in groups.into_iter().zip(tangents) {
+                let (residual, weight) = &mut residuals[group as usize];
+                *residual = add(*residual, -area / 12.0, add(target, 1.0, tangent));
+                *weight += area / 6.0;
+            }
+        }
+        for (group, (residual, weight)) in frames.iter_mut().zip(residuals) {
+            let moved = add(group.frame.tangent.map(f64::from), PART / weight, residual);
+            if !group.repaired
+                && let Some(tangent) = flat_direction_of(moved, group.normal)
+            {
+                group.frame.tangent = tangent.map(|x| x as f32);
+            }
+        }
+    }
+}
+
+fn doubled_area(positions: [V3; 3]) -> f64 {
+    let [a, b, c] = positions.map(|position| position.map(f64::from));
+    length(cross(add(b, -1.0, a), add(c, -1.0, a)))
+}
+
 /// The angle of corner `k` in the plane of the normal, times the triangle's area.
 fn weight(positions: [V3; 3], k: usize, normal: Option<D3>) -> f64 {
     let [before, here, after] = [k + 2, k, k + 1].map(|k| positions[k % 3].map(f64::from));
-    let [a, b] = [before, after].map(|end| [end[0] - here[0], end[1] - here[1], end[2] - here[2]]);
+    let [a, b] = [before, after].map(|end| add(end, -1.0, here));
     let directions = [a, b].map(|edge| flat_direction_of(edge, normal));
     let [Some(along_a), Some(along_b)] = directions else { return 0.0 };
-    f64::from(angle(dot(along_a, along_b) as f32)) * length(cross(a, b))
+    f64::from(angle(dot(along_a, along_b) as f32)) * doubled_area(positions)
 }
 
 fn flat_direction(v: V3, normal: Option<D3>) -> D3 {
@@ -141,6 +190,7 @@ fn flat_direction_of(v: D3, normal: Option<D3>) -> Option<D3> {
     normal.map_or_else(|| unit(v), |normal| in_plane(v, normal))
 }
 
+/// sum + weight * v.
 fn add(sum: D3, weight: f64, v: D3) -> D3 {
     [sum[0] + weight * v[0], sum[1] + weight * v[1], sum[2] + weight * v[2]]
 }

@@ -5,12 +5,14 @@
 //! Source: M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008, and his mikktspace.c. We deviate: vertices weld
 //! to their first corner, and every edge finds its neighbour (the C misses some at the largest vertex number).
 
+mod angle_area;
 mod methods;
 
 use std::array::from_fn;
 
 use crate::{Faces, Frame, Mesh};
 
+pub use angle_area::angle_area;
 pub use methods::{area, average, face, from_normal, lengyel, lengyel_per_vertex};
 
 type Vec3 = [f64; 3];
