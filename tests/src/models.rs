@@ -40,7 +40,7 @@ fn mesh(document: &Document, primitive: &Primitive) -> Option<OwnedMesh> {
 }
 
 /// The primitives of a model that are triangle lists with all that tangents need, and their numbers; none of a file that cannot be read.
-pub fn primitives(path: &Path) -> Vec<(usize, OwnedMesh)> {
+pub fn meshes(path: &Path) -> Vec<(usize, OwnedMesh)> {
     let Ok(mut document) = Document::open(path, &LoadOptions::default()) else { return Vec::new() };
     if document.decompress().is_err() {
         return Vec::new();

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use darboux::Mode;
-use darboux_tests::models::{models, primitives};
+use darboux_tests::models::{meshes, models};
 use darboux_tests::{Case, all_modes, assert_equal, engine, engines};
 
 fn root() -> PathBuf {
@@ -15,7 +15,7 @@ fn root() -> PathBuf {
 fn compare(folder: &Path) -> (usize, usize) {
     let (mut primitives, mut triangles) = (0, 0);
     for path in models(folder) {
-        for (number, mesh) in primitives(&path) {
+        for (number, mesh) in meshes(&path) {
             let expected = engine::reference(&mesh, 180.0);
             for engine in engines() {
                 if let Some(found) = engine.run(&mesh, 180.0, Mode::Reference) {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use darboux::{Method, TangentOptions, UvFidelity, generate_tangents, measure_uv_fidelity};
 use darboux_tests::OwnedMesh;
-use darboux_tests::models::{models, primitives};
+use darboux_tests::models::{meshes, models};
 
 const METHODS: [Method; 5] =
     [Method::AngleArea, Method::MikkTSpace, Method::Lengyel, Method::Average, Method::Area];
@@ -36,7 +36,7 @@ fn measure(mesh: &OwnedMesh) -> Vec<UvFidelity> {
 fn measure_model(path: &Path) -> Option<[f64; COLUMNS.len()]> {
     let mut sums = [0.0; COLUMNS.len()];
     let mut area = 0.0;
-    for (_, mesh) in primitives(path) {
+    for (_, mesh) in meshes(path) {
         let measured = measure(&mesh);
         area += measured[0].area;
         sums.iter_mut().zip(&measured).for_each(|(sum, measured)| *sum += measured.mean * measured.area);
