@@ -28,6 +28,7 @@ mod frame;
 mod math;
 mod measure;
 mod mesh;
+mod normals;
 mod plan;
 mod split;
 mod tangents;
@@ -38,6 +39,10 @@ mod weld;
 pub use frame::{BitangentDirection, Convention, CornerFrames, CornerTangents, Frame};
 pub use measure::{HISTOGRAM_ENDS, TangentDifference, UvFidelity, measure_tangents, measure_uv_fidelity};
 pub use mesh::{Faces, Indices, Mesh, MeshError, Strided};
+pub use normals::{
+    NormalOptions, NormalReport, NormalSplit, NormalWeight, Normals, Shading, SmoothingSeams,
+    generate_normals, split_normals,
+};
 pub use plan::Plan;
 pub use split::{Splitter, VertexSplit, split_vertices};
 pub use tangents::naive;

@@ -37,6 +37,11 @@ impl<'a, const N: usize> Strided<'a, N> {
         Ok(Self { source: Source::Bytes(data), len, stride, offset })
     }
 
+    /// `element` for each of `len` vertices: normals of a mesh that has none are zeros.
+    pub fn repeated(element: &'a [f32; N], len: usize) -> Self {
+        Self { source: Source::Floats(element), len, stride: 0, offset: 0 }
+    }
+
     /// The number of elements.
     pub fn len(&self) -> usize {
         self.len

@@ -7,6 +7,7 @@
 
 mod angle_area;
 mod methods;
+mod normals;
 
 use std::array::from_fn;
 
@@ -14,6 +15,7 @@ use crate::{Faces, Frame, Mesh};
 
 pub use angle_area::angle_area;
 pub use methods::{area, average, face, from_normal, lengyel, lengyel_per_vertex};
+pub use normals::normals;
 
 type Vec3 = [f64; 3];
 

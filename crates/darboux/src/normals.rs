@@ -1,0 +1,362 @@
+//! Normals from positions: flat, or smooth over the fans that creases leave.
+//!
+//! A face's normal and area come from its area vector, half the sum of cross(p_i, p_(i+1)) around it (M. Newell's method), which does
+//! not depend on how the face would be cut. Weighting by angle is G. Thürmer and C. A. Wüthrich, "Computing Vertex Normals from Polygonal
+//! Facets", 1998; by area the older habit; by both what keeps wide faces flat beside bevels ("weighted normals").
+
+use std::collections::HashMap;
+
+use crate::math::angle;
+use crate::{CornerTangents, Faces, Indices, Mesh, MeshError, Splitter, Strided};
+
+type D3 = [f64; 3];
+
+/// How normals are made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NormalOptions {
+    /// Flat, or smooth.
+    pub shading: Shading,
+    /// How much each face counts at a vertex, where shading is smooth.
+    pub weight: NormalWeight,
+    /// Smooth shading stops at edges whose faces' normals differ by more than this, in degrees. Default 180: nowhere.
+    pub crease: f32,
+    /// Which vertices are one, where shading is smooth.
+    pub seams: SmoothingSeams,
+}
+
+impl Default for NormalOptions {
+    fn default() -> Self {
+        Self {
+            shading: Shading::Smooth,
+            weight: NormalWeight::default(),
+            crease: 180.0,
+            seams: SmoothingSeams::default(),
+        }
+    }
+}
+
+/// Flat or smooth.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Shading {
+    /// Every corner has its face's normal: what glTF asks of renderers where normals are absent (2.0, section 3.7.2.1).
+    Flat,
+    /// Corners around a vertex share the weighted mean of their faces' normals, but for creases.
+    #[default]
+    Smooth,
+}
+
+/// The weight of a face at a vertex.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum NormalWeight {
+    /// The angle of its corner there: independent of how a flat surface is cut.
+    #[default]
+    Angle,
+    /// Its area.
+    Area,
+    /// Both multiplied: wide faces stay flat beside bevels.
+    AngleArea,
+}
+
+/// What keeps vertices apart.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum SmoothingSeams {
+    /// Nothing: vertices at equal positions are one, so that UV seams do not show in the shading.
+    #[default]
+    Ignored,
+    /// The index list: distinct vertices have distinct normals, as a modeller who split them meant.
+    Respected,
+}
+
+/// Normals of corners and the report of the run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Normals {
+    /// One unit normal per corner, in corner order. Not in vertex order: [`split_normals`] gives vertices.
+    pub corners: Vec<[f32; 3]>,
+    /// What was met on the way.
+    pub report: NormalReport,
+}
+
+/// What a user must know of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct NormalReport {
+    /// Faces, degenerate ones included.
+    pub faces: usize,
+    /// Faces without an area, or with values that are not finite. They add nothing.
+    pub degenerate_faces: usize,
+    /// Corners whose faces' normals cancel or are missing. They have their own face's, the mean of their vertex, or (0, 0, 1).
+    pub repaired_corners: usize,
+    /// Edges between two faces at which smooth shading stops for their angle.
+    pub creased_edges: usize,
+}
+
+/// Computes a normal for every corner.
+///
+/// `positions`: V by 3, any values; `indices`: one per corner; `faces`: how corners make faces, of any size from 3 on (smaller ones are
+/// degenerate). Faces wind counter-clockwise seen from where their normal points. Errors: an index out of range, corners that do not
+/// make whole faces, too many corners.
+pub fn generate_normals<'a>(
+    positions: impl Into<Strided<'a, 3>>,
+    indices: impl Into<Indices<'a>>,
+    faces: Faces<'a>,
+    options: &NormalOptions,
+) -> Result<Normals, MeshError> {
+    let mesh = bare_mesh(positions.into(), indices.into(), faces)?;
+    let polygons = Polygons::new(&mesh);
+    let mut report = NormalReport { faces: mesh.face_count(), ..NormalReport::default() };
+    report.degenerate_faces = polygons.normal_of_face.iter().filter(|normal| normal.is_none()).count();
+    let vertex_of_corner = vertices_of_corners(&mesh, options.seams);
+    let fan_of_corner = match options.shading {
+        Shading::Flat => polygons.face_of_corner.clone(),
+        Shading::Smooth if options.crease >= 180.0 => vertex_of_corner.clone(),
+        Shading::Smooth => fans(&polygons, &vertex_of_corner, options.crease, &mut report),
+    };
+    let weight = if options.shading == Shading::Flat { NormalWeight::Area } else { options.weight };
+    let fans = polygons.sums(&mesh, &fan_of_corner, weight);
+    let vertices = polygons.sums(&mesh, &vertex_of_corner, weight);
+    let normal = |corner: usize| {
+        let found = fans[fan_of_corner[corner] as usize].direction();
+        report.repaired_corners += usize::from(found.is_none());
+        let own = || polygons.normal_of_face[polygons.face_of_corner[corner] as usize];
+        let of_vertex = || vertices[vertex_of_corner[corner] as usize].direction();
+        found.or_else(own).or_else(of_vertex).unwrap_or([0.0, 0.0, 1.0]).map(|x| x as f32)
+    };
+    let corners = (0..mesh.corner_count()).map(normal).collect();
+    Ok(Normals { corners, report })
+}
+
+/// An indexed mesh's vertices after splitting by normals, as [`VertexSplit`](crate::VertexSplit) is by tangents.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NormalSplit {
+    /// One normal per new vertex; (0, 0, 1) for vertices that no corner uses.
+    pub normal_of_vertex: Vec<[f32; 3]>,
+    /// The new index list, one per corner, in the old corner order.
+    pub indices: Vec<u32>,
+    /// The old vertex that each new vertex copies; `source_of_vertex[v] == v` for every old vertex.
+    pub source_of_vertex: Vec<u32>,
+}
+
+/// Splits the vertices whose corners have different normals: one vertex per distinct pair of old vertex and normal, compared as bits.
+///
+/// `vertex_count`: the number of old vertices; `indices`: one per corner; `corners`: the normal of each. Errors: an index out of
+/// range, normals of another number of corners.
+pub fn split_normals<'a>(
+    vertex_count: usize,
+    indices: impl Into<Indices<'a>>,
+    corners: &[[f32; 3]],
+) -> Result<NormalSplit, MeshError> {
+    let size = [corners.len() as u32];
+    let positions = Strided::repeated(&[0.0; 3], vertex_count);
+    let mesh = bare_mesh(positions, indices.into(), Faces::Mixed(&size))?;
+    let mut splitter = Splitter::new(vertex_count);
+    // As tangents of sign zero, which no unused vertex has.
+    let tangents = CornerTangents(corners.iter().map(|&[x, y, z]| [x, y, z, 0.0]).collect());
+    let indices = splitter.add(&mesh, &tangents)?;
+    let (of_vertex, source_of_vertex) = splitter.finish();
+    let normal = |[x, y, z, used]: [f32; 4]| if used == 0.0 { [x, y, z] } else { [0.0, 0.0, 1.0] };
+    Ok(NormalSplit {
+        normal_of_vertex: of_vertex.into_iter().map(normal).collect(),
+        indices,
+        source_of_vertex,
+    })
+}
+
+/// A mesh that has positions only.
+fn bare_mesh<'a>(
+    positions: Strided<'a, 3>,
+    indices: Indices<'a>,
+    faces: Faces<'a>,
+) -> Result<Mesh<'a>, MeshError> {
+    let count = positions.len();
+    let (normals, uvs) = (Strided::repeated(&[0.0; 3], count), Strided::repeated(&[0.0; 2], count));
+    Mesh::with_faces(positions, normals, uvs, indices, faces)
+}
+
+/// The faces as polygons.
+struct Polygons {
+    face_of_corner: Vec<u32>,
+    /// Where the corners of each face end.
+    ends: Vec<u32>,
+    /// The unit normal of each face that has one.
+    normal_of_face: Vec<Option<D3>>,
+    area_of_face: Vec<f64>,
+}
+
+/// A sum of normals and of their weights.
+#[derive(Clone, Copy, Default)]
+struct Sum {
+    normal: D3,
+    weight: f64,
+}
+
+impl Sum {
+    /// None where nothing was added, or what was added cancels but for rounding.
+    fn direction(&self) -> Option<D3> {
+        (length(self.normal) > 1e-6 * self.weight).then(|| unit(self.normal)).flatten()
+    }
+}
+
+impl Polygons {
+    fn new(mesh: &Mesh<'_>) -> Self {
+        let mut polygons = Self {
+            face_of_corner: Vec::with_capacity(mesh.corner_count()),
+            ends: Vec::with_capacity(mesh.face_count()),
+            normal_of_face: Vec::with_capacity(mesh.face_count()),
+            area_of_face: Vec::with_capacity(mesh.face_count()),
+        };
+        for face in 0..mesh.face_count() {
+            let start = polygons.face_of_corner.len();
+            let size = match mesh.faces() {
+                Faces::Triangles => 3,
+                Faces::Quads => 4,
+                Faces::Mixed(sizes) => sizes[face] as usize,
+            };
+            let area_vector = area_vector(mesh, start..start + size);
+            polygons.face_of_corner.resize(start + size, face as u32);
+            polygons.ends.push((start + size) as u32);
+            polygons.normal_of_face.push(unit(area_vector));
+            polygons.area_of_face.push(length(area_vector));
+        }
+        polygons
+    }
+
+    /// The corners before and after a corner in its face.
+    fn around(&self, corner: usize) -> [usize; 2] {
+        let face = self.face_of_corner[corner] as usize;
+        let start = if face == 0 { 0 } else { self.ends[face - 1] as usize };
+        let size = self.ends[face] as usize - start;
+        [size - 1, 1].map(|step| start + (corner - start + step) % size)
+    }
+
+    /// For every group of corners the sum of their faces' normals.
+    fn sums(&self, mesh: &Mesh<'_>, group_of_corner: &[u32], weight: NormalWeight) -> Vec<Sum> {
+        let groups = group_of_corner.iter().max().map_or(0, |&last| last as usize + 1);
+        let mut sums = vec![Sum::default(); groups];
+        for (corner, &group) in group_of_corner.iter().enumerate() {
+            let face = self.face_of_corner[corner] as usize;
+            let Some(normal) = self.normal_of_face[face] else { continue };
+            let area = self.area_of_face[face];
+            let weight = match weight {
+                NormalWeight::Angle => self.angle(mesh, corner),
+                NormalWeight::Area => area,
+                NormalWeight::AngleArea => self.angle(mesh, corner) * area,
+            };
+            let sum = &mut sums[group as usize];
+            sum.normal = [0, 1, 2].map(|i| sum.normal[i] + weight * normal[i]);
+            sum.weight += weight;
+        }
+        sums
+    }
+
+    /// The angle at a corner, zero beside an edge without length.
+    fn angle(&self, mesh: &Mesh<'_>, corner: usize) -> f64 {
+        let here = position(mesh, corner);
+        let directions = self.around(corner).map(|other| unit(sub(position(mesh, other), here)));
+        let [Some(a), Some(b)] = directions else { return 0.0 };
+        f64::from(angle(dot(a, b) as f32))
+    }
+}
+
+/// The area times the normal; corners are taken relative to the first, so that far from the origin nothing cancels.
+fn area_vector(mesh: &Mesh<'_>, corners: std::ops::Range<usize>) -> D3 {
+    let first = corners.start;
+    let edge = |corner: usize| sub(position(mesh, corner), position(mesh, first));
+    let mut sum = [0.0; 3];
+    for corner in corners.clone().skip(1).take(corners.len().saturating_sub(2)) {
+        let part = cross(edge(corner), edge(corner + 1));
+        sum = [0, 1, 2].map(|i| sum[i] + 0.5 * part[i]);
+    }
+    sum
+}
+
+/// The smoothed vertex of every corner: the first of the mesh's vertices at its position, or its own.
+fn vertices_of_corners(mesh: &Mesh<'_>, seams: SmoothingSeams) -> Vec<u32> {
+    let corners = 0..mesh.corner_count();
+    if seams == SmoothingSeams::Respected {
+        return corners.map(|corner| mesh.vertex_of_corner(corner) as u32).collect();
+    }
+    let mut first = HashMap::new();
+    let vertex = |corner: usize| {
+        let vertex = mesh.vertex_of_corner(corner);
+        let position = mesh.positions().get(vertex);
+        // Adding zero turns -0 into +0. NaN is nobody's equal.
+        let key = position.map(|x| (x + 0.0).to_bits());
+        let is_nan = position.iter().any(|x| x.is_nan());
+        if is_nan { vertex as u32 } else { *first.entry(key).or_insert(vertex as u32) }
+    };
+    corners.map(vertex).collect()
+}
+
+/// The fan of every corner, named by one of its corners: corners at a vertex that edges without a crease connect.
+///
+/// On an edge of more than two faces each is compared with the next. Degenerate faces crease nothing.
+fn fans(polygons: &Polygons, vertex_of_corner: &[u32], crease: f32, report: &mut NormalReport) -> Vec<u32> {
+    let least_cosine = f64::from(crease.max(0.0)).to_radians().cos();
+    let mut edges: Vec<([u32; 2], u32)> = (0..vertex_of_corner.len())
+        .map(|corner| {
+            let ends = [corner, polygons.around(corner)[1]].map(|corner| vertex_of_corner[corner]);
+            ([ends[0].min(ends[1]), ends[0].max(ends[1])], corner as u32)
+        })
+        .collect();
+    edges.sort_unstable();
+    let mut fan_of_corner: Vec<u32> = (0..vertex_of_corner.len() as u32).collect();
+    for [(ends, a), (others, b)] in edges.array_windows() {
+        if ends != others {
+            continue;
+        }
+        let normals =
+            [a, b].map(|&corner| polygons.normal_of_face[polygons.face_of_corner[corner as usize] as usize]);
+        // A hair more than the rounding of a cosine, so that equal normals never crease.
+        let is_crease = matches!(normals, [Some(a), Some(b)] if dot(a, b) < least_cosine - 1e-12);
+        report.creased_edges += usize::from(is_crease);
+        if !is_crease {
+            let corners = [a, b].map(|&corner| [corner as usize, polygons.around(corner as usize)[1]]);
+            for a in corners[0] {
+                let at_same_vertex = |b: &usize| vertex_of_corner[a] == vertex_of_corner[*b];
+                if let Some(b) = corners[1].into_iter().find(at_same_vertex) {
+                    unite(&mut fan_of_corner, a, b);
+                }
+            }
+        }
+    }
+    (0..fan_of_corner.len()).map(|corner| find(&mut fan_of_corner, corner) as u32).collect()
+}
+
+/// The corner that names a corner's fan; halves the way there (R. Tarjan and J. van Leeuwen 1984).
+fn find(fan_of_corner: &mut [u32], mut corner: usize) -> usize {
+    while fan_of_corner[corner] as usize != corner {
+        fan_of_corner[corner] = fan_of_corner[fan_of_corner[corner] as usize];
+        corner = fan_of_corner[corner] as usize;
+    }
+    corner
+}
+
+fn unite(fan_of_corner: &mut [u32], a: usize, b: usize) {
+    let (a, b) = (find(fan_of_corner, a), find(fan_of_corner, b));
+    fan_of_corner[a.max(b)] = a.min(b) as u32;
+}
+
+fn position(mesh: &Mesh<'_>, corner: usize) -> D3 {
+    mesh.positions().get(mesh.vertex_of_corner(corner)).map(f64::from)
+}
+
+fn sub(a: D3, b: D3) -> D3 {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn dot(a: D3, b: D3) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: D3, b: D3) -> D3 {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn length(v: D3) -> f64 {
+    dot(v, v).sqrt()
+}
+
+fn unit(v: D3) -> Option<D3> {
+    let length = length(v);
+    (length > 0.0 && length.is_finite()).then(|| v.map(|x| x / length))
+}
