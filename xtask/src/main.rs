@@ -1,5 +1,6 @@
 //! `cargo xtask <task>`: everything a person or CI runs.
 
+mod bench;
 mod ci;
 mod generated;
 mod layers;
@@ -15,6 +16,7 @@ usage: cargo xtask <task>
   gen           write the generated files (command-line reference, man pages, completions)
   layers        check who imports whom
   validate      check the command's outputs for all models with independent tools (needs node and npm)
+  bench [...]   time every engine on every mesh; see bench --help
   acos          compare acos with the platform's on every float of [-1, 1]";
 
 fn main() -> ExitCode {
@@ -26,6 +28,7 @@ fn main() -> ExitCode {
         ["gen"] => generated::write(),
         ["layers"] => layers::check(),
         ["validate"] => validate::all_models(validate::WithoutNpm::Fail),
+        ["bench", ref options @ ..] => bench::bench(options),
         ["acos"] => ci::acos(),
         _ => {
             eprintln!("{USAGE}");

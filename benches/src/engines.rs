@@ -1,0 +1,221 @@
+//! The engines: for each, how it is called, and the one-sentence facts that the table tells of it.
+
+use std::hint::black_box;
+use std::path::Path;
+use std::time::Instant;
+
+use cpu_time::ProcessTime;
+use darboux::{Mode, TangentOptions, generate_tangents};
+use darboux_tests::OwnedMesh;
+
+use crate::callbacks::Callbacks;
+use crate::lengyel::lengyel;
+use crate::node;
+
+/// Tangent and sign.
+pub type Tangent = [f32; 4];
+
+/// What an engine claims to compute, and so what it is checked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// MikkTSpace, or nearly: the table says how nearly.
+    MikkTSpace,
+    /// Another method, whose tangents point much the same way.
+    Other,
+    /// No method: a limit.
+    Copy,
+}
+
+/// An implementation, ready to be started on a mesh.
+pub struct Engine {
+    /// What the table calls it.
+    pub name: &'static str,
+    /// The version that Cargo.toml or node/package.json pins.
+    pub version: &'static str,
+    /// How many threads it uses.
+    pub threads: usize,
+    /// What it computes.
+    pub method: Method,
+    start: Start,
+}
+
+enum Start {
+    Native(for<'a> fn(&'a OwnedMesh) -> Box<dyn Run + 'a>),
+    Node,
+}
+
+/// An engine that holds a mesh and all that it keeps between calls.
+pub trait Run {
+    /// Computes the mesh's tangents `count` times. Errors: the engine has died.
+    fn run(&mut self, count: usize) -> Result<Time, String>;
+
+    /// The tangent of each corner as the last call left it.
+    fn tangents(&mut self) -> Result<Vec<Tangent>, String>;
+
+    /// How many tangents a call gives: one per corner or one per vertex.
+    fn output_len(&self) -> usize;
+}
+
+/// Nanoseconds of one or more calls.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Time {
+    /// On the clock.
+    pub wall: f64,
+    /// Of all of the process's threads; a one-threaded engine's is its thread's, as nothing else runs meanwhile.
+    pub cpu: f64,
+}
+
+/// The engine that every other is compared with.
+pub const REFERENCE: &str = "mikktspace.c";
+
+/// meshoptimizer in its default mode, the other engine that ratios are given to.
+pub const MESHOPT: &str = "meshopt";
+
+/// The engines in the table's order, the reference first.
+pub fn all() -> Vec<Engine> {
+    use Method::{Copy, MikkTSpace, Other};
+    let mut engines = vec![
+        native(REFERENCE, "mikktspace-sys 0.1.1", MikkTSpace, |mesh| {
+            per_corner(mesh, |out| _ = mikktspace_sys::gen_tang_space_default(&mut Callbacks::new(mesh, out)))
+        }),
+        native("mikktspace", "0.3.0", MikkTSpace, |mesh| {
+            per_corner(mesh, |out| _ = mikktspace::generate_tangents(&mut Callbacks::new(mesh, out)))
+        }),
+        native("bevy_mikktspace", "1.0.0", MikkTSpace, |mesh| {
+            per_corner(mesh, |out| _ = bevy_mikktspace::generate_tangents(&mut Callbacks::new(mesh, out)))
+        }),
+        native(MESHOPT, "0.7.0", MikkTSpace, |mesh| {
+            per_corner(mesh, |out| *out = meshopt(mesh, meshopt::TangentOptions::None))
+        }),
+        native("meshopt-compatible", "0.7.0", MikkTSpace, |mesh| {
+            per_corner(mesh, |out| *out = meshopt(mesh, meshopt::TangentOptions::Compatible))
+        }),
+        native("lengyel-loop", "", Other, |mesh| per_vertex(mesh, |out| lengyel(mesh, out))),
+        native("memcpy", "", Copy, |mesh| {
+            let (mut input, mut from) = (mesh.clone(), Vec::new());
+            per_corner(mesh, move |out| copy(mesh, &mut input, &mut from, out))
+        }),
+        in_node("three.js port", "three 0.187.0", MikkTSpace),
+        in_node("npm mikktspace", "1.1.1", MikkTSpace),
+        in_node("npm meshoptimizer", "1.3.0", MikkTSpace),
+    ];
+    engines.extend(ours());
+    engines
+}
+
+/// Darboux in the forms worth telling apart. The output of each is the reference's, bit for bit.
+fn ours() -> Vec<Engine> {
+    let version = env!("CARGO_PKG_VERSION");
+    vec![native("darboux", version, Method::MikkTSpace, |mesh| {
+        let view = mesh.view();
+        let options = TangentOptions { mode: Mode::Reference, ..TangentOptions::default() };
+        per_corner(mesh, move |out| *out = generate_tangents(&view, &options).corners.into_per_corner())
+    })]
+}
+
+impl Engine {
+    /// Starts the engine on a mesh. `node`: the folder with the packages for engines that run in node.
+    /// Errors: it cannot run on this machine.
+    pub fn start<'a>(&self, mesh: &'a OwnedMesh, node: Option<&Path>) -> Result<Box<dyn Run + 'a>, String> {
+        match (&self.start, node) {
+            (Start::Native(start), _) => Ok(start(mesh)),
+            (Start::Node, Some(folder)) => Ok(Box::new(node::Child::start(self.name, mesh, folder)?)),
+            (Start::Node, None) => Err("node and npm are absent".into()),
+        }
+    }
+
+    /// True where the engine runs in this process, so that its memory and instructions can be counted.
+    pub fn is_native(&self) -> bool {
+        matches!(self.start, Start::Native(_))
+    }
+}
+
+fn native(
+    name: &'static str,
+    version: &'static str,
+    method: Method,
+    start: for<'a> fn(&'a OwnedMesh) -> Box<dyn Run + 'a>,
+) -> Engine {
+    Engine { name, version, threads: 1, method, start: Start::Native(start) }
+}
+
+fn in_node(name: &'static str, version: &'static str, method: Method) -> Engine {
+    Engine { name, version, threads: 1, method, start: Start::Node }
+}
+
+/// A call that fills a list, and the list, which is kept between calls.
+struct Native<'a, F> {
+    mesh: &'a OwnedMesh,
+    per_vertex: bool,
+    output: Vec<Tangent>,
+    call: F,
+}
+
+fn per_corner<'a, F: FnMut(&mut Vec<Tangent>) + 'a>(mesh: &'a OwnedMesh, call: F) -> Box<dyn Run + 'a> {
+    Box::new(Native { mesh, per_vertex: false, output: Vec::new(), call })
+}
+
+fn per_vertex<'a, F: FnMut(&mut Vec<Tangent>) + 'a>(mesh: &'a OwnedMesh, call: F) -> Box<dyn Run + 'a> {
+    Box::new(Native { mesh, per_vertex: true, output: Vec::new(), call })
+}
+
+impl<F: FnMut(&mut Vec<Tangent>)> Run for Native<'_, F> {
+    fn run(&mut self, count: usize) -> Result<Time, String> {
+        let (wall, cpu) = (Instant::now(), ProcessTime::now());
+        for _ in 0..count {
+            (self.call)(black_box(&mut self.output));
+        }
+        let (wall, cpu) = (wall.elapsed(), cpu.elapsed());
+        Ok(Time { wall: wall.as_nanos() as f64, cpu: cpu.as_nanos() as f64 })
+    }
+
+    fn tangents(&mut self) -> Result<Vec<Tangent>, String> {
+        if !self.per_vertex {
+            return Ok(self.output.clone());
+        }
+        let corners = 0..self.mesh.corner_count();
+        Ok(corners.map(|corner| self.output[self.mesh.vertex_of_corner(corner)]).collect())
+    }
+
+    fn output_len(&self) -> usize {
+        self.output.len()
+    }
+}
+
+/// The crate's interface gives a new list at each call.
+fn meshopt(mesh: &OwnedMesh, options: meshopt::TangentOptions) -> Vec<Tangent> {
+    meshopt::generate_tangents(mesh.indices.as_deref(), &mesh.positions, &mesh.normals, &mesh.uvs, options)
+}
+
+/// Copies all that an engine must read and as much as it must write.
+fn copy(mesh: &OwnedMesh, input: &mut OwnedMesh, from: &mut Vec<Tangent>, out: &mut Vec<Tangent>) {
+    from.resize(mesh.corner_count(), [0.0; 4]);
+    out.resize(mesh.corner_count(), [0.0; 4]);
+    input.positions.copy_from_slice(&mesh.positions);
+    input.normals.copy_from_slice(&mesh.normals);
+    input.uvs.copy_from_slice(&mesh.uvs);
+    if let (Some(to), Some(from)) = (&mut input.indices, &mesh.indices) {
+        to.copy_from_slice(from);
+    }
+    black_box(input);
+    out.copy_from_slice(black_box(from));
+}
+
+#[cfg(test)]
+mod tests {
+    /// The versions in the table are those that were built.
+    #[test]
+    fn versions_are_those_of_the_lock_files() {
+        let cargo = include_str!("../../Cargo.lock");
+        let node = include_str!("../node/package.json");
+        for engine in super::all() {
+            let package =
+                engine.name.strip_prefix("npm ").unwrap_or(engine.name).trim_end_matches("-compatible");
+            let (package, version) = engine.version.split_once(' ').unwrap_or((package, engine.version));
+            let locked = cargo.contains(&format!("name = \"{package}\"\nversion = \"{version}\""));
+            let pinned = node.contains(&format!("\"{package}\": \"{version}\""));
+            let found = if engine.is_native() { locked } else { pinned };
+            assert!(found || version.is_empty(), "{}: {package} {version}", engine.name);
+        }
+    }
+}

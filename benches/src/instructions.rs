@@ -1,0 +1,37 @@
+//! Instructions per triangle, counted by callgrind: the figure that a noisy machine does not move.
+
+use std::path::Path;
+use std::process::Command;
+
+use crate::engines::Engine;
+use crate::meshes::{self, Size};
+
+/// The meshes that are counted, of fifty thousand triangles each.
+pub const MESHES: [&str; 4] = ["grid", "charts", "soup", "sphere"];
+
+/// For each engine that runs in this process, the count on each of [`MESHES`]; none where a run fails.
+pub fn count(engines: &[Engine]) -> Result<Vec<(&'static str, Vec<Option<f64>>)>, String> {
+    let found = Command::new("valgrind").arg("--version").output();
+    found.map_err(|error| format!("valgrind is needed to count instructions and cannot start: {error}"))?;
+    let native = engines.iter().filter(|engine| engine.is_native());
+    let counts = |engine: &Engine| MESHES.iter().map(|mesh| per_triangle(engine.name, mesh)).collect();
+    Ok(native.map(|engine| (engine.name, counts(engine))).collect())
+}
+
+/// The difference of three calls and one, so that neither making the mesh nor the first call's set-up counts.
+fn per_triangle(engine: &str, mesh: &str) -> Option<f64> {
+    eprintln!("counting {engine} on {mesh}");
+    let triangles = meshes::make(mesh, Size::Quick)?.mesh.corner_count() / 3;
+    Some((collected(engine, mesh, 3)? - collected(engine, mesh, 1)?) / (2 * triangles) as f64)
+}
+
+/// The instructions of a child process that calls an engine `calls` times.
+fn collected(engine: &str, mesh: &str, calls: usize) -> Option<f64> {
+    let mut command = Command::new("valgrind");
+    command.args(["--tool=callgrind", "--callgrind-out-file=/dev/null"]).arg(std::env::current_exe().ok()?);
+    command.args(["--quick", "--engines", engine, "--meshes", mesh, "--only-calls", &calls.to_string()]);
+    let output = command.arg("--models").arg(Path::new("")).output().ok()?;
+    let text = String::from_utf8_lossy(&output.stderr).into_owned();
+    let line = text.lines().find_map(|line| line.split_once("Collected : "))?;
+    line.1.trim().parse().ok()
+}

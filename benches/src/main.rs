@@ -1,0 +1,143 @@
+//! The benchmark: every engine on every mesh, checked against the reference, then timed in turns.
+//!
+//! `cargo xtask bench` builds and starts it.
+
+mod callbacks;
+mod check;
+mod engines;
+mod instructions;
+mod lengyel;
+mod memory;
+mod meshes;
+mod node;
+mod record;
+mod rounds;
+mod table;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use engines::Engine;
+use meshes::{Named, Size};
+
+/// Times tangent generators, each checked against mikktspace.c.
+#[derive(Parser)]
+#[command(name = "cargo xtask bench")]
+struct Arguments {
+    /// Smaller meshes, three rounds; nothing is recorded.
+    #[arg(long)]
+    quick: bool,
+    /// Only these engines.
+    #[arg(long, value_delimiter = ',', value_name = "NAME,...")]
+    engines: Vec<String>,
+    /// Only these meshes.
+    #[arg(long, value_delimiter = ',', value_name = "NAME,...")]
+    meshes: Vec<String>,
+    /// Count instructions per triangle with callgrind instead.
+    #[arg(long)]
+    instructions: bool,
+    /// Where FlightHelmet and other large models lie.
+    #[arg(long, value_name = "FOLDER", default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/assets"))]
+    models: PathBuf,
+    /// What the record calls this machine instead of its processor's name.
+    #[arg(long, value_name = "NAME")]
+    machine: Option<String>,
+    /// Where the packages of node/package.json are installed.
+    #[arg(long, hide = true)]
+    node: Option<PathBuf>,
+    /// Print the memory of one call: what a child process does.
+    #[arg(long, hide = true)]
+    only_memory: bool,
+    /// Call so often and print nothing: what a child process does.
+    #[arg(long, hide = true)]
+    only_calls: Option<usize>,
+}
+
+/// The reference recurses over a vertex's faces.
+const DEEP_STACK: usize = 1 << 30;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let deep = std::thread::Builder::new().stack_size(DEEP_STACK);
+    let thread = deep.spawn(move || run(&arguments)).expect("a thread starts");
+    match thread.join().expect("no engine panics") {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("bench: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<(), String> {
+    let engines = rounds::select(&arguments.engines)?;
+    if arguments.instructions {
+        return count_instructions(arguments, &engines);
+    }
+    let meshes = select_meshes(arguments)?;
+    if arguments.only_memory {
+        let bytes = memory::of_this_process(&engines[0], &meshes[0].mesh);
+        println!("{}", bytes.map_or("n/a".into(), |bytes| bytes.to_string()));
+        return Ok(());
+    }
+    if let Some(calls) = arguments.only_calls {
+        return engines[0].start(&meshes[0].mesh, None)?.run(calls).map(drop);
+    }
+    time(arguments, &engines, &meshes)
+}
+
+/// The meshes asked for, all where none is named. Errors: a name that no mesh has.
+fn select_meshes(arguments: &Arguments) -> Result<Vec<Named>, String> {
+    let size = if arguments.quick { Size::Quick } else { Size::Full };
+    let all = arguments.meshes.is_empty();
+    let wanted = |name: &str| all || arguments.meshes.iter().any(|wanted| wanted == name);
+    let mut found: Vec<Named> =
+        meshes::made().filter(|name| wanted(name)).filter_map(|name| meshes::make(name, size)).collect();
+    if all || found.len() < arguments.meshes.len() {
+        found.extend(meshes::real(&arguments.models).into_iter().filter(|mesh| wanted(&mesh.name)));
+    }
+    if let Some(unknown) = arguments.meshes.iter().find(|name| !found.iter().any(|mesh| mesh.name == **name))
+    {
+        let made: Vec<&str> = meshes::made().collect();
+        let models = arguments.models.display();
+        return Err(format!(
+            "there is no mesh {unknown}; there are {} and models in {models}",
+            made.join(", ")
+        ));
+    }
+    Ok(found)
+}
+
+fn time(arguments: &Arguments, engines: &[Engine], meshes: &[Named]) -> Result<(), String> {
+    let mut rows = Vec::new();
+    for mesh in meshes {
+        eprintln!("{}: {} triangles", mesh.name, mesh.mesh.corner_count() / 3);
+        let count = if arguments.quick { 3 } else { 7 };
+        let mut measured = rounds::measure(mesh, engines, count, arguments.node.as_deref());
+        rounds::add_memory(&mut measured, engines, arguments.quick, &arguments.models);
+        rows.extend(measured);
+    }
+    println!("{}", table::table(&rows));
+    println!(
+        "ns/triangle: processor time where one thread works, else wall time; x: how many times faster, by medians"
+    );
+    if arguments.quick || !arguments.engines.is_empty() || !arguments.meshes.is_empty() {
+        println!("not recorded: only a full run is");
+        return Ok(());
+    }
+    let path = record::timings(&rows, arguments.machine.as_deref())?;
+    println!("recorded in {}", path.display());
+    Ok(())
+}
+
+fn count_instructions(arguments: &Arguments, engines: &[Engine]) -> Result<(), String> {
+    let rows = instructions::count(engines)?;
+    println!("{}", table::instructions(&instructions::MESHES, &rows));
+    if arguments.engines.is_empty() {
+        let path = record::instructions(&instructions::MESHES, &rows, arguments.machine.as_deref())?;
+        println!("recorded in {}", path.display());
+    }
+    Ok(())
+}

@@ -1,0 +1,242 @@
+//! The benchmark's meshes: made from fixed formulas and seeds, or read from models.
+
+use std::f32::consts::{PI, TAU};
+use std::path::Path;
+
+use darboux_tests::{Dice, OwnedMesh, families, models};
+
+/// How large the made meshes are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Size {
+    /// A million triangles.
+    Full,
+    /// Fifty thousand: for quick runs and instruction counts.
+    Quick,
+}
+
+/// A mesh and what the table calls it.
+#[derive(Debug)]
+pub struct Named {
+    /// Its name.
+    pub name: String,
+    /// A triangle mesh.
+    pub mesh: OwnedMesh,
+}
+
+type Maker = fn(Size) -> OwnedMesh;
+
+/// The made meshes, in the table's order. The last three take the reference time quadratic in their size.
+const MAKERS: &[(&str, Maker)] = &[
+    ("grid", |size| grid(size.side(1000), size.side(500))),
+    ("sphere", |size| sphere(size.side(500), size.side(1000))),
+    ("soup", |size| grid(size.side(1000), size.side(500)).unindexed()),
+    ("charts", |size| charts(size.count(20_000))),
+    ("small", |_| grid(50, 50)),
+    ("fan", |size| families::fan(size.count(20_000), false)),
+    ("lone-degenerates", |size| {
+        let side = size.side(200);
+        families::with_lone_degenerates(families::grid(side, side, false, false), size.count(20_000))
+    }),
+    ("one-position", |size| families::unwelded_fan(size.count(20_000))),
+];
+
+/// Models of fewer triangles are left out, but for the helmet.
+const LARGE: usize = 50_000;
+
+impl Size {
+    /// A number of triangles.
+    fn count(self, full: usize) -> usize {
+        if self == Size::Full { full } else { full / 20 }
+    }
+
+    /// A side of a rectangle of cells, whose area shrinks as [`Size::count`] does.
+    fn side(self, full: usize) -> usize {
+        if self == Size::Full { full } else { (full as f32 / 20f32.sqrt()) as usize }
+    }
+}
+
+/// The names of the made meshes.
+pub fn made() -> impl Iterator<Item = &'static str> {
+    MAKERS.iter().map(|maker| maker.0)
+}
+
+/// The made mesh of this name.
+pub fn make(name: &str, size: Size) -> Option<Named> {
+    let (_, maker) = MAKERS.iter().find(|maker| maker.0 == name)?;
+    Some(Named { name: name.into(), mesh: maker(size) })
+}
+
+/// `helmet` (all of FlightHelmet as one mesh) and every primitive of more than 50,000 triangles below a folder.
+pub fn real(folder: &Path) -> Vec<Named> {
+    let mut found = Vec::new();
+    let mut helmet = OwnedMesh { indices: Some(Vec::new()), ..OwnedMesh::default() };
+    for path in models::models(folder) {
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        for (number, mesh) in models::meshes(&path) {
+            if stem == "FlightHelmet" {
+                append(&mut helmet, &mesh);
+            }
+            if mesh.corner_count() / 3 > LARGE {
+                found.push(Named { name: format!("{stem}:{number}"), mesh });
+            }
+        }
+    }
+    if helmet.corner_count() > 0 {
+        found.insert(0, Named { name: "helmet".into(), mesh: helmet });
+    }
+    found
+}
+
+/// Adds `other`'s vertices and triangles to an indexed mesh.
+fn append(mesh: &mut OwnedMesh, other: &OwnedMesh) {
+    let first = mesh.positions.len();
+    mesh.positions.extend(&other.positions);
+    mesh.normals.extend(&other.normals);
+    mesh.uvs.extend(&other.uvs);
+    let corners = (0..other.corner_count()).map(|corner| (first + other.vertex_of_corner(corner)) as u32);
+    mesh.indices.get_or_insert_default().extend(corners);
+}
+
+/// A smooth height field of `width` by `height` cells, two triangles each, all vertices shared.
+fn grid(width: usize, height: usize) -> OwnedMesh {
+    let (rows, columns) = (height + 1, width + 1);
+    let mut mesh = OwnedMesh::default();
+    for y in 0..rows {
+        for x in 0..columns {
+            mesh.push(bump([x as f32 / width as f32, y as f32 / height as f32]));
+        }
+    }
+    OwnedMesh { indices: Some(cells(width, height)), ..mesh }
+}
+
+/// A point of the height field over the unit square, and its UV a slight warp of the square.
+fn bump([x, y]: [f32; 2]) -> darboux_tests::mesh::Vertex {
+    let height = 0.05 * (9.0 * x).sin() * (7.0 * y).cos();
+    let slope = [0.45 * (9.0 * x).cos() * (7.0 * y).cos(), -0.35 * (9.0 * x).sin() * (7.0 * y).sin()];
+    let uv = [x + 0.02 * (5.0 * y).sin(), y + 0.02 * (4.0 * x).sin()];
+    ([x, y, height], normalized([-slope[0], -slope[1], 1.0]), uv)
+}
+
+/// A UV sphere of `rings` by `segments` cells, two triangles each: a seam, and at the poles a vertex per segment, so that
+/// every second triangle there has no area.
+fn sphere(rings: usize, segments: usize) -> OwnedMesh {
+    let mut mesh = OwnedMesh::default();
+    for ring in 0..=rings {
+        for segment in 0..=segments {
+            let (v, u) = (ring as f32 / rings as f32, segment as f32 / segments as f32);
+            let (radius, z) = if ring == rings { (0.0, -1.0) } else { (PI * v).sin_cos() };
+            let (y, x) = if segment == segments { (0.0, 1.0) } else { (TAU * u).sin_cos() };
+            let position = [radius * x, radius * y, z];
+            mesh.push((position, position, [u, v]));
+        }
+    }
+    OwnedMesh { indices: Some(cells(segments, rings)), ..mesh }
+}
+
+/// `count` pieces of 50 triangles on a surface, every second one with mirrored UVs, their triangles and vertices shuffled:
+/// the worst case of a cache.
+fn charts(count: usize) -> OwnedMesh {
+    const SIDE: usize = 5;
+    let columns = (count as f32).sqrt().ceil() as usize;
+    let mut mesh = OwnedMesh::default();
+    let mut corners = Vec::new();
+    for chart in 0..count {
+        let first = mesh.positions.len() as u32;
+        let [left, top] = [(chart % columns) as f32, (chart / columns) as f32];
+        let turn = if chart.is_multiple_of(2) { 1.0 } else { -1.0 };
+        for i in 0..(SIDE + 1) * (SIDE + 1) {
+            let [x, y] = [(i % (SIDE + 1)) as f32, (i / (SIDE + 1)) as f32].map(|x| 0.9 * x / SIDE as f32);
+            let (position, normal, [u, v]) = bump([(left + x) / columns as f32, (top + y) / columns as f32]);
+            mesh.push((position, normal, [turn * u, v]));
+        }
+        corners.extend(cells(SIDE, SIDE).into_iter().map(|vertex| first + vertex));
+    }
+    shuffled(&mesh, &corners, &mut Dice::from_seed(20_000))
+}
+
+/// The same triangles in another order, their vertices renumbered at random.
+fn shuffled(mesh: &OwnedMesh, corners: &[u32], dice: &mut Dice<'_>) -> OwnedMesh {
+    let mut old_of_new: Vec<u32> = (0..mesh.positions.len() as u32).collect();
+    shuffle(&mut old_of_new, dice);
+    let mut result = OwnedMesh::default();
+    let mut new_of_old = vec![0; old_of_new.len()];
+    for &old in &old_of_new {
+        new_of_old[old as usize] = result.push(mesh.vertex(old as usize));
+    }
+    let mut triangles: Vec<[u32; 3]> = corners.as_chunks().0.to_vec();
+    shuffle(&mut triangles, dice);
+    let corners = triangles.as_flattened().iter().map(|&old| new_of_old[old as usize]).collect();
+    OwnedMesh { indices: Some(corners), ..result }
+}
+
+/// Fisher and Yates's shuffle. The dice know 16 bits at a time, hence two draws.
+fn shuffle<T>(list: &mut [T], dice: &mut Dice<'_>) {
+    for last in (1..list.len()).rev() {
+        let draw = dice.below(1 << 16) << 16 | dice.below(1 << 16);
+        list.swap(last, draw % (last + 1));
+    }
+}
+
+/// Two triangles for each cell of a rectangle with `width` + 1 vertices in a row.
+fn cells(width: usize, height: usize) -> Vec<u32> {
+    let cell = |i: usize| {
+        let a = ((i / width) * (width + 1) + i % width) as u32;
+        let c = a + width as u32 + 1;
+        [a, a + 1, c + 1, a, c + 1, c]
+    };
+    (0..width * height).flat_map(cell).collect()
+}
+
+fn normalized(v: [f32; 3]) -> [f32; 3] {
+    let length = v.iter().map(|x| x * x).sum::<f32>().sqrt();
+    v.map(|x| x / length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn triangles(name: &str, size: Size) -> usize {
+        make(name, size).expect("a mesh of this name").mesh.corner_count() / 3
+    }
+
+    #[test]
+    fn sizes_are_as_named() {
+        for name in ["grid", "sphere", "soup", "charts"] {
+            assert_eq!(triangles(name, Size::Full), 1_000_000, "{name}");
+            assert!((48_000..=50_000).contains(&triangles(name, Size::Quick)), "{name}");
+        }
+        assert_eq!(triangles("small", Size::Full), 5_000);
+        assert_eq!(triangles("lone-degenerates", Size::Full), 100_000);
+    }
+
+    #[test]
+    fn half_of_the_charts_are_mirrored() {
+        let mesh = charts(100);
+        let mirrored = (0..mesh.corner_count()).step_by(3).filter(|&corner| {
+            let [a, b, c] = [0, 1, 2].map(|i| mesh.uvs[mesh.vertex_of_corner(corner + i)]);
+            (b[0] - a[0]) * (c[1] - a[1]) < (b[1] - a[1]) * (c[0] - a[0])
+        });
+        assert_eq!(mirrored.count(), 100 * 50 / 2);
+    }
+
+    #[test]
+    fn shuffling_moves_vertices_and_triangles_and_is_the_same_every_time() {
+        let (mesh, again) = (charts(100), charts(100));
+        assert_eq!(mesh, again);
+        let far = (0..mesh.corner_count())
+            .step_by(3)
+            .filter(|&corner| mesh.vertex_of_corner(corner).abs_diff(mesh.vertex_of_corner(corner + 1)) > 36);
+        assert!(far.count() > 4_500);
+    }
+
+    #[test]
+    fn a_sphere_s_pole_triangles_have_no_area() {
+        let mesh = sphere(4, 8);
+        let flat = (0..mesh.corner_count()).step_by(3).filter(|&corner| {
+            let [a, b, c] = [0, 1, 2].map(|i| mesh.positions[mesh.vertex_of_corner(corner + i)]);
+            a == b || b == c || c == a
+        });
+        assert_eq!(flat.count(), 16);
+    }
+}

@@ -1,0 +1,104 @@
+//! benches/record/<machine>/<date>.csv: what a full run leaves for later comparison.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::thread::available_parallelism;
+
+use crate::engines::{MESHOPT, REFERENCE};
+use crate::rounds::{Row, times_over};
+
+const HEADER: &str = "date,commit,mesh,triangles,engine,version,threads,rounds,cpu_ns_min,cpu_ns_median,wall_ns_min,\
+                      wall_ns_median,times_mikktspace_c,times_meshopt,extra_bytes,answer";
+
+/// Writes the rows of a full run; gives the file.
+pub fn timings(rows: &[Row], machine: Option<&str>) -> Result<PathBuf, String> {
+    let (date, commit) = (date(), commit());
+    let lines = rows.iter().map(|row| format!("{date},{commit},{}", line(rows, row)));
+    write(machine, &format!("{date}.csv"), HEADER, lines)
+}
+
+/// Writes instruction counts; gives the file.
+pub fn instructions(
+    meshes: &[&str],
+    rows: &[(&str, Vec<Option<f64>>)],
+    machine: Option<&str>,
+) -> Result<PathBuf, String> {
+    let (date, commit) = (date(), commit());
+    let lines = rows.iter().flat_map(|(engine, counts)| {
+        let known = meshes.iter().zip(counts).filter_map(|(mesh, count)| Some((mesh, (*count)?)));
+        known.map(|(mesh, count)| format!("{date},{commit},{mesh},{engine},{count:.1}")).collect::<Vec<_>>()
+    });
+    let header = "date,commit,mesh,engine,instructions_per_triangle";
+    write(machine, &format!("{date}-instructions.csv"), header, lines)
+}
+
+fn line(rows: &[Row], row: &Row) -> String {
+    let [cpu_min, cpu_median] = row.spread(|time| time.cpu);
+    let [wall_min, wall_median] = row.spread(|time| time.wall);
+    let known = |number: Option<f64>| number.map_or(String::new(), |number| format!("{number:.2}"));
+    format!(
+        "{},{},{},{},{},{},{cpu_min:.2},{cpu_median:.2},{wall_min:.2},{wall_median:.2},{},{},{},\"{}\"",
+        row.mesh,
+        row.triangles,
+        row.engine,
+        row.version,
+        row.threads,
+        row.rounds.len(),
+        known(times_over(rows, REFERENCE, row)),
+        known(times_over(rows, MESHOPT, row)),
+        known(row.extra_bytes),
+        row.answer,
+    )
+}
+
+fn write(
+    machine: Option<&str>,
+    file: &str,
+    header: &str,
+    lines: impl Iterator<Item = String>,
+) -> Result<PathBuf, String> {
+    let machine = machine.map_or_else(machine_name, str::to_owned);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("record").join(machine);
+    let path = folder.join(file);
+    let text: String = std::iter::once(header.to_owned()).chain(lines).map(|line| line + "\n").collect();
+    let written = fs::create_dir_all(&folder).and_then(|()| fs::write(&path, text));
+    written.map_err(|error| format!("{} cannot be written: {error}", path.display()))?;
+    Ok(path)
+}
+
+/// The processor's model and the number of cores, as a file name.
+fn machine_name() -> String {
+    let text = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = text.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
+    let cores = available_parallelism().map_or(1, usize::from);
+    slug(&format!("{} {cores} cores", model.map_or(std::env::consts::ARCH, |(_, model)| model)))
+}
+
+/// Lower-case letters and digits, a hyphen for each run of anything else.
+fn slug(text: &str) -> String {
+    let words = text.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
+    words.collect::<Vec<_>>().join("-").to_ascii_lowercase()
+}
+
+/// Today, UTC, as year-month-day.
+fn date() -> String {
+    time::OffsetDateTime::now_utc().date().to_string()
+}
+
+/// What is checked out, marked where files have changed since; "unknown" outside git.
+fn commit() -> String {
+    let mut command = Command::new("git");
+    command.args(["describe", "--always", "--dirty", "--abbrev=10"]).current_dir(env!("CARGO_MANIFEST_DIR"));
+    let output = command.output().ok().filter(|output| output.status.success());
+    let text = output.and_then(|output| String::from_utf8(output.stdout).ok());
+    text.map_or("unknown".into(), |text| text.trim().to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn names_become_file_names() {
+        assert_eq!(super::slug("AMD EPYC(TM) 9B45 / 2 cores"), "amd-epyc-tm-9b45-2-cores");
+    }
+}

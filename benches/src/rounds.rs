@@ -1,0 +1,176 @@
+//! Measuring one mesh: every engine is checked, then all take turns, round by round.
+
+use std::path::Path;
+
+use darboux_tests::OwnedMesh;
+
+use crate::check::verdict;
+use crate::engines::{self, Engine, Method, Run, Tangent, Time};
+use crate::memory;
+use crate::meshes::Named;
+
+/// What the measuring of one engine on one mesh gave.
+pub struct Row {
+    /// The mesh's name.
+    pub mesh: String,
+    /// Its number of triangles.
+    pub triangles: usize,
+    /// The engine.
+    pub engine: &'static str,
+    /// Its version.
+    pub version: &'static str,
+    /// How many threads it used.
+    pub threads: usize,
+    /// Nanoseconds per triangle, one entry per round.
+    pub rounds: Vec<Time>,
+    /// Bytes per triangle besides input and output, where they can be known.
+    pub extra_bytes: Option<f64>,
+    /// What the answer is worth.
+    pub answer: String,
+}
+
+impl Row {
+    /// Minimum and median of one of the times over the rounds.
+    pub fn spread(&self, part: fn(&Time) -> f64) -> [f64; 2] {
+        let mut times: Vec<f64> = self.rounds.iter().map(part).collect();
+        times.sort_by(f64::total_cmp);
+        [times[0], times[times.len() / 2]]
+    }
+
+    /// Minimum and median of the time that counts: the processor's for one thread, for it does not contain what else the
+    /// machine does; the clock's for several.
+    pub fn time(&self) -> [f64; 2] {
+        if self.threads == 1 { self.spread(|time| time.cpu) } else { self.spread(|time| time.wall) }
+    }
+}
+
+/// Rounds of an engine that takes so many seconds to answer: the slow ones get fewer, the slowest keep their first answer's time.
+const FEWER: [(f64, usize); 2] = [(5.0, 1), (1.0, 3)];
+
+/// A round of a fast engine on a small mesh is as many calls as take this many nanoseconds.
+const SHORTEST_ROUND: f64 = 2e7;
+
+struct Runner<'a> {
+    engine: &'a Engine,
+    run: Box<dyn Run + 'a>,
+    answer: String,
+    calls: usize,
+    wanted: usize,
+    rounds: Vec<Time>,
+}
+
+/// Measures `wanted` on a mesh in at most `rounds` rounds; says on standard error which engines cannot run or are wrong.
+pub fn measure(named: &Named, wanted: &[Engine], rounds: usize, node: Option<&Path>) -> Vec<Row> {
+    let mesh = &named.mesh;
+    let expected = expected(mesh);
+    let mut runners: Vec<Runner<'_>> = Vec::new();
+    for engine in wanted {
+        match start(engine, mesh, &expected, rounds, node) {
+            Ok(runner) => runners.push(runner),
+            Err(message) => eprintln!("skipped: {} on {}: {message}", engine.name, named.name),
+        }
+    }
+    for round in 0..rounds {
+        for runner in &mut runners {
+            if let Err(message) = runner.take_turn(round) {
+                eprintln!("{} on {}, round {round}: {message}", runner.engine.name, named.name);
+            }
+        }
+    }
+    let measured = runners.into_iter().filter(|runner| !runner.rounds.is_empty());
+    measured.map(|runner| runner.row(named)).collect()
+}
+
+/// The reference's answer.
+fn expected(mesh: &OwnedMesh) -> Vec<Tangent> {
+    let frames = darboux_tests::engine::reference(mesh, 180.0);
+    frames.iter().map(|frame| frame.map_or([1.0, 0.0, 0.0, -1.0], |frame| frame.tangent_and_sign())).collect()
+}
+
+/// Starts an engine, runs it once and checks its answer.
+fn start<'a>(
+    engine: &'a Engine,
+    mesh: &'a OwnedMesh,
+    expected: &[Tangent],
+    rounds: usize,
+    node: Option<&Path>,
+) -> Result<Runner<'a>, String> {
+    let mut run = engine.start(mesh, node)?;
+    let first = run.run(1)?;
+    let answer = verdict(engine.method, expected, &run.tangents()?)?;
+    let fewer = FEWER.iter().find(|(seconds, _)| first.wall > seconds * 1e9);
+    let wanted = fewer.map_or(rounds, |(_, fewer)| rounds.min(*fewer));
+    let calls = (SHORTEST_ROUND / first.wall.max(1.0)).ceil().max(1.0) as usize;
+    let mut runner = Runner { engine, run, answer, calls, wanted, rounds: Vec::new() };
+    if wanted == 1 {
+        runner.rounds.push(first);
+    }
+    Ok(runner)
+}
+
+impl Runner<'_> {
+    fn take_turn(&mut self, round: usize) -> Result<(), String> {
+        if round >= self.wanted || self.rounds.len() == self.wanted {
+            return Ok(());
+        }
+        let time = self.run.run(self.calls)?;
+        let calls = self.calls as f64;
+        self.rounds.push(Time { wall: time.wall / calls, cpu: time.cpu / calls });
+        Ok(())
+    }
+
+    fn row(self, named: &Named) -> Row {
+        let triangles = named.mesh.corner_count() / 3;
+        let per_triangle = |time: Time| {
+            let count = triangles as f64;
+            Time { wall: time.wall / count, cpu: time.cpu / count }
+        };
+        Row {
+            mesh: named.name.clone(),
+            triangles,
+            engine: self.engine.name,
+            version: self.engine.version,
+            threads: self.engine.threads,
+            rounds: self.rounds.into_iter().map(per_triangle).collect(),
+            extra_bytes: None,
+            answer: self.answer,
+        }
+    }
+}
+
+/// On smaller meshes the pages of code that a call touches first would count for more than its data.
+const LARGE: usize = 20_000;
+
+/// Fills in the memory of the rows on large meshes whose engines run in this process.
+pub fn add_memory(rows: &mut [Row], engines: &[Engine], quick: bool, models: &Path) {
+    let countable = |row: &Row| {
+        let engine = engines.iter().find(|engine| engine.name == row.engine);
+        row.triangles >= LARGE
+            && engine.is_some_and(|engine| engine.is_native() && engine.method != Method::Copy)
+    };
+    for row in rows {
+        if countable(row) {
+            let bytes = memory::of_a_child(row.engine, &row.mesh, quick, models);
+            row.extra_bytes = bytes.map(|bytes| bytes / row.triangles as f64);
+        }
+    }
+}
+
+/// The factor by which each row is faster than `engine` on the same mesh.
+pub fn times_over(rows: &[Row], engine: &str, row: &Row) -> Option<f64> {
+    let other = rows.iter().find(|other| other.engine == engine && other.mesh == row.mesh)?;
+    Some(other.time()[1] / row.time()[1])
+}
+
+/// The engines of these names in the table's order, all where none is named. Errors: a name that no engine has.
+pub fn select(names: &[String]) -> Result<Vec<Engine>, String> {
+    let all = engines::all();
+    if let Some(unknown) = names.iter().find(|name| !all.iter().any(|engine| engine.name == *name)) {
+        let known: Vec<&str> = all.iter().map(|engine| engine.name).collect();
+        return Err(format!("there is no engine {unknown}; there are {}", known.join(", ")));
+    }
+    Ok(all
+        .into_iter()
+        .filter(|engine| names.is_empty() || names.iter().any(|name| name == engine.name))
+        .collect())
+}

@@ -1,0 +1,73 @@
+//! The table that a person reads.
+
+use comfy_table::{CellAlignment, Table, presets};
+
+use crate::engines::{MESHOPT, REFERENCE};
+use crate::rounds::{Row, times_over};
+
+const HEADER: [&str; 11] = [
+    "mesh",
+    "engine",
+    "ns/triangle min",
+    "median",
+    "wall median",
+    "x mikktspace.c",
+    "x meshopt",
+    "threads",
+    "rounds",
+    "extra bytes/triangle",
+    "answer",
+];
+
+/// One line per row; an empty cell where nothing is known.
+pub fn table(rows: &[Row]) -> Table {
+    let mut table = empty(&HEADER);
+    for row in rows {
+        let [min, median] = row.time();
+        let times =
+            |engine| times_over(rows, engine, row).map_or(String::new(), |times| format!("{times:.2}"));
+        table.add_row([
+            row.mesh.clone(),
+            row.engine.to_string(),
+            format!("{min:.1}"),
+            format!("{median:.1}"),
+            format!("{:.1}", row.spread(|time| time.wall)[1]),
+            times(REFERENCE),
+            times(MESHOPT),
+            row.threads.to_string(),
+            row.rounds.len().to_string(),
+            row.extra_bytes.map_or("n/a".into(), |bytes| format!("{bytes:.0}")),
+            row.answer.clone(),
+        ]);
+    }
+    for column in 2..10 {
+        align_right(&mut table, column);
+    }
+    table
+}
+
+/// A line per engine, a column per mesh: instructions per triangle.
+pub fn instructions(meshes: &[&str], rows: &[(&str, Vec<Option<f64>>)]) -> Table {
+    let header: Vec<&str> = std::iter::once("instructions/triangle").chain(meshes.iter().copied()).collect();
+    let mut table = empty(&header);
+    for (engine, counts) in rows {
+        let cells = counts.iter().map(|count| count.map_or("n/a".into(), |count| format!("{count:.0}")));
+        table.add_row(std::iter::once(engine.to_string()).chain(cells));
+    }
+    for column in 1..header.len() {
+        align_right(&mut table, column);
+    }
+    table
+}
+
+fn empty(header: &[&str]) -> Table {
+    let mut table = Table::new();
+    table.load_style(presets::ASCII_MARKDOWN).set_header(header.to_vec());
+    table
+}
+
+fn align_right(table: &mut Table, column: usize) {
+    if let Some(column) = table.column_mut(column) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+}

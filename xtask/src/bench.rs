@@ -1,0 +1,45 @@
+//! Builds and starts the benchmark.
+
+use std::fs;
+use std::path::PathBuf;
+
+use crate::run::{Outcome, program, root, run, works};
+
+/// glibc keeps what is freed, so that no engine pays the kernel for fresh pages at every call, whichever way it allocates.
+const ALLOCATOR: &str =
+    "glibc.malloc.arena_max=1:glibc.malloc.mmap_max=0:glibc.malloc.trim_threshold=17179869184";
+
+/// `cargo xtask bench`: `arguments` go to the benchmark, whose `--help` explains them.
+pub fn bench(arguments: &[&str]) -> Outcome {
+    let mut command = program("cargo run --quiet --profile bench-room --package darboux-benches --");
+    command.args(arguments);
+    // As mikktspace.c is meant to be built: without its assertions.
+    command.env("CFLAGS", "-DNDEBUG").env("GLIBC_TUNABLES", ALLOCATOR);
+    if let Some(folder) = node_packages()? {
+        command.arg("--node").arg(folder);
+    }
+    run(&mut command)
+}
+
+/// Installs the packages of benches/node at the versions of its lock file; none on a machine without node and npm.
+fn node_packages() -> Result<Option<PathBuf>, String> {
+    if !works(&mut program("npm --version")) || !works(&mut program("node --version")) {
+        println!("skipped: engines of npm; install Node.js 20 or newer to have them");
+        return Ok(None);
+    }
+    let (from, to) = (root().join("benches/node"), root().join("target/bench-node"));
+    let fault = |error| format!("{} cannot be written: {error}", to.display());
+    fs::create_dir_all(&to).map_err(fault)?;
+    let modified = |name| fs::metadata(to.join(name)).and_then(|file| file.modified()).ok();
+    for name in ["package.json", "package-lock.json", "peers.mjs"] {
+        let text = fs::read(from.join(name)).map_err(fault)?;
+        if fs::read(to.join(name)).ok().as_ref() != Some(&text) {
+            fs::write(to.join(name), text).map_err(fault)?;
+        }
+    }
+    let installed = modified("node_modules/.package-lock.json");
+    if installed.is_none() || installed < modified("package-lock.json") {
+        run(program("npm ci --no-audit --no-fund --loglevel=error").current_dir(&to))?;
+    }
+    Ok(Some(to))
+}
