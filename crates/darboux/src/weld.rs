@@ -33,7 +33,7 @@ pub(crate) fn weld(mesh: &Mesh<'_>, corners: &[u32]) -> Vec<u32> {
     let mut welder = Welder { mesh, corners, vertex_of_entry: &mut vertex_of_entry };
     let mut start = 0;
     for end in cell_ends {
-        for_each_final_range(&mut points[start..end], &mut |points| welder.weld_all(points));
+        for_each_final_range(&mut points[start..end], &|_| true, &mut |points| welder.weld_all(points));
         start = end;
     }
     vertex_of_entry
@@ -51,39 +51,45 @@ fn points_by_cell(mesh: &Mesh<'_>, corners: &[u32]) -> (Vec<Point>, Vec<usize>) 
     let position = |corner: u32| mesh.positions().get(mesh.vertex_of_corner(corner as usize));
     // The reference seeds the box with its corner id 0, whether or not that is in the list, and leaves out the list's first.
     let cells = Cells::of(&Bounds::of(position(0), corners[1..].iter().map(|&corner| position(corner))));
-    let mut ends = vec![0; CELLS];
-    for &corner in corners {
-        ends[cells.at(position(corner))] += 1;
-    }
-    let mut next = Vec::with_capacity(CELLS);
-    let mut sum = 0;
-    for end in &mut ends {
-        next.push(sum);
-        sum += *end;
-        *end = sum;
-    }
-    let mut points = vec![Point::default(); corners.len()];
-    for (entry, &corner) in corners.iter().enumerate() {
-        let position = position(corner);
-        let slot = &mut next[cells.at(position)];
-        points[*slot] = Point { position, entry: entry as u32 };
-        *slot += 1;
-    }
-    (points, ends)
+    let point = |(entry, &corner): (usize, &u32)| Point { position: position(corner), entry: entry as u32 };
+    let points = corners.iter().enumerate().map(point);
+    cells.sort(points)
 }
 
 /// The cells along the longest axis of a box.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cells {
-    axis: usize,
+    pub axis: usize,
     low: f32,
-    extent: f32,
+    pub extent: f32,
 }
 
 impl Cells {
     pub fn of(bounds: &Bounds) -> Self {
         let axis = bounds.longest_axis();
         Self { axis, low: bounds.min[axis], extent: bounds.max[axis] - bounds.min[axis] }
+    }
+
+    /// Points sorted into cells, in their order within a cell, and the end of each cell.
+    pub fn sort(&self, points: impl ExactSizeIterator<Item = Point> + Clone) -> (Vec<Point>, Vec<usize>) {
+        let mut ends = vec![0; CELLS];
+        for point in points.clone() {
+            ends[self.at(point.position)] += 1;
+        }
+        let mut next = Vec::with_capacity(CELLS);
+        let mut sum = 0;
+        for end in &mut ends {
+            next.push(sum);
+            sum += *end;
+            *end = sum;
+        }
+        let mut sorted = vec![Point::default(); points.len()];
+        for point in points {
+            let slot = &mut next[self.at(point.position)];
+            sorted[*slot] = point;
+            *slot += 1;
+        }
+        (sorted, ends)
     }
 
     /// The cell of a position. A quotient that is NaN or beyond 32 bits goes to cell 0, as the reference's cast does on x86-64.
@@ -95,6 +101,7 @@ impl Cells {
 }
 
 /// A bounding box in which NaN never counts, unless it is the first.
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Bounds {
     pub min: V3,
     pub max: V3,
@@ -123,8 +130,16 @@ impl Bounds {
     }
 }
 
-/// Cuts the points of a cell in halves down to final ranges, and takes each that the reference welds.
-pub(crate) fn for_each_final_range(points: &mut [Point], take: &mut impl FnMut(&[Point])) {
+/// Cuts the points of a cell in halves down to final ranges, and takes each that the reference welds. Ranges of which nothing is
+/// `wanted` are left out.
+pub(crate) fn for_each_final_range(
+    points: &mut [Point],
+    wanted: &impl Fn(&[Point]) -> bool,
+    take: &mut impl FnMut(&[Point]),
+) {
+    if !wanted(points) {
+        return;
+    }
     if points.len() < 2 {
         return take(points);
     }
@@ -140,8 +155,8 @@ pub(crate) fn for_each_final_range(points: &mut [Point], take: &mut impl FnMut(&
     }
     let below = partition(points, axis, middle);
     let (below, above) = points.split_at_mut(below);
-    for_each_final_range(below, take);
-    for_each_final_range(above, take);
+    for_each_final_range(below, wanted, take);
+    for_each_final_range(above, wanted, take);
 }
 
 struct Welder<'a, 'm> {

@@ -8,22 +8,24 @@
 mod block;
 mod last_run;
 mod source;
+mod steps;
 mod vertices;
 mod weld;
 mod width;
 
 use std::ops::Range;
 
+use crate::weld::Bounds;
 use crate::{Faces, Mesh};
 
 use super::Mode;
-use block::{BLOCK, Block};
-use last_run::{LastRun, bounds};
-use source::{for_each_record, read_triangles};
+use block::Block;
+use last_run::{LastRun, TailCells};
+use source::{RowBuffer, Rows, triangles};
+use steps::{Add, Extent, Finish, Read, Special, Write};
 pub(super) use vertices::UNDECIDED;
 use vertices::Vertex;
 use weld::{Refused, Weld};
-use width::Task;
 pub(crate) use width::Width;
 pub use width::WidthLimit;
 
@@ -34,18 +36,21 @@ const WINDOW: usize = if cfg!(small_limits) { 2 } else { 1024 };
 #[derive(Debug, Default)]
 pub(crate) struct Fans {
     vertices: Vec<Vertex>,
+    /// What the corners of each vertex say of it.
+    marks: Vec<u32>,
     weld: Weld,
     windows: Vec<Window>,
-    triangles: Vec<[u32; 3]>,
     block: Box<Block>,
-    /// The triangles with an undecided vertex, ascending.
-    pub undecided: Vec<u32>,
+    rows: RowBuffer,
+    triangles: Vec<[u32; 3]>,
+    pub special: Special,
+    /// Triangles use every vertex.
+    all_used: bool,
 }
 
-/// A window's lowest vertex, that of all windows from it on, and the end of all vertices up to it.
+/// A window's lowest vertex of it and all later windows, its own last, and that of it and all earlier ones (ends of ranges).
 #[derive(Clone, Copy, Debug, Default)]
 struct Window {
-    lowest: u32,
     lowest_from_here: u32,
     end: u32,
     end_up_to_here: u32,
@@ -53,95 +58,123 @@ struct Window {
 
 impl Fans {
     /// Writes the tangents of all triangles, and lists those with undecided vertices. False where this path does not apply:
-    /// faces that are not triangles, values whose weld only the reference's order decides.
+    /// faces that are not triangles, values whose weld only the reference's order decides, last edges whose order could show.
     pub fn run(&mut self, mesh: &Mesh<'_>, mode: Mode, width: Width, out: &mut [[f32; 4]]) -> bool {
         if !matches!(mesh.faces(), Faces::Triangles) {
             return false;
         }
-        if let Err(Refused) = self.weld.weld(mesh, &mut self.vertices) {
+        if let Err(Refused) = self.weld.weld(mesh, width, &mut self.rows, &mut self.vertices) {
             return false;
         }
-        self.undecided.clear();
-        self.triangles.resize(WINDOW.min(mesh.face_count()), [0; 3]);
-        self.find_windows(mesh);
-        self.stream(mesh, width, out);
-        mode == Mode::Corrected || !self.last_run_could_show(mesh)
-    }
-
-    fn last_run_could_show(&self, mesh: &Mesh<'_>) -> bool {
-        let (identity, vertices) = (self.weld.identity(), &self.vertices[..]);
-        LastRun { mesh, identity, vertices, bounds: bounds(mesh, identity, vertices) }.could_show()
+        self.special.clear();
+        self.all_used = true;
+        self.find_windows(mesh, width);
+        let tail = TailCells::first(mesh, self.weld.identity(), &self.weld.bounds, self.is_shuffled());
+        self.stream(mesh, &tail, width, out);
+        mode == Mode::Corrected || !self.last_run_could_show(mesh, tail)
     }
 
     /// Finds which vertices each window uses.
-    fn find_windows(&mut self, mesh: &Mesh<'_>) {
+    fn find_windows(&mut self, mesh: &Mesh<'_>, width: Width) {
         self.windows.clear();
-        let (identity, mut end_up_to_here) = (self.weld.identity(), 0);
-        for range in windows(mesh) {
-            let triangles = &mut self.triangles[..range.len()];
-            read_triangles(mesh, identity, range.start, triangles);
-            let corners = triangles.as_flattened();
-            let (lowest, highest) = corners
-                .iter()
-                .fold((u32::MAX, 0), |(low, high), &vertex| (low.min(vertex), high.max(vertex)));
-            let end = highest + 1;
-            end_up_to_here = end.max(end_up_to_here);
-            self.windows.push(Window { lowest, lowest_from_here: lowest, end, end_up_to_here });
+        let mut end_up_to_here = 0;
+        for range in windows_of(mesh.face_count()) {
+            let triangles = triangles(mesh, self.weld.identity(), range, &mut self.triangles);
+            let (mut lowest, mut highest) = (u32::MAX, 0);
+            width.run(Extent { triangles, lowest: &mut lowest, highest: &mut highest });
+            end_up_to_here = end_up_to_here.max(highest + 1);
+            self.windows.push(Window { lowest_from_here: lowest, end: highest + 1, end_up_to_here });
         }
         let mut lowest = u32::MAX;
         for window in self.windows.iter_mut().rev() {
-            lowest = lowest.min(window.lowest);
+            lowest = lowest.min(window.lowest_from_here);
             window.lowest_from_here = lowest;
         }
     }
 
+    /// Whether triangles that share vertices are far from each other in the list.
+    fn is_shuffled(&self) -> bool {
+        self.windows
+            .last()
+            .is_some_and(|last| (last.end - last.lowest_from_here) as usize > self.weld.count / 4)
+    }
+
     /// Goes through the windows: reads what each needs first, adds it up, finishes what none needs any more, writes it.
-    fn stream(&mut self, mesh: &Mesh<'_>, width: Width, out: &mut [[f32; 4]]) {
-        let identity = self.weld.identity();
+    fn stream(&mut self, mesh: &Mesh<'_>, tail: &TailCells, width: Width, out: &mut [[f32; 4]]) {
+        self.marks.resize(self.weld.count, 0);
         let (mut read, mut finished, mut written) = (0, 0, 0);
-        for (at, range) in windows(mesh).enumerate() {
-            let window = self.windows[at];
-            if !self.weld.is_per_vertex() {
-                read = self.vertices.len();
-            }
-            let end = (window.end_up_to_here as usize).max(read);
-            read_vertices(mesh, read..end, &mut self.vertices);
+        if !self.weld.is_per_vertex() {
+            self.mark_vertices(tail);
+            read = self.weld.count;
+        }
+        for (at, range) in windows_of(mesh.face_count()).enumerate() {
+            let end = (self.windows[at].end_up_to_here as usize).max(read);
+            self.read(mesh, tail, read..end, width);
             read = end;
-            let triangles = &mut self.triangles[..range.len()];
-            read_triangles(mesh, identity, range.start, triangles);
-            width.run(Add { triangles, block: &mut self.block, vertices: &mut self.vertices });
-            let complete = match self.windows.get(at + 1) {
-                Some(next) => (next.lowest_from_here as usize).min(read),
-                None => read,
-            };
-            if complete > finished {
-                width.run(Finish { vertices: &mut self.vertices[finished..complete] });
-                finished = complete;
-            }
+            self.add(mesh, range, width);
+            let unfinished = self.windows.get(at + 1).map_or(read, |next| next.lowest_from_here as usize);
+            let end = unfinished.min(read).max(finished);
+            self.finish(finished..end, width);
+            finished = end;
             while written <= at && self.windows[written].end as usize <= finished {
-                let range = window_range(mesh, written);
-                read_triangles(mesh, identity, range.start, &mut self.triangles[..range.len()]);
-                width.run(Write {
-                    triangles: &self.triangles[..range.len()],
-                    first: range.start,
-                    vertices: &self.vertices,
-                    out: &mut out[3 * range.start..3 * range.end],
-                    undecided: &mut self.undecided,
-                });
+                self.write(mesh, window(written, mesh.face_count()), width, out);
                 written += 1;
             }
         }
     }
 
-    /// The welded vertex at each corner of some triangles, named by the first corner of these, and whether it is undecided.
-    pub fn names(&mut self, mesh: &Mesh<'_>, triangles: &[u32]) -> (Vec<u32>, Vec<bool>) {
-        let identity = self.weld.identity();
-        let mut of_corner = vec![[0; 3]; triangles.len()];
-        for (&triangle, out) in triangles.iter().zip(&mut of_corner) {
-            read_triangles(mesh, identity, triangle as usize, std::slice::from_mut(out));
+    fn mark_vertices(&mut self, tail: &TailCells) {
+        for (marks, vertex) in self.marks.iter_mut().zip(&self.vertices) {
+            *marks = tail.mark(&vertex.record);
         }
-        let of_corner = of_corner.as_flattened();
-        for &vertex in of_corner {
+    }
+
+    fn read(&mut self, mesh: &Mesh<'_>, tail: &TailCells, range: Range<usize>, width: Width) {
+        for part in windows_of(range.len()).map(|part| range.start + part.start..range.start + part.end) {
+            let (vertices, marks) = (&mut self.vertices[part.clone()], &mut self.marks[part.clone()]);
+            width.run(Read { rows: Rows::new(mesh, part, &mut self.rows), tail, vertices, marks });
+        }
+    }
+
+    fn add(&mut self, mesh: &Mesh<'_>, range: Range<usize>, width: Width) {
+        let triangles = triangles(mesh, self.weld.identity(), range, &mut self.triangles);
+        let (block, vertices, marks) = (&mut self.block, &mut self.vertices, &mut self.marks);
+        width.run(Add { triangles, block, vertices, marks });
+    }
+
+    fn finish(&mut self, range: Range<usize>, width: Width) {
+        let (vertices, marks) = (&mut self.vertices[range.clone()], &self.marks[range]);
+        width.run(Finish { vertices, marks, all_used: &mut self.all_used });
+    }
+
+    fn write(&mut self, mesh: &Mesh<'_>, range: Range<usize>, width: Width, out: &mut [[f32; 4]]) {
+        let first = range.start;
+        let out = &mut out[3 * first..3 * range.end];
+        let triangles = triangles(mesh, self.weld.identity(), range, &mut self.triangles);
+        width.run(Write { triangles, first, vertices: &self.vertices, out, special: &mut self.special });
+    }
+
+    /// Whether the order of the reference's last edges could show. `tail` is of all vertices, used or not.
+    fn last_run_could_show(&self, mesh: &Mesh<'_>, tail: TailCells) -> bool {
+        let (identity, vertices) = (self.weld.identity(), &self.vertices[..]);
+        if self.all_used {
+            let run = LastRun { mesh, identity, vertices, bounds: &self.weld.bounds };
+            return run.could_show(tail, &self.special.in_tail);
+        }
+        let mut used = vertices.iter().filter(|vertex| vertex.is_used()).map(Vertex::position);
+        let bounds = Bounds::of(used.next().unwrap_or_default(), used);
+        let run = LastRun { mesh, identity, vertices, bounds: &bounds };
+        let tail = TailCells::first(mesh, identity, &bounds, self.is_shuffled());
+        let entries = run.entries(&tail);
+        run.could_show(tail, &entries)
+    }
+
+    /// The welded vertex at each corner of some triangles, named by the first corner of these, and whether it is undecided.
+    pub fn names(&mut self, mesh: &Mesh<'_>, list: &[u32]) -> (Vec<u32>, Vec<bool>) {
+        let identity = self.weld.identity();
+        let of = |&at: &u32| triangles(mesh, identity, at as usize..at as usize + 1, &mut Vec::new())[0];
+        let of_corner: Vec<u32> = list.iter().flat_map(of).collect();
+        for &vertex in &of_corner {
             self.vertices[vertex as usize].print[0] = u32::MAX;
         }
         let mut name = |(corner, &vertex): (u32, &u32)| {
@@ -149,74 +182,15 @@ impl Fans {
             vertex.print[0] = vertex.print[0].min(corner);
             (vertex.print[0], vertex.sum[3] == UNDECIDED)
         };
-        (0..).zip(of_corner).map(&mut name).unzip()
+        (0..).zip(&of_corner).map(&mut name).unzip()
     }
 }
 
-fn windows(mesh: &Mesh<'_>) -> impl Iterator<Item = Range<usize>> {
-    (0..mesh.face_count().div_ceil(WINDOW)).map(|at| window_range(mesh, at))
+/// A range cut into windows.
+fn windows_of(count: usize) -> impl Iterator<Item = Range<usize>> {
+    (0..count.div_ceil(WINDOW)).map(move |at| window(at, count))
 }
 
-/// The triangles of a window.
-fn window_range(mesh: &Mesh<'_>, at: usize) -> Range<usize> {
-    at * WINDOW..((at + 1) * WINDOW).min(mesh.face_count())
-}
-
-fn read_vertices(mesh: &Mesh<'_>, range: Range<usize>, vertices: &mut [Vertex]) {
-    for_each_record(mesh, range, |vertex, record| vertices[vertex] = Vertex::at(record));
-}
-
-/// Adds triangles to their vertices.
-struct Add<'a> {
-    triangles: &'a [[u32; 3]],
-    block: &'a mut Block,
-    vertices: &'a mut [Vertex],
-}
-
-impl Task for Add<'_> {
-    #[inline(always)]
-    fn run(self) {
-        for triangles in self.triangles.chunks(BLOCK) {
-            self.block.set(triangles);
-            vertices::gather(self.block, triangles.len(), self.vertices);
-            self.block.evaluate();
-            vertices::scatter(self.block, triangles.len(), self.vertices);
-        }
-    }
-}
-
-/// Finishes vertices.
-struct Finish<'a> {
-    vertices: &'a mut [Vertex],
-}
-
-impl Task for Finish<'_> {
-    #[inline(always)]
-    fn run(self) {
-        for vertex in self.vertices {
-            vertex.finish();
-        }
-    }
-}
-
-/// Copies tangents from vertices to corners, and lists triangles with undecided vertices.
-struct Write<'a> {
-    triangles: &'a [[u32; 3]],
-    first: usize,
-    vertices: &'a [Vertex],
-    out: &'a mut [[f32; 4]],
-    undecided: &'a mut Vec<u32>,
-}
-
-impl Task for Write<'_> {
-    #[inline(always)]
-    fn run(self) {
-        let out = self.out.as_chunks_mut::<3>().0;
-        for ((at, triangle), out) in (self.first as u32..).zip(self.triangles).zip(out) {
-            *out = triangle.map(|vertex| self.vertices[vertex as usize].sum);
-            if (out[0][3] == UNDECIDED) | (out[1][3] == UNDECIDED) | (out[2][3] == UNDECIDED) {
-                self.undecided.push(at);
-            }
-        }
-    }
+fn window(at: usize, count: usize) -> Range<usize> {
+    at * WINDOW..((at + 1) * WINDOW).min(count)
 }

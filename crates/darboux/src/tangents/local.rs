@@ -12,7 +12,7 @@ use super::{Report, TangentOptions, Tangents};
 /// The triangles with an undecided vertex, in their order, make a mesh of their own. What decides about a vertex is there: a
 /// UV-degenerate triangle, whose group another vertex can decide, leaves all its vertices undecided.
 pub(super) fn decide(mesh: &Mesh<'_>, options: &TangentOptions, fans: &mut Fans, out: &mut Tangents) {
-    let triangles = std::mem::take(&mut fans.undecided);
+    let triangles = std::mem::take(&mut fans.special.undecided);
     out.report = Report::default();
     if !triangles.is_empty() {
         let corners: Vec<usize> =
@@ -30,7 +30,7 @@ pub(super) fn decide(mesh: &Mesh<'_>, options: &TangentOptions, fans: &mut Fans,
         out.report = report;
     }
     out.report.triangles = mesh.face_count();
-    fans.undecided = triangles;
+    fans.special.undecided = triangles;
 }
 
 /// A decided corner as a frame, of which nothing reads the bitangent and the magnitudes; what no group reaches has the default.

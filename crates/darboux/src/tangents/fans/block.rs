@@ -30,8 +30,8 @@ pub(super) struct Block {
     /// What each corner adds to its vertex.
     term: [[Lane<f32>; 3]; 3],
     /// What each corner says of its vertex.
-    marks: [Lane<u32>; 3],
-    /// Terms and marks, one corner after the other.
+    pub marks: [Lane<u32>; 3],
+    /// Terms, and 1 where the wedge holds the first ray, one corner after the other.
     pub sum: [Lane<[f32; 4]>; 3],
     /// What each corner adds to its vertex's fingerprint.
     pub print: [Lane<[u32; 4]>; 3],
@@ -42,8 +42,8 @@ pub(super) struct Block {
 pub(super) mod marks {
     /// The directions +u, -u, +v, -v that the corner's wedge in UV space holds.
     pub const RAYS: u32 = 0xf;
-    /// How far a ray's mark moves when the ray is met again.
-    pub const TWICE: u32 = 4;
+    /// The first of them.
+    pub const FIRST_RAY: u32 = 1;
     /// Not clearly positive, x y z, then not clearly negative: the tangent's direction in the vertex's plane.
     pub const TANGENT: u32 = 8;
     /// Likewise the bitangent's.
@@ -54,6 +54,8 @@ pub(super) mod marks {
     pub const MIRRORS: u32 = 1 << 21;
     /// Something that only the general path decides.
     pub const TROUBLE: u32 = 1 << 22;
+    /// The vertex, not the corner, lies in the cells of the list's tail.
+    pub const IN_TAIL: u32 = 1 << 23;
 }
 
 impl Block {
@@ -125,7 +127,8 @@ impl Block {
         for k in 0..3 {
             for i in 0..BLOCK {
                 let [x, y, z] = [0, 1, 2].map(|axis| self.term[k][axis][i]);
-                self.sum[k][i] = [x, y, z, f32::from_bits(self.marks[k][i])];
+                let turns = if self.marks[k][i] & marks::FIRST_RAY == 0 { 0.0 } else { 1.0 };
+                self.sum[k][i] = [x, y, z, turns];
             }
         }
     }

@@ -5,56 +5,105 @@
 //! corners that represent them (see `crate::weld`). Names near the end of the triangle list decide, and those are names of
 //! vertices that the last triangles use: only the cells of these are put into the reference's order.
 
-use std::collections::HashMap;
-
 use crate::Mesh;
 use crate::weld::{Bounds, CELLS, Cells, Point, for_each_final_range};
 
-use super::source::{Identity, read_triangles};
+use super::block::Record;
+use super::source::{Identity, record, triangles};
 use super::vertices::Vertex;
-use super::{WINDOW, windows};
+use super::windows_of;
 
-/// How many triangles from the end are looked at first.
-const FIRST_TAIL: usize = if cfg!(small_limits) { 1 } else { 32 };
+/// How many triangles from the end are looked at first, where triangles that share vertices are near each other in the list, and
+/// where they are not: there fewer of them have vertices that are named at the end.
+const FIRST_TAIL: usize = if cfg!(small_limits) { 1 } else { 8 };
+const FIRST_TAIL_SHUFFLED: usize = 4 * FIRST_TAIL;
 
 /// Where a tail as long as this has not decided, the order counts as showing.
 const LONGEST_TAIL: usize = 1 << 12;
+
+/// The cells in which a tail of the triangle list has vertices.
+#[derive(Debug)]
+pub(super) struct TailCells {
+    start: usize,
+    cells: Cells,
+    wanted: Box<[bool; CELLS]>,
+    low: f32,
+    high: f32,
+}
+
+impl TailCells {
+    /// Of the triangles from `start` on; `bounds` are those of all vertices in use.
+    fn new(mesh: &Mesh<'_>, identity: Identity<'_>, bounds: &Bounds, start: usize) -> Self {
+        let cells = Cells::of(bounds);
+        let mut tail = Self {
+            start,
+            cells,
+            wanted: Box::new([false; CELLS]),
+            low: f32::INFINITY,
+            high: f32::NEG_INFINITY,
+        };
+        for corner in 3 * start..mesh.corner_count() {
+            let record = record(mesh, identity.source(mesh.vertex_of_corner(corner)));
+            tail.wanted[cells.at(position(&record))] = true;
+            let along = position(&record)[cells.axis];
+            (tail.low, tail.high) = (tail.low.min(along), tail.high.max(along));
+        }
+        // A cell more on either side, and rounding.
+        let margin = 1.01 / CELLS as f32 * cells.extent + 1e-6 * (tail.low.abs() + tail.high.abs());
+        (tail.low, tail.high) = (tail.low - margin, tail.high + margin);
+        tail
+    }
+
+    /// Of the first tail to look at.
+    pub fn first(mesh: &Mesh<'_>, identity: Identity<'_>, bounds: &Bounds, is_shuffled: bool) -> Self {
+        let tail = if is_shuffled { FIRST_TAIL_SHUFFLED } else { FIRST_TAIL };
+        Self::new(mesh, identity, bounds, mesh.face_count().saturating_sub(tail))
+    }
+
+    /// True for vertices in these cells.
+    #[inline(always)]
+    pub fn hold(&self, record: &Record) -> bool {
+        let along = record[self.cells.axis];
+        (along >= self.low) & (along <= self.high) && self.wanted[self.cells.at(position(record))]
+    }
+}
+
+#[inline(always)]
+fn position(record: &Record) -> [f32; 3] {
+    [record[0], record[1], record[2]]
+}
 
 /// Welded vertices after all have been read.
 pub(super) struct LastRun<'a> {
     pub mesh: &'a Mesh<'a>,
     pub identity: Identity<'a>,
     pub vertices: &'a [Vertex],
-    /// Of the vertices that triangles use.
-    pub bounds: Bounds,
+    pub bounds: &'a Bounds,
 }
 
 impl LastRun<'_> {
-    /// True when the order could show.
-    pub fn could_show(&self) -> bool {
-        let mut tail = FIRST_TAIL;
-        loop {
-            let start = self.mesh.face_count().saturating_sub(tail);
-            if let Some(shows) = self.shows_in_tail(start) {
-                return shows;
+    /// True when the order could show. `entries` are the corners of `cells`' vertices, ascending.
+    pub fn could_show(&self, mut cells: TailCells, entries: &[u32]) -> bool {
+        let mut found = self.shows_in_tail(&cells, entries);
+        while found.is_none() && cells.start > 0 {
+            let tail = 4 * (self.mesh.face_count() - cells.start);
+            if tail > LONGEST_TAIL {
+                return true;
             }
-            if start == 0 || tail >= LONGEST_TAIL {
-                return start > 0;
-            }
-            tail *= 8;
+            cells = TailCells::new(
+                self.mesh,
+                self.identity,
+                self.bounds,
+                self.mesh.face_count().saturating_sub(tail),
+            );
+            found = self.shows_in_tail(&cells, &self.entries(&cells));
         }
+        found.unwrap_or(false)
     }
 
-    /// Whether the order shows, if the last run's lower vertex is named after a corner of the triangles from `start` on.
-    fn shows_in_tail(&self, start: usize) -> Option<bool> {
-        let points = self.points_near(start);
-        let names = self.names(points.clone(), start);
-        // All triangles whose two higher vertices are named after corners of the tail.
-        let mut triangles: Vec<u32> = points.iter().map(|point| point.entry / 3).collect();
-        triangles.sort_unstable();
-        triangles.dedup();
-        let edges: Vec<(u32, u32)> =
-            triangles.into_iter().filter_map(|triangle| self.highest_edge(triangle, &names)).collect();
+    /// Whether the order shows, if the last run's lower vertex is named after a corner of the tail.
+    fn shows_in_tail(&self, cells: &TailCells, entries: &[u32]) -> Option<bool> {
+        let edges = self.highest_edges(&self.corners_of_named(cells, entries));
         let lower = edges.iter().map(|&(lower, _)| lower).max()?;
         let mut uppers: Vec<u32> =
             edges.iter().filter(|edge| edge.0 == lower).map(|&(_, upper)| upper).collect();
@@ -65,87 +114,70 @@ impl LastRun<'_> {
     }
 
     fn triangle(&self, triangle: usize) -> [u32; 3] {
-        let mut vertices = [[0; 3]];
-        read_triangles(self.mesh, self.identity, triangle, &mut vertices);
-        vertices[0]
+        triangles(self.mesh, self.identity, triangle..triangle + 1, &mut Vec::new())[0]
+    }
+
+    fn vertex(&self, entry: u32) -> u32 {
+        self.triangle(entry as usize / 3)[entry as usize % 3]
     }
 
     fn position(&self, vertex: u32) -> [f32; 3] {
-        let [x, y, z, ..] = self.vertices[vertex as usize].record;
-        [x, y, z]
+        position(&self.vertices[vertex as usize].record)
     }
 
-    /// The corners of all cells with a vertex of the triangles from `start` on, in list order.
-    fn points_near(&self, start: usize) -> Vec<Point> {
-        let cells = Cells::of(&self.bounds);
-        let mut wanted = [false; CELLS];
-        for triangle in start..self.mesh.face_count() {
-            for vertex in self.triangle(triangle) {
-                wanted[cells.at(self.position(vertex))] = true;
-            }
+    /// The corners of all vertices in the cells, ascending.
+    pub fn entries(&self, cells: &TailCells) -> Vec<u32> {
+        let (mut entries, mut buffer) = (Vec::new(), Vec::new());
+        for range in windows_of(self.mesh.face_count()) {
+            let first = 3 * range.start as u32;
+            let triangles = triangles(self.mesh, self.identity, range, &mut buffer);
+            let corners = (first..).zip(triangles.as_flattened());
+            let near = corners.filter(|&(_, &vertex)| cells.hold(&self.vertices[vertex as usize].record));
+            entries.extend(near.map(|(entry, _)| entry));
         }
-        let is_near: Vec<bool> =
-            (0..self.vertices.len() as u32).map(|vertex| wanted[cells.at(self.position(vertex))]).collect();
-        let mut points = Vec::new();
-        let mut triangles = vec![[0; 3]; WINDOW];
-        for range in windows(self.mesh) {
-            let triangles = &mut triangles[..range.len()];
-            read_triangles(self.mesh, self.identity, range.start, triangles);
-            for (entry, &vertex) in (3 * range.start as u32..).zip(triangles.as_flattened()) {
-                if is_near[vertex as usize] {
-                    points.push(Point { position: self.position(vertex), entry });
-                }
-            }
-        }
-        points
+        entries
     }
 
-    /// The names of vertices, where they are corners of the triangles from `start` on.
-    fn names(&self, points: Vec<Point>, start: usize) -> HashMap<u32, u32> {
-        let cells = Cells::of(&self.bounds);
-        let mut by_cell: HashMap<usize, Vec<Point>> = HashMap::new();
-        for point in points {
-            by_cell.entry(cells.at(point.position)).or_default().push(point);
-        }
-        let mut names = HashMap::new();
-        for points in by_cell.values_mut() {
-            for_each_final_range(points, &mut |points| {
-                for point in points {
-                    let vertex = self.triangle(point.entry as usize / 3)[point.entry as usize % 3];
-                    names.entry(vertex).or_insert(point.entry);
+    /// The corners of all vertices that are named after a corner of the tail, each with that name, ascending.
+    fn corners_of_named(&self, cells: &TailCells, entries: &[u32]) -> Vec<(u32, u32)> {
+        let point = |&entry: &u32| Point { position: self.position(self.vertex(entry)), entry };
+        let (mut points, ends) = cells.cells.sort(entries.iter().map(point));
+        let in_tail = |entry: u32| entry as usize >= 3 * cells.start;
+        let is_wanted = |points: &[Point]| points.iter().any(|point| in_tail(point.entry));
+        let mut found = Vec::new();
+        let mut start = 0;
+        for end in ends {
+            for_each_final_range(&mut points[start..end], &is_wanted, &mut |points| {
+                let mut corners: Vec<(u32, u32)> =
+                    points.iter().map(|point| (self.vertex(point.entry), point.entry)).collect();
+                // Stable: the first corner of each vertex remains its name.
+                corners.sort_by_key(|corner| corner.0);
+                for same in corners.chunk_by(|a, b| a.0 == b.0).filter(|same| in_tail(same[0].1)) {
+                    found.extend(same.iter().map(|&(_, corner)| (corner, same[0].1)));
                 }
             });
+            start = end;
         }
-        names.retain(|_, name| *name as usize >= 3 * start);
-        names
-    }
-
-    /// The names of the two higher vertices of a triangle, the lower one first; none for degenerate triangles.
-    fn highest_edge(&self, triangle: u32, names: &HashMap<u32, u32>) -> Option<(u32, u32)> {
-        let vertices = self.triangle(triangle as usize);
-        let [a, b, c] = vertices.map(|vertex| self.position(vertex));
-        let mut found: Vec<u32> = vertices.iter().filter_map(|vertex| names.get(vertex).copied()).collect();
         found.sort_unstable();
-        match found[..] {
-            [.., lower, upper] if a != b && b != c && c != a => Some((lower, upper)),
-            _ => None,
-        }
+        found
     }
-}
 
-/// The bounds of the vertices that triangles use.
-pub(super) fn bounds(mesh: &Mesh<'_>, identity: Identity<'_>, vertices: &[Vertex]) -> Bounds {
-    let mut used = vec![false; vertices.len()];
-    let mut triangles = vec![[0; 3]; WINDOW];
-    for range in windows(mesh) {
-        let triangles = &mut triangles[..range.len()];
-        read_triangles(mesh, identity, range.start, triangles);
-        triangles.as_flattened().iter().for_each(|&vertex| used[vertex as usize] = true);
+    /// The names of the two higher vertices, the lower one first, of all triangles where `corners` has both.
+    fn highest_edges(&self, corners: &[(u32, u32)]) -> Vec<(u32, u32)> {
+        let triangles = corners.chunk_by(|a, b| a.0 / 3 == b.0 / 3);
+        let edge = |corners: &[(u32, u32)]| {
+            let mut names: Vec<u32> = corners.iter().map(|&(_, name)| name).collect();
+            names.sort_unstable();
+            match names[..] {
+                [.., lower, upper] if !self.is_degenerate(corners[0].0 / 3) => Some((lower, upper)),
+                _ => None,
+            }
+        };
+        triangles.filter_map(edge).collect()
     }
-    let mut found = vertices.iter().zip(&used).filter(|(_, used)| **used).map(|(vertex, _)| {
-        let [x, y, z, ..] = vertex.record;
-        [x, y, z]
-    });
-    let first = found.next().unwrap_or_default();
-    Bounds::of(first, found)
+
+    fn is_degenerate(&self, triangle: u32) -> bool {
+        let [a, b, c] = self.triangle(triangle as usize).map(|vertex| self.position(vertex));
+        a == b || b == c || c == a
+    }
 }

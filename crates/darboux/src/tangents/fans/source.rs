@@ -1,34 +1,64 @@
-//! Reading a mesh in stretches: records of vertices, vertices of triangles.
+//! Reading a mesh in stretches: records of vertices, vertices of triangles. Where the mesh's own arrays will do, they are lent.
 
 use std::ops::Range;
 
-use crate::{Indices, Mesh};
+use crate::{Indices, Mesh, Strided};
 
 use super::block::Record;
 
-/// Calls `take` with every vertex of `range` and its record.
-#[inline]
-pub(super) fn for_each_record(mesh: &Mesh<'_>, range: Range<usize>, mut take: impl FnMut(usize, Record)) {
-    let (positions, normals, uvs) = (mesh.positions(), mesh.normals(), mesh.uvs());
-    let record = |[x, y, z]: [f32; 3], [a, b, c]: [f32; 3], [u, v]: [f32; 2]| [x, y, z, a, b, c, u, v];
-    if let (Some(positions), Some(normals), Some(uvs)) = (positions.packed(), normals.packed(), uvs.packed())
-    {
-        let rows = positions[range.clone()].iter().zip(&normals[range.clone()]).zip(&uvs[range.clone()]);
-        for (vertex, ((&position, &normal), &uv)) in range.zip(rows) {
-            take(vertex, record(position, normal, uv));
+/// Consecutive vertices.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rows<'a> {
+    positions: &'a [[f32; 3]],
+    normals: &'a [[f32; 3]],
+    uvs: &'a [[f32; 2]],
+}
+
+/// Room for vertices that do not lie one after the other in the mesh.
+#[derive(Debug, Default)]
+pub(super) struct RowBuffer {
+    positions: Vec<[f32; 3]>,
+    normals: Vec<[f32; 3]>,
+    uvs: Vec<[f32; 2]>,
+}
+
+impl<'a> Rows<'a> {
+    /// The vertices of `range`.
+    pub fn new(mesh: &Mesh<'a>, range: Range<usize>, buffer: &'a mut RowBuffer) -> Self {
+        Self {
+            positions: stretch(mesh.positions(), range.clone(), &mut buffer.positions),
+            normals: stretch(mesh.normals(), range.clone(), &mut buffer.normals),
+            uvs: stretch(mesh.uvs(), range, &mut buffer.uvs),
         }
-    } else {
-        for vertex in range {
-            take(vertex, record(positions.get(vertex), normals.get(vertex), uvs.get(vertex)));
+    }
+
+    #[inline(always)]
+    pub fn records(self) -> impl Iterator<Item = Record> {
+        let rows = self.positions.iter().zip(self.normals).zip(self.uvs);
+        rows.map(|((&[x, y, z], &[a, b, c]), &[u, v])| [x, y, z, a, b, c, u, v])
+    }
+}
+
+fn stretch<'a, const N: usize>(
+    elements: Strided<'a, N>,
+    range: Range<usize>,
+    buffer: &'a mut Vec<[f32; N]>,
+) -> &'a [[f32; N]] {
+    match elements.packed() {
+        Some(packed) => &packed[range],
+        None => {
+            buffer.clear();
+            buffer.extend(range.map(|index| elements.get(index)));
+            buffer
         }
     }
 }
 
 /// The record of one vertex.
 pub(super) fn record(mesh: &Mesh<'_>, vertex: usize) -> Record {
-    let mut found = [0.0; 8];
-    for_each_record(mesh, vertex..vertex + 1, |_, record| found = record);
-    found
+    let ([x, y, z], [a, b, c]) = (mesh.positions().get(vertex), mesh.normals().get(vertex));
+    let [u, v] = mesh.uvs().get(vertex);
+    [x, y, z, a, b, c, u, v]
 }
 
 /// Which welded vertex each vertex or corner of the mesh is.
@@ -42,27 +72,46 @@ pub(super) enum Identity<'a> {
     OfCorner(&'a [u32]),
 }
 
-/// Writes the welded vertices of the triangles from `first` on.
-pub(super) fn read_triangles(mesh: &Mesh<'_>, identity: Identity<'_>, first: usize, out: &mut [[u32; 3]]) {
-    match (identity, mesh.indices()) {
-        (Identity::OfCorner(of_corner), _) => copy(of_corner, first, out, |vertex| vertex),
-        (Identity::Own, Indices::Unindexed) => {
-            for (triangle, out) in (first as u32..).zip(out) {
-                *out = [3 * triangle, 3 * triangle + 1, 3 * triangle + 2];
-            }
+impl Identity<'_> {
+    /// The vertex of the mesh whose record a vertex of the mesh has once welded.
+    pub fn source(&self, vertex: usize) -> usize {
+        match self {
+            Self::OfVertex(of) => of[vertex] as usize,
+            Self::Own | Self::OfCorner(_) => vertex,
         }
-        (Identity::Own, Indices::U16(list)) => copy(list, first, out, |vertex| vertex),
-        (Identity::Own, Indices::U32(list)) => copy(list, first, out, |vertex| vertex),
-        (Identity::OfVertex(of), Indices::U16(list)) => copy(list, first, out, |vertex| of[vertex as usize]),
-        (Identity::OfVertex(of), Indices::U32(list)) => copy(list, first, out, |vertex| of[vertex as usize]),
-        (Identity::OfVertex(of), Indices::Unindexed) => copy(of, first, out, |vertex| vertex),
     }
 }
 
-#[inline]
-fn copy<I: Copy + Into<u32>>(list: &[I], first: usize, out: &mut [[u32; 3]], of: impl Fn(u32) -> u32) {
-    let triangles = &list.as_chunks::<3>().0[first..first + out.len()];
-    for (triangle, out) in triangles.iter().zip(out) {
-        *out = triangle.map(|index| of(index.into()));
+/// The welded vertices of some triangles.
+pub(super) fn triangles<'a>(
+    mesh: &Mesh<'a>,
+    identity: Identity<'a>,
+    range: Range<usize>,
+    buffer: &'a mut Vec<[u32; 3]>,
+) -> &'a [[u32; 3]] {
+    match (identity, mesh.indices()) {
+        (Identity::OfCorner(list), _) => &list.as_chunks().0[range],
+        (Identity::Own, Indices::U32(list)) => &list.as_chunks().0[range],
+        (_, Indices::Unindexed) => &[],
+        (Identity::Own, Indices::U16(list)) => copied(list, range, buffer, |vertex| vertex),
+        (Identity::OfVertex(of), Indices::U16(list)) => {
+            copied(list, range, buffer, |vertex| of[vertex as usize])
+        }
+        (Identity::OfVertex(of), Indices::U32(list)) => {
+            copied(list, range, buffer, |vertex| of[vertex as usize])
+        }
     }
+}
+
+fn copied<'a, I: Copy + Into<u32>>(
+    list: &[I],
+    range: Range<usize>,
+    buffer: &'a mut Vec<[u32; 3]>,
+    of: impl Fn(u32) -> u32,
+) -> &'a [[u32; 3]] {
+    buffer.clear();
+    buffer.extend(
+        list.as_chunks().0[range].iter().map(|triangle: &[I; 3]| triangle.map(|index| of(index.into()))),
+    );
+    buffer
 }

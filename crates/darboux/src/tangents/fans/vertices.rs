@@ -9,7 +9,7 @@ use super::block::{BLOCK, Block, Record, marks, print};
 #[repr(C, align(64))]
 pub(super) struct Vertex {
     pub record: Record,
-    /// The sum of weighted tangents, and marks as bits; once finished the tangent and the sign.
+    /// The sum of weighted tangents, and how often wedges hold the first ray; once finished the tangent and the sign.
     pub sum: [f32; 4],
     /// The sum of the corners' fingerprints.
     pub print: [u32; 4],
@@ -17,6 +17,9 @@ pub(super) struct Vertex {
 
 /// The sign of a vertex whose tangents are not known here.
 pub(in super::super) const UNDECIDED: f32 = 0.0;
+
+/// What signs are multiplied with where the vertex lies in the tail's cells; 0 becomes -0.
+pub(super) const IN_TAIL: f32 = -2.0;
 
 impl Vertex {
     pub fn at(record: Record) -> Self {
@@ -30,17 +33,29 @@ impl Vertex {
     }
 
     /// Turns the sums into the tangent and the sign: [`UNDECIDED`] unless the triangles are certainly one subgroup and the
-    /// result is certainly usable. Returns false where no triangle uses the vertex.
+    /// result is certainly usable; NaN where no triangle uses the vertex. Returns whether one does.
     #[inline(always)]
-    pub fn finish(&mut self) -> bool {
-        let found = self.sum[3].to_bits();
-        let [x, y, z, _] = self.sum;
+    pub fn finish(&mut self, found: u32) -> bool {
+        let [x, y, z, turns] = self.sum;
         let tangent = normalized_unless_zero([x, y, z]);
-        let decided =
-            is_one_subgroup(found) & is_surely_usable(tangent, &self.record) && is_one_fan(found, self.print);
-        let sign = if found & marks::PRESERVES != 0 { 1.0 } else { -1.0 };
-        self.sum = [tangent[0], tangent[1], tangent[2], if decided { sign } else { UNDECIDED }];
-        found != 0
+        let decided = is_one_subgroup(found) & is_surely_usable(tangent, &self.record)
+            && is_one_fan(found, turns, self.print);
+        let orientation = if found & marks::PRESERVES != 0 { 1.0 } else { -1.0 };
+        let sign = if decided { orientation } else { UNDECIDED };
+        let sign = if found & marks::IN_TAIL != 0 { sign * IN_TAIL } else { sign };
+        let is_used = found & (marks::PRESERVES | marks::MIRRORS) != 0;
+        self.sum = [tangent[0], tangent[1], tangent[2], if is_used { sign } else { f32::NAN }];
+        is_used
+    }
+
+    pub fn position(&self) -> [f32; 3] {
+        let [x, y, z, ..] = self.record;
+        [x, y, z]
+    }
+
+    /// True once finished, where triangles use the vertex.
+    pub fn is_used(&self) -> bool {
+        !self.sum[3].is_nan()
     }
 }
 
@@ -58,23 +73,20 @@ pub(super) fn gather(block: &mut Block, count: usize, vertices: &[Vertex]) {
 
 /// Adds a block's first `count` triangles to their vertices, in order.
 #[inline(always)]
-pub(super) fn scatter(block: &Block, count: usize, vertices: &mut [Vertex]) {
+pub(super) fn scatter(block: &Block, count: usize, vertices: &mut [Vertex], marks: &mut [u32]) {
     for i in 0..count.min(BLOCK) {
         for k in 0..3 {
-            let vertex = &mut vertices[block.vertex[k][i] as usize];
-            vertex.sum = joined(vertex.sum, block.sum[k][i]);
-            let (old, new) = (vertex.print, block.print[k][i]);
-            vertex.print = std::array::from_fn(|lane| old[lane].wrapping_add(new[lane]));
+            let at = block.vertex[k][i] as usize;
+            let vertex = &mut vertices[at];
+            for lane in 0..4 {
+                vertex.sum[lane] += block.sum[k][i][lane];
+            }
+            for lane in 0..4 {
+                vertex.print[lane] = vertex.print[lane].wrapping_add(block.print[k][i][lane]);
+            }
+            marks[at] |= block.marks[k][i];
         }
     }
-}
-
-/// Sums in the first three lanes, marks in the last.
-#[inline(always)]
-fn joined(old: [f32; 4], new: [f32; 4]) -> [f32; 4] {
-    let [x, y, z] = [0, 1, 2].map(|axis| old[axis] + new[axis]);
-    let (old, new) = (old[3].to_bits(), new[3].to_bits());
-    [x, y, z, f32::from_bits(old | new | (old & new & marks::RAYS) << marks::TWICE)]
 }
 
 /// True when the triangles have one orientation, and no two of them opposite tangents or bitangents.
@@ -107,9 +119,9 @@ fn is_surely_usable([x, y, z]: [f32; 3], record: &Record) -> bool {
 /// when all triangles lie in closed loops, and a difference of two vertices when there is one open row besides. Every closed
 /// loop of triangles of one orientation turns once or more about the vertex in UV space and meets every ray on its way.
 #[inline(always)]
-fn is_one_fan(found: u32, print: [u32; 4]) -> bool {
+fn is_one_fan(found: u32, turns: f32, print: [u32; 4]) -> bool {
     if print == [0; 4] {
-        found >> marks::TWICE & marks::RAYS != marks::RAYS
+        turns == 1.0
     } else {
         found & marks::RAYS != marks::RAYS && is_difference_of_two(print)
     }

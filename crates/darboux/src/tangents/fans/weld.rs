@@ -4,11 +4,14 @@
 //! values are not finite (or so large that it does not weld them), and where equal vertices differ in the sign of a zero; such
 //! meshes are refused here. (It shows in one other place, the last run of edges: see `last_run`.)
 
+use crate::weld::Bounds;
 use crate::{Indices, Mesh};
 
 use super::block::Record;
-use super::source::{Identity, for_each_record, record};
+use super::source::{Identity, RowBuffer, Rows, record};
 use super::vertices::Vertex;
+use super::width::{Task, Width};
+use super::{WINDOW, windows_of};
 
 /// The welded vertices of a mesh; the memory is kept from mesh to mesh.
 #[derive(Debug, Default)]
@@ -16,15 +19,15 @@ pub(super) struct Weld {
     /// By vertex, or by corner of an unindexed mesh; empty when every vertex is its own.
     of: Vec<u32>,
     per_corner: bool,
-    hashes: Vec<u32>,
-    seen: Vec<u64>,
-    again: Vec<u64>,
-    /// How many bits of a hash number a bit of `seen` and `again`.
-    map_bits: u32,
-    table: Vec<u32>,
-    recent: Vec<u32>,
     /// The number of welded vertices, those that are copies of another or unused included.
     pub count: usize,
+    /// Of all positions, unused ones included.
+    pub bounds: Bounds,
+    hashes: Vec<u32>,
+    seen: BitMap,
+    again: BitMap,
+    table: Vec<u32>,
+    recent: Vec<u32>,
 }
 
 /// The mesh has values that only the reference's own order of vertices decides.
@@ -41,15 +44,21 @@ const RECENT: usize = if cfg!(small_limits) { 2 } else { 1 << 14 };
 
 impl Weld {
     /// Welds the vertices of an indexed mesh, or the corners of an unindexed one; of the latter, the vertices are written.
-    pub fn weld(&mut self, mesh: &Mesh<'_>, vertices: &mut Vec<Vertex>) -> Result<(), Refused> {
+    pub fn weld(
+        &mut self,
+        mesh: &Mesh<'_>,
+        width: Width,
+        rows: &mut RowBuffer,
+        vertices: &mut Vec<Vertex>,
+    ) -> Result<(), Refused> {
         self.of.clear();
         self.per_corner = matches!(mesh.indices(), Indices::Unindexed);
         if self.per_corner {
-            return self.weld_corners(mesh, vertices);
+            return self.weld_corners(mesh, width, rows, vertices);
         }
         self.count = mesh.vertex_count();
         vertices.resize(self.count, Vertex::default());
-        let collisions = self.find_collisions(mesh)?;
+        let collisions = self.find_collisions(mesh, width, rows)?;
         if collisions > 0 { self.weld_collisions(mesh, collisions) } else { Ok(()) }
     }
 
@@ -69,29 +78,27 @@ impl Weld {
     /// Hashes all vertices, marks hash values met more than once, and returns how many there are at most.
     ///
     /// Few meshes have equal vertices: two bits per hash value, which stay in the cache, leave few vertices to compare.
-    fn find_collisions(&mut self, mesh: &Mesh<'_>) -> Result<usize, Refused> {
-        let bits = if cfg!(small_limits) { 2 } else { (8 * self.count).max(64).ilog2().min(31) + 1 };
-        self.map_bits = bits;
-        for map in [&mut self.seen, &mut self.again] {
-            map.clear();
-            map.resize((1usize << bits).div_ceil(64), 0);
-        }
-        self.hashes.clear();
-        self.hashes.reserve(self.count);
-        let (mut largest, mut collisions) = ([0; 8], 0);
-        let Self { seen, again, hashes, .. } = self;
-        for_each_record(mesh, 0..self.count, |_, record| {
-            largest = larger(largest, &record);
-            let hash = hash(&record);
-            hashes.push(hash);
-            let (word, bit) = place(hash, bits);
-            if seen[word] & bit != 0 {
-                again[word] |= bit;
-                collisions += 1;
+    fn find_collisions(
+        &mut self,
+        mesh: &Mesh<'_>,
+        width: Width,
+        rows: &mut RowBuffer,
+    ) -> Result<usize, Refused> {
+        self.seen.clear(self.count);
+        self.again.clear(self.count);
+        self.hashes.resize(self.count, 0);
+        let (mut span, mut collisions) = (Span::default(), 0);
+        for range in windows_of(self.count) {
+            let hashes = &mut self.hashes[range.clone()];
+            width.run(Hash { rows: Rows::new(mesh, range, rows), hashes, span: &mut span });
+            for &hash in &*hashes {
+                if self.seen.test_and_set(hash) {
+                    self.again.test_and_set(hash);
+                    collisions += 1;
+                }
             }
-            seen[word] |= bit;
-        });
-        check_size(largest)?;
+        }
+        self.bounds = span.check()?;
         Ok(collisions)
     }
 
@@ -100,17 +107,11 @@ impl Weld {
         let slots = (4 * collisions).next_power_of_two();
         self.table.clear();
         self.table.resize(slots, FREE);
-        for vertex in 0..self.count {
-            let hash = self.hashes[vertex];
-            let (word, bit) = place(hash, self.map_bits);
-            if self.again[word] & bit == 0 {
-                continue;
-            }
-            let own = record(mesh, vertex);
+        for (vertex, &hash) in self.hashes.iter().enumerate().filter(|(_, hash)| self.again.has(**hash)) {
             let mut slot = hash as usize & (slots - 1);
             while self.table[slot] != FREE {
                 let first = self.table[slot];
-                if self.hashes[first as usize] == hash && are_one(&record(mesh, first as usize), &own)? {
+                if self.hashes[first as usize] == hash && are_one(mesh, first as usize, vertex)? {
                     if self.of.is_empty() {
                         self.of.extend(0..self.count as u32);
                     }
@@ -127,36 +128,84 @@ impl Weld {
     }
 
     /// Numbers the distinct corners of an unindexed mesh in the order in which they are first met, and writes them.
-    fn weld_corners(&mut self, mesh: &Mesh<'_>, vertices: &mut Vec<Vertex>) -> Result<(), Refused> {
+    fn weld_corners(
+        &mut self,
+        mesh: &Mesh<'_>,
+        width: Width,
+        rows: &mut RowBuffer,
+        vertices: &mut Vec<Vertex>,
+    ) -> Result<(), Refused> {
         let corners = mesh.corner_count();
-        self.table.clear();
-        self.table
-            .resize(if cfg!(small_limits) { 2 } else { (corners / 3).next_power_of_two().max(2) }, FREE);
-        self.recent.clear();
-        self.recent.resize(RECENT, 0);
+        let slots = if cfg!(small_limits) { 2 } else { (corners / 3).next_power_of_two().max(2) };
+        for (table, size, empty) in [(&mut self.table, slots, FREE), (&mut self.recent, RECENT, 0)] {
+            table.clear();
+            table.resize(size, empty);
+        }
         vertices.clear();
-        self.of.reserve(corners);
-        let Self { of, table, recent, .. } = self;
-        let (mut largest, mut refused) = ([0; 8], false);
-        for_each_record(mesh, 0..corners, |_, record| {
-            largest = larger(largest, &record);
-            let hash = hash(&record);
-            let cached = &mut recent[hash as usize % RECENT];
-            let known = vertices.get(*cached as usize).is_some_and(|vertex: &Vertex| vertex.is_at(&record));
-            if !known {
-                *cached = find_or_insert(table, vertices, hash, &record);
-            }
-            refused |= !same_bits(&vertices[*cached as usize].record, &record);
-            of.push(*cached);
-        });
+        self.of.resize(corners, 0);
+        self.hashes.resize(WINDOW, 0);
+        let (mut span, mut refused) = (Span::default(), false);
+        for range in windows_of(corners) {
+            let rows = Rows::new(mesh, range.clone(), rows);
+            let hashes = &mut self.hashes[..range.len()];
+            width.run(Hash { rows, hashes, span: &mut span });
+            let (table, recent) = (&mut self.table, &mut self.recent);
+            let of = &mut self.of[range];
+            width.run(Number { rows, hashes, table, recent, vertices, of, refused: &mut refused });
+        }
         self.count = vertices.len();
-        if refused { Err(Refused) } else { check_size(largest) }
+        self.bounds = span.check()?;
+        if refused { Err(Refused) } else { Ok(()) }
+    }
+}
+
+/// Hashes vertices, and notes what values they have.
+struct Hash<'a> {
+    rows: Rows<'a>,
+    hashes: &'a mut [u32],
+    span: &'a mut Span,
+}
+
+impl Task for Hash<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let mut span = *self.span;
+        for (record, out) in self.rows.records().zip(self.hashes) {
+            span.take(&record);
+            *out = hash(&record);
+        }
+        *self.span = span;
+    }
+}
+
+/// Finds the vertex of each corner, among the recent ones or in the table, or makes a new one.
+struct Number<'a> {
+    rows: Rows<'a>,
+    hashes: &'a [u32],
+    table: &'a mut Vec<u32>,
+    recent: &'a mut [u32],
+    vertices: &'a mut Vec<Vertex>,
+    of: &'a mut [u32],
+    refused: &'a mut bool,
+}
+
+impl Task for Number<'_> {
+    #[inline(always)]
+    fn run(self) {
+        for ((record, &hash), of) in self.rows.records().zip(self.hashes).zip(self.of) {
+            let recent = &mut self.recent[hash as usize % RECENT];
+            if !self.vertices.get(*recent as usize).is_some_and(|vertex| vertex.is_at(&record)) {
+                *recent = find_or_insert(self.table, self.vertices, hash, &record);
+            }
+            *self.refused |= !same_bits(&self.vertices[*recent as usize].record, &record);
+            *of = *recent;
+        }
     }
 }
 
 /// The number of the vertex with this record; a new one when there is none.
 fn find_or_insert(table: &mut Vec<u32>, vertices: &mut Vec<Vertex>, hash: u32, record: &Record) -> u32 {
-    let mut slot = hash as usize & (table.len() - 1);
+    let mut slot = slot(hash, table.len());
     while table[slot] != FREE {
         if vertices[table[slot] as usize].is_at(record) {
             return table[slot];
@@ -177,7 +226,7 @@ fn grow(table: &mut Vec<u32>, vertices: &[Vertex]) {
     table.clear();
     table.resize(slots, FREE);
     for (vertex, at) in (0..).zip(vertices) {
-        let mut slot = hash(&at.record) as usize & (slots - 1);
+        let mut slot = slot(hash(&at.record), slots);
         while table[slot] != FREE {
             slot = (slot + 1) & (slots - 1);
         }
@@ -185,44 +234,111 @@ fn grow(table: &mut Vec<u32>, vertices: &[Vertex]) {
     }
 }
 
-/// The largest bits of each component so far, without its sign.
-#[inline(always)]
-fn larger(largest: [u32; 8], record: &Record) -> [u32; 8] {
-    std::array::from_fn(|i| largest[i].max(record[i].to_bits() & !(1 << 31)))
+/// The first slot of a hash in a table of `slots`, a power of two: other bits than those that choose a recent vertex.
+fn slot(hash: u32, slots: usize) -> usize {
+    (u64::from(hash) * slots as u64 >> 32) as usize
 }
 
-fn check_size(largest: [u32; 8]) -> Result<(), Refused> {
-    if largest.iter().all(|&bits| bits <= LARGEST.to_bits()) { Ok(()) } else { Err(Refused) }
+/// One bit for each of many hash values.
+#[derive(Debug, Default)]
+struct BitMap {
+    words: Vec<u64>,
+    /// How many of a hash's highest bits choose the bit.
+    bits: u32,
 }
 
-/// The word of a bit map and the bit in it for a hash value.
-#[inline(always)]
-fn place(hash: u32, bits: u32) -> (usize, u64) {
-    let at = (u64::from(hash) << bits >> 32) as usize;
-    (at / 64, 1 << (at % 64))
+impl BitMap {
+    /// No bit set, in a size for `count` hashes.
+    fn clear(&mut self, count: usize) {
+        self.bits = if cfg!(small_limits) { 2 } else { (8 * count).max(64).ilog2().min(31) + 1 };
+        self.words.clear();
+        self.words.resize((1usize << self.bits).div_ceil(64), 0);
+    }
+
+    fn place(&self, hash: u32) -> (usize, u64) {
+        let at = (u64::from(hash) << self.bits >> 32) as usize;
+        (at / 64, 1 << (at % 64))
+    }
+
+    fn has(&self, hash: u32) -> bool {
+        let (word, bit) = self.place(hash);
+        self.words[word] & bit != 0
+    }
+
+    /// Sets a hash's bit; returns whether it was set before.
+    #[inline]
+    fn test_and_set(&mut self, hash: u32) -> bool {
+        let (word, bit) = self.place(hash);
+        let word = &mut self.words[word];
+        let was_set = *word & bit != 0;
+        *word |= bit;
+        was_set
+    }
 }
 
-/// A hash that is equal for records that are equal as floats.
+/// What values a mesh has.
+#[derive(Clone, Copy, Debug)]
+struct Span {
+    low: Record,
+    high: Record,
+    /// Bits without the sign.
+    largest: [u32; 8],
+}
+
+impl Default for Span {
+    fn default() -> Self {
+        Self { low: [f32::INFINITY; 8], high: [f32::NEG_INFINITY; 8], largest: [0; 8] }
+    }
+}
+
+impl Span {
+    #[inline(always)]
+    fn take(&mut self, record: &Record) {
+        for (i, &x) in record.iter().enumerate() {
+            self.low[i] = if x < self.low[i] { x } else { self.low[i] };
+            self.high[i] = if x > self.high[i] { x } else { self.high[i] };
+            self.largest[i] = self.largest[i].max(x.to_bits() & !(1 << 31));
+        }
+    }
+
+    /// The bounds of positions. Refuses values that are too large or not finite.
+    fn check(&self) -> Result<Bounds, Refused> {
+        let position = |[x, y, z, ..]: Record| [x, y, z];
+        let is_small = self.largest.iter().all(|&bits| bits <= LARGEST.to_bits());
+        if is_small { Ok(Bounds { min: position(self.low), max: position(self.high) }) } else { Err(Refused) }
+    }
+}
+
+/// A hash that is equal for records that are equal as floats: a sum of products, one lane per component.
 #[inline(always)]
 fn hash(record: &Record) -> u32 {
-    // Adding zero turns -0 into +0.
-    let [a, b, c, d, e, f, g, h] = record.map(|x| u64::from((x + 0.0).to_bits()));
-    let mix = |x: u64, y: u64| {
-        let product = u128::from(x) * u128::from(y);
-        product as u64 ^ (product >> 64) as u64
-    };
-    let position = mix((a | b << 32) ^ 0x9e37_79b9_7f4a_7c15, (c | d << 32) ^ 0xd1b5_4a32_d192_ed03);
-    let rest = mix((e | f << 32) ^ 0xa076_1d64_78bd_642f, (g | h << 32) ^ 0xe703_7ed1_a0b4_28db);
-    let both = mix(position ^ rest.rotate_left(32), 0x8ebc_6af0_9c88_c6e3);
-    (both >> 32) as u32 ^ both as u32
+    const FACTORS: [u32; 8] = [
+        0x9e37_79b1,
+        0x85eb_ca77,
+        0xc2b2_ae3d,
+        0x27d4_eb2f,
+        0x1656_67b1,
+        0xd35a_2d97,
+        0xb55a_4f09,
+        0xa3b1_95c5,
+    ];
+    let mut sum = 0u32;
+    for i in 0..8 {
+        // Adding zero turns -0 into +0. Short fractions have their bits at the top: the shift brings them down.
+        let bits = (record[i] + 0.0).to_bits();
+        sum = sum.wrapping_add((bits ^ bits >> 15).wrapping_mul(FACTORS[i]));
+    }
+    let mixed = (sum ^ sum >> 15).wrapping_mul(0x2c1b_3c6d);
+    mixed ^ mixed >> 14
 }
 
-/// True for records that are equal as floats. Refuses those whose zeros differ in sign.
-fn are_one(a: &Record, b: &Record) -> Result<bool, Refused> {
+/// True for vertices that are equal as floats. Refuses those whose zeros differ in sign.
+fn are_one(mesh: &Mesh<'_>, a: usize, b: usize) -> Result<bool, Refused> {
+    let (a, b) = (record(mesh, a), record(mesh, b));
     if a != b {
         return Ok(false);
     }
-    if same_bits(a, b) { Ok(true) } else { Err(Refused) }
+    if same_bits(&a, &b) { Ok(true) } else { Err(Refused) }
 }
 
 #[inline(always)]
