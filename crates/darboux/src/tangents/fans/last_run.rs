@@ -15,8 +15,8 @@ use super::windows_of;
 
 /// How many triangles from the end are looked at first, where triangles that share vertices are near each other in the list, and
 /// where they are not: there fewer of them have vertices that are named at the end.
-const FIRST_TAIL: usize = if cfg!(small_limits) { 1 } else { 8 };
-const FIRST_TAIL_SHUFFLED: usize = 4 * FIRST_TAIL;
+const FIRST_TAIL: usize = if cfg!(small_limits) { 1 } else { 4 };
+const FIRST_TAIL_SHUFFLED: usize = 8 * FIRST_TAIL;
 
 /// Where a tail as long as this has not decided, the order counts as showing.
 const LONGEST_TAIL: usize = 1 << 12;
