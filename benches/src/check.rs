@@ -25,7 +25,12 @@ fn difference(expected: &[Tangent], found: &[Tangent]) -> String {
     let percent = 100.0 * count as f64 / expected.len() as f64;
     let signs = pairs().filter(|(a, b)| a[3] != b[3]).count();
     let signs = if signs == 0 { String::new() } else { format!(", {signs} signs") };
-    format!("{percent:.2} % of corners differ, at most {angle:.2e} degrees{signs}")
+    format!("{percent:.2} % of corners differ, at most {} degrees{signs}", rounded(angle))
+}
+
+/// Two digits or so, whatever the size.
+fn rounded(angle: f64) -> String {
+    if angle == 0.0 || angle >= 0.1 { format!("{angle:.1}") } else { format!("{angle:.1e}") }
 }
 
 /// Another method need not agree, but most of its tangents must point the same way.
@@ -65,9 +70,9 @@ mod tests {
         let told = |found: &[Tangent]| verdict(Method::MikkTSpace, &[X, X], found);
         assert_eq!(told(&[X, X]).as_deref(), Ok("exact"));
         let turned = told(&[X, [0.0, 1.0, 0.0, -1.0]]);
-        assert_eq!(turned.as_deref(), Ok("50.00 % of corners differ, at most 9.00e1 degrees, 1 signs"));
+        assert_eq!(turned.as_deref(), Ok("50.00 % of corners differ, at most 90.0 degrees, 1 signs"));
         let none = told(&[X, [0.0, 0.0, 0.0, 1.0]]);
-        assert_eq!(none.as_deref(), Ok("50.00 % of corners differ, at most 1.80e2 degrees"));
+        assert_eq!(none.as_deref(), Ok("50.00 % of corners differ, at most 180.0 degrees"));
         assert!(told(&[X]).is_err());
     }
 

@@ -1,6 +1,5 @@
 //! Instructions per triangle, counted by callgrind: the figure that a noisy machine does not move.
 
-use std::path::Path;
 use std::process::Command;
 
 use crate::engines::Engine;
@@ -9,13 +8,21 @@ use crate::meshes::{self, Size};
 /// The meshes that are counted, of fifty thousand triangles each.
 pub const MESHES: [&str; 4] = ["grid", "charts", "soup", "sphere"];
 
-/// For each engine that runs in this process, the count on each of [`MESHES`]; none where a run fails.
-pub fn count(engines: &[Engine]) -> Result<Vec<(&'static str, Vec<Option<f64>>)>, String> {
+/// Instructions per triangle of one engine.
+pub struct Counts {
+    /// The engine.
+    pub engine: &'static str,
+    /// The count on each of [`MESHES`]; none where a run fails.
+    pub of_mesh: Vec<Option<f64>>,
+}
+
+/// Counts each engine that runs in this process. Errors: there is no valgrind.
+pub fn count(engines: &[Engine]) -> Result<Vec<Counts>, String> {
     let found = Command::new("valgrind").arg("--version").output();
     found.map_err(|error| format!("valgrind is needed to count instructions and cannot start: {error}"))?;
     let native = engines.iter().filter(|engine| engine.is_native());
-    let counts = |engine: &Engine| MESHES.iter().map(|mesh| per_triangle(engine.name, mesh)).collect();
-    Ok(native.map(|engine| (engine.name, counts(engine))).collect())
+    let of_mesh = |engine: &Engine| MESHES.iter().map(|mesh| per_triangle(engine.name, mesh)).collect();
+    Ok(native.map(|engine| Counts { engine: engine.name, of_mesh: of_mesh(engine) }).collect())
 }
 
 /// The difference of three calls and one, so that neither making the mesh nor the first call's set-up counts.
@@ -30,7 +37,7 @@ fn collected(engine: &str, mesh: &str, calls: usize) -> Option<f64> {
     let mut command = Command::new("valgrind");
     command.args(["--tool=callgrind", "--callgrind-out-file=/dev/null"]).arg(std::env::current_exe().ok()?);
     command.args(["--quick", "--engines", engine, "--meshes", mesh, "--only-calls", &calls.to_string()]);
-    let output = command.arg("--models").arg(Path::new("")).output().ok()?;
+    let output = command.output().ok().filter(|output| output.status.success())?;
     let text = String::from_utf8_lossy(&output.stderr).into_owned();
     let line = text.lines().find_map(|line| line.split_once("Collected : "))?;
     line.1.trim().parse().ok()

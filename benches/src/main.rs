@@ -134,9 +134,9 @@ fn time(arguments: &Arguments, engines: &[Engine], meshes: &[Named]) -> Result<(
 
 fn count_instructions(arguments: &Arguments, engines: &[Engine]) -> Result<(), String> {
     let rows = instructions::count(engines)?;
-    println!("{}", table::instructions(&instructions::MESHES, &rows));
+    println!("{}", table::instructions(&rows));
     if arguments.engines.is_empty() {
-        let path = record::instructions(&instructions::MESHES, &rows, arguments.machine.as_deref())?;
+        let path = record::instructions(&rows, arguments.machine.as_deref())?;
         println!("recorded in {}", path.display());
     }
     Ok(())

@@ -1,5 +1,6 @@
 //! The benchmark's meshes: made from fixed formulas and seeds, or read from models.
 
+use std::collections::HashSet;
 use std::f32::consts::{PI, TAU};
 use std::path::Path;
 
@@ -40,7 +41,10 @@ const MAKERS: &[(&str, Maker)] = &[
     ("one-position", |size| families::unwelded_fan(size.count(20_000))),
 ];
 
-/// Models of fewer triangles are left out, but for the helmet.
+/// The model that is measured whole, whatever its primitives' sizes.
+const HELMET: &str = "FlightHelmet";
+
+/// Primitives of other models need more triangles than this.
 const LARGE: usize = 50_000;
 
 impl Size {
@@ -68,33 +72,34 @@ pub fn make(name: &str, size: Size) -> Option<Named> {
 
 /// `helmet` (all of FlightHelmet as one mesh) and every primitive of more than 50,000 triangles below a folder.
 pub fn real(folder: &Path) -> Vec<Named> {
-    let mut found = Vec::new();
-    let mut helmet = OwnedMesh { indices: Some(Vec::new()), ..OwnedMesh::default() };
+    let mut found: Vec<Named> = Vec::new();
     for path in models::models(folder) {
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        for (number, mesh) in models::meshes(&path) {
-            if stem == "FlightHelmet" {
-                append(&mut helmet, &mesh);
-            }
-            if mesh.corner_count() / 3 > LARGE {
-                found.push(Named { name: format!("{stem}:{number}"), mesh });
-            }
+        let primitives = models::meshes(&path);
+        if stem == HELMET {
+            found.push(Named { name: "helmet".into(), mesh: joined(&primitives) });
         }
+        let large = primitives.into_iter().filter(|(_, mesh)| mesh.corner_count() / 3 > LARGE);
+        found.extend(large.map(|(number, mesh)| Named { name: format!("{stem}:{number}"), mesh }));
     }
-    if helmet.corner_count() > 0 {
-        found.insert(0, Named { name: "helmet".into(), mesh: helmet });
-    }
+    // A model may lie there in more than one container.
+    let mut names = HashSet::new();
+    found.retain(|mesh| names.insert(mesh.name.clone()));
     found
 }
 
-/// Adds `other`'s vertices and triangles to an indexed mesh.
-fn append(mesh: &mut OwnedMesh, other: &OwnedMesh) {
-    let first = mesh.positions.len();
-    mesh.positions.extend(&other.positions);
-    mesh.normals.extend(&other.normals);
-    mesh.uvs.extend(&other.uvs);
-    let corners = (0..other.corner_count()).map(|corner| (first + other.vertex_of_corner(corner)) as u32);
-    mesh.indices.get_or_insert_default().extend(corners);
+/// All primitives of a model as one indexed mesh.
+fn joined(primitives: &[(usize, OwnedMesh)]) -> OwnedMesh {
+    let mut whole = OwnedMesh::default();
+    let mut corners = Vec::new();
+    for (_, mesh) in primitives {
+        let first = whole.positions.len();
+        whole.positions.extend(&mesh.positions);
+        whole.normals.extend(&mesh.normals);
+        whole.uvs.extend(&mesh.uvs);
+        corners.extend((0..mesh.corner_count()).map(|corner| (first + mesh.vertex_of_corner(corner)) as u32));
+    }
+    OwnedMesh { indices: Some(corners), ..whole }
 }
 
 /// A smooth height field of `width` by `height` cells, two triangles each, all vertices shared.

@@ -6,6 +6,7 @@ use std::process::Command;
 use std::thread::available_parallelism;
 
 use crate::engines::{MESHOPT, REFERENCE};
+use crate::instructions::{Counts, MESHES};
 use crate::rounds::{Row, times_over};
 
 const HEADER: &str = "date,commit,mesh,triangles,engine,version,threads,rounds,cpu_ns_min,cpu_ns_median,wall_ns_min,\
@@ -19,15 +20,13 @@ pub fn timings(rows: &[Row], machine: Option<&str>) -> Result<PathBuf, String> {
 }
 
 /// Writes instruction counts; gives the file.
-pub fn instructions(
-    meshes: &[&str],
-    rows: &[(&str, Vec<Option<f64>>)],
-    machine: Option<&str>,
-) -> Result<PathBuf, String> {
+pub fn instructions(rows: &[Counts], machine: Option<&str>) -> Result<PathBuf, String> {
     let (date, commit) = (date(), commit());
-    let lines = rows.iter().flat_map(|(engine, counts)| {
-        let known = meshes.iter().zip(counts).filter_map(|(mesh, count)| Some((mesh, (*count)?)));
-        known.map(|(mesh, count)| format!("{date},{commit},{mesh},{engine},{count:.1}")).collect::<Vec<_>>()
+    let lines = rows.iter().flat_map(|row| {
+        let known = MESHES.iter().zip(&row.of_mesh).filter_map(|(mesh, count)| Some((mesh, (*count)?)));
+        known
+            .map(|(mesh, count)| format!("{date},{commit},{mesh},{},{count:.1}", row.engine))
+            .collect::<Vec<_>>()
     });
     let header = "date,commit,mesh,engine,instructions_per_triangle";
     write(machine, &format!("{date}-instructions.csv"), header, lines)

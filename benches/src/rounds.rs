@@ -45,7 +45,7 @@ impl Row {
 }
 
 /// Rounds of an engine that takes so many seconds to answer: the slow ones get fewer, the slowest keep their first answer's time.
-const FEWER: [(f64, usize); 2] = [(5.0, 1), (1.0, 3)];
+const FEWER: [(f64, usize); 2] = [(10.0, 1), (3.0, 3)];
 
 /// A round of a fast engine on a small mesh is as many calls as take this many nanoseconds.
 const SHORTEST_ROUND: f64 = 2e7;

@@ -3,6 +3,7 @@
 use comfy_table::{CellAlignment, Table, presets};
 
 use crate::engines::{MESHOPT, REFERENCE};
+use crate::instructions::{Counts, MESHES};
 use crate::rounds::{Row, times_over};
 
 const HEADER: [&str; 11] = [
@@ -47,12 +48,12 @@ pub fn table(rows: &[Row]) -> Table {
 }
 
 /// A line per engine, a column per mesh: instructions per triangle.
-pub fn instructions(meshes: &[&str], rows: &[(&str, Vec<Option<f64>>)]) -> Table {
-    let header: Vec<&str> = std::iter::once("instructions/triangle").chain(meshes.iter().copied()).collect();
+pub fn instructions(rows: &[Counts]) -> Table {
+    let header: Vec<&str> = std::iter::once("instructions/triangle").chain(MESHES).collect();
     let mut table = empty(&header);
-    for (engine, counts) in rows {
-        let cells = counts.iter().map(|count| count.map_or("n/a".into(), |count| format!("{count:.0}")));
-        table.add_row(std::iter::once(engine.to_string()).chain(cells));
+    for row in rows {
+        let cells = row.of_mesh.iter().map(|count| count.map_or("n/a".into(), |count| format!("{count:.0}")));
+        table.add_row(std::iter::once(row.engine.to_string()).chain(cells));
     }
     for column in 1..header.len() {
         align_right(&mut table, column);
