@@ -21,6 +21,10 @@ impl Weighting<3> for Area {
         [[s0, s1, s2, weight], [t0, t1, t2, m0], [normal[0], normal[1], normal[2], m1]]
     }
 
+    fn size(sum: &Sum<3>) -> f32 {
+        sum[0][3]
+    }
+
     fn magnitude([[_, _, _, weight], [_, _, _, m0], [_, _, _, m1]]: &Sum<3>) -> [f32; 2] {
         [m0 / weight, m1 / weight]
     }

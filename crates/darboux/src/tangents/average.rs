@@ -16,6 +16,10 @@ impl Weighting<3> for Average {
         [[s0, s1, s2, 1.0], [t0, t1, t2, m0], [0.0, 0.0, 0.0, m1]]
     }
 
+    fn size(sum: &Sum<3>) -> f32 {
+        sum[0][3]
+    }
+
     fn magnitude([[_, _, _, count], [_, _, _, m0], [_, _, _, m1]]: &Sum<3>) -> [f32; 2] {
         [m0 / count, m1 / count]
     }

@@ -16,7 +16,12 @@ impl Weighting<2> for Lengyel {
         let reciprocal = 1.0 / derivatives.area;
         let ([s0, s1, s2], [t0, t1, t2]) =
             (scale(reciprocal, derivatives.s), scale(reciprocal, derivatives.t));
-        [[s0, s1, s2, 1.0], [t0, t1, t2, 1f32.copysign(derivatives.area)]]
+        // In the last lane the cheapest norm, that of the sum of sizes.
+        [[s0, s1, s2, 1.0], [t0, t1, t2, s0.abs() + s1.abs() + s2.abs()]]
+    }
+
+    fn size(sum: &Sum<2>) -> f32 {
+        sum[1][3]
     }
 
     fn magnitude([[s0, s1, s2, count], [t0, t1, t2, _]]: &Sum<2>) -> [f32; 2] {
@@ -33,6 +38,10 @@ impl Weighting<2> for LengyelPerVertex {
     #[inline(always)]
     fn term(derivatives: &Derivatives) -> Sum<2> {
         Lengyel::term(derivatives)
+    }
+
+    fn size(sum: &Sum<2>) -> f32 {
+        Lengyel::size(sum)
     }
 
     fn magnitude(sum: &Sum<2>) -> [f32; 2] {

@@ -163,6 +163,11 @@ fn frame<const N: usize, W: Weighting<N>>(sum: &Sum<N>, normal: &V3, sign: f32) 
         normal = W::own_normal(sum);
     }
     let inverse = if is_about_unit { 1.0 / square } else { f32::NAN };
+    // What is left of tangents that cancel is rounding.
+    let least = 1e-5 * W::size(sum);
+    if dot(s, s) < least * least {
+        return None;
+    }
     let tangent = direction_across(s, normal, inverse)?;
     let sign = if W::SPLITS { sign } else { sign_of(normal, tangent, t) };
     let bitangent = direction_across(t, normal, inverse).unwrap_or_else(|| across(normal, tangent, sign));

@@ -17,6 +17,9 @@ pub(super) trait Weighting<const N: usize> {
     /// What a triangle adds. One without a weight above zero, or with a lane that is not finite, adds nothing.
     fn term(derivatives: &Derivatives) -> Sum<N>;
 
+    /// What the lengths of the added tangents come to, to a factor of two: a sum that is much shorter cancelled.
+    fn size(sum: &Sum<N>) -> f32;
+
     /// The lengths of dP/du and dP/dv that a sum stands for.
     fn magnitude(sum: &Sum<N>) -> [f32; 2];
 

@@ -156,11 +156,12 @@ fn sum(scene: &Scene, number: usize, splits: bool, weight: Weight) -> Option<Fra
         Weight::Length => [length(s) / count, length(t) / count],
         _ => magnitude.map(|sum| sum / weights),
     };
+    let cancels = length(s) < 1e-5 * weights;
     let normal = normalize(if length(corner.normal) > 0.0 { corner.normal } else { normal });
     let [s, flat_t] = [s, t].map(|v| normalize(flatten(v, normal)));
     let keeps_orientation = if splits { keeps_orientation } else { dot(cross(normal, s), t) >= 0.0 };
     let space = Space { s, t: flat_t, magnitude, keeps_orientation };
-    (length(s) > 0.0).then(|| space.to_frame())
+    (length(s) > 0.0 && !cancels).then(|| space.to_frame())
 }
 
 /// Half the cross product of a triangle's edges.
