@@ -116,17 +116,20 @@ pub fn generate_tangents_into(
     out: &mut Tangents,
 ) {
     let width = Width::widest(scratch.width_limit);
-    out.corners.0.resize(mesh.corner_count(), [0.0; 4]);
     let applies = options.method == Method::MikkTSpace && cosine_of_degrees(options.threshold) == -1.0;
+    if applies {
+        out.corners.0.resize(mesh.corner_count(), [0.0; 4]);
+    }
     if applies && scratch.fans.run(mesh, options.mode, width, &mut out.corners.0) {
         local::decide(mesh, options, &mut scratch.fans, out);
     } else {
-        (out.corners.0, out.report) = method::run(mesh, options);
+        out.report = method::run(mesh, options, &mut out.corners.0);
     }
 }
 
 /// Computes the whole frame of every corner: tangent, bitangent, magnitudes, sign.
 pub fn generate_frames(mesh: &Mesh<'_>, options: &TangentOptions) -> Frames {
-    let (corners, report) = method::run(mesh, options);
+    let mut corners = Vec::new();
+    let report = method::run(mesh, options, &mut corners);
     Frames { corners: CornerFrames(corners), report }
 }

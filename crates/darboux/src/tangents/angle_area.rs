@@ -26,7 +26,7 @@ use super::sides::{Output, across};
 const NONE: u32 = u32::MAX;
 
 /// The frame of every corner's group.
-pub(super) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode) -> (Vec<O>, Report) {
+pub(super) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut Vec<O>) -> Report {
     let (flat, shape) = (Flat::new(mesh), Shape::welded(mesh));
     let triangulation = triangulate(mesh);
     let good = &triangulation.good;
@@ -44,9 +44,9 @@ pub(super) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode) -> (Vec<O>, Report) {
     let evaluation = Evaluation { triangles: good, derivatives: &derivatives, shape: &shape };
     let mut frames = evaluation.frames(&groups);
     evaluation.fit(&places, &mut frames);
-    let corners = to_corners(&flat, &places, &groups, &frames, &preserves, mode, &mut report);
-    report.split_vertices = count_split_vertices(&flat, &corners);
-    (corners, report)
+    report.repaired_corners = to_corners(&flat, &places, (&groups, &frames), &preserves, mode, corners);
+    report.split_vertices = count_split_vertices(&flat, corners);
+    report
 }
 
 /// Triangles with values that are not finite join any group and add nothing.
@@ -242,17 +242,17 @@ impl Places {
 }
 
 /// Gives every corner its group's frame of its face's orientation. A face without one takes the orientation that more of its corners have
-/// groups of, +1 on a tie; a corner without a group, a frame from its normal, one per vertex and sign.
+/// groups of, +1 on a tie; a corner without a group, a frame from its normal, one per vertex and sign. Returns how many corners have a repair.
 fn to_corners<O: Output>(
     flat: &Flat<'_>,
     places: &Places,
-    groups: &Groups,
-    frames: &[GroupFrame],
+    (groups, frames): (&Groups, &[GroupFrame]),
     preserves: &[Option<bool>],
     mode: Mode,
-    report: &mut Report,
-) -> Vec<O> {
-    let mut corners = Vec::with_capacity(flat.vertex_of_corner.len());
+    corners: &mut Vec<O>,
+) -> usize {
+    let mut repaired_corners = 0;
+    corners.reserve(flat.vertex_of_corner.len());
     for (face, &preserves) in preserves.iter().enumerate() {
         let range = flat.corners(face);
         let count =
@@ -265,7 +265,7 @@ fn to_corners<O: Output>(
                 |group| group.frame,
             );
             let repaired = group.is_none_or(|group| group.repaired);
-            report.repaired_corners += usize::from(repaired);
+            repaired_corners += usize::from(repaired);
             let left_out = repaired && mode == Mode::Reference;
             corners.push(O::from_frame(&if left_out {
                 Frame { sign: frame.sign, ..Frame::NONE }
@@ -274,7 +274,7 @@ fn to_corners<O: Output>(
             }));
         }
     }
-    corners
+    repaired_corners
 }
 
 fn from_normal(normal: V3, preserves: bool) -> Frame {

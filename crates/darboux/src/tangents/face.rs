@@ -25,11 +25,11 @@ struct Face {
 }
 
 /// The frame of every face, at each of its corners.
-pub(super) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode) -> (Vec<O>, Report) {
+pub(super) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut Vec<O>) -> Report {
     let flat = Flat::new(mesh);
     let mut report = survey(mesh, &flat);
     let faces = add_up(&flat, &mut report);
-    let mut corners = Vec::with_capacity(flat.vertex_of_corner.len());
+    corners.reserve(flat.vertex_of_corner.len());
     let mut orientations = Vec::with_capacity(faces.len());
     for (number, face) in faces.iter().enumerate() {
         let frame = face.frame();
@@ -45,8 +45,8 @@ pub(super) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode) -> (Vec<O>, Report) {
     if let Some(of_both) = vertices_of_both(&flat, &orientations) {
         report.mirrored_edges = count_mirrored_edges(&flat, &orientations, &of_both);
     }
-    report.split_vertices = count_split_vertices(&flat, &corners);
-    (corners, report)
+    report.split_vertices = count_split_vertices(&flat, corners);
+    report
 }
 
 fn add_up(flat: &Flat<'_>, report: &mut Report) -> Vec<Face> {

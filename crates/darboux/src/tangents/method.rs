@@ -39,30 +39,36 @@ pub enum Method {
     FromNormal,
 }
 
-/// Runs the method of `options`: one output per corner.
-pub(super) fn run<O: Output>(mesh: &Mesh<'_>, options: &TangentOptions) -> (Vec<O>, Report) {
+/// Runs the method of `options`: one output per corner, in the memory of `corners`.
+pub(super) fn run<O: Output>(mesh: &Mesh<'_>, options: &TangentOptions, corners: &mut Vec<O>) -> Report {
     let mode = options.mode;
+    corners.clear();
     match options.method {
         Method::MikkTSpace => {
             let (frames, report) = mikktspace::Topology::new(mesh, options).frames(mesh);
-            (frames.iter().map(O::from_frame).collect(), report)
+            corners.extend(frames.iter().map(O::from_frame));
+            report
         }
-        Method::AngleArea => angle_area::run(mesh, mode),
-        Method::Lengyel => summed::<2, Lengyel, O>(mesh, mode),
-        Method::LengyelPerVertex => summed::<2, LengyelPerVertex, O>(mesh, mode),
+        Method::AngleArea => angle_area::run(mesh, mode, corners),
+        Method::Lengyel => summed::<2, Lengyel, O>(mesh, mode, corners),
+        Method::LengyelPerVertex => summed::<2, LengyelPerVertex, O>(mesh, mode, corners),
         Method::Average => {
             let flat = Flat::new(mesh);
             let sums = gather(&flat);
-            finish::<3, Average, O>(mesh, &flat, sums, mode)
+            finish::<3, Average, O>(mesh, &flat, sums, mode, corners)
         }
-        Method::Area => summed::<3, Area, O>(mesh, mode),
-        Method::Face => face::run(mesh, mode),
-        Method::FromNormal => from_normal::run(mesh, mode),
+        Method::Area => summed::<3, Area, O>(mesh, mode, corners),
+        Method::Face => face::run(mesh, mode, corners),
+        Method::FromNormal => from_normal::run(mesh, mode, corners),
     }
 }
 
-fn summed<const N: usize, W: Weighting<N>, O: Output>(mesh: &Mesh<'_>, mode: Mode) -> (Vec<O>, Report) {
+fn summed<const N: usize, W: Weighting<N>, O: Output>(
+    mesh: &Mesh<'_>,
+    mode: Mode,
+    corners: &mut Vec<O>,
+) -> Report {
     let flat = Flat::new(mesh);
     let sums = accumulate::<N, W>(&flat);
-    finish::<N, W, O>(mesh, &flat, sums, mode)
+    finish::<N, W, O>(mesh, &flat, sums, mode, corners)
 }

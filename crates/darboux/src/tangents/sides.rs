@@ -59,7 +59,8 @@ pub(super) fn finish<const N: usize, W: Weighting<N>, O: Output>(
     flat: &Flat<'_>,
     mut sums: Sums<N>,
     mode: Mode,
-) -> (Vec<O>, Report) {
+    corners: &mut Vec<O>,
+) -> Report {
     let mut report = survey(mesh, flat);
     report.degenerate_triangles = sums.degenerate_triangles;
     report.uv_degenerate_triangles = sums.uv_degenerate_triangles;
@@ -75,14 +76,14 @@ pub(super) fn finish<const N: usize, W: Weighting<N>, O: Output>(
         replace::<N, W, O>(flat, &sums, &missing, &mut frames);
     }
     report.repaired_corners = count_corners::<N, W>(flat, &sums.orientation_of_face, &missing);
-    let corners = to_corners::<N, W, O>(flat, &sums.orientation_of_face, &frames);
+    to_corners::<N, W, O>(flat, &sums.orientation_of_face, &frames, corners);
     if W::SPLITS {
         report.split_vertices =
             vertices_of_both(flat, &sums.orientation_of_face).map_or(0, |both| count(&both));
     } else {
-        report.mixed_sign_faces = count_mixed_faces(flat, &corners);
+        report.mixed_sign_faces = count_mixed_faces(flat, corners);
     }
-    (corners, report)
+    report
 }
 
 fn count(of_vertex: &[bool]) -> usize {
@@ -306,14 +307,15 @@ fn to_corners<const N: usize, W: Weighting<N>, O: Output>(
     flat: &Flat<'_>,
     orientation_of_face: &[Orientation],
     frames: &[Vec<O>; 2],
-) -> Vec<O> {
+    corners: &mut Vec<O>,
+) {
     if frames[1].is_empty() {
-        return flat.vertex_of_corner.iter().map(|&v| frames[0][v as usize]).collect();
+        corners.extend(flat.vertex_of_corner.iter().map(|&v| frames[0][v as usize]));
+        return;
     }
-    let mut corners = Vec::with_capacity(flat.vertex_of_corner.len());
+    corners.reserve(flat.vertex_of_corner.len());
     for (face, &orientation) in orientation_of_face.iter().enumerate() {
         let side = &frames[side_of::<N, W>(orientation)];
         corners.extend(flat.vertex_of_corner[flat.corners(face)].iter().map(|&v| side[v as usize]));
     }
-    corners
 }
