@@ -5,7 +5,9 @@ use std::path::Path;
 use std::time::Instant;
 
 use cpu_time::ProcessTime;
-use darboux::{Mode, TangentOptions, generate_tangents};
+use darboux::{
+    Mode, Scratch, TangentOptions, Tangents, WidthLimit, generate_tangents, generate_tangents_into,
+};
 use darboux_tests::OwnedMesh;
 
 use crate::callbacks::Callbacks;
@@ -106,11 +108,28 @@ pub fn all() -> Vec<Engine> {
 /// Darboux in the forms worth telling apart. The output of each is the reference's, bit for bit.
 fn ours() -> Vec<Engine> {
     let version = env!("CARGO_PKG_VERSION");
-    vec![native("darboux", version, Method::MikkTSpace, |mesh| {
-        let view = mesh.view();
-        let options = TangentOptions { mode: Mode::Reference, ..TangentOptions::default() };
-        per_corner(mesh, move |out| *out = generate_tangents(&view, &options).corners.into_per_corner())
-    })]
+    vec![
+        native("darboux", version, Method::MikkTSpace, |mesh| {
+            let view = mesh.view();
+            per_corner(mesh, move |out| *out = generate_tangents(&view, &EXACT).corners.into_per_corner())
+        }),
+        native("darboux-kept", version, Method::MikkTSpace, |mesh| kept(mesh, Scratch::new())),
+        native("darboux-kept-128", version, Method::MikkTSpace, |mesh| {
+            kept(mesh, Scratch::with_width_limit(WidthLimit::Compiled))
+        }),
+    ]
+}
+
+/// The reference's own answer, repairs left out.
+const EXACT: TangentOptions =
+    TangentOptions { method: darboux::Method::MikkTSpace, mode: Mode::Reference, threshold: 180.0 };
+
+/// Darboux with memory kept between calls.
+fn kept(mesh: &OwnedMesh, mut scratch: Scratch) -> Box<dyn Run + '_> {
+    let view = mesh.view();
+    let call = move |out: &mut Tangents| generate_tangents_into(&view, &EXACT, &mut scratch, out);
+    let output = Tangents::default();
+    Box::new(Native { mesh, per_vertex: false, output, read: |out| out.corners.per_corner(), call })
 }
 
 impl Engine {
@@ -143,23 +162,24 @@ fn in_node(name: &'static str, version: &'static str, method: Method) -> Engine 
     Engine { name, version, threads: 1, method, start: Start::Node }
 }
 
-/// A call that fills a list, and the list, which is kept between calls.
-struct Native<'a, F> {
+/// A call that fills an output, which is kept between calls.
+struct Native<'a, O, F> {
     mesh: &'a OwnedMesh,
     per_vertex: bool,
-    output: Vec<Tangent>,
+    output: O,
+    read: fn(&O) -> &[Tangent],
     call: F,
 }
 
 fn per_corner<'a, F: FnMut(&mut Vec<Tangent>) + 'a>(mesh: &'a OwnedMesh, call: F) -> Box<dyn Run + 'a> {
-    Box::new(Native { mesh, per_vertex: false, output: Vec::new(), call })
+    Box::new(Native { mesh, per_vertex: false, output: Vec::new(), read: Vec::as_slice, call })
 }
 
 fn per_vertex<'a, F: FnMut(&mut Vec<Tangent>) + 'a>(mesh: &'a OwnedMesh, call: F) -> Box<dyn Run + 'a> {
-    Box::new(Native { mesh, per_vertex: true, output: Vec::new(), call })
+    Box::new(Native { mesh, per_vertex: true, output: Vec::new(), read: Vec::as_slice, call })
 }
 
-impl<F: FnMut(&mut Vec<Tangent>)> Run for Native<'_, F> {
+impl<O, F: FnMut(&mut O)> Run for Native<'_, O, F> {
     fn run(&mut self, count: usize) -> Result<Time, String> {
         let (wall, cpu) = (Instant::now(), ProcessTime::now());
         for _ in 0..count {
@@ -170,15 +190,16 @@ impl<F: FnMut(&mut Vec<Tangent>)> Run for Native<'_, F> {
     }
 
     fn tangents(&mut self) -> Result<Vec<Tangent>, String> {
+        let output = (self.read)(&self.output);
         if !self.per_vertex {
-            return Ok(self.output.clone());
+            return Ok(output.to_vec());
         }
         let corners = 0..self.mesh.corner_count();
-        Ok(corners.map(|corner| self.output[self.mesh.vertex_of_corner(corner)]).collect())
+        Ok(corners.map(|corner| output[self.mesh.vertex_of_corner(corner)]).collect())
     }
 
     fn output_len(&self) -> usize {
-        self.output.len()
+        (self.read)(&self.output).len()
     }
 }
 
