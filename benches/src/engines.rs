@@ -230,8 +230,8 @@ mod tests {
         let cargo = include_str!("../../Cargo.lock");
         let node = include_str!("../node/package.json");
         for engine in super::all() {
-            let package =
-                engine.name.strip_prefix("npm ").unwrap_or(engine.name).trim_end_matches("-compatible");
+            let name = engine.name.strip_prefix("npm ").unwrap_or(engine.name);
+            let (package, _form) = name.split_once('-').unwrap_or((name, ""));
             let (package, version) = engine.version.split_once(' ').unwrap_or((package, engine.version));
             let locked = cargo.contains(&format!("name = \"{package}\"\nversion = \"{version}\""));
             let pinned = node.contains(&format!("\"{package}\": \"{version}\""));
