@@ -64,7 +64,12 @@ impl TailCells {
     #[inline(always)]
     pub fn hold(&self, record: &Record) -> bool {
         let along = record[self.cells.axis];
-        (along >= self.low) & (along <= self.high) && self.wanted[self.cells.at(position(record))]
+        (along >= self.low) & (along <= self.high) && self.hold_cell(record)
+    }
+
+    #[inline(never)]
+    fn hold_cell(&self, record: &Record) -> bool {
+        self.wanted[self.cells.at(position(record))]
     }
 }
 

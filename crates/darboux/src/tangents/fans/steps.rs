@@ -1,5 +1,7 @@
 //! The steps of a window, each compiled for every vector width.
 
+use crate::math::{dot, normalized_unless_zero};
+
 use super::block::{BLOCK, Block, marks};
 use super::last_run::TailCells;
 use super::source::Rows;
@@ -18,7 +20,9 @@ impl Task for Read<'_> {
     #[inline(always)]
     fn run(self) {
         for ((record, vertex), marks) in self.rows.records().zip(self.vertices).zip(self.marks) {
-            *vertex = Vertex::at(record);
+            vertex.record = record;
+            vertex.sum = [0.0; 4];
+            vertex.print = [0; 4];
             *marks = self.tail.mark(&record);
         }
     }
@@ -54,8 +58,59 @@ pub(super) struct Finish<'a> {
 impl Task for Finish<'_> {
     #[inline(always)]
     fn run(self) {
-        for (vertex, &marks) in self.vertices.iter_mut().zip(self.marks) {
-            *self.all_used &= vertex.finish(marks);
+        let mut lanes = Lanes::default();
+        let mut all_used = true;
+        for (vertices, marks) in self.vertices.chunks_mut(BLOCK).zip(self.marks.chunks(BLOCK)) {
+            lanes.load(vertices);
+            lanes.normalize();
+            for (i, (vertex, &marks)) in vertices.iter_mut().zip(marks).enumerate() {
+                let sign = vertex.sign(marks, lanes.is_usable[i] != 0);
+                all_used &= !sign.is_nan();
+                vertex.sum = [lanes.sum[0][i], lanes.sum[1][i], lanes.sum[2][i], sign];
+            }
+        }
+        *self.all_used &= all_used;
+    }
+}
+
+/// Sums and normals of a block of vertices, one component after the other.
+struct Lanes {
+    sum: [[f32; BLOCK]; 3],
+    normal: [[f32; BLOCK]; 3],
+    is_usable: [u32; BLOCK],
+}
+
+impl Default for Lanes {
+    fn default() -> Self {
+        Self { sum: [[0.0; BLOCK]; 3], normal: [[0.0; BLOCK]; 3], is_usable: [0; BLOCK] }
+    }
+}
+
+impl Lanes {
+    #[inline(always)]
+    fn load(&mut self, vertices: &[Vertex]) {
+        for (i, vertex) in vertices.iter().take(BLOCK).enumerate() {
+            for axis in 0..3 {
+                self.sum[axis][i] = vertex.sum[axis];
+                self.normal[axis][i] = vertex.record[3 + axis];
+            }
+        }
+    }
+
+    /// Sums to tangents; usable in the sense of a repair, with a margin for rounding.
+    #[inline(always)]
+    fn normalize(&mut self) {
+        for i in 0..BLOCK {
+            let tangent = normalized_unless_zero([self.sum[0][i], self.sum[1][i], self.sum[2][i]]);
+            let normal = [self.normal[0][i], self.normal[1][i], self.normal[2][i]];
+            let (along, squared) = (dot(tangent, normal), dot(normal, normal));
+            let error = (dot(tangent, tangent) - 1.0).abs();
+            let is_usable =
+                (error < 1e-3) & (squared > 1e-30) & (squared < 1e30) & (along * along < 0.99 * squared);
+            for axis in 0..3 {
+                self.sum[axis][i] = tangent[axis];
+            }
+            self.is_usable[i] = if is_usable { 1 } else { 0 };
         }
     }
 }
@@ -82,17 +137,16 @@ pub(crate) struct Special {
 impl Task for Write<'_> {
     #[inline(always)]
     fn run(self) {
-        let out = self.out.as_chunks_mut::<3>().0;
-        for ((at, triangle), out) in (self.first as u32..).zip(self.triangles).zip(out) {
-            // Each corner by itself: an array of all three would take a detour over the stack.
-            let mut is_special = false;
+        let out = &mut self.out.as_chunks_mut::<3>().0[..self.triangles.len()];
+        for i in 0..self.triangles.len() {
+            let mut specials = 0;
             for k in 0..3 {
-                let tangent = self.vertices[triangle[k] as usize].sum;
-                is_special |= tangent[3].abs() != 1.0;
-                out[k] = tangent;
+                let vertex = &self.vertices[self.triangles[i][k] as usize];
+                out[i][k] = vertex.sum;
+                specials |= (vertex.sum[3].to_bits() << 1) ^ (1f32.to_bits() << 1);
             }
-            if is_special {
-                self.special.note(at, out);
+            if specials != 0 {
+                self.special.note((self.first + i) as u32, &mut out[i]);
             }
         }
     }
@@ -130,10 +184,12 @@ pub(super) struct Extent<'a> {
 impl Task for Extent<'_> {
     #[inline(always)]
     fn run(self) {
+        let (mut lowest, mut highest) = (u32::MAX, 0);
         for &vertex in self.triangles.as_flattened() {
-            *self.lowest = vertex.min(*self.lowest);
-            *self.highest = vertex.max(*self.highest);
+            lowest = vertex.min(lowest);
+            highest = vertex.max(highest);
         }
+        (*self.lowest, *self.highest) = (lowest, highest);
     }
 }
 

@@ -1,7 +1,5 @@
 //! One cache line per vertex: what it is, and what its corners add up to.
 
-use crate::math::normalized_unless_zero;
-
 use super::block::{BLOCK, Block, Record, marks, print};
 
 /// A welded vertex.
@@ -32,20 +30,18 @@ impl Vertex {
         self.record == *record
     }
 
-    /// Turns the sums into the tangent and the sign: [`UNDECIDED`] unless the triangles are certainly one subgroup and the
-    /// result is certainly usable; NaN where no triangle uses the vertex. Returns whether one does.
+    /// The sign of a vertex all of whose corners have been added: [`UNDECIDED`] unless the triangles are certainly one
+    /// subgroup and the tangent is usable; NaN where no triangle uses the vertex.
     #[inline(always)]
-    pub fn finish(&mut self, found: u32) -> bool {
-        let [x, y, z, turns] = self.sum;
-        let tangent = normalized_unless_zero([x, y, z]);
-        let decided = is_one_subgroup(found) & is_surely_usable(tangent, &self.record)
-            && is_one_fan(found, turns, self.print);
-        let orientation = if found & marks::PRESERVES != 0 { 1.0 } else { -1.0 };
-        let sign = if decided { orientation } else { UNDECIDED };
-        let sign = if found & marks::IN_TAIL != 0 { sign * IN_TAIL } else { sign };
-        let is_used = found & (marks::PRESERVES | marks::MIRRORS) != 0;
-        self.sum = [tangent[0], tangent[1], tangent[2], if is_used { sign } else { f32::NAN }];
-        is_used
+    pub fn sign(&self, found: u32, is_usable: bool) -> f32 {
+        let decided = is_usable & is_one_subgroup(found) && is_one_fan(found, self.sum[3], self.print);
+        let sign = match found & (marks::PRESERVES | marks::MIRRORS) {
+            0 => f32::NAN,
+            _ if !decided => UNDECIDED,
+            marks::MIRRORS => -1.0,
+            _ => 1.0,
+        };
+        if found & marks::IN_TAIL != 0 { sign * IN_TAIL } else { sign }
     }
 
     pub fn position(&self) -> [f32; 3] {
@@ -98,19 +94,6 @@ fn is_one_subgroup(found: u32) -> bool {
     let has_axis = |shift: u32| found >> shift & marks::ALL_AXES != marks::ALL_AXES;
     (orientation == marks::PRESERVES) | (orientation == marks::MIRRORS)
         && has_axis(marks::TANGENT) & has_axis(marks::BITANGENT)
-}
-
-/// Usable in the sense of a repair, with a margin for rounding.
-#[inline(always)]
-fn is_surely_usable([x, y, z]: [f32; 3], record: &Record) -> bool {
-    let [_, _, _, a, b, c, _, _] = *record;
-    let along = x * a + y * b + z * c;
-    let normal_squared = a * a + b * b + c * c;
-    let error = (x * x + y * y + z * z - 1.0).abs();
-    (error < 1e-3)
-        & (normal_squared > 1e-30)
-        & (normal_squared < 1e30)
-        & (along * along < 0.99 * normal_squared)
 }
 
 /// True when all triangles are joined by edges at the vertex.
