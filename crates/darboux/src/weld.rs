@@ -40,7 +40,7 @@ pub(crate) fn weld(mesh: &Mesh<'_>, corners: &[u32]) -> Vec<u32> {
 }
 
 /// A corner's position and its place in the triangle list.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Point {
     pub position: V3,
     pub entry: u32,
@@ -51,9 +51,9 @@ fn points_by_cell(mesh: &Mesh<'_>, corners: &[u32]) -> (Vec<Point>, Vec<usize>) 
     let position = |corner: u32| mesh.positions().get(mesh.vertex_of_corner(corner as usize));
     // The reference seeds the box with its corner id 0, whether or not that is in the list, and leaves out the list's first.
     let cells = Cells::of(&Bounds::of(position(0), corners[1..].iter().map(|&corner| position(corner))));
-    let point = |(entry, &corner): (usize, &u32)| Point { position: position(corner), entry: entry as u32 };
-    let points = corners.iter().enumerate().map(point);
-    cells.sort(points)
+    let point = |(entry, &corner)| Point { position: position(corner), entry };
+    let points: Vec<Point> = (0..).zip(corners).map(point).collect();
+    cells.sort(&points)
 }
 
 /// The cells along the longest axis of a box.
@@ -71,10 +71,11 @@ impl Cells {
     }
 
     /// Points sorted into cells, in their order within a cell, and the end of each cell.
-    pub fn sort(&self, points: impl ExactSizeIterator<Item = Point> + Clone) -> (Vec<Point>, Vec<usize>) {
+    pub fn sort(&self, points: &[Point]) -> (Vec<Point>, Vec<usize>) {
+        let cells: Vec<u16> = points.iter().map(|point| self.at(point.position) as u16).collect();
         let mut ends = vec![0; CELLS];
-        for point in points.clone() {
-            ends[self.at(point.position)] += 1;
+        for &cell in &cells {
+            ends[usize::from(cell)] += 1;
         }
         let mut next = Vec::with_capacity(CELLS);
         let mut sum = 0;
@@ -84,8 +85,8 @@ impl Cells {
             *end = sum;
         }
         let mut sorted = vec![Point::default(); points.len()];
-        for point in points {
-            let slot = &mut next[self.at(point.position)];
+        for (&point, &cell) in points.iter().zip(&cells) {
+            let slot = &mut next[usize::from(cell)];
             sorted[*slot] = point;
             *slot += 1;
         }

@@ -165,8 +165,8 @@ impl Fans {
         let bounds = Bounds::of(used.next().unwrap_or_default(), used);
         let run = LastRun { mesh, identity, vertices, bounds: &bounds };
         let tail = TailCells::first(mesh, identity, &bounds, self.is_shuffled());
-        let entries = run.entries(&tail);
-        run.could_show(tail, &entries)
+        let points = run.points(&tail);
+        run.could_show(tail, &points)
     }
 
     /// The welded vertex at each corner of some triangles, named by the first corner of these, and whether it is undecided.

@@ -87,9 +87,9 @@ pub(super) struct LastRun<'a> {
 }
 
 impl LastRun<'_> {
-    /// True when the order could show. `entries` are the corners of `cells`' vertices, ascending.
-    pub fn could_show(&self, mut cells: TailCells, entries: &[u32]) -> bool {
-        let mut found = self.shows_in_tail(&cells, entries);
+    /// True when the order could show. `points` are the corners of `cells`' vertices, ascending.
+    pub fn could_show(&self, mut cells: TailCells, points: &[Point]) -> bool {
+        let mut found = self.shows_in_tail(&cells, points);
         while found.is_none() && cells.start > 0 {
             let tail = 4 * (self.mesh.face_count() - cells.start);
             if tail > LONGEST_TAIL {
@@ -101,14 +101,14 @@ impl LastRun<'_> {
                 self.bounds,
                 self.mesh.face_count().saturating_sub(tail),
             );
-            found = self.shows_in_tail(&cells, &self.entries(&cells));
+            found = self.shows_in_tail(&cells, &self.points(&cells));
         }
         found.unwrap_or(false)
     }
 
     /// Whether the order shows, if the last run's lower vertex is named after a corner of the tail.
-    fn shows_in_tail(&self, cells: &TailCells, entries: &[u32]) -> Option<bool> {
-        let edges = self.highest_edges(&self.corners_of_named(cells, entries));
+    fn shows_in_tail(&self, cells: &TailCells, points: &[Point]) -> Option<bool> {
+        let edges = self.highest_edges(&self.corners_of_named(cells, points));
         let lower = edges.iter().map(|&(lower, _)| lower).max()?;
         let mut uppers: Vec<u32> =
             edges.iter().filter(|edge| edge.0 == lower).map(|&(_, upper)| upper).collect();
@@ -131,22 +131,24 @@ impl LastRun<'_> {
     }
 
     /// The corners of all vertices in the cells, ascending.
-    pub fn entries(&self, cells: &TailCells) -> Vec<u32> {
-        let (mut entries, mut buffer) = (Vec::new(), Vec::new());
+    pub fn points(&self, cells: &TailCells) -> Vec<Point> {
+        let (mut points, mut buffer) = (Vec::new(), Vec::new());
         for range in windows_of(self.mesh.face_count()) {
             let first = 3 * range.start as u32;
             let triangles = triangles(self.mesh, self.identity, range, &mut buffer);
-            let corners = (first..).zip(triangles.as_flattened());
-            let near = corners.filter(|&(_, &vertex)| cells.hold(&self.vertices[vertex as usize].record));
-            entries.extend(near.map(|(entry, _)| entry));
+            for (entry, &vertex) in (first..).zip(triangles.as_flattened()) {
+                let record = &self.vertices[vertex as usize].record;
+                if cells.hold(record) {
+                    points.push(Point { position: position(record), entry });
+                }
+            }
         }
-        entries
+        points
     }
 
     /// The corners of all vertices that are named after a corner of the tail, each with that name, ascending.
-    fn corners_of_named(&self, cells: &TailCells, entries: &[u32]) -> Vec<(u32, u32)> {
-        let point = |&entry: &u32| Point { position: self.position(self.vertex(entry)), entry };
-        let (mut points, ends) = cells.cells.sort(entries.iter().map(point));
+    fn corners_of_named(&self, cells: &TailCells, points: &[Point]) -> Vec<(u32, u32)> {
+        let (mut points, ends) = cells.cells.sort(points);
         let in_tail = |entry: u32| entry as usize >= 3 * cells.start;
         let is_wanted = |points: &[Point]| points.iter().any(|point| in_tail(point.entry));
         let mut found = Vec::new();

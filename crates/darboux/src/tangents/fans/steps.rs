@@ -1,6 +1,7 @@
 //! The steps of a window, each compiled for every vector width.
 
 use crate::math::{dot, normalized_unless_zero};
+use crate::weld::Point;
 
 use super::block::{BLOCK, Block, marks};
 use super::last_run::TailCells;
@@ -131,7 +132,7 @@ pub(crate) struct Special {
     /// Triangles with an undecided vertex.
     pub undecided: Vec<u32>,
     /// Corners of vertices in the tail's cells.
-    pub in_tail: Vec<u32>,
+    pub in_tail: Vec<Point>,
 }
 
 impl Task for Write<'_> {
@@ -146,7 +147,8 @@ impl Task for Write<'_> {
                 specials |= (vertex.sum[3].to_bits() << 1) ^ (1f32.to_bits() << 1);
             }
             if specials != 0 {
-                self.special.note((self.first + i) as u32, &mut out[i]);
+                let positions = self.triangles[i].map(|vertex| self.vertices[vertex as usize].position());
+                self.special.note((self.first + i) as u32, positions, &mut out[i]);
             }
         }
     }
@@ -160,12 +162,12 @@ impl Special {
 
     /// Lists a triangle with undecided vertices, and its corners in the tail's cells, which get their signs back.
     #[cold]
-    fn note(&mut self, triangle: u32, out: &mut [[f32; 4]; 3]) {
-        for (corner, [_, _, _, sign]) in (3 * triangle..).zip(&mut *out) {
+    fn note(&mut self, triangle: u32, positions: [[f32; 3]; 3], out: &mut [[f32; 4]; 3]) {
+        for ((entry, position), [_, _, _, sign]) in (3 * triangle..).zip(positions).zip(&mut *out) {
             let is_minus_zero = *sign == 0.0 && sign.is_sign_negative();
             if sign.abs() == IN_TAIL.abs() || is_minus_zero {
                 *sign /= IN_TAIL;
-                self.in_tail.push(corner);
+                self.in_tail.push(Point { position, entry });
             }
         }
         if out.iter().any(|tangent| tangent[3] == UNDECIDED) {
