@@ -67,6 +67,13 @@ pub struct Time {
     pub cpu: f64,
 }
 
+impl Time {
+    /// The time of one of `count` equal parts.
+    pub fn divided_by(self, count: f64) -> Self {
+        Self { wall: self.wall / count, cpu: self.cpu / count }
+    }
+}
+
 /// The engine that every other is compared with.
 pub const REFERENCE: &str = "mikktspace.c";
 

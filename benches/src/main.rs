@@ -85,7 +85,7 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     if let Some(calls) = arguments.only_calls {
         return engines[0].start(&meshes[0].mesh, None)?.run(calls).map(drop);
     }
-    time(arguments, &engines, &meshes)
+    time(arguments, engines, &meshes)
 }
 
 /// The meshes asked for, all where none is named. Errors: a name that no mesh has.
@@ -110,13 +110,14 @@ fn select_meshes(arguments: &Arguments) -> Result<Vec<Named>, String> {
     Ok(found)
 }
 
-fn time(arguments: &Arguments, engines: &[Engine], meshes: &[Named]) -> Result<(), String> {
+fn time(arguments: &Arguments, mut engines: Vec<Engine>, meshes: &[Named]) -> Result<(), String> {
+    engines.retain(|engine| engine.is_native() || arguments.node.is_some());
     let mut rows = Vec::new();
     for mesh in meshes {
         eprintln!("{}: {} triangles", mesh.name, mesh.mesh.corner_count() / 3);
         let count = if arguments.quick { 3 } else { 7 };
-        let mut measured = rounds::measure(mesh, engines, count, arguments.node.as_deref());
-        rounds::add_memory(&mut measured, engines, arguments.quick, &arguments.models);
+        let mut measured = rounds::measure(mesh, &engines, count, arguments.node.as_deref());
+        rounds::add_memory(&mut measured, &engines, arguments.quick, &arguments.models);
         rows.extend(measured);
     }
     println!("{}", table::table(&rows));

@@ -33,21 +33,22 @@ pub fn instructions(rows: &[Counts], machine: Option<&str>) -> Result<PathBuf, S
 }
 
 fn line(rows: &[Row], row: &Row) -> String {
-    let [cpu_min, cpu_median] = row.spread(|time| time.cpu);
-    let [wall_min, wall_median] = row.spread(|time| time.wall);
     let known = |number: Option<f64>| number.map_or(String::new(), |number| format!("{number:.2}"));
+    let spread = |times: Option<[f64; 2]>| [0, 1].map(|i| known(times.map(|times| times[i]))).join(",");
     format!(
-        "{},{},{},{},{},{},{cpu_min:.2},{cpu_median:.2},{wall_min:.2},{wall_median:.2},{},{},{},\"{}\"",
+        "{},{},{},{},{},{},{},{},{},{},{},\"{}\"",
         row.mesh,
         row.triangles,
         row.engine,
         row.version,
         row.threads,
         row.rounds.len(),
+        spread(row.spread(|time| time.cpu)),
+        spread(row.spread(|time| time.wall)),
         known(times_over(rows, REFERENCE, row)),
         known(times_over(rows, MESHOPT, row)),
         known(row.extra_bytes),
-        row.answer,
+        row.answer.replace('"', "'"),
     )
 }
 

@@ -21,25 +21,38 @@ pub struct Row {
     pub version: &'static str,
     /// How many threads it used.
     pub threads: usize,
-    /// Nanoseconds per triangle, one entry per round.
+    /// Nanoseconds per triangle, one entry per round; none where the engine failed.
     pub rounds: Vec<Time>,
     /// Bytes per triangle besides input and output, where they can be known.
     pub extra_bytes: Option<f64>,
-    /// What the answer is worth.
+    /// What the answer is worth, or how the engine failed.
     pub answer: String,
 }
 
 impl Row {
-    /// Minimum and median of one of the times over the rounds.
-    pub fn spread(&self, part: fn(&Time) -> f64) -> [f64; 2] {
+    fn new(engine: &Engine, named: &Named) -> Self {
+        Self {
+            mesh: named.name.clone(),
+            triangles: named.mesh.corner_count() / 3,
+            engine: engine.name,
+            version: engine.version,
+            threads: engine.threads,
+            rounds: Vec::new(),
+            extra_bytes: None,
+            answer: String::new(),
+        }
+    }
+
+    /// Minimum and median of one of the times over the rounds; none where the engine failed.
+    pub fn spread(&self, part: fn(&Time) -> f64) -> Option<[f64; 2]> {
         let mut times: Vec<f64> = self.rounds.iter().map(part).collect();
         times.sort_by(f64::total_cmp);
-        [times[0], times[times.len() / 2]]
+        Some([*times.first()?, times[times.len() / 2]])
     }
 
     /// Minimum and median of the time that counts: the processor's for one thread, for it does not contain what else the
     /// machine does; the clock's for several.
-    pub fn time(&self) -> [f64; 2] {
+    pub fn time(&self) -> Option<[f64; 2]> {
         if self.threads == 1 { self.spread(|time| time.cpu) } else { self.spread(|time| time.wall) }
     }
 }
@@ -51,34 +64,39 @@ const FEWER: [(f64, usize); 2] = [(10.0, 1), (3.0, 3)];
 const SHORTEST_ROUND: f64 = 2e7;
 
 struct Runner<'a> {
-    engine: &'a Engine,
     run: Box<dyn Run + 'a>,
-    answer: String,
     calls: usize,
     wanted: usize,
     rounds: Vec<Time>,
 }
 
-/// Measures `wanted` on a mesh in at most `rounds` rounds; says on standard error which engines cannot run or are wrong.
-pub fn measure(named: &Named, wanted: &[Engine], rounds: usize, node: Option<&Path>) -> Vec<Row> {
-    let mesh = &named.mesh;
-    let expected = expected(mesh);
-    let mut runners: Vec<Runner<'_>> = Vec::new();
-    for engine in wanted {
-        match start(engine, mesh, &expected, rounds, node) {
-            Ok(runner) => runners.push(runner),
-            Err(message) => eprintln!("skipped: {} on {}: {message}", engine.name, named.name),
+/// Measures each engine on a mesh in at most `rounds` rounds. An engine that fails, or is not what it claims, gets a row that says so.
+pub fn measure(named: &Named, engines: &[Engine], rounds: usize, node: Option<&Path>) -> Vec<Row> {
+    let expected = expected(&named.mesh);
+    let mut rows: Vec<Row> = engines.iter().map(|engine| Row::new(engine, named)).collect();
+    let mut runners = Vec::new();
+    for (engine, row) in engines.iter().zip(&mut rows) {
+        let started = start(engine, &named.mesh, &expected, rounds, node);
+        match started {
+            Ok((runner, answer)) => {
+                row.answer = answer;
+                runners.push((runner, row));
+            }
+            Err(message) => row.answer = format!("failed: {message}"),
         }
     }
     for round in 0..rounds {
-        for runner in &mut runners {
+        for (runner, row) in &mut runners {
             if let Err(message) = runner.take_turn(round) {
-                eprintln!("{} on {}, round {round}: {message}", runner.engine.name, named.name);
+                row.answer = format!("failed: {message}");
             }
         }
     }
-    let measured = runners.into_iter().filter(|runner| !runner.rounds.is_empty());
-    measured.map(|runner| runner.row(named)).collect()
+    for (runner, row) in runners {
+        let per_call = runner.rounds.into_iter();
+        row.rounds = per_call.map(|time| time.divided_by(row.triangles as f64)).collect();
+    }
+    rows
 }
 
 /// The reference's answer.
@@ -87,25 +105,25 @@ fn expected(mesh: &OwnedMesh) -> Vec<Tangent> {
     frames.iter().map(|frame| frame.map_or([1.0, 0.0, 0.0, -1.0], |frame| frame.tangent_and_sign())).collect()
 }
 
-/// Starts an engine, runs it once and checks its answer.
+/// Starts an engine, runs it once and judges its answer.
 fn start<'a>(
     engine: &'a Engine,
     mesh: &'a OwnedMesh,
     expected: &[Tangent],
     rounds: usize,
     node: Option<&Path>,
-) -> Result<Runner<'a>, String> {
+) -> Result<(Runner<'a>, String), String> {
     let mut run = engine.start(mesh, node)?;
     let first = run.run(1)?;
     let answer = verdict(engine.method, expected, &run.tangents()?)?;
     let fewer = FEWER.iter().find(|(seconds, _)| first.wall > seconds * 1e9);
     let wanted = fewer.map_or(rounds, |(_, fewer)| rounds.min(*fewer));
     let calls = (SHORTEST_ROUND / first.wall.max(1.0)).ceil().max(1.0) as usize;
-    let mut runner = Runner { engine, run, answer, calls, wanted, rounds: Vec::new() };
+    let mut runner = Runner { run, calls, wanted, rounds: Vec::new() };
     if wanted == 1 {
         runner.rounds.push(first);
     }
-    Ok(runner)
+    Ok((runner, answer))
 }
 
 impl Runner<'_> {
@@ -114,27 +132,8 @@ impl Runner<'_> {
             return Ok(());
         }
         let time = self.run.run(self.calls)?;
-        let calls = self.calls as f64;
-        self.rounds.push(Time { wall: time.wall / calls, cpu: time.cpu / calls });
+        self.rounds.push(time.divided_by(self.calls as f64));
         Ok(())
-    }
-
-    fn row(self, named: &Named) -> Row {
-        let triangles = named.mesh.corner_count() / 3;
-        let per_triangle = |time: Time| {
-            let count = triangles as f64;
-            Time { wall: time.wall / count, cpu: time.cpu / count }
-        };
-        Row {
-            mesh: named.name.clone(),
-            triangles,
-            engine: self.engine.name,
-            version: self.engine.version,
-            threads: self.engine.threads,
-            rounds: self.rounds.into_iter().map(per_triangle).collect(),
-            extra_bytes: None,
-            answer: self.answer,
-        }
     }
 }
 
@@ -159,7 +158,7 @@ pub fn add_memory(rows: &mut [Row], engines: &[Engine], quick: bool, models: &Pa
 /// The factor by which each row is faster than `engine` on the same mesh.
 pub fn times_over(rows: &[Row], engine: &str, row: &Row) -> Option<f64> {
     let other = rows.iter().find(|other| other.engine == engine && other.mesh == row.mesh)?;
-    Some(other.time()[1] / row.time()[1])
+    Some(other.time()?[1] / row.time()?[1])
 }
 
 /// The engines of these names in the table's order, all where none is named. Errors: a name that no engine has.

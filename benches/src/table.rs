@@ -24,15 +24,16 @@ const HEADER: [&str; 11] = [
 pub fn table(rows: &[Row]) -> Table {
     let mut table = empty(&HEADER);
     for row in rows {
-        let [min, median] = row.time();
+        let shown = |time: Option<f64>| time.map_or(String::new(), |time| format!("{time:.1}"));
+        let [min, median] = [0, 1].map(|i| shown(row.time().map(|time| time[i])));
         let times =
             |engine| times_over(rows, engine, row).map_or(String::new(), |times| format!("{times:.2}"));
         table.add_row([
             row.mesh.clone(),
             row.engine.to_string(),
-            format!("{min:.1}"),
-            format!("{median:.1}"),
-            format!("{:.1}", row.spread(|time| time.wall)[1]),
+            min,
+            median,
+            shown(row.spread(|time| time.wall).map(|time| time[1])),
             times(REFERENCE),
             times(MESHOPT),
             row.threads.to_string(),
