@@ -1,4 +1,4 @@
-//! benches/record/<machine>/<date>.csv: what a full run leaves for later comparison.
+//! `benches/record/<machine>/<date>.csv`: what a full run leaves for later comparison.
 
 use std::fs;
 use std::path::{Path, PathBuf};
