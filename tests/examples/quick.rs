@@ -221,5 +221,6 @@ fn run() {
     }
 }
 fn main() {
-    std::thread::Builder::new().stack_size(1 << 30).spawn(run).unwrap().join().unwrap()
+    let n = std::env::var("T").map_or(1, |t| t.parse().unwrap());
+    rayon::ThreadPoolBuilder::new().num_threads(n).stack_size(1 << 30).build().unwrap().install(run)
 }

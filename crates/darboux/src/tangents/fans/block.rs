@@ -3,6 +3,8 @@
 //! Every quantity is an array with one entry per triangle, and every stage one loop over them without branches, so that compilers
 //! turn it into vector code of whatever width the machine has. Each lane rounds every operation as the scalar code does.
 
+#![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
+
 use crate::math::{V3, acos, add, direction_in_plane, dot, length, not_zero, scale, sub};
 
 /// Triangles per block.
@@ -31,11 +33,24 @@ pub(super) struct Block {
     term: [[Lane<f32>; 3]; 3],
     /// What each corner says of its vertex.
     pub marks: [Lane<u32>; 3],
-    /// Terms, and 1 where the wedge holds the first ray, one corner after the other.
+    /// Terms, one corner after the other, and a fourth number (see [`Fourth`]).
     pub sum: [Lane<[f32; 4]>; 3],
     /// What each corner adds to its vertex's fingerprint.
     pub print: [Lane<[u32; 4]>; 3],
     pub packed: [[Lane<[f32; 4]>; 2]; 3],
+}
+
+/// What goes with a term: 1 where the wedge holds the first ray and else 0, or the marks as bits.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Fourth {
+    Turns,
+    Marks,
+}
+
+/// 1 where the wedge holds the first ray, else 0.
+#[inline(always)]
+pub(super) fn turns(marks: u32) -> f32 {
+    if marks & marks::FIRST_RAY == 0 { 0.0 } else { 1.0 }
 }
 
 /// What corners say of their vertices, as bits that are OR-ed together.
@@ -89,9 +104,9 @@ impl Default for Block {
 }
 
 impl Block {
-    /// From vertices and records to terms, marks and prints.
+    /// From vertices and records to terms, marks and fingerprints.
     #[inline(always)]
-    pub fn evaluate(&mut self) {
+    pub fn evaluate(&mut self, fourth: Fourth) {
         self.unpack();
         self.derivatives();
         self.cosines();
@@ -103,7 +118,7 @@ impl Block {
         self.terms();
         self.bitangent_marks();
         self.ray_marks();
-        self.pack();
+        self.pack(fourth);
         self.prints();
     }
 
@@ -123,12 +138,16 @@ impl Block {
     }
 
     #[inline(always)]
-    fn pack(&mut self) {
+    fn pack(&mut self, fourth: Fourth) {
         for k in 0..3 {
             for i in 0..BLOCK {
                 let [x, y, z] = [0, 1, 2].map(|axis| self.term[k][axis][i]);
-                let turns = if self.marks[k][i] & marks::FIRST_RAY == 0 { 0.0 } else { 1.0 };
-                self.sum[k][i] = [x, y, z, turns];
+                let marks = self.marks[k][i];
+                let last = match fourth {
+                    Fourth::Turns => turns(marks),
+                    Fourth::Marks => f32::from_bits(marks),
+                };
+                self.sum[k][i] = [x, y, z, last];
             }
         }
     }
@@ -246,8 +265,9 @@ impl Block {
         }
     }
 
+    /// From vertices to fingerprints.
     #[inline(always)]
-    fn prints(&mut self) {
+    pub fn prints(&mut self) {
         for i in 0..BLOCK {
             let [f0, f1, f2] = [0, 1, 2].map(|k| print(self.vertex[k][i]));
             let less = |a: [u32; 4], b: [u32; 4]| [0, 1, 2, 3].map(|lane| a[lane].wrapping_sub(b[lane]));

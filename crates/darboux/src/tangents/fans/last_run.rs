@@ -62,14 +62,14 @@ impl TailCells {
 
     /// True for vertices in these cells.
     #[inline(always)]
-    pub fn hold(&self, record: &Record) -> bool {
-        let along = record[self.cells.axis];
-        (along >= self.low) & (along <= self.high) && self.hold_cell(record)
+    pub fn hold(&self, position: [f32; 3]) -> bool {
+        let along = position[self.cells.axis];
+        (along >= self.low) & (along <= self.high) && self.hold_cell(position)
     }
 
     #[inline(never)]
-    fn hold_cell(&self, record: &Record) -> bool {
-        self.wanted[self.cells.at(position(record))]
+    fn hold_cell(&self, position: [f32; 3]) -> bool {
+        self.wanted[self.cells.at(position)]
     }
 }
 
@@ -127,7 +127,7 @@ impl LastRun<'_> {
     }
 
     fn position(&self, vertex: u32) -> [f32; 3] {
-        position(&self.vertices[vertex as usize].record)
+        self.vertices[vertex as usize].position()
     }
 
     /// The corners of all vertices in the cells, ascending.
@@ -137,9 +137,9 @@ impl LastRun<'_> {
             let first = 3 * range.start as u32;
             let triangles = triangles(self.mesh, self.identity, range, &mut buffer);
             for (entry, &vertex) in (first..).zip(triangles.as_flattened()) {
-                let record = &self.vertices[vertex as usize].record;
-                if cells.hold(record) {
-                    points.push(Point { position: position(record), entry });
+                let position = self.position(vertex);
+                if cells.hold(position) {
+                    points.push(Point { position, entry });
                 }
             }
         }

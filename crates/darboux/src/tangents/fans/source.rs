@@ -9,9 +9,9 @@ use super::block::Record;
 /// Consecutive vertices.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rows<'a> {
-    positions: &'a [[f32; 3]],
-    normals: &'a [[f32; 3]],
-    uvs: &'a [[f32; 2]],
+    pub positions: &'a [[f32; 3]],
+    pub normals: &'a [[f32; 3]],
+    pub uvs: &'a [[f32; 2]],
 }
 
 /// Room for vertices that do not lie one after the other in the mesh.

@@ -1,9 +1,11 @@
 //! The steps of a window, each compiled for every vector width.
 
+#![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
+
 use crate::math::{dot, normalized_unless_zero};
 use crate::weld::Point;
 
-use super::block::{BLOCK, Block, marks};
+use super::block::{BLOCK, Block, Fourth, marks, turns};
 use super::last_run::TailCells;
 use super::source::Rows;
 use super::vertices::{IN_TAIL, UNDECIDED, Vertex, gather, scatter};
@@ -20,11 +22,16 @@ pub(super) struct Read<'a> {
 impl Task for Read<'_> {
     #[inline(always)]
     fn run(self) {
-        for ((record, vertex), marks) in self.rows.records().zip(self.vertices).zip(self.marks) {
-            vertex.record = record;
+        let Rows { positions, normals, uvs } = self.rows;
+        let rows = positions.iter().zip(normals).zip(uvs);
+        for ((((position, normal), uv), vertex), marks) in rows.zip(self.vertices).zip(self.marks) {
+            // Piece by piece: a record on the stack would be written in pieces and read as a whole, which waits.
+            vertex.record[..3].copy_from_slice(position);
+            vertex.record[3..6].copy_from_slice(normal);
+            vertex.record[6..].copy_from_slice(uv);
             vertex.sum = [0.0; 4];
             vertex.print = [0; 4];
-            *marks = self.tail.mark(&record);
+            *marks = self.tail.mark(*position);
         }
     }
 }
@@ -43,8 +50,62 @@ impl Task for Add<'_> {
         for triangles in self.triangles.chunks(BLOCK) {
             self.block.set(triangles);
             gather(self.block, triangles.len(), self.vertices);
-            self.block.evaluate();
-            scatter(self.block, triangles.len(), self.vertices, self.marks);
+            self.block.evaluate(Fourth::Turns);
+            scatter(self.block, triangles.len(), 0, self.vertices, self.marks);
+        }
+    }
+}
+
+/// Writes what each corner adds to its vertex, and its marks as bits.
+pub(super) struct Evaluate<'a> {
+    pub triangles: &'a [[u32; 3]],
+    pub block: &'a mut Block,
+    pub vertices: &'a [Vertex],
+    pub out: &'a mut [[[f32; 4]; 3]],
+}
+
+impl Task for Evaluate<'_> {
+    #[inline(always)]
+    fn run(self) {
+        for (triangles, out) in self.triangles.chunks(BLOCK).zip(self.out.chunks_mut(BLOCK)) {
+            self.block.set(triangles);
+            gather(self.block, triangles.len(), self.vertices);
+            self.block.evaluate(Fourth::Marks);
+            for k in 0..3 {
+                for (out, term) in out.iter_mut().zip(&self.block.sum[k]) {
+                    out[k] = *term;
+                }
+            }
+        }
+    }
+}
+
+/// Adds what [`Evaluate`] wrote to those vertices that are in `vertices`.
+pub(super) struct Collect<'a> {
+    pub triangles: &'a [[u32; 3]],
+    pub terms: &'a [[[f32; 4]; 3]],
+    /// The number of the first vertex.
+    pub first: u32,
+    pub block: &'a mut Block,
+    pub vertices: &'a mut [Vertex],
+    pub marks: &'a mut [u32],
+}
+
+impl Task for Collect<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { triangles, terms, first, block, vertices, marks } = self;
+        for (triangles, terms) in triangles.chunks(BLOCK).zip(terms.chunks(BLOCK)) {
+            block.set(triangles);
+            block.prints();
+            for (i, terms) in terms.iter().enumerate() {
+                for k in 0..3 {
+                    let [x, y, z, marks] = terms[k];
+                    block.marks[k][i] = marks.to_bits();
+                    block.sum[k][i] = [x, y, z, turns(marks.to_bits())];
+                }
+            }
+            scatter(block, triangles.len(), first, vertices, marks);
         }
     }
 }
@@ -122,7 +183,7 @@ pub(super) struct Write<'a> {
     /// The number of the first triangle.
     pub first: usize,
     pub vertices: &'a [Vertex],
-    pub out: &'a mut [[f32; 4]],
+    pub out: &'a mut [[[f32; 4]; 3]],
     pub special: &'a mut Special,
 }
 
@@ -138,7 +199,7 @@ pub(crate) struct Special {
 impl Task for Write<'_> {
     #[inline(always)]
     fn run(self) {
-        let out = &mut self.out.as_chunks_mut::<3>().0[..self.triangles.len()];
+        let out = &mut self.out[..self.triangles.len()];
         for i in 0..self.triangles.len() {
             let mut specials = 0;
             for k in 0..3 {
@@ -158,6 +219,12 @@ impl Special {
     pub fn clear(&mut self) {
         self.undecided.clear();
         self.in_tail.clear();
+    }
+
+    /// Appends what another has, which is empty afterwards.
+    pub fn take(&mut self, other: &mut Self) {
+        self.undecided.append(&mut other.undecided);
+        self.in_tail.append(&mut other.in_tail);
     }
 
     /// Lists a triangle with undecided vertices, and its corners in the tail's cells, which get their signs back.
@@ -180,7 +247,8 @@ impl Special {
 pub(super) struct Extent<'a> {
     pub triangles: &'a [[u32; 3]],
     pub lowest: &'a mut u32,
-    pub highest: &'a mut u32,
+    /// One more than the highest.
+    pub end: &'a mut u32,
 }
 
 impl Task for Extent<'_> {
@@ -191,14 +259,14 @@ impl Task for Extent<'_> {
             lowest = vertex.min(lowest);
             highest = vertex.max(highest);
         }
-        (*self.lowest, *self.highest) = (lowest, highest);
+        (*self.lowest, *self.end) = (lowest, highest + 1);
     }
 }
 
 impl TailCells {
     /// The marks that a vertex begins with.
     #[inline(always)]
-    pub fn mark(&self, record: &[f32; 8]) -> u32 {
-        if self.hold(record) { marks::IN_TAIL } else { 0 }
+    pub fn mark(&self, position: [f32; 3]) -> u32 {
+        if self.hold(position) { marks::IN_TAIL } else { 0 }
     }
 }

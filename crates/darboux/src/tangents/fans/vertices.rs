@@ -1,5 +1,7 @@
 //! One cache line per vertex: what it is, and what its corners add up to.
 
+#![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
+
 use super::block::{BLOCK, Block, Record, marks, print};
 
 /// A welded vertex.
@@ -67,13 +69,14 @@ pub(super) fn gather(block: &mut Block, count: usize, vertices: &[Vertex]) {
     }
 }
 
-/// Adds a block's first `count` triangles to their vertices, in order.
+/// Adds a block's first `count` triangles to those of their vertices that are in `vertices`, whose first is number `first`, in order.
 #[inline(always)]
-pub(super) fn scatter(block: &Block, count: usize, vertices: &mut [Vertex], marks: &mut [u32]) {
+pub(super) fn scatter(block: &Block, count: usize, first: u32, vertices: &mut [Vertex], marks: &mut [u32]) {
+    let marks = &mut marks[..vertices.len()];
     for i in 0..count.min(BLOCK) {
         for k in 0..3 {
-            let at = block.vertex[k][i] as usize;
-            let vertex = &mut vertices[at];
+            let at = block.vertex[k][i].wrapping_sub(first) as usize;
+            let Some(vertex) = vertices.get_mut(at) else { continue };
             for lane in 0..4 {
                 vertex.sum[lane] += block.sum[k][i][lane];
             }

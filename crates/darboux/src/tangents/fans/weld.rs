@@ -8,9 +8,10 @@ use crate::weld::Bounds;
 use crate::{Indices, Mesh};
 
 use super::block::Record;
-use super::source::{Identity, RowBuffer, Rows, record};
+use super::source::{Identity, Rows, record};
 use super::vertices::Vertex;
 use super::width::{Task, Width};
+use super::workers::{self, Worker, parts, split};
 use super::{WINDOW, windows_of};
 
 /// The welded vertices of a mesh; the memory is kept from mesh to mesh.
@@ -48,17 +49,17 @@ impl Weld {
         &mut self,
         mesh: &Mesh<'_>,
         width: Width,
-        rows: &mut RowBuffer,
+        workers: &mut [Worker],
         vertices: &mut Vec<Vertex>,
     ) -> Result<(), Refused> {
         self.of.clear();
         self.per_corner = matches!(mesh.indices(), Indices::Unindexed);
         if self.per_corner {
-            return self.weld_corners(mesh, width, rows, vertices);
+            return self.weld_corners(mesh, width, &mut workers[0], vertices);
         }
         self.count = mesh.vertex_count();
         vertices.resize(self.count, Vertex::default());
-        let collisions = self.find_collisions(mesh, width, rows)?;
+        let collisions = self.find_collisions(mesh, width, workers)?;
         if collisions > 0 { self.weld_collisions(mesh, collisions) } else { Ok(()) }
     }
 
@@ -82,24 +83,34 @@ impl Weld {
         &mut self,
         mesh: &Mesh<'_>,
         width: Width,
-        rows: &mut RowBuffer,
+        workers: &mut [Worker],
     ) -> Result<usize, Refused> {
         self.seen.clear(self.count);
         self.again.clear(self.count);
         self.hashes.resize(self.count, 0);
-        let (mut span, mut collisions) = (Span::default(), 0);
-        for range in windows_of(self.count) {
-            let hashes = &mut self.hashes[range.clone()];
-            width.run(Hash { rows: Rows::new(mesh, range, rows), hashes, span: &mut span });
-            for &hash in &*hashes {
-                if self.seen.test_and_set(hash) {
-                    self.again.test_and_set(hash);
-                    collisions += 1;
-                }
+        let count = workers.len();
+        let ranges = split(0..self.count, count, 1);
+        let mut spans = vec![Span::default(); count];
+        let jobs = ranges.clone().zip(parts(&mut self.hashes, 0, ranges)).zip(&mut spans);
+        workers::run(workers, jobs, |worker, ((range, hashes), span)| {
+            for (first, hashes) in range.step_by(WINDOW).zip(hashes.chunks_mut(WINDOW)) {
+                let rows = Rows::new(mesh, first..first + hashes.len(), &mut worker.rows);
+                width.run(Hash { rows, hashes, span: &mut *span });
             }
-        }
-        self.bounds = span.check()?;
-        Ok(collisions)
+        });
+        let mut found = vec![0; count];
+        let (hashes, bits) = (&self.hashes[..], self.seen.bits);
+        let ranges = split(0..self.seen.words.len(), count, 1);
+        let maps = parts(&mut self.seen.words, 0, ranges.clone()).zip(parts(
+            &mut self.again.words,
+            0,
+            ranges.clone(),
+        ));
+        workers::run(workers, ranges.zip(maps).zip(&mut found), |_, ((range, (seen, again)), found)| {
+            *found = mark_collisions(hashes, bits, range.start, seen, again);
+        });
+        self.bounds = Span::check(&spans)?;
+        Ok(found.iter().sum())
     }
 
     /// Compares the vertices whose hash values were met more than once.
@@ -132,7 +143,7 @@ impl Weld {
         &mut self,
         mesh: &Mesh<'_>,
         width: Width,
-        rows: &mut RowBuffer,
+        worker: &mut Worker,
         vertices: &mut Vec<Vertex>,
     ) -> Result<(), Refused> {
         let corners = mesh.corner_count();
@@ -146,7 +157,7 @@ impl Weld {
         self.hashes.resize(WINDOW, 0);
         let (mut span, mut refused) = (Span::default(), false);
         for range in windows_of(corners) {
-            let rows = Rows::new(mesh, range.clone(), rows);
+            let rows = Rows::new(mesh, range.clone(), &mut worker.rows);
             let hashes = &mut self.hashes[..range.len()];
             width.run(Hash { rows, hashes, span: &mut span });
             let (table, recent) = (&mut self.table, &mut self.recent);
@@ -154,7 +165,7 @@ impl Weld {
             width.run(Number { rows, hashes, table, recent, vertices, of, refused: &mut refused });
         }
         self.count = vertices.len();
-        self.bounds = span.check()?;
+        self.bounds = Span::check(&[span])?;
         if refused { Err(Refused) } else { Ok(()) }
     }
 }
@@ -236,7 +247,7 @@ fn grow(table: &mut Vec<u32>, vertices: &[Vertex]) {
 
 /// The first slot of a hash in a table of `slots`, a power of two: other bits than those that choose a recent vertex.
 fn slot(hash: u32, slots: usize) -> usize {
-    (u64::from(hash) * slots as u64 >> 32) as usize
+    ((u64::from(hash) * slots as u64) >> 32) as usize
 }
 
 /// One bit for each of many hash values.
@@ -255,25 +266,36 @@ impl BitMap {
         self.words.resize((1usize << self.bits).div_ceil(64), 0);
     }
 
-    fn place(&self, hash: u32) -> (usize, u64) {
-        let at = (u64::from(hash) << self.bits >> 32) as usize;
-        (at / 64, 1 << (at % 64))
-    }
-
     fn has(&self, hash: u32) -> bool {
-        let (word, bit) = self.place(hash);
+        let (word, bit) = place(hash, self.bits);
         self.words[word] & bit != 0
     }
+}
 
-    /// Sets a hash's bit; returns whether it was set before.
-    #[inline]
-    fn test_and_set(&mut self, hash: u32) -> bool {
-        let (word, bit) = self.place(hash);
-        let word = &mut self.words[word];
-        let was_set = *word & bit != 0;
-        *word |= bit;
-        was_set
+/// The word and the bit of a hash.
+#[inline(always)]
+fn place(hash: u32, bits: u32) -> (usize, u64) {
+    let at = ((u64::from(hash) << bits) >> 32) as usize;
+    (at / 64, 1 << (at % 64))
+}
+
+/// Marks hashes in `seen` and those met before in `again`, both the words from `first` on; returns how many of these there are.
+fn mark_collisions(hashes: &[u32], bits: u32, first: usize, seen: &mut [u64], again: &mut [u64]) -> usize {
+    let mut collisions = 0;
+    if seen.is_empty() {
+        return 0;
     }
+    for &hash in hashes {
+        let (word, bit) = place(hash, bits);
+        // Whether a hash is among these words cannot be foretold: no branch.
+        let at = word.wrapping_sub(first);
+        let (at, bit) = if at < seen.len() { (at, bit) } else { (0, 0) };
+        let met = seen[at] & bit;
+        again[at] |= met;
+        seen[at] |= bit;
+        collisions += usize::from(met != 0);
+    }
+    collisions
 }
 
 /// What values a mesh has.
@@ -301,11 +323,16 @@ impl Span {
         }
     }
 
-    /// The bounds of positions. Refuses values that are too large or not finite.
-    fn check(&self) -> Result<Bounds, Refused> {
+    /// The bounds of all positions. Refuses values that are too large or not finite.
+    fn check(spans: &[Self]) -> Result<Bounds, Refused> {
+        let mut all = Self::default();
+        for span in spans {
+            all.take(&span.low);
+            all.take(&span.high);
+        }
         let position = |[x, y, z, ..]: Record| [x, y, z];
-        let is_small = self.largest.iter().all(|&bits| bits <= LARGEST.to_bits());
-        if is_small { Ok(Bounds { min: position(self.low), max: position(self.high) }) } else { Err(Refused) }
+        let is_small = spans.iter().flat_map(|span| span.largest).all(|bits| bits <= LARGEST.to_bits());
+        if is_small { Ok(Bounds { min: position(all.low), max: position(all.high) }) } else { Err(Refused) }
     }
 }
 

@@ -1,0 +1,84 @@
+//! Work split among threads: every job has its own memory, and its own part of what is written.
+
+use std::ops::Range;
+
+use super::block::Block;
+use super::source::RowBuffer;
+use super::steps::Special;
+
+/// One thread's memory.
+#[derive(Debug, Default)]
+pub(super) struct Worker {
+    pub block: Box<Block>,
+    pub rows: RowBuffer,
+    pub triangles: Vec<[u32; 3]>,
+    pub special: Special,
+    pub all_used: bool,
+}
+
+/// Meshes of fewer triangles are not worth waking another thread.
+const LEAST_PER_THREAD: usize = if cfg!(small_limits) { 1 } else { 1 << 13 };
+
+/// How many threads a mesh gets: those of the current thread pool, or one without the feature `parallel`.
+pub(super) fn threads(triangles: usize) -> usize {
+    available().min(triangles / LEAST_PER_THREAD).max(1)
+}
+
+#[cfg(feature = "parallel")]
+fn available() -> usize {
+    rayon::current_num_threads()
+}
+
+#[cfg(not(feature = "parallel"))]
+fn available() -> usize {
+    1
+}
+
+/// Runs `job` for every worker and its part, on all threads.
+pub(super) fn run<P: Send>(
+    workers: &mut [Worker],
+    parts: impl Iterator<Item = P>,
+    job: impl Fn(&mut Worker, P) + Sync,
+) {
+    #[cfg(feature = "parallel")]
+    if workers.len() > 1 {
+        rayon::in_place_scope(|scope| {
+            for (worker, part) in workers.iter_mut().zip(parts) {
+                let job = &job;
+                scope.spawn(move |_| job(worker, part));
+            }
+        });
+        return;
+    }
+    for (worker, part) in workers.iter_mut().zip(parts) {
+        job(worker, part);
+    }
+}
+
+/// A range in `count` parts, of sizes that differ by one at most times `unit`.
+pub(super) fn split(
+    range: Range<usize>,
+    count: usize,
+    unit: usize,
+) -> impl Iterator<Item = Range<usize>> + Clone {
+    let units = range.len().div_ceil(unit);
+    (0..count).map(move |at| {
+        let place = |at: usize| range.start + (units * at / count * unit).min(range.len());
+        place(at)..place(at + 1)
+    })
+}
+
+/// The parts of a slice whose first element is number `first`, at consecutive ranges of such numbers.
+pub(super) fn parts<T>(
+    mut slice: &mut [T],
+    first: usize,
+    ranges: impl Iterator<Item = Range<usize>>,
+) -> impl Iterator<Item = &mut [T]> {
+    let mut at = first;
+    ranges.map(move |range| {
+        let (_, rest) = std::mem::take(&mut slice).split_at_mut(range.start - at);
+        let (part, rest) = rest.split_at_mut(range.len());
+        (slice, at) = (rest, range.end);
+        part
+    })
+}

@@ -1,0 +1,61 @@
+//! The same bits for every number of threads.
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use darboux::{Mesh, Mode, Scratch, TangentOptions, Tangents, generate_tangents_into};
+
+/// A wavy grid of `n` by `n` quads whose UVs are mirrored from one half to the other: vertices, and triangles in order.
+fn grid(n: u32) -> (Vec<[f32; 8]>, Vec<[u32; 3]>) {
+    let vertex = |i: u32, j: u32| {
+        let (x, y) = (i as f32 / n as f32, j as f32 / n as f32);
+        let (dx, dy) = (0.6 * (6.0 * x).cos(), 0.5 * (5.0 * y).cos());
+        let length = (dx * dx + dy * dy + 1.0).sqrt();
+        let z = 0.1 * ((6.0 * x).sin() + (5.0 * y).sin());
+        [x, y, z, -dx / length, -dy / length, 1.0 / length, (x - 0.5).abs(), y]
+    };
+    let vertices = (0..=n).flat_map(|j| (0..=n).map(move |i| vertex(i, j))).collect();
+    let quad = |i: u32, j: u32| {
+        let [a, d] = [j * (n + 1) + i, (j + 1) * (n + 1) + i];
+        [[a, a + 1, d + 1], [a, d + 1, d]]
+    };
+    (vertices, (0..n).flat_map(|j| (0..n).flat_map(move |i| quad(i, j))).collect())
+}
+
+/// Hashes of the tangents and reports of a mesh, indexed and unindexed, in all modes.
+fn hash(vertices: &[[f32; 8]], triangles: &[[u32; 3]]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    let mut scratch = Scratch::new();
+    let mut tangents = Tangents::default();
+    let soup: Vec<[f32; 8]> =
+        triangles.as_flattened().iter().map(|&vertex| vertices[vertex as usize]).collect();
+    let indices: Vec<u32> = (0..soup.len() as u32).collect();
+    for (vertices, indices) in [(vertices, triangles.as_flattened()), (&soup, &indices)] {
+        let positions: Vec<[f32; 3]> = vertices.iter().map(|v| [v[0], v[1], v[2]]).collect();
+        let normals: Vec<[f32; 3]> = vertices.iter().map(|v| [v[3], v[4], v[5]]).collect();
+        let uvs: Vec<[f32; 2]> = vertices.iter().map(|v| [v[6], v[7]]).collect();
+        let mesh = Mesh::triangles(&positions, &normals, &uvs, indices).expect("a mesh");
+        for mode in [Mode::Reference, Mode::Repaired, Mode::Corrected] {
+            let options = TangentOptions { mode, ..TangentOptions::default() };
+            generate_tangents_into(&mesh, &options, &mut scratch, &mut tangents);
+            let corners = tangents.corners.per_corner();
+            corners.iter().for_each(|tangent| tangent.map(f32::to_bits).hash(&mut hasher));
+            format!("{:?}", tangents.report).hash(&mut hasher);
+        }
+    }
+    hasher.finish()
+}
+
+#[test]
+fn one_two_three_and_sixteen() {
+    let (vertices, triangles) = grid(300);
+    let mut shuffled = triangles.clone();
+    // A step without a common factor visits every triangle once.
+    (0..triangles.len()).for_each(|at| shuffled[at] = triangles[at * 7919 % triangles.len()]);
+    for triangles in [triangles, shuffled] {
+        let hashes = [1, 2, 3, 16].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
+            pool.install(|| hash(&vertices, &triangles))
+        });
+        assert_eq!(hashes, [hashes[0]; 4]);
+    }
+}
