@@ -139,3 +139,29 @@ fn cut_quads() {
         }
     }
 }
+
+/// What a shader rebuilds, and on the side of the true bitangent wherever normals are on the side of the winding.
+#[test]
+fn orthogonalized_bitangents() {
+    let dot = |a: [f32; 3], b: [f32; 3]| (0..3).map(|i| a[i] * b[i]).sum::<f32>();
+    for method in METHODS.into_iter().filter(|&method| method != Method::Face) {
+        for mesh in meshes() {
+            let options = TangentOptions { method, ..TangentOptions::default() };
+            let frames = generate_frames(&mesh.view(), &options).corners;
+            let found = frames.clone().orthogonalized(&mesh.view()).expect("the same mesh");
+            for (corner, (frame, own)) in found.per_corner().iter().zip(frames.per_corner()).enumerate() {
+                let normal = mesh.normals[mesh.vertex_of_corner(corner)];
+                let (across, along) = (dot(frame.bitangent, frame.tangent), dot(frame.bitangent, normal));
+                assert!(across.abs().max(along.abs()) < 1e-6, "{method:?}, corner {corner}: {frame:?}");
+                assert!(
+                    dot(frame.bitangent, own.bitangent) > 0.0,
+                    "{method:?}, corner {corner}: {frame:?}, {own:?}"
+                );
+                assert_eq!(
+                    (frame.tangent, frame.magnitude, frame.sign),
+                    (own.tangent, own.magnitude, own.sign)
+                );
+            }
+        }
+    }
+}

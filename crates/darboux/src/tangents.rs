@@ -16,6 +16,7 @@ mod local;
 mod method;
 pub(crate) mod mikktspace;
 pub mod naive;
+mod orthogonal;
 mod repair;
 mod report;
 mod seams;

@@ -206,7 +206,7 @@ fn precise_direction_across(v: V3, normal: V3) -> Option<V3> {
     found.map(|v| v.map(|x| x as f32))
 }
 
-/// sign * cross(normal, tangent), unit; without a normal a perpendicular of the tangent.
+/// sign * cross(normal, tangent), unit; without a normal, or where the tangent runs along it, a perpendicular of the tangent.
 pub(super) fn across(normal: V3, tangent: V3, sign: f32) -> V3 {
     let tangent = tangent.map(f64::from);
     let across = direction(normal).and_then(|normal| unit(cross(normal, tangent)));
