@@ -33,6 +33,7 @@ pub use fans::WidthLimit;
 use fans::{Fans, Width};
 pub use method::Method;
 pub use report::Report;
+use sums::Memory;
 
 /// How faithfully defects of the MikkTSpace reference are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -86,6 +87,7 @@ pub struct Frames {
 #[derive(Debug, Default)]
 pub struct Scratch {
     fans: Fans,
+    sums: Memory,
     width_limit: WidthLimit,
 }
 
@@ -124,13 +126,13 @@ pub fn generate_tangents_into(
     if applies && scratch.fans.run(mesh, options.mode, width, &mut out.corners.0) {
         local::decide(mesh, options, &mut scratch.fans, out);
     } else {
-        out.report = method::run(mesh, options, &mut out.corners.0);
+        out.report = method::run(mesh, options, &mut scratch.sums, &mut out.corners.0);
     }
 }
 
 /// Computes the whole frame of every corner: tangent, bitangent, magnitudes, sign.
 pub fn generate_frames(mesh: &Mesh<'_>, options: &TangentOptions) -> Frames {
     let mut corners = Vec::new();
-    let report = method::run(mesh, options, &mut corners);
+    let report = method::run(mesh, options, &mut Memory::default(), &mut corners);
     Frames { corners: CornerFrames(corners), report }
 }

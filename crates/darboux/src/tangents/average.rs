@@ -26,8 +26,7 @@ impl Weighting<3> for Average {
 }
 
 /// The sums of all vertices, gathered: what [`super::sums::accumulate`] would scatter.
-pub(super) fn gather(flat: &Flat<'_>) -> Sums<3> {
-    let mut sums = Sums::new(flat);
+pub(super) fn gather(flat: &Flat<'_>, mut sums: Sums<3>) -> Sums<3> {
     let mut terms: Vec<(Sum<3>, usize)> = vec![([[0.0; 4]; 3], 0); flat.triangles().len()];
     let mut used_sides = [false; 2];
     for_each_term::<3, Average>(flat, &mut sums, |_, t, term, side| {

@@ -5,7 +5,7 @@
 
 use crate::math::{length, scale};
 
-use super::sums::{Derivatives, Sum, Weighting};
+use super::sums::{Derivatives, Sum, Weighting, size};
 
 /// Each triangle adds dP/du and dP/dv; triangles of the two UV orientations sum apart.
 pub(super) struct Lengyel;
@@ -14,10 +14,8 @@ impl Weighting<2> for Lengyel {
     #[inline(always)]
     fn term(derivatives: &Derivatives) -> Sum<2> {
         let reciprocal = 1.0 / derivatives.area;
-        let ([s0, s1, s2], [t0, t1, t2]) =
-            (scale(reciprocal, derivatives.s), scale(reciprocal, derivatives.t));
-        // In the last lane the cheapest norm, that of the sum of sizes.
-        [[s0, s1, s2, 1.0], [t0, t1, t2, s0.abs() + s1.abs() + s2.abs()]]
+        let (s, [t0, t1, t2]) = (scale(reciprocal, derivatives.s), scale(reciprocal, derivatives.t));
+        [[s[0], s[1], s[2], 1.0], [t0, t1, t2, size(s)]]
     }
 
     fn size(sum: &Sum<2>) -> f32 {

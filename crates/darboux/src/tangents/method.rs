@@ -7,7 +7,7 @@ use super::average::{Average, gather};
 use super::flat::Flat;
 use super::lengyel::{Lengyel, LengyelPerVertex};
 use super::sides::{Output, finish};
-use super::sums::{Weighting, accumulate};
+use super::sums::{Keeps, Memory, Sums, Weighting, accumulate};
 use super::{Report, TangentOptions, angle_area, face, from_normal, mikktspace};
 
 /// How tangents are computed. Normal maps need the method that they were baked with, nearly always the default.
@@ -40,7 +40,12 @@ pub enum Method {
 }
 
 /// Runs the method of `options`: one output per corner, in the memory of `corners`.
-pub(super) fn run<O: Output>(mesh: &Mesh<'_>, options: &TangentOptions, corners: &mut Vec<O>) -> Report {
+pub(super) fn run<O: Output>(
+    mesh: &Mesh<'_>,
+    options: &TangentOptions,
+    memory: &mut Memory,
+    corners: &mut Vec<O>,
+) -> Report {
     let mode = options.mode;
     corners.clear();
     match options.method {
@@ -50,25 +55,31 @@ pub(super) fn run<O: Output>(mesh: &Mesh<'_>, options: &TangentOptions, corners:
             report
         }
         Method::AngleArea => angle_area::run(mesh, mode, corners),
-        Method::Lengyel => summed::<2, Lengyel, O>(mesh, mode, corners),
-        Method::LengyelPerVertex => summed::<2, LengyelPerVertex, O>(mesh, mode, corners),
-        Method::Average => {
-            let flat = Flat::new(mesh);
-            let sums = gather(&flat);
-            finish::<3, Average, O>(mesh, &flat, sums, mode, corners)
+        Method::Lengyel => summed::<2, Lengyel, O>(mesh, mode, accumulate::<2, Lengyel>, memory, corners),
+        Method::LengyelPerVertex => {
+            summed::<2, LengyelPerVertex, O>(mesh, mode, accumulate::<2, LengyelPerVertex>, memory, corners)
         }
-        Method::Area => summed::<3, Area, O>(mesh, mode, corners),
+        Method::Average => summed::<3, Average, O>(mesh, mode, gather, memory, corners),
+        Method::Area => summed::<3, Area, O>(mesh, mode, accumulate::<3, Area>, memory, corners),
         Method::Face => face::run(mesh, mode, corners),
         Method::FromNormal => from_normal::run(mesh, mode, corners),
     }
 }
 
+/// Sums as `add_up` does, and makes corners of the sums.
 fn summed<const N: usize, W: Weighting<N>, O: Output>(
     mesh: &Mesh<'_>,
     mode: Mode,
+    add_up: fn(&Flat<'_>, Sums<N>) -> Sums<N>,
+    memory: &mut Memory,
     corners: &mut Vec<O>,
-) -> Report {
+) -> Report
+where
+    Memory: Keeps<N>,
+{
     let flat = Flat::new(mesh);
-    let sums = accumulate::<N, W>(&flat);
-    finish::<N, W, O>(mesh, &flat, sums, mode, corners)
+    let mut sums = add_up(&flat, Sums::new(&flat, memory));
+    let report = finish::<N, W, O>(mesh, &flat, &mut sums, mode, corners);
+    sums.keep(memory);
+    report
 }

@@ -57,7 +57,7 @@ type Side = (u32, usize);
 pub(super) fn finish<const N: usize, W: Weighting<N>, O: Output>(
     mesh: &Mesh<'_>,
     flat: &Flat<'_>,
-    mut sums: Sums<N>,
+    sums: &mut Sums<N>,
     mode: Mode,
     corners: &mut Vec<O>,
 ) -> Report {
@@ -68,12 +68,12 @@ pub(super) fn finish<const N: usize, W: Weighting<N>, O: Output>(
         report.mirrored_edges = count_mirrored_edges(flat, &sums.orientation_of_face, &of_both);
         report.merged_vertices = if W::SPLITS { 0 } else { count(&of_both) };
     }
-    let (mut frames, mut missing) = frames_of_sides::<N, W, O>(flat, &sums);
-    decide_faces::<N, W>(flat, &mut sums, &mut missing);
+    let (mut frames, mut missing) = frames_of_sides::<N, W, O>(flat, sums);
+    decide_faces::<N, W>(flat, sums, &mut missing);
     missing.sort_unstable();
     missing.dedup();
     if mode != Mode::Reference && !missing.is_empty() {
-        replace::<N, W, O>(flat, &sums, &missing, &mut frames);
+        replace::<N, W, O>(flat, sums, &missing, &mut frames);
     }
     report.repaired_corners = count_corners::<N, W>(flat, &sums.orientation_of_face, &missing);
     to_corners::<N, W, O>(flat, &sums.orientation_of_face, &frames, corners);

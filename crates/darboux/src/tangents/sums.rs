@@ -61,10 +61,9 @@ impl Derivatives {
     /// True where neither derivative is zero and the triangle is not degenerate. No branches: it nearly always is.
     #[inline(always)]
     pub fn has_direction(&self) -> bool {
-        let is_not_zero = |v: V3| (v[0] != 0.0) | (v[1] != 0.0) | (v[2] != 0.0);
         let [a, b, c] = self.edges;
-        let has_corners = is_not_zero(a) & is_not_zero(b) & is_not_zero(c);
-        not_zero(self.area) & is_not_zero(self.s) & is_not_zero(self.t) & has_corners
+        let has_corners = size(a).min(size(b)).min(size(c)) > 0.0;
+        not_zero(self.area) & (size(self.s) > 0.0) & (size(self.t) > 0.0) & has_corners
     }
 
     /// The unit directions of dP/du and dP/dv, and their lengths.
@@ -82,6 +81,12 @@ impl Derivatives {
         let [a, b, _] = self.edges;
         [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     }
+}
+
+/// The sum of the absolute coordinates: the cheapest norm.
+#[inline(always)]
+pub(super) fn size([x, y, z]: V3) -> f32 {
+    x.abs() + y.abs() + z.abs()
 }
 
 /// True for two equal positions.
@@ -114,21 +119,61 @@ pub(super) struct Sums<const N: usize> {
     pub uv_degenerate_triangles: usize,
 }
 
+/// What sums leave behind for the next run.
+#[derive(Debug, Default)]
+pub(super) struct Memory {
+    of_two_rows: [Vec<Sum<2>>; 2],
+    of_three_rows: [Vec<Sum<3>>; 2],
+    orientation_of_face: Vec<Orientation>,
+}
+
+/// Where sums of `N` rows are kept.
+pub(super) trait Keeps<const N: usize> {
+    fn of_side(&mut self) -> &mut [Vec<Sum<N>>; 2];
+}
+
+impl Keeps<2> for Memory {
+    fn of_side(&mut self) -> &mut [Vec<Sum<2>>; 2] {
+        &mut self.of_two_rows
+    }
+}
+
+impl Keeps<3> for Memory {
+    fn of_side(&mut self) -> &mut [Vec<Sum<3>>; 2] {
+        &mut self.of_three_rows
+    }
+}
+
 impl<const N: usize> Sums<N> {
-    pub fn new(flat: &Flat<'_>) -> Self {
-        Self {
-            of_side: [vec![[[0.0; 4]; N]; flat.positions.len()], Vec::new()],
-            orientation_of_face: Vec::with_capacity(flat.face_count()),
-            degenerate_triangles: 0,
-            uv_degenerate_triangles: 0,
-        }
+    /// Empty sums, in the memory of earlier ones.
+    pub fn new(flat: &Flat<'_>, memory: &mut Memory) -> Self
+    where
+        Memory: Keeps<N>,
+    {
+        let mut of_side = std::mem::take(memory.of_side());
+        let mut orientation_of_face = std::mem::take(&mut memory.orientation_of_face);
+        of_side.iter_mut().for_each(Vec::clear);
+        of_side[0].resize(flat.positions.len(), [[0.0; 4]; N]);
+        orientation_of_face.clear();
+        orientation_of_face.reserve(flat.face_count());
+        Self { of_side, orientation_of_face, degenerate_triangles: 0, uv_degenerate_triangles: 0 }
+    }
+
+    /// Leaves the memory for others.
+    pub fn keep(self, memory: &mut Memory)
+    where
+        Memory: Keeps<N>,
+    {
+        *memory.of_side() = self.of_side;
+        memory.orientation_of_face = self.orientation_of_face;
     }
 
     /// The sums of one orientation, made when they are first asked for.
     #[inline(always)]
     pub fn side(&mut self, side: usize) -> &mut [Sum<N>] {
         if self.of_side[side].is_empty() {
-            self.of_side[side] = vec![[[0.0; 4]; N]; self.of_side[0].len()];
+            let count = self.of_side[0].len();
+            self.of_side[side].resize(count, [[0.0; 4]; N]);
         }
         &mut self.of_side[side]
     }
@@ -170,10 +215,9 @@ pub(super) fn for_each_term<const N: usize, W: Weighting<N>>(
     }
 }
 
-/// Adds up what all triangles add.
-pub(super) fn accumulate<const N: usize, W: Weighting<N>>(flat: &Flat<'_>) -> Sums<N> {
+/// Adds what all triangles add to sums that are empty.
+pub(super) fn accumulate<const N: usize, W: Weighting<N>>(flat: &Flat<'_>, mut sums: Sums<N>) -> Sums<N> {
     let triangles = flat.triangles();
-    let mut sums = Sums::new(flat);
     for_each_term::<N, W>(flat, &mut sums, |sums, t, term, side| {
         let sums = sums.side(side);
         for v in triangles[t] {
@@ -194,12 +238,12 @@ pub(super) fn accumulate_into<const N: usize>(sum: &mut Sum<N>, term: &Sum<N>) {
 #[inline(always)]
 fn term<const N: usize, W: Weighting<N>>(derivatives: &Derivatives) -> Option<Sum<N>> {
     let term = W::term(derivatives);
-    // One test for all lanes: one that is not finite makes the sum of their zeros NaN.
-    let mut zero = 0.0;
+    // One test for all lanes: sizes do not cancel, so their sum is finite only where all are.
+    let mut sizes = 0.0;
     for [a, b, c, d] in term {
-        zero += (a * 0.0 + b * 0.0) + (c * 0.0 + d * 0.0);
+        sizes += size([a, b, c]) + d.abs();
     }
-    let is_finite = zero == 0.0;
+    let is_finite = sizes < f32::INFINITY;
     let adds = derivatives.has_direction() & is_finite & (term[0][3] > 0.0);
     adds.then_some(term)
 }
