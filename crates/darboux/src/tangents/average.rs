@@ -29,7 +29,7 @@ impl Weighting<3> for Average {
 pub(super) fn gather(flat: &Flat<'_>, mut sums: Sums<3>) -> Sums<3> {
     let mut terms: Vec<(Sum<3>, usize)> = vec![([[0.0; 4]; 3], 0); flat.triangles().len()];
     let mut used_sides = [false; 2];
-    for_each_term::<3, Average>(flat, &mut sums, |_, t, term, side| {
+    for_each_term::<3, Average>(flat, &mut sums, |_, (t, _), term, side| {
         terms[t] = (*term, side);
         used_sides[side] = true;
     });

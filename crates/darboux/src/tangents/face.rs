@@ -51,8 +51,9 @@ pub(super) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut Vec<O>) 
 
 fn add_up(flat: &Flat<'_>, report: &mut Report) -> Vec<Face> {
     let mut faces = vec![Face::default(); flat.face_count()];
-    for (t, &triangle) in flat.triangles().iter().enumerate() {
-        let (positions, uvs) = flat.refer(triangle);
+    let slices = flat.slices();
+    for (t, &triangle) in slices.triangles.iter().enumerate() {
+        let (positions, uvs) = slices.refer(triangle);
         let derivatives = Derivatives::new(positions, uvs);
         if is_degenerate(flat.values(t).0) {
             report.degenerate_triangles += 1;

@@ -18,6 +18,25 @@ pub(super) struct Flat<'a> {
     faces: Option<SplitFaces>,
 }
 
+/// The vertices of triangles, and positions and UVs of vertices.
+#[derive(Clone, Copy)]
+pub(super) struct Slices<'a> {
+    pub triangles: &'a [[u32; 3]],
+    positions: &'a [V3],
+    uvs: &'a [[f32; 2]],
+}
+
+impl<'a> Slices<'a> {
+    /// Positions and UVs of a triangle, where they are: copies would go through memory once more.
+    #[inline(always)]
+    pub fn refer(&self, triangle: [u32; 3]) -> ([&'a V3; 3], [&'a [f32; 2]; 3]) {
+        // Written out, as `map` over panicking reads becomes a call.
+        let [a, b, c] = [triangle[0] as usize, triangle[1] as usize, triangle[2] as usize];
+        let (positions, uvs) = (self.positions, self.uvs);
+        ([&positions[a], &positions[b], &positions[c]], [&uvs[a], &uvs[b], &uvs[c]])
+    }
+}
+
 /// Faces cut into triangles.
 struct SplitFaces {
     triangles: Vec<[u32; 3]>,
@@ -74,18 +93,15 @@ impl<'a> Flat<'a> {
         }
     }
 
-    /// Positions and UVs of a triangle, where they are: copies would go through memory once more.
-    #[inline(always)]
-    pub fn refer(&self, triangle: [u32; 3]) -> ([&V3; 3], [&[f32; 2]; 3]) {
-        // Written out, as `map` over panicking reads becomes a call.
-        let [a, b, c] = [triangle[0] as usize, triangle[1] as usize, triangle[2] as usize];
-        let (positions, uvs) = (&*self.positions, &*self.uvs);
-        ([&positions[a], &positions[b], &positions[c]], [&uvs[a], &uvs[b], &uvs[c]])
+    /// The arrays that inner loops read.
+    pub fn slices(&self) -> Slices<'_> {
+        Slices { triangles: self.triangles(), positions: &self.positions, uvs: &self.uvs }
     }
 
     /// Positions and UVs of triangle `t`.
     pub fn values(&self, t: usize) -> ([V3; 3], [[f32; 2]; 3]) {
-        let (positions, uvs) = self.refer(self.triangles()[t]);
+        let slices = self.slices();
+        let (positions, uvs) = slices.refer(slices.triangles[t]);
         (positions.map(|position| *position), uvs.map(|uv| *uv))
     }
 }

@@ -62,7 +62,7 @@ impl Derivatives {
     #[inline(always)]
     pub fn has_direction(&self) -> bool {
         let [a, b, c] = self.edges;
-        let has_corners = size(a).min(size(b)).min(size(c)) > 0.0;
+        let has_corners = (size(a) > 0.0) & (size(b) > 0.0) & (size(c) > 0.0);
         not_zero(self.area) & (size(self.s) > 0.0) & (size(self.t) > 0.0) & has_corners
     }
 
@@ -179,8 +179,8 @@ impl<const N: usize> Sums<N> {
     }
 
     #[cold]
-    fn count_flawed(&mut self, positions: [V3; 3]) {
-        if is_degenerate(positions) {
+    fn count_flawed(&mut self, positions: [&V3; 3]) {
+        if is_degenerate(positions.map(|position| *position)) {
             self.degenerate_triangles += 1;
         } else {
             self.uv_degenerate_triangles += 1;
@@ -188,41 +188,38 @@ impl<const N: usize> Sums<N> {
     }
 }
 
-/// Calls `add` with every triangle that has a direction, what it adds, and the side it adds to.
+/// Calls `add` with every triangle that has a direction: its number, its vertices, what it adds, and the side it adds to.
+#[inline(always)]
 pub(super) fn for_each_term<const N: usize, W: Weighting<N>>(
     flat: &Flat<'_>,
     sums: &mut Sums<N>,
-    mut add: impl FnMut(&mut Sums<N>, usize, &Sum<N>, usize),
+    mut add: impl FnMut(&mut Sums<N>, (usize, [u32; 3]), &Sum<N>, usize),
 ) {
     let agreed = (!flat.is_triangles()).then(|| agreed_orientations::<N, W>(flat));
-    for (t, &triangle) in flat.triangles().iter().enumerate() {
-        let (positions, uvs) = flat.refer(triangle);
+    let slices = flat.slices();
+    let mut orientations = std::mem::take(&mut sums.orientation_of_face);
+    orientations.resize(slices.triangles.len(), Orientation::None);
+    for (t, (&triangle, slot)) in slices.triangles.iter().zip(&mut orientations).enumerate() {
+        let (positions, uvs) = slices.refer(triangle);
         let derivatives = Derivatives::new(positions, uvs);
-        let mut orientation = Orientation::None;
-        if let Some(term) = term::<N, W>(&derivatives) {
-            let own = Orientation::of(derivatives.area);
-            orientation = agreed.as_ref().map_or(own, |agreed| agreed[flat.face(t)]);
-            add(sums, t, &term, if W::SPLITS { orientation as usize } else { 0 });
-        } else {
-            sums.count_flawed(flat.values(t).0);
-        }
-        if agreed.is_none() {
-            sums.orientation_of_face.push(orientation);
-        }
+        let Some(term) = term::<N, W>(&derivatives) else {
+            sums.count_flawed(positions);
+            continue;
+        };
+        let own = Orientation::of(derivatives.area);
+        *slot = agreed.as_ref().map_or(own, |agreed| agreed[flat.face(t)]);
+        add(sums, (t, triangle), &term, if W::SPLITS { *slot as usize } else { 0 });
     }
-    if let Some(agreed) = agreed {
-        sums.orientation_of_face = agreed;
-    }
+    sums.orientation_of_face = agreed.unwrap_or(orientations);
 }
 
 /// Adds what all triangles add to sums that are empty.
 pub(super) fn accumulate<const N: usize, W: Weighting<N>>(flat: &Flat<'_>, mut sums: Sums<N>) -> Sums<N> {
-    let triangles = flat.triangles();
-    for_each_term::<N, W>(flat, &mut sums, |sums, t, term, side| {
+    for_each_term::<N, W>(flat, &mut sums, |sums, (_, [a, b, c]), term, side| {
         let sums = sums.side(side);
-        for v in triangles[t] {
-            accumulate_into(&mut sums[v as usize], term);
-        }
+        accumulate_into(&mut sums[a as usize], term);
+        accumulate_into(&mut sums[b as usize], term);
+        accumulate_into(&mut sums[c as usize], term);
     });
     sums
 }
@@ -250,7 +247,8 @@ fn term<const N: usize, W: Weighting<N>>(derivatives: &Derivatives) -> Option<Su
 
 /// True for a triangle that adds something.
 pub(super) fn adds<const N: usize, W: Weighting<N>>(flat: &Flat<'_>, t: usize) -> bool {
-    let (positions, uvs) = flat.refer(flat.triangles()[t]);
+    let slices = flat.slices();
+    let (positions, uvs) = slices.refer(slices.triangles[t]);
     term::<N, W>(&Derivatives::new(positions, uvs)).is_some()
 }
 
@@ -258,8 +256,9 @@ pub(super) fn adds<const N: usize, W: Weighting<N>>(flat: &Flat<'_>, t: usize) -
 /// on a tie.
 fn agreed_orientations<const N: usize, W: Weighting<N>>(flat: &Flat<'_>) -> Vec<Orientation> {
     let mut deciding = vec![(Orientation::None, 0.0); flat.face_count()];
-    for (t, &triangle) in flat.triangles().iter().enumerate() {
-        let (positions, uvs) = flat.refer(triangle);
+    let slices = flat.slices();
+    for (t, &triangle) in slices.triangles.iter().enumerate() {
+        let (positions, uvs) = slices.refer(triangle);
         let derivatives = Derivatives::new(positions, uvs);
         let slot = &mut deciding[flat.face(t)];
         let is_larger = slot.0 == Orientation::None || derivatives.area.abs() > slot.1;
