@@ -115,16 +115,26 @@ pub fn all() -> Vec<Engine> {
 /// Darboux in the forms worth telling apart. The output of each is the reference's, bit for bit.
 fn ours() -> Vec<Engine> {
     let version = env!("CARGO_PKG_VERSION");
+    let threads = available_threads();
     vec![
         native("darboux", version, Method::MikkTSpace, |mesh| {
             let view = mesh.view();
             per_corner(mesh, move |out| *out = generate_tangents(&view, &EXACT).corners.into_per_corner())
         }),
         native("darboux-kept", version, Method::MikkTSpace, |mesh| kept(mesh, Scratch::new())),
+        native("darboux-kept-256", version, Method::MikkTSpace, |mesh| {
+            kept(mesh, Scratch::with_width_limit(WidthLimit::Bits256))
+        }),
         native("darboux-kept-128", version, Method::MikkTSpace, |mesh| {
             kept(mesh, Scratch::with_width_limit(WidthLimit::Compiled))
         }),
+        Engine { threads, ..native("darboux-threads", version, Method::MikkTSpace, kept_by_threads) },
     ]
+}
+
+/// How many threads the machine runs at once.
+fn available_threads() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
 }
 
 /// The reference's own answer, repairs left out.
@@ -135,6 +145,19 @@ const EXACT: TangentOptions =
 fn kept(mesh: &OwnedMesh, mut scratch: Scratch) -> Box<dyn Run + '_> {
     let view = mesh.view();
     let call = move |out: &mut Tangents| generate_tangents_into(&view, &EXACT, &mut scratch, out);
+    let output = Tangents::default();
+    Box::new(Native { mesh, per_vertex: false, output, read: |out| out.corners.per_corner(), call })
+}
+
+/// As [`kept`], on all threads of the machine.
+fn kept_by_threads(mesh: &OwnedMesh) -> Box<dyn Run + '_> {
+    let view = mesh.view();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(available_threads()).build();
+    let pool = pool.expect("a thread pool starts");
+    let mut scratch = Scratch::new();
+    let call = move |out: &mut Tangents| {
+        pool.install(|| generate_tangents_into(&view, &EXACT, &mut scratch, out));
+    };
     let output = Tangents::default();
     Box::new(Native { mesh, per_vertex: false, output, read: |out| out.corners.per_corner(), call })
 }

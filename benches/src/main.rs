@@ -60,6 +60,8 @@ const DEEP_STACK: usize = 1 << 30;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
+    // Engines of one thread meet this pool, the others bring their own.
+    rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("no pool has started before");
     let deep = std::thread::Builder::new().stack_size(DEEP_STACK);
     let thread = deep.spawn(move || run(&arguments)).expect("a thread starts");
     match thread.join().expect("no engine panics") {

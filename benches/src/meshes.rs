@@ -70,7 +70,7 @@ pub fn make(name: &str, size: Size) -> Option<Named> {
     Some(Named { name: name.into(), mesh: maker(size) })
 }
 
-/// `helmet` (all of FlightHelmet as one mesh) and every primitive of more than 50,000 triangles below a folder.
+/// `helmet` (all of FlightHelmet as one mesh), its primitives, and every other one of more than 50,000 triangles below a folder.
 pub fn real(folder: &Path) -> Vec<Named> {
     let mut found: Vec<Named> = Vec::new();
     for path in models::models(folder) {
@@ -79,7 +79,8 @@ pub fn real(folder: &Path) -> Vec<Named> {
         if stem == HELMET {
             found.push(Named { name: "helmet".into(), mesh: joined(&primitives) });
         }
-        let large = primitives.into_iter().filter(|(_, mesh)| mesh.corner_count() / 3 > LARGE);
+        let is_wanted = |mesh: &OwnedMesh| stem == HELMET || mesh.corner_count() / 3 > LARGE;
+        let large = primitives.into_iter().filter(|(_, mesh)| is_wanted(mesh));
         found.extend(large.map(|(number, mesh)| Named { name: format!("{stem}:{number}"), mesh }));
     }
     // A model may lie there in more than one container.
