@@ -27,7 +27,7 @@ pub(super) struct Weld {
     hashes: Vec<u32>,
     seen: BitMap,
     again: BitMap,
-    table: Vec<u32>,
+    table: Vec<u64>,
     recent: Vec<u32>,
 }
 
@@ -37,8 +37,8 @@ pub(super) struct Refused;
 /// The largest size of a coordinate that is welded here; the reference stops welding at half the largest float.
 const LARGEST: f32 = 1e38;
 
-/// No vertex in this slot.
-const FREE: u32 = u32::MAX;
+/// No vertex in this slot. Others hold a hash above and the number of a vertex below.
+const FREE: u64 = u64::MAX;
 
 /// How many recently met vertices are looked at first, in an unindexed mesh.
 const RECENT: usize = if cfg!(small_limits) { 2 } else { 1 << 14 };
@@ -119,10 +119,10 @@ impl Weld {
         self.table.clear();
         self.table.resize(slots, FREE);
         for (vertex, &hash) in self.hashes.iter().enumerate().filter(|(_, hash)| self.again.has(**hash)) {
-            let mut slot = hash as usize & (slots - 1);
+            let mut slot = slot(hash, slots);
             while self.table[slot] != FREE {
-                let first = self.table[slot];
-                if self.hashes[first as usize] == hash && are_one(mesh, first as usize, vertex)? {
+                let first = self.table[slot] as u32;
+                if has_hash(self.table[slot], hash) && are_one(mesh, first as usize, vertex)? {
                     if self.of.is_empty() {
                         self.of.extend(0..self.count as u32);
                     }
@@ -132,7 +132,7 @@ impl Weld {
                 slot = (slot + 1) & (slots - 1);
             }
             if self.table[slot] == FREE {
-                self.table[slot] = vertex as u32;
+                self.table[slot] = entry(hash, vertex as u32);
             }
         }
         Ok(())
@@ -148,10 +148,10 @@ impl Weld {
     ) -> Result<(), Refused> {
         let corners = mesh.corner_count();
         let slots = if cfg!(small_limits) { 2 } else { (corners / 3).next_power_of_two().max(2) };
-        for (table, size, empty) in [(&mut self.table, slots, FREE), (&mut self.recent, RECENT, 0)] {
-            table.clear();
-            table.resize(size, empty);
-        }
+        self.table.clear();
+        self.table.resize(slots, FREE);
+        self.recent.clear();
+        self.recent.resize(RECENT, 0);
         vertices.clear();
         self.of.resize(corners, 0);
         self.hashes.resize(WINDOW, 0);
@@ -193,7 +193,7 @@ impl Task for Hash<'_> {
 struct Number<'a> {
     rows: Rows<'a>,
     hashes: &'a [u32],
-    table: &'a mut Vec<u32>,
+    table: &'a mut Vec<u64>,
     recent: &'a mut [u32],
     vertices: &'a mut Vec<Vertex>,
     of: &'a mut [u32],
@@ -203,46 +203,67 @@ struct Number<'a> {
 impl Task for Number<'_> {
     #[inline(always)]
     fn run(self) {
-        for ((record, &hash), of) in self.rows.records().zip(self.hashes).zip(self.of) {
+        let Rows { positions, normals, uvs } = self.rows;
+        for (at, of) in self.of.iter_mut().enumerate() {
+            let (position, normal, uv) = (&positions[at], &normals[at], &uvs[at]);
+            let hash = self.hashes[at];
             let recent = &mut self.recent[hash as usize % RECENT];
-            if !self.vertices.get(*recent as usize).is_some_and(|vertex| vertex.is_at(&record)) {
+            let is_recent = match self.vertices.get(*recent as usize) {
+                Some(Vertex { record: [x, y, z, a, b, c, u, v], .. }) => {
+                    same([*x, *y, *z], *position) & same([*a, *b, *c], *normal) & same([*u, *v], *uv)
+                }
+                None => false,
+            };
+            if !is_recent {
+                let [x, y, z] = *position;
+                let ([a, b, c], [u, v]) = (*normal, *uv);
+                let record = [x, y, z, a, b, c, u, v];
                 *recent = find_or_insert(self.table, self.vertices, hash, &record);
+                *self.refused |= !same(self.vertices[*recent as usize].record, record);
             }
-            *self.refused |= !same_bits(&self.vertices[*recent as usize].record, &record);
             *of = *recent;
         }
     }
 }
 
 /// The number of the vertex with this record; a new one when there is none.
-fn find_or_insert(table: &mut Vec<u32>, vertices: &mut Vec<Vertex>, hash: u32, record: &Record) -> u32 {
+#[inline(never)]
+fn find_or_insert(table: &mut Vec<u64>, vertices: &mut Vec<Vertex>, hash: u32, record: &Record) -> u32 {
     let mut slot = slot(hash, table.len());
     while table[slot] != FREE {
-        if vertices[table[slot] as usize].is_at(record) {
-            return table[slot];
+        let known = table[slot] as u32;
+        if has_hash(table[slot], hash) && vertices[known as usize].is_at(record) {
+            return known;
         }
         slot = (slot + 1) & (table.len() - 1);
     }
     let vertex = vertices.len() as u32;
-    table[slot] = vertex;
+    table[slot] = entry(hash, vertex);
     vertices.push(Vertex::at(*record));
     if 2 * vertices.len() > table.len() {
-        grow(table, vertices);
+        grow(table);
     }
     vertex
 }
 
-fn grow(table: &mut Vec<u32>, vertices: &[Vertex]) {
+fn grow(table: &mut Vec<u64>) {
     let slots = 2 * table.len();
-    table.clear();
-    table.resize(slots, FREE);
-    for (vertex, at) in (0..).zip(vertices) {
-        let mut slot = slot(hash(&at.record), slots);
+    let old = std::mem::replace(table, vec![FREE; slots]);
+    for held in old.into_iter().filter(|&held| held != FREE) {
+        let mut slot = slot((held >> 32) as u32, slots);
         while table[slot] != FREE {
             slot = (slot + 1) & (slots - 1);
         }
-        table[slot] = vertex;
+        table[slot] = held;
     }
+}
+
+fn entry(hash: u32, vertex: u32) -> u64 {
+    u64::from(hash) << 32 | u64::from(vertex)
+}
+
+fn has_hash(entry: u64, hash: u32) -> bool {
+    (entry >> 32) as u32 == hash
 }
 
 /// The first slot of a hash in a table of `slots`, a power of two: other bits than those that choose a recent vertex.
@@ -365,10 +386,15 @@ fn are_one(mesh: &Mesh<'_>, a: usize, b: usize) -> Result<bool, Refused> {
     if a != b {
         return Ok(false);
     }
-    if same_bits(&a, &b) { Ok(true) } else { Err(Refused) }
+    if same(a, b) { Ok(true) } else { Err(Refused) }
 }
 
+/// True for equal bits. One number at a time: wider reads of what was written in parts would wait.
 #[inline(always)]
-fn same_bits(a: &Record, b: &Record) -> bool {
-    a.map(f32::to_bits) == b.map(f32::to_bits)
+fn same<const N: usize>(a: [f32; N], b: [f32; N]) -> bool {
+    let mut difference = 0;
+    for i in 0..N {
+        difference |= a[i].to_bits() ^ b[i].to_bits();
+    }
+    difference == 0
 }
