@@ -22,6 +22,7 @@ const QUICK: &[Step] = &[
 
 const LONG: &[Step] = &[
     ("acos", acos),
+    ("small limits", small_limits),
     ("long tests", || test("cargo test --release --workspace -- --ignored --skip acos_exhaustive")),
     ("fuzzing", fuzz),
 ];
@@ -40,6 +41,12 @@ pub fn full() -> Outcome {
 /// Our acos against the platform's on every float of [-1, 1].
 pub fn acos() -> Outcome {
     run(&mut program("cargo test --release --package darboux -- --ignored acos_exhaustive --nocapture"))
+}
+
+/// The tests against the reference with tables and blocks of two, so that every rare path runs.
+fn small_limits() -> Outcome {
+    let line = "cargo test --release --package darboux-tests --target-dir target/small-limits";
+    run(program(line).env("RUSTFLAGS", "--cfg small_limits"))
 }
 
 /// Runs the steps in turn, up to the first that fails.
