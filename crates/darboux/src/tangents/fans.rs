@@ -7,8 +7,10 @@
 
 mod block;
 mod last_run;
+mod shuffled;
 mod source;
 mod steps;
+mod stream;
 mod vertices;
 mod weld;
 mod width;
@@ -21,8 +23,9 @@ use crate::{Faces, Mesh};
 
 use super::Mode;
 use last_run::{LastRun, TailCells};
-use source::{Rows, triangles};
-use steps::{Add, Collect, Evaluate, Extent, Finish, Read, Special, Write};
+use source::{Identity, triangles};
+use steps::{Extent, Special};
+use stream::{Share, Stream, shares};
 pub(super) use vertices::UNDECIDED;
 use vertices::Vertex;
 use weld::{Refused, Weld};
@@ -33,15 +36,9 @@ use workers::{Worker, parts, split};
 /// Triangles per window: vertices are read when the first window that uses them begins, and finished when the last has ended.
 const WINDOW: usize = if cfg!(small_limits) { 2 } else { 1024 };
 
-/// Windows per thread that are added up at once, where there are several threads.
-const WINDOWS_AT_ONCE: usize = if cfg!(small_limits) { 2 } else { 64 };
-
 /// The memory of a run, kept from mesh to mesh.
 #[derive(Debug, Default)]
 pub(crate) struct Fans {
-    vertices: Vec<Vertex>,
-    /// What the corners of each vertex say of it.
-    marks: Vec<u32>,
     weld: Weld,
     windows: Vec<Window>,
     workers: Vec<Worker>,
@@ -65,13 +62,13 @@ impl Fans {
             return false;
         }
         self.workers.resize_with(workers::threads(mesh.face_count()), Worker::default);
-        if let Err(Refused) = self.weld.weld(mesh, width, &mut self.workers, &mut self.vertices) {
+        if let Err(Refused) = self.weld.weld(mesh, width, &mut self.workers) {
             return false;
         }
         self.find_windows(mesh, width);
-        let tail = TailCells::first(mesh, self.weld.identity(), &self.weld.bounds, self.is_shuffled());
-        self.stream(mesh, &tail, width, out);
-        mode == Mode::Corrected || !self.last_run_could_show(mesh, tail)
+        let tail = TailCells::first(mesh, &self.weld.bounds, self.is_shuffled());
+        self.add_and_write(mesh, &tail, width, out.as_chunks_mut().0);
+        mode == Mode::Corrected || !self.last_run_could_show(mesh, tail, out)
     }
 
     /// Finds which vertices each window uses.
@@ -83,8 +80,8 @@ impl Fans {
         let jobs = ranges.clone().zip(parts(&mut self.windows, 0, ranges));
         workers::run(&mut self.workers, jobs, |worker, (range, windows)| {
             for (at, out) in range.zip(windows) {
-                let triangles =
-                    triangles(mesh, identity, window(at, mesh.face_count()), &mut worker.triangles);
+                let range = window(at, mesh.face_count());
+                let triangles = triangles(mesh, identity, range, &mut worker.triangles);
                 width.run(Extent { triangles, lowest: &mut out.lowest, end: &mut out.end });
             }
         });
@@ -105,178 +102,77 @@ impl Fans {
         self.windows.last().is_some_and(|last| (last.end - last.lowest) as usize > self.weld.count / 4)
     }
 
-    /// Goes through the windows: reads what each needs first, adds it up, finishes what none needs any more, writes it.
-    fn stream(&mut self, mesh: &Mesh<'_>, tail: &TailCells, width: Width, out: &mut [[f32; 4]]) {
+    /// Gives each thread its share of the windows, or, where shares would overlap too much, all threads all of them.
+    fn add_and_write(&mut self, mesh: &Mesh<'_>, tail: &TailCells, width: Width, out: &mut [[[f32; 4]; 3]]) {
         self.special.clear();
-        self.marks.resize(self.weld.count, 0);
-        self.workers.iter_mut().for_each(|worker| worker.all_used = true);
-        let (mut read, mut finished, mut written) = (0, 0, 0);
-        if !self.weld.is_per_vertex() {
-            self.mark_vertices(tail);
-            read = self.weld.count;
+        let shares = shares(&self.windows, self.weld.count, self.workers.len());
+        let stream = Stream { mesh, identity: self.weld.identity(), windows: &self.windows, tail, width };
+        let added: usize = shares.iter().map(|share| share.until - share.windows.start).sum();
+        if self.workers.len() > 1 && added > self.windows.len() * 5 / 4 {
+            shuffled::run(&stream, self.weld.count, &mut self.workers, out);
+        } else {
+            let ranges = shares.iter().map(|share| triangles_of(share.windows.clone(), mesh));
+            let jobs = shares.iter().zip(parts(&mut *out, 0, ranges));
+            workers::run(&mut self.workers, jobs, |worker, (share, out)| stream.run(share, worker, out));
+            write_pending(mesh, &shares, &mut self.workers, self.weld.identity(), out);
         }
-        let threads = self.workers.len();
-        let at_once = if threads > 1 { threads * WINDOWS_AT_ONCE } else { 1 };
-        for first in (0..self.windows.len()).step_by(at_once) {
-            let next = (first + at_once).min(self.windows.len());
-            let end = (self.windows[next - 1].end_up_to_here as usize).max(read);
-            self.read(mesh, tail, read..end, width);
-            read = end;
-            self.add(mesh, first..next, width, out);
-            let unfinished = self.windows.get(next).map_or(read, |next| next.lowest_from_here as usize);
-            let end = unfinished.min(read).max(finished);
-            self.finish(finished..end, width);
-            finished = end;
-            let complete = |window: &&Window| window.end as usize <= finished;
-            let end = written + self.windows[written..next].iter().take_while(complete).count();
-            self.write(mesh, written..end, width, out);
-            written = end;
-        }
-    }
-
-    fn mark_vertices(&mut self, tail: &TailCells) {
-        for (marks, vertex) in self.marks.iter_mut().zip(&self.vertices) {
-            *marks = tail.mark(vertex.position());
-        }
-    }
-
-    /// Makes vertices of the mesh's.
-    fn read(&mut self, mesh: &Mesh<'_>, tail: &TailCells, range: Range<usize>, width: Width) {
-        let ranges = split(range, self.workers.len(), 1);
-        let vertices = parts(&mut self.vertices, 0, ranges.clone());
-        let marks = parts(&mut self.marks, 0, ranges.clone());
-        workers::run(
-            &mut self.workers,
-            ranges.zip(vertices).zip(marks),
-            |worker, ((range, vertices), marks)| {
-                let stretches =
-                    range.step_by(WINDOW).zip(vertices.chunks_mut(WINDOW)).zip(marks.chunks_mut(WINDOW));
-                for ((first, vertices), marks) in stretches {
-                    let rows = Rows::new(mesh, first..first + vertices.len(), &mut worker.rows);
-                    width.run(Read { rows, tail, vertices, marks });
-                }
-            },
-        );
-    }
-
-    /// Adds windows to their vertices.
-    fn add(&mut self, mesh: &Mesh<'_>, windows: Range<usize>, width: Width, out: &mut [[f32; 4]]) {
-        let identity = self.weld.identity();
-        if let [worker] = &mut self.workers[..] {
-            let (vertices, marks) = (&mut self.vertices, &mut self.marks);
-            for at in windows {
-                let triangles =
-                    triangles(mesh, identity, window(at, mesh.face_count()), &mut worker.triangles);
-                width.run(Add { triangles, block: &mut worker.block, vertices, marks });
-            }
-            return;
-        }
-        self.evaluate(mesh, windows.clone(), width, out);
-        self.collect(mesh, windows, width, out);
-    }
-
-    /// Writes what corners add to their vertices to the corners' place in `out`: each thread its part of the triangles.
-    fn evaluate(&mut self, mesh: &Mesh<'_>, windows: Range<usize>, width: Width, out: &mut [[f32; 4]]) {
-        let (identity, vertices) = (self.weld.identity(), &self.vertices[..]);
-        let ranges = split(triangles_of(windows, mesh), self.workers.len(), WINDOW);
-        let out = parts(out.as_chunks_mut::<3>().0, 0, ranges.clone());
-        workers::run(&mut self.workers, ranges.zip(out), |worker, (range, out)| {
-            let starts = range.step_by(WINDOW);
-            for (first, out) in starts.zip(out.chunks_mut(WINDOW)) {
-                let triangles = triangles(mesh, identity, first..first + out.len(), &mut worker.triangles);
-                width.run(Evaluate { triangles, block: &mut worker.block, vertices, out });
-            }
-        });
-    }
-
-    /// Adds what was written to `out`: each thread to its part of the vertices, in triangle order.
-    fn collect(&mut self, mesh: &Mesh<'_>, windows: Range<usize>, width: Width, out: &[[f32; 4]]) {
-        let (identity, terms) = (self.weld.identity(), out.as_chunks::<3>().0);
-        let lowest = self.windows[windows.clone()].iter().map(|window| window.lowest).min().unwrap_or(0);
-        let end = self.windows[windows.clone()].iter().map(|window| window.end).max().unwrap_or(0);
-        let ranges = split(lowest as usize..end as usize, self.workers.len(), 1);
-        let vertices = parts(&mut self.vertices, 0, ranges.clone());
-        let marks = parts(&mut self.marks, 0, ranges.clone());
-        let all = &self.windows[..];
-        workers::run(
-            &mut self.workers,
-            ranges.zip(vertices).zip(marks),
-            |worker, ((range, vertices), marks)| {
-                let meets = |at: &usize| {
-                    (all[*at].lowest as usize) < range.end && all[*at].end as usize > range.start
-                };
-                for at in windows.clone().filter(meets) {
-                    let of_window = window(at, mesh.face_count());
-                    let terms = &terms[of_window.clone()];
-                    let triangles = triangles(mesh, identity, of_window, &mut worker.triangles);
-                    let first = range.start as u32;
-                    width.run(Collect {
-                        triangles,
-                        terms,
-                        first,
-                        block: &mut worker.block,
-                        vertices: &mut *vertices,
-                        marks: &mut *marks,
-                    });
-                }
-            },
-        );
-    }
-
-    /// Finishes vertices that no later triangle uses.
-    fn finish(&mut self, range: Range<usize>, width: Width) {
-        let ranges = split(range, self.workers.len(), 1);
-        let vertices = parts(&mut self.vertices, 0, ranges.clone());
-        let jobs = vertices.zip(ranges.map(|range| &self.marks[range]));
-        workers::run(&mut self.workers, jobs, |worker, (vertices, marks)| {
-            width.run(Finish { vertices, marks, all_used: &mut worker.all_used });
-        });
-    }
-
-    /// Writes the corners of windows whose vertices are finished.
-    fn write(&mut self, mesh: &Mesh<'_>, windows: Range<usize>, width: Width, out: &mut [[f32; 4]]) {
-        let (identity, vertices) = (self.weld.identity(), &self.vertices[..]);
-        let ranges = split(triangles_of(windows, mesh), self.workers.len(), WINDOW);
-        let out = parts(out.as_chunks_mut::<3>().0, 0, ranges.clone());
-        workers::run(&mut self.workers, ranges.zip(out), |worker, (range, out)| {
-            for (first, out) in range.step_by(WINDOW).zip(out.chunks_mut(WINDOW)) {
-                let triangles = triangles(mesh, identity, first..first + out.len(), &mut worker.triangles);
-                width.run(Write { triangles, first, vertices, out, special: &mut worker.special });
-            }
-        });
         self.workers.iter_mut().for_each(|worker| self.special.take(&mut worker.special));
+        self.special.sort();
     }
 
     /// Whether the order of the reference's last edges could show. `tail` is of all vertices, used or not.
-    fn last_run_could_show(&self, mesh: &Mesh<'_>, tail: TailCells) -> bool {
-        let (identity, vertices) = (self.weld.identity(), &self.vertices[..]);
+    fn last_run_could_show(&self, mesh: &Mesh<'_>, tail: TailCells, out: &[[f32; 4]]) -> bool {
+        let identity = self.weld.identity();
         if self.workers.iter().all(|worker| worker.all_used) {
-            let run = LastRun { mesh, identity, vertices, bounds: &self.weld.bounds };
+            let run = LastRun { mesh, identity, bounds: &self.weld.bounds };
             return run.could_show(tail, &self.special.in_tail);
         }
-        let mut used = vertices.iter().filter(|vertex| vertex.is_used()).map(Vertex::position);
+        let mut used = (0..out.len()).map(|corner| mesh.positions().get(mesh.vertex_of_corner(corner)));
         let bounds = Bounds::of(used.next().unwrap_or_default(), used);
-        let run = LastRun { mesh, identity, vertices, bounds: &bounds };
-        let tail = TailCells::first(mesh, identity, &bounds, self.is_shuffled());
+        let run = LastRun { mesh, identity, bounds: &bounds };
+        let tail = TailCells::first(mesh, &bounds, self.is_shuffled());
         let points = run.points(&tail);
         run.could_show(tail, &points)
     }
 
-    /// The welded vertex at each corner of some triangles, named by the first corner of these, and whether it is undecided.
-    pub fn names(&mut self, mesh: &Mesh<'_>, list: &[u32]) -> (Vec<u32>, Vec<bool>) {
+    /// The welded vertex at each corner of some triangles, named by the first corner of these.
+    pub fn names(&self, mesh: &Mesh<'_>, list: &[u32]) -> Vec<u32> {
         let identity = self.weld.identity();
         let of = |&at: &u32| triangles(mesh, identity, at as usize..at as usize + 1, &mut Vec::new())[0];
-        let of_corner: Vec<u32> = list.iter().flat_map(of).collect();
-        for &vertex in &of_corner {
-            self.vertices[vertex as usize].print[0] = u32::MAX;
+        let mut corners: Vec<(u32, u32)> = list.iter().flat_map(of).zip(0..).collect();
+        let mut names = vec![0; corners.len()];
+        corners.sort_unstable();
+        for same in corners.chunk_by(|a, b| a.0 == b.0) {
+            same.iter().for_each(|&(_, corner)| names[corner as usize] = same[0].1);
         }
-        let mut name = |(corner, &vertex): (u32, &u32)| {
-            let vertex = &mut self.vertices[vertex as usize];
-            vertex.print[0] = vertex.print[0].min(corner);
-            (vertex.print[0], vertex.sum[3] == UNDECIDED)
-        };
-        (0..).zip(&of_corner).map(&mut name).unzip()
+        names
     }
+}
+
+/// Writes the windows with vertices that several threads have finished.
+fn write_pending(
+    mesh: &Mesh<'_>,
+    shares: &[Share],
+    workers: &mut [Worker],
+    identity: Identity<'_>,
+    out: &mut [[[f32; 4]; 3]],
+) {
+    let mut special = Special::default();
+    let mut buffer = Vec::new();
+    for &at in workers.iter().flat_map(|worker| &worker.pending) {
+        let range = window(at, mesh.face_count());
+        let triangles = triangles(mesh, identity, range.clone(), &mut buffer);
+        for ((at, triangle), out) in range.clone().zip(triangles).zip(&mut out[range]) {
+            let of = |vertex: u32| {
+                let owner = shares.partition_point(|share| share.vertices.end <= vertex as usize);
+                workers[owner].vertex(vertex)
+            };
+            let vertices = triangle.map(of);
+            *out = vertices.map(|vertex| vertex.sum);
+            special.note(at as u32, vertices.map(Vertex::position), out);
+        }
+    }
+    workers[0].special.take(&mut special);
 }
 
 /// The triangles of windows.

@@ -19,7 +19,8 @@ pub(super) fn decide(mesh: &Mesh<'_>, options: &TangentOptions, fans: &mut Fans,
             triangles.iter().flat_map(|&t| (0..3).map(move |k| 3 * t as usize + k)).collect();
         let indices: Vec<u32> = corners.iter().map(|&corner| mesh.vertex_of_corner(corner) as u32).collect();
         let part = mesh.with_triangles(&indices);
-        let (names, counts) = fans.names(mesh, &triangles);
+        let names = fans.names(mesh, &triangles);
+        let counts: Vec<bool> = corners.iter().map(|&corner| out.corners.0[corner][3] == UNDECIDED).collect();
         let known = corners.iter().map(|&corner| known_frame(out.corners.0[corner])).collect();
         let topology = Topology::of_part(&part, &Part { names: &names, counts: &counts }, options);
         let (frames, report) = topology.frames_of_part(&part, known);

@@ -74,12 +74,12 @@ pub(super) mod marks {
 }
 
 impl Block {
-    /// Takes the vertices of up to [`BLOCK`] triangles; the lanes beyond them keep what they had.
+    /// Takes the vertices of up to [`BLOCK`] triangles, counted from `first`; the lanes beyond them keep what they had.
     #[inline(always)]
-    pub fn set(&mut self, triangles: &[[u32; 3]]) {
+    pub fn set(&mut self, triangles: &[[u32; 3]], first: u32) {
         for (i, triangle) in triangles.iter().take(BLOCK).enumerate() {
             for k in 0..3 {
-                self.vertex[k][i] = triangle[k];
+                self.vertex[k][i] = triangle[k].wrapping_sub(first);
             }
         }
     }

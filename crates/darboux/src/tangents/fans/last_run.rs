@@ -8,9 +8,7 @@
 use crate::Mesh;
 use crate::weld::{Bounds, CELLS, Cells, Point, for_each_final_range};
 
-use super::block::Record;
-use super::source::{Identity, record, triangles};
-use super::vertices::Vertex;
+use super::source::{Identity, triangles};
 use super::windows_of;
 
 /// How many triangles from the end are looked at first, where triangles that share vertices are near each other in the list, and
@@ -33,7 +31,7 @@ pub(super) struct TailCells {
 
 impl TailCells {
     /// Of the triangles from `start` on; `bounds` are those of all vertices in use.
-    fn new(mesh: &Mesh<'_>, identity: Identity<'_>, bounds: &Bounds, start: usize) -> Self {
+    fn new(mesh: &Mesh<'_>, bounds: &Bounds, start: usize) -> Self {
         let cells = Cells::of(bounds);
         let mut tail = Self {
             start,
@@ -43,9 +41,9 @@ impl TailCells {
             high: f32::NEG_INFINITY,
         };
         for corner in 3 * start..mesh.corner_count() {
-            let record = record(mesh, identity.source(mesh.vertex_of_corner(corner)));
-            tail.wanted[cells.at(position(&record))] = true;
-            let along = position(&record)[cells.axis];
+            let position = mesh.positions().get(mesh.vertex_of_corner(corner));
+            tail.wanted[cells.at(position)] = true;
+            let along = position[cells.axis];
             (tail.low, tail.high) = (tail.low.min(along), tail.high.max(along));
         }
         // A cell more on either side, and rounding.
@@ -55,9 +53,9 @@ impl TailCells {
     }
 
     /// Of the first tail to look at.
-    pub fn first(mesh: &Mesh<'_>, identity: Identity<'_>, bounds: &Bounds, is_shuffled: bool) -> Self {
+    pub fn first(mesh: &Mesh<'_>, bounds: &Bounds, is_shuffled: bool) -> Self {
         let tail = if is_shuffled { FIRST_TAIL_SHUFFLED } else { FIRST_TAIL };
-        Self::new(mesh, identity, bounds, mesh.face_count().saturating_sub(tail))
+        Self::new(mesh, bounds, mesh.face_count().saturating_sub(tail))
     }
 
     /// True for vertices in these cells.
@@ -73,16 +71,10 @@ impl TailCells {
     }
 }
 
-#[inline(always)]
-fn position(record: &Record) -> [f32; 3] {
-    [record[0], record[1], record[2]]
-}
-
-/// Welded vertices after all have been read.
+/// A welded mesh.
 pub(super) struct LastRun<'a> {
     pub mesh: &'a Mesh<'a>,
     pub identity: Identity<'a>,
-    pub vertices: &'a [Vertex],
     pub bounds: &'a Bounds,
 }
 
@@ -95,12 +87,7 @@ impl LastRun<'_> {
             if tail > LONGEST_TAIL {
                 return true;
             }
-            cells = TailCells::new(
-                self.mesh,
-                self.identity,
-                self.bounds,
-                self.mesh.face_count().saturating_sub(tail),
-            );
+            cells = TailCells::new(self.mesh, self.bounds, self.mesh.face_count().saturating_sub(tail));
             found = self.shows_in_tail(&cells, &self.points(&cells));
         }
         found.unwrap_or(false)
@@ -127,7 +114,7 @@ impl LastRun<'_> {
     }
 
     fn position(&self, vertex: u32) -> [f32; 3] {
-        self.vertices[vertex as usize].position()
+        self.identity.position(self.mesh, vertex)
     }
 
     /// The corners of all vertices in the cells, ascending.

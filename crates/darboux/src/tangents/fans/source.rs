@@ -6,6 +6,26 @@ use crate::{Indices, Mesh, Strided};
 
 use super::block::Record;
 
+/// Consecutive welded vertices.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Welded<'a> {
+    Rows(Rows<'a>),
+    Records(&'a [Record]),
+}
+
+/// The welded vertices of `range`.
+pub(super) fn rows<'a>(
+    mesh: &Mesh<'a>,
+    identity: Identity<'a>,
+    range: Range<usize>,
+    buffer: &'a mut RowBuffer,
+) -> Welded<'a> {
+    match identity {
+        Identity::OfCorner(_, records) => Welded::Records(&records[range]),
+        Identity::Own | Identity::OfVertex(_) => Welded::Rows(Rows::new(mesh, range, buffer)),
+    }
+}
+
 /// Consecutive vertices.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rows<'a> {
@@ -68,16 +88,19 @@ pub(super) enum Identity<'a> {
     Own,
     /// By vertex.
     OfVertex(&'a [u32]),
-    /// By corner.
-    OfCorner(&'a [u32]),
+    /// By corner; and the records of the welded vertices.
+    OfCorner(&'a [u32], &'a [Record]),
 }
 
 impl Identity<'_> {
-    /// The vertex of the mesh whose record a vertex of the mesh has once welded.
-    pub fn source(&self, vertex: usize) -> usize {
+    /// The position of a welded vertex.
+    pub fn position(&self, mesh: &Mesh<'_>, vertex: u32) -> [f32; 3] {
         match self {
-            Self::OfVertex(of) => of[vertex] as usize,
-            Self::Own | Self::OfCorner(_) => vertex,
+            Self::OfCorner(_, records) => {
+                let [x, y, z, ..] = records[vertex as usize];
+                [x, y, z]
+            }
+            Self::Own | Self::OfVertex(_) => mesh.positions().get(vertex as usize),
         }
     }
 }
@@ -90,7 +113,7 @@ pub(super) fn triangles<'a>(
     buffer: &'a mut Vec<[u32; 3]>,
 ) -> &'a [[u32; 3]] {
     match (identity, mesh.indices()) {
-        (Identity::OfCorner(list), _) => &list.as_chunks().0[range],
+        (Identity::OfCorner(list, _), _) => &list.as_chunks().0[range],
         (Identity::Own, Indices::U32(list)) => &list.as_chunks().0[range],
         (_, Indices::Unindexed) => &[],
         (Identity::Own, Indices::U16(list)) => copied(list, range, buffer, |vertex| vertex),

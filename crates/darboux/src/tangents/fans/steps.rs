@@ -7,13 +7,13 @@ use crate::weld::Point;
 
 use super::block::{BLOCK, Block, Fourth, marks, turns};
 use super::last_run::TailCells;
-use super::source::Rows;
+use super::source::{Rows, Welded};
 use super::vertices::{IN_TAIL, UNDECIDED, Vertex, gather, scatter};
 use super::width::Task;
 
 /// Makes vertices of rows.
 pub(super) struct Read<'a> {
-    pub rows: Rows<'a>,
+    pub rows: Welded<'a>,
     pub tail: &'a TailCells,
     pub vertices: &'a mut [Vertex],
     pub marks: &'a mut [u32],
@@ -22,16 +22,25 @@ pub(super) struct Read<'a> {
 impl Task for Read<'_> {
     #[inline(always)]
     fn run(self) {
-        let Rows { positions, normals, uvs } = self.rows;
-        let rows = positions.iter().zip(normals).zip(uvs);
-        for ((((position, normal), uv), vertex), marks) in rows.zip(self.vertices).zip(self.marks) {
-            // Piece by piece: a record on the stack would be written in pieces and read as a whole, which waits.
-            vertex.record[..3].copy_from_slice(position);
-            vertex.record[3..6].copy_from_slice(normal);
-            vertex.record[6..].copy_from_slice(uv);
-            vertex.sum = [0.0; 4];
-            vertex.print = [0; 4];
-            *marks = self.tail.mark(*position);
+        match self.rows {
+            Welded::Records(records) => {
+                for ((record, vertex), marks) in records.iter().zip(self.vertices).zip(self.marks) {
+                    vertex.record = *record;
+                    vertex.clear();
+                    *marks = self.tail.mark([record[0], record[1], record[2]]);
+                }
+            }
+            Welded::Rows(Rows { positions, normals, uvs }) => {
+                let rows = positions.iter().zip(normals).zip(uvs);
+                for ((((position, normal), uv), vertex), marks) in rows.zip(self.vertices).zip(self.marks) {
+                    // Piece by piece: a record on the stack would be written in pieces and read as a whole, which waits.
+                    vertex.record[..3].copy_from_slice(position);
+                    vertex.record[3..6].copy_from_slice(normal);
+                    vertex.record[6..].copy_from_slice(uv);
+                    vertex.clear();
+                    *marks = self.tail.mark(*position);
+                }
+            }
         }
     }
 }
@@ -39,6 +48,8 @@ impl Task for Read<'_> {
 /// Adds triangles to their vertices.
 pub(super) struct Add<'a> {
     pub triangles: &'a [[u32; 3]],
+    /// The number of the first of `vertices`.
+    pub first: u32,
     pub block: &'a mut Block,
     pub vertices: &'a mut [Vertex],
     pub marks: &'a mut [u32],
@@ -48,7 +59,7 @@ impl Task for Add<'_> {
     #[inline(always)]
     fn run(self) {
         for triangles in self.triangles.chunks(BLOCK) {
-            self.block.set(triangles);
+            self.block.set(triangles, self.first);
             gather(self.block, triangles.len(), self.vertices);
             self.block.evaluate(Fourth::Turns);
             scatter(self.block, triangles.len(), 0, self.vertices, self.marks);
@@ -68,7 +79,7 @@ impl Task for Evaluate<'_> {
     #[inline(always)]
     fn run(self) {
         for (triangles, out) in self.triangles.chunks(BLOCK).zip(self.out.chunks_mut(BLOCK)) {
-            self.block.set(triangles);
+            self.block.set(triangles, 0);
             gather(self.block, triangles.len(), self.vertices);
             self.block.evaluate(Fourth::Marks);
             for k in 0..3 {
@@ -96,7 +107,7 @@ impl Task for Collect<'_> {
     fn run(self) {
         let Self { triangles, terms, first, block, vertices, marks } = self;
         for (triangles, terms) in triangles.chunks(BLOCK).zip(terms.chunks(BLOCK)) {
-            block.set(triangles);
+            block.set(triangles, 0);
             block.prints();
             for (i, terms) in terms.iter().enumerate() {
                 for k in 0..3 {
@@ -183,6 +194,8 @@ pub(super) struct Write<'a> {
     /// The number of the first triangle.
     pub first: usize,
     pub vertices: &'a [Vertex],
+    /// The number of the first of `vertices`.
+    pub first_vertex: u32,
     pub out: &'a mut [[[f32; 4]; 3]],
     pub special: &'a mut Special,
 }
@@ -203,12 +216,14 @@ impl Task for Write<'_> {
         for i in 0..self.triangles.len() {
             let mut specials = 0;
             for k in 0..3 {
-                let vertex = &self.vertices[self.triangles[i][k] as usize];
+                let at = self.triangles[i][k].wrapping_sub(self.first_vertex) as usize;
+                let vertex = &self.vertices[at];
                 out[i][k] = vertex.sum;
                 specials |= (vertex.sum[3].to_bits() << 1) ^ (1f32.to_bits() << 1);
             }
             if specials != 0 {
-                let positions = self.triangles[i].map(|vertex| self.vertices[vertex as usize].position());
+                let at = |vertex: u32| vertex.wrapping_sub(self.first_vertex) as usize;
+                let positions = self.triangles[i].map(|vertex| self.vertices[at(vertex)].position());
                 self.special.note((self.first + i) as u32, positions, &mut out[i]);
             }
         }
@@ -221,6 +236,12 @@ impl Special {
         self.in_tail.clear();
     }
 
+    /// Puts everything in ascending order.
+    pub fn sort(&mut self) {
+        self.undecided.sort_unstable();
+        self.in_tail.sort_unstable_by_key(|point| point.entry);
+    }
+
     /// Appends what another has, which is empty afterwards.
     pub fn take(&mut self, other: &mut Self) {
         self.undecided.append(&mut other.undecided);
@@ -229,7 +250,7 @@ impl Special {
 
     /// Lists a triangle with undecided vertices, and its corners in the tail's cells, which get their signs back.
     #[cold]
-    fn note(&mut self, triangle: u32, positions: [[f32; 3]; 3], out: &mut [[f32; 4]; 3]) {
+    pub fn note(&mut self, triangle: u32, positions: [[f32; 3]; 3], out: &mut [[f32; 4]; 3]) {
         for ((entry, position), [_, _, _, sign]) in (3 * triangle..).zip(positions).zip(&mut *out) {
             let is_minus_zero = *sign == 0.0 && sign.is_sign_negative();
             if sign.abs() == IN_TAIL.abs() || is_minus_zero {

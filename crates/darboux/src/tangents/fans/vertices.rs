@@ -22,14 +22,11 @@ pub(in super::super) const UNDECIDED: f32 = 0.0;
 pub(super) const IN_TAIL: f32 = -2.0;
 
 impl Vertex {
-    pub fn at(record: Record) -> Self {
-        Self { record, ..Self::default() }
-    }
-
-    /// Equal as floats.
+    /// Nothing added yet.
     #[inline(always)]
-    pub fn is_at(&self, record: &Record) -> bool {
-        self.record == *record
+    pub fn clear(&mut self) {
+        self.sum = [0.0; 4];
+        self.print = [0; 4];
     }
 
     /// The sign of a vertex all of whose corners have been added: [`UNDECIDED`] unless the triangles are certainly one
@@ -49,11 +46,6 @@ impl Vertex {
     pub fn position(&self) -> [f32; 3] {
         let [x, y, z, ..] = self.record;
         [x, y, z]
-    }
-
-    /// True once finished, where triangles use the vertex.
-    pub fn is_used(&self) -> bool {
-        !self.sum[3].is_nan()
     }
 }
 

@@ -9,7 +9,6 @@ use crate::{Indices, Mesh};
 
 use super::block::Record;
 use super::source::{Identity, Rows, record};
-use super::vertices::Vertex;
 use super::width::{Task, Width};
 use super::workers::{self, Worker, parts, split};
 use super::{WINDOW, windows_of};
@@ -20,6 +19,8 @@ pub(super) struct Weld {
     /// By vertex, or by corner of an unindexed mesh; empty when every vertex is its own.
     of: Vec<u32>,
     per_corner: bool,
+    /// The welded vertices of an unindexed mesh.
+    records: Vec<Record>,
     /// The number of welded vertices, those that are copies of another or unused included.
     pub count: usize,
     /// Of all positions, unused ones included.
@@ -44,36 +45,24 @@ const FREE: u64 = u64::MAX;
 const RECENT: usize = if cfg!(small_limits) { 2 } else { 1 << 14 };
 
 impl Weld {
-    /// Welds the vertices of an indexed mesh, or the corners of an unindexed one; of the latter, the vertices are written.
-    pub fn weld(
-        &mut self,
-        mesh: &Mesh<'_>,
-        width: Width,
-        workers: &mut [Worker],
-        vertices: &mut Vec<Vertex>,
-    ) -> Result<(), Refused> {
+    /// Welds the vertices of an indexed mesh, or the corners of an unindexed one.
+    pub fn weld(&mut self, mesh: &Mesh<'_>, width: Width, workers: &mut [Worker]) -> Result<(), Refused> {
         self.of.clear();
         self.per_corner = matches!(mesh.indices(), Indices::Unindexed);
         if self.per_corner {
-            return self.weld_corners(mesh, width, &mut workers[0], vertices);
+            return self.weld_corners(mesh, width, &mut workers[0]);
         }
         self.count = mesh.vertex_count();
-        vertices.resize(self.count, Vertex::default());
         let collisions = self.find_collisions(mesh, width, workers)?;
         if collisions > 0 { self.weld_collisions(mesh, collisions) } else { Ok(()) }
     }
 
     pub fn identity(&self) -> Identity<'_> {
         match (self.per_corner, self.of.is_empty()) {
-            (true, _) => Identity::OfCorner(&self.of),
+            (true, _) => Identity::OfCorner(&self.of, &self.records),
             (false, true) => Identity::Own,
             (false, false) => Identity::OfVertex(&self.of),
         }
-    }
-
-    /// True when vertices are the mesh's own, and so still to be read.
-    pub fn is_per_vertex(&self) -> bool {
-        !self.per_corner
     }
 
     /// Hashes all vertices, marks hash values met more than once, and returns how many there are at most.
@@ -139,20 +128,14 @@ impl Weld {
     }
 
     /// Numbers the distinct corners of an unindexed mesh in the order in which they are first met, and writes them.
-    fn weld_corners(
-        &mut self,
-        mesh: &Mesh<'_>,
-        width: Width,
-        worker: &mut Worker,
-        vertices: &mut Vec<Vertex>,
-    ) -> Result<(), Refused> {
+    fn weld_corners(&mut self, mesh: &Mesh<'_>, width: Width, worker: &mut Worker) -> Result<(), Refused> {
         let corners = mesh.corner_count();
         let slots = if cfg!(small_limits) { 2 } else { (corners / 3).next_power_of_two().max(2) };
         self.table.clear();
         self.table.resize(slots, FREE);
         self.recent.clear();
         self.recent.resize(RECENT, 0);
-        vertices.clear();
+        self.records.clear();
         self.of.resize(corners, 0);
         self.hashes.resize(WINDOW, 0);
         let (mut span, mut refused) = (Span::default(), false);
@@ -160,11 +143,11 @@ impl Weld {
             let rows = Rows::new(mesh, range.clone(), &mut worker.rows);
             let hashes = &mut self.hashes[..range.len()];
             width.run(Hash { rows, hashes, span: &mut span });
-            let (table, recent) = (&mut self.table, &mut self.recent);
+            let (table, recent, records) = (&mut self.table, &mut self.recent, &mut self.records);
             let of = &mut self.of[range];
-            width.run(Number { rows, hashes, table, recent, vertices, of, refused: &mut refused });
+            width.run(Number { rows, hashes, table, recent, records, of, refused: &mut refused });
         }
-        self.count = vertices.len();
+        self.count = self.records.len();
         self.bounds = Span::check(&[span])?;
         if refused { Err(Refused) } else { Ok(()) }
     }
@@ -195,7 +178,7 @@ struct Number<'a> {
     hashes: &'a [u32],
     table: &'a mut Vec<u64>,
     recent: &'a mut [u32],
-    vertices: &'a mut Vec<Vertex>,
+    records: &'a mut Vec<Record>,
     of: &'a mut [u32],
     refused: &'a mut bool,
 }
@@ -208,8 +191,8 @@ impl Task for Number<'_> {
             let (position, normal, uv) = (&positions[at], &normals[at], &uvs[at]);
             let hash = self.hashes[at];
             let recent = &mut self.recent[hash as usize % RECENT];
-            let is_recent = match self.vertices.get(*recent as usize) {
-                Some(Vertex { record: [x, y, z, a, b, c, u, v], .. }) => {
+            let is_recent = match self.records.get(*recent as usize) {
+                Some([x, y, z, a, b, c, u, v]) => {
                     same([*x, *y, *z], *position) & same([*a, *b, *c], *normal) & same([*u, *v], *uv)
                 }
                 None => false,
@@ -218,8 +201,8 @@ impl Task for Number<'_> {
                 let [x, y, z] = *position;
                 let ([a, b, c], [u, v]) = (*normal, *uv);
                 let record = [x, y, z, a, b, c, u, v];
-                *recent = find_or_insert(self.table, self.vertices, hash, &record);
-                *self.refused |= !same(self.vertices[*recent as usize].record, record);
+                *recent = find_or_insert(self.table, self.records, hash, &record);
+                *self.refused |= !same(self.records[*recent as usize], record);
             }
             *of = *recent;
         }
@@ -228,19 +211,19 @@ impl Task for Number<'_> {
 
 /// The number of the vertex with this record; a new one when there is none.
 #[inline(never)]
-fn find_or_insert(table: &mut Vec<u64>, vertices: &mut Vec<Vertex>, hash: u32, record: &Record) -> u32 {
+fn find_or_insert(table: &mut Vec<u64>, records: &mut Vec<Record>, hash: u32, record: &Record) -> u32 {
     let mut slot = slot(hash, table.len());
     while table[slot] != FREE {
         let known = table[slot] as u32;
-        if has_hash(table[slot], hash) && vertices[known as usize].is_at(record) {
+        if has_hash(table[slot], hash) && records[known as usize] == *record {
             return known;
         }
         slot = (slot + 1) & (table.len() - 1);
     }
-    let vertex = vertices.len() as u32;
+    let vertex = records.len() as u32;
     table[slot] = entry(hash, vertex);
-    vertices.push(Vertex::at(*record));
-    if 2 * vertices.len() > table.len() {
+    records.push(*record);
+    if 2 * records.len() > table.len() {
         grow(table);
     }
     vertex

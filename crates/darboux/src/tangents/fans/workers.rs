@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::block::Block;
 use super::source::RowBuffer;
 use super::steps::Special;
+use super::vertices::Vertex;
 
 /// One thread's memory.
 #[derive(Debug, Default)]
@@ -12,8 +13,38 @@ pub(super) struct Worker {
     pub block: Box<Block>,
     pub rows: RowBuffer,
     pub triangles: Vec<[u32; 3]>,
+    /// The vertices from `first` on, of which `read` have been read.
+    pub vertices: Vec<Vertex>,
+    /// What the corners of each vertex say of it.
+    pub marks: Vec<u32>,
+    pub first: usize,
+    pub read: usize,
+    /// Windows with vertices that other threads finish.
+    pub pending: Vec<usize>,
     pub special: Special,
+    /// Triangles use every vertex.
     pub all_used: bool,
+}
+
+impl Worker {
+    /// Makes room for vertices.
+    pub fn begin(&mut self, vertices: Range<usize>) {
+        self.vertices.resize(vertices.len(), Vertex::default());
+        self.marks.resize(vertices.len(), 0);
+        (self.first, self.read, self.all_used) = (vertices.start, 0, true);
+        self.pending.clear();
+        self.special.clear();
+    }
+
+    /// The end of the vertices that have been read.
+    pub fn end(&self) -> usize {
+        self.first + self.read
+    }
+
+    /// A vertex by its number.
+    pub fn vertex(&self, number: u32) -> &Vertex {
+        &self.vertices[number as usize - self.first]
+    }
 }
 
 /// Meshes of fewer triangles are not worth waking another thread.
@@ -35,10 +66,10 @@ fn available() -> usize {
 }
 
 /// Runs `job` for every worker and its part, on all threads.
-pub(super) fn run<P: Send>(
-    workers: &mut [Worker],
+pub(super) fn run<W: Send, P: Send>(
+    workers: &mut [W],
     parts: impl Iterator<Item = P>,
-    job: impl Fn(&mut Worker, P) + Sync,
+    job: impl Fn(&mut W, P) + Sync,
 ) {
     #[cfg(feature = "parallel")]
     if workers.len() > 1 {

@@ -1,0 +1,136 @@
+//! One thread's way through its windows.
+
+use std::ops::Range;
+
+use crate::Mesh;
+
+use super::last_run::TailCells;
+use super::source::{Identity, rows, triangles};
+use super::steps::{Add, Finish, Read, Write};
+use super::width::Width;
+use super::workers::Worker;
+use super::{WINDOW, Window, window};
+
+/// A part of a mesh for one thread, which shares nothing with the others while it runs.
+#[derive(Clone, Debug)]
+pub(super) struct Share {
+    /// The windows that it writes.
+    pub windows: Range<usize>,
+    /// The end of those that it adds: up to the last that uses one of its vertices. Those are added by two threads.
+    pub until: usize,
+    /// The vertices that it finishes: those met first in its windows.
+    pub vertices: Range<usize>,
+}
+
+/// The shares of `count` threads, whose windows are as many.
+pub(super) fn shares(windows: &[Window], vertices: usize, count: usize) -> Vec<Share> {
+    let met_before = |window: usize| match window {
+        0 => 0,
+        _ if window == windows.len() => vertices,
+        _ => windows[window - 1].end_up_to_here as usize,
+    };
+    let share = |at: usize| {
+        let (start, end) = (windows.len() * at / count, windows.len() * (at + 1) / count);
+        let own = met_before(start)..met_before(end);
+        let later = windows[end..].iter().take_while(|window| (window.lowest_from_here as usize) < own.end);
+        Share { windows: start..end, until: end + later.count(), vertices: own }
+    };
+    (0..count).map(share).collect()
+}
+
+/// What all shares have in common.
+#[derive(Clone, Copy)]
+pub(super) struct Stream<'a> {
+    pub mesh: &'a Mesh<'a>,
+    pub identity: Identity<'a>,
+    pub windows: &'a [Window],
+    pub tail: &'a TailCells,
+    pub width: Width,
+}
+
+impl Stream<'_> {
+    /// Goes through the windows of a share: reads the vertices that each needs first, adds its triangles, finishes vertices that
+    /// none needs any more, writes windows whose vertices are finished. Windows with vertices of other shares are left pending.
+    pub fn run(&self, share: &Share, worker: &mut Worker, out: &mut [[[f32; 4]; 3]]) {
+        let first_window = share.windows.start;
+        worker.begin(self.span(share));
+        let (mut finished, mut written) = (share.vertices.start.max(worker.first), first_window);
+        worker.all_used = finished == share.vertices.start;
+        for at in first_window..share.until {
+            self.read(worker, self.windows[at].end as usize);
+            self.add(worker, at);
+            let unfinished = match self.windows.get(at + 1) {
+                Some(next) if at + 1 < share.until => next.lowest_from_here as usize,
+                _ => share.vertices.end,
+            };
+            let end = unfinished.min(share.vertices.end).min(worker.end()).max(finished);
+            self.finish(worker, finished..end);
+            finished = end;
+            while written <= at && written < share.windows.end {
+                let Window { lowest, end, .. } = self.windows[written];
+                if (lowest as usize) < share.vertices.start || end as usize > share.vertices.end {
+                    worker.pending.push(written);
+                } else if end as usize <= finished {
+                    self.write(worker, written, &mut out[(written - first_window) * WINDOW..]);
+                } else {
+                    break;
+                }
+                written += 1;
+            }
+        }
+        worker.all_used &= finished == share.vertices.end;
+    }
+
+    /// The vertices of all windows that a share adds.
+    fn span(&self, share: &Share) -> Range<usize> {
+        let windows = &self.windows[share.windows.start..share.until];
+        let lowest = windows.iter().map(|window| window.lowest).min().unwrap_or(0);
+        let end = windows.iter().map(|window| window.end).max().unwrap_or(0);
+        lowest as usize..end as usize
+    }
+
+    /// Makes vertices of the mesh's, up to `end`.
+    fn read(&self, worker: &mut Worker, end: usize) {
+        let mut start = worker.end();
+        while start < end {
+            let range = start..(start + WINDOW).min(end);
+            let place = range.start - worker.first..range.end - worker.first;
+            let (vertices, marks) = (&mut worker.vertices[place.clone()], &mut worker.marks[place]);
+            start = range.end;
+            worker.read = start - worker.first;
+            let rows = rows(self.mesh, self.identity, range, &mut worker.rows);
+            self.width.run(Read { rows, tail: self.tail, vertices, marks });
+        }
+    }
+
+    /// Adds a window to its vertices.
+    fn add(&self, worker: &mut Worker, at: usize) {
+        let range = window(at, self.mesh.face_count());
+        let triangles = triangles(self.mesh, self.identity, range, &mut worker.triangles);
+        let Worker { block, vertices, marks, first, .. } = worker;
+        self.width.run(Add { triangles, first: *first as u32, block, vertices, marks });
+    }
+
+    /// Finishes vertices that no later triangle uses.
+    fn finish(&self, worker: &mut Worker, range: Range<usize>) {
+        let place = range.start - worker.first..range.end - worker.first;
+        let (vertices, marks) = (&mut worker.vertices[place.clone()], &worker.marks[place]);
+        self.width.run(Finish { vertices, marks, all_used: &mut worker.all_used });
+    }
+
+    /// Writes the corners of a window.
+    fn write(&self, worker: &mut Worker, at: usize, out: &mut [[[f32; 4]; 3]]) {
+        let range = window(at, self.mesh.face_count());
+        let (first, out) = (range.start, &mut out[..range.len()]);
+        let triangles = triangles(self.mesh, self.identity, range, &mut worker.triangles);
+        let Worker { vertices, special, first: first_vertex, .. } = worker;
+        self.width.run(Write {
+            triangles,
+            first,
+            vertices,
+            first_vertex: *first_vertex as u32,
+            out,
+            special,
+        });
+    }
+}
