@@ -1,4 +1,6 @@
-//! Frames and conventions. This is the only file that changes a sign.
+//! Frames and tangents of corners.
+
+use crate::Convention;
 
 /// Tangents of corners, one per corner: unit xyz and the sign w, bitangent = w * cross(normal, xyz).
 ///
@@ -35,12 +37,11 @@ impl CornerTangents {
         }
     }
 
-    /// The same frames written in another convention: w is negated where the bitangent's direction differs.
+    /// The same frames written in another convention. Fresh tangents are in [`Convention::generated`].
     pub fn converted(mut self, from: Convention, to: Convention) -> Self {
-        if from.bitangent != to.bitangent {
-            for tangent in &mut self.0 {
-                tangent[3] = -tangent[3];
-            }
+        let conversion = from.to(to);
+        for tangent in &mut self.0 {
+            *tangent = conversion.tangent(*tangent);
         }
         self
     }
@@ -86,27 +87,4 @@ impl Frame {
         let [x, y, z] = self.tangent;
         [x, y, z, self.sign]
     }
-}
-
-/// What the numbers of a tangent mean.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Convention {
-    /// Where w * cross(normal, tangent) points.
-    pub bitangent: BitangentDirection,
-}
-
-/// Where the bitangent that a shader rebuilds points, on the surface, with respect to the stored UVs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BitangentDirection {
-    /// Towards increasing v.
-    AlongV,
-    /// Towards decreasing v.
-    AgainstV,
-}
-
-impl Convention {
-    /// MikkTSpace's own: the bitangent follows v of the UVs as they were given. What this crate returns.
-    pub const MIKKTSPACE: Self = Self { bitangent: BitangentDirection::AlongV };
-    /// glTF: v points down the image, the bitangent up (glTF 2.0, 3.7.2.1: bitangent = cross(normal, tangent.xyz) * tangent.w).
-    pub const GLTF: Self = Self { bitangent: BitangentDirection::AgainstV };
 }

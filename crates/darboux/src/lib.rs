@@ -24,6 +24,7 @@
     reason = "where NaN must take a branch, the negated comparison is the statement"
 )]
 
+mod convention;
 mod frame;
 mod math;
 mod measure;
@@ -36,7 +37,11 @@ mod topology;
 mod triangles;
 mod weld;
 
-pub use frame::{BitangentDirection, Convention, CornerFrames, CornerTangents, Frame};
+pub use convention::{
+    Axes, Axis, BitangentDirection, Convention, Conversion, Handedness, SignRule, TangentDirection, UvOrigin,
+    Winding,
+};
+pub use frame::{CornerFrames, CornerTangents, Frame};
 pub use measure::{HISTOGRAM_ENDS, TangentDifference, UvFidelity, measure_tangents, measure_uv_fidelity};
 pub use mesh::{Faces, Indices, Mesh, MeshError, Strided};
 pub use normals::{

@@ -120,7 +120,7 @@ impl Vertices {
         let mesh =
             Mesh::triangles(&self.positions, &self.normals, &self.uvs, &corners.to_vec()).map(|mesh| {
                 let tangents = generate_tangents(&mesh, &TangentOptions::default());
-                tangents.corners.converted(Convention::MIKKTSPACE, Convention::GLTF).into_per_corner()
+                tangents.corners.converted(Convention::GLTF.generated(), Convention::GLTF).into_per_corner()
             });
         mesh.unwrap()
     }

@@ -95,7 +95,7 @@ pub fn surface(
         refuse_unusable(document, at, &tangents.report)?;
     }
     let report = tangents.report;
-    let tangents = tangents.corners.converted(Convention::MIKKTSPACE, Convention::GLTF);
+    let tangents = tangents.corners.converted(Convention::GLTF.generated(), Convention::GLTF);
     Ok(Surface { corners, rest, tangents, report, plan })
 }
 
