@@ -25,6 +25,7 @@
 )]
 
 mod convention;
+pub mod encode;
 mod frame;
 mod math;
 mod measure;
@@ -34,6 +35,7 @@ mod plan;
 mod split;
 mod tangents;
 mod topology;
+mod transform;
 mod triangles;
 mod weld;
 
@@ -55,3 +57,4 @@ pub use tangents::{
     Frames, Method, Mode, Report, Scratch, TangentOptions, Tangents, WidthLimit, generate_frames,
     generate_tangents, generate_tangents_into,
 };
+pub use transform::Transform;

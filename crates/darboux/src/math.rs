@@ -25,6 +25,11 @@ pub(crate) fn dot(a: V3, b: V3) -> f32 {
 }
 
 #[inline(always)]
+pub(crate) fn cross(a: V3, b: V3) -> V3 {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+#[inline(always)]
 pub(crate) fn length(v: V3) -> f32 {
     dot(v, v).sqrt()
 }
@@ -47,6 +52,23 @@ pub(crate) fn normalized_unless_zero(v: V3) -> V3 {
 #[inline(always)]
 pub(crate) fn direction_in_plane(normal: V3, v: V3) -> V3 {
     normalized_unless_zero(sub(v, scale(dot(normal, v), normal)))
+}
+
+/// The unit direction of `v` in the plane perpendicular to the unit `normal`; a perpendicular of `normal` where rounding error is all
+/// that is left of `v`.
+pub(crate) fn unit_in_plane(normal: V3, v: V3) -> V3 {
+    let rest = sub(v, scale(dot(normal, v), normal));
+    let size = length(rest);
+    if size > 1e-6 * length(v) { scale(1.0 / size, rest) } else { perpendiculars(normal)[0] }
+}
+
+/// Two unit vectors that with the unit `normal` make a right-handed frame (T. Duff et al., "Building an Orthonormal Basis, Revisited",
+/// JCGT 6(1), 2017, listing 3; -0 counts as +0, so that GPUs need no copysign).
+pub(crate) fn perpendiculars([x, y, z]: V3) -> [V3; 2] {
+    let sign = if z < 0.0 { -1.0 } else { 1.0 };
+    let a = -1.0 / (sign + z);
+    let b = x * y * a;
+    [[1.0 + sign * x * x * a, sign * b, -sign * x], [b, sign + y * y * a, -y]]
 }
 
 /// Equal as floats: -0 equals +0, NaN equals nothing.
