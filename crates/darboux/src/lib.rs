@@ -30,6 +30,7 @@ mod frame;
 mod math;
 mod measure;
 mod mesh;
+mod normal_map;
 mod normals;
 mod plan;
 mod split;
@@ -46,6 +47,7 @@ pub use convention::{
 pub use frame::{CornerFrames, CornerTangents, Frame};
 pub use measure::{HISTOGRAM_ENDS, TangentDifference, UvFidelity, measure_tangents, measure_uv_fidelity};
 pub use mesh::{Faces, Indices, Mesh, MeshError, Strided};
+pub use normal_map::{Channel, TexelLayout, repack_texels};
 pub use normals::{
     NormalOptions, NormalReport, NormalSplit, NormalWeight, Normals, Shading, SmoothingSeams,
     generate_normals, split_normals,
