@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::{CornerTangents, Mesh, MeshError};
+use crate::{CornerTangents, Indices, Mesh, MeshError};
 
 /// An indexed mesh's vertices after splitting. The old vertices come first, in their old places.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -33,19 +33,31 @@ pub fn split_vertices(mesh: &Mesh<'_>, corners: &CornerTangents) -> Result<Verte
 /// [`Splitter::add`] each mesh, then [`Splitter::finish`]. Each `add` costs time in the mesh's corners, not in the buffer's size.
 #[derive(Debug)]
 pub struct Splitter {
-    tangent_of_vertex: Vec<Option<[f32; 4]>>,
+    tangent_of_vertex: Vec<[f32; 4]>,
     source_of_vertex: Vec<u32>,
-    further: HashMap<(u32, [u32; 4]), u32>,
+    /// The next vertex with the same source, or one of the two marks.
+    next_of_vertex: Vec<u32>,
+    /// Vertices at the ends of long lists, by source and tangent: a fan of a million tangents must not be walked again and again.
+    far: HashMap<(u32, [u32; 4]), u32>,
     old_count: usize,
 }
+
+/// In place of a next vertex: no corner uses this one yet.
+const UNUSED: u32 = u32::MAX;
+/// In place of a next vertex: this is the last.
+const LAST: u32 = u32::MAX - 1;
+
+/// Vertices that are looked at one by one before the map of far ones is asked.
+const NEAR: usize = if cfg!(small_limits) { 2 } else { 16 };
 
 impl Splitter {
     /// Starts with `vertex_count` old vertices.
     pub fn new(vertex_count: usize) -> Self {
         Self {
-            tangent_of_vertex: vec![None; vertex_count],
+            tangent_of_vertex: vec![[1.0, 0.0, 0.0, 1.0]; vertex_count],
             source_of_vertex: (0..vertex_count as u32).collect(),
-            further: HashMap::new(),
+            next_of_vertex: vec![UNUSED; vertex_count],
+            far: HashMap::new(),
             old_count: vertex_count,
         }
     }
@@ -56,40 +68,132 @@ impl Splitter {
     pub fn add(&mut self, mesh: &Mesh<'_>, corners: &CornerTangents) -> Result<Vec<u32>, MeshError> {
         expect("corners", mesh.corner_count(), corners.len())?;
         expect("vertices", self.old_count, mesh.vertex_count())?;
-        let tangents = corners.per_corner().iter();
-        Ok(tangents
-            .enumerate()
-            .map(|(corner, &tangent)| self.vertex(mesh.vertex_of_corner(corner) as u32, tangent))
-            .collect())
+        let tangents = corners.per_corner();
+        Ok(match mesh.indices() {
+            Indices::Unindexed => self.vertices(0..corners.len() as u32, tangents),
+            Indices::U16(list) => self.vertices(list.iter().map(|&index| index.into()), tangents),
+            Indices::U32(list) => self.vertices(list.iter().copied(), tangents),
+        })
     }
 
-    /// The vertex for `old` with `tangent`: the old one if it is free or has this tangent, else an appended one.
+    /// The vertices of corners, from the old ones.
+    fn vertices(&mut self, old: impl Iterator<Item = u32>, tangents: &[[f32; 4]]) -> Vec<u32> {
+        old.zip(tangents).map(|(old, &tangent)| self.vertex(old, tangent)).collect()
+    }
+
+    /// The vertex for `old` with `tangent`: the old one if it is unused or has this tangent, else an appended one.
+    #[inline]
     fn vertex(&mut self, old: u32, tangent: [f32; 4]) -> u32 {
-        let bits = tangent.map(f32::to_bits);
-        match &mut self.tangent_of_vertex[old as usize] {
-            Some(held) if held.map(f32::to_bits) == bits => return old,
-            Some(_) => {}
-            free => {
-                *free = Some(tangent);
-                return old;
+        let next = &mut self.next_of_vertex[old as usize];
+        if *next == UNUSED {
+            *next = LAST;
+            self.tangent_of_vertex[old as usize] = tangent;
+            return old;
+        }
+        if has_bits(&self.tangent_of_vertex[old as usize], &tangent) {
+            return old;
+        }
+        self.further(old, tangent)
+    }
+
+    /// The appended vertex for `old` with `tangent`, found or made.
+    fn further(&mut self, old: u32, tangent: [f32; 4]) -> u32 {
+        let mut last = old;
+        for _ in 1..NEAR {
+            match self.next_of_vertex[last as usize] {
+                LAST => {
+                    let appended = self.append(old, tangent);
+                    self.next_of_vertex[last as usize] = appended;
+                    return appended;
+                }
+                next if has_bits(&self.tangent_of_vertex[next as usize], &tangent) => return next,
+                next => last = next,
             }
         }
-        *self.further.entry((old, bits)).or_insert_with(|| {
-            self.tangent_of_vertex.push(Some(tangent));
-            self.source_of_vertex.push(old);
-            self.source_of_vertex.len() as u32 - 1
-        })
+        let key = (old, tangent.map(f32::to_bits));
+        if let Some(&known) = self.far.get(&key) {
+            return known;
+        }
+        let appended = self.append(old, tangent);
+        self.far.insert(key, appended);
+        appended
+    }
+
+    fn append(&mut self, old: u32, tangent: [f32; 4]) -> u32 {
+        self.tangent_of_vertex.push(tangent);
+        self.source_of_vertex.push(old);
+        self.next_of_vertex.push(LAST);
+        self.source_of_vertex.len() as u32 - 1
     }
 
     /// The tangent and the source of every new vertex, as in [`VertexSplit`].
     pub fn finish(self) -> (Vec<[f32; 4]>, Vec<u32>) {
-        let unused = [1.0, 0.0, 0.0, 1.0];
-        let tangents = self.tangent_of_vertex.into_iter().map(|held| held.unwrap_or(unused));
-        (tangents.collect(), self.source_of_vertex)
+        (self.tangent_of_vertex, self.source_of_vertex)
     }
+}
+
+fn has_bits(held: &[f32; 4], wanted: &[f32; 4]) -> bool {
+    held.map(f32::to_bits) == wanted.map(f32::to_bits)
 }
 
 /// An error unless as many were found as expected.
 pub(crate) fn expect(what: &'static str, expected: usize, found: usize) -> Result<(), MeshError> {
     if expected == found { Ok(()) } else { Err(MeshError::OtherMesh { what, expected, found }) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The shortest code for the same: the first tangent of a vertex stays, further ones are appended as they come.
+    fn naive(old: &[u32], tangents: &[[f32; 4]], vertex_count: usize) -> (Vec<u32>, Vec<u32>) {
+        let mut sources: Vec<u32> = (0..vertex_count as u32).collect();
+        let mut held: Vec<Option<[u32; 4]>> = vec![None; vertex_count];
+        let mut indices = Vec::new();
+        for (&old, tangent) in old.iter().zip(tangents) {
+            let bits = tangent.map(f32::to_bits);
+            let fits = |v: usize| sources[v] == old && held[v].is_none_or(|held| held == bits);
+            let found = (0..sources.len()).find(|&v| fits(v)).unwrap_or(sources.len());
+            if found == sources.len() {
+                sources.push(old);
+                held.push(None);
+            }
+            held[found] = Some(bits);
+            indices.push(found as u32);
+        }
+        (indices, sources)
+    }
+
+    #[test]
+    fn vertices_are_those_of_the_naive_search() {
+        let vertices = [[0.0; 3]; 4];
+        let mesh = |old| Mesh::triangles(&vertices, &vertices, &[[0.0; 2]; 4], Indices::U32(old)).unwrap();
+        // Zeros and NaNs of other bits are other tangents; one vertex has far more of them than are looked at one by one.
+        let palette = |i: u32| match i % 50 {
+            0 => [0.0; 4],
+            1 => [-0.0, 0.0, 0.0, 0.0],
+            2 => [f32::NAN; 4],
+            3 => [-f32::NAN; 4],
+            other => [other as f32, 0.0, 0.0, 1.0],
+        };
+        let random = |i: u32| (i.wrapping_mul(2_654_435_761) >> 7) ^ i;
+        let old: Vec<u32> = (0..1200).map(|i| [0, 0, 0, 1, 2][random(i) as usize % 5]).collect();
+        let tangents: Vec<_> = (0..1200)
+            .map(|i| palette(random(i + 5000) / if old[i as usize] == 2 { 40 } else { 1 }))
+            .collect();
+        let (indices, sources) = naive(&old, &tangents, 4);
+        assert!(sources.iter().filter(|&&source| source == 0).count() > 2 * NEAR);
+
+        let mut splitter = Splitter::new(4);
+        let (first, second) = tangents.split_at(600);
+        let mut found = splitter.add(&mesh(&old[..600]), &CornerTangents(first.to_vec())).unwrap();
+        found.extend(splitter.add(&mesh(&old[600..]), &CornerTangents(second.to_vec())).unwrap());
+        let (tangent_of_vertex, source_of_vertex) = splitter.finish();
+        assert_eq!(found, indices);
+        assert_eq!(source_of_vertex, sources);
+        for (&vertex, tangent) in found.iter().zip(&tangents) {
+            assert!(has_bits(&tangent_of_vertex[vertex as usize], tangent));
+        }
+        assert_eq!(tangent_of_vertex[3], [1.0, 0.0, 0.0, 1.0], "unused");
+    }
 }
