@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use walkdir::{DirEntry, WalkDir};
 
-use crate::arguments::TangentsArguments;
+use crate::arguments::Files;
 
 /// Where a file comes from.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -125,15 +125,16 @@ fn reason(error: walkdir::Error) -> String {
     error.into_io_error().map_or("it contains itself".into(), |error| error.to_string())
 }
 
-/// The jobs of `darboux tangents`, in the order of the inputs, each once.
+/// The jobs of a command that writes models, in the order of the inputs, each once.
 ///
-/// Errors: an output that does not fit the inputs, two inputs with one output, an output that is an input.
-pub fn plan(arguments: &TangentsArguments, found: &Found) -> Result<Vec<Job>, Usage> {
-    check_usage(arguments)?;
+/// `word`: what the names of its outputs get. Errors: an output that does not fit the inputs, two inputs with one output, an output
+/// that is an input, a model and a report (`json`) both for standard output.
+pub fn plan(files: &Files, word: &str, json: bool, found: &Found) -> Result<Vec<Job>, Usage> {
+    check_usage(files, json)?;
     let mut jobs = Vec::new();
     let mut input_of_output: HashMap<PathBuf, &Input> = HashMap::new();
     for (input, folder) in &found.files {
-        let output = destination(arguments, input, folder.as_deref());
+        let output = destination(files, word, input, folder.as_deref());
         if let Output::File(path) = &output {
             match input_of_output.insert(identity(path), input) {
                 Some(other) if other == input => continue,
@@ -147,7 +148,7 @@ pub fn plan(arguments: &TangentsArguments, found: &Found) -> Result<Vec<Job>, Us
         }
         jobs.push(Job { input: input.clone(), output });
     }
-    if !arguments.in_place {
+    if !files.in_place {
         check_inputs_survive(&jobs, &input_of_output)?;
     }
     Ok(jobs)
@@ -161,27 +162,27 @@ pub fn check_stdin(inputs: &[PathBuf]) -> Result<(), Usage> {
     Ok(())
 }
 
-fn check_usage(arguments: &TangentsArguments) -> Result<(), Usage> {
+fn check_usage(files: &Files, json: bool) -> Result<(), Usage> {
     let usage = |message: &str| Err(Usage(message.into()));
-    check_stdin(&arguments.inputs)?;
-    let stdin = arguments.inputs[0] == Path::new("-");
-    if stdin && (arguments.in_place || arguments.out_dir.is_some()) {
+    check_stdin(&files.inputs)?;
+    let stdin = files.inputs[0] == Path::new("-");
+    if stdin && (files.in_place || files.out_dir.is_some()) {
         return usage("standard input has no name and no place; use -o FILE");
     }
-    let Some(output) = &arguments.output else {
-        return match arguments.json && stdin {
+    let Some(output) = &files.output else {
+        return match json && stdin {
             true => usage("the model and the report cannot both go to standard output; use -o FILE"),
             false => Ok(()),
         };
     };
-    if arguments.inputs.len() > 1 {
+    if files.inputs.len() > 1 {
         return usage("-o takes a single input; use --out-dir for several");
     }
-    if arguments.inputs[0].is_dir() {
+    if files.inputs[0].is_dir() {
         return usage("-o takes a single file, but the input is a folder; use --out-dir");
     }
     if output == Path::new("-") {
-        return match arguments.json {
+        return match json {
             true => usage("the model and the report cannot both go to standard output; use -o FILE"),
             false => Ok(()),
         };
@@ -195,25 +196,25 @@ fn check_usage(arguments: &TangentsArguments) -> Result<(), Usage> {
     Ok(())
 }
 
-fn destination(arguments: &TangentsArguments, input: &Input, folder: Option<&Path>) -> Output {
-    let path = match (&arguments.output, input) {
+fn destination(files: &Files, word: &str, input: &Input, folder: Option<&Path>) -> Output {
+    let path = match (&files.output, input) {
         (Some(output), _) if output != Path::new("-") => return Output::File(output.clone()),
         (Some(_), _) | (None, Input::Stdin) => return Output::Stdout,
         (None, Input::File(path)) => path,
     };
-    Output::File(match &arguments.out_dir {
+    Output::File(match &files.out_dir {
         Some(out_dir) => {
             let name = || Path::new(path.file_name().unwrap_or_default());
             let kept = folder.and_then(|folder| path.strip_prefix(folder).ok());
             let kept = out_dir.join(kept.unwrap_or_else(name));
             if is_model(&kept) { kept } else { kept.with_extension("glb") }
         }
-        None if arguments.in_place => path.clone(),
+        None if files.in_place => path.clone(),
         None => {
             let extension = if is_model(path) { path.extension() } else { None };
             let extension = extension.unwrap_or(OsStr::new("glb"));
             let mut name = path.file_stem().unwrap_or_default().to_os_string();
-            name.push(".tangents.");
+            name.push(format!(".{word}."));
             name.push(extension);
             path.with_file_name(name)
         }
@@ -259,8 +260,14 @@ fn is_model(path: &Path) -> bool {
     })
 }
 
+/// The words in the names of outputs, by command.
+pub mod word {
+    pub const TANGENTS: &str = "tangents";
+    pub const ALL: [&str; 1] = [TANGENTS];
+}
+
 /// True for names that outputs get when none is given.
 fn is_output(path: &Path) -> bool {
     let stem = Path::new(path.file_stem().unwrap_or_default());
-    stem.extension() == Some(OsStr::new("tangents"))
+    word::ALL.iter().any(|word| stem.extension() == Some(OsStr::new(word)))
 }

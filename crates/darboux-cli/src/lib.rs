@@ -5,6 +5,7 @@ mod inspect;
 mod interrupt;
 mod jobs;
 mod messages;
+mod methods;
 mod report;
 mod tangents;
 
@@ -32,6 +33,7 @@ where
         Ok(arguments) => match &arguments.command {
             Command::Tangents(arguments) => tangents::run(arguments),
             Command::Inspect(arguments) => inspect::run(arguments),
+            Command::Methods => methods::run(),
         },
         Err(help_or_error) => {
             let _closed_is_no_fault = help_or_error.print();

@@ -10,8 +10,8 @@ use darboux_io::gltf::{
 };
 use indicatif::HumanCount;
 
-use crate::arguments::TangentsArguments;
-use crate::jobs::{self, Input, Job, Output, Scan, Usage};
+use crate::arguments::{Files, Method, TangentsArguments};
+use crate::jobs::{self, Input, Job, Output, Scan, Usage, word};
 use crate::messages::{Messages, stdout_is_terminal, write_stdout};
 use crate::report::{FileReport, Status, TangentsReport, to_json};
 use crate::{exit, interrupt};
@@ -19,9 +19,11 @@ use crate::{exit, interrupt};
 /// Runs the command; gives its exit code.
 pub fn run(arguments: &TangentsArguments) -> u8 {
     let start = Instant::now();
-    let messages = Messages::new(arguments.quiet);
-    let found = jobs::find(&arguments.inputs, Scan::Sources { out_dir: arguments.out_dir.as_deref() });
-    let jobs = match jobs::plan(arguments, &found).and_then(refuse_terminal) {
+    let messages = Messages::new(arguments.talk.quiet);
+    let found =
+        jobs::find(&arguments.files.inputs, Scan::Sources { out_dir: arguments.files.out_dir.as_deref() });
+    let plan = |()| jobs::plan(&arguments.files, word::TANGENTS, arguments.talk.json, &found);
+    let jobs = match check_threshold(arguments).and_then(plan).and_then(refuse_terminal) {
         Ok(jobs) => jobs,
         Err(Usage(sentence)) => {
             messages.error(&sentence);
@@ -49,6 +51,13 @@ pub fn run(arguments: &TangentsArguments) -> u8 {
     finish(TangentsReport::new(files), arguments, &messages, start)
 }
 
+fn check_threshold(arguments: &TangentsArguments) -> Result<(), Usage> {
+    if arguments.method != Method::MikkTSpace && arguments.threshold != TangentOptions::default().threshold {
+        return Err(Usage("--threshold belongs to --method mikktspace; leave one of them out".into()));
+    }
+    Ok(())
+}
+
 fn refuse_terminal(jobs: Vec<Job>) -> Result<Vec<Job>, Usage> {
     if jobs.iter().any(|job| job.output == Output::Stdout) && stdout_is_terminal() {
         return Err(Usage("a GLB is not for a terminal; use -o FILE, or > FILE".into()));
@@ -69,14 +78,14 @@ fn work(job: &Job, arguments: &TangentsArguments, messages: &Messages) -> FileRe
 /// Reads, adds tangents, writes. Errors are one sentence each.
 fn process(job: &Job, arguments: &TangentsArguments, messages: &Messages) -> Result<FileReport, String> {
     let sentence = |error: darboux_io::Error| error.to_string();
-    refuse_existing(&job.output, arguments)?;
-    let mut document = load(&job.input, arguments.allow_outside)?;
+    refuse_existing(&job.output, &arguments.files)?;
+    let mut document = load(&job.input, arguments.files.allow_outside)?;
     let mut on_progress = |progress: Progress| messages.progress(progress.done, progress.total);
     let mut summary = add_tangents(&mut document, &options(arguments), &mut on_progress).map_err(sentence)?;
     summary.warnings.splice(0..0, document.warnings().iter().cloned());
-    let files_written = save(&document, &job.output, arguments)?;
+    let files_written = save(&document, &job.output, &arguments.files)?;
     let status = match summary.totals.written {
-        _ if arguments.in_place && files_written.is_empty() => Status::Untouched,
+        _ if arguments.files.in_place && files_written.is_empty() => Status::Untouched,
         0 => Status::Copied,
         _ => Status::Written,
     };
@@ -91,9 +100,9 @@ fn process(job: &Job, arguments: &TangentsArguments, messages: &Messages) -> Res
 }
 
 /// Says before any work that an output is in the way.
-fn refuse_existing(output: &Output, arguments: &TangentsArguments) -> Result<(), String> {
+fn refuse_existing(output: &Output, files: &Files) -> Result<(), String> {
     match output {
-        Output::File(path) if path.exists() && !arguments.force && !arguments.in_place => {
+        Output::File(path) if path.exists() && !files.force && !files.in_place => {
             Err(format!("{output}: exists; use --force to replace it, or name another output"))
         }
         _ => Ok(()),
@@ -120,10 +129,11 @@ pub fn load(input: &Input, allow_outside: bool) -> Result<Document, String> {
 fn options(arguments: &TangentsArguments) -> TangentsOptions {
     TangentsOptions {
         tangents: TangentOptions {
+            method: arguments.method.into(),
             mode: arguments.mode.into(),
             threshold: arguments.threshold,
-            ..TangentOptions::default()
         },
+        encoding: arguments.encoding,
         overwrite: arguments.overwrite,
         only_needed: arguments.only_needed,
         strict: arguments.strict,
@@ -132,7 +142,7 @@ fn options(arguments: &TangentsArguments) -> TangentsOptions {
 }
 
 /// Writes the document where it belongs; gives the files written.
-fn save(document: &Document, output: &Output, arguments: &TangentsArguments) -> Result<Vec<String>, String> {
+fn save(document: &Document, output: &Output, files: &Files) -> Result<Vec<String>, String> {
     let sentence = |error: darboux_io::Error| error.to_string();
     let path = match output {
         Output::Stdout => {
@@ -143,9 +153,9 @@ fn save(document: &Document, output: &Output, arguments: &TangentsArguments) -> 
         Output::File(path) => path,
     };
     let _guard = interrupt::writing();
-    let written = match arguments.in_place {
+    let written = match files.in_place {
         true => document.save_in_place(),
-        false => document.save(path, &SaveOptions { force: arguments.force }),
+        false => document.save(path, &SaveOptions { force: files.force }),
     };
     Ok(written.map_err(sentence)?.iter().map(|path| path.display().to_string()).collect())
 }
@@ -191,6 +201,7 @@ fn told(written: &Written) -> String {
         (counts.uv_degenerate_triangles, "UV-degenerate triangle", "UV-degenerate triangles"),
         (counts.non_finite_corners, "non-finite corner", "non-finite corners"),
         (counts.repaired_corners, "unusable corner", "unusable corners"),
+        (counts.merged_vertices, "mirrored seam vertex not split", "mirrored seam vertices not split"),
         (counts.mixed_sign_triangles, "triangle with both signs", "triangles with both signs"),
         (written.morph_targets, "morph target", "morph targets"),
         (
@@ -217,7 +228,7 @@ fn finish(report: TangentsReport, arguments: &TangentsArguments, messages: &Mess
     if report.totals.failed < report.totals.files || report.totals.files > 1 {
         messages.say(&total(&report, start));
     }
-    if arguments.json {
+    if arguments.talk.json {
         let written = to_json(&report).map_err(std::io::Error::from).and_then(|text| write_stdout(&text));
         if let Err(error) = written {
             messages.error(&format!("the report cannot be written: {error}"));

@@ -146,6 +146,9 @@ fn options_reach_the_tangents() {
     let usual = bytes_with(&curved, &[]);
     assert!(usual == bytes_with(&curved, &["--mode", "repaired", "--threshold", "180"]));
     assert!(usual != bytes_with(&curved, &["--threshold", "5"]));
+    assert!(usual == bytes_with(&curved, &["--method", "mikktspace", "--encoding", "f32x4"]));
+    assert!(usual != bytes_with(&curved, &["--method", "angle-area"]));
+    assert!(usual.len() > bytes_with(&curved, &["--encoding", "snorm8x4"]).len());
     let turned = asset("made/shared-vertices-two-uv-sets.gltf");
     assert!(bytes_with(&turned, &[]) != bytes_with(&turned, &["--apply-texture-transform"]));
     let degenerate = asset("made/degenerate.gltf");

@@ -41,6 +41,7 @@ fn the_tangents_report_has_the_documented_fields() {
         "mixed_sign_triangles",
         "mirrored_edges",
         "split_vertices",
+        "merged_vertices",
     ];
     let mut expected = vec!["mesh", "mesh_name", "primitive", "outcome", "uv_set", "uv_reason", "replaced"];
     expected.extend([
@@ -99,6 +100,16 @@ fn people_read_what_was_done_to_each_primitive() {
     ] {
         assert!(run.stderr.contains(part), "{part:?} is not in {}", run.stderr);
     }
+}
+
+#[test]
+fn a_method_that_breaks_seams_says_how_many() {
+    let output = tempfile::tempdir().expect("a temporary folder");
+    let output = output.path().join("out.glb");
+    let model = asset(SEAM);
+    let run = darboux(&["tangents", text(&model), "-o", text(&output), "--method", "lengyel-per-vertex"]);
+    assert!(run.stderr.contains(", 3 mirrored seam vertices not split"), "{}", run.stderr);
+    assert!(run.stderr.contains("warning: "), "{}", run.stderr);
 }
 
 #[test]

@@ -32,6 +32,9 @@ fn what_does_not_fit_together_is_refused() {
         &["tangents", a, "--mode", "fast"],
         &["tangents", a, "--threshold", "nan"],
         &["tangents", a, "--threshold", "wide"],
+        &["tangents", a, "--threshold", "90", "--method", "face"],
+        &["tangents", a, "--method", "best"],
+        &["tangents", a, "--encoding", "octahedral"],
         &["tangents", a, "-o", "x.glb", "--out-dir", dir],
         &["tangents", a, "-o", "x.glb", "--in-place"],
         &["tangents", a, b, "-o", "x.glb"],
@@ -54,6 +57,28 @@ fn what_does_not_fit_together_is_refused() {
         assert!(run.stderr.starts_with("error: "), "{arguments:?}: {}", run.stderr);
     }
     assert_eq!(names_in(folder.path()), ["degenerate.gltf", "skinned-morphed-mirrored.gltf"]);
+}
+
+#[test]
+fn encodings_without_a_place_in_gltf_are_refused_by_naming_those_with_one() {
+    for encoding in ["snorm10", "octahedral", "diamond", "quaternion"] {
+        let run = darboux(&["tangents", "a.glb", "--encoding", encoding]).exits(2);
+        assert!(run.stderr.contains("it can hold f32x4, snorm16x4 and snorm8x4"), "{}", run.stderr);
+    }
+}
+
+#[test]
+fn methods_explains_every_method_that_there_is() {
+    let explained = String::from_utf8(darboux(&["methods"]).exits(0).stdout).expect("UTF-8");
+    assert_eq!(explained.lines().count(), 10);
+    let help = String::from_utf8(darboux(&["tangents", "--help"]).exits(0).stdout).expect("UTF-8");
+    let listed = help.split("--method <NAME>").nth(1).and_then(|rest| rest.split("[default").next());
+    let names = listed.expect("the list").lines().filter_map(|line| line.trim().strip_prefix("- "));
+    let names: Vec<&str> = names.filter_map(|line| line.split(':').next()).collect();
+    assert_eq!(names.len(), 8);
+    for name in names {
+        assert!(explained.contains(&format!("  {name} ")), "{name}");
+    }
 }
 
 #[test]

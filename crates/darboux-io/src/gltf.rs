@@ -19,6 +19,6 @@ pub use inspect::{PrimitiveInfo, inspect};
 pub use save::SaveOptions;
 pub use schema::{ComponentType, ElementType};
 pub use tangents::{
-    Counts, Outcome, PrimitiveName, PrimitiveSummary, Progress, Summary, TangentsOptions, Totals, Written,
-    add_tangents,
+    Counts, Outcome, PrimitiveName, PrimitiveSummary, Progress, Summary, TangentEncoding, TangentsOptions,
+    Totals, Written, add_tangents,
 };

@@ -37,13 +37,18 @@ impl CornerTangents {
         }
     }
 
-    /// The same frames written in another convention. Fresh tangents are in [`Convention::generated`].
-    pub fn converted(mut self, from: Convention, to: Convention) -> Self {
-        let conversion = from.to(to);
+    /// Each tangent after `change`: rounding to what an encoding holds comes before vertices are split.
+    pub fn map(mut self, mut change: impl FnMut([f32; 4]) -> [f32; 4]) -> Self {
         for tangent in &mut self.0 {
-            *tangent = conversion.tangent(*tangent);
+            *tangent = change(*tangent);
         }
         self
+    }
+
+    /// The same frames written in another convention. Fresh tangents are in [`Convention::generated`].
+    pub fn converted(self, from: Convention, to: Convention) -> Self {
+        let conversion = from.to(to);
+        self.map(|tangent| conversion.tangent(tangent))
     }
 }
 

@@ -27,21 +27,24 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             [CompletionResult]::new('--version', '--version', [CompletionResultType]::ParameterName, 'Print version')
             [CompletionResult]::new('tangents', 'tangents', [CompletionResultType]::ParameterValue, 'Add tangents to glTF and GLB files')
             [CompletionResult]::new('inspect', 'inspect', [CompletionResultType]::ParameterValue, 'Show what each primitive holds and what its tangents would meet')
+            [CompletionResult]::new('methods', 'methods', [CompletionResultType]::ParameterValue, 'Say which method of computing tangents is for what')
             break
         }
         'darboux;tangents' {
             [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'Output file for a single input; - is standard output, as GLB')
             [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'Output file for a single input; - is standard output, as GLB')
             [CompletionResult]::new('--out-dir', '--out-dir', [CompletionResultType]::ParameterName, 'Folder for all outputs; paths below input folders are kept')
+            [CompletionResult]::new('--method', '--method', [CompletionResultType]::ParameterName, 'How tangents are computed: as the normal map was baked, so nearly always mikktspace')
             [CompletionResult]::new('--mode', '--mode', [CompletionResultType]::ParameterName, 'Which defects of the MikkTSpace reference to keep')
             [CompletionResult]::new('--threshold', '--threshold', [CompletionResultType]::ParameterName, 'Split tangents of faces whose directions differ by this many degrees or more')
+            [CompletionResult]::new('--encoding', '--encoding', [CompletionResultType]::ParameterName, 'How tangents are stored: f32x4 (16 bytes), snorm16x4 (8) or snorm8x4 (4)')
             [CompletionResult]::new('--in-place', '--in-place', [CompletionResultType]::ParameterName, 'Replace each input by its output')
             [CompletionResult]::new('--force', '--force', [CompletionResultType]::ParameterName, 'Replace output files that exist')
+            [CompletionResult]::new('--allow-outside', '--allow-outside', [CompletionResultType]::ParameterName, 'Allow buffers and images outside the input''s folder')
             [CompletionResult]::new('--overwrite', '--overwrite', [CompletionResultType]::ParameterName, 'Replace tangents that exist; without it such primitives are kept')
             [CompletionResult]::new('--only-needed', '--only-needed', [CompletionResultType]::ParameterName, 'Only primitives whose material uses tangents (normal map, clearcoat normal map, anisotropy)')
             [CompletionResult]::new('--apply-texture-transform', '--apply-texture-transform', [CompletionResultType]::ParameterName, 'Apply KHR_texture_transform to the UVs first')
             [CompletionResult]::new('--strict', '--strict', [CompletionResultType]::ParameterName, 'Refuse files with non-finite vertex data or corners that have no usable tangent')
-            [CompletionResult]::new('--allow-outside', '--allow-outside', [CompletionResultType]::ParameterName, 'Allow buffers and images outside the input''s folder')
             [CompletionResult]::new('--json', '--json', [CompletionResultType]::ParameterName, 'Write a report as JSON to standard output')
             [CompletionResult]::new('-q', '-q', [CompletionResultType]::ParameterName, 'Print errors only')
             [CompletionResult]::new('--quiet', '--quiet', [CompletionResultType]::ParameterName, 'Print errors only')
@@ -54,6 +57,11 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             [CompletionResult]::new('--json', '--json', [CompletionResultType]::ParameterName, 'Write the table as JSON')
             [CompletionResult]::new('-h', '-h', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
             [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
+            break
+        }
+        'darboux;methods' {
+            [CompletionResult]::new('-h', '-h', [CompletionResultType]::ParameterName, 'Print help')
+            [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help')
             break
         }
     })

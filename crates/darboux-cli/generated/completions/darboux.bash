@@ -19,6 +19,9 @@ _darboux() {
             darboux,inspect)
                 cmd="darboux__subcmd__inspect"
                 ;;
+            darboux,methods)
+                cmd="darboux__subcmd__methods"
+                ;;
             darboux,tangents)
                 cmd="darboux__subcmd__tangents"
                 ;;
@@ -29,7 +32,7 @@ _darboux() {
 
     case "${cmd}" in
         darboux)
-            opts="-h -V --help --version tangents inspect"
+            opts="-h -V --help --version tangents inspect methods"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -56,8 +59,22 @@ _darboux() {
             COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
             return 0
             ;;
+        darboux__subcmd__methods)
+            opts="-h --help"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
         darboux__subcmd__tangents)
-            opts="-o -q -h --output --out-dir --in-place --force --mode --threshold --overwrite --only-needed --apply-texture-transform --strict --allow-outside --json --quiet --help"
+            opts="-o -q -h --output --out-dir --in-place --force --allow-outside --method --mode --threshold --encoding --overwrite --only-needed --apply-texture-transform --strict --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -75,12 +92,20 @@ _darboux() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
+                --method)
+                    COMPREPLY=($(compgen -W "mikktspace angle-area lengyel lengyel-per-vertex average area face from-normal" -- "${cur}"))
+                    return 0
+                    ;;
                 --mode)
                     COMPREPLY=($(compgen -W "reference repaired corrected" -- "${cur}"))
                     return 0
                     ;;
                 --threshold)
                     COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --encoding)
+                    COMPREPLY=($(compgen -W "f32x4 snorm16x4 snorm8x4" -- "${cur}"))
                     return 0
                     ;;
                 *)

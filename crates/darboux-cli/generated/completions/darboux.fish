@@ -28,22 +28,35 @@ complete -c darboux -n "__fish_darboux_needs_command" -s h -l help -d 'Print hel
 complete -c darboux -n "__fish_darboux_needs_command" -s V -l version -d 'Print version'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "tangents" -d 'Add tangents to glTF and GLB files'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "inspect" -d 'Show what each primitive holds and what its tangents would meet'
+complete -c darboux -n "__fish_darboux_needs_command" -f -a "methods" -d 'Say which method of computing tangents is for what'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s o -l output -d 'Output file for a single input; - is standard output, as GLB' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l out-dir -d 'Folder for all outputs; paths below input folders are kept' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l method -d 'How tangents are computed: as the normal map was baked, so nearly always mikktspace' -r -f -a "mikktspace\t'The standard of bakers and engines'
+angle-area\t'Weighted by angle and area: follows the UVs best where no baked map asks for MikkTSpace'
+lengyel\t'Sums of dP/du, one per UV orientation'
+lengyel-per-vertex\t'Sums of dP/du, one per vertex, as three.js and many tutorials: breaks mirrored seams'
+average\t'Mean of the triangles\' tangents'
+area\t'Mean weighted by area'
+face\t'Each face its own: exact, not smooth'
+from-normal\t'Any perpendicular of the normal; says nothing about UVs'"
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l mode -d 'Which defects of the MikkTSpace reference to keep' -r -f -a "reference\t'Every bit of the reference, zero-length and non-finite tangents included'
 repaired\t'The reference\'s bits where they are usable, a unit tangent elsewhere'
 corrected\t'As repaired, with all edges matched and one sign per triangle'"
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l threshold -d 'Split tangents of faces whose directions differ by this many degrees or more' -r
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l encoding -d 'How tangents are stored: f32x4 (16 bytes), snorm16x4 (8) or snorm8x4 (4)' -r -f -a "f32x4\t''
+snorm16x4\t''
+snorm8x4\t''"
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l in-place -d 'Replace each input by its output'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l force -d 'Replace output files that exist'
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l allow-outside -d 'Allow buffers and images outside the input\'s folder'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l overwrite -d 'Replace tangents that exist; without it such primitives are kept'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l only-needed -d 'Only primitives whose material uses tangents (normal map, clearcoat normal map, anisotropy)'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l apply-texture-transform -d 'Apply KHR_texture_transform to the UVs first'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l strict -d 'Refuse files with non-finite vertex data or corners that have no usable tangent'
-complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l allow-outside -d 'Allow buffers and images outside the input\'s folder'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s q -l quiet -d 'Print errors only'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l allow-outside -d 'Allow buffers and images outside the input\'s folder'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l json -d 'Write the table as JSON'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c darboux -n "__fish_darboux_using_subcommand methods" -s h -l help -d 'Print help'

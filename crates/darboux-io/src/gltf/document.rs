@@ -70,6 +70,7 @@ pub(super) struct Edits {
     pub views: BTreeMap<usize, String>,
     pub buffers: BTreeMap<usize, String>,
     pub removed_extensions: Vec<&'static str>,
+    pub required_extensions: Vec<&'static str>,
     pub new_accessors: Vec<String>,
     pub new_views: Vec<NewView>,
     pub new_bytes: Vec<u8>,
@@ -266,6 +267,15 @@ impl Document {
         let edited = edited_primitive(text, edit).map_err(|error| self.invalid(at(), error.to_string()))?;
         self.replace_primitive(mesh, primitive, edited)
             .map_err(|error| self.invalid(at(), format!("the edit is no primitive: {error}")))
+    }
+
+    /// Declares extensions that readers must know, unless they are declared already.
+    pub(super) fn require_extensions(&mut self, names: impl IntoIterator<Item = &'static str>) {
+        for name in names {
+            if !self.edits.required_extensions.contains(&name) {
+                self.edits.required_extensions.push(name);
+            }
+        }
     }
 
     /// The JSON of a primitive, edits included.

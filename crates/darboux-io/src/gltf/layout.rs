@@ -383,13 +383,16 @@ impl<'a> Layout<'a> {
     }
 
     fn extensions(&self, names: &str) -> serde_json::Result<String> {
-        let removed = &self.document.edits.removed_extensions;
+        let edits = &self.document.edits;
+        let (removed, required) = (&edits.removed_extensions, &edits.required_extensions);
         let old: Vec<String> = serde_json::from_str(names)?;
-        if !old.iter().any(|name| removed.contains(&name.as_str())) {
+        let mut new: Vec<&str> = old.iter().map(String::as_str).collect();
+        new.retain(|name| !removed.contains(name));
+        new.extend(required.iter().filter(|name| !old.iter().any(|old| old == *name)));
+        if new == old {
             return Ok(names.to_owned());
         }
-        let kept = old.iter().filter(|name| !removed.contains(&name.as_str()));
-        Ok(format!("[{}]", kept.map(|name| quoted(name)).collect::<Vec<_>>().join(",")))
+        Ok(format!("[{}]", new.into_iter().map(quoted).collect::<Vec<_>>().join(",")))
     }
 }
 

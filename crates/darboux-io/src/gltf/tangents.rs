@@ -1,6 +1,8 @@
 //! Tangents into a document: chosen, shared, computed, split, morphed and written, with everything else left as it is.
 
 pub(super) mod compute;
+mod encoding;
+mod evaluator;
 pub(super) mod excess;
 mod foreign;
 mod morph;
@@ -12,6 +14,7 @@ pub(super) mod topology;
 mod uv;
 mod write;
 
+pub use encoding::TangentEncoding;
 pub use summary::{Counts, Outcome, PrimitiveName, PrimitiveSummary, Summary, Totals, Written};
 
 use std::collections::{HashMap, HashSet};
@@ -32,6 +35,8 @@ use write::{Results, Writer};
 pub struct TangentsOptions {
     /// How tangents are computed.
     pub tangents: TangentOptions,
+    /// How tangents are stored.
+    pub encoding: TangentEncoding,
     /// Replace tangents that exist.
     pub overwrite: bool,
     /// Only primitives whose material uses tangents.
@@ -129,6 +134,7 @@ impl Run<'_> {
             let moves = moved.contains(&index);
             let surface = compute::surface(document, &self.path(job), vertices, job, moves, self.options)?;
             self.warn_unusable(job, &surface);
+            self.warn_merged(job, &surface);
             self.at.done += job.triangle_count;
             (self.progress)(self.at);
             surfaces.push(surface);
@@ -142,6 +148,17 @@ impl Run<'_> {
             let name = &self.selection.candidates[job.first].name;
             self.summary.warnings.push(format!(
                 "{name}: {unusable} corners have an unusable tangent, as the reference has it; validators will complain"
+            ));
+        }
+    }
+
+    fn warn_merged(&mut self, job: &Job, surface: &Surface) {
+        let merged = surface.report.merged_vertices;
+        if merged > 0 {
+            let name = &self.selection.candidates[job.first].name;
+            self.summary.warnings.push(format!(
+                "{name}: {merged} vertices on mirrored seams have one tangent for both sides, as this method has it; \
+                 normal maps break there"
             ));
         }
     }
@@ -191,7 +208,7 @@ impl Run<'_> {
         split: &Split,
         offsets: &Offsets,
     ) -> Result<Vec<(usize, Written)>, Error> {
-        let tangents = write::push_vectors(document, ElementType::Vec4, &split.tangents, false);
+        let tangents = write::push_tangents(document, self.options.encoding, &split.tangents);
         excess::check_output(document)?;
         let accessors = offsets.iter().map(|(&movement, &(accessor, _))| (movement, accessor)).collect();
         let results = Results { surfaces, split, tangents, offsets: accessors };

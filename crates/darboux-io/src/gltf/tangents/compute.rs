@@ -2,9 +2,10 @@
 
 use std::mem;
 
-use darboux::{Convention, CornerTangents, Indices, Mesh, Plan, Report, generate_tangents};
+use darboux::{Convention, CornerTangents, Indices, Mesh, Report, generate_tangents};
 
 use super::TangentsOptions;
+use super::evaluator::Evaluator;
 use super::share::{Group, Job};
 use crate::Error;
 use crate::gltf::Document;
@@ -70,7 +71,7 @@ pub struct Surface {
     pub tangents: CornerTangents,
     pub report: Report,
     /// What evaluates morph targets, if there are any.
-    pub plan: Option<Plan>,
+    pub evaluator: Option<Evaluator>,
 }
 
 /// Computes a job. `at` is the JSON path of a primitive that it belongs to; with `morphs` it is kept ready for morph targets.
@@ -88,15 +89,19 @@ pub fn surface(
     let rest = corners.split_off(job.topology.whole(corners.len()));
     let corners = job.topology.corners(corners);
     let mesh = vertices.mesh(document, at, job, &corners)?;
-    let plan = morphs.then(|| Plan::new(&mesh, &options.tangents));
-    let tangents =
-        plan.as_ref().map_or_else(|| generate_tangents(&mesh, &options.tangents), |plan| plan.base().clone());
+    let (tangents, evaluator) = if morphs {
+        let (tangents, evaluator) = Evaluator::new(&mesh, &options.tangents);
+        (tangents, Some(evaluator))
+    } else {
+        (generate_tangents(&mesh, &options.tangents), None)
+    };
     if options.strict {
         refuse_unusable(document, at, &tangents.report)?;
     }
     let report = tangents.report;
     let tangents = tangents.corners.converted(Convention::GLTF.generated(), Convention::GLTF);
-    Ok(Surface { corners, rest, tangents, report, plan })
+    let tangents = tangents.map(|tangent| options.encoding.rounded(tangent));
+    Ok(Surface { corners, rest, tangents, report, evaluator })
 }
 
 fn indices(document: &Document, job: &Job, vertex_count: usize) -> Result<Vec<u32>, Error> {

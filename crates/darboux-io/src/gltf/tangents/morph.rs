@@ -122,10 +122,9 @@ pub fn offsets(
     for &job in &morph.jobs {
         let surface = &surfaces[job];
         let mesh = vertices.mesh(document, &morph.at, &group.jobs[job], &surface.corners)?;
-        let plan = surface.plan.as_ref().expect("jobs that move are computed with a plan");
-        let wrong = |error| document.mesh_error(&morph.at, error);
-        let evaluated = plan.evaluate(&mesh).map_err(wrong)?;
-        let regrouped = plan.count_regrouped(&mesh).map_err(wrong)?;
+        let evaluator = surface.evaluator.as_ref().expect("jobs that move are computed with one");
+        let (evaluated, regrouped) =
+            evaluator.evaluate(&mesh).map_err(|error| document.mesh_error(&morph.at, error))?;
         let tangents = evaluated.per_corner().iter().zip(surface.tangents.per_corner());
         let corners = split.corners[job].iter().zip(tangents);
         let conflicting =

@@ -133,6 +133,8 @@ pub struct Counts {
     pub mirrored_edges: usize,
     /// Vertices that need more than one tangent.
     pub split_vertices: usize,
+    /// Vertices on mirrored seams that have one tangent for both sides: [`darboux::Method::LengyelPerVertex`] breaks them.
+    pub merged_vertices: usize,
 }
 
 impl From<Report> for Counts {
@@ -146,6 +148,7 @@ impl From<Report> for Counts {
             mixed_sign_triangles: report.mixed_sign_faces,
             mirrored_edges: report.mirrored_edges,
             split_vertices: report.split_vertices,
+            merged_vertices: report.merged_vertices,
         }
     }
 }

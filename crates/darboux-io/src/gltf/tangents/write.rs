@@ -4,7 +4,6 @@ use std::collections::HashMap;
 
 use serde_json::Value;
 
-use super::TangentsOptions;
 use super::compute::Surface;
 use super::excess;
 use super::morph::Movement;
@@ -12,6 +11,7 @@ use super::select::Candidate;
 use super::share::{Canonical, Group, Member};
 use super::split::Split;
 use super::topology::Topology;
+use super::{TangentEncoding, TangentsOptions};
 use crate::Error;
 use crate::gltf::schema::Attributes;
 use crate::gltf::{ComponentType, Document, ElementType, Elements, NewAccessor, Target};
@@ -32,6 +32,14 @@ pub fn push_vectors<const N: usize>(
     };
     let target = Target::Vertices;
     document.push_accessor(NewAccessor { elements, target, bounds: false, sparse, like: None })
+}
+
+/// Appends an accessor of tangents, one per vertex, and declares the extension that it needs.
+pub fn push_tangents(document: &mut Document, encoding: TangentEncoding, tangents: &[[f32; 4]]) -> usize {
+    document.require_extensions(encoding.extension());
+    let elements = encoding.elements(tangents);
+    let target = Target::Vertices;
+    document.push_accessor(NewAccessor { elements, target, bounds: false, sparse: false, like: None })
 }
 
 /// Whether an accessor leaves out zeros, so that what follows it should do the same.

@@ -1,0 +1,49 @@
+//! What commands that write models have in common: inputs, outputs, messages.
+
+use std::path::PathBuf;
+
+use clap::{ArgGroup, Args};
+
+/// Which files are read, and where their outputs go.
+#[derive(Debug, Args)]
+#[command(group = ArgGroup::new("destination").args(["output", "out_dir", "in_place"]))]
+pub struct Files {
+    /// Files (.gltf, .glb, .vrm) and folders; - is standard input
+    #[arg(required = true, value_name = "INPUT")]
+    pub inputs: Vec<PathBuf>,
+
+    /// Output file for a single input; - is standard output, as GLB
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub output: Option<PathBuf>,
+
+    /// Folder for all outputs; paths below input folders are kept
+    #[arg(long, value_name = "FOLDER", help_heading = "Output")]
+    pub out_dir: Option<PathBuf>,
+
+    /// Replace each input by its output
+    ///
+    /// The new file is written beside the old one and renamed when it is complete. A file in which nothing changes is not
+    /// touched.
+    #[arg(long, help_heading = "Output")]
+    pub in_place: bool,
+
+    /// Replace output files that exist
+    #[arg(long, help_heading = "Output")]
+    pub force: bool,
+
+    /// Allow buffers and images outside the input's folder
+    #[arg(long, help_heading = "Input")]
+    pub allow_outside: bool,
+}
+
+/// How much is said, and to whom.
+#[derive(Debug, Args)]
+pub struct Talk {
+    /// Write a report as JSON to standard output
+    #[arg(long, help_heading = "Messages")]
+    pub json: bool,
+
+    /// Print errors only
+    #[arg(short, long, help_heading = "Messages")]
+    pub quiet: bool,
+}

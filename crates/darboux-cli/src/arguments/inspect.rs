@@ -1,0 +1,33 @@
+//! `darboux inspect`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+pub(super) const ABOUT: &str = "\
+Show what each primitive holds and what its tangents would meet.
+
+One line per primitive: vertices, triangles, attributes, the UV set that tangents belong to, vertices that must be split, \
+edges where the UVs mirror, degenerate triangles (in space and in UVs), and whether it has tangents. Nothing is written.";
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  darboux inspect model.glb
+  darboux inspect models/*.gltf
+  darboux inspect model.glb --json | jq '.files[].primitives[] | select(.mirrored_edges > 0)'";
+
+/// `darboux inspect`.
+#[derive(Debug, Args)]
+pub struct InspectArguments {
+    /// Files (.gltf, .glb, .vrm) and folders; - is standard input
+    #[arg(required = true, value_name = "FILE")]
+    pub inputs: Vec<PathBuf>,
+
+    /// Allow buffers and images outside the input's folder
+    #[arg(long)]
+    pub allow_outside: bool,
+
+    /// Write the table as JSON
+    #[arg(long)]
+    pub json: bool,
+}

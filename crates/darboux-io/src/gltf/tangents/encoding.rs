@@ -1,0 +1,56 @@
+//! How tangents are stored: what glTF permits.
+
+use darboux::encode::{tangent_from_snorm8, tangent_from_snorm16, tangent_to_snorm8, tangent_to_snorm16};
+
+use crate::gltf::{ComponentType, ElementType, Elements};
+
+/// The forms that a `TANGENT` accessor can have (glTF 2.0, 3.7.2.1; `KHR_mesh_quantization`).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum TangentEncoding {
+    /// Floats: 16 bytes per vertex, exact.
+    #[default]
+    F32x4,
+    /// Normalized 16-bit integers: 8 bytes, directions turn by up to 0.0016 degrees. Needs `KHR_mesh_quantization`.
+    Snorm16x4,
+    /// Normalized 8-bit integers: 4 bytes, directions turn by up to 0.40 degrees. Needs `KHR_mesh_quantization`.
+    Snorm8x4,
+}
+
+impl TangentEncoding {
+    /// The tangent that a reader gets. Rounding comes before splitting, so that no vertex is split for what is not stored.
+    pub(super) fn rounded(self, tangent: [f32; 4]) -> [f32; 4] {
+        match self {
+            Self::F32x4 => tangent,
+            Self::Snorm16x4 => tangent_from_snorm16(tangent_to_snorm16(tangent)),
+            Self::Snorm8x4 => tangent_from_snorm8(tangent_to_snorm8(tangent)),
+        }
+    }
+
+    /// The extension that files with it need.
+    pub(super) fn extension(self) -> Option<&'static str> {
+        (self != Self::F32x4).then_some("KHR_mesh_quantization")
+    }
+
+    /// Tangents as they are stored.
+    pub(super) fn elements(self, tangents: &[[f32; 4]]) -> Elements {
+        let stored = tangents.iter();
+        let (component_type, bytes) = match self {
+            Self::F32x4 => (ComponentType::F32, stored.flatten().flat_map(|x| x.to_le_bytes()).collect()),
+            Self::Snorm16x4 => {
+                let codes = stored.flat_map(|&tangent| tangent_to_snorm16(tangent));
+                (ComponentType::I16, codes.flat_map(i16::to_le_bytes).collect())
+            }
+            Self::Snorm8x4 => {
+                let codes = stored.flat_map(|&tangent| tangent_to_snorm8(tangent));
+                (ComponentType::I8, codes.map(|code| code as u8).collect())
+            }
+        };
+        Elements {
+            bytes,
+            count: tangents.len(),
+            component_type,
+            element_type: ElementType::Vec4,
+            normalized: self != Self::F32x4,
+        }
+    }
+}
