@@ -1,6 +1,6 @@
 //! What `darboux tangents` does on an indexed grid, phase by phase, against copying the files.
 //!
-//! `cargo run --release -p darboux-io --features parallel --example measure -- FOLDER [QUADS PER SIDE]`: the least of some runs, wall time.
+//! `cargo run --release -p darboux-io --features darboux/parallel --example measure -- FOLDER [QUADS PER SIDE]`: the least of some runs, wall time.
 //! The grid (708 quads per side: a million triangles) and its output stay in FOLDER, for `/usr/bin/time -v darboux tangents`.
 
 use std::fs;

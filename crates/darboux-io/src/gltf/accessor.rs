@@ -62,7 +62,7 @@ impl Elements {
     }
 
     /// The least and the greatest finite value of every component; none where a component has no finite value.
-    pub(super) fn bounds(&self) -> Option<(Vec<f64>, Vec<f64>)> {
+    pub(super) fn bounds(&self) -> Option<Bounds> {
         let (columns, rows) = self.element_type.shape();
         let (size, column_size) = (self.component_type.size(), self.element_size() / columns);
         let mut bounds = vec![(f64::INFINITY, f64::NEG_INFINITY); columns * rows];
@@ -98,6 +98,9 @@ impl ComponentType {
         }
     }
 }
+
+/// The least and the greatest value of every component.
+pub(super) type Bounds = (Vec<f64>, Vec<f64>);
 
 /// An accessor to append, with its bytes. The layout is that of [`Elements`]; alignment is the document's matter.
 #[derive(Clone, Debug)]
@@ -141,19 +144,18 @@ impl Target {
     }
 }
 
-/// The JSON of the accessor `new`, whose elements are where `stored` says.
-pub(super) fn accessor_json(new: &NewAccessor, stored: &Accessor, like: Option<&Accessor>) -> String {
-    let elements = &new.elements;
+/// The JSON of a new accessor with some `bounds`, described `like` another.
+pub(super) fn accessor_json(stored: &Accessor, bounds: Option<Bounds>, like: Option<&Accessor>) -> String {
     let mut text = "{".to_owned();
     if let Some(view) = stored.buffer_view {
         let _ = write!(text, "\"bufferView\":{view},");
     }
-    let _ = write!(text, "\"componentType\":{}", elements.component_type.code());
-    if elements.normalized {
+    let _ = write!(text, "\"componentType\":{}", stored.component_type.code());
+    if stored.normalized {
         text.push_str(",\"normalized\":true");
     }
-    let _ = write!(text, ",\"count\":{},\"type\":\"{}\"", elements.count, elements.element_type.name());
-    if let Some((min, max)) = new.bounds.then(|| elements.bounds()).flatten() {
+    let _ = write!(text, ",\"count\":{},\"type\":\"{}\"", stored.count, stored.element_type.name());
+    if let Some((min, max)) = bounds {
         let (min, max) = (Value::from(min), Value::from(max));
         let _ = write!(text, ",\"min\":{min},\"max\":{max}");
     }

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::pieces::{self, Piece};
 use crate::error::Fault;
 
 const MAGIC: &[u8] = b"glTF";
@@ -23,6 +24,11 @@ pub struct Container {
 }
 
 impl Container {
+    /// The byte order mark before bare JSON, where there was one.
+    pub fn mark(&self) -> Option<&'static [u8]> {
+        (!self.is_glb && self.json.start > 0).then_some(BOM)
+    }
+
     /// Finds the parts of `file`; its first bytes decide what it is.
     pub fn parse(file: &[u8]) -> Result<Self, Fault> {
         if file.starts_with(MAGIC) {
@@ -87,39 +93,31 @@ fn word(file: &[u8], at: usize) -> Option<u32> {
     Some(u32::from_le_bytes(*file.get(at..)?.first_chunk()?))
 }
 
-/// A GLB of `json`, the binary chunk `bin` (parts, one after the other) and further chunks.
+/// A GLB of `json`, the binary chunk `bin` and further chunks.
 ///
 /// Error: more than the 4 GiB that a GLB can hold.
-pub fn glb(json: &str, bin: Option<&[&[u8]]>, other_chunks: &[(u32, &[u8])]) -> Result<Vec<u8>, Fault> {
-    let bin_length = bin.map(|parts| parts.iter().map(|part| part.len()).sum::<usize>());
-    let chunks = [Some(json.len()), bin_length].into_iter().flatten();
-    let length = 12
-        + chunks.map(|length| 8 + length.next_multiple_of(4)).sum::<usize>()
-        + other_chunks.iter().map(|(_, chunk)| 8 + chunk.len().next_multiple_of(4)).sum::<usize>();
+pub fn glb<'a>(
+    json: String,
+    bin: Option<Vec<Piece<'a>>>,
+    other_chunks: Vec<(u32, &'a [u8])>,
+) -> Result<Vec<Piece<'a>>, Fault> {
+    let mut chunks = vec![(JSON, vec![Piece::Owned(json.into_bytes())], b' ')];
+    chunks.extend(bin.map(|pieces| (BIN, pieces, 0)));
+    chunks.extend(other_chunks.into_iter().map(|(kind, chunk)| (kind, vec![Piece::Borrowed(chunk)], 0)));
+    let padded = |pieces: &[Piece<'_>]| pieces::length(pieces).next_multiple_of(4);
+    let length = 12 + chunks.iter().map(|(_, pieces, _)| 8 + padded(pieces)).sum::<usize>();
     let too_large =
         || Fault::unsupported("", format!("{length} bytes are too many for a GLB; write a .gltf"));
     let total = u32::try_from(length).map_err(|_| too_large())?;
 
-    let mut out = Vec::with_capacity(length);
-    out.extend_from_slice(MAGIC);
-    out.extend_from_slice(&2u32.to_le_bytes());
-    out.extend_from_slice(&total.to_le_bytes());
-    push_chunk(&mut out, JSON, &[json.as_bytes()], b' ');
-    if let Some(parts) = bin {
-        push_chunk(&mut out, BIN, parts, 0);
-    }
-    for &(kind, chunk) in other_chunks {
-        push_chunk(&mut out, kind, &[chunk], 0);
+    let mut out = vec![Piece::Owned([MAGIC, &2u32.to_le_bytes(), &total.to_le_bytes()].concat())];
+    for (kind, pieces, padding) in chunks {
+        let length = pieces::length(&pieces);
+        let padding = vec![padding; length.next_multiple_of(4) - length];
+        let header = (length + padding.len()) as u64 | u64::from(kind) << 32;
+        out.push(Piece::Owned(header.to_le_bytes().to_vec()));
+        out.extend(pieces);
+        out.push(Piece::Owned(padding));
     }
     Ok(out)
-}
-
-fn push_chunk(out: &mut Vec<u8>, kind: u32, parts: &[&[u8]], padding: u8) {
-    let length = parts.iter().map(|part| part.len()).sum::<usize>().next_multiple_of(4);
-    out.extend_from_slice(&(length as u32).to_le_bytes());
-    out.extend_from_slice(&kind.to_le_bytes());
-    for part in parts {
-        out.extend_from_slice(part);
-    }
-    out.resize(out.len().next_multiple_of(4), padding);
 }

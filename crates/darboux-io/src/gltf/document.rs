@@ -13,6 +13,7 @@ use serde_json::{Map, Value};
 
 use super::accessor::{Elements, NewAccessor, Target, accessor_json};
 use super::container::Container;
+use super::file_bytes::FileBytes;
 use super::json;
 use super::resources::{File, Reference, Resources, decode_data_uri};
 use super::schema::{self, ComponentType, Probe, Root};
@@ -34,8 +35,11 @@ pub struct Document {
     name: String,
     /// The input file, links resolved.
     pub(super) input: Option<PathBuf>,
-    pub(super) file: Vec<u8>,
+    /// The whole file, if it is a GLB.
+    pub(super) file: FileBytes,
     pub(super) container: Container,
+    /// The JSON text as it was read.
+    text: String,
     pub(super) root: Root,
     pub(super) resources: Resources,
     pub(super) stores: Vec<Store>,
@@ -73,14 +77,14 @@ pub(super) struct Edits {
     pub required_extensions: Vec<&'static str>,
     pub new_accessors: Vec<String>,
     pub new_views: Vec<NewView>,
-    pub new_bytes: Vec<u8>,
+    /// The length of all new views.
+    pub new_byte_count: usize,
 }
 
-/// A buffer view over new bytes.
+/// A buffer view with bytes of its own.
 #[derive(Debug)]
 pub(super) struct NewView {
-    pub offset: usize,
-    pub length: usize,
+    pub bytes: Vec<u8>,
     pub stride: Option<usize>,
     pub target: Option<Target>,
 }
@@ -95,9 +99,9 @@ impl Document {
         if !fs::metadata(&input).map_err(failed)?.is_file() {
             return Err(failed(io::Error::other("it is not a regular file")));
         }
-        let bytes = fs::read(&input).map_err(failed)?;
+        let bytes = FileBytes::open(&input).map_err(failed)?;
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let mut document = Self::from_bytes(&path.display().to_string(), bytes, Some(folder), options)?;
+        let mut document = Self::from_file(&path.display().to_string(), bytes, Some(folder), options)?;
         document.input = Some(input);
         Ok(document)
     }
@@ -112,16 +116,28 @@ impl Document {
         base: Option<&Path>,
         options: &LoadOptions,
     ) -> Result<Self, Error> {
-        let resources = Resources::new(base, options.allow_outside)
-            .map_err(|source| Error::Read { file: base.unwrap_or(Path::new("")).to_owned(), source })?;
-        Self::parse(name, bytes, resources).map_err(|fault| fault.in_file(name))
+        Self::from_file(name, FileBytes::Read(bytes), base, options)
     }
 
-    fn parse(name: &str, file: Vec<u8>, mut resources: Resources) -> Result<Self, Fault> {
+    fn from_file(
+        name: &str,
+        file: FileBytes,
+        base: Option<&Path>,
+        options: &LoadOptions,
+    ) -> Result<Self, Error> {
+        let resources = Resources::new(base, options.allow_outside)
+            .map_err(|source| Error::Read { file: base.unwrap_or(Path::new("")).to_owned(), source })?;
+        Self::parse(name, file, resources).map_err(|fault| fault.in_file(name))
+    }
+
+    fn parse(name: &str, mut file: FileBytes, mut resources: Resources) -> Result<Self, Fault> {
         let container = Container::parse(&file)?;
-        let text = std::str::from_utf8(&file[container.json.clone()])
+        let text = String::from_utf8(file[container.json.clone()].to_vec())
             .map_err(|error| Fault::invalid("", format!("the JSON is not UTF-8: {error}")))?;
-        let root = parse_root(text)?;
+        if !container.is_glb {
+            file = FileBytes::Read(Vec::new());
+        }
+        let root = parse_root(&text)?;
         let chunk = container.bin.clone().map(|range| &file[range]);
         let stores = root
             .buffers
@@ -135,6 +151,7 @@ impl Document {
             input: None,
             file,
             container,
+            text,
             root,
             resources,
             stores,
@@ -176,27 +193,28 @@ impl Document {
     /// Panics when `new.elements.bytes` is not `count` elements long.
     pub fn push_accessor(&mut self, new: NewAccessor) -> usize {
         let like = new.like.and_then(|index| self.root.accessors.get(index)).cloned();
-        let stored = self.store(&new);
-        self.edits.new_accessors.push(accessor_json(&new, &stored, like.as_ref()));
+        let bounds = new.bounds.then(|| new.elements.bounds()).flatten();
+        let stored = self.store(new);
+        self.edits.new_accessors.push(accessor_json(&stored, bounds, like.as_ref()));
         if let Some(backed) = self.backed_count.get_mut() {
-            *backed = (*backed).max(new.elements.count);
+            *backed = (*backed).max(stored.count);
         }
         self.root.accessors.push(stored);
         self.root.accessors.len() - 1
     }
 
     /// Stores the elements of `new` in views of their own.
-    fn store(&mut self, new: &NewAccessor) -> schema::Accessor {
-        let elements = &new.elements;
+    fn store(&mut self, new: NewAccessor) -> schema::Accessor {
+        let elements = new.elements;
         let size = elements.element_size();
         assert_eq!(elements.bytes.len(), elements.count * size, "bytes are not whole elements");
         let places = new.sparse.then(|| elements.worth_storing()).flatten();
         let (buffer_view, sparse) = match places {
             Some(places) if places.is_empty() => (None, None),
-            Some(places) => (None, Some(Box::new(self.push_sparse(elements, &places)))),
+            Some(places) => (None, Some(Box::new(self.push_sparse(&elements, &places)))),
             None => {
                 let stride = new.target.stride(size);
-                (Some(self.push_view(&elements.bytes, size, stride, Some(new.target))), None)
+                (Some(self.push_view(elements.bytes, size, stride, Some(new.target))), None)
             }
         };
         schema::Accessor {
@@ -222,32 +240,34 @@ impl Document {
             .copied()
             .collect();
         let indices = schema::SparseIndices {
-            buffer_view: self.push_view(&indices, 4, 4, None),
+            buffer_view: self.push_view(indices, 4, 4, None),
             byte_offset: 0,
             component_type: ComponentType::U32,
         };
         let values =
-            schema::SparseValues { buffer_view: self.push_view(&values, size, size, None), byte_offset: 0 };
+            schema::SparseValues { buffer_view: self.push_view(values, size, size, None), byte_offset: 0 };
         schema::Sparse { count: places.len(), indices, values }
     }
 
     /// Appends a view over elements of `size` bytes, put `stride` bytes apart; gives its index.
     pub(super) fn push_view(
         &mut self,
-        bytes: &[u8],
+        bytes: Vec<u8>,
         size: usize,
         stride: usize,
         target: Option<Target>,
     ) -> usize {
-        let out = &mut self.edits.new_bytes;
-        out.resize(out.len().next_multiple_of(4), 0);
-        let offset = out.len();
-        for element in bytes.chunks_exact(size) {
-            out.extend_from_slice(element);
-            out.resize(out.len() + stride - size, 0);
-        }
-        let (length, stride) = (out.len() - offset, (stride != size).then_some(stride));
-        self.edits.new_views.push(NewView { offset, length, stride, target });
+        let view = if stride == size {
+            NewView { bytes, stride: None, target }
+        } else {
+            let mut spread = vec![0; bytes.len() / size * stride];
+            for (slot, element) in spread.chunks_exact_mut(stride).zip(bytes.chunks_exact(size)) {
+                slot[..size].copy_from_slice(element);
+            }
+            NewView { bytes: spread, stride: Some(stride), target }
+        };
+        self.edits.new_byte_count += view.bytes.len();
+        self.edits.new_views.push(view);
         self.root.buffer_views.len() + self.edits.new_views.len() - 1
     }
 
@@ -306,7 +326,7 @@ impl Document {
             Store::File(file) => file.bytes.len(),
             Store::Data(bytes) | Store::Decoded(bytes) => bytes.len(),
         });
-        self.file.len() + stores.sum::<usize>() + self.decompressed_bytes
+        self.file.len().max(self.text.len()) + stores.sum::<usize>() + self.decompressed_bytes
     }
 
     /// Whether there are edits.
@@ -323,14 +343,14 @@ impl Document {
 
     /// The JSON text as it was read.
     pub(super) fn text(&self) -> &str {
-        std::str::from_utf8(&self.file[self.container.json.clone()]).expect("checked when it was read")
+        &self.text
     }
 
     /// The bytes of a buffer view and its stride. `at` is the JSON path that refers to it.
     pub(super) fn view(&self, index: usize, at: &str) -> Result<(&[u8], Option<usize>), Fault> {
         let views = &self.root.buffer_views;
         if let Some(new) = index.checked_sub(views.len()).and_then(|new| self.edits.new_views.get(new)) {
-            return Ok((&self.edits.new_bytes[new.offset..new.offset + new.length], new.stride));
+            return Ok((&new.bytes, new.stride));
         }
         let view = views.get(index).ok_or_else(|| {
             let problem = format!("buffer view {index} does not exist: there are {}", views.len());

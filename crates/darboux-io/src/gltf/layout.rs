@@ -3,34 +3,34 @@
 //! A *home* is a place for bytes: the binary chunk of a GLB, or a new file beside a `.gltf`. A GLB has one home, into which all
 //! buffers move; a `.gltf` has one for each buffer that was in memory only. Buffer views follow their buffers.
 
-use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
-use std::fs;
 use std::path::PathBuf;
 
 use serde_json::value::RawValue;
 
 use super::document::{Document, NewView, Store};
+use super::file_bytes::FileBytes;
 use super::json::{edit_array, keys, member, quoted, set_member};
+use super::pieces::Piece;
 use super::resources::{Reference, encode_data_uri, image_type};
 use crate::error::Fault;
 
 /// Bytes to be written as one.
 #[derive(Debug, Default)]
 pub struct Home<'a> {
-    pub parts: Vec<Cow<'a, [u8]>>,
+    pub pieces: Vec<Piece<'a>>,
     length: usize,
 }
 
 impl<'a> Home<'a> {
     /// Appends bytes at the next multiple of four; gives their offset.
-    fn push(&mut self, bytes: Cow<'a, [u8]>) -> usize {
+    fn push(&mut self, bytes: Piece<'a>) -> usize {
         let offset = self.length.next_multiple_of(4);
         if offset > self.length {
-            self.parts.push(Cow::Borrowed(&[0; 4][..offset - self.length]));
+            self.pieces.push(Piece::Borrowed(&[0; 4][..offset - self.length]));
         }
         self.length = offset + bytes.len();
-        self.parts.push(bytes);
+        self.pieces.push(bytes);
         offset
     }
 }
@@ -102,7 +102,7 @@ impl<'a> Layout<'a> {
                 source.get_or_insert(i);
                 let mut push = || -> Result<Place, Fault> {
                     let bytes = document.buffer(i, "buffers")?;
-                    Ok(Place { slot: 0, offset: home.push(bytes.into()) })
+                    Ok(Place { slot: 0, offset: home.push(Piece::Borrowed(bytes)) })
                 };
                 layout.places[i] = match &document.stores[i] {
                     Store::File(file) => match merged.get(&(&file.located.path, buffer.byte_length)) {
@@ -139,7 +139,7 @@ impl<'a> Layout<'a> {
             let content = if in_memory { Content::Home(layout.homes.len()) } else { Content::Kept };
             if in_memory {
                 let mut home = Home::default();
-                home.push(document.buffer(i, "buffers")?.into());
+                home.push(Piece::Borrowed(document.buffer(i, "buffers")?));
                 layout.homes.push(home);
             }
             layout.places[i] = Place { slot: i, offset: 0 };
@@ -167,17 +167,12 @@ impl<'a> Layout<'a> {
     }
 
     fn push_new_views(&mut self, home: &mut Home<'a>, slot: usize) {
-        let edits = &self.document.edits;
-        if edits.new_views.is_empty() {
-            return;
-        }
-        let base = home.push(edits.new_bytes.as_slice().into());
-        for NewView { offset, length, stride, target } in &edits.new_views {
+        for NewView { bytes, stride, target } in &self.document.edits.new_views {
+            let (offset, length) = (home.push(Piece::Borrowed(bytes)), bytes.len());
             let stride = stride.map(|stride| format!(",\"byteStride\":{stride}")).unwrap_or_default();
             let target = target.map(|target| format!(",\"target\":{}", target.code())).unwrap_or_default();
             self.new_views.push(format!(
-                "{{\"buffer\":{slot},\"byteOffset\":{},\"byteLength\":{length}{stride}{target}}}",
-                base + offset
+                "{{\"buffer\":{slot},\"byteOffset\":{offset},\"byteLength\":{length}{stride}{target}}}"
             ));
         }
     }
@@ -192,12 +187,12 @@ impl<'a> Layout<'a> {
             let stored = match known.get(&located.path) {
                 Some(stored) => *stored,
                 None => {
-                    let bytes = fs::read(&located.path).map_err(|error| {
+                    let bytes = FileBytes::open(&located.path).map_err(|error| {
                         Fault::resource(format!("images[{index}].uri"), format!("cannot be read: {error}"))
                     })?;
                     let stored = image_type(&bytes).map(|kind| {
                         let length = bytes.len();
-                        let offset = home.push(bytes.into());
+                        let offset = home.push(Piece::File(bytes));
                         self.new_views.push(format!(
                             "{{\"buffer\":0,\"byteOffset\":{offset},\"byteLength\":{length}}}"
                         ));

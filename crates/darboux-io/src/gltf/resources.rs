@@ -16,6 +16,8 @@ use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use percent_encoding::{AsciiSet, CONTROLS, percent_decode_str, utf8_percent_encode};
 
+use super::file_bytes::FileBytes;
+
 /// What a URI refers to.
 #[derive(Debug)]
 pub enum Reference<'a> {
@@ -44,7 +46,7 @@ pub struct File {
     /// Where it is.
     pub located: Located,
     /// Its content.
-    pub bytes: Vec<u8>,
+    pub bytes: FileBytes,
 }
 
 /// The rules, and the files read so far.
@@ -111,7 +113,7 @@ impl Resources {
         if let Some(file) = self.read.get(&located.path) {
             return Ok(Arc::clone(file));
         }
-        let bytes = fs::read(&located.path)?;
+        let bytes = FileBytes::open(&located.path)?;
         let file = Arc::new(File { located: located.clone(), bytes });
         self.read.insert(located.path.clone(), Arc::clone(&file));
         Ok(file)

@@ -10,7 +10,9 @@ use tempfile::TempPath;
 
 use super::container::glb;
 use super::document::{Document, Store};
+use super::file_bytes::FileBytes;
 use super::layout::{Home, Layout};
+use super::pieces::{self, Piece};
 use super::resources::{Located, Reference, encode_path};
 use crate::Error;
 use crate::error::Fault;
@@ -28,7 +30,18 @@ impl Document {
     /// Without edits, and with nothing to embed, a GLB is given back byte for byte. Errors: more than 4 GiB; files that cannot
     /// be read.
     pub fn to_glb(&self) -> Result<Vec<u8>, Error> {
-        self.glb_bytes().map_err(|fault| fault.in_file(self.name()))
+        let pieces = self.glb_pieces()?;
+        let mut bytes = Vec::with_capacity(pieces::length(&pieces));
+        pieces.iter().for_each(|piece| bytes.extend_from_slice(piece));
+        Ok(bytes)
+    }
+
+    /// Writes what [`Document::to_glb`] gives, without putting it together in memory.
+    ///
+    /// Errors: as [`Document::to_glb`], before anything is written; [`Error::Write`] about `name`, where `out` refuses.
+    pub fn write_glb(&self, name: &Path, out: impl Write) -> Result<(), Error> {
+        pieces::write(&self.glb_pieces()?, out)
+            .map_err(|source| Error::Write { file: name.to_owned(), source })
     }
 
     /// Writes the document and, for a `.gltf`, the files that it needs; gives the files written, the document last.
@@ -84,26 +97,27 @@ impl Document {
 
     fn write(&self, target: &Path, is_glb: bool, replace: bool) -> Result<Vec<PathBuf>, Error> {
         let mut staging = Staging::default();
-        let content = if is_glb { self.to_glb()? } else { self.stage_gltf(target, &mut staging)? };
-        staging.stage(target, replace, |file| file.write_all(&content))?;
+        let pieces = if is_glb { self.glb_pieces()? } else { self.stage_gltf(target, &mut staging)? };
+        staging.stage(target, replace, |file| pieces::write(&pieces, file))?;
         staging.commit()
     }
 
-    fn glb_bytes(&self) -> Result<Vec<u8>, Fault> {
+    fn glb_pieces(&self) -> Result<Vec<Piece<'_>>, Error> {
         if self.container.is_glb && !self.is_changed() && self.files().is_empty() {
-            return Ok(self.file.clone());
+            return Ok(vec![Piece::Borrowed(&self.file)]);
         }
-        let layout = Layout::glb(self)?;
-        let json = layout.json(&[], &HashMap::new())?;
-        let parts: Option<Vec<&[u8]>> =
-            layout.homes.first().map(|home| home.parts.iter().map(|part| &**part).collect());
         let chunks =
             self.container.other_chunks.iter().map(|(kind, range)| (*kind, &self.file[range.clone()]));
-        glb(&json, parts.as_deref(), &chunks.collect::<Vec<_>>())
+        let pieces = || {
+            let mut layout = Layout::glb(self)?;
+            let json = layout.json(&[], &HashMap::new())?;
+            glb(json, layout.homes.pop().map(|home| home.pieces), chunks.collect())
+        };
+        pieces().map_err(|fault| fault.in_file(self.name()))
     }
 
     /// Stages what a `.gltf` needs beside it; gives its text.
-    fn stage_gltf(&self, target: &Path, staging: &mut Staging) -> Result<Vec<u8>, Error> {
+    fn stage_gltf(&self, target: &Path, staging: &mut Staging) -> Result<Vec<Piece<'_>>, Error> {
         if !self.container.other_chunks.is_empty() {
             let problem = "has chunks of unknown type, which a .gltf cannot hold; write a .glb";
             return Err(Fault::unsupported("", problem).in_file(self.name()));
@@ -112,7 +126,13 @@ impl Document {
         let mut names = Names { folder, taken: HashSet::from([target.to_owned()]) };
         let renamed = self.stage_files(&mut names, staging)?;
         if !self.container.is_glb && !self.is_changed() && renamed.is_empty() {
-            return Ok(self.file.clone());
+            return Ok(self
+                .container
+                .mark()
+                .into_iter()
+                .chain([self.text().as_bytes()])
+                .map(Piece::Borrowed)
+                .collect());
         }
         let in_file = |fault: Fault| fault.in_file(self.name());
         let layout = Layout::gltf(self).map_err(in_file)?;
@@ -122,7 +142,7 @@ impl Document {
             let relative = stage_home(home, &name, &mut names, staging)?;
             uris.push(encode_path(&relative));
         }
-        Ok(layout.json(&uris, &renamed).map_err(in_file)?.into_bytes())
+        Ok(vec![Piece::Owned(layout.json(&uris, &renamed).map_err(in_file)?.into_bytes())])
     }
 
     /// Stages copies of the files that the document refers to, unless it stays in its folder; gives those whose name had to
@@ -194,9 +214,7 @@ fn stage_home(
         .choose(name, |existing| holds(existing, home))
         .map_err(|source| Error::Read { file: folder.join(name), source })?;
     if !chosen.exists {
-        staging.stage(&folder.join(&chosen.relative), false, |file| {
-            home.parts.iter().try_for_each(|part| file.write_all(part))
-        })?;
+        staging.stage(&folder.join(&chosen.relative), false, |file| pieces::write(&home.pieces, file))?;
     }
     Ok(chosen.relative)
 }
@@ -252,12 +270,16 @@ fn same_files(a: &Path, b: &Path) -> io::Result<bool> {
 
 /// Whether a file holds just the bytes of `home`.
 fn holds(file: &Path, home: &Home<'_>) -> io::Result<bool> {
-    let length: usize = home.parts.iter().map(|part| part.len()).sum();
-    if fs::metadata(file)?.len() != length as u64 {
+    if fs::metadata(file)?.len() != pieces::length(&home.pieces) as u64 {
         return Ok(false);
     }
-    let bytes = fs::read(file)?;
-    Ok(bytes.iter().eq(home.parts.iter().flat_map(|part| part.iter())))
+    let bytes = FileBytes::open(file)?;
+    let mut rest = &*bytes;
+    Ok(home.pieces.iter().all(|piece| {
+        let (start, after) = rest.split_at(piece.len().min(rest.len()));
+        rest = after;
+        *start == **piece
+    }))
 }
 
 /// Files written beside their targets, to be renamed together. Dropped before that, it removes everything it made.

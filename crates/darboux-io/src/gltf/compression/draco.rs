@@ -99,8 +99,8 @@ impl Document {
             budget.spend(elements.bytes.len(), &at)?;
             let target = if id.is_none() { Target::Indices } else { Target::Vertices };
             let size = elements.element_size();
-            let view = self.push_view(&elements.bytes, size, target.stride(size), Some(target));
             self.decompressed_bytes += elements.bytes.len();
+            let view = self.push_view(elements.bytes, size, target.stride(size), Some(target));
             let accessor = &mut self.root.accessors[index];
             (accessor.buffer_view, accessor.byte_offset) = (Some(view), 0);
             sources.insert(index, (draco.buffer_view, id));

@@ -23,7 +23,7 @@ pub fn check_corners(document: &Document, groups: &[Group]) -> Result<(), Error>
 
 /// Errors: more bytes written than the document's size explains.
 pub fn check_output(document: &Document) -> Result<(), Error> {
-    if document.edits.new_bytes.len() <= limit(document) { Ok(()) } else { Err(refused(document)) }
+    if document.edits.new_byte_count <= limit(document) { Ok(()) } else { Err(refused(document)) }
 }
 
 fn refused(document: &Document) -> Error {
