@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use crate::run::{Outcome, program, root, run, shown, works};
 use crate::validate::WithoutNpm;
-use crate::{generated, layers, validate};
+use crate::{generated, graphics, layers, validate};
 
 type Step = (&'static str, fn() -> Outcome);
 
@@ -17,6 +17,7 @@ const QUICK: &[Step] = &[
     ("layers", layers::check),
     ("generated files", generated::compare),
     ("models", || validate::all_models(without_npm())),
+    ("graphics", graphics::install),
     ("tests", || test("cargo test --workspace")),
 ];
 

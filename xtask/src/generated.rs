@@ -5,9 +5,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::run::{Outcome, files_below, program, root, run};
+use crate::shaders;
 
 /// Where generated files lie. Folders hold nothing else.
-const PLACES: &[&str] = &["docs/cli.md", "crates/darboux-cli/generated"];
+const PLACES: &[&str] = &["docs/cli.md", "crates/darboux-cli/generated", "shaders/glsl", "shaders/hlsl"];
 
 /// Writes all generated files in their places.
 pub fn write() -> Outcome {
@@ -36,6 +37,7 @@ pub fn compare() -> Outcome {
 }
 
 fn generate(into: &Path) -> Outcome {
+    shaders::write(into)?;
     run(program("cargo run --quiet --package darboux-cli --example generate --").arg(into))
 }
 

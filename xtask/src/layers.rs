@@ -10,6 +10,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("darboux-io", &["darboux"]),
     ("darboux-cli", &["darboux", "darboux-io"]),
     ("darboux-tests", &["darboux", "darboux-io", "darboux-cli"]),
+    ("darboux-shader-tests", &["darboux"]),
     ("darboux-benches", &["darboux", "darboux-io", "darboux-tests"]),
     ("darboux-fuzz", &["darboux", "darboux-io", "darboux-tests"]),
     ("xtask", &[]),

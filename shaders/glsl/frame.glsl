@@ -1,0 +1,137 @@
+// Generated from shaders/wgsl/frame.wgsl by `cargo xtask gen`.
+precision highp float;
+precision highp int;
+
+// Frames at vertices and pixels. All other files need this one.
+//
+// A tangent is a unit vector xyz and the sign w of its bitangent, w * cross(normal, xyz), as in MikkTSpace and glTF.
+
+// What a vertex holds: the unit normal, and the tangent.
+struct VertexFrame {
+    vec3 normal;
+    vec4 tangent;
+};
+
+// Where tangent space's x, y and z point: the columns of the matrix from tangent space to the space of the normal.
+struct TangentFrame {
+    vec3 tangent;
+    vec3 bitangent;
+    vec3 normal;
+};
+
+// The vector along v of length 1; `otherwise` where v is zero.
+vec3 unit_or(vec3 v, vec3 otherwise) {
+    float size = sqrt(dot(v, v));
+    if (size > 0.0) {
+        return (1.0 / size) * v;
+    }
+    return otherwise;
+}
+
+// The unit vector that with `second_perpendicular` and the unit normal makes a right-handed frame.
+// Source: T. Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017; -0 counts as +0.
+vec3 first_perpendicular(vec3 normal) {
+    float side = 1.0;
+    if (normal.z < 0.0) {
+        side = -1.0;
+    }
+    float a = -1.0 / (side + normal.z);
+    float b = normal.x * normal.y * a;
+    return vec3(1.0 + side * normal.x * normal.x * a, side * b, -side * normal.x);
+}
+
+// The other vector of `first_perpendicular`.
+vec3 second_perpendicular(vec3 normal) {
+    float side = 1.0;
+    if (normal.z < 0.0) {
+        side = -1.0;
+    }
+    float a = -1.0 / (side + normal.z);
+    float b = normal.x * normal.y * a;
+    return vec3(b, side + normal.y * normal.y * a, -normal.y);
+}
+
+// The unit direction of v in the plane of the unit normal; a perpendicular of the normal where only rounding error is left of v.
+vec3 unit_in_plane(vec3 normal, vec3 v) {
+    vec3 rest = v - dot(normal, v) * normal;
+    float size = sqrt(dot(rest, rest));
+    if (size > 0.000001 * sqrt(dot(v, v))) {
+        return (1.0 / size) * rest;
+    }
+    return first_perpendicular(normal);
+}
+
+// The bitangent, where it is not stored: at the vertex or at the pixel, whichever the baker of the map did.
+vec3 bitangent_of(vec3 normal, vec4 tangent) {
+    return tangent.w * cross(normal, tangent.xyz);
+}
+
+// The frame, its bitangent rebuilt here.
+//
+// At a pixel: give the vectors as interpolation leaves them, shorter than 1. MikkTSpace wants them so; the normal in the map was
+// baked against that very frame, and `normal_to_surface` makes the result unit.
+TangentFrame tangent_frame(vec3 normal, vec4 tangent) {
+    TangentFrame frame;
+    frame.tangent = tangent.xyz;
+    frame.bitangent = bitangent_of(normal, tangent);
+    frame.normal = normal;
+    return frame;
+}
+
+// The frame of a pixel whose bitangent was rebuilt at the vertices and interpolated, for maps that were baked so.
+TangentFrame tangent_frame_with_bitangent(vec3 normal, vec3 tangent, vec3 bitangent) {
+    TangentFrame frame;
+    frame.tangent = tangent;
+    frame.bitangent = bitangent;
+    frame.normal = normal;
+    return frame;
+}
+
+// An orthonormal frame around the unit normal alone, for surfaces without UVs: which way its tangent points means nothing.
+TangentFrame tangent_frame_of_normal(vec3 normal) {
+    TangentFrame frame;
+    frame.tangent = first_perpendicular(normal);
+    frame.bitangent = second_perpendicular(normal);
+    frame.normal = normal;
+    return frame;
+}
+
+// The frame with each vector made unit, angles between them kept: what three.js and many engines do with interpolated vectors.
+TangentFrame normalized_frame(TangentFrame frame) {
+    TangentFrame out_frame;
+    out_frame.tangent = unit_or(frame.tangent, frame.tangent);
+    out_frame.bitangent = unit_or(frame.bitangent, frame.bitangent);
+    out_frame.normal = unit_or(frame.normal, frame.normal);
+    return out_frame;
+}
+
+// The frame made orthonormal around its normal, the bitangent on the side where it was: for what needs true angles, such as
+// anisotropic highlights. Not for normal maps.
+TangentFrame orthonormal_frame(TangentFrame frame) {
+    TangentFrame out_frame;
+    out_frame.normal = unit_or(frame.normal, frame.normal);
+    out_frame.tangent = unit_in_plane(out_frame.normal, frame.tangent);
+    out_frame.bitangent = cross(out_frame.normal, out_frame.tangent);
+    if (dot(out_frame.bitangent, frame.bitangent) < 0.0) {
+        out_frame.bitangent = -out_frame.bitangent;
+    }
+    return out_frame;
+}
+
+// A vector of tangent space in the space of the frame.
+vec3 from_tangent_space(TangentFrame frame, vec3 v) {
+    return v.x * frame.tangent + v.y * frame.bitangent + v.z * frame.normal;
+}
+
+// The unit normal of the surface, from a normal of tangent space.
+vec3 normal_to_surface(TangentFrame frame, vec3 normal) {
+    return unit_or(from_tangent_space(frame, normal), frame.normal);
+}
+
+// A direction, such as that to a light or to the eye, in tangent space; not made unit.
+//
+// The inverse of `from_tangent_space` if the frame is orthonormal. In any frame, its dot product with a normal of tangent space is that
+// of the direction with `from_tangent_space` of the normal: light in tangent space, or normals in the scene's, give the same.
+vec3 to_tangent_space(TangentFrame frame, vec3 direction) {
+    return vec3(dot(direction, frame.tangent), dot(direction, frame.bitangent), dot(direction, frame.normal));
+}

@@ -1,0 +1,112 @@
+// Generated from shaders/wgsl/encodings.wgsl by `cargo xtask gen`.
+
+// Tangents and normals from fewer bytes: the decoders of the encoders of one name in Rust (darboux::encode, which states the errors).
+// Needs frame.
+//
+// Codes come as integers, one component per stored integer: fetched as such (sint8x4, sint16x2, sint16x4, uint32), or taken out of
+// a 32-bit word by `bytes_of_word` and `shorts_of_word`. Fetched as snorm8x4, snorm16x4 or A2B10G10R10_SNORM, a tangent is decoded
+// already. A tangent of four floats needs no decoder.
+//
+// Nothing here needs more than + - * / and sqrt, and every choice is made on integers.
+
+// The signed bytes of a word, the lowest first.
+int4 bytes_of_word(uint word) {
+    return int4(int(word << 24u) >> 24u, int(word << 16u) >> 24u, int(word << 8u) >> 24u, int(word) >> 24u);
+}
+
+// The signed 16-bit integers of a word, the lower first.
+int2 shorts_of_word(uint word) {
+    return int2(int(word << 16u) >> 16u, int(word) >> 16u);
+}
+
+// The tangent of four signed bytes; not made unit.
+float4 tangent_from_snorm8(int4 code) {
+    return max(float4(code) / 127.0, float4(-1.0, -1.0, -1.0, -1.0));
+}
+
+// The tangent of four signed 16-bit integers; not made unit.
+float4 tangent_from_snorm16(int4 code) {
+    return max(float4(code) / 32767.0, float4(-1.0, -1.0, -1.0, -1.0));
+}
+
+// The tangent of 10 bits each for x (the lowest), y and z, and two for w; not made unit.
+float4 tangent_from_snorm10(uint code) {
+    int3 xyz = int3(int(code << 22u) >> 22u, int(code << 12u) >> 22u, int(code << 2u) >> 22u);
+    float w = float(int(code) >> 30u);
+    return max(float4(float3(xyz) / 511.0, w), float4(-1.0, -1.0, -1.0, -1.0));
+}
+
+// The unit vector over a point of the octahedron's square [-grid, grid]^2.
+// Source: Q. Meyer et al., "On Floating-Point Normal Vectors", EGSR 2010.
+float3 unfold_octahedron(int2 code, int grid) {
+    int3 p = int3(code, grid - abs(code.x) - abs(code.y));
+    if (p.z < 0) {
+        p.x = grid - abs(code.y);
+        p.y = grid - abs(code.x);
+        if (code.x < 0) {
+            p.x = -p.x;
+        }
+        if (code.y < 0) {
+            p.y = -p.y;
+        }
+    }
+    float3 v = float3(p);
+    return (1.0 / sqrt(dot(v, v))) * v;
+}
+
+// The unit normal of two signed 16-bit integers.
+float3 normal_from_octahedral(int2 code) {
+    return unfold_octahedron(code, 32767);
+}
+
+// The tangent, unit, of two signed 16-bit integers, the sign in the lowest bit of the second.
+float4 tangent_from_octahedral(int2 code) {
+    float w = 1.0;
+    if ((code.y & 1) == 1) {
+        w = -1.0;
+    }
+    return float4(unfold_octahedron(int2(code.x, code.y & ~1), 32766), w);
+}
+
+// The tangent, unit, of its place around the normal: 15 bits for the place on a diamond, the lowest bit for the sign.
+// `normal`: unit, and as the encoder had it: the decoded one, where it is stored in fewer bytes.
+// Source: J. Ong, "Tangent Spaces and Diamond Encoding", 2023.
+float4 tangent_from_diamond(float3 normal, uint code) {
+    float place = float(code >> 1u) / 8192.0;
+    float x = 1.0 - place;
+    float y = 1.0 - abs(x);
+    if (place >= 2.0) {
+        x = place - 3.0;
+        y = abs(x) - 1.0;
+    }
+    float w = 1.0;
+    if ((code & 1u) == 1u) {
+        w = -1.0;
+    }
+    float3 tangent = x * first_perpendicular(normal) + y * second_perpendicular(normal);
+    return float4((1.0 / sqrt(dot(tangent, tangent))) * tangent, w);
+}
+
+// The frame of a quaternion of four signed 16-bit integers, the scalar last, which bears the sign.
+// Source: I. Frey and I. Herzeg, "Spherical Skinning with Dual-Quaternions and QTangents", SIGGRAPH Talks 2011.
+VertexFrame frame_from_quaternion(int4 code) {
+    float4 q = float4(code);
+    float twice = 2.0 / dot(q, q);
+    float w = 1.0;
+    if (code.w < 0) {
+        w = -1.0;
+    }
+    VertexFrame frame;
+    frame.normal = float3(
+        twice * (q.x * q.z + q.w * q.y),
+        twice * (q.y * q.z - q.w * q.x),
+        1.0 - twice * (q.x * q.x + q.y * q.y)
+    );
+    frame.tangent = float4(
+        1.0 - twice * (q.y * q.y + q.z * q.z),
+        twice * (q.x * q.y + q.w * q.z),
+        twice * (q.x * q.z - q.w * q.y),
+        w
+    );
+    return frame;
+}

@@ -1,0 +1,10 @@
+//! The shader library, compiled and executed: what its tests share.
+
+mod gpu;
+mod kernel;
+mod language;
+pub mod samples;
+
+pub use gpu::{Gpu, gpus};
+pub use kernel::{Case, check};
+pub use language::{Language, Stage, glslang, glslang_is_there, library};

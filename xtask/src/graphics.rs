@@ -1,0 +1,16 @@
+//! What the tests of shaders need beside Rust: a Vulkan adapter in software, and a compiler of HLSL.
+
+use crate::run::{Outcome, program, run, works};
+
+const PACKAGES: &str = "glslang-tools libvulkan1 mesa-vulkan-drivers";
+
+/// In continuous integration, installs what is missing (Debian and Ubuntu, as root). Elsewhere the tests say what they skip.
+pub fn install() -> Outcome {
+    let is_installed = || works(&mut program(&format!("dpkg --status {PACKAGES}")));
+    if std::env::var_os("CI").is_none() || is_installed() {
+        return Ok(());
+    }
+    run(&mut program("apt-get update --quiet --quiet"))?;
+    let line = format!("apt-get install --yes --quiet --quiet --no-install-recommends {PACKAGES}");
+    run(program(&line).env("DEBIAN_FRONTEND", "noninteractive"))
+}
