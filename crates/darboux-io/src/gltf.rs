@@ -1,6 +1,7 @@
 //! glTF 2.0 and GLB: a document that is read, edited in place and written back with everything else untouched.
 
 mod accessor;
+mod append;
 mod compression;
 mod container;
 mod document;
@@ -8,6 +9,7 @@ mod file_bytes;
 mod inspect;
 mod json;
 mod layout;
+mod normals;
 mod object;
 mod pieces;
 mod resources;
@@ -18,6 +20,9 @@ mod tangents;
 pub use accessor::{Elements, NewAccessor, Target};
 pub use document::{Document, LoadOptions};
 pub use inspect::{PrimitiveInfo, inspect};
+pub use normals::{
+    NormalsOptions, NormalsOutcome, NormalsSummary, PrimitiveNormals, WrittenNormals, add_normals,
+};
 pub use save::SaveOptions;
 pub use schema::{ComponentType, ElementType};
 pub use tangents::{

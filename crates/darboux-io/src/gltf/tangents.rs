@@ -4,7 +4,7 @@ pub(super) mod compute;
 mod encoding;
 mod evaluator;
 pub(super) mod excess;
-mod foreign;
+pub(super) mod foreign;
 mod morph;
 pub(super) mod select;
 pub(super) mod share;
@@ -21,6 +21,7 @@ use std::collections::{HashMap, HashSet};
 
 use darboux::{Mode, TangentOptions};
 
+use super::append::{is_sparse, push_vectors};
 use super::{Document, ElementType};
 use crate::Error;
 use compute::{Surface, Vertices};
@@ -190,8 +191,8 @@ impl Run<'_> {
         let mut offsets = Offsets::new();
         for morph in morphs {
             let moved = morph::offsets(document, morph, group, vertices, surfaces, split, self.options)?;
-            let sparse = morph.movement.accessors().all(|accessor| write::is_sparse(document, accessor));
-            let accessor = write::push_vectors(document, ElementType::Vec3, &moved.of_vertex, sparse);
+            let sparse = morph.movement.accessors().all(|accessor| is_sparse(document, accessor));
+            let accessor = push_vectors(document, ElementType::Vec3, &moved.of_vertex, sparse);
             excess::check_output(document)?;
             let misfits = morph.jobs.iter().copied().zip(moved.misfits).collect();
             offsets.insert(morph.movement, (accessor, misfits));
@@ -217,7 +218,7 @@ impl Run<'_> {
         for member in &group.members {
             let candidate = &self.selection.candidates[member.candidate];
             if split.is_needed() {
-                self.summary.warnings.extend(foreign_warning(document, &candidate.name));
+                self.summary.warnings.extend(foreign::warning(document, &candidate.name));
             }
             let morphed = writer.write(document, member, candidate)?;
             let misfits = morphed.iter().filter_map(|movement| offsets[movement].1.get(&member.job));
@@ -253,13 +254,4 @@ impl Run<'_> {
         }
         summary
     }
-}
-
-/// What a user should know where vertices of `name` are split.
-fn foreign_warning(document: &Document, name: &PrimitiveName) -> Option<String> {
-    let extensions = foreign::left_behind(document.primitive_text(name.mesh, name.primitive)?);
-    (!extensions.is_empty()).then(|| {
-        let names = extensions.join(", ");
-        format!("{name}: vertices were split, which {names} may not expect; it was left as it is")
-    })
 }

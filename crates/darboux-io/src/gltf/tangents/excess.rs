@@ -16,9 +16,13 @@ fn limit(document: &Document) -> usize {
 
 /// Errors: more corners to compute than the document has room for.
 pub fn check_corners(document: &Document, groups: &[Group]) -> Result<(), Error> {
-    let jobs = groups.iter().flat_map(|group| &group.jobs);
-    let corners = jobs.fold(0usize, |sum, job| sum.saturating_add(job.triangle_count.saturating_mul(3)));
-    if corners <= limit(document) { Ok(()) } else { Err(refused(document)) }
+    check_triangles(document, groups.iter().flat_map(|group| &group.jobs).map(|job| job.triangle_count))
+}
+
+/// Errors: more corners in all these triangles than the document has room for.
+pub fn check_triangles(document: &Document, mut counts: impl Iterator<Item = usize>) -> Result<(), Error> {
+    let corners = counts.try_fold(0usize, |sum, count| sum.checked_add(count.checked_mul(3)?));
+    if corners.unwrap_or(usize::MAX) <= limit(document) { Ok(()) } else { Err(refused(document)) }
 }
 
 /// Errors: more bytes written than the document's size explains.
@@ -27,6 +31,6 @@ pub fn check_output(document: &Document) -> Result<(), Error> {
 }
 
 fn refused(document: &Document) -> Error {
-    let problem = "so many accessors read the same bytes that their tangents would dwarf the file; export the file again";
+    let problem = "so many accessors read the same bytes that what is computed would dwarf the file; export the file again";
     document.invalid("accessors", problem)
 }

@@ -5,6 +5,9 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use serde_json::Value;
 
+use super::PrimitiveName;
+use crate::gltf::Document;
+
 #[derive(Deserialize)]
 struct Primitive {
     #[serde(default)]
@@ -16,13 +19,22 @@ const UNAFFECTED: [&str; 4] =
     ["KHR_materials_variants", "KHR_draco_mesh_compression", "EXT_structural_metadata", "FB_ngon_encoding"];
 
 /// The extensions in the JSON text of a primitive that may refer to vertices, by their number or in accessors of their own.
-pub fn left_behind(primitive: &str) -> Vec<String> {
+fn left_behind(primitive: &str) -> Vec<String> {
     let Ok(Primitive { extensions }) = serde_json::from_str(primitive) else { return Vec::new() };
     let affected = extensions.into_iter().filter(|(name, json)| match name.as_str() {
         "EXT_mesh_features" => numbers_vertices(json),
         name => !UNAFFECTED.contains(&name) && mentions_vertices(json),
     });
     affected.map(|(name, _)| name).collect()
+}
+
+/// What a user should know where vertices of `name` are split.
+pub fn warning(document: &Document, name: &PrimitiveName) -> Option<String> {
+    let extensions = left_behind(document.primitive_text(name.mesh, name.primitive)?);
+    (!extensions.is_empty()).then(|| {
+        let names = extensions.join(", ");
+        format!("{name}: vertices were split, which {names} may not expect; it was left as it is")
+    })
 }
 
 /// Whether a feature of `EXT_mesh_features` is the number of a vertex: it has neither an attribute nor a texture.

@@ -155,8 +155,9 @@ fn judge(
     let Some(uv_accessor) = attribute(&format!("TEXCOORD_{}", uv.set)) else {
         return Ok(Verdict::Skipped(missing_uv(primitive, uv)));
     };
-    let vertex_count = count(document, position)?;
-    let index_count = primitive.indices.map_or(Ok(vertex_count), |indices| count(document, indices))?;
+    let vertex_count = element_count(document, position)?;
+    let index_count =
+        primitive.indices.map_or(Ok(vertex_count), |indices| element_count(document, indices))?;
     if topology.triangle_count(index_count) == 0 {
         return skipped("it has no whole triangle");
     }
@@ -181,7 +182,8 @@ fn missing_uv(primitive: &Primitive, uv: &UvChoice) -> String {
     }
 }
 
-fn count(document: &Document, accessor: usize) -> Result<usize, Error> {
+/// The number of elements of an accessor that something refers to.
+pub fn element_count(document: &Document, accessor: usize) -> Result<usize, Error> {
     match document.accessors().get(accessor) {
         Some(accessor) => Ok(accessor.count),
         None => {

@@ -5,7 +5,7 @@ use darboux::Splitter;
 use super::compute::{Surface, Vertices};
 use super::share::Group;
 use crate::Error;
-use crate::gltf::{Document, Elements};
+use crate::gltf::Document;
 
 /// The vertices of a group after splitting: the old ones in their places, then copies of some.
 #[derive(Debug)]
@@ -58,16 +58,5 @@ impl Split {
     /// Whether there are vertices that were not there before.
     pub fn is_needed(&self) -> bool {
         !self.copies.is_empty()
-    }
-
-    /// Appends the copies to an attribute, bit for bit. `elements` must have one element per old vertex.
-    pub fn extend(&self, elements: &mut Elements) {
-        let size = elements.element_size();
-        elements.bytes.reserve_exact(self.copies.len() * size);
-        for &source in &self.copies {
-            let start = source as usize * size;
-            elements.bytes.extend_from_within(start..start + size);
-        }
-        elements.count += self.copies.len();
     }
 }

@@ -5,7 +5,6 @@ use std::collections::HashMap;
 use serde_json::Value;
 
 use super::compute::Surface;
-use super::excess;
 use super::morph::Movement;
 use super::select::Candidate;
 use super::share::{Canonical, Group, Member};
@@ -13,26 +12,9 @@ use super::split::Split;
 use super::topology::Topology;
 use super::{TangentEncoding, TangentsOptions};
 use crate::Error;
+use crate::gltf::append::{Appended, index_elements, set_attributes};
 use crate::gltf::schema::Attributes;
-use crate::gltf::{ComponentType, Document, ElementType, Elements, NewAccessor, Target};
-
-/// Appends an accessor of floats, one element per vertex; without the zeros, if `sparse`.
-pub fn push_vectors<const N: usize>(
-    document: &mut Document,
-    element_type: ElementType,
-    vectors: &[[f32; N]],
-    sparse: bool,
-) -> usize {
-    let elements = Elements {
-        bytes: vectors.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect(),
-        count: vectors.len(),
-        component_type: ComponentType::F32,
-        element_type,
-        normalized: false,
-    };
-    let target = Target::Vertices;
-    document.push_accessor(NewAccessor { elements, target, bounds: false, sparse, like: None })
-}
+use crate::gltf::{Document, NewAccessor, Target};
 
 /// Appends an accessor of tangents, one per vertex, and declares the extension that it needs.
 pub fn push_tangents(document: &mut Document, encoding: TangentEncoding, tangents: &[[f32; 4]]) -> usize {
@@ -40,11 +22,6 @@ pub fn push_tangents(document: &mut Document, encoding: TangentEncoding, tangent
     let elements = encoding.elements(tangents);
     let target = Target::Vertices;
     document.push_accessor(NewAccessor { elements, target, bounds: false, sparse: false, like: None })
-}
-
-/// Whether an accessor leaves out zeros, so that what follows it should do the same.
-pub fn is_sparse(document: &Document, accessor: usize) -> bool {
-    document.accessors().get(accessor).is_some_and(|accessor| accessor.buffer_view.is_none())
 }
 
 /// What the primitives of a group refer to.
@@ -65,8 +42,7 @@ pub struct Writer<'a> {
     options: &'a TangentsOptions,
     group: &'a Group,
     results: Results<'a>,
-    /// Attributes with the appended vertices, by the old accessor and whether they have bounds.
-    extended: HashMap<(usize, bool), usize>,
+    appended: Appended<'a>,
     /// New indices, by job.
     indices: HashMap<usize, usize>,
 }
@@ -79,7 +55,8 @@ impl<'a> Writer<'a> {
         group: &'a Group,
         results: Results<'a>,
     ) -> Self {
-        Self { accessors, options, group, results, extended: HashMap::new(), indices: HashMap::new() }
+        let appended = Appended::new(accessors, &results.split.copies, results.split.old_vertex_count());
+        Self { accessors, options, group, results, appended, indices: HashMap::new() }
     }
 
     /// Gives a primitive its tangents. Returns the movements of its targets that got tangent offsets.
@@ -107,10 +84,10 @@ impl<'a> Writer<'a> {
         }
         let indices = self.indices(document, member.job)?;
         document.edit_primitive(name.mesh, name.primitive, |json| {
-            set(json.get_mut("attributes"), &attributes);
+            set_attributes(json.get_mut("attributes"), &attributes);
             let places = json.get_mut("targets").and_then(Value::as_array_mut);
             for (place, target) in places.into_iter().flatten().zip(&targets) {
-                set(Some(place), target);
+                set_attributes(Some(place), target);
             }
             if let Some(indices) = indices {
                 json.insert("indices".to_owned(), indices.into());
@@ -137,7 +114,7 @@ impl<'a> Writer<'a> {
             }
             let at = format!("{at}.{semantic}");
             let accessor = if self.results.split.is_needed() {
-                self.extended(document, &at, accessor, semantic == "POSITION")?
+                self.appended.accessor(document, &at, accessor, semantic == "POSITION")?
             } else {
                 accessor
             };
@@ -145,33 +122,6 @@ impl<'a> Writer<'a> {
         }
         new.extend(tangents.map(|tangents| ("TANGENT".to_owned(), tangents)));
         Ok(new)
-    }
-
-    /// An accessor with the elements of `old` and the appended vertices.
-    fn extended(
-        &mut self,
-        document: &mut Document,
-        at: &str,
-        old: usize,
-        bounds: bool,
-    ) -> Result<usize, Error> {
-        let key = (self.accessors.of(old), bounds);
-        if let Some(&extended) = self.extended.get(&key) {
-            return Ok(extended);
-        }
-        let mut elements = document.read_elements(old)?;
-        let vertices = self.results.split.old_vertex_count();
-        if elements.count != vertices {
-            let problem = format!("accessor {old} has {} elements for {vertices} vertices", elements.count);
-            return Err(document.invalid(at, format!("{problem}; export the file again")));
-        }
-        self.results.split.extend(&mut elements);
-        let sparse = is_sparse(document, old);
-        let new = NewAccessor { elements, target: Target::Vertices, bounds, sparse, like: Some(old) };
-        let extended = document.push_accessor(new);
-        excess::check_output(document)?;
-        self.extended.insert(key, extended);
-        Ok(extended)
     }
 
     /// The accessor of new indices for a job; none where the old ones, or their absence, serve.
@@ -191,64 +141,5 @@ impl<'a> Writer<'a> {
         let indices = document.push_accessor(new);
         self.indices.insert(job, indices);
         Ok(Some(indices))
-    }
-}
-
-/// Sets members of a JSON object to accessors.
-fn set(json: Option<&mut Value>, attributes: &Attributes) {
-    let Some(json) = json.and_then(Value::as_object_mut) else { return };
-    for (semantic, &accessor) in attributes {
-        json.insert(semantic.clone(), accessor.into());
-    }
-}
-
-/// Indices of the type they had, or the next one that holds them; of 16 bits where there were none. The greatest number of a
-/// type is no index: it restarts primitives (glTF 2.0, 3.7.2.1).
-fn index_elements(old: Option<ComponentType>, indices: Vec<u32>) -> Elements {
-    let greatest = indices.iter().copied().max().unwrap_or(0);
-    let least = match old {
-        Some(ComponentType::U8) => 1,
-        Some(ComponentType::U32) => 4,
-        _ => 2,
-    };
-    let (component_type, bytes) = if least <= 1 && greatest < 0xff {
-        (ComponentType::U8, indices.iter().map(|&index| index as u8).collect())
-    } else if least <= 2 && greatest < 0xffff {
-        (ComponentType::U16, indices.iter().flat_map(|&index| (index as u16).to_le_bytes()).collect())
-    } else {
-        (ComponentType::U32, indices.iter().flat_map(|&index| index.to_le_bytes()).collect())
-    };
-    Elements {
-        bytes,
-        count: indices.len(),
-        component_type,
-        element_type: ElementType::Scalar,
-        normalized: false,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{ComponentType, index_elements};
-
-    #[test]
-    fn indices_widen_before_the_restart_value() {
-        use ComponentType::{U8, U16, U32};
-        let cases = [
-            (Some(U8), 254, U8),
-            (Some(U8), 255, U16),
-            (Some(U8), 65534, U16),
-            (Some(U8), 65535, U32),
-            (Some(U16), 3, U16),
-            (Some(U16), 65535, U32),
-            (Some(U32), 3, U32),
-            (None, 254, U16),
-            (None, 65535, U32),
-        ];
-        for (old, greatest, new) in cases {
-            let elements = index_elements(old, vec![0, greatest]);
-            assert_eq!(elements.component_type, new, "{old:?} {greatest}");
-            assert_eq!(elements.bytes.len(), 2 * new.size());
-        }
     }
 }

@@ -1,0 +1,68 @@
+//! Normals into a document: chosen, computed mesh by mesh, split, morphed and written, with everything else left as it is.
+
+mod select;
+mod shade;
+mod summary;
+mod write;
+
+pub use summary::{NormalsOutcome, NormalsSummary, PrimitiveNormals, WrittenNormals};
+
+use std::collections::BTreeMap;
+
+use darboux::NormalOptions;
+
+use super::Document;
+use super::tangents::Progress;
+use super::tangents::excess;
+use super::tangents::share::Canonical;
+use crate::Error;
+use select::{Selection, select};
+use shade::Part;
+
+/// What [`add_normals`] does. The default gives smooth normals to the triangle primitives that have none.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct NormalsOptions {
+    /// How normals are made.
+    pub normals: NormalOptions,
+    /// Replace normals that exist.
+    pub overwrite: bool,
+}
+
+/// Gives every triangle primitive its normals. Primitives of one mesh are shaded as one surface.
+///
+/// Tangents that belonged to other normals, or to none, are taken out. Morph targets that move positions get normal offsets. Nothing
+/// to do is success. Errors: broken data behind a primitive that gets normals. After an error the document may be half done: drop it.
+pub fn add_normals(
+    document: &mut Document,
+    options: &NormalsOptions,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<NormalsSummary, Error> {
+    let selection = select_readable(document, options)?;
+    let accessors = Canonical::new(document);
+    excess::check_triangles(document, selection.chosen().map(|(_, chosen)| chosen.triangle_count()))?;
+    let parts = shade::shade(document, &accessors, &selection, &options.normals, progress)?;
+    let mut parts_of_position: BTreeMap<usize, Vec<&Part>> = BTreeMap::new();
+    for part in &parts {
+        parts_of_position.entry(part.position).or_default().push(part);
+    }
+    let mut summary = NormalsSummary::default();
+    let mut written = BTreeMap::new();
+    for (position, parts) in parts_of_position {
+        written.extend(write::write(document, &accessors, position, &parts, &mut summary.warnings)?);
+    }
+    selection.candidates.into_iter().enumerate().for_each(|(place, candidate)| {
+        summary
+            .push(candidate.name, candidate.verdict.outcome(|| written.remove(&place).unwrap_or_default()));
+    });
+    Ok(summary)
+}
+
+/// Chooses the primitives, decompressing the document where that is needed to read them.
+fn select_readable(document: &mut Document, options: &NormalsOptions) -> Result<Selection, Error> {
+    let selection = select(document, options)?;
+    if selection.chosen().next().is_none() || !document.is_compressed() {
+        return Ok(selection);
+    }
+    document.decompress()?;
+    select(document, options)
+}

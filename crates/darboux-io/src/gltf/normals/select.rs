@@ -1,0 +1,111 @@
+//! Which primitives get normals, and why the others do not.
+
+use super::{NormalsOptions, NormalsOutcome, WrittenNormals};
+use crate::Error;
+use crate::gltf::schema::Primitive;
+use crate::gltf::tangents::select::element_count;
+use crate::gltf::tangents::topology::{Topology, mode_name};
+use crate::gltf::{Document, PrimitiveName};
+
+/// Every primitive of a document, in its order, with what is to be done.
+#[derive(Debug)]
+pub struct Selection {
+    pub candidates: Vec<Candidate>,
+}
+
+/// A primitive and what is to be done with it.
+#[derive(Debug)]
+pub struct Candidate {
+    pub name: PrimitiveName,
+    pub verdict: Verdict,
+}
+
+/// What is to be done with a primitive.
+#[derive(Debug)]
+pub enum Verdict {
+    Chosen(Chosen),
+    /// It keeps those it has, for a reason.
+    Kept(String),
+    /// It is left alone, for a reason.
+    Skipped(String),
+}
+
+/// What normals are computed from.
+#[derive(Clone, Copy, Debug)]
+pub struct Chosen {
+    pub position: usize,
+    pub indices: Option<usize>,
+    pub topology: Topology,
+    pub index_count: usize,
+}
+
+impl Chosen {
+    pub fn triangle_count(&self) -> usize {
+        self.topology.triangle_count(self.index_count)
+    }
+}
+
+impl Verdict {
+    /// The outcome; `written` says what became of a chosen one.
+    pub fn outcome(self, written: impl FnOnce() -> WrittenNormals) -> NormalsOutcome {
+        match self {
+            Self::Chosen(_) => NormalsOutcome::Written(written()),
+            Self::Kept(reason) => NormalsOutcome::Kept { reason },
+            Self::Skipped(reason) => NormalsOutcome::Skipped { reason },
+        }
+    }
+}
+
+impl Selection {
+    /// The candidates that get normals, with their places.
+    pub fn chosen(&self) -> impl Iterator<Item = (usize, &Chosen)> {
+        self.candidates.iter().enumerate().filter_map(|(place, candidate)| match &candidate.verdict {
+            Verdict::Chosen(chosen) => Some((place, chosen)),
+            Verdict::Kept(_) | Verdict::Skipped(_) => None,
+        })
+    }
+}
+
+/// Looks at every primitive. Errors: accessors that do not exist, modes that are none.
+pub fn select(document: &Document, options: &NormalsOptions) -> Result<Selection, Error> {
+    let mut candidates = Vec::new();
+    for (index, mesh) in document.meshes().iter().enumerate() {
+        for (place, primitive) in mesh.primitives.iter().enumerate() {
+            let name = PrimitiveName { mesh: index, mesh_name: mesh.name.clone(), primitive: place };
+            let verdict = judge(document, &name, primitive, options)?;
+            candidates.push(Candidate { name, verdict });
+        }
+    }
+    Ok(Selection { candidates })
+}
+
+fn judge(
+    document: &Document,
+    name: &PrimitiveName,
+    primitive: &Primitive,
+    options: &NormalsOptions,
+) -> Result<Verdict, Error> {
+    let skipped = |reason: &str| Ok(Verdict::Skipped(reason.to_owned()));
+    let Some(mode) = mode_name(primitive.mode) else {
+        let problem = format!("{} is no mode; use 0 to 6", primitive.mode);
+        return Err(document.invalid(format!("{}.mode", name.path()), problem));
+    };
+    let Some(topology) = Topology::from_mode(primitive.mode) else {
+        return Ok(Verdict::Skipped(format!("its mode is {mode}; only triangles get normals")));
+    };
+    if primitive.attributes.contains_key("NORMAL") && !options.overwrite {
+        return Ok(Verdict::Kept("it has normals already; overwrite replaces them".to_owned()));
+    }
+    let Some(&position) = primitive.attributes.get("POSITION") else {
+        return skipped("it has no POSITION, which normals need");
+    };
+    let vertex_count = element_count(document, position)?;
+    let index_count =
+        primitive.indices.map_or(Ok(vertex_count), |indices| element_count(document, indices))?;
+    let chosen = Chosen { position, indices: primitive.indices, topology, index_count };
+    if chosen.triangle_count() == 0 {
+        skipped("it has no whole triangle")
+    } else {
+        Ok(Verdict::Chosen(chosen))
+    }
+}

@@ -1,0 +1,246 @@
+//! The normals of corners, mesh by mesh: at rest, and moved by every morph target.
+
+use std::collections::HashMap;
+use std::hash::Hash;
+
+use darboux::{
+    Faces, Indices, MeshError, NormalOptions, NormalReport, Shading, SmoothingSeams, generate_normals,
+};
+
+use super::select::{Chosen, Selection};
+use crate::Error;
+use crate::gltf::schema::Attributes;
+use crate::gltf::tangents::share::Canonical;
+use crate::gltf::tangents::{Progress, excess};
+use crate::gltf::{Document, PrimitiveName};
+
+/// A primitive that gets normals.
+#[derive(Debug)]
+pub struct Part {
+    /// Its place in the selection.
+    pub candidate: usize,
+    pub name: PrimitiveName,
+    /// The accessor of positions: the first that reads them.
+    pub position: usize,
+    pub chosen: Chosen,
+    /// The vertices of all whole triangles, three each.
+    pub corners: Vec<u32>,
+    /// Indices after the last whole triangle.
+    pub rest: Vec<u32>,
+    /// One per corner.
+    pub normals: Vec<[f32; 3]>,
+    /// One per morph target.
+    pub moves: Vec<Option<Move>>,
+    /// Of the whole mesh.
+    pub report: NormalReport,
+}
+
+/// What a morph target does to normals.
+#[derive(Debug)]
+pub struct Move {
+    /// The accessor of position offsets: the first that reads them.
+    pub accessor: usize,
+    /// Corners whose normal changes, and by how much.
+    pub offsets: Vec<(usize, [f32; 3])>,
+}
+
+/// How much more work than at rest all morph targets of a document may ask for.
+const MOVED_LIMIT: usize = 4;
+
+/// Computes the normals of every chosen primitive, the primitives of a mesh jointly.
+///
+/// Errors: indices out of range, offsets of another number than positions, accessors that cannot be read.
+pub fn shade(
+    document: &Document,
+    accessors: &Canonical,
+    selection: &Selection,
+    options: &NormalOptions,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<Vec<Part>, Error> {
+    let mut reader = Reader { document, last: None };
+    let mut parts = Vec::new();
+    for (candidate, chosen) in selection.chosen() {
+        let name = selection.candidates[candidate].name.clone();
+        parts.push(part(document, accessors, candidate, name, *chosen)?);
+    }
+    let moved =
+        parts.iter().map(|part| part.moves.len().saturating_mul(part.corners.len() / 3) / MOVED_LIMIT);
+    excess::check_triangles(document, moved)?;
+    let total = parts.iter().map(|part| part.corners.len() / 3).sum();
+    let mut at = Progress { done: 0, total };
+    for mesh in parts.chunk_by_mut(|a, b| a.name.mesh == b.name.mesh) {
+        shade_mesh(&mut reader, mesh, options)?;
+        at.done += mesh.iter().map(|part| part.corners.len() / 3).sum::<usize>();
+        progress(at);
+    }
+    Ok(parts)
+}
+
+fn part(
+    document: &Document,
+    accessors: &Canonical,
+    candidate: usize,
+    name: PrimitiveName,
+    chosen: Chosen,
+) -> Result<Part, Error> {
+    let mut corners = match chosen.indices {
+        Some(accessor) => document.read_indices(accessor)?,
+        None => (0..chosen.index_count as u32).collect(),
+    };
+    let rest = corners.split_off(chosen.topology.whole(corners.len()));
+    let corners = chosen.topology.corners(corners);
+    let targets = &document.meshes()[name.mesh].primitives[name.primitive].targets;
+    let position = |target: &Attributes| target.get("POSITION").copied();
+    let moves = targets.iter().map(position).map(|accessor| {
+        accessor.map(|accessor| Move { accessor: accessors.of(accessor), offsets: Vec::new() })
+    });
+    Ok(Part {
+        candidate,
+        position: accessors.of(chosen.position),
+        moves: moves.collect(),
+        name,
+        chosen,
+        corners,
+        rest,
+        normals: Vec::new(),
+        report: NormalReport::default(),
+    })
+}
+
+/// Reads vectors; the last ones stay in memory, as primitives in a row often share them.
+struct Reader<'a> {
+    document: &'a Document,
+    last: Option<(usize, Vec<[f32; 3]>)>,
+}
+
+impl Reader<'_> {
+    fn vectors(&mut self, accessor: usize) -> Result<&[[f32; 3]], Error> {
+        if self.last.as_ref().is_none_or(|last| last.0 != accessor) {
+            self.last = Some((accessor, self.document.read_vectors(accessor)?));
+        }
+        Ok(self.last.as_ref().map_or(&[], |last| &last.1))
+    }
+
+    /// The vectors at the corners of `part`. Errors: an index out of range.
+    fn at_corners(&mut self, part: &Part, accessor: usize, out: &mut Vec<[f32; 3]>) -> Result<(), Error> {
+        let vectors = self.vectors(accessor)?;
+        let vertices = vectors.len();
+        let found = part.corners.iter().map(|&index| vectors.get(index as usize).copied());
+        let before = out.len();
+        out.extend(found.map_while(|vector| vector));
+        let at = out.len() - before;
+        match part.corners.get(at) {
+            None => Ok(()),
+            Some(&index) => {
+                let source = MeshError::IndexOutOfRange { at, index, vertices };
+                Err(self.document.mesh_error(part.name.path(), source))
+            }
+        }
+    }
+}
+
+/// Sets the normals and moves of the parts of one mesh.
+fn shade_mesh(reader: &mut Reader<'_>, parts: &mut [Part], options: &NormalOptions) -> Result<(), Error> {
+    let mut positions = Vec::new();
+    for part in parts.iter() {
+        reader.at_corners(part, part.position, &mut positions)?;
+    }
+    let vertex_of_corner = match options.seams {
+        SmoothingSeams::Ignored => numbered(positions.iter().map(|position| bits(*position))),
+        SmoothingSeams::Respected => numbered(
+            parts.iter().flat_map(|part| part.corners.iter().map(move |&corner| (part.position, corner))),
+        ),
+    };
+    let (normals, report) = normals(reader.document, parts, &positions, &vertex_of_corner, options)?;
+    let fans = normals.iter().zip(&vertex_of_corner).map(|(normal, vertex)| (*vertex, bits(*normal)));
+    let fan_of_corner = numbered(fans);
+    let mut rest = normals.as_slice();
+    for part in parts.iter_mut() {
+        let (own, others) = rest.split_at(part.corners.len());
+        (part.normals, part.report, rest) = (own.to_vec(), report, others);
+    }
+    move_mesh(reader, parts, &positions, &fan_of_corner, options)
+}
+
+/// Evaluates every morph target in the fans of the mesh at rest.
+fn move_mesh(
+    reader: &mut Reader<'_>,
+    parts: &mut [Part],
+    positions: &[[f32; 3]],
+    fan_of_corner: &[u32],
+    options: &NormalOptions,
+) -> Result<(), Error> {
+    let in_fans = NormalOptions { crease: 180.0, ..*options };
+    let targets = parts.iter().map(|part| part.moves.len()).max().unwrap_or(0);
+    for target in 0..targets {
+        let accessor =
+            |part: &Part| part.moves.get(target).and_then(Option::as_ref).map(|moved| moved.accessor);
+        let mut moved = Vec::with_capacity(positions.len());
+        for part in parts.iter() {
+            let first = moved.len();
+            match accessor(part) {
+                Some(offsets) => reader.at_corners(part, offsets, &mut moved)?,
+                None => moved.resize(first + part.corners.len(), [0.0; 3]),
+            }
+        }
+        for (moved, position) in moved.iter_mut().zip(positions) {
+            *moved = std::array::from_fn(|i| position[i] + moved[i]);
+        }
+        let (normals, _) = normals(reader.document, parts, &moved, fan_of_corner, &in_fans)?;
+        let mut rest = normals.as_slice();
+        for part in parts.iter_mut() {
+            let (own, others) = rest.split_at(part.corners.len());
+            rest = others;
+            let pairs = own.iter().zip(&part.normals).enumerate();
+            let offsets = pairs.map(|(corner, (moved, base))| {
+                (corner, std::array::from_fn::<f32, 3, _>(|i| moved[i] - base[i]))
+            });
+            if let Some(Some(moved)) = part.moves.get_mut(target) {
+                moved.offsets = offsets.filter(|(_, offset)| *offset != [0.0; 3]).collect();
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Normals of corners that lie at `positions`; smooth ones are those of their vertices.
+fn normals(
+    document: &Document,
+    parts: &[Part],
+    positions: &[[f32; 3]],
+    vertex_of_corner: &[u32],
+    options: &NormalOptions,
+) -> Result<(Vec<[f32; 3]>, NormalReport), Error> {
+    let generated = match options.shading {
+        Shading::Flat => generate_normals(positions, Indices::Unindexed, Faces::Triangles, options),
+        Shading::Smooth => {
+            let count = vertex_of_corner.iter().max().map_or(0, |&last| last as usize + 1);
+            let mut of_vertex = vec![[0.0; 3]; count];
+            for (&vertex, &position) in vertex_of_corner.iter().zip(positions).rev() {
+                of_vertex[vertex as usize] = position;
+            }
+            // Which corners are one vertex is decided here, across primitives.
+            let options = NormalOptions { seams: SmoothingSeams::Respected, ..*options };
+            generate_normals(&of_vertex, Indices::U32(vertex_of_corner), Faces::Triangles, &options)
+        }
+    };
+    let path = parts.first().map_or_else(String::new, |part| part.name.path());
+    generated
+        .map(|normals| (normals.corners, normals.report))
+        .map_err(|error| document.mesh_error(path, error))
+}
+
+/// Equal keys get equal numbers, counted from zero in the order in which they are met.
+fn numbered<K: Eq + Hash>(keys: impl Iterator<Item = K>) -> Vec<u32> {
+    let mut numbers = HashMap::new();
+    keys.map(|key| {
+        let next = numbers.len() as u32;
+        *numbers.entry(key).or_insert(next)
+    })
+    .collect()
+}
+
+/// Equal for equal vectors: both zeros are one.
+fn bits(vector: [f32; 3]) -> [u32; 3] {
+    vector.map(|x| (x + 0.0).to_bits())
+}

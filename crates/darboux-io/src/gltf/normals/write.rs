@@ -1,0 +1,236 @@
+//! Into the document: the vertices of one accessor of positions, split jointly for all primitives over them.
+
+use std::collections::{BTreeMap, HashMap};
+
+use darboux::{NormalSplit, split_normals};
+use serde_json::Value;
+
+use super::WrittenNormals;
+use super::shade::{Move, Part};
+use crate::Error;
+use crate::gltf::append::{Appended, index_elements, push_vectors, set_attributes};
+use crate::gltf::schema::{Attributes, Primitive};
+use crate::gltf::tangents::share::Canonical;
+use crate::gltf::tangents::topology::Topology;
+use crate::gltf::tangents::{excess, foreign};
+use crate::gltf::{Document, ElementType, NewAccessor, Target};
+
+/// Writes the normals of `parts`, all of them over the accessor `position`. Returns what was written for each candidate.
+pub fn write(
+    document: &mut Document,
+    accessors: &Canonical,
+    position: usize,
+    parts: &[&Part],
+    warnings: &mut Vec<String>,
+) -> Result<Vec<(usize, WrittenNormals)>, Error> {
+    let split = split(document, position, parts)?;
+    let old_count = document.accessors()[position].count;
+    let copies = &split.source_of_vertex[old_count..];
+    let normals = push_vectors(document, ElementType::Vec3, &split.normal_of_vertex, false);
+    excess::check_output(document)?;
+    let appended = Appended::new(accessors, copies, old_count);
+    let mut writer = Writer {
+        split: &split,
+        normals,
+        appended,
+        offsets: HashMap::new(),
+        conflicting: HashMap::new(),
+        zeros: None,
+        indices: Vec::new(),
+    };
+    writer.push_offsets(document, parts)?;
+    let mut written = Vec::with_capacity(parts.len());
+    let mut first = 0;
+    for part in parts {
+        if writer.appended.is_needed() {
+            warnings.extend(foreign::warning(document, &part.name));
+        }
+        let corners = &split.indices[first..first + part.corners.len()];
+        first += part.corners.len();
+        written.push((part.candidate, writer.write(document, part, corners)?));
+    }
+    Ok(written)
+}
+
+fn split(document: &Document, position: usize, parts: &[&Part]) -> Result<NormalSplit, Error> {
+    let corners: Vec<u32> = parts.iter().flat_map(|part| &part.corners).copied().collect();
+    let normals: Vec<[f32; 3]> = parts.iter().flat_map(|part| &part.normals).copied().collect();
+    let vertices = document.accessors()[position].count;
+    let at = parts.first().map_or_else(String::new, |part| part.name.path());
+    if vertices.saturating_add(corners.len()) >= u32::MAX as usize {
+        return Err(document.invalid(at, "has too many vertices for 32-bit indices; divide the mesh"));
+    }
+    split_normals(vertices, &corners, &normals).map_err(|error| document.mesh_error(at, error))
+}
+
+struct Writer<'a> {
+    split: &'a NormalSplit,
+    /// The accessor of the normals.
+    normals: usize,
+    appended: Appended<'a>,
+    /// Accessors of normal offsets, by that of position offsets.
+    offsets: HashMap<usize, usize>,
+    /// By candidate, the corners whose offset is not that of their vertex.
+    conflicting: HashMap<usize, usize>,
+    /// An accessor of offsets that move nothing.
+    zeros: Option<usize>,
+    /// New indices: the old accessor, the vertices of the corners, the new accessor.
+    indices: Vec<(Option<usize>, &'a [u32], usize)>,
+}
+
+impl<'a> Writer<'a> {
+    /// Writes the normal offsets of every morph target, one accessor of position offsets after the other.
+    fn push_offsets(&mut self, document: &mut Document, parts: &[&Part]) -> Result<(), Error> {
+        let mut moves_of_accessor: BTreeMap<usize, Vec<(&Part, usize, &Move)>> = BTreeMap::new();
+        let mut first = 0;
+        for part in parts {
+            for moved in part.moves.iter().flatten() {
+                moves_of_accessor.entry(moved.accessor).or_default().push((part, first, moved));
+            }
+            first += part.corners.len();
+        }
+        for (accessor, moves) in moves_of_accessor {
+            let mut offsets = vec![[0.0; 3]; self.split.normal_of_vertex.len()];
+            // The first corner that moves decides for its vertex.
+            for &(_, first, moved) in moves.iter().rev() {
+                for &(corner, offset) in moved.offsets.iter().rev() {
+                    offsets[self.split.indices[first + corner] as usize] = offset;
+                }
+            }
+            for (part, first, moved) in moves {
+                let vertices = &self.split.indices[first..first + part.corners.len()];
+                *self.conflicting.entry(part.candidate).or_default() += conflicts(vertices, moved, &offsets);
+            }
+            self.offsets.insert(accessor, push_vectors(document, ElementType::Vec3, &offsets, true));
+            excess::check_output(document)?;
+        }
+        Ok(())
+    }
+
+    fn write(
+        &mut self,
+        document: &mut Document,
+        part: &Part,
+        corners: &'a [u32],
+    ) -> Result<WrittenNormals, Error> {
+        let name = &part.name;
+        let primitive = document.meshes()[name.mesh].primitives[name.primitive].clone();
+        let normals = Some(self.normals);
+        let at = format!("{}.attributes", name.path());
+        let attributes = self.attributes(document, &at, &primitive.attributes, normals)?;
+        let mut targets = Vec::with_capacity(primitive.targets.len());
+        for (place, (target, moved)) in primitive.targets.iter().zip(&part.moves).enumerate() {
+            let at = format!("{}.targets[{place}]", name.path());
+            let offsets = moved.as_ref().map(|moved| self.offsets[&moved.accessor]);
+            let mut target = self.attributes(document, &at, target, offsets)?;
+            if target.is_empty() {
+                target.insert("NORMAL".to_owned(), self.zeros(document));
+            }
+            targets.push(target);
+        }
+        let indices = self.indices(document, part, corners);
+        document.edit_primitive(name.mesh, name.primitive, |json| {
+            replace(json.get_mut("attributes"), &attributes);
+            let places = json.get_mut("targets").and_then(Value::as_array_mut);
+            for (place, target) in places.into_iter().flatten().zip(&targets) {
+                replace(Some(place), target);
+            }
+            if let Some(indices) = indices {
+                json.insert("indices".to_owned(), indices.into());
+                if part.chosen.topology != Topology::Triangles {
+                    json.insert("mode".to_owned(), 4.into());
+                }
+            }
+        })?;
+        Ok(self.written(part, &primitive))
+    }
+
+    fn written(&self, part: &Part, before: &Primitive) -> WrittenNormals {
+        WrittenNormals {
+            replaced: before.attributes.contains_key("NORMAL"),
+            tangents_removed: before.attributes.contains_key("TANGENT"),
+            vertices_before: self.appended.old_count(),
+            vertices_after: self.split.normal_of_vertex.len(),
+            morph_targets: part.moves.iter().flatten().count(),
+            conflicting_corners: self.conflicting.get(&part.candidate).copied().unwrap_or(0),
+            triangles: part.corners.len() / 3,
+            degenerate_triangles: part.report.degenerate_faces,
+            repaired_corners: part.report.repaired_corners,
+            creased_edges: part.report.creased_edges,
+        }
+    }
+
+    /// `old` with the appended vertices, without tangents, and with `normals` in place of its own, if given.
+    fn attributes(
+        &mut self,
+        document: &mut Document,
+        at: &str,
+        old: &Attributes,
+        normals: Option<usize>,
+    ) -> Result<Attributes, Error> {
+        let mut new = Attributes::new();
+        for (semantic, &accessor) in old {
+            if semantic == "TANGENT" || (semantic == "NORMAL" && normals.is_some()) {
+                continue;
+            }
+            let accessor = if self.appended.is_needed() {
+                self.appended.accessor(
+                    document,
+                    &format!("{at}.{semantic}"),
+                    accessor,
+                    semantic == "POSITION",
+                )?
+            } else {
+                accessor
+            };
+            new.insert(semantic.clone(), accessor);
+        }
+        new.extend(normals.map(|normals| ("NORMAL".to_owned(), normals)));
+        Ok(new)
+    }
+
+    /// Normal offsets for a target that had nothing but tangent offsets: a target must not be empty.
+    fn zeros(&mut self, document: &mut Document) -> usize {
+        let count = self.split.normal_of_vertex.len();
+        *self
+            .zeros
+            .get_or_insert_with(|| push_vectors(document, ElementType::Vec3, &vec![[0.0; 3]; count], true))
+    }
+
+    /// The accessor of new indices; none where the old ones, or their absence, serve.
+    fn indices(&mut self, document: &mut Document, part: &Part, corners: &'a [u32]) -> Option<usize> {
+        let old = part.chosen.indices;
+        if !self.appended.is_needed() || (old.is_some() && part.corners == corners) {
+            return None;
+        }
+        let known = self.indices.iter().find(|known| known.0 == old && known.1 == corners);
+        if let Some(&(_, _, accessor)) = known {
+            return Some(accessor);
+        }
+        let kind = old.and_then(|old| document.accessors().get(old)).map(|old| old.component_type);
+        let elements = index_elements(kind, corners.iter().chain(&part.rest).copied().collect());
+        let new = NewAccessor { elements, target: Target::Indices, bounds: false, sparse: false, like: old };
+        let accessor = document.push_accessor(new);
+        self.indices.push((old, corners, accessor));
+        Some(accessor)
+    }
+}
+
+/// How many corners have another offset than their vertices.
+fn conflicts(vertices: &[u32], moved: &Move, offsets: &[[f32; 3]]) -> usize {
+    let mut own = moved.offsets.iter().peekable();
+    let corners = vertices.iter().enumerate().filter(|&(corner, &vertex)| {
+        let own = own.next_if(|(moves, _)| *moves == corner).map_or([0.0; 3], |(_, offset)| *offset);
+        own != offsets[vertex as usize]
+    });
+    corners.count()
+}
+
+/// Makes the members of a JSON object be `attributes`; those that it has stay in their order.
+fn replace(json: Option<&mut Value>, attributes: &Attributes) {
+    let Some(json) = json else { return };
+    if let Some(members) = json.as_object_mut() {
+        members.retain(|semantic, _| attributes.contains_key(semantic));
+    }
+    set_attributes(Some(json), attributes);
+}
