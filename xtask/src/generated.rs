@@ -8,7 +8,16 @@ use crate::run::{Outcome, files_below, program, root, run};
 use crate::shaders;
 
 /// Where generated files lie. Folders hold nothing else.
-const PLACES: &[&str] = &["docs/cli.md", "crates/darboux-cli/generated", "shaders/glsl", "shaders/hlsl"];
+const PLACES: &[&str] = &[
+    "docs/cli.md",
+    "crates/darboux-cli/generated",
+    "bindings/c/include/darboux.h",
+    "shaders/glsl",
+    "shaders/hlsl",
+];
+
+/// Packages whose example `generate` writes them below the folder that it is given.
+const PACKAGES: &[&str] = &["darboux-cli", "darboux-c"];
 
 /// Writes all generated files in their places.
 pub fn write() -> Outcome {
@@ -38,7 +47,9 @@ pub fn compare() -> Outcome {
 
 fn generate(into: &Path) -> Outcome {
     shaders::write(into)?;
-    run(program("cargo run --quiet --package darboux-cli --example generate --").arg(into))
+    PACKAGES.iter().try_for_each(|package| {
+        run(program("cargo run --quiet --example generate --package").args([package, "--"]).arg(into))
+    })
 }
 
 fn remove(path: &Path) -> Outcome {

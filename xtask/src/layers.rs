@@ -9,6 +9,8 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("darboux", &[]),
     ("darboux-io", &["darboux"]),
     ("darboux-cli", &["darboux", "darboux-io"]),
+    ("darboux-c", &["darboux", "darboux-tests"]),
+    ("darboux-mikktspace", &["darboux"]),
     ("darboux-tests", &["darboux", "darboux-io", "darboux-cli"]),
     ("darboux-shader-tests", &["darboux"]),
     ("darboux-benches", &["darboux", "darboux-io", "darboux-tests"]),

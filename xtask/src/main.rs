@@ -15,7 +15,7 @@ const USAGE: &str = "\
 usage: cargo xtask <task>
 
   ci [--full]   what must hold before a change lands; --full adds what is long
-  gen           write the generated files (command-line reference, man pages, completions, shaders)
+  gen           write the generated files (command-line reference, man pages, completions, darboux.h, shaders)
   layers        check who imports whom
   validate      check the command's outputs for all models with independent tools (needs node and npm)
   bench [...]   time every engine on every mesh; see bench --help

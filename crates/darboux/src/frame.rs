@@ -10,6 +10,11 @@ use crate::Convention;
 pub struct CornerTangents(pub(crate) Vec<[f32; 4]>);
 
 impl CornerTangents {
+    /// Tangents from elsewhere, one per corner, in corner order: those of another program, or of a file that has no indices.
+    pub fn from_per_corner(tangents: Vec<[f32; 4]>) -> Self {
+        Self(tangents)
+    }
+
     /// The number of corners.
     pub fn len(&self) -> usize {
         self.0.len()

@@ -1,0 +1,44 @@
+//! The C interface. `include/darboux.h` is generated from this crate; the contract of every pointer is what its documentation there says.
+//!
+//! A call reads its structs and pointers into checked views ([`pointers`]), runs the core, and writes what came out. No panic leaves it.
+
+#![allow(unsafe_code, reason = "C passes pointers")]
+#![allow(non_camel_case_types, reason = "types are called as C calls them")]
+#![allow(
+    clippy::missing_safety_doc,
+    reason = "the contract of each pointer stands where the header says what it points to"
+)]
+#![deny(clippy::undocumented_unsafe_blocks)]
+
+mod codes;
+mod pointers;
+
+// In the order of the header.
+mod status;
+
+mod mesh;
+
+mod tangents;
+
+mod split;
+
+mod plan;
+
+mod normals;
+
+mod measure;
+
+mod encode;
+
+mod allocator;
+
+pub use allocator::*;
+pub use codes::*;
+pub use encode::*;
+pub use measure::*;
+pub use mesh::darboux_mesh;
+pub use normals::*;
+pub use plan::*;
+pub use split::*;
+pub use status::{darboux_last_error, darboux_status, darboux_version};
+pub use tangents::*;

@@ -1,0 +1,111 @@
+//! Topology once, evaluate often.
+
+use darboux::Plan;
+
+use crate::mesh::{self, darboux_mesh};
+use crate::pointers::{Output, Receiver, hand_out, held, take_back};
+use crate::status::{call, darboux_status};
+use crate::tangents::{darboux_report, darboux_tangent_options, options};
+
+/// The weld, groups and subgroups of one mesh, kept to evaluate MikkTSpace tangents again after its vertices moved.
+///
+/// Nothing of the mesh's memory is kept. Several threads may use one plan at once.
+pub struct darboux_plan {
+    plan: Plan,
+}
+
+/// Computes a mesh's tangents and keeps its topology.
+///
+/// `mesh`, `options`: as for darboux_generate_tangents; the scratch is not used. `plan`: receives the plan, for darboux_plan_free.
+/// Errors: what darboux_status lists.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn darboux_plan_create(
+    mesh: *const darboux_mesh,
+    options: *const darboux_tangent_options,
+    plan: *mut *mut darboux_plan,
+) -> darboux_status {
+    let make = || {
+        // SAFETY: every pointer is as the documentation above says.
+        let (mesh, (options, _)) = unsafe { (mesh::view(mesh)?, self::options(options)?) };
+        Ok(darboux_plan { plan: Plan::new(&mesh, &options) })
+    };
+    // SAFETY: `plan` is null or may be written.
+    call(|| unsafe { hand_out("plan", plan, make) })
+}
+
+/// Frees a plan; nothing where it is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn darboux_plan_free(plan: *mut darboux_plan) {
+    // SAFETY: `plan` is null or from `darboux_plan_create`, and no longer used.
+    unsafe { take_back(plan) }
+}
+
+/// Writes the tangents of the mesh that the plan was made of, as darboux_generate_tangents does.
+///
+/// `tangents`, `tangent_count`, `tangent_stride`, `report`: as there. Errors: null; another number of corners.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn darboux_plan_base(
+    plan: *const darboux_plan,
+    tangents: *mut f32,
+    tangent_count: usize,
+    tangent_stride: usize,
+    report: *mut darboux_report,
+) -> darboux_status {
+    call(|| {
+        // SAFETY: every pointer is as the documentation above says.
+        let (base, report, out) = unsafe {
+            let base = held("plan", plan)?.plan.base();
+            let corners = base.corners.len();
+            let out = Output::expecting(corners, "tangents", tangents.cast(), tangent_count, tangent_stride)?;
+            (base, Receiver::optional(report)?, out)
+        };
+        out.write(base.corners.per_corner().iter().copied());
+        if let Some(report) = report {
+            report.put(base.report.into());
+        }
+        Ok(())
+    })
+}
+
+/// Computes the tangents of the moved mesh in the plan's groups and subgroups; signs stay the plan's.
+///
+/// `mesh`: same faces, indices and UVs as the plan's, other positions and normals. `tangents`, `tangent_count`, `tangent_stride`: as
+/// for darboux_generate_tangents. Errors: those of the mesh; another number of corners or vertices than the plan's.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn darboux_plan_evaluate(
+    plan: *const darboux_plan,
+    mesh: *const darboux_mesh,
+    tangents: *mut f32,
+    tangent_count: usize,
+    tangent_stride: usize,
+) -> darboux_status {
+    call(|| {
+        // SAFETY: every pointer is as the documentation above says. The mesh is read before the output is written.
+        let (plan, mesh, out) = unsafe {
+            let mesh = mesh::view(mesh)?;
+            let corners = mesh.corner_count();
+            let out = Output::expecting(corners, "tangents", tangents.cast(), tangent_count, tangent_stride)?;
+            (held("plan", plan)?, mesh, out)
+        };
+        out.write(plan.plan.evaluate(&mesh)?.into_per_corner());
+        Ok(())
+    })
+}
+
+/// Counts the corners to which a fresh run on the moved mesh would give another tangent (other bits) than darboux_plan_evaluate.
+///
+/// `mesh`: as there. `count`: receives the number. Errors: as there.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn darboux_plan_count_regrouped(
+    plan: *const darboux_plan,
+    mesh: *const darboux_mesh,
+    count: *mut usize,
+) -> darboux_status {
+    call(|| {
+        // SAFETY: every pointer is as the documentation above says.
+        let (plan, mesh, out) =
+            unsafe { (held("plan", plan)?, mesh::view(mesh)?, Output::new("count", count.cast(), 1, 0)?) };
+        out.write([plan.plan.count_regrouped(&mesh)?]);
+        Ok(())
+    })
+}

@@ -1,0 +1,136 @@
+//! Corner results to indexed meshes.
+
+use darboux::{CornerTangents, NormalSplit, VertexSplit, split_normals, split_vertices};
+
+use crate::mesh::{self, darboux_mesh};
+use crate::pointers::{copied_of_corners, hand_out, take_back};
+use crate::status::{call, darboux_status};
+
+/// An indexed mesh's vertices after splitting by tangents. The old vertices come first, in their old places.
+#[repr(C)]
+pub struct darboux_vertex_split {
+    /// The number of new vertices.
+    pub vertex_count: usize,
+    /// One tangent per new vertex: unit xyz and sign w. Vertices that no corner uses have (1, 0, 0, 1).
+    pub tangent_of_vertex: *const [f32; 4],
+    /// The old vertex that each new vertex copies. Gather any other attribute with it: new[v] = old[source_of_vertex[v]].
+    pub source_of_vertex: *const u32,
+    /// The number of corners.
+    pub index_count: usize,
+    /// The new index list, in the old corner order.
+    pub indices: *const u32,
+}
+
+/// An indexed mesh's vertices after splitting by normals. The old vertices come first, in their old places.
+#[repr(C)]
+pub struct darboux_normal_split {
+    /// The number of new vertices.
+    pub vertex_count: usize,
+    /// One normal per new vertex. Vertices that no corner uses have (0, 0, 1).
+    pub normal_of_vertex: *const [f32; 3],
+    /// The old vertex that each new vertex copies. Gather any other attribute with it: new[v] = old[source_of_vertex[v]].
+    pub source_of_vertex: *const u32,
+    /// The number of corners.
+    pub index_count: usize,
+    /// The new index list, in the old corner order.
+    pub indices: *const u32,
+}
+
+/// What a caller sees, and the arrays that it points into.
+#[repr(C)]
+struct Owned<View, Arrays> {
+    view: View,
+    arrays: Arrays,
+}
+
+/// Splits the vertices whose corners need different tangents: one vertex per distinct pair of old vertex and tangent, compared as bits.
+///
+/// `mesh`: the mesh that the tangents belong to. `tangents`: C by 4, as darboux_generate_tangents writes them. `tangent_count`: C.
+/// `tangent_stride`: bytes from one tangent to the next, 0 for packed. `split`: receives the result, for darboux_vertex_split_free.
+/// Errors: those of the mesh; another number of tangents.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn darboux_split_vertices(
+    mesh: *const darboux_mesh,
+    tangents: *const f32,
+    tangent_count: usize,
+    tangent_stride: usize,
+    split: *mut *mut darboux_vertex_split,
+) -> darboux_status {
+    let make = || {
+        // SAFETY: every pointer is as the documentation above says.
+        let (mesh, tangents) = unsafe {
+            let mesh = mesh::view(mesh)?;
+            let corners = mesh.corner_count();
+            let tangents =
+                copied_of_corners(corners, "tangents", tangents.cast(), tangent_count, tangent_stride)?;
+            (mesh, CornerTangents::from_per_corner(tangents))
+        };
+        Ok(owned_vertices(split_vertices(&mesh, &tangents)?))
+    };
+    // SAFETY: `split` is null or may be written; the view is what the owner begins with.
+    call(|| unsafe { hand_out("split", split.cast(), make) })
+}
+
+/// Frees a split; nothing where it is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn darboux_vertex_split_free(split: *mut darboux_vertex_split) {
+    // SAFETY: `split` is null or from `darboux_split_vertices`, and no longer used.
+    unsafe { take_back(split.cast::<Owned<darboux_vertex_split, VertexSplit>>()) }
+}
+
+/// Splits the vertices whose corners have different normals: one vertex per distinct pair of old vertex and normal, compared as bits.
+///
+/// `mesh`: as for darboux_generate_normals. `normals`: C by 3, as darboux_generate_normals writes them.
+/// `normal_count`: C. `normal_stride`: bytes from one normal to the next, 0 for packed. `split`: receives the result, for
+/// darboux_normal_split_free. Errors: those of the mesh; another number of normals.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn darboux_split_normals(
+    mesh: *const darboux_mesh,
+    normals: *const f32,
+    normal_count: usize,
+    normal_stride: usize,
+    split: *mut *mut darboux_normal_split,
+) -> darboux_status {
+    let make = || {
+        // SAFETY: every pointer is as the documentation above says.
+        let (mesh, normals) = unsafe {
+            let mesh = mesh::bare(mesh)?;
+            let corners = mesh.corner_count();
+            let normals: Vec<[f32; 3]> =
+                copied_of_corners(corners, "normals", normals.cast(), normal_count, normal_stride)?;
+            (mesh, normals)
+        };
+        Ok(owned_normals(split_normals(mesh.vertex_count(), mesh.indices(), &normals)?))
+    };
+    // SAFETY: `split` is null or may be written; the view is what the owner begins with.
+    call(|| unsafe { hand_out("split", split.cast(), make) })
+}
+
+/// Frees a split; nothing where it is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn darboux_normal_split_free(split: *mut darboux_normal_split) {
+    // SAFETY: `split` is null or from `darboux_split_normals`, and no longer used.
+    unsafe { take_back(split.cast::<Owned<darboux_normal_split, NormalSplit>>()) }
+}
+
+fn owned_vertices(arrays: VertexSplit) -> Owned<darboux_vertex_split, VertexSplit> {
+    let view = darboux_vertex_split {
+        vertex_count: arrays.tangent_of_vertex.len(),
+        tangent_of_vertex: arrays.tangent_of_vertex.as_ptr(),
+        source_of_vertex: arrays.source_of_vertex.as_ptr(),
+        index_count: arrays.indices.len(),
+        indices: arrays.indices.as_ptr(),
+    };
+    Owned { view, arrays }
+}
+
+fn owned_normals(arrays: NormalSplit) -> Owned<darboux_normal_split, NormalSplit> {
+    let view = darboux_normal_split {
+        vertex_count: arrays.normal_of_vertex.len(),
+        normal_of_vertex: arrays.normal_of_vertex.as_ptr(),
+        source_of_vertex: arrays.source_of_vertex.as_ptr(),
+        index_count: arrays.indices.len(),
+        indices: arrays.indices.as_ptr(),
+    };
+    Owned { view, arrays }
+}

@@ -1,0 +1,211 @@
+//! Tangents of corners.
+
+use darboux::{Frame, Report, Scratch, TangentOptions, Tangents, generate_frames, generate_tangents_into};
+
+use crate::codes::{self, darboux_method, darboux_mode};
+use crate::mesh::{self, darboux_mesh};
+use crate::pointers::{self, Output, Receiver, Versioned};
+use crate::status::{Error, call, darboux_status};
+
+/// What darboux_generate_tangents does. All zeros are the defaults, which are right for normal maps from today's bakers.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct darboux_tangent_options {
+    /// sizeof(darboux_tangent_options), or 0, which stands for version 0.1's size.
+    pub size: usize,
+    /// The method. Default: MikkTSpace.
+    pub method: darboux_method,
+    /// How faithfully defects of the reference are kept. Default: repaired.
+    pub mode: darboux_mode,
+    /// Angular threshold in degrees, MikkTSpace's alone: faces around a vertex share a tangent while their tangents and their bitangents
+    /// differ by less. 0 stands for 180, which is what bakers use; 0.001 has the bits of a threshold of zero.
+    pub threshold: f32,
+    /// Memory of earlier calls to use again, or null. One thread at a time may use it.
+    pub scratch: *mut darboux_scratch,
+}
+
+// SAFETY: `repr(C)`, the size first, zeros and a null pointer.
+unsafe impl Versioned for darboux_tangent_options {
+    const NAME: &str = "darboux_tangent_options";
+}
+
+/// What was met on the way. Quads count as the two triangles that they are split into.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct darboux_report {
+    /// sizeof(darboux_report), set by the caller, or 0, which stands for version 0.1's size.
+    pub size: usize,
+    /// Triangles, quad halves included.
+    pub triangles: usize,
+    /// Faces of other than 3 or 4 corners; they have tangents from their normals alone.
+    pub unsupported_faces: usize,
+    /// Triangles with two equal positions.
+    pub degenerate_triangles: usize,
+    /// Triangles, not degenerate, whose UVs span no area.
+    pub uv_degenerate_triangles: usize,
+    /// Corners with a NaN or an infinity in position, normal or UV.
+    pub non_finite_corners: usize,
+    /// Corners whose reference tangent is absent or unusable. Replaced, but in DARBOUX_MODE_REFERENCE.
+    pub repaired_corners: usize,
+    /// Faces whose corners carry both signs.
+    pub mixed_sign_faces: usize,
+    /// Edges between two triangles of opposite UV orientation.
+    pub mirrored_edges: usize,
+    /// Vertices that need more than one tangent: what darboux_split_vertices splits.
+    pub split_vertices: usize,
+    /// Vertices at which both UV orientations share one tangent: seams that DARBOUX_METHOD_LENGYEL_PER_VERTEX breaks.
+    pub merged_vertices: usize,
+}
+
+// SAFETY: `repr(C)`, the size first, integers.
+unsafe impl Versioned for darboux_report {
+    const NAME: &str = "darboux_report";
+}
+
+impl From<Report> for darboux_report {
+    fn from(report: Report) -> Self {
+        Self {
+            size: size_of::<Self>(),
+            triangles: report.triangles,
+            unsupported_faces: report.unsupported_faces,
+            degenerate_triangles: report.degenerate_triangles,
+            uv_degenerate_triangles: report.uv_degenerate_triangles,
+            non_finite_corners: report.non_finite_corners,
+            repaired_corners: report.repaired_corners,
+            mixed_sign_faces: report.mixed_sign_faces,
+            mirrored_edges: report.mirrored_edges,
+            split_vertices: report.split_vertices,
+            merged_vertices: report.merged_vertices,
+        }
+    }
+}
+
+/// One corner's whole frame.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct darboux_frame {
+    /// The direction of increasing u, unit length, perpendicular to the normal.
+    pub tangent: [f32; 3],
+    /// The direction of increasing v, unit length, perpendicular to the normal but not always to the tangent.
+    pub bitangent: [f32; 3],
+    /// World units per unit of u and per unit of v.
+    pub magnitude: [f32; 2],
+    /// +1 where the UV map keeps its orientation, -1 where it mirrors.
+    pub sign: f32,
+}
+
+impl From<Frame> for darboux_frame {
+    fn from(frame: Frame) -> Self {
+        let Frame { tangent, bitangent, magnitude, sign } = frame;
+        Self { tangent, bitangent, magnitude, sign }
+    }
+}
+
+/// Memory that calls keep from one to the next, so that many meshes allocate as one.
+#[derive(Default)]
+pub struct darboux_scratch {
+    scratch: Scratch,
+    tangents: Tangents,
+}
+
+/// The options at `options`, and the scratch in them.
+///
+/// # Safety
+///
+/// `options` is as [`darboux_tangent_options`] says, or null.
+pub(crate) unsafe fn options<'a>(
+    options: *const darboux_tangent_options,
+) -> Result<(TangentOptions, Option<&'a mut darboux_scratch>), Error> {
+    // SAFETY: as of this function.
+    let options = unsafe { pointers::read_or_zeros(options) }?;
+    // SAFETY: null or from `darboux_scratch_create`, and no other thread's for now.
+    let scratch = unsafe { options.scratch.as_mut() };
+    let threshold = if options.threshold == 0.0 { 180.0 } else { options.threshold };
+    let (method, mode) = (codes::method(options.method)?, codes::mode(options.mode)?);
+    Ok((TangentOptions { method, mode, threshold }, scratch))
+}
+
+/// Computes the tangent of every corner.
+///
+/// These are not vertex tangents: corners of one vertex may disagree, so they cannot be written through the mesh's indices.
+/// darboux_split_vertices gives vertices and new indices. Where corner i is vertex i they may go straight into the vertices.
+/// `mesh`: normals and UVs must be there. `options`: null for the defaults. `tangents`: room for C by 4 floats, unit xyz and the sign w
+/// (bitangent = w * cross(normal, xyz)); it may lie between the mesh's own elements. `tangent_count`: C. `tangent_stride`: bytes from one
+/// tangent to the next, 0 for packed. `report`: what was met, or null.
+/// Errors: what darboux_status lists.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn darboux_generate_tangents(
+    mesh: *const darboux_mesh,
+    options: *const darboux_tangent_options,
+    tangents: *mut f32,
+    tangent_count: usize,
+    tangent_stride: usize,
+    report: *mut darboux_report,
+) -> darboux_status {
+    call(|| {
+        // SAFETY: every pointer is as the documentation above says. The mesh is read before the output is written.
+        let (mesh, (options, scratch), report, out) = unsafe {
+            let mesh = mesh::view(mesh)?;
+            let corners = mesh.corner_count();
+            let out = Output::expecting(corners, "tangents", tangents.cast(), tangent_count, tangent_stride)?;
+            (mesh, self::options(options)?, Receiver::optional(report)?, out)
+        };
+        let mut local = darboux_scratch::default();
+        let kept = scratch.unwrap_or(&mut local);
+        // Out of the caller's hands, so that a defect cannot leave it half-written.
+        let mut memory = std::mem::take(kept);
+        generate_tangents_into(&mesh, &options, &mut memory.scratch, &mut memory.tangents);
+        out.write(memory.tangents.corners.per_corner().iter().copied());
+        if let Some(report) = report {
+            report.put(memory.tangents.report.into());
+        }
+        *kept = memory;
+        Ok(())
+    })
+}
+
+/// Computes the whole frame of every corner: tangent, bitangent, magnitudes, sign. Slower than darboux_generate_tangents.
+///
+/// `mesh`, `options`, `report`, errors: as for darboux_generate_tangents; the scratch is not used. `frames`: room for C frames.
+/// `frame_count`: C. `frame_stride`: bytes from one frame to the next, 0 for packed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn darboux_generate_frames(
+    mesh: *const darboux_mesh,
+    options: *const darboux_tangent_options,
+    frames: *mut darboux_frame,
+    frame_count: usize,
+    frame_stride: usize,
+    report: *mut darboux_report,
+) -> darboux_status {
+    call(|| {
+        // SAFETY: every pointer is as the documentation above says. The mesh is read before the output is written.
+        let (mesh, (options, _), report, out) = unsafe {
+            let mesh = mesh::view(mesh)?;
+            let corners = mesh.corner_count();
+            let out = Output::expecting(corners, "frames", frames.cast(), frame_count, frame_stride)?;
+            (mesh, self::options(options)?, Receiver::optional(report)?, out)
+        };
+        let frames = generate_frames(&mesh, &options);
+        out.write(frames.corners.per_corner().iter().map(|&frame| darboux_frame::from(frame)));
+        if let Some(report) = report {
+            report.put(frames.report.into());
+        }
+        Ok(())
+    })
+}
+
+/// Makes an empty scratch, which grows to what the largest mesh needs.
+///
+/// `scratch`: receives it, for darboux_scratch_free. Errors: null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn darboux_scratch_create(scratch: *mut *mut darboux_scratch) -> darboux_status {
+    // SAFETY: `scratch` is null or may be written.
+    call(|| unsafe { pointers::hand_out("scratch", scratch, || Ok(darboux_scratch::default())) })
+}
+
+/// Frees a scratch; nothing where it is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn darboux_scratch_free(scratch: *mut darboux_scratch) {
+    // SAFETY: `scratch` is null or from `darboux_scratch_create`, and no longer used.
+    unsafe { pointers::take_back(scratch) }
+}
