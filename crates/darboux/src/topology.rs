@@ -5,7 +5,7 @@
 
 use std::collections::VecDeque;
 
-use crate::last_edges::{HalfEdge, OwnNames, last_stretches};
+use crate::last_edges::{NamedTriangles, last_stretches};
 use crate::triangles::Triangles;
 
 /// No neighbour.
@@ -46,7 +46,9 @@ pub(crate) fn neighbours(triangles: &Triangles, order: EdgeOrder) -> Vec<[u32; 3
     let last_run = &edges[last_run_start..];
     if order == EdgeOrder::Reference && order_shows(last_run.iter().map(|edge| edge.upper)) {
         let (last, _) = ends(triangles, last_run[0].half_edge as usize);
-        match_again(triangles, &last_stretches(half_edges(triangles), last, &mut OwnNames), &mut neighbours);
+        let mut list: Vec<u32> = (0..3 * triangles.len() as u32).collect();
+        let stretches = last_stretches(&mut list, last, &mut NamedTriangles(&triangles.vertices));
+        match_again(triangles, &stretches, &mut neighbours);
     }
     neighbours
 }
@@ -69,16 +71,6 @@ pub(crate) fn match_again(triangles: &Triangles, stretches: &[Vec<u32>], neighbo
     for stretch in stretches {
         match_edges(triangles, stretch.iter().copied(), neighbours);
     }
-}
-
-fn half_edges(triangles: &Triangles) -> Vec<HalfEdge> {
-    let of_triangle = |(t, &[a, b, c]): (usize, &[u32; 3])| {
-        [[a, b], [b, c], [c, a]]
-            .into_iter()
-            .zip(3 * t as u32..)
-            .map(|(ends, corner)| HalfEdge { ends, corner })
-    };
-    triangles.vertices.iter().enumerate().flat_map(of_triangle).collect()
 }
 
 /// The lower and upper vertex of a half-edge.

@@ -19,13 +19,12 @@ mod workers;
 
 use std::ops::Range;
 
-use crate::last_edges::last_stretches;
 use crate::weld::Bounds;
 use crate::{Faces, Mesh};
 
 use super::Mode;
 use last_run::{LastRun, TailCells};
-use names::LazyNames;
+use names::Names;
 use source::{Identity, triangles};
 use steps::{Extent, Special};
 use stream::{Share, Stream, shares};
@@ -47,6 +46,7 @@ pub(crate) struct Fans {
     workers: Vec<Worker>,
     /// Triangles and corners that need another look.
     special: Special,
+    names: Names,
     /// The last edges in the reference's stretches, as the corners where they start, where their order shows.
     last_stretches: Vec<Vec<u32>>,
 }
@@ -155,8 +155,8 @@ impl Fans {
             run.find(tail, &points)
         };
         if let Some(last) = last {
-            let mut names = LazyNames::new(run, self.weld.count);
-            self.last_stretches = last_stretches(names.half_edges(), last.name, &mut names);
+            let (names, suspects) = (&mut self.names, &self.special.undecided);
+            self.last_stretches = names.last_stretches(&run, &last, self.weld.count, suspects);
             self.special.leave(names.corners_of(&last.vertices), out);
         }
     }
