@@ -41,11 +41,14 @@ impl Edges for NamedTriangles<'_> {
 
 /// The last edges, in stretches within which the reference matches them, in its order.
 ///
-/// `list`: all edges, ascending; it is put into another order. `last`: the largest name of a lower vertex. Edges between the same
-/// two vertices can lie in several stretches; then matches are missed (the reference's issue 5).
-pub(crate) fn last_stretches(list: &mut [u32], last: u32, edges: &mut impl Edges) -> Vec<Vec<u32>> {
-    tell_from(last, list, edges);
-    let count = list.iter().filter(|&&edge| edges.lower_bound(edge, 0) == last).count();
+/// `list`: all edges, ascending; it is put into another order. `last`: the largest name of a lower vertex, which `count` edges have.
+/// Edges between the same two vertices can lie in several stretches; then matches are missed (the reference's issue 5).
+pub(crate) fn last_stretches(
+    list: &mut [u32],
+    last: u32,
+    count: usize,
+    edges: &mut impl Edges,
+) -> Vec<Vec<u32>> {
     sort_last(list, last, edges);
     let run = &list[list.len() - count..];
     let sorted_ends = |edge: u32| {

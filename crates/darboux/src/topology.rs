@@ -47,7 +47,8 @@ pub(crate) fn neighbours(triangles: &Triangles, order: EdgeOrder) -> Vec<[u32; 3
     if order == EdgeOrder::Reference && order_shows(last_run.iter().map(|edge| edge.upper)) {
         let (last, _) = ends(triangles, last_run[0].half_edge as usize);
         let mut list: Vec<u32> = (0..3 * triangles.len() as u32).collect();
-        let stretches = last_stretches(&mut list, last, &mut NamedTriangles(&triangles.vertices));
+        let stretches =
+            last_stretches(&mut list, last, last_run.len(), &mut NamedTriangles(&triangles.vertices));
         match_again(triangles, &stretches, &mut neighbours);
     }
     neighbours

@@ -84,6 +84,7 @@ struct Edge {
 pub(super) struct LastEdges {
     /// The name of their lower vertex.
     pub name: u32,
+    pub count: usize,
     /// All vertices at their ends, ascending.
     pub vertices: Vec<u32>,
 }
@@ -114,7 +115,7 @@ impl LastRun<'_> {
         let mut vertices: Vec<u32> = edges.iter().flat_map(|edge| edge.ends).collect();
         vertices.sort_unstable();
         vertices.dedup();
-        Some(LastEdges { name, vertices })
+        Some(LastEdges { name, count: edges.len(), vertices })
     }
 
     /// The edges with the largest lower vertex are among these, if it is named after a corner of the tail.

@@ -39,7 +39,7 @@ impl Names {
         self.sort_into_cells(run);
         self.list_edges(run, suspects);
         let mut edges = std::mem::take(&mut self.edges);
-        let stretches = last_stretches(&mut edges, last.name, &mut NamesIn { run, names: self });
+        let stretches = last_stretches(&mut edges, last.name, last.count, &mut NamesIn { run, names: self });
         self.edges = edges;
         stretches
     }
