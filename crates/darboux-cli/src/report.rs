@@ -1,34 +1,34 @@
 //! The JSON reports: stable names, described in json.md.
 
-use darboux_io::gltf::PrimitiveInfo;
+use darboux_io::gltf::{PrimitiveInfo, Summary};
 use serde::Serialize;
 
-/// What commands that write files print with `--json`.
+/// What `darboux tangents --json` prints.
 #[derive(Serialize)]
-pub struct Report<S> {
+pub struct TangentsReport {
     pub command: &'static str,
     pub version: &'static str,
-    pub files: Vec<FileReport<S>>,
+    pub files: Vec<FileReport>,
     pub totals: FileTotals,
 }
 
-/// What happened to one file; `S` is what the command has to say of it.
+/// What happened to one file.
 #[derive(Serialize)]
-pub struct FileReport<S> {
+pub struct FileReport {
     pub input: String,
     pub output: Option<String>,
     pub status: Status,
     pub error: Option<String>,
     pub files_written: Vec<String>,
     #[serde(flatten)]
-    pub summary: S,
+    pub summary: Summary,
 }
 
 /// A file's end.
 #[derive(Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
-    /// The output differs.
+    /// The output has new tangents.
     Written,
     /// Nothing to do: the output is a copy.
     Copied,
@@ -68,7 +68,7 @@ pub struct InspectedFile {
 /// The version in reports.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-impl<S: Default> FileReport<S> {
+impl FileReport {
     /// The report of a file without output.
     pub fn failed(input: String, error: String) -> Self {
         Self {
@@ -77,14 +77,14 @@ impl<S: Default> FileReport<S> {
             status: Status::Failed,
             error: Some(error),
             files_written: Vec::new(),
-            summary: S::default(),
+            summary: Summary::default(),
         }
     }
 }
 
-impl<S> Report<S> {
+impl TangentsReport {
     /// The report of these files.
-    pub fn new(command: &'static str, files: Vec<FileReport<S>>) -> Self {
+    pub fn new(files: Vec<FileReport>) -> Self {
         let mut totals = FileTotals { files: files.len(), ..FileTotals::default() };
         for file in &files {
             *match file.status {
@@ -94,7 +94,7 @@ impl<S> Report<S> {
                 Status::Failed => &mut totals.failed,
             } += 1;
         }
-        Self { command, version: VERSION, files, totals }
+        Self { command: "tangents", version: VERSION, files, totals }
     }
 }
 

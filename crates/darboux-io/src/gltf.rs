@@ -16,6 +16,7 @@ mod resources;
 mod save;
 pub mod schema;
 mod tangents;
+mod values;
 
 pub use accessor::{Elements, NewAccessor, Target};
 pub use document::{Document, LoadOptions};
@@ -29,3 +30,4 @@ pub use tangents::{
     Counts, Outcome, PrimitiveName, PrimitiveSummary, Progress, Summary, TangentEncoding, TangentsOptions,
     Totals, Written, add_tangents,
 };
+pub use values::IndexList;

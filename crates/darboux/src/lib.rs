@@ -27,7 +27,6 @@
 mod convention;
 pub mod encode;
 mod frame;
-mod last_edges;
 mod math;
 mod measure;
 mod mesh;

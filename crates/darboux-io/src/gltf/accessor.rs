@@ -1,11 +1,13 @@
 //! Accessors: the values behind them, and new ones. Every number from the file is checked before it is used.
 
+use std::borrow::Cow;
 use std::fmt::Write as _;
 
 use serde_json::Value;
 
 use super::document::Document;
 use super::schema::{Accessor, Sparse};
+use super::values::{self, IndexList, Stored};
 use super::{ComponentType, ElementType, json};
 use crate::Error;
 use crate::error::Fault;
@@ -29,27 +31,6 @@ impl Elements {
     /// Bytes per element; matrices keep the padding of their columns.
     pub fn element_size(&self) -> usize {
         self.element_type.size(self.component_type)
-    }
-
-    /// The elements as vectors, when they have `N` components.
-    fn vectors<const N: usize>(&self) -> Vec<[f32; N]> {
-        let bytes = &self.bytes;
-        match (self.component_type, self.normalized) {
-            (ComponentType::F32, _) => decode(bytes, f32::from_le_bytes),
-            (ComponentType::U8, false) => decode(bytes, |b: [u8; 1]| f32::from(b[0])),
-            (ComponentType::I8, false) => decode(bytes, |b| f32::from(i8::from_le_bytes(b))),
-            (ComponentType::U16, false) => decode(bytes, |b| f32::from(u16::from_le_bytes(b))),
-            (ComponentType::I16, false) => decode(bytes, |b| f32::from(i16::from_le_bytes(b))),
-            (ComponentType::U8, true) => decode(bytes, |b: [u8; 1]| f32::from(b[0]) / 255.0),
-            (ComponentType::I8, true) => {
-                decode(bytes, |b| (f32::from(i8::from_le_bytes(b)) / 127.0).max(-1.0))
-            }
-            (ComponentType::U16, true) => decode(bytes, |b| f32::from(u16::from_le_bytes(b)) / 65535.0),
-            (ComponentType::I16, true) => {
-                decode(bytes, |b| (f32::from(i16::from_le_bytes(b)) / 32767.0).max(-1.0))
-            }
-            (ComponentType::U32, _) => decode(bytes, |b| u32::from_le_bytes(b) as f32),
-        }
     }
 
     /// The places of the elements that are not zero, if storing only those takes fewer bytes.
@@ -79,11 +60,6 @@ impl Elements {
         let known = bounds.iter().all(|(min, max)| min <= max);
         known.then(|| bounds.into_iter().unzip())
     }
-}
-
-fn decode<const N: usize, const S: usize>(bytes: &[u8], value: impl Fn([u8; S]) -> f32) -> Vec<[f32; N]> {
-    let components = bytes.as_chunks::<S>().0;
-    components.as_chunks::<N>().0.iter().map(|element| element.map(&value)).collect()
 }
 
 impl ComponentType {
@@ -178,14 +154,28 @@ const MAX_ZEROS: usize = 1 << 16;
 
 impl Document {
     /// The values of an accessor as floats: normalised integers as fractions, other integers as numbers, sparse elements in
-    /// place, zeros without a buffer view. Errors: another number of components than `N`; bytes that are not there.
-    pub fn read_vectors<const N: usize>(&self, accessor: usize) -> Result<Vec<[f32; N]>, Error> {
-        self.vectors(accessor).map_err(|fault| fault.in_file(self.name()))
+    /// place, zeros without a buffer view. Borrowed from the file where it has them so.
+    ///
+    /// Errors: another number of components than `N`; bytes that are not there.
+    pub fn vectors<const N: usize>(&self, accessor: usize) -> Result<Cow<'_, [[f32; N]]>, Error> {
+        self.find_vectors(accessor).map_err(|fault| fault.in_file(self.name()))
     }
 
-    /// The values of an accessor of unsigned integers. Errors: another type; bytes that are not there.
+    /// As [`Document::vectors`], copied.
+    pub fn read_vectors<const N: usize>(&self, accessor: usize) -> Result<Vec<[f32; N]>, Error> {
+        self.vectors(accessor).map(Cow::into_owned)
+    }
+
+    /// The values of an accessor of unsigned integers, borrowed from the file where it has them so.
+    ///
+    /// Errors: another type; bytes that are not there.
+    pub fn indices(&self, accessor: usize) -> Result<IndexList<'_>, Error> {
+        self.find_indices(accessor).map_err(|fault| fault.in_file(self.name()))
+    }
+
+    /// As [`Document::indices`], copied and widened.
     pub fn read_indices(&self, accessor: usize) -> Result<Vec<u32>, Error> {
-        self.indices(accessor).map_err(|fault| fault.in_file(self.name()))
+        self.indices(accessor).map(IndexList::widened)
     }
 
     /// The elements of an accessor as bytes, to gather and to write again. Errors: bytes that are not there.
@@ -193,24 +183,25 @@ impl Document {
         self.elements(accessor).map_err(|fault| fault.in_file(self.name()))
     }
 
-    fn vectors<const N: usize>(&self, index: usize) -> Result<Vec<[f32; N]>, Fault> {
+    fn find_vectors<const N: usize>(&self, index: usize) -> Result<Cow<'_, [[f32; N]]>, Fault> {
         let accessor = self.accessor(index)?;
         let kind = accessor.element_type;
         if kind.components() != N || kind == ElementType::Mat2 {
             let problem = format!("is {}; it must have {N} components here", kind.name());
             return Err(Fault::invalid(format!("accessors[{index}].type"), problem));
         }
-        Ok(self.elements(index)?.vectors())
+        let stored = self.stored(index)?;
+        Ok(values::vectors(stored, accessor.component_type, accessor.normalized))
     }
 
-    fn indices(&self, index: usize) -> Result<Vec<u32>, Fault> {
+    fn find_indices(&self, index: usize) -> Result<IndexList<'_>, Fault> {
         let accessor = self.accessor(index)?;
         let at = |member| format!("accessors[{index}].{member}");
         if accessor.element_type != ElementType::Scalar {
             let problem = format!("is {}; indices must be SCALAR", accessor.element_type.name());
             return Err(Fault::invalid(at("type"), problem));
         }
-        unsigned(accessor.component_type, &self.elements(index)?.bytes).ok_or_else(|| {
+        IndexList::new(self.stored(index)?, accessor.component_type).ok_or_else(|| {
             Fault::invalid(at("componentType"), "is signed or float; indices must be unsigned")
         })
     }
@@ -225,26 +216,35 @@ impl Document {
     }
 
     pub(super) fn elements(&self, index: usize) -> Result<Elements, Fault> {
+        let Accessor { component_type, element_type, count, normalized, .. } = *self.accessor(index)?;
+        let bytes = self.stored(index)?.packed().into_owned();
+        Ok(Elements { bytes, count, component_type, element_type, normalized })
+    }
+
+    /// The elements of an accessor where they are, sparse ones in place.
+    fn stored(&self, index: usize) -> Result<Stored<'_>, Fault> {
         let accessor = self.accessor(index)?;
-        let Accessor { component_type, element_type, count, normalized, .. } = *accessor;
+        let Accessor { component_type, element_type, count, .. } = *accessor;
         let size = element_type.size(component_type);
         let at = format!("accessors[{index}]");
-        let mut bytes = match accessor.buffer_view {
+        let stored = match accessor.buffer_view {
             Some(view) => {
                 let (bytes, stride) = self.view(view, &format!("{at}.bufferView"))?;
-                packed(bytes, Layout { offset: accessor.byte_offset, count, size, stride }, &at)?
+                located(bytes, Layout { offset: accessor.byte_offset, count, size, stride }, &at)?
             }
-            None if count <= self.most_zeros() => vec![0; count.saturating_mul(size)],
+            None if count <= self.most_zeros() => {
+                Stored { bytes: vec![0; count.saturating_mul(size)].into(), size, stride: size }
+            }
             None => {
                 let problem =
                     format!("{count} elements are too many without a buffer view; export the file again");
                 return Err(Fault::invalid(format!("{at}.count"), problem));
             }
         };
-        if let Some(sparse) = &accessor.sparse {
-            self.apply_sparse(sparse, &mut bytes, count, size, &format!("{at}.sparse"))?;
-        }
-        Ok(Elements { bytes, count, component_type, element_type, normalized })
+        let Some(sparse) = &accessor.sparse else { return Ok(stored) };
+        let mut bytes = stored.packed().into_owned();
+        self.apply_sparse(sparse, &mut bytes, count, size, &format!("{at}.sparse"))?;
+        Ok(Stored { bytes: bytes.into(), size, stride: size })
     }
 
     fn apply_sparse(
@@ -263,9 +263,9 @@ impl Document {
         let at_values = format!("{at}.values");
         let (values, _) = self.view(sparse.values.buffer_view, &format!("{at_values}.bufferView"))?;
         let layout = Layout { offset: sparse.values.byte_offset, count: sparse.count, size, stride: None };
-        let values = packed(values, layout, &at_values)?;
+        let values = located(values, layout, &at_values)?.packed();
         let mut next = 0;
-        for (i, (&place, value)) in places.iter().zip(values.chunks_exact(size)).enumerate() {
+        for (i, (place, value)) in places.widened().into_iter().zip(values.chunks_exact(size)).enumerate() {
             let place = place as usize;
             if place < next || place >= count {
                 let problem = format!("index {place} at place {i} does not increase or is not below {count}");
@@ -277,13 +277,13 @@ impl Document {
         Ok(())
     }
 
-    fn sparse_indices(&self, sparse: &Sparse, at: &str) -> Result<Vec<u32>, Fault> {
+    fn sparse_indices(&self, sparse: &Sparse, at: &str) -> Result<IndexList<'_>, Fault> {
         let at = format!("{at}.indices");
         let indices = &sparse.indices;
         let (bytes, _) = self.view(indices.buffer_view, &format!("{at}.bufferView"))?;
         let size = indices.component_type.size();
         let layout = Layout { offset: indices.byte_offset, count: sparse.count, size, stride: None };
-        unsigned(indices.component_type, &packed(bytes, layout, &at)?).ok_or_else(|| {
+        IndexList::new(located(bytes, layout, &at)?, indices.component_type).ok_or_else(|| {
             Fault::invalid(format!("{at}.componentType"), "is signed or float; indices must be unsigned")
         })
     }
@@ -324,8 +324,8 @@ impl Layout {
     }
 }
 
-/// The elements of `view`, one after the other.
-fn packed(view: &[u8], layout: Layout, at: &str) -> Result<Vec<u8>, Fault> {
+/// The elements in `view`.
+fn located<'a>(view: &'a [u8], layout: Layout, at: &str) -> Result<Stored<'a>, Fault> {
     let Layout { offset, count, size, stride } = layout;
     if let Some(stride) = stride.filter(|&stride| stride < size) {
         let problem =
@@ -339,25 +339,5 @@ fn packed(view: &[u8], layout: Layout, at: &str) -> Result<Vec<u8>, Fault> {
         );
         return Err(Fault::invalid(at, format!("{problem}; export the file again")));
     };
-    let bytes = &view[offset.min(end)..end];
-    match stride {
-        Some(stride) if stride != size => {
-            Ok(bytes.chunks(stride).flat_map(|element| &element[..size]).copied().collect())
-        }
-        _ => Ok(bytes.to_vec()),
-    }
-}
-
-/// The values of unsigned integers; none for other types.
-fn unsigned(kind: ComponentType, bytes: &[u8]) -> Option<Vec<u32>> {
-    match kind {
-        ComponentType::U8 => Some(bytes.iter().map(|&byte| byte.into()).collect()),
-        ComponentType::U16 => {
-            Some(bytes.as_chunks().0.iter().map(|&bytes| u16::from_le_bytes(bytes).into()).collect())
-        }
-        ComponentType::U32 => {
-            Some(bytes.as_chunks().0.iter().map(|&bytes| u32::from_le_bytes(bytes)).collect())
-        }
-        ComponentType::I8 | ComponentType::I16 | ComponentType::F32 => None,
-    }
+    Ok(Stored { bytes: view[offset.min(end)..end].into(), size, stride: stride.unwrap_or(size) })
 }

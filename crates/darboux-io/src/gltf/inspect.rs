@@ -1,6 +1,6 @@
 //! What a document holds, per primitive, without changing it.
 
-use darboux::CornerTangents;
+use darboux::{CornerTangents, Scratch};
 use serde::Serialize;
 
 use super::Document;
@@ -52,6 +52,7 @@ pub fn inspect(document: &mut Document) -> Result<Vec<PrimitiveInfo>, Error> {
     let selection = select_readable(document, &options)?;
     let groups = share::group(&Canonical::new(document), selection.chosen());
     excess::check_corners(document, &groups)?;
+    let mut scratch = Scratch::new();
     let mut infos: Vec<_> =
         selection.candidates.iter().map(|candidate| describe(document, candidate)).collect();
     for group in &groups {
@@ -59,7 +60,7 @@ pub fn inspect(document: &mut Document) -> Result<Vec<PrimitiveInfo>, Error> {
         let mut found = Vec::with_capacity(group.jobs.len());
         for job in &group.jobs {
             let at = infos[job.first].name.path();
-            let surface = compute::surface(document, &at, &mut vertices, job, false, &options)?;
+            let surface = compute::surface(document, &at, &mut vertices, job, false, &options, &mut scratch)?;
             found.push((surface.report.into(), mirrored_triangles(&surface.tangents)));
         }
         for member in &group.members {

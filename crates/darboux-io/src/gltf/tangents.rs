@@ -19,13 +19,13 @@ pub use summary::{Counts, Outcome, PrimitiveName, PrimitiveSummary, Summary, Tot
 
 use std::collections::{HashMap, HashSet};
 
-use darboux::{Mode, TangentOptions};
+use darboux::{Mode, Report, Scratch, TangentOptions};
 
 use super::append::{is_sparse, push_vectors};
 use super::{Document, ElementType};
 use crate::Error;
 use compute::{Surface, Vertices};
-use morph::{Misfits, Morph, Movement};
+use morph::{Misfits, Morph, Movement, Offsets};
 use select::{Selection, Verdict};
 use share::{Canonical, Group, Job};
 use split::Split;
@@ -72,16 +72,12 @@ pub fn add_tangents(
     excess::check_corners(document, &groups)?;
     let total = groups.iter().flat_map(|group| &group.jobs).map(|job| job.triangle_count).sum();
     let at = Progress { done: 0, total };
-    let mut run = Run { selection, accessors, options, progress, at, summary: Summary::default() };
+    let (scratch, summary) = (Scratch::new(), Summary::default());
+    let mut run = Run { selection, accessors, options, progress, at, scratch, summary };
     let mut written = HashMap::new();
     for group in &groups {
-        let mut vertices = Vertices::read(document, group)?;
-        let morphs = run.morphs(document, group);
-        let surfaces = run.compute(document, group, &mut vertices, &morphs)?;
-        let split = run.split(document, group, &mut vertices, &surfaces)?;
-        let offsets = run.morph(document, group, &mut vertices, &morphs, &surfaces, &split)?;
-        drop(vertices);
-        written.extend(run.write(document, group, &surfaces, &split, &offsets)?);
+        let field = run.field(document, group)?;
+        written.extend(run.write(document, group, field)?);
     }
     Ok(run.summarize(written))
 }
@@ -99,8 +95,14 @@ pub(super) fn select_readable(
     select::select(document, options)
 }
 
-/// Tangent offsets on their way into the document: the accessor, and for each job what does not fit.
-type Offsets = HashMap<Movement, (usize, HashMap<usize, Misfits>)>;
+/// The tangents of a group, to be written: nothing here is of the document.
+struct Field {
+    reports: Vec<Report>,
+    split: Split,
+    /// The index list of each job; none where the old one serves.
+    lists: Vec<Option<Vec<u32>>>,
+    offsets: Vec<(Morph, Offsets)>,
+}
 
 /// One run of [`add_tangents`].
 struct Run<'a> {
@@ -109,12 +111,20 @@ struct Run<'a> {
     options: &'a TangentsOptions,
     progress: &'a mut dyn FnMut(Progress),
     at: Progress,
+    scratch: Scratch,
     summary: Summary,
 }
 
 impl Run<'_> {
-    fn morphs(&self, document: &Document, group: &Group) -> Vec<Morph> {
-        morph::morphs(document, &self.accessors, group, &self.selection, self.options)
+    fn field(&mut self, document: &Document, group: &Group) -> Result<Field, Error> {
+        let mut vertices = Vertices::read(document, group)?;
+        let morphs = morph::morphs(document, &self.accessors, group, &self.selection, self.options);
+        let surfaces = self.compute(document, group, &mut vertices, &morphs)?;
+        let mut split = self.split(document, group, &mut vertices, &surfaces)?;
+        let offsets = self.morph(document, group, &mut vertices, morphs, &surfaces, &split)?;
+        let lists = split.take_lists(group, &surfaces);
+        let reports = surfaces.iter().map(|surface| surface.report).collect();
+        Ok(Field { reports, split, lists, offsets })
     }
 
     /// The JSON path of the first primitive with `job`.
@@ -122,28 +132,32 @@ impl Run<'_> {
         self.selection.candidates[job.first].name.path()
     }
 
-    fn compute(
+    fn compute<'a>(
         &mut self,
-        document: &Document,
+        document: &'a Document,
         group: &Group,
-        vertices: &mut Vertices,
+        vertices: &mut Vertices<'_>,
         morphs: &[Morph],
-    ) -> Result<Vec<Surface>, Error> {
+    ) -> Result<Vec<Surface<'a>>, Error> {
         let moved: HashSet<_> = morphs.iter().flat_map(|morph| &morph.jobs).copied().collect();
         let mut surfaces = Vec::with_capacity(group.jobs.len());
         for (index, job) in group.jobs.iter().enumerate() {
-            let moves = moved.contains(&index);
-            let surface = compute::surface(document, &self.path(job), vertices, job, moves, self.options)?;
+            let (at, moves) = (self.path(job), moved.contains(&index));
+            let surface =
+                compute::surface(document, &at, vertices, job, moves, self.options, &mut self.scratch)?;
             self.warn_unusable(job, &surface);
             self.warn_merged(job, &surface);
             self.at.done += job.triangle_count;
             (self.progress)(self.at);
             surfaces.push(surface);
         }
+        if self.at.done == self.at.total {
+            self.scratch = Scratch::new();
+        }
         Ok(surfaces)
     }
 
-    fn warn_unusable(&mut self, job: &Job, surface: &Surface) {
+    fn warn_unusable(&mut self, job: &Job, surface: &Surface<'_>) {
         let unusable = surface.report.repaired_corners;
         if self.options.tangents.mode == Mode::Reference && unusable > 0 {
             let name = &self.selection.candidates[job.first].name;
@@ -153,7 +167,7 @@ impl Run<'_> {
         }
     }
 
-    fn warn_merged(&mut self, job: &Job, surface: &Surface) {
+    fn warn_merged(&mut self, job: &Job, surface: &Surface<'_>) {
         let merged = surface.report.merged_vertices;
         if merged > 0 {
             let name = &self.selection.candidates[job.first].name;
@@ -168,8 +182,8 @@ impl Run<'_> {
         &mut self,
         document: &Document,
         group: &Group,
-        vertices: &mut Vertices,
-        surfaces: &[Surface],
+        vertices: &mut Vertices<'_>,
+        surfaces: &[Surface<'_>],
     ) -> Result<Split, Error> {
         let split = split::split(document, &self.path(&group.jobs[0]), group, vertices, surfaces)?;
         let totals = &mut self.summary.totals;
@@ -181,21 +195,21 @@ impl Run<'_> {
 
     fn morph(
         &self,
-        document: &mut Document,
+        document: &Document,
         group: &Group,
-        vertices: &mut Vertices,
-        morphs: &[Morph],
-        surfaces: &[Surface],
+        vertices: &mut Vertices<'_>,
+        morphs: Vec<Morph>,
+        surfaces: &[Surface<'_>],
         split: &Split,
-    ) -> Result<Offsets, Error> {
-        let mut offsets = Offsets::new();
+    ) -> Result<Vec<(Morph, Offsets)>, Error> {
+        let mut offsets = Vec::with_capacity(morphs.len());
         for morph in morphs {
-            let moved = morph::offsets(document, morph, group, vertices, surfaces, split, self.options)?;
-            let sparse = morph.movement.accessors().all(|accessor| is_sparse(document, accessor));
-            let accessor = push_vectors(document, ElementType::Vec3, &moved.of_vertex, sparse);
-            excess::check_output(document)?;
-            let misfits = morph.jobs.iter().copied().zip(moved.misfits).collect();
-            offsets.insert(morph.movement, (accessor, misfits));
+            let moved = morph::offsets(document, &morph, group, vertices, surfaces, split, self.options)?;
+            offsets.push((morph, moved));
+            excess::check_more_output(
+                document,
+                offsets.len() * split.vertex_count() * size_of::<[f32; 3]>(),
+            )?;
         }
         Ok(offsets)
     }
@@ -205,14 +219,20 @@ impl Run<'_> {
         &mut self,
         document: &mut Document,
         group: &Group,
-        surfaces: &[Surface],
-        split: &Split,
-        offsets: &Offsets,
+        field: Field,
     ) -> Result<Vec<(usize, Written)>, Error> {
+        let Field { reports, split, lists, offsets } = field;
         let tangents = write::push_tangents(document, self.options.encoding, &split.tangents);
         excess::check_output(document)?;
-        let accessors = offsets.iter().map(|(&movement, &(accessor, _))| (movement, accessor)).collect();
-        let results = Results { surfaces, split, tangents, offsets: accessors };
+        let mut offset_accessors = HashMap::new();
+        let mut misfits: HashMap<(Movement, usize), Misfits> = HashMap::new();
+        for (Morph { movement, jobs, .. }, moved) in offsets {
+            let sparse = movement.accessors().all(|accessor| is_sparse(document, accessor));
+            let accessor = push_vectors(document, ElementType::Vec3, &moved.of_vertex, sparse);
+            offset_accessors.insert(movement, accessor);
+            misfits.extend(jobs.into_iter().map(|job| (movement, job)).zip(moved.misfits));
+        }
+        let results = Results { split: &split, lists, tangents, offsets: offset_accessors };
         let mut writer = Writer::new(&self.accessors, self.options, group, results);
         let mut written = Vec::with_capacity(group.members.len());
         for member in &group.members {
@@ -221,7 +241,7 @@ impl Run<'_> {
                 self.summary.warnings.extend(foreign::warning(document, &candidate.name));
             }
             let morphed = writer.write(document, member, candidate)?;
-            let misfits = morphed.iter().filter_map(|movement| offsets[movement].1.get(&member.job));
+            let misfits = morphed.iter().filter_map(|&movement| misfits.get(&(movement, member.job)));
             let misfits = misfits.fold(Misfits::default(), |sum, &misfits| sum + misfits);
             written.push((
                 member.candidate,
@@ -234,7 +254,7 @@ impl Run<'_> {
                     morph_targets: morphed.len(),
                     regrouped_corners: misfits.regrouped,
                     conflicting_corners: misfits.conflicting,
-                    counts: surfaces[member.job].report.into(),
+                    counts: reports[member.job].into(),
                 },
             ));
         }

@@ -1,70 +1,75 @@
 //! The tangents of one group: read its vertices once, then compute each job in time of its own corners.
 
+use std::borrow::Cow;
 use std::mem;
 
-use darboux::{Convention, CornerTangents, Indices, Mesh, Report, generate_tangents};
+use darboux::{Convention, CornerTangents, Mesh, Report, Scratch, Tangents, generate_tangents_into};
 
-use super::TangentsOptions;
 use super::evaluator::Evaluator;
 use super::share::{Group, Job};
+use super::topology::Topology;
+use super::{TangentEncoding, TangentsOptions};
 use crate::Error;
-use crate::gltf::Document;
+use crate::gltf::{Document, IndexList};
+
+/// One vector per vertex.
+type Vectors<'a> = Cow<'a, [[f32; 3]]>;
 
 /// The vertices of a group, and moved ones while morph targets are evaluated.
 #[derive(Debug)]
-pub struct Vertices {
-    pub positions: Vec<[f32; 3]>,
-    pub normals: Vec<[f32; 3]>,
-    stored_uvs: Vec<[f32; 2]>,
+pub struct Vertices<'a> {
+    pub positions: Vectors<'a>,
+    pub normals: Vectors<'a>,
+    /// The UVs before any transform; none where no job has one.
+    stored_uvs: Option<Cow<'a, [[f32; 2]]>>,
     /// The UVs that the job at hand sees. Where it has no corner they may be another's.
-    uvs: Vec<[f32; 2]>,
+    uvs: Cow<'a, [[f32; 2]]>,
 }
 
-impl Vertices {
+impl<'a> Vertices<'a> {
     /// Reads what the accessors of `group` hold.
-    pub fn read(document: &Document, group: &Group) -> Result<Self, Error> {
-        let uvs = document.read_vectors(group.uv)?;
+    pub fn read(document: &'a Document, group: &Group) -> Result<Self, Error> {
+        let uvs = document.vectors(group.uv)?;
         let transformed = group.jobs.iter().any(|job| job.transform.is_some());
         Ok(Self {
-            positions: document.read_vectors(group.position)?,
-            normals: document.read_vectors(group.normal)?,
-            stored_uvs: if transformed { uvs.clone() } else { Vec::new() },
+            positions: document.vectors(group.position)?,
+            normals: document.vectors(group.normal)?,
+            stored_uvs: transformed.then(|| uvs.clone()),
             uvs,
         })
     }
 
     /// Moves the vertices. Returns the positions and normals that they had.
-    pub fn replace(
-        &mut self,
-        positions: Vec<[f32; 3]>,
-        normals: Vec<[f32; 3]>,
-    ) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
+    pub fn replace(&mut self, positions: Vectors<'a>, normals: Vectors<'a>) -> (Vectors<'a>, Vectors<'a>) {
         (mem::replace(&mut self.positions, positions), mem::replace(&mut self.normals, normals))
     }
 
     /// The mesh of `job` over `corners`, its transform applied to the vertices that it uses, and to no other, so that many
     /// jobs on a large buffer stay cheap.
-    pub fn mesh<'a>(
-        &'a mut self,
+    pub fn mesh<'m>(
+        &'m mut self,
         document: &Document,
         at: &str,
         job: &Job,
-        corners: &'a [u32],
-    ) -> Result<Mesh<'a>, Error> {
-        for &corner in corners {
-            let Some(&stored) = self.stored_uvs.get(corner as usize) else { continue };
-            self.uvs[corner as usize] = job.transform.map_or(stored, |transform| transform.apply(stored));
+        corners: &'m IndexList<'_>,
+    ) -> Result<Mesh<'m>, Error> {
+        if let Some(stored) = &self.stored_uvs {
+            let uvs = self.uvs.to_mut();
+            for corner in corners.iter() {
+                let Some(&stored) = stored.get(corner as usize) else { continue };
+                uvs[corner as usize] = job.transform.map_or(stored, |transform| transform.apply(stored));
+            }
         }
-        Mesh::triangles(&self.positions, &self.normals, &self.uvs, Indices::U32(corners))
+        Mesh::triangles(&*self.positions, &*self.normals, &*self.uvs, corners.as_indices())
             .map_err(|error| document.mesh_error(at, error))
     }
 }
 
 /// The result of one job.
 #[derive(Debug)]
-pub struct Surface {
+pub struct Surface<'a> {
     /// The vertices of all whole triangles, three each.
-    pub corners: Vec<u32>,
+    pub corners: IndexList<'a>,
     /// Indices after the last whole triangle.
     pub rest: Vec<u32>,
     /// In glTF's convention.
@@ -77,37 +82,45 @@ pub struct Surface {
 /// Computes a job. `at` is the JSON path of a primitive that it belongs to; with `morphs` it is kept ready for morph targets.
 ///
 /// Errors: indices out of range, attributes of different lengths; with [`TangentsOptions::strict`], unusable data.
-pub fn surface(
-    document: &Document,
+pub fn surface<'a>(
+    document: &'a Document,
     at: &str,
-    vertices: &mut Vertices,
+    vertices: &mut Vertices<'_>,
     job: &Job,
     morphs: bool,
     options: &TangentsOptions,
-) -> Result<Surface, Error> {
+    scratch: &mut Scratch,
+) -> Result<Surface<'a>, Error> {
     let mut corners = indices(document, job, vertices.positions.len())?;
     let rest = corners.split_off(job.topology.whole(corners.len()));
-    let corners = job.topology.corners(corners);
+    let corners = match job.topology {
+        Topology::Triangles => corners,
+        other => IndexList::U32(other.corners(corners.widened()).into()),
+    };
     let mesh = vertices.mesh(document, at, job, &corners)?;
     let (tangents, evaluator) = if morphs {
         let (tangents, evaluator) = Evaluator::new(&mesh, &options.tangents);
         (tangents, Some(evaluator))
     } else {
-        (generate_tangents(&mesh, &options.tangents), None)
+        let mut tangents = Tangents::default();
+        generate_tangents_into(&mesh, &options.tangents, scratch, &mut tangents);
+        (tangents, None)
     };
     if options.strict {
         refuse_unusable(document, at, &tangents.report)?;
     }
     let report = tangents.report;
-    let tangents = tangents.corners.converted(Convention::GLTF.generated(), Convention::GLTF);
-    let tangents = tangents.map(|tangent| options.encoding.rounded(tangent));
+    let mut tangents = tangents.corners.converted(Convention::GLTF.generated(), Convention::GLTF);
+    if options.encoding != TangentEncoding::F32x4 {
+        tangents = tangents.map(|tangent| options.encoding.rounded(tangent));
+    }
     Ok(Surface { corners, rest, tangents, report, evaluator })
 }
 
-fn indices(document: &Document, job: &Job, vertex_count: usize) -> Result<Vec<u32>, Error> {
+fn indices<'a>(document: &'a Document, job: &Job, vertex_count: usize) -> Result<IndexList<'a>, Error> {
     match job.indices {
-        Some(accessor) => document.read_indices(accessor),
-        None => Ok((0..vertex_count as u32).collect()),
+        Some(accessor) => document.indices(accessor),
+        None => Ok(IndexList::U32((0..vertex_count as u32).collect())),
     }
 }
 

@@ -27,7 +27,13 @@ pub fn check_triangles(document: &Document, mut counts: impl Iterator<Item = usi
 
 /// Errors: more bytes written than the document's size explains.
 pub fn check_output(document: &Document) -> Result<(), Error> {
-    if document.edits.new_byte_count <= limit(document) { Ok(()) } else { Err(refused(document)) }
+    check_more_output(document, 0)
+}
+
+/// As [`check_output`], with bytes that are yet to be written.
+pub fn check_more_output(document: &Document, bytes: usize) -> Result<(), Error> {
+    let written = document.edits.new_byte_count.saturating_add(bytes);
+    if written <= limit(document) { Ok(()) } else { Err(refused(document)) }
 }
 
 fn refused(document: &Document) -> Error {

@@ -107,8 +107,8 @@ pub fn offsets(
     document: &Document,
     morph: &Morph,
     group: &Group,
-    vertices: &mut Vertices,
-    surfaces: &[Surface],
+    vertices: &mut Vertices<'_>,
+    surfaces: &[Surface<'_>],
     split: &Split,
     options: &TangentsOptions,
 ) -> Result<Offsets, Error> {
@@ -116,7 +116,7 @@ pub fn offsets(
     let moved = |base: &[_], by| moved(document, &morph.at, base, by, options.strict);
     let positions = moved(&vertices.positions, position)?;
     let normals = moved(&vertices.normals, normal)?;
-    let base = vertices.replace(positions, normals);
+    let base = vertices.replace(positions.into(), normals.into());
     let mut field = Field::new(split.vertex_count());
     let mut misfits = Vec::with_capacity(morph.jobs.len());
     for &job in &morph.jobs {
@@ -144,7 +144,7 @@ fn moved(
     strict: bool,
 ) -> Result<Vec<[f32; 3]>, Error> {
     let Some(accessor) = by else { return Ok(base.to_vec()) };
-    let offsets = document.read_vectors::<3>(accessor)?;
+    let offsets = document.vectors::<3>(accessor)?;
     if offsets.len() != base.len() {
         let problem =
             format!("accessor {accessor} has {} elements for {} vertices", offsets.len(), base.len());
@@ -155,7 +155,7 @@ fn moved(
         let problem = format!("{infinite} offsets of accessor {accessor} are not finite");
         return Err(document.invalid(at, format!("{problem}; mend the model, or run without strict")));
     }
-    Ok(base.iter().zip(offsets).map(|(base, by)| std::array::from_fn(|i| base[i] + by[i])).collect())
+    Ok(base.iter().zip(&*offsets).map(|(base, by)| std::array::from_fn(|i| base[i] + by[i])).collect())
 }
 
 /// One offset per vertex; the first corner that asks decides.

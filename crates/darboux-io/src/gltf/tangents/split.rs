@@ -1,5 +1,7 @@
 //! The split of one group: which vertices are appended, and what each corner uses then.
 
+use std::mem;
+
 use darboux::Splitter;
 
 use super::compute::{Surface, Vertices};
@@ -14,7 +16,7 @@ pub struct Split {
     pub tangents: Vec<[f32; 4]>,
     /// The old vertex that each appended one copies.
     pub copies: Vec<u32>,
-    /// For each job the vertices of its corners.
+    /// For each job the vertices of its corners, until [`Split::take_lists`].
     pub corners: Vec<Vec<u32>>,
 }
 
@@ -25,8 +27,8 @@ pub fn split(
     document: &Document,
     at: &str,
     group: &Group,
-    vertices: &mut Vertices,
-    surfaces: &[Surface],
+    vertices: &mut Vertices<'_>,
+    surfaces: &[Surface<'_>],
 ) -> Result<Split, Error> {
     let corner_count: usize = surfaces.iter().map(|surface| surface.corners.len()).sum();
     if vertices.positions.len().saturating_add(corner_count) >= u32::MAX as usize {
@@ -53,6 +55,20 @@ impl Split {
     /// The number of vertices before.
     pub fn old_vertex_count(&self) -> usize {
         self.tangents.len() - self.copies.len()
+    }
+
+    /// The index list of each job; none where the old one serves.
+    pub fn take_lists(&mut self, group: &Group, surfaces: &[Surface<'_>]) -> Vec<Option<Vec<u32>>> {
+        let is_needed = self.is_needed();
+        let jobs = group.jobs.iter().zip(surfaces).zip(mem::take(&mut self.corners));
+        jobs.map(|((job, surface), mut corners)| {
+            let is_old = || job.indices.is_some() && surface.corners.iter().eq(corners.iter().copied());
+            (is_needed && !is_old()).then(|| {
+                corners.extend(&surface.rest);
+                corners
+            })
+        })
+        .collect()
     }
 
     /// Whether there are vertices that were not there before.

@@ -4,7 +4,6 @@ use std::collections::HashMap;
 
 use serde_json::Value;
 
-use super::compute::Surface;
 use super::morph::Movement;
 use super::select::Candidate;
 use super::share::{Canonical, Group, Member};
@@ -27,8 +26,9 @@ pub fn push_tangents(document: &mut Document, encoding: TangentEncoding, tangent
 /// What the primitives of a group refer to.
 #[derive(Debug)]
 pub struct Results<'a> {
-    pub surfaces: &'a [Surface],
     pub split: &'a Split,
+    /// The index list of each job; none where the old one serves.
+    pub lists: Vec<Option<Vec<u32>>>,
     /// The accessor of the tangents.
     pub tangents: usize,
     /// The accessors of tangent offsets.
@@ -126,17 +126,13 @@ impl<'a> Writer<'a> {
 
     /// The accessor of new indices for a job; none where the old ones, or their absence, serve.
     fn indices(&mut self, document: &mut Document, job: usize) -> Result<Option<usize>, Error> {
-        let Results { surfaces, split, .. } = self.results;
-        let (surface, old) = (&surfaces[job], self.group.jobs[job].indices);
-        if !split.is_needed() || (old.is_some() && split.corners[job] == surface.corners) {
-            return Ok(None);
-        }
         if let Some(&indices) = self.indices.get(&job) {
             return Ok(Some(indices));
         }
+        let Some(list) = self.results.lists[job].take() else { return Ok(None) };
+        let old = self.group.jobs[job].indices;
         let kind = old.and_then(|old| document.accessors().get(old)).map(|old| old.component_type);
-        let values = split.corners[job].iter().chain(&surface.rest).copied();
-        let elements = index_elements(kind, values.collect());
+        let elements = index_elements(kind, list);
         let new = NewAccessor { elements, target: Target::Indices, bounds: false, sparse: false, like: old };
         let indices = document.push_accessor(new);
         self.indices.insert(job, indices);

@@ -1,0 +1,162 @@
+//! Values out of stored elements: borrowed where the file has them as they are used, else decoded in bulk.
+
+use std::borrow::Cow;
+
+use bytemuck::Pod;
+use darboux::Indices;
+
+use super::ComponentType;
+
+/// The elements of an accessor as they lie in the file, every number about them checked.
+#[derive(Debug)]
+pub(super) struct Stored<'a> {
+    /// From the first byte of the first element to the last of the last.
+    pub bytes: Cow<'a, [u8]>,
+    /// Bytes per element.
+    pub size: usize,
+    /// Bytes from one element to the next, at least [`Stored::size`].
+    pub stride: usize,
+}
+
+impl<'a> Stored<'a> {
+    /// The elements one after the other.
+    pub fn packed(self) -> Cow<'a, [u8]> {
+        let Self { bytes, size, stride } = self;
+        if stride == size {
+            return bytes;
+        }
+        let mut packed = Vec::with_capacity(bytes.len().div_ceil(stride) * size);
+        bytes.chunks(stride).for_each(|element| packed.extend_from_slice(&element[..size]));
+        packed.into()
+    }
+
+    /// The elements as values of the machine, where the file has them so.
+    fn borrowed<T: Pod>(&self) -> Option<&'a [T]> {
+        let fits = cfg!(target_endian = "little") && self.stride == self.size && self.size == size_of::<T>();
+        match self.bytes {
+            Cow::Borrowed(bytes) if fits => bytemuck::try_cast_slice(bytes).ok(),
+            _ => None,
+        }
+    }
+
+    /// The elements as `N` components of `S` bytes each.
+    fn decoded<const N: usize, const S: usize, T>(&self, value: impl Fn([u8; S]) -> T) -> Vec<[T; N]> {
+        let element = |bytes: &[[u8; S]; N]| bytes.each_ref().map(|component| value(*component));
+        if self.stride == N * S {
+            return self.bytes.as_chunks::<S>().0.as_chunks::<N>().0.iter().map(element).collect();
+        }
+        let first = |bytes: &[u8]| element(bytes.as_chunks().0.first_chunk().expect("a whole element"));
+        self.bytes.chunks(self.stride).map(first).collect()
+    }
+}
+
+/// Elements of `N` components as floats; normalised integers as fractions (glTF 2.0, 3.11).
+pub(super) fn vectors<const N: usize>(
+    stored: Stored<'_>,
+    kind: ComponentType,
+    normalized: bool,
+) -> Cow<'_, [[f32; N]]> {
+    if let Some(vectors) = stored.borrowed().filter(|_| kind == ComponentType::F32) {
+        return vectors.into();
+    }
+    let vectors = match (kind, normalized) {
+        (ComponentType::F32, _) => stored.decoded(f32::from_le_bytes),
+        (ComponentType::U8, false) => stored.decoded(|b| f32::from(u8::from_le_bytes(b))),
+        (ComponentType::I8, false) => stored.decoded(|b| f32::from(i8::from_le_bytes(b))),
+        (ComponentType::U16, false) => stored.decoded(|b| f32::from(u16::from_le_bytes(b))),
+        (ComponentType::I16, false) => stored.decoded(|b| f32::from(i16::from_le_bytes(b))),
+        (ComponentType::U8, true) => stored.decoded(|b| f32::from(u8::from_le_bytes(b)) / 255.0),
+        (ComponentType::I8, true) => stored.decoded(|b| (f32::from(i8::from_le_bytes(b)) / 127.0).max(-1.0)),
+        (ComponentType::U16, true) => stored.decoded(|b| f32::from(u16::from_le_bytes(b)) / 65535.0),
+        (ComponentType::I16, true) => {
+            stored.decoded(|b| (f32::from(i16::from_le_bytes(b)) / 32767.0).max(-1.0))
+        }
+        (ComponentType::U32, _) => stored.decoded(|b| u32::from_le_bytes(b) as f32),
+    };
+    vectors.into()
+}
+
+/// Indices, as wide as the file has them; bytes are widened.
+#[derive(Clone, Debug)]
+pub enum IndexList<'a> {
+    /// Of 8 or 16 bits.
+    U16(Cow<'a, [u16]>),
+    /// Of 32 bits.
+    U32(Cow<'a, [u32]>),
+}
+
+impl<'a> IndexList<'a> {
+    /// The values of unsigned integers; none for other types.
+    pub(super) fn new(stored: Stored<'a>, kind: ComponentType) -> Option<Self> {
+        let flat = |list: Vec<[u16; 1]>| Self::U16(list.into_flattened().into());
+        match kind {
+            ComponentType::U8 => Some(flat(stored.decoded(|b| u16::from(u8::from_le_bytes(b))))),
+            ComponentType::U16 => Some(match stored.borrowed() {
+                Some(list) => Self::U16(list.into()),
+                None => flat(stored.decoded(u16::from_le_bytes)),
+            }),
+            ComponentType::U32 => Some(Self::U32(match stored.borrowed() {
+                Some(list) => list.into(),
+                None => stored.decoded::<1, 4, _>(u32::from_le_bytes).into_flattened().into(),
+            })),
+            ComponentType::I8 | ComponentType::I16 | ComponentType::F32 => None,
+        }
+    }
+
+    /// The number of indices.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::U16(list) => list.len(),
+            Self::U32(list) => list.len(),
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The indices as a mesh takes them.
+    pub fn as_indices(&self) -> Indices<'_> {
+        match self {
+            Self::U16(list) => Indices::U16(list),
+            Self::U32(list) => Indices::U32(list),
+        }
+    }
+
+    /// The indices, all of 32 bits.
+    pub fn widened(self) -> Vec<u32> {
+        match self {
+            Self::U16(list) => list.iter().map(|&index| index.into()).collect(),
+            Self::U32(list) => list.into_owned(),
+        }
+    }
+
+    /// Cuts the list in two at `at`, which is not past its end; the second part is copied.
+    pub(super) fn split_off(&mut self, at: usize) -> Vec<u32> {
+        match self {
+            Self::U16(list) => cut(list, at).into_iter().map(u32::from).collect(),
+            Self::U32(list) => cut(list, at),
+        }
+    }
+
+    /// Every index.
+    pub(super) fn iter(&self) -> Box<dyn Iterator<Item = u32> + '_> {
+        match self {
+            Self::U16(list) => Box::new(list.iter().map(|&index| index.into())),
+            Self::U32(list) => Box::new(list.iter().copied()),
+        }
+    }
+}
+
+/// Shortens `list` to `at` elements; gives the others.
+fn cut<T: Copy>(list: &mut Cow<'_, [T]>, at: usize) -> Vec<T> {
+    match list {
+        Cow::Borrowed(all) => {
+            let (kept, rest) = all.split_at(at);
+            *all = kept;
+            rest.to_vec()
+        }
+        Cow::Owned(all) => all.split_off(at),
+    }
+}
