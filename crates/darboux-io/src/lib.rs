@@ -1,9 +1,11 @@
-//! Files to arrays and back: glTF and GLB, changed only where tangents require it.
+//! Files to arrays and back: glTF and GLB, changed only where tangents require it; normal maps in PNG.
 //!
 //! [`gltf::Document`] reads a file, gives the values behind its accessors, takes edits, and writes everything else back as
 //! it was.
 
 mod error;
 pub mod gltf;
+pub mod image;
+mod staging;
 
 pub use error::Error;

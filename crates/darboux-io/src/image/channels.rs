@@ -1,0 +1,103 @@
+//! Which channels of an image hold a vector, by their letters.
+
+use std::fmt;
+use std::str::FromStr;
+
+use png::ColorType;
+
+/// The channels of x, y and, where it is stored, z: `rgb`, `rg`, `ag` (x in alpha, y in green), `la` (grey and alpha) and so on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Channels {
+    x: Letter,
+    y: Letter,
+    z: Option<Letter>,
+}
+
+/// A channel of a PNG.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Letter {
+    Grey,
+    Red,
+    Green,
+    Blue,
+    Alpha,
+}
+
+/// A text that names no channels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "name the channels of x, y and, if it is stored, z by two or three different letters of r, g, b, a, or la"
+)]
+pub struct ChannelsError;
+
+impl Channels {
+    /// x, y, z in red, green, blue.
+    pub const RGB: Self = Self { x: Letter::Red, y: Letter::Green, z: Some(Letter::Blue) };
+
+    fn letters(self) -> impl Iterator<Item = Letter> {
+        [self.x, self.y].into_iter().chain(self.z)
+    }
+
+    /// The channels by number in texels of this kind, if they are there.
+    pub(super) fn places(self, color: ColorType) -> Option<(usize, usize, Option<usize>)> {
+        let place = |letter: Letter| letters(color).find(letter.char());
+        let z = self.z.map(place);
+        Some((place(self.x)?, place(self.y)?, if z == Some(None) { return None } else { z.flatten() }))
+    }
+
+    /// The kind of texels nearest to `color` that has these channels.
+    pub(super) fn kind(self, color: ColorType) -> ColorType {
+        let has_all = |color: &ColorType| self.places(*color).is_some();
+        let kinds = [color, ColorType::Rgb, ColorType::Rgba, ColorType::GrayscaleAlpha];
+        kinds.into_iter().find(has_all).unwrap_or(ColorType::Rgba)
+    }
+}
+
+/// The letters of the channels of a kind of texels.
+pub(super) fn letters(color: ColorType) -> &'static str {
+    match color {
+        ColorType::Rgb => "rgb",
+        ColorType::Rgba => "rgba",
+        ColorType::GrayscaleAlpha => "la",
+        ColorType::Grayscale | ColorType::Indexed => "l",
+    }
+}
+
+impl Letter {
+    const ALL: [Self; 5] = [Self::Grey, Self::Red, Self::Green, Self::Blue, Self::Alpha];
+
+    fn char(self) -> char {
+        match self {
+            Self::Grey => 'l',
+            Self::Red => 'r',
+            Self::Green => 'g',
+            Self::Blue => 'b',
+            Self::Alpha => 'a',
+        }
+    }
+}
+
+impl FromStr for Channels {
+    type Err = ChannelsError;
+
+    fn from_str(text: &str) -> Result<Self, ChannelsError> {
+        let letters = text.chars().map(|char| Letter::ALL.into_iter().find(|letter| letter.char() == char));
+        let letters: Vec<Letter> = letters.collect::<Option<_>>().ok_or(ChannelsError)?;
+        let channels = match letters[..] {
+            [x, y] => Self { x, y, z: None },
+            [x, y, z] => Self { x, y, z: Some(z) },
+            _ => return Err(ChannelsError),
+        };
+        let kinds = [ColorType::Rgba, ColorType::GrayscaleAlpha];
+        let exists = kinds.into_iter().any(|kind| channels.places(kind).is_some());
+        let differ =
+            channels.x != channels.y && Some(channels.x) != channels.z && Some(channels.y) != channels.z;
+        if exists && differ { Ok(channels) } else { Err(ChannelsError) }
+    }
+}
+
+impl fmt::Display for Channels {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.letters().try_for_each(|letter| write!(f, "{}", letter.char()))
+    }
+}

@@ -1,0 +1,67 @@
+//! The chunks of a PNG as bytes (PNG specification, third edition, section 5).
+
+use crate::error::Fault;
+
+/// The first bytes of every PNG.
+pub const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
+
+/// A chunk.
+#[derive(Clone, Copy, Debug)]
+pub struct Chunk<'a> {
+    pub kind: &'a [u8; 4],
+    /// All of it: length, kind, data, checksum.
+    pub bytes: &'a [u8],
+}
+
+/// The chunks of a file, IEND the last.
+#[derive(Debug)]
+pub struct Chunks<'a> {
+    pub chunks: Vec<Chunk<'a>>,
+    /// What follows IEND, which readers ignore.
+    pub rest: &'a [u8],
+}
+
+impl<'a> Chunks<'a> {
+    /// Cuts a file into its chunks; checksums are the decoder's matter. Errors: no PNG, or one that ends within a chunk.
+    pub fn split(file: &'a [u8]) -> Result<Self, Fault> {
+        let Some(mut rest) = file.strip_prefix(&SIGNATURE) else {
+            return Err(Fault::invalid("", "is not a PNG; save it as one"));
+        };
+        let mut chunks = Vec::new();
+        loop {
+            let Some((chunk, after)) = first(rest) else {
+                return Err(Fault::invalid("", "ends within a chunk; save it again"));
+            };
+            chunks.push(chunk);
+            rest = after;
+            if chunk.kind == b"IEND" {
+                return Ok(Self { chunks, rest });
+            }
+        }
+    }
+
+    /// The chunks of one kind.
+    pub fn of(&self, kind: &[u8; 4]) -> impl Iterator<Item = &Chunk<'a>> {
+        self.chunks.iter().filter(move |chunk| chunk.kind == kind)
+    }
+
+    /// How many bytes the chunks of one kind have.
+    pub fn total_of(&self, kind: &[u8; 4]) -> usize {
+        self.of(kind).map(|chunk| chunk.bytes.len()).sum()
+    }
+}
+
+impl Chunk<'_> {
+    /// Of a header: bit depth and colour type.
+    pub fn kind_of_texels(&self) -> Option<[u8; 2]> {
+        self.bytes.get(16..18)?.try_into().ok()
+    }
+}
+
+fn first(bytes: &[u8]) -> Option<(Chunk<'_>, &[u8])> {
+    let (length, after) = bytes.split_first_chunk::<4>()?;
+    let kind = after.first_chunk::<4>()?;
+    let size = usize::try_from(u32::from_be_bytes(*length)).ok()?.checked_add(12)?;
+    let (bytes, rest) = bytes.split_at_checked(size)?;
+    Some((Chunk { kind, bytes }, rest))
+}

@@ -1,0 +1,99 @@
+//! Writing files whole or not at all: beside their targets first, then renamed together.
+
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+
+use tempfile::TempPath;
+
+use crate::Error;
+
+/// Files written beside their targets, to be renamed together. Dropped before that, it removes everything it made.
+#[derive(Default)]
+pub struct Staging {
+    staged: Vec<Staged>,
+    made_folders: Vec<PathBuf>,
+    renamed: Vec<PathBuf>,
+}
+
+struct Staged {
+    temporary: TempPath,
+    target: PathBuf,
+    replace: bool,
+}
+
+impl Staging {
+    /// Writes the content of `target` to a file beside it, down to the disk.
+    pub fn stage(
+        &mut self,
+        target: &Path,
+        replace: bool,
+        write: impl FnOnce(&mut File) -> io::Result<()>,
+    ) -> Result<(), Error> {
+        let failed = |source| Error::Write { file: target.to_owned(), source };
+        let folder =
+            target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        self.make_folders(folder).map_err(failed)?;
+        let temporary = || -> io::Result<TempPath> {
+            let mut file = new_file(folder)?;
+            write(file.as_file_mut())?;
+            if let Some(existing) = fs::metadata(target).ok().filter(|_| replace) {
+                file.as_file().set_permissions(existing.permissions())?;
+            }
+            file.as_file().sync_all()?;
+            Ok(file.into_temp_path())
+        };
+        let temporary = temporary().map_err(failed)?;
+        self.staged.push(Staged { temporary, target: target.to_owned(), replace });
+        Ok(())
+    }
+
+    fn make_folders(&mut self, folder: &Path) -> io::Result<()> {
+        if folder.as_os_str().is_empty() || folder.is_dir() {
+            return Ok(());
+        }
+        if let Some(parent) = folder.parent() {
+            self.make_folders(parent)?;
+        }
+        fs::create_dir(folder)?;
+        self.made_folders.push(folder.to_owned());
+        Ok(())
+    }
+
+    /// Renames every file to its target, in the order of staging; gives the targets.
+    pub fn commit(mut self) -> Result<Vec<PathBuf>, Error> {
+        for Staged { temporary, target, replace } in std::mem::take(&mut self.staged) {
+            let renamed =
+                if replace { temporary.persist(&target) } else { temporary.persist_noclobber(&target) };
+            renamed.map_err(|error| Error::Write { file: target.clone(), source: error.error })?;
+            self.renamed.push(target);
+        }
+        self.made_folders.clear();
+        Ok(std::mem::take(&mut self.renamed))
+    }
+}
+
+impl Drop for Staging {
+    fn drop(&mut self) {
+        // Temporary files first: their folders must be empty. A failure to clean up has no one to be told to.
+        self.staged.clear();
+        for file in &self.renamed {
+            let _ = fs::remove_file(file);
+        }
+        for folder in self.made_folders.iter().rev() {
+            let _ = fs::remove_dir(folder);
+        }
+    }
+}
+
+/// A temporary file with the permissions of an ordinary new file.
+fn new_file(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".darboux-");
+    #[cfg(unix)]
+    let builder = {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666))
+    };
+    builder.tempfile_in(folder)
+}
