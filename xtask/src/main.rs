@@ -2,6 +2,7 @@
 
 mod bench;
 mod ci;
+mod dist_c;
 mod generated;
 mod graphics;
 mod layers;
@@ -19,6 +20,7 @@ usage: cargo xtask <task>
   layers        check who imports whom
   validate      check the command's outputs for all models with independent tools (needs node and npm)
   bench [...]   time every engine on every mesh; see bench --help
+  dist-c        make the folder for users of C and C++; its path is the last line (Linux: needs ld, objcopy, nm and ar)
   acos          compare acos with the platform's on every float of [-1, 1]";
 
 fn main() -> ExitCode {
@@ -31,6 +33,7 @@ fn main() -> ExitCode {
         ["layers"] => layers::check(),
         ["validate"] => validate::all_models(validate::WithoutNpm::Fail),
         ["bench", ref options @ ..] => bench::bench(options),
+        ["dist-c"] => dist_c::make(),
         ["acos"] => ci::acos(),
         _ => {
             eprintln!("{USAGE}");

@@ -1,0 +1,365 @@
+// Darboux for C++17: what darboux.h does, with arrays that know their length, memory that frees itself, and errors that are thrown.
+//
+// MIT or Apache-2.0, as you choose. Functions carry the names of darboux.h, which says what they compute; here stands what differs.
+// Encodings are called as they stand there.
+// Every function may throw darboux::error, and std::bad_alloc where it returns a vector.
+
+#ifndef DARBOUX_HPP
+#define DARBOUX_HPP
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <memory>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#if __cplusplus >= 202002L
+#include <span>
+#endif
+
+#include "darboux.h"
+
+namespace darboux {
+
+#if __cplusplus >= 202002L
+using std::span;
+#else
+/// Borrowed elements, one after the other: as much of C++20's std::span as there is need for.
+template <class T>
+class span {
+ public:
+  constexpr span() = default;
+  constexpr span(T *data, std::size_t size) : data_(data), size_(size) {}
+  template <class Container, class = std::enable_if_t<
+                                 std::is_convertible_v<decltype(std::data(std::declval<Container &>())), T *>>>
+  constexpr span(Container &&elements) : data_(std::data(elements)), size_(std::size(elements)) {}
+
+  constexpr T *data() const { return data_; }
+  constexpr std::size_t size() const { return size_; }
+  constexpr bool empty() const { return size_ == 0; }
+  constexpr T *begin() const { return data_; }
+  constexpr T *end() const { return data_ + size_; }
+  constexpr T &operator[](std::size_t at) const { return data_[at]; }
+
+ private:
+  T *data_ = nullptr;
+  std::size_t size_ = 0;
+};
+#endif
+
+/// Unit xyz and the sign w: bitangent = w * cross(normal, xyz).
+using tangent = std::array<float, 4>;
+/// Unit xyz.
+using normal = std::array<float, 3>;
+
+/// What a call came to, where it is not DARBOUX_STATUS_OK; what() is a sentence.
+class error : public std::runtime_error {
+ public:
+  error(darboux_status status, const char *message) : std::runtime_error(message), status_(status) {}
+  darboux_status status() const noexcept { return status_; }
+
+ private:
+  darboux_status status_;
+};
+
+/// Throws where a call of darboux.h failed.
+inline void check(darboux_status status) {
+  if (status != DARBOUX_STATUS_OK) throw error(status, darboux_last_error());
+}
+
+/// `N` floats per element, borrowed from any layout. `Float` is `const float` for what is read and `float` for what is written.
+template <class Float, std::size_t N>
+class strided {
+ public:
+  constexpr strided() = default;
+
+  /// `size` elements from `data` on, `stride` bytes apart.
+  constexpr strided(Float *data, std::size_t size, std::size_t stride = N * sizeof(float))
+      : data_(data), size_(size), stride_(stride) {}
+
+  /// Elements one after the other, of any type of the size of `N` floats: std::array<float, N>, or an engine's own vector.
+  template <class Container, class Element = std::remove_pointer_t<decltype(std::data(std::declval<Container &>()))>,
+            class = std::enable_if_t<sizeof(Element) == N * sizeof(float) && std::is_trivially_copyable_v<Element> &&
+                                     (std::is_const_v<Float> || !std::is_const_v<Element>)>>
+  strided(Container &&elements)
+      : strided(reinterpret_cast<Float *>(std::data(elements)), std::size(elements)) {}
+
+  /// What may be written may be read.
+  template <class Other, class = std::enable_if_t<std::is_same_v<const Other, Float>>>
+  constexpr strided(const strided<Other, N> &other) : strided(other.data(), other.size(), other.stride()) {}
+
+  constexpr Float *data() const { return data_; }
+  constexpr std::size_t size() const { return size_; }
+  /// In bytes.
+  constexpr std::size_t stride() const { return stride_; }
+
+ private:
+  Float *data_ = nullptr;
+  std::size_t size_ = 0;
+  std::size_t stride_ = N * sizeof(float);
+};
+
+template <std::size_t N>
+using floats = strided<const float, N>;
+
+/// One member of every struct of an array: field(vertices, &Vertex::position). The member is floats: float[3], or a vector of the engine's.
+template <class Container, class Struct, class Member>
+auto field(Container &&structs, Member Struct::*member) {
+  using Element = std::remove_pointer_t<decltype(std::data(structs))>;
+  using Float = std::conditional_t<std::is_const_v<Element>, const float, float>;
+  static_assert(sizeof(Member) % sizeof(float) == 0 && std::is_trivially_copyable_v<Member>, "a member that is floats");
+  Element *first = std::data(structs);
+  Float *data = std::size(structs) == 0 ? nullptr : reinterpret_cast<Float *>(&(first->*member));
+  return strided<Float, sizeof(Member) / sizeof(float)>(data, std::size(structs), sizeof(Element));
+}
+
+/// The vertex of each corner: borrowed integers of 16 or 32 bits. Without any, corner i is vertex i.
+class index_list {
+ public:
+  index_list() = default;
+
+  template <class Container,
+            class Index = std::remove_cv_t<std::remove_pointer_t<decltype(std::data(std::declval<Container &>()))>>,
+            class = std::enable_if_t<std::is_same_v<Index, std::uint32_t> || std::is_same_v<Index, std::uint16_t>>>
+  index_list(Container &&list) : size_(std::size(list)) {
+    // An empty list is a list all the same: its pointer, which may be null, must say so.
+    static const Index none = 0;
+    const Index *data = size_ == 0 ? &none : std::data(list);
+    if constexpr (sizeof(Index) == sizeof *u32_) {
+      u32_ = data;
+    } else {
+      u16_ = data;
+    }
+  }
+
+  const std::uint32_t *u32() const { return u32_; }
+  const std::uint16_t *u16() const { return u16_; }
+  std::size_t size() const { return size_; }
+  bool is_present() const { return u32_ != nullptr || u16_ != nullptr; }
+
+ private:
+  const std::uint32_t *u32_ = nullptr;
+  const std::uint16_t *u16_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+/// A mesh in the caller's memory, as darboux_mesh; arrays may be temporary views, but not temporary vectors.
+struct mesh {
+  floats<3> positions;
+  floats<3> normals;
+  floats<2> uvs;
+  index_list indices;
+  darboux_faces faces = DARBOUX_FACES_TRIANGLES;
+  /// For DARBOUX_FACES_MIXED.
+  span<const std::uint32_t> face_sizes;
+
+  std::size_t corner_count() const { return indices.is_present() ? indices.size() : positions.size(); }
+
+  /// For the functions of darboux.h. `normals` and `uvs` may be empty, where they are not read.
+  darboux_mesh view() const {
+    const std::size_t count = positions.size();
+    if ((normals.size() != 0 && normals.size() != count) || (uvs.size() != 0 && uvs.size() != count)) {
+      throw error(DARBOUX_STATUS_LENGTH, "normals and uvs must be as many as positions");
+    }
+    darboux_mesh view = {};
+    view.size = sizeof view;
+    view.vertex_count = count;
+    view.positions = positions.data();
+    view.position_stride = positions.stride();
+    view.normals = normals.data();
+    view.normal_stride = normals.stride();
+    view.uvs = uvs.data();
+    view.uv_stride = uvs.stride();
+    view.indices_u32 = indices.u32();
+    view.indices_u16 = indices.u16();
+    view.index_count = indices.size();
+    view.faces = faces;
+    view.face_sizes = face_sizes.data();
+    view.face_count = face_sizes.size();
+    return view;
+  }
+};
+
+/// One tangent per corner, and the report of the run.
+struct tangents {
+  std::vector<tangent> corners;
+  darboux_report report;
+};
+
+/// One frame per corner, and the report of the run.
+struct frames {
+  std::vector<darboux_frame> corners;
+  darboux_report report;
+};
+
+/// One normal per corner, and the report of the run.
+struct normals {
+  std::vector<normal> corners;
+  darboux_normal_report report;
+};
+
+namespace detail {
+template <class Struct>
+Struct sized() {
+  Struct made = {};
+  made.size = sizeof made;
+  return made;
+}
+
+template <auto Free>
+struct deleter {
+  template <class T>
+  void operator()(T *held) const noexcept {
+    Free(held);
+  }
+};
+
+template <class T, auto Free>
+using owner = std::unique_ptr<T, deleter<Free>>;
+}  // namespace detail
+
+/// Memory that calls keep from one to the next: options.scratch = scratch.get().
+class scratch {
+ public:
+  scratch() {
+    darboux_scratch *made = nullptr;
+    check(darboux_scratch_create(&made));
+    held_.reset(made);
+  }
+  darboux_scratch *get() const noexcept { return held_.get(); }
+
+ private:
+  detail::owner<darboux_scratch, darboux_scratch_free> held_;
+};
+
+/// As the other generate_tangents, into the caller's array of one tangent per corner.
+inline darboux_report generate_tangents(const mesh &mesh, strided<float, 4> out,
+                                        const darboux_tangent_options &options = {}) {
+  const darboux_mesh view = mesh.view();
+  auto report = detail::sized<darboux_report>();
+  check(darboux_generate_tangents(&view, &options, out.data(), out.size(), out.stride(), &report));
+  return report;
+}
+
+inline tangents generate_tangents(const mesh &mesh, const darboux_tangent_options &options = {}) {
+  tangents made = {std::vector<tangent>(mesh.corner_count()), {}};
+  made.report = generate_tangents(mesh, strided<float, 4>(made.corners), options);
+  return made;
+}
+
+inline frames generate_frames(const mesh &mesh, const darboux_tangent_options &options = {}) {
+  const darboux_mesh view = mesh.view();
+  frames made = {std::vector<darboux_frame>(mesh.corner_count()), detail::sized<darboux_report>()};
+  check(darboux_generate_frames(&view, &options, made.corners.data(), made.corners.size(), 0, &made.report));
+  return made;
+}
+
+inline normals generate_normals(const mesh &mesh, const darboux_normal_options &options = {}) {
+  const darboux_mesh view = mesh.view();
+  normals made = {std::vector<normal>(mesh.corner_count()), detail::sized<darboux_normal_report>()};
+  float *out = made.corners.empty() ? nullptr : made.corners.front().data();
+  check(darboux_generate_normals(&view, &options, out, made.corners.size(), 0, &made.report));
+  return made;
+}
+
+/// An indexed mesh's vertices after splitting by tangents; the old vertices come first.
+class vertex_split {
+ public:
+  explicit vertex_split(darboux_vertex_split *made) : held_(made) {}
+  std::size_t vertex_count() const { return held_->vertex_count; }
+  span<const tangent> tangent_of_vertex() const {
+    return {reinterpret_cast<const tangent *>(held_->tangent_of_vertex), held_->vertex_count};
+  }
+  span<const std::uint32_t> source_of_vertex() const { return {held_->source_of_vertex, held_->vertex_count}; }
+  span<const std::uint32_t> indices() const { return {held_->indices, held_->index_count}; }
+
+ private:
+  detail::owner<darboux_vertex_split, darboux_vertex_split_free> held_;
+};
+
+inline vertex_split split_vertices(const mesh &mesh, floats<4> tangents) {
+  const darboux_mesh view = mesh.view();
+  darboux_vertex_split *made = nullptr;
+  check(darboux_split_vertices(&view, tangents.data(), tangents.size(), tangents.stride(), &made));
+  return vertex_split(made);
+}
+
+/// An indexed mesh's vertices after splitting by normals; the old vertices come first.
+class normal_split {
+ public:
+  explicit normal_split(darboux_normal_split *made) : held_(made) {}
+  std::size_t vertex_count() const { return held_->vertex_count; }
+  span<const normal> normal_of_vertex() const {
+    return {reinterpret_cast<const normal *>(held_->normal_of_vertex), held_->vertex_count};
+  }
+  span<const std::uint32_t> source_of_vertex() const { return {held_->source_of_vertex, held_->vertex_count}; }
+  span<const std::uint32_t> indices() const { return {held_->indices, held_->index_count}; }
+
+ private:
+  detail::owner<darboux_normal_split, darboux_normal_split_free> held_;
+};
+
+inline normal_split split_normals(const mesh &mesh, floats<3> normals) {
+  const darboux_mesh view = mesh.view();
+  darboux_normal_split *made = nullptr;
+  check(darboux_split_normals(&view, normals.data(), normals.size(), normals.stride(), &made));
+  return normal_split(made);
+}
+
+/// Topology once, evaluate often.
+class plan {
+ public:
+  explicit plan(const mesh &mesh, const darboux_tangent_options &options = {}) {
+    const darboux_mesh view = mesh.view();
+    darboux_plan *made = nullptr;
+    check(darboux_plan_create(&view, &options, &made));
+    held_.reset(made);
+  }
+
+  /// The tangents of the plan's own mesh into `out`, one per corner.
+  darboux_report base(strided<float, 4> out) const {
+    auto report = detail::sized<darboux_report>();
+    check(darboux_plan_base(held_.get(), out.data(), out.size(), out.stride(), &report));
+    return report;
+  }
+
+  std::vector<tangent> evaluate(const mesh &moved) const {
+    const darboux_mesh view = moved.view();
+    std::vector<tangent> made(moved.corner_count());
+    const strided<float, 4> out(made);
+    check(darboux_plan_evaluate(held_.get(), &view, out.data(), out.size(), out.stride()));
+    return made;
+  }
+
+  std::size_t count_regrouped(const mesh &moved) const {
+    const darboux_mesh view = moved.view();
+    std::size_t count = 0;
+    check(darboux_plan_count_regrouped(held_.get(), &view, &count));
+    return count;
+  }
+
+ private:
+  detail::owner<darboux_plan, darboux_plan_free> held_;
+};
+
+inline darboux_tangent_difference measure_tangents(floats<4> a, floats<4> b) {
+  if (a.size() != b.size()) throw error(DARBOUX_STATUS_LENGTH, "both must have as many tangents");
+  auto difference = detail::sized<darboux_tangent_difference>();
+  check(darboux_measure_tangents(a.data(), a.stride(), b.data(), b.stride(), a.size(), &difference));
+  return difference;
+}
+
+inline darboux_uv_fidelity measure_uv_fidelity(const mesh &mesh, floats<4> tangents) {
+  const darboux_mesh view = mesh.view();
+  auto fidelity = detail::sized<darboux_uv_fidelity>();
+  check(darboux_measure_uv_fidelity(&view, tangents.data(), tangents.size(), tangents.stride(), &fidelity));
+  return fidelity;
+}
+
+}  // namespace darboux
+
+#endif  // DARBOUX_HPP

@@ -1,0 +1,123 @@
+//! The structs of `include/mikktspace.h`, and calls through their pointers.
+//!
+//! Exceptions of C++ pass through: the functions are `C-unwind`.
+
+use std::ffi::{c_int, c_void};
+
+use darboux::Frame;
+
+type GetCount = unsafe extern "C-unwind" fn(*const Context) -> c_int;
+type GetFaceSize = unsafe extern "C-unwind" fn(*const Context, c_int) -> c_int;
+type GetFloats = unsafe extern "C-unwind" fn(*const Context, *mut f32, c_int, c_int);
+type SetTangent = unsafe extern "C-unwind" fn(*const Context, *const f32, f32, c_int, c_int);
+type SetFrame =
+    unsafe extern "C-unwind" fn(*const Context, *const f32, *const f32, f32, f32, c_int, c_int, c_int);
+
+/// SMikkTSpaceInterface.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct Interface {
+    get_num_faces: Option<GetCount>,
+    get_num_vertices_of_face: Option<GetFaceSize>,
+    get_position: Option<GetFloats>,
+    get_normal: Option<GetFloats>,
+    get_tex_coord: Option<GetFloats>,
+    set_tspace_basic: Option<SetTangent>,
+    set_tspace: Option<SetFrame>,
+}
+
+/// SMikkTSpaceContext.
+#[repr(C)]
+pub struct Context {
+    interface: *mut Interface,
+    user_data: *mut c_void,
+}
+
+/// Callbacks that are all there, and what they are called with.
+pub(crate) struct Caller {
+    context: *const Context,
+    get_num_faces: GetCount,
+    get_num_vertices_of_face: GetFaceSize,
+    get_position: GetFloats,
+    get_normal: GetFloats,
+    get_tex_coord: GetFloats,
+    set_tspace_basic: Option<SetTangent>,
+    set_tspace: Option<SetFrame>,
+}
+
+impl Caller {
+    /// None where a pointer or a callback that is needed is null.
+    ///
+    /// # Safety
+    ///
+    /// `context` and what it points to are as the header says, until the caller is gone.
+    pub unsafe fn new(context: *const Context) -> Option<Self> {
+        // SAFETY: as of this function.
+        let interface = unsafe { context.as_ref()?.interface.as_ref()? };
+        Some(Self {
+            context,
+            get_num_faces: interface.get_num_faces?,
+            get_num_vertices_of_face: interface.get_num_vertices_of_face?,
+            get_position: interface.get_position?,
+            get_normal: interface.get_normal?,
+            get_tex_coord: interface.get_tex_coord?,
+            set_tspace_basic: interface.set_tspace_basic,
+            set_tspace: interface.set_tspace,
+        })
+    }
+
+    /// Whether more than tangents and signs are asked for.
+    pub fn wants_frames(&self) -> bool {
+        self.set_tspace.is_some()
+    }
+
+    pub fn face_count(&self) -> c_int {
+        // SAFETY: as of `new`.
+        unsafe { (self.get_num_faces)(self.context) }
+    }
+
+    pub fn face_size(&self, face: c_int) -> c_int {
+        // SAFETY: as of `new`.
+        unsafe { (self.get_num_vertices_of_face)(self.context, face) }
+    }
+
+    pub fn position(&self, face: c_int, corner: c_int) -> [f32; 3] {
+        self.floats(self.get_position, face, corner)
+    }
+
+    pub fn normal(&self, face: c_int, corner: c_int) -> [f32; 3] {
+        self.floats(self.get_normal, face, corner)
+    }
+
+    pub fn uv(&self, face: c_int, corner: c_int) -> [f32; 2] {
+        self.floats(self.get_tex_coord, face, corner)
+    }
+
+    fn floats<const N: usize>(&self, get: GetFloats, face: c_int, corner: c_int) -> [f32; N] {
+        let mut out = [0.0; N];
+        // SAFETY: as of `new`; there is room for what the callback writes.
+        unsafe { get(self.context, out.as_mut_ptr(), face, corner) };
+        out
+    }
+
+    /// Hands out a whole frame, then its tangent and sign.
+    pub fn write(&self, face: c_int, corner: c_int, frame: &Frame) {
+        if let Some(set) = self.set_tspace {
+            let Frame { tangent, bitangent, magnitude: [s, t], sign } = frame;
+            let preserves = c_int::from(*sign > 0.0);
+            // SAFETY: as of `new`; the arrays live for the call.
+            unsafe {
+                set(self.context, tangent.as_ptr(), bitangent.as_ptr(), *s, *t, preserves, face, corner)
+            };
+        }
+        self.write_tangent(face, corner, frame.tangent_and_sign());
+    }
+
+    /// Hands out a tangent and its sign.
+    pub fn write_tangent(&self, face: c_int, corner: c_int, tangent: [f32; 4]) {
+        if let Some(set) = self.set_tspace_basic {
+            // SAFETY: as of `new`; the array lives for the call.
+            unsafe { set(self.context, tangent.as_ptr(), tangent[3], face, corner) };
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! The functions that `include/mikktspace.h` declares: every bit of mikktspace.c, read and written through the same callbacks.
+//!
+//! A call has three parts. Reading and writing call back and cannot panic; callbacks may throw through them, which frees what was read.
+//! Between them the core computes, and calls nobody: what it panics with stays inside.
+
+#![allow(unsafe_code, reason = "C passes pointers")]
+#![allow(non_snake_case, reason = "functions are called as C calls them")]
+#![allow(clippy::missing_safety_doc, reason = "the contract stands in the header")]
+#![deny(clippy::undocumented_unsafe_blocks)]
+
+mod callbacks;
+mod corners;
+
+use std::ffi::c_int;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use darboux::{Mode, TangentOptions, generate_frames, generate_tangents};
+
+use callbacks::{Caller, Context};
+use corners::Corners;
+
+/// As the header says.
+#[unsafe(no_mangle)]
+pub unsafe extern "C-unwind" fn genTangSpaceDefault(context: *const Context) -> c_int {
+    // SAFETY: the caller's, as of the header.
+    unsafe { genTangSpace(context, 180.0) }
+}
+
+/// As the header says.
+#[unsafe(no_mangle)]
+pub unsafe extern "C-unwind" fn genTangSpace(context: *const Context, threshold: f32) -> c_int {
+    // SAFETY: the caller's, as of the header.
+    let caller = unsafe { Caller::new(context) };
+    c_int::from(caller.is_some_and(|caller| run(&caller, threshold).is_some()))
+}
+
+/// None where there is nothing to compute, no memory for it, or more corners than there can be.
+fn run(caller: &Caller, threshold: f32) -> Option<()> {
+    let corners = Corners::read(caller)?;
+    let options = TangentOptions { mode: Mode::Reference, threshold, ..TangentOptions::default() };
+    if caller.wants_frames() {
+        let compute = || Some(generate_frames(&corners.mesh()?, &options).corners.into_per_corner());
+        let frames = catch_unwind(AssertUnwindSafe(compute)).ok()??;
+        for ((face, corner), frame) in corners.places().zip(&frames[corners.skipped..]) {
+            caller.write(face, corner, frame);
+        }
+    } else {
+        let compute = || Some(generate_tangents(&corners.mesh()?, &options).corners.into_per_corner());
+        let tangents = catch_unwind(AssertUnwindSafe(compute)).ok()??;
+        for ((face, corner), tangent) in corners.places().zip(&tangents[corners.skipped..]) {
+            caller.write_tangent(face, corner, *tangent);
+        }
+    }
+    Some(())
+}

@@ -1,0 +1,177 @@
+//! The folder that is shipped to users of C and C++: include, lib, cmake, examples.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde_json::Value;
+
+use crate::run::{Outcome, output_of, program, root, run};
+
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// A library and its names.
+struct Library {
+    package: &'static str,
+    /// What cargo calls it.
+    built: &'static str,
+    /// What users call it.
+    shipped: &'static str,
+    /// Its functions.
+    functions: &'static str,
+}
+
+const LIBRARIES: &[Library] = &[
+    Library { package: "darboux-c", built: "darboux_c", shipped: "darboux", functions: "darboux_*" },
+    Library {
+        package: "darboux-mikktspace",
+        built: "darboux_mikktspace",
+        shipped: "darboux_mikktspace",
+        functions: "genTangSpace*",
+    },
+];
+
+/// Files of bindings/c that are shipped as they are, and their places.
+const FILES: &[(&str, &str)] = &[
+    ("include/darboux.h", "include/darboux.h"),
+    ("include/darboux.hpp", "include/darboux.hpp"),
+    // In a folder of its own, as programs may have another of this name.
+    ("include/mikktspace.h", "include/mikktspace/mikktspace.h"),
+    ("cmake/darboux-config.cmake", "cmake/darboux-config.cmake"),
+    ("examples/CMakeLists.txt", "examples/CMakeLists.txt"),
+    ("examples/tangents.c", "examples/tangents.c"),
+    ("examples/tangents.cpp", "examples/tangents.cpp"),
+    ("examples/mikktspace.c", "examples/mikktspace.c"),
+    ("../../LICENSE-APACHE", "LICENSE-APACHE"),
+    ("../../LICENSE-MIT", "LICENSE-MIT"),
+];
+
+/// Files that name a version, and their places.
+const TEMPLATES: &[(&str, &str)] = &[
+    ("cmake/darboux-config-version.cmake.in", "cmake/darboux-config-version.cmake"),
+    ("pkgconfig/darboux.pc.in", "lib/pkgconfig/darboux.pc"),
+    ("pkgconfig/darboux_mikktspace.pc.in", "lib/pkgconfig/darboux_mikktspace.pc"),
+];
+
+/// `cargo xtask dist-c`: makes the folder, and prints its absolute path as the last line.
+pub fn make() -> Outcome {
+    let target = target_folder()?;
+    let folder = target.join("dist-c/darboux");
+    if folder.exists() {
+        fs::remove_dir_all(&folder)
+            .map_err(|error| format!("{} cannot be removed: {error}", folder.display()))?;
+    }
+    for library in LIBRARIES {
+        build(library)?;
+        let built = target.join("dist").join(format!("lib{}", library.built));
+        put_shared(library, &built, &folder.join("lib"))?;
+        put_static(library, &built, &folder.join("lib"))?;
+    }
+    let ours = root().join("bindings/c");
+    FILES.iter().try_for_each(|(from, to)| copy(&ours.join(from), &folder.join(to)))?;
+    TEMPLATES.iter().try_for_each(|(from, to)| fill_in(&ours.join(from), &folder.join(to)))?;
+    println!("{}", folder.display());
+    Ok(())
+}
+
+fn target_folder() -> Result<PathBuf, String> {
+    let text = output_of(&mut program("cargo metadata --format-version 1 --no-deps"))?;
+    let metadata: Value =
+        serde_json::from_slice(&text).map_err(|error| format!("cargo metadata: {error}"))?;
+    let folder = metadata["target_directory"].as_str();
+    folder.map(PathBuf::from).ok_or_else(|| "cargo metadata names no target_directory".into())
+}
+
+/// The versions that programs need not be linked anew for: before 1.0 those of one minor version.
+fn series() -> String {
+    VERSION.split('.').take(2).collect::<Vec<_>>().join(".")
+}
+
+fn shared_name(library: &Library, version: &str) -> String {
+    match (std::env::consts::OS, version) {
+        ("macos", "") => format!("lib{}.dylib", library.shipped),
+        ("macos", version) => format!("lib{}.{version}.dylib", library.shipped),
+        (_, "") => format!("lib{}.so", library.shipped),
+        (_, version) => format!("lib{}.so.{version}", library.shipped),
+    }
+}
+
+/// Builds both forms. The shared one carries the name that programs look for at their start.
+fn build(library: &Library) -> Outcome {
+    let name = shared_name(library, &series());
+    let own_name = match std::env::consts::OS {
+        "linux" => format!("link-arg=-Wl,-soname,{name}"),
+        "macos" => format!("link-arg=-Wl,-install_name,@rpath/{name}"),
+        system => return Err(format!("dist-c knows Linux and macOS, not {system}")),
+    };
+    let mut cargo = program("cargo rustc --profile dist --lib --crate-type cdylib,staticlib --package");
+    run(cargo.args([library.package, "--", "-C", &own_name]))
+}
+
+/// Puts the shared library under its full name, and links to it under the names that loaders and linkers look for.
+fn put_shared(library: &Library, built: &Path, folder: &Path) -> Outcome {
+    let extension = if cfg!(target_os = "macos") { "dylib" } else { "so" };
+    let name = shared_name(library, VERSION);
+    copy(&built.with_extension(extension), &folder.join(&name))?;
+    for link in [shared_name(library, &series()), shared_name(library, "")] {
+        link_to(&name, &folder.join(link))?;
+    }
+    Ok(())
+}
+
+#[cfg(unix)]
+fn link_to(name: &str, link: &Path) -> Outcome {
+    std::os::unix::fs::symlink(name, link)
+        .map_err(|error| format!("{} cannot be made: {error}", link.display()))
+}
+
+#[cfg(not(unix))]
+fn link_to(name: &str, link: &Path) -> Outcome {
+    copy(&link.with_file_name(name), link)
+}
+
+/// Puts the static library. On Linux it becomes one object that shows its functions only: two libraries with the same parts of Rust's
+/// own library cannot be linked into one program otherwise.
+fn put_static(library: &Library, built: &Path, folder: &Path) -> Outcome {
+    let (archive, out) = (built.with_extension("a"), folder.join(format!("lib{}.a", library.shipped)));
+    if !cfg!(target_os = "linux") {
+        return copy(&archive, &out);
+    }
+    let object = built.with_extension("o");
+    let mut link = Command::new("ld");
+    link.args(["-r", "--gc-sections", "--force-group-allocation"]);
+    for function in functions(&built.with_extension("so"))? {
+        link.args(["-u", &function]);
+    }
+    run(link.arg("-o").args([&object, &archive]))?;
+    let mut hide = Command::new("objcopy");
+    hide.args(["--strip-debug", "--remove-section=.llvmbc", "--remove-section=.llvmcmd", "--wildcard"]);
+    run(hide.arg(format!("--keep-global-symbol={}", library.functions)).arg(&object))?;
+    run(Command::new("ar").arg("rcs").args([&out, &object]))
+}
+
+/// What a shared library offers.
+fn functions(library: &Path) -> Result<Vec<String>, String> {
+    let listed =
+        output_of(Command::new("nm").args(["-D", "--defined-only", "--format=just-symbols"]).arg(library))?;
+    Ok(String::from_utf8_lossy(&listed).lines().map(str::to_owned).collect())
+}
+
+fn copy(from: &Path, to: &Path) -> Outcome {
+    make_folder_of(to)?;
+    fs::copy(from, to).map(|_| ()).map_err(|error| format!("{} cannot be copied: {error}", from.display()))
+}
+
+fn fill_in(from: &Path, to: &Path) -> Outcome {
+    let system = if cfg!(target_os = "macos") { "" } else { "-lgcc_s -lpthread -lm -ldl" };
+    let text =
+        fs::read_to_string(from).map_err(|error| format!("{} cannot be read: {error}", from.display()))?;
+    let text = text.replace("@VERSION@", VERSION).replace("@SERIES@", &series()).replace("@SYSTEM@", system);
+    make_folder_of(to)?;
+    fs::write(to, text).map_err(|error| format!("{} cannot be written: {error}", to.display()))
+}
+
+fn make_folder_of(file: &Path) -> Outcome {
+    let Some(folder) = file.parent() else { return Ok(()) };
+    fs::create_dir_all(folder).map_err(|error| format!("{} cannot be made: {error}", folder.display()))
+}
