@@ -30,7 +30,17 @@ pub enum Stage {
 }
 
 /// The themes of the library, each after those that it needs.
-const THEMES: &[&str] = &["frame", "encodings"];
+const THEMES: &[&str] = &[
+    "frame",
+    "encodings",
+    "transform",
+    "normal_map",
+    "anisotropy",
+    "triplanar",
+    "parallax",
+    "displacement",
+    "derivatives",
+];
 
 /// All files of a language in one text; `derivatives`, which only fragment shaders can have, on demand.
 pub fn library(language: Language, stage: Stage) -> String {

@@ -4,6 +4,7 @@ mod gpu;
 mod kernel;
 mod language;
 pub mod samples;
+pub mod vector;
 
 pub use gpu::{Gpu, gpus};
 pub use kernel::{Case, check};

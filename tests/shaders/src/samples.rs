@@ -1,5 +1,7 @@
 //! Numbers to try, and the distance that arithmetic of a GPU may keep.
 
+use crate::vector::{cross, doubles, length, singles, unit};
+
 /// One unit in the last place of 1. Bounds count in it: WGSL and Vulkan let a sum or product be off by 1, a quotient by 2.5, a root by
 /// 4.5 of them; contracting a product and a sum into one operation only takes from that.
 pub const ULP: f64 = f32::EPSILON as f64;
@@ -33,9 +35,8 @@ impl Random {
     pub fn direction(&mut self) -> [f32; 3] {
         loop {
             let v = [self.number(), self.number(), self.number()];
-            let square = dot(v, v);
-            if (1e-4..=1.0).contains(&square) {
-                return v.map(|x| (f64::from(x) / square.sqrt()) as f32);
+            if (0.01..=1.0).contains(&length(doubles(v))) {
+                return singles(unit(doubles(v)));
             }
         }
     }
@@ -44,30 +45,18 @@ impl Random {
     pub fn frame(&mut self) -> ([f32; 3], [f32; 4]) {
         let normal = self.direction();
         let [x, y, z] = loop {
-            let across = cross(normal, self.direction());
-            let size = dot(across, across).sqrt();
-            if size > 0.1 {
-                break across.map(|x| (f64::from(x) / size) as f32);
+            let across = cross(doubles(normal), doubles(self.direction()));
+            if length(across) > 0.1 {
+                break singles(unit(across));
             }
         };
         (normal, [x, y, z, if self.word() & 1 == 0 { 1.0 } else { -1.0 }])
     }
 }
 
-/// The dot product, in double precision.
-pub fn dot(a: [f32; 3], b: [f32; 3]) -> f64 {
-    a.into_iter().zip(b).map(|(a, b)| f64::from(a) * f64::from(b)).sum()
-}
-
-/// The cross product, each component rounded once.
-pub fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    let [a, b] = [a, b].map(|v| v.map(f64::from));
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]].map(|x| x as f32)
-}
-
 /// Floats as the words of a sample.
-pub fn bits<const N: usize>(floats: [f32; N]) -> [u32; N] {
-    floats.map(f32::to_bits)
+pub fn bits(floats: &[f32]) -> Vec<u32> {
+    floats.iter().map(|float| float.to_bits()).collect()
 }
 
 /// `N` floats of a sample, from the word at `start` on.
@@ -75,7 +64,13 @@ pub fn floats<const N: usize>(sample: &[u32], start: usize) -> [f32; N] {
     std::array::from_fn(|k| f32::from_bits(sample[start + k]))
 }
 
-/// One array out of two.
-pub fn joined<T: Copy, const N: usize>(first: &[T], second: &[T]) -> [T; N] {
-    std::array::from_fn(|k| if k < first.len() { first[k] } else { second[k - first.len()] })
+/// `N` integers of a sample, from its first word on.
+pub fn integers<const N: usize>(sample: &[u32]) -> [i32; N] {
+    std::array::from_fn(|k| sample[k] as i32)
+}
+
+/// `count` samples of floats.
+pub fn many(count: usize, seed: u64, sample: impl Fn(&mut Random) -> Vec<f32>) -> Vec<Vec<u32>> {
+    let mut random = Random::new(seed);
+    (0..count).map(|_| bits(&sample(&mut random))).collect()
 }

@@ -14,6 +14,8 @@ vec2 given2(uint k) { return vec2(given1(k), given1(k + 1u)); }
 vec3 given3(uint k) { return vec3(given2(k), given1(k + 2u)); }
 vec4 given4(uint k) { return vec4(given3(k), given1(k + 3u)); }
 TangentFrame given_frame(uint k) { return TangentFrame(given3(k), given3(k + 3u), given3(k + 6u)); }
+VertexFrame given_vertex_frame(uint k) { return VertexFrame(given3(k), given4(k + 3u)); }
+LinearMap given_map(uint k) { return linear_map(given3(k), given3(k + 3u), given3(k + 6u)); }
 
 void got1(uint k, float value) { got[sample_ * GOT + k] = floatBitsToUint(value); }
 void got2(uint k, vec2 value) { got1(k, value.x); got1(k + 1u, value.y); }

@@ -15,6 +15,11 @@ TangentFrame given_frame(uint k) {
     TangentFrame frame = { given3(k), given3(k + 3u), given3(k + 6u) };
     return frame;
 }
+VertexFrame given_vertex_frame(uint k) {
+    VertexFrame frame = { given3(k), given4(k + 3u) };
+    return frame;
+}
+LinearMap given_map(uint k) { return linear_map(given3(k), given3(k + 3u), given3(k + 6u)); }
 
 void got1(uint k, float value) { got[sample_ * GOT + k] = asuint(value); }
 void got2(uint k, float2 value) { got1(k, value.x); got1(k + 1u, value.y); }

@@ -14,6 +14,8 @@ fn given4(k: u32) -> vec4f { return vec4f(given3(k), given1(k + 3u)); }
 fn given_frame(k: u32) -> TangentFrame {
     return TangentFrame(given3(k), given3(k + 3u), given3(k + 6u));
 }
+fn given_vertex_frame(k: u32) -> VertexFrame { return VertexFrame(given3(k), given4(k + 3u)); }
+fn given_map(k: u32) -> LinearMap { return linear_map(given3(k), given3(k + 3u), given3(k + 6u)); }
 
 fn got1(k: u32, value: f32) { got[sample_ * GOT + k] = bitcast<u32>(value); }
 fn got2(k: u32, value: vec2f) { got1(k, value.x); got1(k + 1u, value.y); }

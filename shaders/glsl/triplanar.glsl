@@ -1,0 +1,61 @@
+// Generated from shaders/wgsl/triplanar.wgsl by `cargo xtask gen`.
+precision highp float;
+precision highp int;
+
+// Normal maps projected along the three axes, for surfaces without UVs.
+// Needs frame and normal_map.
+//
+// For each axis: UVs by `projected_uv` in the axis' frame, a texel there, decoded; then `triplanar_normal` of the three.
+
+// The frames of the sides that the normal faces: right-handed, so that no map is mirrored; v goes up y on the sides, and away from the
+// viewer's side, -z, on top.
+TangentFrame projection_frame_x(vec3 normal) {
+    float side = 1.0;
+    if (normal.x < 0.0) {
+        side = -1.0;
+    }
+    return tangent_frame_with_bitangent(vec3(side, 0.0, 0.0), vec3(0.0, 0.0, -side), vec3(0.0, 1.0, 0.0));
+}
+
+TangentFrame projection_frame_y(vec3 normal) {
+    float side = 1.0;
+    if (normal.y < 0.0) {
+        side = -1.0;
+    }
+    return tangent_frame_with_bitangent(vec3(0.0, side, 0.0), vec3(1.0, 0.0, 0.0), vec3(0.0, 0.0, -side));
+}
+
+TangentFrame projection_frame_z(vec3 normal) {
+    float side = 1.0;
+    if (normal.z < 0.0) {
+        side = -1.0;
+    }
+    return tangent_frame_with_bitangent(vec3(0.0, 0.0, side), vec3(side, 0.0, 0.0), vec3(0.0, 1.0, 0.0));
+}
+
+// Where a frame's projection meets its image, one repeat per unit of length, v up. For images whose v goes down, negate v.
+vec2 projected_uv(TangentFrame frame, vec3 position) {
+    return to_tangent_space(frame, position).xy;
+}
+
+// How much each projection counts, 1 in all. sharpness: 1 or more; 4 is usual, higher narrows the seams.
+vec3 triplanar_weights(vec3 normal, float sharpness) {
+    vec3 size = abs(normal);
+    float largest = max(max(size.x, size.y), size.z);
+    vec3 weights = pow(size / largest, vec3(sharpness, sharpness, sharpness));
+    return weights / (weights.x + weights.y + weights.z);
+}
+
+// A projection's texel laid on the surface, in the space of the normal: the whiteout blend of both in the projection's frame.
+vec3 projected_normal(TangentFrame frame, vec3 normal, vec3 texel_normal) {
+    vec3 blended = blended_normals_whiteout(to_tangent_space(frame, normal), texel_normal);
+    return from_tangent_space(frame, blended);
+}
+
+// The unit normal of the surface from the texels of the three projections, decoded.
+vec3 triplanar_normal(vec3 normal, vec3 weights, vec3 x, vec3 y, vec3 z) {
+    vec3 sum = weights.x * projected_normal(projection_frame_x(normal), normal, x)
+        + weights.y * projected_normal(projection_frame_y(normal), normal, y)
+        + weights.z * projected_normal(projection_frame_z(normal), normal, z);
+    return unit_or(sum, normal);
+}
