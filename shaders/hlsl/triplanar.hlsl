@@ -5,8 +5,7 @@
 //
 // For each axis: UVs by `projected_uv` in the axis' frame, a texel there, decoded; then `triplanar_normal` of the three.
 
-// The frames of the sides that the normal faces: right-handed, so that no map is mirrored; v goes up y on the sides, and away from the
-// viewer's side, -z, on top.
+// The frames of the sides that the normal faces. Seen from outside, u goes right and v up; up is y, on the top -z, on the bottom z.
 TangentFrame projection_frame_x(float3 normal) {
     float side = 1.0;
     if (normal.x < 0.0) {
@@ -31,7 +30,7 @@ TangentFrame projection_frame_z(float3 normal) {
     return tangent_frame_with_bitangent(float3(0.0, 0.0, side), float3(side, 0.0, 0.0), float3(0.0, 1.0, 0.0));
 }
 
-// Where a frame's projection meets its image, one repeat per unit of length, v up. For images whose v goes down, negate v.
+// Where a frame's projection meets its image, one repeat per unit of length. For images whose v goes down, negate v.
 float2 projected_uv(TangentFrame frame, float3 position) {
     return to_tangent_space(frame, position).xy;
 }

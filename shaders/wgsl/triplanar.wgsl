@@ -3,8 +3,7 @@
 //
 // For each axis: UVs by `projected_uv` in the axis' frame, a texel there, decoded; then `triplanar_normal` of the three.
 
-// The frames of the sides that the normal faces: right-handed, so that no map is mirrored; v goes up y on the sides, and away from the
-// viewer's side, -z, on top.
+// The frames of the sides that the normal faces. Seen from outside, u goes right and v up; up is y, on the top -z, on the bottom z.
 fn projection_frame_x(normal: vec3f) -> TangentFrame {
     var side: f32 = 1.0;
     if (normal.x < 0.0) {
@@ -29,7 +28,7 @@ fn projection_frame_z(normal: vec3f) -> TangentFrame {
     return tangent_frame_with_bitangent(vec3f(0.0, 0.0, side), vec3f(side, 0.0, 0.0), vec3f(0.0, 1.0, 0.0));
 }
 
-// Where a frame's projection meets its image, one repeat per unit of length, v up. For images whose v goes down, negate v.
+// Where a frame's projection meets its image, one repeat per unit of length. For images whose v goes down, negate v.
 fn projected_uv(frame: TangentFrame, position: vec3f) -> vec2f {
     return to_tangent_space(frame, position).xy;
 }
