@@ -7,6 +7,9 @@ use wgpu::{Backends, BufferUsages, Instance, InstanceDescriptor, ShaderModule, S
 
 use crate::language::{Language, Stage, cannot_run};
 
+/// Of targets.
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
 /// A device of an adapter.
 pub struct Gpu {
     /// The adapter, in words.
@@ -66,5 +69,76 @@ impl Gpu {
         self.device.poll(wgpu::PollType::wait_indefinitely()).expect("a device that goes on");
         let bytes = buffer.get_mapped_range(..).expect("a mapped buffer");
         bytes.as_chunks().0.iter().map(|bytes| u32::from_le_bytes(*bytes)).collect()
+    }
+
+    /// A bind group of whole buffers, at bindings 0, 1...
+    pub fn bind_group(&self, layout: &wgpu::BindGroupLayout, buffers: &[&wgpu::Buffer]) -> wgpu::BindGroup {
+        let entries: Vec<_> = (0..)
+            .zip(buffers)
+            .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
+            .collect();
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
+    }
+
+    /// A pipeline that draws triangles into a [`Gpu::target`], of two modules' `main`.
+    pub fn render_pipeline(
+        &self,
+        vertex: &ShaderModule,
+        buffers: &[Option<wgpu::VertexBufferLayout>],
+        fragment: &ShaderModule,
+    ) -> wgpu::RenderPipeline {
+        self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: None,
+            layout: None,
+            vertex: wgpu::VertexState {
+                module: vertex,
+                entry_point: Some("main"),
+                compilation_options: Default::default(),
+                buffers,
+            },
+            primitive: Default::default(),
+            depth_stencil: None,
+            multisample: Default::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: fragment,
+                entry_point: Some("main"),
+                compilation_options: Default::default(),
+                targets: &[Some(FORMAT.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+
+    /// A picture to draw into, four bytes per pixel.
+    pub fn target(&self, [width, height]: [u32; 2]) -> wgpu::Texture {
+        self.device.create_texture(&wgpu::TextureDescriptor {
+            label: None,
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: FORMAT,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        })
+    }
+
+    /// A pass that draws into a cleared target.
+    pub fn begin_pass<'a>(
+        &self,
+        encoder: &'a mut wgpu::CommandEncoder,
+        target: &wgpu::Texture,
+    ) -> wgpu::RenderPass<'a> {
+        let attachment = wgpu::RenderPassColorAttachment {
+            view: &target.create_view(&Default::default()),
+            depth_slice: None,
+            resolve_target: None,
+            ops: Default::default(),
+        };
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            color_attachments: &[Some(attachment)],
+            ..Default::default()
+        })
     }
 }

@@ -1,4 +1,4 @@
-//! Library functions on many samples at once, as compute shaders.
+//! Library functions on many samples at once, as compute or fragment shaders.
 //!
 //! What is between loading and storing is one line that all three languages read alike, as their functions have the same names.
 
@@ -7,7 +7,10 @@ use wgpu::{BufferUsages, ComputePipelineDescriptor};
 use crate::gpu::{Gpu, gpus};
 use crate::language::{Language, Stage, library};
 
+/// Threads of a workgroup in the preludes.
 const WORKGROUP: usize = 64;
+/// Quads of four pixels in a row of the fragment shaders' target.
+const QUADS: usize = 128;
 
 /// A library function, its samples, and what it should give.
 pub struct Case<'a> {
@@ -17,17 +20,31 @@ pub struct Case<'a> {
     pub body: &'a str,
     /// The words of each sample: bits of floats, or integers. As many in each.
     pub samples: Vec<Vec<u32>>,
-    /// The right answer, and how far from it each component may be.
-    pub expected: &'a dyn Fn(&[u32]) -> (Vec<f64>, f64),
+    /// What a sample should give.
+    pub expected: &'a Expected<'a>,
 }
+
+/// Of a sample the right answer, and how far from it each component may be.
+pub type Expected<'a> = dyn Fn(&[u32]) -> (Vec<f64>, f64) + 'a;
 
 /// Runs a case in every language on every adapter. Panics where an answer is off by more than it may be.
 pub fn check(case: &Case) {
+    check_in(Stage::Compute, case);
+}
+
+/// As [`check`], in fragment shaders. Each sample has four pixels, which must all give the answer; what the body loads with
+/// `spread2(offset)` or `spread3(offset)` grows from pixel to pixel.
+pub fn check_in_quads(mut case: Case) {
+    case.samples = case.samples.into_iter().flat_map(|sample| std::iter::repeat_n(sample, 4)).collect();
+    check_in(Stage::Fragment, &case);
+}
+
+fn check_in(stage: Stage, case: &Case) {
     let expected: Vec<_> = case.samples.iter().map(|sample| (case.expected)(sample)).collect();
     let width = expected[0].0.len();
     for gpu in gpus() {
         for language in Language::ALL {
-            let Some(answers) = run(gpu, language, case, width) else { continue };
+            let Some(answers) = run(gpu, language, stage, case, width) else { continue };
             compare(case, &expected, &answers, &format!("{}, {language:?} on {}", case.name, gpu.name));
         }
     }
@@ -49,50 +66,92 @@ fn compare(case: &Case, expected: &[(Vec<f64>, f64)], answers: &[f32], title: &s
 }
 
 /// The answers of one language on one adapter, `width` for each sample; none where the language has no compiler here.
-fn run(gpu: &Gpu, language: Language, case: &Case, width: usize) -> Option<Vec<f32>> {
-    let module = gpu.module(language, Stage::Compute, &text(language, case, width))?;
-    let pipeline = gpu.device.create_compute_pipeline(&ComputePipelineDescriptor {
-        label: Some(case.name),
-        layout: None,
-        module: &module,
-        entry_point: Some("main"),
-        compilation_options: Default::default(),
-        cache: None,
-    });
-    let groups = case.samples.len().div_ceil(WORKGROUP);
+fn run(gpu: &Gpu, language: Language, stage: Stage, case: &Case, width: usize) -> Option<Vec<f32>> {
+    let module = gpu.module(language, stage, &text(language, stage, case, width))?;
+    let threads =
+        case.samples.len().next_multiple_of(if stage == Stage::Compute { WORKGROUP } else { 4 * QUADS });
     let mut words = case.samples.concat();
-    words.resize(groups * WORKGROUP * case.samples[0].len(), 0);
-    let empty = vec![0; groups * WORKGROUP * width];
+    words.resize(threads * case.samples[0].len(), 0);
+    let empty = vec![0; threads * width];
     let given = gpu.buffer(&words, BufferUsages::STORAGE);
     let got = gpu.buffer(&empty, BufferUsages::STORAGE | BufferUsages::COPY_SRC);
     let read = gpu.buffer(&empty, BufferUsages::MAP_READ | BufferUsages::COPY_DST);
-    let entries = [(0, &given), (1, &got)]
-        .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() });
-    let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout: &pipeline.get_bind_group_layout(0),
-        entries: &entries,
-    });
+
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    let mut pass = encoder.begin_compute_pass(&Default::default());
-    pass.set_pipeline(&pipeline);
-    pass.set_bind_group(0, &group, &[]);
-    pass.dispatch_workgroups(groups.try_into().expect("fewer samples"), 1, 1);
-    drop(pass);
+    match stage {
+        Stage::Compute => dispatch(gpu, &mut encoder, &module, [&given, &got], threads / WORKGROUP),
+        Stage::Fragment => draw(gpu, &mut encoder, &module, [&given, &got], threads / (4 * QUADS)),
+    }
     encoder.copy_buffer_to_buffer(&got, 0, &read, 0, None);
     gpu.queue.submit([encoder.finish()]);
     Some(gpu.words(&read).into_iter().map(f32::from_bits).collect())
 }
 
-fn text(language: Language, case: &Case, width: usize) -> String {
+fn dispatch(
+    gpu: &Gpu,
+    encoder: &mut wgpu::CommandEncoder,
+    module: &wgpu::ShaderModule,
+    buffers: [&wgpu::Buffer; 2],
+    groups: usize,
+) {
+    let pipeline = gpu.device.create_compute_pipeline(&ComputePipelineDescriptor {
+        label: None,
+        layout: None,
+        module,
+        entry_point: Some("main"),
+        compilation_options: Default::default(),
+        cache: None,
+    });
+    let mut pass = encoder.begin_compute_pass(&Default::default());
+    pass.set_pipeline(&pipeline);
+    pass.set_bind_group(0, &gpu.bind_group(&pipeline.get_bind_group_layout(0), &buffers), &[]);
+    pass.dispatch_workgroups(small(groups), 1, 1);
+}
+
+fn draw(
+    gpu: &Gpu,
+    encoder: &mut wgpu::CommandEncoder,
+    module: &wgpu::ShaderModule,
+    buffers: [&wgpu::Buffer; 2],
+    rows: usize,
+) {
+    let vertex = gpu.module(Language::Wgsl, Stage::Fragment, include_str!("prelude/vertex.wgsl"));
+    let vertex = vertex.expect("a shader of WGSL");
+    let pipeline = gpu.render_pipeline(&vertex, &[], module);
+    let [width, height] = [small(2 * QUADS), small(2 * rows)];
+    let target = gpu.target([width, height]);
+    let mut pass = gpu.begin_pass(encoder, &target);
+    pass.set_pipeline(&pipeline);
+    pass.set_bind_group(0, &gpu.bind_group(&pipeline.get_bind_group_layout(0), &buffers), &[]);
+    // The target is a quarter of the viewport, so that no triangle is clipped: where two meet, pixels of one quad would be in both,
+    // and those that a triangle does not cover may load nothing for its derivatives.
+    pass.set_viewport(0.0, 0.0, (2 * width) as f32, (2 * height) as f32, 0.0, 1.0);
+    pass.draw(0..3, 0..1);
+}
+
+fn small(count: usize) -> u32 {
+    count.try_into().expect("fewer samples")
+}
+
+fn text(language: Language, stage: Stage, case: &Case, width: usize) -> String {
     let prelude = match language {
         Language::Wgsl => include_str!("prelude/kernel.wgsl"),
         Language::Glsl => include_str!("prelude/kernel.glsl"),
         Language::Hlsl => include_str!("prelude/kernel.hlsl"),
     };
-    prelude
+    let entry = match (language, stage) {
+        (Language::Wgsl, Stage::Compute) => include_str!("prelude/compute.wgsl"),
+        (Language::Glsl, Stage::Compute) => include_str!("prelude/compute.glsl"),
+        (Language::Hlsl, Stage::Compute) => include_str!("prelude/compute.hlsl"),
+        (Language::Wgsl, Stage::Fragment) => include_str!("prelude/fragment.wgsl"),
+        (Language::Glsl, Stage::Fragment) => include_str!("prelude/fragment.glsl"),
+        (Language::Hlsl, Stage::Fragment) => include_str!("prelude/fragment.hlsl"),
+    };
+    [prelude, entry]
+        .concat()
         .replace("GIVEN", &format!("{}u", case.samples[0].len()))
         .replace("GOT", &format!("{width}u"))
-        .replace("LIBRARY", &library(language, Stage::Compute))
+        .replace("QUADS", &format!("{QUADS}u"))
+        .replace("LIBRARY", &library(language, stage))
         .replace("BODY", case.body)
 }

@@ -7,5 +7,5 @@ pub mod samples;
 pub mod vector;
 
 pub use gpu::{Gpu, gpus};
-pub use kernel::{Case, check};
+pub use kernel::{Case, Expected, check, check_in_quads};
 pub use language::{Language, Stage, glslang, glslang_is_there, library};

@@ -1,6 +1,7 @@
 //! Every file of the library, compiled for every version of every language that it is for.
 
 use std::collections::BTreeSet;
+use std::fs;
 
 use darboux_shader_tests::{Language, Stage, glslang, glslang_is_there, library};
 use wgpu::naga::front::{glsl, wgsl};
@@ -78,4 +79,17 @@ fn names_are_the_same_in_all_languages_and_unique() {
     assert_eq!(wgsl.iter().collect::<BTreeSet<_>>().len(), wgsl.len());
     assert_eq!(wgsl, glsl);
     assert_eq!(wgsl, hlsl);
+}
+
+/// By a test, or by a function that one is.
+#[test]
+fn every_function_is_executed() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests");
+    let tests = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
+    let tests: String = tests.map(|path| fs::read_to_string(path).expect("a text")).collect();
+    let library = library(Language::Wgsl, Stage::Fragment);
+    for name in library.lines().filter_map(|line| line.strip_prefix("fn ")?.split('(').next()) {
+        let call = format!("{name}(");
+        assert!(tests.contains(&call) || library.matches(&call).count() > 1, "no test calls {name}");
+    }
 }

@@ -1,6 +1,5 @@
 #version 450
 LIBRARY
-layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer Given { uint given[]; };
 layout(set = 0, binding = 1) buffer Got { uint got[]; };
 uint sample_;
@@ -28,9 +27,4 @@ void got_frame(uint k, TangentFrame frame) {
     got3(k, frame.tangent);
     got3(k + 3u, frame.bitangent);
     got3(k + 6u, frame.normal);
-}
-
-void main() {
-    sample_ = gl_GlobalInvocationID.x;
-    BODY
 }

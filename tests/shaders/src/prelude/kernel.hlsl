@@ -33,9 +33,3 @@ void got_frame(uint k, TangentFrame frame) {
     got3(k + 3u, frame.bitangent);
     got3(k + 6u, frame.normal);
 }
-
-[numthreads(64, 1, 1)]
-void main(uint3 id : SV_DispatchThreadID) {
-    sample_ = id.x;
-    BODY
-}

@@ -29,9 +29,3 @@ fn got_frame(k: u32, frame: TangentFrame) {
     got3(k + 3u, frame.bitangent);
     got3(k + 6u, frame.normal);
 }
-
-@compute @workgroup_size(64)
-fn main(@builtin(global_invocation_id) id: vec3u) {
-    sample_ = id.x;
-    BODY
-}

@@ -1,0 +1,6 @@
+layout(local_size_x = 64) in;
+
+void main() {
+    sample_ = gl_GlobalInvocationID.x;
+    BODY
+}
