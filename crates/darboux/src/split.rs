@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::{CornerTangents, Indices, Mesh, MeshError};
+use crate::{Convention, CornerTangents, Indices, Mesh, MeshError};
 
 /// An indexed mesh's vertices after splitting. The old vertices come first, in their old places.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -66,34 +66,51 @@ impl Splitter {
     ///
     /// Errors: tangents of another number of corners, a mesh over another number of vertices.
     pub fn add(&mut self, mesh: &Mesh<'_>, corners: &CornerTangents) -> Result<Vec<u32>, MeshError> {
+        let old = |corner| mesh.vertex_of_corner(corner) as u32;
+        Ok(self.add_changes(mesh, corners)?.unwrap_or_else(|| (0..mesh.corner_count()).map(old).collect()))
+    }
+
+    /// As [`Splitter::add`], but none where the old index list serves.
+    pub fn add_changes(
+        &mut self,
+        mesh: &Mesh<'_>,
+        corners: &CornerTangents,
+    ) -> Result<Option<Vec<u32>>, MeshError> {
         expect("corners", mesh.corner_count(), corners.len())?;
         expect("vertices", self.old_count, mesh.vertex_count())?;
         let tangents = corners.per_corner();
         Ok(match mesh.indices() {
-            Indices::Unindexed => self.vertices(0..corners.len() as u32, tangents),
-            Indices::U16(list) => self.vertices(list.iter().map(|&index| index.into()), tangents),
-            Indices::U32(list) => self.vertices(list.iter().copied(), tangents),
+            Indices::Unindexed => self.changes(0..corners.len() as u32, tangents),
+            Indices::U16(list) => self.changes(list.iter().map(|&index| index.into()), tangents),
+            Indices::U32(list) => self.changes(list.iter().copied(), tangents),
         })
     }
 
-    /// The vertices of corners, from the old ones.
-    fn vertices(&mut self, old: impl Iterator<Item = u32>, tangents: &[[f32; 4]]) -> Vec<u32> {
-        old.zip(tangents).map(|(old, &tangent)| self.vertex(old, tangent)).collect()
+    /// The vertices of corners, from the old ones; none where they are the same.
+    fn changes(&mut self, old: impl Iterator<Item = u32> + Clone, tangents: &[[f32; 4]]) -> Option<Vec<u32>> {
+        let mut corners = old.clone().zip(tangents);
+        let first = corners.position(|(old, &tangent)| !self.takes(old, tangent))?;
+        let mut vertices = Vec::with_capacity(tangents.len());
+        vertices.extend(old.clone().take(first));
+        vertices.extend(old.zip(tangents).skip(first).map(|(old, &tangent)| self.vertex(old, tangent)));
+        Some(vertices)
     }
 
-    /// The vertex for `old` with `tangent`: the old one if it is unused or has this tangent, else an appended one.
-    #[inline]
+    /// The vertex for `old` with `tangent`: the old one if it can have it, else an appended one.
     fn vertex(&mut self, old: u32, tangent: [f32; 4]) -> u32 {
+        if self.takes(old, tangent) { old } else { self.further(old, tangent) }
+    }
+
+    /// Whether `old` has `tangent`; it takes it if no corner uses it yet.
+    #[inline]
+    fn takes(&mut self, old: u32, tangent: [f32; 4]) -> bool {
         let next = &mut self.next_of_vertex[old as usize];
         if *next == UNUSED {
             *next = LAST;
             self.tangent_of_vertex[old as usize] = tangent;
-            return old;
+            return true;
         }
-        if has_bits(&self.tangent_of_vertex[old as usize], &tangent) {
-            return old;
-        }
-        self.further(old, tangent)
+        has_bits(&self.tangent_of_vertex[old as usize], &tangent)
     }
 
     /// The appended vertex for `old` with `tangent`, found or made.
@@ -124,6 +141,17 @@ impl Splitter {
         self.source_of_vertex.push(old);
         self.next_of_vertex.push(LAST);
         self.source_of_vertex.len() as u32 - 1
+    }
+
+    /// As [`Splitter::finish`], with the tangents written in another convention, but for those of unused vertices.
+    pub fn finish_in(mut self, from: Convention, to: Convention) -> (Vec<[f32; 4]>, Vec<u32>) {
+        let conversion = from.to(to);
+        for (tangent, &next) in self.tangent_of_vertex.iter_mut().zip(&self.next_of_vertex) {
+            if next != UNUSED {
+                *tangent = conversion.tangent(*tangent);
+            }
+        }
+        self.finish()
     }
 
     /// The tangent and the source of every new vertex, as in [`VertexSplit`].
@@ -188,6 +216,7 @@ mod tests {
         let (first, second) = tangents.split_at(600);
         let mut found = splitter.add(&mesh(&old[..600]), &CornerTangents(first.to_vec())).unwrap();
         found.extend(splitter.add(&mesh(&old[600..]), &CornerTangents(second.to_vec())).unwrap());
+        assert_eq!(splitter.add_changes(&mesh(&[]), &CornerTangents(Vec::new())).unwrap(), None);
         let (tangent_of_vertex, source_of_vertex) = splitter.finish();
         assert_eq!(found, indices);
         assert_eq!(source_of_vertex, sources);

@@ -1,6 +1,6 @@
 //! What a document holds, per primitive, without changing it.
 
-use darboux::{CornerTangents, Scratch};
+use darboux::{Convention, CornerTangents, Scratch};
 use serde::Serialize;
 
 use super::Document;
@@ -102,5 +102,7 @@ fn describe(document: &Document, candidate: &Candidate) -> PrimitiveInfo {
 
 /// Triangles whose sign says that they show their texture mirrored.
 fn mirrored_triangles(tangents: &CornerTangents) -> usize {
-    tangents.per_corner().as_chunks::<3>().0.iter().filter(|[first, ..]| first[3] < 0.0).count()
+    let to_gltf = Convention::GLTF.generated().to(Convention::GLTF);
+    let triangles = tangents.per_corner().as_chunks::<3>().0.iter();
+    triangles.filter(|[first, ..]| to_gltf.tangent(*first)[3] < 0.0).count()
 }

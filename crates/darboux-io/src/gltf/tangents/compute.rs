@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::mem;
 
-use darboux::{Convention, CornerTangents, Mesh, Report, Scratch, Tangents, generate_tangents_into};
+use darboux::{CornerTangents, Mesh, Report, Scratch, Tangents, generate_tangents_into};
 
 use super::evaluator::Evaluator;
 use super::share::{Group, Job};
@@ -72,7 +72,7 @@ pub struct Surface<'a> {
     pub corners: IndexList<'a>,
     /// Indices after the last whole triangle.
     pub rest: Vec<u32>,
-    /// In glTF's convention.
+    /// In the convention that they are generated in.
     pub tangents: CornerTangents,
     pub report: Report,
     /// What evaluates morph targets, if there are any.
@@ -110,7 +110,7 @@ pub fn surface<'a>(
         refuse_unusable(document, at, &tangents.report)?;
     }
     let report = tangents.report;
-    let mut tangents = tangents.corners.converted(Convention::GLTF.generated(), Convention::GLTF);
+    let mut tangents = tangents.corners;
     if options.encoding != TangentEncoding::F32x4 {
         tangents = tangents.map(|tangent| options.encoding.rounded(tangent));
     }

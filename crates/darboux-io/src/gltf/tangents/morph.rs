@@ -126,9 +126,8 @@ pub fn offsets(
         let (evaluated, regrouped) =
             evaluator.evaluate(&mesh).map_err(|error| document.mesh_error(&morph.at, error))?;
         let tangents = evaluated.per_corner().iter().zip(surface.tangents.per_corner());
-        let corners = split.corners[job].iter().zip(tangents);
-        let conflicting =
-            corners.filter(|(vertex, (moved, base))| !field.hold(**vertex, moved, base)).count();
+        let corners = split.vertices(job, surface).zip(tangents);
+        let conflicting = corners.filter(|&(vertex, (moved, base))| !field.hold(vertex, moved, base)).count();
         misfits.push(Misfits { regrouped, conflicting });
     }
     vertices.replace(base.0, base.1);

@@ -2,10 +2,10 @@
 
 use std::mem;
 
-use darboux::Splitter;
+use darboux::{Convention, Splitter};
 
 use super::compute::{Surface, Vertices};
-use super::share::Group;
+use super::share::{Group, Job};
 use crate::Error;
 use crate::gltf::Document;
 
@@ -16,8 +16,8 @@ pub struct Split {
     pub tangents: Vec<[f32; 4]>,
     /// The old vertex that each appended one copies.
     pub copies: Vec<u32>,
-    /// For each job the vertices of its corners, until [`Split::take_lists`].
-    pub corners: Vec<Vec<u32>>,
+    /// For each job the vertices of its corners, where they are not the old ones; until [`Split::take_lists`].
+    corners: Vec<Option<Vec<u32>>>,
 }
 
 /// Splits the surfaces of `group`, one per job, jointly.
@@ -38,10 +38,10 @@ pub fn split(
     let mut corners = Vec::with_capacity(surfaces.len());
     for (job, surface) in group.jobs.iter().zip(surfaces) {
         let mesh = vertices.mesh(document, at, job, &surface.corners)?;
-        let added = splitter.add(&mesh, &surface.tangents);
+        let added = splitter.add_changes(&mesh, &surface.tangents);
         corners.push(added.map_err(|error| document.mesh_error(at, error))?);
     }
-    let (tangents, mut copies) = splitter.finish();
+    let (tangents, mut copies) = splitter.finish_in(Convention::GLTF.generated(), Convention::GLTF);
     copies.drain(..vertices.positions.len());
     Ok(Split { tangents, copies, corners })
 }
@@ -60,15 +60,26 @@ impl Split {
     /// The index list of each job; none where the old one serves.
     pub fn take_lists(&mut self, group: &Group, surfaces: &[Surface<'_>]) -> Vec<Option<Vec<u32>>> {
         let is_needed = self.is_needed();
+        let unindexed = |job: &Job| is_needed && job.indices.is_none();
         let jobs = group.jobs.iter().zip(surfaces).zip(mem::take(&mut self.corners));
-        jobs.map(|((job, surface), mut corners)| {
-            let is_old = || job.indices.is_some() && surface.corners.iter().eq(corners.iter().copied());
-            (is_needed && !is_old()).then(|| {
-                corners.extend(&surface.rest);
-                corners
-            })
+        jobs.map(|((job, surface), corners)| {
+            let mut list = corners.or_else(|| unindexed(job).then(|| surface.corners.iter().collect()))?;
+            list.extend(&surface.rest);
+            Some(list)
         })
         .collect()
+    }
+
+    /// The vertices of the corners of a job.
+    pub fn vertices<'a>(
+        &'a self,
+        job: usize,
+        surface: &'a Surface<'_>,
+    ) -> Box<dyn Iterator<Item = u32> + 'a> {
+        match &self.corners[job] {
+            Some(corners) => Box::new(corners.iter().copied()),
+            None => surface.corners.iter(),
+        }
     }
 
     /// Whether there are vertices that were not there before.
