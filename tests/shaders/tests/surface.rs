@@ -39,28 +39,26 @@ fn anisotropy() {
 #[test]
 fn projections_are_upright_on_every_side_and_none_is_mirrored() {
     // Seen from outside, u goes right and v up; on the top up is -z, on the bottom z.
-    let sides: [(&str, [(f32, D3, D3); 2]); 3] = [
-        ("x", [(1.0, [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]), (-1.0, [0.0, 0.0, 1.0], [0.0, 1.0, 0.0])]),
-        ("y", [(1.0, [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]), (-1.0, [1.0, 0.0, 0.0], [0.0, 0.0, 1.0])]),
-        ("z", [(1.0, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]), (-1.0, [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0])]),
-    ];
-    for (axis, sides) in sides {
-        for (side, right, up) in sides {
-            let frame = format!("projection_frame_{axis}(given3(0u))");
-            let normal = [0.3, 0.4, 0.5].map(|x: f32| side * x);
-            check(&Case {
-                name: &frame,
-                body: &format!("got_frame(0u, {frame});"),
-                samples: vec![bits(&normal)],
-                expected: &|_| ([right, up, cross(right, up)].concat(), 0.0),
-            });
-            check(&Case {
-                name: "projected_uv",
-                body: &format!("got2(0u, projected_uv({frame}, given3(3u)));"),
-                samples: vec![bits(&[&normal[..], &[2.0, 3.0, 5.0]].concat())],
-                expected: &|_| (vec![dot(right, [2.0, 3.0, 5.0]), dot(up, [2.0, 3.0, 5.0])], 0.0),
-            });
-        }
+    let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let minus = |v: D3| v.map(|component| 0.0 - component);
+    let sides = [("x", minus(z), y), ("y", x, minus(z)), ("z", x, y)];
+    let far_sides = [("x", z, y), ("y", x, z), ("z", minus(x), y)];
+    let all = sides.map(|side| (1.0, side)).into_iter().chain(far_sides.map(|side| (-1.0, side)));
+    for (sign, (axis, right, up)) in all {
+        let frame = format!("projection_frame_{axis}(given3(0u))");
+        let normal = [0.3, 0.4, 0.5].map(|component: f32| sign * component);
+        check(&Case {
+            name: &frame,
+            body: &format!("got_frame(0u, {frame});"),
+            samples: vec![bits(&normal)],
+            expected: &|_| ([right, up, cross(right, up)].concat(), 0.0),
+        });
+        check(&Case {
+            name: "projected_uv",
+            body: &format!("got2(0u, projected_uv({frame}, given3(3u)));"),
+            samples: vec![bits(&[&normal[..], &[2.0, 3.0, 5.0]].concat())],
+            expected: &|_| (vec![dot(right, [2.0, 3.0, 5.0]), dot(up, [2.0, 3.0, 5.0])], 0.0),
+        });
     }
 }
 
