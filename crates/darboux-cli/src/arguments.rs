@@ -2,12 +2,14 @@
 
 mod files;
 mod inspect;
+mod normals;
 mod tangents;
 
 use clap::{Parser, Subcommand};
 
 pub use files::{Files, Talk};
 pub use inspect::InspectArguments;
+pub use normals::NormalsArguments;
 pub use tangents::{Method, TangentsArguments};
 
 /// Tangents for normal-mapped glTF models: MikkTSpace bit for bit, seams split
@@ -34,6 +36,9 @@ pub enum Command {
     /// Add tangents to glTF and GLB files
     #[command(long_about = tangents::ABOUT, after_long_help = tangents::EXAMPLES)]
     Tangents(TangentsArguments),
+    /// Add normals to glTF and GLB files
+    #[command(long_about = normals::ABOUT, after_long_help = normals::EXAMPLES)]
+    Normals(NormalsArguments),
     /// Show what each primitive holds and what its tangents would meet
     #[command(long_about = inspect::ABOUT, after_long_help = inspect::EXAMPLES)]
     Inspect(InspectArguments),

@@ -10,8 +10,8 @@ use crate::arguments::InspectArguments;
 use crate::exit;
 use crate::jobs::{self, Input, Scan, Usage};
 use crate::messages::{Messages, write_stdout};
+use crate::models::load;
 use crate::report::{InspectReport, InspectedFile, VERSION, to_json};
-use crate::tangents::load;
 
 /// Runs the command; gives its exit code.
 pub fn run(arguments: &InspectArguments) -> u8 {

@@ -263,7 +263,8 @@ fn is_model(path: &Path) -> bool {
 /// The words in the names of outputs, by command.
 pub mod word {
     pub const TANGENTS: &str = "tangents";
-    pub const ALL: [&str; 1] = [TANGENTS];
+    pub const NORMALS: &str = "normals";
+    pub const ALL: [&str; 2] = [TANGENTS, NORMALS];
 }
 
 /// True for names that outputs get when none is given.

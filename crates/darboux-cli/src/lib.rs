@@ -1,11 +1,14 @@
 //! The `darboux` command as a library: parse, call, print.
 
 mod arguments;
+mod batch;
 mod inspect;
 mod interrupt;
 mod jobs;
 mod messages;
 mod methods;
+mod models;
+mod normals;
 mod report;
 mod tangents;
 
@@ -31,7 +34,8 @@ where
 {
     match Arguments::try_parse_from(arguments) {
         Ok(arguments) => match &arguments.command {
-            Command::Tangents(arguments) => tangents::run(arguments),
+            Command::Tangents(arguments) => batch::run(arguments),
+            Command::Normals(arguments) => batch::run(arguments),
             Command::Inspect(arguments) => inspect::run(arguments),
             Command::Methods => methods::run(),
         },

@@ -1,34 +1,34 @@
 //! The JSON reports: stable names, described in json.md.
 
-use darboux_io::gltf::{PrimitiveInfo, Summary};
+use darboux_io::gltf::PrimitiveInfo;
 use serde::Serialize;
 
-/// What `darboux tangents --json` prints.
+/// What commands that write files print with `--json`.
 #[derive(Serialize)]
-pub struct TangentsReport {
+pub struct Report<S> {
     pub command: &'static str,
     pub version: &'static str,
-    pub files: Vec<FileReport>,
+    pub files: Vec<FileReport<S>>,
     pub totals: FileTotals,
 }
 
-/// What happened to one file.
+/// What happened to one file; `S` is what the command has to say of it.
 #[derive(Serialize)]
-pub struct FileReport {
+pub struct FileReport<S> {
     pub input: String,
     pub output: Option<String>,
     pub status: Status,
     pub error: Option<String>,
     pub files_written: Vec<String>,
     #[serde(flatten)]
-    pub summary: Summary,
+    pub summary: S,
 }
 
 /// A file's end.
 #[derive(Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
-    /// The output has new tangents.
+    /// The output differs.
     Written,
     /// Nothing to do: the output is a copy.
     Copied,
@@ -68,7 +68,7 @@ pub struct InspectedFile {
 /// The version in reports.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-impl FileReport {
+impl<S: Default> FileReport<S> {
     /// The report of a file without output.
     pub fn failed(input: String, error: String) -> Self {
         Self {
@@ -77,14 +77,14 @@ impl FileReport {
             status: Status::Failed,
             error: Some(error),
             files_written: Vec::new(),
-            summary: Summary::default(),
+            summary: S::default(),
         }
     }
 }
 
-impl TangentsReport {
+impl<S> Report<S> {
     /// The report of these files.
-    pub fn new(files: Vec<FileReport>) -> Self {
+    pub fn new(command: &'static str, files: Vec<FileReport<S>>) -> Self {
         let mut totals = FileTotals { files: files.len(), ..FileTotals::default() };
         for file in &files {
             *match file.status {
@@ -94,7 +94,7 @@ impl TangentsReport {
                 Status::Failed => &mut totals.failed,
             } += 1;
         }
-        Self { command: "tangents", version: VERSION, files, totals }
+        Self { command, version: VERSION, files, totals }
     }
 }
 

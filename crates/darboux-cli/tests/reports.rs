@@ -25,7 +25,17 @@ fn the_tangents_report_has_the_documented_fields() {
     let file = &report["files"][0];
     assert_eq!(
         keys(file),
-        ["input", "output", "status", "error", "files_written", "primitives", "warnings", "totals"]
+        [
+            "input",
+            "output",
+            "status",
+            "error",
+            "files_written",
+            "primitives",
+            "warnings",
+            "totals",
+            "normals"
+        ]
     );
     assert_eq!(
         keys(&file["totals"]),
@@ -67,8 +77,9 @@ fn every_documented_field_is_there_and_every_field_is_documented() {
     let documented = std::fs::read_to_string(asset("../docs/cli.md")).expect("docs/cli.md");
     let folder = folder_with(&[SEAM, MODES]);
     let tangents = darboux(&["tangents", text(folder.path()), "--json", "-q"]).exits(0).json();
+    let normals = darboux(&["normals", text(folder.path()), "--json", "-q", "--overwrite"]).exits(0).json();
     let inspected = darboux(&["inspect", text(&asset(SEAM)), "--json"]).exits(0).json();
-    let mut waiting = vec![tangents, inspected];
+    let mut waiting = vec![tangents, normals, inspected];
     while let Some(value) = waiting.pop() {
         match value {
             Value::Array(values) => waiting.extend(values),

@@ -48,6 +48,11 @@ fn what_does_not_fit_together_is_refused() {
         &["tangents", "-", "--out-dir", dir],
         &["tangents", "-", a],
         &["tangents", dir, "--out-dir", dir],
+        &["tangents", a, "--normals", "sharp"],
+        &["normals", a, "--normals", "keep"],
+        &["normals", a, "--normals", "crease=-1"],
+        &["normals", a, "--normals", "crease=nan"],
+        &["normals", a, "-o", a],
         &["inspect"],
         &["inspect", "-", a],
     ];

@@ -27,6 +27,7 @@
 mod convention;
 pub mod encode;
 mod frame;
+mod last_edges;
 mod math;
 mod measure;
 mod mesh;

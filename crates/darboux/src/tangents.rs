@@ -124,7 +124,7 @@ pub fn generate_tangents_into(
         out.corners.0.resize(mesh.corner_count(), [0.0; 4]);
     }
     if applies && scratch.fans.run(mesh, options.mode, width, &mut out.corners.0) {
-        local::decide(mesh, options, &mut scratch.fans, out);
+        local::decide(mesh, options, &scratch.fans, out);
     } else {
         out.report = method::run(mesh, options, &mut scratch.sums, &mut out.corners.0);
     }

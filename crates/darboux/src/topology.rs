@@ -5,6 +5,7 @@
 
 use std::collections::VecDeque;
 
+use crate::last_edges::{NamedTriangles, last_stretches};
 use crate::triangles::Triangles;
 
 /// No neighbour.
@@ -36,17 +37,41 @@ pub(crate) fn neighbours(triangles: &Triangles, order: EdgeOrder) -> Vec<[u32; 3
     let mut start = 0;
     for end in run_ends.into_iter().map(|end| end as usize) {
         let run = &mut edges[start..end];
-        if order == EdgeOrder::Reference && start == last_run_start && order_shows(run) {
-            leave_as_reference(triangles, run);
-        } else {
-            run.sort_unstable();
-        }
+        run.sort_unstable();
         for same in run.chunk_by(|a, b| a.upper == b.upper) {
-            match_edges(triangles, same, &mut neighbours);
+            match_edges(triangles, same.iter().map(|edge| edge.half_edge), &mut neighbours);
         }
         start = end;
     }
+    let last_run = &edges[last_run_start..];
+    if order == EdgeOrder::Reference && order_shows(last_run.iter().map(|edge| edge.upper)) {
+        let (last, _) = ends(triangles, last_run[0].half_edge as usize);
+        let mut list: Vec<u32> = (0..3 * triangles.len() as u32).collect();
+        let stretches =
+            last_stretches(&mut list, last, last_run.len(), &mut NamedTriangles(&triangles.vertices));
+        match_again(triangles, &stretches, &mut neighbours);
+    }
     neighbours
+}
+
+/// True when another order of the last run could change which edges are matched: it holds an edge twice, and something else.
+///
+/// `uppers`: the upper vertices of its edges.
+pub(crate) fn order_shows(uppers: impl Iterator<Item = u32>) -> bool {
+    let mut uppers: Vec<u32> = uppers.collect();
+    let count = uppers.len();
+    uppers.sort_unstable();
+    uppers.dedup();
+    count > 2 && uppers.len() < count
+}
+
+/// Matches the half-edges of each stretch anew, as numbers `3 t + k`, with each other only.
+pub(crate) fn match_again(triangles: &Triangles, stretches: &[Vec<u32>], neighbours: &mut [[u32; 3]]) {
+    let slots = neighbours.as_flattened_mut();
+    stretches.iter().flatten().for_each(|&half_edge| slots[half_edge as usize] = NONE);
+    for stretch in stretches {
+        match_edges(triangles, stretch.iter().copied(), neighbours);
+    }
 }
 
 /// The lower and upper vertex of a half-edge.
@@ -78,93 +103,21 @@ fn edges_by_lower_vertex(triangles: &Triangles) -> (Vec<Edge>, Vec<u32>) {
     (edges, next)
 }
 
-/// True when another order of the last run could change which edges are matched: it holds an edge twice, and something else.
-fn order_shows(run: &[Edge]) -> bool {
-    let mut uppers: Vec<u32> = run.iter().map(|edge| edge.upper).collect();
-    uppers.sort_unstable();
-    let distinct = uppers.chunk_by(|a, b| a == b).count();
-    run.len() > 2 && distinct < run.len()
-}
-
-/// Puts the last run into the reference's order: as its sort by lower vertex left it, then every stretch of equal edges by
-/// triangle, but for the last stretch.
-fn leave_as_reference(triangles: &Triangles, run: &mut [Edge]) {
-    let mut keys: Vec<(u32, u32)> =
-        (0..3 * triangles.len()).map(|half_edge| (ends(triangles, half_edge).0, half_edge as u32)).collect();
-    sort_as_reference(&mut keys);
-    let last = &keys[keys.len() - run.len()..];
-    for (edge, &(_, half_edge)) in run.iter_mut().zip(last) {
-        *edge = Edge { upper: ends(triangles, half_edge as usize).1, half_edge };
-    }
-    let mut stretches = run.chunk_by_mut(|a, b| a.upper == b.upper);
-    stretches.next_back();
-    for stretch in stretches {
-        stretch.sort_unstable();
-    }
-}
-
-/// The reference's quicksort by the first of each pair: unstable, its pivots drawn from a seed that both halves inherit.
-fn sort_as_reference(keys: &mut [(u32, u32)]) {
-    const SEED: u32 = 39_871_946;
-    let mut pending = vec![(0, keys.len(), SEED)];
-    while let Some((start, end, seed)) = pending.pop() {
-        let range = &mut keys[start..end];
-        match range {
-            [] | [_] => {}
-            [a, b] => {
-                if a.0 > b.0 {
-                    range.swap(0, 1);
-                }
-            }
-            _ => {
-                let seed = seed.wrapping_add(seed.rotate_left(seed & 31)).wrapping_add(3);
-                let pivot = range[seed as usize % range.len()].0;
-                let (left_end, right_start) = exchange_around(range, pivot);
-                pending.push((start, start + left_end, seed));
-                pending.push((start + right_start, end, seed));
-            }
-        }
-    }
-}
-
-/// Exchanges from both ends until no key above `pivot` is left of one below; returns the ends of the two halves.
-fn exchange_around(keys: &mut [(u32, u32)], pivot: u32) -> (usize, usize) {
-    let (mut left, mut right) = (0, keys.len());
-    loop {
-        while keys[left].0 < pivot {
-            left += 1;
-        }
-        while keys[right - 1].0 > pivot {
-            right -= 1;
-        }
-        if left < right {
-            keys.swap(left, right - 1);
-            left += 1;
-            right -= 1;
-        }
-        if left >= right {
-            return (right, left);
-        }
-    }
-}
-
 /// Makes neighbours of the half-edges along one edge, in order: each takes the next free one that runs the opposite way.
-fn match_edges(triangles: &Triangles, same: &[Edge], neighbours: &mut [[u32; 3]]) {
-    let runs_upwards = |edge: &Edge| {
-        let h = edge.half_edge as usize;
-        let vertices = triangles.vertices[h / 3];
-        vertices[h % 3] < vertices[(h + 1) % 3]
+fn match_edges(triangles: &Triangles, same: impl Iterator<Item = u32>, neighbours: &mut [[u32; 3]]) {
+    let runs_upwards = |half_edge: usize| {
+        let vertices = triangles.vertices[half_edge / 3];
+        vertices[half_edge % 3] < vertices[(half_edge + 1) % 3]
     };
     // Of the edges before the current one that found no mate, all run the same way: their mates would have found them.
     // So waiting edges form one queue, and taking its first is taking the next free one in the other edge's order.
-    let mut waiting: VecDeque<&Edge> = VecDeque::new();
-    for edge in same {
+    let mut waiting: VecDeque<usize> = VecDeque::new();
+    for edge in same.map(|half_edge| half_edge as usize) {
         match waiting.front() {
             Some(&first) if runs_upwards(first) != runs_upwards(edge) => {
                 waiting.pop_front();
-                let (a, b) = (first.half_edge as usize, edge.half_edge as usize);
-                neighbours[a / 3][a % 3] = (b / 3) as u32;
-                neighbours[b / 3][b % 3] = (a / 3) as u32;
+                neighbours[first / 3][first % 3] = (edge / 3) as u32;
+                neighbours[edge / 3][edge % 3] = (first / 3) as u32;
             }
             _ => waiting.push_back(edge),
         }

@@ -22,6 +22,9 @@ _darboux() {
             darboux,methods)
                 cmd="darboux__subcmd__methods"
                 ;;
+            darboux,normals)
+                cmd="darboux__subcmd__normals"
+                ;;
             darboux,tangents)
                 cmd="darboux__subcmd__tangents"
                 ;;
@@ -32,7 +35,7 @@ _darboux() {
 
     case "${cmd}" in
         darboux)
-            opts="-h -V --help --version tangents inspect methods"
+            opts="-h -V --help --version tangents normals inspect methods"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -73,8 +76,42 @@ _darboux() {
             COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
             return 0
             ;;
+        darboux__subcmd__normals)
+            opts="-o -q -h --output --out-dir --in-place --force --allow-outside --normals --weight --respect-seams --overwrite --json --quiet --help"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                --output)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                -o)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --out-dir)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --normals)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --weight)
+                    COMPREPLY=($(compgen -W "angle area angle-area" -- "${cur}"))
+                    return 0
+                    ;;
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
         darboux__subcmd__tangents)
-            opts="-o -q -h --output --out-dir --in-place --force --allow-outside --method --mode --threshold --encoding --overwrite --only-needed --apply-texture-transform --strict --json --quiet --help"
+            opts="-o -q -h --output --out-dir --in-place --force --allow-outside --method --mode --threshold --normals --encoding --overwrite --only-needed --apply-texture-transform --strict --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -101,6 +138,10 @@ _darboux() {
                     return 0
                     ;;
                 --threshold)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --normals)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

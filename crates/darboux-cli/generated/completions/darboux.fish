@@ -27,6 +27,7 @@ end
 complete -c darboux -n "__fish_darboux_needs_command" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_needs_command" -s V -l version -d 'Print version'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "tangents" -d 'Add tangents to glTF and GLB files'
+complete -c darboux -n "__fish_darboux_needs_command" -f -a "normals" -d 'Add normals to glTF and GLB files'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "inspect" -d 'Show what each primitive holds and what its tangents would meet'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "methods" -d 'Say which method of computing tangents is for what'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s o -l output -d 'Output file for a single input; - is standard output, as GLB' -r -F
@@ -43,6 +44,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l mode -d 'Wh
 repaired\t'The reference\'s bits where they are usable, a unit tangent elsewhere'
 corrected\t'As repaired, with all edges matched and one sign per triangle'"
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l threshold -d 'Split tangents of faces whose directions differ by this many degrees or more' -r
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l normals -d 'keep normals as they are, or make new ones first: flat, smooth or crease=DEG' -r
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l encoding -d 'How tangents are stored: f32x4 (16 bytes), snorm16x4 (8) or snorm8x4 (4)' -r -f -a "f32x4\t''
 snorm16x4\t''
 snorm8x4\t''"
@@ -56,6 +58,20 @@ complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l strict -d '
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s q -l quiet -d 'Print errors only'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c darboux -n "__fish_darboux_using_subcommand normals" -s o -l output -d 'Output file for a single input; - is standard output, as GLB' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand normals" -l out-dir -d 'Folder for all outputs; paths below input folders are kept' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand normals" -l normals -d 'flat, smooth, or crease=DEG: smooth but for edges that are sharper than so many degrees' -r
+complete -c darboux -n "__fish_darboux_using_subcommand normals" -l weight -d 'How much each face counts at a vertex of a smooth surface' -r -f -a "angle\t'The angle of its corner: independent of how a flat surface is cut'
+area\t'Its area'
+angle-area\t'Both: wide faces stay flat beside bevels'"
+complete -c darboux -n "__fish_darboux_using_subcommand normals" -l in-place -d 'Replace each input by its output'
+complete -c darboux -n "__fish_darboux_using_subcommand normals" -l force -d 'Replace output files that exist'
+complete -c darboux -n "__fish_darboux_using_subcommand normals" -l allow-outside -d 'Allow buffers and images outside the input\'s folder'
+complete -c darboux -n "__fish_darboux_using_subcommand normals" -l respect-seams -d 'Vertices stay apart where the index list has them apart, at equal positions too'
+complete -c darboux -n "__fish_darboux_using_subcommand normals" -l overwrite -d 'Replace normals that exist; without it such primitives are kept'
+complete -c darboux -n "__fish_darboux_using_subcommand normals" -l json -d 'Write a report as JSON to standard output'
+complete -c darboux -n "__fish_darboux_using_subcommand normals" -s q -l quiet -d 'Print errors only'
+complete -c darboux -n "__fish_darboux_using_subcommand normals" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l allow-outside -d 'Allow buffers and images outside the input\'s folder'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l json -d 'Write the table as JSON'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -s h -l help -d 'Print help (see more with \'--help\')'

@@ -4,6 +4,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use darboux_io::gltf::TangentEncoding;
 
+use super::normals::{NormalsChoice, normals_choice};
 use super::{Files, Talk};
 
 pub(super) const ABOUT: &str = "\
@@ -28,6 +29,7 @@ Examples:
   darboux tangents models --in-place --only-needed  only where materials use tangents
   darboux tangents a.glb --overwrite --json         replace old tangents, report as JSON
   darboux tangents a.glb --encoding snorm8x4        in a quarter of the bytes
+  darboux tangents scan.glb --normals smooth        normals first
   curl -s URL | darboux tangents - > model.glb      from a pipe into a file";
 
 /// `darboux tangents`.
@@ -58,6 +60,18 @@ pub struct TangentsArguments {
         help_heading = "Tangents"
     )]
     pub threshold: f32,
+
+    /// keep normals as they are, or make new ones first: flat, smooth or crease=DEG
+    ///
+    /// New normals take the place of all that exist, and so do the tangents. `darboux normals` has more options.
+    #[arg(
+        long,
+        value_name = "SHADING",
+        default_value = "keep",
+        value_parser = normals_choice,
+        help_heading = "Tangents"
+    )]
+    pub normals: NormalsChoice,
 
     /// How tangents are stored: f32x4 (16 bytes), snorm16x4 (8) or snorm8x4 (4)
     ///

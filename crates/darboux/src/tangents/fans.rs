@@ -7,6 +7,7 @@
 
 mod block;
 mod last_run;
+mod names;
 mod shuffled;
 mod source;
 mod steps;
@@ -23,6 +24,7 @@ use crate::{Faces, Mesh};
 
 use super::Mode;
 use last_run::{LastRun, TailCells};
+use names::Names;
 use source::{Identity, triangles};
 use steps::{Extent, Special};
 use stream::{Share, Stream, shares};
@@ -42,7 +44,11 @@ pub(crate) struct Fans {
     weld: Weld,
     windows: Vec<Window>,
     workers: Vec<Worker>,
-    pub special: Special,
+    /// Triangles and corners that need another look.
+    special: Special,
+    names: Names,
+    /// The last edges in the reference's stretches, as the corners where they start, where their order shows.
+    last_stretches: Vec<Vec<u32>>,
 }
 
 /// A window's vertices, the lowest of all windows from it on, and the end of those of all up to it.
@@ -56,7 +62,7 @@ struct Window {
 
 impl Fans {
     /// Writes the tangents of all triangles, and lists those with undecided vertices. False where this path does not apply:
-    /// faces that are not triangles, values whose weld only the reference's order decides, last edges whose order could show.
+    /// faces that are not triangles, values whose weld only the reference's order decides.
     pub fn run(&mut self, mesh: &Mesh<'_>, mode: Mode, width: Width, out: &mut [[f32; 4]]) -> bool {
         if !matches!(mesh.faces(), Faces::Triangles) {
             return false;
@@ -68,7 +74,22 @@ impl Fans {
         self.find_windows(mesh, width);
         let tail = TailCells::first(mesh, &self.weld.bounds, self.is_shuffled());
         self.add_and_write(mesh, &tail, width, out.as_chunks_mut().0);
-        mode == Mode::Corrected || !self.last_run_could_show(mesh, tail, out)
+        self.last_stretches.clear();
+        if mode != Mode::Corrected {
+            self.leave_last_edges(mesh, tail, out);
+        }
+        true
+    }
+
+    /// The triangles with undecided vertices, ascending.
+    pub fn undecided(&self) -> &[u32] {
+        &self.special.undecided
+    }
+
+    /// The last edges, where the order in which the reference leaves them shows: stretches of edges that are matched with each other
+    /// only, as the corners where they start.
+    pub fn last_stretches(&self) -> &[Vec<u32>] {
+        &self.last_stretches
     }
 
     /// Finds which vertices each window uses.
@@ -120,19 +141,24 @@ impl Fans {
         self.special.sort();
     }
 
-    /// Whether the order of the reference's last edges could show. `tail` is of all vertices, used or not.
-    fn last_run_could_show(&self, mesh: &Mesh<'_>, tail: TailCells, out: &[[f32; 4]]) -> bool {
-        let identity = self.weld.identity();
-        if self.workers.iter().all(|worker| worker.all_used) {
-            let run = LastRun { mesh, identity, bounds: &self.weld.bounds };
-            return run.could_show(tail, &self.special.in_tail);
+    /// Leaves the vertices of the reference's last edges undecided, where the order of these shows. `tail` is of all vertices, used
+    /// or not.
+    fn leave_last_edges(&mut self, mesh: &Mesh<'_>, tail: TailCells, out: &mut [[f32; 4]]) {
+        let all_used = self.workers.iter().all(|worker| worker.all_used);
+        let bounds = if all_used { self.weld.bounds } else { bounds_of_used(mesh) };
+        let run = LastRun { mesh, identity: self.weld.identity(), bounds: &bounds };
+        let last = if all_used {
+            run.find(tail, &self.special.in_tail)
+        } else {
+            let tail = TailCells::first(mesh, &bounds, self.is_shuffled());
+            let points = run.points(&tail);
+            run.find(tail, &points)
+        };
+        if let Some(last) = last {
+            let (names, suspects) = (&mut self.names, &self.special.undecided);
+            self.last_stretches = names.last_stretches(&run, &last, self.weld.count, suspects);
+            self.special.leave(names.corners_of(&last.vertices), out);
         }
-        let mut used = (0..out.len()).map(|corner| mesh.positions().get(mesh.vertex_of_corner(corner)));
-        let bounds = Bounds::of(used.next().unwrap_or_default(), used);
-        let run = LastRun { mesh, identity, bounds: &bounds };
-        let tail = TailCells::first(mesh, &bounds, self.is_shuffled());
-        let points = run.points(&tail);
-        run.could_show(tail, &points)
     }
 
     /// The welded vertex at each corner of some triangles, named by the first corner of these.
@@ -147,6 +173,12 @@ impl Fans {
         }
         names
     }
+}
+
+/// The bounds of the positions that corners have.
+fn bounds_of_used(mesh: &Mesh<'_>) -> Bounds {
+    let mut used = (0..mesh.corner_count()).map(|corner| mesh.positions().get(mesh.vertex_of_corner(corner)));
+    Bounds::of(used.next().unwrap_or_default(), used)
 }
 
 /// Writes the windows with vertices that several threads have finished.

@@ -3,8 +3,8 @@
 //! Every operation on floats is rounded to `f32` in the reference's order; see docs/algorithms/mikktspace.md for what "exact" means.
 
 use crate::math::cosine_of_degrees;
-use crate::topology::{EdgeOrder, NONE, neighbours};
-use crate::triangles::{Triangulation, triangulate, triangulate_welded};
+use crate::topology::{EdgeOrder, NONE, match_again, neighbours};
+use crate::triangles::{Triangles, Triangulation, triangulate, triangulate_welded};
 use crate::{Frame, Mesh};
 
 use super::degenerate::fill_degenerate;
@@ -35,25 +35,32 @@ pub(crate) struct Part<'a> {
     pub names: &'a [u32],
     /// Of each corner: its vertex counts, and all triangles around it are here. Other corners stay as they were.
     pub counts: &'a [bool],
+    /// Stretches of edges, by the corners where they start, that are matched with each other only.
+    pub last_stretches: &'a [Vec<u32>],
 }
 
 impl Topology {
     /// Welds, finds neighbours and groups.
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions) -> Self {
         let order = if options.mode == Mode::Corrected { EdgeOrder::Complete } else { EdgeOrder::Reference };
-        Self::of(mesh, triangulate(mesh), order, |_| true, options)
+        let triangulation = triangulate(mesh);
+        let neighbours = neighbours(&triangulation.good, order);
+        Self::of(mesh, triangulation, &neighbours, |_| true, options)
     }
 
     /// Of the vertices of `part` that count, where the order of vertices shows nowhere.
     pub fn of_part(mesh: &Mesh<'_>, part: &Part<'_>, options: &TangentOptions) -> Self {
         let triangulation = triangulate_welded(mesh, part.names);
-        Self::of(mesh, triangulation, EdgeOrder::Complete, |vertex| part.counts[vertex as usize], options)
+        let good = &triangulation.good;
+        let mut neighbours = neighbours(good, EdgeOrder::Complete);
+        match_again(good, &half_edges_at(good, part.last_stretches), &mut neighbours);
+        Self::of(mesh, triangulation, &neighbours, |vertex| part.counts[vertex as usize], options)
     }
 
     fn of(
         mesh: &Mesh<'_>,
         triangulation: Triangulation,
-        order: EdgeOrder,
+        neighbours: &[[u32; 3]],
         counts: impl Fn(u32) -> bool,
         options: &TangentOptions,
     ) -> Self {
@@ -61,10 +68,9 @@ impl Topology {
         let good = &triangulation.good;
         let mut derivatives = derivatives(good, &shape);
         agree_in_quads(good, &shape, &mut derivatives);
-        let neighbours = neighbours(good, order);
         let uv_degenerate = derivatives.iter().filter(|derivative| derivative.any).count();
-        let mirrored_edges = count_mirrored_edges(&neighbours, &derivatives);
-        let groups = group(good, &neighbours, counts, &mut derivatives);
+        let mirrored_edges = count_mirrored_edges(neighbours, &derivatives);
+        let groups = group(good, neighbours, counts, &mut derivatives);
         let base = Values::new(good, &groups, derivatives, &shape);
         let threshold_cosine = cosine_of_degrees(options.threshold);
         Self {
@@ -149,6 +155,13 @@ impl Topology {
             ..Report::default()
         }
     }
+}
+
+/// The half-edges that start at some corners of a mesh of triangles; none of its triangles there is degenerate.
+fn half_edges_at(good: &Triangles, stretches: &[Vec<u32>]) -> Vec<Vec<u32>> {
+    let half_edge =
+        |corner: &u32| 3 * good.face.partition_point(|&face| face < corner / 3) as u32 + corner % 3;
+    stretches.iter().map(|stretch| stretch.iter().map(half_edge).collect()).collect()
 }
 
 /// Edges between two triangles, neither UV-degenerate, of opposite orientation.

@@ -1,11 +1,12 @@
 //! Whether the order of the reference's last edges could show.
 //!
 //! The reference leaves the edges with the largest lower vertex in the order of an unstable sort. What that sort does shows when
-//! those edges are more than two and some of them are one edge. Which edges they are depends on the vertices' names, the
+//! those edges are more than two and some of them are one edge; then it is done (see `crate::last_edges`). Which edges they are depends on the vertices' names, the
 //! corners that represent them (see `crate::weld`). Names near the end of the triangle list decide, and those are names of
 //! vertices that the last triangles use: only the cells of these are put into the reference's order.
 
 use crate::Mesh;
+use crate::topology::order_shows;
 use crate::weld::{Bounds, CELLS, Cells, Point, for_each_final_range};
 
 use super::source::{Identity, triangles};
@@ -15,9 +16,6 @@ use super::windows_of;
 /// where they are not: there fewer of them have vertices that are named at the end.
 const FIRST_TAIL: usize = if cfg!(small_limits) { 1 } else { 4 };
 const FIRST_TAIL_SHUFFLED: usize = 8 * FIRST_TAIL;
-
-/// Where a tail as long as this has not decided, the order counts as showing.
-const LONGEST_TAIL: usize = 1 << 12;
 
 /// The cells in which a tail of the triangle list has vertices.
 #[derive(Debug)]
@@ -52,10 +50,14 @@ impl TailCells {
         tail
     }
 
-    /// Of the first tail to look at.
+    /// Of the first tail to look at: so many triangles that have edges, and whatever lies among and behind them.
     pub fn first(mesh: &Mesh<'_>, bounds: &Bounds, is_shuffled: bool) -> Self {
         let tail = if is_shuffled { FIRST_TAIL_SHUFFLED } else { FIRST_TAIL };
-        Self::new(mesh, bounds, mesh.face_count().saturating_sub(tail))
+        let mut good = (0..mesh.face_count()).rev().filter(|&triangle| {
+            let [a, b, c] = [0, 1, 2].map(|k| mesh.positions().get(mesh.vertex_of_corner(3 * triangle + k)));
+            !are_degenerate([a, b, c])
+        });
+        Self::new(mesh, bounds, good.nth(tail - 1).unwrap_or(0))
     }
 
     /// True for vertices in these cells.
@@ -71,7 +73,24 @@ impl TailCells {
     }
 }
 
+/// An edge's vertices and their names, the lower first.
+struct Edge {
+    names: [u32; 2],
+    ends: [u32; 2],
+}
+
+/// The last edges.
+#[derive(Debug)]
+pub(super) struct LastEdges {
+    /// The name of their lower vertex.
+    pub name: u32,
+    pub count: usize,
+    /// All vertices at their ends, ascending.
+    pub vertices: Vec<u32>,
+}
+
 /// A welded mesh.
+#[derive(Clone, Copy)]
 pub(super) struct LastRun<'a> {
     pub mesh: &'a Mesh<'a>,
     pub identity: Identity<'a>,
@@ -79,30 +98,29 @@ pub(super) struct LastRun<'a> {
 }
 
 impl LastRun<'_> {
-    /// True when the order could show. `points` are the corners of `cells`' vertices, ascending.
-    pub fn could_show(&self, mut cells: TailCells, points: &[Point]) -> bool {
-        let mut found = self.shows_in_tail(&cells, points);
-        while found.is_none() && cells.start > 0 {
+    /// The name of the last edges' lower vertex, where their order could show, and the vertices at their ends. `points` are the
+    /// corners of `cells`' vertices, ascending.
+    pub fn find(&self, mut cells: TailCells, points: &[Point]) -> Option<LastEdges> {
+        let mut edges = self.edges_in_tail(&cells, points);
+        while edges.is_empty() && cells.start > 0 {
             let tail = 4 * (self.mesh.face_count() - cells.start);
-            if tail > LONGEST_TAIL {
-                return true;
-            }
             cells = TailCells::new(self.mesh, self.bounds, self.mesh.face_count().saturating_sub(tail));
-            found = self.shows_in_tail(&cells, &self.points(&cells));
+            edges = self.edges_in_tail(&cells, &self.points(&cells));
         }
-        found.unwrap_or(false)
+        let name = edges.iter().map(|edge| edge.names[0]).max()?;
+        edges.retain(|edge| edge.names[0] == name);
+        if !order_shows(edges.iter().map(|edge| edge.names[1])) {
+            return None;
+        }
+        let mut vertices: Vec<u32> = edges.iter().flat_map(|edge| edge.ends).collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        Some(LastEdges { name, count: edges.len(), vertices })
     }
 
-    /// Whether the order shows, if the last run's lower vertex is named after a corner of the tail.
-    fn shows_in_tail(&self, cells: &TailCells, points: &[Point]) -> Option<bool> {
-        let edges = self.highest_edges(&self.corners_of_named(cells, points));
-        let lower = edges.iter().map(|&(lower, _)| lower).max()?;
-        let mut uppers: Vec<u32> =
-            edges.iter().filter(|edge| edge.0 == lower).map(|&(_, upper)| upper).collect();
-        let count = uppers.len();
-        uppers.sort_unstable();
-        uppers.dedup();
-        Some(count > 2 && uppers.len() < count)
+    /// The edges with the largest lower vertex are among these, if it is named after a corner of the tail.
+    fn edges_in_tail(&self, cells: &TailCells, points: &[Point]) -> Vec<Edge> {
+        self.highest_edges(&self.corners_of_named(cells, points))
     }
 
     fn triangle(&self, triangle: usize) -> [u32; 3] {
@@ -113,7 +131,8 @@ impl LastRun<'_> {
         self.triangle(entry as usize / 3)[entry as usize % 3]
     }
 
-    fn position(&self, vertex: u32) -> [f32; 3] {
+    /// The position of a welded vertex.
+    pub fn position(&self, vertex: u32) -> [f32; 3] {
         self.identity.position(self.mesh, vertex)
     }
 
@@ -156,22 +175,29 @@ impl LastRun<'_> {
         found
     }
 
-    /// The names of the two higher vertices, the lower one first, of all triangles where `corners` has both.
-    fn highest_edges(&self, corners: &[(u32, u32)]) -> Vec<(u32, u32)> {
+    /// The edge between the two higher vertices of all triangles where `corners` has both.
+    fn highest_edges(&self, corners: &[(u32, u32)]) -> Vec<Edge> {
         let triangles = corners.chunk_by(|a, b| a.0 / 3 == b.0 / 3);
         let edge = |corners: &[(u32, u32)]| {
-            let mut names: Vec<u32> = corners.iter().map(|&(_, name)| name).collect();
-            names.sort_unstable();
-            match names[..] {
-                [.., lower, upper] if !self.is_degenerate(corners[0].0 / 3) => Some((lower, upper)),
+            let mut named: Vec<(u32, u32)> =
+                corners.iter().map(|&(corner, name)| (name, self.vertex(corner))).collect();
+            named.sort_unstable();
+            match named[..] {
+                [.., lower, upper] if !self.is_degenerate(self.triangle(corners[0].0 as usize / 3)) => {
+                    Some(Edge { names: [lower.0, upper.0], ends: [lower.1, upper.1] })
+                }
                 _ => None,
             }
         };
         triangles.filter_map(edge).collect()
     }
 
-    fn is_degenerate(&self, triangle: u32) -> bool {
-        let [a, b, c] = self.triangle(triangle as usize).map(|vertex| self.position(vertex));
-        a == b || b == c || c == a
+    /// True for triangles of which the reference makes no edges.
+    pub fn is_degenerate(&self, triangle: [u32; 3]) -> bool {
+        are_degenerate(triangle.map(|vertex| self.position(vertex)))
     }
+}
+
+fn are_degenerate([a, b, c]: [[f32; 3]; 3]) -> bool {
+    a == b || b == c || c == a
 }

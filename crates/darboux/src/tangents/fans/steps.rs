@@ -248,6 +248,17 @@ impl Special {
         self.in_tail.append(&mut other.in_tail);
     }
 
+    /// Leaves corners undecided, all of their vertices'.
+    #[cold]
+    pub fn leave(&mut self, corners: impl Iterator<Item = u32>, out: &mut [[f32; 4]]) {
+        for corner in corners {
+            out[corner as usize][3] = UNDECIDED;
+            self.undecided.push(corner / 3);
+        }
+        self.undecided.sort_unstable();
+        self.undecided.dedup();
+    }
+
     /// Lists a triangle with undecided vertices, and its corners in the tail's cells, which get their signs back.
     #[cold]
     pub fn note(&mut self, triangle: u32, positions: [[f32; 3]; 3], out: &mut [[f32; 4]; 3]) {

@@ -1,0 +1,56 @@
+//! Models in and out. Errors are one sentence each.
+
+use std::io::Read;
+
+use darboux_io::gltf::{Document, LoadOptions, SaveOptions};
+
+use crate::arguments::Files;
+use crate::interrupt;
+use crate::jobs::{Input, Output};
+use crate::messages::write_stdout;
+use crate::report::Status;
+
+/// Reads a document; `-` has no folder, so its buffers must be embedded.
+pub fn load(input: &Input, allow_outside: bool) -> Result<Document, String> {
+    let options = LoadOptions { allow_outside };
+    let document = match input {
+        Input::File(path) => Document::open(path, &options),
+        Input::Stdin => {
+            let mut bytes = Vec::new();
+            std::io::stdin()
+                .lock()
+                .read_to_end(&mut bytes)
+                .map_err(|error| format!("{input}: cannot be read: {error}"))?;
+            Document::from_bytes(&input.to_string(), bytes, None, &options)
+        }
+    };
+    document.map_err(|error| error.to_string())
+}
+
+/// Writes a document where it belongs; says what that was and gives the files written. `changed`: by the command's own work.
+pub fn save(
+    document: &Document,
+    output: &Output,
+    files: &Files,
+    changed: bool,
+) -> Result<(Status, Vec<String>), String> {
+    let sentence = |error: darboux_io::Error| error.to_string();
+    let status = if changed { Status::Written } else { Status::Copied };
+    let path = match output {
+        Output::Stdout => {
+            let bytes = document.to_glb().map_err(sentence)?;
+            write_stdout(&bytes).map_err(|error| format!("{output}: cannot be written: {error}"))?;
+            return Ok((status, Vec::new()));
+        }
+        Output::File(path) => path,
+    };
+    let _guard = interrupt::writing();
+    let written = match files.in_place {
+        true => document.save_in_place(),
+        false => document.save(path, &SaveOptions { force: files.force }),
+    };
+    let written: Vec<String> =
+        written.map_err(sentence)?.iter().map(|path| path.display().to_string()).collect();
+    let untouched = files.in_place && written.is_empty();
+    Ok((if untouched { Status::Untouched } else { status }, written))
+}

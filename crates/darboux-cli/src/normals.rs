@@ -1,0 +1,104 @@
+//! `darboux normals`.
+
+use darboux_io::gltf::{
+    NormalsOptions, NormalsOutcome, NormalsSummary, PrimitiveNormals, Progress, WrittenNormals, add_normals,
+};
+use indicatif::HumanCount;
+
+use crate::arguments::{Files, NormalsArguments, Talk};
+use crate::batch::{Made, Work, counted, remarks};
+use crate::jobs::{Job, Usage, word};
+use crate::messages::Messages;
+use crate::models::{load, save};
+use crate::report::FileReport;
+
+impl Work for NormalsArguments {
+    type Summary = NormalsSummary;
+
+    const COMMAND: &'static str = "normals";
+    const WORD: &'static str = word::NORMALS;
+
+    fn files(&self) -> &Files {
+        &self.files
+    }
+
+    fn talk(&self) -> &Talk {
+        &self.talk
+    }
+
+    fn check(&self) -> Result<(), Usage> {
+        Ok(())
+    }
+
+    fn process(&self, job: &Job, messages: &Messages) -> Result<Made<NormalsSummary>, String> {
+        let mut document = load(&job.input, self.files.allow_outside)?;
+        let mut on_progress = |progress: Progress| messages.progress(progress.done, progress.total);
+        let options = NormalsOptions { normals: self.options(), overwrite: self.overwrite };
+        let mut summary =
+            add_normals(&mut document, &options, &mut on_progress).map_err(|error| error.to_string())?;
+        summary.warnings.splice(0..0, document.warnings().iter().cloned());
+        let (status, files_written) = save(&document, &job.output, &self.files, summary.written > 0)?;
+        Ok(Made { status, files_written, summary })
+    }
+
+    fn lines(summary: &NormalsSummary) -> Vec<String> {
+        lines(&summary.primitives)
+    }
+
+    fn warnings(summary: &NormalsSummary) -> &[String] {
+        &summary.warnings
+    }
+
+    fn total(files: &[FileReport<NormalsSummary>]) -> String {
+        let written: usize = files.iter().map(|file| file.summary.written).sum();
+        let all: usize = files.iter().map(|file| file.summary.primitives.len()).sum();
+        format!("{} got normals, {} did not", counted(written, "primitive", "primitives"), all - written)
+    }
+}
+
+/// What was done to each primitive.
+pub fn lines(primitives: &[PrimitiveNormals]) -> Vec<String> {
+    let line = |primitive: &PrimitiveNormals| {
+        let what = match &primitive.outcome {
+            NormalsOutcome::Written(written) => told(written),
+            NormalsOutcome::Kept { reason } => format!("normals kept: {reason}"),
+            NormalsOutcome::Skipped { reason } => format!("no normals: {reason}"),
+            _ => return None,
+        };
+        Some(format!("{}: {what}", primitive.name))
+    };
+    primitives.iter().filter_map(line).collect()
+}
+
+/// The normals of a primitive in words; counts of nothing are left out.
+fn told(written: &WrittenNormals) -> String {
+    let WrittenNormals { vertices_before, vertices_after, .. } = written;
+    let mut text = format!(
+        "normals {}, {}, {}",
+        if written.replaced { "replaced" } else { "made" },
+        counted(written.triangles, "triangle", "triangles"),
+        counted(*vertices_before, "vertex", "vertices")
+    );
+    if vertices_after != vertices_before {
+        text += &format!(" became {}", HumanCount(*vertices_after as u64));
+    }
+    text += &remarks([
+        (written.creased_edges, "creased edge in its mesh", "creased edges in its mesh"),
+        (written.degenerate_triangles, "degenerate triangle in its mesh", "degenerate triangles in its mesh"),
+        (
+            written.repaired_corners,
+            "corner without a normal in its mesh",
+            "corners without a normal in its mesh",
+        ),
+        (written.morph_targets, "morph target", "morph targets"),
+        (
+            written.conflicting_corners,
+            "morphed corner unlike its vertex",
+            "morphed corners unlike their vertices",
+        ),
+    ]);
+    if written.tangents_removed {
+        text += ", tangents of the old normals taken out";
+    }
+    text
+}

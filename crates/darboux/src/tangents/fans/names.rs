@@ -1,0 +1,159 @@
+//! The reference's names of welded vertices, found where they are asked for.
+//!
+//! A vertex is named after one of its corners: the first when the reference has cut the points of its cell down to one range. So
+//! a name lies between the vertex's first and last corner, which nearly always suffices. Elsewhere the cell is cut again.
+
+use crate::last_edges::{Edges, last_stretches};
+use crate::weld::{CELLS, Cells, Point, for_each_final_range};
+
+use super::last_run::{LastEdges, LastRun};
+use super::source::triangles;
+use super::windows_of;
+
+/// The names of a mesh's vertices; the memory is kept from mesh to mesh.
+#[derive(Debug, Default)]
+pub(super) struct Names {
+    /// The welded vertex of each corner.
+    vertices: Vec<u32>,
+    bounds: Vec<[u32; 2]>,
+    is_wanted: Vec<bool>,
+    /// The cell of each welded vertex.
+    cell_of: Vec<u16>,
+    /// All corners, by cell, and where each cell ends.
+    corners: Vec<u32>,
+    ends: Vec<u32>,
+    edges: Vec<u32>,
+}
+
+impl Names {
+    /// The last edges in the reference's stretches (see `crate::last_edges`), as the corners where they start. `count` is that of
+    /// welded vertices; `suspects` holds all triangles that could be degenerate, ascending.
+    pub fn last_stretches(
+        &mut self,
+        run: &LastRun<'_>,
+        last: &LastEdges,
+        count: usize,
+        suspects: &[u32],
+    ) -> Vec<Vec<u32>> {
+        self.find_bounds(run, count);
+        self.sort_into_cells(run);
+        self.list_edges(run, suspects);
+        let mut edges = std::mem::take(&mut self.edges);
+        let stretches = last_stretches(&mut edges, last.name, last.count, &mut NamesIn { run, names: self });
+        self.edges = edges;
+        stretches
+    }
+
+    /// The corners of some vertices, ascending.
+    pub fn corners_of(&self, vertices: &[u32]) -> impl Iterator<Item = u32> {
+        let mut is_asked_for = vec![false; self.bounds.len()];
+        vertices.iter().for_each(|&vertex| is_asked_for[vertex as usize] = true);
+        let corners = (0..).zip(&self.vertices);
+        corners.filter(move |(_, vertex)| is_asked_for[**vertex as usize]).map(|(corner, _)| corner)
+    }
+
+    fn find_bounds(&mut self, run: &LastRun<'_>, count: usize) {
+        self.vertices.clear();
+        let mut buffer = Vec::new();
+        for range in windows_of(run.mesh.face_count()) {
+            let triangles = triangles(run.mesh, run.identity, range, &mut buffer);
+            self.vertices.extend_from_slice(triangles.as_flattened());
+        }
+        self.bounds.clear();
+        self.bounds.resize(count, [u32::MAX, 0]);
+        for (&vertex, corner) in self.vertices.iter().zip(0..) {
+            let [low, high] = &mut self.bounds[vertex as usize];
+            (*low, *high) = (corner.min(*low), corner);
+        }
+    }
+
+    fn sort_into_cells(&mut self, run: &LastRun<'_>) {
+        let cells = Cells::of(run.bounds);
+        let count = self.bounds.len() as u32;
+        self.is_wanted.clear();
+        self.is_wanted.resize(self.bounds.len(), false);
+        self.cell_of.clear();
+        self.cell_of.extend((0..count).map(|vertex| cells.at(run.position(vertex)) as u16));
+        self.ends.clear();
+        self.ends.resize(CELLS + 1, 0);
+        for &vertex in &self.vertices {
+            self.ends[usize::from(self.cell_of[vertex as usize]) + 1] += 1;
+        }
+        for cell in 0..CELLS {
+            self.ends[cell + 1] += self.ends[cell];
+        }
+        self.corners.resize(self.vertices.len(), 0);
+        for (&vertex, corner) in self.vertices.iter().zip(0..) {
+            let next = &mut self.ends[usize::from(self.cell_of[vertex as usize])];
+            self.corners[*next as usize] = corner;
+            *next += 1;
+        }
+    }
+
+    /// Lists the edges of all triangles with three distinct positions.
+    fn list_edges(&mut self, run: &LastRun<'_>, suspects: &[u32]) {
+        self.edges.clear();
+        let mut next = 0;
+        for &suspect in suspects {
+            let first = 3 * suspect;
+            if run.is_degenerate(self.vertices.as_chunks().0[suspect as usize]) {
+                self.edges.extend(next..first);
+                next = first + 3;
+            }
+        }
+        self.edges.extend(next..self.vertices.len() as u32);
+    }
+
+    /// Names all vertices in the ranges of a cell's points that hold a wanted vertex.
+    fn name_cell(&mut self, run: &LastRun<'_>, cell: u16) {
+        let cell = usize::from(cell);
+        let start = if cell == 0 { 0 } else { self.ends[cell - 1] };
+        let (vertices, bounds) = (&self.vertices, &mut self.bounds);
+        let vertex = |point: &Point| vertices[point.entry as usize];
+        let point = |&entry: &u32| Point { position: run.position(vertices[entry as usize]), entry };
+        let mut points: Vec<Point> =
+            self.corners[start as usize..self.ends[cell] as usize].iter().map(point).collect();
+        let is_wanted = |point: &Point| self.is_wanted[vertex(point) as usize];
+        for_each_final_range(&mut points, &|points| points.iter().any(is_wanted), &mut |points| {
+            // From the last to the first: the first corner of each vertex remains its name.
+            for point in points.iter().rev() {
+                bounds[vertex(point) as usize] = [point.entry; 2];
+            }
+        });
+    }
+}
+
+/// The edges of a mesh, which names the vertices asked for.
+struct NamesIn<'a> {
+    run: &'a LastRun<'a>,
+    names: &'a mut Names,
+}
+
+impl Edges for NamesIn<'_> {
+    #[inline(always)]
+    fn ends(&self, edge: u32) -> [u32; 2] {
+        let next = if edge % 3 == 2 { edge - 2 } else { edge + 1 };
+        [edge, next].map(|corner| self.names.vertices[corner as usize])
+    }
+
+    #[inline(always)]
+    fn bounds(&self, vertex: u32) -> [u32; 2] {
+        self.names.bounds[vertex as usize]
+    }
+
+    fn find(&mut self, vertices: &[u32]) {
+        let Self { run, names } = self;
+        let mut cells = Vec::new();
+        for &vertex in vertices {
+            let [low, high] = names.bounds[vertex as usize];
+            if low < high {
+                names.is_wanted[vertex as usize] = true;
+                cells.push(names.cell_of[vertex as usize]);
+            }
+        }
+        cells.sort_unstable();
+        cells.dedup();
+        cells.into_iter().for_each(|cell| names.name_cell(run, cell));
+        vertices.iter().for_each(|&vertex| names.is_wanted[vertex as usize] = false);
+    }
+}
