@@ -1,13 +1,14 @@
 //! Models in and out. Errors are one sentence each.
 
-use std::io::Read;
+use std::io::{self, ErrorKind, Read};
+use std::path::Path;
 
+use darboux_io::Error;
 use darboux_io::gltf::{Document, LoadOptions, SaveOptions};
 
 use crate::arguments::Files;
 use crate::interrupt;
 use crate::jobs::{Input, Output};
-use crate::messages::write_stdout;
 use crate::report::Status;
 
 /// Reads a document; `-` has no folder, so its buffers must be embedded.
@@ -17,7 +18,7 @@ pub fn load(input: &Input, allow_outside: bool) -> Result<Document, String> {
         Input::File(path) => Document::open(path, &options),
         Input::Stdin => {
             let mut bytes = Vec::new();
-            std::io::stdin()
+            io::stdin()
                 .lock()
                 .read_to_end(&mut bytes)
                 .map_err(|error| format!("{input}: cannot be read: {error}"))?;
@@ -34,13 +35,17 @@ pub fn save(
     files: &Files,
     changed: bool,
 ) -> Result<(Status, Vec<String>), String> {
-    let sentence = |error: darboux_io::Error| error.to_string();
+    let sentence = |error: Error| error.to_string();
     let status = if changed { Status::Written } else { Status::Copied };
     let path = match output {
         Output::Stdout => {
-            let bytes = document.to_glb().map_err(sentence)?;
-            write_stdout(&bytes).map_err(|error| format!("{output}: cannot be written: {error}"))?;
-            return Ok((status, Vec::new()));
+            return match document.write_glb(Path::new(&output.to_string()), io::stdout().lock()) {
+                // A closed pipe is no fault: its reader has what it wanted.
+                Err(Error::Write { source, .. }) if source.kind() == ErrorKind::BrokenPipe => {
+                    Ok((status, Vec::new()))
+                }
+                written => written.map(|()| (status, Vec::new())).map_err(sentence),
+            };
         }
         Output::File(path) => path,
     };
