@@ -47,18 +47,18 @@ const BUILT_IN: &[[&str; 3]] = &[
 
 /// Writes `shaders/glsl` and `shaders/hlsl` below `base`.
 pub fn write(base: &Path) -> Outcome {
-    let mut functions = Vec::new();
+    let mut names = Vec::new();
     let mut sources = Vec::new();
     for path in files_below(&root().join("shaders/wgsl"))? {
         let text = fs::read_to_string(&path)
             .map_err(|error| format!("{} cannot be read: {error}", path.display()))?;
-        functions.extend(functions_of(&text));
+        names.extend(names_of(&text));
         let theme = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         sources.push((theme, text));
     }
     for (theme, text) in &sources {
         for (language, name) in [(Language::Glsl, "glsl"), (Language::Hlsl, "hlsl")] {
-            let translated = translate(text, language, &functions)
+            let translated = translate(text, language, &names)
                 .map_err(|fault| format!("shaders/wgsl/{theme}.wgsl: {fault}"))?;
             let text = format!("{}\n{translated}", head(theme, language));
             write_file(&base.join("shaders").join(name).join(format!("{theme}.{name}")), &text)?;
@@ -82,15 +82,15 @@ fn head(theme: &str, language: Language) -> String {
 }
 
 /// The names of the functions and structures that a WGSL text defines.
-fn functions_of(text: &str) -> Vec<String> {
+fn names_of(text: &str) -> Vec<String> {
     let tokens: Vec<&str> = tokens(text).into_iter().filter(|token| !is_blank(token)).collect();
-    let names = tokens.windows(2).filter(|pair| pair[0] == "fn").map(|pair| pair[1].to_owned());
-    names.collect()
+    let definitions = tokens.windows(2).filter(|pair| ["fn", "struct"].contains(&pair[0]));
+    definitions.map(|pair| pair[1].to_owned()).collect()
 }
 
-/// A WGSL text in another language, line by line. `functions`: those of the whole library.
-fn translate(text: &str, language: Language, functions: &[String]) -> Result<String, String> {
-    let mut reader = Reader { tokens: tokens(text), next: 0, line: 1, language, functions };
+/// A WGSL text in another language, line by line. `names`: those that the whole library defines.
+fn translate(text: &str, language: Language, names: &[String]) -> Result<String, String> {
+    let mut reader = Reader { tokens: tokens(text), next: 0, line: 1, language, names };
     let mut out = String::new();
     while let Some(token) = reader.take() {
         out += &reader.piece(token).map_err(|fault| format!("line {}: {fault}", reader.line))?;
@@ -131,7 +131,7 @@ struct Reader<'a> {
     next: usize,
     line: usize,
     language: Language,
-    functions: &'a [String],
+    names: &'a [String],
 }
 
 impl<'a> Reader<'a> {
@@ -181,7 +181,7 @@ impl<'a> Reader<'a> {
         let name = self.word()?;
         self.expect(":")?;
         let of = self.word()?;
-        Ok(format!("{} {name}", self.spelled(of)))
+        Ok(format!("{} {name}", self.spelled(of)?))
     }
 
     /// `fn name(a: type, ...) -> type` as `type name(type a, ...)`.
@@ -198,7 +198,7 @@ impl<'a> Reader<'a> {
         self.expect(")")?;
         self.expect("->")?;
         let result = self.word()?;
-        Ok(format!("{} {name}({})", self.spelled(result), parameters.join(", ")))
+        Ok(format!("{} {name}({})", self.spelled(result)?, parameters.join(", ")))
     }
 
     /// `struct Name { field: type, ... }` as `struct Name { type field; ... };`, comments kept.
@@ -213,27 +213,29 @@ impl<'a> Reader<'a> {
                 name => {
                     self.expect(":")?;
                     let of = self.word()?;
-                    out += &format!("{} {name}", self.spelled(of));
+                    out += &format!("{} {name}", self.spelled(of)?);
                 }
             }
         }
         Err("a structure without an end".into())
     }
 
-    /// A word before a parenthesis: a type, a function or `if`.
+    /// A word before a parenthesis: a type, a function, `if` or `return`.
     fn called(&self, word: &str) -> Result<String, String> {
-        let is_known = ["if", "return"].contains(&word) || self.functions.iter().any(|name| name == word);
-        let translated = TYPES.iter().chain(BUILT_IN).find(|row| row[0] == word).map(|row| self.column(row));
-        match translated {
-            Some(spelling) => Ok(spelling.to_owned()),
-            None if is_known => Ok(word.to_owned()),
-            None => Err(format!("`{word}` is not in the subset that all three languages share")),
+        match BUILT_IN.iter().find(|row| row[0] == word) {
+            Some(row) => Ok(self.column(row).to_owned()),
+            None if ["if", "return"].contains(&word) => Ok(word.to_owned()),
+            None => self.spelled(word),
         }
     }
 
-    /// A type's name: structures keep theirs.
-    fn spelled(&self, of: &'a str) -> &'a str {
-        TYPES.iter().find(|row| row[0] == of).map_or(of, |row| self.column(row))
+    /// A type's name, or what the library defines.
+    fn spelled(&self, name: &str) -> Result<String, String> {
+        match TYPES.iter().find(|row| row[0] == name) {
+            Some(row) => Ok(self.column(row).to_owned()),
+            None if self.names.iter().any(|known| known == name) => Ok(name.to_owned()),
+            None => Err(format!("`{name}` is not in the subset that all three languages share")),
+        }
     }
 
     fn column(&self, row: &[&'static str; 3]) -> &'static str {
@@ -241,5 +243,37 @@ impl<'a> Reader<'a> {
             Language::Glsl => 1,
             Language::Hlsl => 2,
         }]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Language, names_of, translate};
+
+    fn hlsl(text: &str) -> Result<String, String> {
+        translate(text, Language::Hlsl, &names_of(text))
+    }
+
+    #[test]
+    fn definitions_are_spelled_anew_line_by_line() {
+        let wgsl = "// a + b\nstruct Pair {\n    a: vec3f, // x: f32\n    b: i32,\n}\n\nfn sum(p: Pair, k: u32) -> f32 {\n    \
+                    let x: f32 = mix(p.a.x, f32(p.b), 0.5);\n    return max(\n        x,\n        1.0,\n    );\n}\n";
+        let expected = "// a + b\nstruct Pair {\n    float3 a; // x: f32\n    int b;\n};\n\nfloat sum(Pair p, uint k) {\n    \
+                        float x = lerp(p.a.x, float(p.b), 0.5);\n    return max(\n        x,\n        1.0\n    );\n}\n";
+        assert_eq!(hlsl(wgsl).as_deref(), Ok(expected));
+    }
+
+    #[test]
+    fn what_is_outside_the_subset_is_an_error() {
+        for (text, fault) in [
+            ("fn f() -> f32 {\n    return fma(1.0, 2.0, 3.0);\n}", "line 2: `fma` is not in the subset"),
+            ("fn f() -> f32 {\n    let x = 1.0;\n}", "line 2: `:` expected, found `=`"),
+            ("fn f(m: mat3x3f) -> f32 {}", "line 1: `mat3x3f` is not in the subset"),
+            ("fn f() {}", "line 1: `->` expected, found `{`"),
+            ("struct S { a: f32", "a structure without an end"),
+        ] {
+            let error = hlsl(text).expect_err("an error");
+            assert!(error.contains(fault), "{error}");
+        }
     }
 }

@@ -8,7 +8,7 @@ use wgpu::{Backends, BufferUsages, Instance, InstanceDescriptor, ShaderModule, S
 use crate::language::{Language, Stage, cannot_run};
 
 /// Of targets.
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+pub(crate) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// A device of an adapter.
 pub struct Gpu {
@@ -80,7 +80,7 @@ impl Gpu {
         self.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
     }
 
-    /// A pipeline that draws triangles into a [`Gpu::target`], of two modules' `main`.
+    /// A pipeline that draws triangles into a [`Gpu::target`], of the modules' only entry points.
     pub fn render_pipeline(
         &self,
         vertex: &ShaderModule,
@@ -92,7 +92,7 @@ impl Gpu {
             layout: None,
             vertex: wgpu::VertexState {
                 module: vertex,
-                entry_point: Some("main"),
+                entry_point: None,
                 compilation_options: Default::default(),
                 buffers,
             },
@@ -101,7 +101,7 @@ impl Gpu {
             multisample: Default::default(),
             fragment: Some(wgpu::FragmentState {
                 module: fragment,
-                entry_point: Some("main"),
+                entry_point: None,
                 compilation_options: Default::default(),
                 targets: &[Some(FORMAT.into())],
             }),
@@ -140,5 +140,21 @@ impl Gpu {
             color_attachments: &[Some(attachment)],
             ..Default::default()
         })
+    }
+
+    /// Submits what draws into a target, and reads its pixels, row by row.
+    pub fn pixels(&self, mut encoder: wgpu::CommandEncoder, target: &wgpu::Texture) -> Vec<[u8; 4]> {
+        let (width, height) = (target.width(), target.height());
+        let row = (4 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let read = self
+            .buffer(&vec![0; (row * height / 4) as usize], BufferUsages::MAP_READ | BufferUsages::COPY_DST);
+        let layout =
+            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
+        let destination = wgpu::TexelCopyBufferInfo { buffer: &read, layout };
+        encoder.copy_texture_to_buffer(target.as_image_copy(), destination, target.size());
+        self.queue.submit([encoder.finish()]);
+        let words = self.words(&read);
+        let rows = words.chunks((row / 4) as usize);
+        rows.flat_map(|row| &row[..width as usize]).map(|word| word.to_le_bytes()).collect()
     }
 }

@@ -3,6 +3,7 @@
 mod gpu;
 mod kernel;
 mod language;
+pub mod picture;
 pub mod samples;
 pub mod vector;
 

@@ -81,6 +81,18 @@ fn names_are_the_same_in_all_languages_and_unique() {
     assert_eq!(wgsl, hlsl);
 }
 
+#[test]
+fn no_file_is_left_out() {
+    for language in Language::ALL {
+        let folder = format!("{}/../../shaders/{}", env!("CARGO_MANIFEST_DIR"), language.name());
+        for entry in fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            let text = fs::read_to_string(&path).expect("a text");
+            assert!(library(language, Stage::Fragment).contains(&text), "{} is not tested", path.display());
+        }
+    }
+}
+
 /// By a test, or by a function that one is.
 #[test]
 fn every_function_is_executed() {
