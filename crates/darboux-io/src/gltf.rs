@@ -4,6 +4,7 @@ mod accessor;
 mod append;
 mod compression;
 mod container;
+mod convert;
 mod document;
 mod file_bytes;
 mod inspect;
@@ -19,6 +20,7 @@ mod tangents;
 mod values;
 
 pub use accessor::{Elements, NewAccessor, Target};
+pub use convert::{ConversionSummary, convert_vertices};
 pub use document::{Document, LoadOptions};
 pub use inspect::{PrimitiveInfo, inspect};
 pub use normals::{

@@ -27,6 +27,7 @@ pub struct Image {
     height: u32,
     color: ColorType,
     texels: Texels,
+    is_changed: bool,
 }
 
 /// The channels of all texels, row after row.
@@ -91,7 +92,7 @@ impl Image {
             _ => Texels::Bytes(bytes),
         };
         drop(reader);
-        Ok(Self { name: name.to_owned(), file, width, height, color, texels })
+        Ok(Self { name: name.to_owned(), file, width, height, color, texels, is_changed: false })
     }
 
     /// The name in messages.
@@ -117,7 +118,12 @@ impl Image {
         channels::letters(self.color)
     }
 
-    /// The file: new texels, all other chunks as they were read, but for those that describe another kind of texels.
+    /// Whether texels differ from those that were read.
+    pub fn is_changed(&self) -> bool {
+        self.is_changed
+    }
+
+    /// The file: as it was read if nothing changed; otherwise new texels, all other chunks as they were read, but for those that describe another kind of texels.
     ///
     /// Interlaced images become plain ones. Errors: none but those of memory.
     pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
@@ -125,6 +131,9 @@ impl Image {
     }
 
     fn encode(&self) -> Result<Vec<u8>, Fault> {
+        if !self.is_changed {
+            return Ok(self.file.clone());
+        }
         let failed =
             |error: png::EncodingError| Fault::unsupported("", format!("cannot be encoded: {error}"));
         let mut encoded = Vec::new();

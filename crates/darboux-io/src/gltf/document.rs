@@ -76,6 +76,7 @@ pub(super) struct Edits {
     pub removed_extensions: Vec<&'static str>,
     pub required_extensions: Vec<&'static str>,
     pub new_accessors: Vec<String>,
+    pub asset: Option<String>,
     pub new_views: Vec<NewView>,
     /// The length of all new views.
     pub new_byte_count: usize,
@@ -331,14 +332,15 @@ impl Document {
 
     /// Whether there are edits.
     pub fn is_changed(&self) -> bool {
-        let Edits { primitives, accessors, views, buffers, removed_extensions, new_accessors, .. } =
+        let Edits { primitives, accessors, views, buffers, removed_extensions, new_accessors, asset, .. } =
             &self.edits;
         !(primitives.is_empty()
             && accessors.is_empty()
             && views.is_empty()
             && buffers.is_empty()
             && removed_extensions.is_empty()
-            && new_accessors.is_empty())
+            && new_accessors.is_empty()
+            && asset.is_none())
     }
 
     /// The JSON text as it was read.

@@ -225,6 +225,7 @@ impl<'a> Layout<'a> {
                 Ok(())
             };
         (|| {
+            set("asset", &|asset| Ok(edits.asset.clone().unwrap_or_else(|| asset.to_owned())))?;
             set("meshes", &|meshes| self.meshes(meshes))?;
             set("accessors", &|accessors| edit_array(accessors, &edits.accessors, &edits.new_accessors))?;
             set("bufferViews", &|views| self.views(views))?;

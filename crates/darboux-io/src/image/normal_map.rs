@@ -25,7 +25,7 @@ pub fn convert_normal_map(
     let color = to.kind(image.color);
     let target = to.places(color).unwrap_or(places);
     let (before, after) = (image.color.samples(), color.samples());
-    image.texels = match &image.texels {
+    let texels = match &image.texels {
         Texels::Bytes(bytes) => {
             Texels::Bytes(converted(bytes, conversion, (before, places), (after, target)))
         }
@@ -33,7 +33,8 @@ pub fn convert_normal_map(
             Texels::Words(converted(words, conversion, (before, places), (after, target)))
         }
     };
-    image.color = color;
+    image.is_changed |= color != image.color || texels != image.texels;
+    (image.color, image.texels) = (color, texels);
     Ok(())
 }
 

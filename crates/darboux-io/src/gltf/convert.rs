@@ -1,0 +1,83 @@
+//! The vertex data of a document in another convention.
+//!
+//! A glTF file is in glTF's convention, so one that is right needs no conversion. There are two uses: a file whose writer copied the
+//! numbers of another convention is put right, and numbers are prepared for a program that copies them out of the file as they are.
+//! In between, and after the second, the file says one thing and means another; `asset.extras.darboux_convention` says what.
+
+mod attributes;
+mod faces;
+mod surroundings;
+
+use darboux::Convention;
+use serde::Serialize;
+
+use super::Document;
+use super::tangents::share::Canonical;
+use super::tangents::{Progress, excess};
+use crate::Error;
+use attributes::Attributes;
+use faces::Faces;
+
+/// What [`convert_vertices`] did to a document.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
+pub struct ConversionSummary {
+    /// Primitives that changed.
+    pub primitives: usize,
+    /// Whether vectors have other axes.
+    pub axes_changed: bool,
+    /// Whether v runs the other way.
+    pub uvs_flipped: bool,
+    /// Whether fronts are wound the other way.
+    pub faces_reversed: bool,
+    /// What a user should look at, one sentence each.
+    pub warnings: Vec<String>,
+}
+
+/// Converts the vertex data of every primitive: positions, normals, tangents, UVs, morph targets, the winding of triangles.
+///
+/// Images, nodes, skins and animations stay as they are, which is why another choice of axes is refused where meshes are moved, turned
+/// or skinned. Accessors that change become floats. Errors: a document that says that it is in another convention than `from`; one that
+/// cannot stand in other axes; broken data. After an error the document may be half done: drop it.
+pub fn convert_vertices(
+    document: &mut Document,
+    from: Convention,
+    to: Convention,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<ConversionSummary, Error> {
+    surroundings::check_convention(document, from)?;
+    if from.axes != to.axes {
+        surroundings::refuse_moved(document)?;
+    }
+    let mut summary = ConversionSummary {
+        warnings: surroundings::warnings(document, from, to),
+        ..ConversionSummary::default()
+    };
+    if from == to || document.meshes().is_empty() {
+        return Ok(summary);
+    }
+    if document.is_compressed() {
+        document.decompress()?;
+    }
+    summary.axes_changed = from.axes != to.axes;
+    summary.uvs_flipped = from.uv_origin != to.uv_origin;
+    summary.faces_reversed = from.winding != to.winding;
+    let accessors = Canonical::new(document);
+    let mut attributes = Attributes::new(&accessors, from, to);
+    let mut faces = Faces::new(&accessors, from, to);
+    let places: Vec<(usize, usize)> = document
+        .meshes()
+        .iter()
+        .enumerate()
+        .flat_map(|(index, mesh)| (0..mesh.primitives.len()).map(move |place| (index, place)))
+        .collect();
+    for (done, &(mesh, place)) in places.iter().enumerate() {
+        let attributes_changed = attributes.convert(document, mesh, place)?;
+        let faces_changed = faces.convert(document, mesh, place)?;
+        summary.primitives += usize::from(attributes_changed || faces_changed);
+        excess::check_output(document)?;
+        progress(Progress { done: done + 1, total: places.len() });
+    }
+    document.set_convention(to)?;
+    Ok(summary)
+}

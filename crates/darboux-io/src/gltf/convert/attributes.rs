@@ -1,0 +1,157 @@
+//! Vertex attributes and morph targets, each accessor once.
+
+use std::collections::HashMap;
+
+use darboux::{Convention, Conversion};
+use serde_json::Value;
+
+use crate::Error;
+use crate::gltf::append::{is_sparse, set_attributes};
+use crate::gltf::schema;
+use crate::gltf::tangents::share::Canonical;
+use crate::gltf::{ComponentType, Document, ElementType, Elements, NewAccessor, Target};
+
+/// Converts attributes.
+pub struct Attributes<'a> {
+    accessors: &'a Canonical,
+    conversion: Conversion,
+    /// The kinds that change.
+    changed: Vec<Kind>,
+    /// New accessors, by the old one and what it holds.
+    made: HashMap<(usize, Kind), usize>,
+}
+
+/// What an attribute holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Kind {
+    Position,
+    Normal,
+    Tangent,
+    TangentOffset,
+    Uv,
+    UvOffset,
+}
+
+impl Kind {
+    /// None for what no convention changes.
+    fn of(semantic: &str, is_offset: bool) -> Option<Self> {
+        match (semantic, is_offset) {
+            ("POSITION", _) => Some(Self::Position),
+            ("NORMAL", _) => Some(Self::Normal),
+            ("TANGENT", false) => Some(Self::Tangent),
+            ("TANGENT", true) => Some(Self::TangentOffset),
+            (name, _) if !name.starts_with("TEXCOORD_") => None,
+            (_, false) => Some(Self::Uv),
+            (_, true) => Some(Self::UvOffset),
+        }
+    }
+}
+
+impl<'a> Attributes<'a> {
+    pub fn new(accessors: &'a Canonical, from: Convention, to: Convention) -> Self {
+        let frames = |convention: Convention| {
+            (convention.axes, convention.tangent, convention.bitangent, convention.sign)
+        };
+        let mut changed = Vec::new();
+        if from.axes != to.axes {
+            changed.extend([Kind::Position, Kind::Normal]);
+        }
+        if frames(from) != frames(to) {
+            changed.extend([Kind::Tangent, Kind::TangentOffset]);
+        }
+        if from.uv_origin != to.uv_origin {
+            changed.extend([Kind::Uv, Kind::UvOffset]);
+        }
+        Self { accessors, conversion: from.to(to), changed, made: HashMap::new() }
+    }
+
+    /// Converts a primitive; says whether anything changed.
+    pub fn convert(&mut self, document: &mut Document, mesh: usize, place: usize) -> Result<bool, Error> {
+        let primitive = document.meshes()[mesh].primitives[place].clone();
+        let new = self.converted(document, &primitive.attributes, false)?;
+        let mut targets = Vec::with_capacity(primitive.targets.len());
+        for target in &primitive.targets {
+            targets.push(self.converted(document, target, true)?);
+        }
+        if new.is_empty() && targets.iter().all(schema::Attributes::is_empty) {
+            return Ok(false);
+        }
+        document.edit_primitive(mesh, place, |json| {
+            set_attributes(json.get_mut("attributes"), &new);
+            let places = json.get_mut("targets").and_then(Value::as_array_mut);
+            for (place, target) in places.into_iter().flatten().zip(&targets) {
+                set_attributes(Some(place), target);
+            }
+        })?;
+        Ok(true)
+    }
+
+    /// The accessors that take the place of others.
+    fn converted(
+        &mut self,
+        document: &mut Document,
+        old: &schema::Attributes,
+        is_offset: bool,
+    ) -> Result<schema::Attributes, Error> {
+        let mut new = schema::Attributes::new();
+        for (semantic, &accessor) in old {
+            let kind = Kind::of(semantic, is_offset).filter(|kind| self.changed.contains(kind));
+            if let Some(kind) = kind {
+                new.insert(semantic.clone(), self.accessor(document, accessor, kind)?);
+            }
+        }
+        Ok(new)
+    }
+
+    fn accessor(&mut self, document: &mut Document, old: usize, kind: Kind) -> Result<usize, Error> {
+        let key = (self.accessors.of(old), kind);
+        if let Some(&made) = self.made.get(&key) {
+            return Ok(made);
+        }
+        let Self { conversion, .. } = self;
+        let elements = match kind {
+            Kind::Position | Kind::Normal => {
+                floats(ElementType::Vec3, document.read_vectors(old)?, |vector| conversion.vector(vector))
+            }
+            Kind::Tangent => {
+                floats(ElementType::Vec4, document.read_vectors(old)?, |tangent| conversion.tangent(tangent))
+            }
+            Kind::TangentOffset => floats(ElementType::Vec3, document.read_vectors(old)?, |[x, y, z]| {
+                let [x, y, z, _] = conversion.tangent([x, y, z, 0.0]);
+                [x, y, z]
+            }),
+            Kind::Uv => floats(ElementType::Vec2, document.read_vectors(old)?, |uv| conversion.uv(uv)),
+            // v becomes 1 - v: what is added to v is taken from 1 - v.
+            Kind::UvOffset => floats(ElementType::Vec2, document.read_vectors(old)?, |[u, v]| [u, -v]),
+        };
+        let (bounds, sparse) = (kind == Kind::Position, is_sparse(document, old));
+        let elements = if sparse { without_negative_zeros(elements) } else { elements };
+        let new = NewAccessor { elements, target: Target::Vertices, bounds, sparse, like: Some(old) };
+        let made = document.push_accessor(new);
+        self.made.insert(key, made);
+        Ok(made)
+    }
+}
+
+fn floats<const N: usize>(
+    element_type: ElementType,
+    vectors: Vec<[f32; N]>,
+    change: impl Fn([f32; N]) -> [f32; N],
+) -> Elements {
+    let changed = vectors.iter().map(|&vector| change(vector));
+    Elements {
+        bytes: changed.flatten().flat_map(f32::to_le_bytes).collect(),
+        count: vectors.len(),
+        component_type: ComponentType::F32,
+        element_type,
+        normalized: false,
+    }
+}
+
+/// Sparse accessors leave out what has no bit set.
+fn without_negative_zeros(mut elements: Elements) -> Elements {
+    for bytes in elements.bytes.as_chunks_mut::<4>().0 {
+        *bytes = (f32::from_le_bytes(*bytes) + 0.0).to_le_bytes();
+    }
+    elements
+}

@@ -1,0 +1,84 @@
+//! Triangles wound the other way, each list of indices once.
+
+use std::collections::HashMap;
+
+use darboux::{Convention, Conversion};
+
+use crate::Error;
+use crate::gltf::append::index_elements;
+use crate::gltf::tangents::excess;
+use crate::gltf::tangents::select::element_count;
+use crate::gltf::tangents::share::Canonical;
+use crate::gltf::tangents::topology::Topology;
+use crate::gltf::{Document, NewAccessor, Target};
+
+/// Reverses faces.
+pub struct Faces<'a> {
+    accessors: &'a Canonical,
+    conversion: Conversion,
+    reverses: bool,
+    /// New indices, by the old accessor or the number of vertices, and the topology.
+    made: HashMap<(Source, Topology), usize>,
+}
+
+/// Where corners come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Source {
+    Indices(usize),
+    Vertices(usize),
+}
+
+impl<'a> Faces<'a> {
+    pub fn new(accessors: &'a Canonical, from: Convention, to: Convention) -> Self {
+        let reverses = from.winding != to.winding;
+        Self { accessors, conversion: from.to(to), reverses, made: HashMap::new() }
+    }
+
+    /// Reverses the triangles of a primitive; says whether there are any to reverse. Strips and fans become lists.
+    pub fn convert(&mut self, document: &mut Document, mesh: usize, place: usize) -> Result<bool, Error> {
+        let primitive = &document.meshes()[mesh].primitives[place];
+        let Some(topology) = Topology::from_mode(primitive.mode).filter(|_| self.reverses) else {
+            return Ok(false);
+        };
+        let source = match (primitive.indices, primitive.attributes.get("POSITION")) {
+            (Some(accessor), _) => Source::Indices(self.accessors.of(accessor)),
+            (None, Some(&position)) => Source::Vertices(element_count(document, position)?),
+            (None, None) => return Ok(false),
+        };
+        let indices = match self.made.get(&(source, topology)) {
+            Some(&made) => made,
+            None => {
+                let made = self.reversed(document, source, topology)?;
+                self.made.insert((source, topology), made);
+                made
+            }
+        };
+        document.edit_primitive(mesh, place, |json| {
+            json.insert("indices".to_owned(), indices.into());
+            if topology != Topology::Triangles {
+                json.insert("mode".to_owned(), 4.into());
+            }
+        })?;
+        Ok(true)
+    }
+
+    fn reversed(&self, document: &mut Document, source: Source, topology: Topology) -> Result<usize, Error> {
+        let (old, count) = match source {
+            Source::Indices(accessor) => (Some(accessor), element_count(document, accessor)?),
+            Source::Vertices(count) => (None, count),
+        };
+        excess::check_triangles(document, [topology.triangle_count(count)].into_iter())?;
+        let mut corners = match old {
+            Some(accessor) => document.read_indices(accessor)?,
+            None => (0..count as u32).collect(),
+        };
+        let rest = corners.split_off(topology.whole(corners.len()));
+        let mut corners = topology.corners(corners);
+        corners.as_chunks_mut::<3>().0.iter_mut().for_each(|face| self.conversion.face(face));
+        corners.extend(rest);
+        let kind = old.and_then(|old| document.accessors().get(old)).map(|old| old.component_type);
+        let elements = index_elements(kind, corners);
+        let new = NewAccessor { elements, target: Target::Indices, bounds: false, sparse: false, like: old };
+        Ok(document.push_accessor(new))
+    }
+}
