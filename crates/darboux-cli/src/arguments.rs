@@ -1,5 +1,6 @@
 //! The one definition of the command line. Help, man pages, completions and docs/cli.md are generated from it.
 
+mod convert;
 mod files;
 mod inspect;
 mod normals;
@@ -7,6 +8,7 @@ mod tangents;
 
 use clap::{Parser, Subcommand};
 
+pub use convert::ConvertArguments;
 pub use files::{Files, Talk};
 pub use inspect::InspectArguments;
 pub use normals::NormalsArguments;
@@ -39,6 +41,13 @@ pub enum Command {
     /// Add normals to glTF and GLB files
     #[command(long_about = normals::ABOUT, after_long_help = normals::EXAMPLES)]
     Normals(NormalsArguments),
+    /// Convert normal maps and models between conventions
+    #[command(
+        long_about = convert::ABOUT,
+        after_long_help = convert::EXAMPLES,
+        mut_arg("inputs", |inputs| inputs.help(convert::INPUTS))
+    )]
+    Convert(ConvertArguments),
     /// Show what each primitive holds and what its tangents would meet
     #[command(long_about = inspect::ABOUT, after_long_help = inspect::EXAMPLES)]
     Inspect(InspectArguments),

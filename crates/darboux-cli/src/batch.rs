@@ -7,7 +7,7 @@ use indicatif::HumanCount;
 use serde::Serialize;
 
 use crate::arguments::{Files, Talk};
-use crate::jobs::{self, Input, Job, Output, Scan, Usage};
+use crate::jobs::{self, Input, Job, Output, Rules, Scan, Usage};
 use crate::messages::{Messages, stdout_is_terminal, write_stdout};
 use crate::report::{FileReport, Report, Status, to_json};
 use crate::{exit, interrupt};
@@ -19,8 +19,11 @@ pub trait Work {
 
     /// Its name.
     const COMMAND: &'static str;
+    /// Whether it takes images as well as models.
+    const IMAGES: bool;
+
     /// What the names of its outputs get.
-    const WORD: &'static str;
+    fn word(&self) -> &str;
 
     /// Which files.
     fn files(&self) -> &Files;
@@ -57,7 +60,8 @@ pub fn run<W: Work>(command: &W) -> u8 {
     let messages = Messages::new(command.talk().quiet);
     let files = command.files();
     let found = jobs::find(&files.inputs, Scan::Sources { out_dir: files.out_dir.as_deref() });
-    let plan = |()| jobs::plan(files, W::WORD, command.talk().json, &found);
+    let rules = Rules { word: command.word(), json: command.talk().json, images: W::IMAGES };
+    let plan = |()| jobs::plan(files, rules, &found);
     let jobs = match command.check().and_then(plan).and_then(refuse_terminal) {
         Ok(jobs) => jobs,
         Err(Usage(sentence)) => {
@@ -86,7 +90,7 @@ pub fn run<W: Work>(command: &W) -> u8 {
 
 fn refuse_terminal(jobs: Vec<Job>) -> Result<Vec<Job>, Usage> {
     if jobs.iter().any(|job| job.output == Output::Stdout) && stdout_is_terminal() {
-        return Err(Usage("a GLB is not for a terminal; use -o FILE, or > FILE".into()));
+        return Err(Usage("such a file is not for a terminal; use -o FILE, or > FILE".into()));
     }
     Ok(jobs)
 }

@@ -125,16 +125,33 @@ fn reason(error: walkdir::Error) -> String {
     error.into_io_error().map_or("it contains itself".into(), |error| error.to_string())
 }
 
-/// The jobs of a command that writes models, in the order of the inputs, each once.
+/// What a command writes.
+#[derive(Clone, Copy, Debug)]
+pub struct Rules<'a> {
+    /// What the names of its outputs get.
+    pub word: &'a str,
+    /// A report, too, on standard output.
+    pub json: bool,
+    /// Images as well as models.
+    pub images: bool,
+}
+
+impl Rules<'_> {
+    fn takes(self, path: &Path) -> bool {
+        is_model(path) || (self.images && is_png(path))
+    }
+}
+
+/// The jobs of a command that writes files, in the order of the inputs, each once.
 ///
-/// `word`: what the names of its outputs get. Errors: an output that does not fit the inputs, two inputs with one output, an output
-/// that is an input, a model and a report (`json`) both for standard output.
-pub fn plan(files: &Files, word: &str, json: bool, found: &Found) -> Result<Vec<Job>, Usage> {
-    check_usage(files, json)?;
+/// Errors: an output that does not fit the inputs, two inputs with one output, an output that is an input, a file and a report both for
+/// standard output.
+pub fn plan(files: &Files, rules: Rules<'_>, found: &Found) -> Result<Vec<Job>, Usage> {
+    check_usage(files, rules)?;
     let mut jobs = Vec::new();
     let mut input_of_output: HashMap<PathBuf, &Input> = HashMap::new();
     for (input, folder) in &found.files {
-        let output = destination(files, word, input, folder.as_deref());
+        let output = destination(files, rules, input, folder.as_deref());
         if let Output::File(path) = &output {
             match input_of_output.insert(identity(path), input) {
                 Some(other) if other == input => continue,
@@ -162,7 +179,7 @@ pub fn check_stdin(inputs: &[PathBuf]) -> Result<(), Usage> {
     Ok(())
 }
 
-fn check_usage(files: &Files, json: bool) -> Result<(), Usage> {
+fn check_usage(files: &Files, rules: Rules<'_>) -> Result<(), Usage> {
     let usage = |message: &str| Err(Usage(message.into()));
     check_stdin(&files.inputs)?;
     let stdin = files.inputs[0] == Path::new("-");
@@ -170,8 +187,8 @@ fn check_usage(files: &Files, json: bool) -> Result<(), Usage> {
         return usage("standard input has no name and no place; use -o FILE");
     }
     let Some(output) = &files.output else {
-        return match json && stdin {
-            true => usage("the model and the report cannot both go to standard output; use -o FILE"),
+        return match rules.json && stdin {
+            true => usage("the file and the report cannot both go to standard output; use -o FILE"),
             false => Ok(()),
         };
     };
@@ -182,21 +199,22 @@ fn check_usage(files: &Files, json: bool) -> Result<(), Usage> {
         return usage("-o takes a single file, but the input is a folder; use --out-dir");
     }
     if output == Path::new("-") {
-        return match json {
-            true => usage("the model and the report cannot both go to standard output; use -o FILE"),
+        return match rules.json {
+            true => usage("the file and the report cannot both go to standard output; use -o FILE"),
             false => Ok(()),
         };
     }
     if output.is_dir() {
         return Err(Usage(format!("{} is a folder; use --out-dir", output.display())));
     }
-    if !is_model(output) {
-        return Err(Usage(format!("{} must end in .glb, .vrm or .gltf", output.display())));
+    if !rules.takes(output) {
+        let extensions = if rules.images { ".glb, .vrm, .gltf or .png" } else { ".glb, .vrm or .gltf" };
+        return Err(Usage(format!("{} must end in {extensions}", output.display())));
     }
     Ok(())
 }
 
-fn destination(files: &Files, word: &str, input: &Input, folder: Option<&Path>) -> Output {
+fn destination(files: &Files, rules: Rules<'_>, input: &Input, folder: Option<&Path>) -> Output {
     let path = match (&files.output, input) {
         (Some(output), _) if output != Path::new("-") => return Output::File(output.clone()),
         (Some(_), _) | (None, Input::Stdin) => return Output::Stdout,
@@ -207,14 +225,14 @@ fn destination(files: &Files, word: &str, input: &Input, folder: Option<&Path>) 
             let name = || Path::new(path.file_name().unwrap_or_default());
             let kept = folder.and_then(|folder| path.strip_prefix(folder).ok());
             let kept = out_dir.join(kept.unwrap_or_else(name));
-            if is_model(&kept) { kept } else { kept.with_extension("glb") }
+            if rules.takes(&kept) { kept } else { kept.with_extension("glb") }
         }
         None if files.in_place => path.clone(),
         None => {
-            let extension = if is_model(path) { path.extension() } else { None };
+            let extension = if rules.takes(path) { path.extension() } else { None };
             let extension = extension.unwrap_or(OsStr::new("glb"));
             let mut name = path.file_stem().unwrap_or_default().to_os_string();
-            name.push(format!(".{word}."));
+            name.push(format!(".{}.", rules.word));
             name.push(extension);
             path.with_file_name(name)
         }
@@ -260,7 +278,12 @@ fn is_model(path: &Path) -> bool {
     })
 }
 
-/// The words in the names of outputs, by command.
+/// True for .png.
+pub fn is_png(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"))
+}
+
+/// The words in the names of outputs, by command. Those of `convert` are conventions.
 pub mod word {
     pub const TANGENTS: &str = "tangents";
     pub const NORMALS: &str = "normals";

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod batch;
+mod convert;
 mod inspect;
 mod interrupt;
 mod jobs;
@@ -36,6 +37,7 @@ where
         Ok(arguments) => match &arguments.command {
             Command::Tangents(arguments) => batch::run(arguments),
             Command::Normals(arguments) => batch::run(arguments),
+            Command::Convert(arguments) => batch::run(arguments),
             Command::Inspect(arguments) => inspect::run(arguments),
             Command::Methods => methods::run(),
         },

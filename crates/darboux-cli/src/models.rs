@@ -11,21 +11,32 @@ use crate::interrupt;
 use crate::jobs::{Input, Output};
 use crate::report::Status;
 
-/// Reads a document; `-` has no folder, so its buffers must be embedded.
+/// Reads a document that is in glTF's convention, as all should be.
 pub fn load(input: &Input, allow_outside: bool) -> Result<Document, String> {
+    let document = load_any(input, allow_outside)?;
+    match document.convention() {
+        None => Ok(document),
+        Some(convention) => Err(format!(
+            "{input}: its vertices are in the convention of {convention}; run darboux convert --from {convention} --to gltf first"
+        )),
+    }
+}
+
+/// Reads a document; `-` has no folder, so its buffers must be embedded.
+pub fn load_any(input: &Input, allow_outside: bool) -> Result<Document, String> {
     let options = LoadOptions { allow_outside };
     let document = match input {
         Input::File(path) => Document::open(path, &options),
-        Input::Stdin => {
-            let mut bytes = Vec::new();
-            io::stdin()
-                .lock()
-                .read_to_end(&mut bytes)
-                .map_err(|error| format!("{input}: cannot be read: {error}"))?;
-            Document::from_bytes(&input.to_string(), bytes, None, &options)
-        }
+        Input::Stdin => Document::from_bytes(&input.to_string(), read_stdin()?, None, &options),
     };
     document.map_err(|error| error.to_string())
+}
+
+/// All of standard input.
+pub fn read_stdin() -> Result<Vec<u8>, String> {
+    let mut bytes = Vec::new();
+    let read = io::stdin().lock().read_to_end(&mut bytes);
+    read.map(|_| bytes).map_err(|error| format!("{}: cannot be read: {error}", Input::Stdin))
 }
 
 /// Writes a document where it belongs; says what that was and gives the files written. `changed`: by the command's own work.

@@ -16,7 +16,11 @@ impl Work for NormalsArguments {
     type Summary = NormalsSummary;
 
     const COMMAND: &'static str = "normals";
-    const WORD: &'static str = word::NORMALS;
+    const IMAGES: bool = false;
+
+    fn word(&self) -> &str {
+        word::NORMALS
+    }
 
     fn files(&self) -> &Files {
         &self.files

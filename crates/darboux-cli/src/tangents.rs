@@ -29,7 +29,11 @@ impl Work for TangentsArguments {
     type Summary = TangentsSummary;
 
     const COMMAND: &'static str = "tangents";
-    const WORD: &'static str = word::TANGENTS;
+    const IMAGES: bool = false;
+
+    fn word(&self) -> &str {
+        word::TANGENTS
+    }
 
     fn files(&self) -> &Files {
         &self.files

@@ -27,6 +27,7 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             [CompletionResult]::new('--version', '--version', [CompletionResultType]::ParameterName, 'Print version')
             [CompletionResult]::new('tangents', 'tangents', [CompletionResultType]::ParameterValue, 'Add tangents to glTF and GLB files')
             [CompletionResult]::new('normals', 'normals', [CompletionResultType]::ParameterValue, 'Add normals to glTF and GLB files')
+            [CompletionResult]::new('convert', 'convert', [CompletionResultType]::ParameterValue, 'Convert normal maps and models between conventions')
             [CompletionResult]::new('inspect', 'inspect', [CompletionResultType]::ParameterValue, 'Show what each primitive holds and what its tangents would meet')
             [CompletionResult]::new('methods', 'methods', [CompletionResultType]::ParameterValue, 'Say which method of computing tangents is for what')
             break
@@ -65,6 +66,25 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             [CompletionResult]::new('--allow-outside', '--allow-outside', [CompletionResultType]::ParameterName, 'Allow buffers and images outside the input''s folder')
             [CompletionResult]::new('--respect-seams', '--respect-seams', [CompletionResultType]::ParameterName, 'Vertices stay apart where the index list has them apart, at equal positions too')
             [CompletionResult]::new('--overwrite', '--overwrite', [CompletionResultType]::ParameterName, 'Replace normals that exist; without it such primitives are kept')
+            [CompletionResult]::new('--json', '--json', [CompletionResultType]::ParameterName, 'Write a report as JSON to standard output')
+            [CompletionResult]::new('-q', '-q', [CompletionResultType]::ParameterName, 'Print errors only')
+            [CompletionResult]::new('--quiet', '--quiet', [CompletionResultType]::ParameterName, 'Print errors only')
+            [CompletionResult]::new('-h', '-h', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
+            [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
+            break
+        }
+        'darboux;convert' {
+            [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'Output file for a single input; - is standard output, as GLB')
+            [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'Output file for a single input; - is standard output, as GLB')
+            [CompletionResult]::new('--out-dir', '--out-dir', [CompletionResultType]::ParameterName, 'Folder for all outputs; paths below input folders are kept')
+            [CompletionResult]::new('--from', '--from', [CompletionResultType]::ParameterName, 'The convention that the files are in')
+            [CompletionResult]::new('--to', '--to', [CompletionResultType]::ParameterName, 'The convention that they shall be in')
+            [CompletionResult]::new('--layout', '--layout', [CompletionResultType]::ParameterName, 'Channels of a normal map''s x, y and, where it is stored, z, in this order: rgb, rg, ag, la, ...')
+            [CompletionResult]::new('--to-layout', '--to-layout', [CompletionResultType]::ParameterName, 'Channels that they shall be in; the same unless given. A z that was not stored is rebuilt')
+            [CompletionResult]::new('--in-place', '--in-place', [CompletionResultType]::ParameterName, 'Replace each input by its output')
+            [CompletionResult]::new('--force', '--force', [CompletionResultType]::ParameterName, 'Replace output files that exist')
+            [CompletionResult]::new('--allow-outside', '--allow-outside', [CompletionResultType]::ParameterName, 'Allow buffers and images outside the input''s folder')
+            [CompletionResult]::new('--raw', '--raw', [CompletionResultType]::ParameterName, 'Let a model leave glTF''s convention: for programs that copy its numbers as they are')
             [CompletionResult]::new('--json', '--json', [CompletionResultType]::ParameterName, 'Write a report as JSON to standard output')
             [CompletionResult]::new('-q', '-q', [CompletionResultType]::ParameterName, 'Print errors only')
             [CompletionResult]::new('--quiet', '--quiet', [CompletionResultType]::ParameterName, 'Print errors only')

@@ -28,6 +28,7 @@ complete -c darboux -n "__fish_darboux_needs_command" -s h -l help -d 'Print hel
 complete -c darboux -n "__fish_darboux_needs_command" -s V -l version -d 'Print version'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "tangents" -d 'Add tangents to glTF and GLB files'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "normals" -d 'Add normals to glTF and GLB files'
+complete -c darboux -n "__fish_darboux_needs_command" -f -a "convert" -d 'Convert normal maps and models between conventions'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "inspect" -d 'Show what each primitive holds and what its tangents would meet'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "methods" -d 'Say which method of computing tangents is for what'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s o -l output -d 'Output file for a single input; - is standard output, as GLB' -r -F
@@ -72,6 +73,37 @@ complete -c darboux -n "__fish_darboux_using_subcommand normals" -l overwrite -d
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -s q -l quiet -d 'Print errors only'
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -s o -l output -d 'Output file for a single input; - is standard output, as GLB' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l out-dir -d 'Folder for all outputs; paths below input folders are kept' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l from -d 'The convention that the files are in' -r -f -a "gltf\t''
+opengl\t''
+directx\t''
+blender\t''
+unity\t''
+unreal\t''
+godot\t''
+threejs\t''
+maya\t''
+3dsmax\t''"
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l to -d 'The convention that they shall be in' -r -f -a "gltf\t''
+opengl\t''
+directx\t''
+blender\t''
+unity\t''
+unreal\t''
+godot\t''
+threejs\t''
+maya\t''
+3dsmax\t''"
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l layout -d 'Channels of a normal map\'s x, y and, where it is stored, z, in this order: rgb, rg, ag, la, ...' -r
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l to-layout -d 'Channels that they shall be in; the same unless given. A z that was not stored is rebuilt' -r
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l in-place -d 'Replace each input by its output'
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l force -d 'Replace output files that exist'
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l allow-outside -d 'Allow buffers and images outside the input\'s folder'
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l raw -d 'Let a model leave glTF\'s convention: for programs that copy its numbers as they are'
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l json -d 'Write a report as JSON to standard output'
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -s q -l quiet -d 'Print errors only'
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l allow-outside -d 'Allow buffers and images outside the input\'s folder'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l json -d 'Write the table as JSON'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -s h -l help -d 'Print help (see more with \'--help\')'

@@ -30,7 +30,8 @@ pub struct ConversionSummary {
     pub uvs_flipped: bool,
     /// Whether fronts are wound the other way.
     pub faces_reversed: bool,
-    /// What a user should look at, one sentence each.
+    /// What a user should look at, one sentence each. Reports have them beside this.
+    #[serde(skip)]
     pub warnings: Vec<String>,
 }
 

@@ -1,0 +1,78 @@
+//! `darboux convert`.
+
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use darboux::Convention;
+use darboux_io::image::Channels;
+
+use super::{Files, Talk};
+
+pub(super) const ABOUT: &str = "\
+Convert normal maps and models between conventions.
+
+Normal maps (PNG, 8 or 16 bits): red and green are inverted where the conventions differ, to the bit, so that converting back gives the \
+first texels. Alpha and all chunks but the texels stay as they are. Channels can be moved: DXT5nm's ag, two-channel rg.
+
+Models: positions, normals, tangents, UVs, morph targets and the winding of triangles change. A glTF file must be in glTF's convention, \
+so this puts files right whose writer copied the numbers of another one (--to gltf). For a program that copies numbers out of the file \
+as they are, --raw allows any --to; such a file is no right glTF until it is converted back, says so in asset.extras, and other \
+commands refuse it. Images, nodes, skins and animations stay, so conventions with other axes are refused where nodes move meshes.
+
+docs/conventions.md defines the conventions. Without -o, --out-dir or --in-place the output is named by its convention: brick.png \
+becomes brick.directx.png.";
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  darboux convert brick_n.png --from opengl --to directx      green inverted: brick_n.directx.png
+  darboux convert *_n.png --from unreal --to gltf --in-place  a set of normal maps
+  darboux convert n.png --from gltf --to gltf --layout ag --to-layout rgb
+                                                              unpacked, z rebuilt
+  darboux convert exported.glb --from unity --to gltf         a file that holds Unity's numbers, put right
+  darboux convert model.glb --from gltf --to unreal --raw     numbers for a loader of one's own";
+
+pub(super) const INPUTS: &str = "Normal maps (.png) and models (.gltf, .glb, .vrm); - is standard input";
+
+/// `darboux convert`.
+#[derive(Debug, Args)]
+pub struct ConvertArguments {
+    #[command(flatten)]
+    pub files: Files,
+
+    /// The convention that the files are in
+    #[arg(long, value_name = "NAME", value_parser = preset_parser(), help_heading = "Conversion")]
+    pub from: Preset,
+
+    /// The convention that they shall be in
+    #[arg(long, value_name = "NAME", value_parser = preset_parser(), help_heading = "Conversion")]
+    pub to: Preset,
+
+    /// Channels of a normal map's x, y and, where it is stored, z, in this order: rgb, rg, ag, la, ...
+    #[arg(long, value_name = "LETTERS", default_value_t = Channels::RGB, help_heading = "Conversion")]
+    pub layout: Channels,
+
+    /// Channels that they shall be in; the same unless given. A z that was not stored is rebuilt
+    #[arg(long, value_name = "LETTERS", help_heading = "Conversion")]
+    pub to_layout: Option<Channels>,
+
+    /// Let a model leave glTF's convention: for programs that copy its numbers as they are
+    #[arg(long, help_heading = "Conversion")]
+    pub raw: bool,
+
+    #[command(flatten)]
+    pub talk: Talk,
+}
+
+/// A convention and its name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Preset {
+    pub name: &'static str,
+    pub convention: Convention,
+}
+
+fn preset_parser() -> impl TypedValueParser<Value = Preset> {
+    let names = Convention::PRESETS.map(|(name, _)| name);
+    PossibleValuesParser::new(names).try_map(|name| {
+        let found = Convention::PRESETS.into_iter().find(|(preset, _)| *preset == name);
+        found.map(|(name, convention)| Preset { name, convention }).ok_or("no such convention")
+    })
+}

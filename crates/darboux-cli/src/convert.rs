@@ -1,0 +1,226 @@
+//! `darboux convert`.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use darboux_io::gltf::{ConversionSummary, Document, LoadOptions, Progress, convert_vertices};
+use darboux_io::image::{Image, convert_normal_map};
+use serde::Serialize;
+
+use crate::arguments::{ConvertArguments, Files, Talk};
+use crate::batch::{Made, Work, counted};
+use crate::interrupt;
+use crate::jobs::{Input, Job, Output, Usage, is_png};
+use crate::messages::{Messages, write_stdout};
+use crate::models::{load_any, read_stdin, save};
+use crate::report::{FileReport, Status};
+
+/// What the report says of a file: of an image or of a model.
+#[derive(Default, Serialize)]
+pub struct ConvertSummary {
+    image: Option<ImageSummary>,
+    model: Option<ConversionSummary>,
+    warnings: Vec<String>,
+}
+
+/// What was done to an image.
+#[derive(Serialize)]
+struct ImageSummary {
+    width: u32,
+    height: u32,
+    bits: u32,
+    /// The channels of the output.
+    channels: &'static str,
+    red_inverted: bool,
+    green_inverted: bool,
+    /// Whether the vector is in other channels.
+    moved: bool,
+}
+
+impl Work for ConvertArguments {
+    type Summary = ConvertSummary;
+
+    const COMMAND: &'static str = "convert";
+    const IMAGES: bool = true;
+
+    fn word(&self) -> &str {
+        self.to.name
+    }
+
+    fn files(&self) -> &Files {
+        &self.files
+    }
+
+    fn talk(&self) -> &Talk {
+        &self.talk
+    }
+
+    fn check(&self) -> Result<(), Usage> {
+        match self.files.inputs.iter().find(|input| input.is_dir()) {
+            Some(folder) => Err(Usage(format!(
+                "{} is a folder, and not every image in it is a normal map; name the files",
+                folder.display()
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    fn process(&self, job: &Job, messages: &Messages) -> Result<Made<ConvertSummary>, String> {
+        let sentence = |error: darboux_io::Error| error.to_string();
+        match &job.input {
+            Input::Stdin => {
+                let (name, bytes) = (job.input.to_string(), read_stdin()?);
+                if Image::is_png(&bytes) {
+                    return self.image(Image::from_bytes(&name, bytes).map_err(sentence)?, &job.output);
+                }
+                let options = LoadOptions { allow_outside: self.files.allow_outside };
+                self.model(
+                    Document::from_bytes(&name, bytes, None, &options).map_err(sentence)?,
+                    job,
+                    messages,
+                )
+            }
+            Input::File(path) if is_png(path) || starts_as_png(path) => {
+                self.image(Image::open(path).map_err(sentence)?, &job.output)
+            }
+            Input::File(path) if is_other_image(path) => Err(format!(
+                "{}: only PNG files are converted, which keep every texel; save it as one",
+                path.display()
+            )),
+            Input::File(_) => self.model(load_any(&job.input, self.files.allow_outside)?, job, messages),
+        }
+    }
+
+    fn lines(summary: &ConvertSummary) -> Vec<String> {
+        let image = summary.image.iter().map(told_of_image);
+        image.chain(summary.model.iter().map(told_of_model)).collect()
+    }
+
+    fn warnings(summary: &ConvertSummary) -> &[String] {
+        &summary.warnings
+    }
+
+    fn total(files: &[FileReport<ConvertSummary>]) -> String {
+        let changed = files.iter().filter(|file| file.status == Status::Written).count();
+        format!("{} changed", counted(changed, "file", "files"))
+    }
+}
+
+impl ConvertArguments {
+    fn image(&self, mut image: Image, output: &Output) -> Result<Made<ConvertSummary>, String> {
+        let sentence = |error: darboux_io::Error| error.to_string();
+        let conversion = self.from.convention.to(self.to.convention);
+        let target = self.to_layout.unwrap_or(self.layout);
+        convert_normal_map(&mut image, &conversion, self.layout, target).map_err(sentence)?;
+        let (status, files_written) = self.save_image(&image, output)?;
+        let [width, height] = image.size();
+        let summary = ImageSummary {
+            width,
+            height,
+            bits: image.bits(),
+            channels: image.channels(),
+            red_inverted: conversion.inverts_red(),
+            green_inverted: conversion.inverts_green(),
+            moved: target != self.layout,
+        };
+        Ok(Made {
+            status,
+            files_written,
+            summary: ConvertSummary { image: Some(summary), ..Default::default() },
+        })
+    }
+
+    fn save_image(&self, image: &Image, output: &Output) -> Result<(Status, Vec<String>), String> {
+        let sentence = |error: darboux_io::Error| error.to_string();
+        let status = if image.is_changed() { Status::Written } else { Status::Copied };
+        match output {
+            Output::Stdout => {
+                let bytes = image.to_bytes().map_err(sentence)?;
+                write_stdout(&bytes).map_err(|error| format!("{output}: cannot be written: {error}"))?;
+                Ok((status, Vec::new()))
+            }
+            Output::File(path) if !is_png(path) => {
+                Err(format!("{output}: the input is an image; name it .png"))
+            }
+            Output::File(_) if self.files.in_place && !image.is_changed() => {
+                Ok((Status::Untouched, Vec::new()))
+            }
+            Output::File(path) => {
+                let _guard = interrupt::writing();
+                let force = self.files.force || self.files.in_place;
+                let written = image.save(path, force).map_err(sentence)?;
+                Ok((status, vec![written.display().to_string()]))
+            }
+        }
+    }
+
+    fn model(
+        &self,
+        mut document: Document,
+        job: &Job,
+        messages: &Messages,
+    ) -> Result<Made<ConvertSummary>, String> {
+        let (from, to) = (self.from, self.to);
+        if to.convention != darboux::Convention::GLTF && !self.raw {
+            return Err(format!(
+                "{}: a glTF file must be in glTF's convention; convert --to gltf, or use --raw if a program copies its numbers as they are",
+                job.input
+            ));
+        }
+        let mut warnings = document.warnings().to_vec();
+        let mut on_progress = |progress: Progress| messages.progress(progress.done, progress.total);
+        let mut summary = convert_vertices(&mut document, from.convention, to.convention, &mut on_progress)
+            .map_err(|error| error.to_string())?;
+        warnings.append(&mut summary.warnings);
+        if document.convention().is_some() {
+            warnings.push(format!(
+                "the output holds the numbers of {}: no viewer of glTF shows it right",
+                to.name
+            ));
+        }
+        let (status, files_written) = save(&document, &job.output, &self.files, document.is_changed())?;
+        let summary = ConvertSummary { model: Some(summary), warnings, ..ConvertSummary::default() };
+        Ok(Made { status, files_written, summary })
+    }
+}
+
+/// Whether a file that can be read begins as a PNG does.
+fn starts_as_png(path: &Path) -> bool {
+    let mut first = [0; 8];
+    File::open(path).and_then(|mut file| file.read_exact(&mut first)).is_ok() && Image::is_png(&first)
+}
+
+/// Images that lose texels, or that few programs write as normal maps.
+fn is_other_image(path: &Path) -> bool {
+    const EXTENSIONS: [&str; 12] =
+        ["jpg", "jpeg", "webp", "avif", "tga", "tif", "tiff", "exr", "dds", "ktx2", "bmp", "psd"];
+    let known =
+        |extension: &std::ffi::OsStr| EXTENSIONS.iter().any(|known| extension.eq_ignore_ascii_case(known));
+    path.extension().is_some_and(known)
+}
+
+fn told_of_image(image: &ImageSummary) -> String {
+    let ImageSummary { width, height, bits, channels, .. } = image;
+    let done = [
+        (image.red_inverted, "red inverted"),
+        (image.green_inverted, "green inverted"),
+        (image.moved, "channels moved"),
+    ];
+    format!("{width} x {height}, {bits} bits, {channels}: {}", listed(done))
+}
+
+fn told_of_model(model: &ConversionSummary) -> String {
+    let done = [
+        (model.axes_changed, "other axes"),
+        (model.uvs_flipped, "v turned round"),
+        (model.faces_reversed, "triangles reversed"),
+    ];
+    format!("{}: {}", counted(model.primitives, "primitive", "primitives"), listed(done))
+}
+
+/// What was done, or that it is the same in both conventions.
+fn listed<const N: usize>(done: [(bool, &str); N]) -> String {
+    let done: Vec<&str> = done.into_iter().filter(|done| done.0).map(|done| done.1).collect();
+    if done.is_empty() { "the same in both conventions".to_owned() } else { done.join(", ") }
+}

@@ -1,0 +1,165 @@
+//! Conventions on the command line: images and models there and back, and what is refused.
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+
+use common::{Run, asset, darboux, darboux_reading, folder_with, glb_json, names_in, text};
+use darboux::Convention;
+use darboux_io::image::{Channels, Image, convert_normal_map};
+use serde_json::Value;
+
+const IMAGE: &str = "TwoSidedPlane/TwoSidedPlane_Normal.png";
+const MODEL: &str = "NormalTangentTest/NormalTangentTest.glb";
+
+fn convert(input: &Path, from: &str, to: &str, more: &[&str]) -> Run {
+    darboux(&[&["convert", text(input), "--from", from, "--to", to], more].concat())
+}
+
+fn names() -> impl Iterator<Item = &'static str> {
+    Convention::PRESETS.into_iter().map(|(name, _)| name)
+}
+
+/// The texels of a PNG, whatever its compression: they are written anew, inverted.
+fn texels(path: &Path) -> Vec<u8> {
+    let mut image = Image::open(path).expect("an image");
+    let conversion = Convention::GLTF.to(Convention::UNREAL);
+    convert_normal_map(&mut image, &conversion, Channels::RGB, Channels::RGB).expect("a conversion");
+    image.to_bytes().expect("a file")
+}
+
+#[test]
+fn an_image_comes_back_from_every_preset() {
+    let folder = folder_with(&[IMAGE]);
+    let image = folder.path().join("TwoSidedPlane_Normal.png");
+    let original = fs::read(&image).expect("the image");
+    for name in names() {
+        let there = folder.path().join(format!("TwoSidedPlane_Normal.{name}.png"));
+        convert(&image, "gltf", name, &[]).exits(0);
+        let back = folder.path().join(format!("back.{name}.png"));
+        convert(&there, name, "gltf", &["-o", text(&back)]).exits(0);
+        assert!(texels(&back) == texels(&image), "{name}");
+        let is_same = name != "directx" && name != "unreal" && name != "3dsmax";
+        assert_eq!(fs::read(&there).expect("the output") == original, is_same, "{name}");
+    }
+}
+
+#[test]
+fn a_model_comes_back_from_every_preset() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (start, there, back) =
+        (folder.path().join("start.glb"), folder.path().join("there.glb"), folder.path().join("back.glb"));
+    darboux(&["tangents", text(&asset(MODEL)), "-o", text(&start)]).exits(0);
+    let inspected = |path: &Path| {
+        let mut report = darboux(&["inspect", "--json", text(path)]).exits(0).json();
+        report["files"][0]["primitives"].take()
+    };
+    for name in names() {
+        convert(&start, "gltf", name, &["--raw", "--force", "-o", text(&there)]).exits(0);
+        let said = glb_json(&fs::read(&there).expect("the output"))["asset"]["extras"].take();
+        assert_eq!(said.is_null(), name == "gltf", "{name}");
+        convert(&there, name, "gltf", &["--force", "-o", text(&back)]).exits(0);
+        assert_eq!(inspected(&back), inspected(&start), "{name}");
+        let [first, last] =
+            [&start, &back].map(|path| glb_json(&fs::read(path).expect("a model"))["asset"].take());
+        assert_eq!(first, last, "{name}");
+    }
+}
+
+#[test]
+fn a_model_leaves_gltfs_convention_only_when_told_and_says_so() {
+    let folder = folder_with(&[MODEL]);
+    let (model, out) = (folder.path().join("NormalTangentTest.glb"), folder.path().join("out.glb"));
+    let before = names_in(folder.path());
+    let run = convert(&model, "gltf", "unity", &[]).exits(1);
+    assert!(run.stderr.contains("--raw"), "{}", run.stderr);
+    assert_eq!(names_in(folder.path()), before);
+    let run = convert(&model, "gltf", "unity", &["--raw", "-o", text(&out)]).exits(0);
+    assert!(run.stderr.contains("warning: ") && run.stderr.contains("no viewer of glTF"), "{}", run.stderr);
+    for command in ["tangents", "normals", "inspect"] {
+        let run = darboux(&[command, text(&out)]).exits(1);
+        assert!(run.stderr.contains("darboux convert --from unity --to gltf"), "{}", run.stderr);
+    }
+    let run = convert(&out, "unreal", "gltf", &[]).exits(1);
+    assert!(run.stderr.contains("says \"unity\"; convert it from that"), "{}", run.stderr);
+}
+
+#[test]
+fn what_is_no_normal_map_is_refused_before_anything_is_written() {
+    let folder = folder_with(&[IMAGE, MODEL]);
+    let image = folder.path().join("TwoSidedPlane_Normal.png");
+    for (name, content) in
+        [("a.png", &b"GIF89a"[..]), ("b.jpg", b"\xff\xd8"), ("c.png", b""), ("d.glb", b"glTF")]
+    {
+        fs::write(folder.path().join(name), content).expect("a file");
+    }
+    let before = names_in(folder.path());
+    for (name, part) in [
+        ("a.png", "not a PNG"),
+        ("b.jpg", "only PNG"),
+        ("c.png", "not a PNG"),
+        ("d.glb", "d.glb"),
+        ("e.png", "cannot be read"),
+    ] {
+        let run = convert(&folder.path().join(name), "opengl", "directx", &[]).exits(1);
+        assert!(run.stderr.contains(part), "{}", run.stderr);
+    }
+    let run = convert(&image, "opengl", "directx", &["-o", text(&folder.path().join("x.glb"))]).exits(1);
+    assert!(run.stderr.contains("name it .png"), "{}", run.stderr);
+    let run = convert(&image, "opengl", "directx", &["--layout", "la"]).exits(1);
+    assert!(run.stderr.contains("not la"), "{}", run.stderr);
+    convert(folder.path(), "opengl", "directx", &[]).exits(2);
+    convert(&image, "opengl", "quake", &[]).exits(2);
+    convert(&image, "opengl", "directx", &["--layout", "rgbq"]).exits(2);
+    darboux(&["convert", text(&image), "--from", "opengl"]).exits(2);
+    assert_eq!(names_in(folder.path()), before);
+}
+
+#[test]
+fn outputs_are_replaced_only_by_force_and_in_place_when_told() {
+    let folder = folder_with(&[IMAGE]);
+    let image = folder.path().join("TwoSidedPlane_Normal.png");
+    let original = fs::read(&image).expect("the image");
+    convert(&image, "opengl", "directx", &[]).exits(0);
+    let run = convert(&image, "opengl", "directx", &[]).exits(1);
+    assert!(run.stderr.contains("exists"), "{}", run.stderr);
+    let report = convert(&image, "opengl", "gltf", &["--in-place", "--json"]).exits(0).json();
+    assert_eq!(report["files"][0]["status"], "untouched");
+    assert!(fs::read(&image).expect("the image") == original);
+    let report = convert(&image, "opengl", "directx", &["--in-place", "--json"]).exits(0).json();
+    assert_eq!(report["files"][0]["status"], "written");
+    assert_eq!(report["files"][0]["image"]["green_inverted"], true);
+    let beside = fs::read(folder.path().join("TwoSidedPlane_Normal.directx.png")).expect("the output");
+    assert!(fs::read(&image).expect("the image") == beside);
+    let piped = darboux_reading(&["convert", "-", "--from", "opengl", "--to", "directx"], &original).exits(0);
+    assert!(piped.stdout == beside);
+}
+
+#[test]
+fn every_field_of_the_report_is_documented() {
+    let folder = folder_with(&[IMAGE, MODEL]);
+    let documented = fs::read_to_string(asset("../docs/cli.md")).expect("docs/cli.md");
+    let section = documented.split("### `darboux convert --json`").nth(1).expect("a section");
+    let section = section.split("\n### ").next().expect("its text");
+    let inputs = ["TwoSidedPlane_Normal.png", "NormalTangentTest.glb"].map(|name| folder.path().join(name));
+    let report = darboux(&[
+        "convert",
+        text(&inputs[0]),
+        text(&inputs[1]),
+        "--from",
+        "unreal",
+        "--to",
+        "gltf",
+        "--json",
+    ]);
+    let report = report.json();
+    for file in report["files"].as_array().expect("files") {
+        for part in ["image", "model"] {
+            assert!(section.contains(&format!(".{part}`")));
+            let members =
+                file[part].as_object().into_iter().flatten().map(|(name, _): (&String, &Value)| name);
+            members.for_each(|name| assert!(section.contains(&format!("{name}`")), "{name}"));
+        }
+    }
+}
