@@ -1,0 +1,213 @@
+// Every function of darboux.hpp on a mesh whose answers are known.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <thread>
+#include <type_traits>
+#include <vector>
+
+#include "darboux.hpp"
+
+struct Vec3 {
+  float x, y, z;
+};
+
+struct Vertex {
+  Vec3 position;
+  std::uint8_t colour[4];
+  std::array<float, 2> uv;
+  Vec3 normal;
+  float tangent[4];
+};
+
+static void expect(bool holds, const char *what) {
+  if (holds) return;
+  std::fprintf(stderr, "%s\n", what);
+  std::exit(1);
+}
+
+template <class Call>
+static void expect_error(darboux_status status, const char *part, Call call) {
+  try {
+    call();
+  } catch (const darboux::error &error) {
+    expect(error.status() == status, error.what());
+    expect(std::string(error.what()).find(part) != std::string::npos, error.what());
+    return;
+  }
+  expect(false, part);
+}
+
+/// Six vertices, four triangles, UVs mirrored at x = 0.
+static std::vector<Vertex> make_vertices() {
+  std::vector<Vertex> vertices(6);
+  for (int v = 0; v < 6; v++) {
+    const float x = float(v % 3) - 1, y = float(v / 3);
+    vertices[std::size_t(v)] = {{x, y, 0}, {}, {std::fabs(x), y}, {0, 0, 1}, {}};
+  }
+  return vertices;
+}
+
+static const std::uint16_t INDICES[] = {0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4};
+
+static darboux::mesh make_mesh(const std::vector<Vertex> &vertices) {
+  darboux::mesh mesh;
+  mesh.positions = darboux::field(vertices, &Vertex::position);
+  mesh.normals = darboux::field(vertices, &Vertex::normal);
+  mesh.uvs = darboux::field(vertices, &Vertex::uv);
+  mesh.indices = INDICES;
+  return mesh;
+}
+
+static void tangents() {
+  auto vertices = make_vertices();
+  const auto mesh = make_mesh(vertices);
+  const auto made = darboux::generate_tangents(mesh);
+  expect(made.report.triangles == 4 && made.report.mirrored_edges == 1 && made.report.split_vertices == 2, "report");
+  expect((made.corners[0] == darboux::tangent{-1, 0, 0, -1}) && (made.corners[7] == darboux::tangent{1, 0, 0, 1}), "tangents");
+
+  const auto frames = darboux::generate_frames(mesh);
+  expect(frames.corners[7].bitangent[1] == 1 && frames.corners[7].magnitude[0] == 1, "frames");
+
+  const auto split = darboux::split_vertices(mesh, made.corners);
+  expect(split.vertex_count() == 8 && split.source_of_vertex()[6] == 1 && split.indices().size() == 12, "split");
+  expect((split.tangent_of_vertex()[7] == darboux::tangent{1, 0, 0, 1}), "tangent of a new vertex");
+
+  darboux_tangent_options options = {};
+  darboux::scratch scratch;
+  options.scratch = scratch.get();
+  options.method = DARBOUX_METHOD_FROM_NORMAL;
+  for (int round = 0; round < 3; round++) {
+    expect(darboux::generate_tangents(mesh, options).corners.size() == 12, "with a scratch");
+  }
+
+  // Without indices tangents go straight into the vertices, between what the mesh reads.
+  std::vector<Vertex> corners;
+  for (auto index : INDICES) corners.push_back(vertices[index]);
+  darboux::mesh soup = make_mesh(corners);
+  soup.indices = {};
+  darboux::generate_tangents(soup, darboux::field(corners, &Vertex::tangent));
+  expect(corners[0].tangent[0] == -1 && corners[7].tangent[0] == 1 && corners[7].uv[0] == 1, "in place");
+  const auto difference = darboux::measure_tangents(darboux::field(corners, &Vertex::tangent), made.corners);
+  expect(difference.identical == 12 && difference.max == 0, "difference");
+  expect(darboux::measure_uv_fidelity(mesh, made.corners).area == 2, "fidelity");
+}
+
+static void faces() {
+  const auto vertices = make_vertices();
+  auto mesh = make_mesh(vertices);
+  const std::vector<std::uint32_t> quads = {0, 1, 4, 3, 1, 2, 5, 4};
+  mesh.indices = quads;
+  mesh.faces = DARBOUX_FACES_QUADS;
+  expect(darboux::generate_tangents(mesh).report.triangles == 4, "quads");
+  const std::vector<std::uint32_t> mixed = {0, 1, 4, 3, 1, 2, 5}, sizes = {4, 3};
+  mesh.indices = mixed;
+  mesh.faces = DARBOUX_FACES_MIXED;
+  mesh.face_sizes = sizes;
+  expect(darboux::generate_tangents(mesh).report.triangles == 3, "mixed");
+}
+
+static void normals() {
+  const auto vertices = make_vertices();
+  darboux::mesh mesh;
+  mesh.positions = darboux::field(vertices, &Vertex::position);
+  mesh.indices = INDICES;
+  const auto made = darboux::generate_normals(mesh);
+  expect(made.report.faces == 4 && (made.corners[11] == darboux::normal{0, 0, 1}), "normals");
+  expect(darboux::split_normals(mesh, made.corners).vertex_count() == 6, "split by normals");
+}
+
+static void plans() {
+  auto vertices = make_vertices();
+  const auto mesh = make_mesh(vertices);
+  const darboux::plan plan(mesh);
+  std::vector<darboux::tangent> base(12);
+  expect(plan.base(base).triangles == 4, "base");
+  for (auto &vertex : vertices) vertex.position.x *= 2;
+  expect(plan.evaluate(mesh) == base && plan.count_regrouped(mesh) == 0, "evaluated");
+}
+
+static void encodings() {
+  const darboux::tangent tangent = {0.6f, 0, 0.8f, -1};
+  const darboux::normal normal = {0.8f, 0, -0.6f};
+  for (darboux_tangent_encoding encoding = DARBOUX_TANGENT_ENCODING_SNORM8; encoding <= DARBOUX_TANGENT_ENCODING_DIAMOND;
+       encoding = darboux_tangent_encoding(encoding + 1)) {
+    std::int16_t code[4];
+    darboux::tangent back;
+    darboux::check(darboux_encode_tangents(encoding, 1, normal.data(), 0, tangent.data(), 0, code, 0));
+    darboux::check(darboux_decode_tangents(encoding, 1, normal.data(), 0, code, 0, back.data(), 0));
+    expect(darboux::measure_tangents(std::vector<darboux::tangent>{tangent}, std::vector<darboux::tangent>{back}).max < 0.4, "code");
+    expect(back[3] == -1, "sign of a code");
+  }
+  std::int16_t code[4];
+  darboux::tangent back;
+  darboux::normal normal_back;
+  darboux::check(darboux_encode_frames(1, normal.data(), 0, tangent.data(), 0, code, 0));
+  darboux::check(darboux_decode_frames(1, code, 0, normal_back.data(), 0, back.data(), 0));
+  expect(std::fabs(normal_back[2] + 0.6f) < 1e-3f && std::fabs(back[0] - 0.6f) < 1e-3f, "quaternion");
+  darboux::check(darboux_encode_normals(1, normal.data(), 0, code, 0));
+  darboux::check(darboux_decode_normals(1, code, 0, normal_back.data(), 0));
+  expect(std::fabs(normal_back[0] - 0.8f) < 1e-3f, "octahedral normal");
+}
+
+static void errors() {
+  const auto vertices = make_vertices();
+  auto mesh = make_mesh(vertices);
+  std::vector<darboux::tangent> few(3);
+  expect_error(DARBOUX_STATUS_LENGTH, "3 tangents", [&] { darboux::generate_tangents(mesh, few); });
+  expect_error(DARBOUX_STATUS_LENGTH, "3 tangents", [&] { darboux::split_vertices(mesh, few); });
+  mesh.normals = {};
+  expect_error(DARBOUX_STATUS_NULL_POINTER, "normals is null", [&] { darboux::generate_tangents(mesh); });
+  mesh = make_mesh(vertices);
+  const std::vector<std::uint32_t> beyond = {0, 1, 6};
+  mesh.indices = beyond;
+  expect_error(DARBOUX_STATUS_INDEX, "index 6 at place 2", [&] { darboux::generate_tangents(mesh); });
+  // An empty index list is a mesh without faces, not one without indices.
+  const std::vector<std::uint32_t> none;
+  mesh.indices = none;
+  expect(darboux::generate_tangents(mesh).corners.empty(), "an empty index list");
+  darboux_tangent_options options = {};
+  options.mode = darboux_mode(9);
+  expect_error(DARBOUX_STATUS_UNKNOWN_VALUE, "9 is no darboux_mode", [&] { darboux::generate_tangents(mesh, options); });
+}
+
+/// Each thread has messages of its own.
+static void threads() {
+  std::vector<std::thread> running;
+  for (std::uint32_t beyond = 6; beyond < 14; beyond++) {
+    running.emplace_back([beyond] {
+      const auto vertices = make_vertices();
+      auto mesh = make_mesh(vertices);
+      const std::vector<std::uint32_t> indices = {0, 1, beyond};
+      for (int round = 0; round < 50; round++) {
+        mesh.indices = indices;
+        const std::string part = "index " + std::to_string(beyond) + " at";
+        expect_error(DARBOUX_STATUS_INDEX, part.c_str(), [&] { darboux::generate_tangents(mesh); });
+        mesh.indices = INDICES;
+        expect(darboux::generate_tangents(mesh).corners[7][0] == 1, "in a thread");
+      }
+    });
+  }
+  for (auto &thread : running) thread.join();
+}
+
+static_assert(std::is_nothrow_move_constructible_v<darboux::plan> && !std::is_copy_constructible_v<darboux::plan>, "RAII");
+
+int main() {
+  try {
+    tangents();
+    faces();
+    normals();
+    plans();
+    encodings();
+    errors();
+    threads();
+  } catch (const darboux::error &error) {
+    expect(false, error.what());
+  }
+  return 0;
+}

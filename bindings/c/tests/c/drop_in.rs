@@ -1,0 +1,167 @@
+//! libdarboux_mikktspace against mikktspace.c: one program, built once with each, writes the same.
+
+use std::path::PathBuf;
+use std::process::Command;
+use std::sync::OnceLock;
+
+use darboux_tests::{Case, Dice, OwnedMesh, corpus, families};
+
+use crate::support::{
+    Link, build, compiler, dist, folder, has, reference_sources, run, run_with_input, source,
+};
+
+const BASIC: i32 = 1;
+const FULL: i32 = 2;
+const DEFAULT: i32 = 4;
+
+/// A mesh as `drop_in.c` reads it. Sizes may be anything.
+struct Input<'a> {
+    mesh: &'a OwnedMesh,
+    sizes: Vec<i32>,
+    setters: i32,
+    threshold: f32,
+}
+
+impl<'a> Input<'a> {
+    fn new(mesh: &'a OwnedMesh, setters: i32, threshold: f32) -> Self {
+        let sizes = mesh.face_sizes().iter().map(|&size| size as i32).collect();
+        Self { mesh, sizes, setters, threshold }
+    }
+
+    fn write(&self, out: &mut Vec<u8>) {
+        out.extend((self.sizes.len() as i32).to_ne_bytes());
+        out.extend(self.setters.to_ne_bytes());
+        out.extend(self.threshold.to_ne_bytes());
+        self.sizes.iter().for_each(|size| out.extend(size.to_ne_bytes()));
+        for corner in 0..self.mesh.corner_count() {
+            let (position, normal, uv) = self.mesh.vertex(self.mesh.vertex_of_corner(corner));
+            [&position[..], &normal, &uv].concat().iter().for_each(|float| out.extend(float.to_ne_bytes()));
+        }
+    }
+}
+
+/// `drop_in.c` with mikktspace.c, and with ours in every way that users may link it; built once.
+fn programs() -> &'static (PathBuf, Vec<PathBuf>) {
+    static PROGRAMS: OnceLock<(PathBuf, Vec<PathBuf>)> = OnceLock::new();
+    PROGRAMS.get_or_init(build_programs)
+}
+
+fn build_programs() -> (PathBuf, Vec<PathBuf>) {
+    let (program, mikktspace) = (source("drop_in.c"), reference_sources());
+    let reference = folder().join("drop_in-reference");
+    let mut command = Command::new("gcc");
+    command.args(["-O2", "-DNDEBUG", "-ffp-contract=off", "-I"]).arg(&mikktspace);
+    run(command.arg(&program).arg(mikktspace.join("mikktspace.c")).args(["-lm", "-o"]).arg(&reference));
+    let with_our_header = [Link::Shared, Link::Static].map(|link| {
+        let files = [program.clone()];
+        build(&format!("drop_in-{link:?}"), "c99", &files, &["darboux_mikktspace"], link)
+    });
+    // As a program that keeps the header it has.
+    let with_their_header = folder().join("drop_in-their-header");
+    let mut command = compiler("c99");
+    command.arg("-I").arg(&mikktspace).arg(&program).arg(dist().join("lib/libdarboux_mikktspace.a"));
+    run(command.args(["-lgcc_s", "-lpthread", "-lm", "-ldl", "-o"]).arg(&with_their_header));
+    (reference, with_our_header.into_iter().chain([with_their_header]).collect())
+}
+
+#[track_caller]
+fn assert_same(inputs: &[Input<'_>]) {
+    let mut bytes = Vec::new();
+    inputs.iter().for_each(|input| input.write(&mut bytes));
+    let (reference, ours) = programs();
+    let expected = run_with_input(&mut Command::new(reference), &bytes).stdout;
+    assert!(expected.len() > inputs.len() * 12, "the reference wrote nothing");
+    for program in ours {
+        let found = run_with_input(&mut Command::new(program), &bytes).stdout;
+        let first = expected.iter().zip(&found).position(|(a, b)| a != b);
+        assert!(expected == found, "{program:?} differs, first at byte {first:?} of {}", expected.len());
+    }
+}
+
+#[test]
+fn corpus_is_the_same() {
+    if !has("gcc") {
+        return;
+    }
+    let specimens = corpus::corpus();
+    let mut inputs = Vec::new();
+    for specimen in &specimens {
+        for setters in [0, BASIC, FULL, BASIC | FULL] {
+            let with = |&threshold: &f32| Input::new(&specimen.mesh, setters, threshold);
+            inputs.extend(specimen.thresholds.iter().map(with));
+            inputs.push(Input::new(&specimen.mesh, setters | DEFAULT, 0.0));
+        }
+    }
+    assert_same(&inputs);
+}
+
+#[test]
+fn random_meshes_are_the_same() {
+    if !has("gcc") {
+        return;
+    }
+    let cases: Vec<Case> = (0..4_000).map(Case::from_seed).collect();
+    let setters = [BASIC, FULL, BASIC | FULL];
+    let with = |(at, case)| {
+        let case: &Case = case;
+        Input::new(&case.mesh, setters[at % 3], case.threshold)
+    };
+    assert_same(&cases.iter().enumerate().map(with).collect::<Vec<_>>());
+}
+
+#[test]
+fn larger_meshes_are_the_same() {
+    if !has("gcc") {
+        return;
+    }
+    let meshes = [
+        families::grid(60, 60, false, true),
+        families::grid(60, 60, true, true),
+        families::sphere(40, 40, false),
+        families::sphere(40, 40, true),
+    ];
+    let both = meshes.iter().flat_map(|mesh| [BASIC, BASIC | FULL].map(|setters| (mesh, setters)));
+    let thresholds = both.flat_map(|both| [180.0, 20.0].map(|threshold| (both, threshold)));
+    let inputs = thresholds.map(|((mesh, setters), threshold)| Input::new(mesh, setters, threshold));
+    assert_same(&inputs.collect::<Vec<_>>());
+}
+
+/// Faces of any number of corners, none and fewer included, first, last and between.
+#[test]
+fn odd_faces_are_the_same() {
+    if !has("gcc") {
+        return;
+    }
+    let mut dice = Dice::from_seed(7);
+    let vertex = |dice: &mut Dice| {
+        let mut float = || dice.pick(&[0.0, 1.0, -1.0, 0.5, -0.0]);
+        ([float(), float(), float()], [0.0, 0.0, 1.0], [float(), float()])
+    };
+    let faces: Vec<(Vec<i32>, OwnedMesh)> = (0..2_000)
+        .map(|_| {
+            let count = 1 + dice.below(8);
+            let sizes: Vec<i32> = (0..count).map(|_| dice.pick(&[3, 4, 3, 4, 0, 1, 2, 5, -1, -7])).collect();
+            let mut mesh = OwnedMesh::default();
+            (0..sizes.iter().map(|&size| size.max(0)).sum()).for_each(|_| _ = mesh.push(vertex(&mut dice)));
+            (sizes, mesh)
+        })
+        .collect();
+    let mut inputs = Vec::new();
+    for (sizes, mesh) in &faces {
+        inputs.push(Input { mesh, sizes: sizes.clone(), setters: BASIC | FULL, threshold: 180.0 });
+    }
+    assert_same(&inputs);
+}
+
+/// The order, number and thread of callbacks, what is returned, exceptions and many threads: see the program.
+#[test]
+fn callbacks_keep_their_promises() {
+    if !has("g++") {
+        return;
+    }
+    for link in [Link::Shared, Link::Static] {
+        let files = [source("callbacks.cpp")];
+        let program = build(&format!("callbacks-{link:?}"), "c++17", &files, &["darboux_mikktspace"], link);
+        run(&mut Command::new(program));
+    }
+}
