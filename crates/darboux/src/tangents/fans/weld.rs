@@ -30,6 +30,7 @@ pub(super) struct Weld {
     again: BitMap,
     table: Vec<u64>,
     recent: Vec<u32>,
+    chains: Chains,
 }
 
 /// The mesh has values that only the reference's own order of vertices decides.
@@ -130,9 +131,8 @@ impl Weld {
     /// Numbers the distinct corners of an unindexed mesh in the order in which they are first met, and writes them.
     fn weld_corners(&mut self, mesh: &Mesh<'_>, width: Width, worker: &mut Worker) -> Result<(), Refused> {
         let corners = mesh.corner_count();
-        let slots = if cfg!(small_limits) { 2 } else { (corners / 3).next_power_of_two().max(2) };
-        self.table.clear();
-        self.table.resize(slots, FREE);
+        self.seen.clear(corners / 4);
+        self.chains.clear(corners / 4);
         self.recent.clear();
         self.recent.resize(RECENT, 0);
         self.records.clear();
@@ -143,9 +143,16 @@ impl Weld {
             let rows = Rows::new(mesh, range.clone(), &mut worker.rows);
             let hashes = &mut self.hashes[..range.len()];
             width.run(Hash { rows, hashes, span: &mut span });
-            let (table, recent, records) = (&mut self.table, &mut self.recent, &mut self.records);
-            let of = &mut self.of[range];
-            width.run(Number { rows, hashes, table, recent, records, of, refused: &mut refused });
+            width.run(Number {
+                rows,
+                hashes,
+                recent: &mut self.recent,
+                seen: &mut self.seen,
+                chains: &mut self.chains,
+                records: &mut self.records,
+                of: &mut self.of[range],
+                refused: &mut refused,
+            });
         }
         self.count = self.records.len();
         self.bounds = Span::check(&[span])?;
@@ -172,12 +179,13 @@ impl Task for Hash<'_> {
     }
 }
 
-/// Finds the vertex of each corner, among the recent ones or in the table, or makes a new one.
+/// Finds the vertex of each corner, among the recent ones or all, or makes a new one.
 struct Number<'a> {
     rows: Rows<'a>,
     hashes: &'a [u32],
-    table: &'a mut Vec<u64>,
     recent: &'a mut [u32],
+    seen: &'a mut BitMap,
+    chains: &'a mut Chains,
     records: &'a mut Vec<Record>,
     of: &'a mut [u32],
     refused: &'a mut bool,
@@ -201,43 +209,65 @@ impl Task for Number<'_> {
                 let [x, y, z] = *position;
                 let ([a, b, c], [u, v]) = (*normal, *uv);
                 let record = [x, y, z, a, b, c, u, v];
-                *recent = find_or_insert(self.table, self.records, hash, &record);
-                *self.refused |= !same(self.records[*recent as usize], record);
+                // Most vertices that are not recent are new, and most of these have a hash never seen: nothing to look for.
+                let known =
+                    if self.seen.set(hash) { self.chains.find(self.records, hash, &record) } else { None };
+                *recent = known.unwrap_or(self.records.len() as u32);
+                match known {
+                    Some(known) => *self.refused |= !same(self.records[known as usize], record),
+                    None => {
+                        self.chains.push(hash);
+                        self.records.push(record);
+                    }
+                }
             }
             *of = *recent;
         }
     }
 }
 
-/// The number of the vertex with this record; a new one when there is none.
-#[inline(never)]
-fn find_or_insert(table: &mut Vec<u64>, records: &mut Vec<Record>, hash: u32, record: &Record) -> u32 {
-    let mut slot = slot(hash, table.len());
-    while table[slot] != FREE {
-        let known = table[slot] as u32;
-        if has_hash(table[slot], hash) && records[known as usize] == *record {
-            return known;
-        }
-        slot = (slot + 1) & (table.len() - 1);
-    }
-    let vertex = records.len() as u32;
-    table[slot] = entry(hash, vertex);
-    records.push(*record);
-    if 2 * records.len() > table.len() {
-        grow(table);
-    }
-    vertex
+/// Vertices in lists by hash. They are put in when something is looked for: many at once, for whose memory is waited together.
+#[derive(Debug, Default)]
+struct Chains {
+    /// The hashes of vertices that are not in a list yet.
+    hashes: Vec<u32>,
+    /// The last vertex of each list, and before each vertex the one put in before; or [`END`].
+    last: Vec<u32>,
+    before: Vec<u32>,
 }
 
-fn grow(table: &mut Vec<u64>) {
-    let slots = 2 * table.len();
-    let old = std::mem::replace(table, vec![FREE; slots]);
-    for held in old.into_iter().filter(|&held| held != FREE) {
-        let mut slot = slot((held >> 32) as u32, slots);
-        while table[slot] != FREE {
-            slot = (slot + 1) & (slots - 1);
+/// The end of a list.
+const END: u32 = u32::MAX;
+
+impl Chains {
+    /// No vertex, in a size for about `count`.
+    fn clear(&mut self, count: usize) {
+        let lists = if cfg!(small_limits) { 2 } else { count.next_power_of_two() };
+        self.last.clear();
+        self.last.resize(lists, END);
+        self.before.clear();
+        self.hashes.clear();
+    }
+
+    /// Takes the next vertex.
+    #[inline(always)]
+    fn push(&mut self, hash: u32) {
+        self.hashes.push(hash);
+    }
+
+    /// The vertex with this record.
+    #[inline(never)]
+    fn find(&mut self, records: &[Record], hash: u32, record: &Record) -> Option<u32> {
+        let lists = self.last.len();
+        let first = self.before.len() as u32;
+        let put_in = |(&hash, vertex)| std::mem::replace(&mut self.last[slot(hash, lists)], vertex);
+        self.before.extend(self.hashes.iter().zip(first..).map(put_in));
+        self.hashes.clear();
+        let mut vertex = self.last[slot(hash, self.last.len())];
+        while vertex != END && records[vertex as usize] != *record {
+            vertex = self.before[vertex as usize];
         }
-        table[slot] = held;
+        (vertex != END).then_some(vertex)
     }
 }
 
@@ -268,6 +298,15 @@ impl BitMap {
         self.bits = if cfg!(small_limits) { 2 } else { (8 * count).max(64).ilog2().min(31) + 1 };
         self.words.clear();
         self.words.resize((1usize << self.bits).div_ceil(64), 0);
+    }
+
+    /// Sets a hash's bit; true if it was.
+    #[inline(always)]
+    fn set(&mut self, hash: u32) -> bool {
+        let (word, bit) = place(hash, self.bits);
+        let was_set = self.words[word] & bit != 0;
+        self.words[word] |= bit;
+        was_set
     }
 
     fn has(&self, hash: u32) -> bool {
