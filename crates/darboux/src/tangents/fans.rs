@@ -6,6 +6,7 @@
 //! prove that its triangles are one part. No edge is looked up. What is not decided is left to the general path.
 
 mod block;
+mod hash;
 mod last_run;
 mod names;
 mod shuffled;

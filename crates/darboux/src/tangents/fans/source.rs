@@ -51,12 +51,6 @@ impl<'a> Rows<'a> {
             uvs: stretch(mesh.uvs(), range, &mut buffer.uvs),
         }
     }
-
-    #[inline(always)]
-    pub fn records(self) -> impl Iterator<Item = Record> {
-        let rows = self.positions.iter().zip(self.normals).zip(self.uvs);
-        rows.map(|((&[x, y, z], &[a, b, c]), &[u, v])| [x, y, z, a, b, c, u, v])
-    }
 }
 
 fn stretch<'a, const N: usize>(

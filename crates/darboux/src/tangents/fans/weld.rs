@@ -8,6 +8,7 @@ use crate::weld::Bounds;
 use crate::{Indices, Mesh};
 
 use super::block::Record;
+use super::hash::{Hash, Span};
 use super::source::{Identity, Rows, record};
 use super::width::{Task, Width};
 use super::workers::{self, Worker, parts, split};
@@ -31,13 +32,12 @@ pub(super) struct Weld {
     table: Vec<u64>,
     recent: Vec<u32>,
     chains: Chains,
+    /// Those of the current window.
+    corners: Vec<Record>,
 }
 
 /// The mesh has values that only the reference's own order of vertices decides.
 pub(super) struct Refused;
-
-/// The largest size of a coordinate that is welded here; the reference stops welding at half the largest float.
-const LARGEST: f32 = 1e38;
 
 /// No vertex in this slot. Others hold a hash above and the number of a vertex below.
 const FREE: u64 = u64::MAX;
@@ -132,7 +132,7 @@ impl Weld {
     fn weld_corners(&mut self, mesh: &Mesh<'_>, width: Width, worker: &mut Worker) -> Result<(), Refused> {
         let corners = mesh.corner_count();
         self.seen.clear(corners / 4);
-        self.chains.clear(corners / 4);
+        self.chains.clear(corners / 8);
         self.recent.clear();
         self.recent.resize(RECENT, 0);
         self.records.clear();
@@ -143,8 +143,10 @@ impl Weld {
             let rows = Rows::new(mesh, range.clone(), &mut worker.rows);
             let hashes = &mut self.hashes[..range.len()];
             width.run(Hash { rows, hashes, span: &mut span });
+            self.corners.resize(range.len(), Record::default());
+            width.run(Assemble { rows, records: &mut self.corners });
             width.run(Number {
-                rows,
+                corners: &self.corners,
                 hashes,
                 recent: &mut self.recent,
                 seen: &mut self.seen,
@@ -160,28 +162,28 @@ impl Weld {
     }
 }
 
-/// Hashes vertices, and notes what values they have.
-struct Hash<'a> {
+/// Writes rows as records.
+struct Assemble<'a> {
     rows: Rows<'a>,
-    hashes: &'a mut [u32],
-    span: &'a mut Span,
+    records: &'a mut [Record],
 }
 
-impl Task for Hash<'_> {
+impl Task for Assemble<'_> {
     #[inline(always)]
     fn run(self) {
-        let mut span = *self.span;
-        for (record, out) in self.rows.records().zip(self.hashes) {
-            span.take(&record);
-            *out = hash(&record);
+        let Rows { positions, normals, uvs } = self.rows;
+        for (((record, position), normal), uv) in self.records.iter_mut().zip(positions).zip(normals).zip(uvs)
+        {
+            record[..3].copy_from_slice(position);
+            record[3..6].copy_from_slice(normal);
+            record[6..].copy_from_slice(uv);
         }
-        *self.span = span;
     }
 }
 
 /// Finds the vertex of each corner, among the recent ones or all, or makes a new one.
 struct Number<'a> {
-    rows: Rows<'a>,
+    corners: &'a [Record],
     hashes: &'a [u32],
     recent: &'a mut [u32],
     seen: &'a mut BitMap,
@@ -194,30 +196,19 @@ struct Number<'a> {
 impl Task for Number<'_> {
     #[inline(always)]
     fn run(self) {
-        let Rows { positions, normals, uvs } = self.rows;
-        for (at, of) in self.of.iter_mut().enumerate() {
-            let (position, normal, uv) = (&positions[at], &normals[at], &uvs[at]);
-            let hash = self.hashes[at];
-            let recent = &mut self.recent[hash as usize % RECENT];
-            let is_recent = match self.records.get(*recent as usize) {
-                Some([x, y, z, a, b, c, u, v]) => {
-                    same([*x, *y, *z], *position) & same([*a, *b, *c], *normal) & same([*u, *v], *uv)
-                }
-                None => false,
-            };
+        let Self { corners, hashes, recent, seen, chains, records, of, refused } = self;
+        for ((corner, &hash), of) in corners.iter().zip(hashes).zip(of) {
+            let recent = &mut recent[hash as usize % RECENT];
+            let is_recent = records.get(*recent as usize).is_some_and(|record| same(record, corner));
             if !is_recent {
-                let [x, y, z] = *position;
-                let ([a, b, c], [u, v]) = (*normal, *uv);
-                let record = [x, y, z, a, b, c, u, v];
                 // Most vertices that are not recent are new, and most of these have a hash never seen: nothing to look for.
-                let known =
-                    if self.seen.set(hash) { self.chains.find(self.records, hash, &record) } else { None };
-                *recent = known.unwrap_or(self.records.len() as u32);
+                let known = if seen.set(hash) { chains.find(records, hash, corner) } else { None };
+                *recent = known.unwrap_or(records.len() as u32);
                 match known {
-                    Some(known) => *self.refused |= !same(self.records[known as usize], record),
+                    Some(known) => *refused |= !same(&records[known as usize], corner),
                     None => {
-                        self.chains.push(hash);
-                        self.records.push(record);
+                        chains.push(hash);
+                        records.push(*corner);
                     }
                 }
             }
@@ -341,81 +332,20 @@ fn mark_collisions(hashes: &[u32], bits: u32, first: usize, seen: &mut [u64], ag
     collisions
 }
 
-/// What values a mesh has.
-#[derive(Clone, Copy, Debug)]
-struct Span {
-    low: Record,
-    high: Record,
-    /// Bits without the sign.
-    largest: [u32; 8],
-}
-
-impl Default for Span {
-    fn default() -> Self {
-        Self { low: [f32::INFINITY; 8], high: [f32::NEG_INFINITY; 8], largest: [0; 8] }
-    }
-}
-
-impl Span {
-    #[inline(always)]
-    fn take(&mut self, record: &Record) {
-        for (i, &x) in record.iter().enumerate() {
-            self.low[i] = if x < self.low[i] { x } else { self.low[i] };
-            self.high[i] = if x > self.high[i] { x } else { self.high[i] };
-            self.largest[i] = self.largest[i].max(x.to_bits() & !(1 << 31));
-        }
-    }
-
-    /// The bounds of all positions. Refuses values that are too large or not finite.
-    fn check(spans: &[Self]) -> Result<Bounds, Refused> {
-        let mut all = Self::default();
-        for span in spans {
-            all.take(&span.low);
-            all.take(&span.high);
-        }
-        let position = |[x, y, z, ..]: Record| [x, y, z];
-        let is_small = spans.iter().flat_map(|span| span.largest).all(|bits| bits <= LARGEST.to_bits());
-        if is_small { Ok(Bounds { min: position(all.low), max: position(all.high) }) } else { Err(Refused) }
-    }
-}
-
-/// A hash that is equal for records that are equal as floats: a sum of products, one lane per component.
-#[inline(always)]
-fn hash(record: &Record) -> u32 {
-    const FACTORS: [u32; 8] = [
-        0x9e37_79b1,
-        0x85eb_ca77,
-        0xc2b2_ae3d,
-        0x27d4_eb2f,
-        0x1656_67b1,
-        0xd35a_2d97,
-        0xb55a_4f09,
-        0xa3b1_95c5,
-    ];
-    let mut sum = 0u32;
-    for i in 0..8 {
-        // Adding zero turns -0 into +0. Short fractions have their bits at the top: the shift brings them down.
-        let bits = (record[i] + 0.0).to_bits();
-        sum = sum.wrapping_add((bits ^ bits >> 15).wrapping_mul(FACTORS[i]));
-    }
-    let mixed = (sum ^ sum >> 15).wrapping_mul(0x2c1b_3c6d);
-    mixed ^ mixed >> 14
-}
-
 /// True for vertices that are equal as floats. Refuses those whose zeros differ in sign.
 fn are_one(mesh: &Mesh<'_>, a: usize, b: usize) -> Result<bool, Refused> {
     let (a, b) = (record(mesh, a), record(mesh, b));
     if a != b {
         return Ok(false);
     }
-    if same(a, b) { Ok(true) } else { Err(Refused) }
+    if same(&a, &b) { Ok(true) } else { Err(Refused) }
 }
 
-/// True for equal bits. One number at a time: wider reads of what was written in parts would wait.
+/// True for equal bits.
 #[inline(always)]
-fn same<const N: usize>(a: [f32; N], b: [f32; N]) -> bool {
+fn same(a: &Record, b: &Record) -> bool {
     let mut difference = 0;
-    for i in 0..N {
+    for i in 0..8 {
         difference |= a[i].to_bits() ^ b[i].to_bits();
     }
     difference == 0
