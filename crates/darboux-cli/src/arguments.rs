@@ -1,5 +1,6 @@
 //! The one definition of the command line. Help, man pages, completions and docs/cli.md are generated from it.
 
+mod compare;
 mod convert;
 mod files;
 mod inspect;
@@ -8,6 +9,7 @@ mod tangents;
 
 use clap::{Parser, Subcommand};
 
+pub use compare::CompareArguments;
 pub use convert::ConvertArguments;
 pub use files::{Files, Talk};
 pub use inspect::InspectArguments;
@@ -30,7 +32,7 @@ A normal map looks right only when the renderer's tangents are the baker's. Darb
 as bakers do, and writes them into .gltf and .glb files without changing anything else.
 
 Messages go to standard error. Exit codes: 0 done (nothing to do included), 1 an input is bad or a file failed, \
-2 wrong usage.";
+2 wrong usage, 3 compared files are further apart than asked for.";
 
 /// The subcommands.
 #[derive(Debug, Subcommand)]
@@ -48,6 +50,9 @@ pub enum Command {
         mut_arg("inputs", |inputs| inputs.help(convert::INPUTS))
     )]
     Convert(ConvertArguments),
+    /// Compare the tangents of two files, or of a file and a method
+    #[command(long_about = compare::ABOUT, after_long_help = compare::EXAMPLES)]
+    Compare(CompareArguments),
     /// Show what each primitive holds and what its tangents would meet
     #[command(long_about = inspect::ABOUT, after_long_help = inspect::EXAMPLES)]
     Inspect(InspectArguments),

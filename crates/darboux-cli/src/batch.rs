@@ -169,7 +169,8 @@ pub fn remarks<'a>(counts: impl IntoIterator<Item = (usize, &'a str, &'a str)>) 
     counts.map(|(count, one, many)| format!(", {}", counted(count, one, many))).collect()
 }
 
-fn size_of(input: &Input) -> u64 {
+/// The size of an input in bytes; 0 where it is not known.
+pub fn size_of(input: &Input) -> u64 {
     match input {
         Input::File(path) => Path::metadata(path).map_or(0, |metadata| metadata.len()),
         Input::Stdin => 0,

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod batch;
+mod compare;
 mod convert;
 mod inspect;
 mod interrupt;
@@ -25,10 +26,11 @@ mod exit {
     pub const DONE: u8 = 0;
     pub const FAILED: u8 = 1;
     pub const USAGE: u8 = 2;
+    pub const DIFFERENT: u8 = 3;
 }
 
 /// Runs the command on the process's standard streams and gives its exit code: 0 done, 1 an input is bad or a file failed,
-/// 2 wrong usage. The first argument is the program's name.
+/// 2 wrong usage, 3 compared files differ by more than asked for. The first argument is the program's name.
 pub fn run<A>(arguments: impl IntoIterator<Item = A>) -> u8
 where
     A: Into<OsString> + Clone,
@@ -38,6 +40,7 @@ where
             Command::Tangents(arguments) => batch::run(arguments),
             Command::Normals(arguments) => batch::run(arguments),
             Command::Convert(arguments) => batch::run(arguments),
+            Command::Compare(arguments) => compare::run(arguments),
             Command::Inspect(arguments) => inspect::run(arguments),
             Command::Methods => methods::run(),
         },

@@ -2,6 +2,7 @@
 
 mod accessor;
 mod append;
+mod compare;
 mod compression;
 mod container;
 mod convert;
@@ -20,6 +21,7 @@ mod tangents;
 mod values;
 
 pub use accessor::{Elements, NewAccessor, Target};
+pub use compare::{Pair, PairedCorners, Unpaired, pair_tangents};
 pub use convert::{ConversionSummary, convert_vertices};
 pub use document::{Document, LoadOptions};
 pub use inspect::{PrimitiveInfo, inspect};

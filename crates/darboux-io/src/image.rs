@@ -55,6 +55,14 @@ impl Image {
         Self::decode(name, bytes).map_err(|fault| fault.in_file(name))
     }
 
+    /// An image of 8-bit RGB texels, row after row. Errors: another number of texels than `width` times `height`.
+    pub fn from_rgb(name: &str, [width, height]: [u32; 2], texels: &[[u8; 3]]) -> Result<Self, Error> {
+        let texels = Texels::Bytes(texels.as_flattened().to_vec());
+        let file = encoded([width, height], ColorType::Rgb, &texels).map_err(|fault| fault.in_file(name))?;
+        let (name, color) = (name.to_owned(), ColorType::Rgb);
+        Ok(Self { name, file, width, height, color, texels, is_changed: false })
+    }
+
     /// Whether these are the first bytes of a PNG.
     pub fn is_png(bytes: &[u8]) -> bool {
         bytes.starts_with(&chunks::SIGNATURE)
@@ -134,23 +142,7 @@ impl Image {
         if !self.is_changed {
             return Ok(self.file.clone());
         }
-        let failed =
-            |error: png::EncodingError| Fault::unsupported("", format!("cannot be encoded: {error}"));
-        let mut encoded = Vec::new();
-        let mut encoder = Encoder::new(&mut encoded, self.width, self.height);
-        encoder.set_color(self.color);
-        let written = match &self.texels {
-            Texels::Bytes(bytes) => {
-                encoder.set_depth(BitDepth::Eight);
-                encoder.write_header().and_then(|mut writer| writer.write_image_data(bytes))
-            }
-            Texels::Words(words) => {
-                encoder.set_depth(BitDepth::Sixteen);
-                let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_be_bytes()).collect();
-                encoder.write_header().and_then(|mut writer| writer.write_image_data(&bytes))
-            }
-        };
-        written.map_err(failed)?;
+        let encoded = encoded(self.size(), self.color, &self.texels)?;
         Ok(self.spliced(&Chunks::split(&self.file)?, &Chunks::split(&encoded)?))
     }
 
@@ -208,4 +200,24 @@ fn refuse_unsupported(color: ColorType, depth: BitDepth, chunks: &Chunks<'_>) ->
         }
         _ => refused("has fewer than 8 bits per channel; save it with 8 or 16"),
     }
+}
+
+/// Texels as a PNG of nothing else.
+fn encoded([width, height]: [u32; 2], color: ColorType, texels: &Texels) -> Result<Vec<u8>, Fault> {
+    let mut encoded = Vec::new();
+    let mut encoder = Encoder::new(&mut encoded, width, height);
+    encoder.set_color(color);
+    let written = match texels {
+        Texels::Bytes(bytes) => {
+            encoder.set_depth(BitDepth::Eight);
+            encoder.write_header().and_then(|mut writer| writer.write_image_data(bytes))
+        }
+        Texels::Words(words) => {
+            encoder.set_depth(BitDepth::Sixteen);
+            let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_be_bytes()).collect();
+            encoder.write_header().and_then(|mut writer| writer.write_image_data(&bytes))
+        }
+    };
+    written.map_err(|error| Fault::unsupported("", format!("cannot be encoded: {error}")))?;
+    Ok(encoded)
 }

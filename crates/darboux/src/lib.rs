@@ -46,7 +46,9 @@ pub use convention::{
     Winding,
 };
 pub use frame::{CornerFrames, CornerTangents, Frame};
-pub use measure::{HISTOGRAM_ENDS, TangentDifference, UvFidelity, measure_tangents, measure_uv_fidelity};
+pub use measure::{
+    HISTOGRAM_ENDS, TangentDifference, UvFidelity, measure_tangents, measure_uv_fidelity, tangent_angle,
+};
 pub use mesh::{Faces, Indices, Mesh, MeshError, Strided};
 pub use normal_map::{Channel, TexelLayout, repack_texels};
 pub use normals::{

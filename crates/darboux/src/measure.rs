@@ -26,6 +26,8 @@ pub struct TangentDifference {
     pub without_angle: usize,
     /// The mean angle.
     pub mean: f64,
+    /// The smallest angle.
+    pub min: f64,
     /// The angle that half of the corners do not exceed.
     pub median: f64,
     /// The angle that 95 corners in 100 do not exceed.
@@ -49,7 +51,7 @@ pub fn measure_tangents(a: &[[f32; 4]], b: &[[f32; 4]]) -> Result<TangentDiffere
     for (corner, (a, b)) in a.iter().zip(b).enumerate() {
         out.identical += usize::from(a.map(f32::to_bits) == b.map(f32::to_bits));
         out.sign_flips += usize::from(a[3] != b[3]);
-        match angle(xyz(*a), xyz(*b)) {
+        match tangent_angle(*a, *b) {
             Some(angle) => angles.push((corner, angle)),
             None => out.without_angle += 1,
         }
@@ -59,6 +61,7 @@ pub fn measure_tangents(a: &[[f32; 4]], b: &[[f32; 4]]) -> Result<TangentDiffere
     }
     angles.sort_unstable_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
     out.mean = angles.iter().map(|(_, angle)| angle).sum::<f64>() / (angles.len().max(1) as f64);
+    out.min = angles.last().map_or(0.0, |(_, angle)| *angle);
     [out.max, out.p95, out.median] = [1.0, 0.95, 0.5].map(|part| quantile(&angles, part));
     out.worst = angles.into_iter().take(WORST).filter(|(_, angle)| *angle > 0.0).collect();
     Ok(out)
@@ -176,8 +179,9 @@ fn xyz([x, y, z, _]: [f32; 4]) -> V3 {
     [x, y, z]
 }
 
-fn angle(a: V3, b: V3) -> Option<f64> {
-    angle_of(a.map(f64::from), b.map(f64::from))
+/// The angle between the xyz of two tangents in degrees, as [`measure_tangents`] has it; none where one is zero or not finite.
+pub fn tangent_angle(a: [f32; 4], b: [f32; 4]) -> Option<f64> {
+    angle_of(xyz(a).map(f64::from), xyz(b).map(f64::from))
 }
 
 /// The angle in degrees; none where a vector has no direction. By the arctangent, which is exact for small and for large angles.

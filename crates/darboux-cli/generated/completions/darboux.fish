@@ -29,6 +29,7 @@ complete -c darboux -n "__fish_darboux_needs_command" -s V -l version -d 'Print 
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "tangents" -d 'Add tangents to glTF and GLB files'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "normals" -d 'Add normals to glTF and GLB files'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "convert" -d 'Convert normal maps and models between conventions'
+complete -c darboux -n "__fish_darboux_needs_command" -f -a "compare" -d 'Compare the tangents of two files, or of a file and a method'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "inspect" -d 'Show what each primitive holds and what its tangents would meet'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "methods" -d 'Say which method of computing tangents is for what'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s o -l output -d 'Output file for a single input; - is standard output, as GLB' -r -F
@@ -104,6 +105,22 @@ complete -c darboux -n "__fish_darboux_using_subcommand convert" -l raw -d 'Let 
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -s q -l quiet -d 'Print errors only'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c darboux -n "__fish_darboux_using_subcommand compare" -l method -d 'Compare A with the tangents that this method gives it; `darboux methods` lists them' -r -f -a "mikktspace\t'The standard of bakers and engines'
+angle-area\t'Weighted by angle and area: follows the UVs best where no baked map asks for MikkTSpace'
+lengyel\t'Sums of dP/du, one per UV orientation'
+lengyel-per-vertex\t'Sums of dP/du, one per vertex, as three.js and many tutorials: breaks mirrored seams'
+average\t'Mean of the triangles\' tangents'
+area\t'Mean weighted by area'
+face\t'Each face its own: exact, not smooth'
+from-normal\t'Any perpendicular of the normal; says nothing about UVs'"
+complete -c darboux -n "__fish_darboux_using_subcommand compare" -l worst -d 'How many of the worst places are listed' -r
+complete -c darboux -n "__fish_darboux_using_subcommand compare" -l tolerance -d 'Exit with 3 if an angle is greater than so many degrees, a sign is flipped, or tangents are missing on one side' -r
+complete -c darboux -n "__fish_darboux_using_subcommand compare" -l heat-map -d 'Draw the angles over the UV layout, as a PNG' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand compare" -l force -d 'Replace a heat map that exists'
+complete -c darboux -n "__fish_darboux_using_subcommand compare" -l allow-outside -d 'Allow buffers and images outside the inputs\' folders'
+complete -c darboux -n "__fish_darboux_using_subcommand compare" -l json -d 'Write a report as JSON to standard output'
+complete -c darboux -n "__fish_darboux_using_subcommand compare" -s q -l quiet -d 'Print errors only'
+complete -c darboux -n "__fish_darboux_using_subcommand compare" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l allow-outside -d 'Allow buffers and images outside the input\'s folder'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l json -d 'Write the table as JSON'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -s h -l help -d 'Print help (see more with \'--help\')'

@@ -1,0 +1,162 @@
+//! `darboux compare`.
+
+mod heat_map;
+mod statistics;
+mod text;
+
+use std::path::Path;
+
+use clap::ValueEnum;
+use darboux::TangentOptions;
+use darboux_io::gltf::{Document, Pair, Progress, TangentsOptions, add_tangents, pair_tangents};
+use serde::Serialize;
+
+use crate::arguments::CompareArguments;
+use crate::batch::size_of;
+use crate::jobs::Input;
+use crate::messages::{Messages, write_stdout};
+use crate::models::load;
+use crate::report::{VERSION, to_json};
+use crate::{exit, interrupt};
+use heat_map::HeatMap;
+use statistics::{ComparedPrimitive, Place, Statistics};
+
+/// What `darboux compare --json` prints.
+#[derive(Serialize)]
+pub struct CompareReport {
+    command: &'static str,
+    version: &'static str,
+    first: String,
+    second: Option<String>,
+    /// The name of the method that stands for the second file.
+    method: Option<String>,
+    /// Of all primitives together.
+    totals: Statistics,
+    primitives: Vec<ComparedPrimitive>,
+    worst: Vec<Place>,
+    heat_map: Option<String>,
+    within_tolerance: Option<bool>,
+    warnings: Vec<String>,
+}
+
+/// Runs the command; gives its exit code.
+pub fn run(arguments: &CompareArguments) -> u8 {
+    let messages = Messages::new(arguments.talk.quiet);
+    let inputs = [Some(&arguments.first), arguments.second.as_ref()];
+    if inputs.into_iter().flatten().any(|path| path == Path::new("-")) {
+        messages.error("standard input cannot be compared; save it to a file");
+        return exit::USAGE;
+    }
+    interrupt::wait_for_writes();
+    let report = match compare(arguments, &messages) {
+        Ok(report) => report,
+        Err(sentence) => {
+            messages.end_progress();
+            messages.error(&sentence);
+            return exit::FAILED;
+        }
+    };
+    messages.end_progress();
+    report.warnings.iter().for_each(|warning| messages.warn(warning));
+    let text = match (arguments.talk.json, arguments.talk.quiet) {
+        (true, _) => to_json(&report).map_err(std::io::Error::from),
+        (false, true) => Ok(Vec::new()),
+        (false, false) => Ok(text::described(&report).into_bytes()),
+    };
+    if let Err(error) = text.and_then(|text| write_stdout(&text)) {
+        messages.error(&format!("the comparison cannot be written: {error}"));
+        return exit::FAILED;
+    }
+    if report.within_tolerance == Some(false) { exit::DIFFERENT } else { exit::DONE }
+}
+
+/// Reads both, compares, draws. Errors are one sentence each.
+fn compare(arguments: &CompareArguments, messages: &Messages) -> Result<CompareReport, String> {
+    if let Some(path) = arguments.heat_map.as_ref().filter(|path| path.exists() && !arguments.force) {
+        return Err(format!("{}: exists; use --force to replace it, or name another file", path.display()));
+    }
+    let other = arguments.second.as_ref().unwrap_or(&arguments.first);
+    let inputs = [&arguments.first, other].map(|path| Input::File(path.clone()));
+    messages.start(inputs.iter().map(size_of).sum());
+    let mut first = open(&inputs[0], arguments, messages)?;
+    messages.end_file();
+    let mut second = open(&inputs[1], arguments, messages)?;
+    if let Some(method) = arguments.method {
+        give_tangents(&mut second, method.into(), messages)?;
+    }
+    messages.end_file();
+    let mut warnings = [first.warnings(), second.warnings()].concat();
+    let pairs = pair_tangents(&mut first, &mut second).map_err(|error| error.to_string())?;
+    warnings.extend(moved(&pairs));
+    let primitives: Vec<ComparedPrimitive> = pairs.iter().map(ComparedPrimitive::new).collect();
+    if primitives.iter().all(|primitive| primitive.statistics.is_none()) {
+        let advice = "run darboux tangents first";
+        return Err(format!("{}: no primitive has tangents on both sides; {advice}", first.name()));
+    }
+    let totals = Statistics::of(pairs.iter().filter_map(|pair| pair.corners.as_ref().ok()));
+    let heat_map = match &arguments.heat_map {
+        Some(path) => Some(draw(&pairs, path, arguments.force, &mut warnings)?),
+        None => None,
+    };
+    let one_sided = pairs.iter().any(|pair| matches!(&pair.corners, Err(unpaired) if unpaired.is_one_sided));
+    let within = |degrees: f64| totals.is_within(degrees) && !one_sided;
+    Ok(CompareReport {
+        command: "compare",
+        version: VERSION,
+        first: first.name().to_owned(),
+        second: arguments.second.as_ref().map(|_| second.name().to_owned()),
+        method: arguments.method.and_then(|method| Some(method.to_possible_value()?.get_name().to_owned())),
+        worst: statistics::worst(&pairs, arguments.worst),
+        within_tolerance: arguments.tolerance.map(within),
+        totals,
+        primitives,
+        heat_map,
+        warnings,
+    })
+}
+
+fn open(input: &Input, arguments: &CompareArguments, messages: &Messages) -> Result<Document, String> {
+    messages.start_file(&input.to_string(), size_of(input));
+    load(input, arguments.allow_outside)
+}
+
+/// Replaces all tangents by those of a method.
+fn give_tangents(
+    document: &mut Document,
+    method: darboux::Method,
+    messages: &Messages,
+) -> Result<(), String> {
+    let tangents = TangentOptions { method, ..TangentOptions::default() };
+    let options = TangentsOptions { tangents, overwrite: true, ..TangentsOptions::default() };
+    let mut on_progress = |progress: Progress| messages.progress(progress.done, progress.total);
+    add_tangents(document, &options, &mut on_progress).map(drop).map_err(|error| error.to_string())
+}
+
+/// A warning for each primitive whose corners are elsewhere in the second file.
+fn moved(pairs: &[Pair]) -> impl Iterator<Item = String> {
+    let moved = pairs.iter().filter_map(|pair| {
+        let moved = pair.corners.as_ref().ok()?.moved;
+        (moved > 0).then_some((&pair.name, moved))
+    });
+    moved.map(|(name, moved)| {
+        format!("{name}: {moved} corners are elsewhere in the second file; is it the same model, in the same order?")
+    })
+}
+
+fn draw(pairs: &[Pair], path: &Path, force: bool, warnings: &mut Vec<String>) -> Result<String, String> {
+    let mut map = HeatMap::new();
+    for corners in pairs.iter().filter_map(|pair| pair.corners.as_ref().ok()) {
+        map.draw(corners);
+    }
+    if map.too_large() > 0 {
+        warnings.push(format!(
+            "{}: of {} triangles only the corners are drawn: their UVs span more than the map, or there are too many",
+            path.display(),
+            map.too_large()
+        ));
+    }
+    let _guard = interrupt::writing();
+    let image = map.image(&path.display().to_string()).map_err(|error| error.to_string())?;
+    let written = image.save(path, force).map_err(|error| error.to_string())?;
+    Ok(written.display().to_string())
+}

@@ -1,0 +1,98 @@
+//! A comparison in words.
+
+use indicatif::HumanCount;
+
+use super::CompareReport;
+use super::heat_map::{ENDS, TICKS};
+use super::statistics::{Place, Statistics};
+
+/// The longest bar of the histogram.
+const BAR: usize = 40;
+
+/// Everything that a person wants to know, the totals last but for the worst places.
+pub fn described(report: &CompareReport) -> String {
+    let other = match (&report.second, &report.method) {
+        (Some(second), _) => second.clone(),
+        (None, method) => format!("method {}", method.as_deref().unwrap_or_default()),
+    };
+    let mut text = format!("{} and {other}\n", report.first);
+    for primitive in &report.primitives {
+        text += &match (&primitive.statistics, &primitive.reason) {
+            (Some(statistics), _) => format!("  {}: {}\n", primitive.name, summed_up(statistics)),
+            (None, reason) => {
+                format!("  {}: not compared: {}\n", primitive.name, reason.as_deref().unwrap_or_default())
+            }
+        };
+    }
+    text += &totals(&report.totals);
+    text += &histogram(&report.totals);
+    if !report.worst.is_empty() {
+        text += "\nthe worst places\n";
+        text += &report.worst.iter().map(place).collect::<String>();
+    }
+    if let Some(path) = &report.heat_map {
+        let ticks = TICKS.map(|tick| tick.to_string()).join(", ");
+        let [from, to] = ENDS;
+        text += &format!(
+            "\n{path}: from violet ({from} degrees and less) to yellow ({to}), ticks at {ticks}; red: the sign is flipped; \
+             where UVs overlap, the worst\n"
+        );
+    }
+    text
+}
+
+fn summed_up(statistics: &Statistics) -> String {
+    let Statistics { corners, identical, median, max, sign_flips, .. } = statistics;
+    if identical == corners {
+        return format!("all {} corners are identical", HumanCount(*corners as u64));
+    }
+    let flips = if *sign_flips > 0 {
+        format!(", {} signs flipped", HumanCount(*sign_flips as u64))
+    } else {
+        String::new()
+    };
+    format!("median {}, greatest {} degrees{flips}", degrees(*median), degrees(*max))
+}
+
+fn totals(totals: &Statistics) -> String {
+    let [corners, identical, flips, without] =
+        [totals.corners, totals.identical, totals.sign_flips, totals.without_angle]
+            .map(|count| HumanCount(count as u64));
+    let [min, median, p95, max, mean, weighted] =
+        [totals.min, totals.median, totals.p95, totals.max, totals.mean, totals.area_weighted_mean]
+            .map(degrees);
+    format!(
+        "\n{corners} corners: {identical} identical, {flips} with flipped signs, {without} without an angle\n\
+         degrees: least {min}, median {median}, 95 % within {p95}, greatest {max}; mean {mean}, weighted by area {weighted}\n\n"
+    )
+}
+
+fn histogram(totals: &Statistics) -> String {
+    let most = totals.histogram.iter().map(|bin| bin.corners).max().unwrap_or(0).max(1);
+    let line = |bin: &super::statistics::Bin| {
+        let length = (bin.corners * BAR).div_ceil(most);
+        let label = if bin.up_to == 0.0 { "0".to_owned() } else { format!("to {}", bin.up_to) };
+        let line = format!("{label:>8} | {:<BAR$} {}", "#".repeat(length), HumanCount(bin.corners as u64));
+        format!("{}\n", line.trim_end())
+    };
+    totals.histogram.iter().map(line).collect()
+}
+
+fn place(place: &Place) -> String {
+    let position = place.position.map_or(String::new(), |[x, y, z]| format!(", at ({x}, {y}, {z})"));
+    let flip = if place.sign_flip { " and a flipped sign" } else { "" };
+    let (name, triangle, corner) = (&place.name, place.triangle, place.corner);
+    format!(
+        "  {} degrees{flip}: {name}, triangle {triangle}, corner {corner}{position}\n",
+        degrees(place.angle)
+    )
+}
+
+/// Four digits that mean something.
+fn degrees(angle: f64) -> String {
+    match angle {
+        0.0 => "0".to_owned(),
+        small if small < 0.001 => format!("{small:.1e}"),
+        angle => format!("{angle:.3}"),
+    }
+}

@@ -1,0 +1,159 @@
+//! Comparisons: what they find, what they draw, and their exit codes.
+
+mod common;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use common::{asset, darboux, names_in, text};
+use serde_json::Value;
+use tempfile::TempDir;
+
+const MODEL: &str = "NormalTangentTest/NormalTangentTest.glb";
+
+/// The model with tangents by two methods.
+fn two() -> (TempDir, PathBuf, PathBuf) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let written = |name: &str, method: &str| {
+        let path = folder.path().join(name);
+        darboux(&["tangents", text(&asset(MODEL)), "--method", method, "-o", text(&path)]).exits(0);
+        path
+    };
+    let (first, second) = (written("first.glb", "mikktspace"), written("second.glb", "lengyel"));
+    (folder, first, second)
+}
+
+fn report(first: &Path, second: &Path) -> Value {
+    darboux(&["compare", text(first), text(second), "--json"]).exits(0).json()
+}
+
+#[test]
+fn a_file_is_identical_to_itself_and_to_its_method() {
+    let (_folder, first, _) = two();
+    let itself = report(&first, &first);
+    let method = darboux(&["compare", text(&first), "--method", "mikktspace", "--json"]).exits(0).json();
+    assert_eq!(method["method"], "mikktspace");
+    for report in [itself, method] {
+        let totals = &report["totals"];
+        assert_eq!(totals["identical"], totals["corners"]);
+        assert_eq!(totals["max"].as_f64(), Some(0.0));
+        assert_eq!(totals["sign_flips"], 0);
+        assert_eq!(report["worst"], Value::Array(Vec::new()));
+    }
+}
+
+#[test]
+fn a_method_stands_for_the_file_that_it_would_write() {
+    let (_folder, first, second) = two();
+    let files = report(&first, &second);
+    let method = darboux(&["compare", text(&first), "--method", "lengyel", "--json"]).exits(0).json();
+    assert_eq!(files["totals"], method["totals"]);
+    assert_eq!(files["worst"], method["worst"]);
+    let totals = &files["totals"];
+    let number = |name: &str| totals[name].as_f64().expect("a number");
+    assert!(
+        number("min") <= number("median")
+            && number("median") <= number("p95")
+            && number("p95") <= number("max")
+    );
+    assert!(number("area_weighted_mean") > 0.0 && number("area_weighted_mean") < number("max"));
+    let bins = totals["histogram"].as_array().expect("bins").iter();
+    assert_eq!(bins.map(|bin| bin["corners"].as_u64().expect("a count")).sum::<u64>(), 3 * 7774);
+    let worst = &files["worst"][0];
+    assert_eq!(worst["angle"], totals["max"]);
+}
+
+#[test]
+fn people_read_numbers_bars_and_places() {
+    let (_folder, first, second) = two();
+    let run = darboux(&["compare", text(&first), text(&second), "--worst", "2"]).exits(0);
+    assert!(run.stderr.is_empty(), "{}", run.stderr);
+    let said = String::from_utf8(run.stdout).expect("UTF-8");
+    for part in [
+        "23,322 corners: ",
+        "weighted by area",
+        " | ####",
+        "the worst places",
+        ", triangle ",
+        ", corner ",
+        ", at (",
+    ] {
+        assert!(said.contains(part), "{part:?} is not in {said}");
+    }
+    assert_eq!(said.lines().filter(|line| line.contains(", triangle ")).count(), 2);
+}
+
+#[test]
+fn the_exit_code_says_whether_all_is_within_the_tolerance() {
+    let (folder, first, second) = two();
+    let (first, second) = (text(&first), text(&second));
+    darboux(&["compare", first, first, "--tolerance", "0", "--quiet"]).exits(0);
+    darboux(&["compare", first, second, "--tolerance", "180"]).exits(0);
+    let run = darboux(&["compare", first, second, "--tolerance", "0.1", "--quiet"]).exits(3);
+    assert!(run.stdout.is_empty() && run.stderr.is_empty());
+    let bare = asset(MODEL);
+    darboux(&["compare", first, text(&bare), "--tolerance", "180"]).exits(1);
+    for arguments in [
+        &["compare", first][..],
+        &["compare", first, second, "--method", "face"],
+        &["compare", first, "-"],
+        &["compare", first, second, "--tolerance", "-1"],
+        &["compare", first, second, "--force"],
+    ] {
+        darboux(arguments).exits(2);
+    }
+    drop(folder);
+}
+
+#[test]
+fn files_of_different_models_are_refused_in_one_sentence() {
+    let (folder, first, _) = two();
+    let plane = asset("TwoSidedPlane/TwoSidedPlane.gltf");
+    let run = darboux(&["compare", text(&plane), text(&first)]).exits(1);
+    assert!(run.stderr.contains("corners") || run.stderr.contains("meshes"), "{}", run.stderr);
+    assert_eq!(run.stderr.lines().count(), 1);
+    let run = darboux(&["compare", text(&asset(MODEL)), text(&asset(MODEL))]).exits(1);
+    assert!(run.stderr.contains("no primitive has tangents on both sides"), "{}", run.stderr);
+    darboux(&["compare", text(&first), "missing.glb"]).exits(1);
+    assert_eq!(names_in(folder.path()), ["first.glb", "second.glb"]);
+}
+
+#[test]
+fn the_heat_map_is_a_picture_and_replaces_nothing_unasked() {
+    let (folder, first, second) = two();
+    let map = folder.path().join("map.png");
+    let arguments = ["compare", text(&first), text(&second), "--heat-map", text(&map)];
+    let run = darboux(&arguments).exits(0);
+    let said = String::from_utf8(run.stdout).expect("UTF-8");
+    assert!(said.contains("map.png: from violet"), "{said}");
+    let image = darboux_io::image::Image::open(&map).expect("a PNG");
+    assert_eq!((image.size(), image.channels()), ([1024, 1056], "rgb"));
+    let before = fs::read(&map).expect("the map");
+    let run = darboux(&arguments).exits(1);
+    assert!(run.stderr.contains("--force"), "{}", run.stderr);
+    darboux(&[&arguments[..], &["--force", "--quiet"]].concat()).exits(0);
+    assert!(fs::read(&map).expect("the map") == before);
+}
+
+#[test]
+fn every_field_of_the_report_is_documented() {
+    let documented = fs::read_to_string(asset("../docs/cli.md")).expect("docs/cli.md");
+    let section = documented.split("### `darboux compare --json`").nth(1).expect("a section");
+    let section = section.split("\n### ").next().expect("its text");
+    let (_folder, first, second) = two();
+    let mut waiting = vec![report(&first, &second)];
+    while let Some(value) = waiting.pop() {
+        match value {
+            Value::Array(values) => waiting.extend(values),
+            Value::Object(members) => {
+                for (name, value) in members {
+                    let is_there =
+                        section.contains(&format!("{name}`")) || section.contains(&format!("{name}[]`"));
+                    assert!(is_there, "{name}");
+                    waiting.push(value);
+                }
+            }
+            _ => {}
+        }
+    }
+}
