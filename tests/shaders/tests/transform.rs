@@ -142,18 +142,25 @@ fn what_a_transform_flattens_keeps_a_frame() {
 #[test]
 fn uniform_scale_does_not_matter_however_far() {
     let (normal, [x, y, z, w]) = ([0.0, 0.6, 0.8], [1.0, 0.0, 0.0, -1.0]);
-    let sample = |exponent: i32| {
-        let columns = [0.6, 0.8, 0.0, -0.8, 0.6, 0.0, 0.0, 0.0, 1.0].map(|c| 2f32.powi(exponent) * c);
+    let sample = |factor: f32| {
+        let columns = [0.6, 0.8, 0.0, -0.8, 0.6, 0.0, 0.0, 0.0, 1.0].map(|component| factor * component);
         bits(&[&columns[..], &normal, &[x, y, z, w]].concat())
     };
+    let factors = [-120, -60, 0, 60, 120].map(|exponent| 2f32.powi(exponent));
+    let turned = |[x, y, z]: D3| [0.6 * x - 0.8 * y, 0.8 * x + 0.6 * y, z];
+    let (normal, tangent) = (turned(unit(doubles(normal))), turned([1.0, 0.0, 0.0]));
     check(&Case {
         name: "scaled far",
         body: FRAME,
-        samples: [-120, -60, 0, 60, 120].map(sample).to_vec(),
+        samples: factors.map(sample).to_vec(),
+        expected: &|_| ([&normal[..], &tangent, &[-1.0]].concat(), 16.0 * ULP),
+    });
+    check(&Case {
+        name: "scaled far through the origin",
+        body: FRAME,
+        samples: factors.map(|factor| sample(-factor)).to_vec(),
         expected: &|_| {
-            let turned = |[x, y, z]: [f64; 3]| [0.6 * x - 0.8 * y, 0.8 * x + 0.6 * y, z];
-            let (normal, tangent) = (turned(unit(doubles(normal))), turned([1.0, 0.0, 0.0]));
-            ([&normal[..], &tangent, &[-1.0]].concat(), 16.0 * ULP)
+            ([scale(-1.0, normal), scale(-1.0, tangent), [1.0; 3]].concat()[..7].to_vec(), 16.0 * ULP)
         },
     });
 }
