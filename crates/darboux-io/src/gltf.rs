@@ -14,11 +14,13 @@ mod layout;
 mod normals;
 mod object;
 mod pieces;
+mod references;
 mod resources;
 mod save;
 pub mod schema;
 mod tangents;
 mod values;
+mod waste;
 
 pub use accessor::{Elements, NewAccessor, Target};
 pub use compare::{Pair, PairedCorners, Unpaired, pair_tangents};

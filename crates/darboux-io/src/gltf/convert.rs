@@ -80,5 +80,6 @@ pub fn convert_vertices(
         progress(Progress { done: done + 1, total: places.len() });
     }
     document.set_convention(to)?;
+    summary.warnings.extend(document.waste_warning());
     Ok(summary)
 }

@@ -1,6 +1,6 @@
 //! The document: what was read, and what is edited.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -77,6 +77,10 @@ pub(super) struct Edits {
     pub required_extensions: Vec<&'static str>,
     pub new_accessors: Vec<String>,
     pub asset: Option<String>,
+    /// Accessors that primitives named before they were edited.
+    pub once_named: BTreeSet<usize>,
+    /// Whether it was said that data without a use stays.
+    pub is_waste_told: bool,
     pub new_views: Vec<NewView>,
     /// The length of all new views.
     pub new_byte_count: usize,
@@ -315,7 +319,10 @@ impl Document {
         primitive: usize,
         text: String,
     ) -> serde_json::Result<()> {
-        self.root.meshes[mesh].primitives[primitive] = serde_json::from_str(&text)?;
+        let replaced: schema::Primitive = serde_json::from_str(&text)?;
+        let replaced = std::mem::replace(&mut self.root.meshes[mesh].primitives[primitive], replaced);
+        let attributes = replaced.targets.iter().chain([&replaced.attributes]).flat_map(BTreeMap::values);
+        self.edits.once_named.extend(attributes.chain(&replaced.indices));
         self.edits.primitives.insert((mesh, primitive), text);
         Ok(())
     }

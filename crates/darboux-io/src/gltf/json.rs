@@ -2,7 +2,7 @@
 //!
 //! Values are skipped over, never parsed: neither their depth nor their content matters.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::ops::Range;
 
@@ -81,6 +81,24 @@ pub fn edit_array(
     Ok(out)
 }
 
+/// `array` without some elements; none where nothing is left.
+///
+/// Errors: `array` is not the text of a JSON array.
+pub fn without_elements(array: &str, removed: &BTreeSet<usize>) -> serde_json::Result<Option<String>> {
+    let elements: Vec<&RawValue> = serde_json::from_str(array)?;
+    let ranges: Vec<_> = elements.iter().map(|element| range_in(array, element.get())).collect();
+    let (Some(first), Some(last)) = (ranges.first(), ranges.last()) else { return Ok(None) };
+    let mut out = String::with_capacity(array.len());
+    for (i, range) in ranges.iter().enumerate().filter(|(i, _)| !removed.contains(i)) {
+        let before = if out.is_empty() { 0..first.start } else { ranges[i - 1].end..range.start };
+        out.push_str(&array[before]);
+        out.push_str(&array[range.clone()]);
+    }
+    let is_left = !out.is_empty();
+    out.push_str(&array[last.end..]);
+    Ok(is_left.then_some(out))
+}
+
 /// `text` as a JSON string.
 pub fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
@@ -132,7 +150,7 @@ impl<'de> Visitor<'de> for Members<'de> {
 }
 
 /// Where `part`, a slice of `text`, lies in it.
-fn range_in(text: &str, part: &str) -> Range<usize> {
+pub fn range_in(text: &str, part: &str) -> Range<usize> {
     let start = part.as_ptr() as usize - text.as_ptr() as usize;
     start..start + part.len()
 }
@@ -203,6 +221,18 @@ mod tests {
         assert_eq!(edit_array("[ 1, [2]\n]", &replaced, &appended).unwrap(), "[ 1, 9, 7, 8\n]");
         assert_eq!(edit_array("[]", &BTreeMap::new(), &appended).unwrap(), "[7,8]");
         assert_eq!(edit_array("[1]", &BTreeMap::new(), &[]).unwrap(), "[1]");
+    }
+
+    #[test]
+    fn elements_are_removed_with_their_commas() {
+        let without = |removed: &[usize]| {
+            without_elements("[ 1,\n 2,\n 3 ]", &removed.iter().copied().collect()).unwrap()
+        };
+        assert_eq!(without(&[]).as_deref(), Some("[ 1,\n 2,\n 3 ]"));
+        assert_eq!(without(&[0]).as_deref(), Some("[ 2,\n 3 ]"));
+        assert_eq!(without(&[1]).as_deref(), Some("[ 1,\n 3 ]"));
+        assert_eq!(without(&[1, 2]).as_deref(), Some("[ 1 ]"));
+        assert_eq!(without(&[0, 1, 2]), None);
     }
 
     #[test]

@@ -13,6 +13,7 @@ use super::file_bytes::FileBytes;
 use super::json::{edit_array, keys, member, quoted, set_member};
 use super::pieces::Piece;
 use super::resources::{Reference, encode_data_uri, image_type};
+use super::waste::Waste;
 use crate::error::Fault;
 
 /// Bytes to be written as one.
@@ -25,13 +26,28 @@ pub struct Home<'a> {
 impl<'a> Home<'a> {
     /// Appends bytes at the next multiple of four; gives their offset.
     fn push(&mut self, bytes: Piece<'a>) -> usize {
-        let offset = self.length.next_multiple_of(4);
-        if offset > self.length {
-            self.pieces.push(Piece::Borrowed(&[0; 4][..offset - self.length]));
-        }
-        self.length = offset + bytes.len();
-        self.pieces.push(bytes);
+        let offset = self.align();
+        self.append(bytes);
         offset
+    }
+
+    /// Appends the parts of one buffer, the first at the next multiple of four; gives its offset.
+    fn push_parts(&mut self, parts: &[&'a [u8]]) -> usize {
+        let offset = self.align();
+        parts.iter().for_each(|part| self.append(Piece::Borrowed(part)));
+        offset
+    }
+
+    /// Pads to a multiple of four; gives the length.
+    fn align(&mut self) -> usize {
+        let padding = self.length.next_multiple_of(4) - self.length;
+        self.append(Piece::Borrowed(&[0; 4][..padding]));
+        self.length
+    }
+
+    fn append(&mut self, bytes: Piece<'a>) {
+        self.length += bytes.len();
+        self.pieces.push(bytes);
     }
 }
 
@@ -76,6 +92,8 @@ pub struct Layout<'a> {
     slots: Vec<Slot>,
     /// By buffer of the input.
     places: Vec<Place>,
+    /// What the output does without.
+    pub waste: Waste,
     /// The buffer view JSON of new data and of images.
     new_views: Vec<String>,
     images: Vec<EmbeddedImage>,
@@ -87,7 +105,7 @@ impl<'a> Layout<'a> {
     /// Buffers with extras or extensions of their own, beyond the first, become `data:` URIs so that these survive. Buffers
     /// without bytes in reach stay as they are, behind the home.
     pub fn glb(document: &'a Document) -> Result<Self, Fault> {
-        let mut layout = Self::empty(document);
+        let mut layout = Self::empty(document)?;
         let texts = document.buffer_texts().map_err(broken)?;
         let mut home = Home::default();
         let mut source = None;
@@ -95,27 +113,26 @@ impl<'a> Layout<'a> {
         let mut merged: HashMap<(&PathBuf, usize), Place> = HashMap::new();
         for (i, buffer) in document.root.buffers.iter().enumerate() {
             if let Store::Absent(_) = document.stores[i] {
-                aside.push(Slot { source: Some(i), content: Content::Kept });
-            } else if source.is_some() && !is_plain(&texts[i]).map_err(broken)? {
-                aside.push(Slot { source: Some(i), content: Content::Embedded });
-            } else {
-                source.get_or_insert(i);
-                let mut push = || -> Result<Place, Fault> {
-                    let bytes = document.buffer(i, "buffers")?;
-                    Ok(Place { slot: 0, offset: home.push(Piece::Borrowed(bytes)) })
-                };
-                layout.places[i] = match &document.stores[i] {
-                    Store::File(file) => match merged.get(&(&file.located.path, buffer.byte_length)) {
-                        Some(&place) => place,
-                        None => {
-                            let place = push()?;
-                            merged.insert((&file.located.path, buffer.byte_length), place);
-                            place
-                        }
-                    },
-                    _ => push()?,
-                };
+                if !layout.waste.has_buffer(i) {
+                    aside.push(Slot { source: Some(i), content: Content::Kept });
+                }
+                continue;
             }
+            let bytes = document.buffer(i, "buffers")?;
+            let kept = layout.waste.kept(i, bytes);
+            let is_mergeable = source.is_none() || kept.is_empty() || is_plain(&texts[i]).map_err(broken)?;
+            if !is_mergeable {
+                aside.push(Slot { source: Some(i), content: Content::Embedded });
+                continue;
+            }
+            source.get_or_insert(i);
+            let mut push = || Place { slot: 0, offset: home.push_parts(&kept) };
+            layout.places[i] = match &document.stores[i] {
+                Store::File(file) if kept == [bytes] => {
+                    *merged.entry((&file.located.path, buffer.byte_length)).or_insert_with(push)
+                }
+                _ => push(),
+            };
         }
         layout.push_new_views(&mut home, 0);
         layout.push_images(&mut home)?;
@@ -133,16 +150,16 @@ impl<'a> Layout<'a> {
 
     /// Buffers as they are; those that were only in memory get homes, and new bytes follow the first of these.
     pub fn gltf(document: &'a Document) -> Result<Self, Fault> {
-        let mut layout = Self::empty(document);
-        for (i, store) in document.stores.iter().enumerate() {
+        let mut layout = Self::empty(document)?;
+        for (i, store) in document.stores.iter().enumerate().filter(|(i, _)| !layout.waste.has_buffer(*i)) {
             let in_memory = matches!(store, Store::Chunk | Store::Decoded(_));
             let content = if in_memory { Content::Home(layout.homes.len()) } else { Content::Kept };
             if in_memory {
                 let mut home = Home::default();
-                home.push(Piece::Borrowed(document.buffer(i, "buffers")?));
+                home.push_parts(&layout.waste.kept(i, document.buffer(i, "buffers")?));
                 layout.homes.push(home);
             }
-            layout.places[i] = Place { slot: i, offset: 0 };
+            layout.places[i] = Place { slot: layout.slots.len(), offset: 0 };
             layout.slots.push(Slot { source: Some(i), content });
         }
         if document.edits.new_views.is_empty() {
@@ -160,14 +177,19 @@ impl<'a> Layout<'a> {
         Ok(layout)
     }
 
-    fn empty(document: &'a Document) -> Self {
+    fn empty(document: &'a Document) -> Result<Self, Fault> {
+        let waste = Waste::of(document).map_err(broken)?;
         let places = vec![Place { slot: 0, offset: 0 }; document.root.buffers.len()];
         let (homes, slots, new_views, images) = Default::default();
-        Self { document, homes, slots, places, new_views, images }
+        Ok(Self { document, homes, slots, places, waste, new_views, images })
     }
 
     fn push_new_views(&mut self, home: &mut Home<'a>, slot: usize) {
-        for NewView { bytes, stride, target } in &self.document.edits.new_views {
+        for (place, NewView { bytes, stride, target }) in self.document.edits.new_views.iter().enumerate() {
+            if self.waste.has_new_view(self.document, place) {
+                self.new_views.push("null".to_owned());
+                continue;
+            }
             let (offset, length) = (home.push(Piece::Borrowed(bytes)), bytes.len());
             let stride = stride.map(|stride| format!(",\"byteStride\":{stride}")).unwrap_or_default();
             let target = target.map(|target| format!(",\"target\":{}", target.code())).unwrap_or_default();
@@ -226,7 +248,7 @@ impl<'a> Layout<'a> {
             };
         (|| {
             set("asset", &|asset| Ok(edits.asset.clone().unwrap_or_else(|| asset.to_owned())))?;
-            set("meshes", &|meshes| self.meshes(meshes))?;
+            set("meshes", &|meshes| self.document.edited_meshes(meshes))?;
             set("accessors", &|accessors| edit_array(accessors, &edits.accessors, &edits.new_accessors))?;
             set("bufferViews", &|views| self.views(views))?;
             set("buffers", &|buffers| self.buffers(buffers, home_uris, renamed))?;
@@ -236,28 +258,14 @@ impl<'a> Layout<'a> {
             }
             Ok(())
         })()
-        .map_err(broken)?;
-        Ok(root)
-    }
-
-    fn meshes(&self, meshes: &str) -> serde_json::Result<String> {
-        let mut by_mesh: BTreeMap<usize, BTreeMap<usize, String>> = BTreeMap::new();
-        for (&(mesh, primitive), text) in &self.document.edits.primitives {
-            by_mesh.entry(mesh).or_default().insert(primitive, text.clone());
-        }
-        let old: Vec<&RawValue> = serde_json::from_str(meshes)?;
-        let mut edited = BTreeMap::new();
-        for (mesh, primitives) in by_mesh {
-            let text = old[mesh].get();
-            let list = edit_array(member(text, "primitives")?.unwrap_or("[]"), &primitives, &[])?;
-            edited.insert(mesh, set_member(text, "primitives", Some(&list))?);
-        }
-        edit_array(meshes, &edited, &[])
+        .and_then(|()| self.waste.cleared(root))
+        .map_err(broken)
     }
 
     fn views(&self, views: &str) -> serde_json::Result<String> {
         let mut edited = self.document.edits.views.clone();
-        let unmoved = |(i, place): (usize, &Place)| *place == Place { slot: i, offset: 0 };
+        let unmoved =
+            |(i, place): (usize, &Place)| *place == Place { slot: i, offset: 0 } && !self.waste.has_holes(i);
         if !self.places.iter().enumerate().all(unmoved) {
             let old: Vec<&RawValue> = serde_json::from_str(views)?;
             for (i, old) in old.iter().enumerate() {
@@ -292,13 +300,16 @@ impl<'a> Layout<'a> {
         let number = |key| Ok(member(range, key)?.and_then(|text| text.parse::<usize>().ok()));
         let Some(buffer) = number("buffer")? else { return Ok(range.to_owned()) };
         let Some(&Place { slot, offset }) = self.places.get(buffer) else { return Ok(range.to_owned()) };
+        let start = number("byteOffset")?.unwrap_or(0);
+        let is_rewritten = self.slots.get(slot).is_some_and(|slot| matches!(slot.content, Content::Home(_)));
+        let moved_start = if is_rewritten { self.waste.moved(buffer, start) } else { start };
+        let moved_start = moved_start.saturating_add(offset);
         let mut moved = range.to_owned();
         if slot != buffer {
             moved = set_member(&moved, "buffer", Some(&slot.to_string()))?;
         }
-        if offset != 0 {
-            let sum = number("byteOffset")?.unwrap_or(0).saturating_add(offset);
-            moved = set_member(&moved, "byteOffset", Some(&sum.to_string()))?;
+        if moved_start != start {
+            moved = set_member(&moved, "byteOffset", Some(&moved_start.to_string()))?;
         }
         Ok(moved)
     }
@@ -393,6 +404,22 @@ impl<'a> Layout<'a> {
 }
 
 impl Document {
+    /// The array of meshes with the edits of their primitives.
+    pub(super) fn edited_meshes(&self, meshes: &str) -> serde_json::Result<String> {
+        let mut by_mesh: BTreeMap<usize, BTreeMap<usize, String>> = BTreeMap::new();
+        for (&(mesh, primitive), text) in &self.edits.primitives {
+            by_mesh.entry(mesh).or_default().insert(primitive, text.clone());
+        }
+        let old: Vec<&RawValue> = serde_json::from_str(meshes)?;
+        let mut edited = BTreeMap::new();
+        for (mesh, primitives) in by_mesh {
+            let text = old[mesh].get();
+            let list = edit_array(member(text, "primitives")?.unwrap_or("[]"), &primitives, &[])?;
+            edited.insert(mesh, set_member(text, "primitives", Some(&list))?);
+        }
+        edit_array(meshes, &edited, &[])
+    }
+
     /// The JSON of every buffer, edits included.
     fn buffer_texts(&self) -> serde_json::Result<Vec<String>> {
         let array = member(self.text(), "buffers")?.unwrap_or("[]");

@@ -50,6 +50,7 @@ pub fn add_normals(
     for (position, parts) in parts_of_position {
         written.extend(write::write(document, &accessors, position, &parts, &mut summary.warnings)?);
     }
+    summary.warnings.extend(document.waste_warning());
     selection.candidates.into_iter().enumerate().for_each(|(place, candidate)| {
         summary
             .push(candidate.name, candidate.verdict.outcome(|| written.remove(&place).unwrap_or_default()));

@@ -12,6 +12,7 @@ use super::file_bytes::FileBytes;
 use super::layout::{Home, Layout};
 use super::pieces::{self, Piece};
 use super::resources::{Located, Reference, encode_path};
+use super::waste::Waste;
 use crate::Error;
 use crate::error::Fault;
 use crate::staging::Staging;
@@ -123,7 +124,9 @@ impl Document {
         }
         let folder = target.parent().unwrap_or(Path::new(""));
         let mut names = Names { folder, taken: HashSet::from([target.to_owned()]) };
-        let renamed = self.stage_files(&mut names, staging)?;
+        let in_file = |fault: Fault| fault.in_file(self.name());
+        let layout = Layout::gltf(self).map_err(in_file)?;
+        let renamed = self.stage_files(&layout.waste, &mut names, staging)?;
         if !self.container.is_glb && !self.is_changed() && renamed.is_empty() {
             return Ok(self
                 .container
@@ -133,8 +136,6 @@ impl Document {
                 .map(Piece::Borrowed)
                 .collect());
         }
-        let in_file = |fault: Fault| fault.in_file(self.name());
-        let layout = Layout::gltf(self).map_err(in_file)?;
         let name = Path::new(target.file_stem().unwrap_or(OsStr::new("buffer"))).with_added_extension("bin");
         let mut uris = Vec::new();
         for home in &layout.homes {
@@ -148,6 +149,7 @@ impl Document {
     /// change, with their new URI.
     fn stage_files(
         &self,
+        waste: &Waste,
         names: &mut Names,
         staging: &mut Staging,
     ) -> Result<HashMap<PathBuf, String>, Error> {
@@ -156,7 +158,7 @@ impl Document {
         if there.is_some() && there.as_deref() == self.resources.base() {
             return Ok(renamed);
         }
-        for file in self.files() {
+        for file in self.files_but(waste) {
             let failed = |source| Error::Read { file: file.path.clone(), source };
             let same = |existing: &Path| {
                 Ok(existing.canonicalize()? == file.path || same_files(existing, &file.path)?)
@@ -176,8 +178,13 @@ impl Document {
 
     /// The files that the document refers to, each once.
     fn files(&self) -> Vec<Located> {
-        let buffers = self.stores.iter().filter_map(|store| match store {
-            Store::File(file) => Some(file.located.clone()),
+        self.files_but(&Waste::default())
+    }
+
+    /// As [`Document::files`], without the buffers that go.
+    fn files_but(&self, waste: &Waste) -> Vec<Located> {
+        let buffers = self.stores.iter().enumerate().filter_map(|(buffer, store)| match store {
+            Store::File(file) if !waste.has_buffer(buffer) => Some(file.located.clone()),
             _ => None,
         });
         let uris = self.root.images.iter().filter_map(|image| image.uri.as_deref());

@@ -79,6 +79,7 @@ pub fn add_tangents(
         let field = run.field(document, group)?;
         written.extend(run.write(document, group, field)?);
     }
+    run.summary.warnings.extend(document.waste_warning());
     Ok(run.summarize(written))
 }
 

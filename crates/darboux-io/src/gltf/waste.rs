@@ -1,0 +1,237 @@
+//! What edits leave without a use: accessors, buffer views and bytes that something named in the input and nothing names now.
+//!
+//! What nothing named in the input stays: it is not ours to judge.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use super::document::Document;
+use super::json::{edit_array, member, set_member, without_elements};
+use super::references::{Kind, Reference, references, unknown_extension};
+use super::schema::{BufferView, Meshopt};
+
+/// What an output can do without.
+#[derive(Debug, Default)]
+pub struct Waste {
+    /// New ones follow those of the input.
+    accessors: BTreeSet<usize>,
+    views: BTreeSet<usize>,
+    buffers: BTreeSet<usize>,
+    /// Unused ranges of each buffer, ascending; their lengths are multiples of [`GRAIN`].
+    holes: Vec<Vec<Range<usize>>>,
+}
+
+/// Bytes move by multiples of this, so that what was aligned stays so.
+const GRAIN: usize = 16;
+
+impl Waste {
+    /// What `document` can do without; nothing where that is not certain.
+    pub fn of(document: &Document) -> serde_json::Result<Self> {
+        let found = if document.is_changed() { Self::find(document)? } else { None };
+        Ok(found.filter(|_| unknown_extension(document.text()).is_none()).unwrap_or_default())
+    }
+
+    /// As [`Waste::of`], whatever extensions there are. None: some references cannot be read.
+    fn find(document: &Document) -> serde_json::Result<Option<Self>> {
+        let (before, after) = (references(document.text()), references(&edited(document)?));
+        let (Some(before), Some(after)) = (before, after) else { return Ok(None) };
+        let accessors = dead_accessors(document, &before, &after);
+        let views = dead_views(document, &accessors, &before, &after);
+        let stored: Vec<BufferView> = match member(document.text(), "bufferViews")? {
+            Some(views) => serde_json::from_str(views)?,
+            None => Vec::new(),
+        };
+        let mut waste = Self { accessors, views, buffers: BTreeSet::new(), holes: Vec::new() };
+        let uses = uses(document, &stored, &waste.views);
+        for (buffer, uses) in uses.into_iter().enumerate() {
+            let length = document.root.buffers[buffer].byte_length;
+            if uses.live.is_empty() && !uses.dead.is_empty() {
+                waste.buffers.insert(buffer);
+            }
+            waste.holes.push(uses.holes(length));
+        }
+        Ok(Some(waste))
+    }
+
+    /// Whether a buffer of the input goes.
+    pub fn has_buffer(&self, buffer: usize) -> bool {
+        self.buffers.contains(&buffer)
+    }
+
+    /// Whether a new buffer view goes, by its place among the new ones.
+    pub fn has_new_view(&self, document: &Document, place: usize) -> bool {
+        self.views.contains(&(document.root.buffer_views.len() + place))
+    }
+
+    /// Whether parts of a buffer go.
+    pub fn has_holes(&self, buffer: usize) -> bool {
+        self.holes.get(buffer).is_some_and(|holes| !holes.is_empty())
+    }
+
+    /// The parts of the content of a buffer that stay.
+    pub fn kept<'a>(&self, buffer: usize, bytes: &'a [u8]) -> Vec<&'a [u8]> {
+        if self.has_buffer(buffer) {
+            return Vec::new();
+        }
+        let holes = self.holes.get(buffer).into_iter().flatten();
+        let ends = holes.clone().map(|hole| hole.start).chain([bytes.len()]);
+        let starts = [0].into_iter().chain(holes.map(|hole| hole.end));
+        starts.zip(ends).map(|(start, end)| &bytes[start..end]).filter(|part| !part.is_empty()).collect()
+    }
+
+    /// Where a byte of a buffer is without the holes before it.
+    pub fn moved(&self, buffer: usize, offset: usize) -> usize {
+        let holes = self.holes.get(buffer).into_iter().flatten();
+        offset - holes.take_while(|hole| hole.end <= offset).map(Range::len).sum::<usize>()
+    }
+
+    /// The root object without what goes, with the numbers of what stays.
+    pub fn cleared(&self, root: String) -> serde_json::Result<String> {
+        if self.accessors.is_empty() && self.views.is_empty() {
+            return Ok(root);
+        }
+        let references = references(&root);
+        let references = references.ok_or_else(|| serde::de::Error::custom("a reference is no number"))?;
+        let mut cleared = self.renumbered(&root, references);
+        for (key, dead) in [("accessors", &self.accessors), ("bufferViews", &self.views)] {
+            if let Some(array) = member(&cleared, key)? {
+                let kept = without_elements(array, dead)?;
+                cleared = set_member(&cleared, key, kept.as_deref())?;
+            }
+        }
+        Ok(cleared)
+    }
+
+    fn renumbered(&self, root: &str, mut references: Vec<Reference>) -> String {
+        references.sort_by_key(|reference| reference.range.start);
+        let mut out = String::with_capacity(root.len());
+        let mut copied = 0;
+        for Reference { kind, number, range } in references {
+            let dead = if kind == Kind::Accessor { &self.accessors } else { &self.views };
+            out.push_str(&root[copied..range.start]);
+            out.push_str(&(number - dead.range(..number).count()).to_string());
+            copied = range.end;
+        }
+        out.push_str(&root[copied..]);
+        out
+    }
+}
+
+impl Document {
+    /// Why what edits leave without a use stays in the file, if it does, in a sentence; once.
+    pub(super) fn waste_warning(&mut self) -> Option<String> {
+        let extension = unknown_extension(self.text()).filter(|_| !self.edits.is_waste_told)?;
+        let waste = Waste::find(self).ok().flatten()?;
+        let is_there = !waste.accessors.is_empty() || !waste.views.is_empty();
+        self.edits.is_waste_told = is_there;
+        is_there.then(|| {
+            format!(
+                "data that is no longer used stays in the file: {extension} may refer to it by its number"
+            )
+        })
+    }
+}
+
+/// The root object with the edits that change who names what.
+fn edited(document: &Document) -> serde_json::Result<String> {
+    let edits = &document.edits;
+    let mut root = document.text().to_owned();
+    if let Some(meshes) = member(&root, "meshes")? {
+        let meshes = document.edited_meshes(meshes)?;
+        root = set_member(&root, "meshes", Some(&meshes))?;
+    }
+    let accessors = member(&root, "accessors")?.unwrap_or("[]");
+    let accessors = edit_array(accessors, &edits.accessors, &edits.new_accessors)?;
+    set_member(&root, "accessors", Some(&accessors).filter(|text| *text != "[]").map(String::as_str))
+}
+
+fn numbers(references: &[Reference], kinds: &[Kind]) -> BTreeSet<usize> {
+    references
+        .iter()
+        .filter(|reference| kinds.contains(&reference.kind))
+        .map(|reference| reference.number)
+        .collect()
+}
+
+fn dead_accessors(document: &Document, before: &[Reference], after: &[Reference]) -> BTreeSet<usize> {
+    let mut used = numbers(before, &[Kind::Accessor]);
+    used.extend(&document.edits.once_named);
+    used.retain(|&number| number < document.root.accessors.len());
+    &used - &numbers(after, &[Kind::Accessor])
+}
+
+fn dead_views(
+    document: &Document,
+    dead_accessors: &BTreeSet<usize>,
+    before: &[Reference],
+    after: &[Reference],
+) -> BTreeSet<usize> {
+    let mut used = numbers(before, &[Kind::View, Kind::ViewOfAccessor]);
+    let mut live = numbers(after, &[Kind::View]);
+    for (number, accessor) in document.root.accessors.iter().enumerate() {
+        let views = if dead_accessors.contains(&number) { &mut used } else { &mut live };
+        views.extend(accessor.buffer_view);
+        let sparse = accessor.sparse.iter();
+        views.extend(sparse.flat_map(|sparse| [sparse.indices.buffer_view, sparse.values.buffer_view]));
+    }
+    used.retain(|&number| number < document.root.buffer_views.len() + document.edits.new_views.len());
+    &used - &live
+}
+
+/// The ranges of a buffer that buffer views name.
+#[derive(Clone, Default)]
+struct Uses {
+    live: Vec<Range<usize>>,
+    dead: Vec<Range<usize>>,
+}
+
+/// How each buffer of the input is used. `stored`: the buffer views as the file has them; `dead`: those that go.
+fn uses(document: &Document, stored: &[BufferView], dead: &BTreeSet<usize>) -> Vec<Uses> {
+    let mut uses = vec![Uses::default(); document.root.buffers.len()];
+    for (number, (old, new)) in stored.iter().zip(&document.root.buffer_views).enumerate() {
+        let is_dead = dead.contains(&number);
+        let mut note = |buffer: usize, offset: usize, length: usize, is_dead: bool| {
+            let Some(uses) = uses.get_mut(buffer) else { return };
+            let list = if is_dead { &mut uses.dead } else { &mut uses.live };
+            list.push(offset..offset.saturating_add(length));
+        };
+        note(old.buffer, old.byte_offset, old.byte_length, is_dead);
+        if let Some(Meshopt { buffer, byte_offset, byte_length, .. }) = old.extensions.meshopt.as_deref() {
+            let is_decoded = new.extensions.meshopt.is_none();
+            note(*buffer, *byte_offset, *byte_length, is_dead || is_decoded);
+        }
+    }
+    uses
+}
+
+impl Uses {
+    /// What the dead ranges cover and the live ones do not, below `length`, in whole grains.
+    fn holes(self, length: usize) -> Vec<Range<usize>> {
+        let live = merged(self.live);
+        let mut holes: Vec<Range<usize>> = Vec::new();
+        for dead in merged(self.dead) {
+            let first = live.partition_point(|live| live.end <= dead.start);
+            let within = live[first..].iter().take_while(|live| live.start < dead.end);
+            let starts = [dead.start].into_iter().chain(within.clone().map(|live| live.end));
+            let ends = within.map(|live| live.start).chain([dead.end]);
+            for (start, end) in starts.zip(ends) {
+                let whole = end.min(length).saturating_sub(start) / GRAIN * GRAIN;
+                holes.extend((whole > 0).then(|| start..start + whole));
+            }
+        }
+        holes
+    }
+}
+
+/// Ranges joined where they touch, ascending.
+fn merged(mut ranges: Vec<Range<usize>>) -> Vec<Range<usize>> {
+    ranges.sort_unstable_by_key(|range| range.start);
+    let mut merged: Vec<Range<usize>> = Vec::new();
+    for range in ranges {
+        match merged.last_mut() {
+            Some(last) if range.start <= last.end => last.end = last.end.max(range.end),
+            _ => merged.push(range),
+        }
+    }
+    merged
+}
