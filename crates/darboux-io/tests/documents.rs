@@ -124,7 +124,7 @@ fn an_edit_leaves_the_rest_of_the_text_alone() {
             "\"byteOffset\": 36}\n",
             "\"byteOffset\": 36},\n    {\"buffer\":1,\"byteOffset\":0,\"byteLength\":48,\"target\":34962}\n",
         )
-        .replace("\"extras\": \"mine\"}", "\"extras\": \"mine\"},{\"byteLength\":48,\"uri\":\"out.bin\"}");
+        .replace("\"extras\": \"mine\"}", "\"extras\": \"mine\"},{\"name\":\"darboux\",\"byteLength\":48,\"uri\":\"out.bin\"}");
     assert_eq!(fs::read_to_string(folder.path().join("out.gltf")).unwrap(), expected);
 }
 

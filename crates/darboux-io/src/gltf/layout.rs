@@ -13,6 +13,7 @@ use super::file_bytes::FileBytes;
 use super::json::{edit_array, keys, member, quoted, set_member};
 use super::pieces::Piece;
 use super::resources::{Reference, encode_data_uri, image_type};
+use super::schema::Buffer;
 use super::waste::Waste;
 use crate::error::Fault;
 
@@ -148,13 +149,14 @@ impl<'a> Layout<'a> {
         Ok(layout)
     }
 
-    /// Buffers as they are; those that were only in memory get homes, and new bytes follow the first of these.
+    /// Buffers as they are; those that were only in memory, or in files of ours, get homes, and new bytes follow the first of these.
     pub fn gltf(document: &'a Document) -> Result<Self, Fault> {
         let mut layout = Self::empty(document)?;
         for (i, store) in document.stores.iter().enumerate().filter(|(i, _)| !layout.waste.has_buffer(*i)) {
-            let in_memory = matches!(store, Store::Chunk | Store::Decoded(_));
-            let content = if in_memory { Content::Home(layout.homes.len()) } else { Content::Kept };
-            if in_memory {
+            let has_home =
+                matches!(store, Store::Chunk | Store::Decoded(_)) || document.replaced_file(i).is_some();
+            let content = if has_home { Content::Home(layout.homes.len()) } else { Content::Kept };
+            if has_home {
                 let mut home = Home::default();
                 home.push_parts(&layout.waste.kept(i, document.buffer(i, "buffers")?));
                 layout.homes.push(home);
@@ -342,7 +344,9 @@ impl<'a> Layout<'a> {
         home_uris: &[String],
         renamed: &HashMap<PathBuf, String>,
     ) -> serde_json::Result<String> {
-        let text = slot.source.map_or("{}", |source| texts[source].as_str());
+        let ours = format!("{{\"name\":{}}}", Buffer::OUR_NAME);
+        let new = if home_uris.is_empty() { "{}" } else { &ours };
+        let text = slot.source.map_or(new, |source| texts[source].as_str());
         match (&slot.content, slot.source) {
             (Content::Home(home), _) => {
                 let length = self.homes[*home].length;

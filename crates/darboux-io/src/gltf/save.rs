@@ -12,7 +12,6 @@ use super::file_bytes::FileBytes;
 use super::layout::{Home, Layout};
 use super::pieces::{self, Piece};
 use super::resources::{Located, Reference, encode_path};
-use super::waste::Waste;
 use crate::Error;
 use crate::error::Fault;
 use crate::staging::Staging;
@@ -67,7 +66,29 @@ impl Document {
         if !self.is_changed() {
             return Ok(Vec::new());
         }
-        self.write(input, self.container.is_glb, true)
+        let written = self.write(input, self.container.is_glb, true)?;
+        self.remove_replaced_files(input.parent().unwrap_or(Path::new("")));
+        Ok(written)
+    }
+
+    /// The file of a buffer that an earlier run made for new data: edited, the document gets another in its place.
+    pub(super) fn replaced_file(&self, buffer: usize) -> Option<&Located> {
+        match (self.root.buffers.get(buffer), self.stores.get(buffer)) {
+            (Some(buffer), Some(Store::File(file))) if buffer.is_ours() && self.is_changed() => {
+                Some(&file.located)
+            }
+            _ => None,
+        }
+    }
+
+    /// Removes files in `folder` that earlier runs made, unless a document there mentions them. Those that cannot be removed stay.
+    fn remove_replaced_files(&self, folder: &Path) {
+        let replaced = (0..self.stores.len()).filter_map(|buffer| self.replaced_file(buffer));
+        for file in replaced.filter(|file| file.path.parent() == Some(folder)) {
+            if is_mentioned(&file.relative, folder) == Some(false) {
+                let _ = fs::remove_file(&file.path);
+            }
+        }
     }
 
     /// The file to write: `path`, or what it links to.
@@ -126,7 +147,8 @@ impl Document {
         let mut names = Names { folder, taken: HashSet::from([target.to_owned()]) };
         let in_file = |fault: Fault| fault.in_file(self.name());
         let layout = Layout::gltf(self).map_err(in_file)?;
-        let renamed = self.stage_files(&layout.waste, &mut names, staging)?;
+        let kept = |buffer| !layout.waste.has_buffer(buffer) && self.replaced_file(buffer).is_none();
+        let renamed = self.stage_files(&self.files_of(kept), &mut names, staging)?;
         if !self.container.is_glb && !self.is_changed() && renamed.is_empty() {
             return Ok(self
                 .container
@@ -145,11 +167,11 @@ impl Document {
         Ok(vec![Piece::Owned(layout.json(&uris, &renamed).map_err(in_file)?.into_bytes())])
     }
 
-    /// Stages copies of the files that the document refers to, unless it stays in its folder; gives those whose name had to
+    /// Stages copies of files that the document refers to, unless it stays in its folder; gives those whose name had to
     /// change, with their new URI.
     fn stage_files(
         &self,
-        waste: &Waste,
+        files: &[Located],
         names: &mut Names,
         staging: &mut Staging,
     ) -> Result<HashMap<PathBuf, String>, Error> {
@@ -158,7 +180,7 @@ impl Document {
         if there.is_some() && there.as_deref() == self.resources.base() {
             return Ok(renamed);
         }
-        for file in self.files_but(waste) {
+        for file in files {
             let failed = |source| Error::Read { file: file.path.clone(), source };
             let same = |existing: &Path| {
                 Ok(existing.canonicalize()? == file.path || same_files(existing, &file.path)?)
@@ -178,13 +200,13 @@ impl Document {
 
     /// The files that the document refers to, each once.
     fn files(&self) -> Vec<Located> {
-        self.files_but(&Waste::default())
+        self.files_of(|_| true)
     }
 
-    /// As [`Document::files`], without the buffers that go.
-    fn files_but(&self, waste: &Waste) -> Vec<Located> {
+    /// As [`Document::files`], of some buffers and all images.
+    fn files_of(&self, is_wanted: impl Fn(usize) -> bool) -> Vec<Located> {
         let buffers = self.stores.iter().enumerate().filter_map(|(buffer, store)| match store {
-            Store::File(file) if !waste.has_buffer(buffer) => Some(file.located.clone()),
+            Store::File(file) if is_wanted(buffer) => Some(file.located.clone()),
             _ => None,
         });
         let uris = self.root.images.iter().filter_map(|image| image.uri.as_deref());
@@ -195,6 +217,27 @@ impl Document {
         let mut seen = HashSet::new();
         buffers.chain(images).filter(|file| seen.insert(file.path.clone())).collect()
     }
+}
+
+/// How many documents in a folder are searched before a file is taken for mentioned.
+const MOST_SEARCHED: usize = 64;
+
+/// Whether a `.gltf` in `folder` mentions a file. None: they cannot be read, or are too many.
+fn is_mentioned(file: &Path, folder: &Path) -> Option<bool> {
+    let spellings = [encode_path(file), file.to_string_lossy().into_owned()];
+    let mut searched = 0;
+    for entry in fs::read_dir(folder).ok()? {
+        let path = entry.ok()?.path();
+        if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gltf")) {
+            searched += 1;
+            let text = fs::read(path).ok().filter(|_| searched <= MOST_SEARCHED)?;
+            let text = String::from_utf8_lossy(&text);
+            if spellings.iter().any(|spelling| text.contains(spelling)) {
+                return Some(true);
+            }
+        }
+    }
+    Some(false)
 }
 
 fn is_glb_path(path: &Path) -> Result<bool, Error> {

@@ -358,6 +358,18 @@ pub struct Buffer {
     pub uri: Option<String>,
     /// The number of bytes.
     pub byte_length: usize,
+    /// Its name, as JSON text.
+    pub(super) name: Option<Box<RawValue>>,
+}
+
+impl Buffer {
+    /// What buffers are named that are made for new data of a `.gltf`, so that later runs know them.
+    pub(super) const OUR_NAME: &str = "\"darboux\"";
+
+    /// Whether the buffer was made for new data.
+    pub(super) fn is_ours(&self) -> bool {
+        self.name.as_ref().is_some_and(|name| name.get() == Self::OUR_NAME)
+    }
 }
 
 /// An image.
