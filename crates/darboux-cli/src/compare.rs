@@ -85,7 +85,11 @@ fn compare(arguments: &CompareArguments, messages: &Messages) -> Result<CompareR
         give_tangents(&mut second, method.into(), messages)?;
     }
     messages.end_file();
-    let mut warnings = [first.warnings(), second.warnings()].concat();
+    let told = |document: &Document| -> Vec<String> {
+        document.warnings().iter().map(|warning| format!("{}: {warning}", document.name())).collect()
+    };
+    let mut warnings = told(&first);
+    warnings.extend(arguments.second.iter().flat_map(|_| told(&second)));
     let pairs = pair_tangents(&mut first, &mut second).map_err(|error| error.to_string())?;
     warnings.extend(moved(&pairs));
     let primitives: Vec<ComparedPrimitive> = pairs.iter().map(ComparedPrimitive::new).collect();

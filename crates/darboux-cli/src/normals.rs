@@ -41,6 +41,7 @@ impl Work for NormalsArguments {
         let mut summary =
             add_normals(&mut document, &options, &mut on_progress).map_err(|error| error.to_string())?;
         summary.warnings.splice(0..0, document.warnings().iter().cloned());
+        summary.warnings.extend(without_tangents(&summary.primitives));
         let (status, files_written) = save(&document, &job.output, &self.files, summary.written > 0)?;
         Ok(Made { status, files_written, summary })
     }
@@ -58,6 +59,16 @@ impl Work for NormalsArguments {
         let all: usize = files.iter().map(|file| file.summary.primitives.len()).sum();
         format!("{} got normals, {} did not", counted(written, "primitive", "primitives"), all - written)
     }
+}
+
+/// A warning where tangents were taken out: materials may need some.
+fn without_tangents(primitives: &[PrimitiveNormals]) -> Option<String> {
+    let is_without = |primitive: &&PrimitiveNormals| matches!(&primitive.outcome, NormalsOutcome::Written(written) if written.tangents_removed);
+    let count = primitives.iter().filter(is_without).count();
+    (count > 0).then(|| {
+        let lost = counted(count, "primitive has", "primitives have");
+        format!("{lost} no tangents any more, as they belonged to the old normals; run darboux tangents")
+    })
 }
 
 /// What was done to each primitive.
@@ -102,7 +113,7 @@ fn told(written: &WrittenNormals) -> String {
         ),
     ]);
     if written.tangents_removed {
-        text += ", tangents of the old normals taken out";
+        text += ", tangents taken out";
     }
     text
 }

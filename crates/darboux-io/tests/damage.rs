@@ -1,0 +1,86 @@
+//! Damaged files under every operation: an error or a result that reads again, never a panic.
+
+mod support;
+
+use darboux::{Convention, Method, NormalOptions, Shading, SmoothingSeams, TangentOptions};
+use darboux_io::gltf::{
+    Document, LoadOptions, NormalsOptions, TangentEncoding, TangentsOptions, add_normals, add_tangents,
+    convert_vertices, pair_tangents,
+};
+use serde_json::json;
+use support::{BOTH, Builder, butterfly, run};
+
+/// A strip, an indexed and an unindexed list over shared vertices, with tangents and morph targets.
+fn good() -> Vec<u8> {
+    let mut builder = Builder::new();
+    let (attributes, indices) = (butterfly().attributes(&mut builder), builder.indices(&BOTH));
+    let offsets = builder.vectors(&[[0.0f32, 0.5, 0.25]; 6]);
+    let targets = json!([{"POSITION": offsets}, {"NORMAL": offsets}]);
+    builder.mesh(&[
+        json!({"attributes": attributes, "indices": indices, "targets": targets}),
+        json!({"attributes": attributes, "indices": indices, "mode": 5}),
+        json!({"attributes": attributes}),
+    ]);
+    let mut document = builder.build();
+    run(&mut document);
+    document.to_glb().expect("a GLB")
+}
+
+fn parse(bytes: &[u8]) -> Option<Document> {
+    Document::from_bytes("damaged.glb", bytes.to_vec(), None, &LoadOptions::default()).ok()
+}
+
+/// Runs an operation on a document of its own; what it leaves must be a document.
+fn check(bytes: &[u8], operation: impl FnOnce(&mut Document) -> bool) {
+    let Some(mut document) = parse(bytes) else { return };
+    if operation(&mut document)
+        && let Ok(written) = document.to_glb()
+    {
+        assert!(parse(&written).is_some(), "what was written does not read again");
+    }
+}
+
+fn check_all(bytes: &[u8], good: &[u8]) {
+    let flat = NormalOptions { shading: Shading::Flat, ..NormalOptions::default() };
+    let creased =
+        NormalOptions { crease: 20.0, seams: SmoothingSeams::Respected, ..NormalOptions::default() };
+    for normals in [flat, creased] {
+        let options = NormalsOptions { normals, overwrite: true };
+        check(bytes, |document| add_normals(document, &options, &mut |_| {}).is_ok());
+    }
+    check(bytes, |document| {
+        convert_vertices(document, Convention::GLTF, Convention::UNITY, &mut |_| {}).is_ok()
+    });
+    let tangents = TangentOptions { method: Method::AngleArea, ..TangentOptions::default() };
+    let encoding = TangentEncoding::Snorm8x4;
+    let options = TangentsOptions { tangents, encoding, overwrite: true, ..TangentsOptions::default() };
+    check(bytes, |document| add_tangents(document, &options, &mut |_| {}).is_ok());
+    check(bytes, |document| {
+        let mut other = parse(good).expect("the good one");
+        pair_tangents(document, &mut other).is_ok() || pair_tangents(&mut other, document).is_ok()
+    });
+}
+
+fn damage(step: usize) {
+    let good = good();
+    check_all(&good, &good);
+    let mut damaged = good.clone();
+    for at in (0..good.len()).step_by(step) {
+        for damage in [b'9', 0xff] {
+            damaged[at] = damage;
+            check_all(&damaged, &good);
+        }
+        damaged[at] = good[at];
+    }
+}
+
+#[test]
+fn damage_to_some_bytes_is_no_panic() {
+    damage(17);
+}
+
+#[test]
+#[ignore = "takes a minute"]
+fn damage_to_any_byte_is_no_panic() {
+    damage(1);
+}
