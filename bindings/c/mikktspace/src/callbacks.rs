@@ -81,22 +81,22 @@ impl Caller {
         unsafe { (self.get_num_vertices_of_face)(self.context, face) }
     }
 
-    pub fn position(&self, face: c_int, corner: c_int) -> [f32; 3] {
-        self.floats(self.get_position, face, corner)
+    /// Reads position, normal and UV.
+    pub fn read_vertex(&self, face: c_int, corner: c_int, out: &mut [f32; 8]) {
+        let [position, normal, uv] = [0, 3, 6].map(|at| out[at..].as_mut_ptr());
+        // SAFETY: as of `new`; there is room for what each callback writes.
+        unsafe {
+            (self.get_position)(self.context, position, face, corner);
+            (self.get_normal)(self.context, normal, face, corner);
+            (self.get_tex_coord)(self.context, uv, face, corner);
+        }
     }
 
-    pub fn normal(&self, face: c_int, corner: c_int) -> [f32; 3] {
-        self.floats(self.get_normal, face, corner)
-    }
-
-    pub fn uv(&self, face: c_int, corner: c_int) -> [f32; 2] {
-        self.floats(self.get_tex_coord, face, corner)
-    }
-
-    fn floats<const N: usize>(&self, get: GetFloats, face: c_int, corner: c_int) -> [f32; N] {
-        let mut out = [0.0; N];
+    /// The position of the very first corner, and zeros for its normal and UV.
+    pub fn first_vertex(&self) -> [f32; 8] {
+        let mut out = [0.0; 8];
         // SAFETY: as of `new`; there is room for what the callback writes.
-        unsafe { get(self.context, out.as_mut_ptr(), face, corner) };
+        unsafe { (self.get_position)(self.context, out.as_mut_ptr(), 0, 0) };
         out
     }
 

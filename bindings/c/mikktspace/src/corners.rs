@@ -2,27 +2,24 @@
 
 use std::ffi::c_int;
 
-use darboux::{Faces, Indices, Mesh};
+use darboux::{Faces, Indices, Mesh, Strided};
 
 use crate::callbacks::Caller;
 
-/// The corners of the faces of 3 or 4, in order, each a vertex of its own.
-#[derive(Default)]
+/// The corners of the faces of 3 or 4, in order, over vertices of which most are distinct.
 pub(crate) struct Corners {
-    positions: Vec<[f32; 3]>,
-    normals: Vec<[f32; 3]>,
-    uvs: Vec<[f32; 2]>,
+    /// Position, normal, UV.
+    vertices: Vec<[f32; 8]>,
+    vertex_of_corner: Vec<u32>,
     /// How many corners each face has, 0 for those that MikkTSpace does not define.
     size_of_face: Vec<u8>,
     kind: Kind,
-    /// 1 where a vertex without an answer comes first.
-    pub skipped: usize,
+    /// 1 where a corner without an answer comes first.
+    skipped: usize,
 }
 
 /// Which faces there are.
-#[derive(Default)]
 enum Kind {
-    #[default]
     Triangles,
     Quads,
     /// The sizes of the faces that the mesh has.
@@ -32,66 +29,19 @@ enum Kind {
 impl Corners {
     /// None without a face of 3 or 4 corners, or without memory.
     pub fn read(caller: &Caller) -> Option<Self> {
-        let mut corners = Self::default();
-        corners.read_sizes(caller)?;
-        corners.choose_kind()?;
-        let count = corners.size_of_face.iter().map(|&size| usize::from(size)).sum::<usize>() + 1;
-        corners.positions.try_reserve_exact(count).ok()?;
-        corners.normals.try_reserve_exact(count).ok()?;
-        corners.uvs.try_reserve_exact(count).ok()?;
-        corners.read_corners(caller);
-        Some(corners)
-    }
-
-    fn read_sizes(&mut self, caller: &Caller) -> Option<()> {
-        let faces = caller.face_count();
-        self.size_of_face.try_reserve_exact(usize::try_from(faces).ok()?).ok()?;
-        let size = |face| match caller.face_size(face) {
-            size @ 3..=4 => size as u8,
-            _ => 0,
-        };
-        self.size_of_face.extend((0..faces).map(size));
-        Some(())
-    }
-
-    fn choose_kind(&mut self) -> Option<()> {
-        let has = |size| self.size_of_face.contains(&size);
-        let (is_first_undefined, has_triangles, has_quads) = (!self.has_first_face(), has(3), has(4));
-        self.kind = match (has_triangles, has_quads) {
-            (false, false) => return None,
-            (true, false) if !is_first_undefined => Kind::Triangles,
-            (false, true) if !is_first_undefined => Kind::Quads,
-            _ => {
-                let mut sizes = Vec::new();
-                sizes.try_reserve_exact(self.size_of_face.len()).ok()?;
-                sizes.extend(is_first_undefined.then_some(1));
-                sizes.extend(self.size_of_face.iter().filter(|&&size| size > 0).map(|&size| u32::from(size)));
-                Kind::Mixed(sizes)
-            }
-        };
-        Some(())
-    }
-
-    /// Whether MikkTSpace defines face 0.
-    fn has_first_face(&self) -> bool {
-        self.size_of_face.first().is_some_and(|&size| size > 0)
-    }
-
-    /// Reads every corner that counts, and the position of the very first even if it does not: the reference's bounds begin there.
-    fn read_corners(&mut self, caller: &Caller) {
-        if !self.has_first_face() {
-            self.skipped = 1;
-            self.positions.push(caller.position(0, 0));
-            self.normals.push([0.0; 3]);
-            self.uvs.push([0.0; 2]);
+        let size_of_face = read_sizes(caller)?;
+        let is_first_undefined = *size_of_face.first()? == 0;
+        let kind = Kind::new(&size_of_face, is_first_undefined)?;
+        let skipped = usize::from(is_first_undefined);
+        let count = skipped + size_of_face.iter().map(|&size| usize::from(size)).sum::<usize>();
+        let mut reader = Reader::new(count)?;
+        if is_first_undefined {
+            // The reference's bounds begin at the very first corner, even if it does not count.
+            reader.push(caller.first_vertex());
         }
-        for (face, &size) in (0..).zip(&self.size_of_face) {
-            for corner in 0..c_int::from(size) {
-                self.positions.push(caller.position(face, corner));
-                self.normals.push(caller.normal(face, corner));
-                self.uvs.push(caller.uv(face, corner));
-            }
-        }
+        reader.read(caller, &size_of_face);
+        let Reader { vertices, vertex_of_corner, .. } = reader;
+        Some(Self { vertices, vertex_of_corner, size_of_face, kind, skipped })
     }
 
     /// The mesh of these corners; none where it has too many.
@@ -101,12 +51,113 @@ impl Corners {
             Kind::Quads => Faces::Quads,
             Kind::Mixed(sizes) => Faces::Mixed(sizes),
         };
-        Mesh::with_faces(&self.positions, &self.normals, &self.uvs, Indices::Unindexed, faces).ok()
+        let floats = self.vertices.as_flattened();
+        let positions = Strided::from_floats(floats, 8, 0).ok()?;
+        let normals = Strided::from_floats(floats, 8, 3).ok()?;
+        let uvs = Strided::from_floats(floats, 8, 6).ok()?;
+        Mesh::with_faces(positions, normals, uvs, Indices::U32(&self.vertex_of_corner), faces).ok()
     }
 
-    /// The face and the place in it of every corner but those skipped, in order.
-    pub fn places(&self) -> impl Iterator<Item = (c_int, c_int)> {
-        let faces = (0..).zip(&self.size_of_face);
-        faces.flat_map(|(face, &size)| (0..c_int::from(size)).map(move |corner| (face, corner)))
+    /// Hands every answer, one per corner of the mesh, to `write` with its face and its place in it.
+    pub fn hand_out<T>(&self, answers: &[T], write: impl Fn(c_int, c_int, &T)) {
+        let mut rest = &answers[self.skipped..];
+        for (face, &size) in (0..).zip(&self.size_of_face) {
+            let (of_face, others) = rest.split_at(usize::from(size));
+            (0..).zip(of_face).for_each(|(corner, answer)| write(face, corner, answer));
+            rest = others;
+        }
     }
+}
+
+/// None without memory.
+fn read_sizes(caller: &Caller) -> Option<Vec<u8>> {
+    let faces = caller.face_count();
+    let mut sizes = Vec::new();
+    sizes.try_reserve_exact(usize::try_from(faces).ok()?).ok()?;
+    let size = |face| match caller.face_size(face) {
+        size @ 3..=4 => size as u8,
+        _ => 0,
+    };
+    sizes.extend((0..faces).map(size));
+    Some(sizes)
+}
+
+impl Kind {
+    /// None without a face of 3 or 4 corners, or without memory.
+    fn new(size_of_face: &[u8], is_first_undefined: bool) -> Option<Self> {
+        match (size_of_face.contains(&3), size_of_face.contains(&4)) {
+            (false, false) => None,
+            (true, false) if !is_first_undefined => Some(Self::Triangles),
+            (false, true) if !is_first_undefined => Some(Self::Quads),
+            _ => {
+                let mut sizes = Vec::new();
+                sizes.try_reserve_exact(size_of_face.len()).ok()?;
+                sizes.extend(is_first_undefined.then_some(1));
+                sizes.extend(size_of_face.iter().filter(|&&size| size > 0).map(|&size| u32::from(size)));
+                Some(Self::Mixed(sizes))
+            }
+        }
+    }
+}
+
+/// Corners that are read before any of them is looked at.
+const BLOCK: usize = 64;
+
+/// Makes most corners with the same bits one vertex again: that takes less time than the core needs for vertices apart.
+struct Reader {
+    vertices: Vec<[f32; 8]>,
+    vertex_of_corner: Vec<u32>,
+    /// The last vertex of each hash. Where two share one, the earlier is forgotten: its next corner is a vertex of its own.
+    vertex_of_hash: Vec<u32>,
+}
+
+impl Reader {
+    /// None without memory for `count` corners.
+    fn new(count: usize) -> Option<Self> {
+        let bits = (count / 4).next_power_of_two().clamp(1 << 4, 1 << 16).trailing_zeros();
+        let (mut vertices, mut vertex_of_corner, mut vertex_of_hash) = (Vec::new(), Vec::new(), Vec::new());
+        // Room for the worst: what is not used of it costs nothing.
+        vertices.try_reserve_exact(count).ok()?;
+        vertex_of_corner.try_reserve_exact(count).ok()?;
+        vertex_of_hash.try_reserve_exact(1 << bits).ok()?;
+        vertex_of_hash.resize(1 << bits, u32::MAX);
+        Some(Self { vertices, vertex_of_corner, vertex_of_hash })
+    }
+
+    /// Reads all corners. Block by block: what a callback has just stored in small parts is slow to load in large ones.
+    fn read(&mut self, caller: &Caller, size_of_face: &[u8]) {
+        let mut block = [[0.0; 8]; BLOCK + 3];
+        let mut filled = 0;
+        for (face, &size) in (0..).zip(size_of_face) {
+            for corner in 0..size {
+                caller.read_vertex(face, c_int::from(corner), &mut block[filled]);
+                filled += 1;
+            }
+            if filled >= BLOCK {
+                block[..filled].iter().for_each(|vertex| self.push(*vertex));
+                filled = 0;
+            }
+        }
+        block[..filled].iter().for_each(|vertex| self.push(*vertex));
+    }
+
+    fn push(&mut self, vertex: [f32; 8]) {
+        let bits = vertex.map(f32::to_bits);
+        let mask = self.vertex_of_hash.len() - 1;
+        let slot = &mut self.vertex_of_hash[hash(bits) as usize & mask];
+        if self.vertices.get(*slot as usize).is_none_or(|known| known.map(f32::to_bits) != bits) {
+            *slot = self.vertices.len() as u32;
+            self.vertices.push(vertex);
+        }
+        self.vertex_of_corner.push(*slot);
+    }
+}
+
+/// Two products of 128 bits, folded.
+fn hash([x, y, z, nx, ny, nz, u, v]: [u32; 8]) -> u64 {
+    let pair = |low, high, seed| (u64::from(high) << 32 | u64::from(low)) ^ seed;
+    let product = |a, b| u128::from(a) * u128::from(b);
+    let products = product(pair(x, y, 0x9e37_79b9_7f4a_7c15), pair(z, nx, 0xbf58_476d_1ce4_e5b9))
+        ^ product(pair(ny, nz, 0x94d0_49bb_1331_11eb), pair(u, v, 0xd6e8_feb8_6659_fd93));
+    (products >> 64) as u64 ^ products as u64
 }

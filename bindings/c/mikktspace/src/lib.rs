@@ -41,15 +41,11 @@ fn run(caller: &Caller, threshold: f32) -> Option<()> {
     if caller.wants_frames() {
         let compute = || Some(generate_frames(&corners.mesh()?, &options).corners.into_per_corner());
         let frames = catch_unwind(AssertUnwindSafe(compute)).ok()??;
-        for ((face, corner), frame) in corners.places().zip(&frames[corners.skipped..]) {
-            caller.write(face, corner, frame);
-        }
+        corners.hand_out(&frames, |face, corner, frame| caller.write(face, corner, frame));
     } else {
         let compute = || Some(generate_tangents(&corners.mesh()?, &options).corners.into_per_corner());
         let tangents = catch_unwind(AssertUnwindSafe(compute)).ok()??;
-        for ((face, corner), tangent) in corners.places().zip(&tangents[corners.skipped..]) {
-            caller.write_tangent(face, corner, *tangent);
-        }
+        corners.hand_out(&tangents, |face, corner, tangent| caller.write_tangent(face, corner, *tangent));
     }
     Some(())
 }

@@ -7,4 +7,5 @@ mod bad_input;
 mod drop_in;
 mod header;
 mod programs;
+mod speed;
 mod support;
