@@ -1,7 +1,6 @@
 //! `darboux inspect`.
 
-use comfy_table::presets::ASCII_MARKDOWN;
-use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Table};
+use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, LineStyle, Table, TableStyle, Width};
 use console::Term;
 use darboux_io::gltf::{PrimitiveInfo, inspect};
 use indicatif::HumanCount;
@@ -75,8 +74,8 @@ type Column = (&'static str, Kind, fn(&PrimitiveInfo) -> String);
 /// How a column is laid out.
 #[derive(PartialEq)]
 enum Kind {
-    /// To the left, wrapped where the terminal is narrow.
-    Long,
+    /// To the left, wrapped to the width that the others leave, at least this.
+    Long(u16),
     /// To the left, never wrapped.
     Short,
     /// To the right, never wrapped.
@@ -85,22 +84,29 @@ enum Kind {
 
 const COLUMNS: &[Column] = &[
     ("", Kind::Short, |info| format!("{}.{}", info.name.mesh, info.name.primitive)),
-    ("mesh", Kind::Long, |info| {
+    ("mesh", Kind::Long(7), |info| {
         info.name.mesh_name.as_deref().unwrap_or_default().escape_debug().to_string()
     }),
-    ("mode", Kind::Short, |info| info.mode.trim_start_matches("TRIANGLE_").to_string()),
     ("vertices", Kind::Number, |info| count(info.vertices)),
-    ("triangles", Kind::Number, |info| count(info.counts.triangles)),
-    ("attributes", Kind::Long, attributes),
+    ("triangles", Kind::Number, triangles),
     ("UV", Kind::Number, |info| info.uv_set.to_string()),
     ("mirrored", Kind::Number, |info| count(info.mirrored_triangles)),
     ("degenerate", Kind::Number, degenerate),
     ("split", Kind::Number, |info| count(info.counts.split_vertices)),
     ("tangents", Kind::Short, |info| tangents(info).to_string()),
+    ("attributes", Kind::Long(11), attributes),
 ];
 
 fn count(count: usize) -> String {
     HumanCount(count as u64).to_string()
+}
+
+/// Their number, and what they are in where that is not a list.
+fn triangles(info: &PrimitiveInfo) -> String {
+    match info.mode.strip_prefix("TRIANGLE_") {
+        Some(mode) => format!("{} {}", count(info.counts.triangles), mode.to_lowercase()),
+        None => count(info.counts.triangles),
+    }
 }
 
 fn degenerate(info: &PrimitiveInfo) -> String {
@@ -127,28 +133,32 @@ fn tangents(info: &PrimitiveInfo) -> &'static str {
     }
 }
 
-/// Columns of a terminal below which lines are left to it to wrap.
-const NARROWEST: u16 = 116;
+/// The width of lines where no terminal is wider.
+const WIDTH: u16 = 100;
+
+/// Columns apart by two spaces: one here, one in [`described`].
+const STYLE: TableStyle = TableStyle::new().header_separator(LineStyle::none().fill('-').junction('-'));
 
 /// The file's name, its table, and why primitives cannot have tangents.
 fn described(file: &InspectedFile) -> String {
     let mut table = Table::new();
-    table.load_style(ASCII_MARKDOWN).set_header(COLUMNS.iter().map(|column| column.0));
-    if let Some((_, width)) = Term::stdout().size_checked() {
-        table.set_content_arrangement(ContentArrangement::Dynamic).set_width(width.max(NARROWEST));
-    }
+    table.load_style(STYLE).set_header(COLUMNS.iter().map(|column| column.0));
+    let terminal = Term::stdout().size_checked().map_or(WIDTH, |(_, width)| width.max(WIDTH));
+    table.set_content_arrangement(ContentArrangement::Dynamic).set_width(terminal);
     for (column, (_, kind, _)) in table.column_iter_mut().zip(COLUMNS) {
+        column.set_padding((0, 1));
         if *kind == Kind::Number {
             column.set_cell_alignment(CellAlignment::Right);
         }
-        if *kind != Kind::Long {
-            column.set_constraint(ColumnConstraint::ContentWidth);
-        }
+        column.set_constraint(match kind {
+            Kind::Long(least) => ColumnConstraint::LowerBoundary(Width::Fixed(*least)),
+            Kind::Short | Kind::Number => ColumnConstraint::ContentWidth,
+        });
     }
     for info in &file.primitives {
         table.add_row(COLUMNS.iter().map(|column| column.2(info)));
     }
-    let mut text = format!("{}\n\n{table}\n\n", file.input);
+    let mut text = format!("{}\n\n{}\n\n", file.input, table.trim_fmt());
     for info in &file.primitives {
         if let Some(reason) = &info.ineligible {
             text += &format!("{}.{}: {reason}\n", info.name.mesh, info.name.primitive);
