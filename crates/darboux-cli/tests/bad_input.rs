@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use common::{asset, darboux, darboux_reading, names_in, text};
+use common::{asset, darboux, darboux_reading, darboux_with_little_memory, names_in, text};
 use serde_json::{Value, json};
 
 /// A triangle that could get tangents: the JSON, and the buffer of 132 bytes that goes with it.
@@ -79,6 +79,17 @@ fn broken() -> Vec<(&'static str, Vec<u8>, &'static str)> {
     index[last..].copy_from_slice(&9u32.to_le_bytes());
     let deep = format!("{}{}", "[".repeat(200_000), "]".repeat(200_000));
     let attributes = "/meshes/0/primitives/0/attributes";
+    let zeros = |more: Value| {
+        let mut accessor = json!({ "componentType": 5126, "count": 1u64 << 40, "type": "VEC3" });
+        accessor.as_object_mut().expect("an object").extend(more.as_object().expect("an object").clone());
+        accessor
+    };
+    let places = json!({
+        "count": 1u64 << 39,
+        "indices": { "bufferView": 3, "componentType": 5125 },
+        "values": { "bufferView": 0 },
+    });
+    let few = zeros(json!({ "count": 3, "sparse": places }));
     vec![
         ("empty.glb", Vec::new(), "glTF"),
         ("text.gltf", b"solid model".to_vec(), "glTF"),
@@ -95,6 +106,13 @@ fn broken() -> Vec<(&'static str, Vec<u8>, &'static str)> {
         ("accessor.glb", with(&format!("{attributes}/NORMAL"), json!(77)), "77"),
         ("negative.glb", with(&format!("{attributes}/NORMAL"), json!(-1)), "NORMAL"),
         ("count.glb", with("/accessors/0/count", json!(4_000_000_000_000u64)), "accessors[0]"),
+        ("zeros.glb", with("/accessors/0", zeros(json!({}))), "accessors[0].count"),
+        (
+            "sparse.glb",
+            with("/accessors/0", zeros(json!({ "bufferView": 0, "sparse": places }))),
+            "accessors[0]",
+        ),
+        ("places.glb", with("/accessors/0", few), "accessors[0].sparse"),
         ("overflow.glb", with("/accessors/0/count", json!(u64::MAX)), "accessors[0]"),
         ("lengths.glb", with("/accessors/1/count", json!(2)), "meshes[0].primitives[0]"),
         ("past.glb", with("/bufferViews/1/byteLength", json!(12)), "accessors[1]"),
@@ -137,7 +155,7 @@ fn every_broken_file_gets_one_sentence_and_no_output() {
         let start = Instant::now();
         for arguments in [&["tangents", text(&path), "--out-dir", text(&out)][..], &["inspect", text(&path)]]
         {
-            let run = darboux(arguments).exits(1);
+            let run = darboux_with_little_memory(arguments).exits(1);
             assert!(run.stdout.is_empty(), "{name}");
             assert_eq!(run.stderr.lines().count(), 1, "{name}: {}", run.stderr);
             let sentence = run.stderr.strip_prefix("error: ").expect("an error");

@@ -130,7 +130,7 @@ fn the_uv_set_is_the_one_that_the_texture_names() {
     });
     let bare = json!({"KHR_materials_anisotropy": {"anisotropyStrength": 1.0}});
     let cases = [
-        (json!({}), 0, "no texture that uses tangents names a set", false),
+        (json!({}), 0, "no texture with tangents names a set", false),
         (json!({"normalTexture": {"index": 0}}), 0, "normalTexture of materials[1]", true),
         (json!({"normalTexture": {"index": 0, "texCoord": 1}}), 1, "normalTexture of materials[2]", true),
         (
@@ -141,7 +141,7 @@ fn the_uv_set_is_the_one_that_the_texture_names() {
         ),
         (json!({"extensions": both}), 2, "clearcoatNormalTexture of materials[4]", true),
         (json!({"extensions": anisotropy}), 1, "anisotropyTexture of materials[5]", true),
-        (json!({"extensions": bare}), 0, "no texture that uses tangents names a set", true),
+        (json!({"extensions": bare}), 0, "no texture with tangents names a set", true),
     ];
     let mut builder = Builder::new();
     let mut attributes = square().attributes(&mut builder);

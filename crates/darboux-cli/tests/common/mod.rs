@@ -34,9 +34,23 @@ pub fn darboux<A: AsRef<std::ffi::OsStr>>(arguments: &[A]) -> Run {
     darboux_reading(arguments, b"")
 }
 
+/// As [`darboux`], with 256 MiB of addresses where the system can limit them: a large allocation ends the command.
+pub fn darboux_with_little_memory<A: AsRef<std::ffi::OsStr>>(arguments: &[A]) -> Run {
+    if !cfg!(target_os = "linux") {
+        return darboux(arguments);
+    }
+    let mut command = Command::new("sh");
+    command.args(["-c", "ulimit -v 262144 && exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_darboux")]);
+    run(command, arguments, b"")
+}
+
 /// Runs `darboux` with `stdin` on standard input.
 pub fn darboux_reading<A: AsRef<std::ffi::OsStr>>(arguments: &[A], stdin: &[u8]) -> Run {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_darboux"))
+    run(Command::new(env!("CARGO_BIN_EXE_darboux")), arguments, stdin)
+}
+
+fn run<A: AsRef<std::ffi::OsStr>>(mut command: Command, arguments: &[A], stdin: &[u8]) -> Run {
+    let mut child = command
         .args(arguments)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())

@@ -25,7 +25,7 @@ impl UvChoice {
 
 impl Default for UvChoice {
     fn default() -> Self {
-        Self { set: 0, reason: "no texture that uses tangents names a set".to_owned(), transform: None }
+        Self { set: 0, reason: "no texture with tangents names a set".to_owned(), transform: None }
     }
 }
 
