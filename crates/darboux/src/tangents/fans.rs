@@ -68,7 +68,12 @@ impl Fans {
         if !matches!(mesh.faces(), Faces::Triangles) {
             return false;
         }
-        self.workers.resize_with(workers::threads(mesh.face_count()), Worker::default);
+        let threads = workers::threads(mesh.face_count());
+        self.workers.resize_with(threads, Worker::default);
+        workers::on_pool(threads, || self.run_on(mesh, mode, width, out))
+    }
+
+    fn run_on(&mut self, mesh: &Mesh<'_>, mode: Mode, width: Width, out: &mut [[f32; 4]]) -> bool {
         if let Err(Refused) = self.weld.weld(mesh, width, &mut self.workers) {
             return false;
         }

@@ -65,6 +65,17 @@ fn available() -> usize {
     1
 }
 
+/// Does work for a mesh on a thread of the pool, whose others are then quick to join in: all are woken only once.
+#[cfg(feature = "parallel")]
+pub(super) fn on_pool<R: Send>(threads: usize, work: impl FnOnce() -> R + Send) -> R {
+    if threads > 1 && rayon::current_thread_index().is_none() { rayon::scope(|_| work()) } else { work() }
+}
+
+#[cfg(not(feature = "parallel"))]
+pub(super) fn on_pool<R: Send>(_threads: usize, work: impl FnOnce() -> R + Send) -> R {
+    work()
+}
+
 /// Runs `job` for every worker and its part, on all threads.
 pub(super) fn run<W: Send, P: Send>(
     workers: &mut [W],
