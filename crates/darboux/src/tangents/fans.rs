@@ -6,7 +6,9 @@
 //! prove that its triangles are one part. No edge is looked up. What is not decided is left to the general path.
 
 mod block;
+mod corners;
 mod hash;
+mod hash_set;
 mod last_run;
 mod names;
 mod shuffled;

@@ -134,10 +134,10 @@ impl Span {
     }
 
     /// The bounds of all positions. Refuses values that are too large or not finite.
-    pub fn check(spans: &[Self]) -> Result<Bounds, Refused> {
-        let low = |axis: usize| spans.iter().map(|span| span.low[axis]).min();
-        let high = |axis: usize| spans.iter().map(|span| span.high[axis]).max();
-        let largest = spans.iter().map(|span| span.largest).max();
+    pub fn check<'a>(spans: impl Iterator<Item = &'a Self> + Clone) -> Result<Bounds, Refused> {
+        let low = |axis: usize| spans.clone().map(|span| span.low[axis]).min();
+        let high = |axis: usize| spans.clone().map(|span| span.high[axis]).max();
+        let largest = spans.clone().map(|span| span.largest).max();
         if largest > Some(LARGEST.to_bits()) {
             return Err(Refused);
         }
