@@ -67,6 +67,26 @@ fn a_model_comes_back_from_every_preset() {
     }
 }
 
+/// Nodes that mirror, a skin and an animation.
+#[test]
+fn a_scene_comes_back_in_other_axes() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (there, back) = (folder.path().join("there.glb"), folder.path().join("back.glb"));
+    for model in
+        ["made/shared-vertices-two-uv-sets.gltf", "made/skinned-morphed-mirrored.gltf", "Fox/Fox.glb"]
+    {
+        let model = asset(model);
+        convert(&model, "gltf", "unreal", &["--raw", "--force", "-o", text(&there)]).exits(0);
+        let run = convert(&there, "unreal", "gltf", &["--force", "-o", text(&back), "--json"]).exits(0);
+        assert_eq!(run.json()["files"][0]["model"]["axes_changed"], true);
+        let inspected = |path: &Path| {
+            let mut report = darboux(&["inspect", "--json", text(path)]).exits(0).json();
+            report["files"][0]["primitives"].take()
+        };
+        assert_eq!(inspected(&back), inspected(&model));
+    }
+}
+
 #[test]
 fn a_model_leaves_gltfs_convention_only_when_told_and_says_so() {
     let folder = folder_with(&[MODEL]);

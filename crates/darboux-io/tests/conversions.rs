@@ -125,23 +125,157 @@ fn a_file_remembers_its_convention() {
     assert_eq!(sentence, "test.glb: asset.extras.darboux_convention: says \"unity\"; convert it from that");
 }
 
+/// Adds a scene around the model: a parent with a matrix, children with each kind of transform, a skin, an animation.
+fn add_scene(builder: &mut Builder) {
+    let matrix = [0.0f32, 2.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.5, 0.0, 4.0, 5.0, 6.0, 1.0];
+    let skewed = [1.0f32, 0.5, 0.0, 0.0, 0.0, 1.0, 0.25, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 2.0, 3.0, 1.0];
+    let matrices = [matrix, skewed].concat();
+    let bytes: Vec<u8> = matrices.iter().flat_map(|x| x.to_le_bytes()).collect();
+    let bind = builder.accessor(&bytes, 2, 5126, "MAT4", json!({}));
+    let times = builder.vectors(&[[0.0f32], [1.0]]);
+    let moves = builder.vectors(&[[1.0f32, 2.0, 3.0], [4.0, 5.0, 7.0]]);
+    let turns = builder.vectors(&[[0.6f32, 0.0, 0.0, 0.8], [0.0, 0.8, 0.0, 0.6]]);
+    let scales = builder.vectors(&[[1.0f32, 2.0, 3.0], [3.0, 2.0, 1.0]]);
+    let sampler = |output: usize| json!({"input": times, "output": output});
+    let channel =
+        |sampler: usize, path: &str| json!({"sampler": sampler, "target": {"node": 1, "path": path}});
+    builder.set(
+        "nodes",
+        json!([
+            {"matrix": matrix, "children": [1, 2]},
+            {"translation": [1, 2, 3.5], "rotation": [0.48, 0.6, 0.0, 0.64], "scale": [1, 2, 3], "children": [3]},
+            {"mesh": 0, "skin": 0},
+            {"rotation": [0, 0, 0.6, 0.8]},
+        ]),
+    );
+    builder.set("skins", json!([{"joints": [1, 3], "inverseBindMatrices": bind}]));
+    builder.set(
+        "animations",
+        json!([{
+            "samplers": [sampler(moves), sampler(turns), sampler(scales)],
+            "channels": [channel(0, "translation"), channel(1, "rotation"), channel(2, "scale")],
+        }]),
+    );
+}
+
+type Matrix = [[f32; 4]; 4];
+
+fn apply(matrix: Matrix, [x, y, z]: [f32; 3]) -> [f32; 3] {
+    std::array::from_fn(|i| matrix[0][i] * x + matrix[1][i] * y + matrix[2][i] * z + matrix[3][i])
+}
+
+/// Where some points of every node's space, and of every joint's, are at rest and at each keyframe, as the `gltf` crate reads it.
+fn places(document: &Document, points: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    let read = gltf::Gltf::from_slice(&document.to_glb().expect("a GLB")).expect("a valid GLB");
+    let blob = read.blob.clone().expect("a binary chunk");
+    let mut parents = vec![None; read.nodes().len()];
+    read.nodes()
+        .for_each(|node| node.children().for_each(|child| parents[child.index()] = Some(node.index())));
+    let locals: Vec<Matrix> = read.nodes().map(|node| node.transform().matrix()).collect();
+    let to_world = |node: usize, locals: &[Matrix], point: [f32; 3]| {
+        std::iter::successors(Some(node), |node| parents[*node])
+            .fold(point, |point, node| apply(locals[node], point))
+    };
+    let mut out = Vec::new();
+    let mut note = |locals: &[Matrix]| {
+        for &point in points {
+            out.extend((0..locals.len()).map(|node| to_world(node, locals, point)));
+            for skin in read.skins() {
+                let bind = skin.reader(|_| Some(&blob)).read_inverse_bind_matrices().expect("matrices");
+                let joints = skin.joints().zip(bind);
+                out.extend(joints.map(|(joint, bind)| to_world(joint.index(), locals, apply(bind, point))));
+            }
+        }
+    };
+    note(&locals);
+    let outputs =
+        |channel: gltf::animation::Channel<'_>| channel.reader(|_| Some(&blob)).read_outputs().expect("keys");
+    let keys: Vec<_> = read
+        .animations()
+        .flat_map(|animation| animation.channels().map(outputs).collect::<Vec<_>>())
+        .collect();
+    let [moves, turns, scales] = <[_; 3]>::try_from(keys).ok().expect("three channels");
+    use gltf::animation::util::ReadOutputs::{Rotations, Scales, Translations};
+    let (Translations(moves), Rotations(turns), Scales(scales)) = (moves, turns, scales) else {
+        panic!("their order")
+    };
+    for ((translation, rotation), scale) in moves.zip(turns.into_f32()).zip(scales) {
+        let mut locals = locals.clone();
+        locals[1] = gltf::scene::Transform::Decomposed { translation, rotation, scale }.matrix();
+        note(&locals);
+    }
+    out
+}
+
 #[test]
-fn what_moves_in_the_old_axes_is_refused() {
+fn scenes_stand_where_they_stood() {
+    let points = [[0.0, 0.0, 0.0], [1.0, 2.0, 3.0], [-0.5, 0.25, 4.0]];
+    for (name, there) in Convention::PRESETS {
+        let conversion = Convention::GLTF.to(there);
+        let mut document = model(add_scene);
+        let before = places(&document, &points);
+        convert(&mut document, Convention::GLTF, there);
+        let after = places(&document, &points.map(|point| conversion.vector(point)));
+        assert_eq!(before.len(), after.len());
+        for (before, after) in before.iter().zip(&after) {
+            let expected = conversion.vector(*before);
+            let close = (0..3).all(|i| (expected[i] - after[i]).abs() <= 1e-4 * before[i].abs().max(10.0));
+            assert!(close, "{name}: {after:?} is not {expected:?}");
+        }
+        convert(&mut document, there, Convention::GLTF);
+        assert_eq!(places(&document, &points), before, "{name}");
+    }
+}
+
+#[test]
+fn instances_are_turned() {
+    let mut document = model(|builder| {
+        let moves = builder.vectors(&[[1.0f32, 2.0, 3.0]]);
+        let extensions =
+            json!({"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": moves, "_ID": moves}}});
+        builder.set("nodes", json!([{"mesh": 0, "extensions": extensions}]));
+    });
+    let summary = convert(&mut document, Convention::GLTF, Convention::UNITY);
+    assert!(summary.warnings.is_empty(), "{:?}", summary.warnings);
+    let glb = document.to_glb().expect("a GLB");
+    let length = u32::from_le_bytes(glb[12..16].try_into().expect("four bytes")) as usize;
+    let json: Value = serde_json::from_slice(&glb[20..20 + length]).expect("JSON");
+    let attributes = &json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+    let read = |name: &str| {
+        let again =
+            Document::from_bytes("test.glb", glb.clone(), None, &Default::default()).expect("a model");
+        again.read_vectors::<3>(attributes[name].as_u64().expect("a number") as usize).expect("vectors")
+    };
+    assert_eq!(read("TRANSLATION"), [[-1.0, 2.0, 3.0]]);
+    assert_eq!(read("_ID"), [[1.0, 2.0, 3.0]]);
+}
+
+#[test]
+fn what_cannot_stand_in_other_axes_is_refused() {
+    let channel = |path: &str| json!({"sampler": 0, "target": {"node": 0, "path": path}});
+    let animation =
+        |channels: &[Value]| json!([{"samplers": [{"input": 0, "output": 0}], "channels": channels}]);
     let cases = [
-        ("nodes", json!([{}, {"mesh": 0, "translation": [1, 0, 0]}]), "nodes[1]: moves or turns"),
-        ("nodes", json!([{"mesh": 0, "rotation": [0, 1, 0, 0]}]), "nodes[0]"),
-        ("skins", json!([{"joints": [0]}]), "skins[0]"),
-        ("animations", json!([{"channels": [], "samplers": []}]), "animations[0]"),
+        ("animations", animation(&[channel("pointer")]), "animations[0].channels[0]: animates something"),
+        (
+            "animations",
+            animation(&[channel("scale"), channel("translation")]),
+            "animations[0].channels[1]: shares its sampler",
+        ),
+        ("animations", json!([{"channels": [{}]}]), "animations[0]: missing field"),
+        (
+            "nodes",
+            json!([{"mesh": 0, "translation": [1, 0]}]),
+            "nodes[0].translation: has 2 numbers instead of 3",
+        ),
+        ("nodes", json!([{"mesh": 0, "matrix": "none"}]), "nodes[0].matrix: invalid type"),
+        ("skins", json!([{"joints": [0], "inverseBindMatrices": 99}]), "]: does not exist: there are"),
     ];
     for (key, value, part) in cases {
         let mut document = model(|builder| builder.set(key, value));
         let sentence = refusal(&mut document, Convention::GLTF, Convention::BLENDER);
         assert!(sentence.contains(part), "{sentence}");
-        assert!(!document.is_changed());
-        convert(&mut document, Convention::GLTF, Convention::OPENGL);
     }
-    let still = json!([{"mesh": 0, "scale": [1, 1, 1.0], "translation": [0, 0, 0]}]);
-    convert(&mut model(|builder| builder.set("nodes", still)), Convention::GLTF, Convention::BLENDER);
 }
 
 #[test]
@@ -156,5 +290,9 @@ fn what_else_must_change_is_said() {
     assert!(warnings(Convention::GODOT).is_empty());
     assert_eq!(warnings(Convention::OPENGL).len(), 1);
     assert!(warnings(Convention::UNREAL)[0].contains("materials[0]"));
-    assert_eq!(warnings(Convention::MAX).len(), 2);
+    let mut seen =
+        model(|builder| builder.set("nodes", json!([{"camera": 0, "extensions": {"VENDOR_path": {}}}])));
+    let said = convert(&mut seen, Convention::GLTF, Convention::UNITY).warnings;
+    assert!(said[0].contains("cameras") && said[1].contains("VENDOR_path"), "{said:?}");
+    assert_eq!(warnings(Convention::MAX).len(), 2, "{:?}", warnings(Convention::MAX));
 }

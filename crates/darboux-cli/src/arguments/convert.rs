@@ -13,10 +13,10 @@ Convert normal maps and models between conventions.
 Normal maps (PNG, 8 or 16 bits): red and green are inverted where the conventions differ, to the bit, so that converting back gives the \
 first texels. Alpha and all chunks but the texels stay as they are. Channels can be moved: DXT5nm's ag, two-channel rg.
 
-Models: positions, normals, tangents, UVs, morph targets and the winding of triangles change. A glTF file must be in glTF's convention, \
-so this puts files right whose writer copied the numbers of another one (--to gltf). For a program that copies numbers out of the file \
-as they are, --raw allows any --to; such a file is no right glTF until it is converted back, says so in asset.extras, and other \
-commands refuse it. Images, nodes, skins and animations stay, so conventions with other axes are refused where nodes move meshes.
+Models: positions, normals, tangents, UVs, morph targets and the winding of triangles change; where axes differ, nodes, skins and \
+animations too. A glTF file must be in glTF's convention, so this puts files right whose writer copied the numbers of another one \
+(--to gltf). For a program that copies numbers out of the file as they are, --raw allows any --to; such a file is no right glTF until \
+it is converted back, says so in asset.extras, and other commands refuse it. Images, cameras and lights stay; warnings name them.
 
 docs/conventions.md defines the conventions. Without -o, --out-dir or --in-place the output is named by its convention: brick.png \
 becomes brick.directx.png.";

@@ -100,14 +100,17 @@ pub enum Target {
     Vertices,
     /// Indices: tightly packed.
     Indices,
+    /// Keyframes, matrices, whatever is not of primitives: tightly packed.
+    Other,
 }
 
 impl Target {
-    /// glTF's number.
-    pub(super) fn code(self) -> u32 {
+    /// glTF's number, where it has one.
+    pub(super) fn code(self) -> Option<u32> {
         match self {
-            Self::Vertices => 34962,
-            Self::Indices => 34963,
+            Self::Vertices => Some(34962),
+            Self::Indices => Some(34963),
+            Self::Other => None,
         }
     }
 
@@ -115,7 +118,7 @@ impl Target {
     pub(super) fn stride(self, size: usize) -> usize {
         match self {
             Self::Vertices => size.next_multiple_of(4),
-            Self::Indices => size,
+            Self::Indices | Self::Other => size,
         }
     }
 }

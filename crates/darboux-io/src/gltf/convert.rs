@@ -6,7 +6,9 @@
 
 mod attributes;
 mod faces;
+mod scene;
 mod surroundings;
+mod turn;
 
 use darboux::Convention;
 use serde::Serialize;
@@ -17,6 +19,8 @@ use super::tangents::{Progress, excess};
 use crate::Error;
 use attributes::Attributes;
 use faces::Faces;
+use scene::Scene;
+use turn::Turn;
 
 /// What [`convert_vertices`] did to a document.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
@@ -35,11 +39,11 @@ pub struct ConversionSummary {
     pub warnings: Vec<String>,
 }
 
-/// Converts the vertex data of every primitive: positions, normals, tangents, UVs, morph targets, the winding of triangles.
+/// Converts the vertex data of every primitive: positions, normals, tangents, UVs, morph targets, the winding of triangles; and where
+/// the axes differ, the transforms of nodes, skins, instances and animations.
 ///
-/// Images, nodes, skins and animations stay as they are, which is why another choice of axes is refused where meshes are moved, turned
-/// or skinned. Accessors that change become floats. Errors: a document that says that it is in another convention than `from`; one that
-/// cannot stand in other axes; broken data. After an error the document may be half done: drop it.
+/// Images, cameras and lights stay as they are; warnings name them. Accessors that change become floats. Errors: a document that says
+/// that it is in another convention than `from`; animations of what cannot stand in other axes; broken data. After an error the document may be half done: drop it.
 pub fn convert_vertices(
     document: &mut Document,
     from: Convention,
@@ -47,9 +51,6 @@ pub fn convert_vertices(
     progress: &mut dyn FnMut(Progress),
 ) -> Result<ConversionSummary, Error> {
     surroundings::check_convention(document, from)?;
-    if from.axes != to.axes {
-        surroundings::refuse_moved(document)?;
-    }
     let mut summary = ConversionSummary {
         warnings: surroundings::warnings(document, from, to),
         ..ConversionSummary::default()
@@ -78,6 +79,9 @@ pub fn convert_vertices(
         summary.primitives += usize::from(attributes_changed || faces_changed);
         excess::check_output(document)?;
         progress(Progress { done: done + 1, total: places.len() });
+    }
+    if summary.axes_changed {
+        Scene::new(&accessors, Turn::new(from, to)).convert(document)?;
     }
     document.set_convention(to)?;
     summary.warnings.extend(document.waste_warning());

@@ -77,6 +77,8 @@ pub(super) struct Edits {
     pub required_extensions: Vec<&'static str>,
     pub new_accessors: Vec<String>,
     pub asset: Option<String>,
+    /// Elements of `nodes`, `skins` and `animations`.
+    pub scene: BTreeMap<&'static str, BTreeMap<usize, String>>,
     /// Accessors that primitives named before they were edited.
     pub once_named: BTreeSet<usize>,
     /// Whether it was said that data without a use stays.
@@ -339,15 +341,25 @@ impl Document {
 
     /// Whether there are edits.
     pub fn is_changed(&self) -> bool {
-        let Edits { primitives, accessors, views, buffers, removed_extensions, new_accessors, asset, .. } =
-            &self.edits;
+        let Edits {
+            primitives,
+            accessors,
+            views,
+            buffers,
+            removed_extensions,
+            new_accessors,
+            asset,
+            scene,
+            ..
+        } = &self.edits;
         !(primitives.is_empty()
             && accessors.is_empty()
             && views.is_empty()
             && buffers.is_empty()
             && removed_extensions.is_empty()
             && new_accessors.is_empty()
-            && asset.is_none())
+            && asset.is_none()
+            && scene.is_empty())
     }
 
     /// The JSON text as it was read.

@@ -8,6 +8,7 @@ use std::path::PathBuf;
 
 use serde_json::value::RawValue;
 
+use super::accessor::Target;
 use super::document::{Document, NewView, Store};
 use super::file_bytes::FileBytes;
 use super::json::{edit_array, keys, member, quoted, set_member};
@@ -194,7 +195,8 @@ impl<'a> Layout<'a> {
             }
             let (offset, length) = (home.push(Piece::Borrowed(bytes)), bytes.len());
             let stride = stride.map(|stride| format!(",\"byteStride\":{stride}")).unwrap_or_default();
-            let target = target.map(|target| format!(",\"target\":{}", target.code())).unwrap_or_default();
+            let target = target.and_then(Target::code);
+            let target = target.map(|code| format!(",\"target\":{code}")).unwrap_or_default();
             self.new_views.push(format!(
                 "{{\"buffer\":{slot},\"byteOffset\":{offset},\"byteLength\":{length}{stride}{target}}}"
             ));
@@ -251,6 +253,9 @@ impl<'a> Layout<'a> {
         (|| {
             set("asset", &|asset| Ok(edits.asset.clone().unwrap_or_else(|| asset.to_owned())))?;
             set("meshes", &|meshes| self.document.edited_meshes(meshes))?;
+            for (key, edited) in &edits.scene {
+                set(key, &|elements| edit_array(elements, edited, &[]))?;
+            }
             set("accessors", &|accessors| edit_array(accessors, &edits.accessors, &edits.new_accessors))?;
             set("bufferViews", &|views| self.views(views))?;
             set("buffers", &|buffers| self.buffers(buffers, home_uris, renamed))?;

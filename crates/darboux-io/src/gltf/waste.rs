@@ -140,6 +140,12 @@ fn edited(document: &Document) -> serde_json::Result<String> {
         let meshes = document.edited_meshes(meshes)?;
         root = set_member(&root, "meshes", Some(&meshes))?;
     }
+    for (key, edited) in &edits.scene {
+        if let Some(elements) = member(&root, key)? {
+            let elements = edit_array(elements, edited, &[])?;
+            root = set_member(&root, key, Some(&elements))?;
+        }
+    }
     let accessors = member(&root, "accessors")?.unwrap_or("[]");
     let accessors = edit_array(accessors, &edits.accessors, &edits.new_accessors)?;
     set_member(&root, "accessors", Some(&accessors).filter(|text| *text != "[]").map(String::as_str))

@@ -133,7 +133,8 @@ impl<'a> Attributes<'a> {
     }
 }
 
-fn floats<const N: usize>(
+/// Floats, changed one by one.
+pub fn floats<const N: usize>(
     element_type: ElementType,
     vectors: Vec<[f32; N]>,
     change: impl Fn([f32; N]) -> [f32; N],

@@ -1,13 +1,12 @@
-//! What stands around vertex data: the convention that a file names, nodes that move meshes, materials with normal maps.
+//! What stands around vertex data: the convention that a file names, and what a conversion leaves behind.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use darboux::Convention;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
 use crate::Error;
-use crate::error::Fault;
 use crate::gltf::Document;
 use crate::gltf::json::{keys, member, quoted, set_member};
 use crate::gltf::schema::Material;
@@ -80,62 +79,52 @@ impl Document {
     }
 }
 
-/// The parts of a scene that say where meshes stand.
+/// The parts of a file that other axes leave behind.
 #[derive(Deserialize)]
 struct Scene {
     #[serde(default)]
     nodes: Vec<Node>,
     #[serde(default)]
-    skins: Vec<IgnoredAny>,
-    #[serde(default)]
-    animations: Vec<IgnoredAny>,
+    extensions: BTreeMap<String, IgnoredAny>,
     #[serde(default, rename = "extensionsUsed")]
     extensions_used: Vec<String>,
 }
 
 #[derive(Deserialize)]
 struct Node {
-    matrix: Option<Vec<f64>>,
-    translation: Option<Vec<f64>>,
-    rotation: Option<Vec<f64>>,
-    scale: Option<Vec<f64>>,
+    camera: Option<IgnoredAny>,
     #[serde(default)]
     extensions: BTreeMap<String, IgnoredAny>,
 }
 
-impl Node {
-    fn moves(&self) -> bool {
-        const IDENTITY: [f64; 16] =
-            [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
-        let differs =
-            |value: &Option<Vec<f64>>, rest: &[f64]| value.as_ref().is_some_and(|value| value != rest);
-        differs(&self.matrix, &IDENTITY)
-            || differs(&self.translation, &[0.0; 3])
-            || differs(&self.rotation, &[0.0, 0.0, 0.0, 1.0])
-            || differs(&self.scale, &[1.0; 3])
-            || self.extensions.contains_key("EXT_mesh_gpu_instancing")
+/// Extensions of nodes or of the file that hold no vectors, or whose vectors are converted or spoken of.
+const WITHOUT_VECTORS: [&str; 9] = [
+    "EXT_instance_features",
+    "EXT_mesh_gpu_instancing",
+    "EXT_structural_metadata",
+    "KHR_lights_punctual",
+    "KHR_materials_variants",
+    "KHR_node_visibility",
+    "KHR_xmp",
+    "KHR_xmp_json_ld",
+    "MSFT_lod",
+];
+
+/// What a document's other axes leave behind.
+fn left_behind(scene: &Scene) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let looks = |node: &Node| node.camera.is_some() || node.extensions.contains_key("KHR_lights_punctual");
+    if scene.nodes.iter().any(looks) {
+        warnings.push("cameras and lights still look along -z of their nodes".to_owned());
     }
-}
-
-fn scene(document: &Document) -> Result<Scene, Error> {
-    serde_json::from_str(document.text())
-        .map_err(|error| document.invalid("nodes", format!("{error}; export the file again")))
-}
-
-/// Errors: nodes, skins or animations that would go on in the old axes.
-pub fn refuse_moved(document: &Document) -> Result<(), Error> {
-    let scene = scene(document)?;
-    let moving = scene.nodes.iter().position(Node::moves);
-    let (at, what) = match (moving, scene.skins.is_empty(), scene.animations.is_empty()) {
-        (Some(node), ..) => (format!("nodes[{node}]"), "moves or turns what it holds"),
-        (None, false, _) => ("skins[0]".into(), "moves vertices"),
-        (None, true, false) => ("animations[0]".into(), "moves nodes"),
-        (None, true, true) => return Ok(()),
-    };
-    let problem = format!(
-        "{what}, and would go on in the old axes; apply transforms in a modeller, or choose conventions with the same axes"
-    );
-    Err(Fault::unsupported(at, problem).in_file(document.name()))
+    let names = scene.nodes.iter().flat_map(|node| node.extensions.keys()).chain(scene.extensions.keys());
+    let names: BTreeSet<&str> =
+        names.map(String::as_str).filter(|name| !WITHOUT_VECTORS.contains(name)).collect();
+    if !names.is_empty() {
+        let names = names.into_iter().collect::<Vec<_>>().join(", ");
+        warnings.push(format!("vectors in {names}, if there are any, stay in the old axes"));
+    }
+    warnings
 }
 
 /// What must change too, or be looked at.
@@ -156,9 +145,15 @@ pub fn warnings(document: &Document, from: Convention, to: Convention) -> Vec<St
             warnings.push(format!("the normal maps of {names} are as they were; convert these images too"));
         }
     }
-    let transforms = |scene: Scene| scene.extensions_used.iter().any(|name| name == "KHR_texture_transform");
-    if from.uv_origin != to.uv_origin && scene(document).is_ok_and(transforms) {
+    // A file whose scene cannot be read is refused where it is converted.
+    let Ok(scene) = serde_json::from_str::<Scene>(document.text()) else { return warnings };
+    if from.uv_origin != to.uv_origin
+        && scene.extensions_used.iter().any(|name| name == "KHR_texture_transform")
+    {
         warnings.push("KHR_texture_transform still counts v from the top; look at its materials".to_owned());
+    }
+    if from.axes != to.axes {
+        warnings.extend(left_behind(&scene));
     }
     warnings
 }

@@ -1,0 +1,237 @@
+//! Nodes, skins and animations in other axes.
+
+use std::collections::{BTreeMap, HashMap};
+
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use serde_json::value::RawValue;
+
+use super::attributes::floats;
+use super::turn::Turn;
+use crate::Error;
+use crate::error::Fault;
+use crate::gltf::json::{edit_array, member, set_member};
+use crate::gltf::tangents::excess;
+use crate::gltf::tangents::share::Canonical;
+use crate::gltf::{Document, ElementType, NewAccessor, Target};
+
+/// Turns everything that places meshes.
+pub struct Scene<'a> {
+    accessors: &'a Canonical,
+    turn: Turn,
+    /// New accessors, by the old one and what it holds.
+    made: HashMap<(usize, Kind), usize>,
+}
+
+/// What an accessor holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Kind {
+    Translation,
+    Rotation,
+    Scale,
+    Matrix,
+}
+
+impl Kind {
+    fn of(name: &str) -> Option<Self> {
+        match name {
+            "translation" | "TRANSLATION" => Some(Self::Translation),
+            "rotation" | "ROTATION" => Some(Self::Rotation),
+            "scale" | "SCALE" => Some(Self::Scale),
+            _ => None,
+        }
+    }
+}
+
+impl<'a> Scene<'a> {
+    pub fn new(accessors: &'a Canonical, turn: Turn) -> Self {
+        Self { accessors, turn, made: HashMap::new() }
+    }
+
+    /// Errors: what glTF does not allow there; animations of other properties than a node's (`KHR_animation_pointer`).
+    pub fn convert(&mut self, document: &mut Document) -> Result<(), Error> {
+        self.each(document, "nodes", Self::node)?;
+        self.each(document, "skins", Self::skin)?;
+        self.each(document, "animations", Self::animation)
+    }
+
+    /// Edits every element of an array of the root object, after the edits that it has.
+    fn each(
+        &mut self,
+        document: &mut Document,
+        key: &'static str,
+        edit: fn(&mut Self, &mut Document, &str, &str) -> Result<String, Error>,
+    ) -> Result<(), Error> {
+        let array = member(document.text(), key).ok().flatten().unwrap_or("[]");
+        let stored: Vec<Box<RawValue>> = parsed(document, key, array)?;
+        let mut edits = document.edits.scene.remove(key).unwrap_or_default();
+        for (index, stored) in stored.iter().enumerate() {
+            let text = edits.get(&index).map_or(stored.get(), String::as_str);
+            let new = edit(self, document, &format!("{key}[{index}]"), text)?;
+            if new != text {
+                edits.insert(index, new);
+            }
+        }
+        if !edits.is_empty() {
+            document.edits.scene.insert(key, edits);
+        }
+        Ok(())
+    }
+
+    fn node(&mut self, document: &mut Document, at: &str, text: &str) -> Result<String, Error> {
+        let turn = self.turn;
+        let mut new = text.to_owned();
+        edit_numbers(document, at, &mut new, "matrix", |matrix| turn.matrix::<f64>(matrix))?;
+        edit_numbers(document, at, &mut new, "translation", |vector| turn.vector::<f64>(vector))?;
+        edit_numbers(document, at, &mut new, "rotation", |rotation| turn.rotation::<f64>(rotation))?;
+        edit_numbers(document, at, &mut new, "scale", |scale| turn.scale::<f64>(scale))?;
+        self.instances(document, at, new)
+    }
+
+    /// The transforms of `EXT_mesh_gpu_instancing`.
+    fn instances(&mut self, document: &mut Document, at: &str, node: String) -> Result<String, Error> {
+        const PATH: [&str; 3] = ["extensions", "EXT_mesh_gpu_instancing", "attributes"];
+        let Some(attributes) = nested(&node, &PATH) else { return Ok(node) };
+        let at = format!("{at}.{}", PATH.join("."));
+        let known: BTreeMap<String, usize> = parsed(document, &at, attributes)?;
+        let mut new = attributes.to_owned();
+        for (name, accessor) in known {
+            if let Some(kind) = Kind::of(&name) {
+                let accessor = self.accessor(document, accessor, kind)?;
+                new = edited(document, &at, set_member(&new, &name, Some(&accessor.to_string())))?;
+            }
+        }
+        edited(document, &at, set_nested(&node, &PATH, &new))
+    }
+
+    fn skin(&mut self, document: &mut Document, at: &str, text: &str) -> Result<String, Error> {
+        const KEY: &str = "inverseBindMatrices";
+        let at = format!("{at}.{KEY}");
+        let Some(accessor) = member(text, KEY).ok().flatten() else { return Ok(text.to_owned()) };
+        let old = parsed(document, &at, accessor)?;
+        let new = self.accessor(document, old, Kind::Matrix)?;
+        edited(document, &at, set_member(text, KEY, Some(&new.to_string())))
+    }
+
+    fn animation(&mut self, document: &mut Document, at: &str, text: &str) -> Result<String, Error> {
+        let animation: Animation = parsed(document, at, text)?;
+        let mut kinds: BTreeMap<usize, Option<Kind>> = BTreeMap::new();
+        for (index, Channel { sampler, target }) in animation.channels.iter().enumerate() {
+            let at = format!("{at}.channels[{index}]");
+            let unsupported = |problem: &str| Err(Fault::unsupported(&at, problem).in_file(document.name()));
+            if !["translation", "rotation", "scale", "weights"].contains(&target.path.as_str()) {
+                return unsupported("animates something that cannot stand in other axes; take it out");
+            }
+            let kind = Kind::of(&target.path);
+            if kinds.insert(*sampler, kind).is_some_and(|other| other != kind) {
+                return unsupported(
+                    "shares its sampler with a channel of another kind; export the file again",
+                );
+            }
+        }
+        let array = member(text, "samplers").ok().flatten().unwrap_or("[]");
+        let samplers: Vec<Box<RawValue>> = parsed(document, at, array)?;
+        let mut new = BTreeMap::new();
+        for (index, kind) in kinds {
+            let (Some(sampler), Some(kind)) = (samplers.get(index), kind) else { continue };
+            let at = format!("{at}.samplers[{index}]");
+            let Sampler { output } = parsed(document, &at, sampler.get())?;
+            let output = self.accessor(document, output, kind)?.to_string();
+            new.insert(index, edited(document, &at, set_member(sampler.get(), "output", Some(&output)))?);
+        }
+        let array = edited(document, at, edit_array(array, &new, &[]))?;
+        edited(document, at, set_member(text, "samplers", Some(&array)))
+    }
+
+    fn accessor(&mut self, document: &mut Document, old: usize, kind: Kind) -> Result<usize, Error> {
+        let key = (self.accessors.of(old), kind);
+        if let Some(&made) = self.made.get(&key) {
+            return Ok(made);
+        }
+        let turn = self.turn;
+        let elements = match kind {
+            Kind::Translation => {
+                floats(ElementType::Vec3, document.read_vectors(old)?, |v| turn.vector::<f32>(v))
+            }
+            Kind::Rotation => {
+                floats(ElementType::Vec4, document.read_vectors(old)?, |q| turn.rotation::<f32>(q))
+            }
+            Kind::Scale => floats(ElementType::Vec3, document.read_vectors(old)?, |s| turn.scale::<f32>(s)),
+            Kind::Matrix => floats(ElementType::Mat4, document.read_vectors(old)?, |m| turn.matrix::<f32>(m)),
+        };
+        let (target, like) = (Target::Other, Some(old));
+        let made =
+            document.push_accessor(NewAccessor { elements, target, bounds: false, sparse: false, like });
+        excess::check_output(document)?;
+        self.made.insert(key, made);
+        Ok(made)
+    }
+}
+
+#[derive(Deserialize)]
+struct Animation {
+    #[serde(default)]
+    channels: Vec<Channel>,
+}
+
+#[derive(Deserialize)]
+struct Channel {
+    sampler: usize,
+    target: ChannelTarget,
+}
+
+#[derive(Deserialize)]
+struct ChannelTarget {
+    path: String,
+}
+
+#[derive(Deserialize)]
+struct Sampler {
+    output: usize,
+}
+
+/// Replaces a member that is an array of so many numbers, where the object has it.
+fn edit_numbers<const N: usize>(
+    document: &Document,
+    at: &str,
+    object: &mut String,
+    key: &str,
+    change: impl Fn([f64; N]) -> [f64; N],
+) -> Result<(), Error> {
+    let at = format!("{at}.{key}");
+    let Some(text) = member(object, key).ok().flatten() else { return Ok(()) };
+    let numbers: Vec<f64> = parsed(document, &at, text)?;
+    let numbers: [f64; N] = numbers.try_into().map_err(|numbers: Vec<f64>| {
+        document.invalid(&at, format!("has {} numbers instead of {N}; export the file again", numbers.len()))
+    })?;
+    let new = change(numbers);
+    if new != numbers {
+        let new = serde_json::to_string(new.as_slice());
+        *object = edited(document, &at, new.and_then(|new| set_member(object, key, Some(&new))))?;
+    }
+    Ok(())
+}
+
+/// The value at a path of members.
+fn nested<'a>(object: &'a str, path: &[&str]) -> Option<&'a str> {
+    path.iter().try_fold(object, |object, key| member(object, key).ok()?)
+}
+
+fn set_nested(object: &str, path: &[&str], value: &str) -> serde_json::Result<String> {
+    match path {
+        [] => Ok(value.to_owned()),
+        [key, rest @ ..] => {
+            let inner = set_nested(member(object, key)?.unwrap_or("{}"), rest, value)?;
+            set_member(object, key, Some(&inner))
+        }
+    }
+}
+
+fn parsed<T: DeserializeOwned>(document: &Document, at: &str, text: &str) -> Result<T, Error> {
+    serde_json::from_str(text)
+        .map_err(|error| document.invalid(at, format!("{error}; export the file again")))
+}
+
+fn edited(document: &Document, at: &str, text: serde_json::Result<String>) -> Result<String, Error> {
+    text.map_err(|error| document.invalid(at, format!("cannot be edited: {error}; export the file again")))
+}

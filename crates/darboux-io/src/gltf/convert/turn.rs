@@ -1,0 +1,96 @@
+//! A change of axes as numbers, in double precision for what JSON spells.
+
+use std::ops::{Add, Mul};
+
+use darboux::Convention;
+
+/// Per new axis the old axis and the sign; whether the hand changes.
+#[derive(Clone, Copy, Debug)]
+pub struct Turn {
+    axes: [(usize, f64); 3],
+    changes_hand: bool,
+}
+
+/// `f32` of accessors, `f64` of JSON.
+pub trait Number: Copy + From<f32> + Mul<Output = Self> + Add<Output = Self> {}
+
+impl Number for f32 {}
+impl Number for f64 {}
+
+impl Turn {
+    pub fn new(from: Convention, to: Convention) -> Self {
+        // Where the numbers of the axes go says everything.
+        let axes =
+            from.to(to).vector([1.0, 2.0, 3.0]).map(|axis| (axis.abs() as usize - 1, axis.signum().into()));
+        Self { axes, changes_hand: from.axes.handedness() != to.axes.handedness() }
+    }
+
+    /// A translation.
+    pub fn vector<N: Number>(&self, vector: [N; 3]) -> [N; 3] {
+        self.axes.map(|(axis, sign)| signed(sign, vector[axis]))
+    }
+
+    /// Factors along the axes.
+    pub fn scale<N: Number>(&self, scale: [N; 3]) -> [N; 3] {
+        self.axes.map(|(axis, _)| scale[axis])
+    }
+
+    /// A unit quaternion, w last: its axis is a vector, and turns the other way about it where the hand changes.
+    pub fn rotation<N: Number>(&self, [x, y, z, w]: [N; 4]) -> [N; 4] {
+        let hand = if self.changes_hand { -1.0 } else { 1.0 };
+        let [x, y, z] = self.vector([x, y, z]).map(|component| signed(hand, component));
+        [x, y, z, w]
+    }
+
+    /// A matrix of four columns that maps vectors of old axes to such: C M C^-1.
+    pub fn matrix<N: Number>(&self, matrix: [N; 16]) -> [N; 16] {
+        let whole = |axis: usize| self.axes.get(axis).copied().unwrap_or((3, 1.0));
+        std::array::from_fn(|at| {
+            let ((column, column_sign), (row, row_sign)) = (whole(at / 4), whole(at % 4));
+            signed(column_sign * row_sign, matrix[4 * column + row])
+        })
+    }
+}
+
+/// Exact, and no negative zeros, which read oddly in JSON.
+fn signed<N: Number>(sign: f64, number: N) -> N {
+    N::from(sign as f32) * number + N::from(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Column by column: M v.
+    fn product(m: [f64; 16], v: [f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|row| (0..3).map(|k| m[4 * k + row] * v[k]).sum::<f64>() + m[12 + row])
+    }
+
+    #[test]
+    fn what_is_turned_maps_turned_vectors_to_turned_vectors() {
+        // A quarter turn about z, then a move; as a matrix and as a quaternion.
+        let matrix = [0.0, 1.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 4.0, 5.0, 6.0, 1.0];
+        let (half, point) = (0.5f64.sqrt(), [1.0, 2.0, 3.0]);
+        let rotate = |[x, y, z, w]: [f64; 4], v: [f64; 3]| {
+            let q = [x, y, z];
+            let cross = |a: [f64; 3], b: [f64; 3]| {
+                [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+            };
+            let inner = cross(q, v);
+            let outer = cross(q, [0, 1, 2].map(|i| inner[i] + w * v[i]));
+            [0, 1, 2].map(|i| v[i] + 2.0 * outer[i])
+        };
+        for (name, to) in Convention::PRESETS {
+            let turn = Turn::new(Convention::GLTF, to);
+            let moved = product(turn.matrix(matrix), turn.vector(point));
+            assert_eq!(moved, turn.vector(product(matrix, point)), "{name}");
+            let rotation = [0.0, 0.0, half, half];
+            let rotated = rotate(turn.rotation(rotation), turn.vector(point));
+            let expected = turn.vector(rotate(rotation, point));
+            assert!((0..3).all(|i| (rotated[i] - expected[i]).abs() < 1e-12), "{name}");
+            let scaled = turn.scale([2.0, 3.0, 5.0]);
+            let direct: [f64; 3] = std::array::from_fn(|i| turn.vector(point)[i] * scaled[i]);
+            assert_eq!(direct, turn.vector([2.0, 6.0, 15.0]), "{name}");
+        }
+    }
+}
