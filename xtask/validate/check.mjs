@@ -1,7 +1,7 @@
 // Checks outputs of `darboux tangents` with tools that are not ours: node check.mjs REPORT.json... (its --json reports).
 //
-// For each written file: the Khronos validator finds no kind of error that the input did not have, and glTF-Transform reads
-// the same content from input and output: every corner of every primitive, morph targets included, apart from tangents;
+// For each written file: the Khronos validator finds no kind of error that the input did not have, and no more objects without a
+// use; glTF-Transform reads the same content from input and output: every corner of every primitive, morph targets included, apart from tangents;
 // animations, skins and images; and the JSON apart from where vertex data lies. A file may fail only where the validator
 // finds errors in its input too.
 import { readFileSync } from 'node:fs';
@@ -42,14 +42,16 @@ process.exit(faults.length ? 1 : 0);
 
 async function check(file) {
 	const input = load(file.input);
-	const inputErrors = await errorsOf(input);
+	const { errors: inputErrors, unused: unusedBefore } = await findingsOf(input);
 	if (!file.output) {
 		expect(inputErrors.size, `refused (${file.error}), but the validator finds no error in it`);
 		counts.refused++;
 		return;
 	}
 	const output = load(file.output);
-	for (const error of await errorsOf(output)) expect(inputErrors.has(error), `the output has a new error: ${error}`);
+	const { errors, unused } = await findingsOf(output);
+	for (const error of errors) expect(inputErrors.has(error), `the output has a new error: ${error}`);
+	expect(unused <= unusedBefore, `${unused} objects have no use; in the input ${unusedBefore} had none`);
 	const [before, after] = [await read(input), await read(output)];
 	comparePrimitives(before, after);
 	compareAnimationsAndSkins(before, after);
@@ -89,15 +91,18 @@ function load(path) {
 	return { path, bytes, json, resources };
 }
 
-/** The kinds of errors that the Khronos validator finds, each with the role of the accessor it concerns. */
-async function errorsOf({ path, bytes, json, resources }) {
+/** The kinds of errors that the Khronos validator finds, each with the role of the accessor it concerns, and how many objects nothing uses. */
+async function findingsOf({ path, bytes, json, resources }) {
 	const { issues } = await validator.validateBytes(bytes, {
 		uri: basename(path),
 		maxIssues: 0,
 		externalResourceFunction: async (uri) => resources[uri] ?? Promise.reject(new Error('missing')),
 	});
 	const errors = issues.messages.filter((message) => message.severity === 0);
-	return new Set(errors.map(({ code, pointer }) => `${code} at ${role(json, pointer ?? '')}`));
+	return {
+		errors: new Set(errors.map(({ code, pointer }) => `${code} at ${role(json, pointer ?? '')}`)),
+		unused: issues.messages.filter(({ code }) => code === 'UNUSED_OBJECT').length,
+	};
 }
 
 /** A JSON pointer; for accessors, which may move, the attributes that they are. */
@@ -207,6 +212,10 @@ function withoutPlaces(json) {
 	for (const key of ['extensionsUsed', 'extensionsRequired']) {
 		json[key] = json[key]?.filter((name) => !COMPRESSION.includes(name));
 		if (!json[key]?.length) delete json[key];
+	}
+	for (const skin of json.skins ?? []) delete skin.inverseBindMatrices;
+	for (const sampler of (json.animations ?? []).flatMap((animation) => animation.samplers ?? [])) {
+		for (const key of ['input', 'output']) delete sampler[key];
 	}
 	for (const image of json.images ?? []) for (const key of ['uri', 'bufferView', 'mimeType']) delete image[key];
 	for (const primitive of (json.meshes ?? []).flatMap((mesh) => mesh.primitives)) {
