@@ -85,7 +85,7 @@ pub unsafe extern "C" fn darboux_generate_normals(
             (mesh, self::options(options)?, Receiver::optional(report)?, out)
         };
         let made = generate_normals(mesh.positions(), mesh.indices(), mesh.faces(), &options)?;
-        out.write(made.corners);
+        out.copy(&made.corners);
         if let Some(report) = report {
             report.put(made.report.into());
         }

@@ -59,7 +59,7 @@ pub unsafe extern "C" fn darboux_plan_base(
             let out = Output::expecting(corners, "tangents", tangents.cast(), tangent_count, tangent_stride)?;
             (base, Receiver::optional(report)?, out)
         };
-        out.write(base.corners.per_corner().iter().copied());
+        out.copy(base.corners.per_corner());
         if let Some(report) = report {
             report.put(base.report.into());
         }
@@ -87,7 +87,7 @@ pub unsafe extern "C" fn darboux_plan_evaluate(
             let out = Output::expecting(corners, "tangents", tangents.cast(), tangent_count, tangent_stride)?;
             (held("plan", plan)?, mesh, out)
         };
-        out.write(plan.plan.evaluate(&mesh)?.into_per_corner());
+        out.copy(plan.plan.evaluate(&mesh)?.per_corner());
         Ok(())
     })
 }
@@ -105,7 +105,7 @@ pub unsafe extern "C" fn darboux_plan_count_regrouped(
         // SAFETY: every pointer is as the documentation above says.
         let (plan, mesh, out) =
             unsafe { (held("plan", plan)?, mesh::view(mesh)?, Output::new("count", count.cast(), 1, 0)?) };
-        out.write([plan.plan.count_regrouped(&mesh)?]);
+        out.copy(&[plan.plan.count_regrouped(&mesh)?]);
         Ok(())
     })
 }

@@ -202,6 +202,16 @@ impl<T: Copy> Output<T> {
         unsafe { Self::new(what, data, count, stride) }
     }
 
+    /// Writes the elements in order, as many as there is room for; without gaps in one go.
+    pub fn copy(self, values: &[T]) {
+        if self.stride != size_of::<T>() {
+            return self.write(values.iter().copied());
+        }
+        let size = size_of_val(&values[..self.count.min(values.len())]);
+        // SAFETY: within the array, and what is copied is the library's own.
+        unsafe { self.data.copy_from_nonoverlapping(values.as_ptr().cast(), size) }
+    }
+
     /// Writes the elements in order, as many as there is room for.
     pub fn write(self, values: impl IntoIterator<Item = T>) {
         for (at, value) in (0..self.count).zip(values) {

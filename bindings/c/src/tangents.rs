@@ -155,7 +155,7 @@ pub unsafe extern "C" fn darboux_generate_tangents(
         // Out of the caller's hands, so that a defect cannot leave it half-written.
         let mut memory = std::mem::take(kept);
         generate_tangents_into(&mesh, &options, &mut memory.scratch, &mut memory.tangents);
-        out.write(memory.tangents.corners.per_corner().iter().copied());
+        out.copy(memory.tangents.corners.per_corner());
         if let Some(report) = report {
             report.put(memory.tangents.report.into());
         }
