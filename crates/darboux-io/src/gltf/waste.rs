@@ -17,8 +17,16 @@ pub struct Waste {
     accessors: BTreeSet<usize>,
     views: BTreeSet<usize>,
     buffers: BTreeSet<usize>,
-    /// Unused ranges of each buffer, ascending; their lengths are multiples of [`GRAIN`].
-    holes: Vec<Vec<Range<usize>>>,
+    /// Of each buffer, ascending.
+    holes: Vec<Vec<Hole>>,
+}
+
+/// An unused range of a buffer, a multiple of [`GRAIN`] long.
+#[derive(Clone, Debug)]
+struct Hole {
+    range: Range<usize>,
+    /// The length of all holes up to the end of this one.
+    total: usize,
 }
 
 /// Bytes move by multiples of this, so that what was aligned stays so.
@@ -73,7 +81,7 @@ impl Waste {
         if self.has_buffer(buffer) {
             return Vec::new();
         }
-        let holes = self.holes.get(buffer).into_iter().flatten();
+        let holes = self.holes.get(buffer).into_iter().flatten().map(|hole| &hole.range);
         let ends = holes.clone().map(|hole| hole.start).chain([bytes.len()]);
         let starts = [0].into_iter().chain(holes.map(|hole| hole.end));
         starts.zip(ends).map(|(start, end)| &bytes[start..end]).filter(|part| !part.is_empty()).collect()
@@ -81,8 +89,9 @@ impl Waste {
 
     /// Where a byte of a buffer is without the holes before it.
     pub fn moved(&self, buffer: usize, offset: usize) -> usize {
-        let holes = self.holes.get(buffer).into_iter().flatten();
-        offset - holes.take_while(|hole| hole.end <= offset).map(Range::len).sum::<usize>()
+        let holes = self.holes.get(buffer).map_or(&[][..], Vec::as_slice);
+        let before = holes.partition_point(|hole| hole.range.end <= offset);
+        offset - before.checked_sub(1).map_or(0, |last| holes[last].total)
     }
 
     /// The root object without what goes, with the numbers of what stays.
@@ -104,12 +113,14 @@ impl Waste {
 
     fn renumbered(&self, root: &str, mut references: Vec<Reference>) -> String {
         references.sort_by_key(|reference| reference.range.start);
+        let [accessors, views] =
+            [&self.accessors, &self.views].map(|dead| Vec::from_iter(dead.iter().copied()));
         let mut out = String::with_capacity(root.len());
         let mut copied = 0;
         for Reference { kind, number, range } in references {
-            let dead = if kind == Kind::Accessor { &self.accessors } else { &self.views };
+            let dead = if kind == Kind::Accessor { &accessors } else { &views };
             out.push_str(&root[copied..range.start]);
-            out.push_str(&(number - dead.range(..number).count()).to_string());
+            out.push_str(&(number - dead.partition_point(|&dead| dead < number)).to_string());
             copied = range.end;
         }
         out.push_str(&root[copied..]);
@@ -122,7 +133,8 @@ impl Document {
     pub(super) fn waste_warning(&mut self) -> Option<String> {
         let extension = unknown_extension(self.text()).filter(|_| !self.edits.is_waste_told)?;
         let waste = Waste::find(self).ok().flatten()?;
-        let is_there = !waste.accessors.is_empty() || !waste.views.is_empty();
+        let has_holes = (0..waste.holes.len()).any(|buffer| waste.has_holes(buffer));
+        let is_there = has_holes || !waste.accessors.is_empty();
         self.edits.is_waste_told = is_there;
         is_there.then(|| {
             format!(
@@ -212,9 +224,9 @@ fn uses(document: &Document, stored: &[BufferView], dead: &BTreeSet<usize>) -> V
 
 impl Uses {
     /// What the dead ranges cover and the live ones do not, below `length`, in whole grains.
-    fn holes(self, length: usize) -> Vec<Range<usize>> {
+    fn holes(self, length: usize) -> Vec<Hole> {
         let live = merged(self.live);
-        let mut holes: Vec<Range<usize>> = Vec::new();
+        let (mut holes, mut total) = (Vec::new(), 0);
         for dead in merged(self.dead) {
             let first = live.partition_point(|live| live.end <= dead.start);
             let within = live[first..].iter().take_while(|live| live.start < dead.end);
@@ -222,7 +234,8 @@ impl Uses {
             let ends = within.map(|live| live.start).chain([dead.end]);
             for (start, end) in starts.zip(ends) {
                 let whole = end.min(length).saturating_sub(start) / GRAIN * GRAIN;
-                holes.extend((whole > 0).then(|| start..start + whole));
+                total += whole;
+                holes.extend((whole > 0).then_some(Hole { range: start..start + whole, total }));
             }
         }
         holes
