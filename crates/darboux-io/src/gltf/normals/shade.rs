@@ -145,21 +145,50 @@ fn shade_mesh(reader: &mut Reader<'_>, parts: &mut [Part], options: &NormalOptio
     for part in parts.iter() {
         reader.at_corners(part, part.position, &mut positions)?;
     }
-    let vertex_of_corner = match options.seams {
-        SmoothingSeams::Ignored => numbered(positions.iter().map(|position| bits(*position))),
-        SmoothingSeams::Respected => numbered(
-            parts.iter().flat_map(|part| part.corners.iter().map(move |&corner| (part.position, corner))),
-        ),
-    };
+    let vertex_of_corner = welded(parts, &positions, options.seams);
     let (normals, report) = normals(reader.document, parts, &positions, &vertex_of_corner, options)?;
-    let fans = normals.iter().zip(&vertex_of_corner).map(|(normal, vertex)| (*vertex, bits(*normal)));
-    let fan_of_corner = numbered(fans);
     let mut rest = normals.as_slice();
     for part in parts.iter_mut() {
         let (own, others) = rest.split_at(part.corners.len());
         (part.normals, part.report, rest) = (own.to_vec(), report, others);
     }
-    move_mesh(reader, parts, &positions, &fan_of_corner, options)
+    if parts.iter().all(|part| part.moves.is_empty()) {
+        return Ok(());
+    }
+    let fans = normals.iter().zip(&vertex_of_corner).map(|(normal, vertex)| (*vertex, bits(*normal)));
+    move_mesh(reader, parts, &positions, &numbered(fans), options)
+}
+
+/// The vertex of every corner, counted from zero: one for all at a position, or one for each of the index lists.
+fn welded(parts: &[Part], positions: &[[f32; 3]], seams: SmoothingSeams) -> Vec<u32> {
+    let mut welded = Vec::with_capacity(positions.len());
+    // Each vertex of an accessor is looked up once, however many corners it has.
+    let mut known: HashMap<usize, Vec<Option<u32>>> = HashMap::new();
+    let mut at_position = HashMap::new();
+    let mut count = 0;
+    for part in parts {
+        let known = known.entry(part.position).or_default();
+        for &vertex in &part.corners {
+            let vertex = vertex as usize;
+            if known.len() <= vertex {
+                known.resize(vertex + 1, None);
+            }
+            let number = *known[vertex].get_or_insert_with(|| match seams {
+                SmoothingSeams::Ignored => {
+                    *at_position.entry(bits(positions[welded.len()])).or_insert_with(|| next(&mut count))
+                }
+                SmoothingSeams::Respected => next(&mut count),
+            });
+            welded.push(number);
+        }
+    }
+    welded
+}
+
+/// The number, and one more from then on.
+fn next(count: &mut u32) -> u32 {
+    *count += 1;
+    *count - 1
 }
 
 /// Evaluates every morph target in the fans of the mesh at rest.
