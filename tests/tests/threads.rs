@@ -2,7 +2,7 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use darboux::{Mesh, Mode, Scratch, TangentOptions, Tangents, generate_tangents_into};
+use darboux::{Indices, Mesh, Mode, Scratch, TangentOptions, Tangents, generate_tangents_into};
 
 /// A wavy grid of `n` by `n` quads whose UVs are mirrored from one half to the other: vertices, and triangles in order.
 fn grid(n: u32) -> (Vec<[f32; 8]>, Vec<[u32; 3]>) {
@@ -21,15 +21,17 @@ fn grid(n: u32) -> (Vec<[f32; 8]>, Vec<[u32; 3]>) {
     (vertices, (0..n).flat_map(|j| (0..n).flat_map(move |i| quad(i, j))).collect())
 }
 
-/// Hashes of the tangents and reports of a mesh, indexed and unindexed, in all modes.
+/// Hashes of the tangents and reports of a mesh, indexed, with a vertex per corner, and unindexed, in all modes.
 fn hash(vertices: &[[f32; 8]], triangles: &[[u32; 3]]) -> u64 {
     let mut hasher = DefaultHasher::new();
     let mut scratch = Scratch::new();
     let mut tangents = Tangents::default();
     let soup: Vec<[f32; 8]> =
         triangles.as_flattened().iter().map(|&vertex| vertices[vertex as usize]).collect();
-    let indices: Vec<u32> = (0..soup.len() as u32).collect();
-    for (vertices, indices) in [(vertices, triangles.as_flattened()), (&soup, &indices)] {
+    let own: Vec<u32> = (0..soup.len() as u32).collect();
+    let indexed = Indices::U32(triangles.as_flattened());
+    for (vertices, indices) in [(vertices, indexed), (&soup, Indices::U32(&own)), (&soup, Indices::Unindexed)]
+    {
         let positions: Vec<[f32; 3]> = vertices.iter().map(|v| [v[0], v[1], v[2]]).collect();
         let normals: Vec<[f32; 3]> = vertices.iter().map(|v| [v[3], v[4], v[5]]).collect();
         let uvs: Vec<[f32; 2]> = vertices.iter().map(|v| [v[6], v[7]]).collect();

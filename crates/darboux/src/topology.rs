@@ -56,13 +56,10 @@ pub(crate) fn neighbours(triangles: &Triangles, order: EdgeOrder) -> Vec<[u32; 3
 
 /// True when another order of the last run could change which edges are matched: it holds an edge twice, and something else.
 ///
-/// `uppers`: the upper vertices of its edges.
-pub(crate) fn order_shows(uppers: impl Iterator<Item = u32>) -> bool {
-    let mut uppers: Vec<u32> = uppers.collect();
-    let count = uppers.len();
-    uppers.sort_unstable();
-    uppers.dedup();
-    count > 2 && uppers.len() < count
+/// `uppers`: the upper vertices of its edges, ascending.
+pub(crate) fn order_shows(uppers: impl Iterator<Item = u32> + Clone) -> bool {
+    let has_equals = uppers.clone().zip(uppers.clone().skip(1)).any(|(a, b)| a == b);
+    has_equals && uppers.count() > 2
 }
 
 /// Matches the half-edges of each stretch anew, as numbers `3 t + k`, with each other only.

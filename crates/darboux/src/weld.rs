@@ -29,12 +29,10 @@ pub(crate) fn weld(mesh: &Mesh<'_>, corners: &[u32]) -> Vec<u32> {
     if corners.is_empty() {
         return vertex_of_entry;
     }
-    let (mut points, cell_ends) = points_by_cell(mesh, corners);
+    let mut by_cell = points_by_cell(mesh, corners);
     let mut welder = Welder { mesh, corners, vertex_of_entry: &mut vertex_of_entry };
-    let mut start = 0;
-    for end in cell_ends {
-        for_each_final_range(&mut points[start..end], &|_| true, &mut |points| welder.weld_all(points));
-        start = end;
+    for points in by_cell.each() {
+        for_each_final_range(points, &|_| true, &mut |points| welder.weld_all(points));
     }
     vertex_of_entry
 }
@@ -46,14 +44,16 @@ pub(crate) struct Point {
     pub entry: u32,
 }
 
-/// All corners sorted into cells along the longest axis, in list order within a cell, and the end of each cell.
-fn points_by_cell(mesh: &Mesh<'_>, corners: &[u32]) -> (Vec<Point>, Vec<usize>) {
+/// All corners sorted into cells along the longest axis, in list order within a cell.
+fn points_by_cell(mesh: &Mesh<'_>, corners: &[u32]) -> ByCell {
     let position = |corner: u32| mesh.positions().get(mesh.vertex_of_corner(corner as usize));
     // The reference seeds the box with its corner id 0, whether or not that is in the list, and leaves out the list's first.
     let cells = Cells::of(&Bounds::of(position(0), corners[1..].iter().map(|&corner| position(corner))));
     let point = |(entry, &corner)| Point { position: position(corner), entry };
     let points: Vec<Point> = (0..).zip(corners).map(point).collect();
-    cells.sort(&points)
+    let mut by_cell = ByCell::default();
+    by_cell.sort(&cells, &points);
+    by_cell
 }
 
 /// The cells along the longest axis of a box.
@@ -70,34 +70,54 @@ impl Cells {
         Self { axis, low: bounds.min[axis], extent: bounds.max[axis] - bounds.min[axis] }
     }
 
-    /// Points sorted into cells, in their order within a cell, and the end of each cell.
-    pub fn sort(&self, points: &[Point]) -> (Vec<Point>, Vec<usize>) {
-        let cells: Vec<u16> = points.iter().map(|point| self.at(point.position) as u16).collect();
-        let mut ends = vec![0; CELLS];
-        for &cell in &cells {
-            ends[usize::from(cell)] += 1;
-        }
-        let mut next = Vec::with_capacity(CELLS);
-        let mut sum = 0;
-        for end in &mut ends {
-            next.push(sum);
-            sum += *end;
-            *end = sum;
-        }
-        let mut sorted = vec![Point::default(); points.len()];
-        for (&point, &cell) in points.iter().zip(&cells) {
-            let slot = &mut next[usize::from(cell)];
-            sorted[*slot] = point;
-            *slot += 1;
-        }
-        (sorted, ends)
-    }
-
     /// The cell of a position. A quotient that is NaN or beyond 32 bits goes to cell 0, as the reference's cast does on x86-64.
     #[inline]
     pub fn at(&self, position: V3) -> usize {
         let place = CELLS as f32 * ((position[self.axis] - self.low) / self.extent);
         if (0.0..2_147_483_648.0).contains(&place) { (place as usize).min(CELLS - 1) } else { 0 }
+    }
+}
+
+/// Points sorted into cells, in their order within a cell.
+#[derive(Debug, Default)]
+pub(crate) struct ByCell {
+    pub points: Vec<Point>,
+    /// Where each cell ends.
+    pub ends: Vec<u32>,
+    cells: Vec<u16>,
+}
+
+impl ByCell {
+    /// Sorts points anew.
+    pub fn sort(&mut self, cells: &Cells, points: &[Point]) {
+        self.cells.clear();
+        self.cells.extend(points.iter().map(|point| cells.at(point.position) as u16));
+        // Each cell's entry is the end of the one before, which grows to be its own.
+        self.ends.clear();
+        self.ends.resize(CELLS + 1, 0);
+        for &cell in &self.cells {
+            self.ends[usize::from(cell) + 1] += 1;
+        }
+        for cell in 0..CELLS {
+            self.ends[cell + 1] += self.ends[cell];
+        }
+        self.points.resize(points.len(), Point::default());
+        for (&point, &cell) in points.iter().zip(&self.cells) {
+            let next = &mut self.ends[usize::from(cell)];
+            self.points[*next as usize] = point;
+            *next += 1;
+        }
+        self.ends.truncate(CELLS);
+    }
+
+    /// The points of each cell.
+    pub fn each(&mut self) -> impl Iterator<Item = &mut [Point]> {
+        let (mut rest, mut start) = (&mut self.points[..], 0);
+        self.ends.iter().map(move |&end| {
+            let (cell, later) = std::mem::take(&mut rest).split_at_mut((end - start) as usize);
+            (rest, start) = (later, end);
+            cell
+        })
     }
 }
 

@@ -26,7 +26,7 @@ use crate::weld::Bounds;
 use crate::{Faces, Mesh};
 
 use super::Mode;
-use last_run::{LastRun, TailCells};
+use last_run::{LastRun, Lists, TailCells};
 use names::Names;
 use source::{Identity, triangles};
 use steps::{Extent, Special};
@@ -46,9 +46,11 @@ const WINDOW: usize = if cfg!(small_limits) { 2 } else { 1024 };
 pub(crate) struct Fans {
     weld: Weld,
     windows: Vec<Window>,
+    shares: Vec<Share>,
     workers: Vec<Worker>,
     /// Triangles and corners that need another look.
     special: Special,
+    lists: Lists,
     names: Names,
     /// The last edges in the reference's stretches, as the corners where they start, where their order shows.
     last_stretches: Vec<Vec<u32>>,
@@ -134,7 +136,9 @@ impl Fans {
     /// Gives each thread its share of the windows, or, where shares would overlap too much, all threads all of them.
     fn add_and_write(&mut self, mesh: &Mesh<'_>, tail: &TailCells, width: Width, out: &mut [[[f32; 4]; 3]]) {
         self.special.clear();
-        let shares = shares(&self.windows, self.weld.count, self.workers.len());
+        self.shares.clear();
+        self.shares.extend(shares(&self.windows, self.weld.count, self.workers.len()));
+        let shares = &self.shares;
         let stream = Stream { mesh, identity: self.weld.identity(), windows: &self.windows, tail, width };
         let added: usize = shares.iter().map(|share| share.until - share.windows.start).sum();
         if self.workers.len() > 1 && added > self.windows.len() * 5 / 4 {
@@ -143,7 +147,7 @@ impl Fans {
             let ranges = shares.iter().map(|share| triangles_of(share.windows.clone(), mesh));
             let jobs = shares.iter().zip(parts(&mut *out, 0, ranges));
             workers::run(&mut self.workers, jobs, |worker, (share, out)| stream.run(share, worker, out));
-            write_pending(mesh, &shares, &mut self.workers, self.weld.identity(), out);
+            write_pending(mesh, shares, &mut self.workers, self.weld.identity(), out);
         }
         self.workers.iter_mut().for_each(|worker| self.special.take(&mut worker.special));
         self.special.sort();
@@ -156,11 +160,10 @@ impl Fans {
         let bounds = if all_used { self.weld.bounds } else { bounds_of_used(mesh) };
         let run = LastRun { mesh, identity: self.weld.identity(), bounds: &bounds };
         let last = if all_used {
-            run.find(tail, &self.special.in_tail)
+            run.find(tail, Some(&self.special.in_tail), &mut self.lists)
         } else {
             let tail = TailCells::first(mesh, &bounds, self.is_shuffled());
-            let points = run.points(&tail);
-            run.find(tail, &points)
+            run.find(tail, None, &mut self.lists)
         };
         if let Some(last) = last {
             let (names, suspects) = (&mut self.names, &self.special.undecided);
@@ -172,7 +175,7 @@ impl Fans {
     /// The welded vertex at each corner of some triangles, named by the first corner of these.
     pub fn names(&self, mesh: &Mesh<'_>, list: &[u32]) -> Vec<u32> {
         let identity = self.weld.identity();
-        let of = |&at: &u32| triangles(mesh, identity, at as usize..at as usize + 1, &mut Vec::new())[0];
+        let of = |&at: &u32| (3 * at..3 * at + 3).map(move |corner| identity.vertex(mesh, corner));
         let mut corners: Vec<(u32, u32)> = list.iter().flat_map(of).zip(0..).collect();
         let mut names = vec![0; corners.len()];
         corners.sort_unstable();

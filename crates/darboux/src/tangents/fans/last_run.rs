@@ -1,13 +1,13 @@
 //! Whether the order of the reference's last edges could show.
 //!
 //! The reference leaves the edges with the largest lower vertex in the order of an unstable sort. What that sort does shows when
-//! those edges are more than two and some of them are one edge; then it is done (see `crate::last_edges`). Which edges they are depends on the vertices' names, the
-//! corners that represent them (see `crate::weld`). Names near the end of the triangle list decide, and those are names of
-//! vertices that the last triangles use: only the cells of these are put into the reference's order.
+//! those edges are more than two and some of them are one edge; then it is done (see `crate::last_edges`). Which edges they are
+//! depends on the vertices' names, the corners that represent them (see `crate::weld`). Names near the end of the triangle list
+//! decide, and those are names of vertices that the last triangles use: only the cells of these are put into the reference's order.
 
 use crate::Mesh;
 use crate::topology::order_shows;
-use crate::weld::{Bounds, CELLS, Cells, Point, for_each_final_range};
+use crate::weld::{Bounds, ByCell, CELLS, Cells, Point, for_each_final_range};
 
 use super::source::{Identity, triangles};
 use super::windows_of;
@@ -22,7 +22,7 @@ const FIRST_TAIL_SHUFFLED: usize = 8 * FIRST_TAIL;
 pub(super) struct TailCells {
     start: usize,
     cells: Cells,
-    wanted: Box<[bool; CELLS]>,
+    wanted: [bool; CELLS],
     low: f32,
     high: f32,
 }
@@ -31,13 +31,8 @@ impl TailCells {
     /// Of the triangles from `start` on; `bounds` are those of all vertices in use.
     fn new(mesh: &Mesh<'_>, bounds: &Bounds, start: usize) -> Self {
         let cells = Cells::of(bounds);
-        let mut tail = Self {
-            start,
-            cells,
-            wanted: Box::new([false; CELLS]),
-            low: f32::INFINITY,
-            high: f32::NEG_INFINITY,
-        };
+        let mut tail =
+            Self { start, cells, wanted: [false; CELLS], low: f32::INFINITY, high: f32::NEG_INFINITY };
         for corner in 3 * start..mesh.corner_count() {
             let position = mesh.positions().get(mesh.vertex_of_corner(corner));
             tail.wanted[cells.at(position)] = true;
@@ -74,6 +69,7 @@ impl TailCells {
 }
 
 /// An edge's vertices and their names, the lower first.
+#[derive(Clone, Copy, Debug)]
 struct Edge {
     names: [u32; 2],
     ends: [u32; 2],
@@ -89,6 +85,38 @@ pub(super) struct LastEdges {
     pub vertices: Vec<u32>,
 }
 
+impl LastEdges {
+    /// Of edges, those with the largest lower name among them.
+    fn of(edges: &mut Vec<Edge>) -> Option<Self> {
+        let name = edges.iter().map(|edge| edge.names[0]).max()?;
+        edges.retain(|edge| edge.names[0] == name);
+        edges.sort_unstable_by_key(|edge| edge.names[1]);
+        if !order_shows(edges.iter().map(|edge| edge.names[1])) {
+            return None;
+        }
+        let mut vertices: Vec<u32> = edges.iter().flat_map(|edge| edge.ends).collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        Some(Self { name, count: edges.len(), vertices })
+    }
+}
+
+fn sorted<T: PartialOrd>(a: T, b: T) -> (T, T) {
+    if b < a { (b, a) } else { (a, b) }
+}
+
+/// What is listed on the way; the memory is kept from mesh to mesh.
+#[derive(Debug, Default)]
+pub(super) struct Lists {
+    points: Vec<Point>,
+    by_cell: ByCell,
+    /// Corners of vertices that are named after a corner of the tail, each with that name.
+    named: Vec<(u32, u32)>,
+    /// Corners of one range, by vertex.
+    of_range: Vec<(u32, u32)>,
+    edges: Vec<Edge>,
+}
+
 /// A welded mesh.
 #[derive(Clone, Copy)]
 pub(super) struct LastRun<'a> {
@@ -98,37 +126,39 @@ pub(super) struct LastRun<'a> {
 }
 
 impl LastRun<'_> {
-    /// The name of the last edges' lower vertex, where their order could show, and the vertices at their ends. `points` are the
-    /// corners of `cells`' vertices, ascending.
-    pub fn find(&self, mut cells: TailCells, points: &[Point]) -> Option<LastEdges> {
-        let mut edges = self.edges_in_tail(&cells, points);
-        while edges.is_empty() && cells.start > 0 {
+    /// The last edges, where their order shows. `points` are the corners of `cells`' vertices, ascending, or none if they have to be
+    /// looked for.
+    pub fn find(
+        &self,
+        mut cells: TailCells,
+        points: Option<&[Point]>,
+        lists: &mut Lists,
+    ) -> Option<LastEdges> {
+        match points {
+            Some(points) => lists.by_cell.sort(&cells.cells, points),
+            None => self.sort_points(&cells, lists),
+        }
+        self.list_edges(&cells, lists);
+        while lists.edges.is_empty() && cells.start > 0 {
             let tail = 4 * (self.mesh.face_count() - cells.start);
             cells = TailCells::new(self.mesh, self.bounds, self.mesh.face_count().saturating_sub(tail));
-            edges = self.edges_in_tail(&cells, &self.points(&cells));
+            self.sort_points(&cells, lists);
+            self.list_edges(&cells, lists);
         }
-        let name = edges.iter().map(|edge| edge.names[0]).max()?;
-        edges.retain(|edge| edge.names[0] == name);
-        if !order_shows(edges.iter().map(|edge| edge.names[1])) {
-            return None;
-        }
-        let mut vertices: Vec<u32> = edges.iter().flat_map(|edge| edge.ends).collect();
-        vertices.sort_unstable();
-        vertices.dedup();
-        Some(LastEdges { name, count: edges.len(), vertices })
+        LastEdges::of(&mut lists.edges)
     }
 
-    /// The edges with the largest lower vertex are among these, if it is named after a corner of the tail.
-    fn edges_in_tail(&self, cells: &TailCells, points: &[Point]) -> Vec<Edge> {
-        self.highest_edges(&self.corners_of_named(cells, points))
+    /// Lists edges, among them those with the largest lower vertex, if it is named after a corner of the tail.
+    fn list_edges(&self, cells: &TailCells, lists: &mut Lists) {
+        self.list_named(cells, lists);
+        lists.edges.clear();
+        let triangles = lists.named.chunk_by(|a, b| a.0 / 3 == b.0 / 3);
+        lists.edges.extend(triangles.filter_map(|corners| self.highest_edge(corners)));
     }
 
-    fn triangle(&self, triangle: usize) -> [u32; 3] {
-        triangles(self.mesh, self.identity, triangle..triangle + 1, &mut Vec::new())[0]
-    }
-
-    fn vertex(&self, entry: u32) -> u32 {
-        self.triangle(entry as usize / 3)[entry as usize % 3]
+    /// The welded vertex at a corner.
+    fn vertex(&self, corner: u32) -> u32 {
+        self.identity.vertex(self.mesh, corner)
     }
 
     /// The position of a welded vertex.
@@ -136,60 +166,63 @@ impl LastRun<'_> {
         self.identity.position(self.mesh, vertex)
     }
 
-    /// The corners of all vertices in the cells, ascending.
-    pub fn points(&self, cells: &TailCells) -> Vec<Point> {
-        let (mut points, mut buffer) = (Vec::new(), Vec::new());
+    /// Sorts the corners of all vertices in the cells.
+    fn sort_points(&self, cells: &TailCells, lists: &mut Lists) {
+        let mut buffer = Vec::new();
+        lists.points.clear();
         for range in windows_of(self.mesh.face_count()) {
             let first = 3 * range.start as u32;
             let triangles = triangles(self.mesh, self.identity, range, &mut buffer);
             for (entry, &vertex) in (first..).zip(triangles.as_flattened()) {
                 let position = self.position(vertex);
                 if cells.hold(position) {
-                    points.push(Point { position, entry });
+                    lists.points.push(Point { position, entry });
                 }
             }
         }
-        points
+        lists.by_cell.sort(&cells.cells, &lists.points);
     }
 
-    /// The corners of all vertices that are named after a corner of the tail, each with that name, ascending.
-    fn corners_of_named(&self, cells: &TailCells, points: &[Point]) -> Vec<(u32, u32)> {
-        let (mut points, ends) = cells.cells.sort(points);
+    /// Lists the corners of all vertices that are named after a corner of the tail, ascending.
+    fn list_named(&self, cells: &TailCells, lists: &mut Lists) {
+        let Lists { by_cell, named, of_range, .. } = lists;
         let in_tail = |entry: u32| entry as usize >= 3 * cells.start;
         let is_wanted = |points: &[Point]| points.iter().any(|point| in_tail(point.entry));
-        let mut found = Vec::new();
-        let mut start = 0;
-        for end in ends {
-            for_each_final_range(&mut points[start..end], &is_wanted, &mut |points| {
-                let mut corners: Vec<(u32, u32)> =
-                    points.iter().map(|point| (self.vertex(point.entry), point.entry)).collect();
-                // Stable: the first corner of each vertex remains its name.
-                corners.sort_by_key(|corner| corner.0);
-                for same in corners.chunk_by(|a, b| a.0 == b.0).filter(|same| in_tail(same[0].1)) {
-                    found.extend(same.iter().map(|&(_, corner)| (corner, same[0].1)));
+        named.clear();
+        for points in by_cell.each() {
+            for_each_final_range(points, &is_wanted, &mut |points| {
+                let place = |(at, point): (u32, &Point)| (self.vertex(point.entry), at);
+                of_range.clear();
+                of_range.extend((0..).zip(points).map(place));
+                // By vertex, in the range's order: the first corner of each vertex is its name.
+                of_range.sort_unstable();
+                for same in of_range.chunk_by(|a, b| a.0 == b.0) {
+                    let name = points[same[0].1 as usize].entry;
+                    if in_tail(name) {
+                        named.extend(same.iter().map(|&(_, at)| (points[at as usize].entry, name)));
+                    }
                 }
             });
-            start = end;
         }
-        found.sort_unstable();
-        found
+        named.sort_unstable();
     }
 
-    /// The edge between the two higher vertices of all triangles where `corners` has both.
-    fn highest_edges(&self, corners: &[(u32, u32)]) -> Vec<Edge> {
-        let triangles = corners.chunk_by(|a, b| a.0 / 3 == b.0 / 3);
-        let edge = |corners: &[(u32, u32)]| {
-            let mut named: Vec<(u32, u32)> =
-                corners.iter().map(|&(corner, name)| (name, self.vertex(corner))).collect();
-            named.sort_unstable();
-            match named[..] {
-                [.., lower, upper] if !self.is_degenerate(self.triangle(corners[0].0 as usize / 3)) => {
-                    Some(Edge { names: [lower.0, upper.0], ends: [lower.1, upper.1] })
-                }
-                _ => None,
+    /// The edge between the two higher vertices of a triangle, if two of its corners are named.
+    fn highest_edge(&self, corners: &[(u32, u32)]) -> Option<Edge> {
+        let named = |&(corner, name): &(u32, u32)| (name, self.vertex(corner));
+        let (lower, upper) = match corners {
+            [a, b] => sorted(named(a), named(b)),
+            [a, b, c] => {
+                let (low, high) = sorted(named(a), named(b));
+                let c = named(c);
+                if c < low { (low, high) } else { sorted(c, high) }
             }
+            _ => return None,
         };
-        triangles.filter_map(edge).collect()
+        let first = 3 * (corners[0].0 / 3);
+        let triangle = [first, first + 1, first + 2].map(|corner| self.vertex(corner));
+        let edge = Edge { names: [lower.0, upper.0], ends: [lower.1, upper.1] };
+        (!self.is_degenerate(triangle)).then_some(edge)
     }
 
     /// True for triangles of which the reference makes no edges.

@@ -87,6 +87,15 @@ pub(super) enum Identity<'a> {
 }
 
 impl Identity<'_> {
+    /// The welded vertex at a corner.
+    pub fn vertex(&self, mesh: &Mesh<'_>, corner: u32) -> u32 {
+        match self {
+            Self::OfCorner(list, _) => list[corner as usize],
+            Self::Own => mesh.vertex_of_corner(corner as usize) as u32,
+            Self::OfVertex(of) => of[mesh.vertex_of_corner(corner as usize)],
+        }
+    }
+
     /// The position of a welded vertex.
     pub fn position(&self, mesh: &Mesh<'_>, vertex: u32) -> [f32; 3] {
         match self {

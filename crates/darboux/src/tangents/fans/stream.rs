@@ -23,19 +23,19 @@ pub(super) struct Share {
 }
 
 /// The shares of `count` threads, whose windows are as many.
-pub(super) fn shares(windows: &[Window], vertices: usize, count: usize) -> Vec<Share> {
-    let met_before = |window: usize| match window {
+pub(super) fn shares(windows: &[Window], vertices: usize, count: usize) -> impl Iterator<Item = Share> {
+    let met_before = move |window: usize| match window {
         0 => 0,
         _ if window == windows.len() => vertices,
         _ => windows[window - 1].end_up_to_here as usize,
     };
-    let share = |at: usize| {
+    let share = move |at: usize| {
         let (start, end) = (windows.len() * at / count, windows.len() * (at + 1) / count);
         let own = met_before(start)..met_before(end);
         let later = windows[end..].iter().take_while(|window| (window.lowest_from_here as usize) < own.end);
         Share { windows: start..end, until: end + later.count(), vertices: own }
     };
-    (0..count).map(share).collect()
+    (0..count).map(share)
 }
 
 /// What all shares have in common.

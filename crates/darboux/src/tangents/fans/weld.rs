@@ -71,29 +71,24 @@ impl Weld {
         self.seen.clear(self.count);
         self.again.clear(self.count);
         self.hashes.resize(self.count, 0);
-        let count = workers.len();
-        let ranges = split(0..self.count, count, 1);
-        let mut spans = vec![Span::default(); count];
-        let jobs = ranges.clone().zip(parts(&mut self.hashes, 0, ranges)).zip(&mut spans);
-        workers::run(workers, jobs, |worker, ((range, hashes), span)| {
+        let ranges = split(0..self.count, workers.len(), 1);
+        let jobs = ranges.clone().zip(parts(&mut self.hashes, 0, ranges));
+        workers::run(workers, jobs, |worker, (range, hashes)| {
+            worker.span = Span::default();
             for (first, hashes) in range.step_by(WINDOW).zip(hashes.chunks_mut(WINDOW)) {
                 let rows = Rows::new(mesh, first..first + hashes.len(), &mut worker.rows);
-                width.run(Hash { rows, hashes, span: &mut *span });
+                width.run(Hash { rows, hashes, span: &mut worker.span });
             }
         });
-        let mut found = vec![0; count];
         let (hashes, bits) = (&self.hashes[..], self.seen.bits);
-        let ranges = split(0..self.seen.words.len(), count, 1);
-        let maps = parts(&mut self.seen.words, 0, ranges.clone()).zip(parts(
-            &mut self.again.words,
-            0,
-            ranges.clone(),
-        ));
-        workers::run(workers, ranges.zip(maps).zip(&mut found), |_, ((range, (seen, again)), found)| {
-            *found = mark_collisions(hashes, bits, range.start, seen, again);
+        let ranges = split(0..self.seen.words.len(), workers.len(), 1);
+        let seen = parts(&mut self.seen.words, 0, ranges.clone());
+        let again = parts(&mut self.again.words, 0, ranges.clone());
+        workers::run(workers, ranges.zip(seen.zip(again)), |worker, (range, (seen, again))| {
+            worker.collisions = mark_collisions(hashes, bits, range.start, seen, again);
         });
-        self.bounds = Span::check(spans.iter())?;
-        Ok(found.iter().sum())
+        self.bounds = Span::check(workers.iter().map(|worker| &worker.span))?;
+        Ok(workers.iter().map(|worker| worker.collisions).sum())
     }
 
     /// Compares the vertices whose hash values were met more than once.

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::block::Block;
+use super::hash::Span;
 use super::source::RowBuffer;
 use super::steps::Special;
 use super::vertices::Vertex;
@@ -22,6 +23,10 @@ pub(super) struct Worker {
     /// Windows with vertices that other threads finish.
     pub pending: Vec<usize>,
     pub special: Special,
+    /// Of its vertices' values.
+    pub span: Span,
+    /// Its hashes that were met before.
+    pub collisions: usize,
     /// Triangles use every vertex.
     pub all_used: bool,
 }

@@ -1,0 +1,45 @@
+//! Repeated calls with one scratch allocate nothing.
+
+use std::alloc::System;
+
+use darboux::{Indices, Mesh, Scratch, TangentOptions, Tangents, generate_tangents_into};
+use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
+
+#[global_allocator]
+static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
+
+/// How often the second of two calls allocates.
+fn allocations(mesh: &Mesh<'_>) -> usize {
+    let (mut scratch, mut tangents) = (Scratch::new(), Tangents::default());
+    let options = TangentOptions::default();
+    generate_tangents_into(mesh, &options, &mut scratch, &mut tangents);
+    let region = Region::new(ALLOCATOR);
+    generate_tangents_into(mesh, &options, &mut scratch, &mut tangents);
+    let change = region.change();
+    change.allocations + change.reallocations
+}
+
+/// One test alone: others would be counted with it.
+#[test]
+fn none_for_a_plain_surface() {
+    const SIDE: u32 = 40;
+    let place = |vertex: u32| [(vertex % (SIDE + 1)) as f32, (vertex / (SIDE + 1)) as f32];
+    let count = (SIDE + 1) * (SIDE + 1);
+    let positions: Vec<[f32; 3]> =
+        (0..count).map(place).map(|[x, y]| [x, y, (0.3 * x).sin() + (0.2 * y).cos()]).collect();
+    let normals = vec![[0.0, 0.0, 1.0]; count as usize];
+    let uvs: Vec<[f32; 2]> = (0..count).map(|vertex| place(vertex).map(|x| x / SIDE as f32)).collect();
+    let quads = (0..count).filter(|vertex| vertex % (SIDE + 1) < SIDE && vertex / (SIDE + 1) < SIDE);
+    let triangles = quads.flat_map(|a| [a, a + 1, a + SIDE + 2, a, a + SIDE + 2, a + SIDE + 1]);
+    let indices: Vec<u32> = triangles.collect();
+    let short: Vec<u16> = indices.iter().map(|&index| index as u16).collect();
+    for indices in [Indices::U32(&indices), Indices::U16(&short)] {
+        let mesh = Mesh::triangles(&positions, &normals, &uvs, indices).expect("a mesh");
+        assert_eq!(allocations(&mesh), 0);
+    }
+    let of = |list: &[[f32; 3]]| indices.iter().map(|&at| list[at as usize]).collect::<Vec<_>>();
+    let soup_uvs: Vec<[f32; 2]> = indices.iter().map(|&at| uvs[at as usize]).collect();
+    let (positions, normals) = (of(&positions), of(&normals));
+    let mesh = Mesh::triangles(&positions, &normals, &soup_uvs, Indices::Unindexed).expect("a mesh");
+    assert_eq!(allocations(&mesh), 0);
+}
