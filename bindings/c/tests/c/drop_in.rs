@@ -1,13 +1,15 @@
 //! libdarboux_mikktspace against mikktspace.c: one program, built once with each, writes the same.
 
-use std::path::PathBuf;
+use std::io::Write;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-use darboux_tests::{Case, Dice, OwnedMesh, corpus, families};
+use darboux_tests::{Case, Dice, OwnedMesh, corpus, families, models};
 
 use crate::support::{
-    Link, build, compiler, dist, folder, has, reference_sources, run, run_with_input, source,
+    Link, build, compiler, dist, folder, has, reference_sources, repository, run, run_with_input, source,
 };
 
 const BASIC: i32 = 1;
@@ -96,11 +98,55 @@ fn corpus_is_the_same() {
 }
 
 #[test]
+fn models_are_the_same() {
+    assert!(compare_models(&repository().join("assets")) > 8);
+}
+
+#[test]
+#[ignore = "long"]
+fn the_larger_set_of_models_is_the_same() {
+    let folder = repository().join("../shared/assets");
+    if folder.is_dir() {
+        assert!(compare_models(&folder) > 100);
+    } else {
+        writeln!(std::io::stdout(), "skipped: {} is absent", folder.display()).expect("standard output");
+    }
+}
+
+/// Returns how many primitives were compared.
+fn compare_models(folder: &Path) -> usize {
+    if !has("gcc") {
+        return usize::MAX;
+    }
+    let mut count = 0;
+    for path in models::models(folder) {
+        let meshes = models::meshes(&path);
+        let both = |mesh| [BASIC | DEFAULT, FULL].map(|setters| Input::new(mesh, setters, 180.0));
+        let inputs: Vec<_> = meshes.iter().flat_map(|(_, mesh)| both(mesh)).collect();
+        if !inputs.is_empty() {
+            assert_same(&inputs);
+        }
+        count += meshes.len();
+    }
+    count
+}
+
+#[test]
 fn random_meshes_are_the_same() {
+    random_meshes(0..4_000);
+}
+
+#[test]
+#[ignore = "long"]
+fn many_random_meshes_are_the_same() {
+    (4..200).for_each(|thousand| random_meshes(1_000 * thousand..1_000 * (thousand + 1)));
+}
+
+fn random_meshes(seeds: Range<u64>) {
     if !has("gcc") {
         return;
     }
-    let cases: Vec<Case> = (0..4_000).map(Case::from_seed).collect();
+    let cases: Vec<Case> = seeds.map(Case::from_seed).collect();
     let setters = [BASIC, FULL, BASIC | FULL];
     let with = |(at, case)| {
         let case: &Case = case;
