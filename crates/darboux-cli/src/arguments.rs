@@ -47,7 +47,8 @@ pub enum Command {
     #[command(
         long_about = convert::ABOUT,
         after_long_help = convert::EXAMPLES,
-        mut_arg("inputs", |inputs| inputs.help(convert::INPUTS))
+        mut_arg("inputs", |inputs| inputs.help(convert::INPUTS)),
+        mut_arg("output", |output| output.help(convert::OUTPUT))
     )]
     Convert(ConvertArguments),
     /// Compare the tangents of two files, or of a file and a method

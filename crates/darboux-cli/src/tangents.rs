@@ -118,7 +118,10 @@ fn options(arguments: &TangentsArguments) -> TangentsOptions {
 /// The tangents of a primitive in words; counts of nothing are left out.
 fn told(written: &Written) -> String {
     let Written { counts, vertices_before, vertices_after, .. } = written;
-    let mut text = format!("TEXCOORD_{} ({})", written.uv_set, written.uv_reason);
+    let mut text = match written.uv_set {
+        Some(set) => format!("TEXCOORD_{set} ({})", written.uv_reason),
+        None => format!("no UVs ({})", written.uv_reason),
+    };
     text += &format!(
         ", {}, {}",
         counted(counts.triangles, "triangle", "triangles"),

@@ -5,7 +5,7 @@ mod support;
 use darboux::{Convention, Mesh, Method, TangentOptions, generate_tangents, measure_tangents};
 use darboux_io::gltf::{TangentEncoding, TangentsOptions};
 use serde_json::json;
-use support::{BOTH, Builder, Vertices, butterfly, reread, run_with, wide, written};
+use support::{BOTH, Builder, Vertices, butterfly, reason, reread, run_with, wide, written};
 
 fn with_method(method: Method) -> TangentsOptions {
     let tangents = TangentOptions { method, ..TangentOptions::default() };
@@ -55,6 +55,25 @@ fn every_method_is_the_cores() {
         assert_eq!(written(&summary, 0).counts.merged_vertices, merged, "{method:?}");
         assert_eq!(summary.warnings.len(), usize::from(merged > 0), "{:?}", summary.warnings);
     }
+}
+
+#[test]
+fn a_frame_from_the_normal_needs_no_uvs() {
+    let build = || {
+        let mut builder = Builder::new();
+        let mut attributes = bent().attributes(&mut builder);
+        attributes.as_object_mut().expect("attributes").remove("TEXCOORD_0");
+        let indices = builder.indices(&BOTH);
+        builder.mesh(&[json!({"attributes": attributes, "indices": indices})]);
+        builder.build()
+    };
+    let mut document = build();
+    let summary = run_with(&mut document, &with_method(Method::FromNormal));
+    assert_eq!(written(&summary, 0).uv_set, None);
+    assert_eq!(written(&summary, 0).counts.uv_degenerate_triangles, 0);
+    assert_eq!(reread(&document).tangents(0, 0).len(), 6);
+    let summary = run_with(&mut build(), &with_method(Method::Face));
+    assert_eq!(reason(&summary, 0), "it has no TEXCOORD_0, which tangents need");
 }
 
 #[test]

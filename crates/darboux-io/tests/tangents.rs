@@ -272,7 +272,7 @@ fn variants_that_want_other_uvs_are_named() {
         json!({"attributes": attributes, "indices": indices, "material": first, "extensions": variants});
     builder.mesh(&[primitive]);
     let summary = run(&mut builder.build());
-    assert_eq!(written(&summary, 0).uv_set, 0);
+    assert_eq!(written(&summary, 0).uv_set, Some(0));
     let [warning] = summary.warnings.as_slice() else { panic!("{:?}", summary.warnings) };
     assert!(warning.starts_with("meshes[0].primitives[0]: the tangents follow TEXCOORD_0"), "{warning}");
 }

@@ -75,13 +75,13 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             break
         }
         'darboux;convert' {
-            [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'Output file for a single input; - is standard output, as GLB')
-            [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'Output file for a single input; - is standard output, as GLB')
             [CompletionResult]::new('--out-dir', '--out-dir', [CompletionResultType]::ParameterName, 'Folder for all outputs; paths below input folders are kept')
             [CompletionResult]::new('--from', '--from', [CompletionResultType]::ParameterName, 'The convention that the files are in')
             [CompletionResult]::new('--to', '--to', [CompletionResultType]::ParameterName, 'The convention that they shall be in')
             [CompletionResult]::new('--layout', '--layout', [CompletionResultType]::ParameterName, 'Channels of a normal map''s x, y and, where it is stored, z, in this order: rgb, rg, ag, la, ...')
             [CompletionResult]::new('--to-layout', '--to-layout', [CompletionResultType]::ParameterName, 'Channels that they shall be in; the same unless given. A z that was not stored is rebuilt')
+            [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'Output file for a single input; - is standard output')
+            [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'Output file for a single input; - is standard output')
             [CompletionResult]::new('--in-place', '--in-place', [CompletionResultType]::ParameterName, 'Replace each input by its output')
             [CompletionResult]::new('--force', '--force', [CompletionResultType]::ParameterName, 'Replace output files that exist')
             [CompletionResult]::new('--allow-outside', '--allow-outside', [CompletionResultType]::ParameterName, 'Allow buffers and images outside the input''s folder')

@@ -85,20 +85,12 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__convert)
-            opts="-o -q -h --output --out-dir --in-place --force --allow-outside --from --to --layout --to-layout --raw --json --quiet --help"
+            opts="-q -o -h --out-dir --in-place --force --allow-outside --from --to --layout --to-layout --raw --json --quiet --output --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
             fi
             case "${prev}" in
-                --output)
-                    COMPREPLY=($(compgen -f "${cur}"))
-                    return 0
-                    ;;
-                -o)
-                    COMPREPLY=($(compgen -f "${cur}"))
-                    return 0
-                    ;;
                 --out-dir)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
@@ -116,6 +108,14 @@ _darboux() {
                     return 0
                     ;;
                 --to-layout)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --output)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                -o)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

@@ -41,7 +41,7 @@ lengyel-per-vertex\t'Sums of dP/du, one per vertex, as three.js and many tutoria
 average\t'Mean of the triangles\' tangents'
 area\t'Mean weighted by area'
 face\t'Each face its own: exact, not smooth'
-from-normal\t'Any perpendicular of the normal; says nothing about UVs'"
+from-normal\t'Any perpendicular of the normal; needs no UVs, and says nothing about them'"
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l mode -d 'Which defects of the MikkTSpace reference to keep' -r -f -a "reference\t'Every bit of the reference, zero-length and non-finite tangents included'
 repaired\t'The reference\'s bits where they are usable, a unit tangent elsewhere'
 corrected\t'As repaired, with all edges matched and one sign per triangle'"
@@ -74,7 +74,6 @@ complete -c darboux -n "__fish_darboux_using_subcommand normals" -l overwrite -d
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -s q -l quiet -d 'Print errors only'
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -s h -l help -d 'Print help (see more with \'--help\')'
-complete -c darboux -n "__fish_darboux_using_subcommand convert" -s o -l output -d 'Output file for a single input; - is standard output, as GLB' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l out-dir -d 'Folder for all outputs; paths below input folders are kept' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l from -d 'The convention that the files are in' -r -f -a "gltf\t''
 opengl\t''
@@ -98,6 +97,7 @@ maya\t''
 3dsmax\t''"
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l layout -d 'Channels of a normal map\'s x, y and, where it is stored, z, in this order: rgb, rg, ag, la, ...' -r
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l to-layout -d 'Channels that they shall be in; the same unless given. A z that was not stored is rebuilt' -r
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -s o -l output -d 'Output file for a single input; - is standard output' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l in-place -d 'Replace each input by its output'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l force -d 'Replace output files that exist'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l allow-outside -d 'Allow buffers and images outside the input\'s folder'
@@ -112,7 +112,7 @@ lengyel-per-vertex\t'Sums of dP/du, one per vertex, as three.js and many tutoria
 average\t'Mean of the triangles\' tangents'
 area\t'Mean weighted by area'
 face\t'Each face its own: exact, not smooth'
-from-normal\t'Any perpendicular of the normal; says nothing about UVs'"
+from-normal\t'Any perpendicular of the normal; needs no UVs, and says nothing about them'"
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l worst -d 'How many of the worst places are listed' -r
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l tolerance -d 'Exit with 3 if an angle is greater than so many degrees, a sign is flipped, or tangents are missing on one side' -r
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l heat-map -d 'Draw the angles over the UV layout, as a PNG' -r -F

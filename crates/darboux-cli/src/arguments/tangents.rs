@@ -129,7 +129,7 @@ pub enum Method {
     Area,
     /// Each face its own: exact, not smooth
     Face,
-    /// Any perpendicular of the normal; says nothing about UVs
+    /// Any perpendicular of the normal; needs no UVs, and says nothing about them
     FromNormal,
 }
 

@@ -244,11 +244,12 @@ impl Run<'_> {
             let morphed = writer.write(document, member, candidate)?;
             let misfits = morphed.iter().filter_map(|&movement| misfits.get(&(movement, member.job)));
             let misfits = misfits.fold(Misfits::default(), |sum, &misfits| sum + misfits);
+            let (uv_set, uv_reason) = candidate.uv_set_and_reason();
             written.push((
                 member.candidate,
                 Written {
-                    uv_set: candidate.uv.set,
-                    uv_reason: candidate.uv.reason.clone(),
+                    uv_set,
+                    uv_reason,
                     replaced: candidate.replaces(),
                     vertices_before: split.old_vertex_count(),
                     vertices_after: split.vertex_count(),

@@ -29,10 +29,14 @@ pub struct Vertices<'a> {
 impl<'a> Vertices<'a> {
     /// Reads what the accessors of `group` hold.
     pub fn read(document: &'a Document, group: &Group) -> Result<Self, Error> {
-        let uvs = document.vectors(group.uv)?;
+        let positions = document.vectors(group.position)?;
+        let uvs = match group.uv {
+            Some(uv) => document.vectors(uv)?,
+            None => vec![[0.0; 2]; positions.len()].into(),
+        };
         let transformed = group.jobs.iter().any(|job| job.transform.is_some());
         Ok(Self {
-            positions: document.vectors(group.position)?,
+            positions,
             normals: document.vectors(group.normal)?,
             stored_uvs: transformed.then(|| uvs.clone()),
             uvs,

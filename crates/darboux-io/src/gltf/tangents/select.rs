@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use darboux::Method;
+
 use super::topology::{Topology, mode_name};
 use super::uv::{UvChoice, UvTransform, needs_tangents, turns_tangents};
 use super::{PrimitiveName, TangentsOptions};
@@ -41,7 +43,8 @@ pub enum Verdict {
 pub struct Chosen {
     pub position: usize,
     pub normal: usize,
-    pub uv: usize,
+    /// None where the method needs none, and there are none.
+    pub uv: Option<usize>,
     pub indices: Option<usize>,
     pub topology: Topology,
     pub transform: Option<UvTransform>,
@@ -50,6 +53,16 @@ pub struct Chosen {
 }
 
 impl Candidate {
+    /// The UV set that its tangents follow, if they follow one, and why this one.
+    pub fn uv_set_and_reason(&self) -> (Option<usize>, String) {
+        match &self.verdict {
+            Verdict::Chosen(Chosen { uv: None, .. }) => {
+                (None, "there is none, and this method needs none".into())
+            }
+            _ => (Some(self.uv.set), self.uv.reason.clone()),
+        }
+    }
+
     /// Whether it gets tangents in place of others.
     pub fn replaces(&self) -> bool {
         matches!(&self.verdict, Verdict::Chosen(chosen) if chosen.replaces)
@@ -152,9 +165,10 @@ fn judge(
         return skipped("it has no POSITION, which tangents need");
     };
     let Some(normal) = attribute("NORMAL") else { return skipped("it has no NORMAL, which tangents need") };
-    let Some(uv_accessor) = attribute(&format!("TEXCOORD_{}", uv.set)) else {
+    let uv_accessor = attribute(&format!("TEXCOORD_{}", uv.set));
+    if uv_accessor.is_none() && options.tangents.method != Method::FromNormal {
         return Ok(Verdict::Skipped(missing_uv(primitive, uv)));
-    };
+    }
     let vertex_count = element_count(document, position)?;
     let index_count =
         primitive.indices.map_or(Ok(vertex_count), |indices| element_count(document, indices))?;

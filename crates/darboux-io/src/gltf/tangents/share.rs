@@ -16,7 +16,7 @@ use crate::gltf::schema::Accessor;
 pub struct Group {
     pub position: usize,
     pub normal: usize,
-    pub uv: usize,
+    pub uv: Option<usize>,
     /// The different things to compute.
     pub jobs: Vec<Job>,
     /// The primitives, in the order of the file.
@@ -49,8 +49,8 @@ pub fn group<'a>(accessors: &Canonical, chosen: impl Iterator<Item = (usize, &'a
     let mut group_of = HashMap::new();
     let mut job_of = HashMap::new();
     for (candidate, chosen) in chosen {
-        let [position, normal, uv] =
-            [chosen.position, chosen.normal, chosen.uv].map(|accessor| accessors.of(accessor));
+        let [position, normal] = [chosen.position, chosen.normal].map(|accessor| accessors.of(accessor));
+        let uv = chosen.uv.map(|accessor| accessors.of(accessor));
         let place = *group_of.entry((position, normal, uv)).or_insert_with(|| {
             groups.push(Group { position, normal, uv, jobs: Vec::new(), members: Vec::new() });
             groups.len() - 1

@@ -92,8 +92,8 @@ pub enum Outcome {
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Written {
-    /// The UV set: n of `TEXCOORD_n`.
-    pub uv_set: usize,
+    /// The UV set: n of `TEXCOORD_n`; none where there are no UVs and the method needs none.
+    pub uv_set: Option<usize>,
     /// Why this one: the texture that names it, or that none does.
     pub uv_reason: String,
     /// Whether tangents that were there before were replaced.
