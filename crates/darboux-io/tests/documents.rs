@@ -1,11 +1,12 @@
 //! Documents: what is read, what an edit changes, and what stays as it was.
 
+use std::borrow::Cow;
 use std::fs;
 use std::path::Path;
 
 use darboux_io::Error;
 use darboux_io::gltf::{
-    ComponentType, Document, ElementType, Elements, LoadOptions, NewAccessor, SaveOptions, Target,
+    ComponentType, Document, ElementType, Elements, IndexList, LoadOptions, NewAccessor, SaveOptions, Target,
 };
 use serde_json::json;
 
@@ -228,6 +229,48 @@ fn values_are_read_as_they_are_meant() {
     assert_eq!(document.read_elements(5).unwrap().element_size(), 8);
     assert!(document.read_vectors::<2>(0).is_err());
     assert!(document.read_indices(2).is_err());
+}
+
+#[test]
+fn values_are_borrowed_where_the_file_has_them_so() {
+    // Twelve floats, or 48 bytes of indices, at an offset.
+    let document = |offset: usize, stride: serde_json::Value, kind: u32, element: &str, count: usize| {
+        let mut bytes = vec![0; offset];
+        match kind {
+            5126 => bytes.extend((0..12).flat_map(|i| (i as f32 + 0.5).to_le_bytes())),
+            5123 => bytes.extend((0..24u16).flat_map(|i| (i + 1000).to_le_bytes())),
+            _ => bytes.extend((0..12u32).flat_map(|i| (i + 100_000).to_le_bytes())),
+        }
+        let mut view = json!({"buffer": 0, "byteOffset": offset, "byteLength": 48});
+        if stride.is_number() {
+            view["byteStride"] = stride;
+        }
+        let text = json!({
+            "asset": {"version": "2.0"},
+            "buffers": [{"byteLength": bytes.len(), "uri": data_uri(&bytes)}],
+            "bufferViews": [view],
+            "accessors": [{"bufferView": 0, "componentType": kind, "count": count, "type": element}],
+        });
+        parse(&text.to_string()).unwrap()
+    };
+    let packed: Vec<[f32; 3]> = (0..4).map(|i| [0.5, 1.5, 2.5].map(|x| x + 3.0 * i as f32)).collect();
+    for (offset, is_borrowed) in [(0, true), (16, true), (1, false)] {
+        let vectors = document(offset, json!(null), 5126, "VEC3", 4);
+        let vectors = vectors.vectors::<3>(0).unwrap();
+        assert_eq!((matches!(vectors, Cow::Borrowed(_)), &*vectors), (is_borrowed, &*packed), "{offset}");
+        let shorts = document(offset, json!(null), 5123, "SCALAR", 24);
+        let list = shorts.indices(0).unwrap();
+        assert_eq!(matches!(list, IndexList::U16(Cow::Borrowed(_))), is_borrowed, "{offset}");
+        assert_eq!(list.widened(), (1000..1024).collect::<Vec<_>>());
+        let words = document(offset, json!(null), 5125, "SCALAR", 12);
+        let list = words.indices(0).unwrap();
+        assert_eq!(matches!(list, IndexList::U32(Cow::Borrowed(_))), is_borrowed, "{offset}");
+        assert_eq!(list.widened(), (100_000..100_012).collect::<Vec<_>>());
+    }
+    // Interleaved: the last element has no padding.
+    let interleaved = document(0, json!(16), 5126, "VEC2", 3);
+    assert_eq!(*interleaved.vectors::<2>(0).unwrap(), [[0.5, 1.5], [4.5, 5.5], [8.5, 9.5]]);
+    assert_eq!(interleaved.read_elements(0).unwrap().bytes.len(), 24);
 }
 
 #[test]

@@ -222,3 +222,43 @@ impl<'t> Visitor<'t> for Walk<'t, '_> {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_found_where_they_stand() {
+        let json = r#"{"skins": [{"inverseBindMatrices" : 12}], "extras": {"skins": [{"inverseBindMatrices": 1}]},
+            "accessors": [{"bufferView": 3, "count": 5}], "images": [{"uri": "a"}, {"bufferView":4}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "_\u0041": 7}, "targets": [{"NORMAL": 2}]}]}]}"#;
+        let found = references(json).unwrap();
+        for reference in &found {
+            assert_eq!(json[reference.range.clone()], reference.number.to_string());
+        }
+        let of = |kind: Kind| {
+            let of_kind = found.iter().filter(|reference| reference.kind == kind);
+            of_kind.map(|reference| reference.number).collect::<Vec<_>>()
+        };
+        assert_eq!(of(Kind::Accessor), [12, 0, 7, 2]);
+        assert_eq!((of(Kind::ViewOfAccessor), of(Kind::View)), (vec![3], vec![4]));
+        assert_eq!(references(r#"{"skins": [{"inverseBindMatrices": -1}]}"#), None);
+        assert_eq!(references(r#"{"skins": 5}"#), None);
+    }
+
+    #[test]
+    fn extensions_are_found_at_any_depth_and_not_in_texts() {
+        let known = r#"{"extensions": {"KHR_materials_unlit": {"extensions": {"KHR_xmp": {}}}}, "extras": "{\"extensions\":{\"A\":1}}",
+            "name": "\\", "nodes": [{"extensions": {}, "B": {"C": 1}}]}"#;
+        assert_eq!(unknown_extension(known), None);
+        for json in [
+            r#"{"nodes": [{"extensions" : {"KHR_xmp": {"a": [1, {}]}, "VENDOR_\u0061": {}}}]}"#,
+            r#"{"extensions": {"KHR_xmp": {"extensions": {"VENDOR_a": 1}}}}"#,
+        ] {
+            assert_eq!(unknown_extension(json).as_deref(), Some("VENDOR_a"), "{json}");
+        }
+        let deep =
+            format!("{}{{\"extensions\":{{\"VENDOR_a\":1}}}}{}", "[".repeat(500_000), "]".repeat(500_000));
+        assert_eq!(unknown_extension(&deep).as_deref(), Some("VENDOR_a"));
+    }
+}
