@@ -1,0 +1,187 @@
+//! The mesh of a call: arrays that stay borrowed while the core reads them.
+
+use std::fmt::Display;
+
+use darboux::{Faces, Indices, Mesh, MeshError};
+use numpy::prelude::*;
+use numpy::{Element, PyReadonlyArrayDyn, PyUntypedArray};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::arrays::{Rows, array_of, packed, shape_text, wrong_type};
+
+/// The arrays of a mesh, as Python gave them.
+pub struct MeshArrays<'py> {
+    positions: Rows<'py, 3>,
+    normals: Rows<'py, 3>,
+    uvs: Rows<'py, 2>,
+    pub indices: IndexArray<'py>,
+    pub faces: FaceSizes,
+}
+
+impl<'py> MeshArrays<'py> {
+    pub fn new(
+        positions: &Bound<'py, PyAny>,
+        normals: &Bound<'py, PyAny>,
+        uvs: &Bound<'py, PyAny>,
+        indices: Option<&Bound<'py, PyAny>>,
+        faces: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Self> {
+        let positions = Rows::new("positions", "V", positions)?;
+        let normals = Rows::new("normals", "V", normals)?;
+        let uvs = Rows::new("uvs", "V", uvs)?;
+        let indices = IndexArray::new(indices)?;
+        let faces = FaceSizes::new(faces, &indices, positions.view()?.len())?;
+        Ok(Self { positions, normals, uvs, indices, faces })
+    }
+
+    /// The mesh that the core works on.
+    pub fn view(&self) -> PyResult<Mesh<'_>> {
+        let (positions, normals, uvs) = (self.positions.view()?, self.normals.view()?, self.uvs.view()?);
+        Mesh::with_faces(positions, normals, uvs, self.indices.view()?, self.faces.view())
+            .map_err(value_error)
+    }
+}
+
+/// The sentence of the core as a ValueError.
+pub fn value_error(error: MeshError) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}
+
+/// Indices: in numpy's memory where they are uint16 or uint32 and packed, else copied.
+pub struct IndexArray<'py> {
+    list: IndexList<'py>,
+    /// The shape they came in.
+    pub shape: Vec<usize>,
+}
+
+enum IndexList<'py> {
+    Absent,
+    U16(PyReadonlyArrayDyn<'py, u16>),
+    U32(PyReadonlyArrayDyn<'py, u32>),
+    Copied(Vec<u32>),
+}
+
+impl<'py> IndexArray<'py> {
+    /// Indices of shape (C,), (F, 3) or (F, 4), of any integer type; none where corner i is vertex i.
+    pub fn new(value: Option<&Bound<'py, PyAny>>) -> PyResult<Self> {
+        let Some(value) = value else { return Ok(Self { list: IndexList::Absent, shape: Vec::new() }) };
+        let array = array_of("indices", value)?;
+        let shape = array.shape().to_vec();
+        if !matches!(shape[..], [_] | [_, 3 | 4]) {
+            let shape = shape_text(&shape);
+            return Err(PyValueError::new_err(format!(
+                "indices must have shape (C,), (F, 3) or (F, 4), not {shape}"
+            )));
+        }
+        Ok(Self { list: IndexList::new(&array)?, shape })
+    }
+
+    /// The number of corners, if indices say so.
+    pub fn len(&self) -> Option<usize> {
+        (!matches!(self.list, IndexList::Absent)).then(|| self.shape.iter().product())
+    }
+
+    pub fn view(&self) -> PyResult<Indices<'_>> {
+        Ok(match &self.list {
+            IndexList::Absent => Indices::Unindexed,
+            IndexList::U16(array) => Indices::U16(array.as_slice()?),
+            IndexList::U32(array) => Indices::U32(array.as_slice()?),
+            IndexList::Copied(list) => Indices::U32(list),
+        })
+    }
+}
+
+impl<'py> IndexList<'py> {
+    fn new(array: &Bound<'py, PyUntypedArray>) -> PyResult<Self> {
+        let dtype = array.dtype();
+        Ok(match (dtype.kind(), dtype.itemsize()) {
+            (b'u', 2) => Self::U16(packed(array)?),
+            (b'u', 4) => Self::U32(packed(array)?),
+            (b'u' | b'i', _) => Self::Copied(unsigned("indices", array)?),
+            // An empty list is one of floats, as numpy sees it.
+            _ if array.is_empty() => Self::Copied(Vec::new()),
+            _ => return Err(wrong_type("indices", "integers", array)),
+        })
+    }
+}
+
+/// The elements of an array of integers as 32-bit ones.
+fn unsigned(name: &str, array: &Bound<'_, PyUntypedArray>) -> PyResult<Vec<u32>> {
+    let dtype = array.dtype();
+    match (dtype.kind(), dtype.itemsize()) {
+        (b'u', 8) => narrowed::<u64>(name, array, |number| number),
+        (b'u' | b'i', _) => narrowed::<i64>(name, array, |number| number as u64),
+        _ => Err(wrong_type(name, "integers", array)),
+    }
+}
+
+/// `bits` of a negative number are those of a large one.
+fn narrowed<T: Element + Copy + Display>(
+    name: &str,
+    array: &Bound<'_, PyUntypedArray>,
+    bits: fn(T) -> u64,
+) -> PyResult<Vec<u32>> {
+    let array = packed::<T>(array)?;
+    let numbers = array.as_slice()?;
+    match numbers.iter().position(|&number| bits(number) > u32::MAX.into()) {
+        None => Ok(numbers.iter().map(|&number| bits(number) as u32).collect()),
+        Some(at) => Err(PyValueError::new_err(format!(
+            "{name} holds {} at place {at}, which is no 32-bit unsigned number",
+            numbers[at]
+        ))),
+    }
+}
+
+/// How many corners faces have.
+pub enum FaceSizes {
+    Triangles,
+    Quads,
+    Mixed(Vec<u32>),
+}
+
+impl FaceSizes {
+    /// Corner counts as `faces` gives them: 3, 4 or one number per face. Without, indices of shape (F, 4) are quads and all else
+    /// triangles.
+    pub fn new(
+        value: Option<&Bound<'_, PyAny>>,
+        indices: &IndexArray<'_>,
+        vertex_count: usize,
+    ) -> PyResult<Self> {
+        let Some(value) = value else {
+            return Ok(if matches!(indices.shape[..], [_, 4]) { Self::Quads } else { Self::Triangles });
+        };
+        match value.extract::<u32>() {
+            Ok(3) => return Ok(Self::Triangles),
+            Ok(4) => return Ok(Self::Quads),
+            _ => {}
+        }
+        let array = array_of("faces", value)?;
+        if array.ndim() != 1 {
+            return Err(PyValueError::new_err("faces must be 3, 4 or one corner count per face, shape (F,)"));
+        }
+        if array.is_empty() {
+            return Ok(Self::Mixed(Vec::new()));
+        }
+        let sizes = unsigned("faces", &array)?;
+        // The core is faster where it knows that faces are equal. Counts that do not add up are its to refuse.
+        let corners = indices.len().unwrap_or(vertex_count);
+        let all_are =
+            |size: u32| corners == sizes.len() * size as usize && sizes.iter().all(|&it| it == size);
+        Ok(if all_are(3) {
+            Self::Triangles
+        } else if all_are(4) {
+            Self::Quads
+        } else {
+            Self::Mixed(sizes)
+        })
+    }
+
+    pub fn view(&self) -> Faces<'_> {
+        match self {
+            Self::Triangles => Faces::Triangles,
+            Self::Quads => Faces::Quads,
+            Self::Mixed(sizes) => Faces::Mixed(sizes),
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! Results as the named tuples of `darboux._results`.
+
+use darboux::Report;
+use pyo3::call::PyCallArgs;
+use pyo3::prelude::*;
+
+/// The named tuple `name` of `fields`.
+pub fn named<'py>(py: Python<'py>, name: &str, fields: impl PyCallArgs<'py>) -> PyResult<Bound<'py, PyAny>> {
+    py.import("darboux._results")?.getattr(name)?.call1(fields)
+}
+
+/// What was met on the way.
+pub fn report<'py>(py: Python<'py>, report: &Report) -> PyResult<Bound<'py, PyAny>> {
+    let fields = (
+        report.triangles,
+        report.unsupported_faces,
+        report.degenerate_triangles,
+        report.uv_degenerate_triangles,
+        report.non_finite_corners,
+        report.repaired_corners,
+        report.mixed_sign_faces,
+        report.mirrored_edges,
+        report.split_vertices,
+        report.merged_vertices,
+    );
+    named(py, "Report", fields)
+}

@@ -1,0 +1,126 @@
+//! Corner values back to an indexed mesh.
+
+use darboux::{CornerTangents, Faces, Mesh, MeshError, Strided};
+use numpy::PyArray1;
+use numpy::prelude::*;
+use pyo3::exceptions::PyMemoryError;
+use pyo3::prelude::*;
+
+use crate::arrays::{Rows, rows_array};
+use crate::mesh::{IndexArray, value_error};
+use crate::results::named;
+
+/// Split the vertices whose corners need different tangents, as few as correctness allows.
+///
+/// One vertex per distinct pair of old vertex and tangent (all four floats compared as bits). Old vertices keep their number, further
+/// ones come after them. Gather every other attribute with the source table: new = old[split.source_of_vertex].
+///
+/// Parameters
+/// ----------
+/// indices : (C,), (F, 3) or (F, 4) array_like of integers
+///     The vertex of each corner.
+/// tangents : (C, 4) array_like
+///     One per corner, as generate_tangents gives them.
+/// vertex_count : int
+///     V, used or not.
+///
+/// Returns
+/// -------
+/// VertexSplit(tangent_of_vertex (W, 4) float32, indices uint32 of the old shape, source_of_vertex (W,) uint32); vertices that no corner
+/// uses get (1, 0, 0, 1)
+///
+/// Raises
+/// ------
+/// TypeError, ValueError
+///     As generate_tangents; tangents of another number of corners.
+#[pyfunction]
+pub fn split_vertices<'py>(
+    py: Python<'py>,
+    indices: &Bound<'py, PyAny>,
+    tangents: &Bound<'py, PyAny>,
+    vertex_count: usize,
+) -> PyResult<Bound<'py, PyAny>> {
+    check_room(vertex_count)?;
+    let indices = IndexArray::new(Some(indices))?;
+    let corners = CornerTangents::from_per_corner(Rows::new("tangents", "C", tangents)?.to_vec()?);
+    check_corners(&indices, corners.len())?;
+    let list = indices.view()?;
+    let split = py.detach(|| {
+        // Splitting asks for numbers alone: of vertices, and of corners in one large face.
+        let (nothing, uvs) =
+            (Strided::repeated(&[0.0; 3], vertex_count), Strided::repeated(&[0.0; 2], vertex_count));
+        let size = [corners.len() as u32];
+        let mesh = Mesh::with_faces(nothing, nothing, uvs, list, Faces::Mixed(&size))?;
+        darboux::split_vertices(&mesh, &corners)
+    });
+    let split = split.map_err(value_error)?;
+    let fields = (
+        rows_array(py, split.tangent_of_vertex)?,
+        PyArray1::from_vec(py, split.indices).reshape(indices.shape)?,
+        PyArray1::from_vec(py, split.source_of_vertex),
+    );
+    named(py, "VertexSplit", fields)
+}
+
+/// Split the vertices whose corners have different normals, as split_vertices does for tangents.
+///
+/// Parameters
+/// ----------
+/// indices : (C,), (F, 3) or (F, 4) array_like of integers
+///     The vertex of each corner.
+/// normals : (C, 3) array_like
+///     One per corner, as generate_normals gives them.
+/// vertex_count : int
+///     V, used or not.
+///
+/// Returns
+/// -------
+/// NormalSplit(normal_of_vertex (W, 3) float32, indices uint32 of the old shape, source_of_vertex (W,) uint32); vertices that no corner
+/// uses get (0, 0, 1)
+///
+/// Raises
+/// ------
+/// TypeError, ValueError
+///     As generate_tangents; normals of another number of corners.
+#[pyfunction]
+pub fn split_normals<'py>(
+    py: Python<'py>,
+    indices: &Bound<'py, PyAny>,
+    normals: &Bound<'py, PyAny>,
+    vertex_count: usize,
+) -> PyResult<Bound<'py, PyAny>> {
+    check_room(vertex_count)?;
+    let indices = IndexArray::new(Some(indices))?;
+    let normals = Rows::new("normals", "C", normals)?.to_vec()?;
+    check_corners(&indices, normals.len())?;
+    let list = indices.view()?;
+    let split = py.detach(|| darboux::split_normals(vertex_count, list, &normals)).map_err(value_error)?;
+    let fields = (
+        rows_array(py, split.normal_of_vertex)?,
+        PyArray1::from_vec(py, split.indices).reshape(indices.shape)?,
+        PyArray1::from_vec(py, split.source_of_vertex),
+    );
+    named(py, "NormalSplit", fields)
+}
+
+/// A number that a caller made up must not end the process: the tables of this many vertices have to fit. Errors: they do not.
+fn check_room(vertex_count: usize) -> PyResult<()> {
+    let is_numbered = u32::try_from(vertex_count).is_ok();
+    // A tangent, its source and a link.
+    if is_numbered && Vec::<[u32; 6]>::new().try_reserve_exact(vertex_count).is_ok() {
+        return Ok(());
+    }
+    Err(PyMemoryError::new_err(format!(
+        "vertex_count is {vertex_count}; there is no room for so many vertices"
+    )))
+}
+
+/// Errors: values of another number of corners.
+fn check_corners(indices: &IndexArray<'_>, found: usize) -> PyResult<()> {
+    match indices.len() {
+        Some(expected) if expected != found => {
+            Err(value_error(MeshError::OtherMesh { what: "corners", expected, found }))
+        }
+        _ => Ok(()),
+    }
+}

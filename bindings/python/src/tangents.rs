@@ -1,0 +1,152 @@
+//! Tangents of corners.
+
+use darboux::{Frame, Mesh, TangentOptions, generate_frames};
+use numpy::prelude::*;
+use numpy::{PyArray2, PyUntypedArray};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+
+use crate::arrays::{rows_array, shape_text, wrong_type};
+use crate::choices::tangent_options;
+use crate::mesh::MeshArrays;
+use crate::results::{self, named};
+use crate::threads::detached;
+
+/// Compute the tangent of every corner: unit xyz and the sign w, bitangent = w * cross(normal, xyz).
+///
+/// These are not vertex tangents. Corners of one vertex may disagree (at mirrored seams they do), so they cannot be written
+/// through the mesh's indices: split_vertices gives vertices and new indices. Without indices they are the vertices' own.
+///
+/// Parameters
+/// ----------
+/// positions, normals : (V, 3) array_like
+///     Any real numbers; computed in float32. Normals are used as given, which should be unit length.
+/// uvs : (V, 2) array_like
+/// indices : (C,), (F, 3) or (F, 4) array_like of integers, optional
+///     The vertex of each corner. Without, every vertex is a corner of its own.
+/// faces : 3, 4 or (F,) array_like of integers, optional
+///     Corners per face. Without, indices of shape (F, 4) are quads, all else triangles. Faces of other sizes get tangents from their
+///     normals alone and are counted.
+/// method : str
+///     'mikktspace', which bakers use, 'angle-area', 'lengyel', 'lengyel-per-vertex', 'average', 'area', 'face' or 'from-normal'.
+/// mode : str
+///     'reference': every bit of mikktspace.c, its defects included; 'repaired': the same but for unusable tangents;
+///     'corrected': its known defects corrected as well.
+/// threshold : float
+///     Degrees, mikktspace's alone: faces around a vertex share a tangent while their tangents and bitangents differ by less.
+/// full : bool
+///     Return Frames instead: tangent, bitangent and magnitude.
+/// threads : int, optional
+///     How many threads large meshes use; all of the machine by default. The result is the same for any number.
+/// out : (C, 4) float32 array, optional
+///     Written and returned.
+/// return_report : bool
+///     Return (result, Report): what was met on the way, non-finite and degenerate input above all.
+///
+/// Returns
+/// -------
+/// (C, 4) float32 array; with `full` Frames(tangent (C, 4), bitangent (C, 3), magnitude (C, 2))
+///
+/// Raises
+/// ------
+/// TypeError
+///     An array of another kind of elements.
+/// ValueError
+///     Wrong shapes, lengths that differ, an index out of range, corners that are not whole faces.
+///
+/// float32 arrays that are packed, or whose packed rows lie at equal distances in a packed array, are not copied; nor are packed uint16
+/// and uint32 indices.
+#[pyfunction]
+#[pyo3(signature = (
+    positions, normals, uvs, indices=None, *, faces=None, method="mikktspace", mode="repaired", threshold=180.0,
+    full=false, threads=None, out=None, return_report=false
+))]
+#[expect(clippy::too_many_arguments, reason = "Python passes them by name")]
+pub fn generate_tangents<'py>(
+    py: Python<'py>,
+    positions: &Bound<'py, PyAny>,
+    normals: &Bound<'py, PyAny>,
+    uvs: &Bound<'py, PyAny>,
+    indices: Option<&Bound<'py, PyAny>>,
+    faces: Option<&Bound<'py, PyAny>>,
+    method: &str,
+    mode: &str,
+    threshold: f32,
+    full: bool,
+    threads: Option<i64>,
+    out: Option<&Bound<'py, PyAny>>,
+    return_report: bool,
+) -> PyResult<Bound<'py, PyAny>> {
+    let options = tangent_options(method, mode, threshold)?;
+    if full && out.is_some() {
+        return Err(PyValueError::new_err("out holds tangents alone; leave out either full or out"));
+    }
+    let arrays = MeshArrays::new(positions, normals, uvs, indices, faces)?;
+    let mesh = arrays.view()?;
+    let out = out.map(|out| Target::new(out, mesh.corner_count())).transpose()?;
+    let (result, report) = if full {
+        frames(py, threads, &mesh, &options)?
+    } else {
+        let made =
+            detached(py, threads, mesh.corner_count(), || darboux::generate_tangents(&mesh, &options))?;
+        let tangents = rows_array(py, made.corners.into_per_corner())?;
+        let result = match out {
+            Some(out) => out.write(&tangents)?,
+            None => tangents.into_any(),
+        };
+        (result, made.report)
+    };
+    if return_report {
+        (result, results::report(py, &report)?).into_pyobject(py).map(Bound::into_any)
+    } else {
+        Ok(result)
+    }
+}
+
+/// Whole frames as arrays, and the report.
+fn frames<'py>(
+    py: Python<'py>,
+    threads: Option<i64>,
+    mesh: &Mesh<'_>,
+    options: &TangentOptions,
+) -> PyResult<(Bound<'py, PyAny>, darboux::Report)> {
+    let (tangents, bitangents, magnitudes, report) = detached(py, threads, mesh.corner_count(), || {
+        let made = generate_frames(mesh, options);
+        let frames = made.corners.per_corner().iter();
+        let tangents: Vec<_> = frames.clone().map(Frame::tangent_and_sign).collect();
+        let bitangents: Vec<_> = frames.clone().map(|frame| frame.bitangent).collect();
+        let magnitudes: Vec<_> = frames.map(|frame| frame.magnitude).collect();
+        (tangents, bitangents, magnitudes, made.report)
+    })?;
+    let fields = (rows_array(py, tangents)?, rows_array(py, bitangents)?, rows_array(py, magnitudes)?);
+    Ok((named(py, "Frames", fields)?, report))
+}
+
+/// The array that a caller gave for results.
+struct Target<'py>(Bound<'py, PyUntypedArray>);
+
+impl<'py> Target<'py> {
+    /// Errors: not an array of float32, not of shape (corners, 4), read-only.
+    fn new(out: &Bound<'py, PyAny>, corners: usize) -> PyResult<Self> {
+        let Ok(array) = out.cast::<PyUntypedArray>() else {
+            let kind = out.get_type().name()?;
+            return Err(PyTypeError::new_err(format!("out must be a numpy array, not {kind}")));
+        };
+        if !array.dtype().is_equiv_to(&numpy::dtype::<f32>(out.py())) {
+            return Err(wrong_type("out", "float32", array));
+        }
+        if array.shape() != [corners, 4] {
+            let shape = shape_text(array.shape());
+            return Err(PyValueError::new_err(format!("out must have shape ({corners}, 4), not {shape}")));
+        }
+        if !array.getattr("flags")?.getattr("writeable")?.extract::<bool>()? {
+            return Err(PyValueError::new_err("out is read-only; give an array that may be written"));
+        }
+        Ok(Self(array.clone()))
+    }
+
+    fn write(self, tangents: &Bound<'py, PyArray2<f32>>) -> PyResult<Bound<'py, PyAny>> {
+        self.0.py().import("numpy")?.call_method1("copyto", (&self.0, tangents))?;
+        Ok(self.0.into_any())
+    }
+}

@@ -1,0 +1,69 @@
+//! Work without the GIL, on as many threads as asked for.
+//!
+//! The pools are ours, by process: a child that Python forked has none of its parent's threads, so work for the parent's pool would
+//! wait forever.
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+/// The pools of a process by their number of threads; 0 stands for as many as the machine has.
+struct Pools {
+    process: u32,
+    by_threads: HashMap<usize, Arc<ThreadPool>>,
+}
+
+static POOLS: Mutex<Option<Pools>> = Mutex::new(None);
+
+/// Meshes of fewer corners are worth no second thread: they are done where they are, which saves waking one.
+const FEWEST_CORNERS: usize = 3 << 14;
+
+/// A number that a caller made up must not exhaust the machine.
+const MOST_THREADS: i64 = 1024;
+
+/// Does `work` over so many corners without the GIL. `threads`: none stands for as many as the machine has.
+pub fn detached<R: Send>(
+    py: Python<'_>,
+    threads: Option<i64>,
+    corners: usize,
+    work: impl FnOnce() -> R + Send,
+) -> PyResult<R> {
+    let threads = match threads {
+        None => 0,
+        Some(threads @ 1..=MOST_THREADS) => threads as usize,
+        Some(threads) => {
+            let sentence = format!("threads is {threads}; it must be from 1 to {MOST_THREADS}");
+            return Err(PyValueError::new_err(sentence));
+        }
+    };
+    if corners < FEWEST_CORNERS {
+        return Ok(py.detach(work));
+    }
+    let pool = pool(threads)?;
+    Ok(py.detach(|| pool.install(work)))
+}
+
+/// The pool of this process. The GIL is held, so nobody forks while the lock is.
+fn pool(threads: usize) -> PyResult<Arc<ThreadPool>> {
+    let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
+    let process = std::process::id();
+    if pools.as_ref().is_some_and(|pools| pools.process != process) {
+        // To drop the parent's would be to wait for threads that are not here.
+        std::mem::forget(pools.take());
+    }
+    let pools = pools.get_or_insert_with(|| Pools { process, by_threads: HashMap::new() });
+    if let Some(pool) = pools.by_threads.get(&threads) {
+        return Ok(pool.clone());
+    }
+    let made =
+        ThreadPoolBuilder::new().num_threads(threads).thread_name(|at| format!("darboux {at}")).build();
+    let made = made.map_err(|error| {
+        PyRuntimeError::new_err(format!("{threads} threads cannot be started: {error}; ask for fewer"))
+    })?;
+    let pool = Arc::new(made);
+    pools.by_threads.insert(threads, pool.clone());
+    Ok(pool)
+}

@@ -1,0 +1,85 @@
+"""Meshes for the tests: the collected ones with Rust's answers, and plain ones."""
+
+import json
+import os
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Dict, List, Optional, Tuple
+
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+def bits(array: np.ndarray) -> List[int]:
+    """The bits of an array's floats."""
+    return np.ascontiguousarray(array, dtype=np.float32).view(np.uint32).ravel().tolist()
+
+
+@dataclass
+class Mesh:
+    positions: np.ndarray
+    normals: np.ndarray
+    uvs: np.ndarray
+    indices: Optional[np.ndarray]
+
+    @property
+    def arrays(self) -> Tuple[Any, ...]:
+        return (self.positions, self.normals, self.uvs, self.indices)
+
+
+@dataclass
+class Specimen:
+    """A collected mesh, options, and what Rust makes of it."""
+
+    options: Dict[str, Any]
+    mesh: Mesh
+    faces: np.ndarray
+    answer: Dict[str, List[int]]
+
+
+def floats(words: List[int], columns: int) -> np.ndarray:
+    return np.array(words, dtype=np.uint32).view(np.float32).reshape(-1, columns)
+
+
+def specimen(line: str) -> Specimen:
+    read = json.loads(line)
+    mesh = Mesh(
+        floats(read["positions"], 3),
+        floats(read["normals"], 3),
+        floats(read["uvs"], 2),
+        np.array(read["indices"], dtype=np.uint32),
+    )
+    options = {"mode": read["mode"], "threshold": read["threshold"]}
+    return Specimen(options, mesh, np.array(read["faces"], dtype=np.uint32), read)
+
+
+@pytest.fixture(scope="session")
+def corpus() -> List[Specimen]:
+    command = ["cargo", "run", "--quiet", "--package", "darboux-tests", "--bin", "corpus"]
+    output = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, env=os.environ)
+    return [specimen(line) for line in output.stdout.decode().splitlines()]
+
+
+def grid(columns: int, rows: int) -> Mesh:
+    """A wavy sheet of 2 * columns * rows triangles, its texture mirrored at the middle."""
+    x, y = np.meshgrid(np.linspace(-1, 1, columns + 1), np.linspace(-1, 1, rows + 1), indexing="xy")
+    positions = np.stack([x, y, 0.2 * np.sin(3 * x) * np.cos(2 * y)], -1).reshape(-1, 3)
+    slopes = np.stack(
+        [-0.6 * np.cos(3 * x) * np.cos(2 * y), 0.4 * np.sin(3 * x) * np.sin(2 * y), np.ones_like(x)], -1
+    ).reshape(-1, 3)
+    normals = slopes / np.linalg.norm(slopes, axis=1, keepdims=True)
+    uvs = np.stack([np.abs(x), y], -1).reshape(-1, 2)
+    first = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).reshape(-1, 1)
+    quads = first + np.array([0, 1, columns + 2, columns + 1])
+    triangles = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    return Mesh(
+        positions.astype(np.float32), normals.astype(np.float32), uvs.astype(np.float32), triangles.astype(np.uint32)
+    )
+
+
+@pytest.fixture(scope="session")
+def sheet() -> Mesh:
+    return grid(10, 7)

@@ -1,0 +1,111 @@
+"""Bad input: a ValueError or TypeError of one sentence, never anything else."""
+
+import re
+from typing import Any, Dict
+
+import darboux
+import numpy as np
+import pytest
+from conftest import Mesh, grid
+
+NAN = float("nan")
+
+
+def call(sheet: Mesh, changes: Dict[str, Any]) -> Any:
+    arguments: Dict[str, Any] = dict(zip(("positions", "normals", "uvs", "indices"), sheet.arrays))
+    arguments.update(changes)
+    return darboux.generate_tangents(**arguments)
+
+
+BAD = [
+    ({"positions": np.zeros((88, 2))}, ValueError, r"positions must have shape \(V, 3\), not \(88, 2\)"),
+    ({"positions": np.zeros(88)}, ValueError, r"positions must have shape \(V, 3\), not \(88,\)"),
+    ({"positions": np.float32(1)}, ValueError, r"positions must have shape \(V, 3\), not \(\)"),
+    ({"positions": np.zeros((88, 3), complex)}, TypeError, "positions must hold real numbers, not complex128"),
+    ({"positions": np.zeros((88, 3), bool)}, TypeError, "positions must hold real numbers, not bool"),
+    ({"positions": np.zeros((88, 3), object)}, TypeError, "positions must hold real numbers, not object"),
+    ({"positions": None}, ValueError, r"positions must have shape \(V, 3\), not \(\)"),
+    ({"positions": [[0, 0, 0], [1, 1]]}, ValueError, "positions cannot be made an array"),
+    ({"positions": "mesh"}, ValueError, "positions must have shape"),
+    ({"normals": np.zeros((87, 3))}, ValueError, "normals has 87 elements but there are 88 positions"),
+    ({"uvs": np.zeros((88, 3))}, ValueError, r"uvs must have shape \(V, 2\), not \(88, 3\)"),
+    ({"uvs": np.zeros((89, 2))}, ValueError, "uvs has 89 elements but there are 88 positions"),
+    ({"indices": np.zeros(6)}, TypeError, "indices must hold integers, not float64"),
+    ({"indices": np.zeros(6, bool)}, TypeError, "indices must hold integers, not bool"),
+    ({"indices": np.array([0, 1, 88])}, ValueError, "index 88 at place 2 is out of range: there are 88 vertices"),
+    ({"indices": np.array([0, -1, 2])}, ValueError, "indices holds -1 at place 1"),
+    ({"indices": np.array([0, 1, 1 << 32])}, ValueError, "indices holds 4294967296 at place 2"),
+    ({"indices": np.array([0, 1, (1 << 64) - 1], "u8")}, ValueError, "indices holds 18446744073709551615 at place 2"),
+    ({"indices": np.zeros((2, 5), int)}, ValueError, r"indices must have shape \(C,\), \(F, 3\) or \(F, 4\), not \(2, 5\)"),
+    ({"indices": np.zeros((2, 3, 3), int)}, ValueError, "indices must have shape"),
+    ({"indices": np.zeros(7, int)}, ValueError, "7 corners do not make whole faces of 3"),
+    ({"indices": np.zeros(7, int), "faces": 4}, ValueError, "7 corners do not make whole faces of 4"),
+    ({"indices": [["a", "b", "c"]]}, TypeError, "indices must hold integers"),
+    ({"faces": [3, 3]}, ValueError, "the face sizes add up to 6 but there are 420 corners"),
+    ({"faces": [-3]}, ValueError, "faces holds -3 at place 0"),
+    ({"faces": [3.0]}, TypeError, "faces must hold integers, not float64"),
+    ({"faces": 5}, ValueError, "faces must be 3, 4 or one corner count per face"),
+    ({"faces": "quads"}, ValueError, "faces must be 3, 4 or one corner count per face"),
+    ({"faces": [1 << 31, 1 << 31]}, ValueError, "the face sizes add up to 4294967296"),
+    ({"method": "mikk"}, ValueError, "method is 'mikk'; it must be one of 'mikktspace', "),
+    ({"method": 3}, TypeError, ""),
+    ({"mode": "exact"}, ValueError, "mode is 'exact'; it must be one of 'reference', 'repaired', 'corrected'"),
+    ({"threshold": NAN}, ValueError, "threshold is NaN; it must be a number of degrees"),
+    ({"threshold": "90"}, TypeError, ""),
+    ({"threshold": 90, "method": "face"}, ValueError, "threshold belongs to method='mikktspace'"),
+    ({"threads": 0}, ValueError, "threads is 0; it must be from 1 to 1024"),
+    ({"threads": -1}, ValueError, "threads is -1"),
+    ({"threads": 10**9}, ValueError, "threads is 1000000000"),
+    ({"threads": 1.5}, TypeError, ""),
+    ({"out": np.zeros((420, 3), "f4")}, ValueError, r"out must have shape \(420, 4\), not \(420, 3\)"),
+    ({"out": np.zeros((420, 4))}, TypeError, "out must hold float32, not float64"),
+    ({"out": [[0.0] * 4] * 420}, TypeError, "out must be a numpy array, not list"),
+    ({"out": np.broadcast_to(np.zeros(4, "f4"), (420, 4))}, ValueError, "out is read-only"),
+    ({"out": np.zeros((420, 4), "f4"), "full": True}, ValueError, "leave out either full or out"),
+]
+
+
+@pytest.mark.parametrize(("changes", "kind", "sentence"), BAD)
+def test_bad_arguments(changes: Dict[str, Any], kind: Any, sentence: str, sheet: Mesh) -> None:
+    with pytest.raises(kind) as caught:
+        call(sheet, changes)
+    assert re.search(sentence, str(caught.value)), str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_bad_splits() -> None:
+    mesh = grid(2, 2)
+    tangents = darboux.generate_tangents(*mesh.arrays)
+    with pytest.raises(ValueError, match="23 corners where the mesh has 24"):
+        darboux.split_vertices(mesh.indices, tangents[:-1], 9)
+    with pytest.raises(ValueError, match="index 8 at place 20 is out of range"):
+        darboux.split_vertices(mesh.indices, tangents, 8)
+    with pytest.raises(MemoryError, match="vertex_count is 1099511627776"):
+        darboux.split_vertices(mesh.indices, tangents, 1 << 40)
+    with pytest.raises(ValueError, match=r"tangents must have shape \(C, 4\)"):
+        darboux.split_vertices(mesh.indices, tangents[:, :3], 9)
+
+
+ODD_VALUES = [
+    None, True, 0, -1, 1 << 70, 1.5, NAN, "x", b"x", [], [[]], [[[]]], [1, 2, 3], [[1, 2, 3]], [[0.5, NAN, 1e300]],
+    {}, set(), object(), np.float32(1), np.zeros((0, 3)), np.zeros((3, 0)), np.zeros((3, 3), "datetime64[s]"),
+    np.zeros((3, 3), "U3"), np.zeros(3, [("a", "f4")]), np.full((3, 3), np.nan), np.full((3, 3), 255, "u1"),
+    np.lib.stride_tricks.as_strided(np.zeros(1, "f4"), (3, 3), (0, 0)), np.ma.masked_all((3, 3)),
+]  # fmt: skip
+
+
+def test_a_sweep_of_odd_values() -> None:
+    """Whatever stands wherever, a call returns or raises one of these errors."""
+    triangle = np.eye(3, dtype=np.float32)
+    base: Dict[str, Any] = {"positions": triangle, "normals": triangle, "uvs": triangle[:, :2], "indices": [0, 1, 2]}
+    returned = 0
+    for name in (*base, "faces", "method", "mode", "threshold", "full", "threads", "out", "return_report"):
+        for value in ODD_VALUES:
+            for other in ("positions", "indices", "faces"):
+                arguments = {**base, other: value, name: value}
+                try:
+                    darboux.generate_tangents(**arguments)
+                    returned += 1
+                except (ValueError, TypeError, OverflowError) as error:
+                    assert "\n" not in str(error), error
+    assert returned > 10

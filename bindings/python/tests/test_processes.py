@@ -1,0 +1,117 @@
+"""Threads, forked processes and memory."""
+
+import gc
+import multiprocessing
+import sys
+import threading
+import time
+from pathlib import Path
+from typing import Callable, List
+
+import darboux
+import numpy as np
+import pytest
+from conftest import Mesh, grid
+
+
+def large() -> Mesh:
+    """Large enough for more than one thread."""
+    return grid(200, 150)
+
+
+def test_results_outlive_inputs() -> None:
+    mesh = large()
+    tangents = darboux.generate_tangents(*mesh.arrays)
+    before = tangents.copy()
+    del mesh
+    gc.collect()
+    assert np.array_equal(tangents, before)
+
+
+def test_other_threads_run_meanwhile() -> None:
+    """The GIL is released: a thread counts on while another computes."""
+    mesh = grid(700, 700)
+    counts: List[int] = []
+    done = threading.Event()
+
+    def count() -> None:
+        while not done.is_set():
+            counts.append(1)
+            time.sleep(0.0005)
+
+    counter = threading.Thread(target=count)
+    counter.start()
+    before = len(counts)
+    darboux.generate_tangents(*mesh.arrays, threads=1, full=True)
+    during = len(counts) - before
+    done.set()
+    counter.join()
+    assert during > 20
+
+
+def test_many_threads_get_the_same() -> None:
+    mesh = large()
+    expected = darboux.generate_tangents(*mesh.arrays).tobytes()
+    found: List[bytes] = []
+    work = [
+        threading.Thread(target=lambda: found.append(darboux.generate_tangents(*mesh.arrays).tobytes()))
+        for _ in range(8)
+    ]
+    for thread in work:
+        thread.start()
+    for thread in work:
+        thread.join()
+    assert found == [expected] * 8
+
+
+def hash_of_tangents(_: int) -> int:
+    return hash(darboux.generate_tangents(*large().arrays).tobytes().hex())
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no fork")
+@pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
+def test_forked_processes_work() -> None:
+    """A child has none of its parent's threads; it must not wait for them."""
+    expected = hash_of_tangents(0)
+    with multiprocessing.get_context("fork").Pool(2) as pool:
+        assert pool.map_async(hash_of_tangents, range(4)).get(timeout=60) == [expected] * 4
+
+
+def resident() -> int:
+    """Bytes in memory."""
+    return int(Path("/proc/self/statm").read_text().split()[1]) * 4096
+
+
+def calls() -> List[Callable[[], object]]:
+    mesh = grid(120, 120)
+    wide = mesh.positions.astype(np.float64)
+    tangents = darboux.generate_tangents(*mesh.arrays)
+
+    def fail() -> None:
+        with pytest.raises(ValueError):
+            darboux.generate_tangents(*mesh.arrays, out=tangents[1:])
+
+    return [
+        lambda: darboux.generate_tangents(*mesh.arrays),
+        lambda: darboux.generate_tangents(wide, *mesh.arrays[1:], full=True, return_report=True),
+        lambda: darboux.generate_tangents(*mesh.arrays, out=tangents),
+        lambda: darboux.split_vertices(mesh.indices, tangents, len(mesh.positions)),
+        fail,
+    ]
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="reads /proc")
+@pytest.mark.parametrize("index", range(len(calls())))
+def test_nothing_leaks(index: int) -> None:
+    call = calls()[index]
+
+    def repeat(times: int) -> int:
+        for _ in range(times):
+            call()
+        gc.collect()
+        return resident()
+
+    repeat(10)
+    before = repeat(10)
+    # Each call makes more than a megabyte; a hundredth of that per call would show.
+    assert repeat(150) - before < 10 << 20
