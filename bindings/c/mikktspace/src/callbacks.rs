@@ -83,12 +83,12 @@ impl Caller {
 
     /// Reads position, normal and UV.
     pub fn read_vertex(&self, face: c_int, corner: c_int, out: &mut [f32; 8]) {
-        let [position, normal, uv] = [0, 3, 6].map(|at| out[at..].as_mut_ptr());
+        let position = out.as_mut_ptr();
         // SAFETY: as of `new`; there is room for what each callback writes.
         unsafe {
             (self.get_position)(self.context, position, face, corner);
-            (self.get_normal)(self.context, normal, face, corner);
-            (self.get_tex_coord)(self.context, uv, face, corner);
+            (self.get_normal)(self.context, position.add(3), face, corner);
+            (self.get_tex_coord)(self.context, position.add(6), face, corner);
         }
     }
 
