@@ -44,9 +44,10 @@ pub fn acos() -> Outcome {
     run(&mut program("cargo test --release --package darboux -- --ignored acos_exhaustive --nocapture"))
 }
 
-/// The tests against the reference with tables and blocks of two, so that every rare path runs.
+/// The tests against the reference and on GPUs with tables, blocks and groups of two, so that every rare path runs.
 fn small_limits() -> Outcome {
-    let line = "cargo test --release --package darboux-tests --target-dir target/small-limits";
+    let line =
+        "cargo test --release --package darboux-tests --package darboux-gpu --target-dir target/small-limits";
     run(program(line).env("RUSTFLAGS", "--cfg small_limits"))
 }
 

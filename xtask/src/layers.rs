@@ -8,6 +8,7 @@ use crate::run::{Outcome, output_of, program, root};
 const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("darboux", &[]),
     ("darboux-io", &["darboux"]),
+    ("darboux-gpu", &["darboux", "darboux-tests"]),
     ("darboux-cli", &["darboux", "darboux-io"]),
     ("darboux-c", &["darboux", "darboux-tests"]),
     ("darboux-mikktspace", &["darboux"]),

@@ -1,0 +1,114 @@
+// The mean of the adjacent triangles' unit tangents and bitangents, per vertex and UV orientation: the twin of the core's
+// tangents/average.rs, sums.rs and sides.rs. Terms are added in the order of triangles, as there.
+
+struct Counts {
+    without_direction: atomic<u32>,
+    of_both_orientations: atomic<u32>,
+    past_limit: atomic<u32>,
+}
+
+@group(0) @binding(4) var<storage, read_write> counts: Counts;
+
+const MIN_POSITIVE: f32 = 1.17549435e-38;
+
+// Integers, as compilers may take floats for finite.
+fn is_finite(word: u32) -> bool {
+    return (word & 0x7f800000u) != 0x7f800000u;
+}
+
+fn not_zero(x: f32) -> bool {
+    return abs(x) > MIN_POSITIVE;
+}
+
+fn load_normal(vertex: u32) -> vec3u {
+    let word = vertex * mesh.vertex_stride + mesh.normal;
+    return vec3u(vertices[word], vertices[word + 1u], vertices[word + 2u]);
+}
+
+struct Vertex {
+    position: vec3f,
+    uv: vec2f,
+    is_finite: bool,
+}
+
+fn load_vertex(vertex: u32) -> Vertex {
+    let start = vertex * mesh.vertex_stride;
+    let p = start + mesh.position;
+    let position = vec3u(vertices[p], vertices[p + 1u], vertices[p + 2u]);
+    let uv = vec2u(vertices[start + mesh.uv], vertices[start + mesh.uv + 1u]);
+    let positions_are_finite = is_finite(position.x) && is_finite(position.y) && is_finite(position.z);
+    let is_finite = positions_are_finite && is_finite(uv.x) && is_finite(uv.y);
+    return Vertex(bitcast<vec3f>(position), bitcast<vec2f>(uv), is_finite);
+}
+
+const KEEPS: u32 = 0u;
+const MIRRORS: u32 = 1u;
+const ADDS_NOTHING: u32 = 2u;
+
+// What a triangle adds, and to which side of its vertices.
+struct Term {
+    tangent: vec3f,
+    bitangent: vec3f,
+    side: u32,
+}
+
+fn size(v: vec3f) -> f32 {
+    return abs(v.x) + abs(v.y) + abs(v.z);
+}
+
+// The directions of dP/du and dP/dv (E. Lengyel, "Foundations of Game Engine Development", vol. 2, 7.5). A triangle without them, or
+// with an index that is out of range, adds nothing.
+fn term_of_triangle(triangle: vec3u) -> Term {
+    let nothing = Term(vec3f(), vec3f(), ADDS_NOTHING);
+    if any(triangle >= vec3u(mesh.vertex_count)) {
+        return nothing;
+    }
+    let a = load_vertex(triangle.x);
+    let b = load_vertex(triangle.y);
+    let c = load_vertex(triangle.z);
+    let e1 = b.position - a.position;
+    let e2 = c.position - a.position;
+    let e3 = c.position - b.position;
+    let d1 = b.uv - a.uv;
+    let d2 = c.uv - a.uv;
+    let s = d2.y * e1 - d1.y * e2;
+    let t = d1.x * e2 - d2.x * e1;
+    // Exactly none where UVs are in one line.
+    let area = rounded(d1.x * d2.y) - rounded(d1.y * d2.x);
+    let s_length = sqrt(dot(s, s));
+    let t_length = sqrt(dot(t, t));
+    let magnitudes = bitcast<vec2u>(vec2f(s_length, t_length) / abs(area));
+    let values_are_finite = a.is_finite && b.is_finite && c.is_finite;
+    let magnitudes_are_finite = is_finite(magnitudes.x) && is_finite(magnitudes.y);
+    let has_corners = size(e1) > 0.0 && size(e2) > 0.0 && size(e3) > 0.0;
+    let has_directions = not_zero(area) && size(s) > 0.0 && size(t) > 0.0;
+    if !(values_are_finite && magnitudes_are_finite && has_corners && has_directions) {
+        return nothing;
+    }
+    let sign = select(-1.0, 1.0, area > 0.0);
+    return Term((sign / s_length) * s, (sign / t_length) * t, select(MIRRORS, KEEPS, area > 0.0));
+}
+
+struct Sum {
+    tangent: vec3f,
+    bitangent: vec3f,
+    count: f32,
+}
+
+struct Sums {
+    keeps: Sum,
+    mirrors: Sum,
+}
+
+fn plus(sum: Sum, term: Term) -> Sum {
+    return Sum(sum.tangent + term.tangent, sum.bitangent + term.bitangent, sum.count + 1.0);
+}
+
+fn add(sums: ptr<function, Sums>, triangle: vec3u) {
+    let term = term_of_triangle(triangle);
+    if term.side == KEEPS {
+        (*sums).keeps = plus((*sums).keeps, term);
+    } else if term.side == MIRRORS {
+        (*sums).mirrors = plus((*sums).mirrors, term);
+    }
+}

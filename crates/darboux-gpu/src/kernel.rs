@@ -1,0 +1,123 @@
+//! Compute pipelines, and how many groups of threads they need.
+
+use wgpu::{
+    BindGroup, BindGroupDescriptor, BindGroupEntry, BindingResource, Buffer, BufferBinding, BufferDescriptor,
+    BufferSize, BufferUsages, CommandEncoder, ComputePipeline, ComputePipelineDescriptor, Device,
+    ShaderModule, ShaderModuleDescriptor, ShaderSource,
+};
+
+/// Threads of a group.
+pub(crate) const WORKGROUP: u32 = if cfg!(small_limits) { 2 } else { 64 };
+/// Values that one thread of a prefix sum takes.
+pub(crate) const VALUES_PER_THREAD: u32 = 4;
+/// Values of a block of a prefix sum.
+pub(crate) const BLOCK: u32 = WORKGROUP * VALUES_PER_THREAD;
+/// Turns that one thread's loops take at most: drivers end what runs too long, and Mesa's software adapter quietly leaves all loops
+/// of a thread after 65,535 turns in sum.
+pub(crate) const MAX_TURNS: u32 = 1 << 15;
+
+/// A shader of files that are read one after the other.
+pub(crate) fn module(device: &Device, files: &[&str]) -> ShaderModule {
+    let source = ShaderSource::Wgsl(text(files).into());
+    device.create_shader_module(ShaderModuleDescriptor { label: Some("darboux"), source })
+}
+
+/// The text of such a shader.
+pub(crate) fn text(files: &[&str]) -> String {
+    let sizes = [
+        ("WORKGROUP", WORKGROUP),
+        ("VALUES_PER_THREAD", VALUES_PER_THREAD),
+        ("BLOCK", BLOCK),
+        ("MAX_TURNS", MAX_TURNS),
+    ];
+    let sizes = sizes.map(|(name, value)| format!("const {name}: u32 = {value}u;\n")).concat();
+    [&sizes, &files.join("\n")].map(String::as_str).concat()
+}
+
+/// One entry point of a shader.
+pub(crate) fn pipeline(device: &Device, module: &ShaderModule, entry_point: &str) -> ComputePipeline {
+    device.create_compute_pipeline(&ComputePipelineDescriptor {
+        label: Some(entry_point),
+        layout: None,
+        module,
+        entry_point: Some(entry_point),
+        compilation_options: Default::default(),
+        cache: None,
+    })
+}
+
+/// A pipeline with its buffers, and how many threads it runs.
+#[derive(Clone, Debug)]
+pub(crate) struct Step {
+    pipeline: ComputePipeline,
+    buffers: BindGroup,
+    groups: [u32; 2],
+}
+
+impl Step {
+    /// `buffers`: by binding; `threads`: at least this many run, the shader turns others away.
+    pub fn new(
+        device: &Device,
+        pipeline: &ComputePipeline,
+        buffers: &[(u32, &Buffer)],
+        threads: u32,
+    ) -> Self {
+        let entries: Vec<_> = buffers
+            .iter()
+            .map(|&(binding, buffer)| BindGroupEntry { binding, resource: whole_words(buffer) })
+            .collect();
+        let layout = pipeline.get_bind_group_layout(0);
+        let descriptor = BindGroupDescriptor { label: None, layout: &layout, entries: &entries };
+        let limit = device.limits().max_compute_workgroups_per_dimension;
+        Self {
+            pipeline: pipeline.clone(),
+            buffers: device.create_bind_group(&descriptor),
+            groups: groups(threads, limit),
+        }
+    }
+
+    /// Records the step as a pass of its own, which waits for those before it.
+    pub fn record(&self, encoder: &mut CommandEncoder) {
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &self.buffers, &[]);
+        pass.dispatch_workgroups(self.groups[0], self.groups[1], 1);
+    }
+}
+
+/// A buffer without the bytes after its last whole word, which cannot be bound.
+fn whole_words(buffer: &Buffer) -> BindingResource<'_> {
+    BindingResource::Buffer(BufferBinding { buffer, offset: 0, size: BufferSize::new(buffer.size() & !3) })
+}
+
+/// Groups for at least `threads` threads, in rows of at most `limit`.
+fn groups(threads: u32, limit: u32) -> [u32; 2] {
+    let groups = threads.div_ceil(WORKGROUP);
+    let row = groups.clamp(1, limit);
+    [row, groups.div_ceil(row)]
+}
+
+/// A buffer of words that shaders fill.
+pub(crate) fn buffer(device: &Device, label: &str, words: u32) -> Buffer {
+    device.create_buffer(&BufferDescriptor {
+        label: Some(label),
+        size: 4 * u64::from(words),
+        usage: BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC,
+        mapped_at_creation: false,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn groups_go_on_in_a_second_dimension() {
+        assert_eq!(groups(0, 65_535), [1, 0]);
+        assert_eq!(groups(1, 65_535), [1, 1]);
+        assert_eq!(groups(WORKGROUP * 65_535, 65_535), [65_535, 1]);
+        assert_eq!(groups(WORKGROUP * 65_535 + 1, 65_535), [65_535, 2]);
+        let [row, rows] = groups(u32::MAX, 65_535);
+        assert!(u64::from(row) * u64::from(rows) * u64::from(WORKGROUP) >= u64::from(u32::MAX));
+    }
+}

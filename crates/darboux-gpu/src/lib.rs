@@ -1,0 +1,40 @@
+//! Tangent frames on the GPU, for meshes that are there already: in the caller's own buffers, recorded into the caller's own command
+//! encoder, without reading back.
+//!
+//! ```no_run
+//! use darboux_gpu::{Average, Destination, FrameLayout, Gpu, GpuError, MeshBuffers, Search, VertexLayout};
+//!
+//! # async fn tangents(vertices: &wgpu::Buffer, indices: &wgpu::Buffer) -> Result<(), GpuError> {
+//! // Or a device and queue that are there already.
+//! let Gpu { device, queue, .. } = Gpu::open().await?;
+//! // A vertex of 14 floats: position, UV, normal, tangent, bitangent.
+//! let mesh = MeshBuffers {
+//!     vertices,
+//!     layout: VertexLayout { stride: 56, position: 0, uv: 12, normal: 20 },
+//!     vertex_count: 5_000,
+//!     indices,
+//!     index_format: wgpu::IndexFormat::Uint16,
+//!     first_index: 0,
+//!     index_count: 30_000,
+//! };
+//! let frames = Destination::Vertices(FrameLayout { tangent: 32, bitangent: Some(44), sign: None });
+//! let average = Average::new(&device, Search::Adjacency).of_mesh(&mesh, &frames)?;
+//!
+//! let mut encoder = device.create_command_encoder(&Default::default());
+//! average.record(&mut encoder);
+//! queue.submit([encoder.finish()]);
+//! # Ok(())
+//! # }
+//! ```
+
+mod adjacency;
+mod average;
+mod buffers;
+mod error;
+mod gpu;
+mod kernel;
+
+pub use average::{Average, AverageOfMesh, Search};
+pub use buffers::{Destination, FrameLayout, MeshBuffers, VertexLayout};
+pub use error::GpuError;
+pub use gpu::Gpu;

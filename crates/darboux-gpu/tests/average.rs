@@ -1,0 +1,260 @@
+//! The average on every adapter, both ways, against the core's and its f64 twin.
+
+mod common;
+
+use common::bound::{Known, U, dot, known, length};
+use common::{
+    APART, APART_STRIDE, ENGINE, ENGINE_FRAME, Found, GpuFrame, Packed, Place, UNTOUCHED, frames, gpus, pack,
+    run, triangulated,
+};
+use darboux::{Method, Mode, TangentOptions, generate_frames, naive};
+use darboux_gpu::{FrameLayout, Search, VertexLayout};
+use darboux_tests::{Case, OwnedMesh, corpus, families};
+
+/// How vertices fared in a comparison.
+#[derive(Debug, Default)]
+struct Tally {
+    compared: usize,
+    same_bits_as_core: usize,
+    unsure: usize,
+    /// The largest error, in parts of its bound.
+    of_bound: f64,
+}
+
+/// Runs a mesh both ways, apart and in place, and compares with the core.
+fn check(name: &str, mesh: &OwnedMesh, tally: &mut Tally) {
+    let mesh = triangulated(mesh);
+    if mesh.corner_count() == 0 {
+        return;
+    }
+    for gpu in gpus() {
+        let packed = pack(&mesh, ENGINE);
+        let found = run(gpu, Search::Adjacency, &packed, Place::Apart);
+        assert_eq!(found, run(gpu, Search::BruteForce, &packed, Place::Apart), "{name}: brute force");
+        check_in_place(
+            name,
+            &packed,
+            &found,
+            &run(gpu, Search::Adjacency, &packed, Place::InPlace(ENGINE_FRAME)),
+        );
+        check_in_place(
+            name,
+            &packed,
+            &found,
+            &run(gpu, Search::BruteForce, &packed, Place::InPlace(ENGINE_FRAME)),
+        );
+        compare(name, &mesh, &frames(&found), tally);
+    }
+}
+
+/// That the words of frames are those of `apart`, and all others as they were.
+fn check_in_place(name: &str, packed: &Packed, apart: &Found, found: &Found) {
+    let mut expected = packed.vertices.clone();
+    for v in 0..packed.vertex_count as usize {
+        let (frame, vertex) = (&apart.words[7 * v..], &mut expected[14 * v..]);
+        vertex[8..11].copy_from_slice(&frame[..3]);
+        vertex[11..14].copy_from_slice(&frame[4..7]);
+    }
+    assert!(found.words == expected, "{name}: in place");
+    assert_eq!(found.counts, apart.counts, "{name}: in place");
+}
+
+fn compare(name: &str, mesh: &OwnedMesh, found: &[GpuFrame], tally: &mut Tally) {
+    let view = mesh.view();
+    let options = TangentOptions { method: Method::Average, mode: Mode::Reference, ..Default::default() };
+    let core = generate_frames(&view, &options);
+    let slow = (mesh.corner_count() < 3_000).then(|| naive::average(&view));
+    for (v, frame) in found.iter().enumerate() {
+        check_shape(name, v, frame, mesh.normals[v]);
+    }
+    let known = known(mesh);
+    let mut is_seen = vec![false; found.len()];
+    for corner in 0..mesh.corner_count() {
+        let v = mesh.vertex_of_corner(corner);
+        let (tangent, sign, bitangent) = found[v];
+        let Known::Frame { sign: right, tangent: tangent_bound, bitangent: bitangent_bound } = known[v]
+        else {
+            tally.unsure +=
+                usize::from(known[v] == Known::Unsure && !std::mem::replace(&mut is_seen[v], true));
+            continue;
+        };
+        assert_eq!(sign, right, "{name}, vertex {v}: sign");
+        let expected = core.corners.per_corner()[corner];
+        // Faces without an orientation may take a side that no triangle of the vertex has.
+        if expected.sign != sign || expected.tangent == [0.0; 3] || std::mem::replace(&mut is_seen[v], true) {
+            continue;
+        }
+        let mut near = |what: &str, found: [f32; 3], expected: [f32; 3], bound: f64| {
+            let error = length([0, 1, 2].map(|i| f64::from(found[i]) - f64::from(expected[i])));
+            assert!(error <= bound, "{name}, vertex {v}, {what}: {found:?}, not {expected:?} to {bound:e}");
+            tally.of_bound = tally.of_bound.max(error / bound);
+        };
+        // Both are off.
+        near("tangent", tangent, expected.tangent, 2.0 * tangent_bound);
+        near("bitangent", bitangent, expected.bitangent, 2.0 * bitangent_bound);
+        // Without a normal the twin takes that of the triangles.
+        let slow = slow.as_ref().filter(|_| mesh.normals[v] != [0.0; 3]);
+        if let Some(expected) = slow.and_then(|slow| slow[corner]) {
+            near("tangent in f64", tangent, expected.tangent, tangent_bound + 2.0 * U);
+            near("bitangent in f64", bitangent, expected.bitangent, bitangent_bound + 2.0 * U);
+        }
+        tally.compared += 1;
+        let same = [(tangent, expected.tangent), (bitangent, expected.bitangent)]
+            .iter()
+            .all(|(found, expected)| found.map(f32::to_bits) == expected.map(f32::to_bits));
+        tally.same_bits_as_core += usize::from(same);
+    }
+}
+
+/// Every vertex has a frame that can be used: unit vectors in the plane of the normal, if it has one.
+fn check_shape(name: &str, v: usize, (tangent, sign, bitangent): &GpuFrame, normal: [f32; 3]) {
+    assert!(sign.abs() == 1.0, "{name}, vertex {v}: sign {sign}");
+    let normal = normal.map(f64::from);
+    let size = length(normal);
+    for vector in [tangent, bitangent] {
+        let vector = vector.map(f64::from);
+        assert!((length(vector) - 1.0).abs() < 1e-5, "{name}, vertex {v}: {vector:?}");
+        if (1e-37..1e37).contains(&size) {
+            let along = dot(vector, normal) / size;
+            assert!(along.abs() < 1e-4, "{name}, vertex {v}: {vector:?} has {along} along the normal");
+        }
+    }
+}
+
+#[test]
+fn families_agree_with_the_core() {
+    let mut tally = Tally::default();
+    check("grid", &families::grid(37, 23, false, false), &mut tally);
+    check("mirrored grid", &families::grid(30, 30, false, true), &mut tally);
+    check("sphere", &families::sphere(20, 31, false), &mut tally);
+    check("fan", &families::fan(1_000, false), &mut tally);
+    check("moebius", &families::moebius(64, false), &mut tally);
+    check("strip", &families::strip(50), &mut tally);
+    println!("{tally:?}");
+    assert!(gpus().is_empty() || tally.compared > 3_000);
+}
+
+#[test]
+fn corpus_agrees_with_the_core() {
+    let mut tally = Tally::default();
+    for specimen in corpus::corpus() {
+        check(&specimen.name, &specimen.mesh, &mut tally);
+    }
+    println!("{tally:?}");
+    assert!(gpus().is_empty() || tally.compared > 100);
+}
+
+#[test]
+fn random_meshes_agree_with_the_core() {
+    let mut tally = Tally::default();
+    for seed in 0..600 {
+        check(&format!("seed {seed}"), &Case::from_seed(seed).mesh, &mut tally);
+    }
+    println!("{tally:?}");
+    assert!(gpus().is_empty() || tally.compared > 3_000);
+}
+
+#[test]
+fn any_layout_of_whole_words_gives_the_same_bits() {
+    let mesh = triangulated(&families::sphere(9, 13, false));
+    let layouts = [
+        VertexLayout { stride: 32, position: 0, normal: 12, uv: 24 },
+        VertexLayout { stride: 32, position: 20, normal: 8, uv: 0 },
+        VertexLayout { stride: 36, position: 4, normal: 24, uv: 16 },
+        VertexLayout { stride: 68, position: 100, normal: 44, uv: 12 },
+    ];
+    for gpu in gpus() {
+        let expected = run(gpu, Search::Adjacency, &pack(&mesh, ENGINE), Place::Apart);
+        for layout in layouts {
+            for search in [Search::Adjacency, Search::BruteForce] {
+                let found = run(gpu, search, &pack(&mesh, layout), Place::Apart);
+                assert_eq!(found, expected, "{layout:?}, {search:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_not_asked_for_is_not_written() {
+    let mesh = triangulated(&families::grid(5, 5, false, true));
+    let packed = pack(&mesh, ENGINE);
+    for gpu in gpus() {
+        let all = run(gpu, Search::Adjacency, &packed, Place::Apart);
+        let mut expected = packed.vertices.clone();
+        for v in 0..packed.vertex_count as usize {
+            expected[14 * v + 9..14 * v + 13].copy_from_slice(&all.words[7 * v..7 * v + 4]);
+        }
+        let tangent_and_sign = FrameLayout { tangent: 36, bitangent: None, sign: Some(48) };
+        let found = run(gpu, Search::Adjacency, &packed, Place::InPlace(tangent_and_sign));
+        assert!(found.words == expected);
+        // Nor is anything behind the last vertex.
+        assert_eq!(all.words.len(), 7 * mesh.positions.len() + 1);
+        assert_eq!(all.words.last(), Some(&UNTOUCHED));
+    }
+    assert_eq!((APART.sign, APART_STRIDE), (Some(12), 28));
+}
+
+#[test]
+fn every_run_gives_the_same_bits() {
+    let mesh = triangulated(&families::fan(5_000, true));
+    let packed = pack(&mesh, ENGINE);
+    for gpu in gpus() {
+        let first = run(gpu, Search::Adjacency, &packed, Place::Apart);
+        for _ in 0..10 {
+            assert!(first == run(gpu, Search::Adjacency, &packed, Place::Apart));
+        }
+    }
+}
+
+#[test]
+fn triangles_of_indices_out_of_range_count_for_nothing() {
+    let mesh = triangulated(&families::grid(6, 4, false, false));
+    let packed = pack(&mesh, ENGINE);
+    let mut broken = packed.clone();
+    let outside = [packed.vertex_count, u32::MAX, 0x8000_0000];
+    for (k, outside) in outside.into_iter().enumerate() {
+        broken.indices.extend([0, 1, 2]);
+        let at = packed.indices.len() + 4 * k;
+        broken.indices[at] = outside;
+    }
+    for gpu in gpus() {
+        let expected = run(gpu, Search::Adjacency, &packed, Place::Apart);
+        for search in [Search::Adjacency, Search::BruteForce] {
+            assert_eq!(run(gpu, search, &broken, Place::Apart), expected, "{search:?}");
+        }
+    }
+}
+
+#[test]
+fn vertices_without_a_direction_and_of_both_orientations_are_counted() {
+    // Two columns of quads, the second mirrored: the three vertices between them are of both orientations. One more vertex is unused.
+    let mut mesh = triangulated(&families::grid(2, 2, false, true));
+    mesh.push(([0.0; 3], [0.0, 0.0, -1.0], [0.0; 2]));
+    for gpu in gpus() {
+        let found = run(gpu, Search::Adjacency, &pack(&mesh, ENGINE), Place::Apart);
+        assert_eq!(found.counts, [1, 3, 0]);
+        assert_eq!(frames(&found)[9], ([1.0, 0.0, 0.0], 1.0, [0.0, -1.0, 0.0]));
+    }
+}
+
+#[test]
+fn lists_longer_than_a_piece_are_taken_in_pieces() {
+    let grid = triangulated(&families::grid(9, 9, false, true));
+    let faces = vec![grid.face_list(); 250].concat();
+    assert!(faces.len() > 40_000);
+    let mut tally = Tally::default();
+    check("repeated grid", &grid.with_face_list(&faces), &mut tally);
+    assert!(gpus().is_empty() || tally.compared == 100);
+}
+
+#[test]
+fn hubs_past_the_limit_are_counted() {
+    let triangle = triangulated(&families::strip(1));
+    let faces = vec![triangle.face_list(); 32_769].concat();
+    let (within, past) = (triangle.clone().with_face_list(&faces[1..]), triangle.with_face_list(&faces));
+    for gpu in gpus() {
+        let counts = |mesh| run(gpu, Search::Adjacency, &pack(mesh, ENGINE), Place::Apart).counts;
+        assert_eq!(counts(&within), [0, 0, 0]);
+        assert_eq!(counts(&past), [3, 0, 3]);
+    }
+}

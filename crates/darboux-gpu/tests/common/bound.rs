@@ -1,0 +1,164 @@
+//! How far from the exact answer a frame may be, from what WGSL promises of arithmetic.
+//!
+//! With u = 2^-24: sums and products are off by u, quotients by 2.5 ulp (5 u), roots, as reciprocals of reciprocal roots, by 4.5 ulp
+//! (9 u); contraction only takes from that. A dP/du times the UV area, dv2 e1 - dv1 e2, passes four roundings: it is off by 4 u M, M =
+//! |dv2| |e1| + |dv1| |e2|. To make a vector unit doubles its relative error at most and adds less than 20 u.
+
+use darboux_tests::OwnedMesh;
+
+pub const U: f64 = 1.0 / (1 << 24) as f64;
+/// Of making a vector unit.
+const UNIT: f64 = 20.0 * U;
+/// Beyond these, and below their reciprocals, squares or cross products may overflow or vanish.
+const LARGEST: f64 = 1e15;
+/// A larger bound says nothing.
+pub const USEFUL: f64 = 0.1;
+
+type V3 = [f64; 3];
+
+/// What is known about the frame of a vertex.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Known {
+    /// The sign, and how far off tangent and bitangent may be.
+    Frame { sign: f32, tangent: f64, bitangent: f64 },
+    /// That it has no triangles with a direction.
+    Without,
+    /// Nothing: a decision or a direction is within rounding of something else.
+    Unsure,
+}
+
+/// A sum of directions, and how far it is off.
+#[derive(Clone, Copy, Default)]
+struct Sum {
+    value: V3,
+    error: f64,
+}
+
+#[derive(Clone, Copy, Default)]
+struct Side {
+    tangent: Sum,
+    bitangent: Sum,
+    count: f64,
+}
+
+#[derive(Clone, Default)]
+struct Vertex {
+    sides: [Side; 2],
+    is_unsure: bool,
+}
+
+enum Triangle {
+    Nothing,
+    Unsure,
+    Adds { side: usize, tangent: (V3, f64), bitangent: (V3, f64) },
+}
+
+/// What is known of every vertex of a mesh of triangles.
+pub fn known(mesh: &OwnedMesh) -> Vec<Known> {
+    let mut vertices = vec![Vertex::default(); mesh.positions.len()];
+    for face in mesh.face_list() {
+        let [a, b, c] = [face[0] as usize, face[1] as usize, face[2] as usize];
+        match triangle(mesh, [a, b, c]) {
+            Triangle::Nothing => {}
+            Triangle::Unsure => [a, b, c].iter().for_each(|&v| vertices[v].is_unsure = true),
+            Triangle::Adds { side, tangent, bitangent } => {
+                for v in [a, b, c] {
+                    let side = &mut vertices[v].sides[side];
+                    side.tangent.add(tangent);
+                    side.bitangent.add(bitangent);
+                    side.count += 1.0;
+                }
+            }
+        }
+    }
+    vertices.iter().zip(&mesh.normals).map(|(vertex, normal)| vertex.known(normal.map(f64::from))).collect()
+}
+
+impl Sum {
+    fn add(&mut self, (direction, error): (V3, f64)) {
+        self.value = [0, 1, 2].map(|i| self.value[i] + direction[i]);
+        self.error += error + U * length(self.value);
+    }
+
+    /// The error of the direction in the plane of `normal`, whose own direction is off by [`UNIT`].
+    fn in_plane(&self, normal: V3) -> f64 {
+        let along = dot(self.value, normal);
+        let rest = [0, 1, 2].map(|i| self.value[i] - along * normal[i]);
+        2.0 * (self.error + 3.0 * UNIT * length(self.value)) / length(rest) + UNIT
+    }
+}
+
+impl Vertex {
+    fn known(&self, normal: V3) -> Known {
+        let [keeps, mirrors] = &self.sides;
+        let (side, sign) = if mirrors.count > keeps.count { (mirrors, -1.0) } else { (keeps, 1.0) };
+        if self.is_unsure {
+            return Known::Unsure;
+        }
+        if side.count == 0.0 {
+            return Known::Without;
+        }
+        let normal_size = length(normal);
+        let is_plain = normal_size == 0.0 || (1.0 / LARGEST..LARGEST).contains(&normal_size);
+        // An absent normal leaves the sum as it is.
+        let normal = if normal_size > 0.0 { normal.map(|x| x / normal_size) } else { [0.0; 3] };
+        let [tangent, bitangent] = [&side.tangent, &side.bitangent].map(|sum| sum.in_plane(normal));
+        let cancels = length(side.tangent.value) < 3e-5 * side.count;
+        if is_plain && !cancels && tangent < USEFUL && bitangent < USEFUL {
+            Known::Frame { sign, tangent, bitangent }
+        } else {
+            Known::Unsure
+        }
+    }
+}
+
+fn triangle(mesh: &OwnedMesh, vertices: [usize; 3]) -> Triangle {
+    let [a, b, c] = vertices.map(|v| mesh.positions[v].map(f64::from));
+    let [ta, tb, tc] = vertices.map(|v| mesh.uvs[v].map(f64::from));
+    let values = [&a[..], &b, &c, &ta, &tb, &tc].concat();
+    if !values.iter().all(|value| value.is_finite()) || a == b || b == c || a == c {
+        return Triangle::Nothing;
+    }
+    let edges = [sub(b, a), sub(c, a), sub(c, b)];
+    let [d1, d2] = [tb, tc].map(|t| [t[0] - ta[0], t[1] - ta[1]]);
+    let area = d1[0] * d2[1] - d1[1] * d2[0];
+    if area == 0.0 && area_in_floats(vertices.map(|v| mesh.uvs[v])) == 0.0 {
+        return Triangle::Nothing;
+    }
+    let area_error = 8.0 * U * ((d1[0] * d2[1]).abs() + (d1[1] * d2[0]).abs());
+    let sign = area.signum();
+    let (tangent, tangent_size) = derivative([sign * d2[1], sign * d1[1]], edges[0], edges[1]);
+    let (bitangent, bitangent_size) = derivative([sign * d1[0], sign * d2[0]], edges[1], edges[0]);
+    let sizes = [tangent_size, bitangent_size, length(edges[0]), length(edges[1]), length(edges[2])];
+    let are_plain = sizes.iter().all(|size| (1.0 / LARGEST..LARGEST).contains(size))
+        && (LARGEST.powi(-2)..LARGEST * LARGEST).contains(&area.abs());
+    if !are_plain || area.abs() <= area_error || tangent.1 > USEFUL || bitangent.1 > USEFUL {
+        return Triangle::Unsure;
+    }
+    Triangle::Adds { side: usize::from(area < 0.0), tangent, bitangent }
+}
+
+/// As shaders compute it: without contraction, so that UVs in one line have none.
+fn area_in_floats([a, b, c]: [[f32; 2]; 3]) -> f32 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+/// x a - y b: its direction with the error that floats make, and its length.
+fn derivative([x, y]: [f64; 2], a: V3, b: V3) -> ((V3, f64), f64) {
+    let value = [0, 1, 2].map(|i| x * a[i] - y * b[i]);
+    let size = length(value);
+    let error = 4.0 * U * (x.abs() * length(a) + y.abs() * length(b));
+    ((value.map(|x| x / size), 2.0 * error / size + UNIT), size)
+}
+
+pub fn sub(a: V3, b: V3) -> V3 {
+    [0, 1, 2].map(|i| a[i] - b[i])
+}
+
+pub fn dot(a: V3, b: V3) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub fn length(v: V3) -> f64 {
+    dot(v, v).sqrt()
+}

@@ -1,0 +1,187 @@
+//! Meshes into buffers of any layout, and what comes back.
+
+#![allow(dead_code, reason = "every test file uses its part")]
+
+pub mod bound;
+
+use std::io::Write;
+use std::sync::OnceLock;
+
+use darboux_gpu::{Average, AverageOfMesh, Destination, FrameLayout, Gpu, MeshBuffers, Search, VertexLayout};
+use darboux_tests::{FaceSizes, OwnedMesh};
+use wgpu::util::{BufferInitDescriptor, DeviceExt};
+use wgpu::{Buffer, BufferUsages, IndexFormat};
+
+/// Every adapter's device. Where there are none, says so once, and fails in continuous integration.
+pub fn gpus() -> &'static [Gpu] {
+    static GPUS: OnceLock<Vec<Gpu>> = OnceLock::new();
+    GPUS.get_or_init(|| {
+        pollster::block_on(Gpu::open_all()).unwrap_or_else(|error| {
+            assert!(std::env::var_os("CI").is_none(), "{error}");
+            writeln!(std::io::stdout(), "skipped: no adapter (Debian: mesa-vulkan-drivers, libvulkan1)")
+                .expect("standard output");
+            Vec::new()
+        })
+    })
+}
+
+/// What a word holds before anybody writes it.
+pub const UNTOUCHED: u32 = 0xdead_beef;
+
+/// A mesh in words, and how it is laid out.
+#[derive(Clone)]
+pub struct Packed {
+    pub vertices: Vec<u32>,
+    pub layout: VertexLayout,
+    pub vertex_count: u32,
+    pub indices: Vec<u32>,
+}
+
+/// A vertex of 14 floats as engines have it: position, UV, normal, tangent, bitangent, the vectors 12 bytes each.
+pub const ENGINE: VertexLayout = VertexLayout { stride: 56, position: 0, uv: 12, normal: 20 };
+/// The places of the last two.
+pub const ENGINE_FRAME: FrameLayout = FrameLayout { tangent: 32, bitangent: Some(44), sign: None };
+/// Frames of their own: tangent and sign, bitangent.
+pub const APART: FrameLayout = FrameLayout { tangent: 0, bitangent: Some(16), sign: Some(12) };
+pub const APART_STRIDE: u32 = 28;
+
+/// Lays a mesh out. Faces of more than three corners become triangles around their first.
+pub fn pack(mesh: &OwnedMesh, layout: VertexLayout) -> Packed {
+    let count = mesh.positions.len();
+    let stride = layout.stride as usize / 4;
+    let starts = [layout.position, layout.normal, layout.uv].map(|offset| offset as usize / 4);
+    let end = starts.into_iter().max().expect("three") + 3;
+    let mut vertices = vec![UNTOUCHED; stride * count + end];
+    for v in 0..count {
+        let (position, normal, uv) = mesh.vertex(v);
+        for (start, values) in starts.iter().zip([&position[..], &normal[..], &uv[..]]) {
+            for (k, value) in values.iter().enumerate() {
+                vertices[start + stride * v + k] = value.to_bits();
+            }
+        }
+    }
+    let indices = triangles(mesh).concat();
+    Packed { vertices, layout, vertex_count: count as u32, indices }
+}
+
+pub fn triangles(mesh: &OwnedMesh) -> Vec<Vec<u32>> {
+    let around_first = |face: Vec<u32>| {
+        let ends: Vec<[u32; 2]> =
+            face.iter().skip(1).zip(face.iter().skip(2)).map(|(a, b)| [*a, *b]).collect();
+        ends.into_iter().map(move |[a, b]| vec![face[0], a, b])
+    };
+    mesh.face_list().into_iter().flat_map(around_first).collect()
+}
+
+/// The same with triangles alone, indexed.
+pub fn triangulated(mesh: &OwnedMesh) -> OwnedMesh {
+    let faces = triangles(mesh);
+    let mut mesh = mesh.clone().with_face_list(&faces);
+    mesh.faces = FaceSizes::Triangles;
+    mesh
+}
+
+/// Where frames are asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    InPlace(FrameLayout),
+    Apart,
+}
+
+/// All words of the destination after a run, and the counts.
+#[derive(Debug, PartialEq)]
+pub struct Found {
+    pub words: Vec<u32>,
+    pub counts: [u32; 3],
+}
+
+/// Words in a buffer.
+pub fn buffer(gpu: &Gpu, words: &[u32], usage: BufferUsages) -> Buffer {
+    let contents = bytes(words);
+    gpu.device.create_buffer_init(&BufferInitDescriptor { label: None, contents: &contents, usage })
+}
+
+fn bytes(words: &[u32]) -> Vec<u8> {
+    words.iter().flat_map(|word| word.to_le_bytes()).collect()
+}
+
+/// Runs once with 32-bit indices.
+pub fn run(gpu: &Gpu, search: Search, packed: &Packed, place: Place) -> Found {
+    let usage = BufferUsages::STORAGE;
+    let indices = buffer(gpu, if packed.indices.is_empty() { &[0] } else { &packed.indices }, usage);
+    let count = packed.indices.len() as u32;
+    run_with(gpu, search, packed, (&indices, IndexFormat::Uint32, 0, count), place)
+}
+
+/// Runs with indices of any form: their buffer, width, first and number.
+pub fn run_with(
+    gpu: &Gpu,
+    search: Search,
+    packed: &Packed,
+    (indices, index_format, first_index, index_count): (&Buffer, IndexFormat, u32, u32),
+    place: Place,
+) -> Found {
+    let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
+    let vertices = buffer(gpu, &packed.vertices, usage);
+    let frames = buffer(gpu, &vec![UNTOUCHED; (packed.vertex_count * APART_STRIDE / 4 + 1) as usize], usage);
+    let mesh = MeshBuffers {
+        vertices: &vertices,
+        layout: packed.layout,
+        vertex_count: packed.vertex_count,
+        indices,
+        index_format,
+        first_index,
+        index_count,
+    };
+    let (destination, written) = match place {
+        Place::InPlace(layout) => (Destination::Vertices(layout), &vertices),
+        Place::Apart => {
+            (Destination::Buffer { buffer: &frames, stride: APART_STRIDE, layout: APART }, &frames)
+        }
+    };
+    let average = average(gpu, search).of_mesh(&mesh, &destination).unwrap_or_else(|error| panic!("{error}"));
+    read(gpu, &average, written)
+}
+
+/// Compiled once per search, for the only device most machines have.
+fn average(gpu: &Gpu, search: Search) -> Average {
+    static COMPILED: OnceLock<Vec<[Average; 2]>> = OnceLock::new();
+    let both =
+        |gpu: &Gpu| [Search::BruteForce, Search::Adjacency].map(|search| Average::new(&gpu.device, search));
+    let compiled = COMPILED.get_or_init(|| gpus().iter().map(both).collect());
+    let at = gpus().iter().position(|other| other.device == gpu.device).expect("one of all");
+    compiled[at][usize::from(search == Search::Adjacency)].clone()
+}
+
+fn read(gpu: &Gpu, average: &AverageOfMesh, written: &Buffer) -> Found {
+    let usage = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
+    let words = buffer(gpu, &vec![0; (written.size() / 4) as usize], usage);
+    let counts = buffer(gpu, &[0; 3], usage);
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    average.record(&mut encoder);
+    encoder.copy_buffer_to_buffer(written, 0, &words, 0, None);
+    encoder.copy_buffer_to_buffer(average.counts(), 0, &counts, 0, None);
+    gpu.queue.submit([encoder.finish()]);
+    let counts = words_of(gpu, &counts);
+    Found { words: words_of(gpu, &words), counts: [counts[0], counts[1], counts[2]] }
+}
+
+/// The words of a buffer that can be mapped, once all submitted work is done.
+pub fn words_of(gpu: &Gpu, buffer: &Buffer) -> Vec<u32> {
+    buffer.map_async(wgpu::MapMode::Read, .., |result| result.expect("a buffer that can be mapped"));
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("a device that goes on");
+    let bytes = buffer.get_mapped_range(..).expect("a mapped buffer");
+    bytes.as_chunks().0.iter().map(|bytes| u32::from_le_bytes(*bytes)).collect()
+}
+
+/// A frame of a vertex: tangent, sign, bitangent.
+pub type GpuFrame = ([f32; 3], f32, [f32; 3]);
+
+/// The frames of a run with [`Place::Apart`].
+pub fn frames(found: &Found) -> Vec<GpuFrame> {
+    let frame = |words: &[u32; 7]| {
+        let [x, y, z, sign, a, b, c] = words.map(f32::from_bits);
+        ([x, y, z], sign, [a, b, c])
+    };
+    found.words.as_chunks().0.iter().map(frame).collect()
+}
