@@ -37,7 +37,7 @@ impl Corners {
         let mut reader = Reader::new(count)?;
         if is_first_undefined {
             // The reference's bounds begin at the very first corner, even if it does not count.
-            reader.push(caller.first_vertex());
+            reader.add(&[caller.first_vertex()]);
         }
         reader.read(caller, &size_of_face);
         let Reader { vertices, vertex_of_corner, .. } = reader;
@@ -134,22 +134,26 @@ impl Reader {
                 filled += 1;
             }
             if filled >= BLOCK {
-                block[..filled].iter().for_each(|vertex| self.push(*vertex));
+                self.add(&block[..filled]);
                 filled = 0;
             }
         }
-        block[..filled].iter().for_each(|vertex| self.push(*vertex));
+        self.add(&block[..filled]);
     }
 
-    fn push(&mut self, vertex: [f32; 8]) {
-        let bits = vertex.map(f32::to_bits);
+    /// Adds corners.
+    fn add(&mut self, corners: &[[f32; 8]]) {
         let mask = self.vertex_of_hash.len() - 1;
-        let slot = &mut self.vertex_of_hash[hash(bits) as usize & mask];
-        if self.vertices.get(*slot as usize).is_none_or(|known| known.map(f32::to_bits) != bits) {
-            *slot = self.vertices.len() as u32;
-            self.vertices.push(vertex);
-        }
-        self.vertex_of_corner.push(*slot);
+        let vertex = |corner: &[f32; 8]| {
+            let bits = corner.map(f32::to_bits);
+            let slot = &mut self.vertex_of_hash[hash(bits) as usize & mask];
+            if self.vertices.get(*slot as usize).is_none_or(|known| known.map(f32::to_bits) != bits) {
+                *slot = self.vertices.len() as u32;
+                self.vertices.push(*corner);
+            }
+            *slot
+        };
+        self.vertex_of_corner.extend(corners.iter().map(vertex));
     }
 }
 
