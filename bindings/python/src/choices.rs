@@ -4,7 +4,7 @@ use darboux::{Method, Mode, TangentOptions};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-pub const METHODS: &[(&str, Method)] = &[
+const METHODS: &[(&str, Method)] = &[
     ("mikktspace", Method::MikkTSpace),
     ("angle-area", Method::AngleArea),
     ("lengyel", Method::Lengyel),

@@ -5,7 +5,14 @@
 
 mod arrays;
 mod choices;
+mod command;
+mod convention;
+mod document;
+mod encode;
+mod measure;
 mod mesh;
+mod normals;
+mod plan;
 mod results;
 mod split;
 mod tangents;
@@ -13,8 +20,29 @@ mod threads;
 
 #[pyo3::pymodule]
 mod _darboux {
+    use darboux::Convention;
     use pyo3::prelude::*;
+    use pyo3::types::PyTuple;
 
+    #[pymodule_export]
+    use crate::command::run;
+    #[pymodule_export]
+    use crate::convention::convert;
+    #[pymodule_export]
+    use crate::document::{Document, dumps, load, loads, save};
+    #[pymodule_export]
+    use crate::encode::{
+        frame_from_quaternion, frame_to_quaternion, normal_from_octahedral, normal_to_octahedral,
+        tangent_from_diamond, tangent_from_octahedral, tangent_from_snorm8, tangent_from_snorm10,
+        tangent_from_snorm16, tangent_to_diamond, tangent_to_octahedral, tangent_to_snorm8,
+        tangent_to_snorm10, tangent_to_snorm16,
+    };
+    #[pymodule_export]
+    use crate::measure::{measure_tangents, measure_uv_fidelity};
+    #[pymodule_export]
+    use crate::normals::generate_normals;
+    #[pymodule_export]
+    use crate::plan::Plan;
     #[pymodule_export]
     use crate::split::{split_normals, split_vertices};
     #[pymodule_export]
@@ -22,6 +50,8 @@ mod _darboux {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
-        module.add("__version__", env!("CARGO_PKG_VERSION"))
+        module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+        let names = Convention::PRESETS.map(|(name, _)| name);
+        module.add("CONVENTIONS", PyTuple::new(module.py(), names)?)
     }
 }

@@ -14,8 +14,8 @@ use crate::arrays::{Rows, array_of, packed, shape_text, wrong_type};
 pub struct MeshArrays<'py> {
     positions: Rows<'py, 3>,
     normals: Rows<'py, 3>,
-    uvs: Rows<'py, 2>,
-    pub indices: IndexArray<'py>,
+    pub uvs: Rows<'py, 2>,
+    indices: IndexArray<'py>,
     pub faces: FaceSizes,
 }
 
@@ -46,6 +46,15 @@ impl<'py> MeshArrays<'py> {
 /// The sentence of the core as a ValueError.
 pub fn value_error(error: MeshError) -> PyErr {
     PyValueError::new_err(error.to_string())
+}
+
+/// A copy of indices; none where corner i is vertex i.
+pub fn owned(indices: Indices<'_>) -> Option<Vec<u32>> {
+    match indices {
+        Indices::Unindexed => None,
+        Indices::U16(list) => Some(list.iter().map(|&index| index.into()).collect()),
+        Indices::U32(list) => Some(list.to_vec()),
+    }
 }
 
 /// Indices: in numpy's memory where they are uint16 or uint32 and packed, else copied.

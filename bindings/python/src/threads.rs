@@ -4,7 +4,9 @@
 //! wait forever.
 
 use std::collections::HashMap;
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -66,4 +68,41 @@ fn pool(threads: usize) -> PyResult<Arc<ThreadPool>> {
     let pool = Arc::new(made);
     pools.by_threads.insert(threads, pool.clone());
     Ok(pool)
+}
+
+/// How often Python is asked for Ctrl-C while work goes on elsewhere.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// Does `work` on a pool without the GIL, while this thread waits: it gives what work sends to `receive`, and takes Ctrl-C.
+///
+/// After Ctrl-C, or an error of `receive`, the work goes on to its end, which is waited for; its result is dropped.
+pub fn attended<M: Send, R: Send>(
+    py: Python<'_>,
+    work: impl FnOnce(&Sender<M>) -> R + Send,
+    mut receive: impl FnMut(M) -> PyResult<()>,
+) -> PyResult<R> {
+    let (sender, mut receiver) = channel();
+    let mut done = None;
+    let mut outcome = Ok(());
+    let pool = pool(0)?;
+    let result = &mut done;
+    pool.in_place_scope(|scope| {
+        scope.spawn(move |_| *result = Some(work(&sender)));
+        loop {
+            let message;
+            (receiver, message) = py.detach(move || {
+                let message = receiver.recv_timeout(PATIENCE);
+                (receiver, message)
+            });
+            let is_done = matches!(message, Err(RecvTimeoutError::Disconnected));
+            if outcome.is_ok() {
+                outcome = message.map_or_else(|_| py.check_signals(), &mut receive);
+            }
+            if is_done {
+                break;
+            }
+        }
+    });
+    outcome?;
+    done.ok_or_else(|| PyRuntimeError::new_err("the work was abandoned; this is a defect of darboux"))
 }

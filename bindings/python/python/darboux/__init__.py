@@ -17,16 +17,60 @@ array([[1., 0., 0., 1.],
 >>> positions = positions[split.source_of_vertex]
 """
 
-from ._darboux import __version__, generate_tangents, split_normals, split_vertices
-from ._results import Frames, NormalSplit, Report, VertexSplit
+from . import encode
+from ._darboux import (
+    CONVENTIONS,
+    Document,
+    Plan,
+    __version__,
+    convert,
+    dumps,
+    generate_normals,
+    generate_tangents,
+    load,
+    loads,
+    measure_tangents,
+    measure_uv_fidelity,
+    save,
+    split_normals,
+    split_vertices,
+)
+from ._process import process
+from ._results import (
+    Converted,
+    Frames,
+    NormalReport,
+    NormalSplit,
+    Report,
+    TangentDifference,
+    UvFidelity,
+    VertexSplit,
+)
 
 __all__ = [
+    "CONVENTIONS",
+    "Converted",
+    "Document",
     "Frames",
+    "NormalReport",
     "NormalSplit",
+    "Plan",
     "Report",
+    "TangentDifference",
+    "UvFidelity",
     "VertexSplit",
     "__version__",
+    "convert",
+    "dumps",
+    "encode",
+    "generate_normals",
     "generate_tangents",
+    "load",
+    "loads",
+    "measure_tangents",
+    "measure_uv_fidelity",
+    "process",
+    "save",
     "split_normals",
     "split_vertices",
 ]

@@ -1,6 +1,6 @@
 """What functions return. V vertices before, W after splitting; C corners."""
 
-from typing import NamedTuple
+from typing import List, NamedTuple, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -65,3 +65,75 @@ class NormalSplit(NamedTuple):
     """The new vertex of each corner, in the shape of the old indices."""
     source_of_vertex: Numbers
     """(W,): the old vertex that each new one copies."""
+
+
+class NormalReport(NamedTuple):
+    """What generate_normals met on the way."""
+
+    faces: int
+    """Faces, degenerate ones included."""
+    degenerate_faces: int
+    """Faces without an area, or with values that are not finite. They add nothing."""
+    repaired_corners: int
+    """Corners whose faces' normals cancel or are missing."""
+    creased_edges: int
+    """Edges between two faces at which smooth shading stops for their angle."""
+
+
+class TangentDifference(NamedTuple):
+    """How two sets of tangents of one mesh differ. Angles in degrees, between the xyz of a corner in both."""
+
+    corners: int
+    """The number of corners."""
+    identical: int
+    """Corners whose four floats are the same bits."""
+    sign_flips: int
+    """Corners whose signs differ."""
+    without_angle: int
+    """Corners where a tangent is zero or not finite. They are in none of the numbers below."""
+    mean: float
+    """The mean angle."""
+    min: float
+    """The smallest angle."""
+    median: float
+    """The angle that half of the corners do not exceed."""
+    p95: float
+    """The angle that 95 corners in 100 do not exceed."""
+    max: float
+    """The largest angle."""
+    histogram: npt.NDArray[np.int64]
+    """Corners up to 0, 0.001, 0.01, 0.1, 1, 5, 15, 45, 90 and 180 degrees."""
+    worst: List[Tuple[int, float]]
+    """The corners with the largest angles and these, the largest first."""
+
+
+class UvFidelity(NamedTuple):
+    """How well tangents follow the UVs: angles in degrees between the interpolated tangent and dP/du, over the surface."""
+
+    mean: float
+    """The mean angle, weighted by area."""
+    root_mean_square: float
+    """The root of the mean square of the angle."""
+    area: float
+    """The area that was measured."""
+    left_out: int
+    """Triangles that were not: without area, or without a dP/du."""
+
+
+class Converted(NamedTuple):
+    """Vertex data in another convention; None for what was not given."""
+
+    positions: Optional[Floats]
+    """(V, 3)."""
+    normals: Optional[Floats]
+    """(V, 3)."""
+    uvs: Optional[Floats]
+    """(V, 2)."""
+    indices: Optional[Numbers]
+    """In the shape of the old indices."""
+    tangents: Optional[Floats]
+    """(V, 4)."""
+    inverts_red: bool
+    """Whether red of normal maps leans the other way and must be inverted."""
+    inverts_green: bool
+    """Whether green does."""

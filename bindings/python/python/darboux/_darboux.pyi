@@ -1,0 +1,248 @@
+import os
+from pathlib import Path
+from typing import Any, Callable, Dict, List, Literal, Optional, Sequence, Tuple, Union, final, overload
+
+import numpy as np
+import numpy.typing as npt
+
+from ._results import (
+    Converted,
+    Frames,
+    NormalReport,
+    NormalSplit,
+    Report,
+    TangentDifference,
+    UvFidelity,
+    VertexSplit,
+)
+
+_Floats = npt.NDArray[np.float32]
+_Path = Union[str, "os.PathLike[str]"]
+_Progress = Callable[[int, int], object]
+_Method = Literal[
+    "mikktspace", "angle-area", "lengyel", "lengyel-per-vertex", "average", "area", "face", "from-normal"
+]
+_Mode = Literal["reference", "repaired", "corrected"]
+_Shading = Literal["flat", "smooth"]
+_Weight = Literal["angle", "area", "angle-area"]
+_Seams = Literal["ignored", "respected"]
+
+__all__ = [
+    "CONVENTIONS",
+    "Document",
+    "Plan",
+    "__version__",
+    "convert",
+    "dumps",
+    "frame_from_quaternion",
+    "frame_to_quaternion",
+    "generate_normals",
+    "generate_tangents",
+    "load",
+    "loads",
+    "measure_tangents",
+    "measure_uv_fidelity",
+    "normal_from_octahedral",
+    "normal_to_octahedral",
+    "run",
+    "save",
+    "split_normals",
+    "split_vertices",
+    "tangent_from_diamond",
+    "tangent_from_octahedral",
+    "tangent_from_snorm10",
+    "tangent_from_snorm16",
+    "tangent_from_snorm8",
+    "tangent_to_diamond",
+    "tangent_to_octahedral",
+    "tangent_to_snorm10",
+    "tangent_to_snorm16",
+    "tangent_to_snorm8",
+]
+__version__: str
+CONVENTIONS: Tuple[str, ...]
+
+@overload
+def generate_tangents(
+    positions: npt.ArrayLike,
+    normals: npt.ArrayLike,
+    uvs: npt.ArrayLike,
+    indices: Optional[npt.ArrayLike] = None,
+    *,
+    faces: Optional[npt.ArrayLike] = None,
+    method: _Method = "mikktspace",
+    mode: _Mode = "repaired",
+    threshold: float = 180.0,
+    full: Literal[False] = False,
+    threads: Optional[int] = None,
+    out: Optional[_Floats] = None,
+    return_report: Literal[False] = False,
+) -> _Floats: ...
+@overload
+def generate_tangents(
+    positions: npt.ArrayLike,
+    normals: npt.ArrayLike,
+    uvs: npt.ArrayLike,
+    indices: Optional[npt.ArrayLike] = None,
+    *,
+    faces: Optional[npt.ArrayLike] = None,
+    method: _Method = "mikktspace",
+    mode: _Mode = "repaired",
+    threshold: float = 180.0,
+    full: Literal[False] = False,
+    threads: Optional[int] = None,
+    out: Optional[_Floats] = None,
+    return_report: Literal[True],
+) -> Tuple[_Floats, Report]: ...
+@overload
+def generate_tangents(
+    positions: npt.ArrayLike,
+    normals: npt.ArrayLike,
+    uvs: npt.ArrayLike,
+    indices: Optional[npt.ArrayLike] = None,
+    *,
+    faces: Optional[npt.ArrayLike] = None,
+    method: _Method = "mikktspace",
+    mode: _Mode = "repaired",
+    threshold: float = 180.0,
+    full: Literal[True],
+    threads: Optional[int] = None,
+    out: None = None,
+    return_report: Literal[False] = False,
+) -> Frames: ...
+@overload
+def generate_tangents(
+    positions: npt.ArrayLike,
+    normals: npt.ArrayLike,
+    uvs: npt.ArrayLike,
+    indices: Optional[npt.ArrayLike] = None,
+    *,
+    faces: Optional[npt.ArrayLike] = None,
+    method: _Method = "mikktspace",
+    mode: _Mode = "repaired",
+    threshold: float = 180.0,
+    full: Literal[True],
+    threads: Optional[int] = None,
+    out: None = None,
+    return_report: Literal[True],
+) -> Tuple[Frames, Report]: ...
+def split_vertices(indices: npt.ArrayLike, tangents: npt.ArrayLike, vertex_count: int) -> VertexSplit: ...
+def split_normals(indices: npt.ArrayLike, normals: npt.ArrayLike, vertex_count: int) -> NormalSplit: ...
+@overload
+def generate_normals(
+    positions: npt.ArrayLike,
+    indices: Optional[npt.ArrayLike] = None,
+    *,
+    faces: Optional[npt.ArrayLike] = None,
+    shading: _Shading = "smooth",
+    weight: _Weight = "angle",
+    crease: float = 180.0,
+    seams: _Seams = "ignored",
+    return_report: Literal[False] = False,
+) -> _Floats: ...
+@overload
+def generate_normals(
+    positions: npt.ArrayLike,
+    indices: Optional[npt.ArrayLike] = None,
+    *,
+    faces: Optional[npt.ArrayLike] = None,
+    shading: _Shading = "smooth",
+    weight: _Weight = "angle",
+    crease: float = 180.0,
+    seams: _Seams = "ignored",
+    return_report: Literal[True],
+) -> Tuple[_Floats, NormalReport]: ...
+def measure_tangents(a: npt.ArrayLike, b: npt.ArrayLike) -> TangentDifference: ...
+def measure_uv_fidelity(
+    positions: npt.ArrayLike,
+    uvs: npt.ArrayLike,
+    indices: Optional[npt.ArrayLike],
+    tangents: npt.ArrayLike,
+    *,
+    faces: Optional[npt.ArrayLike] = None,
+) -> UvFidelity: ...
+def convert(
+    source: str,
+    target: str,
+    *,
+    positions: Optional[npt.ArrayLike] = None,
+    normals: Optional[npt.ArrayLike] = None,
+    uvs: Optional[npt.ArrayLike] = None,
+    indices: Optional[npt.ArrayLike] = None,
+    tangents: Optional[npt.ArrayLike] = None,
+    faces: Optional[npt.ArrayLike] = None,
+    generated: bool = False,
+) -> Converted: ...
+@final
+class Plan:
+    def __new__(
+        cls,
+        positions: npt.ArrayLike,
+        normals: npt.ArrayLike,
+        uvs: npt.ArrayLike,
+        indices: Optional[npt.ArrayLike] = None,
+        *,
+        faces: Optional[npt.ArrayLike] = None,
+        mode: _Mode = "repaired",
+        threshold: float = 180.0,
+    ) -> "Plan": ...
+    @property
+    def base(self) -> _Floats: ...
+    @property
+    def report(self) -> Report: ...
+    def evaluate(self, positions: npt.ArrayLike, normals: npt.ArrayLike) -> _Floats: ...
+    def count_regrouped(self, positions: npt.ArrayLike, normals: npt.ArrayLike) -> int: ...
+@final
+class Document:
+    @property
+    def is_changed(self) -> bool: ...
+    @property
+    def warnings(self) -> List[str]: ...
+    @property
+    def primitive_counts(self) -> List[int]: ...
+    def arrays(self, mesh: int = 0, primitive: int = 0) -> Dict[str, npt.NDArray[Any]]: ...
+    def inspect(self) -> List[Dict[str, Any]]: ...
+    def add_tangents(
+        self,
+        *,
+        method: _Method = "mikktspace",
+        mode: _Mode = "repaired",
+        threshold: float = 180.0,
+        encoding: Literal["f32x4", "snorm16x4", "snorm8x4"] = "f32x4",
+        overwrite: bool = False,
+        only_needed: bool = False,
+        strict: bool = False,
+        apply_texture_transform: bool = False,
+        progress: Optional[_Progress] = None,
+    ) -> Dict[str, Any]: ...
+    def add_normals(
+        self,
+        *,
+        shading: _Shading = "smooth",
+        weight: _Weight = "angle",
+        crease: float = 180.0,
+        seams: _Seams = "ignored",
+        overwrite: bool = False,
+        progress: Optional[_Progress] = None,
+    ) -> Dict[str, Any]: ...
+    def convert(self, source: str, target: str, *, progress: Optional[_Progress] = None) -> Dict[str, Any]: ...
+
+def load(path: _Path, *, allow_outside: bool = False) -> Document: ...
+def loads(data: bytes, *, name: str = "<bytes>", base: Optional[_Path] = None) -> Document: ...
+def dumps(document: Document) -> bytes: ...
+def save(document: Document, path: _Path, *, force: bool = False) -> List[Path]: ...
+def run(arguments: Sequence[str]) -> int: ...
+def tangent_to_snorm8(tangents: npt.ArrayLike) -> npt.NDArray[np.int8]: ...
+def tangent_from_snorm8(codes: npt.NDArray[np.int8]) -> _Floats: ...
+def tangent_to_snorm16(tangents: npt.ArrayLike) -> npt.NDArray[np.int16]: ...
+def tangent_from_snorm16(codes: npt.NDArray[np.int16]) -> _Floats: ...
+def tangent_to_snorm10(tangents: npt.ArrayLike) -> npt.NDArray[np.uint32]: ...
+def tangent_from_snorm10(codes: npt.NDArray[np.uint32]) -> _Floats: ...
+def tangent_to_octahedral(tangents: npt.ArrayLike) -> npt.NDArray[np.int16]: ...
+def tangent_from_octahedral(codes: npt.NDArray[np.int16]) -> _Floats: ...
+def normal_to_octahedral(normals: npt.ArrayLike) -> npt.NDArray[np.int16]: ...
+def normal_from_octahedral(codes: npt.NDArray[np.int16]) -> _Floats: ...
+def tangent_to_diamond(normals: npt.ArrayLike, tangents: npt.ArrayLike) -> npt.NDArray[np.uint16]: ...
+def tangent_from_diamond(normals: npt.ArrayLike, codes: npt.NDArray[np.uint16]) -> _Floats: ...
+def frame_to_quaternion(normals: npt.ArrayLike, tangents: npt.ArrayLike) -> npt.NDArray[np.int16]: ...
+def frame_from_quaternion(codes: npt.NDArray[np.int16]) -> Tuple[_Floats, _Floats]: ...

@@ -1,0 +1,16 @@
+//! The command line.
+
+use std::ffi::OsString;
+
+use pyo3::prelude::*;
+
+/// Run the darboux command on the process's standard streams; return its exit code.
+///
+/// Parameters
+/// ----------
+/// arguments : list of str
+///     The first is the program's name.
+#[pyfunction]
+pub fn run(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
+    py.detach(|| darboux_cli::run(arguments))
+}

@@ -1,0 +1,119 @@
+//! Vertex data from one program's convention to another's.
+
+use darboux::{Convention, Conversion};
+use numpy::PyArray1;
+use numpy::prelude::*;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::arrays::{Rows, rows_array};
+use crate::choices::choice;
+use crate::mesh::{FaceSizes, IndexArray, owned};
+use crate::results::named;
+
+/// The convention of that name.
+pub fn convention(what: &str, name: &str) -> PyResult<Convention> {
+    choice(what, name, &Convention::PRESETS)
+}
+
+/// Convert vertex data from one convention to another. The surface, its texture and its light stay as they are.
+///
+/// Tangents of generate_tangents are in no program's convention yet: their w says where v runs, whatever v means. Give the convention of
+/// the mesh as source and `generated=True`. Even from 'gltf' to 'gltf' that negates w, as v runs down there.
+///
+/// Parameters
+/// ----------
+/// source, target : str
+///     One of CONVENTIONS.
+/// positions, normals : (V, 3) array_like, optional
+///     Or offsets of morph targets.
+/// uvs : (V, 2) array_like, optional
+/// indices : (C,), (F, 3) or (F, 4) array_like of integers, optional
+///     Faces are reversed, but for their first corner, where fronts are wound the other way.
+/// tangents : (V, 4) array_like, optional
+///     One per vertex.
+/// faces : 3, 4 or (F,) array_like of integers, optional
+///     As for generate_tangents.
+/// generated : bool
+///     The tangents are those of generate_tangents for a mesh in the source's convention.
+///
+/// Returns
+/// -------
+/// Converted
+///     New arrays, None for what was not given; and whether the normal map's red and green must be inverted.
+///
+/// Raises
+/// ------
+/// TypeError, ValueError
+///     As generate_tangents; an unknown convention.
+#[pyfunction]
+#[pyo3(signature = (
+    source, target, *, positions=None, normals=None, uvs=None, indices=None, tangents=None, faces=None, generated=false
+))]
+#[expect(clippy::too_many_arguments, reason = "Python passes them by name")]
+pub fn convert<'py>(
+    py: Python<'py>,
+    source: &str,
+    target: &str,
+    positions: Option<&Bound<'py, PyAny>>,
+    normals: Option<&Bound<'py, PyAny>>,
+    uvs: Option<&Bound<'py, PyAny>>,
+    indices: Option<&Bound<'py, PyAny>>,
+    tangents: Option<&Bound<'py, PyAny>>,
+    faces: Option<&Bound<'py, PyAny>>,
+    generated: bool,
+) -> PyResult<Bound<'py, PyAny>> {
+    let (source, target) = (convention("source", source)?, convention("target", target)?);
+    let change = source.to(target);
+    let of_tangents = if generated { source.generated().to(target) } else { change };
+    let fields = (
+        mapped(py, "positions", positions, |vector| change.vector(vector))?,
+        mapped(py, "normals", normals, |vector| change.vector(vector))?,
+        mapped(py, "uvs", uvs, |uv| change.uv(uv))?,
+        indices.map(|indices| converted_indices(py, indices, faces, &change)).transpose()?,
+        mapped(py, "tangents", tangents, |tangent| of_tangents.tangent(tangent))?,
+        change.inverts_red(),
+        change.inverts_green(),
+    );
+    named(py, "Converted", fields)
+}
+
+fn mapped<'py, const N: usize>(
+    py: Python<'py>,
+    name: &str,
+    rows: Option<&Bound<'py, PyAny>>,
+    change: impl Fn([f32; N]) -> [f32; N],
+) -> PyResult<Option<Bound<'py, PyAny>>> {
+    let Some(rows) = rows else { return Ok(None) };
+    let rows = Rows::<N>::new(name, "V", rows)?.to_vec()?.into_iter().map(change).collect();
+    Ok(Some(rows_array(py, rows)?.into_any()))
+}
+
+/// Indices in the shape they came in, face by face.
+fn converted_indices<'py>(
+    py: Python<'py>,
+    indices: &Bound<'py, PyAny>,
+    faces: Option<&Bound<'py, PyAny>>,
+    change: &Conversion,
+) -> PyResult<Bound<'py, PyAny>> {
+    let indices = IndexArray::new(Some(indices))?;
+    let mut list = owned(indices.view()?).unwrap_or_default();
+    let corners = list.len();
+    let sizes: Box<dyn Iterator<Item = usize>> = match FaceSizes::new(faces, &indices, corners)? {
+        FaceSizes::Triangles => Box::new(std::iter::repeat_n(3, corners.div_ceil(3))),
+        FaceSizes::Quads => Box::new(std::iter::repeat_n(4, corners.div_ceil(4))),
+        FaceSizes::Mixed(sizes) => Box::new(sizes.into_iter().map(|size| size as usize)),
+    };
+    let mut rest = &mut list[..];
+    for size in sizes {
+        let Some((face, others)) = std::mem::take(&mut rest).split_at_mut_checked(size) else {
+            return Err(PyValueError::new_err(format!("{corners} corners do not make whole faces")));
+        };
+        change.face(face);
+        rest = others;
+    }
+    if !rest.is_empty() {
+        return Err(PyValueError::new_err(format!("faces leave {} of {corners} corners over", rest.len())));
+    }
+    Ok(PyArray1::from_vec(py, list).reshape(indices.shape)?.into_any())
+}

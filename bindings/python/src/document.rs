@@ -1,0 +1,376 @@
+//! Files: glTF and GLB through darboux-io.
+
+use std::path::PathBuf;
+use std::sync::mpsc::Sender;
+
+use darboux_io::gltf::{
+    self, LoadOptions, NormalsOptions, Progress, SaveOptions, TangentEncoding, TangentsOptions,
+};
+use pyo3::exceptions::{PyIndexError, PyOSError, PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use serde::Serialize;
+
+use crate::arrays::rows_array;
+use crate::choices::{choice, tangent_options};
+use crate::convention::convention;
+use crate::normals::normal_options;
+use crate::threads::attended;
+
+const ENCODINGS: &[(&str, TangentEncoding)] = &[
+    ("f32x4", TangentEncoding::F32x4),
+    ("snorm16x4", TangentEncoding::Snorm16x4),
+    ("snorm8x4", TangentEncoding::Snorm8x4),
+];
+
+/// A glTF document in memory: read by load, edited by its methods, written by save. What no method changes is kept as it is.
+#[pyclass(module = "darboux")]
+pub struct Document {
+    document: gltf::Document,
+}
+
+/// Read a .glb or .gltf file and the buffers that it names.
+///
+/// Parameters
+/// ----------
+/// path : path-like
+/// allow_outside : bool
+///     Also read files outside the document's folder.
+///
+/// Raises
+/// ------
+/// OSError
+///     The file cannot be read.
+/// ValueError
+///     It is broken or cannot be processed faithfully: one sentence says where.
+#[pyfunction]
+#[pyo3(signature = (path, *, allow_outside=false))]
+pub fn load(py: Python<'_>, path: PathBuf, allow_outside: bool) -> PyResult<Document> {
+    let document = py.detach(|| gltf::Document::open(&path, &LoadOptions { allow_outside }));
+    Ok(Document { document: document.map_err(file_error)? })
+}
+
+/// Read a document from the bytes of a .glb or .gltf file.
+///
+/// Parameters
+/// ----------
+/// data : bytes
+/// name : str
+///     Stands for the file in messages.
+/// base : path-like, optional
+///     The folder of external files. Without, buffers must be embedded, and images stay where they are.
+///
+/// Raises
+/// ------
+/// OSError, ValueError
+///     As load.
+#[pyfunction]
+#[pyo3(signature = (data, *, name="<bytes>", base=None))]
+pub fn loads(py: Python<'_>, data: Vec<u8>, name: &str, base: Option<PathBuf>) -> PyResult<Document> {
+    let options = LoadOptions::default();
+    let document = py.detach(|| gltf::Document::from_bytes(name, data, base.as_deref(), &options));
+    Ok(Document { document: document.map_err(file_error)? })
+}
+
+/// Give a document as the bytes of a GLB that holds all its buffers and images, but for remote and missing ones.
+///
+/// Raises
+/// ------
+/// OSError, ValueError
+///     Files that cannot be read; more than 4 GiB.
+#[pyfunction]
+pub fn dumps<'py>(py: Python<'py>, document: PyRef<'py, Document>) -> PyResult<Bound<'py, PyBytes>> {
+    let document = &document.document;
+    let bytes = py.detach(|| document.to_glb()).map_err(file_error)?;
+    Ok(PyBytes::new(py, &bytes))
+}
+
+/// Write a document; the extension decides the container, .glb or .gltf with a .bin beside it.
+///
+/// Parameters
+/// ----------
+/// document : Document
+/// path : path-like
+///     Missing folders are made. Never the document's own input.
+/// force : bool
+///     Replace a file that exists.
+///
+/// Returns
+/// -------
+/// list of pathlib.Path
+///     The files written.
+///
+/// Raises
+/// ------
+/// OSError, ValueError
+///     After an error nothing is left behind.
+#[pyfunction]
+#[pyo3(signature = (document, path, *, force=false))]
+pub fn save(
+    py: Python<'_>,
+    document: PyRef<'_, Document>,
+    path: PathBuf,
+    force: bool,
+) -> PyResult<Vec<PathBuf>> {
+    let document = &document.document;
+    py.detach(|| document.save(&path, &SaveOptions { force })).map_err(file_error)
+}
+
+#[pymethods]
+impl Document {
+    /// Whether anything differs from the file that was read.
+    #[getter]
+    fn is_changed(&self) -> bool {
+        self.document.is_changed()
+    }
+
+    /// What is odd but not an error, such as missing images: one sentence each.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.document.warnings().to_vec()
+    }
+
+    /// The number of primitives of each mesh.
+    #[getter]
+    fn primitive_counts(&self) -> Vec<usize> {
+        self.document.meshes().iter().map(|mesh| mesh.primitives.len()).collect()
+    }
+
+    /// Read the vertex data of a primitive.
+    ///
+    /// Parameters
+    /// ----------
+    /// mesh, primitive : int
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     Per attribute, such as 'POSITION', a float32 array with a row per vertex, normalised integers as fractions; 'indices', (C,)
+    ///     uint32, where there are some.
+    ///
+    /// Raises
+    /// ------
+    /// IndexError
+    ///     No such primitive.
+    /// ValueError
+    ///     The bytes behind an attribute are not there.
+    #[pyo3(signature = (mesh=0, primitive=0))]
+    fn arrays<'py>(&self, py: Python<'py>, mesh: usize, primitive: usize) -> PyResult<Bound<'py, PyDict>> {
+        let meshes = self.document.meshes();
+        let found = meshes.get(mesh).and_then(|mesh| mesh.primitives.get(primitive));
+        let Some(found) = found else {
+            let sentence =
+                format!("meshes[{mesh}].primitives[{primitive}] does not exist; see primitive_counts");
+            return Err(PyIndexError::new_err(sentence));
+        };
+        let arrays = PyDict::new(py);
+        for (name, &accessor) in &found.attributes {
+            arrays.set_item(name, self.vectors(py, accessor)?)?;
+        }
+        if let Some(accessor) = found.indices {
+            let indices = self.document.read_indices(accessor).map_err(file_error)?;
+            arrays.set_item("indices", numpy::PyArray1::from_vec(py, indices))?;
+        }
+        Ok(arrays)
+    }
+
+    /// Look at every primitive, and compute the tangents that it could have without writing them.
+    ///
+    /// Compressed documents are decompressed.
+    ///
+    /// Returns
+    /// -------
+    /// list of dict
+    ///     As the reports of `darboux inspect --json`.
+    fn inspect<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let document = &mut self.document;
+        let infos = attended(py, |_| gltf::inspect(document), |(): ()| Ok(()))?;
+        python_of(py, &infos.map_err(file_error)?)
+    }
+
+    /// Give every triangle primitive that has positions, normals and UVs its tangents; vertices are split where they must be.
+    ///
+    /// After an error or Ctrl-C the document may be half done: drop it.
+    ///
+    /// Parameters
+    /// ----------
+    /// method, mode, threshold
+    ///     As for generate_tangents.
+    /// encoding : str
+    ///     'f32x4', or 'snorm16x4' and 'snorm8x4', which need KHR_mesh_quantization.
+    /// overwrite : bool
+    ///     Replace tangents that exist.
+    /// only_needed : bool
+    ///     Only primitives whose material uses tangents.
+    /// strict : bool
+    ///     Refuse non-finite vertex data and corners without a usable tangent.
+    /// apply_texture_transform : bool
+    ///     Transform UVs by KHR_texture_transform first.
+    /// progress : callable, optional
+    ///     Called with the triangles done and their total, after each primitive.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     'primitives': what was done to each and what was met; 'warnings'; 'totals'.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     Broken data behind a primitive that gets tangents.
+    #[pyo3(signature = (
+        *, method="mikktspace", mode="repaired", threshold=180.0, encoding="f32x4", overwrite=false, only_needed=false,
+        strict=false, apply_texture_transform=false, progress=None
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "Python passes them by name")]
+    fn add_tangents<'py>(
+        &mut self,
+        py: Python<'py>,
+        method: &str,
+        mode: &str,
+        threshold: f32,
+        encoding: &str,
+        overwrite: bool,
+        only_needed: bool,
+        strict: bool,
+        apply_texture_transform: bool,
+        progress: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let options = TangentsOptions {
+            tangents: tangent_options(method, mode, threshold)?,
+            encoding: choice("encoding", encoding, ENCODINGS)?,
+            overwrite,
+            only_needed,
+            strict,
+            apply_texture_transform,
+        };
+        self.edit(py, progress, |document, report| gltf::add_tangents(document, &options, report))
+    }
+
+    /// Give every triangle primitive its normals; primitives of one mesh are shaded as one surface.
+    ///
+    /// After an error or Ctrl-C the document may be half done: drop it.
+    ///
+    /// Parameters
+    /// ----------
+    /// shading, weight, crease, seams
+    ///     As for generate_normals.
+    /// overwrite : bool
+    ///     Replace normals that exist.
+    /// progress : callable, optional
+    ///     Called with the triangles done and their total.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     'primitives': what was done to each and what was met; 'warnings'; 'written'.
+    #[pyo3(signature = (
+        *, shading="smooth", weight="angle", crease=180.0, seams="ignored", overwrite=false, progress=None
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "Python passes them by name")]
+    fn add_normals<'py>(
+        &mut self,
+        py: Python<'py>,
+        shading: &str,
+        weight: &str,
+        crease: f32,
+        seams: &str,
+        overwrite: bool,
+        progress: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let normals = normal_options(shading, weight, crease, seams)?;
+        let options = NormalsOptions { normals, overwrite };
+        self.edit(py, progress, |document, report| gltf::add_normals(document, &options, report))
+    }
+
+    /// Convert the vertex data of every primitive from one convention to another.
+    ///
+    /// A glTF file is in glTF's convention, so one that is right needs no conversion: this is for files whose writer copied the numbers of
+    /// another convention, and for programs that copy them out. After an error or Ctrl-C the document may be half done: drop it.
+    ///
+    /// Parameters
+    /// ----------
+    /// source, target : str
+    ///     One of CONVENTIONS.
+    /// progress : callable, optional
+    ///     Called with the primitives done and their total.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     What was changed.
+    #[pyo3(signature = (source, target, *, progress=None))]
+    fn convert<'py>(
+        &mut self,
+        py: Python<'py>,
+        source: &str,
+        target: &str,
+        progress: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (source, target) = (convention("source", source)?, convention("target", target)?);
+        self.edit(py, progress, |document, report| gltf::convert_vertices(document, source, target, report))
+    }
+}
+
+impl Document {
+    fn vectors<'py>(&self, py: Python<'py>, accessor: usize) -> PyResult<Bound<'py, PyAny>> {
+        let components = self.document.accessors().get(accessor).map(|found| found.element_type.components());
+        Ok(match components {
+            Some(1) => rows_array(py, self.read::<1>(accessor)?)?.into_any(),
+            Some(2) => rows_array(py, self.read::<2>(accessor)?)?.into_any(),
+            Some(3) => rows_array(py, self.read::<3>(accessor)?)?.into_any(),
+            _ => rows_array(py, self.read::<4>(accessor)?)?.into_any(),
+        })
+    }
+
+    fn read<const N: usize>(&self, accessor: usize) -> PyResult<Vec<[f32; N]>> {
+        self.document.read_vectors(accessor).map_err(file_error)
+    }
+
+    /// Edits the document without the GIL and gives the summary as Python's own types.
+    fn edit<'py, S: Serialize + Send>(
+        &mut self,
+        py: Python<'py>,
+        progress: Option<&Bound<'py, PyAny>>,
+        edit: impl FnOnce(&mut gltf::Document, &mut dyn FnMut(Progress)) -> Result<S, darboux_io::Error> + Send,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        if let Some(progress) = progress.filter(|progress| !progress.is_callable()) {
+            let kind = progress.get_type().name()?;
+            return Err(PyTypeError::new_err(format!("progress must be callable, not {kind}")));
+        }
+        let document = &mut self.document;
+        let work = move |sender: &Sender<Progress>| {
+            edit(document, &mut |progress| {
+                // The listener stays until the sender is gone.
+                let _heard = sender.send(progress);
+            })
+        };
+        let receive = |Progress { done, total }| match progress {
+            Some(progress) => progress.call1((done, total)).map(drop),
+            None => Ok(()),
+        };
+        let summary = attended(py, work, receive)?.map_err(file_error)?;
+        python_of(py, &summary)
+    }
+}
+
+/// Plain Python data of what serde writes.
+fn python_of<'py>(py: Python<'py>, value: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
+    let text = serde_json::to_string(value).map_err(|error| PyValueError::new_err(error.to_string()))?;
+    py.import("json")?.call_method1("loads", (text,))
+}
+
+/// The sentence of darboux-io: an OSError where the system refuses, otherwise a ValueError.
+fn file_error(error: darboux_io::Error) -> PyErr {
+    let sentence = error.to_string();
+    match error {
+        darboux_io::Error::Read { source, .. } | darboux_io::Error::Write { source, .. } => {
+            match source.raw_os_error() {
+                // Python picks the class by the number: FileNotFoundError, PermissionError.
+                Some(number) => PyOSError::new_err((number, sentence)),
+                None => PyOSError::new_err(sentence),
+            }
+        }
+        _ => PyValueError::new_err(sentence),
+    }
+}

@@ -1,0 +1,136 @@
+//! Tangents and normals in fewer bytes, and back: `darboux.encode`.
+
+use darboux::encode;
+use numpy::prelude::*;
+use numpy::{Element, PyArray1, PyArrayDyn};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::arrays::{Rows, array_of, packed, rows_array, shape_text, wrong_type};
+
+/// `N` integers per row, of just the type that the encoding has.
+fn codes<T: Element + Copy, const N: usize>(value: &Bound<'_, PyAny>) -> PyResult<Vec<[T; N]>> {
+    let array = array_of("codes", value)?;
+    if array.cast::<PyArrayDyn<T>>().is_err() {
+        return Err(wrong_type("codes", &numpy::dtype::<T>(value.py()).to_string(), &array));
+    }
+    let is_shaped = match (N, array.shape()) {
+        (1, shape) => shape.len() == 1,
+        (_, [_, columns]) => *columns == N,
+        _ => false,
+    };
+    if !is_shaped {
+        let (wanted, shape) = (if N == 1 { "(C,)".into() } else { format!("(C, {N})") }, array.shape());
+        return Err(PyValueError::new_err(format!(
+            "codes must have shape {wanted}, not {}",
+            shape_text(shape)
+        )));
+    }
+    Ok(packed::<T>(&array)?.as_slice()?.as_chunks().0.to_vec())
+}
+
+fn rows<const N: usize>(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<[f32; N]>> {
+    Rows::new(name, "C", value)?.to_vec()
+}
+
+/// Errors: arrays of different lengths.
+fn pairs<A, B>(normals: Vec<A>, name: &str, others: Vec<B>) -> PyResult<impl Iterator<Item = (A, B)>> {
+    if normals.len() != others.len() {
+        let (expected, found) = (normals.len(), others.len());
+        return Err(PyValueError::new_err(format!(
+            "{name} has {found} elements but there are {expected} normals"
+        )));
+    }
+    Ok(normals.into_iter().zip(others))
+}
+
+macro_rules! encodings {
+    ($($(#[$doc:meta])* fn $name:ident($argument:ident: [$from:ty; $columns:literal]) -> [$to:ty; $width:tt];)*) => {$(
+        $(#[$doc])*
+        #[pyfunction]
+        pub fn $name<'py>(py: Python<'py>, $argument: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+            let rows = encodings!(@read $from, $columns, $argument);
+            encodings!(@write $width, $to, py, py.detach(|| rows.into_iter().map(encode::$name).collect::<Vec<_>>()))
+        }
+    )*};
+    (@read f32, $columns:literal, $argument:ident) => { rows::<$columns>(stringify!($argument), $argument)? };
+    (@read $from:ty, $columns:literal, $argument:ident) => { codes::<$from, $columns>($argument)? };
+    (@write 1, $to:ty, $py:ident, $rows:expr) => { Ok(PyArray1::<$to>::from_vec($py, $rows).into_any()) };
+    (@write $width:literal, $to:ty, $py:ident, $rows:expr) => {
+        Ok(rows_array::<$to, $width>($py, $rows)?.into_any())
+    };
+}
+
+encodings! {
+    /// (C, 4) float32 to (C, 4) int8; directions turn by up to 0.40 degrees.
+    fn tangent_to_snorm8(tangents: [f32; 4]) -> [i8; 4];
+    /// (C, 4) int8 to (C, 4) float32, not made unit.
+    fn tangent_from_snorm8(codes: [i8; 4]) -> [f32; 4];
+    /// (C, 4) float32 to (C, 4) int16; directions turn by up to 0.0016 degrees.
+    fn tangent_to_snorm16(tangents: [f32; 4]) -> [i16; 4];
+    /// (C, 4) int16 to (C, 4) float32, not made unit.
+    fn tangent_from_snorm16(codes: [i16; 4]) -> [f32; 4];
+    /// (C, 4) float32 to (C,) uint32, A2B10G10R10_SNORM; directions turn by up to 0.098 degrees.
+    fn tangent_to_snorm10(tangents: [f32; 4]) -> [u32; 1];
+    /// (C, 4) float32 to (C, 2) int16, the sign in the lowest bit of y; directions turn by up to 0.0057 degrees.
+    fn tangent_to_octahedral(tangents: [f32; 4]) -> [i16; 2];
+    /// (C, 2) int16 to (C, 4) float32.
+    fn tangent_from_octahedral(codes: [i16; 2]) -> [f32; 4];
+    /// (C, 3) float32 to (C, 2) int16; directions turn by up to 0.0038 degrees.
+    fn normal_to_octahedral(normals: [f32; 3]) -> [i16; 2];
+    /// (C, 2) int16 to (C, 3) float32.
+    fn normal_from_octahedral(codes: [i16; 2]) -> [f32; 3];
+}
+
+/// (C,) uint32 to (C, 4) float32, not made unit.
+#[pyfunction]
+pub fn tangent_from_snorm10<'py>(py: Python<'py>, codes: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    let codes = self::codes::<u32, 1>(codes)?;
+    let tangents = codes.into_iter().map(|[code]| encode::tangent_from_snorm10(code)).collect();
+    Ok(rows_array(py, tangents)?.into_any())
+}
+
+/// (C, 3) and (C, 4) float32 to (C,) uint16: the place around the normal, which must be the bits that the decoder will be given.
+///
+/// Directions turn by up to 0.0071 degrees.
+#[pyfunction]
+pub fn tangent_to_diamond<'py>(
+    py: Python<'py>,
+    normals: &Bound<'py, PyAny>,
+    tangents: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let pairs = pairs(rows("normals", normals)?, "tangents", rows("tangents", tangents)?)?;
+    let codes = pairs.map(|(normal, tangent)| encode::tangent_to_diamond(normal, tangent)).collect();
+    Ok(PyArray1::from_vec(py, codes).into_any())
+}
+
+/// (C, 3) float32, the bits that the encoder was given, and (C,) uint16 to (C, 4) float32.
+#[pyfunction]
+pub fn tangent_from_diamond<'py>(
+    py: Python<'py>,
+    normals: &Bound<'py, PyAny>,
+    codes: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let pairs = pairs(rows("normals", normals)?, "codes", self::codes(codes)?)?;
+    let tangents = pairs.map(|(normal, [code])| encode::tangent_from_diamond(normal, code)).collect();
+    Ok(rows_array(py, tangents)?.into_any())
+}
+
+/// (C, 3) and (C, 4) float32 to (C, 4) int16: the whole frame as a quaternion; directions turn by up to 0.0047 degrees.
+#[pyfunction]
+pub fn frame_to_quaternion<'py>(
+    py: Python<'py>,
+    normals: &Bound<'py, PyAny>,
+    tangents: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let pairs = pairs(rows("normals", normals)?, "tangents", rows("tangents", tangents)?)?;
+    let codes = pairs.map(|(normal, tangent)| encode::frame_to_quaternion(normal, tangent)).collect();
+    Ok(rows_array(py, codes)?.into_any())
+}
+
+/// (C, 4) int16 to normals (C, 3) and tangents (C, 4), float32.
+#[pyfunction]
+pub fn frame_from_quaternion<'py>(py: Python<'py>, codes: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    let (normals, tangents) = self::codes(codes)?.into_iter().map(encode::frame_from_quaternion).unzip();
+    (rows_array(py, normals)?, rows_array(py, tangents)?).into_pyobject(py).map(Bound::into_any)
+}

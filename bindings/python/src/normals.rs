@@ -1,0 +1,94 @@
+//! Normals of corners.
+
+use darboux::{NormalOptions, NormalWeight, Shading, SmoothingSeams};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::arrays::{Rows, rows_array};
+use crate::choices::choice;
+use crate::mesh::{FaceSizes, IndexArray, value_error};
+use crate::results::named;
+
+const SHADINGS: &[(&str, Shading)] = &[("flat", Shading::Flat), ("smooth", Shading::Smooth)];
+
+const WEIGHTS: &[(&str, NormalWeight)] =
+    &[("angle", NormalWeight::Angle), ("area", NormalWeight::Area), ("angle-area", NormalWeight::AngleArea)];
+
+const SEAMS: &[(&str, SmoothingSeams)] =
+    &[("ignored", SmoothingSeams::Ignored), ("respected", SmoothingSeams::Respected)];
+
+/// The options of the core. Errors: unknown names; a crease that is no number of degrees.
+pub fn normal_options(shading: &str, weight: &str, crease: f32, seams: &str) -> PyResult<NormalOptions> {
+    if !crease.is_finite() {
+        return Err(PyValueError::new_err(format!("crease is {crease}; it must be a number of degrees")));
+    }
+    Ok(NormalOptions {
+        shading: choice("shading", shading, SHADINGS)?,
+        weight: choice("weight", weight, WEIGHTS)?,
+        crease,
+        seams: choice("seams", seams, SEAMS)?,
+    })
+}
+
+/// Compute a unit normal for every corner.
+///
+/// These are not vertex normals: split_normals gives vertices and new indices. Faces wind counter-clockwise seen from where their normal
+/// points.
+///
+/// Parameters
+/// ----------
+/// positions : (V, 3) array_like
+/// indices : (C,), (F, 3) or (F, 4) array_like of integers, optional
+///     The vertex of each corner. Without, every vertex is a corner of its own.
+/// faces : 3, 4 or (F,) array_like of integers, optional
+///     Corners per face, of any size from 3 on. Without, indices of shape (F, 4) are quads, all else triangles.
+/// shading : str
+///     'smooth', or 'flat': every corner has its face's normal.
+/// weight : str
+///     How much each face counts at a vertex: 'angle', 'area', or 'angle-area', which keeps wide faces flat beside bevels.
+/// crease : float
+///     Degrees: smooth shading stops at edges whose faces' normals differ by more.
+/// seams : str
+///     'ignored': vertices at equal positions are one; 'respected': distinct vertices have distinct normals.
+/// return_report : bool
+///     Return (normals, NormalReport).
+///
+/// Returns
+/// -------
+/// (C, 3) float32 array
+///
+/// Raises
+/// ------
+/// TypeError, ValueError
+///     As generate_tangents.
+#[pyfunction]
+#[pyo3(signature = (
+    positions, indices=None, *, faces=None, shading="smooth", weight="angle", crease=180.0, seams="ignored",
+    return_report=false
+))]
+#[expect(clippy::too_many_arguments, reason = "Python passes them by name")]
+pub fn generate_normals<'py>(
+    py: Python<'py>,
+    positions: &Bound<'py, PyAny>,
+    indices: Option<&Bound<'py, PyAny>>,
+    faces: Option<&Bound<'py, PyAny>>,
+    shading: &str,
+    weight: &str,
+    crease: f32,
+    seams: &str,
+    return_report: bool,
+) -> PyResult<Bound<'py, PyAny>> {
+    let options = normal_options(shading, weight, crease, seams)?;
+    let positions = Rows::<3>::new("positions", "V", positions)?;
+    let indices = IndexArray::new(indices)?;
+    let (positions, list) = (positions.view()?, indices.view()?);
+    let faces = FaceSizes::new(faces, &indices, positions.len())?;
+    let made = py.detach(|| darboux::generate_normals(positions, list, faces.view(), &options));
+    let darboux::Normals { corners, report } = made.map_err(value_error)?;
+    let normals = rows_array(py, corners)?.into_any();
+    if !return_report {
+        return Ok(normals);
+    }
+    let fields = (report.faces, report.degenerate_faces, report.repaired_corners, report.creased_edges);
+    (normals, named(py, "NormalReport", fields)?).into_pyobject(py).map(Bound::into_any)
+}

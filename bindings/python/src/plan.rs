@@ -1,0 +1,119 @@
+//! Topology once, evaluate often.
+
+use darboux::{Faces, Indices, Mesh};
+use pyo3::prelude::*;
+
+use crate::arrays::{Rows, rows_array};
+use crate::choices::tangent_options;
+use crate::mesh::{FaceSizes, MeshArrays, owned, value_error};
+use crate::results;
+use crate::threads::detached;
+
+/// The weld, groups and subgroups of one mesh, kept to evaluate MikkTSpace tangents again after its vertices moved.
+///
+/// Nothing of the arrays is kept but copies of UVs and indices. Several threads may use one plan at once.
+///
+/// Parameters
+/// ----------
+/// positions, normals, uvs, indices, faces, mode, threshold
+///     As for generate_tangents.
+#[pyclass(frozen, module = "darboux")]
+pub struct Plan {
+    plan: darboux::Plan,
+    uvs: Vec<[f32; 2]>,
+    indices: Option<Vec<u32>>,
+    faces: FaceSizes,
+}
+
+impl Plan {
+    /// Does `work` with the mesh that has these positions and normals.
+    fn with_moved<R: Send>(
+        &self,
+        py: Python<'_>,
+        positions: &Bound<'_, PyAny>,
+        normals: &Bound<'_, PyAny>,
+        work: impl FnOnce(&Mesh<'_>) -> Result<R, darboux::MeshError> + Send,
+    ) -> PyResult<R> {
+        let positions = Rows::new("positions", "V", positions)?;
+        let normals = Rows::new("normals", "V", normals)?;
+        let (positions, normals) = (positions.view()?, normals.view()?);
+        let indices = self.indices.as_ref().map_or(Indices::Unindexed, Indices::from);
+        let faces: Faces<'_> = self.faces.view();
+        let corners = self.plan.base().corners.len();
+        let done = detached(py, None, corners, || {
+            work(&Mesh::with_faces(positions, normals, &self.uvs, indices, faces)?)
+        })?;
+        done.map_err(value_error)
+    }
+}
+
+#[pymethods]
+impl Plan {
+    #[new]
+    #[pyo3(signature = (positions, normals, uvs, indices=None, *, faces=None, mode="repaired", threshold=180.0))]
+    #[expect(clippy::too_many_arguments, reason = "Python passes them by name")]
+    fn new(
+        py: Python<'_>,
+        positions: &Bound<'_, PyAny>,
+        normals: &Bound<'_, PyAny>,
+        uvs: &Bound<'_, PyAny>,
+        indices: Option<&Bound<'_, PyAny>>,
+        faces: Option<&Bound<'_, PyAny>>,
+        mode: &str,
+        threshold: f32,
+    ) -> PyResult<Self> {
+        let options = tangent_options("mikktspace", mode, threshold)?;
+        let arrays = MeshArrays::new(positions, normals, uvs, indices, faces)?;
+        let mesh = arrays.view()?;
+        let plan = py.detach(|| darboux::Plan::new(&mesh, &options));
+        let (uvs, indices) = (arrays.uvs.to_vec()?, owned(mesh.indices()));
+        Ok(Self { plan, uvs, indices, faces: arrays.faces })
+    }
+
+    /// The tangents of the mesh that the plan was made of: a new (C, 4) float32 array, as generate_tangents gives it.
+    #[getter]
+    fn base<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        Ok(rows_array(py, self.plan.base().corners.per_corner().to_vec())?.into_any())
+    }
+
+    /// What was met on the way.
+    #[getter]
+    fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        results::report(py, &self.plan.base().report)
+    }
+
+    /// Compute the tangents of the moved mesh in the base's groups and subgroups; signs stay the base's.
+    ///
+    /// Parameters
+    /// ----------
+    /// positions, normals : (V, 3) array_like
+    ///     Of the same vertices.
+    ///
+    /// Returns
+    /// -------
+    /// (C, 4) float32 array
+    ///
+    /// Raises
+    /// ------
+    /// TypeError, ValueError
+    ///     As generate_tangents; another number of vertices.
+    fn evaluate<'py>(
+        &self,
+        py: Python<'py>,
+        positions: &Bound<'py, PyAny>,
+        normals: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let moved = self.with_moved(py, positions, normals, |mesh| self.plan.evaluate(mesh))?;
+        Ok(rows_array(py, moved.into_per_corner())?.into_any())
+    }
+
+    /// Count the corners that a fresh run on the moved mesh would give another tangent (other bits) than evaluate does.
+    fn count_regrouped(
+        &self,
+        py: Python<'_>,
+        positions: &Bound<'_, PyAny>,
+        normals: &Bound<'_, PyAny>,
+    ) -> PyResult<usize> {
+        self.with_moved(py, positions, normals, |mesh| self.plan.count_regrouped(mesh))
+    }
+}
