@@ -26,9 +26,8 @@ const ABSENT: u32 = 0xffffffffu;
 @group(0) @binding(0) var<uniform> mesh: Mesh;
 @group(0) @binding(1) var<storage, read> indices: array<u32>;
 
-// The value itself, rounded: no compiler sees a product here that it could add to something without rounding it first.
-fn rounded(product: f32) -> f32 {
-    return bitcast<f32>(bitcast<u32>(product) ^ mesh.zero);
+fn zero() -> u32 {
+    return mesh.zero;
 }
 
 fn vertex_of_corner(corner: u32) -> u32 {

@@ -167,9 +167,10 @@ const IN_PLACE: &str = include_str!("../shaders/in_place.wgsl");
 const SECOND_BUFFER: &str = include_str!("../shaders/second_buffer.wgsl");
 
 /// The files of a shader, by search and where frames go.
-fn files(search: Search, storage: &'static str) -> [&'static str; 5] {
+fn files(search: Search, storage: &'static str) -> [&'static str; 6] {
     [
         include_str!("../shaders/mesh.wgsl"),
+        include_str!("../shaders/exact.wgsl"),
         storage,
         include_str!("../shaders/average.wgsl"),
         include_str!("../shaders/frame.wgsl"),

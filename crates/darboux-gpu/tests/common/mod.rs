@@ -3,6 +3,7 @@
 #![allow(dead_code, reason = "every test file uses its part")]
 
 pub mod bound;
+pub mod scalar;
 
 use std::io::Write;
 use std::sync::OnceLock;

@@ -1,0 +1,161 @@
+//! Arithmetic of shaders against that of Rust, bit for bit.
+
+mod common;
+
+use common::gpus;
+use common::scalar::map;
+
+const EXACT: &str = include_str!("../shaders/exact.wgsl");
+const STEPS: usize = 3_000_000;
+
+/// The splitmix64 sequence.
+struct Random(u64);
+
+impl Random {
+    fn word(&mut self) -> u32 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 32) as u32
+    }
+}
+
+/// Where arithmetic is hard: the ends of every range, and what is next to powers of two and to one half of a unit.
+fn hard() -> Vec<u32> {
+    let mut words = Vec::new();
+    for exponent in
+        [0, 1, 2, 60, 63, 64, 103, 104, 125, 126, 127, 128, 129, 150, 151, 190, 191, 192, 252, 253, 254, 255]
+    {
+        for fraction in [
+            0, 1, 2, 3, 0x3f_ffff, 0x40_0000, 0x40_0001, 0x2a_aaaa, 0x55_5555, 0x35_04f3, 0x35_04f4,
+            0x7f_fffe, 0x7f_ffff,
+        ] {
+            words.extend([exponent << 23 | fraction, 1 << 31 | exponent << 23 | fraction]);
+        }
+    }
+    words
+}
+
+/// All pairs of hard words, random words, and random words of like size; a third word from 0 to 8 beside.
+fn pairs() -> Vec<[u32; 3]> {
+    let hard = hard();
+    let mut pairs: Vec<[u32; 3]> =
+        hard.iter().flat_map(|&a| hard.iter().map(move |&b| [a, b, (a ^ b) % 9])).collect();
+    let mut random = Random(5);
+    for step in 0..STEPS {
+        let (a, b) = (random.word(), random.word());
+        // Every other pair has exponents that differ by less than 32.
+        let near = a.wrapping_add((b & 0x0fff_ffff).wrapping_sub(0x0800_0000)) ^ (b & 1 << 31);
+        pairs.push([a, if step % 2 == 0 { b } else { near }, random.word() % 9]);
+    }
+    pairs
+}
+
+fn is_plain(x: f32) -> bool {
+    x.is_normal() || x == 0.0
+}
+
+/// Every answer has Rust's bits, but where a shader is unsure: it must be where an operand or the result is not `is_ordinary`, and may be
+/// at the smallest normal number.
+fn check(
+    name: &str,
+    body: &str,
+    exact: impl Fn(f32, f32) -> f32,
+    is_ordinary: impl Fn(f32, f32, f32) -> bool,
+) {
+    let pairs = pairs();
+    for gpu in gpus() {
+        let answers: Vec<[u32; 2]> = map(gpu, &[EXACT], body, &pairs);
+        let (mut sure, mut unsure) = (0, 0);
+        for (&[a, b, third], &[found, flag]) in pairs.iter().zip(&answers) {
+            let [a, b, found] = [a, b, found].map(f32::from_bits);
+            let right = exact(a, b);
+            let is_ordinary = is_ordinary(a, b, right);
+            assert!(
+                (flag == 0) == is_ordinary || right.abs() == f32::MIN_POSITIVE,
+                "{name} of {a:e} and {b:e}, {right:e}: unsure is {flag}"
+            );
+            if flag == 0 {
+                assert!(
+                    found.to_bits() == right.to_bits(),
+                    "{name} of {a:e}, {b:e}, {third}: {found:e}, not {right:e}"
+                );
+                sure += 1;
+            } else {
+                unsure += 1;
+            }
+        }
+        println!("{name} on {}: {sure} as in Rust, {unsure} left to others", gpu.name);
+    }
+}
+
+/// Applies `call` to floats a and b, with `near` units to be off by.
+fn body(call: &str) -> String {
+    format!(
+        "let a = bitcast<f32>(given[at]);
+        let b = bitcast<f32>(given[at + 1u]);
+        let near = (i32(given[at + 2u]) - 4) * 6;
+        got[into] = bitcast<u32>({call});
+        got[into + 1u] = u32(is_unsure);"
+    )
+}
+
+/// The significand of a quotient, off by `near` units.
+const ROUGH_QUOTIENT: &str = "quotient_near(a, b, bitcast<f32>(u32(i32(bitcast<u32>(\
+    bitcast<f32>(bitcast<u32>(a) & 0x7fffffu | ONE) / bitcast<f32>(bitcast<u32>(b) & 0x7fffffu | ONE))) + near)))";
+/// As well, of a root.
+const ROUGH_ROOT: &str = "root_near(a, bitcast<f32>(u32(i32(bitcast<u32>(sqrt(\
+    bitcast<f32>(bitcast<u32>(a) & 0x7fffffu | select(ONE, 0x40000000u, (bitcast<u32>(a) & 0x800000u) == 0u))))) + near)))";
+
+/// A product that is zero because it is too small.
+fn vanishes(a: f32, b: f32) -> bool {
+    a * b == 0.0 && a != 0.0 && b != 0.0
+}
+
+#[test]
+fn products_are_rounded() {
+    let is_ordinary = |a, b, right| [a, b, right].into_iter().all(is_plain) && !vanishes(a, b);
+    check("product", &body("product(a, b)"), |a, b| a * b, is_ordinary);
+}
+
+#[test]
+fn sums_are_rounded() {
+    let is_ordinary = |a, b, right| [a, b, right].into_iter().all(is_plain);
+    check("sum", &body("sum(a, b)"), |a, b| a + b, is_ordinary);
+    check("difference", &body("difference(a, b)"), |a, b| a - b, is_ordinary);
+}
+
+#[test]
+fn products_are_rounded_before_they_are_added() {
+    let is_ordinary = |a, b, right| [a, b, a * b, right].into_iter().all(is_plain) && !vanishes(a, b);
+    check("sum of products", &body("sum(product(a, b), product(a, -b))"), |_, _| 0.0, is_ordinary);
+    check("product less one", &body("difference(product(a, b), 1.0)"), |a, b| a * b - 1.0, is_ordinary);
+}
+
+#[test]
+fn quotients_are_rounded() {
+    let is_ordinary =
+        |a: f32, b, right| [a, b, right].into_iter().all(is_plain) && b != 0.0 && (right != 0.0 || a == 0.0);
+    check("quotient", &body("quotient(a, b)"), |a, b| a / b, is_ordinary);
+    check("quotient from an estimate", &body(ROUGH_QUOTIENT), |a, b| a / b, is_ordinary);
+}
+
+#[test]
+fn roots_are_rounded() {
+    let is_ordinary = |a: f32, _, _| is_plain(a) && a >= 0.0;
+    check("root", &body("root(a)"), |a, _| a.sqrt(), is_ordinary);
+    check("root from an estimate", &body(ROUGH_ROOT), |a, _| a.sqrt(), is_ordinary);
+}
+
+#[test]
+fn comparisons_are_those_of_all_floats() {
+    let call = "bitcast<f32>(u32(is_less(a, b)) | u32(is_equal(a, b)) << 1u)";
+    let pairs = pairs();
+    for gpu in gpus() {
+        let answers: Vec<[u32; 2]> = map(gpu, &[EXACT], &body(call), &pairs);
+        for (&[a, b, _], &[found, _]) in pairs.iter().zip(&answers) {
+            let [a, b] = [a, b].map(f32::from_bits);
+            assert_eq!(found, u32::from(a < b) | u32::from(a == b) << 1, "{a:e} and {b:e}");
+        }
+    }
+}
