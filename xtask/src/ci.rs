@@ -4,9 +4,10 @@ use std::io::{BufRead, BufReader, Read};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
+use crate::python::WithoutPython;
 use crate::run::{Outcome, program, root, run, shown, works};
 use crate::validate::WithoutNpm;
-use crate::{generated, graphics, layers, validate};
+use crate::{generated, graphics, layers, python, validate};
 
 type Step = (&'static str, fn() -> Outcome);
 
@@ -19,6 +20,7 @@ const QUICK: &[Step] = &[
     ("models", || validate::all_models(without_npm())),
     ("graphics", graphics::install),
     ("tests", || test("cargo test --workspace")),
+    ("python", || python::test(without_python())),
 ];
 
 const LONG: &[Step] = &[
@@ -65,6 +67,11 @@ fn in_turn(steps: &[Step]) -> Outcome {
 /// CI must validate; a person without npm may go on without.
 fn without_npm() -> WithoutNpm {
     if std::env::var_os("CI").is_some() { WithoutNpm::Fail } else { WithoutNpm::Skip }
+}
+
+/// As [`without_npm`], for Python.
+fn without_python() -> WithoutPython {
+    if std::env::var_os("CI").is_some() { WithoutPython::Fail } else { WithoutPython::Skip }
 }
 
 /// Runs `cargo test`, passes on what it prints, and adds up its counts.

@@ -1,12 +1,10 @@
 //! The folder that is shipped to users of C and C++: include, lib, cmake, examples.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
-use serde_json::Value;
-
-use crate::run::{Outcome, output_of, program, root, run};
+use crate::run::{Outcome, output_of, program, root, run, target_folder};
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
@@ -72,14 +70,6 @@ pub fn make() -> Outcome {
     TEMPLATES.iter().try_for_each(|(from, to)| fill_in(&ours.join(from), &folder.join(to)))?;
     println!("{}", folder.display());
     Ok(())
-}
-
-fn target_folder() -> Result<PathBuf, String> {
-    let text = output_of(&mut program("cargo metadata --format-version 1 --no-deps"))?;
-    let metadata: Value =
-        serde_json::from_slice(&text).map_err(|error| format!("cargo metadata: {error}"))?;
-    let folder = metadata["target_directory"].as_str();
-    folder.map(PathBuf::from).ok_or_else(|| "cargo metadata names no target_directory".into())
 }
 
 /// The versions that programs need not be linked anew for: before 1.0 those of one minor version.

@@ -6,6 +6,7 @@ mod dist_c;
 mod generated;
 mod graphics;
 mod layers;
+mod python;
 mod run;
 mod shaders;
 mod validate;
@@ -21,6 +22,7 @@ usage: cargo xtask <task>
   validate      check the command's outputs for all models with independent tools (needs node and npm)
   bench [...]   time every engine on every mesh; see bench --help
   dist-c        make the folder for users of C and C++; its path is the last line (Linux: needs ld, objcopy, nm and ar)
+  dist-python   build the Python wheel; its folder is the last line (needs python3 with venv, and the network)
   acos          compare acos with the platform's on every float of [-1, 1]";
 
 fn main() -> ExitCode {
@@ -34,6 +36,7 @@ fn main() -> ExitCode {
         ["validate"] => validate::all_models(validate::WithoutNpm::Fail),
         ["bench", ref options @ ..] => bench::bench(options),
         ["dist-c"] => dist_c::make(),
+        ["dist-python"] => python::dist(),
         ["acos"] => ci::acos(),
         _ => {
             eprintln!("{USAGE}");

