@@ -57,7 +57,7 @@ impl From<MeshError> for Error {
             MeshError::IndexOutOfRange { .. } => darboux_status::Index,
             MeshError::PartialFace { .. } | MeshError::FaceSizes { .. } => darboux_status::Faces,
             MeshError::StrideTooSmall { .. } => darboux_status::Stride,
-            MeshError::TooManyCorners { .. } => darboux_status::TooLarge,
+            MeshError::TooManyCorners { .. } | MeshError::TooManyVertices { .. } => darboux_status::TooLarge,
             _ => darboux_status::Length,
         };
         Self::new(status, error.to_string())

@@ -175,8 +175,9 @@ pub struct Mesh<'a> {
     corner_count: usize,
 }
 
-/// The largest number of corners: ids of corners and half-edges stay within 32 bits, with room for marks.
+/// The largest number of corners, and of vertices: ids of corners, half-edges and vertices stay within 32 bits, with room for marks.
 const MAX_CORNERS: usize = (1 << 30) - 1;
+const MAX_VERTICES: usize = MAX_CORNERS;
 
 impl<'a> Mesh<'a> {
     /// A triangle mesh.
@@ -226,6 +227,9 @@ impl<'a> Mesh<'a> {
         };
         if corner_count > MAX_CORNERS {
             return Err(MeshError::TooManyCorners { corners: corner_count, limit: MAX_CORNERS });
+        }
+        if vertices > MAX_VERTICES {
+            return Err(MeshError::TooManyVertices { vertices, limit: MAX_VERTICES });
         }
         let mesh = Self { positions, normals, uvs, indices, faces, corner_count };
         mesh.check_faces()?;
@@ -377,6 +381,13 @@ pub enum MeshError {
         /// The largest number that works.
         limit: usize,
     },
+    /// More vertices than 32-bit ids can hold.
+    TooManyVertices {
+        /// The number of vertices.
+        vertices: usize,
+        /// The largest number that works.
+        limit: usize,
+    },
     /// Tangents or a mesh that belong to another mesh: the number of corners (or vertices) differs.
     OtherMesh {
         /// What is counted: "corners" or "vertices".
@@ -412,6 +423,9 @@ impl fmt::Display for MeshError {
             }
             MeshError::TooManyCorners { corners, limit } => {
                 write!(f, "{corners} corners are too many: the limit is {limit}; split the mesh")
+            }
+            MeshError::TooManyVertices { vertices, limit } => {
+                write!(f, "{vertices} vertices are too many: the limit is {limit}; split the mesh")
             }
             MeshError::OtherMesh { what, expected, found } => write!(
                 f,

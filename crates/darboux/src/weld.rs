@@ -81,15 +81,32 @@ impl Cells {
 /// Points sorted into cells, in their order within a cell.
 #[derive(Debug, Default)]
 pub(crate) struct ByCell {
-    pub points: Vec<Point>,
-    /// Where each cell ends.
-    pub ends: Vec<u32>,
+    points: Vec<Point>,
+    /// Where each cell ends; empty cells may be left out.
+    ends: Vec<u32>,
     cells: Vec<u16>,
 }
 
+/// So few points are not worth a look at every cell.
+const FEW: usize = if cfg!(small_limits) { 16 } else { 256 };
+
 impl ByCell {
-    /// Sorts points anew.
+    /// Sorts points anew, whose entries ascend.
     pub fn sort(&mut self, cells: &Cells, points: &[Point]) {
+        if points.len() > FEW {
+            return self.sort_by_counting(cells, points);
+        }
+        self.points.clear();
+        self.points.extend_from_slice(points);
+        self.points.sort_unstable_by_key(|point| (cells.at(point.position), point.entry));
+        self.ends.clear();
+        for same in self.points.chunk_by(|a, b| cells.at(a.position) == cells.at(b.position)) {
+            let start = self.ends.last().copied().unwrap_or(0);
+            self.ends.push(start + same.len() as u32);
+        }
+    }
+
+    fn sort_by_counting(&mut self, cells: &Cells, points: &[Point]) {
         self.cells.clear();
         self.cells.extend(points.iter().map(|point| cells.at(point.position) as u16));
         // Each cell's entry is the end of the one before, which grows to be its own.

@@ -5,6 +5,9 @@
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
 
+use std::hash::{BuildHasher, RandomState};
+use std::sync::OnceLock;
+
 use crate::math::{V3, acos, add, direction_in_plane, dot, length, not_zero, scale, sub};
 
 /// Triangles per block.
@@ -37,7 +40,9 @@ pub(super) struct Block {
     pub sum: [Lane<[f32; 4]>; 3],
     /// What each corner adds to its vertex's fingerprint.
     pub print: [Lane<[u32; 4]>; 3],
+    /// The records as they lie in vertices, in halves.
     pub packed: [[Lane<[f32; 4]>; 2]; 3],
+    key: [u32; 2],
 }
 
 /// What goes with a term: 1 where the wedge holds the first ray and else 0, or the marks as bits.
@@ -99,6 +104,7 @@ impl Default for Block {
             sum: [[[0.0; 4]; BLOCK]; 3],
             print: [[[0; 4]; BLOCK]; 3],
             packed: [[[[0.0; 4]; BLOCK]; 2]; 3],
+            key: key(),
         }
     }
 }
@@ -268,8 +274,9 @@ impl Block {
     /// From vertices to fingerprints.
     #[inline(always)]
     pub fn prints(&mut self) {
+        let key = self.key;
         for i in 0..BLOCK {
-            let [f0, f1, f2] = [0, 1, 2].map(|k| print(self.vertex[k][i]));
+            let [f0, f1, f2] = [0, 1, 2].map(|k| fingerprint(self.vertex[k][i], key));
             let less = |a: [u32; 4], b: [u32; 4]| [0, 1, 2, 3].map(|lane| a[lane].wrapping_sub(b[lane]));
             self.print[0][i] = less(f1, f2);
             self.print[1][i] = less(f2, f0);
@@ -312,12 +319,21 @@ fn edge(from: [f32; 2], to: [f32; 2]) -> u32 {
         | (bit(from[1] < to[1], 0x100) | bit(from[0] > to[0], 0x400))
 }
 
+/// What fingerprints are mixed with: chosen by chance when the program runs, so that no mesh can be made to mislead them.
+pub(super) fn key() -> [u32; 2] {
+    static KEY: OnceLock<[u32; 2]> = OnceLock::new();
+    *KEY.get_or_init(|| {
+        let bits = RandomState::new().hash_one(0);
+        [bits as u32, (bits >> 32) as u32]
+    })
+}
+
 /// A vertex's number, its square, and two mixtures of its bits.
 #[inline(always)]
-pub(super) fn print(vertex: u32) -> [u32; 4] {
-    let first = (vertex ^ 0x9e37_79b9).wrapping_mul(0x85eb_ca6b);
+pub(super) fn fingerprint(vertex: u32, key: [u32; 2]) -> [u32; 4] {
+    let first = (vertex ^ key[0]).wrapping_mul(0x85eb_ca6b);
     let first = (first ^ first >> 15).wrapping_mul(0xc2b2_ae35);
-    let second = (vertex ^ 0x7f4a_7c15).wrapping_mul(0x27d4_eb2f);
+    let second = (vertex ^ key[1]).wrapping_mul(0x27d4_eb2f);
     let second = (second ^ second >> 13).wrapping_mul(0x1656_67b1);
     [vertex, vertex.wrapping_mul(vertex), first ^ first >> 16, second ^ second >> 16]
 }

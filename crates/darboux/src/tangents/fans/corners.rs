@@ -1,4 +1,4 @@
-//! Welding of corners, for meshes without indices: distinct corners are numbered in the order in which they are first met.
+//! Welding of corners, for meshes without indices and for small parts of large vertex lists: distinct corners are numbered in the order in which they are first met.
 
 use std::ops::Range;
 
@@ -43,7 +43,7 @@ impl Corners {
         self.recent.clear();
         self.recent.resize(RECENT, 0);
         for (start, of) in range.step_by(WINDOW).zip(of.chunks_mut(WINDOW)) {
-            let rows = Rows::new(mesh, start..start + of.len(), buffer);
+            let rows = Rows::of_corners(mesh, start..start + of.len(), buffer);
             self.hashes.resize(of.len(), 0);
             width.run(Hash { rows, hashes: &mut self.hashes, span: &mut self.span });
             self.window.resize(of.len(), Record::default());
@@ -72,7 +72,7 @@ impl Corners {
 #[derive(Debug, Default)]
 pub(super) struct Distinct {
     pub records: Vec<Record>,
-    /// Some that are equal as floats differ in the sign of a zero.
+    /// Some that are equal as floats differ in the sign of a zero, or too many have one hash.
     pub refused: bool,
     seen: BitMap,
     chains: Chains,
@@ -91,9 +91,10 @@ impl Distinct {
     #[inline(always)]
     fn number(&mut self, record: &Record, hash: u32) -> u32 {
         // Most are new, and most of these have a hash never seen: nothing to look for.
-        let is_same = |&known: &u32| self.records[known as usize] == *record;
-        let known = if self.seen.set(hash) { self.chains.find(hash, is_same) } else { None };
-        match known {
+        let is_same = |known: u32| self.records[known as usize] == *record;
+        let known = if self.seen.set(hash) { self.chains.find(hash, is_same) } else { Ok(None) };
+        self.refused |= known.is_err();
+        match known.unwrap_or(None) {
             Some(known) => {
                 self.refused |= !same(&self.records[known as usize], record);
                 known

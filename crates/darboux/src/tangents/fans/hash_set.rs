@@ -10,6 +10,12 @@ pub(super) struct Chains {
     before: Vec<u32>,
 }
 
+/// Many things have one hash, by bad luck or by intent: looking for them would take long.
+pub(super) struct Crowded;
+
+/// So many things are looked at.
+const LONGEST_LIST: usize = 256;
+
 /// The end of a list.
 const END: u32 = u32::MAX;
 
@@ -35,15 +41,21 @@ impl Chains {
         &self.hashes
     }
 
-    /// The last thing of this hash that is the one looked for.
+    /// The last thing of this hash that is the one looked for. Errors: the list is too long.
     #[inline(never)]
-    pub fn find(&mut self, hash: u32, is_it: impl Fn(&u32) -> bool) -> Option<u32> {
+    pub fn find(&mut self, hash: u32, is_it: impl Fn(u32) -> bool) -> Result<Option<u32>, Crowded> {
         self.put_in();
         let mut thing = self.last[list(hash, self.last.len())];
-        while thing != END && !is_it(&thing) {
+        for _ in 0..LONGEST_LIST {
+            if thing == END {
+                return Ok(None);
+            }
+            if self.hashes[thing as usize] == hash && is_it(thing) {
+                return Ok(Some(thing));
+            }
             thing = self.before[thing as usize];
         }
-        (thing != END).then_some(thing)
+        Err(Crowded)
     }
 
     fn put_in(&mut self) {

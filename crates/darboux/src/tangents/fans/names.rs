@@ -23,6 +23,8 @@ pub(super) struct Names {
     corners: Vec<u32>,
     ends: Vec<u32>,
     edges: Vec<u32>,
+    /// Of each cell.
+    was_asked_for: Vec<bool>,
 }
 
 impl Names {
@@ -74,6 +76,8 @@ impl Names {
         self.is_wanted.resize(self.bounds.len(), false);
         self.cell_of.clear();
         self.cell_of.extend((0..count).map(|vertex| cells.at(run.position(vertex)) as u16));
+        self.was_asked_for.clear();
+        self.was_asked_for.resize(CELLS, false);
         self.ends.clear();
         self.ends.resize(CELLS + 1, 0);
         for &vertex in &self.vertices {
@@ -104,7 +108,7 @@ impl Names {
         self.edges.extend(next..self.vertices.len() as u32);
     }
 
-    /// Names all vertices in the ranges of a cell's points that hold a wanted vertex.
+    /// Names all vertices in the ranges of a cell's points that hold a wanted vertex; when it is asked for again, all of the cell.
     fn name_cell(&mut self, run: &LastRun<'_>, cell: u16) {
         let cell = usize::from(cell);
         let start = if cell == 0 { 0 } else { self.ends[cell - 1] };
@@ -113,7 +117,8 @@ impl Names {
         let point = |&entry: &u32| Point { position: run.position(vertices[entry as usize]), entry };
         let mut points: Vec<Point> =
             self.corners[start as usize..self.ends[cell] as usize].iter().map(point).collect();
-        let is_wanted = |point: &Point| self.is_wanted[vertex(point) as usize];
+        let is_known = std::mem::replace(&mut self.was_asked_for[cell], true);
+        let is_wanted = |point: &Point| is_known || self.is_wanted[vertex(point) as usize];
         for_each_final_range(&mut points, &|points| points.iter().any(is_wanted), &mut |points| {
             // From the last to the first: the first corner of each vertex remains its name.
             for point in points.iter().rev() {

@@ -91,7 +91,7 @@ fn finish(stream: &Stream<'_>, workers: &mut [Worker], vertices: &mut [Vertex], 
     let ranges = split(0..vertices.len(), workers.len(), 1);
     let jobs = parts(vertices, 0, ranges.clone()).zip(ranges.map(|range| &marks[range]));
     workers::run(workers, jobs, |worker, (vertices, marks)| {
-        stream.width.run(Finish { vertices, marks, all_used: &mut worker.all_used });
+        stream.width.run(Finish { vertices, marks, unused: &mut worker.unused });
     });
 }
 

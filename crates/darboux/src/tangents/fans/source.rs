@@ -43,6 +43,23 @@ pub(super) struct RowBuffer {
 }
 
 impl<'a> Rows<'a> {
+    /// The vertices of corners.
+    pub fn of_corners(mesh: &Mesh<'a>, range: Range<usize>, buffer: &'a mut RowBuffer) -> Self {
+        if matches!(mesh.indices(), Indices::Unindexed) {
+            return Self::new(mesh, range, buffer);
+        }
+        let RowBuffer { positions, normals, uvs } = buffer;
+        positions.clear();
+        normals.clear();
+        uvs.clear();
+        for vertex in range.map(|corner| mesh.vertex_of_corner(corner)) {
+            positions.push(mesh.positions().get(vertex));
+            normals.push(mesh.normals().get(vertex));
+            uvs.push(mesh.uvs().get(vertex));
+        }
+        Self { positions, normals, uvs }
+    }
+
     /// The vertices of `range`.
     pub fn new(mesh: &Mesh<'a>, range: Range<usize>, buffer: &'a mut RowBuffer) -> Self {
         Self {

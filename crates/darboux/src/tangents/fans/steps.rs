@@ -8,7 +8,7 @@ use crate::weld::Point;
 use super::block::{BLOCK, Block, Fourth, marks, turns};
 use super::last_run::TailCells;
 use super::source::{Rows, Welded};
-use super::vertices::{IN_TAIL, UNDECIDED, Vertex, gather, scatter};
+use super::vertices::{IN_TAIL, UNDECIDED, Unused, Vertex, gather, scatter};
 use super::width::Task;
 
 /// Makes vertices of rows.
@@ -121,28 +121,28 @@ impl Task for Collect<'_> {
     }
 }
 
-/// Finishes vertices, and notes whether triangles use all of them.
+/// Finishes vertices, and notes those that no triangle uses.
 pub(super) struct Finish<'a> {
     pub vertices: &'a mut [Vertex],
     pub marks: &'a [u32],
-    pub all_used: &'a mut bool,
+    pub unused: &'a mut Unused,
 }
 
 impl Task for Finish<'_> {
     #[inline(always)]
     fn run(self) {
         let mut lanes = Lanes::default();
-        let mut all_used = true;
         for (vertices, marks) in self.vertices.chunks_mut(BLOCK).zip(self.marks.chunks(BLOCK)) {
             lanes.load(vertices);
             lanes.normalize();
             for (i, (vertex, &marks)) in vertices.iter_mut().zip(marks).enumerate() {
                 let sign = vertex.sign(marks, lanes.is_usable[i] != 0);
-                all_used &= !sign.is_nan();
+                if sign.is_nan() {
+                    self.unused.note(vertex.position());
+                }
                 vertex.sum = [lanes.sum[0][i], lanes.sum[1][i], lanes.sum[2][i], sign];
             }
         }
-        *self.all_used &= all_used;
     }
 }
 

@@ -55,7 +55,7 @@ impl Stream<'_> {
         let first_window = share.windows.start;
         worker.begin(self.span(share));
         let (mut finished, mut written) = (share.vertices.start.max(worker.first), first_window);
-        worker.all_used = finished == share.vertices.start;
+        worker.unused.unseen = finished - share.vertices.start;
         for at in first_window..share.until {
             self.read(worker, self.windows[at].end as usize);
             self.add(worker, at);
@@ -78,7 +78,7 @@ impl Stream<'_> {
                 written += 1;
             }
         }
-        worker.all_used &= finished == share.vertices.end;
+        worker.unused.unseen += share.vertices.end.saturating_sub(finished);
     }
 
     /// The vertices of all windows that a share adds.
@@ -113,9 +113,13 @@ impl Stream<'_> {
 
     /// Finishes vertices that no later triangle uses.
     fn finish(&self, worker: &mut Worker, range: Range<usize>) {
+        if range.is_empty() {
+            // A share without vertices of its own can end below the place where its own would start.
+            return;
+        }
         let place = range.start - worker.first..range.end - worker.first;
         let (vertices, marks) = (&mut worker.vertices[place.clone()], &worker.marks[place]);
-        self.width.run(Finish { vertices, marks, all_used: &mut worker.all_used });
+        self.width.run(Finish { vertices, marks, unused: &mut worker.unused });
     }
 
     /// Writes the corners of a window.

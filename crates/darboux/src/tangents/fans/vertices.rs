@@ -2,7 +2,9 @@
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
 
-use super::block::{BLOCK, Block, Record, marks, print};
+use crate::weld::Bounds;
+
+use super::block::{BLOCK, Block, Record, fingerprint, key, marks};
 
 /// A welded vertex.
 #[derive(Clone, Copy, Debug, Default)]
@@ -49,6 +51,31 @@ impl Vertex {
     }
 }
 
+/// Vertices that no triangle uses.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Unused {
+    /// Those that were not even read.
+    pub unseen: usize,
+    pub count: usize,
+    bounds: Option<Bounds>,
+}
+
+impl Unused {
+    #[cold]
+    pub fn note(&mut self, position: [f32; 3]) {
+        let bounds = self.bounds.unwrap_or(Bounds { min: position, max: position });
+        self.bounds = Some(Bounds::of(bounds.min, [bounds.max, position].into_iter()));
+        self.count += 1;
+    }
+
+    /// True when all vertices that were read lie inside the bounds of all, which are then those of the used ones.
+    pub fn are_inside(&self, all: &Bounds) -> bool {
+        let inside =
+            |bounds: Bounds| (0..3).all(|i| bounds.min[i] > all.min[i] && bounds.max[i] < all.max[i]);
+        self.bounds.is_none_or(inside)
+    }
+}
+
 /// Copies the records of the vertices of a block's first `count` triangles.
 #[inline(always)]
 pub(super) fn gather(block: &mut Block, count: usize, vertices: &[Vertex]) {
@@ -91,7 +118,7 @@ fn is_one_subgroup(found: u32) -> bool {
         && has_axis(marks::TANGENT) & has_axis(marks::BITANGENT)
 }
 
-/// True when all triangles are joined by edges at the vertex.
+/// True when all triangles are joined by edges at the vertex, but for a chance below 2^-64.
 ///
 /// An edge at the vertex that as many triangles leave along as come back along leaves nothing in the fingerprint. So it is zero
 /// when all triangles lie in closed loops, and a difference of two vertices when there is one open row besides. Every closed
@@ -108,20 +135,21 @@ fn is_one_fan(found: u32, turns: f32, print: [u32; 4]) -> bool {
 /// True when a fingerprint is that of one vertex less that of another.
 ///
 /// The first lanes hold a - b and a^2 - b^2 modulo 2^32, the second divided by the first is a + b, and both give a and b; the
-/// other lanes then prove them. A difference with many factors of two leaves several candidates.
-fn is_difference_of_two(fingerprint: [u32; 4]) -> bool {
-    let difference = i64::from(fingerprint[0] as i32);
+/// other lanes then confirm them. A difference with many factors of two leaves several candidates.
+fn is_difference_of_two(print: [u32; 4]) -> bool {
+    let key = key();
+    let difference = i64::from(print[0] as i32);
     if difference == 0 {
         return false;
     }
     let twos = difference.trailing_zeros();
-    let first_sum = u64::from(fingerprint[1].wrapping_mul(inverse((difference >> twos) as u32)) >> twos);
+    let first_sum = u64::from(print[1].wrapping_mul(inverse((difference >> twos) as u32)) >> twos);
     let mut sums = (0..CANDIDATES).map(|n| (first_sum + (n << (32 - twos))) as i64);
     sums.any(|sum| {
         let (a, b) = ((sum + difference) / 2, (sum - difference) / 2);
         let (Ok(a), Ok(b)) = (u32::try_from(a), u32::try_from(b)) else { return false };
-        let (a, b) = (print(a), print(b));
-        (0..4).all(|lane| a[lane].wrapping_sub(b[lane]) == fingerprint[lane])
+        let (a, b) = (fingerprint(a, key), fingerprint(b, key));
+        (0..4).all(|lane| a[lane].wrapping_sub(b[lane]) == print[lane])
     })
 }
 
@@ -138,7 +166,7 @@ mod tests {
     use super::*;
 
     fn less(a: u32, b: u32) -> [u32; 4] {
-        let (a, b) = (print(a), print(b));
+        let (a, b) = (fingerprint(a, key()), fingerprint(b, key()));
         std::array::from_fn(|lane| a[lane].wrapping_sub(b[lane]))
     }
 

@@ -10,7 +10,7 @@ use crate::{Indices, Mesh};
 use super::WINDOW;
 use super::corners::{Corners, same};
 use super::hash::{Hash, Span};
-use super::hash_set::{BitMap, Chains, mark_collisions};
+use super::hash_set::{BitMap, Chains, Crowded, mark_collisions};
 use super::source::{Identity, Rows, record};
 use super::width::Width;
 use super::workers::{self, Worker, parts, split};
@@ -18,11 +18,13 @@ use super::workers::{self, Worker, parts, split};
 /// The welded vertices of a mesh; the memory is kept from mesh to mesh.
 #[derive(Debug, Default)]
 pub(super) struct Weld {
-    /// By vertex, or by corner of an unindexed mesh; empty when every vertex is its own.
+    /// By vertex, or by corner; empty when every vertex is its own.
     of: Vec<u32>,
     per_corner: bool,
     /// The number of welded vertices, those that are copies of another or unused included.
     pub count: usize,
+    /// How many vertices are copies of another.
+    pub copies: usize,
     /// Of all positions, unused ones included.
     pub bounds: Bounds,
     hashes: Vec<u32>,
@@ -31,18 +33,23 @@ pub(super) struct Weld {
     /// The vertices that others can be equal to, by number in `chains`.
     suspects: Vec<u32>,
     chains: Chains,
-    /// Those of an unindexed mesh, a stretch per thread; the first has the vertices of all.
+    /// Those of a mesh that is welded by corners, a stretch per thread; the first has the vertices of all.
     corners: Vec<Corners>,
 }
 
-/// The mesh has values that only the reference's own order of vertices decides.
+/// The mesh has values that only the reference's own order of vertices decides, or too many of one hash.
 pub(super) struct Refused;
+
+/// Where a mesh has more vertices per corner, most are another mesh's, and the corners are welded instead.
+const MOST_PER_CORNER: usize = 2;
 
 impl Weld {
     /// Welds the vertices of an indexed mesh, or the corners of an unindexed one.
     pub fn weld(&mut self, mesh: &Mesh<'_>, width: Width, workers: &mut [Worker]) -> Result<(), Refused> {
         self.of.clear();
-        self.per_corner = matches!(mesh.indices(), Indices::Unindexed);
+        self.copies = 0;
+        self.per_corner = matches!(mesh.indices(), Indices::Unindexed)
+            || mesh.vertex_count() > MOST_PER_CORNER * mesh.corner_count();
         if self.per_corner {
             return self.weld_corners(mesh, width, workers);
         }
@@ -97,15 +104,17 @@ impl Weld {
         self.suspects.clear();
         let mut refused = false;
         for (vertex, &hash) in (0..).zip(&self.hashes).filter(|(_, hash)| self.again.has(**hash)) {
-            let here = record(mesh, vertex as usize);
-            let suspect = |at: u32| record(mesh, self.suspects[at as usize] as usize);
-            match self.chains.find(hash, |&at| suspect(at) == here) {
+            let here = || record(mesh, vertex as usize);
+            let suspect = |at: u32| self.suspects[at as usize] as usize;
+            let is_it = |at: u32| record(mesh, suspect(at)) == here();
+            match self.chains.find(hash, is_it).map_err(|Crowded| Refused)? {
                 Some(at) => {
-                    refused |= !same(&suspect(at), &here);
+                    refused |= !same(&record(mesh, suspect(at)), &here());
                     if self.of.is_empty() {
                         self.of.extend(0..self.count as u32);
                     }
                     self.of[vertex as usize] = self.suspects[at as usize];
+                    self.copies += 1;
                 }
                 None => {
                     self.chains.push(hash);
@@ -116,7 +125,7 @@ impl Weld {
         if refused { Err(Refused) } else { Ok(()) }
     }
 
-    /// Welds the corners of an unindexed mesh: each thread a stretch, then all of these with the first.
+    /// Welds the corners: each thread a stretch, then all of these with the first.
     fn weld_corners(&mut self, mesh: &Mesh<'_>, width: Width, workers: &mut [Worker]) -> Result<(), Refused> {
         self.of.resize(mesh.corner_count(), 0);
         self.corners.resize_with(workers.len(), Corners::default);

@@ -6,7 +6,7 @@ use super::block::Block;
 use super::hash::Span;
 use super::source::RowBuffer;
 use super::steps::Special;
-use super::vertices::Vertex;
+use super::vertices::{Unused, Vertex};
 
 /// One thread's memory.
 #[derive(Debug, Default)]
@@ -27,8 +27,8 @@ pub(super) struct Worker {
     pub span: Span,
     /// Its hashes that were met before.
     pub collisions: usize,
-    /// Triangles use every vertex.
-    pub all_used: bool,
+    /// Its vertices that no triangle uses.
+    pub unused: Unused,
 }
 
 impl Worker {
@@ -36,7 +36,7 @@ impl Worker {
     pub fn begin(&mut self, vertices: Range<usize>) {
         self.vertices.resize(vertices.len(), Vertex::default());
         self.marks.resize(vertices.len(), 0);
-        (self.first, self.read, self.all_used) = (vertices.start, 0, true);
+        (self.first, self.read, self.unused) = (vertices.start, 0, Unused::default());
         self.pending.clear();
         self.special.clear();
     }
