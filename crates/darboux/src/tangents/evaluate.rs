@@ -1,10 +1,12 @@
 //! From groups to frames: weighted sums over subgroups, and output to corners.
 //!
 //! Source: mikktspace.c, `GenerateTSpaces`, `EvalTspace`, `AvgTSpace`. There the members of each subgroup are listed, sorted and
-//! compared; here a group whose members all join each other, which is nearly every group, is summed once.
+//! compared; here a group whose members all join each other, which is nearly every group, is summed once, and subgroups are lists
+//! of the members left out.
 
 use std::cell::OnceCell;
 use std::collections::HashMap;
+use std::ops::Range;
 
 use crate::Frame;
 use crate::math::{V3, add, angle, direction_in_plane, dot, equal, normalized_unless_zero, scale, sub};
@@ -13,6 +15,7 @@ use crate::triangles::Triangles;
 use super::derivatives::Derivative;
 use super::groups::Groups;
 use super::repair::{is_usable, mean_in_plane};
+use super::running::{Lanes, Running};
 use super::shape::Shape;
 use super::subgroups::Subgroups;
 
@@ -67,15 +70,14 @@ pub(crate) fn evaluate(
         triangles,
         values,
         shape,
-        terms: Vec::new(),
-        directions: Vec::new(),
-        sums: Vec::new(),
+        running: Running::default(),
+        tangents: Vec::new(),
         written: vec![false; shape.corner_count()],
         of_corner: known,
         mean_of_corner: HashMap::new(),
     };
     let mut subgroups = Subgroups::new(threshold_cosine);
-    let (mut sorted, mut row) = (Vec::new(), Vec::new());
+    let mut sorted = Vec::new();
     for group in 0..groups.len() {
         let members = groups.members(group);
         sorted.clear();
@@ -85,12 +87,10 @@ pub(crate) fn evaluate(
         evaluator.take_terms(&sorted, values.normal_of_group[group]);
         subgroups.set(triangles, &sorted, &membership.derivatives, membership.normal_of_group[group]);
         if subgroups.all_joined() {
-            row.clear();
-            row.resize(members.len(), true);
-            let subgroup = evaluator.subgroup(&row, sign);
-            members.iter().for_each(|&member| evaluator.write(member, &subgroup, &row));
+            let subgroup = evaluator.subgroup(&[], sign);
+            members.iter().for_each(|&member| evaluator.write(member, &subgroup, &[]));
         } else {
-            evaluator.write_split_group(members, &sorted, &subgroups, sign, &mut row);
+            evaluator.write_split_group(members, &sorted, &mut subgroups, sign);
         }
     }
     RawFrames { of_corner: evaluator.of_corner, mean_of_corner: evaluator.mean_of_corner }
@@ -100,42 +100,14 @@ struct Evaluator<'a> {
     triangles: &'a Triangles,
     values: &'a Values,
     shape: &'a Shape<'a>,
-    /// What each member of the current group adds.
-    terms: Vec<Term>,
-    /// The triangles' own tangents, which count for a repair; none on UV-degenerate members.
-    directions: Vec<Option<V3>>,
-    /// `sums[n]` is the sum of the first `n` terms.
-    sums: Vec<Term>,
+    /// What each member of the current group adds; nothing where it is UV-degenerate.
+    running: Running,
+    /// The triangles' own tangents, which count for a repair.
+    tangents: Vec<V3>,
     /// Corners that a group has written.
     written: Vec<bool>,
     of_corner: Vec<Frame>,
     mean_of_corner: HashMap<u32, V3>,
-}
-
-/// One member's part in the sums: its derivatives in the plane of the vertex, times the angle of its corner there.
-///
-/// Four lanes each, so that a sum is three vector additions: s and the angle; t; the magnitudes.
-#[derive(Clone, Copy, Debug, Default)]
-struct Term([[f32; 4]; 3]);
-
-impl Term {
-    #[inline]
-    fn add(&mut self, other: &Term) {
-        for (sums, terms) in self.0.iter_mut().zip(&other.0) {
-            for (sum, term) in sums.iter_mut().zip(terms) {
-                *sum += term;
-            }
-        }
-    }
-
-    /// The frame that the sums make.
-    fn frame(&self, sign: f32) -> Frame {
-        let [[s0, s1, s2, weight], [t0, t1, t2, _], [m0, m1, _, _]] = self.0;
-        let magnitude = if weight > 0.0 { [m0 / weight, m1 / weight] } else { [m0, m1] };
-        let (tangent, bitangent) =
-            (normalized_unless_zero([s0, s1, s2]), normalized_unless_zero([t0, t1, t2]));
-        Frame { tangent, bitangent, magnitude, sign }
-    }
 }
 
 /// One subgroup's frame, and the mean of its tangents for when the frame is unusable.
@@ -145,70 +117,46 @@ struct Subgroup {
 }
 
 impl Evaluator<'_> {
-    /// Computes what every member adds, and the sums of the first 0, 1, 2, ... of them.
+    /// Computes what every member adds.
     fn take_terms(&mut self, members: &[u32], normal: V3) {
-        self.terms.clear();
-        self.directions.clear();
-        self.sums.clear();
-        let mut sum = Term::default();
-        self.sums.push(sum);
-        for &member in members {
-            let (triangle, k) = (member as usize / 3, member as usize % 3);
-            let derivative = &self.values.derivatives[triangle];
-            let (mut added, mut direction) = (Term::default(), None);
-            if !derivative.any {
-                added = term(derivative, self.shape.positions(self.triangles, triangle), k, normal);
-                direction = Some(derivative.s);
-                sum.add(&added);
-            }
-            self.terms.push(added);
-            self.directions.push(direction);
-            self.sums.push(sum);
-        }
+        let derivative = |&member: &u32| &self.values.derivatives[member as usize / 3];
+        self.tangents.clear();
+        self.tangents.extend(members.iter().map(|member| derivative(member).s));
+        self.running.set(members.iter().map(|member| {
+            let (triangle, k) = (*member as usize / 3, *member as usize % 3);
+            let positions = || self.shape.positions(self.triangles, triangle);
+            (!derivative(member).any).then(|| term(derivative(member), positions(), k, normal))
+        }));
     }
 
-    /// Sums the terms that `row` names, in triangle order.
-    ///
-    /// UV-degenerate members add nothing, not even a zero. Up to the first member left out, the sum is one that all rows share.
-    fn subgroup(&self, row: &[bool], sign: f32) -> Subgroup {
-        let shared = row.iter().position(|joins| !joins).unwrap_or(row.len());
-        let mut sum = self.sums[shared];
-        let rest = row[shared..].iter().zip(&self.directions[shared..]).zip(&self.terms[shared..]);
-        for ((&joins, direction), term) in rest {
-            if joins && direction.is_some() {
-                sum.add(term);
-            }
-        }
-        Subgroup { frame: sum.frame(sign), mean: OnceCell::new() }
+    /// Sums the terms of all members but those left out, in triangle order.
+    fn subgroup(&self, left_out: &[Range<usize>], sign: f32) -> Subgroup {
+        Subgroup { frame: frame(&self.running.sum_without(left_out), sign), mean: OnceCell::new() }
     }
 
     /// Evaluates each member's own subgroup. The order of writes shows where both halves of a quad are members and their frames
     /// differ in the sign of a zero only.
-    fn write_split_group(
-        &mut self,
-        members: &[u32],
-        sorted: &[u32],
-        subgroups: &Subgroups,
-        sign: f32,
-        row: &mut Vec<bool>,
-    ) {
-        let mut known: HashMap<Vec<bool>, Subgroup> = HashMap::new();
+    fn write_split_group(&mut self, members: &[u32], sorted: &[u32], subgroups: &mut Subgroups, sign: f32) {
+        self.running.find_stretches();
+        let mut known: HashMap<Vec<Range<usize>>, Subgroup> = HashMap::new();
+        let (mut left_out, mut bytes) = (Vec::new(), 0);
         for &member in members {
-            subgroups.row(sorted.partition_point(|&other| other < member), row);
-            if let Some(subgroup) = known.get(row) {
-                self.write(member, subgroup, row);
+            subgroups.find_left_out(sorted.partition_point(|&other| other < member), &mut left_out);
+            if let Some(subgroup) = known.get(&left_out) {
+                self.write(member, subgroup, &left_out);
                 continue;
             }
-            let subgroup = self.subgroup(row, sign);
-            self.write(member, &subgroup, row);
-            if (known.len() + 1) * row.len() <= REMEMBERED_BYTES {
-                known.insert(row.clone(), subgroup);
+            let subgroup = self.subgroup(&left_out, sign);
+            self.write(member, &subgroup, &left_out);
+            bytes += size_of::<Subgroup>() + size_of_val(left_out.as_slice());
+            if bytes <= REMEMBERED_BYTES {
+                known.insert(left_out.clone(), subgroup);
             }
         }
     }
 
     /// Writes a subgroup's frame to a member's corner. A quad's diagonal corner can be written twice: then it has the average.
-    fn write(&mut self, member: u32, subgroup: &Subgroup, row: &[bool]) {
+    fn write(&mut self, member: u32, subgroup: &Subgroup, left_out: &[Range<usize>]) {
         let corner = self.triangles.corners.as_flattened()[member as usize];
         let slot = &mut self.of_corner[corner as usize];
         let again = std::mem::replace(&mut self.written[corner as usize], true);
@@ -218,17 +166,27 @@ impl Evaluator<'_> {
         }
         let normal = self.shape.normal(corner);
         if !is_usable(slot.tangent, normal) {
-            let joined =
-                || self.directions.iter().zip(row).filter(|(_, joins)| **joins).filter_map(|(s, _)| *s);
-            if let Some(mean) = subgroup.mean.get_or_init(|| mean_in_plane(joined(), normal)) {
+            let joined = || joined(self.tangents.len(), left_out).filter(|&at| self.running.adds(at));
+            let tangents = || joined().map(|at| self.tangents[at]);
+            if let Some(mean) = subgroup.mean.get_or_init(|| mean_in_plane(tangents(), normal)) {
                 self.mean_of_corner.insert(corner, *mean);
             }
         }
     }
 }
 
-/// What corner `k` of a triangle adds to the sums at its vertex.
-fn term(derivative: &Derivative, positions: [V3; 3], k: usize, normal: V3) -> Term {
+/// The first `count` numbers but those of `left_out`, in order.
+fn joined(count: usize, left_out: &[Range<usize>]) -> impl Iterator<Item = usize> {
+    let starts = [0].into_iter().chain(left_out.iter().map(|gap| gap.end));
+    let ends = left_out.iter().map(|gap| gap.start).chain([count]);
+    starts.zip(ends).flat_map(|(start, end)| start..end)
+}
+
+/// What corner `k` of a triangle adds to the sums at its vertex: its derivatives in the plane of the vertex, times the angle of the
+/// corner there.
+///
+/// Lanes: s and the angle; t and a zero; the magnitudes and two zeros. So a sum is three additions of four numbers.
+fn term(derivative: &Derivative, positions: [V3; 3], k: usize, normal: V3) -> Lanes {
     let [before, here, after] = [(k + 2) % 3, k, (k + 1) % 3].map(|k| positions[k]);
     let to_before = direction_in_plane(normal, sub(before, here));
     let to_after = direction_in_plane(normal, sub(after, here));
@@ -236,7 +194,15 @@ fn term(derivative: &Derivative, positions: [V3; 3], k: usize, normal: V3) -> Te
     let [s0, s1, s2] = scale(weight, direction_in_plane(normal, derivative.s));
     let [t0, t1, t2] = scale(weight, direction_in_plane(normal, derivative.t));
     let [m0, m1] = derivative.magnitude.map(|magnitude| weight * magnitude);
-    Term([[s0, s1, s2, weight], [t0, t1, t2, 0.0], [m0, m1, 0.0, 0.0]])
+    Lanes([s0, s1, s2, weight, t0, t1, t2, 0.0, m0, m1, 0.0, 0.0])
+}
+
+/// The frame that a sum of terms makes.
+fn frame(sum: &Lanes, sign: f32) -> Frame {
+    let [s0, s1, s2, weight, t0, t1, t2, _, m0, m1, _, _] = sum.0;
+    let magnitude = if weight > 0.0 { [m0 / weight, m1 / weight] } else { [m0, m1] };
+    let (tangent, bitangent) = (normalized_unless_zero([s0, s1, s2]), normalized_unless_zero([t0, t1, t2]));
+    Frame { tangent, bitangent, magnitude, sign }
 }
 
 /// The mean of two frames, or the first when they are equal. The sign is the second's.
