@@ -105,11 +105,20 @@ fn root_near(a: f32, estimate: f32) -> f32 {
     let word = bitcast<u32>(a);
     let exponent = exponent_of(word);
     let square = significand_of(word) << select(23u, 24u, (exponent & 1) == 0);
-    var root = i32(estimate * 8388608.0);
+    let found = whole_root(square, i32(estimate * 8388608.0));
+    // Never exactly one half: (n + 1/2)^2 is no whole number.
+    let significand = found.x + i32(found.y > found.x);
+    let result = (((exponent + 127) >> 1u) << 23u) + significand - i32(HIDDEN);
+    is_unsure = is_unsure || !is_plain(word) || ((word & SIGN) != 0u && !is_zero(word));
+    return bitcast<f32>(select(u32(result), word, is_zero(word)));
+}
+
+// The largest n whose square is not above that of which `square` is the last 32 bits, and what is left of it. `estimate`: of n, within 100;
+// n in [2^23, 2^24).
+fn whole_root(square: u32, estimate: i32) -> vec2i {
+    var root = estimate;
+    root += i32(square - u32(root) * u32(root)) / (2 * root);
     var rest = i32(square - u32(root) * u32(root));
-    let step = rest / (2 * root);
-    root += step;
-    rest = i32(square - u32(root) * u32(root));
     if rest < 0 {
         root -= 1;
         rest += 2 * root + 1;
@@ -117,10 +126,7 @@ fn root_near(a: f32, estimate: f32) -> f32 {
         rest -= 2 * root + 1;
         root += 1;
     }
-    root += i32(rest > root);
-    let result = (((exponent + 127) >> 1u) << 23u) + root - i32(HIDDEN);
-    is_unsure = is_unsure || !is_plain(word) || ((word & SIGN) != 0u && !is_zero(word));
-    return bitcast<f32>(select(u32(result), word, is_zero(word)));
+    return vec2i(root, rest);
 }
 
 // Orders words as their floats are ordered; both zeros are one.

@@ -195,6 +195,13 @@ mod tests {
         }
         validate(ADJACENCY);
         validate(SCAN);
+        validate(&[
+            "fn zero() -> u32 { return 0u; }",
+            include_str!("../shaders/exact.wgsl"),
+            include_str!("../shaders/whole.wgsl"),
+            include_str!("../shaders/soft.wgsl"),
+            include_str!("../shaders/arccosine.wgsl"),
+        ]);
     }
 
     fn validate(files: &[&str]) {

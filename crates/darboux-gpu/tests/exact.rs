@@ -5,7 +5,11 @@ mod common;
 use common::gpus;
 use common::scalar::map;
 
-const EXACT: &str = include_str!("../shaders/exact.wgsl");
+const FILES: &[&str] = &[
+    include_str!("../shaders/exact.wgsl"),
+    include_str!("../shaders/whole.wgsl"),
+    include_str!("../shaders/soft.wgsl"),
+];
 const STEPS: usize = 3_000_000;
 
 /// The splitmix64 sequence.
@@ -36,17 +40,36 @@ fn hard() -> Vec<u32> {
     words
 }
 
-/// All pairs of hard words, random words, and random words of like size; a third word from 0 to 8 beside.
+/// Products that are above half of the smallest subnormal by less than 256 parts in 2^47.
+fn just_above_half() -> impl Iterator<Item = [u32; 3]> {
+    let product = 1u64 << 47;
+    (1 << 23..1 << 24).filter_map(move |a: u64| {
+        let b = product.div_ceil(a);
+        let is_near = (1..256).contains(&(a * b - product));
+        is_near
+            .then_some([a, b].map(|significand| significand as u32 & 0x7f_ffff))
+            .map(|[a, b]| [52 << 23 | a, 51 << 23 | b, 0])
+    })
+}
+
+/// All pairs of hard words, random words, random words of like size, and small ones; a third word from 0 to 8 beside.
 fn pairs() -> Vec<[u32; 3]> {
     let hard = hard();
     let mut pairs: Vec<[u32; 3]> =
         hard.iter().flat_map(|&a| hard.iter().map(move |&b| [a, b, (a ^ b) % 9])).collect();
+    pairs.extend(just_above_half());
     let mut random = Random(5);
     for step in 0..STEPS {
         let (a, b) = (random.word(), random.word());
-        // Every other pair has exponents that differ by less than 32.
+        // Exponents that differ by less than 32.
         let near = a.wrapping_add((b & 0x0fff_ffff).wrapping_sub(0x0800_0000)) ^ (b & 1 << 31);
-        pairs.push([a, if step % 2 == 0 { b } else { near }, random.word() % 9]);
+        let third = random.word() % 9;
+        pairs.push(match step % 3 {
+            0 => [a, b, third],
+            1 => [a, near, third],
+            // Exponents of 0 to 31: what is subnormal, and what makes it normal.
+            _ => [a & 0x8fff_ffff, b & 0x8fff_ffff, third],
+        });
     }
     pairs
 }
@@ -65,7 +88,7 @@ fn check(
 ) {
     let pairs = pairs();
     for gpu in gpus() {
-        let answers: Vec<[u32; 2]> = map(gpu, &[EXACT], body, &pairs);
+        let answers: Vec<[u32; 2]> = map(gpu, FILES, body, &pairs);
         let (mut sure, mut unsure) = (0, 0);
         for (&[a, b, third], &[found, flag]) in pairs.iter().zip(&answers) {
             let [a, b, found] = [a, b, found].map(f32::from_bits);
@@ -147,12 +170,36 @@ fn roots_are_rounded() {
     check("root from an estimate", &body(ROUGH_ROOT), |a, _| a.sqrt(), is_ordinary);
 }
 
+/// Every answer has Rust's bits, whatever the operands are; NaN is NaN.
+fn check_soft(name: &str, call: &str, exact: impl Fn(f32, f32) -> f32) {
+    let body = format!("let a = given[at]; let b = given[at + 1u]; got[into] = {call};");
+    let samples: Vec<[u32; 2]> = pairs().into_iter().map(|[a, b, _]| [a, b]).collect();
+    for gpu in gpus() {
+        let answers: Vec<[u32; 1]> = map(gpu, FILES, &body, &samples);
+        for (&[a, b], &[found]) in samples.iter().zip(&answers) {
+            let [a, b, found] = [a, b, found].map(f32::from_bits);
+            let right = exact(a, b);
+            let is_right = found.to_bits() == right.to_bits() || (found.is_nan() && right.is_nan());
+            assert!(is_right, "{name} of {a:e} and {b:e}: {found:e}, not {right:e}");
+        }
+        println!("{name} on {}: {} as in Rust", gpu.name, samples.len());
+    }
+}
+
+#[test]
+fn soft_arithmetic_is_that_of_all_floats() {
+    check_soft("soft sum", "soft_sum(a, b)", |a, b| a + b);
+    check_soft("soft product", "soft_product(a, b)", |a, b| a * b);
+    check_soft("soft quotient", "soft_quotient(a, b)", |a, b| a / b);
+    check_soft("soft root", "soft_root(a)", |a, _| a.sqrt());
+}
+
 #[test]
 fn comparisons_are_those_of_all_floats() {
     let call = "bitcast<f32>(u32(is_less(a, b)) | u32(is_equal(a, b)) << 1u)";
     let pairs = pairs();
     for gpu in gpus() {
-        let answers: Vec<[u32; 2]> = map(gpu, &[EXACT], &body(call), &pairs);
+        let answers: Vec<[u32; 2]> = map(gpu, FILES, &body(call), &pairs);
         for (&[a, b, _], &[found, _]) in pairs.iter().zip(&answers) {
             let [a, b] = [a, b].map(f32::from_bits);
             assert_eq!(found, u32::from(a < b) | u32::from(a == b) << 1, "{a:e} and {b:e}");

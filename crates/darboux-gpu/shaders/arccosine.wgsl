@@ -1,0 +1,93 @@
+// The arccosine, rounded to the nearest float, in whole numbers of 64 bits; needs exact.wgsl and whole.wgsl.
+//
+// Pairs of floats have 48 bits: by the odds they would put some hundred of the floats of [-1, 1] on the wrong side of a half, and all
+// liberties of devices would have to be kept out of every operation. Whole numbers have none, and 60 good bits are enough for all.
+//
+// Up to 1/2: acos x = pi/2 - asin x. Above: acos x = 2 asin sqrt((1 - x) / 2), from pi for negative x. asin z = z (1 + t P(t)), t = z^2.
+
+// Times 2^62.
+const PI: vec2u = vec2u(0xc90fdaa2u, 0x2168c235u);
+const HALF_PI: vec2u = vec2u(0x6487ed51u, 0x10b4611au);
+
+// t P(t) for t in [0, 1/4], both times 2^64: asin z = z + z t P(t), t = z^2, with an error of z 2^-61.8. P is the polynomial that
+// interpolates at 14 Chebyshev nodes; one of its coefficients is negative.
+fn arcsine_tail(t: vec2u) -> vec2u {
+    var p = difference64(vec2u(0x04ed05aeu, 0xdf6495beu), product64(t, vec2u(0x0794a71bu, 0xf3a6ecf6u)));
+    p = difference64(vec2u(0x0501864bu, 0x44918a4eu), product64(t, p));
+    p = sum64(vec2u(0x00c78c9bu, 0xa1a0c7f9u), product64(t, p));
+    p = sum64(vec2u(0x0262c448u, 0xd39cb5adu), product64(t, p));
+    p = sum64(vec2u(0x027693bcu, 0xe24290d5u), product64(t, p));
+    p = sum64(vec2u(0x02f604fdu, 0xc3bab09du), product64(t, p));
+    p = sum64(vec2u(0x0393215au, 0x7b1fb939u), product64(t, p));
+    p = sum64(vec2u(0x04713bf3u, 0x88c067a9u), product64(t, p));
+    p = sum64(vec2u(0x05ba2e84u, 0x8f925320u), product64(t, p));
+    p = sum64(vec2u(0x07c71c71u, 0xe94ae8bcu), product64(t, p));
+    p = sum64(vec2u(0x0b6db6dbu, 0x6d60efdau), product64(t, p));
+    p = sum64(vec2u(0x13333333u, 0x3333880cu), product64(t, p));
+    p = sum64(vec2u(0x2aaaaaaau, 0xaaaaaa9du), product64(t, p));
+    return product64(t, p);
+}
+
+// a 2^(scale - 62), rounded; the high word of `a` is not 0.
+fn nearest_float(a: vec2u, scale: i32) -> f32 {
+    let zeros = countLeadingZeros(a.x);
+    let high = shifted_left(a, zeros).x;
+    let exponent = u32(128 + scale) - zeros;
+    return bitcast<f32>((exponent << 23u) + (high >> 8u) - HIDDEN + ((high >> 7u) & 1u));
+}
+
+// The arccosine of x in [-1, 1].
+fn arccosine(x: f32) -> f32 {
+    let word = bitcast<u32>(x);
+    let is_negative = (word & SIGN) != 0u;
+    is_unsure = is_unsure || (word & ~SIGN) > ONE;
+    // |x| = significand 2^(exponent - 23)
+    let significand = significand_of(word);
+    let exponent = exponent_of(word) - 127;
+    if exponent >= -1 {
+        let above = (HIDDEN << 1u) - (significand << u32(exponent + 1));
+        return arccosine_of_large(above, is_negative);
+    }
+    let size = shifted(vec2u(significand, 0u), exponent + 7);
+    let square = shifted(whole_product(significand, significand), 2 * exponent + 18);
+    let arcsine = sum64(size, product64(size, arcsine_tail(square)));
+    if is_negative {
+        return nearest_float(sum64(HALF_PI, arcsine), 0);
+    }
+    return nearest_float(difference64(HALF_PI, arcsine), 0);
+}
+
+// Of 1 - above / 2^24, or of its negative.
+fn arccosine_of_large(above: u32, is_negative: bool) -> f32 {
+    if above == 0u {
+        return select(0.0, nearest_float(PI, 0), is_negative);
+    }
+    // z = sqrt(above / 2^25) = sqrt(square / 2^25) 2^-halvings, square in [2^23, 2^25).
+    let halvings = (countLeadingZeros(above) - 7u) >> 1u;
+    let square = above << (2u * halvings);
+    let z = root64(square);
+    let arcsine = sum64(z, product64(z, arcsine_tail(vec2u(above << 7u, 0u))));
+    if is_negative {
+        return nearest_float(difference64(PI, shifted_right(shifted_left(arcsine, 1u), halvings)), 0);
+    }
+    return nearest_float(arcsine, 1 - i32(halvings));
+}
+
+// sqrt(square / 2^25) 2^62, square in [2^23, 2^25), off by less than 4.
+fn root64(square: u32) -> vec2u {
+    let found = whole_root(square << 23u, i32(sqrt(f32(square)) * 2896.3093));
+    // (n + f)^2 = n^2 + rest: f = (rest - f^2) / 2n. First rest / 2n, by long division to 42 bits behind the point.
+    let divisor = u32(2 * found.x);
+    var rest = u32(found.y);
+    var fraction = vec2u(0u, rest / divisor);
+    rest = rest % divisor;
+    for (var digit = 0; digit < 6; digit++) {
+        rest = rest << 7u;
+        fraction = sum64(shifted_left(fraction, 7u), vec2u(0u, rest / divisor));
+        rest = rest % divisor;
+    }
+    // Then less its square / 2n, which is below 2^-24 and needs 15 bits.
+    let short = min(shifted_right(fraction, 27u).y, 0x7fffu);
+    fraction = difference64(fraction, vec2u(0u, ((short * short) << 2u) / (divisor >> 10u)));
+    return sum64(vec2u(u32(found.x) << 6u, 0u), shifted_right(fraction, 4u));
+}
