@@ -27,6 +27,7 @@ const LONG: &[Step] = &[
     ("acos", acos),
     ("small limits", small_limits),
     ("long tests", || test("cargo test --release --workspace -- --ignored --skip acos_exhaustive")),
+    ("Blender", python::blender),
     ("fuzzing", fuzz),
 ];
 

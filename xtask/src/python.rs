@@ -27,6 +27,17 @@ pub fn test(without: WithoutPython) -> Outcome {
     run(with(&python, "-m pytest --quiet").arg(PACKAGE))
 }
 
+/// Our tangents against Blender's. Its module is large, and made for one version of Python.
+pub fn blender() -> Outcome {
+    if !works(&mut program("python3.11 -m venv --help")) {
+        println!("skipped: Blender's module needs python3.11 with venv");
+        return Ok(());
+    }
+    let python = environment_of("python3.11", "blender")?;
+    run(pip(&python).args(["bpy==5.0.1", "pytest", PACKAGE]))?;
+    run(with(&python, "-m pytest --quiet").arg(format!("{PACKAGE}/tests/test_blender.py")))
+}
+
 /// `cargo xtask dist-python`: builds the wheel, and prints the absolute path of its folder as the last line.
 pub fn dist() -> Outcome {
     let python = environment()?;
@@ -44,13 +55,16 @@ pub fn dist() -> Outcome {
     Ok(())
 }
 
-/// The Python of an environment in cargo's target folder, made where it is missing.
 fn environment() -> Result<PathBuf, String> {
-    let folder = target_folder()?.join("python");
-    let place = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
-    let python = folder.join(place);
+    environment_of("python3", "python")
+}
+
+/// The Python of an environment in cargo's target folder, made where it is missing.
+fn environment_of(interpreter: &str, name: &str) -> Result<PathBuf, String> {
+    let folder = target_folder()?.join(name);
+    let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
     if !works(&mut with(&python, "-m pip --version")) {
-        run(program("python3 -m venv --clear").arg(&folder))?;
+        run(program(interpreter).args(["-m", "venv", "--clear"]).arg(&folder))?;
     }
     Ok(python)
 }

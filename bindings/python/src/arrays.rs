@@ -76,6 +76,9 @@ impl<'py, const N: usize> Rows<'py, N> {
 
     /// The rows one after the other.
     pub fn to_vec(&self) -> PyResult<Vec<[f32; N]>> {
+        if let Self::Packed(array) = self {
+            return Ok(array.as_slice()?.as_chunks().0.to_vec());
+        }
         let view = self.view()?;
         Ok((0..view.len()).map(|row| view.get(row)).collect())
     }
@@ -102,7 +105,9 @@ pub fn array_of<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'p
     let py = value.py();
     let made = py.import("numpy")?.call_method1("asarray", (value,));
     let made = made.map_err(|error| {
-        PyValueError::new_err(format!("{name} cannot be made an array: {}", error.value(py)))
+        let said = error.value(py).to_string();
+        let sentence = said.lines().next().unwrap_or_default();
+        PyValueError::new_err(format!("{name} cannot be made an array: {sentence}"))
     })?;
     Ok(made.cast_into()?)
 }

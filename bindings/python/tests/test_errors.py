@@ -1,5 +1,7 @@
 """Bad input: a ValueError or TypeError of one sentence, never anything else."""
 
+import inspect
+import random
 import re
 from typing import Any, Dict
 
@@ -9,6 +11,13 @@ import pytest
 from conftest import Mesh, grid
 
 NAN = float("nan")
+
+
+class Unreadable:
+    """Looks like an array from afar."""
+
+    def __array__(self, *_: Any, **__: Any) -> np.ndarray:
+        raise RuntimeError("burnt\nto the ground")
 
 
 def call(sheet: Mesh, changes: Dict[str, Any]) -> Any:
@@ -25,7 +34,7 @@ BAD = [
     ({"positions": np.zeros((88, 3), bool)}, TypeError, "positions must hold real numbers, not bool"),
     ({"positions": np.zeros((88, 3), object)}, TypeError, "positions must hold real numbers, not object"),
     ({"positions": None}, ValueError, r"positions must have shape \(V, 3\), not \(\)"),
-    ({"positions": [[0, 0, 0], [1, 1]]}, ValueError, "positions cannot be made an array"),
+    ({"positions": Unreadable()}, ValueError, "positions cannot be made an array: burnt$"),
     ({"positions": "mesh"}, ValueError, "positions must have shape"),
     ({"normals": np.zeros((87, 3))}, ValueError, "normals has 87 elements but there are 88 positions"),
     ({"uvs": np.zeros((88, 3))}, ValueError, r"uvs must have shape \(V, 2\), not \(88, 3\)"),
@@ -109,3 +118,32 @@ def test_a_sweep_of_odd_values() -> None:
                 except (ValueError, TypeError, OverflowError) as error:
                     assert "\n" not in str(error), error
     assert returned > 10
+
+
+TRIANGLE = np.eye(3, dtype=np.float32)
+GOOD_VALUES = [
+    TRIANGLE, TRIANGLE[:, :2], np.eye(4, dtype="f4")[:3], [0, 1, 2], [[0, 1, 2]], 3, [3], "gltf", "unity", True, "repaired", "smooth",
+    np.zeros((3, 4), "i2"), np.zeros((3, 2), "i2"), np.zeros((3, 4), "i1"), np.zeros(3, "u2"), np.zeros(3, "u4"),
+]  # fmt: skip
+
+
+def test_random_arguments_everywhere() -> None:
+    """Every function, with arguments that fit and arguments that do not."""
+    dice = random.Random(1)
+    functions = [getattr(darboux, name) for name in darboux.__all__ if name.islower() and name[0] != "_"]
+    functions = [function for function in functions if callable(function) and function.__name__ not in ("process", "save")]
+    functions += [darboux.Plan] + [getattr(darboux.encode, name) for name in darboux.encode.__all__]
+    assert len(functions) > 20
+    returned = set()
+    for _ in range(20_000):
+        function = dice.choice(functions)
+        arguments = {}
+        for name, parameter in inspect.signature(function).parameters.items():
+            if parameter.default is inspect.Parameter.empty or dice.random() < 0.2:
+                arguments[name] = dice.choice(ODD_VALUES if dice.random() < 0.1 else GOOD_VALUES)
+        try:
+            function(**arguments)
+            returned.add(function.__name__)
+        except (ValueError, TypeError, OverflowError, OSError) as error:
+            assert "\n" not in str(error), (function, arguments)
+    assert len(returned) > len(functions) / 2, returned
