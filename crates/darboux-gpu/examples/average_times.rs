@@ -1,6 +1,6 @@
 //! When a table of each vertex's triangles is worth making: times of the average both ways, on every adapter and on the CPU.
 //!
-//! `cargo run --release -p darboux-gpu --example average_times`
+//! `cargo run -p darboux-gpu --example average_times`
 
 use std::time::Instant;
 

@@ -1,4 +1,5 @@
-// The arccosine, rounded to the nearest float, in whole numbers of 64 bits; needs exact.wgsl and whole.wgsl.
+// The arccosine in whole numbers of 64 bits, rounded to double precision and then to a float, as the CPU's; needs exact.wgsl and
+// whole.wgsl. For one float, 0x328885a3, the first rounding makes a half of what was above it.
 //
 // Pairs of floats have 48 bits: by the odds they would put some hundred of the floats of [-1, 1] on the wrong side of a half, and all
 // liberties of devices would have to be kept out of every operation. Whole numbers have none, and 60 good bits are enough for all.
@@ -28,12 +29,15 @@ fn arcsine_tail(t: vec2u) -> vec2u {
     return product64(t, p);
 }
 
-// a 2^(scale - 62), rounded; the high word of `a` is not 0.
-fn nearest_float(a: vec2u, scale: i32) -> f32 {
+// a 2^(scale - 62), rounded to 53 bits and then to 24, the even of two halves, as the CPU does; the high word of `a` is not 0.
+fn float_of_double(a: vec2u, scale: i32) -> f32 {
     let zeros = countLeadingZeros(a.x);
-    let high = shifted_left(a, zeros).x;
+    let double = sum64(shifted_left(a, zeros), vec2u(0u, 0x400u));
+    let is_above_half = (double.x & 0x7fu) != 0u || double.y >= 0x800u;
+    let is_odd = (double.x & 0x100u) != 0u;
+    let is_up = (double.x & 0x80u) != 0u && (is_above_half || is_odd);
     let exponent = u32(128 + scale) - zeros;
-    return bitcast<f32>((exponent << 23u) + (high >> 8u) - HIDDEN + ((high >> 7u) & 1u));
+    return bitcast<f32>((exponent << 23u) + (double.x >> 8u) - HIDDEN + u32(is_up));
 }
 
 // The arccosine of x in [-1, 1].
@@ -52,15 +56,15 @@ fn arccosine(x: f32) -> f32 {
     let square = shifted(whole_product(significand, significand), 2 * exponent + 18);
     let arcsine = sum64(size, product64(size, arcsine_tail(square)));
     if is_negative {
-        return nearest_float(sum64(HALF_PI, arcsine), 0);
+        return float_of_double(sum64(HALF_PI, arcsine), 0);
     }
-    return nearest_float(difference64(HALF_PI, arcsine), 0);
+    return float_of_double(difference64(HALF_PI, arcsine), 0);
 }
 
 // Of 1 - above / 2^24, or of its negative.
 fn arccosine_of_large(above: u32, is_negative: bool) -> f32 {
     if above == 0u {
-        return select(0.0, nearest_float(PI, 0), is_negative);
+        return select(0.0, float_of_double(PI, 0), is_negative);
     }
     // z = sqrt(above / 2^25) = sqrt(square / 2^25) 2^-halvings, square in [2^23, 2^25).
     let halvings = (countLeadingZeros(above) - 7u) >> 1u;
@@ -68,9 +72,9 @@ fn arccosine_of_large(above: u32, is_negative: bool) -> f32 {
     let z = root64(square);
     let arcsine = sum64(z, product64(z, arcsine_tail(vec2u(above << 7u, 0u))));
     if is_negative {
-        return nearest_float(difference64(PI, shifted_right(shifted_left(arcsine, 1u), halvings)), 0);
+        return float_of_double(difference64(PI, shifted_right(shifted_left(arcsine, 1u), halvings)), 0);
     }
-    return nearest_float(arcsine, 1 - i32(halvings));
+    return float_of_double(arcsine, 1 - i32(halvings));
 }
 
 // sqrt(square / 2^25) 2^62, square in [2^23, 2^25), off by less than 4.
