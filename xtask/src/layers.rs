@@ -12,6 +12,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("darboux-cli", &["darboux", "darboux-io"]),
     ("darboux-c", &["darboux", "darboux-tests"]),
     ("darboux-mikktspace", &["darboux"]),
+    ("darboux-js", &["darboux"]),
     ("darboux-python", &["darboux", "darboux-io", "darboux-cli"]),
     ("darboux-tests", &["darboux", "darboux-io", "darboux-cli"]),
     ("darboux-shader-tests", &["darboux"]),

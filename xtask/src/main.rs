@@ -3,6 +3,7 @@
 mod bench;
 mod ci;
 mod dist_c;
+mod dist_js;
 mod generated;
 mod graphics;
 mod layers;
@@ -22,6 +23,7 @@ usage: cargo xtask <task>
   validate      check the command's outputs for all models with independent tools (needs node and npm)
   bench [...]   time every engine on every mesh; see bench --help
   dist-c        make the folder for users of C and C++; its path is the last line (Linux: needs ld, objcopy, nm and ar)
+  dist-js       make the folder of the npm package; its path is the last line (needs node, npm and rustup)
   dist-python   build the Python wheel; its folder is the last line (needs python3 with venv, and the network)
   acos          compare acos with the platform's on every float of [-1, 1]";
 
@@ -36,6 +38,7 @@ fn main() -> ExitCode {
         ["validate"] => validate::all_models(validate::WithoutNpm::Fail),
         ["bench", ref options @ ..] => bench::bench(options),
         ["dist-c"] => dist_c::make(),
+        ["dist-js"] => dist_js::make(),
         ["dist-python"] => python::dist(),
         ["acos"] => ci::acos(),
         _ => {

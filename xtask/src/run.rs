@@ -38,6 +38,11 @@ pub fn output_of(command: &mut Command) -> Result<Vec<u8>, String> {
     }
 }
 
+/// What a program writes to standard output goes to standard error.
+pub fn to_stderr(command: &mut Command) -> &mut Command {
+    command.stdout(std::io::stderr())
+}
+
 /// True when the program starts and succeeds; what it prints is dropped.
 pub fn works(command: &mut Command) -> bool {
     command.stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok_and(|status| status.success())

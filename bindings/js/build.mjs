@@ -1,0 +1,68 @@
+// `node build.mjs MODULES OUT VERSION`: makes the folder that is published in OUT, of the WebAssembly modules in MODULES.
+
+import { spawnSync } from 'node:child_process';
+import { copyFileSync, mkdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { build } from 'esbuild';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const [modules, out, version] = process.argv.slice(2);
+
+/** What users import, each with a WebAssembly module of its name. */
+const ENTRIES = ['tangents'];
+
+/** What the compiler uses without being told. */
+const FEATURES = ['bulk-memory', 'bulk-memory-opt', 'nontrapping-float-to-int', 'sign-ext', 'mutable-globals', 'reference-types', 'multivalue', 'call-indirect-overlong'];
+
+function run(program, ...words) {
+  const { status, error } = spawnSync(join(here, 'node_modules/.bin', program), words, { cwd: here, stdio: ['ignore', 2, 2] });
+  if (status !== 0) throw error ?? new Error(`${program} failed`);
+}
+
+/** The modules, made smaller. */
+function optimize(entry, form) {
+  const features = [...FEATURES, ...(form === 'simd' ? ['simd'] : [])].map((name) => `--enable-${name}`);
+  const place = join(here, 'lib/wasm', `${entry}.${form}.wasm`);
+  mkdirSync(dirname(place), { recursive: true });
+  run('wasm-opt', ...features, '-O3', '--strip-debug', '--strip-producers', '--strip-target-features', join(modules, `${entry}.${form}.wasm`), '-o', place);
+}
+
+const common = {
+  absWorkingDir: join(here, 'lib'),
+  outdir: out,
+  bundle: true,
+  minify: true,
+  target: 'es2022',
+  platform: 'neutral',
+  loader: { '.wasm': 'binary' },
+  external: ['*.scalar.js'],
+  logLevel: 'warning',
+};
+
+/** The form without SIMD is a file of its own, which is imported where it is needed. */
+async function bundle(entry) {
+  await build({ ...common, format: 'esm', entryPoints: [`${entry}.ts`, `${entry}.scalar.ts`] });
+  await build({ ...common, format: 'cjs', entryPoints: [`${entry}.ts`], outExtension: { '.js': '.cjs' } });
+}
+
+rmSync(out, { recursive: true, force: true });
+for (const entry of ENTRIES) {
+  for (const form of ['simd', 'scalar']) optimize(entry, form);
+  await bundle(entry);
+}
+run('tsc', '-p', 'lib', '--outDir', out);
+for (const inner of ['engine', 'mesh', ...ENTRIES.map((entry) => `${entry}.scalar`)]) rmSync(join(out, `${inner}.d.ts`));
+for (const name of [...ENTRIES, 'types']) {
+  const types = readFileSync(join(out, `${name}.d.ts`), 'utf8');
+  writeFileSync(join(out, `${name}.d.cts`), types.replaceAll(/from '(.*)\.js'/g, "from '$1.cjs'"));
+}
+const manifest = JSON.parse(readFileSync(join(here, 'lib/package.json'), 'utf8'));
+writeFileSync(join(out, 'package.json'), JSON.stringify({ ...manifest, version }, null, 2) + '\n');
+copyFileSync(join(here, 'README.md'), join(out, 'README.md'));
+for (const license of ['LICENSE-APACHE', 'LICENSE-MIT']) copyFileSync(join(here, '../..', license), join(out, license));
+
+// Tests and examples import it as users do.
+const link = join(here, 'node_modules/darboux');
+rmSync(link, { recursive: true, force: true });
+symlinkSync(out, link);

@@ -1,0 +1,102 @@
+// A mesh as it is given: checked, then written to where the WebAssembly side reads it.
+
+import type { Exports } from './engine.js';
+import type { Faces, Indices } from './types.js';
+
+/** Ids of corners have 30 bits. */
+const MAX_CORNERS = 2 ** 30 - 1;
+
+/** A mesh whose arrays fit together. */
+export interface Mesh {
+  positions: Float32Array;
+  normals: Float32Array;
+  uvs: Float32Array;
+  indices: Indices | null;
+  faces: Faces;
+  vertices: number;
+  corners: number;
+}
+
+/** Errors: TypeError for arrays of another kind, RangeError for lengths that do not fit together. */
+export function mesh(
+  positions: Float32Array,
+  normals: Float32Array,
+  uvs: Float32Array,
+  indices: Indices | null | undefined,
+  faces: Faces = 3,
+): Mesh {
+  const vertices = rows('positions', positions, 3);
+  for (const [name, array, width] of [['normals', normals, 3], ['uvs', uvs, 2]] as const) {
+    const found = rows(name, array, width);
+    if (found !== vertices) {
+      throw new RangeError(`${name} has ${found} elements but there are ${vertices} positions; give one per vertex`);
+    }
+  }
+  if (indices != null) must('indices', indices, ['Uint32Array', 'Uint16Array', 'Uint8Array']);
+  const corners = indices?.length ?? vertices;
+  const most = Math.max(corners, vertices);
+  if (most > MAX_CORNERS) throw new RangeError(`${most} corners are too many: the limit is ${MAX_CORNERS}; split the mesh`);
+  checkFaces(faces, corners);
+  return { positions, normals, uvs, indices: indices ?? null, faces, vertices, corners };
+}
+
+/** The number of elements. */
+function rows(name: string, array: Float32Array, width: number): number {
+  must(name, array, ['Float32Array']);
+  const count = array.length / width;
+  if (Number.isInteger(count)) return count;
+  throw new RangeError(`${name} has a length of ${array.length}, which is not a whole number of ${width}-component elements`);
+}
+
+/** Arrays of other realms (frames, workers) are as good, so the name decides. */
+function must(name: string, value: unknown, kinds: string[]): void {
+  const kind = Object.prototype.toString.call(value).slice(8, -1);
+  if (!kinds.includes(kind)) throw new TypeError(`${name} must be a ${kinds.join(' or ')}, not ${kind}`);
+}
+
+function checkFaces(faces: Faces, corners: number): void {
+  if (faces === 3 || faces === 4) {
+    if (corners % faces) throw new RangeError(`${corners} corners do not make whole faces of ${faces}`);
+    return;
+  }
+  if (typeof faces === 'number') throw new RangeError(`faces is ${faces}; it must be 3, 4 or a Uint32Array of sizes`);
+  must('faces', faces, ['Uint32Array']);
+  const sum = faces.reduce((sum, size) => sum + size, 0);
+  if (sum !== corners) throw new RangeError(`the face sizes add up to ${sum} but there are ${corners} corners`);
+}
+
+/**
+ * Writes a mesh. All places are asked for before the first is written, as memory moves when it grows. WebAssembly's numbers are signed:
+ * places beyond 2 GiB come as negative ones.
+ */
+export function write(exports: Exports, mesh: Mesh): void {
+  const { vertices, indices } = mesh;
+  const faces = mesh.faces === 3 ? null : mesh.faces === 4 ? new Uint32Array(mesh.corners / 4).fill(4) : mesh.faces;
+  const places = [exports.positions(vertices), exports.normals(vertices), exports.uvs(vertices)];
+  const lists: [Indices, number][] = [];
+  if (indices) lists.push([indices, exports.indices(indices.length)]);
+  if (faces) lists.push([faces, exports.face_sizes(faces.length)]);
+  const { buffer } = exports.memory;
+  [mesh.positions, mesh.normals, mesh.uvs].forEach((array, at) => {
+    new Float32Array(buffer, places[at]! >>> 0, array.length).set(array);
+  });
+  for (const [list, place] of lists) new Uint32Array(buffer, place >>> 0, list.length).set(list);
+}
+
+/** What the WebAssembly side found wrong with a mesh that is right but for its indices. */
+export function indexError({ indices, vertices }: Mesh): RangeError {
+  const at = indices!.findIndex((index) => index >= vertices);
+  return new RangeError(`index ${indices![at]} at place ${at} is out of range: there are ${vertices} vertices`);
+}
+
+/** A copy of floats that the WebAssembly side made. */
+export function floats(exports: Exports, place: number, length: number): Float32Array<ArrayBuffer> {
+  return new Float32Array(exports.memory.buffer, place >>> 0, length).slice() as Float32Array<ArrayBuffer>;
+}
+
+/** The place of a name among names. */
+export function choice(what: string, name: string, names: readonly string[]): number {
+  const at = names.indexOf(name);
+  if (at >= 0) return at;
+  throw new RangeError(`${what} is '${name}'; it must be one of ${names.map((name) => `'${name}'`).join(', ')}`);
+}

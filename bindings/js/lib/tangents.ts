@@ -1,0 +1,50 @@
+// `darboux/tangents`: MikkTSpace alone.
+
+import { load, type Exports } from './engine.js';
+import { choice, floats, indexError, mesh, write } from './mesh.js';
+import type { Indices, MikkTSpaceOptions } from './types.js';
+import simd from './wasm/tangents.simd.wasm';
+
+export type * from './types.js';
+
+interface TangentExports extends Exports {
+  generate_tangents(mode: number, threshold: number): number;
+}
+
+const MODES = ['reference', 'repaired', 'corrected'] as const;
+
+const engine = load<TangentExports>(simd, () => import('./tangents.scalar.js'));
+
+/** Resolves when {@link generateTangents} may be called. */
+export const ready: Promise<void> = engine.ready;
+
+/**
+ * The tangent of every corner: unit xyz and the sign w, bitangent = w * cross(normal, xyz). The sign is MikkTSpace's for the UVs as given.
+ *
+ * These are not vertex tangents: corners of one vertex may disagree, as at mirrored seams. Without indices they are the vertices' own.
+ *
+ * @param positions 3 per vertex, any values.
+ * @param normals 3 per vertex, used as given; they should be unit length.
+ * @param uvs 2 per vertex.
+ * @param indices The vertex of each corner; without, every vertex is a corner of its own.
+ * @returns 4 per corner.
+ * @throws TypeError for arrays of another kind; RangeError for lengths that differ, an index out of range, corners that are not whole faces.
+ */
+export function generateTangents(
+  positions: Float32Array,
+  normals: Float32Array,
+  uvs: Float32Array,
+  indices?: Indices | null,
+  options: MikkTSpaceOptions = {},
+): Float32Array<ArrayBuffer> {
+  const given = mesh(positions, normals, uvs, indices, options.faces);
+  const mode = choice('mode', options.mode ?? 'repaired', MODES);
+  const { threshold = 180 } = options;
+  if (!Number.isFinite(threshold)) throw new RangeError(`threshold is ${threshold}; it must be a number of degrees`);
+  return engine.call((exports) => {
+    write(exports, given);
+    const place = exports.generate_tangents(mode, threshold);
+    if (!place) throw indexError(given);
+    return floats(exports, place, 4 * given.corners);
+  });
+}

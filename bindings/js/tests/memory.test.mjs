@@ -1,0 +1,38 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+
+/** All memories that WebAssembly has made, seen as they are made. */
+const memories = [];
+const { instantiate } = WebAssembly;
+WebAssembly.instantiate = async (...given) => {
+  const instance = await instantiate(...given);
+  memories.push(instance.exports.memory);
+  return instance;
+};
+const { generateTangents, ready } = await import('darboux/tangents');
+await ready;
+
+test('10,000 calls leave no memory behind', () => {
+  assert.equal(memories.length, 1);
+  const random = (length) => Float32Array.from({ length }, (_, at) => Math.sin(at * 12.9898));
+  const call = (triangles) => generateTangents(random(9 * triangles), random(9 * triangles), random(6 * triangles));
+  const wrong = () => generateTangents(random(90), random(90), random(60), Uint32Array.of(0, 1, 99));
+  call(100);
+  assert.throws(wrong);
+  const before = memories[0].buffer.byteLength;
+  for (let at = 0; at < 10_000; at++) {
+    call(1 + (at % 100));
+    if (at % 10 === 0) assert.throws(wrong);
+  }
+  assert.equal(memories[0].buffer.byteLength, before);
+});
+
+test('a mesh too large for WebAssembly is refused, and the next call is served', { timeout: 60_000 }, () => {
+  const vertices = new Float32Array(3 * 120_000_000);
+  const uvs = new Float32Array(2 * 120_000_000);
+  assert.throws(() => generateTangents(vertices, vertices, uvs), {
+    name: 'RangeError',
+    message: 'the mesh needs more memory than WebAssembly can have; split it',
+  });
+  assert.equal(generateTangents(new Float32Array(9), new Float32Array(9), new Float32Array(6)).length, 12);
+});

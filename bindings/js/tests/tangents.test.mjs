@@ -1,0 +1,107 @@
+import assert from 'node:assert/strict';
+import { createRequire } from 'node:module';
+import { test } from 'node:test';
+import * as esm from 'darboux/tangents';
+import { bits, corpus, native } from './corpus.mjs';
+
+const { compile } = WebAssembly;
+
+/** The same file again, with a compiler that knows no SIMD. */
+async function withoutSimd() {
+  let refused = 0;
+  WebAssembly.compile = async (bytes) => {
+    if (refused++ === 0) throw new WebAssembly.CompileError('no SIMD');
+    return compile(bytes);
+  };
+  const scalar = await import(`${import.meta.resolve('darboux/tangents')}?scalar`);
+  await scalar.ready;
+  WebAssembly.compile = compile;
+  assert.equal(refused, 2);
+  return scalar;
+}
+
+const forms = { 'ES module': esm, CommonJS: createRequire(import.meta.url)('darboux/tangents'), scalar: await withoutSimd() };
+const square = () => [
+  new Float32Array([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]),
+  new Float32Array([0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1]),
+  new Float32Array([0, 0, 1, 0, 1, 1, 0, 1]),
+  new Uint16Array([0, 1, 2, 0, 2, 3]),
+];
+
+for (const [name, { ready, generateTangents }] of Object.entries(forms)) {
+  await ready;
+
+  test(`${name}: the corpus has the bits of the native library`, () => {
+    assert.ok(new Set(corpus.map(({ answer }) => answer.name)).size > 30);
+    for (const { name, arrays, options, answer } of corpus) {
+      assert.deepEqual(bits(generateTangents(...arrays, options)), native(answer.tangents), name);
+    }
+  });
+
+  test(`${name}: a square has the tangents of its UVs, whatever its indices are`, () => {
+    const [positions, normals, uvs, indices] = square();
+    const expected = Array.from({ length: 6 }, () => [1, 0, 0, 1]).flat();
+    for (const list of [indices, Uint8Array.from(indices), Uint32Array.from(indices)]) {
+      assert.deepEqual(Array.from(generateTangents(positions, normals, uvs, list)), expected);
+    }
+    const quad = generateTangents(positions, normals, uvs, null, { faces: 4 });
+    assert.deepEqual(Array.from(quad), expected.slice(0, 16));
+    const none = new Float32Array();
+    assert.equal(generateTangents(none, none, none).length, 0);
+  });
+}
+
+test('a result is the caller\'s own', () => {
+  const first = esm.generateTangents(...square());
+  const copy = first.slice();
+  assert.equal(first.byteLength, first.buffer.byteLength);
+  const [positions, ...others] = square();
+  esm.generateTangents(positions.map((x, at) => x * at), ...others);
+  assert.deepEqual(first, copy);
+});
+
+test('arrays of another realm and shared ones are as good', async () => {
+  const { runInNewContext } = await import('node:vm');
+  const arrays = square();
+  const expected = esm.generateTangents(...arrays);
+  const foreign = arrays.map((array) => runInNewContext(`new ${array.constructor.name}([${array}])`));
+  const shared = arrays.map((array) => {
+    const copy = new array.constructor(new SharedArrayBuffer(array.byteLength));
+    copy.set(array);
+    return copy;
+  });
+  assert.deepEqual(esm.generateTangents(...foreign), expected);
+  assert.deepEqual(esm.generateTangents(...shared), expected);
+});
+
+const [positions, normals, uvs, indices] = square();
+const wrong = [
+  [[[0, 0, 0], normals, uvs], TypeError, 'positions must be a Float32Array, not Array'],
+  [[positions, Float64Array.from(normals), uvs], TypeError, 'normals must be a Float32Array, not Float64Array'],
+  [[positions, normals, null], TypeError, 'uvs must be a Float32Array, not Null'],
+  [[positions, normals, uvs, [0, 1, 2]], TypeError, 'indices must be a Uint32Array or Uint16Array or Uint8Array, not Array'],
+  [[positions.slice(1), normals, uvs], RangeError, 'positions has a length of 11, which is not a whole number of 3-component elements'],
+  [[positions, normals.slice(3), uvs], RangeError, 'normals has 3 elements but there are 4 positions; give one per vertex'],
+  [[positions, normals, uvs, Uint16Array.of(0, 1, 2, 0, 2, 4)], RangeError, 'index 4 at place 5 is out of range: there are 4 vertices'],
+  [[positions, normals, uvs], RangeError, '4 corners do not make whole faces of 3'],
+  [[positions, normals, uvs, indices, { faces: 4 }], RangeError, '6 corners do not make whole faces of 4'],
+  [[positions, normals, uvs, indices, { faces: 5 }], RangeError, 'faces is 5; it must be 3, 4 or a Uint32Array of sizes'],
+  [[positions, normals, uvs, indices, { faces: [3, 3] }], TypeError, 'faces must be a Uint32Array, not Array'],
+  [[positions, normals, uvs, indices, { faces: Uint32Array.of(3, 4) }], RangeError, 'the face sizes add up to 7 but there are 6 corners'],
+  [[positions, normals, uvs, indices, { mode: 'best' }], RangeError, "mode is 'best'; it must be one of 'reference', 'repaired', 'corrected'"],
+  [[positions, normals, uvs, indices, { threshold: NaN }], RangeError, 'threshold is NaN; it must be a number of degrees'],
+];
+
+for (const [call, kind, message] of wrong) {
+  test(`refused: ${message}`, () => {
+    assert.throws(() => esm.generateTangents(...call), (error) => error instanceof kind && error.message === message);
+    assert.equal(esm.generateTangents(...square()).length, 24);
+  });
+}
+
+test('calls before the module has loaded say so', async () => {
+  const early = await import(`${import.meta.resolve('darboux/tangents')}?early`);
+  assert.throws(() => early.generateTangents(...square()), /has not loaded yet; await ready/);
+  await early.ready;
+  assert.equal(early.generateTangents(...square()).length, 24);
+});

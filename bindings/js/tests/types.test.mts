@@ -1,0 +1,17 @@
+// Compiled, never run: what users may write, and what they may not.
+
+import { generateTangents, ready, type MikkTSpaceOptions } from 'darboux/tangents';
+
+const loaded: Promise<void> = ready;
+const floats = new Float32Array();
+const options: MikkTSpaceOptions = { mode: 'corrected', threshold: 60, faces: Uint32Array.of(3, 4) };
+const tangents: Float32Array<ArrayBuffer> = generateTangents(floats, floats, floats, new Uint16Array(), options);
+generateTangents(floats, floats, floats, null, { faces: 4 });
+// @ts-expect-error: arrays of numbers are not taken
+generateTangents([0, 0, 0], floats, floats);
+// @ts-expect-error: an unknown mode
+generateTangents(floats, floats, floats, null, { mode: 'best' });
+// @ts-expect-error: an unknown option
+generateTangents(floats, floats, floats, null, { method: 'lengyel' });
+
+export { loaded, tangents };

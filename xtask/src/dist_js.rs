@@ -1,0 +1,54 @@
+//! The folder that is published as the npm package darboux.
+
+use std::fs;
+use std::path::Path;
+
+use crate::run::{Outcome, program, root, run, target_folder, to_stderr, works};
+use crate::validate::WithoutNpm;
+
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+const TRIPLE: &str = "wasm32-unknown-unknown";
+
+/// Forms of a module, and what the compiler may use in them.
+const FORMS: &[(&str, &str)] = &[("simd", "-Ctarget-feature=+simd128"), ("scalar", "")];
+
+/// Modules, and their features of darboux-js.
+const MODULES: &[(&str, &str)] = &[("tangents", "")];
+
+/// Makes the folder and runs the tests of what is in it.
+pub fn test(without: WithoutNpm) -> Outcome {
+    if matches!(without, WithoutNpm::Skip) && !works(&mut program("npm --version")) {
+        println!("skipped: the npm package needs node and npm");
+        return Ok(());
+    }
+    make()?;
+    run(program("npm test").current_dir(root().join("bindings/js")))
+}
+
+/// `cargo xtask dist-js`: makes the folder, and prints its absolute path as the last line.
+pub fn make() -> Outcome {
+    run(to_stderr(&mut program(&format!("rustup target add {TRIPLE}"))))?;
+    let target = target_folder()?;
+    let (modules, folder) = (target.join("dist-js/modules"), target.join("dist-js/darboux"));
+    fs::create_dir_all(&modules).map_err(|error| format!("{} cannot be made: {error}", modules.display()))?;
+    for (name, features) in MODULES {
+        for (form, flags) in FORMS {
+            compile(&target, features, flags, &modules.join(format!("{name}.{form}.wasm")))?;
+        }
+    }
+    let ours = root().join("bindings/js");
+    run(to_stderr(program("npm ci --no-audit --no-fund").current_dir(&ours)))?;
+    run(to_stderr(program("node build.mjs").args([&modules, &folder]).arg(VERSION).current_dir(&ours)))?;
+    println!("{}", folder.display());
+    Ok(())
+}
+
+fn compile(target: &Path, features: &str, flags: &str, out: &Path) -> Outcome {
+    let mut cargo = program("cargo build --quiet --profile dist --package darboux-js --target");
+    run(to_stderr(cargo.args([TRIPLE, "--features", features]).env("RUSTFLAGS", flags)))?;
+    let built = target.join(TRIPLE).join("dist/darboux_js.wasm");
+    fs::copy(&built, out)
+        .map(|_| ())
+        .map_err(|error| format!("{} cannot be copied: {error}", built.display()))
+}
