@@ -56,8 +56,9 @@ impl<'py, const N: usize> Rows<'py, N> {
         let offset = (rows.data() as usize).checked_sub(bytes.data() as usize);
         let Some(offset) = offset else { return Ok(None) };
         let len = rows.shape()[0];
-        let end = len.checked_sub(1).map_or(offset, |steps| offset + steps * stride + N * size_of::<f32>());
-        let lies_within = end <= bytes.len();
+        let steps = len.saturating_sub(1).checked_mul(stride);
+        let end = steps.and_then(|steps| steps.checked_add(offset)?.checked_add(N * size_of::<f32>()));
+        let lies_within = end.is_some_and(|end| end <= bytes.len());
         Ok(lies_within.then_some(Self::Within { bytes: bytes.try_readonly()?, offset, stride, len }))
     }
 
