@@ -12,6 +12,25 @@ fn lone_degenerates(cells: usize, count: usize) -> OwnedMesh {
     families::with_lone_degenerates(families::grid(cells, cells, false, false), count)
 }
 
+/// A polar fan whose triangles lie around its vertex in no order.
+fn scattered_fan(count: usize) -> OwnedMesh {
+    let mut mesh = families::fan(count, true);
+    for (i, position) in mesh.positions.iter_mut().enumerate().skip(1) {
+        let (y, x) = (i as f32 * 3.883_222).sin_cos();
+        *position = [x, y, 0.0];
+    }
+    mesh
+}
+
+/// A fan most of whose members have one of a few directions, some of them opposite.
+fn bundled_fan(count: usize) -> OwnedMesh {
+    let mut mesh = families::fan(count, true);
+    for (i, position) in mesh.positions.iter_mut().enumerate().skip(1) {
+        *position = [[2.0, 0.0, 0.0], [1.0, 1.0, 0.0], [-2.0, 0.0, 0.0], [-1.0, 3.0, 0.0]][i % 4];
+    }
+    mesh
+}
+
 fn assert_exact(what: &str, mesh: &OwnedMesh) {
     let expected = engine::reference(mesh, 180.0);
     let options = TangentOptions { mode: Mode::Reference, ..TangentOptions::default() };
@@ -33,6 +52,8 @@ fn assert_quick(what: &str, mesh: &OwnedMesh) {
 fn small_ones_are_exact() {
     assert_exact("fan", &families::fan(1_000, false));
     assert_exact("polar fan", &families::fan(1_000, true));
+    assert_exact("scattered fan", &scattered_fan(1_000));
+    assert_exact("bundled fan", &bundled_fan(1_000));
     assert_exact("lone degenerates", &lone_degenerates(40, 500));
     assert_exact("one position", &families::unwelded_fan(1_000));
 }
@@ -40,6 +61,7 @@ fn small_ones_are_exact() {
 #[test]
 fn large_ones_are_quick() {
     assert_quick("fan of 20,000", &families::fan(20_000, false));
+    assert_quick("polar fan of 20,000", &families::fan(20_000, true));
     assert_quick("20,000 lone degenerates on a grid of 80,000", &lone_degenerates(200, 20_000));
     assert_quick("20,000 on one position", &families::unwelded_fan(20_000));
     assert_quick("fan of 200,000", &families::fan(200_000, false));
@@ -49,6 +71,7 @@ fn large_ones_are_quick() {
 #[ignore = "long: the reference takes minutes"]
 fn large_ones_are_exact() {
     assert_exact("fan of 20,000", &families::fan(20_000, false));
+    assert_exact("polar fan of 20,000", &families::fan(20_000, true));
     assert_exact("20,000 lone degenerates on a grid of 80,000", &lone_degenerates(200, 20_000));
     assert_exact("20,000 on one position", &families::unwelded_fan(20_000));
 }

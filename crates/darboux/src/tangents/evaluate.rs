@@ -7,6 +7,7 @@
 use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::ops::Range;
+use std::rc::Rc;
 
 use crate::Frame;
 use crate::math::{V3, add, angle, direction_in_plane, dot, equal, normalized_unless_zero, scale, sub};
@@ -88,7 +89,7 @@ pub(crate) fn evaluate(
         subgroups.set(triangles, &sorted, &membership.derivatives, membership.normal_of_group[group]);
         if subgroups.all_joined() {
             let subgroup = evaluator.subgroup(&[], sign);
-            members.iter().for_each(|&member| evaluator.write(member, &subgroup, &[]));
+            members.iter().for_each(|&member| evaluator.write(member, &subgroup));
         } else {
             evaluator.write_split_group(members, &sorted, &mut subgroups, sign);
         }
@@ -110,9 +111,10 @@ struct Evaluator<'a> {
     mean_of_corner: HashMap<u32, V3>,
 }
 
-/// One subgroup's frame, and the mean of its tangents for when the frame is unusable.
+/// One subgroup's frame, whom it leaves out, and the mean of its tangents for when the frame is unusable.
 struct Subgroup {
     frame: Frame,
+    left_out: Vec<Range<usize>>,
     mean: OnceCell<Option<V3>>,
 }
 
@@ -131,32 +133,37 @@ impl Evaluator<'_> {
 
     /// Sums the terms of all members but those left out, in triangle order.
     fn subgroup(&self, left_out: &[Range<usize>], sign: f32) -> Subgroup {
-        Subgroup { frame: frame(&self.running.sum_without(left_out), sign), mean: OnceCell::new() }
+        let frame = frame(&self.running.sum_without(left_out), sign);
+        Subgroup { frame, left_out: left_out.to_vec(), mean: OnceCell::new() }
     }
 
     /// Evaluates each member's own subgroup. The order of writes shows where both halves of a quad are members and their frames
     /// differ in the sign of a zero only.
     fn write_split_group(&mut self, members: &[u32], sorted: &[u32], subgroups: &mut Subgroups, sign: f32) {
         self.running.find_stretches();
-        let mut known: HashMap<Vec<Range<usize>>, Subgroup> = HashMap::new();
+        let mut of_members: HashMap<usize, Rc<Subgroup>> = HashMap::new();
+        let mut of_left_out: HashMap<Vec<Range<usize>>, Rc<Subgroup>> = HashMap::new();
         let (mut left_out, mut bytes) = (Vec::new(), 0);
         for &member in members {
-            subgroups.find_left_out(sorted.partition_point(|&other| other < member), &mut left_out);
-            if let Some(subgroup) = known.get(&left_out) {
-                self.write(member, subgroup, &left_out);
+            let at = subgroups.first_alike(sorted.partition_point(|&other| other < member));
+            if let Some(subgroup) = of_members.get(&at) {
+                self.write(member, subgroup);
                 continue;
             }
-            let subgroup = self.subgroup(&left_out, sign);
-            self.write(member, &subgroup, &left_out);
-            bytes += size_of::<Subgroup>() + size_of_val(left_out.as_slice());
+            subgroups.find_left_out(at, &mut left_out);
+            let known = of_left_out.get(&left_out);
+            let subgroup = known.map_or_else(|| Rc::new(self.subgroup(&left_out, sign)), Rc::clone);
+            self.write(member, &subgroup);
+            bytes += size_of::<Subgroup>() + 2 * size_of_val(left_out.as_slice());
             if bytes <= REMEMBERED_BYTES {
-                known.insert(left_out.clone(), subgroup);
+                of_left_out.insert(left_out.clone(), Rc::clone(&subgroup));
+                of_members.insert(at, subgroup);
             }
         }
     }
 
     /// Writes a subgroup's frame to a member's corner. A quad's diagonal corner can be written twice: then it has the average.
-    fn write(&mut self, member: u32, subgroup: &Subgroup, left_out: &[Range<usize>]) {
+    fn write(&mut self, member: u32, subgroup: &Subgroup) {
         let corner = self.triangles.corners.as_flattened()[member as usize];
         let slot = &mut self.of_corner[corner as usize];
         let again = std::mem::replace(&mut self.written[corner as usize], true);
@@ -166,7 +173,8 @@ impl Evaluator<'_> {
         }
         let normal = self.shape.normal(corner);
         if !is_usable(slot.tangent, normal) {
-            let joined = || joined(self.tangents.len(), left_out).filter(|&at| self.running.adds(at));
+            let joined =
+                || joined(self.tangents.len(), &subgroup.left_out).filter(|&at| self.running.adds(at));
             let tangents = || joined().map(|at| self.tangents[at]);
             if let Some(mean) = subgroup.mean.get_or_init(|| mean_in_plane(tangents(), normal)) {
                 self.mean_of_corner.insert(corner, *mean);

@@ -54,27 +54,35 @@ impl Opposites {
         opposites
     }
 
-    /// Calls `found` for the places of all that may be opposite to `direction`; none where that may be any of the list.
-    pub fn near(&self, direction: V3, mut found: impl FnMut(u32)) -> Option<()> {
-        self.odd.iter().for_each(|&place| found(place));
+    /// Calls `found` for the places of all that may be opposite to `direction`; none where these may be any, or more than `limit`.
+    pub fn near(&self, direction: V3, limit: usize, mut found: impl FnMut(u32)) -> Option<()> {
         match Length::of(direction) {
             Length::Odd => return None,
-            Length::Short => return Some(()),
-            Length::Unit => {}
-        }
-        let opposite = scale(-1.0, direction);
-        let [[x0, x1], [y0, y1], [z0, z1]] = opposite.map(|x| [cell_of(x - REACH), cell_of(x + REACH)]);
-        for x in x0..=x1 {
-            for y in y0..=y1 {
-                let first = self.cells.partition_point(|&(of, _)| of < cell([x, y, z0]));
-                let last = cell([x, y, z1]);
-                self.cells[first..]
-                    .iter()
-                    .take_while(|&&(of, _)| of <= last)
-                    .for_each(|&(_, place)| found(place));
+            Length::Short => {}
+            Length::Unit => {
+                let mut count = 0;
+                for cells in self.cells_around(scale(-1.0, direction)) {
+                    count += cells.len();
+                    if count > limit {
+                        return None;
+                    }
+                    cells.iter().for_each(|&(_, place)| found(place));
+                }
             }
         }
+        self.odd.iter().for_each(|&place| found(place));
         Some(())
+    }
+
+    /// What lies in the cells within reach of `middle`.
+    fn cells_around(&self, middle: V3) -> impl Iterator<Item = &[(u64, u32)]> {
+        let [[x0, x1], [y0, y1], [z0, z1]] = middle.map(|x| [cell_of(x - REACH), cell_of(x + REACH)]);
+        let columns =
+            (x0..=x1).flat_map(move |x| (y0..=y1).map(move |y| [cell([x, y, z0]), cell([x, y, z1])]));
+        columns.map(|[first, last]| {
+            let from = &self.cells[self.cells.partition_point(|&(cell, _)| cell < first)..];
+            &from[..from.partition_point(|&(cell, _)| cell <= last)]
+        })
     }
 }
 
@@ -86,4 +94,34 @@ fn cell_of(x: f32) -> u64 {
 /// One number per cell; 1024 cells along each axis.
 fn cell([x, y, z]: [u64; 3]) -> u64 {
     x << 20 | y << 10 | z
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::normalized_unless_zero;
+
+    #[test]
+    fn nothing_opposite_is_missed() {
+        let wheel = |at: u32| {
+            let (y, x) = (at as f32 * 0.001_570_796_4).sin_cos();
+            normalized_unless_zero([x, 0.6 * y, 0.8 * y])
+        };
+        let special = [[0.0; 3], [f32::NAN; 3], [-1.1, 0.0, 0.0], [0.5, 0.0, 0.0]];
+        let directions: Vec<V3> = (0..4000).map(wheel).chain(special).collect();
+        let opposites = Opposites::new((0..).zip(directions.iter().copied()));
+        let (mut apart, mut candidates) = (0, 0);
+        for &direction in &directions[..4000] {
+            let mut found = Vec::new();
+            opposites.near(direction, usize::MAX, |place| found.push(place)).expect("of unit length");
+            candidates += found.len();
+            for (place, other) in (0..).zip(&directions) {
+                if dot(direction, *other) <= -1.0 {
+                    apart += 1;
+                    assert!(found.contains(&place), "{direction:?} and {other:?}");
+                }
+            }
+        }
+        assert!(apart >= 1000 && candidates < 4000 * 40, "{apart} of {candidates}");
+    }
 }

@@ -199,3 +199,56 @@ fn is_tie(before: f32, term: f32, after: f32) -> bool {
     let unit = f32::from_bits(after.to_bits() & !FRACTION | 1) - f32::from_bits(after.to_bits() & !FRACTION);
     2.0 * error.abs() == unit.abs()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A number in [-1, 1) with `bits` binary digits.
+    fn number(state: &mut u32, bits: u32) -> f32 {
+        *state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (*state >> (32 - bits)) as f32 / (1u32 << (bits - 1)) as f32 - 1.0
+    }
+
+    /// Lanes with sums that grow, wander about zero, or are mostly halfway between two floats.
+    fn terms(state: &mut u32, count: usize) -> Vec<Option<Lanes>> {
+        let lane = |state: &mut u32, lane: usize| match lane % 4 {
+            0 => 1.0 + 0.1 * number(state, 23),
+            1 => number(state, 24),
+            2 => number(state, 5) + 1.0 + f32::EPSILON * number(state, 3),
+            _ => 0.0,
+        };
+        let term = |at: usize| (at % 7 != 3).then(|| Lanes(std::array::from_fn(|n| lane(state, n))));
+        (0..count).map(term).collect()
+    }
+
+    #[test]
+    fn sums_are_those_of_adding_one_by_one() {
+        let mut state = 1;
+        let mut running = Running::default();
+        for count in [1, 8, 31, 300, 3000] {
+            let terms = terms(&mut state, count);
+            running.set(terms.iter().copied());
+            running.find_stretches();
+            for _ in 0..300 {
+                let start = ((number(&mut state, 16) + 1.0) * 0.5 * count as f32) as usize;
+                let gaps = [start..start + 1, start + 2..start + 4];
+                let left_out: Vec<_> = gaps.into_iter().filter(|gap| gap.end <= count).collect();
+                let joins = |at: &usize| left_out.iter().all(|gap| !gap.contains(at));
+                let mut expected = Lanes::default();
+                (0..count).filter(joins).for_each(|at| expected.add(&terms[at]));
+                let found = running.sum_without(&left_out);
+                assert_eq!(found.0.map(f32::to_bits), expected.0.map(f32::to_bits), "{count}, {left_out:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn stretches_are_skipped() {
+        let mut running = Running::default();
+        running.set((0..4096).map(|at| Some(Lanes([1.0 + 0.01 * (at as f32).sin(); LANES]))));
+        running.find_stretches();
+        let mut sum = running.sums[2560].plus_units(&[16; LANES]);
+        assert_eq!(running.skip(&mut sum, 2560, 4096), 3072);
+    }
+}

@@ -6,6 +6,7 @@
 //!
 //! Source: mikktspace.c, `GenerateTSpaces`.
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use crate::math::{V3, direction_in_plane, dot};
@@ -27,6 +28,8 @@ pub(crate) struct Subgroups {
     face: Vec<u32>,
     /// At 180 degrees, in a large group: of the tangents and of the bitangents.
     opposites: Option<[Opposites; 2]>,
+    /// With `opposites`: the first member of which all members joined are the same.
+    first_alike: Vec<u32>,
     row: Vec<bool>,
     apart: Vec<u32>,
 }
@@ -69,11 +72,33 @@ impl Subgroups {
             let of_all = (0..count).filter(|&at| !self.any[at]).map(|at| (at as u32, direction(axes, at)));
             Opposites::new(of_all)
         }));
+        self.find_alike();
         let mut left_out = Vec::new();
         (0..count).all(|at| {
-            self.find_left_out(at, &mut left_out);
-            left_out.is_empty()
+            self.first_alike(at) < at || {
+                self.find_left_out(at, &mut left_out);
+                left_out.is_empty()
+            }
         })
+    }
+
+    /// Groups members of equal directions. Alone is a half of a quad whose other half is a member too, and who is NaN.
+    fn find_alike(&mut self) {
+        let count = self.any.len();
+        let mut first = HashMap::new();
+        self.first_alike.clear();
+        for at in 0..count {
+            let other_half = (at > 0 && self.face[at - 1] == self.face[at])
+                || (at + 1 < count && self.face[at + 1] == self.face[at]);
+            let directions = [&self.s, &self.t].map(|axes| direction(axes, at).map(f32::to_bits));
+            let alone = if other_half || !self.are_near(at, at) { at as u32 } else { u32::MAX };
+            self.first_alike.push(*first.entry((directions, self.any[at], alone)).or_insert(at as u32));
+        }
+    }
+
+    /// A member that the same members join as member `at`.
+    pub fn first_alike(&self, at: usize) -> usize {
+        if self.opposites.is_some() { self.first_alike[at] as usize } else { at }
     }
 
     /// Writes to `left_out` the members that do not join member `at`, in order.
@@ -101,8 +126,10 @@ impl Subgroups {
                 apart.push(other);
             }
         };
-        let found = of_s.near(direction(&self.s, at), &mut test);
-        let found = found.and_then(|()| of_t.near(direction(&self.t, at), &mut test));
+        // Of many candidates, comparing with all is quicker.
+        let limit = self.any.len() / 8;
+        let found = of_s.near(direction(&self.s, at), limit, &mut test);
+        let found = found.and_then(|()| of_t.near(direction(&self.t, at), limit, &mut test));
         apart.sort_unstable();
         apart.dedup();
         self.apart = apart;
@@ -128,9 +155,13 @@ impl Subgroups {
 
     #[inline]
     fn joins(&self, a: usize, b: usize) -> bool {
+        self.are_near(a, b) | (self.any[a] | self.any[b]) | (self.face[a] == self.face[b])
+    }
+
+    #[inline]
+    fn are_near(&self, a: usize, b: usize) -> bool {
         let cosine = |axes| dot(direction(axes, a), direction(axes, b));
-        let near = cosine(&self.s) > self.threshold_cosine && cosine(&self.t) > self.threshold_cosine;
-        near | (self.any[a] | self.any[b]) | (self.face[a] == self.face[b])
+        cosine(&self.s) > self.threshold_cosine && cosine(&self.t) > self.threshold_cosine
     }
 
     /// True when every direction is within half the threshold of their mean, so that any two are within the threshold.
