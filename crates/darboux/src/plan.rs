@@ -1,13 +1,15 @@
 //! Topology once, evaluate often.
 
 use crate::split::expect;
-use crate::tangents::mikktspace::Topology;
-use crate::{CornerTangents, Frame, Mesh, MeshError, TangentOptions, Tangents, generate_tangents};
+use crate::tangents::Planned;
+use crate::{CornerTangents, Mesh, MeshError, Scratch, TangentOptions, Tangents, generate_tangents};
 
 /// The weld, groups and subgroups of one mesh, kept to evaluate tangents again after its vertices moved (morph targets, skinning).
+///
+/// Methods other than MikkTSpace have no groups: they run afresh, but for the signs.
 #[derive(Debug)]
 pub struct Plan {
-    topology: Topology,
+    planned: Planned,
     options: TangentOptions,
     vertex_count: usize,
     base: Tangents,
@@ -16,10 +18,8 @@ pub struct Plan {
 impl Plan {
     /// Computes the base's tangents and keeps its topology.
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions) -> Self {
-        let topology = Topology::new(mesh, options);
-        let (frames, report) = topology.frames(mesh);
-        let base = Tangents { corners: corner_tangents(&frames), report };
-        Self { topology, options: *options, vertex_count: mesh.vertex_count(), base }
+        let (planned, base) = Planned::new(mesh, options);
+        Self { planned, options: *options, vertex_count: mesh.vertex_count(), base }
     }
 
     /// The base's own tangents, as [`crate::generate_tangents`] gives them.
@@ -33,11 +33,24 @@ impl Plan {
     /// their common frame, but each triangle counts with the positions of its own vertices. Errors: another number of corners
     /// or vertices.
     pub fn evaluate(&self, mesh: &Mesh<'_>) -> Result<CornerTangents, MeshError> {
+        let mut out = CornerTangents::default();
+        self.evaluate_into(mesh, &mut Scratch::new(), &mut out)?;
+        Ok(out)
+    }
+
+    /// As [`Plan::evaluate`], into `out`, whose memory is used again, as is that of `scratch`: repeated calls allocate nothing where
+    /// all vertices of an indexed triangle mesh are plain (no mirrored or degenerate triangles, no collapsed ones).
+    pub fn evaluate_into(
+        &self,
+        mesh: &Mesh<'_>,
+        scratch: &mut Scratch,
+        out: &mut CornerTangents,
+    ) -> Result<(), MeshError> {
         expect("corners", self.base.corners.len(), mesh.corner_count())?;
         expect("vertices", self.vertex_count, mesh.vertex_count())?;
-        let mut moved = corner_tangents(&self.topology.frames_of_moved(mesh).0);
-        moved.take_signs(&self.base.corners);
-        Ok(moved)
+        out.0.resize(mesh.corner_count(), [0.0; 4]);
+        self.planned.evaluate(mesh, (&self.options, &self.base.corners), scratch, out);
+        Ok(())
     }
 
     /// How many corners a fresh run on the moved mesh would give another tangent (other bits) than [`Plan::evaluate`].
@@ -47,8 +60,4 @@ impl Plan {
         let pairs = planned.per_corner().iter().zip(fresh.per_corner());
         Ok(pairs.filter(|(planned, fresh)| planned.map(f32::to_bits) != fresh.map(f32::to_bits)).count())
     }
-}
-
-fn corner_tangents(frames: &[Frame]) -> CornerTangents {
-    CornerTangents(frames.iter().map(Frame::tangent_and_sign).collect())
 }

@@ -18,6 +18,7 @@ pub(crate) mod mikktspace;
 pub mod naive;
 mod opposites;
 mod orthogonal;
+mod planned;
 mod repair;
 mod report;
 mod running;
@@ -34,6 +35,7 @@ use crate::{CornerFrames, CornerTangents, Mesh};
 pub use fans::WidthLimit;
 use fans::{Fans, Width};
 pub use method::Method;
+pub(crate) use planned::Planned;
 pub use report::Report;
 use sums::Memory;
 

@@ -12,6 +12,7 @@ mod hash;
 mod hash_set;
 mod last_run;
 mod names;
+mod planned;
 mod shuffled;
 mod source;
 mod steps;
@@ -29,6 +30,7 @@ use crate::{Faces, Mesh};
 use super::Mode;
 use last_run::{LastRun, Lists, TailCells};
 use names::Names;
+pub(crate) use planned::PlannedFans;
 use source::{Identity, triangles};
 use steps::{Extent, Special};
 use stream::{Share, Stream, shares};
@@ -140,7 +142,8 @@ impl Fans {
         self.shares.clear();
         self.shares.extend(shares(&self.windows, self.weld.count, self.workers.len()));
         let shares = &self.shares;
-        let stream = Stream { mesh, identity: self.weld.identity(), windows: &self.windows, tail, width };
+        let (identity, windows) = (self.weld.identity(), &self.windows[..]);
+        let stream = Stream { mesh, identity, windows, tail, signs: None, width };
         let added: usize = shares.iter().map(|share| share.until - share.windows.start).sum();
         if self.workers.len() > 1 && added > self.windows.len() * 5 / 4 {
             shuffled::run(&stream, self.weld.count, &mut self.workers, out);

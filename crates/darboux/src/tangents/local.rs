@@ -1,40 +1,90 @@
 //! The general path for part of a mesh: the vertices that whole fans leave undecided, with all triangles around them.
 
-use crate::{Frame, Mesh};
+use crate::{CornerTangents, Frame, Mesh};
 
 use super::evaluate::DEFAULT_FRAME;
 use super::fans::{Fans, UNDECIDED};
 use super::mikktspace::{Part, Topology};
 use super::{Report, TangentOptions, Tangents};
 
-/// Decides the undecided vertices in `out`, which has the tangents of all others, and returns the report of the whole mesh.
+/// The triangles with an undecided vertex, in their order, as a mesh of their own.
 ///
-/// The triangles with an undecided vertex, in their order, make a mesh of their own. What decides about a vertex is there: a
-/// UV-degenerate triangle, whose group another vertex can decide, leaves all its vertices undecided.
-pub(super) fn decide(mesh: &Mesh<'_>, options: &TangentOptions, fans: &Fans, out: &mut Tangents) {
-    let triangles = fans.undecided();
-    out.report = Report::default();
-    if !triangles.is_empty() {
-        let corners: Vec<usize> =
-            triangles.iter().flat_map(|&t| (0..3).map(move |k| 3 * t as usize + k)).collect();
-        let indices: Vec<u32> = corners.iter().map(|&corner| mesh.vertex_of_corner(corner) as u32).collect();
-        let part = mesh.with_triangles(&indices);
+/// What decides about a vertex is there: a UV-degenerate triangle, whose group another vertex can decide, leaves all its vertices
+/// undecided.
+#[derive(Debug)]
+pub(crate) struct UndecidedPart {
+    /// The corner of the whole mesh at each of the part's, and its vertex.
+    corners: Vec<u32>,
+    indices: Vec<u32>,
+    /// Of each corner: its vertex is undecided.
+    counts: Vec<bool>,
+    topology: Topology,
+}
+
+impl UndecidedPart {
+    /// Of the mesh that `fans` has just run on, with the tangents that it wrote; none where all vertices are decided.
+    pub fn new(
+        mesh: &Mesh<'_>,
+        options: &TangentOptions,
+        fans: &Fans,
+        tangents: &CornerTangents,
+    ) -> Option<Self> {
+        let triangles = fans.undecided();
+        if triangles.is_empty() {
+            return None;
+        }
+        let corners: Vec<u32> = triangles.iter().flat_map(|&t| 3 * t..3 * t + 3).collect();
+        let vertex = |&corner: &u32| mesh.vertex_of_corner(corner as usize) as u32;
+        let indices: Vec<u32> = corners.iter().map(vertex).collect();
+        let is_undecided = |&corner: &u32| tangents.0[corner as usize][3] == UNDECIDED;
+        let counts: Vec<bool> = corners.iter().map(is_undecided).collect();
         let names = fans.names(mesh, triangles);
         let last_stretches = stretches_within(triangles, fans.last_stretches());
-        let counts: Vec<bool> = corners.iter().map(|&corner| out.corners.0[corner][3] == UNDECIDED).collect();
-        let known = corners.iter().map(|&corner| known_frame(out.corners.0[corner])).collect();
-        let topology = Topology::of_part(
-            &part,
-            &Part { names: &names, counts: &counts, last_stretches: &last_stretches },
-            options,
-        );
-        let (frames, report) = topology.frames_of_part(&part, known);
-        for ((corner, frame), _) in corners.into_iter().zip(frames).zip(counts).filter(|(_, counts)| *counts)
-        {
-            out.corners.0[corner] = frame.tangent_and_sign();
-        }
-        out.report = report;
+        let part = Part { names: &names, counts: &counts, last_stretches: &last_stretches };
+        let topology = Topology::of_part(&mesh.with_triangles(&indices), &part, options);
+        Some(Self { corners, indices, counts, topology })
     }
+
+    /// Writes the tangents of the undecided vertices; `out` has those of all others. Returns the report of the part.
+    pub fn decide(&self, mesh: &Mesh<'_>, out: &mut CornerTangents) -> Report {
+        let part = mesh.with_triangles(&self.indices);
+        let (frames, report) = self.topology.frames_of_part(&part, self.known(out));
+        self.write(&frames, out);
+        report
+    }
+
+    /// As [`UndecidedPart::decide`] for a mesh whose vertices have moved since, with the signs of `base`.
+    pub fn decide_moved(&self, mesh: &Mesh<'_>, base: &CornerTangents, out: &mut CornerTangents) {
+        let part = mesh.with_triangles(&self.indices);
+        let (frames, _) = self.topology.frames_of_moved(&part, self.known(out));
+        self.write(&frames, out);
+        for corner in self.corners.iter().map(|&corner| corner as usize) {
+            out.0[corner][3] = base.0[corner][3];
+        }
+    }
+
+    /// What is known of the part's corners, of which nothing reads the bitangent and the magnitudes; what no group reaches has the
+    /// default.
+    fn known(&self, out: &CornerTangents) -> Vec<Frame> {
+        let known = |(&corner, &counts): (&u32, &bool)| {
+            let [x, y, z, sign] = out.0[corner as usize];
+            if counts { DEFAULT_FRAME } else { Frame { tangent: [x, y, z], sign, ..DEFAULT_FRAME } }
+        };
+        self.corners.iter().zip(&self.counts).map(known).collect()
+    }
+
+    fn write(&self, frames: &[Frame], out: &mut CornerTangents) {
+        let all = self.corners.iter().zip(frames).zip(&self.counts);
+        for ((&corner, frame), _) in all.filter(|(_, counts)| **counts) {
+            out.0[corner as usize] = frame.tangent_and_sign();
+        }
+    }
+}
+
+/// Decides the undecided vertices in `out`, which has the tangents of all others, and makes the report of the whole mesh.
+pub(super) fn decide(mesh: &Mesh<'_>, options: &TangentOptions, fans: &Fans, out: &mut Tangents) {
+    let part = UndecidedPart::new(mesh, options, fans, &out.corners);
+    out.report = part.map(|part| part.decide(mesh, &mut out.corners)).unwrap_or_default();
     out.report.triangles = mesh.face_count();
 }
 
@@ -43,9 +93,4 @@ fn stretches_within(triangles: &[u32], stretches: &[Vec<u32>]) -> Vec<Vec<u32>> 
     let within =
         |corner: &u32| 3 * triangles.partition_point(|&triangle| triangle < corner / 3) as u32 + corner % 3;
     stretches.iter().map(|stretch| stretch.iter().map(within).collect()).collect()
-}
-
-/// A decided corner as a frame, of which nothing reads the bitangent and the magnitudes; what no group reaches has the default.
-fn known_frame([x, y, z, sign]: [f32; 4]) -> Frame {
-    if sign == UNDECIDED { DEFAULT_FRAME } else { Frame { tangent: [x, y, z], sign, ..DEFAULT_FRAME } }
 }

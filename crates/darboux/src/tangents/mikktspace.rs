@@ -86,24 +86,23 @@ impl Topology {
 
     /// The frames of the mesh that was welded and grouped.
     pub fn frames(&self, mesh: &Mesh<'_>) -> (Vec<Frame>, Report) {
-        self.finish(mesh, &self.base, &Shape::welded(mesh), vec![DEFAULT_FRAME; mesh.corner_count()])
+        self.frames_of_part(mesh, unknown(mesh))
     }
 
-    /// As [`Topology::frames`], where corners that do not count keep what they have in `known`.
+    /// As [`Topology::frames`], where corners of no group keep what they have in `known`.
     pub fn frames_of_part(&self, mesh: &Mesh<'_>, known: Vec<Frame>) -> (Vec<Frame>, Report) {
         self.finish(mesh, &self.base, &Shape::welded(mesh), known)
     }
 
-    /// The frames of a mesh whose vertices have moved since.
-    pub fn frames_of_moved(&self, mesh: &Mesh<'_>) -> (Vec<Frame>, Report) {
+    /// As [`Topology::frames_of_part`] for a mesh whose vertices have moved since.
+    pub fn frames_of_moved(&self, mesh: &Mesh<'_>, known: Vec<Frame>) -> (Vec<Frame>, Report) {
         let shape = Shape::moved(mesh);
         let good = &self.triangulation.good;
         let mut moved = derivatives(good, &shape);
         for (moved, base) in moved.iter_mut().zip(&self.base.derivatives) {
             (moved.preserves, moved.any) = (base.preserves, base.any);
         }
-        let unknown = vec![DEFAULT_FRAME; mesh.corner_count()];
-        self.finish(mesh, &Values::new(good, &self.groups, moved, &shape), &shape, unknown)
+        self.finish(mesh, &Values::new(good, &self.groups, moved, &shape), &shape, known)
     }
 
     fn finish(
@@ -155,6 +154,11 @@ impl Topology {
             ..Report::default()
         }
     }
+}
+
+/// What corners have before anything is known.
+pub(crate) fn unknown(mesh: &Mesh<'_>) -> Vec<Frame> {
+    vec![DEFAULT_FRAME; mesh.corner_count()]
 }
 
 /// The half-edges that start at some corners of a mesh of triangles; none of its triangles there is degenerate.

@@ -45,9 +45,10 @@ pub(super) struct Block {
     key: [u32; 2],
 }
 
-/// What goes with a term: 1 where the wedge holds the first ray and else 0, or the marks as bits.
+/// What goes with a term: 0, 1 where the wedge holds the first ray and else 0, or the marks as bits.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Fourth {
+    Nothing,
     Turns,
     Marks,
 }
@@ -115,17 +116,22 @@ impl Block {
     pub fn evaluate(&mut self, fourth: Fourth) {
         self.unpack();
         self.derivatives();
-        self.cosines();
-        for k in 0..3 {
-            for i in 0..BLOCK {
-                self.angle[k][i] = acos(self.angle[k][i]);
-            }
-        }
-        self.terms();
+        self.angles();
+        self.terms::<true>();
         self.bitangent_marks();
         self.ray_marks();
         self.pack(fourth);
         self.prints();
+    }
+
+    /// From records to terms alone. They are NaN where a triangle has no direction.
+    #[inline(always)]
+    pub fn evaluate_terms(&mut self) {
+        self.unpack();
+        self.tangent_derivatives();
+        self.angles();
+        self.terms::<false>();
+        self.pack(Fourth::Nothing);
     }
 
     #[inline(always)]
@@ -150,6 +156,7 @@ impl Block {
                 let [x, y, z] = [0, 1, 2].map(|axis| self.term[k][axis][i]);
                 let marks = self.marks[k][i];
                 let last = match fourth {
+                    Fourth::Nothing => 0.0,
                     Fourth::Turns => turns(marks),
                     Fourth::Marks => f32::from_bits(marks),
                 };
@@ -173,17 +180,22 @@ impl Block {
         [self.record[k][6][i], self.record[k][7][i]]
     }
 
+    /// A triangle's two edges, its UV differences (du1, dv1, du2, dv2), and the products whose difference is twice its UV area.
+    #[inline(always)]
+    fn edges(&self, i: usize) -> ([V3; 2], [f32; 4], [f32; 2]) {
+        let [p0, p1, p2] = [0, 1, 2].map(|k| self.position(k, i));
+        let [t0, t1, t2] = [0, 1, 2].map(|k| self.uv(k, i));
+        let [du1, dv1] = [t1[0] - t0[0], t1[1] - t0[1]];
+        let [du2, dv2] = [t2[0] - t0[0], t2[1] - t0[1]];
+        ([sub(p1, p0), sub(p2, p0)], [du1, dv1, du2, dv2], [du1 * dv2, dv1 * du2])
+    }
+
     #[inline(always)]
     fn derivatives(&mut self) {
         for i in 0..BLOCK {
-            let [p0, p1, p2] = [0, 1, 2].map(|k| self.position(k, i));
-            let [t0, t1, t2] = [0, 1, 2].map(|k| self.uv(k, i));
-            let [e1, e2] = [sub(p1, p0), sub(p2, p0)];
-            let [du1, dv1] = [t1[0] - t0[0], t1[1] - t0[1]];
-            let [du2, dv2] = [t2[0] - t0[0], t2[1] - t0[1]];
+            let ([e1, e2], [du1, dv1, du2, dv2], [left, right]) = self.edges(i);
             let s = sub(scale(dv2, e1), scale(dv1, e2));
             let t = add(scale(-du2, e1), scale(du1, e2));
-            let (left, right) = (du1 * dv2, dv1 * du2);
             let area = left - right;
             let sign = if area > 0.0 { 1.0 } else { -1.0 };
             let (s_length, t_length) = (length(s), length(t));
@@ -193,6 +205,7 @@ impl Block {
                 self.t[axis][i] = t[axis];
             }
             let size = area.abs();
+            let [p0, p1, p2] = [0, 1, 2].map(|k| self.position(k, i));
             let is_good = (size > f32::MIN_POSITIVE)
                 & (s_length > f32::MIN_POSITIVE)
                 & (t_length > f32::MIN_POSITIVE)
@@ -202,6 +215,32 @@ impl Block {
                 & !(same(p0, p1) | same(p1, p2) | same(p2, p0));
             let orientation = if area > 0.0 { marks::PRESERVES } else { marks::MIRRORS };
             self.face_marks[i] = orientation | if is_good { 0 } else { marks::TROUBLE };
+        }
+    }
+
+    /// The derivatives by u alone.
+    #[inline(always)]
+    fn tangent_derivatives(&mut self) {
+        for i in 0..BLOCK {
+            let ([e1, e2], [_, dv1, _, dv2], [left, right]) = self.edges(i);
+            let s = sub(scale(dv2, e1), scale(dv1, e2));
+            let sign = if left - right > 0.0 { 1.0 } else { -1.0 };
+            let s_length = length(s);
+            let sign = if s_length > f32::MIN_POSITIVE { sign } else { f32::NAN };
+            let s = scale(sign / s_length, s);
+            for axis in 0..3 {
+                self.s[axis][i] = s[axis];
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn angles(&mut self) {
+        self.cosines();
+        for k in 0..3 {
+            for i in 0..BLOCK {
+                self.angle[k][i] = acos(self.angle[k][i]);
+            }
         }
     }
 
@@ -221,8 +260,9 @@ impl Block {
         }
     }
 
+    /// The terms, and with `MARKS` what they say of the tangents' directions.
     #[inline(always)]
-    fn terms(&mut self) {
+    fn terms<const MARKS: bool>(&mut self) {
         for k in 0..3 {
             for i in 0..BLOCK {
                 let s = in_plane(self.normal(k, i), [self.s[0][i], self.s[1][i], self.s[2][i]]);
@@ -234,9 +274,11 @@ impl Block {
                 for axis in 0..3 {
                     self.term[k][axis][i] = term[axis];
                 }
-                let is_unit = (squared > 1e-30) & (squared < 1e30);
-                let trouble = if is_unit { 0 } else { marks::TROUBLE };
-                self.marks[k][i] = self.face_marks[i] | trouble | axes(s, CLEAR) << marks::TANGENT;
+                if MARKS {
+                    let is_unit = (squared > 1e-30) & (squared < 1e30);
+                    let trouble = if is_unit { 0 } else { marks::TROUBLE };
+                    self.marks[k][i] = self.face_marks[i] | trouble | axes(s, CLEAR) << marks::TANGENT;
+                }
             }
         }
     }

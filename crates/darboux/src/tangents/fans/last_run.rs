@@ -45,6 +45,12 @@ impl TailCells {
         tail
     }
 
+    /// Of no triangles.
+    pub fn none() -> Self {
+        let cells = Cells::of(&Bounds::default());
+        Self { start: 0, cells, wanted: [false; CELLS], low: f32::INFINITY, high: f32::NEG_INFINITY }
+    }
+
     /// Of the first tail to look at: so many triangles that have edges, and whatever lies among and behind them.
     pub fn first(mesh: &Mesh<'_>, bounds: &Bounds, is_shuffled: bool) -> Self {
         let tail = if is_shuffled { FIRST_TAIL_SHUFFLED } else { FIRST_TAIL };

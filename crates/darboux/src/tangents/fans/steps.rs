@@ -8,7 +8,7 @@ use crate::weld::Point;
 use super::block::{BLOCK, Block, Fourth, marks, turns};
 use super::last_run::TailCells;
 use super::source::{Rows, Welded};
-use super::vertices::{IN_TAIL, UNDECIDED, Unused, Vertex, gather, scatter};
+use super::vertices::{IN_TAIL, UNDECIDED, Unused, Vertex, gather, scatter, scatter_sums};
 use super::width::Task;
 
 /// Makes vertices of rows.
@@ -63,6 +63,27 @@ impl Task for Add<'_> {
             gather(self.block, triangles.len(), self.vertices);
             self.block.evaluate(Fourth::Turns);
             scatter(self.block, triangles.len(), 0, self.vertices, self.marks);
+        }
+    }
+}
+
+/// Adds triangles to their vertices, the sums alone.
+pub(super) struct AddTerms<'a> {
+    pub triangles: &'a [[u32; 3]],
+    /// The number of the first of `vertices`.
+    pub first: u32,
+    pub block: &'a mut Block,
+    pub vertices: &'a mut [Vertex],
+}
+
+impl Task for AddTerms<'_> {
+    #[inline(always)]
+    fn run(self) {
+        for triangles in self.triangles.chunks(BLOCK) {
+            self.block.set(triangles, self.first);
+            gather(self.block, triangles.len(), self.vertices);
+            self.block.evaluate_terms();
+            scatter_sums(self.block, triangles.len(), self.vertices);
         }
     }
 }
@@ -143,6 +164,30 @@ impl Task for Finish<'_> {
                 vertex.sum = [lanes.sum[0][i], lanes.sum[1][i], lanes.sum[2][i], sign];
             }
         }
+    }
+}
+
+/// Finishes vertices whose signs are known, and notes whether those that are decided have usable tangents.
+pub(super) struct FinishPlanned<'a> {
+    pub vertices: &'a mut [Vertex],
+    pub signs: &'a [f32],
+    pub all_usable: &'a mut bool,
+}
+
+impl Task for FinishPlanned<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let mut lanes = Lanes::default();
+        let mut all_usable = true;
+        for (vertices, signs) in self.vertices.chunks_mut(BLOCK).zip(self.signs.chunks(BLOCK)) {
+            lanes.load(vertices);
+            lanes.normalize();
+            for (i, (vertex, &sign)) in vertices.iter_mut().zip(signs).enumerate() {
+                all_usable &= (lanes.is_usable[i] != 0) | (sign == UNDECIDED);
+                vertex.sum = [lanes.sum[0][i], lanes.sum[1][i], lanes.sum[2][i], sign];
+            }
+        }
+        *self.all_usable &= all_usable;
     }
 }
 

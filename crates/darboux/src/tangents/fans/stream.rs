@@ -6,7 +6,7 @@ use crate::Mesh;
 
 use super::last_run::TailCells;
 use super::source::{Identity, rows, triangles};
-use super::steps::{Add, Finish, Read, Write};
+use super::steps::{Add, AddTerms, Finish, FinishPlanned, Read, Write};
 use super::width::Width;
 use super::workers::Worker;
 use super::{WINDOW, Window, window};
@@ -45,6 +45,8 @@ pub(super) struct Stream<'a> {
     pub identity: Identity<'a>,
     pub windows: &'a [Window],
     pub tail: &'a TailCells,
+    /// Where they are known: the signs of the vertices, of which those that are decided are so.
+    pub signs: Option<&'a [f32]>,
     pub width: Width,
 }
 
@@ -108,7 +110,11 @@ impl Stream<'_> {
         let range = window(at, self.mesh.face_count());
         let triangles = triangles(self.mesh, self.identity, range, &mut worker.triangles);
         let Worker { block, vertices, marks, first, .. } = worker;
-        self.width.run(Add { triangles, first: *first as u32, block, vertices, marks });
+        let first = *first as u32;
+        match self.signs {
+            None => self.width.run(Add { triangles, first, block, vertices, marks }),
+            Some(_) => self.width.run(AddTerms { triangles, first, block, vertices }),
+        }
     }
 
     /// Finishes vertices that no later triangle uses.
@@ -119,7 +125,13 @@ impl Stream<'_> {
         }
         let place = range.start - worker.first..range.end - worker.first;
         let (vertices, marks) = (&mut worker.vertices[place.clone()], &worker.marks[place]);
-        self.width.run(Finish { vertices, marks, unused: &mut worker.unused });
+        match self.signs {
+            None => self.width.run(Finish { vertices, marks, unused: &mut worker.unused }),
+            Some(signs) => {
+                let signs = &signs[range];
+                self.width.run(FinishPlanned { vertices, signs, all_usable: &mut worker.all_usable });
+            }
+        }
     }
 
     /// Writes the corners of a window.

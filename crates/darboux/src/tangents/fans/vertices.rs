@@ -107,6 +107,19 @@ pub(super) fn scatter(block: &Block, count: usize, first: u32, vertices: &mut [V
     }
 }
 
+/// As [`scatter`], the sums alone.
+#[inline(always)]
+pub(super) fn scatter_sums(block: &Block, count: usize, vertices: &mut [Vertex]) {
+    for i in 0..count.min(BLOCK) {
+        for k in 0..3 {
+            let vertex = &mut vertices[block.vertex[k][i] as usize];
+            for lane in 0..4 {
+                vertex.sum[lane] += block.sum[k][i][lane];
+            }
+        }
+    }
+}
+
 /// True when the triangles have one orientation, and no two of them opposite tangents or bitangents.
 ///
 /// Two unit vectors whose components on one axis are above 1/16 have a dot product above -1 + 2 / 256.

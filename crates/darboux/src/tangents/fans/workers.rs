@@ -27,6 +27,8 @@ pub(super) struct Worker {
     pub span: Span,
     /// Its hashes that were met before.
     pub collisions: usize,
+    /// Its decided vertices have usable tangents.
+    pub all_usable: bool,
     /// Its vertices that no triangle uses.
     pub unused: Unused,
 }
@@ -37,6 +39,7 @@ impl Worker {
         self.vertices.resize(vertices.len(), Vertex::default());
         self.marks.resize(vertices.len(), 0);
         (self.first, self.read, self.unused) = (vertices.start, 0, Unused::default());
+        self.all_usable = true;
         self.pending.clear();
         self.special.clear();
     }

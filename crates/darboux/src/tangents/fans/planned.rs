@@ -1,0 +1,88 @@
+//! A run whose vertices are welded and decided beforehand: sums alone are left.
+
+use crate::{CornerTangents, Mesh};
+
+use super::last_run::TailCells;
+use super::source::Identity;
+use super::stream::{Stream, shares};
+use super::weld::Weld;
+use super::workers::{self, Worker, parts};
+use super::{Fans, UNDECIDED, Width, Window, triangles_of, write_pending};
+
+/// What a run has found out about a mesh of triangles.
+#[derive(Debug)]
+pub(crate) struct PlannedFans {
+    weld: Weld,
+    windows: Vec<Window>,
+    /// Of each welded vertex; [`UNDECIDED`] where other stages decide.
+    signs: Vec<f32>,
+}
+
+impl PlannedFans {
+    /// Of the mesh that `fans` has just run on, with the tangents that it wrote.
+    pub fn new(mesh: &Mesh<'_>, fans: Fans, tangents: &CornerTangents) -> Self {
+        let Fans { weld, windows, .. } = fans;
+        let identity = weld.identity();
+        let mut signs = vec![UNDECIDED; weld.count];
+        for (corner, tangent) in (0..).zip(&tangents.0) {
+            signs[identity.vertex(mesh, corner) as usize] = tangent[3];
+        }
+        Self { weld, windows, signs }
+    }
+
+    /// True when vertices that were welded are still one.
+    fn holds(&self, mesh: &Mesh<'_>) -> bool {
+        match self.weld.identity() {
+            Identity::Own => true,
+            Identity::OfVertex(of) => {
+                let values = |vertex: usize| (mesh.positions().get(vertex), mesh.normals().get(vertex));
+                of.iter().enumerate().all(|(vertex, &first)| values(vertex) == values(first as usize))
+            }
+            Identity::OfCorner(..) => false,
+        }
+    }
+}
+
+impl Fans {
+    /// Writes the tangents of the decided vertices of a mesh whose vertices have moved since it was planned. False where the sums of
+    /// its triangles do not suffice: welded vertices have moved apart, tangents are unusable, the mesh has no indices.
+    pub fn run_planned(
+        &mut self,
+        plan: &PlannedFans,
+        mesh: &Mesh<'_>,
+        width: Width,
+        out: &mut [[f32; 4]],
+    ) -> bool {
+        if !plan.holds(mesh) {
+            return false;
+        }
+        let threads = workers::threads(mesh.face_count());
+        self.workers.resize_with(threads, Worker::default);
+        workers::on_pool(threads, || self.run_planned_on(plan, mesh, width, out.as_chunks_mut().0));
+        self.workers.iter().all(|worker| worker.all_usable)
+    }
+
+    fn run_planned_on(
+        &mut self,
+        plan: &PlannedFans,
+        mesh: &Mesh<'_>,
+        width: Width,
+        out: &mut [[[f32; 4]; 3]],
+    ) {
+        let (windows, identity) = (&plan.windows[..], plan.weld.identity());
+        let stream =
+            Stream { mesh, identity, windows, tail: &TailCells::none(), signs: Some(&plan.signs), width };
+        self.shares.clear();
+        self.shares.extend(shares(windows, plan.weld.count, self.workers.len()));
+        let added: usize = self.shares.iter().map(|share| share.until - share.windows.start).sum();
+        if added > windows.len() * 5 / 4 {
+            // Shares would overlap too much.
+            self.shares.clear();
+            self.shares.extend(shares(windows, plan.weld.count, 1));
+        }
+        let ranges = self.shares.iter().map(|share| triangles_of(share.windows.clone(), mesh));
+        let jobs = self.shares.iter().zip(parts(&mut *out, 0, ranges));
+        workers::run(&mut self.workers, jobs, |worker, (share, out)| stream.run(share, worker, out));
+        write_pending(mesh, &self.shares, &mut self.workers, identity, out);
+    }
+}
