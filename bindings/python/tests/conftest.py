@@ -14,8 +14,9 @@ ROOT = Path(__file__).resolve().parents[3]
 
 
 def bits(array: np.ndarray) -> List[int]:
-    """The bits of an array's floats."""
-    return np.ascontiguousarray(array, dtype=np.float32).view(np.uint32).ravel().tolist()
+    """The bits of an array's floats, all NaNs the same: processors do not agree on their signs."""
+    array = np.ascontiguousarray(array, dtype=np.float32)
+    return np.where(np.isnan(array), np.float32(np.nan), array).view(np.uint32).ravel().tolist()
 
 
 @dataclass
@@ -37,7 +38,11 @@ class Specimen:
     options: Dict[str, Any]
     mesh: Mesh
     faces: np.ndarray
-    answer: Dict[str, List[int]]
+    answer: Dict[str, Any]
+
+    def floats(self, name: str, columns: int) -> np.ndarray:
+        """Rust's answer of that name."""
+        return floats(self.answer[name], columns)
 
 
 def floats(words: List[int], columns: int) -> np.ndarray:
