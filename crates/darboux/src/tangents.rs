@@ -114,8 +114,8 @@ pub fn generate_tangents(mesh: &Mesh<'_>, options: &TangentOptions) -> Tangents 
     out
 }
 
-/// As [`generate_tangents`], into `out`, whose memory is used again, as is that of `scratch`: repeated calls allocate only lists of
-/// a few entries, and what vertices of the general path need (UV-degenerate, split or mirrored fans; degenerate triangles).
+/// As [`generate_tangents`], into `out`, whose memory is used again, as is that of `scratch`: repeated calls on one thread allocate
+/// only what vertices of the general path need (UV-degenerate, split or mirrored fans; degenerate triangles).
 pub fn generate_tangents_into(
     mesh: &Mesh<'_>,
     options: &TangentOptions,

@@ -48,7 +48,7 @@ impl Topology {
         Self::of(mesh, triangulation, &neighbours, |_| true, options)
     }
 
-    /// Of the vertices of `part` that count, where the order of vertices shows nowhere.
+    /// Of the vertices of `part` that count, where the order of vertices shows nowhere but in the last edges.
     pub fn of_part(mesh: &Mesh<'_>, part: &Part<'_>, options: &TangentOptions) -> Self {
         let triangulation = triangulate_welded(mesh, part.names);
         let good = &triangulation.good;
