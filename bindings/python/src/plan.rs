@@ -9,13 +9,14 @@ use crate::mesh::{FaceSizes, MeshArrays, owned, value_error};
 use crate::results;
 use crate::threads::detached;
 
-/// The weld, groups and subgroups of one mesh, kept to evaluate MikkTSpace tangents again after its vertices moved.
+/// The weld, groups and subgroups of one mesh, kept to evaluate tangents again after its vertices moved.
 ///
+/// Methods other than 'mikktspace' have no groups: they run afresh, but for the signs.
 /// Nothing of the arrays is kept but copies of UVs and indices. Several threads may use one plan at once.
 ///
 /// Parameters
 /// ----------
-/// positions, normals, uvs, indices, faces, mode, threshold
+/// positions, normals, uvs, indices, faces, method, mode, threshold
 ///     As for generate_tangents.
 #[pyclass(frozen, module = "darboux")]
 pub struct Plan {
@@ -50,7 +51,7 @@ impl Plan {
 #[pymethods]
 impl Plan {
     #[new]
-    #[pyo3(signature = (positions, normals, uvs, indices=None, *, faces=None, mode="repaired", threshold=180.0))]
+    #[pyo3(signature = (positions, normals, uvs, indices=None, *, faces=None, method="mikktspace", mode="repaired", threshold=180.0))]
     #[expect(clippy::too_many_arguments, reason = "Python passes them by name")]
     fn new(
         py: Python<'_>,
@@ -59,13 +60,14 @@ impl Plan {
         uvs: &Bound<'_, PyAny>,
         indices: Option<&Bound<'_, PyAny>>,
         faces: Option<&Bound<'_, PyAny>>,
+        method: &str,
         mode: &str,
         threshold: f32,
     ) -> PyResult<Self> {
-        let options = tangent_options("mikktspace", mode, threshold)?;
+        let options = tangent_options(method, mode, threshold)?;
         let arrays = MeshArrays::new(positions, normals, uvs, indices, faces)?;
         let mesh = arrays.view()?;
-        let plan = py.detach(|| darboux::Plan::new(&mesh, &options));
+        let plan = detached(py, None, mesh.corner_count(), || darboux::Plan::new(&mesh, &options))?;
         let (uvs, indices) = (arrays.uvs.to_vec()?, owned(mesh.indices()));
         Ok(Self { plan, uvs, indices, faces: arrays.faces })
     }

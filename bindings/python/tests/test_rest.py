@@ -137,6 +137,8 @@ def test_plans() -> None:
     moved = mesh.positions * [1, 2, 1]
     assert plan.count_regrouped(moved, mesh.normals) == 0
     assert bits(plan.evaluate(moved, mesh.normals)) == bits(darboux.generate_tangents(moved, *mesh.arrays[1:]))
+    by_area = darboux.Plan(*mesh.arrays, method="area")
+    assert bits(by_area.base) == bits(darboux.generate_tangents(*mesh.arrays, method="area"))
     # The plan holds what it needs.
     mesh.uvs[:] = 0
     mesh.indices[:] = 0

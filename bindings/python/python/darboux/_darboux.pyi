@@ -183,6 +183,7 @@ class Plan:
         indices: Optional[npt.ArrayLike] = None,
         *,
         faces: Optional[npt.ArrayLike] = None,
+        method: _Method = "mikktspace",
         mode: _Mode = "repaired",
         threshold: float = 180.0,
     ) -> "Plan": ...
