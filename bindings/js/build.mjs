@@ -10,7 +10,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 const [modules, out, version] = process.argv.slice(2);
 
 /** What users import, each with a WebAssembly module of its name. */
-const ENTRIES = ['tangents'];
+const ENTRIES = ['darboux', 'tangents'];
 
 /** What the compiler uses without being told. */
 const FEATURES = ['bulk-memory', 'bulk-memory-opt', 'nontrapping-float-to-int', 'sign-ext', 'mutable-globals', 'reference-types', 'multivalue', 'call-indirect-overlong'];

@@ -14,7 +14,7 @@ const TRIPLE: &str = "wasm32-unknown-unknown";
 const FORMS: &[(&str, &str)] = &[("simd", "-Ctarget-feature=+simd128"), ("scalar", "")];
 
 /// Modules, and their features of darboux-js.
-const MODULES: &[(&str, &str)] = &[("tangents", "")];
+const MODULES: &[(&str, &str)] = &[("darboux", "full"), ("tangents", "")];
 
 /// Makes the folder and runs the tests of what is in it.
 pub fn test(without: WithoutNpm) -> Outcome {
@@ -46,7 +46,7 @@ pub fn make() -> Outcome {
 
 fn compile(target: &Path, features: &str, flags: &str, out: &Path) -> Outcome {
     let mut cargo = program("cargo build --quiet --profile dist --package darboux-js --target");
-    run(to_stderr(cargo.args([TRIPLE, "--features", features]).env("RUSTFLAGS", flags)))?;
+    run(to_stderr(cargo.args([TRIPLE, "--no-default-features", "--features", features]).env("RUSTFLAGS", flags)))?;
     let built = target.join(TRIPLE).join("dist/darboux_js.wasm");
     fs::copy(&built, out)
         .map(|_| ())

@@ -8,14 +8,16 @@ export interface Exports extends WebAssembly.Exports {
   uvs(vertices: number): number;
   indices(corners: number): number;
   face_sizes(faces: number): number;
-  clear(): void;
 }
+
+/** Memory that stays with a module between calls, in bytes, so that the next need not ask for it again. */
+const KEPT = 2 ** 28;
 
 /** A module that loads. */
 export interface Engine<E extends Exports> {
   /** Resolves when calls may begin. */
   ready: Promise<void>;
-  /** Makes a call and frees what it used. Errors: not ready yet, not enough memory. */
+  /** Makes a call. Errors: not ready yet, not enough memory. */
   call<R>(work: (exports: E) => R): R;
 }
 
@@ -34,15 +36,18 @@ export function load<E extends Exports>(
 
   function call<R>(work: (exports: E) => R): R {
     if (!exports) throw new Error('darboux has not loaded yet; await ready before the first call');
+    let keeps = false;
     try {
-      return work(exports);
+      const result = work(exports);
+      keeps = true;
+      return result;
     } catch (error) {
-      if (!(error instanceof WebAssembly.RuntimeError)) throw error;
-      // Nothing is known of the memory of a call that ended within.
-      exports = new WebAssembly.Instance(module).exports as E;
+      keeps = !(error instanceof WebAssembly.RuntimeError);
+      if (keeps) throw error;
       throw new RangeError('the mesh needs more memory than WebAssembly can have; split it', { cause: error });
     } finally {
-      exports.clear();
+      // Memory of WebAssembly never shrinks, and nothing is known of it after a call that ended within.
+      if (!keeps || exports.memory.buffer.byteLength > KEPT) exports = new WebAssembly.Instance(module).exports as E;
     }
   }
 

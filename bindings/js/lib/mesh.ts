@@ -6,11 +6,13 @@ import type { Faces, Indices } from './types.js';
 /** Ids of corners have 30 bits. */
 const MAX_CORNERS = 2 ** 30 - 1;
 
+/** Floats of vertices beside the positions: their name, the array, and how many each vertex has. */
+type Attribute = readonly ['normals' | 'uvs', Float32Array, number];
+
 /** A mesh whose arrays fit together. */
 export interface Mesh {
   positions: Float32Array;
-  normals: Float32Array;
-  uvs: Float32Array;
+  attributes: readonly Attribute[];
   indices: Indices | null;
   faces: Faces;
   vertices: number;
@@ -20,36 +22,45 @@ export interface Mesh {
 /** Errors: TypeError for arrays of another kind, RangeError for lengths that do not fit together. */
 export function mesh(
   positions: Float32Array,
-  normals: Float32Array,
-  uvs: Float32Array,
-  indices: Indices | null | undefined,
+  attributes: readonly Attribute[],
+  indices: Indices | null = null,
   faces: Faces = 3,
 ): Mesh {
   const vertices = rows('positions', positions, 3);
-  for (const [name, array, width] of [['normals', normals, 3], ['uvs', uvs, 2]] as const) {
+  for (const [name, array, width] of attributes) {
     const found = rows(name, array, width);
     if (found !== vertices) {
       throw new RangeError(`${name} has ${found} elements but there are ${vertices} positions; give one per vertex`);
     }
   }
-  if (indices != null) must('indices', indices, ['Uint32Array', 'Uint16Array', 'Uint8Array']);
+  if (indices) checkIndices(indices);
   const corners = indices?.length ?? vertices;
   const most = Math.max(corners, vertices);
   if (most > MAX_CORNERS) throw new RangeError(`${most} corners are too many: the limit is ${MAX_CORNERS}; split the mesh`);
   checkFaces(faces, corners);
-  return { positions, normals, uvs, indices: indices ?? null, faces, vertices, corners };
+  return { positions, attributes, indices, faces, vertices, corners };
 }
 
-/** The number of elements. */
-function rows(name: string, array: Float32Array, width: number): number {
+/** Errors: another kind of array. */
+export function checkIndices(indices: Indices): void {
+  must('indices', indices, ['Uint32Array', 'Uint16Array', 'Uint8Array']);
+}
+
+/** The number of elements. Errors: another kind of array, elements that are not whole. */
+export function rows(name: string, array: Float32Array, width: number): number {
   must(name, array, ['Float32Array']);
+  return whole(name, array, width);
+}
+
+/** The number of elements. Errors: they are not whole. */
+export function whole(name: string, array: { length: number }, width: number): number {
   const count = array.length / width;
   if (Number.isInteger(count)) return count;
   throw new RangeError(`${name} has a length of ${array.length}, which is not a whole number of ${width}-component elements`);
 }
 
 /** Arrays of other realms (frames, workers) are as good, so the name decides. */
-function must(name: string, value: unknown, kinds: string[]): void {
+export function must(name: string, value: unknown, kinds: string[]): void {
   const kind = Object.prototype.toString.call(value).slice(8, -1);
   if (!kinds.includes(kind)) throw new TypeError(`${name} must be a ${kinds.join(' or ')}, not ${kind}`);
 }
@@ -65,26 +76,37 @@ function checkFaces(faces: Faces, corners: number): void {
   if (sum !== corners) throw new RangeError(`the face sizes add up to ${sum} but there are ${corners} corners`);
 }
 
-/**
- * Writes a mesh. All places are asked for before the first is written, as memory moves when it grows. WebAssembly's numbers are signed:
- * places beyond 2 GiB come as negative ones.
- */
+/** Writes a mesh. */
 export function write(exports: Exports, mesh: Mesh): void {
-  const { vertices, indices } = mesh;
-  const faces = mesh.faces === 3 ? null : mesh.faces === 4 ? new Uint32Array(mesh.corners / 4).fill(4) : mesh.faces;
-  const places = [exports.positions(vertices), exports.normals(vertices), exports.uvs(vertices)];
-  const lists: [Indices, number][] = [];
-  if (indices) lists.push([indices, exports.indices(indices.length)]);
-  if (faces) lists.push([faces, exports.face_sizes(faces.length)]);
+  const { positions, attributes, vertices, indices, corners } = mesh;
+  const faces = mesh.faces === 4 ? new Uint32Array(corners / 4).fill(4) : mesh.faces;
+  const floats: Placed<Float32Array>[] = [[positions, exports.positions(vertices)]];
+  for (const [name, array] of attributes) floats.push([array, exports[name](vertices)]);
+  const integers: Placed<Indices>[] = [];
+  if (indices) integers.push([indices, exports.indices(corners)]);
+  if (faces !== 3) integers.push([faces, exports.face_sizes(faces.length)]);
+  writeArrays(exports, floats, integers);
+}
+
+/** An array, and its place in the memory of the WebAssembly side. */
+export type Placed<A> = readonly [array: A, place: number];
+
+/**
+ * Writes arrays. All places have been asked for before the first is written, as memory moves when it grows. WebAssembly's numbers are
+ * signed: places beyond 2 GiB come as negative ones.
+ */
+export function writeArrays(
+  exports: Exports,
+  floats: readonly Placed<Float32Array>[],
+  integers: readonly Placed<Indices>[] = [],
+): void {
   const { buffer } = exports.memory;
-  [mesh.positions, mesh.normals, mesh.uvs].forEach((array, at) => {
-    new Float32Array(buffer, places[at]! >>> 0, array.length).set(array);
-  });
-  for (const [list, place] of lists) new Uint32Array(buffer, place >>> 0, list.length).set(list);
+  for (const [array, place] of floats) new Float32Array(buffer, place >>> 0, array.length).set(array);
+  for (const [array, place] of integers) new Uint32Array(buffer, place >>> 0, array.length).set(array);
 }
 
 /** What the WebAssembly side found wrong with a mesh that is right but for its indices. */
-export function indexError({ indices, vertices }: Mesh): RangeError {
+export function indexError({ indices, vertices }: Pick<Mesh, 'indices' | 'vertices'>): RangeError {
   const at = indices!.findIndex((index) => index >= vertices);
   return new RangeError(`index ${indices![at]} at place ${at} is out of range: there are ${vertices} vertices`);
 }
@@ -99,4 +121,10 @@ export function choice(what: string, name: string, names: readonly string[]): nu
   const at = names.indexOf(name);
   if (at >= 0) return at;
   throw new RangeError(`${what} is '${name}'; it must be one of ${names.map((name) => `'${name}'`).join(', ')}`);
+}
+
+/** An angle that an option gives. */
+export function degrees(what: string, angle = 180): number {
+  if (Number.isFinite(angle)) return angle;
+  throw new RangeError(`${what} is ${angle}; it must be a number of degrees`);
 }

@@ -1,7 +1,7 @@
 // `darboux/tangents`: MikkTSpace alone.
 
 import { load, type Exports } from './engine.js';
-import { choice, floats, indexError, mesh, write } from './mesh.js';
+import { choice, degrees, floats, indexError, mesh, write } from './mesh.js';
 import type { Indices, MikkTSpaceOptions } from './types.js';
 import simd from './wasm/tangents.simd.wasm';
 
@@ -37,10 +37,9 @@ export function generateTangents(
   indices?: Indices | null,
   options: MikkTSpaceOptions = {},
 ): Float32Array<ArrayBuffer> {
-  const given = mesh(positions, normals, uvs, indices, options.faces);
+  const given = mesh(positions, [['normals', normals, 3], ['uvs', uvs, 2]], indices, options.faces);
   const mode = choice('mode', options.mode ?? 'repaired', MODES);
-  const { threshold = 180 } = options;
-  if (!Number.isFinite(threshold)) throw new RangeError(`threshold is ${threshold}; it must be a number of degrees`);
+  const threshold = degrees('threshold', options.threshold);
   return engine.call((exports) => {
     write(exports, given);
     const place = exports.generate_tangents(mode, threshold);

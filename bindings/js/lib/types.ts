@@ -21,3 +21,81 @@ export interface MikkTSpaceOptions {
   /** Default: 3. Faces of other than 3 or 4 corners get tangents from their normals alone. */
   faces?: Faces;
 }
+
+/** How tangents are computed; normal maps need the method that they were baked with, nearly always 'mikktspace'. */
+export type Method =
+  | 'mikktspace'
+  | 'angle-area'
+  | 'lengyel'
+  | 'lengyel-per-vertex'
+  | 'average'
+  | 'area'
+  | 'face'
+  | 'from-normal';
+
+/** What generateTangents of `darboux` does; `threshold` belongs to 'mikktspace'. */
+export interface TangentOptions extends MikkTSpaceOptions {
+  /** Default: 'mikktspace'. */
+  method?: Method;
+}
+
+/** An indexed mesh's vertices after splitting. */
+export interface VertexSplit {
+  /** 4 per new vertex; (1, 0, 0, 1) where no corner uses it. */
+  tangentOfVertex: Float32Array<ArrayBuffer>;
+  /** The new index list, in the old corner order. */
+  indices: Uint32Array<ArrayBuffer>;
+  /** The old vertex that each new vertex copies: new = old[sourceOfVertex], for every other attribute. */
+  sourceOfVertex: Uint32Array<ArrayBuffer>;
+}
+
+export interface NormalOptions {
+  /** Default: 'smooth'. */
+  shading?: 'flat' | 'smooth';
+  /** How much each face counts at a vertex, where shading is smooth. Default: 'angle'. */
+  weight?: 'angle' | 'area' | 'angle-area';
+  /** Degrees; smooth shading stops at edges whose faces' normals differ by more. Default: 180, nowhere. */
+  crease?: number;
+  /** 'ignored': vertices at equal positions are one; 'respected': only the index list joins. Default: 'ignored'. */
+  seams?: 'ignored' | 'respected';
+  /** Default: 3. Any size from 3 on. */
+  faces?: Faces;
+}
+
+/** How two sets of tangents differ. Angles are between the xyz of a corner in both, in degrees. */
+export interface TangentDifference {
+  corners: number;
+  /** Corners whose four floats are the same bits. */
+  identical: number;
+  /** Corners whose signs differ. */
+  signFlips: number;
+  /** Corners where a tangent is zero or not finite. They are in none of the numbers below. */
+  withoutAngle: number;
+  mean: number;
+  min: number;
+  median: number;
+  /** The angle that 95 corners in 100 do not exceed. */
+  p95: number;
+  max: number;
+  /** Corners per bin; the bins end at 0, 0.001, 0.01, 0.1, 1, 5, 15, 45, 90 and 180 degrees. */
+  histogram: number[];
+  /** The corners with the largest angles, at most 16, the largest first. */
+  worst: { corner: number; angle: number }[];
+}
+
+/** The array that each encoding has: 4, 1, 4, 2 and 1 elements per tangent. */
+export interface TangentCodes {
+  /** x, y, z and the sign; directions turn by up to 0.40 degrees. */
+  snorm8: Int8Array<ArrayBuffer>;
+  /** 10 bits each for x (the lowest), y and z, 2 for w; directions turn by up to 0.098 degrees. */
+  snorm10: Uint32Array<ArrayBuffer>;
+  /** Directions turn by up to 0.0016 degrees. */
+  snorm16: Int16Array<ArrayBuffer>;
+  /** The sign is the lowest bit of the second; directions turn by up to 0.0057 degrees. */
+  octahedral: Int16Array<ArrayBuffer>;
+  /** An angle around the normal and, as the lowest bit, the sign; directions turn by up to 0.0071 degrees. */
+  diamond: Uint16Array<ArrayBuffer>;
+}
+
+/** Names of encodings. */
+export type TangentEncoding = keyof TangentCodes;

@@ -4,5 +4,15 @@
 
 #![allow(unsafe_code, reason = "functions are exported under the names that JavaScript calls")]
 
+#[cfg(feature = "full")]
+mod encode;
+#[cfg(feature = "full")]
+mod measure;
+#[cfg(feature = "full")]
+mod normals;
 mod room;
+#[cfg(feature = "full")]
+mod split;
 mod tangents;
+#[cfg(feature = "full")]
+mod values;

@@ -2,9 +2,9 @@
 
 use std::cell::RefCell;
 
-use darboux::{Faces, Indices, Mesh, Strided, Tangents};
+use darboux::{Faces, Indices, Mesh, Scratch, Strided, Tangents};
 
-/// What a call reads and what it writes.
+/// What a call reads and what it writes. Memory is kept from call to call.
 #[derive(Default)]
 pub struct Room {
     positions: Vec<f32>,
@@ -14,6 +14,9 @@ pub struct Room {
     face_sizes: Vec<u32>,
     is_indexed: bool,
     pub tangents: Tangents,
+    pub scratch: Scratch,
+    #[cfg(feature = "full")]
+    pub values: crate::values::Values,
 }
 
 thread_local! {
@@ -23,15 +26,30 @@ thread_local! {
 impl Room {
     /// The mesh, if its structure is right.
     pub fn mesh(&self) -> Option<Mesh<'_>> {
-        let indices = if self.is_indexed { Indices::U32(&self.indices) } else { Indices::Unindexed };
-        let faces =
-            if self.face_sizes.is_empty() { Faces::Triangles } else { Faces::Mixed(&self.face_sizes) };
-        let (positions, normals) = (Strided::from(rows(&self.positions)), rows(&self.normals));
-        Mesh::with_faces(positions, normals, rows(&self.uvs), indices, faces).ok()
+        let (positions, normals, uvs) = (self.positions(), rows(&self.normals), rows(&self.uvs));
+        Mesh::with_faces(positions, normals, uvs, self.indices(), self.faces()).ok()
+    }
+
+    pub fn positions(&self) -> Strided<'_, 3> {
+        Strided::from(rows(&self.positions))
+    }
+
+    #[cfg(feature = "full")]
+    pub fn normals(&self) -> &[f32] {
+        &self.normals
+    }
+
+    pub fn indices(&self) -> Indices<'_> {
+        if self.is_indexed { Indices::U32(&self.indices) } else { Indices::Unindexed }
+    }
+
+    pub fn faces(&self) -> Faces<'_> {
+        if self.face_sizes.is_empty() { Faces::Triangles } else { Faces::Mixed(&self.face_sizes) }
     }
 }
 
-fn rows<const N: usize>(floats: &[f32]) -> &[[f32; N]] {
+/// Floats as rows of `N`.
+pub fn rows<const N: usize>(floats: &[f32]) -> &[[f32; N]] {
     floats.as_chunks().0
 }
 
@@ -40,10 +58,14 @@ pub fn with<R>(use_it: impl FnOnce(&mut Room) -> R) -> R {
     ROOM.with_borrow_mut(use_it)
 }
 
-/// Makes room for an array of the mesh: where it goes.
+/// Begins a mesh, without indices, of triangles: where its positions go.
 #[unsafe(no_mangle)]
 pub extern "C" fn positions(vertices: usize) -> *mut f32 {
-    with(|room| sized(&mut room.positions, 3 * vertices))
+    with(|room| {
+        room.is_indexed = false;
+        room.face_sizes.clear();
+        sized(&mut room.positions, 3 * vertices)
+    })
 }
 
 #[unsafe(no_mangle)]
@@ -69,13 +91,9 @@ pub extern "C" fn face_sizes(faces: usize) -> *mut u32 {
     with(|room| sized(&mut room.face_sizes, faces))
 }
 
-/// Frees all arrays.
-#[unsafe(no_mangle)]
-pub extern "C" fn clear() {
-    with(|room| *room = Room::default());
-}
-
-fn sized<T: Clone + Default>(array: &mut Vec<T>, len: usize) -> *mut T {
-    *array = vec![T::default(); len];
+/// Makes an array just as long, keeping its memory: where it is.
+pub fn sized<T: Clone + Default>(array: &mut Vec<T>, len: usize) -> *mut T {
+    array.reserve_exact(len.saturating_sub(array.len()));
+    array.resize(len, T::default());
     array.as_mut_ptr()
 }

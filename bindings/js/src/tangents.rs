@@ -1,23 +1,46 @@
 //! Tangents of corners.
 
-use darboux::{Mode, Scratch, TangentOptions, generate_tangents_into};
+use std::mem::take;
+
+use darboux::{Method, Mode, TangentOptions, generate_tangents_into};
 
 use crate::room;
 
-/// Computes the tangents of all corners: where they lie, or null where the mesh is not one.
+/// Computes the tangents of all corners: where they lie, or null where the mesh is not one. Choices come as their places in the
+/// lists of `lib`.
 #[unsafe(no_mangle)]
-pub extern "C" fn generate_tangents(mode: u32, threshold: f32) -> *const f32 {
+pub extern "C" fn generate_tangents(mode: u32, threshold: f32, method: u32) -> *const f32 {
     let mode = match mode {
         0 => Mode::Reference,
         1 => Mode::Repaired,
         _ => Mode::Corrected,
     };
-    let options = TangentOptions { mode, threshold, ..TangentOptions::default() };
+    let options = TangentOptions { method: self::method(method), mode, threshold };
     room::with(|room| {
-        let mut tangents = std::mem::take(&mut room.tangents);
+        let (mut tangents, mut scratch) = (take(&mut room.tangents), take(&mut room.scratch));
         let Some(mesh) = room.mesh() else { return std::ptr::null() };
-        generate_tangents_into(&mesh, &options, &mut Scratch::new(), &mut tangents);
-        room.tangents = tangents;
+        generate_tangents_into(&mesh, &options, &mut scratch, &mut tangents);
+        (room.tangents, room.scratch) = (tangents, scratch);
         room.tangents.corners.per_corner().as_ptr().cast()
     })
+}
+
+#[cfg(feature = "full")]
+fn method(code: u32) -> Method {
+    match code {
+        0 => Method::MikkTSpace,
+        1 => Method::AngleArea,
+        2 => Method::Lengyel,
+        3 => Method::LengyelPerVertex,
+        4 => Method::Average,
+        5 => Method::Area,
+        6 => Method::Face,
+        _ => Method::FromNormal,
+    }
+}
+
+/// Alone in this module.
+#[cfg(not(feature = "full"))]
+fn method(_code: u32) -> Method {
+    Method::MikkTSpace
 }

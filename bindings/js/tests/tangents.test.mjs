@@ -3,30 +3,9 @@ import { createRequire } from 'node:module';
 import { test } from 'node:test';
 import * as esm from 'darboux/tangents';
 import { bits, corpus, native } from './corpus.mjs';
+import { square, withoutSimd } from './forms.mjs';
 
-const { compile } = WebAssembly;
-
-/** The same file again, with a compiler that knows no SIMD. */
-async function withoutSimd() {
-  let refused = 0;
-  WebAssembly.compile = async (bytes) => {
-    if (refused++ === 0) throw new WebAssembly.CompileError('no SIMD');
-    return compile(bytes);
-  };
-  const scalar = await import(`${import.meta.resolve('darboux/tangents')}?scalar`);
-  await scalar.ready;
-  WebAssembly.compile = compile;
-  assert.equal(refused, 2);
-  return scalar;
-}
-
-const forms = { 'ES module': esm, CommonJS: createRequire(import.meta.url)('darboux/tangents'), scalar: await withoutSimd() };
-const square = () => [
-  new Float32Array([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]),
-  new Float32Array([0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1]),
-  new Float32Array([0, 0, 1, 0, 1, 1, 0, 1]),
-  new Uint16Array([0, 1, 2, 0, 2, 3]),
-];
+const forms = { 'ES module': esm, CommonJS: createRequire(import.meta.url)('darboux/tangents'), scalar: await withoutSimd('darboux/tangents') };
 
 for (const [name, { ready, generateTangents }] of Object.entries(forms)) {
   await ready;

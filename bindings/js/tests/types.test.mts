@@ -1,5 +1,6 @@
 // Compiled, never run: what users may write, and what they may not.
 
+import { encodeTangents, generateTangents as generateAny, measureTangents, splitVertices } from 'darboux';
 import { generateTangents, ready, type MikkTSpaceOptions } from 'darboux/tangents';
 
 const loaded: Promise<void> = ready;
@@ -13,5 +14,11 @@ generateTangents([0, 0, 0], floats, floats);
 generateTangents(floats, floats, floats, null, { mode: 'best' });
 // @ts-expect-error: an unknown option
 generateTangents(floats, floats, floats, null, { method: 'lengyel' });
+generateAny(floats, floats, floats, null, { method: 'lengyel' });
+const octahedral: Int16Array = encodeTangents(floats, 'octahedral');
+// @ts-expect-error: this form has two bytes
+const diamond: Int16Array = encodeTangents(floats, 'diamond', floats);
+const largest: number = measureTangents(tangents, tangents).max;
+const sources: Uint32Array = splitVertices(new Uint32Array(), tangents, 4).sourceOfVertex;
 
-export { loaded, tangents };
+export { diamond, largest, loaded, octahedral, sources, tangents };

@@ -1,0 +1,113 @@
+import assert from 'node:assert/strict';
+import { createRequire } from 'node:module';
+import { test } from 'node:test';
+import * as esm from 'darboux';
+import { bits, corpus, native } from './corpus.mjs';
+import { square, withoutSimd } from './forms.mjs';
+
+const forms = { 'ES module': esm, CommonJS: createRequire(import.meta.url)('darboux'), scalar: await withoutSimd('darboux') };
+const METHODS = ['mikktspace', 'angle-area', 'lengyel', 'lengyel-per-vertex', 'average', 'area', 'face'];
+
+/** A strip of two squares that meet at right angles, wound outwards. */
+const bend = () => [Float32Array.of(0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 1, 0, -1, 1, 1, -1), Uint16Array.of(0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2)];
+
+for (const [name, darboux] of Object.entries(forms)) {
+  await darboux.ready;
+  const { generateTangents, splitVertices, generateNormals, measureTangents, encodeTangents, decodeTangents } = darboux;
+
+  test(`${name}: tangents and vertices of the corpus have the bits of the native library`, () => {
+    for (const { name, arrays, options, answer } of corpus) {
+      const tangents = generateTangents(...arrays, options);
+      assert.deepEqual(bits(tangents), native(answer.tangents), name);
+      const split = splitVertices(arrays[3], tangents, arrays[0].length / 3);
+      assert.deepEqual(Array.from(split.indices), answer.split_indices, name);
+      assert.deepEqual(Array.from(split.sourceOfVertex), answer.split_sources, name);
+      assert.deepEqual(bits(split.tangentOfVertex), native(answer.split_tangents), name);
+    }
+  });
+
+  test(`${name}: every method gives a square the tangents of its UVs`, () => {
+    for (const method of METHODS) {
+      const tangents = generateTangents(...square(), { method });
+      assert.deepEqual(values(tangents), Array.from({ length: 6 }, () => [1, 0, 0, 1]).flat(), method);
+    }
+    const [x, y, z, w] = generateTangents(...square(), { method: 'from-normal' });
+    assert.deepEqual([Math.hypot(x, y), Math.abs(z), Math.abs(w)], [1, 0, 1]);
+  });
+
+  test(`${name}: normals are flat, smooth or creased`, () => {
+    const [positions, indices] = bend();
+    const of = (options) => {
+      const normals = generateNormals(positions, indices, options);
+      assert.equal(normals.length, 36);
+      return [0, 3, 18].map((at) => values(normals.subarray(at, at + 3)));
+    };
+    const mean = (x, z) => [Math.fround(x / Math.hypot(x, z)), 0, Math.fround(z / Math.hypot(x, z))];
+    const flat = [[0, 0, 1], [0, 0, 1], [1, 0, 0]];
+    assert.deepEqual(of({ shading: 'flat' }), flat);
+    assert.deepEqual(of({ crease: 60 }), flat);
+    assert.deepEqual(of({ weight: 'angle' }), [[0, 0, 1], mean(1, 1), mean(1, 1)]);
+    // Corner 1 has one triangle in the first square, two in the second.
+    assert.deepEqual(of({ weight: 'area' }), [[0, 0, 1], mean(2, 1), mean(2, 1)]);
+  });
+
+  test(`${name}: differences are measured`, () => {
+    const [c, s] = [Math.cos(Math.PI / 6), 0.5];
+    const found = measureTangents(Float32Array.of(1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1), Float32Array.of(1, 0, 0, 1, c, s, 0, -1, 1, 0, 0, 1));
+    assert.deepEqual([found.corners, found.identical, found.signFlips, found.withoutAngle], [3, 1, 1, 1]);
+    assert.ok(Math.abs(found.max - 30) < 1e-5 && Math.abs(found.mean - 15) < 1e-5);
+    assert.deepEqual(found.histogram, [1, 0, 0, 0, 0, 0, 0, 1, 0, 0]);
+    assert.deepEqual(found.worst, [{ corner: 1, angle: found.max }]);
+  });
+
+  test(`${name}: encodings turn tangents by no more than they say`, () => {
+    const { tangents, normals } = directions(1000);
+    const bounds = { snorm8: 0.4, snorm10: 0.098, snorm16: 0.0016, octahedral: 0.0057, diamond: 0.0071 };
+    for (const [encoding, bound] of Object.entries(bounds)) {
+      const codes = encodeTangents(tangents, encoding, normals);
+      const { max, signFlips } = measureTangents(tangents, decodeTangents(codes, encoding, normals));
+      assert.ok(max > 0 && max <= bound, `${encoding}: ${max}`);
+      assert.equal(signFlips, 0, encoding);
+    }
+  });
+}
+
+/** Numbers, both zeros alike. */
+const values = (floats) => Array.from(floats, (x) => x + 0);
+
+/** Unit tangents of both signs, and unit normals at right angles to them. */
+function directions(count) {
+  const [tangents, normals] = [new Float32Array(4 * count), new Float32Array(3 * count)];
+  for (let at = 0; at < count; at++) {
+    const [z, turn] = [1 - (2 * at + 1) / count, at * 2.4];
+    const r = Math.sqrt(1 - z * z);
+    tangents.set([r * Math.cos(turn), r * Math.sin(turn), z, at % 2 ? 1 : -1], 4 * at);
+    normals.set([-Math.sin(turn), Math.cos(turn), 0], 3 * at);
+  }
+  return { tangents, normals };
+}
+
+const [positions, normals, uvs, indices] = square();
+const tangents = new Float32Array(24);
+const wrong = [
+  [() => esm.generateTangents(positions, normals, uvs, indices, { method: 'best' }), RangeError, /^method is 'best'; it must be one of 'mikktspace', /],
+  [() => esm.generateTangents(positions, normals, uvs, indices, { method: 'face', threshold: 60 }), RangeError, /^threshold belongs to the method/],
+  [() => esm.generateNormals(positions, indices, { weight: 'best' }), RangeError, /^weight is 'best'/],
+  [() => esm.generateNormals(positions, Uint16Array.of(0, 1, 4)), RangeError, /^index 4 at place 2 is out of range: there are 4 vertices$/],
+  [() => esm.splitVertices(null, tangents, 4), TypeError, /^indices must be .*, not Null$/],
+  [() => esm.splitVertices(indices, tangents.slice(4), 4), RangeError, /^5 tangents where the mesh has 6 corners/],
+  [() => esm.splitVertices(indices, tangents, 3), RangeError, /^index 3 at place 5 is out of range: there are 3 vertices$/],
+  [() => esm.splitVertices(indices, tangents, -1), RangeError, /^vertexCount is -1; /],
+  [() => esm.measureTangents(tangents, tangents.slice(4)), RangeError, /^b has 5 tangents but a has 6; /],
+  [() => esm.encodeTangents(tangents, 'snorm4'), RangeError, /^encoding is 'snorm4'; /],
+  [() => esm.encodeTangents(tangents, 'diamond'), TypeError, /^normals must be a Float32Array, not Undefined$/],
+  [() => esm.encodeTangents(tangents, 'diamond', normals), RangeError, /^normals has 4 elements but there are 6 tangents; /],
+  [() => esm.decodeTangents(new Int16Array(4), 'snorm8'), TypeError, /^codes must be a Int8Array, not Int16Array$/],
+  [() => esm.decodeTangents(new Int8Array(5), 'snorm8'), RangeError, /^codes has a length of 5, /],
+];
+
+test('what is wrong is said', () => {
+  for (const [call, kind, message] of wrong) {
+    assert.throws(call, (error) => error instanceof kind && message.test(error.message), `${message}`);
+  }
+});

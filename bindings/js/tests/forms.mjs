@@ -1,0 +1,25 @@
+// What the tests of both entries share.
+
+const { compile } = WebAssembly;
+
+/** A module of the package again, with a compiler that knows no SIMD. */
+export async function withoutSimd(entry) {
+  let calls = 0;
+  WebAssembly.compile = async (bytes) => {
+    if (calls++ === 0) throw new WebAssembly.CompileError('no SIMD');
+    return compile(bytes);
+  };
+  const scalar = await import(`${import.meta.resolve(entry)}?scalar`);
+  await scalar.ready;
+  WebAssembly.compile = compile;
+  if (calls !== 2) throw new Error(`${calls} modules were compiled`);
+  return scalar;
+}
+
+/** Positions, normals, UVs and indices of a square. */
+export const square = () => [
+  new Float32Array([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]),
+  new Float32Array([0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1]),
+  new Float32Array([0, 0, 1, 0, 1, 1, 0, 1]),
+  new Uint16Array([0, 1, 2, 0, 2, 3]),
+];
