@@ -21,6 +21,14 @@ export interface Engine<E extends Exports> {
   call<R>(work: (exports: E) => R): R;
 }
 
+/** Compiles what build.mjs deflated. The stream is read piece by piece: `Response` would load an HTTP client in Node.js. */
+async function compile(deflated: Uint8Array<ArrayBuffer>): Promise<WebAssembly.Module> {
+  const reader = new Blob([deflated]).stream().pipeThrough(new DecompressionStream('deflate-raw')).getReader();
+  const parts: Uint8Array<ArrayBuffer>[] = [];
+  for (let part = await reader.read(); !part.done; part = await reader.read()) parts.push(part.value);
+  return WebAssembly.compile(await new Blob(parts).arrayBuffer());
+}
+
 /** Begins to load a module; the form without SIMD is asked for only where there is no SIMD. */
 export function load<E extends Exports>(
   simd: Uint8Array<ArrayBuffer>,
@@ -30,7 +38,7 @@ export function load<E extends Exports>(
   let exports: E | undefined;
 
   async function start(): Promise<void> {
-    module = await WebAssembly.compile(simd).catch(async () => WebAssembly.compile((await scalar()).default));
+    module = await compile(simd).catch(async () => compile((await scalar()).default));
     exports = (await WebAssembly.instantiate(module)).exports as E;
   }
 

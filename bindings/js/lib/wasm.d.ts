@@ -1,3 +1,4 @@
+// Modules as build.mjs embeds them: deflated.
 declare module '*.wasm' {
   const bytes: Uint8Array<ArrayBuffer>;
   export default bytes;

@@ -7,9 +7,21 @@ import { test } from 'node:test';
 const readme = readFileSync(new URL('../README.md', import.meta.url), 'utf8');
 const examples = [...readme.matchAll(/```js\n([^]*?)```/g)].map(([, code]) => code);
 
-test('the first example', async () => {
-  // As a module of its own beside this one, so that it finds the package.
-  const code = examples[0].replaceAll(/'(darboux[^']*)'/g, (_, name) => JSON.stringify(import.meta.resolve(name)));
-  const { tangents } = await import(`data:text/javascript,${encodeURIComponent(`${code}\nexport { tangents };`)}`);
+/** Runs an example as a module, which finds the package from anywhere, and gives the variables that are asked for. */
+async function run(example, variables) {
+  const code = examples[example].replaceAll(/'(darboux[^']*)'/g, (_, name) => JSON.stringify(import.meta.resolve(name)));
+  return import(`data:text/javascript,${encodeURIComponent(`${code}\nexport { ${variables} };`)}`);
+}
+
+test('tangents of corners', async () => {
+  const { tangents } = await run(0, 'tangents');
   assert.deepEqual(Array.from(tangents), Array.from({ length: 6 }, () => [1, 0, 0, 1]).flat());
+});
+
+test('vertices of a mirrored seam', async () => {
+  const { tangentOfVertex, newIndices, newPositions } = await run(1, 'tangentOfVertex, newIndices, newPositions');
+  assert.deepEqual(Array.from(newIndices), [0, 1, 2, 0, 2, 3, 6, 4, 5, 6, 5, 7]);
+  assert.deepEqual(Array.from(newPositions.subarray(18)), [0, 0, 0, 0, 1, 0]);
+  const signs = Array.from({ length: 8 }, (_, vertex) => [tangentOfVertex[4 * vertex], tangentOfVertex[4 * vertex + 3]]);
+  assert.deepEqual(signs, [[-1, -1], [-1, -1], [-1, -1], [-1, -1], [1, 1], [1, 1], [1, 1], [1, 1]]);
 });

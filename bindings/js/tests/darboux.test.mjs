@@ -1,18 +1,16 @@
 import assert from 'node:assert/strict';
-import { createRequire } from 'node:module';
 import { test } from 'node:test';
 import * as esm from 'darboux';
 import { bits, corpus, native } from './corpus.mjs';
-import { square, withoutSimd } from './forms.mjs';
+import { formsOf, square } from './forms.mjs';
 
-const forms = { 'ES module': esm, CommonJS: createRequire(import.meta.url)('darboux'), scalar: await withoutSimd('darboux') };
+const forms = await formsOf('darboux');
 const METHODS = ['mikktspace', 'angle-area', 'lengyel', 'lengyel-per-vertex', 'average', 'area', 'face'];
 
 /** A strip of two squares that meet at right angles, wound outwards. */
 const bend = () => [Float32Array.of(0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 1, 0, -1, 1, 1, -1), Uint16Array.of(0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2)];
 
 for (const [name, darboux] of Object.entries(forms)) {
-  await darboux.ready;
   const { generateTangents, splitVertices, generateNormals, measureTangents, encodeTangents, decodeTangents } = darboux;
 
   test(`${name}: tangents and vertices of the corpus have the bits of the native library`, () => {

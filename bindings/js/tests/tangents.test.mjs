@@ -1,15 +1,12 @@
 import assert from 'node:assert/strict';
-import { createRequire } from 'node:module';
 import { test } from 'node:test';
 import * as esm from 'darboux/tangents';
 import { bits, corpus, native } from './corpus.mjs';
-import { square, withoutSimd } from './forms.mjs';
+import { formsOf, square } from './forms.mjs';
 
-const forms = { 'ES module': esm, CommonJS: createRequire(import.meta.url)('darboux/tangents'), scalar: await withoutSimd('darboux/tangents') };
+const forms = await formsOf('darboux/tangents');
 
-for (const [name, { ready, generateTangents }] of Object.entries(forms)) {
-  await ready;
-
+for (const [name, { generateTangents }] of Object.entries(forms)) {
   test(`${name}: the corpus has the bits of the native library`, () => {
     assert.ok(new Set(corpus.map(({ answer }) => answer.name)).size > 30);
     for (const { name, arrays, options, answer } of corpus) {
