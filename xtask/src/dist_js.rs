@@ -46,7 +46,9 @@ pub fn make() -> Outcome {
 
 fn compile(target: &Path, features: &str, flags: &str, out: &Path) -> Outcome {
     let mut cargo = program("cargo build --quiet --profile dist --package darboux-js --target");
-    run(to_stderr(cargo.args([TRIPLE, "--no-default-features", "--features", features]).env("RUSTFLAGS", flags)))?;
+    run(to_stderr(
+        cargo.args([TRIPLE, "--no-default-features", "--features", features]).env("RUSTFLAGS", flags),
+    ))?;
     let built = target.join(TRIPLE).join("dist/darboux_js.wasm");
     fs::copy(&built, out)
         .map(|_| ())
