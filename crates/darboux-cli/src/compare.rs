@@ -13,7 +13,7 @@ use serde::Serialize;
 
 use crate::arguments::CompareArguments;
 use crate::batch::size_of;
-use crate::jobs::Input;
+use crate::jobs::{Input, is_png};
 use crate::messages::{Messages, write_stdout};
 use crate::models::load;
 use crate::report::{VERSION, to_json};
@@ -74,6 +74,9 @@ pub fn run(arguments: &CompareArguments) -> u8 {
 fn compare(arguments: &CompareArguments, messages: &Messages) -> Result<CompareReport, String> {
     if let Some(path) = arguments.heat_map.as_ref().filter(|path| path.exists() && !arguments.force) {
         return Err(format!("{}: exists; use --force to replace it, or name another file", path.display()));
+    }
+    if let Some(path) = arguments.heat_map.as_ref().filter(|path| !is_png(path)) {
+        return Err(format!("{}: the heat map is a PNG; name it .png", path.display()));
     }
     let other = arguments.second.as_ref().unwrap_or(&arguments.first);
     let inputs = [&arguments.first, other].map(|path| Input::File(path.clone()));

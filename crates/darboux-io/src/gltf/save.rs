@@ -66,28 +66,17 @@ impl Document {
         if !self.is_changed() {
             return Ok(Vec::new());
         }
-        let written = self.write(input, self.container.is_glb, true)?;
-        self.remove_replaced_files(input.parent().unwrap_or(Path::new("")));
-        Ok(written)
+        self.write(input, self.container.is_glb, true)
     }
 
-    /// The file of a buffer that an earlier run made for new data: edited, the document gets another in its place.
+    /// The file of a buffer that an earlier run made for new data: edited, the document gets another in its place. The file itself
+    /// stays: other models, wherever they are, can use it.
     pub(super) fn replaced_file(&self, buffer: usize) -> Option<&Located> {
         match (self.root.buffers.get(buffer), self.stores.get(buffer)) {
             (Some(buffer), Some(Store::File(file))) if buffer.is_ours() && self.is_changed() => {
                 Some(&file.located)
             }
             _ => None,
-        }
-    }
-
-    /// Removes files in `folder` that earlier runs made, unless a document there mentions them. Those that cannot be removed stay.
-    fn remove_replaced_files(&self, folder: &Path) {
-        let replaced = (0..self.stores.len()).filter_map(|buffer| self.replaced_file(buffer));
-        for file in replaced.filter(|file| file.path.parent() == Some(folder)) {
-            if is_mentioned(&file.relative, folder) == Some(false) {
-                let _ = fs::remove_file(&file.path);
-            }
         }
     }
 
@@ -217,27 +206,6 @@ impl Document {
         let mut seen = HashSet::new();
         buffers.chain(images).filter(|file| seen.insert(file.path.clone())).collect()
     }
-}
-
-/// How many documents in a folder are searched before a file is taken for mentioned.
-const MOST_SEARCHED: usize = 64;
-
-/// Whether a `.gltf` in `folder` mentions a file. None: they cannot be read, or are too many.
-fn is_mentioned(file: &Path, folder: &Path) -> Option<bool> {
-    let spellings = [encode_path(file), file.to_string_lossy().into_owned()];
-    let mut searched = 0;
-    for entry in fs::read_dir(folder).ok()? {
-        let path = entry.ok()?.path();
-        if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gltf")) {
-            searched += 1;
-            let text = fs::read(path).ok().filter(|_| searched <= MOST_SEARCHED)?;
-            let text = String::from_utf8_lossy(&text);
-            if spellings.iter().any(|spelling| text.contains(spelling)) {
-                return Some(true);
-            }
-        }
-    }
-    Some(false)
 }
 
 fn is_glb_path(path: &Path) -> Result<bool, Error> {
