@@ -2,7 +2,6 @@
 
 pub(super) mod compute;
 mod encoding;
-mod evaluator;
 pub(super) mod excess;
 pub(super) mod foreign;
 mod morph;

@@ -17,7 +17,7 @@ pub(crate) enum Planned {
     Fans(Box<Decided>),
     /// MikkTSpace elsewhere.
     Stages(Box<Topology>),
-    /// Other methods have no groups to keep.
+    /// Other methods run afresh.
     Nothing,
 }
 

@@ -3,9 +3,8 @@
 use std::borrow::Cow;
 use std::mem;
 
-use darboux::{CornerTangents, Mesh, Report, Scratch, Tangents, generate_tangents_into};
+use darboux::{CornerTangents, Mesh, Plan, Report, Scratch, Tangents, generate_tangents_into};
 
-use super::evaluator::Evaluator;
 use super::share::{Group, Job};
 use super::topology::Topology;
 use super::{TangentEncoding, TangentsOptions};
@@ -80,7 +79,7 @@ pub struct Surface<'a> {
     pub tangents: CornerTangents,
     pub report: Report,
     /// What evaluates morph targets, if there are any.
-    pub evaluator: Option<Evaluator>,
+    pub plan: Option<Plan>,
 }
 
 /// Computes a job. `at` is the JSON path of a primitive that it belongs to; with `morphs` it is kept ready for morph targets.
@@ -102,9 +101,9 @@ pub fn surface<'a>(
         other => IndexList::U32(other.corners(corners.widened()).into()),
     };
     let mesh = vertices.mesh(document, at, job, &corners)?;
-    let (tangents, evaluator) = if morphs {
-        let (tangents, evaluator) = Evaluator::new(&mesh, &options.tangents);
-        (tangents, Some(evaluator))
+    let (tangents, plan) = if morphs {
+        let plan = Plan::new(&mesh, &options.tangents);
+        (plan.base().clone(), Some(plan))
     } else {
         let mut tangents = Tangents::default();
         generate_tangents_into(&mesh, &options.tangents, scratch, &mut tangents);
@@ -118,7 +117,7 @@ pub fn surface<'a>(
     if options.encoding != TangentEncoding::F32x4 {
         tangents = tangents.map(|tangent| options.encoding.rounded(tangent));
     }
-    Ok(Surface { corners, rest, tangents, report, evaluator })
+    Ok(Surface { corners, rest, tangents, report, plan })
 }
 
 fn indices<'a>(document: &'a Document, job: &Job, vertex_count: usize) -> Result<IndexList<'a>, Error> {

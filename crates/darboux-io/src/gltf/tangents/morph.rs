@@ -122,9 +122,10 @@ pub fn offsets(
     for &job in &morph.jobs {
         let surface = &surfaces[job];
         let mesh = vertices.mesh(document, &morph.at, &group.jobs[job], &surface.corners)?;
-        let evaluator = surface.evaluator.as_ref().expect("jobs that move are computed with one");
-        let (evaluated, regrouped) =
-            evaluator.evaluate(&mesh).map_err(|error| document.mesh_error(&morph.at, error))?;
+        let plan = surface.plan.as_ref().expect("jobs that move are computed with one");
+        let in_document = |error| document.mesh_error(&morph.at, error);
+        let evaluated = plan.evaluate(&mesh).map_err(in_document)?;
+        let regrouped = plan.count_regrouped(&mesh).map_err(in_document)?;
         let tangents = evaluated.per_corner().iter().zip(surface.tangents.per_corner());
         let corners = split.vertices(job, surface).zip(tangents);
         let conflicting = corners.filter(|&(vertex, (moved, base))| !field.hold(vertex, moved, base)).count();
