@@ -2,6 +2,7 @@
 
 import gc
 import multiprocessing
+import signal
 import sys
 import threading
 import time
@@ -75,6 +76,27 @@ def test_forked_processes_work() -> None:
     expected = hash_of_tangents(0)
     with multiprocessing.get_context("fork").Pool(2) as pool:
         assert pool.map_async(hash_of_tangents, range(4)).get(timeout=60) == [expected] * 4
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
+def test_ctrl_c_during_arrays() -> None:
+    """It is raised when the call is done, and calls go on working."""
+    mesh = grid(300, 300)
+    expected = darboux.generate_tangents(*mesh.arrays).tobytes()
+    called = threading.Event()
+
+    def interrupt() -> None:
+        called.wait()
+        signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGINT)
+
+    thread = threading.Thread(target=interrupt)
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        while True:
+            assert darboux.generate_tangents(*mesh.arrays).tobytes() == expected
+            called.set()
+    thread.join()
+    assert darboux.generate_tangents(*mesh.arrays).tobytes() == expected
 
 
 def resident() -> int:
