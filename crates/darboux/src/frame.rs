@@ -35,13 +35,6 @@ impl CornerTangents {
         self.0
     }
 
-    /// Sets the signs of these tangents to those of others of the same mesh.
-    pub(crate) fn take_signs(&mut self, others: &CornerTangents) {
-        for (tangent, other) in self.0.iter_mut().zip(&others.0) {
-            tangent[3] = other[3];
-        }
-    }
-
     /// Each tangent after `change`: rounding to what an encoding holds comes before vertices are split.
     pub fn map(mut self, mut change: impl FnMut([f32; 4]) -> [f32; 4]) -> Self {
         for tangent in &mut self.0 {
@@ -54,6 +47,23 @@ impl CornerTangents {
     pub fn converted(self, from: Convention, to: Convention) -> Self {
         let conversion = from.to(to);
         self.map(|tangent| conversion.tangent(tangent))
+    }
+}
+
+/// Tangents of corners that lie elsewhere: [`CornerTangents`], or an array of another program.
+#[derive(Clone, Copy, Debug)]
+pub struct CornerTangentsRef<'a>(pub(crate) &'a [[f32; 4]]);
+
+impl<'a> CornerTangentsRef<'a> {
+    /// One tangent per corner, in corner order: unit xyz and sign w.
+    pub fn from_per_corner(tangents: &'a [[f32; 4]]) -> Self {
+        Self(tangents)
+    }
+}
+
+impl<'a> From<&'a CornerTangents> for CornerTangentsRef<'a> {
+    fn from(tangents: &'a CornerTangents) -> Self {
+        Self(&tangents.0)
     }
 }
 

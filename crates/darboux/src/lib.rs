@@ -45,7 +45,7 @@ pub use convention::{
     Axes, Axis, BitangentDirection, Convention, Conversion, Handedness, SignRule, TangentDirection, UvOrigin,
     Winding,
 };
-pub use frame::{CornerFrames, CornerTangents, Frame};
+pub use frame::{CornerFrames, CornerTangents, CornerTangentsRef, Frame};
 pub use measure::{
     HISTOGRAM_ENDS, TangentDifference, UvFidelity, measure_tangents, measure_uv_fidelity, tangent_angle,
 };
@@ -60,6 +60,6 @@ pub use split::{Splitter, VertexSplit, split_vertices};
 pub use tangents::naive;
 pub use tangents::{
     Frames, Method, Mode, Report, Scratch, TangentOptions, Tangents, WidthLimit, generate_frames,
-    generate_tangents, generate_tangents_into,
+    generate_tangents, generate_tangents_into, write_tangents,
 };
 pub use transform::Transform;

@@ -46,10 +46,22 @@ impl Plan {
         scratch: &mut Scratch,
         out: &mut CornerTangents,
     ) -> Result<(), MeshError> {
-        expect("corners", self.base.corners.len(), mesh.corner_count())?;
+        out.0.resize(self.base.corners.len(), [0.0; 4]);
+        self.write_tangents(mesh, scratch, &mut out.0)
+    }
+
+    /// As [`Plan::evaluate_into`], into an array of the caller's: one tangent per corner. Errors: also an array of another length.
+    pub fn write_tangents(
+        &self,
+        mesh: &Mesh<'_>,
+        scratch: &mut Scratch,
+        corners: &mut [[f32; 4]],
+    ) -> Result<(), MeshError> {
+        let base = &self.base.corners.0;
+        expect("corners", base.len(), mesh.corner_count())?;
+        expect("corners", base.len(), corners.len())?;
         expect("vertices", self.vertex_count, mesh.vertex_count())?;
-        out.0.resize(mesh.corner_count(), [0.0; 4]);
-        self.planned.evaluate(mesh, (&self.options, &self.base.corners), scratch, out);
+        self.planned.evaluate(mesh, (&self.options, base), scratch, corners);
         Ok(())
     }
 

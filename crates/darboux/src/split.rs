@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::{Convention, CornerTangents, Indices, Mesh, MeshError};
+use crate::{Convention, CornerTangentsRef, Indices, Mesh, MeshError};
 
 /// An indexed mesh's vertices after splitting. The old vertices come first, in their old places.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -21,7 +21,10 @@ pub struct VertexSplit {
 /// One vertex per distinct pair of old vertex and tangent (all four floats compared as bits). Old vertices keep their number;
 /// further ones are appended in the order of the corners that ask for them. The index list keeps its length and order.
 /// Errors: tangents of another number of corners.
-pub fn split_vertices(mesh: &Mesh<'_>, corners: &CornerTangents) -> Result<VertexSplit, MeshError> {
+pub fn split_vertices<'a>(
+    mesh: &Mesh<'_>,
+    corners: impl Into<CornerTangentsRef<'a>>,
+) -> Result<VertexSplit, MeshError> {
     let mut splitter = Splitter::new(mesh.vertex_count());
     let indices = splitter.add(mesh, corners)?;
     let (tangent_of_vertex, source_of_vertex) = splitter.finish();
@@ -65,22 +68,26 @@ impl Splitter {
     /// Gives every corner of `mesh` its vertex: the new index list.
     ///
     /// Errors: tangents of another number of corners, a mesh over another number of vertices.
-    pub fn add(&mut self, mesh: &Mesh<'_>, corners: &CornerTangents) -> Result<Vec<u32>, MeshError> {
+    pub fn add<'a>(
+        &mut self,
+        mesh: &Mesh<'_>,
+        corners: impl Into<CornerTangentsRef<'a>>,
+    ) -> Result<Vec<u32>, MeshError> {
         let old = |corner| mesh.vertex_of_corner(corner) as u32;
         Ok(self.add_changes(mesh, corners)?.unwrap_or_else(|| (0..mesh.corner_count()).map(old).collect()))
     }
 
     /// As [`Splitter::add`], but none where the old index list serves.
-    pub fn add_changes(
+    pub fn add_changes<'a>(
         &mut self,
         mesh: &Mesh<'_>,
-        corners: &CornerTangents,
+        corners: impl Into<CornerTangentsRef<'a>>,
     ) -> Result<Option<Vec<u32>>, MeshError> {
-        expect("corners", mesh.corner_count(), corners.len())?;
+        let CornerTangentsRef(tangents) = corners.into();
+        expect("corners", mesh.corner_count(), tangents.len())?;
         expect("vertices", self.old_count, mesh.vertex_count())?;
-        let tangents = corners.per_corner();
         Ok(match mesh.indices() {
-            Indices::Unindexed => self.changes(0..corners.len() as u32, tangents),
+            Indices::Unindexed => self.changes(0..tangents.len() as u32, tangents),
             Indices::U16(list) => self.changes(list.iter().map(|&index| index.into()), tangents),
             Indices::U32(list) => self.changes(list.iter().copied(), tangents),
         })
@@ -172,6 +179,7 @@ pub(crate) fn expect(what: &'static str, expected: usize, found: usize) -> Resul
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::CornerTangents;
 
     /// The shortest code for the same: the first tangent of a vertex stays, further ones are appended as they come.
     fn naive(old: &[u32], tangents: &[[f32; 4]], vertex_count: usize) -> (Vec<u32>, Vec<u32>) {

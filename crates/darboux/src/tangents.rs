@@ -30,13 +30,15 @@ mod subgroups;
 mod sums;
 
 use crate::math::cosine_of_degrees;
-use crate::{CornerFrames, CornerTangents, Mesh};
+use crate::split::expect;
+use crate::{CornerFrames, CornerTangents, Frame, Mesh, MeshError};
 
 pub use fans::WidthLimit;
 use fans::{Fans, Width};
 pub use method::Method;
 pub(crate) use planned::Planned;
 pub use report::Report;
+use sides::Output;
 use sums::Memory;
 
 /// How faithfully defects of the MikkTSpace reference are kept.
@@ -122,21 +124,36 @@ pub fn generate_tangents_into(
     scratch: &mut Scratch,
     out: &mut Tangents,
 ) {
+    out.corners.0.resize(mesh.corner_count(), [0.0; 4]);
+    out.report = run(mesh, options, scratch, &mut out.corners.0);
+}
+
+/// As [`generate_tangents_into`], into an array of the caller's, for bindings and buffers that are not a `Vec`.
+///
+/// `corners`: receives one tangent per corner, in corner order, which is not vertex order. Errors: an array of another length.
+pub fn write_tangents(
+    mesh: &Mesh<'_>,
+    options: &TangentOptions,
+    scratch: &mut Scratch,
+    corners: &mut [[f32; 4]],
+) -> Result<Report, MeshError> {
+    expect("corners", mesh.corner_count(), corners.len())?;
+    Ok(run(mesh, options, scratch, corners))
+}
+
+fn run(mesh: &Mesh<'_>, options: &TangentOptions, scratch: &mut Scratch, out: &mut [[f32; 4]]) -> Report {
     let width = Width::widest(scratch.width_limit);
     let applies = options.method == Method::MikkTSpace && cosine_of_degrees(options.threshold) == -1.0;
-    if applies {
-        out.corners.0.resize(mesh.corner_count(), [0.0; 4]);
-    }
-    if applies && scratch.fans.run(mesh, options.mode, width, &mut out.corners.0) {
-        local::decide(mesh, options, &scratch.fans, out);
+    if applies && scratch.fans.run(mesh, options.mode, width, out) {
+        local::decide(mesh, options, &scratch.fans, out)
     } else {
-        out.report = method::run(mesh, options, &mut scratch.sums, &mut out.corners.0);
+        method::run(mesh, options, &mut scratch.sums, out)
     }
 }
 
 /// Computes the whole frame of every corner: tangent, bitangent, magnitudes, sign.
 pub fn generate_frames(mesh: &Mesh<'_>, options: &TangentOptions) -> Frames {
-    let mut corners = Vec::new();
+    let mut corners = vec![Frame::NONE; mesh.corner_count()];
     let report = method::run(mesh, options, &mut Memory::default(), &mut corners);
     Frames { corners: CornerFrames(corners), report }
 }

@@ -26,7 +26,7 @@ use super::sides::{Output, across};
 const NONE: u32 = u32::MAX;
 
 /// The frame of every corner's group.
-pub(super) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut Vec<O>) -> Report {
+pub(super) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut [O]) -> Report {
     let (flat, shape) = (Flat::new(mesh), Shape::welded(mesh));
     let triangulation = triangulate(mesh);
     let good = &triangulation.good;
@@ -249,10 +249,9 @@ fn to_corners<O: Output>(
     (groups, frames): (&Groups, &[GroupFrame]),
     preserves: &[Option<bool>],
     mode: Mode,
-    corners: &mut Vec<O>,
+    corners: &mut [O],
 ) -> usize {
     let mut repaired_corners = 0;
-    corners.reserve(flat.vertex_of_corner.len());
     for (face, &preserves) in preserves.iter().enumerate() {
         let range = flat.corners(face);
         let count =
@@ -267,11 +266,8 @@ fn to_corners<O: Output>(
             let repaired = group.is_none_or(|group| group.repaired);
             repaired_corners += usize::from(repaired);
             let left_out = repaired && mode == Mode::Reference;
-            corners.push(O::from_frame(&if left_out {
-                Frame { sign: frame.sign, ..Frame::NONE }
-            } else {
-                frame
-            }));
+            corners[corner] =
+                O::from_frame(&if left_out { Frame { sign: frame.sign, ..Frame::NONE } } else { frame });
         }
     }
     repaired_corners

@@ -10,7 +10,7 @@ use super::Report;
 use super::flat::Flat;
 use super::repair::{direction, in_plane, perpendicular, unit};
 use super::seams::{count_mirrored_edges, count_split_vertices, survey, vertices_of_both};
-use super::sides::{Output, across};
+use super::sides::{Output, across, fill};
 use super::sums::{Derivatives, Orientation, is_degenerate};
 
 /// What the triangles of one face add up to.
@@ -25,22 +25,22 @@ struct Face {
 }
 
 /// The frame of every face, at each of its corners.
-pub(super) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut Vec<O>) -> Report {
+pub(super) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut [O]) -> Report {
     let flat = Flat::new(mesh);
     let mut report = survey(mesh, &flat);
     let faces = add_up(&flat, &mut report);
-    corners.reserve(flat.vertex_of_corner.len());
     let mut orientations = Vec::with_capacity(faces.len());
     for (number, face) in faces.iter().enumerate() {
         let frame = face.frame();
         orientations.push(frame.map_or(Orientation::None, |frame| Orientation::of(frame.sign)));
         let vertices = &flat.vertex_of_corner[flat.corners(number)];
         report.repaired_corners += if frame.is_some() { 0 } else { vertices.len() };
-        corners.extend(vertices.iter().map(|&v| match (frame, mode) {
+        let of_vertex = |&v: &u32| match (frame, mode) {
             (Some(frame), _) => O::from_frame(&frame),
             (None, Mode::Reference) => O::NONE,
             (None, _) => O::from_frame(&face.replacement(flat.normals[v as usize])),
-        }));
+        };
+        fill(&mut corners[flat.corners(number)], vertices.iter().map(of_vertex));
     }
     if let Some(of_both) = vertices_of_both(&flat, &orientations) {
         report.mirrored_edges = count_mirrored_edges(&flat, &orientations, &of_both);

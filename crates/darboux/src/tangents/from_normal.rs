@@ -10,11 +10,11 @@ use super::Report;
 use super::flat::Flat;
 use super::repair::{direction, perpendicular};
 use super::seams::survey;
-use super::sides::{Output, across};
+use super::sides::{Output, across, fill};
 use super::sums::is_degenerate;
 
 /// The frame of every vertex, at each of its corners.
-pub(super) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut Vec<O>) -> Report {
+pub(super) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut [O]) -> Report {
     let flat = Flat::new(mesh);
     let mut report = survey(mesh, &flat);
     let frame = |&normal: &V3| match (direction(normal), mode) {
@@ -30,6 +30,6 @@ pub(super) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut Vec<O>) 
     report.repaired_corners = flat.vertex_of_corner.iter().filter(|&&v| !has_normal[v as usize]).count();
     report.degenerate_triangles =
         (0..flat.triangles().len()).filter(|&t| is_degenerate(flat.values(t).0)).count();
-    corners.extend(flat.vertex_of_corner.iter().map(|&v| of_vertex[v as usize]));
+    fill(corners, flat.vertex_of_corner.iter().map(|&v| of_vertex[v as usize]));
     report
 }

@@ -1,11 +1,11 @@
 //! The general path for part of a mesh: the vertices that whole fans leave undecided, with all triangles around them.
 
-use crate::{CornerTangents, Frame, Mesh};
+use crate::{Frame, Mesh};
 
 use super::evaluate::DEFAULT_FRAME;
 use super::fans::{Fans, UNDECIDED};
 use super::mikktspace::{Part, Topology};
-use super::{Report, TangentOptions, Tangents};
+use super::{Report, TangentOptions};
 
 /// The triangles with an undecided vertex, in their order, as a mesh of their own.
 ///
@@ -27,7 +27,7 @@ impl UndecidedPart {
         mesh: &Mesh<'_>,
         options: &TangentOptions,
         fans: &Fans,
-        tangents: &CornerTangents,
+        tangents: &[[f32; 4]],
     ) -> Option<Self> {
         let triangles = fans.undecided();
         if triangles.is_empty() {
@@ -36,7 +36,7 @@ impl UndecidedPart {
         let corners: Vec<u32> = triangles.iter().flat_map(|&t| 3 * t..3 * t + 3).collect();
         let vertex = |&corner: &u32| mesh.vertex_of_corner(corner as usize) as u32;
         let indices: Vec<u32> = corners.iter().map(vertex).collect();
-        let is_undecided = |&corner: &u32| tangents.0[corner as usize][3] == UNDECIDED;
+        let is_undecided = |&corner: &u32| tangents[corner as usize][3] == UNDECIDED;
         let counts: Vec<bool> = corners.iter().map(is_undecided).collect();
         let names = fans.names(mesh, triangles);
         let last_stretches = stretches_within(triangles, fans.last_stretches());
@@ -46,7 +46,7 @@ impl UndecidedPart {
     }
 
     /// Writes the tangents of the undecided vertices; `out` has those of all others. Returns the report of the part.
-    pub fn decide(&self, mesh: &Mesh<'_>, out: &mut CornerTangents) -> Report {
+    pub fn decide(&self, mesh: &Mesh<'_>, out: &mut [[f32; 4]]) -> Report {
         let part = mesh.with_triangles(&self.indices);
         let (frames, report) = self.topology.frames_of_part(&part, self.known(out));
         self.write(&frames, out);
@@ -54,38 +54,38 @@ impl UndecidedPart {
     }
 
     /// As [`UndecidedPart::decide`] for a mesh whose vertices have moved since, with the signs of `base`.
-    pub fn decide_moved(&self, mesh: &Mesh<'_>, base: &CornerTangents, out: &mut CornerTangents) {
+    pub fn decide_moved(&self, mesh: &Mesh<'_>, base: &[[f32; 4]], out: &mut [[f32; 4]]) {
         let part = mesh.with_triangles(&self.indices);
         let (frames, _) = self.topology.frames_of_moved(&part, self.known(out));
         self.write(&frames, out);
         for corner in self.corners.iter().map(|&corner| corner as usize) {
-            out.0[corner][3] = base.0[corner][3];
+            out[corner][3] = base[corner][3];
         }
     }
 
     /// What is known of the part's corners, of which nothing reads the bitangent and the magnitudes; what no group reaches has the
     /// default.
-    fn known(&self, out: &CornerTangents) -> Vec<Frame> {
+    fn known(&self, out: &[[f32; 4]]) -> Vec<Frame> {
         let known = |(&corner, &counts): (&u32, &bool)| {
-            let [x, y, z, sign] = out.0[corner as usize];
+            let [x, y, z, sign] = out[corner as usize];
             if counts { DEFAULT_FRAME } else { Frame { tangent: [x, y, z], sign, ..DEFAULT_FRAME } }
         };
         self.corners.iter().zip(&self.counts).map(known).collect()
     }
 
-    fn write(&self, frames: &[Frame], out: &mut CornerTangents) {
+    fn write(&self, frames: &[Frame], out: &mut [[f32; 4]]) {
         let all = self.corners.iter().zip(frames).zip(&self.counts);
         for ((&corner, frame), _) in all.filter(|(_, counts)| **counts) {
-            out.0[corner as usize] = frame.tangent_and_sign();
+            out[corner as usize] = frame.tangent_and_sign();
         }
     }
 }
 
 /// Decides the undecided vertices in `out`, which has the tangents of all others, and makes the report of the whole mesh.
-pub(super) fn decide(mesh: &Mesh<'_>, options: &TangentOptions, fans: &Fans, out: &mut Tangents) {
-    let part = UndecidedPart::new(mesh, options, fans, &out.corners);
-    out.report = part.map(|part| part.decide(mesh, &mut out.corners)).unwrap_or_default();
-    out.report.triangles = mesh.face_count();
+pub(super) fn decide(mesh: &Mesh<'_>, options: &TangentOptions, fans: &Fans, out: &mut [[f32; 4]]) -> Report {
+    let part = UndecidedPart::new(mesh, options, fans, out);
+    let report = part.map(|part| part.decide(mesh, out)).unwrap_or_default();
+    Report { triangles: mesh.face_count(), ..report }
 }
 
 /// Corners of the mesh as corners of the part that some of its triangles are.

@@ -6,7 +6,7 @@ use super::area::Area;
 use super::average::{Average, gather};
 use super::flat::Flat;
 use super::lengyel::{Lengyel, LengyelPerVertex};
-use super::sides::{Output, finish};
+use super::sides::{Output, fill, finish};
 use super::sums::{Keeps, Memory, Sums, Weighting, accumulate};
 use super::{Report, TangentOptions, angle_area, face, from_normal, mikktspace};
 
@@ -39,19 +39,18 @@ pub enum Method {
     FromNormal,
 }
 
-/// Runs the method of `options`: one output per corner, in the memory of `corners`.
+/// Runs the method of `options`. `corners`: receives one output per corner.
 pub(super) fn run<O: Output>(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
     memory: &mut Memory,
-    corners: &mut Vec<O>,
+    corners: &mut [O],
 ) -> Report {
     let mode = options.mode;
-    corners.clear();
     match options.method {
         Method::MikkTSpace => {
             let (frames, report) = mikktspace::Topology::new(mesh, options).frames(mesh);
-            corners.extend(frames.iter().map(O::from_frame));
+            fill(corners, frames.iter().map(O::from_frame));
             report
         }
         Method::AngleArea => angle_area::run(mesh, mode, corners),
@@ -72,7 +71,7 @@ fn summed<const N: usize, W: Weighting<N>, O: Output>(
     mode: Mode,
     add_up: fn(&Flat<'_>, Sums<N>) -> Sums<N>,
     memory: &mut Memory,
-    corners: &mut Vec<O>,
+    corners: &mut [O],
 ) -> Report
 where
     Memory: Keeps<N>,

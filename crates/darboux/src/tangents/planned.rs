@@ -3,12 +3,12 @@
 use std::sync::OnceLock;
 
 use crate::math::cosine_of_degrees;
-use crate::{CornerTangents, Frame, Mesh};
+use crate::{Frame, Mesh};
 
 use super::fans::{Fans, PlannedFans, Width};
 use super::local::UndecidedPart;
 use super::mikktspace::{Topology, unknown};
-use super::{Method, Scratch, TangentOptions, Tangents, generate_tangents, generate_tangents_into};
+use super::{Method, Scratch, TangentOptions, Tangents, generate_tangents, run};
 
 /// What is known beforehand.
 #[derive(Debug)]
@@ -43,13 +43,13 @@ impl Planned {
         if !applies || !fans.run(mesh, options.mode, width, &mut base.corners.0) {
             let topology = Topology::new(mesh, options);
             let (frames, report) = topology.frames(mesh);
-            write(&frames, &mut base.corners);
+            write(&frames, &mut base.corners.0);
             return (Self::Stages(Box::new(topology)), Tangents { report, ..base });
         }
-        let undecided = UndecidedPart::new(mesh, options, &fans, &base.corners);
-        let fans = PlannedFans::new(mesh, fans, &base.corners);
+        let undecided = UndecidedPart::new(mesh, options, &fans, &base.corners.0);
+        let fans = PlannedFans::new(mesh, fans, &base.corners.0);
         if let Some(part) = &undecided {
-            base.report = part.decide(mesh, &mut base.corners);
+            base.report = part.decide(mesh, &mut base.corners.0);
         }
         base.report.triangles = mesh.face_count();
         let mesh = MeshCopy::new(mesh);
@@ -60,21 +60,19 @@ impl Planned {
     pub fn evaluate(
         &self,
         mesh: &Mesh<'_>,
-        base: (&TangentOptions, &CornerTangents),
+        base: (&TangentOptions, &[[f32; 4]]),
         scratch: &mut Scratch,
-        out: &mut CornerTangents,
+        out: &mut [[f32; 4]],
     ) {
         let (options, signs) = base;
         match self {
             Self::Fans(decided) => return decided.evaluate(mesh, base, scratch, out),
             Self::Stages(topology) => write(&topology.frames_of_moved(mesh, unknown(mesh)).0, out),
             Self::Nothing => {
-                let mut tangents = Tangents { corners: std::mem::take(out), ..Tangents::default() };
-                generate_tangents_into(mesh, options, scratch, &mut tangents);
-                *out = tangents.corners;
+                run(mesh, options, scratch, out);
             }
         }
-        out.take_signs(signs);
+        take_signs(signs, out);
     }
 }
 
@@ -82,12 +80,12 @@ impl Decided {
     fn evaluate(
         &self,
         mesh: &Mesh<'_>,
-        (options, base): (&TangentOptions, &CornerTangents),
+        (options, base): (&TangentOptions, &[[f32; 4]]),
         scratch: &mut Scratch,
-        out: &mut CornerTangents,
+        out: &mut [[f32; 4]],
     ) {
         let width = Width::widest(scratch.width_limit);
-        if scratch.fans.run_planned(&self.fans, mesh, width, &mut out.0) {
+        if scratch.fans.run_planned(&self.fans, mesh, width, out) {
             if let Some(part) = &self.undecided {
                 part.decide_moved(mesh, base, out);
             }
@@ -95,13 +93,19 @@ impl Decided {
         }
         let stages = self.stages.get_or_init(|| Topology::new(&self.mesh.view(), options));
         write(&stages.frames_of_moved(mesh, unknown(mesh)).0, out);
-        out.take_signs(base);
+        take_signs(base, out);
     }
 }
 
-fn write(frames: &[Frame], out: &mut CornerTangents) {
-    for (tangent, frame) in out.0.iter_mut().zip(frames) {
+fn write(frames: &[Frame], out: &mut [[f32; 4]]) {
+    for (tangent, frame) in out.iter_mut().zip(frames) {
         *tangent = frame.tangent_and_sign();
+    }
+}
+
+fn take_signs(others: &[[f32; 4]], out: &mut [[f32; 4]]) {
+    for (tangent, other) in out.iter_mut().zip(others) {
+        tangent[3] = other[3];
     }
 }
 

@@ -50,6 +50,14 @@ impl Output for [f32; 4] {
     }
 }
 
+/// Writes one output after the other.
+#[inline(always)]
+pub(super) fn fill<O: Output>(out: &mut [O], values: impl Iterator<Item = O>) {
+    for (out, value) in out.iter_mut().zip(values) {
+        *out = value;
+    }
+}
+
 /// A vertex and which of its sides: 0 keeps the UV orientation, 1 mirrors it.
 type Side = (u32, usize);
 
@@ -59,7 +67,7 @@ pub(super) fn finish<const N: usize, W: Weighting<N>, O: Output>(
     flat: &Flat<'_>,
     sums: &mut Sums<N>,
     mode: Mode,
-    corners: &mut Vec<O>,
+    corners: &mut [O],
 ) -> Report {
     let mut report = survey(mesh, flat);
     report.degenerate_triangles = sums.degenerate_triangles;
@@ -307,15 +315,15 @@ fn to_corners<const N: usize, W: Weighting<N>, O: Output>(
     flat: &Flat<'_>,
     orientation_of_face: &[Orientation],
     frames: &[Vec<O>; 2],
-    corners: &mut Vec<O>,
+    corners: &mut [O],
 ) {
     if frames[1].is_empty() {
-        corners.extend(flat.vertex_of_corner.iter().map(|&v| frames[0][v as usize]));
+        fill(corners, flat.vertex_of_corner.iter().map(|&v| frames[0][v as usize]));
         return;
     }
-    corners.reserve(flat.vertex_of_corner.len());
     for (face, &orientation) in orientation_of_face.iter().enumerate() {
         let side = &frames[side_of::<N, W>(orientation)];
-        corners.extend(flat.vertex_of_corner[flat.corners(face)].iter().map(|&v| side[v as usize]));
+        let range = flat.corners(face);
+        fill(&mut corners[range.clone()], flat.vertex_of_corner[range].iter().map(|&v| side[v as usize]));
     }
 }

@@ -1,6 +1,6 @@
 //! A run whose vertices are welded and decided beforehand: sums alone are left.
 
-use crate::{CornerTangents, Mesh};
+use crate::Mesh;
 
 use super::last_run::TailCells;
 use super::source::Identity;
@@ -20,11 +20,11 @@ pub(crate) struct PlannedFans {
 
 impl PlannedFans {
     /// Of the mesh that `fans` has just run on, with the tangents that it wrote.
-    pub fn new(mesh: &Mesh<'_>, fans: Fans, tangents: &CornerTangents) -> Self {
+    pub fn new(mesh: &Mesh<'_>, fans: Fans, tangents: &[[f32; 4]]) -> Self {
         let Fans { weld, windows, .. } = fans;
         let identity = weld.identity();
         let mut signs = vec![UNDECIDED; weld.count];
-        for (corner, tangent) in (0..).zip(&tangents.0) {
+        for (corner, tangent) in (0..).zip(tangents) {
             signs[identity.vertex(mesh, corner) as usize] = tangent[3];
         }
         Self { weld, windows, signs }
