@@ -58,6 +58,8 @@ pub use normals::{
 pub use plan::Plan;
 pub use split::{Splitter, VertexSplit, split_vertices};
 pub use tangents::naive;
+#[doc(hidden)]
+pub use tangents::stages;
 pub use tangents::{
     Frames, Method, Mode, Report, Scratch, TangentOptions, Tangents, WidthLimit, generate_frames,
     generate_tangents, generate_tangents_into, write_tangents,

@@ -26,6 +26,8 @@ mod seams;
 mod shape;
 mod sides;
 mod signs;
+#[doc(hidden)]
+pub mod stages;
 mod subgroups;
 mod sums;
 

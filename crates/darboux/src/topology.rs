@@ -9,7 +9,7 @@ use crate::last_edges::{NamedTriangles, last_stretches};
 use crate::triangles::Triangles;
 
 /// No neighbour.
-pub(crate) const NONE: u32 = u32::MAX;
+pub const NONE: u32 = u32::MAX;
 
 /// How far edges are put in order before they are matched.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

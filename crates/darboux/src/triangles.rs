@@ -6,7 +6,7 @@ use crate::{Faces, Mesh};
 
 /// Triangles as parallel arrays.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Triangles {
+pub struct Triangles {
     /// The corner of the mesh at each of the three corners.
     pub corners: Vec<[u32; 3]>,
     /// The welded vertex there, named by the corner that represents it.
@@ -16,7 +16,7 @@ pub(crate) struct Triangles {
 }
 
 impl Triangles {
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.face.len()
     }
 
@@ -39,13 +39,14 @@ impl Triangles {
 
 /// The triangles of a mesh, welded.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Triangulation {
+pub struct Triangulation {
     /// Triangles with three distinct positions.
     pub good: Triangles,
     /// Triangles with two equal positions.
     pub degenerate: Triangles,
-    /// Faces of other than 3 or 4 corners, and the corners that they hold.
+    /// The number of faces of other than 3 or 4 corners.
     pub unsupported_faces: usize,
+    /// These corners.
     pub unsupported_corners: Vec<u32>,
 }
 

@@ -10,40 +10,67 @@ use crate::triangles::{Triangles, Triangulation};
 use super::evaluate::RawFrames;
 use super::shape::Shape;
 
-/// Writes the corners that only degenerate triangles have, and returns them, ascending.
+/// A corner that only degenerate triangles have, and where its frame comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Copied {
+    /// The corner.
+    pub corner: u32,
+    /// Good corners.
+    pub from: From,
+}
+
+/// Which good corner is copied.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum From {
+    /// The first one at the same welded vertex.
+    Vertex(u32),
+    /// Of the good half of the same quad: the first one with the same position, if there is one.
+    Half([u32; 3]),
+}
+
+/// What is copied where, in order.
 ///
 /// A corner copies the first good corner at the same welded vertex, if there is one. The missing corner of a quad with one good
 /// half copies the first corner of that half that has the same position.
-pub(crate) fn fill_degenerate(
-    triangulation: &Triangulation,
-    shape: &Shape<'_>,
-    raw: &mut RawFrames,
-) -> Vec<u32> {
+pub fn copies(triangulation: &Triangulation) -> Vec<Copied> {
     let Triangulation { good, degenerate, .. } = triangulation;
-    let mut copied = Vec::new();
+    let mut copies = Vec::new();
     if degenerate.len() == 0 {
-        return copied;
+        return copies;
     }
     let half_of_good_quad: Vec<bool> =
         degenerate.face.iter().map(|face| good.face.binary_search(face).is_ok()).collect();
     let first_good = first_good_corners(good, degenerate);
     for t in (0..degenerate.len()).filter(|&t| !half_of_good_quad[t]) {
         for (&corner, vertex) in degenerate.corners[t].iter().zip(&degenerate.vertices[t]) {
-            if let Some(&source) = first_good.get(vertex) {
-                copy(raw, source, corner);
-                copied.push(corner);
-            }
+            copies.extend(first_good.get(vertex).map(|&good| Copied { corner, from: From::Vertex(good) }));
         }
     }
     for t in (0..degenerate.len()).filter(|&t| half_of_good_quad[t]) {
         let Ok(half) = good.face.binary_search(&degenerate.face[t]) else { continue };
         let present = good.corners[half];
-        for corner in degenerate.corners[t].into_iter().filter(|corner| !present.contains(corner)) {
-            let at_same_place = |source: &u32| equal(shape.position(*source), shape.position(corner));
-            if let Some(source) = present.into_iter().find(at_same_place) {
-                copy(raw, source, corner);
-                copied.push(corner);
-            }
+        let missing = degenerate.corners[t].into_iter().filter(|corner| !present.contains(corner));
+        copies.extend(missing.map(|corner| Copied { corner, from: From::Half(present) }));
+    }
+    copies
+}
+
+/// Writes the corners that only degenerate triangles have, and returns them, ascending.
+pub(crate) fn fill_degenerate(
+    triangulation: &Triangulation,
+    shape: &Shape<'_>,
+    raw: &mut RawFrames,
+) -> Vec<u32> {
+    let mut copied = Vec::new();
+    for Copied { corner, from } in copies(triangulation) {
+        let at_same_place = |source: &u32| equal(shape.position(*source), shape.position(corner));
+        let source = match from {
+            From::Vertex(good) => Some(good),
+            From::Half(present) => present.into_iter().find(at_same_place),
+        };
+        if let Some(source) = source {
+            copy(raw, source, corner);
+            copied.push(corner);
         }
     }
     copied.sort_unstable();

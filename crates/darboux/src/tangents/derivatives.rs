@@ -9,7 +9,7 @@ use super::shape::Shape;
 
 /// One triangle's derivatives.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Derivative {
+pub struct Derivative {
     /// The direction of dP/du, unit length but on UV-degenerate triangles.
     pub s: V3,
     /// The direction of dP/dv, likewise.

@@ -9,7 +9,7 @@ use super::derivatives::Derivative;
 
 /// All groups, in the order of the triangles that seeded them.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Groups {
+pub struct Groups {
     members: Vec<u32>,
     ends: Vec<u32>,
     preserves: Vec<bool>,
@@ -17,7 +17,7 @@ pub(crate) struct Groups {
 
 impl Groups {
     /// The number of groups.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.ends.len()
     }
 
@@ -25,6 +25,11 @@ impl Groups {
     pub fn members(&self, group: usize) -> &[u32] {
         let start = if group == 0 { 0 } else { self.ends[group - 1] };
         &self.members[start as usize..self.ends[group] as usize]
+    }
+
+    /// Where the members of each group end.
+    pub fn ends(&self) -> &[u32] {
+        &self.ends
     }
 
     /// The orientation of a group's triangles.

@@ -42,9 +42,8 @@ pub(crate) struct Part<'a> {
 impl Topology {
     /// Welds, finds neighbours and groups.
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions) -> Self {
-        let order = if options.mode == Mode::Corrected { EdgeOrder::Complete } else { EdgeOrder::Reference };
         let triangulation = triangulate(mesh);
-        let neighbours = neighbours(&triangulation.good, order);
+        let neighbours = neighbours(&triangulation.good, edge_order(options));
         Self::of(mesh, triangulation, &neighbours, |_| true, options)
     }
 
@@ -66,8 +65,7 @@ impl Topology {
     ) -> Self {
         let shape = Shape::welded(mesh);
         let good = &triangulation.good;
-        let mut derivatives = derivatives(good, &shape);
-        agree_in_quads(good, &shape, &mut derivatives);
+        let mut derivatives = agreed_derivatives(good, &shape);
         let uv_degenerate = derivatives.iter().filter(|derivative| derivative.any).count();
         let mirrored_edges = count_mirrored_edges(neighbours, &derivatives);
         let groups = group(good, neighbours, counts, &mut derivatives);
@@ -154,6 +152,18 @@ impl Topology {
             ..Report::default()
         }
     }
+}
+
+/// How far `options` has edges put in order.
+pub(super) fn edge_order(options: &TangentOptions) -> EdgeOrder {
+    if options.mode == Mode::Corrected { EdgeOrder::Complete } else { EdgeOrder::Reference }
+}
+
+/// The derivatives of every triangle, with one orientation per quad.
+pub(super) fn agreed_derivatives(good: &Triangles, shape: &Shape<'_>) -> Vec<Derivative> {
+    let mut derivatives = derivatives(good, shape);
+    agree_in_quads(good, shape, &mut derivatives);
+    derivatives
 }
 
 /// What corners have before anything is known.
