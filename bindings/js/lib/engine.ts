@@ -3,6 +3,7 @@
 /** What every module has: memory, and places for a call's arrays in it. */
 export interface Exports extends WebAssembly.Exports {
   memory: WebAssembly.Memory;
+  begin(): void;
   positions(vertices: number): number;
   normals(vertices: number): number;
   uvs(vertices: number): number;
@@ -13,12 +14,16 @@ export interface Exports extends WebAssembly.Exports {
 /** Memory that stays with a module between calls, in bytes, so that the next need not ask for it again. */
 const KEPT = 2 ** 28;
 
+/** Makes a call. Errors: not ready yet, not enough memory. */
+export type Call<E extends Exports> = <R>(work: (exports: E) => R) => R;
+
 /** A module that loads. */
 export interface Engine<E extends Exports> {
   /** Resolves when calls may begin. */
   ready: Promise<void>;
-  /** Makes a call. Errors: not ready yet, not enough memory. */
-  call<R>(work: (exports: E) => R): R;
+  call: Call<E>;
+  /** Calls to an instance of their own, which keeps its memory and goes with them. Errors: not ready yet. */
+  own(): Call<E>;
 }
 
 /** Compiles what build.mjs deflated. The stream is read piece by piece: `Response` would load an HTTP client in Node.js. */
@@ -42,25 +47,50 @@ export function load<E extends Exports>(
     exports = (await WebAssembly.instantiate(module)).exports as E;
   }
 
-  function call<R>(work: (exports: E) => R): R {
+  const instance = () => new WebAssembly.Instance(module).exports as E;
+
+  function shared(): E {
     if (!exports) throw new Error('darboux has not loaded yet; await ready before the first call');
+    return exports;
+  }
+
+  function call<R>(work: (exports: E) => R): R {
+    const exported = shared();
     let keeps = false;
     try {
-      const result = work(exports);
+      const result = work(exported);
       keeps = true;
       return result;
     } catch (error) {
-      keeps = !(error instanceof WebAssembly.RuntimeError);
-      if (keeps) throw error;
-      throw new RangeError('the mesh needs more memory than WebAssembly can have; split it', { cause: error });
+      keeps = !isTrap(error);
+      throw keeps ? error : outOfMemory(error);
     } finally {
       // Memory of WebAssembly never shrinks, and nothing is known of it after a call that ended within.
-      if (!keeps || exports.memory.buffer.byteLength > KEPT) exports = new WebAssembly.Instance(module).exports as E;
+      if (!keeps || exported.memory.buffer.byteLength > KEPT) exports = instance();
     }
+  }
+
+  function own(): Call<E> {
+    shared();
+    const mine = instance();
+    let lost: RangeError | undefined;
+    return (work) => {
+      if (lost) throw lost;
+      try {
+        return work(mine);
+      } catch (error) {
+        if (isTrap(error)) lost = outOfMemory(error);
+        throw lost ?? error;
+      }
+    };
   }
 
   const ready = start();
   // Who never calls need not hear that nothing loads; who awaits does.
   ready.catch(() => {});
-  return { ready, call };
+  return { ready, call, own };
 }
+
+const isTrap = (error: unknown) => error instanceof WebAssembly.RuntimeError;
+
+const outOfMemory = (cause: unknown) => new RangeError('the mesh needs more memory than WebAssembly can have; split it', { cause });

@@ -80,6 +80,7 @@ function checkFaces(faces: Faces, corners: number): void {
 export function write(exports: Exports, mesh: Mesh): void {
   const { positions, attributes, vertices, indices, corners } = mesh;
   const faces = mesh.faces === 4 ? new Uint32Array(corners / 4).fill(4) : mesh.faces;
+  exports.begin();
   const floats: Placed<Float32Array>[] = [[positions, exports.positions(vertices)]];
   for (const [name, array] of attributes) floats.push([array, exports[name](vertices)]);
   const integers: Placed<Indices>[] = [];

@@ -39,6 +39,47 @@ export interface TangentOptions extends MikkTSpaceOptions {
   method?: Method;
 }
 
+/** What a run met. Quads count as the two triangles that they are split into. */
+export interface Report {
+  triangles: number;
+  /** Faces of other than 3 or 4 corners. */
+  unsupportedFaces: number;
+  /** Triangles with two equal positions. */
+  degenerateTriangles: number;
+  /** Triangles, not degenerate, whose UVs span no area. */
+  uvDegenerateTriangles: number;
+  /** Corners with a NaN or an infinity in position, normal or UV. */
+  nonFiniteCorners: number;
+  /** Corners whose reference tangent is absent or unusable; replaced, but for the mode 'reference'. */
+  repairedCorners: number;
+  /** Faces whose corners carry both signs; the mode 'corrected' gave them one. */
+  mixedSignFaces: number;
+  /** Edges between two triangles of opposite UV orientation. */
+  mirroredEdges: number;
+  /** Vertices that need more than one tangent: what splitVertices splits. */
+  splitVertices: number;
+  /** Vertices at which both UV orientations share one tangent: seams that 'lengyel-per-vertex' breaks. */
+  mergedVertices: number;
+}
+
+/** Tangents of corners and the report of the run. */
+export interface ReportedTangents {
+  /** 4 per corner. */
+  tangents: Float32Array<ArrayBuffer>;
+  report: Report;
+}
+
+/** The whole frame of every corner, and the report of the run. */
+export interface Frames {
+  /** 4 per corner: the direction of increasing u, unit, and the sign w, -1 where the UV map mirrors. */
+  tangents: Float32Array<ArrayBuffer>;
+  /** 3 per corner: the direction of increasing v, unit, perpendicular to the normal but not always to the tangent. */
+  bitangents: Float32Array<ArrayBuffer>;
+  /** 2 per corner: world units per unit of u and per unit of v. */
+  magnitudes: Float32Array<ArrayBuffer>;
+  report: Report;
+}
+
 /** An indexed mesh's vertices after splitting. */
 export interface VertexSplit {
   /** 4 per new vertex; (1, 0, 0, 1) where no corner uses it. */

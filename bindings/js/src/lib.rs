@@ -7,9 +7,15 @@
 #[cfg(feature = "full")]
 mod encode;
 #[cfg(feature = "full")]
+mod frames;
+#[cfg(feature = "full")]
 mod measure;
 #[cfg(feature = "full")]
 mod normals;
+#[cfg(feature = "full")]
+mod plan;
+#[cfg(feature = "full")]
+mod report;
 mod room;
 #[cfg(feature = "full")]
 mod split;

@@ -58,14 +58,18 @@ pub fn with<R>(use_it: impl FnOnce(&mut Room) -> R) -> R {
     ROOM.with_borrow_mut(use_it)
 }
 
-/// Begins a mesh, without indices, of triangles: where its positions go.
+/// Begins a mesh, without indices, of triangles.
 #[unsafe(no_mangle)]
-pub extern "C" fn positions(vertices: usize) -> *mut f32 {
+pub extern "C" fn begin() {
     with(|room| {
         room.is_indexed = false;
         room.face_sizes.clear();
-        sized(&mut room.positions, 3 * vertices)
-    })
+    });
+}
+
+#[unsafe(no_mangle)]
+pub extern "C" fn positions(vertices: usize) -> *mut f32 {
+    with(|room| sized(&mut room.positions, 3 * vertices))
 }
 
 #[unsafe(no_mangle)]

@@ -10,12 +10,7 @@ use crate::room;
 /// lists of `lib`.
 #[unsafe(no_mangle)]
 pub extern "C" fn generate_tangents(mode: u32, threshold: f32, method: u32) -> *const f32 {
-    let mode = match mode {
-        0 => Mode::Reference,
-        1 => Mode::Repaired,
-        _ => Mode::Corrected,
-    };
-    let options = TangentOptions { method: self::method(method), mode, threshold };
+    let options = options(mode, threshold, method);
     room::with(|room| {
         let (mut tangents, mut scratch) = (take(&mut room.tangents), take(&mut room.scratch));
         let Some(mesh) = room.mesh() else { return std::ptr::null() };
@@ -23,6 +18,16 @@ pub extern "C" fn generate_tangents(mode: u32, threshold: f32, method: u32) -> *
         (room.tangents, room.scratch) = (tangents, scratch);
         room.tangents.corners.per_corner().as_ptr().cast()
     })
+}
+
+/// Choices as numbers.
+pub fn options(mode: u32, threshold: f32, method: u32) -> TangentOptions {
+    let mode = match mode {
+        0 => Mode::Reference,
+        1 => Mode::Repaired,
+        _ => Mode::Corrected,
+    };
+    TangentOptions { method: self::method(method), mode, threshold }
 }
 
 #[cfg(feature = "full")]

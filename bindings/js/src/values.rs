@@ -1,7 +1,8 @@
 //! What calls take and give beyond a mesh and its tangents.
 
-use darboux::VertexSplit;
+use darboux::{Plan, VertexSplit};
 
+use crate::frames::Frames;
 use crate::room::{sized, with};
 
 #[derive(Default)]
@@ -15,6 +16,8 @@ pub struct Values {
     /// Results that are floats, 4 or 3 per corner.
     pub floats: Vec<f32>,
     pub split: VertexSplit,
+    pub frames: Frames,
+    pub plan: Option<Plan>,
     pub measures: Vec<f64>,
 }
 

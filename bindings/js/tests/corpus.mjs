@@ -13,7 +13,7 @@ export const corpus = lines.map((line) => {
     name: `${read.name}, ${read.mode}, ${read.threshold}`,
     arrays: [floats(read.positions), floats(read.normals), floats(read.uvs), Uint32Array.from(read.indices)],
     options: { mode: read.mode, threshold: read.threshold, faces: Uint32Array.from(read.faces) },
-    answer: read,
+    answer: { ...read, moved: floats(read.moved) },
   };
 });
 

@@ -11,7 +11,7 @@ const METHODS = ['mikktspace', 'angle-area', 'lengyel', 'lengyel-per-vertex', 'a
 const bend = () => [Float32Array.of(0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 1, 0, -1, 1, 1, -1), Uint16Array.of(0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2)];
 
 for (const [name, darboux] of Object.entries(forms)) {
-  const { generateTangents, splitVertices, generateNormals, measureTangents, encodeTangents, decodeTangents } = darboux;
+  const { generateTangents, generateFrames, Plan, splitVertices, generateNormals, measureTangents, encodeTangents, decodeTangents } = darboux;
 
   test(`${name}: tangents and vertices of the corpus have the bits of the native library`, () => {
     for (const { name, arrays, options, answer } of corpus) {
@@ -22,6 +22,41 @@ for (const [name, darboux] of Object.entries(forms)) {
       assert.deepEqual(Array.from(split.sourceOfVertex), answer.split_sources, name);
       assert.deepEqual(bits(split.tangentOfVertex), native(answer.split_tangents), name);
     }
+  });
+
+  test(`${name}: frames, plans and every method have the bits of the native library on the corpus`, () => {
+    for (const { name, arrays, options, answer } of corpus) {
+      const frames = generateFrames(...arrays, options);
+      assert.deepEqual(bits(frames.tangents), native(answer.frames), name);
+      assert.deepEqual(bits(frames.bitangents), native(answer.bitangents), name);
+      assert.deepEqual(bits(frames.magnitudes), native(answer.magnitudes), name);
+      const plan = new Plan(...arrays, options);
+      assert.deepEqual(bits(plan.base), native(answer.tangents), name);
+      assert.equal(plan.report.repairedCorners, answer.repaired, name);
+      assert.deepEqual(bits(plan.evaluate(answer.moved, arrays[1])), native(answer.planned), name);
+      const { mode, faces } = options;
+      for (const [method, tangents] of Object.entries(answer.methods)) {
+        assert.deepEqual(bits(generateTangents(...arrays, { method, mode, faces })), native(tangents), `${name}, ${method}`);
+      }
+    }
+  });
+
+  test(`${name}: a report counts`, () => {
+    const [positions, normals, uvs, indices] = square();
+    const { tangents, report } = generateTangents(positions, normals, uvs.map((x) => 0 * x), indices, { returnReport: true });
+    assert.equal(tangents.length, 24);
+    assert.deepEqual([report.triangles, report.uvDegenerateTriangles, report.degenerateTriangles], [2, 2, 0]);
+    assert.equal(generateFrames(...square()).report.triangles, 2);
+  });
+
+  test(`${name}: a plan keeps its groups, and counts what a fresh run would change`, () => {
+    const [positions, normals, uvs, indices] = square();
+    const plan = new Plan(...square());
+    generateTangents(normals, normals, uvs, indices); // other calls do not disturb it
+    const turned = positions.map((_, at) => [-positions[at + 1], positions[at - 1], positions[at]][at % 3]);
+    assert.deepEqual(values(plan.evaluate(turned, normals)), Array.from({ length: 6 }, () => [0, 1, 0, 1]).flat());
+    assert.equal(plan.countRegrouped(turned, normals), 0);
+    assert.throws(() => plan.evaluate(positions.slice(3), normals), /^RangeError: positions has 3 elements but the plan has 4 vertices$/);
   });
 
   test(`${name}: every method gives a square the tangents of its UVs`, () => {

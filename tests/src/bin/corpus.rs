@@ -1,7 +1,20 @@
 //! Writes what the core makes of every specimen, as lines of JSON, for tests of bindings to other languages: floats as their bits.
 
-use darboux::{Mode, TangentOptions, generate_frames, generate_tangents, split_vertices};
+use darboux::{
+    Mesh, Method, Mode, Plan, TangentOptions, Tangents, generate_frames, generate_tangents, split_vertices,
+};
 use darboux_tests::corpus::{Specimen, corpus};
+
+/// The other methods, by their names in languages without enums.
+const METHODS: &[(&str, Method)] = &[
+    ("angle-area", Method::AngleArea),
+    ("lengyel", Method::Lengyel),
+    ("lengyel-per-vertex", Method::LengyelPerVertex),
+    ("average", Method::Average),
+    ("area", Method::Area),
+    ("face", Method::Face),
+    ("from-normal", Method::FromNormal),
+];
 
 fn main() {
     for specimen in corpus() {
@@ -18,8 +31,12 @@ fn main() {
 
 fn line(Specimen { name, mesh, .. }: &Specimen, options: &TangentOptions) -> String {
     let view = mesh.view();
-    let tangents = generate_tangents(&view, options).corners;
+    let Tangents { corners: tangents, report } = generate_tangents(&view, options);
     let frames = generate_frames(&view, options).corners;
+    let moved = moved(&mesh.positions);
+    let plan = Plan::new(&view, options);
+    let moved_view = Mesh::with_faces(&moved, view.normals(), view.uvs(), view.indices(), view.faces());
+    let planned = plan.evaluate(&moved_view.expect("a moved mesh is one")).expect("the same corners");
     let split = split_vertices(&view, &tangents).expect("tangents of the same mesh");
     let mode = format!("{:?}", options.mode).to_lowercase();
     let bitangents: Vec<_> = frames.per_corner().iter().map(|frame| frame.bitangent).collect();
@@ -34,14 +51,33 @@ fn line(Specimen { name, mesh, .. }: &Specimen, options: &TangentOptions) -> Str
         ("indices", format!("{:?}", mesh.indices.as_deref().unwrap_or_default())),
         ("faces", format!("{:?}", mesh.face_sizes())),
         ("tangents", bits(tangents.per_corner())),
+        ("frames", bits(frames.tangents().per_corner())),
         ("bitangents", bits(&bitangents)),
         ("magnitudes", bits(&magnitudes)),
+        ("repaired", format!("{}", report.repaired_corners)),
+        ("moved", bits(&moved)),
+        ("planned", bits(planned.per_corner())),
+        ("methods", methods(&view, options.mode)),
         ("split_indices", format!("{:?}", split.indices)),
         ("split_sources", format!("{:?}", split.source_of_vertex)),
         ("split_tangents", bits(&split.tangent_of_vertex)),
     ];
     let members: Vec<String> = members.iter().map(|(key, value)| format!("{key:?}: {value}")).collect();
     format!("{{{}}}", members.join(", "))
+}
+
+/// What the other methods make of the mesh.
+fn methods(mesh: &Mesh<'_>, mode: Mode) -> String {
+    let of = |&(name, method)| {
+        let options = TangentOptions { method, mode, ..TangentOptions::default() };
+        format!("{name:?}: {}", bits(generate_tangents(mesh, &options).corners.per_corner()))
+    };
+    format!("{{{}}}", METHODS.iter().map(of).collect::<Vec<_>>().join(", "))
+}
+
+/// The positions, bent.
+fn moved(positions: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    positions.iter().map(|&[x, y, z]| [x, y + 0.25 * x * x, z - 0.5 * y]).collect()
 }
 
 fn bits<const N: usize>(rows: &[[f32; N]]) -> String {
