@@ -1,7 +1,8 @@
 //! Measures of tangents whose answers are known.
 
 use darboux::{
-    HISTOGRAM_ENDS, Method, TangentOptions, generate_tangents, measure_tangents, measure_uv_fidelity,
+    CornerDifference, HISTOGRAM_ENDS, Method, TangentOptions, generate_tangents, measure_tangents,
+    measure_uv_fidelity,
 };
 use darboux_tests::{OwnedMesh, families};
 
@@ -36,6 +37,27 @@ fn angles_are_told_apart() {
     assert_eq!(found.histogram, [1, 1, 0, 0, 1, 1, 0, 1, 0, 2]);
     let worst: Vec<usize> = found.worst.iter().map(|(corner, _)| *corner).collect();
     assert_eq!(worst, [6, 5, 4, 3, 2, 1]);
+}
+
+#[test]
+fn only_signs_below_zero_are_other_signs() {
+    let flips = |a: f32, b: f32| CornerDifference::between(turned(0.0, a), turned(0.0, b)).flips_sign;
+    for other in [0.99, 1.5, 0.0, -0.0, f32::NAN] {
+        assert!(!flips(1.0, other) && flips(-1.0, other) && flips(-0.5, other), "{other}");
+    }
+}
+
+#[test]
+fn what_has_no_angle_is_known_where_it_is_the_same() {
+    let (zero, nan) = ([0.0, 0.0, 0.0, 1.0], [f32::NAN, 0.0, 0.0, 1.0]);
+    let negated = [-f32::NAN, 0.0, 0.0, 1.0];
+    for (a, b, is_identical) in [(zero, zero, true), (nan, negated, true), (zero, nan, false)] {
+        let found = CornerDifference::between(a, b);
+        assert_eq!(
+            (found.is_identical, found.is_unknown(), found.angle),
+            (is_identical, !is_identical, None)
+        );
+    }
 }
 
 #[test]

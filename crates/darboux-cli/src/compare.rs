@@ -84,6 +84,9 @@ fn compare(arguments: &CompareArguments, messages: &Messages) -> Result<CompareR
     let mut first = open(&inputs[0], arguments, messages)?;
     messages.end_file();
     let mut second = open(&inputs[1], arguments, messages)?;
+    if let Some(path) = &arguments.heat_map {
+        refuse_used(path, [&first, &second])?;
+    }
     if let Some(method) = arguments.method {
         give_tangents(&mut second, method.into(), messages)?;
     }
@@ -97,8 +100,7 @@ fn compare(arguments: &CompareArguments, messages: &Messages) -> Result<CompareR
     warnings.extend(moved(&pairs));
     let primitives: Vec<ComparedPrimitive> = pairs.iter().map(ComparedPrimitive::new).collect();
     if primitives.iter().all(|primitive| primitive.statistics.is_none()) {
-        let advice = "run darboux tangents first";
-        return Err(format!("{}: no primitive has tangents on both sides; {advice}", first.name()));
+        return Err(nothing_to_compare([&first, &second]));
     }
     let totals = Statistics::of(pairs.iter().filter_map(|pair| pair.corners.as_ref().ok()));
     let heat_map = match &arguments.heat_map {
@@ -125,6 +127,34 @@ fn compare(arguments: &CompareArguments, messages: &Messages) -> Result<CompareR
 fn open(input: &Input, arguments: &CompareArguments, messages: &Messages) -> Result<Document, String> {
     messages.start_file(&input.to_string(), size_of(input));
     load(input, arguments.allow_outside)
+}
+
+/// Says which file has no tangents, or that no primitive has them in both.
+fn nothing_to_compare(documents: [&Document; 2]) -> String {
+    let has_tangents = |document: &Document| {
+        let mut primitives = document.meshes().iter().flat_map(|mesh| &mesh.primitives);
+        primitives.any(|primitive| primitive.attributes.contains_key("TANGENT"))
+    };
+    match documents.into_iter().find(|document| !has_tangents(document)) {
+        Some(document) => {
+            let name = document.name();
+            format!("{name}: has no tangents to compare; make some: darboux tangents {name}")
+        }
+        None => {
+            let [first, second] = documents.map(Document::name);
+            format!("{first}: no triangles have tangents both here and in {second}")
+        }
+    }
+}
+
+/// Says that a heat map would replace a file of the inputs.
+fn refuse_used(path: &Path, documents: [&Document; 2]) -> Result<(), String> {
+    match documents.into_iter().find(|document| document.uses_file(path)) {
+        Some(document) => {
+            Err(format!("{}: is a file that {} uses; name another file", path.display(), document.name()))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Replaces all tangents by those of a method.

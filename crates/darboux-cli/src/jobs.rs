@@ -85,6 +85,9 @@ pub fn find(inputs: &[PathBuf], scan: Scan) -> Found {
             found.files.push((Input::Stdin, None));
         } else if path.is_dir() {
             found.search(path, scan);
+        } else if path.metadata().is_ok_and(|metadata| !metadata.is_file()) {
+            let reason = "is not a regular file; save its content as one, or read it from a pipe as -";
+            found.failed.push((path.clone(), reason.into()));
         } else {
             found.files.push((Input::File(path.clone()), None));
         }

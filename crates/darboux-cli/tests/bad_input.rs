@@ -231,3 +231,36 @@ fn strict_refuses_what_is_repaired_otherwise() {
     assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
     assert!(run.stderr.contains("meshes[0].primitives[0]"), "{}", run.stderr);
 }
+
+/// A pipe with a name waits for its other end, for good.
+#[test]
+#[cfg(unix)]
+fn pipes_with_names_and_folders_are_no_files() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let [image, model] = ["a.png", "a.glb"].map(|name| folder.path().join(name));
+    for pipe in [&image, &model] {
+        assert!(std::process::Command::new("mkfifo").arg(pipe).status().expect("mkfifo runs").success());
+    }
+    let convert = |path| ["convert", path, "--from", "gltf", "--to", "directx"];
+    for arguments in [
+        &convert(text(&image))[..],
+        &convert(text(&model)),
+        &["tangents", text(&model)],
+        &["inspect", text(&model)],
+        &["compare", text(&model), text(&model)],
+    ] {
+        let run = darboux(arguments).exits(1);
+        assert!(run.stderr.contains("not a regular file"), "{arguments:?}: {}", run.stderr);
+        assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
+    }
+    let plane = asset("TwoSidedPlane/TwoSidedPlane_Normal.png");
+    let arguments = ["--from", "gltf", "--to", "directx", "--force", "-o", text(&image)];
+    let run = darboux(&[&["convert", text(&plane)], &arguments[..]].concat()).exits(1);
+    assert!(run.stderr.contains("not a regular file"), "{}", run.stderr);
+    let run = darboux_reading(&["inspect", "/dev/stdin"], b"glTF").exits(1);
+    assert!(
+        run.stderr.contains("/dev/stdin: is not a regular file; ") && run.stderr.contains(" as -"),
+        "{}",
+        run.stderr
+    );
+}

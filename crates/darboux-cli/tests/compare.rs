@@ -113,7 +113,12 @@ fn files_of_different_models_are_refused_in_one_sentence() {
     assert!(run.stderr.contains("corners") || run.stderr.contains("meshes"), "{}", run.stderr);
     assert_eq!(run.stderr.lines().count(), 1);
     let run = darboux(&["compare", text(&asset(MODEL)), text(&asset(MODEL))]).exits(1);
-    assert!(run.stderr.contains("no primitive has tangents on both sides"), "{}", run.stderr);
+    assert!(
+        run.stderr
+            .contains("NormalTangentTest.glb: has no tangents to compare; make some: darboux tangents "),
+        "{}",
+        run.stderr
+    );
     darboux(&["compare", text(&first), "missing.glb"]).exits(1);
     assert_eq!(names_in(folder.path()), ["first.glb", "second.glb"]);
 }
@@ -156,4 +161,44 @@ fn every_field_of_the_report_is_documented() {
             _ => {}
         }
     }
+}
+
+#[test]
+fn a_heat_map_replaces_no_file_of_the_inputs() {
+    const FILES: [&str; 3] = ["TwoSidedPlane.gltf", "TwoSidedPlane.bin", "TwoSidedPlane_Normal.png"];
+    let folder =
+        common::folder_with(&FILES.map(|name| format!("TwoSidedPlane/{name}")).each_ref().map(|s| &**s));
+    let [plane, _, normal_map] = FILES.map(|name| folder.path().join(name));
+    let before = fs::read(&normal_map).expect("the normal map");
+    let other = folder.path().join(".").join(FILES[2]);
+    for map in [&normal_map, &other] {
+        let arguments = ["compare", text(&plane), "--method", "face", "--force", "--heat-map", text(map)];
+        let run = darboux(&arguments).exits(1);
+        assert!(run.stderr.contains("is a file that") && run.stderr.lines().count() == 1, "{}", run.stderr);
+    }
+    assert!(fs::read(&normal_map).expect("the normal map") == before);
+}
+
+#[test]
+fn zero_tangents_are_seen() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let made = |mode: &str| {
+        let path = folder.path().join(format!("{mode}.glb"));
+        darboux(&["tangents", text(&asset("made/degenerate.gltf")), "--mode", mode, "-o", text(&path)])
+            .exits(0);
+        path
+    };
+    let (zeros, repaired) = (made("reference"), made("repaired"));
+    darboux(&["compare", text(&zeros), text(&zeros), "--tolerance", "0", "--quiet"]).exits(0);
+    let run = darboux(&["compare", text(&zeros), text(&repaired), "--tolerance", "180", "--json"]).exits(3);
+    let report = run.json();
+    assert!(report["totals"]["unknown"].as_u64() > Some(0), "{report}");
+    assert_eq!(report["totals"]["unknown"], report["totals"]["without_angle"]);
+    assert!(report["worst"][0]["angle"].is_null() && report["worst"][0]["sign_flip"] == false, "{report}");
+    let said = String::from_utf8(darboux(&["compare", text(&zeros), text(&repaired)]).exits(0).stdout)
+        .expect("UTF-8");
+    assert!(
+        said.contains("corners without an angle\n") && said.contains("\n  no angle: meshes[0]"),
+        "{said}"
+    );
 }

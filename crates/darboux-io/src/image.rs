@@ -13,9 +13,9 @@ use std::path::{Path, PathBuf};
 
 use png::{BitDepth, ColorType, Decoder, Encoder, Transformations};
 
-use crate::Error;
 use crate::error::Fault;
 use crate::staging::Staging;
+use crate::{Error, paths};
 use chunks::{Chunk, Chunks};
 
 /// A PNG of 8 or 16 bits per channel: grey with alpha, RGB or RGBA.
@@ -46,7 +46,8 @@ const OF_TEXELS: [&[u8; 4]; 4] = [b"tRNS", b"bKGD", b"sBIT", b"hIST"];
 impl Image {
     /// Reads a PNG. Errors: a file that cannot be read; anything but a whole PNG of a supported kind.
     pub fn open(path: &Path) -> Result<Self, Error> {
-        let bytes = fs::read(path).map_err(|source| Error::Read { file: path.to_owned(), source })?;
+        let file = paths::readable(path)?;
+        let bytes = fs::read(file).map_err(|source| Error::Read { file: path.to_owned(), source })?;
         Self::from_bytes(&path.display().to_string(), bytes)
     }
 
@@ -164,13 +165,10 @@ impl Image {
         out
     }
 
-    /// Writes the image. Errors: an existing file without `force`; a place that cannot be written. After an error nothing is left.
+    /// Writes the image. Errors: an existing file without `force`, or one that is no regular file; a place that cannot be written.
+    /// After an error nothing is left.
     pub fn save(&self, path: &Path, force: bool) -> Result<PathBuf, Error> {
-        let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-        if target.exists() && !force {
-            let problem = "exists; force its replacement or name another output".to_owned();
-            return Err(Error::Output { file: path.to_owned(), problem });
-        }
+        let target = paths::writable(path, force, |_| None)?;
         let bytes = self.to_bytes()?;
         let mut staging = Staging::default();
         staging.stage(&target, force, |file| file.write_all(&bytes))?;

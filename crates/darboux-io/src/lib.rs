@@ -6,6 +6,7 @@
 mod error;
 pub mod gltf;
 pub mod image;
+mod paths;
 mod staging;
 
 pub use error::Error;

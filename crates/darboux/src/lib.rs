@@ -47,7 +47,8 @@ pub use convention::{
 };
 pub use frame::{CornerFrames, CornerTangents, CornerTangentsRef, Frame};
 pub use measure::{
-    HISTOGRAM_ENDS, TangentDifference, UvFidelity, measure_tangents, measure_uv_fidelity, tangent_angle,
+    CornerDifference, HISTOGRAM_ENDS, TangentDifference, UvFidelity, measure_tangents, measure_uv_fidelity,
+    triangle_area,
 };
 pub use mesh::{Faces, Indices, Mesh, MeshError, Strided};
 pub use normal_map::{Channel, TexelLayout, repack_texels};

@@ -18,9 +18,9 @@ const WORST: usize = 16;
 pub struct TangentDifference {
     /// The number of corners.
     pub corners: usize,
-    /// Corners whose four floats are the same bits.
+    /// Corners that [are identical](CornerDifference::is_identical).
     pub identical: usize,
-    /// Corners whose signs differ.
+    /// Corners that [flip the sign](CornerDifference::flips_sign).
     pub sign_flips: usize,
     /// Corners where a tangent is zero or not finite, so that there is no angle. They are in none of the numbers below.
     pub without_angle: usize,
@@ -40,6 +40,34 @@ pub struct TangentDifference {
     pub worst: Vec<(usize, f64)>,
 }
 
+/// How two tangents of one corner differ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CornerDifference {
+    /// The angle between their xyz in degrees; none where one is zero or not finite.
+    pub angle: Option<f64>,
+    /// Their signs differ: one w is below zero, the other is not. Rounded and odd ones (0.99, NaN) are no flips.
+    pub flips_sign: bool,
+    /// All four floats are the same bits, or NaN in both.
+    pub is_identical: bool,
+}
+
+impl CornerDifference {
+    /// Compares `a` and `b`, each unit xyz and sign w.
+    pub fn between(a: [f32; 4], b: [f32; 4]) -> Self {
+        let is_same = |(a, b): (&f32, &f32)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
+        Self {
+            angle: angle_of(xyz(a).map(f64::from), xyz(b).map(f64::from)),
+            flips_sign: (a[3] < 0.0) != (b[3] < 0.0),
+            is_identical: a.iter().zip(&b).all(is_same),
+        }
+    }
+
+    /// True where nothing tells how far they are apart: there is no angle, and they are not identical.
+    pub fn is_unknown(&self) -> bool {
+        self.angle.is_none() && !self.is_identical
+    }
+}
+
 /// Compares two sets of tangents, corner by corner.
 ///
 /// `a`, `b`: one tangent per corner ([`CornerTangents::per_corner`](crate::CornerTangents::per_corner)) of the same mesh, in the same
@@ -49,9 +77,10 @@ pub fn measure_tangents(a: &[[f32; 4]], b: &[[f32; 4]]) -> Result<TangentDiffere
     let mut out = TangentDifference { corners: a.len(), ..TangentDifference::default() };
     let mut angles = Vec::with_capacity(a.len());
     for (corner, (a, b)) in a.iter().zip(b).enumerate() {
-        out.identical += usize::from(a.map(f32::to_bits) == b.map(f32::to_bits));
-        out.sign_flips += usize::from(a[3] != b[3]);
-        match tangent_angle(*a, *b) {
+        let difference = CornerDifference::between(*a, *b);
+        out.identical += usize::from(difference.is_identical);
+        out.sign_flips += usize::from(difference.flips_sign);
+        match difference.angle {
             Some(angle) => angles.push((corner, angle)),
             None => out.without_angle += 1,
         }
@@ -142,13 +171,13 @@ fn triangles(mesh: &Mesh<'_>) -> impl Iterator<Item = [usize; 3]> {
 /// The direction of dP/du, as long as it may be, and the area.
 fn u_direction_and_area(mesh: &Mesh<'_>, triangle: [usize; 3]) -> Option<(D3, f64)> {
     let vertices = triangle.map(|corner| mesh.vertex_of_corner(corner));
-    let [p0, p1, p2] = vertices.map(|vertex| mesh.positions().get(vertex).map(f64::from));
+    let positions = vertices.map(|vertex| mesh.positions().get(vertex));
     let [t0, t1, t2] = vertices.map(|vertex| mesh.uvs().get(vertex).map(f64::from));
-    let [e1, e2] = [p1, p2].map(|p| [p[0] - p0[0], p[1] - p0[1], p[2] - p0[2]]);
+    let [e1, e2] = edges(positions);
     let [dv1, dv2] = [t1[1] - t0[1], t2[1] - t0[1]];
     let uv_area = (t1[0] - t0[0]) * dv2 - dv1 * (t2[0] - t0[0]);
     let direction = [0, 1, 2].map(|i| (dv2 * e1[i] - dv1 * e2[i]) / uv_area);
-    let area = 0.5 * length(cross(e1, e2));
+    let area = triangle_area(positions);
     let has_both = area > 0.0 && area.is_finite() && length(direction) > 0.0 && length(direction).is_finite();
     has_both.then_some((direction, area))
 }
@@ -179,9 +208,16 @@ fn xyz([x, y, z, _]: [f32; 4]) -> V3 {
     [x, y, z]
 }
 
-/// The angle between the xyz of two tangents in degrees, as [`measure_tangents`] has it; none where one is zero or not finite.
-pub fn tangent_angle(a: [f32; 4], b: [f32; 4]) -> Option<f64> {
-    angle_of(xyz(a).map(f64::from), xyz(b).map(f64::from))
+/// The area of a triangle by the positions of its corners. Not finite where they are not.
+pub fn triangle_area(corners: [[f32; 3]; 3]) -> f64 {
+    let [e1, e2] = edges(corners);
+    0.5 * length(cross(e1, e2))
+}
+
+/// From the first corner to the second and to the third.
+fn edges(corners: [V3; 3]) -> [D3; 2] {
+    let [p0, p1, p2] = corners.map(|p| p.map(f64::from));
+    [p1, p2].map(|p| [p[0] - p0[0], p[1] - p0[1], p[2] - p0[2]])
 }
 
 /// The angle in degrees; none where a vector has no direction. By the arctangent, which is exact for small and for large angles.

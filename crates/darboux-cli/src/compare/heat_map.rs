@@ -1,9 +1,11 @@
 //! Angles drawn over the UV layout.
 
-use darboux::tangent_angle;
+use darboux::CornerDifference;
 use darboux_io::Error;
 use darboux_io::gltf::PairedCorners;
 use darboux_io::image::Image;
+
+use super::statistics::differences;
 
 /// Texels across and down the UV square.
 const SIZE: usize = 1024;
@@ -57,12 +59,10 @@ impl HeatMap {
     /// Draws the triangles of a primitive; without UVs, nothing.
     pub fn draw(&mut self, corners: &PairedCorners) {
         let uvs = corners.uvs.as_deref().unwrap_or_default().as_chunks::<3>().0;
-        let [a, b] = [0, 1].map(|side| corners.tangents[side].as_chunks::<3>().0);
-        for (uvs, (a, b)) in uvs.iter().zip(a.iter().zip(b)) {
-            let flips = (0..3).any(|i| a[i][3] != b[i][3]);
-            // What has no angle is as far off as can be.
-            let angle = |i: usize| tangent_angle(a[i], b[i]).unwrap_or(ENDS[1]);
-            let values = [0, 1, 2].map(|i| if flips { f64::INFINITY } else { angle(i) });
+        let differences: Vec<CornerDifference> = differences(corners).collect();
+        for (uvs, differences) in uvs.iter().zip(differences.as_chunks::<3>().0) {
+            let flips = differences.iter().any(|difference| difference.flips_sign);
+            let values = if flips { [f64::INFINITY; 3] } else { differences.map(value) };
             self.triangle(uvs.map(|uv| uv.map(f64::from)), values);
         }
     }
@@ -115,6 +115,11 @@ impl HeatMap {
         (0..SCALE).for_each(|_| texels.extend_from_slice(&row));
         Image::from_rgb(name, [SIZE as u32, (SIZE + GAP + SCALE) as u32], &texels)
     }
+}
+
+/// The angle; without one nothing where both are identical, and as far off as can be where they are not.
+fn value(difference: CornerDifference) -> f64 {
+    difference.angle.unwrap_or(if difference.is_identical { 0.0 } else { ENDS[1] })
 }
 
 /// The texels that a triangle may touch, from and to, in whole numbers.

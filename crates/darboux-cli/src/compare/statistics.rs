@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use darboux::{HISTOGRAM_ENDS, measure_tangents, tangent_angle};
+use darboux::{CornerDifference, HISTOGRAM_ENDS, measure_tangents, triangle_area};
 use darboux_io::gltf::{Pair, PairedCorners, PrimitiveName};
 use serde::Serialize;
 
@@ -13,6 +13,8 @@ pub struct Statistics {
     pub identical: usize,
     pub sign_flips: usize,
     pub without_angle: usize,
+    /// Corners without an angle that are not identical either.
+    pub unknown: usize,
     pub min: f64,
     pub median: f64,
     pub p95: f64,
@@ -34,12 +36,13 @@ impl Statistics {
     /// Of several primitives together.
     pub fn of<'a>(primitives: impl Iterator<Item = &'a PairedCorners>) -> Self {
         let (mut tangents, mut others) = (Vec::new(), Vec::new());
-        let (mut sum, mut area) = (0.0, 0.0);
+        let (mut sum, mut area, mut unknown) = (0.0, 0.0, 0);
         for corners in primitives {
             tangents.extend_from_slice(&corners.tangents[0]);
             others.extend_from_slice(&corners.tangents[1]);
             let (part, part_area) = area_weighted(corners);
             (sum, area) = (sum + part, area + part_area);
+            unknown += differences(corners).filter(CornerDifference::is_unknown).count();
         }
         let found = measure_tangents(&tangents, &others).unwrap_or_default();
         let bins = HISTOGRAM_ENDS.into_iter().zip(found.histogram);
@@ -48,6 +51,7 @@ impl Statistics {
             identical: found.identical,
             sign_flips: found.sign_flips,
             without_angle: found.without_angle,
+            unknown,
             min: found.min,
             median: found.median,
             p95: found.p95,
@@ -58,32 +62,32 @@ impl Statistics {
         }
     }
 
-    /// Whether no angle is greater, no sign flipped, and none unknown where tangents are not the same bits.
+    /// Whether no angle is greater, no sign flipped, and nothing unknown.
     pub fn is_within(&self, degrees: f64) -> bool {
-        self.max <= degrees && self.sign_flips == 0 && self.without_angle == 0
+        self.max <= degrees && self.sign_flips == 0 && self.unknown == 0
     }
+}
+
+/// Corner by corner, how the tangents differ.
+pub fn differences(corners: &PairedCorners) -> impl Iterator<Item = CornerDifference> {
+    let [tangents, others] = &corners.tangents;
+    tangents.iter().zip(others).map(|(a, b)| CornerDifference::between(*a, *b))
 }
 
 /// The sum of the corners' angles times a third of their triangles' areas, and the sum of these areas.
 fn area_weighted(corners: &PairedCorners) -> (f64, f64) {
-    let [tangents, others] = &corners.tangents;
-    let triangles = corners.positions.as_chunks::<3>().0.iter().map(area);
-    let pairs = tangents.as_chunks::<3>().0.iter().zip(others.as_chunks::<3>().0);
+    let thirds = corners.positions.as_chunks::<3>().0.iter().flat_map(|&triangle| {
+        let third = triangle_area(triangle) / 3.0;
+        [third; 3]
+    });
     let (mut sum, mut total) = (0.0, 0.0);
-    for (area, (tangents, others)) in triangles.zip(pairs).filter(|(area, _)| area.is_finite()) {
-        for angle in tangents.iter().zip(others).filter_map(|(a, b)| tangent_angle(*a, *b)) {
-            sum += angle * area / 3.0;
-            total += area / 3.0;
+    for (area, difference) in thirds.zip(differences(corners)).filter(|(area, _)| area.is_finite()) {
+        if let Some(angle) = difference.angle {
+            sum += angle * area;
+            total += area;
         }
     }
     (sum, total)
-}
-
-fn area(triangle: &[[f32; 3]; 3]) -> f64 {
-    let [p, q, r] = triangle.map(|point| point.map(f64::from));
-    let [e, f] = [q, r].map(|point| [point[0] - p[0], point[1] - p[1], point[2] - p[2]]);
-    let cross = [e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]];
-    0.5 * cross.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// One primitive of the report.
@@ -115,30 +119,33 @@ pub struct Place {
     /// Its corner: 0, 1 or 2.
     pub corner: usize,
     pub position: Option<[f32; 3]>,
-    pub angle: f64,
+    /// None where a tangent is zero or not finite.
+    pub angle: Option<f64>,
     pub sign_flip: bool,
 }
 
-/// The worst places, one corner for each position: flipped signs first, then by the angle.
+/// The worst places, one corner for each position: flipped signs first, then what has no angle, then by the angle.
 pub fn worst(pairs: &[Pair], count: usize) -> Vec<Place> {
     let mut all = Vec::new();
     for (number, pair) in pairs.iter().enumerate() {
         let Ok(corners) = &pair.corners else { continue };
-        let [tangents, others] = &corners.tangents;
-        for (corner, (a, b)) in tangents.iter().zip(others).enumerate() {
-            let (flip, angle) = (a[3] != b[3], tangent_angle(*a, *b).unwrap_or(0.0));
-            if flip || angle > 0.0 {
-                all.push((flip, angle, number, corner));
+        for (corner, difference) in differences(corners).enumerate() {
+            if difference.flips_sign || difference.is_unknown() || difference.angle > Some(0.0) {
+                all.push((difference, number, corner));
             }
         }
     }
-    all.sort_unstable_by(|a, b| b.0.cmp(&a.0).then(b.1.total_cmp(&a.1)).then((a.2, a.3).cmp(&(b.2, b.3))));
+    let rank = |difference: &CornerDifference| difference.angle.unwrap_or(f64::INFINITY);
+    all.sort_unstable_by(|(a, a_number, a_corner), (b, b_number, b_corner)| {
+        let by_difference = b.flips_sign.cmp(&a.flips_sign).then(rank(b).total_cmp(&rank(a)));
+        by_difference.then((a_number, a_corner).cmp(&(b_number, b_corner)))
+    });
     let mut seen = HashSet::new();
-    let places = all.into_iter().map(|(sign_flip, angle, number, corner)| {
+    let places = all.into_iter().map(|(CornerDifference { angle, flips_sign, .. }, number, corner)| {
         let pair = &pairs[number];
         let position = pair.corners.as_ref().ok().and_then(|corners| corners.positions.get(corner)).copied();
         let (triangle, corner) = (corner / 3, corner % 3);
-        Place { name: pair.name.clone(), triangle, corner, position, angle, sign_flip }
+        Place { name: pair.name.clone(), triangle, corner, position, angle, sign_flip: flips_sign }
     });
     let is_new = |place: &Place| {
         let position = place.position.map(|position| position.map(f32::to_bits));

@@ -2,6 +2,8 @@
 
 use indicatif::HumanCount;
 
+use crate::batch::remarks;
+
 use super::CompareReport;
 use super::heat_map::{ENDS, TICKS};
 use super::statistics::{Place, Statistics};
@@ -42,16 +44,19 @@ pub fn described(report: &CompareReport) -> String {
 }
 
 fn summed_up(statistics: &Statistics) -> String {
-    let Statistics { corners, identical, median, max, sign_flips, .. } = statistics;
+    let Statistics { corners, identical, median, max, sign_flips, without_angle, .. } = statistics;
     if identical == corners {
         return format!("all {} corners are identical", HumanCount(*corners as u64));
     }
-    let flips = if *sign_flips > 0 {
-        format!(", {} signs flipped", HumanCount(*sign_flips as u64))
-    } else {
-        String::new()
+    let angles = match corners - without_angle {
+        0 => "no corner has an angle".to_owned(),
+        _ => format!("median {}, greatest {} degrees", degrees(*median), degrees(*max)),
     };
-    format!("median {}, greatest {} degrees{flips}", degrees(*median), degrees(*max))
+    angles
+        + &remarks([
+            (*sign_flips, "sign flipped", "signs flipped"),
+            (*without_angle, "corner without an angle", "corners without an angle"),
+        ])
 }
 
 fn totals(totals: &Statistics) -> String {
@@ -62,7 +67,7 @@ fn totals(totals: &Statistics) -> String {
         [totals.min, totals.median, totals.p95, totals.max, totals.mean, totals.area_weighted_mean]
             .map(degrees);
     format!(
-        "\n{corners} corners: {identical} identical, {flips} with flipped signs, {without} without an angle\n\
+        "\n{corners} corners: {identical} identical, {flips} with flipped signs, {without} without an angle (a tangent is zero or not finite)\n\
          degrees: least {min}, median {median}, 95 % within {p95}, greatest {max}; mean {mean}, weighted by area {weighted}\n\n"
     )
 }
@@ -80,12 +85,10 @@ fn histogram(totals: &Statistics) -> String {
 
 fn place(place: &Place) -> String {
     let position = place.position.map_or(String::new(), |[x, y, z]| format!(", at ({x}, {y}, {z})"));
+    let angle = place.angle.map_or("no angle".to_owned(), |angle| format!("{} degrees", degrees(angle)));
     let flip = if place.sign_flip { " and a flipped sign" } else { "" };
     let (name, triangle, corner) = (&place.name, place.triangle, place.corner);
-    format!(
-        "  {} degrees{flip}: {name}, triangle {triangle}, corner {corner}{position}\n",
-        degrees(place.angle)
-    )
+    format!("  {angle}{flip}: {name}, triangle {triangle}, corner {corner}{position}\n")
 }
 
 /// Four digits that mean something.

@@ -1,8 +1,6 @@
 //! The document: what was read, and what is edited.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
@@ -17,8 +15,8 @@ use super::file_bytes::FileBytes;
 use super::json;
 use super::resources::{File, Reference, Resources, decode_data_uri};
 use super::schema::{self, ComponentType, Probe, Root};
-use crate::Error;
 use crate::error::Fault;
+use crate::{Error, paths};
 
 /// How a document is read.
 #[derive(Clone, Copy, Debug, Default)]
@@ -102,10 +100,7 @@ impl Document {
     /// Errors: anything that makes the file unreadable, in one sentence; see [`Error`].
     pub fn open(path: &Path, options: &LoadOptions) -> Result<Self, Error> {
         let failed = |source| Error::Read { file: path.to_owned(), source };
-        let input = path.canonicalize().map_err(failed)?;
-        if !fs::metadata(&input).map_err(failed)?.is_file() {
-            return Err(failed(io::Error::other("it is not a regular file")));
-        }
+        let input = paths::readable(path)?;
         let bytes = FileBytes::open(&input).map_err(failed)?;
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let mut document = Self::from_file(&path.display().to_string(), bytes, Some(folder), options)?;

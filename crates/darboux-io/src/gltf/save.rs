@@ -12,9 +12,9 @@ use super::file_bytes::FileBytes;
 use super::layout::{Home, Layout};
 use super::pieces::{self, Piece};
 use super::resources::{Located, Reference, encode_path};
-use crate::Error;
 use crate::error::Fault;
 use crate::staging::Staging;
+use crate::{Error, paths};
 
 /// How a document is written.
 #[derive(Clone, Copy, Debug, Default)]
@@ -82,27 +82,22 @@ impl Document {
 
     /// The file to write: `path`, or what it links to.
     fn checked_target(&self, path: &Path, options: &SaveOptions) -> Result<PathBuf, Error> {
-        let refuse = |problem: &str| Error::Output { file: path.to_owned(), problem: problem.to_owned() };
-        let Ok(target) = path.canonicalize() else {
-            return if path.is_symlink() {
-                Err(refuse("is a broken link; remove it"))
+        paths::writable(path, options.force, |target| {
+            if self.input.as_deref() == Some(target) {
+                Some("is the input; name another output or write in place")
             } else {
-                Ok(path.to_owned())
-            };
-        };
-        if self.input.as_ref() == Some(&target) {
-            return Err(refuse("is the input; name another output or write in place"));
-        }
-        if !target.is_file() {
-            return Err(refuse("exists and is not a regular file; name another output"));
-        }
-        if self.files().iter().any(|file| file.path == target) {
-            return Err(refuse("is a file that the input uses; name another output"));
-        }
-        if !options.force {
-            return Err(refuse("exists; force its replacement or name another output"));
-        }
-        Ok(target)
+                self.uses(target).then_some("is a file that the input uses; name another output")
+            }
+        })
+    }
+
+    /// Whether a file, links resolved, is the one that was read, or one that it refers to.
+    pub fn uses_file(&self, path: &Path) -> bool {
+        path.canonicalize().is_ok_and(|path| self.input.as_ref() == Some(&path) || self.uses(&path))
+    }
+
+    fn uses(&self, resolved: &Path) -> bool {
+        self.files().iter().any(|file| file.path == resolved)
     }
 
     fn write(&self, target: &Path, is_glb: bool, replace: bool) -> Result<Vec<PathBuf>, Error> {

@@ -1,0 +1,43 @@
+//! Which paths may be read and written: regular files, links resolved. A pipe would wait for its other end, a device give no end.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::Error;
+
+/// The file to read: `path`, or what it links to. Errors: none there; anything but a regular file.
+pub fn readable(path: &Path) -> Result<PathBuf, Error> {
+    let failed = |source| Error::Read { file: path.to_owned(), source };
+    // Asked first, as a piped /dev/stdin links to nothing that has a name.
+    if !fs::metadata(path).map_err(failed)?.is_file() {
+        return Err(failed(io::Error::other("it is not a regular file; save its content as one")));
+    }
+    path.canonicalize().map_err(failed)
+}
+
+/// The file to write: `path`, or what it links to. `why_not` says why an existing one must stay, if it must.
+///
+/// Errors: a broken link; what is no regular file, or must stay; an existing file without `force`.
+pub fn writable(
+    path: &Path,
+    force: bool,
+    why_not: impl FnOnce(&Path) -> Option<&'static str>,
+) -> Result<PathBuf, Error> {
+    let refuse = |problem: &str| Error::Output { file: path.to_owned(), problem: problem.to_owned() };
+    let Ok(metadata) = fs::metadata(path) else {
+        return if path.is_symlink() {
+            Err(refuse("is a broken link; remove it"))
+        } else {
+            Ok(path.to_owned())
+        };
+    };
+    if !metadata.is_file() {
+        return Err(refuse("exists and is not a regular file; name another output"));
+    }
+    let target = path.canonicalize().map_err(|source| Error::Write { file: path.to_owned(), source })?;
+    if let Some(problem) = why_not(&target) {
+        return Err(refuse(problem));
+    }
+    if force { Ok(target) } else { Err(refuse("exists; force its replacement or name another output")) }
+}
