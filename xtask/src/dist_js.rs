@@ -1,7 +1,7 @@
 //! The folder that is published as the npm package darboux.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::run::{Outcome, program, root, run, target_folder, to_stderr, works};
 use crate::validate::WithoutNpm;
@@ -22,12 +22,18 @@ pub fn test(without: WithoutNpm) -> Outcome {
         println!("skipped: the npm package needs node and npm");
         return Ok(());
     }
-    make()?;
+    make_folder()?;
     run(program("npm test").current_dir(root().join("bindings/js")))
 }
 
 /// `cargo xtask dist-js`: makes the folder, and prints its absolute path as the last line.
 pub fn make() -> Outcome {
+    println!("{}", make_folder()?.display());
+    Ok(())
+}
+
+/// Makes the folder; gives its path.
+pub fn make_folder() -> Result<PathBuf, String> {
     run(to_stderr(&mut program(&format!("rustup target add {TRIPLE}"))))?;
     let target = target_folder()?;
     let (modules, folder) = (target.join("dist-js/modules"), target.join("dist-js/darboux"));
@@ -40,8 +46,7 @@ pub fn make() -> Outcome {
     let ours = root().join("bindings/js");
     run(to_stderr(program("npm ci --no-audit --no-fund").current_dir(&ours)))?;
     run(to_stderr(program("node build.mjs").args([&modules, &folder]).arg(VERSION).current_dir(&ours)))?;
-    println!("{}", folder.display());
-    Ok(())
+    Ok(folder)
 }
 
 fn compile(target: &Path, features: &str, flags: &str, out: &Path) -> Outcome {

@@ -4,6 +4,7 @@ mod bench;
 mod ci;
 mod dist_c;
 mod dist_js;
+mod dist_viewer;
 mod generated;
 mod graphics;
 mod layers;
@@ -24,6 +25,7 @@ usage: cargo xtask <task>
   bench [...]   time every engine on every mesh; see bench --help
   dist-c        make the folder for users of C and C++; its path is the last line (Linux: needs ld, objcopy, nm and ar)
   dist-js       make the folder of the npm package; its path is the last line (needs node, npm and rustup)
+  dist-viewer   make the viewer's page, which darboux view serves; its folder is the last line (needs what dist-js needs)
   dist-python   build the Python wheel; its folder is the last line (needs python3 with venv, and the network)
   acos          compare acos with the platform's on every float of [-1, 1]";
 
@@ -39,6 +41,7 @@ fn main() -> ExitCode {
         ["bench", ref options @ ..] => bench::bench(options),
         ["dist-c"] => dist_c::make(),
         ["dist-js"] => dist_js::make(),
+        ["dist-viewer"] => dist_viewer::make(),
         ["dist-python"] => python::dist(),
         ["acos"] => ci::acos(),
         _ => {

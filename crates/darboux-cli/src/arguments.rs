@@ -6,6 +6,7 @@ mod files;
 mod inspect;
 mod normals;
 mod tangents;
+mod view;
 
 use clap::{Parser, Subcommand};
 
@@ -15,6 +16,7 @@ pub use files::{Files, Talk};
 pub use inspect::InspectArguments;
 pub use normals::NormalsArguments;
 pub use tangents::{Method, TangentsArguments};
+pub use view::ViewArguments;
 
 /// Tangents for normal-mapped glTF models: MikkTSpace bit for bit, seams split
 #[derive(Debug, Parser)]
@@ -57,6 +59,9 @@ pub enum Command {
     /// Show what each primitive holds and what its tangents would meet
     #[command(long_about = inspect::ABOUT, after_long_help = inspect::EXAMPLES)]
     Inspect(InspectArguments),
+    /// Show a model in the browser, with its tangents
+    #[command(long_about = view::ABOUT, after_long_help = view::EXAMPLES)]
+    View(ViewArguments),
     /// Say which method of computing tangents is for what
     Methods,
 }

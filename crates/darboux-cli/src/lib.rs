@@ -13,6 +13,7 @@ mod models;
 mod normals;
 mod report;
 mod tangents;
+mod view;
 
 use std::ffi::OsString;
 
@@ -42,6 +43,7 @@ where
             Command::Convert(arguments) => batch::run(arguments),
             Command::Compare(arguments) => compare::run(arguments),
             Command::Inspect(arguments) => inspect::run(arguments),
+            Command::View(arguments) => view::run(arguments),
             Command::Methods => methods::run(),
         },
         Err(help_or_error) => {

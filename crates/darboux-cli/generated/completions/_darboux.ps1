@@ -30,6 +30,7 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             [CompletionResult]::new('convert', 'convert', [CompletionResultType]::ParameterValue, 'Convert normal maps and models between conventions')
             [CompletionResult]::new('compare', 'compare', [CompletionResultType]::ParameterValue, 'Compare the tangents of two files, or of a file and a method')
             [CompletionResult]::new('inspect', 'inspect', [CompletionResultType]::ParameterValue, 'Show what each primitive holds and what its tangents would meet')
+            [CompletionResult]::new('view', 'view', [CompletionResultType]::ParameterValue, 'Show a model in the browser, with its tangents')
             [CompletionResult]::new('methods', 'methods', [CompletionResultType]::ParameterValue, 'Say which method of computing tangents is for what')
             break
         }
@@ -110,6 +111,14 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
         'darboux;inspect' {
             [CompletionResult]::new('--allow-outside', '--allow-outside', [CompletionResultType]::ParameterName, 'Allow buffers and images outside the input''s folder')
             [CompletionResult]::new('--json', '--json', [CompletionResultType]::ParameterName, 'Write the table as JSON')
+            [CompletionResult]::new('-h', '-h', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
+            [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
+            break
+        }
+        'darboux;view' {
+            [CompletionResult]::new('--page', '--page', [CompletionResultType]::ParameterName, 'The folder with the page''s files')
+            [CompletionResult]::new('--no-open', '--no-open', [CompletionResultType]::ParameterName, 'Print the address and open no browser')
+            [CompletionResult]::new('--allow-outside', '--allow-outside', [CompletionResultType]::ParameterName, 'Allow buffers and images outside the model''s folder')
             [CompletionResult]::new('-h', '-h', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
             [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
             break

@@ -34,6 +34,9 @@ _darboux() {
             darboux,tangents)
                 cmd="darboux__subcmd__tangents"
                 ;;
+            darboux,view)
+                cmd="darboux__subcmd__view"
+                ;;
             *)
                 ;;
         esac
@@ -41,7 +44,7 @@ _darboux() {
 
     case "${cmd}" in
         darboux)
-            opts="-h -V --help --version tangents normals convert compare inspect methods"
+            opts="-h -V --help --version tangents normals convert compare inspect view methods"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -225,6 +228,24 @@ _darboux() {
                     ;;
                 --encoding)
                     COMPREPLY=($(compgen -W "f32x4 snorm16x4 snorm8x4" -- "${cur}"))
+                    return 0
+                    ;;
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        darboux__subcmd__view)
+            opts="-h --no-open --allow-outside --page --help"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                --page)
+                    COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
                 *)

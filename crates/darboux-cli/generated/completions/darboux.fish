@@ -31,6 +31,7 @@ complete -c darboux -n "__fish_darboux_needs_command" -f -a "normals" -d 'Add no
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "convert" -d 'Convert normal maps and models between conventions'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "compare" -d 'Compare the tangents of two files, or of a file and a method'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "inspect" -d 'Show what each primitive holds and what its tangents would meet'
+complete -c darboux -n "__fish_darboux_needs_command" -f -a "view" -d 'Show a model in the browser, with its tangents'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "methods" -d 'Say which method of computing tangents is for what'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s o -l output -d 'Output file for a single input; - is standard output, as GLB' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l out-dir -d 'Folder for all outputs; paths below input folders are kept' -r -F
@@ -124,4 +125,8 @@ complete -c darboux -n "__fish_darboux_using_subcommand compare" -s h -l help -d
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l allow-outside -d 'Allow buffers and images outside the input\'s folder'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l json -d 'Write the table as JSON'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c darboux -n "__fish_darboux_using_subcommand view" -l page -d 'The folder with the page\'s files' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand view" -l no-open -d 'Print the address and open no browser'
+complete -c darboux -n "__fish_darboux_using_subcommand view" -l allow-outside -d 'Allow buffers and images outside the model\'s folder'
+complete -c darboux -n "__fish_darboux_using_subcommand view" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand methods" -s h -l help -d 'Print help'

@@ -1,0 +1,26 @@
+// `node build.mjs DARBOUX`: makes the page in `dist`, of the npm package in the folder DARBOUX.
+
+import { spawnSync } from 'node:child_process';
+import { copyFileSync, mkdirSync, rmSync, symlinkSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const [darboux] = process.argv.slice(2);
+
+function run(program, ...words) {
+  const { status, error } = spawnSync(join(here, 'node_modules/.bin', program), words, { cwd: here, stdio: ['ignore', 2, 2] });
+  if (status !== 0) throw error ?? new Error(`${program} failed`);
+}
+
+// The page imports the package as users do.
+const link = join(here, 'node_modules/darboux');
+rmSync(link, { recursive: true, force: true });
+symlinkSync(darboux, link);
+
+const sample = join(here, 'public/sample');
+mkdirSync(sample, { recursive: true });
+for (const name of ['NormalTangentTest.glb', 'LICENSE.txt']) copyFileSync(join(here, '../assets/NormalTangentTest', name), join(sample, name));
+
+run('tsc', '-p', '.');
+run('vite', 'build');

@@ -1,0 +1,5 @@
+// The page: opens models, and shows them.
+
+import { App } from './page/app';
+
+new App().start();

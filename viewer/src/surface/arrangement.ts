@@ -1,0 +1,64 @@
+// A surface made ready to be drawn with the tangents of two sources at once: its vertices split wherever either needs it.
+
+import { splitVertices } from 'darboux';
+
+import { angles } from './angles';
+import { tangentsFrom, type Source } from './sources';
+import { gathered, type Surface } from './surface';
+
+/** What both sides are drawn from. */
+export interface Arrangement {
+  indices: Uint32Array;
+  /** The given vertex that each new one copies. */
+  sourceOfVertex: Uint32Array;
+  positions: Float32Array;
+  normals: Float32Array;
+  uvs: Float32Array;
+  /** Per side, 4 floats per vertex; null where a side's source has none. */
+  tangents: [Float32Array | null, Float32Array | null];
+  /** Degrees between the two, per vertex; see {@link angles}. Null where one is missing. */
+  angles: Float32Array | null;
+}
+
+/** Arranges a surface for two sources. */
+export function arranged(surface: Surface, sources: readonly [Source, Source]): Arrangement {
+  const corners = sources.map((source) => tangentsFrom(surface, source)) as [Float32Array | null, Float32Array | null];
+  const between = corners[0] && corners[1] && angles(corners[0], corners[1]);
+  let indices = surface.indices;
+  let sourceOfVertex: Uint32Array = Uint32Array.from({ length: surface.positions.length / 3 }, (_, vertex) => vertex);
+  const fields = [...corners, between && spread(between)];
+  for (const field of fields) {
+    if (!field) continue;
+    const split = splitVertices(indices, field, sourceOfVertex.length);
+    const before = sourceOfVertex;
+    indices = split.indices;
+    sourceOfVertex = split.sourceOfVertex.map((vertex) => before[vertex]);
+  }
+  const count = sourceOfVertex.length;
+  const { sourceOfVertex: given } = surface;
+  return {
+    indices,
+    sourceOfVertex: given ? sourceOfVertex.map((vertex) => given[vertex]) : sourceOfVertex,
+    positions: gathered(surface.positions, 3, sourceOfVertex),
+    normals: gathered(surface.normals, 3, sourceOfVertex),
+    uvs: gathered(surface.uvs, 2, sourceOfVertex),
+    tangents: corners.map((field) => field && ofVertices(field, 4, indices, count)) as Arrangement['tangents'],
+    angles: between && ofVertices(between, 1, indices, count),
+  };
+}
+
+/** One float per corner as four, which is what vertices are split by. */
+function spread(field: Float32Array): Float32Array {
+  const out = new Float32Array(field.length * 4);
+  field.forEach((value, corner) => (out[corner * 4] = value));
+  return out;
+}
+
+/** What corners agree on, per vertex. */
+function ofVertices(field: Float32Array, width: number, indices: Uint32Array, count: number): Float32Array {
+  const out = new Float32Array(count * width);
+  for (let corner = 0; corner < indices.length; corner++) {
+    for (let i = 0; i < width; i++) out[indices[corner] * width + i] = field[corner * width + i];
+  }
+  return out;
+}

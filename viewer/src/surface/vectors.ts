@@ -1,0 +1,21 @@
+// Vectors of three, as arrays.
+
+export type Vector = [number, number, number];
+
+export function cross(a: Vector, b: Vector): Vector {
+  return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+}
+
+export function dot(a: Vector, b: Vector): number {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/** What leads from the first corner of a face to its others, in the first `width` of three numbers. */
+export function edges(array: Float32Array, width: number, indices: Uint32Array, face: number): [Vector, Vector] {
+  const between = (corner: number): Vector => {
+    const edge: Vector = [0, 0, 0];
+    for (let i = 0; i < width; i++) edge[i] = array[indices[corner] * width + i] - array[indices[face] * width + i];
+    return edge;
+  };
+  return [between(face + 1), between(face + 2)];
+}

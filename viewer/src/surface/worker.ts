@@ -1,0 +1,60 @@
+// The thread that computes. It keeps the surfaces of the model that is open; the page asks for what it draws.
+
+import { ready } from 'darboux';
+
+import { arranged, type Arrangement } from './arrangement';
+import type { Source } from './sources';
+import { completed, type GivenSurface, type Surface } from './surface';
+
+let surfaces: Surface[] = [];
+
+/** What the page can ask for. */
+const work = {
+  /** Takes the surfaces of a model in place of those before. */
+  open(given: GivenSurface[]): void {
+    surfaces = given.map(completed);
+  },
+
+  /** A part, ready to be drawn. */
+  arrange(part: number, sources: readonly [Source, Source]): Arrangement {
+    return arranged(surfaces[part], sources);
+  },
+};
+
+export type Work = typeof work;
+
+/** A call, and its number. */
+export interface Call<K extends keyof Work = keyof Work> {
+  id: number;
+  name: K;
+  args: Parameters<Work[K]>;
+}
+
+/** What comes back: a result, or a sentence that says why there is none. */
+export type Reply = { id: number; result: unknown } | { id: number; error: string };
+
+addEventListener('message', async ({ data }: MessageEvent<Call>) => {
+  const { id, name, args } = data;
+  try {
+    await ready;
+    const result = (work[name] as (...args: unknown[]) => unknown)(...args);
+    postMessage({ id, result } satisfies Reply, { transfer: buffers(result) });
+  } catch (error) {
+    postMessage({ id, error: error instanceof Error ? error.message : String(error) } satisfies Reply);
+  }
+});
+
+/** The memory of all arrays in a result, which moves to the page instead of being copied. */
+function buffers(result: unknown): ArrayBuffer[] {
+  const found = new Set<ArrayBuffer>();
+  const look = (value: unknown): void => {
+    if (ArrayBuffer.isView(value)) found.add(value.buffer as ArrayBuffer);
+    else if (value && typeof value === 'object') Object.values(value).forEach(look);
+  };
+  look(result);
+  // What the surfaces themselves hold stays here.
+  for (const surface of surfaces) {
+    for (const value of Object.values(surface)) if (ArrayBuffer.isView(value)) found.delete(value.buffer as ArrayBuffer);
+  }
+  return [...found];
+}
