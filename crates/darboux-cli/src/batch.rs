@@ -1,6 +1,12 @@
-//! What commands that write files have in common: from arguments to the exit code, one file after the other.
+//! What commands that write files have in common: from arguments to the exit code, so many files at a time.
 
-use std::path::Path;
+mod one_file;
+
+use std::iter;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+use std::thread;
 use std::time::Instant;
 
 use indicatif::HumanCount;
@@ -8,14 +14,17 @@ use serde::Serialize;
 
 use crate::arguments::{Files, Talk};
 use crate::jobs::{self, Input, Job, Output, Rules, Scan, Usage};
-use crate::messages::{Messages, stdout_is_terminal, write_stdout};
+use crate::journal::Journal;
+use crate::messages::{FileProgress, Messages, stdout_is_terminal, write_stdout};
 use crate::report::{FileReport, Report, Status, to_json};
 use crate::{exit, interrupt};
 
+pub use one_file::{Done, Known, work};
+
 /// A command that writes one output for each input.
-pub trait Work {
+pub trait Work: Sync {
     /// What its report says of a file, beyond what it says of all.
-    type Summary: Default + Serialize;
+    type Summary: Default + Send + Serialize;
 
     /// Its name.
     const COMMAND: &'static str;
@@ -34,8 +43,11 @@ pub trait Work {
     /// What does not fit together.
     fn check(&self) -> Result<(), Usage>;
 
+    /// The options that decide outputs, as text in which any difference shows.
+    fn options(&self) -> String;
+
     /// Reads, changes, writes. Errors are one sentence each.
-    fn process(&self, job: &Job, messages: &Messages) -> Result<Made<Self::Summary>, String>;
+    fn process(&self, job: &Job, progress: &FileProgress<'_>) -> Result<Made<Self::Summary>, String>;
 
     /// What was done to the parts of a file, one line each.
     fn lines(summary: &Self::Summary) -> Vec<String>;
@@ -75,17 +87,26 @@ pub fn run<W: Work>(command: &W) -> u8 {
     }
     interrupt::wait_for_writes();
     messages.start(jobs.iter().map(|job| size_of(&job.input)).sum());
-    let unsearched = found.failed.into_iter().map(|(path, reason)| {
-        let path = path.display().to_string();
-        let sentence = format!("{path}: {reason}");
-        FileReport::failed(path, sentence)
-    });
-    let mut files: Vec<FileReport<W::Summary>> = unsearched.collect();
-    for job in &jobs {
-        files.push(work(command, job, &messages));
-    }
+    let journal = files.out_dir.as_deref().filter(|_| files.resume).map(Journal::open).transpose();
+    let done = journal.and_then(|journal| work_all(command, &jobs, journal.as_ref(), &messages));
     messages.end_progress();
-    finish::<W>(Report::new(W::COMMAND, files), command.talk().json, &messages, start)
+    match done {
+        Ok(done) => {
+            let files = found.failed.into_iter().map(unsearched).chain(done).collect();
+            finish::<W>(Report::new(W::COMMAND, files), command.talk().json, &messages, start)
+        }
+        Err(sentence) => {
+            messages.error(&sentence);
+            exit::FAILED
+        }
+    }
+}
+
+/// The report of a place that could not be searched.
+pub fn unsearched<S: Default>((path, reason): (PathBuf, String)) -> FileReport<S> {
+    let path = path.display().to_string();
+    let sentence = format!("{path}: {reason}");
+    FileReport::failed(path, sentence)
 }
 
 fn refuse_terminal(jobs: Vec<Job>) -> Result<Vec<Job>, Usage> {
@@ -95,36 +116,58 @@ fn refuse_terminal(jobs: Vec<Job>) -> Result<Vec<Job>, Usage> {
     Ok(jobs)
 }
 
-/// One file's work, told as it ends. Its error, if any, is told at the end of all.
-fn work<W: Work>(command: &W, job: &Job, messages: &Messages) -> FileReport<W::Summary> {
-    messages.start_file(&job.input.to_string(), size_of(&job.input));
-    let made = refuse_existing(&job.output, command.files()).and_then(|()| command.process(job, messages));
-    messages.end_file();
-    let input = job.input.to_string();
-    match made {
-        Ok(Made { status, files_written, summary }) => {
-            let output = Some(job.output.to_string());
-            let report = FileReport { input, output, status, error: None, files_written, summary };
-            tell::<W>(&report, messages);
-            report
+/// Works on the files, so many at a time. Each is told of and journalled as it ends; reports come in the order of the jobs.
+fn work_all<W: Work>(
+    command: &W,
+    jobs: &[Job],
+    journal: Option<&Journal>,
+    messages: &Messages,
+) -> Result<Vec<FileReport<W::Summary>>, String> {
+    let workers = usize::from(command.files().jobs.get()).min(jobs.len());
+    let next = AtomicUsize::new(0);
+    let mut reports: Vec<Option<FileReport<W::Summary>>> = jobs.iter().map(|_| None).collect();
+    thread::scope(|scope| {
+        let (sender, receiver) = mpsc::channel();
+        for _ in 0..workers {
+            let (sender, next) = (sender.clone(), &next);
+            scope.spawn(move || {
+                let take = || next.fetch_add(1, Ordering::Relaxed);
+                let jobs = iter::repeat_with(take).map_while(|at| Some((at, jobs.get(at)?)));
+                for (at, job) in jobs {
+                    let done = work(command, job, known(journal, job), messages);
+                    // Nobody listens any more after an error of the journal.
+                    if sender.send((at, done)).is_err() {
+                        break;
+                    }
+                }
+            });
         }
-        Err(sentence) => FileReport::failed(input, sentence),
-    }
+        drop(sender);
+        for (at, Done { report, record }) in receiver {
+            if let (Some(journal), Some(record)) = (journal, record) {
+                journal.add(&record)?;
+            }
+            tell::<W>(&report, messages);
+            reports[at] = Some(report);
+        }
+        Ok(reports.into_iter().flatten().collect())
+    })
 }
 
-/// Says before any work that an output is in the way.
-fn refuse_existing(output: &Output, files: &Files) -> Result<(), String> {
-    match output {
-        Output::File(path) if path.exists() && !files.force && !files.in_place => {
-            Err(format!("{output}: exists; use --force to replace it, or name another output"))
-        }
-        _ => Ok(()),
-    }
+/// What the journal knows of a job.
+fn known<'a>(journal: Option<&'a Journal>, job: &Job) -> Option<Known<'a>> {
+    let journal = journal?;
+    let record = match &job.output {
+        Output::File(output) => journal.find(output),
+        Output::Stdout => None,
+    };
+    Some(Known { folder: journal.folder(), record })
 }
 
 /// Tells what was done to a file.
 fn tell<W: Work>(report: &FileReport<W::Summary>, messages: &Messages) {
     let (Some(output), FileReport { input, summary, .. }) = (&report.output, report) else { return };
+    let Some(summary) = summary.now() else { return messages.say(&format!("{input}: up to date")) };
     match report.status {
         Status::Written | Status::Copied if input != output => messages.say(&format!("{input} -> {output}")),
         Status::Untouched => messages.say(&format!("{input}: nothing to do, left as it was")),

@@ -14,7 +14,7 @@ use serde::Serialize;
 use crate::arguments::CompareArguments;
 use crate::batch::size_of;
 use crate::jobs::{Input, is_png};
-use crate::messages::{Messages, write_stdout};
+use crate::messages::{FileProgress, Messages, write_stdout};
 use crate::models::load;
 use crate::report::{VERSION, to_json};
 use crate::{exit, interrupt};
@@ -81,16 +81,19 @@ fn compare(arguments: &CompareArguments, messages: &Messages) -> Result<CompareR
     let other = arguments.second.as_ref().unwrap_or(&arguments.first);
     let inputs = [&arguments.first, other].map(|path| Input::File(path.clone()));
     messages.start(inputs.iter().map(size_of).sum());
-    let mut first = open(&inputs[0], arguments, messages)?;
-    messages.end_file();
-    let mut second = open(&inputs[1], arguments, messages)?;
+    let begun = |input: &Input| messages.file(&input.to_string(), size_of(input));
+    let progress = begun(&inputs[0]);
+    let mut first = load(&inputs[0], arguments.allow_outside)?;
+    drop(progress);
+    let progress = begun(&inputs[1]);
+    let mut second = load(&inputs[1], arguments.allow_outside)?;
     if let Some(path) = &arguments.heat_map {
         refuse_used(path, [&first, &second])?;
     }
     if let Some(method) = arguments.method {
-        give_tangents(&mut second, method.into(), messages)?;
+        give_tangents(&mut second, method.into(), &progress)?;
     }
-    messages.end_file();
+    drop(progress);
     let told = |document: &Document| -> Vec<String> {
         document.warnings().iter().map(|warning| format!("{}: {warning}", document.name())).collect()
     };
@@ -122,11 +125,6 @@ fn compare(arguments: &CompareArguments, messages: &Messages) -> Result<CompareR
         heat_map,
         warnings,
     })
-}
-
-fn open(input: &Input, arguments: &CompareArguments, messages: &Messages) -> Result<Document, String> {
-    messages.start_file(&input.to_string(), size_of(input));
-    load(input, arguments.allow_outside)
 }
 
 /// Says which file has no tangents, or that no primitive has them in both.
@@ -161,11 +159,11 @@ fn refuse_used(path: &Path, documents: [&Document; 2]) -> Result<(), String> {
 fn give_tangents(
     document: &mut Document,
     method: darboux::Method,
-    messages: &Messages,
+    progress: &FileProgress<'_>,
 ) -> Result<(), String> {
     let tangents = TangentOptions { method, ..TangentOptions::default() };
     let options = TangentsOptions { tangents, overwrite: true, ..TangentsOptions::default() };
-    let mut on_progress = |progress: Progress| messages.progress(progress.done, progress.total);
+    let mut on_progress = |Progress { done, total }: Progress| progress.set(done, total);
     add_tangents(document, &options, &mut on_progress).map(drop).map_err(|error| error.to_string())
 }
 

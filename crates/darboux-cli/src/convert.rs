@@ -12,7 +12,7 @@ use crate::arguments::{ConvertArguments, Files, Talk};
 use crate::batch::{Made, Work, counted};
 use crate::interrupt;
 use crate::jobs::{Input, Job, Output, Usage, is_png};
-use crate::messages::{Messages, write_stdout};
+use crate::messages::{FileProgress, write_stdout};
 use crate::models::{load_any, read_stdin, save};
 use crate::report::{FileReport, Status};
 
@@ -66,7 +66,12 @@ impl Work for ConvertArguments {
         }
     }
 
-    fn process(&self, job: &Job, messages: &Messages) -> Result<Made<ConvertSummary>, String> {
+    fn options(&self) -> String {
+        let Self { from, to, layout, to_layout, raw, .. } = self;
+        format!("{:?}", (from.name, to.name, layout, to_layout, raw))
+    }
+
+    fn process(&self, job: &Job, progress: &FileProgress<'_>) -> Result<Made<ConvertSummary>, String> {
         let sentence = |error: darboux_io::Error| error.to_string();
         match &job.input {
             Input::Stdin => {
@@ -78,7 +83,7 @@ impl Work for ConvertArguments {
                 self.model(
                     Document::from_bytes(&name, bytes, None, &options).map_err(sentence)?,
                     job,
-                    messages,
+                    progress,
                 )
             }
             Input::File(path) if is_png(path) || starts_as_png(path) => {
@@ -88,7 +93,7 @@ impl Work for ConvertArguments {
                 "{}: only PNG files are converted, which keep every texel; save it as one",
                 path.display()
             )),
-            Input::File(_) => self.model(load_any(&job.input, self.files.allow_outside)?, job, messages),
+            Input::File(_) => self.model(load_any(&job.input, self.files.allow_outside)?, job, progress),
         }
     }
 
@@ -148,8 +153,7 @@ impl ConvertArguments {
             }
             Output::File(path) => {
                 let _guard = interrupt::writing();
-                let force = self.files.force || self.files.in_place;
-                let written = image.save(path, force).map_err(sentence)?;
+                let written = image.save(path, self.files.replace()).map_err(sentence)?;
                 Ok((status, vec![written.display().to_string()]))
             }
         }
@@ -159,7 +163,7 @@ impl ConvertArguments {
         &self,
         mut document: Document,
         job: &Job,
-        messages: &Messages,
+        progress: &FileProgress<'_>,
     ) -> Result<Made<ConvertSummary>, String> {
         let (from, to) = (self.from, self.to);
         if to.convention != darboux::Convention::GLTF && !self.raw {
@@ -169,7 +173,7 @@ impl ConvertArguments {
             ));
         }
         let mut warnings = document.warnings().to_vec();
-        let mut on_progress = |progress: Progress| messages.progress(progress.done, progress.total);
+        let mut on_progress = |Progress { done, total }: Progress| progress.set(done, total);
         let mut summary = convert_vertices(&mut document, from.convention, to.convention, &mut on_progress)
             .map_err(|error| error.to_string())?;
         warnings.append(&mut summary.warnings);

@@ -7,6 +7,8 @@ mod convert;
 mod inspect;
 mod interrupt;
 mod jobs;
+mod journal;
+mod library;
 mod messages;
 mod methods;
 mod models;
@@ -21,6 +23,7 @@ use clap::Parser;
 
 pub use arguments::Arguments;
 use arguments::Command;
+pub use library::{Library, carry_out, give_up};
 
 /// Exit codes, as `darboux --help` lists them.
 mod exit {

@@ -12,8 +12,15 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 pub struct Messages {
     quiet: bool,
     progress: ProgressBar,
-    /// The bytes of the current file, and of those before it.
-    file: Cell<(u64, u64)>,
+}
+
+/// How far the work on a file is. Dropped, it is at the end.
+pub struct FileProgress<'a> {
+    progress: &'a ProgressBar,
+    /// The file's.
+    bytes: u64,
+    /// Of these, those that are done.
+    done: Cell<u64>,
 }
 
 /// After this time there is a progress bar.
@@ -28,7 +35,7 @@ impl Messages {
         let progress = ProgressBar::with_draw_target(Some(0), ProgressDrawTarget::hidden());
         let style = ProgressStyle::with_template("{bar:30} {percent:>3} % {elapsed} {wide_msg}");
         progress.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-        Self { quiet, progress, file: Cell::new((0, 0)) }
+        Self { quiet, progress }
     }
 
     /// Announces work on inputs of so many bytes, against which progress is shown if it takes long.
@@ -49,22 +56,9 @@ impl Messages {
     }
 
     /// Begins the work on a file of so many bytes.
-    pub fn start_file(&self, name: &str, bytes: u64) {
-        self.file.set((bytes, self.file.get().1));
+    pub fn file(&self, name: &str, bytes: u64) -> FileProgress<'_> {
         self.progress.set_message(name.to_owned());
-    }
-
-    /// The current file is done to this part.
-    pub fn progress(&self, done: usize, total: usize) {
-        let (bytes, before) = self.file.get();
-        self.progress.set_position(before + (bytes as f64 * done as f64 / total.max(1) as f64) as u64);
-    }
-
-    /// Ends the work on the current file.
-    pub fn end_file(&self) {
-        let (bytes, before) = self.file.get();
-        self.file.set((0, before + bytes));
-        self.progress.set_position(before + bytes);
+        FileProgress { progress: &self.progress, bytes, done: Cell::new(0) }
     }
 
     /// Takes the progress bar away.
@@ -95,6 +89,20 @@ impl Messages {
         self.progress.suspend(|| {
             let _closed_is_no_fault = writeln!(anstream::stderr(), "{style}{label}{style:#}{text}");
         });
+    }
+}
+
+impl FileProgress<'_> {
+    /// The file is done to this part.
+    pub fn set(&self, done: usize, total: usize) {
+        let done = (self.bytes as f64 * done as f64 / total.max(1) as f64) as u64;
+        self.progress.inc(done.saturating_sub(self.done.replace(done)));
+    }
+}
+
+impl Drop for FileProgress<'_> {
+    fn drop(&mut self) {
+        self.set(1, 1);
     }
 }
 

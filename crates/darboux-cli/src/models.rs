@@ -63,7 +63,7 @@ pub fn save(
     let _guard = interrupt::writing();
     let written = match files.in_place {
         true => document.save_in_place(),
-        false => document.save(path, &SaveOptions { force: files.force }),
+        false => document.save(path, &SaveOptions { force: files.replace() }),
     };
     let written: Vec<String> =
         written.map_err(sentence)?.iter().map(|path| path.display().to_string()).collect();

@@ -8,7 +8,7 @@ use indicatif::HumanCount;
 use crate::arguments::{Files, NormalsArguments, Talk};
 use crate::batch::{Made, Work, counted, remarks};
 use crate::jobs::{Job, Usage, word};
-use crate::messages::Messages;
+use crate::messages::FileProgress;
 use crate::models::{load, save};
 use crate::report::FileReport;
 
@@ -34,12 +34,15 @@ impl Work for NormalsArguments {
         Ok(())
     }
 
-    fn process(&self, job: &Job, messages: &Messages) -> Result<Made<NormalsSummary>, String> {
+    fn options(&self) -> String {
+        format!("{:?}", normals_options(self))
+    }
+
+    fn process(&self, job: &Job, progress: &FileProgress<'_>) -> Result<Made<NormalsSummary>, String> {
         let mut document = load(&job.input, self.files.allow_outside)?;
-        let mut on_progress = |progress: Progress| messages.progress(progress.done, progress.total);
-        let options = NormalsOptions { normals: self.options(), overwrite: self.overwrite };
-        let mut summary =
-            add_normals(&mut document, &options, &mut on_progress).map_err(|error| error.to_string())?;
+        let mut on_progress = |Progress { done, total }: Progress| progress.set(done, total);
+        let mut summary = add_normals(&mut document, &normals_options(self), &mut on_progress)
+            .map_err(|error| error.to_string())?;
         summary.warnings.splice(0..0, document.warnings().iter().cloned());
         summary.warnings.extend(without_tangents(&summary.primitives));
         let (status, files_written) = save(&document, &job.output, &self.files, summary.written > 0)?;
@@ -55,10 +58,15 @@ impl Work for NormalsArguments {
     }
 
     fn total(files: &[FileReport<NormalsSummary>]) -> String {
-        let written: usize = files.iter().map(|file| file.summary.written).sum();
-        let all: usize = files.iter().map(|file| file.summary.primitives.len()).sum();
+        let summaries = || files.iter().filter_map(|file| file.summary.now());
+        let written: usize = summaries().map(|summary| summary.written).sum();
+        let all: usize = summaries().map(|summary| summary.primitives.len()).sum();
         format!("{} got normals, {} did not", counted(written, "primitive", "primitives"), all - written)
     }
+}
+
+fn normals_options(arguments: &NormalsArguments) -> NormalsOptions {
+    NormalsOptions { normals: arguments.shading(), overwrite: arguments.overwrite }
 }
 
 /// A warning where tangents were taken out: materials may need some.

@@ -2,6 +2,7 @@
 
 use darboux_io::gltf::PrimitiveInfo;
 use serde::Serialize;
+use serde_json::{Map, Value};
 
 /// What commands that write files print with `--json`.
 #[derive(Serialize)]
@@ -21,7 +22,27 @@ pub struct FileReport<S> {
     pub error: Option<String>,
     pub files_written: Vec<String>,
     #[serde(flatten)]
-    pub summary: S,
+    pub summary: Told<S>,
+}
+
+/// What the command has to say of a file.
+#[derive(Serialize)]
+#[serde(untagged)]
+pub enum Told<S> {
+    /// It was worked on now.
+    Now(S),
+    /// An earlier run did, and said this.
+    Before(Map<String, Value>),
+}
+
+impl<S> Told<S> {
+    /// What was done now.
+    pub fn now(&self) -> Option<&S> {
+        match self {
+            Self::Now(summary) => Some(summary),
+            Self::Before(_) => None,
+        }
+    }
 }
 
 /// A file's end.
@@ -34,6 +55,8 @@ pub enum Status {
     Copied,
     /// Nothing to do in place: the file is as it was.
     Untouched,
+    /// An earlier run made the output; it is as it was.
+    UpToDate,
     /// No output.
     Failed,
 }
@@ -45,6 +68,7 @@ pub struct FileTotals {
     pub written: usize,
     pub copied: usize,
     pub untouched: usize,
+    pub up_to_date: usize,
     pub failed: usize,
 }
 
@@ -77,7 +101,7 @@ impl<S: Default> FileReport<S> {
             status: Status::Failed,
             error: Some(error),
             files_written: Vec::new(),
-            summary: S::default(),
+            summary: Told::Now(S::default()),
         }
     }
 }
@@ -91,6 +115,7 @@ impl<S> Report<S> {
                 Status::Written => &mut totals.written,
                 Status::Copied => &mut totals.copied,
                 Status::Untouched => &mut totals.untouched,
+                Status::UpToDate => &mut totals.up_to_date,
                 Status::Failed => &mut totals.failed,
             } += 1;
         }

@@ -11,7 +11,7 @@ use serde::Serialize;
 use crate::arguments::{Files, Method, Talk, TangentsArguments};
 use crate::batch::{Made, Work, counted, remarks};
 use crate::jobs::{Job, Usage, word};
-use crate::messages::Messages;
+use crate::messages::FileProgress;
 use crate::models::{load, save};
 use crate::normals;
 use crate::report::FileReport;
@@ -50,7 +50,11 @@ impl Work for TangentsArguments {
         Ok(())
     }
 
-    fn process(&self, job: &Job, messages: &Messages) -> Result<Made<TangentsSummary>, String> {
+    fn options(&self) -> String {
+        format!("{:?} after {:?}", options(self), self.normals.options())
+    }
+
+    fn process(&self, job: &Job, progress: &FileProgress<'_>) -> Result<Made<TangentsSummary>, String> {
         let sentence = |error: darboux_io::Error| error.to_string();
         let mut document = load(&job.input, self.files.allow_outside)?;
         let mut warnings = document.warnings().to_vec();
@@ -61,7 +65,7 @@ impl Work for TangentsArguments {
             warnings.extend(made.warnings);
             normals = Some(made.primitives);
         }
-        let mut on_progress = |progress: Progress| messages.progress(progress.done, progress.total);
+        let mut on_progress = |Progress { done, total }: Progress| progress.set(done, total);
         let mut tangents = add_tangents(&mut document, &options(self), &mut on_progress).map_err(sentence)?;
         tangents.warnings.splice(0..0, warnings);
         let changed = document.is_changed() && (normals.is_some() || tangents.totals.written > 0);
@@ -89,7 +93,7 @@ impl Work for TangentsArguments {
 
     fn total(files: &[FileReport<TangentsSummary>]) -> String {
         let sum = |of: fn(&Totals) -> usize| {
-            files.iter().map(|file| of(&file.summary.tangents.totals)).sum::<usize>()
+            files.iter().filter_map(|file| Some(of(&file.summary.now()?.tangents.totals))).sum::<usize>()
         };
         format!(
             "{} got tangents, {} kept, {} left alone",

@@ -21,7 +21,7 @@ fn the_tangents_report_has_the_documented_fields() {
     assert!(run.stderr.is_empty(), "{}", run.stderr);
     let report = run.json();
     assert_eq!(keys(&report), ["command", "version", "files", "totals"]);
-    assert_eq!(keys(&report["totals"]), ["files", "written", "copied", "untouched", "failed"]);
+    assert_eq!(keys(&report["totals"]), ["files", "written", "copied", "untouched", "up_to_date", "failed"]);
     let file = &report["files"][0];
     assert_eq!(
         keys(file),

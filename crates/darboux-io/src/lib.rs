@@ -10,3 +10,4 @@ mod paths;
 mod staging;
 
 pub use error::Error;
+pub use staging::is_unfinished;

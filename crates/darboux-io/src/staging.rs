@@ -86,10 +86,18 @@ impl Drop for Staging {
     }
 }
 
+/// What the names of files begin with until they are complete.
+const UNFINISHED: &str = ".darboux-";
+
+/// Whether a name is one that files have until they are complete: what is found while nobody writes was left by a process that was killed.
+pub fn is_unfinished(path: &Path) -> bool {
+    path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(UNFINISHED.as_bytes()))
+}
+
 /// A temporary file with the permissions of an ordinary new file.
 fn new_file(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".darboux-");
+    builder.prefix(UNFINISHED);
     #[cfg(unix)]
     let builder = {
         use std::os::unix::fs::PermissionsExt;

@@ -88,13 +88,17 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__convert)
-            opts="-q -o -h --out-dir --in-place --force --allow-outside --from --to --layout --to-layout --raw --json --quiet --output --help"
+            opts="-q -o -h --out-dir --in-place --force --resume --jobs --allow-outside --from --to --layout --to-layout --raw --json --quiet --output --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
             fi
             case "${prev}" in
                 --out-dir)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --jobs)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
@@ -158,7 +162,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__normals)
-            opts="-o -q -h --output --out-dir --in-place --force --allow-outside --normals --weight --respect-seams --overwrite --json --quiet --help"
+            opts="-o -q -h --output --out-dir --in-place --force --resume --jobs --allow-outside --normals --weight --respect-seams --overwrite --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -173,6 +177,10 @@ _darboux() {
                     return 0
                     ;;
                 --out-dir)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --jobs)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
@@ -192,7 +200,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__tangents)
-            opts="-o -q -h --output --out-dir --in-place --force --allow-outside --method --mode --threshold --normals --encoding --overwrite --only-needed --apply-texture-transform --strict --json --quiet --help"
+            opts="-o -q -h --output --out-dir --in-place --force --resume --jobs --allow-outside --method --mode --threshold --normals --encoding --overwrite --only-needed --apply-texture-transform --strict --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -207,6 +215,10 @@ _darboux() {
                     return 0
                     ;;
                 --out-dir)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --jobs)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

@@ -35,6 +35,7 @@ complete -c darboux -n "__fish_darboux_needs_command" -f -a "view" -d 'Show a mo
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "methods" -d 'Say which method of computing tangents is for what'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s o -l output -d 'Output file for a single input; - is standard output, as GLB' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l out-dir -d 'Folder for all outputs; paths below input folders are kept' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l jobs -d 'How many files are worked on at the same time' -r
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l method -d 'How tangents are computed: as the normal map was baked, so nearly always mikktspace' -r -f -a "mikktspace\t'The standard of bakers and engines'
 angle-area\t'Weighted by angle and area: follows the UVs best where no baked map asks for MikkTSpace'
 lengyel\t'Sums of dP/du, one per UV orientation'
@@ -53,6 +54,7 @@ snorm16x4\t''
 snorm8x4\t''"
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l in-place -d 'Replace each input by its output'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l force -d 'Replace output files that exist'
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l resume -d 'Leave out inputs whose output in --out-dir is up to date, and replace those that are not'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l allow-outside -d 'Allow buffers and images outside the input\'s folder'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l overwrite -d 'Replace tangents that exist; without it such primitives are kept'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l only-needed -d 'Only primitives whose material uses tangents (normal map, clearcoat normal map, anisotropy)'
@@ -63,12 +65,14 @@ complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s q -l quiet 
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -s o -l output -d 'Output file for a single input; - is standard output, as GLB' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l out-dir -d 'Folder for all outputs; paths below input folders are kept' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand normals" -l jobs -d 'How many files are worked on at the same time' -r
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l normals -d 'flat, smooth, or crease=DEG: smooth but for edges that are sharper than so many degrees' -r
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l weight -d 'How much each face counts at a vertex of a smooth surface' -r -f -a "angle\t'The angle of its corner: independent of how a flat surface is cut'
 area\t'Its area'
 angle-area\t'Both: wide faces stay flat beside bevels'"
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l in-place -d 'Replace each input by its output'
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l force -d 'Replace output files that exist'
+complete -c darboux -n "__fish_darboux_using_subcommand normals" -l resume -d 'Leave out inputs whose output in --out-dir is up to date, and replace those that are not'
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l allow-outside -d 'Allow buffers and images outside the input\'s folder'
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l respect-seams -d 'Vertices stay apart where the index list has them apart, at equal positions too'
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l overwrite -d 'Replace normals that exist; without it such primitives are kept'
@@ -76,6 +80,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand normals" -l json -d 'Wri
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -s q -l quiet -d 'Print errors only'
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l out-dir -d 'Folder for all outputs; paths below input folders are kept' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l jobs -d 'How many files are worked on at the same time' -r
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l from -d 'The convention that the files are in' -r -f -a "gltf\t''
 opengl\t''
 directx\t''
@@ -101,6 +106,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand convert" -l to-layout -d
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -s o -l output -d 'Output file for a single input; - is standard output' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l in-place -d 'Replace each input by its output'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l force -d 'Replace output files that exist'
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l resume -d 'Leave out inputs whose output in --out-dir is up to date, and replace those that are not'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l allow-outside -d 'Allow buffers and images outside the input\'s folder'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l raw -d 'Let a model leave glTF\'s convention: for programs that copy its numbers as they are'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l json -d 'Write a report as JSON to standard output'

@@ -1,5 +1,6 @@
 //! What commands that write models have in common: inputs, outputs, messages.
 
+use std::num::NonZero;
 use std::path::PathBuf;
 
 use clap::{ArgGroup, Args};
@@ -31,9 +32,27 @@ pub struct Files {
     #[arg(long, help_heading = "Output")]
     pub force: bool,
 
+    /// Leave out inputs whose output in --out-dir is up to date, and replace those that are not
+    ///
+    /// Up to date is what was made of the same content by the same options. FOLDER/darboux-journal.jsonl tells, to which each file
+    /// is added as it is done: run the same command again, and a run that was stopped goes on.
+    #[arg(long, requires = "out_dir", help_heading = "Output")]
+    pub resume: bool,
+
+    /// How many files are worked on at the same time
+    #[arg(long, value_name = "NUMBER", default_value = "1", help_heading = "Output")]
+    pub jobs: NonZero<u16>,
+
     /// Allow buffers and images outside the input's folder
     #[arg(long, help_heading = "Input")]
     pub allow_outside: bool,
+}
+
+impl Files {
+    /// Whether an output may take the place of a file that exists.
+    pub fn replace(&self) -> bool {
+        self.force || self.in_place || self.resume
+    }
 }
 
 /// How much is said, and to whom.

@@ -51,7 +51,7 @@ pub struct NormalsArguments {
 
 impl NormalsArguments {
     /// The options of the core.
-    pub fn options(&self) -> NormalOptions {
+    pub fn shading(&self) -> NormalOptions {
         let seams = if self.respect_seams { SmoothingSeams::Respected } else { SmoothingSeams::Ignored };
         NormalOptions { weight: self.weight.into(), seams, ..self.normals.options() }
     }

@@ -26,6 +26,7 @@ Examples:
   darboux tangents model.glb                        writes model.tangents.glb
   darboux tangents model.gltf -o model.glb          the same into one file
   darboux tangents models --out-dir out             a whole folder, its structure kept
+  darboux tangents models --out-dir out --resume    what an earlier run left to do
   darboux tangents models --in-place --only-needed  only where materials use tangents
   darboux tangents a.glb --overwrite --json         replace old tangents, report as JSON
   darboux tangents a.glb --encoding snorm8x4        in a quarter of the bytes

@@ -182,6 +182,12 @@ impl Document {
         Ok(renamed)
     }
 
+    /// The files that the document was read from and those that it refers to, its own first, links resolved. Missing ones are left out.
+    pub fn source_files(&self) -> Vec<PathBuf> {
+        let own = self.input.iter().cloned();
+        own.chain(self.files().into_iter().map(|file| file.path)).collect()
+    }
+
     /// The files that the document refers to, each once.
     fn files(&self) -> Vec<Located> {
         self.files_of(|_| true)

@@ -1,0 +1,169 @@
+//! What is done in a folder of outputs, so that a run that was stopped can go on: one line of JSON per output.
+//!
+//! An output is up to date while its input's content, the options and the version are those that it was made with, and all that was
+//! written with it is there. A line that is broken, as a killed process may leave it, counts as none: its file is done again.
+
+use std::collections::HashMap;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+
+use darboux_io::gltf::{Document, LoadOptions};
+use darboux_io::is_unfinished;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+use walkdir::WalkDir;
+
+use crate::report::VERSION;
+
+const NAME: &str = "darboux-journal.jsonl";
+
+/// The journal of a folder. While it is open no other process can open it.
+pub struct Journal {
+    folder: PathBuf,
+    file: File,
+    records: HashMap<String, Record>,
+}
+
+/// An output, and what it was made of.
+#[derive(Clone, Serialize, Deserialize)]
+pub struct Record {
+    /// Below the folder.
+    output: String,
+    #[serde(flatten)]
+    origin: Origin,
+    /// What was written, below the folder, and of how many bytes.
+    files: Vec<(String, u64)>,
+    /// What the report said of it, beyond what it says of all.
+    pub summary: Map<String, Value>,
+}
+
+/// What decides an output.
+#[derive(Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Origin {
+    command: String,
+    version: String,
+    options: String,
+    /// BLAKE3 of the input and of all files that it refers to.
+    content: String,
+}
+
+impl Origin {
+    /// What decides the output of `input` now. Errors: a file that cannot be read.
+    pub fn new(command: &str, options: String, input: &Path, allow_outside: bool) -> Result<Self, String> {
+        let content = content_of(input, allow_outside)
+            .map_err(|(file, error)| format!("{}: cannot be read: {error}", file.display()))?;
+        Ok(Self { command: command.into(), version: VERSION.into(), options, content })
+    }
+}
+
+/// The hash of the hashes of all files. What is no model is a file of its own.
+fn content_of(input: &Path, allow_outside: bool) -> Result<String, (PathBuf, io::Error)> {
+    let document = Document::open(input, &LoadOptions { allow_outside });
+    let files = document.map_or_else(|_| vec![input.to_owned()], |document| document.source_files());
+    let mut all = blake3::Hasher::new();
+    for file in files {
+        let mut one = blake3::Hasher::new();
+        let hashed = File::open(&file).and_then(|file| one.update_reader(file).map(drop));
+        hashed.map_err(|error| (file, error))?;
+        all.update(one.finalize().as_bytes());
+    }
+    Ok(all.finalize().to_hex().to_string())
+}
+
+impl Record {
+    /// The record of an output in `folder`, of which these files were written. Errors: a file that is gone already.
+    pub fn new(
+        folder: &Path,
+        output: &Path,
+        origin: Origin,
+        written: &[String],
+        summary: &impl Serialize,
+    ) -> Result<Self, String> {
+        let sized = |path: &String| {
+            let length = Path::new(path).metadata().map_err(|error| format!("{path}: {error}"))?.len();
+            Ok((below(folder, Path::new(path)), length))
+        };
+        let files = written.iter().map(sized).collect::<Result<_, String>>()?;
+        let summary = match serde_json::to_value(summary) {
+            Ok(Value::Object(summary)) => summary,
+            _ => Map::new(),
+        };
+        Ok(Self { output: below(folder, output), origin, files, summary })
+    }
+
+    /// Whether an output of this origin is there, with all that was written with it.
+    pub fn is_of(&self, origin: &Origin, folder: &Path) -> bool {
+        let is_there = |(path, length): &(String, u64)| {
+            folder.join(path).metadata().is_ok_and(|file| file.is_file() && file.len() == *length)
+        };
+        self.origin == *origin && self.files.iter().all(is_there)
+    }
+}
+
+/// A path below the folder as text, the same on every system.
+fn below(folder: &Path, path: &Path) -> String {
+    let relative = path.strip_prefix(folder).unwrap_or(path);
+    let names: Vec<_> = relative.iter().map(|name| name.to_string_lossy()).collect();
+    names.join("/")
+}
+
+/// Removes what killed processes left half-written in a folder and below it.
+pub fn remove_unfinished(folder: &Path) -> Result<(), String> {
+    for entry in WalkDir::new(folder).into_iter().filter_map(Result::ok) {
+        if entry.file_type().is_file() && is_unfinished(entry.path()) {
+            let removed = fs::remove_file(entry.path());
+            removed.map_err(|error| format!("{}: cannot be removed: {error}", entry.path().display()))?;
+        }
+    }
+    Ok(())
+}
+
+impl Journal {
+    /// Opens the journal of a folder, which is made where it is missing, and removes what killed processes left half-written there.
+    ///
+    /// Errors: another process has it open; the system refuses.
+    pub fn open(folder: &Path) -> Result<Self, String> {
+        let path = folder.join(NAME);
+        let failed = |error: io::Error| format!("{}: cannot be opened: {error}", path.display());
+        fs::create_dir_all(folder).map_err(failed)?;
+        let mut file = OpenOptions::new().read(true).append(true).create(true).open(&path).map_err(failed)?;
+        // Where the file system has no locks, nobody watches over the folder but its owner.
+        if let Err(TryLockError::WouldBlock) = file.try_lock() {
+            return Err(format!(
+                "{}: another run is writing there; wait for its end or use another folder",
+                folder.display()
+            ));
+        }
+        remove_unfinished(folder)?;
+        let mut bytes = Vec::new();
+        file.read_to_end(&mut bytes).map_err(failed)?;
+        if bytes.last().is_some_and(|&last| last != b'\n') {
+            file.write_all(b"\n").map_err(failed)?;
+        }
+        let records = bytes.split(|&byte| byte == b'\n').filter_map(|line| serde_json::from_slice(line).ok());
+        let records = records.map(|record: Record| (record.output.clone(), record)).collect();
+        Ok(Self { folder: folder.to_owned(), file, records })
+    }
+
+    /// The folder of outputs.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// What is known of an output.
+    pub fn find(&self, output: &Path) -> Option<&Record> {
+        self.records.get(&below(&self.folder, output))
+    }
+
+    /// Adds what is done, in one line.
+    pub fn add(&self, record: &Record) -> Result<(), String> {
+        let line = serde_json::to_vec(record).map_err(io::Error::from);
+        let written = line.and_then(|mut line| {
+            line.push(b'\n');
+            (&self.file).write_all(&line)
+        });
+        let path = self.folder.join(NAME);
+        written.map_err(|error| format!("{}: cannot be written: {error}", path.display()))
+    }
+}

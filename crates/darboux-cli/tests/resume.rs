@@ -1,0 +1,162 @@
+//! Runs that go on where an earlier one was stopped, and several files at a time.
+
+mod common;
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use common::{asset, darboux, names_in, text};
+use serde_json::Value;
+use tempfile::TempDir;
+
+const JOURNAL: &str = "darboux-journal.jsonl";
+
+/// A library of three models, one of them in many files, and an empty folder for outputs.
+fn library() -> (TempDir, PathBuf, PathBuf) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (models, out) = (folder.path().join("models"), folder.path().join("out"));
+    fs::create_dir_all(models.join("plane")).expect("a folder");
+    fs::copy(asset("made/quantised-sparse.glb"), models.join("a.glb")).expect("a copy");
+    fs::copy(asset("Fox/Fox.glb"), models.join("b.glb")).expect("a copy");
+    for name in names_in(&asset("TwoSidedPlane")) {
+        fs::copy(asset("TwoSidedPlane").join(&name), models.join("plane").join(name)).expect("a copy");
+    }
+    (folder, models, out)
+}
+
+fn resume(models: &Path, out: &Path, options: &[&str], code: i32) -> Value {
+    let arguments = ["tangents", text(models), "--out-dir", text(out), "--resume", "--json"];
+    darboux(&[&arguments, options].concat()).exits(code).json()
+}
+
+fn statuses(report: &Value) -> Vec<&str> {
+    let files = report["files"].as_array().expect("files");
+    files.iter().map(|file| file["status"].as_str().expect("a status")).collect()
+}
+
+/// All files below a folder but the journal, with their bytes.
+fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let mut found = Vec::new();
+    for name in names_in(folder).into_iter().filter(|name| name != JOURNAL) {
+        let path = folder.join(name);
+        if path.is_dir() {
+            found.extend(contents(&path));
+        } else {
+            found.push((path.clone(), fs::read(&path).expect("an output")));
+        }
+    }
+    found
+}
+
+#[test]
+fn only_what_changed_is_done_again() {
+    let (_folder, models, out) = library();
+    let first = resume(&models, &out, &[], 0);
+    assert_eq!(statuses(&first), ["written", "copied", "copied"]);
+    let again = resume(&models, &out, &[], 0);
+    assert_eq!(statuses(&again), ["up_to_date"; 3]);
+    assert_eq!(again["totals"]["up_to_date"], 3);
+    assert_eq!(again["files"][0]["primitives"], first["files"][0]["primitives"]);
+
+    fs::copy(asset("made/degenerate.gltf"), models.join("b.glb")).expect("another model");
+    assert_eq!(statuses(&resume(&models, &out, &[], 0)), ["up_to_date", "written", "up_to_date"]);
+    let image = models.join("plane/TwoSidedPlane_Normal.png");
+    fs::copy(models.join("plane/TwoSidedPlane_BaseColor.png"), image).expect("another image");
+    assert_eq!(statuses(&resume(&models, &out, &[], 0)), ["up_to_date", "up_to_date", "copied"]);
+    fs::remove_file(out.join("a.glb")).expect("the output");
+    assert_eq!(statuses(&resume(&models, &out, &[], 0)), ["written", "up_to_date", "up_to_date"]);
+    fs::write(out.join("a.glb"), b"cut").expect("the output");
+    assert_eq!(statuses(&resume(&models, &out, &[], 0)), ["written", "up_to_date", "up_to_date"]);
+
+    let other = resume(&models, &out, &["--encoding", "snorm8x4", "--overwrite"], 0);
+    assert!(!statuses(&other).contains(&"up_to_date"));
+    assert_eq!(statuses(&resume(&models, &out, &[], 0)).len(), 3);
+    assert_eq!(statuses(&resume(&models, &out, &[], 0)), ["up_to_date"; 3]);
+}
+
+#[test]
+fn failures_are_collected_and_tried_again() {
+    let (_folder, models, out) = library();
+    fs::write(models.join("aa.glb"), b"glTF").expect("a broken model");
+    let report = resume(&models, &out, &[], 1);
+    assert_eq!(statuses(&report), ["written", "failed", "copied", "copied"]);
+    fs::copy(models.join("a.glb"), models.join("aa.glb")).expect("the model mended");
+    let report = resume(&models, &out, &[], 0);
+    assert_eq!(statuses(&report), ["up_to_date", "written", "up_to_date", "up_to_date"]);
+}
+
+#[test]
+fn a_broken_line_of_the_journal_is_no_line() {
+    let (_folder, models, out) = library();
+    resume(&models, &out, &[], 0);
+    let journal = fs::read(out.join(JOURNAL)).expect("the journal");
+    // As a process leaves it that is killed while it writes the last line.
+    fs::write(out.join(JOURNAL), &journal[..journal.len() - 20]).expect("the journal");
+    assert_eq!(statuses(&resume(&models, &out, &[], 0)), ["up_to_date", "up_to_date", "copied"]);
+    assert_eq!(statuses(&resume(&models, &out, &[], 0)), ["up_to_date"; 3]);
+}
+
+#[test]
+fn a_killed_run_goes_on() {
+    let (_folder, models, out) = library();
+    for number in 0..30 {
+        fs::copy(asset("NormalTangentTest/NormalTangentTest.glb"), models.join(format!("many{number}.glb")))
+            .expect("a copy");
+    }
+    let whole = out.with_file_name("whole");
+    resume(&models, &whole, &[], 0);
+    let mut killed = Command::new(env!("CARGO_BIN_EXE_darboux"))
+        .args(["tangents", text(&models), "--out-dir", text(&out), "--resume", "--jobs", "2"])
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("the command starts");
+    while !fs::metadata(out.join(JOURNAL)).is_ok_and(|journal| journal.len() > 0) {
+        assert!(killed.try_wait().expect("a status").is_none(), "nothing was journalled");
+    }
+    killed.kill().expect("it can be killed");
+    killed.wait().expect("it ends");
+    // A file that it was about to write when it was killed.
+    fs::write(out.join("plane/.darboux-a1B2c3"), b"glT")
+        .or_else(|_| fs::write(out.join(".darboux-a1B2c3"), b""))
+        .expect("half a file");
+    let report = resume(&models, &out, &[], 0);
+    assert!(statuses(&report).contains(&"up_to_date"));
+    let relative = |folder: &Path| -> Vec<(PathBuf, Vec<u8>)> {
+        let files = contents(folder).into_iter();
+        files.map(|(path, bytes)| (path.strip_prefix(folder).expect("below").to_owned(), bytes)).collect()
+    };
+    assert!(relative(&out) == relative(&whole), "{:?}", names_in(&out));
+}
+
+#[test]
+fn several_files_at_a_time_are_the_same_files() {
+    let (_folder, models, out) = library();
+    let (one, many) = (out.join("one"), out.join("many"));
+    let run = |out: &Path, jobs: &str| {
+        darboux(&["tangents", text(&models), "--out-dir", text(out), "--jobs", jobs, "--json"])
+            .exits(0)
+            .json()
+    };
+    let (first, second) = (run(&one, "1"), run(&many, "8"));
+    let inputs = |report: &Value| -> Vec<Value> {
+        report["files"].as_array().expect("files").iter().map(|file| file["input"].clone()).collect()
+    };
+    assert_eq!(inputs(&first), inputs(&second));
+    let bytes = |folder: &Path| -> Vec<Vec<u8>> { contents(folder).into_iter().map(|file| file.1).collect() };
+    assert!(bytes(&one) == bytes(&many));
+    darboux(&["tangents", text(&models), "--jobs", "0"]).exits(2);
+}
+
+#[test]
+fn one_run_at_a_time_writes_into_a_folder() {
+    let (_folder, models, out) = library();
+    fs::create_dir(&out).expect("a folder");
+    let held = File::create(out.join(JOURNAL)).expect("a journal");
+    held.lock().expect("a lock");
+    let run = darboux(&["tangents", text(&models), "--out-dir", text(&out), "--resume"]).exits(1);
+    assert!(run.stderr.contains("another run is writing there"), "{}", run.stderr);
+    drop(held);
+    resume(&models, &out, &[], 0);
+    darboux(&["tangents", text(&models), "--resume"]).exits(2);
+}
