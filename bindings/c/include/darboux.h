@@ -51,6 +51,8 @@ enum darboux_status
   DARBOUX_STATUS_TOO_LATE = 10,
   /// A defect of the library, which is none of the caller's doing. Please report it with the message.
   DARBOUX_STATUS_INTERNAL = 11,
+  /// Two of a convention's axes lie along one line.
+  DARBOUX_STATUS_AXES = 12,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -214,6 +216,165 @@ enum darboux_tangent_encoding
 typedef enum darboux_tangent_encoding darboux_tangent_encoding;
 #else
 typedef uint32_t darboux_tangent_encoding;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/// A direction along a coordinate axis.
+enum darboux_axis
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /// As in glTF: right is -x, up is y, front is z.
+  DARBOUX_AXIS_DEFAULT = 0,
+  /// Along x.
+  DARBOUX_AXIS_X = 1,
+  /// Against x.
+  DARBOUX_AXIS_MINUS_X = 2,
+  /// Along y.
+  DARBOUX_AXIS_Y = 3,
+  /// Against y.
+  DARBOUX_AXIS_MINUS_Y = 4,
+  /// Along z.
+  DARBOUX_AXIS_Z = 5,
+  /// Against z.
+  DARBOUX_AXIS_MINUS_Z = 6,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum darboux_axis darboux_axis;
+#else
+typedef uint32_t darboux_axis;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/// The order of a face's corners, seen from the side that its normal points to, as the eye sees it and not as the numbers say.
+enum darboux_winding
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /// Against the clock.
+  DARBOUX_WINDING_COUNTER_CLOCKWISE = 0,
+  /// With the clock.
+  DARBOUX_WINDING_CLOCKWISE = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum darboux_winding darboux_winding;
+#else
+typedef uint32_t darboux_winding;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/// Where in the picture v = 0 is. u always runs to the right.
+enum darboux_uv_origin
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /// v runs down.
+  DARBOUX_UV_ORIGIN_TOP_LEFT = 0,
+  /// v runs up.
+  DARBOUX_UV_ORIGIN_BOTTOM_LEFT = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum darboux_uv_origin darboux_uv_origin;
+#else
+typedef uint32_t darboux_uv_origin;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/// Where the tangent points on the surface, and more red leans the normal: a direction in the picture that lies on it.
+enum darboux_tangent_direction
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /// To the picture's right.
+  DARBOUX_TANGENT_DIRECTION_RIGHT = 0,
+  /// To the picture's left.
+  DARBOUX_TANGENT_DIRECTION_LEFT = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum darboux_tangent_direction darboux_tangent_direction;
+#else
+typedef uint32_t darboux_tangent_direction;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/// Where the bitangent that a shader rebuilds points on the surface, and more green leans the normal: a direction in the picture.
+enum darboux_bitangent_direction
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /// To the picture's top ("OpenGL", Y+).
+  DARBOUX_BITANGENT_DIRECTION_UP = 0,
+  /// To the picture's bottom ("DirectX", Y-).
+  DARBOUX_BITANGENT_DIRECTION_DOWN = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum darboux_bitangent_direction darboux_bitangent_direction;
+#else
+typedef uint32_t darboux_bitangent_direction;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/// How a shader rebuilds the bitangent from normal, tangent and sign, by numbers.
+enum darboux_sign_rule
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /// w * cross(normal, tangent).
+  DARBOUX_SIGN_RULE_NORMAL_CROSS_TANGENT = 0,
+  /// w * cross(tangent, normal).
+  DARBOUX_SIGN_RULE_TANGENT_CROSS_NORMAL = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum darboux_sign_rule darboux_sign_rule;
+#else
+typedef uint32_t darboux_sign_rule;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/// Programs whose conventions are known.
+enum darboux_program
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /// glTF 2.0.
+  DARBOUX_PROGRAM_GLTF = 0,
+  /// OpenGL, as is usual with it.
+  DARBOUX_PROGRAM_OPENGL = 1,
+  /// Direct3D.
+  DARBOUX_PROGRAM_DIRECTX = 2,
+  /// Blender.
+  DARBOUX_PROGRAM_BLENDER = 3,
+  /// Unity.
+  DARBOUX_PROGRAM_UNITY = 4,
+  /// Unreal Engine.
+  DARBOUX_PROGRAM_UNREAL = 5,
+  /// Godot 4.
+  DARBOUX_PROGRAM_GODOT = 6,
+  /// three.js, but for the glTF files that it loads.
+  DARBOUX_PROGRAM_THREEJS = 7,
+  /// Maya.
+  DARBOUX_PROGRAM_MAYA = 8,
+  /// 3ds Max.
+  DARBOUX_PROGRAM_MAX = 9,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum darboux_program darboux_program;
+#else
+typedef uint32_t darboux_program;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -415,6 +576,76 @@ typedef struct darboux_uv_fidelity {
   /// Triangles that were not: without area, or without a dP/du.
   size_t left_out;
 } darboux_uv_fidelity;
+
+/// What the numbers of a mesh and of its normal map mean. All zeros, and a null pointer, are glTF's convention.
+typedef struct darboux_convention {
+  /// sizeof(darboux_convention), or 0, which stands for version 0.1's size.
+  size_t size;
+  /// Where a model's own right hand points. Right, up and front are three different axes.
+  darboux_axis right;
+  /// Where its head points.
+  darboux_axis up;
+  /// Where it looks.
+  darboux_axis front;
+  /// How fronts of faces are wound.
+  darboux_winding winding;
+  /// Where v = 0 is.
+  darboux_uv_origin uv_origin;
+  /// Where tangents, and red, point.
+  darboux_tangent_direction tangent;
+  /// Where bitangents, and green, point.
+  darboux_bitangent_direction bitangent;
+  /// What w means.
+  darboux_sign_rule sign;
+} darboux_convention;
+
+/// Where the normals and tangents of vertices are read and written. Strides are in bytes, 0 for packed.
+typedef struct darboux_frame_arrays {
+  /// sizeof(darboux_frame_arrays), or 0, which stands for version 0.1's size.
+  size_t size;
+  /// The number of elements of every array.
+  size_t count;
+  /// `count` by 3, unit.
+  const float *normals;
+  /// Bytes from one normal to the next.
+  size_t normal_stride;
+  /// `count` by 4, unit xyz and the sign w.
+  const float *tangents;
+  /// Bytes from one tangent to the next.
+  size_t tangent_stride;
+  /// Room for `count` by 3, unit; it may be `normals`.
+  float *out_normals;
+  /// Bytes from one of these to the next.
+  size_t out_normal_stride;
+  /// Room for `count` by 4, unit and perpendicular to the normals; it may be `tangents`.
+  float *out_tangents;
+  /// Bytes from one of these to the next.
+  size_t out_tangent_stride;
+} darboux_frame_arrays;
+
+/// A skin: matrices of bones, and which of them move each vertex.
+typedef struct darboux_skin {
+  /// sizeof(darboux_skin), or 0, which stands for version 0.1's size.
+  size_t size;
+  /// The matrix of each bone, from the pose of the arrays to where it is now, column by column.
+  const float *bones;
+  /// How many there are.
+  size_t bone_count;
+  /// Bytes from one matrix to the next. Default: 64, matrices of 4 by 4.
+  size_t bone_stride;
+  /// Bytes from one column of a matrix to the next. Default: 16, matrices of 4 by 4.
+  size_t column_stride;
+  /// How many bones each vertex has, as many as weights.
+  size_t influence_count;
+  /// `count` by `influence_count`: the bones of each vertex.
+  const uint16_t *joints;
+  /// Bytes from one vertex's bones to the next's. Default: packed.
+  size_t joint_stride;
+  /// `count` by `influence_count`: their weights.
+  const float *weights;
+  /// Bytes from one vertex's weights to the next's. Default: packed.
+  size_t weight_stride;
+} darboux_skin;
 
 /// Gives memory: `size` bytes at a multiple of `alignment`, a power of two. Null ends the program.
 typedef void *(*darboux_allocate)(void *context, size_t size, size_t alignment);
@@ -630,6 +861,96 @@ darboux_status darboux_decode_frames(size_t count,
                                      size_t normal_stride,
                                      float *tangents,
                                      size_t tangent_stride);
+
+/// Looks up a program's convention.
+///
+/// `program`: whose. `convention`: receives it. Errors: an unknown program, null.
+darboux_status darboux_convention_of(darboux_program program, struct darboux_convention *convention);
+
+/// Tells in which convention darboux_generate_tangents writes tangents for a mesh in a convention: this one but for the frames.
+///
+/// MikkTSpace knows no pictures; its sign is that of the UV area. So tangents for glTF, whose v runs down, are converted from what this
+/// gives for glTF to glTF, which negates w. `convention`: the mesh's. `generated`: receives the result. Errors: those of a convention; null.
+darboux_status darboux_convention_generated(const struct darboux_convention *convention,
+                                            struct darboux_convention *generated);
+
+/// Writes positions, normals or offsets in another convention. Exact.
+///
+/// `from`, `to`: the conventions. `count`: the number of elements. `vectors`: `count` by 3. `converted`: room for as many; it may be
+/// `vectors`. Each stride: bytes from one element to the next, 0 for packed.
+/// Errors: an unknown number in a convention, two axes along one line; null, a stride that is too small.
+darboux_status darboux_convert_vectors(const struct darboux_convention *from,
+                                       const struct darboux_convention *to,
+                                       size_t count,
+                                       const float *vectors,
+                                       size_t vector_stride,
+                                       float *converted,
+                                       size_t converted_stride);
+
+/// Writes tangents in another convention. Exact.
+///
+/// `tangents`: `count` by 4, xyz and the sign w. Other parameters and errors as for darboux_convert_vectors.
+darboux_status darboux_convert_tangents(const struct darboux_convention *from,
+                                        const struct darboux_convention *to,
+                                        size_t count,
+                                        const float *tangents,
+                                        size_t tangent_stride,
+                                        float *converted,
+                                        size_t converted_stride);
+
+/// Writes UVs in another convention: v becomes 1 - v where the origins differ.
+///
+/// There and back is exact for multiples of 2^-24 in [0, 1], otherwise off by up to the spacing of floats at the larger of 1 and |v|.
+/// `uvs`: `count` by 2. Other parameters and errors as for darboux_convert_vectors.
+darboux_status darboux_convert_uvs(const struct darboux_convention *from,
+                                   const struct darboux_convention *to,
+                                   size_t count,
+                                   const float *uvs,
+                                   size_t uv_stride,
+                                   float *converted,
+                                   size_t converted_stride);
+
+/// Reverses the corners of every face where fronts are wound the other way; the first of each stays. The eye decides: a change of
+/// hands alone reverses nothing.
+///
+/// `from`, `to`: the conventions. `faces`, `face_sizes`, `face_count`: as in darboux_mesh. `corners`: C elements of `corner_size` bytes,
+/// packed, changed in place: the indices, or whatever else lies along the corners. `corner_count`: C.
+/// Errors: those of darboux_convert_vectors; corners that do not make whole faces.
+darboux_status darboux_convert_faces(const struct darboux_convention *from,
+                                     const struct darboux_convention *to,
+                                     darboux_faces faces,
+                                     const uint32_t *face_sizes,
+                                     size_t face_count,
+                                     void *corners,
+                                     size_t corner_count,
+                                     size_t corner_size);
+
+/// Tells which channels of a normal map lean the other way: where they do, c becomes 2^n - 1 - c in every texel of n bits.
+///
+/// `from`, `to`: the conventions. `red`, `green`: receive 1 or 0. Errors: those of darboux_convert_vectors.
+darboux_status darboux_convert_channels(const struct darboux_convention *from,
+                                        const struct darboux_convention *to,
+                                        uint32_t *red,
+                                        uint32_t *green);
+
+/// Moves normals and tangents as a node's matrix moves their surface, mirrors and uneven scales included.
+///
+/// A normal that the matrix leaves no direction stays as it is; such a tangent becomes a perpendicular of the normal. `matrix`: column by
+/// column; of 4 by 4 the first three of the first three columns count. `column_stride`: bytes from one column to the next, 16 for
+/// matrices of 4 by 4, 0 for packed (3 by 3). `arrays`: normals and tangents. `orientation`: receives -1 where the matrix mirrors, which
+/// turns the winding of faces, else +1; or null. Errors: null, a stride that is too small.
+darboux_status darboux_transform_frames(const float *matrix,
+                                        size_t column_stride,
+                                        const struct darboux_frame_arrays *arrays,
+                                        float *orientation);
+
+/// Moves normals and tangents as a skin's bones move their surface: each by the weighted mean of its bones' matrices.
+///
+/// That weights vary over the surface is left out, as everywhere: normals of strongly bent skins are approximate. `skin`: its arrays have
+/// an element per normal. `arrays`: normals and tangents. Errors: null, a stride that is too small; a joint that is none of the bones.
+/// Source: B. Merry et al., "Normal Transformations for Articulated Models", SIGGRAPH Sketches 2006.
+darboux_status darboux_skin_frames(const struct darboux_skin *skin,
+                                   const struct darboux_frame_arrays *arrays);
 
 /// Has all of the library's memory come from the caller's functions.
 ///

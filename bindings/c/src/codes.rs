@@ -1,6 +1,9 @@
 //! Enumerations that callers pass. They arrive as plain numbers, since a number that is no variant must be an error.
 
-use darboux::{Method, Mode, NormalWeight, Shading, SmoothingSeams};
+use darboux::{
+    Axis, BitangentDirection, Convention, Method, Mode, NormalWeight, Shading, SignRule, SmoothingSeams,
+    TangentDirection, UvOrigin, Winding,
+};
 
 use crate::status::{Error, darboux_status};
 
@@ -98,6 +101,102 @@ pub enum TangentEncodingCode {
     Diamond = 4,
 }
 
+/// A direction along a coordinate axis.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AxisCode {
+    /// As in glTF: right is -x, up is y, front is z.
+    Default = 0,
+    /// Along x.
+    X = 1,
+    /// Against x.
+    MinusX = 2,
+    /// Along y.
+    Y = 3,
+    /// Against y.
+    MinusY = 4,
+    /// Along z.
+    Z = 5,
+    /// Against z.
+    MinusZ = 6,
+}
+
+/// The order of a face's corners, seen from the side that its normal points to, as the eye sees it and not as the numbers say.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WindingCode {
+    /// Against the clock.
+    CounterClockwise = 0,
+    /// With the clock.
+    Clockwise = 1,
+}
+
+/// Where in the picture v = 0 is. u always runs to the right.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UvOriginCode {
+    /// v runs down.
+    TopLeft = 0,
+    /// v runs up.
+    BottomLeft = 1,
+}
+
+/// Where the tangent points on the surface, and more red leans the normal: a direction in the picture that lies on it.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TangentDirectionCode {
+    /// To the picture's right.
+    Right = 0,
+    /// To the picture's left.
+    Left = 1,
+}
+
+/// Where the bitangent that a shader rebuilds points on the surface, and more green leans the normal: a direction in the picture.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BitangentDirectionCode {
+    /// To the picture's top ("OpenGL", Y+).
+    Up = 0,
+    /// To the picture's bottom ("DirectX", Y-).
+    Down = 1,
+}
+
+/// How a shader rebuilds the bitangent from normal, tangent and sign, by numbers.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SignRuleCode {
+    /// w * cross(normal, tangent).
+    NormalCrossTangent = 0,
+    /// w * cross(tangent, normal).
+    TangentCrossNormal = 1,
+}
+
+/// Programs whose conventions are known.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ProgramCode {
+    /// glTF 2.0.
+    Gltf = 0,
+    /// OpenGL, as is usual with it.
+    Opengl = 1,
+    /// Direct3D.
+    Directx = 2,
+    /// Blender.
+    Blender = 3,
+    /// Unity.
+    Unity = 4,
+    /// Unreal Engine.
+    Unreal = 5,
+    /// Godot 4.
+    Godot = 6,
+    /// three.js, but for the glTF files that it loads.
+    Threejs = 7,
+    /// Maya.
+    Maya = 8,
+    /// 3ds Max.
+    Max = 9,
+}
+
 /// A [`MethodCode`].
 pub type darboux_method = u32;
 /// A [`ModeCode`].
@@ -112,6 +211,20 @@ pub type darboux_normal_weight = u32;
 pub type darboux_smoothing_seams = u32;
 /// A [`TangentEncodingCode`].
 pub type darboux_tangent_encoding = u32;
+/// An [`AxisCode`].
+pub type darboux_axis = u32;
+/// A [`WindingCode`].
+pub type darboux_winding = u32;
+/// A [`UvOriginCode`].
+pub type darboux_uv_origin = u32;
+/// A [`TangentDirectionCode`].
+pub type darboux_tangent_direction = u32;
+/// A [`BitangentDirectionCode`].
+pub type darboux_bitangent_direction = u32;
+/// A [`SignRuleCode`].
+pub type darboux_sign_rule = u32;
+/// A [`ProgramCode`].
+pub type darboux_program = u32;
 
 /// The variant of each listed code. Errors: a number that is none of them.
 macro_rules! from_code {
@@ -164,4 +277,45 @@ from_code!(tangent_encoding, "darboux_tangent_encoding", TangentEncodingCode => 
     Snorm16 => TangentEncodingCode::Snorm16,
     Octahedral => TangentEncodingCode::Octahedral,
     Diamond => TangentEncodingCode::Diamond,
+});
+from_code!(axis, "darboux_axis", AxisCode => Option<Axis> {
+    Default => None,
+    X => Some(Axis::X),
+    MinusX => Some(Axis::MinusX),
+    Y => Some(Axis::Y),
+    MinusY => Some(Axis::MinusY),
+    Z => Some(Axis::Z),
+    MinusZ => Some(Axis::MinusZ),
+});
+from_code!(winding, "darboux_winding", WindingCode => Winding {
+    CounterClockwise => Winding::CounterClockwise,
+    Clockwise => Winding::Clockwise,
+});
+from_code!(uv_origin, "darboux_uv_origin", UvOriginCode => UvOrigin {
+    TopLeft => UvOrigin::TopLeft,
+    BottomLeft => UvOrigin::BottomLeft,
+});
+from_code!(tangent_direction, "darboux_tangent_direction", TangentDirectionCode => TangentDirection {
+    Right => TangentDirection::Right,
+    Left => TangentDirection::Left,
+});
+from_code!(bitangent_direction, "darboux_bitangent_direction", BitangentDirectionCode => BitangentDirection {
+    Up => BitangentDirection::Up,
+    Down => BitangentDirection::Down,
+});
+from_code!(sign_rule, "darboux_sign_rule", SignRuleCode => SignRule {
+    NormalCrossTangent => SignRule::NormalCrossTangent,
+    TangentCrossNormal => SignRule::TangentCrossNormal,
+});
+from_code!(program, "darboux_program", ProgramCode => Convention {
+    Gltf => Convention::GLTF,
+    Opengl => Convention::OPENGL,
+    Directx => Convention::DIRECTX,
+    Blender => Convention::BLENDER,
+    Unity => Convention::UNITY,
+    Unreal => Convention::UNREAL,
+    Godot => Convention::GODOT,
+    Threejs => Convention::THREE_JS,
+    Maya => Convention::MAYA,
+    Max => Convention::MAX,
 });

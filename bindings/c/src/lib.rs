@@ -30,10 +30,15 @@ mod measure;
 
 mod encode;
 
+mod convention;
+
+mod transform;
+
 mod allocator;
 
 pub use allocator::*;
 pub use codes::*;
+pub use convention::*;
 pub use encode::*;
 pub use measure::*;
 pub use mesh::darboux_mesh;
@@ -42,3 +47,4 @@ pub use plan::*;
 pub use split::*;
 pub use status::{darboux_last_error, darboux_status, darboux_version};
 pub use tangents::*;
+pub use transform::*;

@@ -23,7 +23,7 @@ pub(crate) unsafe trait Versioned: Copy {
 
 /// A copy of the struct at `from`, with zeros for fields that the caller's version does not have.
 ///
-/// A larger one than ours is accepted when what we do not know is zero. Errors: null, a size below the first version's.
+/// A larger one than ours is accepted when what we do not know is zero. Errors: null, a size that is no version's.
 ///
 /// # Safety
 ///
@@ -60,6 +60,9 @@ pub(crate) unsafe fn read_or_zeros<T: Versioned>(from: *const T) -> Result<T, Er
     unsafe { read(from) }
 }
 
+/// No version's struct will be larger: a size beyond it is memory that was never set.
+const LARGEST_STRUCT: usize = 1 << 12;
+
 /// # Safety
 ///
 /// As of [`read`].
@@ -71,7 +74,7 @@ unsafe fn size_of_struct<T: Versioned>(at: *const T) -> Result<usize, Error> {
     let size = unsafe { at.cast::<usize>().read_unaligned() };
     match size {
         0 => Ok(T::FIRST_SIZE),
-        _ if size < T::FIRST_SIZE => {
+        _ if size < T::FIRST_SIZE || size > LARGEST_STRUCT => {
             let message = format!("{} has size {size}; set it to sizeof({0})", T::NAME);
             Err(Error::new(darboux_status::StructSize, message))
         }
@@ -86,7 +89,7 @@ pub(crate) struct Receiver<T> {
 }
 
 impl<T: Versioned> Receiver<T> {
-    /// Errors: a size below the first version's.
+    /// Errors: null, a size that is no version's.
     ///
     /// # Safety
     ///
@@ -135,6 +138,27 @@ pub(crate) unsafe fn slice<'a, T>(what: &str, data: *const T, count: usize) -> R
     }
     // SAFETY: not null, aligned, not longer than memory can be, and as of this function.
     Ok(unsafe { std::slice::from_raw_parts(data, count) })
+}
+
+/// The bytes of `count` elements of `size` bytes, which may be written. Errors: null, a size of zero, too many.
+///
+/// # Safety
+///
+/// `data` points to as many, which nobody else uses until the slice is gone; all their bytes are set.
+pub(crate) unsafe fn bytes_mut<'a>(
+    what: &str,
+    data: *mut u8,
+    count: usize,
+    size: usize,
+) -> Result<&'a mut [u8], Error> {
+    if size == 0 {
+        return Err(Error::new(darboux_status::Stride, format!("the size of {what} is 0 bytes")));
+    }
+    match bytes(what, data, size, size, count)? {
+        0 => Ok(&mut []),
+        // SAFETY: not null, not longer than memory can be, and as of this function.
+        len => Ok(unsafe { std::slice::from_raw_parts_mut(data, len) }),
+    }
 }
 
 /// `count` elements of `N` floats, `stride` bytes apart (0: packed), at any alignment. `data` may be null where there are none.
@@ -214,10 +238,14 @@ impl<T: Copy> Output<T> {
 
     /// Writes the elements in order, as many as there is room for.
     pub fn write(self, values: impl IntoIterator<Item = T>) {
-        for (at, value) in (0..self.count).zip(values) {
-            // SAFETY: within the array, whose size was computed without overflow.
-            unsafe { self.data.add(at * self.stride).cast::<T>().write_unaligned(value) }
-        }
+        (0..self.count).zip(values).for_each(|(at, value)| self.set(at, value));
+    }
+
+    /// Writes one element. Panics beyond the last.
+    pub fn set(&self, at: usize, value: T) {
+        assert!(at < self.count);
+        // SAFETY: within the array, whose size was computed without overflow.
+        unsafe { self.data.add(at * self.stride).cast::<T>().write_unaligned(value) }
     }
 }
 
@@ -236,6 +264,48 @@ pub(crate) unsafe fn copied<T: Copy>(
     bytes(what, data, size_of::<T>(), stride, count)?;
     // SAFETY: within the array, whose size was computed without overflow.
     Ok((0..count).map(move |at| unsafe { data.add(at * stride).cast::<T>().read_unaligned() }))
+}
+
+/// A caller's rows of `width` elements, `stride` bytes apart (0: packed), at any alignment. Errors as of [`strided`].
+///
+/// # Safety
+///
+/// As of [`copied`], until the rows are gone.
+pub(crate) unsafe fn rows<T: Copy>(
+    what: &str,
+    data: *const T,
+    count: usize,
+    width: usize,
+    stride: usize,
+) -> Result<Rows<T>, Error> {
+    let element = width.saturating_mul(size_of::<T>());
+    let stride = stride_of(what, stride, element)?;
+    bytes(what, data.cast(), element, stride, count)?;
+    Ok(Rows { data: data.cast(), count, width, stride, element: PhantomData })
+}
+
+/// What [`rows`] gives.
+pub(crate) struct Rows<T> {
+    data: *const u8,
+    count: usize,
+    width: usize,
+    stride: usize,
+    element: PhantomData<T>,
+}
+
+impl<T: Copy> Rows<T> {
+    /// The elements of all rows, row after row.
+    pub fn elements(&self) -> impl Iterator<Item = T> {
+        (0..self.count).flat_map(|row| self.row(row))
+    }
+
+    /// The elements of one row; none beyond the last.
+    pub fn row(&self, row: usize) -> impl Iterator<Item = T> {
+        let width = if row < self.count { self.width } else { 0 };
+        // SAFETY: within the array, whose size was computed without overflow.
+        (0..width)
+            .map(move |at| unsafe { self.data.add(row * self.stride).cast::<T>().add(at).read_unaligned() })
+    }
 }
 
 /// As [`copied`], of a mesh of `corners` corners. Further error: another count.

@@ -36,6 +36,8 @@ pub enum darboux_status {
     TooLate = 10,
     /// A defect of the library, which is none of the caller's doing. Please report it with the message.
     Internal = 11,
+    /// Two of a convention's axes lie along one line.
+    Axes = 12,
 }
 
 /// An error on its way to the border.
