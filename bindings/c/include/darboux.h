@@ -21,7 +21,8 @@
 
 /// What a call came to. darboux_last_error has a sentence on every error.
 ///
-/// Degenerate triangles and values that are not finite are not errors: reports count them. After an error nothing was written.
+/// Degenerate triangles and values that are not finite are not errors: reports count them. After an error other than
+/// DARBOUX_STATUS_INTERNAL nothing was written.
 enum darboux_status
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -53,6 +54,8 @@ enum darboux_status
   DARBOUX_STATUS_INTERNAL = 11,
   /// Two of a convention's axes lie along one line.
   DARBOUX_STATUS_AXES = 12,
+  /// Threads cannot be started.
+  DARBOUX_STATUS_THREADS = 13,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -383,7 +386,9 @@ typedef uint32_t darboux_program;
 /// Nothing of the mesh's memory is kept. Several threads may use one plan at once.
 typedef struct darboux_plan darboux_plan;
 
-/// Memory that calls keep from one to the next, so that many meshes allocate as one.
+/// Memory that calls keep from one to the next, so that many meshes allocate as one, and threads for large meshes.
+///
+/// One thread at a time may use it.
 typedef struct darboux_scratch darboux_scratch;
 
 /// A mesh in the caller's memory: V vertices in arrays of any stride, and C corners (vertices of faces) in face order.
@@ -434,7 +439,7 @@ typedef struct darboux_tangent_options {
   /// Angular threshold in degrees, MikkTSpace's alone: faces around a vertex share a tangent while their tangents and their bitangents
   /// differ by less. 0 stands for 180, which is what bakers use; 0.001 has the bits of a threshold of zero.
   float threshold;
-  /// Memory of earlier calls to use again, or null. One thread at a time may use it.
+  /// Memory and threads of earlier calls to use again, or null: the call runs on the calling thread. One thread at a time may use it.
   struct darboux_scratch *scratch;
 } darboux_tangent_options;
 
@@ -539,7 +544,7 @@ typedef struct darboux_tangent_difference {
   size_t size;
   /// The number of corners.
   size_t corners;
-  /// Corners whose four floats are the same bits.
+  /// Corners whose four floats are the same bits, or NaN in both.
   size_t identical;
   /// Corners whose signs differ.
   size_t sign_flips;
@@ -547,6 +552,8 @@ typedef struct darboux_tangent_difference {
   size_t without_angle;
   /// The mean angle.
   double mean;
+  /// The smallest angle.
+  double min;
   /// The angle that half of the corners do not exceed.
   double median;
   /// The angle that 95 corners in 100 do not exceed.
@@ -665,6 +672,17 @@ const char *darboux_last_error(void);
 /// Returns the library's version, such as "0.1.0".
 const char *darboux_version(void);
 
+/// Makes an empty scratch, which grows to what the largest mesh needs.
+///
+/// `threads`: how many threads large meshes get, the same bits from any number: 1 for the calling thread alone; more are started now,
+/// and wait while there is nothing to do; 0 for as many as the machine has. `scratch`: receives it, for darboux_scratch_free.
+/// Errors: null; threads that cannot be started.
+darboux_status darboux_scratch_create(size_t threads,
+                                      struct darboux_scratch **scratch);
+
+/// Frees a scratch, when its threads have ended; nothing where it is null.
+void darboux_scratch_free(struct darboux_scratch *scratch);
+
 /// Computes the tangent of every corner.
 ///
 /// These are not vertex tangents: corners of one vertex may disagree, so they cannot be written through the mesh's indices.
@@ -690,14 +708,6 @@ darboux_status darboux_generate_frames(const struct darboux_mesh *mesh,
                                        size_t frame_count,
                                        size_t frame_stride,
                                        struct darboux_report *report);
-
-/// Makes an empty scratch, which grows to what the largest mesh needs.
-///
-/// `scratch`: receives it, for darboux_scratch_free. Errors: null.
-darboux_status darboux_scratch_create(struct darboux_scratch **scratch);
-
-/// Frees a scratch; nothing where it is null.
-void darboux_scratch_free(struct darboux_scratch *scratch);
 
 /// Splits the vertices whose corners need different tangents: one vertex per distinct pair of old vertex and tangent, compared as bits.
 ///
@@ -729,7 +739,7 @@ void darboux_normal_split_free(struct darboux_normal_split *split);
 
 /// Computes a mesh's tangents and keeps its topology.
 ///
-/// `mesh`, `options`: as for darboux_generate_tangents; the scratch is not used. `plan`: receives the plan, for darboux_plan_free.
+/// `mesh`, `options`: as for darboux_generate_tangents; of a scratch the threads alone are used. `plan`: receives the plan, for darboux_plan_free.
 /// Errors: what darboux_status lists.
 darboux_status darboux_plan_create(const struct darboux_mesh *mesh,
                                    const struct darboux_tangent_options *options,
@@ -749,10 +759,11 @@ darboux_status darboux_plan_base(const struct darboux_plan *plan,
 
 /// Computes the tangents of the moved mesh in the plan's groups and subgroups; signs stay the plan's.
 ///
-/// `mesh`: same faces, indices and UVs as the plan's, other positions and normals. `tangents`, `tangent_count`, `tangent_stride`: as
-/// for darboux_generate_tangents. Errors: those of the mesh; another number of corners or vertices than the plan's.
+/// `mesh`: same faces, indices and UVs as the plan's, other positions and normals. `scratch`: memory and threads of earlier calls to use
+/// again, or null. `tangents`, `tangent_count`, `tangent_stride`: as for darboux_generate_tangents. Errors: those of the mesh; another number of corners or vertices than the plan's.
 darboux_status darboux_plan_evaluate(const struct darboux_plan *plan,
                                      const struct darboux_mesh *mesh,
+                                     struct darboux_scratch *scratch,
                                      float *tangents,
                                      size_t tangent_count,
                                      size_t tangent_stride);

@@ -1,7 +1,7 @@
 // Darboux for C++17: what darboux.h does, with arrays that know their length, memory that frees itself, and errors that are thrown.
 //
 // MIT or Apache-2.0, as you choose. Functions carry the names of darboux.h, which says what they compute; here stands what differs.
-// Encodings are called as they stand there.
+// Encodings and skins are called as they stand there.
 // Every function may throw darboux::error, and std::bad_alloc where it returns a vector.
 
 #ifndef DARBOUX_HPP
@@ -222,12 +222,12 @@ template <class T, auto Free>
 using owner = std::unique_ptr<T, deleter<Free>>;
 }  // namespace detail
 
-/// Memory that calls keep from one to the next: options.scratch = scratch.get().
+/// Memory and threads that calls keep from one to the next: options.scratch = scratch.get().
 class scratch {
  public:
-  scratch() {
+  explicit scratch(std::size_t threads = 1) {
     darboux_scratch *made = nullptr;
-    check(darboux_scratch_create(&made));
+    check(darboux_scratch_create(threads, &made));
     held_.reset(made);
   }
   darboux_scratch *get() const noexcept { return held_.get(); }
@@ -327,11 +327,16 @@ class plan {
     return report;
   }
 
-  std::vector<tangent> evaluate(const mesh &moved) const {
+  /// The tangents of the moved mesh into `out`, one per corner; `scratch` may be null.
+  void evaluate(const mesh &moved, strided<float, 4> out, const scratch *scratch = nullptr) const {
     const darboux_mesh view = moved.view();
+    darboux_scratch *kept = scratch == nullptr ? nullptr : scratch->get();
+    check(darboux_plan_evaluate(held_.get(), &view, kept, out.data(), out.size(), out.stride()));
+  }
+
+  std::vector<tangent> evaluate(const mesh &moved) const {
     std::vector<tangent> made(moved.corner_count());
-    const strided<float, 4> out(made);
-    check(darboux_plan_evaluate(held_.get(), &view, out.data(), out.size(), out.stride()));
+    evaluate(moved, made);
     return made;
   }
 
@@ -358,6 +363,68 @@ inline darboux_uv_fidelity measure_uv_fidelity(const mesh &mesh, floats<4> tange
   auto fidelity = detail::sized<darboux_uv_fidelity>();
   check(darboux_measure_uv_fidelity(&view, tangents.data(), tangents.size(), tangents.stride(), &fidelity));
   return fidelity;
+}
+
+/// A program's convention.
+inline darboux_convention convention_of(darboux_program program) {
+  auto convention = detail::sized<darboux_convention>();
+  check(darboux_convention_of(program, &convention));
+  return convention;
+}
+
+/// The convention of generate_tangents for a mesh in this one.
+inline darboux_convention generated(const darboux_convention &convention) {
+  auto made = detail::sized<darboux_convention>();
+  check(darboux_convention_generated(&convention, &made));
+  return made;
+}
+
+/// The change from one convention to another. Each array is converted where it is.
+class conversion {
+ public:
+  conversion(const darboux_convention &from, const darboux_convention &to) : from_(from), to_(to) {}
+
+  void vectors(strided<float, 3> in) const {
+    check(darboux_convert_vectors(&from_, &to_, in.size(), in.data(), in.stride(), in.data(), in.stride()));
+  }
+  void tangents(strided<float, 4> in) const {
+    check(darboux_convert_tangents(&from_, &to_, in.size(), in.data(), in.stride(), in.data(), in.stride()));
+  }
+  void uvs(strided<float, 2> in) const {
+    check(darboux_convert_uvs(&from_, &to_, in.size(), in.data(), in.stride(), in.data(), in.stride()));
+  }
+  /// `corners`: the indices, or whatever else lies along the corners of triangles, or of `faces`.
+  template <class Container, class Element = std::remove_pointer_t<decltype(std::data(std::declval<Container &>()))>,
+            class = std::enable_if_t<std::is_trivially_copyable_v<Element>>>
+  void faces(Container &&corners, darboux_faces faces = DARBOUX_FACES_TRIANGLES,
+             span<const std::uint32_t> sizes = {}) const {
+    check(darboux_convert_faces(&from_, &to_, faces, sizes.data(), sizes.size(), std::data(corners),
+                                std::size(corners), sizeof(Element)));
+  }
+  /// Whether a normal map's red and green are inverted.
+  std::array<bool, 2> channels() const {
+    std::uint32_t red = 0, green = 0;
+    check(darboux_convert_channels(&from_, &to_, &red, &green));
+    return {red != 0, green != 0};
+  }
+
+ private:
+  darboux_convention from_;
+  darboux_convention to_;
+};
+
+/// Moves normals and tangents where they are, by a matrix of 4 by 4, column by column. Returns -1 where it mirrors, else +1.
+inline float transform_frames(const std::array<float, 16> &matrix, strided<float, 3> normals, strided<float, 4> tangents) {
+  if (normals.size() != tangents.size()) throw error(DARBOUX_STATUS_LENGTH, "tangents must be as many as normals");
+  auto arrays = detail::sized<darboux_frame_arrays>();
+  arrays.count = normals.size();
+  arrays.normals = arrays.out_normals = normals.data();
+  arrays.normal_stride = arrays.out_normal_stride = normals.stride();
+  arrays.tangents = arrays.out_tangents = tangents.data();
+  arrays.tangent_stride = arrays.out_tangent_stride = tangents.stride();
+  float orientation = 1;
+  check(darboux_transform_frames(matrix.data(), 16, &arrays, &orientation));
+  return orientation;
 }
 
 }  // namespace darboux

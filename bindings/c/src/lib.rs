@@ -18,6 +18,8 @@ mod status;
 
 mod mesh;
 
+mod scratch;
+
 mod tangents;
 
 mod split;
@@ -44,6 +46,7 @@ pub use measure::*;
 pub use mesh::darboux_mesh;
 pub use normals::*;
 pub use plan::*;
+pub use scratch::{darboux_scratch, darboux_scratch_create, darboux_scratch_free};
 pub use split::*;
 pub use status::{darboux_last_error, darboux_status, darboux_version};
 pub use tangents::*;

@@ -3,7 +3,7 @@
 use darboux::{HISTOGRAM_ENDS, TangentDifference, UvFidelity, measure_tangents, measure_uv_fidelity};
 
 use crate::mesh::{self, darboux_mesh};
-use crate::pointers::{Receiver, Versioned, copied, copied_of_corners};
+use crate::pointers::{Receiver, Versioned, gathered, gathered_of_corners};
 use crate::status::{call, darboux_status};
 
 /// How many bins a histogram of angles has.
@@ -21,7 +21,7 @@ pub struct darboux_tangent_difference {
     pub size: usize,
     /// The number of corners.
     pub corners: usize,
-    /// Corners whose four floats are the same bits.
+    /// Corners whose four floats are the same bits, or NaN in both.
     pub identical: usize,
     /// Corners whose signs differ.
     pub sign_flips: usize,
@@ -29,6 +29,8 @@ pub struct darboux_tangent_difference {
     pub without_angle: usize,
     /// The mean angle.
     pub mean: f64,
+    /// The smallest angle.
+    pub min: f64,
     /// The angle that half of the corners do not exceed.
     pub median: f64,
     /// The angle that 95 corners in 100 do not exceed.
@@ -59,6 +61,7 @@ impl From<TangentDifference> for darboux_tangent_difference {
             sign_flips: difference.sign_flips,
             without_angle: difference.without_angle,
             mean: difference.mean,
+            min: difference.min,
             median: difference.median,
             p95: difference.p95,
             max: difference.max,
@@ -119,8 +122,8 @@ pub unsafe extern "C" fn darboux_measure_tangents(
     call(|| {
         // SAFETY: every pointer is as the documentation above says.
         let (out, a, b) = unsafe {
-            let a = copied("a", a.cast(), count, a_stride)?.collect::<Vec<_>>();
-            let b = copied("b", b.cast(), count, b_stride)?.collect::<Vec<_>>();
+            let a = gathered("a", a.cast(), count, a_stride)?;
+            let b = gathered("b", b.cast(), count, b_stride)?;
             (Receiver::new(difference)?, a, b)
         };
         out.put(measure_tangents(&a, &b)?.into());
@@ -145,8 +148,8 @@ pub unsafe extern "C" fn darboux_measure_uv_fidelity(
         let (mesh, out, tangents) = unsafe {
             let mesh = mesh::view(mesh)?;
             let corners = mesh.corner_count();
-            let tangents: Vec<[f32; 4]> =
-                copied_of_corners(corners, "tangents", tangents.cast(), tangent_count, tangent_stride)?;
+            let tangents =
+                gathered_of_corners(corners, "tangents", tangents.cast(), tangent_count, tangent_stride)?;
             (mesh, Receiver::new(fidelity)?, tangents)
         };
         out.put(measure_uv_fidelity(&mesh, &tangents)?.into());

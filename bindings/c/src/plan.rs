@@ -1,9 +1,10 @@
 //! Topology once, evaluate often.
 
-use darboux::Plan;
+use darboux::{Plan, on_this_thread};
 
 use crate::mesh::{self, darboux_mesh};
 use crate::pointers::{Output, Receiver, hand_out, held, take_back};
+use crate::scratch::{self, darboux_scratch};
 use crate::status::{call, darboux_status};
 use crate::tangents::{darboux_report, darboux_tangent_options, options};
 
@@ -16,7 +17,7 @@ pub struct darboux_plan {
 
 /// Computes a mesh's tangents and keeps its topology.
 ///
-/// `mesh`, `options`: as for darboux_generate_tangents; the scratch is not used. `plan`: receives the plan, for darboux_plan_free.
+/// `mesh`, `options`: as for darboux_generate_tangents; of a scratch the threads alone are used. `plan`: receives the plan, for darboux_plan_free.
 /// Errors: what darboux_status lists.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_plan_create(
@@ -26,8 +27,9 @@ pub unsafe extern "C" fn darboux_plan_create(
 ) -> darboux_status {
     let make = || {
         // SAFETY: every pointer is as the documentation above says.
-        let (mesh, (options, _)) = unsafe { (mesh::view(mesh)?, self::options(options)?) };
-        Ok(darboux_plan { plan: Plan::new(&mesh, &options) })
+        let (mesh, (options, scratch)) = unsafe { (mesh::view(mesh)?, self::options(options)?) };
+        let plan = scratch::run(scratch.as_deref(), mesh.corner_count(), || Plan::new(&mesh, &options));
+        Ok(darboux_plan { plan })
     };
     // SAFETY: `plan` is null or may be written.
     call(|| unsafe { hand_out("plan", plan, make) })
@@ -69,26 +71,27 @@ pub unsafe extern "C" fn darboux_plan_base(
 
 /// Computes the tangents of the moved mesh in the plan's groups and subgroups; signs stay the plan's.
 ///
-/// `mesh`: same faces, indices and UVs as the plan's, other positions and normals. `tangents`, `tangent_count`, `tangent_stride`: as
-/// for darboux_generate_tangents. Errors: those of the mesh; another number of corners or vertices than the plan's.
+/// `mesh`: same faces, indices and UVs as the plan's, other positions and normals. `scratch`: memory and threads of earlier calls to use
+/// again, or null. `tangents`, `tangent_count`, `tangent_stride`: as for darboux_generate_tangents. Errors: those of the mesh; another number of corners or vertices than the plan's.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_plan_evaluate(
     plan: *const darboux_plan,
     mesh: *const darboux_mesh,
+    scratch: *mut darboux_scratch,
     tangents: *mut f32,
     tangent_count: usize,
     tangent_stride: usize,
 ) -> darboux_status {
     call(|| {
-        // SAFETY: every pointer is as the documentation above says. The mesh is read before the output is written.
-        let (plan, mesh, out) = unsafe {
+        // SAFETY: every pointer is as the documentation above says.
+        let (plan, mesh, scratch, out) = unsafe {
             let mesh = mesh::view(mesh)?;
             let corners = mesh.corner_count();
             let out = Output::expecting(corners, "tangents", tangents.cast(), tangent_count, tangent_stride)?;
-            (held("plan", plan)?, mesh, out)
+            (held("plan", plan)?, mesh, scratch.as_mut(), out)
         };
-        out.copy(plan.plan.evaluate(&mesh)?.per_corner());
-        Ok(())
+        let run = |memory: &mut _, corners: &mut _| plan.plan.write_tangents(&mesh, memory, corners);
+        scratch::fill(scratch, out, run)
     })
 }
 
@@ -105,7 +108,7 @@ pub unsafe extern "C" fn darboux_plan_count_regrouped(
         // SAFETY: every pointer is as the documentation above says.
         let (plan, mesh, out) =
             unsafe { (held("plan", plan)?, mesh::view(mesh)?, Output::new("count", count.cast(), 1, 0)?) };
-        out.copy(&[plan.plan.count_regrouped(&mesh)?]);
+        out.copy(&[on_this_thread(|| plan.plan.count_regrouped(&mesh))?]);
         Ok(())
     })
 }

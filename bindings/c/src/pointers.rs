@@ -2,10 +2,11 @@
 //!
 //! What can be checked is: null, alignment, strides, sizes, that no range wraps around. That memory is as large as a caller says cannot.
 
+use std::borrow::Cow;
 use std::marker::PhantomData;
 use std::mem::MaybeUninit;
 
-use darboux::Strided;
+use darboux::{MeshError, Strided};
 
 use crate::status::{Error, darboux_status};
 
@@ -226,6 +227,26 @@ impl<T: Copy> Output<T> {
         unsafe { Self::new(what, data, count, stride) }
     }
 
+    /// Has `write` fill the array, if it lies as a slice does, or `memory`, from where the elements are copied.
+    pub fn fill<R>(
+        self,
+        memory: &mut Vec<T>,
+        write: impl FnOnce(&mut [T]) -> Result<R, MeshError>,
+    ) -> Result<R, MeshError>
+    where
+        T: Default,
+    {
+        let first = self.data.cast::<T>();
+        if self.count > 0 && self.stride == size_of::<T>() && first.is_aligned() {
+            // SAFETY: not null, aligned, not longer than memory can be, and as of `new`.
+            return write(unsafe { std::slice::from_raw_parts_mut(first, self.count) });
+        }
+        memory.resize(self.count, T::default());
+        let result = write(memory)?;
+        self.copy(memory);
+        Ok(result)
+    }
+
     /// Writes the elements in order, as many as there is room for; without gaps in one go.
     pub fn copy(self, values: &[T]) {
         if self.stride != size_of::<T>() {
@@ -308,21 +329,43 @@ impl<T: Copy> Rows<T> {
     }
 }
 
-/// As [`copied`], of a mesh of `corners` corners. Further error: another count.
+/// As [`copied`], as a slice: where it lies if it lies so, else copied.
 ///
 /// # Safety
 ///
-/// As of [`copied`].
-pub(crate) unsafe fn copied_of_corners<T: Copy>(
+/// As of [`copied`]; nobody changes what `data` points to while the slice is used.
+pub(crate) unsafe fn gathered<'a, T: Copy>(
+    what: &str,
+    data: *const u8,
+    count: usize,
+    stride: usize,
+) -> Result<Cow<'a, [T]>, Error> {
+    // SAFETY: as of this function.
+    let elements = unsafe { copied(what, data, count, stride) }?;
+    let first = data.cast::<T>();
+    let is_slice = count > 0 && (stride == 0 || stride == size_of::<T>()) && first.is_aligned();
+    if is_slice {
+        // SAFETY: not null, aligned, not longer than memory can be, and as of this function.
+        return Ok(Cow::Borrowed(unsafe { std::slice::from_raw_parts(first, count) }));
+    }
+    Ok(elements.collect())
+}
+
+/// As [`gathered`], of a mesh of `corners` corners. Further error: another count.
+///
+/// # Safety
+///
+/// As of [`gathered`].
+pub(crate) unsafe fn gathered_of_corners<'a, T: Copy>(
     corners: usize,
     what: &str,
     data: *const u8,
     count: usize,
     stride: usize,
-) -> Result<Vec<T>, Error> {
+) -> Result<Cow<'a, [T]>, Error> {
     one_per_corner(what, count, corners)?;
     // SAFETY: as of this function.
-    Ok(unsafe { copied(what, data, count, stride) }?.collect())
+    unsafe { gathered(what, data, count, stride) }
 }
 
 fn one_per_corner(what: &str, count: usize, corners: usize) -> Result<(), Error> {

@@ -1,9 +1,9 @@
 //! Corner results to indexed meshes.
 
-use darboux::{CornerTangents, NormalSplit, VertexSplit, split_normals, split_vertices};
+use darboux::{CornerTangentsRef, NormalSplit, VertexSplit, split_normals, split_vertices};
 
 use crate::mesh::{self, darboux_mesh};
-use crate::pointers::{copied_of_corners, hand_out, take_back};
+use crate::pointers::{gathered_of_corners, hand_out, take_back};
 use crate::status::{call, darboux_status};
 
 /// An indexed mesh's vertices after splitting by tangents. The old vertices come first, in their old places.
@@ -62,10 +62,10 @@ pub unsafe extern "C" fn darboux_split_vertices(
             let mesh = mesh::view(mesh)?;
             let corners = mesh.corner_count();
             let tangents =
-                copied_of_corners(corners, "tangents", tangents.cast(), tangent_count, tangent_stride)?;
-            (mesh, CornerTangents::from_per_corner(tangents))
+                gathered_of_corners(corners, "tangents", tangents.cast(), tangent_count, tangent_stride)?;
+            (mesh, tangents)
         };
-        Ok(owned_vertices(split_vertices(&mesh, &tangents)?))
+        Ok(owned_vertices(split_vertices(&mesh, CornerTangentsRef::from_per_corner(&tangents))?))
     };
     // SAFETY: `split` is null or may be written; the view is what the owner begins with.
     call(|| unsafe { hand_out("split", split.cast(), make) })
@@ -96,8 +96,8 @@ pub unsafe extern "C" fn darboux_split_normals(
         let (mesh, normals) = unsafe {
             let mesh = mesh::bare(mesh)?;
             let corners = mesh.corner_count();
-            let normals: Vec<[f32; 3]> =
-                copied_of_corners(corners, "normals", normals.cast(), normal_count, normal_stride)?;
+            let normals =
+                gathered_of_corners(corners, "normals", normals.cast(), normal_count, normal_stride)?;
             (mesh, normals)
         };
         Ok(owned_normals(split_normals(mesh.vertex_count(), mesh.indices(), &normals)?))

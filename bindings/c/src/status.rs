@@ -8,7 +8,8 @@ use darboux::MeshError;
 
 /// What a call came to. darboux_last_error has a sentence on every error.
 ///
-/// Degenerate triangles and values that are not finite are not errors: reports count them. After an error nothing was written.
+/// Degenerate triangles and values that are not finite are not errors: reports count them. After an error other than
+/// DARBOUX_STATUS_INTERNAL nothing was written.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum darboux_status {
@@ -38,6 +39,8 @@ pub enum darboux_status {
     Internal = 11,
     /// Two of a convention's axes lie along one line.
     Axes = 12,
+    /// Threads cannot be started.
+    Threads = 13,
 }
 
 /// An error on its way to the border.

@@ -1,10 +1,11 @@
 //! Tangents of corners.
 
-use darboux::{Frame, Report, Scratch, TangentOptions, Tangents, generate_frames, generate_tangents_into};
+use darboux::{Frame, Report, TangentOptions, generate_frames, write_tangents};
 
 use crate::codes::{self, darboux_method, darboux_mode};
 use crate::mesh::{self, darboux_mesh};
 use crate::pointers::{self, Output, Receiver, Versioned};
+use crate::scratch::{self, darboux_scratch};
 use crate::status::{Error, call, darboux_status};
 
 /// What darboux_generate_tangents does. All zeros are the defaults, which are right for normal maps from today's bakers.
@@ -20,7 +21,7 @@ pub struct darboux_tangent_options {
     /// Angular threshold in degrees, MikkTSpace's alone: faces around a vertex share a tangent while their tangents and their bitangents
     /// differ by less. 0 stands for 180, which is what bakers use; 0.001 has the bits of a threshold of zero.
     pub threshold: f32,
-    /// Memory of earlier calls to use again, or null. One thread at a time may use it.
+    /// Memory and threads of earlier calls to use again, or null: the call runs on the calling thread. One thread at a time may use it.
     pub scratch: *mut darboux_scratch,
 }
 
@@ -101,13 +102,6 @@ impl From<Frame> for darboux_frame {
     }
 }
 
-/// Memory that calls keep from one to the next, so that many meshes allocate as one.
-#[derive(Default)]
-pub struct darboux_scratch {
-    scratch: Scratch,
-    tangents: Tangents,
-}
-
 /// The options at `options`, and the scratch in them.
 ///
 /// # Safety
@@ -150,16 +144,11 @@ pub unsafe extern "C" fn darboux_generate_tangents(
             let out = Output::expecting(corners, "tangents", tangents.cast(), tangent_count, tangent_stride)?;
             (mesh, self::options(options)?, Receiver::optional(report)?, out)
         };
-        let mut local = darboux_scratch::default();
-        let kept = scratch.unwrap_or(&mut local);
-        // Out of the caller's hands, so that a defect cannot leave it half-written.
-        let mut memory = std::mem::take(kept);
-        generate_tangents_into(&mesh, &options, &mut memory.scratch, &mut memory.tangents);
-        out.copy(memory.tangents.corners.per_corner());
+        let run = |memory: &mut _, corners: &mut _| write_tangents(&mesh, &options, memory, corners);
+        let report_of_run = scratch::fill(scratch, out, run)?;
         if let Some(report) = report {
-            report.put(memory.tangents.report.into());
+            report.put(report_of_run.into());
         }
-        *kept = memory;
         Ok(())
     })
 }
@@ -179,33 +168,18 @@ pub unsafe extern "C" fn darboux_generate_frames(
 ) -> darboux_status {
     call(|| {
         // SAFETY: every pointer is as the documentation above says. The mesh is read before the output is written.
-        let (mesh, (options, _), report, out) = unsafe {
+        let (mesh, (options, scratch), report, out) = unsafe {
             let mesh = mesh::view(mesh)?;
             let corners = mesh.corner_count();
             let out = Output::expecting(corners, "frames", frames.cast(), frame_count, frame_stride)?;
             (mesh, self::options(options)?, Receiver::optional(report)?, out)
         };
-        let frames = generate_frames(&mesh, &options);
+        let frames =
+            scratch::run(scratch.as_deref(), mesh.corner_count(), || generate_frames(&mesh, &options));
         out.write(frames.corners.per_corner().iter().map(|&frame| darboux_frame::from(frame)));
         if let Some(report) = report {
             report.put(frames.report.into());
         }
         Ok(())
     })
-}
-
-/// Makes an empty scratch, which grows to what the largest mesh needs.
-///
-/// `scratch`: receives it, for darboux_scratch_free. Errors: null.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn darboux_scratch_create(scratch: *mut *mut darboux_scratch) -> darboux_status {
-    // SAFETY: `scratch` is null or may be written.
-    call(|| unsafe { pointers::hand_out("scratch", scratch, || Ok(darboux_scratch::default())) })
-}
-
-/// Frees a scratch; nothing where it is null.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn darboux_scratch_free(scratch: *mut darboux_scratch) {
-    // SAFETY: `scratch` is null or from `darboux_scratch_create`, and no longer used.
-    unsafe { pointers::take_back(scratch) }
 }

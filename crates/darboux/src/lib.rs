@@ -63,6 +63,6 @@ pub use tangents::naive;
 pub use tangents::stages;
 pub use tangents::{
     Frames, Method, Mode, Report, Scratch, TangentOptions, Tangents, WidthLimit, generate_frames,
-    generate_tangents, generate_tangents_into, write_tangents,
+    generate_tangents, generate_tangents_into, on_this_thread, write_tangents,
 };
 pub use transform::Transform;

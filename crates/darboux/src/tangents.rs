@@ -35,8 +35,8 @@ use crate::math::cosine_of_degrees;
 use crate::split::expect;
 use crate::{CornerFrames, CornerTangents, Frame, Mesh, MeshError};
 
-pub use fans::WidthLimit;
 use fans::{Fans, Width};
+pub use fans::{WidthLimit, on_this_thread};
 pub use method::Method;
 pub(crate) use planned::Planned;
 pub use report::Report;

@@ -154,6 +154,27 @@ static void encodings() {
   expect(std::fabs(normal_back[0] - 0.8f) < 1e-3f, "octahedral normal");
 }
 
+static void conventions() {
+  const auto gltf = darboux::convention_of(DARBOUX_PROGRAM_GLTF), unity = darboux::convention_of(DARBOUX_PROGRAM_UNITY);
+  std::vector<darboux::tangent> tangents = {{1, 0, 0, 1}};
+  darboux::conversion(darboux::generated(gltf), gltf).tangents(tangents);
+  expect((tangents[0] == darboux::tangent{1, 0, 0, -1}), "glTF's sign");
+  const darboux::conversion to_unity(gltf, unity);
+  auto vertices = make_vertices();
+  to_unity.vectors(darboux::field(vertices, &Vertex::position));
+  to_unity.uvs(darboux::field(vertices, &Vertex::uv));
+  expect(vertices[2].position.x == -1 && vertices[2].uv[0] == 1 && vertices[2].uv[1] == 1, "glTF to Unity");
+  std::vector<std::uint32_t> indices = {0, 1, 4, 0, 4, 3};
+  to_unity.faces(indices);
+  expect((indices == std::vector<std::uint32_t>{0, 4, 1, 0, 3, 4}), "turned faces");
+  const auto directx = darboux::convention_of(DARBOUX_PROGRAM_DIRECTX);
+  expect((darboux::conversion(gltf, directx).channels() == std::array<bool, 2>{false, true}), "green down");
+
+  std::vector<darboux::normal> normals = {{0, 0, 1}};
+  const float orientation = darboux::transform_frames({-2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 5, 5, 1}, normals, tangents);
+  expect(orientation == -1 && (tangents[0] == darboux::tangent{-1, 0, 0, 1}) && normals[0][2] == 1, "a mirror");
+}
+
 static void errors() {
   const auto vertices = make_vertices();
   auto mesh = make_mesh(vertices);
@@ -204,6 +225,7 @@ int main() {
     normals();
     plans();
     encodings();
+    conventions();
     errors();
     threads();
   } catch (const darboux::error &error) {

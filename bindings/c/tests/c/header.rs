@@ -46,10 +46,18 @@ facts_of_structs! {
     darboux_normal_options { size, shading, weight, crease, seams }
     darboux_normal_report { size, faces, degenerate_faces, repaired_corners, creased_edges }
     darboux_tangent_difference {
-        size, corners, identical, sign_flips, without_angle, mean, median, p95, max, histogram, worst_count, worst_corners,
+        size, corners, identical, sign_flips, without_angle, mean, min, median, p95, max, histogram, worst_count, worst_corners,
         worst_angles,
     }
     darboux_uv_fidelity { size, mean, root_mean_square, area, left_out }
+    darboux_convention { size, right, up, front, winding, uv_origin, tangent, bitangent, sign }
+    darboux_frame_arrays {
+        size, count, normals, normal_stride, tangents, tangent_stride, out_normals, out_normal_stride, out_tangents,
+        out_tangent_stride,
+    }
+    darboux_skin {
+        size, bones, bone_count, bone_stride, column_stride, influence_count, joints, joint_stride, weights, weight_stride,
+    }
 }
 
 macro_rules! facts_of_enums {
@@ -64,7 +72,8 @@ facts_of_enums! {
     darboux_status as "DARBOUX_STATUS" {
         Ok = "OK", NullPointer = "NULL_POINTER", StructSize = "STRUCT_SIZE", UnknownValue = "UNKNOWN_VALUE",
         Stride = "STRIDE", Alignment = "ALIGNMENT", TooLarge = "TOO_LARGE", Length = "LENGTH", Index = "INDEX",
-        Faces = "FACES", TooLate = "TOO_LATE", Internal = "INTERNAL",
+        Faces = "FACES", TooLate = "TOO_LATE", Internal = "INTERNAL", Axes = "AXES",
+        Threads = "THREADS",
     }
     MethodCode as "DARBOUX_METHOD" {
         Mikktspace = "MIKKTSPACE", AngleArea = "ANGLE_AREA", Lengyel = "LENGYEL", LengyelPerVertex = "LENGYEL_PER_VERTEX",
@@ -77,6 +86,20 @@ facts_of_enums! {
     SmoothingSeamsCode as "DARBOUX_SMOOTHING_SEAMS" { Ignored = "IGNORED", Respected = "RESPECTED" }
     TangentEncodingCode as "DARBOUX_TANGENT_ENCODING" {
         Snorm8 = "SNORM8", Snorm10 = "SNORM10", Snorm16 = "SNORM16", Octahedral = "OCTAHEDRAL", Diamond = "DIAMOND",
+    }
+    AxisCode as "DARBOUX_AXIS" {
+        Default = "DEFAULT", X = "X", MinusX = "MINUS_X", Y = "Y", MinusY = "MINUS_Y", Z = "Z", MinusZ = "MINUS_Z",
+    }
+    WindingCode as "DARBOUX_WINDING" { CounterClockwise = "COUNTER_CLOCKWISE", Clockwise = "CLOCKWISE" }
+    UvOriginCode as "DARBOUX_UV_ORIGIN" { TopLeft = "TOP_LEFT", BottomLeft = "BOTTOM_LEFT" }
+    TangentDirectionCode as "DARBOUX_TANGENT_DIRECTION" { Right = "RIGHT", Left = "LEFT" }
+    BitangentDirectionCode as "DARBOUX_BITANGENT_DIRECTION" { Up = "UP", Down = "DOWN" }
+    SignRuleCode as "DARBOUX_SIGN_RULE" {
+        NormalCrossTangent = "NORMAL_CROSS_TANGENT", TangentCrossNormal = "TANGENT_CROSS_NORMAL",
+    }
+    ProgramCode as "DARBOUX_PROGRAM" {
+        Gltf = "GLTF", Opengl = "OPENGL", Directx = "DIRECTX", Blender = "BLENDER", Unity = "UNITY", Unreal = "UNREAL",
+        Godot = "GODOT", Threejs = "THREEJS", Maya = "MAYA", Max = "MAX",
     }
 }
 
@@ -97,6 +120,13 @@ fn c_and_rust_agree() {
         "normal_weight",
         "smoothing_seams",
         "tangent_encoding",
+        "axis",
+        "winding",
+        "uv_origin",
+        "tangent_direction",
+        "bitangent_direction",
+        "sign_rule",
+        "program",
         "status",
     ];
     let enums = sizes.map(|name| (format!("sizeof(darboux_{name})"), size_of::<u32>()));

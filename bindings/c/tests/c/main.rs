@@ -4,6 +4,7 @@
 
 mod agreement;
 mod bad_input;
+mod conventions;
 mod drop_in;
 mod header;
 mod programs;

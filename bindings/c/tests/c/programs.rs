@@ -156,6 +156,17 @@ fn allocator_gives_all_memory() {
     run(&mut Command::new(program));
 }
 
+#[test]
+fn threads_are_asked_for() {
+    if !cfg!(target_os = "linux") || !has("gcc") {
+        return;
+    }
+    for link in [Link::Shared, Link::Static] {
+        let program = build(&format!("threads-{link:?}"), "c99", &[source("threads.c")], &["darboux"], link);
+        run(&mut Command::new(program));
+    }
+}
+
 /// Memory errors and leaks, in every program that there is.
 #[test]
 fn valgrind_finds_nothing() {
@@ -166,6 +177,7 @@ fn valgrind_finds_nothing() {
         build("valgrind-c", "c99", &[example("tangents.c")], &["darboux"], Link::Static),
         build("valgrind-cpp", "c++17", &[example("tangents.cpp")], &["darboux"], Link::Static),
         build("valgrind-calls", "c++17", &[source("calls.cpp")], &["darboux"], Link::Static),
+        build("valgrind-threads", "c99", &[source("threads.c")], &["darboux"], Link::Static),
         build("valgrind-allocator", "c99", &[source("allocator.c")], &["darboux"], Link::Static),
         build(
             "valgrind-callbacks",

@@ -77,7 +77,7 @@ fn speed_over_rust() {
         });
         let mut options = default_options();
         // SAFETY: the scratch may be written.
-        assert_eq!(unsafe { darboux_scratch_create(&mut options.scratch) }, darboux_status::Ok);
+        assert_eq!(unsafe { darboux_scratch_create(1, &mut options.scratch) }, darboux_status::Ok);
         let mut out = vec![[0.0f32; 4]; count];
         let c = least(rounds, || {
             // SAFETY: all pointers are to arrays of the lengths given.

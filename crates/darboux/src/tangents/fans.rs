@@ -39,6 +39,7 @@ use vertices::Vertex;
 use weld::{Refused, Weld};
 pub(crate) use width::Width;
 pub use width::WidthLimit;
+pub use workers::on_this_thread;
 use workers::{Worker, parts, split};
 
 /// Triangles per window: vertices are read when the first window that uses them begins, and finished when the last has ended.

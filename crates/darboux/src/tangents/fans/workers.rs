@@ -1,5 +1,7 @@
 //! Work split among threads: every job has its own memory, and its own part of what is written.
 
+#[cfg(feature = "parallel")]
+use std::cell::Cell;
 use std::ops::Range;
 
 use super::block::Block;
@@ -65,7 +67,32 @@ pub(super) fn threads(triangles: usize) -> usize {
 
 #[cfg(feature = "parallel")]
 fn available() -> usize {
-    rayon::current_num_threads()
+    if IS_ALONE.get() { 1 } else { rayon::current_num_threads() }
+}
+
+#[cfg(feature = "parallel")]
+thread_local! {
+    /// Within [`on_this_thread`].
+    static IS_ALONE: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Does work on the calling thread alone, whatever the thread pool: for callers who have not asked for threads. Without it, the first
+/// call outside of any pool starts the threads of the global one.
+pub fn on_this_thread<R>(work: impl FnOnce() -> R) -> R {
+    #[cfg(feature = "parallel")]
+    let _until_the_end = Alone(IS_ALONE.replace(true));
+    work()
+}
+
+/// Restores what was, after a panic as well.
+#[cfg(feature = "parallel")]
+struct Alone(bool);
+
+#[cfg(feature = "parallel")]
+impl Drop for Alone {
+    fn drop(&mut self) {
+        IS_ALONE.set(self.0);
+    }
 }
 
 #[cfg(not(feature = "parallel"))]
