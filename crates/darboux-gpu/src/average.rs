@@ -1,7 +1,6 @@
 //! The mean of the adjacent triangles' unit tangents and bitangents: one thread per vertex.
 
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
-use wgpu::{Buffer, BufferUsages, CommandEncoder, ComputePipeline, Device};
+use wgpu::{Buffer, CommandEncoder, ComputePipeline, Device};
 
 use crate::adjacency::{Adjacency, AdjacencyKernels};
 use crate::buffers::{Description, check_size, describe};
@@ -80,7 +79,7 @@ impl Average {
         if description.vertex_count == 0 || description.triangle_count == 0 {
             return Ok(made);
         }
-        let words = self.uniform(&description);
+        let words = description.uniform(&self.device);
         let mut buffers = vec![(0, &words), (2, mesh.vertices), (4, &made.counts)];
         let last = match *destination {
             Destination::Vertices(_) => &self.in_place,
@@ -119,19 +118,11 @@ impl Average {
         sums: &Buffer,
     ) -> Vec<Step> {
         let piece = |first: u32| {
-            let words = self.uniform(&whole.piece(first, MAX_TURNS));
+            let words = whole.piece(first, MAX_TURNS).uniform(&self.device);
             let buffers = [(0, &words), (1, mesh.indices), (2, mesh.vertices), (5, sums)];
             Step::new(&self.device, pipeline, &buffers, whole.vertex_count)
         };
         (0..whole.triangle_count).step_by(MAX_TURNS as usize).map(piece).collect()
-    }
-
-    fn uniform(&self, description: &Description) -> Buffer {
-        self.device.create_buffer_init(&BufferInitDescriptor {
-            label: Some("mesh"),
-            contents: bytemuck::bytes_of(description),
-            usage: BufferUsages::UNIFORM,
-        })
     }
 }
 

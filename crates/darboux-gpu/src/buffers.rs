@@ -1,5 +1,7 @@
 //! A caller's buffers: where in them what lies, checked once.
 
+use bytemuck::Zeroable;
+use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{Buffer, BufferUsages, Device, IndexFormat};
 
 use crate::GpuError;
@@ -90,6 +92,25 @@ pub(crate) struct Description {
 }
 
 impl Description {
+    /// A mesh of positions, normals and UVs in this order without gaps, and 32-bit indices.
+    pub fn packed(vertex_count: u32, triangle_count: u32) -> Self {
+        let [vertex_stride, position, normal, uv] = [8, 0, 3, 6];
+        Self { vertex_count, triangle_count, vertex_stride, position, normal, uv, ..Self::zeroed() }
+    }
+
+    /// The same with a list of welded corners for indices.
+    pub fn of_welded_corners(&self) -> Self {
+        Self { first_index: 0, index_shift: 0, ..*self }
+    }
+
+    pub fn uniform(&self, device: &Device) -> Buffer {
+        device.create_buffer_init(&BufferInitDescriptor {
+            label: Some("mesh"),
+            contents: bytemuck::bytes_of(self),
+            usage: BufferUsages::UNIFORM,
+        })
+    }
+
     /// The same with triangles from `first` on, `count` at most.
     pub fn piece(&self, first: u32, count: u32) -> Self {
         let triangle_count = (self.triangle_count - first).min(count);

@@ -33,6 +33,8 @@ mod buffers;
 mod error;
 mod gpu;
 mod kernel;
+mod topology;
+mod weld;
 
 pub use average::{Average, AverageOfMesh, Search};
 pub use buffers::{Destination, FrameLayout, MeshBuffers, VertexLayout};
