@@ -1,0 +1,44 @@
+// The derivatives of position by UV on a triangle, and its UV orientation: the twin of the core's tangents/derivatives.rs.
+
+struct Derivative {
+    s: V3,
+    t: V3,
+    magnitude: vec2<Real>,
+    preserves: bool,
+    // UV-degenerate: it joins any group and adds nothing.
+    any: bool,
+}
+
+fn derivative(p0: V3, p1: V3, p2: V3, uv0: vec2<Real>, uv1: vec2<Real>, uv2: vec2<Real>) -> Derivative {
+    let e1 = less(p1, p0);
+    let e2 = less(p2, p0);
+    let du1 = minus(uv1.x, uv0.x);
+    let dv1 = minus(uv1.y, uv0.y);
+    let du2 = minus(uv2.x, uv0.x);
+    let dv2 = minus(uv2.y, uv0.y);
+    let area = minus(times(du1, dv2), times(dv1, du2));
+    var out: Derivative;
+    out.s = less(scaled(dv2, e1), scaled(dv1, e2));
+    out.t = added(scaled(negated(du2), e1), scaled(du1, e2));
+    out.preserves = is_above(area, real(0u));
+    out.any = true;
+    if not_zero(area) {
+        let sign = real(select(ONE | SIGN, ONE, out.preserves));
+        let size = real(word_of(area) & ~SIGN);
+        let s_length = length_of(out.s);
+        let t_length = length_of(out.t);
+        out.s = unit_unless_zero(sign, s_length, out.s);
+        out.t = unit_unless_zero(sign, t_length, out.t);
+        out.magnitude = vec2<Real>(over(s_length, size), over(t_length, size));
+        out.any = !(not_zero(out.magnitude.x) && not_zero(out.magnitude.y));
+    }
+    return out;
+}
+
+// sign / length times `v`, or `v` itself.
+fn unit_unless_zero(sign: Real, length: Real, v: V3) -> V3 {
+    if not_zero(length) {
+        return scaled(over(sign, length), v);
+    }
+    return v;
+}

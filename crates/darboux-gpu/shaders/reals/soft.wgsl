@@ -1,0 +1,47 @@
+// Real numbers as the words of floats, whose arithmetic is that of whole numbers: right for all floats on every device. Needs exact.wgsl,
+// whole.wgsl, soft.wgsl, arccosine.wgsl.
+
+alias Real = u32;
+
+fn real(word: u32) -> Real {
+    return word;
+}
+
+fn word_of(a: Real) -> u32 {
+    return a;
+}
+
+fn estimate_of(a: Real) -> f32 {
+    return bitcast<f32>(a);
+}
+
+fn plus(a: Real, b: Real) -> Real {
+    return soft_sum(a, b);
+}
+
+fn minus(a: Real, b: Real) -> Real {
+    return soft_sum(a, b ^ SIGN);
+}
+
+fn times(a: Real, b: Real) -> Real {
+    return soft_product(a, b);
+}
+
+fn over(a: Real, b: Real) -> Real {
+    return soft_quotient(a, b);
+}
+
+fn root_of(a: Real) -> Real {
+    return soft_root(a);
+}
+
+fn is_above(a: Real, b: Real) -> bool {
+    return order(a) > order(b) && !is_nan(a) && !is_nan(b);
+}
+
+fn arccosine_of(a: Real) -> Real {
+    if is_nan(a) {
+        return NAN;
+    }
+    return bitcast<u32>(arccosine(bitcast<f32>(a)));
+}
