@@ -12,6 +12,8 @@ pub(crate) const WORKGROUP: u32 = if cfg!(small_limits) { 2 } else { 64 };
 pub(crate) const VALUES_PER_THREAD: u32 = 4;
 /// Values of a block of a prefix sum.
 pub(crate) const BLOCK: u32 = WORKGROUP * VALUES_PER_THREAD;
+/// Groups that an indirect dispatch asks for at most, in its one row.
+const MAX_GROUPS: u32 = 65_535;
 /// Turns that one thread's loops take at most: drivers end what runs too long, and Mesa's software adapter quietly leaves all loops
 /// of a thread after 65,535 turns in sum.
 pub(crate) const MAX_TURNS: u32 = 1 << 15;
@@ -28,6 +30,7 @@ pub(crate) fn text(files: &[&str]) -> String {
         ("WORKGROUP", WORKGROUP),
         ("VALUES_PER_THREAD", VALUES_PER_THREAD),
         ("BLOCK", BLOCK),
+        ("MAX_GROUPS", MAX_GROUPS),
         ("MAX_TURNS", MAX_TURNS),
     ];
     let sizes = sizes.map(|(name, value)| format!("const {name}: u32 = {value}u;\n")).concat();
@@ -51,7 +54,14 @@ pub(crate) fn pipeline(device: &Device, module: &ShaderModule, entry_point: &str
 pub(crate) struct Step {
     pipeline: ComputePipeline,
     buffers: BindGroup,
-    groups: [u32; 2],
+    threads: Threads,
+}
+
+#[derive(Clone, Debug)]
+enum Threads {
+    Groups([u32; 2]),
+    /// As many as the buffer's first words say.
+    Indirect(Buffer),
 }
 
 impl Step {
@@ -62,17 +72,25 @@ impl Step {
         buffers: &[(u32, &Buffer)],
         threads: u32,
     ) -> Self {
-        let entries: Vec<_> = buffers
-            .iter()
-            .map(|&(binding, buffer)| BindGroupEntry { binding, resource: whole_words(buffer) })
-            .collect();
-        let layout = pipeline.get_bind_group_layout(0);
-        let descriptor = BindGroupDescriptor { label: None, layout: &layout, entries: &entries };
         let limit = device.limits().max_compute_workgroups_per_dimension;
         Self {
             pipeline: pipeline.clone(),
-            buffers: device.create_bind_group(&descriptor),
-            groups: groups(threads, limit),
+            buffers: bind(device, pipeline, buffers),
+            threads: Threads::Groups(groups(threads, limit)),
+        }
+    }
+
+    /// Over a list whose length the device knows.
+    pub fn indirect(
+        device: &Device,
+        pipeline: &ComputePipeline,
+        buffers: &[(u32, &Buffer)],
+        list: &Buffer,
+    ) -> Self {
+        Self {
+            pipeline: pipeline.clone(),
+            buffers: bind(device, pipeline, buffers),
+            threads: Threads::Indirect(list.clone()),
         }
     }
 
@@ -81,8 +99,20 @@ impl Step {
         let mut pass = encoder.begin_compute_pass(&Default::default());
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &self.buffers, &[]);
-        pass.dispatch_workgroups(self.groups[0], self.groups[1], 1);
+        match &self.threads {
+            Threads::Groups([row, rows]) => pass.dispatch_workgroups(*row, *rows, 1),
+            Threads::Indirect(list) => pass.dispatch_workgroups_indirect(list, 0),
+        }
     }
+}
+
+fn bind(device: &Device, pipeline: &ComputePipeline, buffers: &[(u32, &Buffer)]) -> BindGroup {
+    let entries: Vec<_> = buffers
+        .iter()
+        .map(|&(binding, buffer)| BindGroupEntry { binding, resource: whole_words(buffer) })
+        .collect();
+    let layout = pipeline.get_bind_group_layout(0);
+    device.create_bind_group(&BindGroupDescriptor { label: None, layout: &layout, entries: &entries })
 }
 
 /// A buffer without the bytes after its last whole word, which cannot be bound.

@@ -32,6 +32,7 @@ mod average;
 mod buffers;
 mod error;
 mod gpu;
+mod evaluation;
 mod kernel;
 mod topology;
 mod weld;

@@ -1,0 +1,133 @@
+//! Kernels that are written once for several arithmetics, and what is done again where the first was unsure.
+
+use wgpu::util::{BufferInitDescriptor, DeviceExt};
+use wgpu::{Buffer, BufferDescriptor, BufferUsages, CommandEncoder, ComputePipeline, Device};
+
+use crate::kernel::{Step, module, pipeline};
+
+/// What real numbers are to a kernel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arithmetic {
+    /// Floats rounded as the CPU's; where they might not be, whole numbers.
+    Exact,
+    /// Whole numbers alone, after floats have been tried: what a device would do that is never sure. For tests.
+    Soft,
+    /// Floats as the device rounds them.
+    Fast,
+}
+
+/// The files that a kernel's own come after, and what runs them.
+fn pieces(arithmetic: Arithmetic, second: bool) -> [&'static [&'static str]; 2] {
+    const EXACT: &[&str] = &[
+        include_str!("../shaders/exact.wgsl"),
+        include_str!("../shaders/whole.wgsl"),
+        include_str!("../shaders/arccosine.wgsl"),
+        include_str!("../shaders/reals/exact.wgsl"),
+        include_str!("../shaders/vectors.wgsl"),
+    ];
+    const SOFT: &[&str] = &[
+        include_str!("../shaders/exact.wgsl"),
+        include_str!("../shaders/whole.wgsl"),
+        include_str!("../shaders/soft.wgsl"),
+        include_str!("../shaders/arccosine.wgsl"),
+        include_str!("../shaders/reals/soft.wgsl"),
+        include_str!("../shaders/vectors.wgsl"),
+    ];
+    const FAST: &[&str] =
+        &[include_str!("../shaders/reals/fast.wgsl"), include_str!("../shaders/vectors.wgsl")];
+    const SURE: &str = include_str!("../shaders/items/sure.wgsl");
+    match (arithmetic, second) {
+        (Arithmetic::Fast, _) => [FAST, &[include_str!("../shaders/items/all.wgsl")]],
+        (_, true) => [SOFT, &[include_str!("../shaders/items/unsure.wgsl")]],
+        (Arithmetic::Exact, _) => [EXACT, &["const ALL_UNSURE: bool = false;", SURE]],
+        (Arithmetic::Soft, _) => [EXACT, &["const ALL_UNSURE: bool = true;", SURE]],
+    }
+}
+
+/// The whole text of a kernel: what it reads, arithmetic, and its own files. `second`: for what the first run is unsure of.
+pub(crate) fn files(arithmetic: Arithmetic, second: bool, own: &[&'static str]) -> Vec<&'static str> {
+    let [arithmetic, items] = pieces(arithmetic, second);
+    [arithmetic, own, items].concat()
+}
+
+/// A kernel, compiled.
+#[derive(Clone, Debug)]
+pub(crate) struct RealKernel {
+    first: ComputePipeline,
+    second: Option<ComputePipeline>,
+}
+
+impl RealKernel {
+    /// `own`: files with `fn run(item: u32)`, `fn item_count() -> u32` and `fn zero() -> u32`, all numbers in the functions of
+    /// shaders/reals.
+    pub fn new(device: &Device, arithmetic: Arithmetic, own: &[&'static str]) -> Self {
+        let compile =
+            |second| pipeline(device, &module(device, &files(arithmetic, second, own)), "every_item");
+        let second = (arithmetic != Arithmetic::Fast).then(|| compile(true));
+        Self { first: compile(false), second }
+    }
+}
+
+/// The binding of the list.
+const UNSURE: u32 = 9;
+/// An indirect dispatch of no groups, and an empty list.
+const NOTHING: [u32; 4] = [0, 1, 1, 0];
+
+/// A kernel with its buffers.
+#[derive(Clone, Debug)]
+pub(crate) struct RealStep {
+    first: Step,
+    second: Option<Second>,
+}
+
+#[derive(Clone, Debug)]
+struct Second {
+    step: Step,
+    list: Buffer,
+    nothing: Buffer,
+}
+
+impl RealStep {
+    /// `buffers`: by binding; `items`: how many there are.
+    pub fn new(device: &Device, kernel: &RealKernel, buffers: &[(u32, &Buffer)], items: u32) -> Self {
+        let Some(second) = &kernel.second else {
+            return Self { first: Step::new(device, &kernel.first, buffers, items), second: None };
+        };
+        let list = device.create_buffer(&BufferDescriptor {
+            label: Some("unsure"),
+            size: 4 * (NOTHING.len() as u64 + u64::from(items)),
+            usage: BufferUsages::STORAGE
+                | BufferUsages::INDIRECT
+                | BufferUsages::COPY_DST
+                | BufferUsages::COPY_SRC,
+            mapped_at_creation: false,
+        });
+        let nothing = device.create_buffer_init(&BufferInitDescriptor {
+            label: Some("nothing"),
+            contents: bytemuck::cast_slice(&NOTHING),
+            usage: BufferUsages::COPY_SRC,
+        });
+        let buffers = [buffers, &[(UNSURE, &list)]].concat();
+        let first = Step::new(device, &kernel.first, &buffers, items);
+        let step = Step::indirect(device, second, &buffers, &list);
+        Self { first, second: Some(Second { step, list: list.clone(), nothing }) }
+    }
+
+    pub fn record(&self, encoder: &mut CommandEncoder) {
+        if let Some(Second { list, nothing, .. }) = &self.second {
+            encoder.copy_buffer_to_buffer(nothing, 0, list, 0, nothing.size());
+        }
+        self.first.record(encoder);
+        if let Some(Second { step, .. }) = &self.second {
+            step.record(encoder);
+        }
+    }
+
+    /// Records a copy of the number of items done in whole numbers to a word of `into`.
+    pub fn record_count(&self, encoder: &mut CommandEncoder, into: &Buffer, offset: u64) {
+        match &self.second {
+            Some(Second { list, .. }) => encoder.copy_buffer_to_buffer(list, 12, into, offset, 4),
+            None => encoder.clear_buffer(into, offset, Some(4)),
+        }
+    }
+}
