@@ -9,7 +9,8 @@
 @group(0) @binding(4) var<storage, read_write> welded: array<u32>;
 @group(0) @binding(5) var<storage, read_write> counts: Counts;
 
-const EMPTY: u32 = 0xffffffffu;
+// A slot holds a vertex and one.
+const EMPTY: u32 = 0u;
 // 1e38: the reference does not weld positions from half of the largest float on.
 const LARGEST: u32 = 0x7e967699u;
 
@@ -81,12 +82,12 @@ fn weld(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) g
     for (var turn = 0u; turn < MAX_TURNS; turn++) {
         let held = atomicLoad(&slots[at]);
         if held == EMPTY {
-            if atomicCompareExchangeWeak(&slots[at], EMPTY, vertex).exchanged {
+            if atomicCompareExchangeWeak(&slots[at], EMPTY, vertex + 1u).exchanged {
                 return;
             }
             // Another vertex has it now, or the exchange failed for nothing: look again.
-        } else if is_same(record, comparable(load(held))) {
-            atomicMin(&slots[at], vertex);
+        } else if is_same(record, comparable(load(held - 1u))) {
+            atomicMin(&slots[at], vertex + 1u);
             return;
         } else {
             at = (at + 1u) & mask;
@@ -112,10 +113,10 @@ fn look_up(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups
         if held == EMPTY {
             return;
         }
-        let first = load(held);
+        let first = load(held - 1u);
         if is_same(record, comparable(first)) {
-            welded[vertex] = held;
-            if held != vertex {
+            welded[vertex] = held - 1u;
+            if held - 1u != vertex {
                 atomicAdd(&counts.copies, 1u);
             }
             if !is_same(own, first) {

@@ -1,6 +1,6 @@
 //! Welding: which vertices are one.
 
-use wgpu::{Buffer, ComputePipeline, Device};
+use wgpu::{Buffer, CommandEncoder, ComputePipeline, Device};
 
 use crate::GpuError;
 use crate::buffers::{Description, check_size};
@@ -32,9 +32,8 @@ impl WeldKernels {
 #[derive(Clone, Debug)]
 pub(crate) struct Weld {
     pub welded: Buffer,
-    /// The hash table, which has to be filled with ones before the steps run.
-    pub slots: Buffer,
-    pub steps: Vec<Step>,
+    slots: Buffer,
+    steps: [Step; 2],
 }
 
 impl Weld {
@@ -54,11 +53,16 @@ impl Weld {
         let slots = buffer(device, "slots", slot_count);
         let filling = [(0, words), (2, vertices), (3, &slots), (5, counts)];
         let reading = [&filling[..], &[(4, &welded)]].concat();
-        let steps = vec![
+        let steps = [
             Step::new(device, &kernels.weld, &filling, count),
             Step::new(device, &kernels.look_up, &reading, count),
         ];
         Ok(Self { welded, slots, steps })
+    }
+
+    pub fn record(&self, encoder: &mut CommandEncoder) {
+        encoder.clear_buffer(&self.slots, 0, None);
+        self.steps.iter().for_each(|step| step.record(encoder));
     }
 }
 

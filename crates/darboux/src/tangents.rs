@@ -5,6 +5,8 @@ mod area;
 mod average;
 mod degenerate;
 mod derivatives;
+#[doc(hidden)]
+pub mod elsewhere;
 mod evaluate;
 mod face;
 mod fans;

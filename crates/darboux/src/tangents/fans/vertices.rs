@@ -18,7 +18,7 @@ pub(super) struct Vertex {
 }
 
 /// The sign of a vertex whose tangents are not known here.
-pub(in super::super) const UNDECIDED: f32 = 0.0;
+pub const UNDECIDED: f32 = 0.0;
 
 /// What signs are multiplied with where the vertex lies in the tail's cells; 0 becomes -0.
 pub(super) const IN_TAIL: f32 = -2.0;

@@ -58,6 +58,13 @@ impl Weld {
         if collisions > 0 { self.weld_collisions(mesh, collisions) } else { Ok(()) }
     }
 
+    /// Takes the welded vertices of an indexed mesh, found elsewhere.
+    pub fn take(&mut self, welded: Vec<u32>) {
+        self.per_corner = false;
+        self.count = welded.len();
+        self.of = welded;
+    }
+
     pub fn identity(&self) -> Identity<'_> {
         match (self.per_corner, self.of.is_empty()) {
             (true, _) => Identity::OfCorner(&self.of, &self.corners[0].distinct.records),

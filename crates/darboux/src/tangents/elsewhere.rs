@@ -1,0 +1,26 @@
+//! Tangents that another machine began, for `darboux-gpu`. Not part of the API.
+
+use crate::{Mesh, Report, TangentOptions};
+
+use super::fans::Fans;
+use super::local;
+
+pub use super::fans::UNDECIDED;
+
+/// Decides the vertices that are left, and makes the report of the whole mesh.
+///
+/// `mesh`: indexed triangles, finite. `welded`: the first vertex that equals each vertex, the signs of zeros included. `out`: the tangents
+/// of vertices whose triangles are one group and one subgroup; [`UNDECIDED`] signs at all corners of the others, among which are those of
+/// degenerate and of UV-degenerate triangles, and those without a usable tangent.
+/// Returns how many corners were decided here, too.
+pub fn complete(
+    mesh: &Mesh<'_>,
+    options: &TangentOptions,
+    welded: Vec<u32>,
+    out: &mut [[f32; 4]],
+) -> (Report, usize) {
+    let mut fans = Fans::default();
+    fans.resume(mesh, options.mode, welded, out);
+    let left = out.iter().filter(|corner| corner[3] == UNDECIDED).count();
+    (local::decide(mesh, options, &fans, out), left)
+}
