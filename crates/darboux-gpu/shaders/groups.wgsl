@@ -4,14 +4,11 @@
 // Around a vertex every triangle has two edges, and so at most two neighbours: a group is a ring or a row. Every corner walks along
 // its own and finds the lowest corner, which is the one that the core starts from. UV-degenerate triangles take the orientation of the first group
 // that reaches them: their vertices are left to the core.
-//
-// Here `indices` are the welded vertices of corners.
 
-@group(0) @binding(2) var<storage, read> neighbours: array<u32>;
-// Of triangles: PRESERVES, ANY, UNSURE.
+// What derivatives say of every triangle.
 @group(0) @binding(3) var<storage, read> marks: array<u32>;
-@group(0) @binding(4) var<storage, read> ends: array<u32>;
-// The lowest corner of each corner's group; NONE where there is no group, or the vertex is left.
+@group(0) @binding(4) var<storage, read> neighbours: array<u32>;
+// The lowest corner of each corner's group; NONE where there is none.
 @group(0) @binding(5) var<storage, read_write> seed_of_corner: array<u32>;
 @group(0) @binding(6) var<storage, read_write> is_left: array<atomic<u32>>;
 
@@ -19,10 +16,8 @@
 const PRESERVES: u32 = 1u;
 // The triangle is UV-degenerate: it goes with any group.
 const ANY: u32 = 2u;
-// Exact arithmetic could not tell.
-const UNSURE: u32 = 4u;
 
-// Leaves the vertices of triangles whose groups the order of triangles decides, or that are not known.
+// Leaves the vertices of triangles whose groups the order of triangles decides.
 @compute @workgroup_size(WORKGROUP)
 fn leave_vertices(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) groups: vec3u) {
     let corner = number_of_thread(thread, groups);
@@ -30,21 +25,9 @@ fn leave_vertices(@builtin(global_invocation_id) thread: vec3u, @builtin(num_wor
         return;
     }
     let vertex = vertex_of_corner(corner);
-    if vertex != NONE && (marks[corner / 3u] & (ANY | UNSURE)) != 0u {
+    if vertex != NONE && (marks[corner / 3u] & ANY) != 0u {
         atomicStore(&is_left[vertex], 1u);
     }
-}
-
-fn count_of_triangles(vertex: u32) -> u32 {
-    if vertex == 0u {
-        return ends[0];
-    }
-    return ends[vertex] - ends[vertex - 1u];
-}
-
-fn corner_at(triangle: u32, vertex: u32) -> u32 {
-    let v = vertices_of_triangle(triangle);
-    return 3u * triangle + select(select(2u, 1u, v.y == vertex), 0u, v.x == vertex);
 }
 
 // What a walk met.
@@ -84,10 +67,11 @@ fn find_groups(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgr
     }
     seed_of_corner[corner] = NONE;
     let vertex = vertex_of_corner(corner);
-    if vertex == NONE || (marks[corner / 3u] & (ANY | UNSURE)) != 0u {
+    if vertex == NONE || (marks[corner / 3u] & ANY) != 0u {
         return;
     }
-    let count = count_of_triangles(vertex);
+    let range = entries(vertex);
+    let count = range.y - range.x;
     if count > MAX_TURNS {
         atomicStore(&is_left[vertex], 1u);
         return;

@@ -3,23 +3,11 @@
 // Of the half-edges between two vertices, in the order of triangles, the core lets each take the next free one that runs the opposite way.
 // Those that wait all run the same way and are taken in order: so the first one way is with the first the other way, the second
 // with the second. A thread counts how many of its way come before its own, and passes as many of the other way.
-//
-// Here `indices` are the welded vertices of corners.
 
-@group(0) @binding(2) var<storage, read> ends: array<u32>;
 @group(0) @binding(3) var<storage, read> triangle_of_entry: array<u32>;
 // The triangle across the edges 0-1, 1-2, 2-0.
 @group(0) @binding(4) var<storage, read_write> neighbours: array<u32>;
 @group(0) @binding(5) var<storage, read_write> is_left: array<atomic<u32>>;
-
-// The entries of a vertex.
-fn entries(vertex: u32) -> vec2u {
-    var start = 0u;
-    if vertex > 0u {
-        start = ends[vertex - 1u];
-    }
-    return vec2u(start, ends[vertex]);
-}
 
 fn has_half_edge(triangle: u32, a: u32, b: u32) -> bool {
     let v = vertices_of_triangle(triangle);

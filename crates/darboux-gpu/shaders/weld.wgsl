@@ -116,9 +116,6 @@ fn look_up(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups
         let first = load(held - 1u);
         if is_same(record, comparable(first)) {
             welded[vertex] = held - 1u;
-            if held - 1u != vertex {
-                atomicAdd(&counts.copies, 1u);
-            }
             if !is_same(own, first) {
                 atomicAdd(&counts.refused, 1u);
             }

@@ -15,6 +15,18 @@ pub enum GpuError {
         /// What the adapter says.
         reason: String,
     },
+    /// The device has stopped: its driver was reset, or it was taken away.
+    #[error("the GPU was lost: its driver was reset or it was removed; run again, or compute on the CPU")]
+    Lost,
+    /// The device has no memory left.
+    #[error("the GPU has not enough memory for this mesh: compute it on the CPU")]
+    OutOfMemory,
+    /// The device refused something.
+    #[error("the GPU refused to work: {reason}")]
+    Refused {
+        /// What it says.
+        reason: String,
+    },
     /// A stride or offset that is not whole words.
     #[error("{bytes} bytes, the stride or offset of the {what}, are not a multiple of 4")]
     Unaligned {

@@ -8,12 +8,13 @@ use crate::buffers::{Description, check_size};
 use crate::kernel::{Step, buffer, module, pipeline};
 
 const MESH: &str = include_str!("../shaders/mesh.wgsl");
-const COUNTS: &str = include_str!("../shaders/counts.wgsl");
+const COMMON: &str = include_str!("../shaders/common.wgsl");
+const AROUND: &str = include_str!("../shaders/around.wgsl");
 /// The files of the shaders.
 pub(crate) const TRIANGULATE: &[&str] =
-    &[MESH, include_str!("../shaders/words.wgsl"), COUNTS, include_str!("../shaders/triangulate.wgsl")];
-pub(crate) const NEIGHBOURS: &[&str] = &[MESH, COUNTS, include_str!("../shaders/neighbours.wgsl")];
-pub(crate) const GROUPS: &[&str] = &[MESH, COUNTS, include_str!("../shaders/groups.wgsl")];
+    &[MESH, include_str!("../shaders/words.wgsl"), COMMON, include_str!("../shaders/triangulate.wgsl")];
+pub(crate) const NEIGHBOURS: &[&str] = &[MESH, COMMON, AROUND, include_str!("../shaders/neighbours.wgsl")];
+pub(crate) const GROUPS: &[&str] = &[MESH, COMMON, AROUND, include_str!("../shaders/groups.wgsl")];
 
 /// What [`Topology::new`] needs, compiled once.
 #[derive(Clone, Debug)]
@@ -45,7 +46,6 @@ pub(crate) struct WeldedMesh<'a> {
     pub vertices: &'a Buffer,
     pub indices: &'a Buffer,
     pub welded: &'a Buffer,
-    pub counts: &'a Buffer,
 }
 
 /// Triangles, neighbours and groups of one mesh, and the steps that find them.
@@ -70,7 +70,7 @@ pub(crate) struct Topology {
 impl Topology {
     /// Errors: the device binds no buffer of that size.
     pub fn new(device: &Device, kernels: &TopologyKernels, mesh: &WeldedMesh<'_>) -> Result<Self, GpuError> {
-        let WeldedMesh { description, words, vertices, indices, welded, counts } = *mesh;
+        let WeldedMesh { description, words, vertices, indices, welded } = *mesh;
         let (vertex_count, triangles) = (description.vertex_count, description.triangle_count);
         let corners = 3 * triangles;
         check_size(device, "the welded corners", 4 * u64::from(corners))?;
@@ -95,7 +95,6 @@ impl Topology {
                 (3, welded),
                 (4, &welded_corners),
                 (5, &is_left),
-                (6, counts),
             ],
             triangles,
         );
@@ -107,7 +106,7 @@ impl Topology {
             (5, &is_left),
         ];
         let leaving = [(3, &marks), (6, &is_left)];
-        let of_groups = [(2, &neighbours), (4, &adjacency.ends), (5, &seed_of_corner)];
+        let of_groups = [(2, &adjacency.ends), (4, &neighbours), (5, &seed_of_corner)];
         let find_neighbours = step(&kernels.find_neighbours, &[&of_corners[..], &of_edges].concat(), corners);
         let find_groups = [
             step(&kernels.leave_vertices, &[&of_corners[..], &leaving].concat(), corners),

@@ -10,7 +10,7 @@ use crate::kernel::{Step, buffer, module, pipeline};
 pub(crate) const WELD: &[&str] = &[
     include_str!("../shaders/mesh.wgsl"),
     include_str!("../shaders/words.wgsl"),
-    include_str!("../shaders/counts.wgsl"),
+    include_str!("../shaders/common.wgsl"),
     include_str!("../shaders/weld.wgsl"),
 ];
 

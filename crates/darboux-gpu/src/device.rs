@@ -1,0 +1,55 @@
+//! What can go wrong on a device, as errors; reading back.
+
+use std::sync::mpsc;
+
+use wgpu::{Buffer, BufferDescriptor, BufferUsages, CommandEncoder, Device, ErrorFilter, MapMode, PollType};
+
+use crate::GpuError;
+
+/// Runs `work`, whose calls of the device would panic where the device refuses.
+///
+/// Errors: those of `work`; the device has no memory left, or refused something.
+pub(crate) fn guarded<T>(device: &Device, work: impl FnOnce() -> Result<T, GpuError>) -> Result<T, GpuError> {
+    let filters = [ErrorFilter::Validation, ErrorFilter::Internal, ErrorFilter::OutOfMemory];
+    let scopes = filters.map(|filter| device.push_error_scope(filter));
+    let done = work();
+    // The last that was pushed is popped first.
+    let errors = scopes.into_iter().rev().map(|scope| pollster::block_on(scope.pop()));
+    match errors.fold(None, Option::or) {
+        None => done,
+        Some(wgpu::Error::OutOfMemory { .. }) => Err(GpuError::OutOfMemory),
+        Some(error) => Err(GpuError::Refused { reason: error.to_string() }),
+    }
+}
+
+/// A copy of a buffer's words, for reading.
+pub(crate) struct Copy(Buffer);
+
+impl Copy {
+    /// Records the copy. `source` allows to be copied from.
+    pub fn record(device: &Device, encoder: &mut CommandEncoder, source: &Buffer) -> Self {
+        let copy = device.create_buffer(&BufferDescriptor {
+            label: Some("copy"),
+            size: source.size(),
+            usage: BufferUsages::MAP_READ | BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        encoder.copy_buffer_to_buffer(source, 0, &copy, 0, source.size());
+        Self(copy)
+    }
+
+    /// Waits for all submitted work, then gives the bytes to `read`. Errors: the device is lost.
+    pub fn read<T>(self, device: &Device, read: impl FnOnce(&[u8]) -> T) -> Result<T, GpuError> {
+        let (sender, receiver) = mpsc::channel();
+        self.0.map_async(MapMode::Read, .., move |mapped| {
+            // Nobody waits for it only where this function has failed already.
+            let _unheard = sender.send(mapped.is_ok());
+        });
+        let waited = device.poll(PollType::wait_indefinitely());
+        if waited.is_err() || receiver.recv() != Ok(true) {
+            return Err(GpuError::Lost);
+        }
+        let bytes = self.0.get_mapped_range(..).map_err(|_| GpuError::Lost)?;
+        Ok(read(&bytes))
+    }
+}
