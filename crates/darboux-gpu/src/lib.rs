@@ -30,10 +30,13 @@
 mod adjacency;
 mod average;
 mod buffers;
+mod device;
 mod error;
-mod gpu;
 mod evaluation;
+mod gpu;
 mod kernel;
+mod mikktspace;
+mod reals;
 mod topology;
 mod weld;
 
@@ -41,3 +44,12 @@ pub use average::{Average, AverageOfMesh, Search};
 pub use buffers::{Destination, FrameLayout, MeshBuffers, VertexLayout};
 pub use error::GpuError;
 pub use gpu::Gpu;
+pub use mikktspace::{Generated, Left, MikkTSpace};
+
+/// Single stages, for tests. Not part of the API.
+#[doc(hidden)]
+pub mod stages {
+    pub use crate::evaluation::{Evaluation, EvaluationKernels, Grouped};
+    pub use crate::mikktspace::Arrays;
+    pub use crate::reals::Arithmetic;
+}

@@ -8,7 +8,7 @@ pub mod scalar;
 use std::io::Write;
 use std::sync::OnceLock;
 
-use darboux_gpu::{Average, AverageOfMesh, Destination, FrameLayout, Gpu, MeshBuffers, Search, VertexLayout};
+use darboux_gpu::{Average, AverageOfMesh, Destination, FrameLayout, Gpu, MeshBuffers, MikkTSpace, Search, VertexLayout};
 use darboux_tests::{FaceSizes, OwnedMesh};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{Buffer, BufferUsages, IndexFormat};
@@ -24,6 +24,12 @@ pub fn gpus() -> &'static [Gpu] {
             Vec::new()
         })
     })
+}
+
+/// MikkTSpace for every adapter, compiled once.
+pub fn kernels() -> &'static [MikkTSpace] {
+    static KERNELS: OnceLock<Vec<MikkTSpace>> = OnceLock::new();
+    KERNELS.get_or_init(|| gpus().iter().map(|gpu| MikkTSpace::new(gpu).expect("valid shaders")).collect())
 }
 
 /// What a word holds before anybody writes it.

@@ -1,5 +1,6 @@
 //! Tangents that another machine began, for `darboux-gpu`. Not part of the API.
 
+use crate::math::cosine_of_degrees;
 use crate::{Mesh, Report, TangentOptions};
 
 use super::fans::Fans;
@@ -23,4 +24,9 @@ pub fn complete(
     fans.resume(mesh, options.mode, welded, out);
     let left = out.iter().filter(|corner| corner[3] == UNDECIDED).count();
     (local::decide(mesh, options, &fans, out), left)
+}
+
+/// The cosine above which directions are nearer than the threshold.
+pub fn threshold_cosine(options: &TangentOptions) -> f32 {
+    cosine_of_degrees(options.threshold)
 }

@@ -1,0 +1,110 @@
+//! MikkTSpace on every adapter, against the core's bits.
+
+mod common;
+
+use common::{gpus, kernels, triangulated};
+use darboux::{Mode, TangentOptions, Tangents, generate_tangents};
+use darboux_gpu::{Generated, Left};
+use darboux_tests::{Case, OwnedMesh, corpus, families};
+
+/// How corners fared.
+#[derive(Debug, Default)]
+struct Tally {
+    corners: usize,
+    of_cpu: usize,
+    meshes: usize,
+    whole_on_cpu: usize,
+}
+
+/// Compares tangents, signs and reports with the core's, in every mode.
+fn check(name: &str, mesh: &OwnedMesh, threshold: f32, tally: &mut Tally) {
+    let view = mesh.view();
+    for (gpu, kernels) in gpus().iter().zip(kernels()) {
+        for mode in [Mode::Reference, Mode::Repaired, Mode::Corrected] {
+            let options = TangentOptions { mode, threshold, ..Default::default() };
+            let expected = generate_tangents(&view, &options);
+            let found = kernels.generate_tangents(&view, &options);
+            let Generated { tangents, corners_of_cpu, left_to_cpu } =
+                found.unwrap_or_else(|error| panic!("{name}: {error}"));
+            same(&format!("{name}, {mode:?}, {threshold} degrees on {}", gpu.name), &tangents, &expected);
+            tally.corners += mesh.corner_count();
+            tally.of_cpu += corners_of_cpu;
+            tally.meshes += 1;
+            tally.whole_on_cpu += usize::from(left_to_cpu.is_some());
+        }
+    }
+}
+
+fn same(name: &str, found: &Tangents, expected: &Tangents) {
+    let pairs = found.corners.per_corner().iter().zip(expected.corners.per_corner());
+    let bits = |tangent: &[f32; 4]| tangent.map(|x| if x.is_nan() { f32::NAN } else { x }.to_bits());
+    let differs = pairs.clone().position(|(found, expected)| bits(found) != bits(expected));
+    if let Some(corner) = differs {
+        let pair = [found, expected].map(|tangents| tangents.corners.per_corner()[corner]);
+        panic!("{name}: corner {corner} has {:?}, not {:?}", pair[0], pair[1]);
+    }
+    assert_eq!(found.corners.len(), expected.corners.len(), "{name}");
+    assert_eq!(found.report, expected.report, "{name}");
+}
+
+#[test]
+fn families_have_the_bits_of_the_core() {
+    let mut tally = Tally::default();
+    let meshes = [
+        ("grid", families::grid(37, 23, false, false)),
+        ("mirrored grid", families::grid(30, 30, false, true)),
+        ("sphere", families::sphere(20, 31, false)),
+        ("cube", families::cube(false)),
+        ("fan", families::fan(1_000, false)),
+        ("polar fan", families::fan(300, true)),
+        ("moebius", families::moebius(64, false)),
+        ("strip", families::strip(50)),
+        ("unwelded fan", families::unwelded_fan(40)),
+        ("degenerates", families::with_lone_degenerates(families::grid(8, 8, false, false), 20)),
+    ];
+    for (name, mesh) in meshes {
+        check(name, &mesh, 180.0, &mut tally);
+        check(&format!("{name}, unindexed"), &mesh.unindexed(), 180.0, &mut tally);
+        check(name, &mesh, 60.0, &mut tally);
+    }
+    println!("{tally:?}");
+    assert!(tally.of_cpu * 4 < tally.corners || gpus().is_empty());
+}
+
+#[test]
+fn corpus_has_the_bits_of_the_core() {
+    let mut tally = Tally::default();
+    for specimen in corpus::corpus() {
+        for &threshold in &specimen.thresholds {
+            check(&specimen.name, &specimen.mesh, threshold, &mut tally);
+            let triangles = triangulated(&specimen.mesh);
+            check(&format!("{} in triangles", specimen.name), &triangles, threshold, &mut tally);
+        }
+    }
+    println!("{tally:?}");
+}
+
+#[test]
+fn random_meshes_have_the_bits_of_the_core() {
+    let mut tally = Tally::default();
+    for seed in 0..500 {
+        let Case { mesh, threshold } = Case::from_seed(seed);
+        check(&format!("seed {seed}"), &triangulated(&mesh), threshold, &mut tally);
+    }
+    println!("{tally:?}");
+    assert!(tally.whole_on_cpu * 2 < tally.meshes || gpus().is_empty());
+}
+
+#[test]
+fn what_the_cpu_does_is_said() {
+    let grid = families::grid(4, 4, false, false);
+    let quads = families::grid(4, 4, true, false);
+    let mut endless = grid.clone();
+    endless.positions[3][1] = f32::INFINITY;
+    for kernels in kernels() {
+        let run = |mesh: &OwnedMesh| kernels.generate_tangents(&mesh.view(), &Default::default()).unwrap();
+        assert_eq!(run(&grid).left_to_cpu, None);
+        assert_eq!((run(&quads).left_to_cpu, run(&quads).corners_of_cpu), (Some(Left::Faces), 64));
+        assert_eq!((run(&endless).left_to_cpu, run(&endless).corners_of_cpu), (Some(Left::Values), 96));
+    }
+}
