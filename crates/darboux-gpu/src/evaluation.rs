@@ -11,12 +11,8 @@ use crate::reals::{Arithmetic, RealKernel, RealStep};
 const MESH: &str = include_str!("../shaders/mesh.wgsl");
 const WELDED: &str = include_str!("../shaders/welded.wgsl");
 /// The kernels' own files.
-pub(crate) const DERIVATIVES: &[&str] = &[
-    MESH,
-    WELDED,
-    include_str!("../shaders/derivative.wgsl"),
-    include_str!("../shaders/derivatives.wgsl"),
-];
+pub(crate) const DERIVATIVES: &[&str] =
+    &[MESH, WELDED, include_str!("../shaders/derivative.wgsl"), include_str!("../shaders/derivatives.wgsl")];
 pub(crate) const WEDGES: &[&str] =
     &[MESH, WELDED, include_str!("../shaders/wedge.wgsl"), include_str!("../shaders/wedges.wgsl")];
 pub(crate) const EVALUATE: &[&str] = &[include_str!("../shaders/evaluate.wgsl")];

@@ -136,9 +136,8 @@ impl MikkTSpace {
             let mut encoder = device.create_command_encoder(&Default::default());
             work.record(&mut encoder);
             let Topology { welded_corners, neighbours, marks, seed_of_corner, .. } = &work.topology;
-            let copies =
-                [&work.counts, &work.weld.welded, welded_corners, neighbours, marks, seed_of_corner]
-                    .map(|buffer| Copy::record(device, &mut encoder, buffer));
+            let copies = [&work.counts, &work.weld.welded, welded_corners, neighbours, marks, seed_of_corner]
+                .map(|buffer| Copy::record(device, &mut encoder, buffer));
             self.queue.submit([encoder.finish()]);
             let mut words = Vec::new();
             for copy in copies {

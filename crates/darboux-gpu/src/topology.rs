@@ -88,23 +88,12 @@ impl Topology {
         };
         let triangulate = step(
             &kernels.triangulate,
-            &[
-                (0, words),
-                (1, indices),
-                (2, vertices),
-                (3, welded),
-                (4, &welded_corners),
-                (5, &is_left),
-            ],
+            &[(0, words), (1, indices), (2, vertices), (3, welded), (4, &welded_corners), (5, &is_left)],
             triangles,
         );
         let of_corners = [(0, welded_words), (1, &welded_corners)];
-        let of_edges = [
-            (2, &adjacency.ends),
-            (3, &adjacency.triangle_of_entry),
-            (4, &neighbours),
-            (5, &is_left),
-        ];
+        let of_edges =
+            [(2, &adjacency.ends), (3, &adjacency.triangle_of_entry), (4, &neighbours), (5, &is_left)];
         let leaving = [(3, &marks), (6, &is_left)];
         let of_groups = [(2, &adjacency.ends), (4, &neighbours), (5, &seed_of_corner)];
         let find_neighbours = step(&kernels.find_neighbours, &[&of_corners[..], &of_edges].concat(), corners);

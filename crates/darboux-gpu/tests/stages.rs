@@ -56,8 +56,7 @@ fn check_weld(name: &str, mesh: &OwnedMesh, core: &Triangulation, found: &Arrays
     let mut first = HashMap::new();
     for (v, &welded) in (0u32..).zip(&found.welded) {
         let (position, normal, uv) = mesh.vertex(v as usize);
-        let key: Vec<u32> =
-            position.iter().chain(&normal).chain(&uv).map(|x| (x + 0.0).to_bits()).collect();
+        let key: Vec<u32> = position.iter().chain(&normal).chain(&uv).map(|x| (x + 0.0).to_bits()).collect();
         assert_eq!(welded, *first.entry(key).or_insert(v), "{name}: vertex {v}");
     }
 }

@@ -59,10 +59,10 @@ pub use normals::{
 pub use plan::Plan;
 pub use split::{Splitter, VertexSplit, split_vertices};
 pub use tangents::naive;
-#[doc(hidden)]
-pub use tangents::{elsewhere, stages};
 pub use tangents::{
     Frames, Method, Mode, Report, Scratch, TangentOptions, Tangents, WidthLimit, generate_frames,
     generate_tangents, generate_tangents_into, on_this_thread, write_tangents,
 };
+#[doc(hidden)]
+pub use tangents::{elsewhere, stages};
 pub use transform::Transform;

@@ -8,7 +8,9 @@ pub mod scalar;
 use std::io::Write;
 use std::sync::OnceLock;
 
-use darboux_gpu::{Average, AverageOfMesh, Destination, FrameLayout, Gpu, MeshBuffers, MikkTSpace, Search, VertexLayout};
+use darboux_gpu::{
+    Average, AverageOfMesh, Destination, FrameLayout, Gpu, MeshBuffers, MikkTSpace, Search, VertexLayout,
+};
 use darboux_tests::{FaceSizes, OwnedMesh};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{Buffer, BufferUsages, IndexFormat};
