@@ -38,6 +38,22 @@ pub fn blender() -> Outcome {
     run(with(&python, "-m pytest --quiet").arg(format!("{PACKAGE}/tests/test_blender.py")))
 }
 
+/// Batches on clusters and the adapter to Open3D: their packages are large.
+pub fn large_packages() -> Outcome {
+    if !works(&mut program("python3 -m venv --help")) {
+        println!("skipped: Ray, Dask and Open3D need python3 with venv");
+        return Ok(());
+    }
+    let python = environment_of("python3", "large-packages")?;
+    let package = format!("{PACKAGE}[ray,dask,progress]");
+    run(pip(&python).args(["--config-settings", "build-args=--profile dev", "pytest", &package]))?;
+    if !works(pip(&python).arg("open3d")) {
+        println!("skipped: there is no Open3D for this Python");
+    }
+    let tests = ["clusters", "open3d"].map(|name| format!("{PACKAGE}/tests/test_{name}.py"));
+    run(with(&python, "-m pytest --quiet").args(tests))
+}
+
 /// `cargo xtask dist-python`: builds the wheel, and prints the absolute path of its folder as the last line.
 pub fn dist() -> Outcome {
     let python = environment()?;

@@ -9,6 +9,7 @@ mod command;
 mod convention;
 mod document;
 mod encode;
+mod library;
 mod measure;
 mod mesh;
 mod normals;
@@ -37,6 +38,8 @@ mod _darboux {
         tangent_from_snorm16, tangent_to_diamond, tangent_to_octahedral, tangent_to_snorm8,
         tangent_to_snorm10, tangent_to_snorm16,
     };
+    #[pymodule_export]
+    use crate::library::{Library, carry_out, give_up};
     #[pymodule_export]
     use crate::measure::{measure_tangents, measure_uv_fidelity};
     #[pymodule_export]

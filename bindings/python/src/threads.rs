@@ -33,19 +33,26 @@ pub fn detached<R: Send>(
     corners: usize,
     work: impl FnOnce() -> R + Send,
 ) -> PyResult<R> {
-    let threads = match threads {
-        None => 0,
-        Some(threads @ 1..=MOST_THREADS) => threads as usize,
-        Some(threads) => {
-            let sentence = format!("threads is {threads}; it must be from 1 to {MOST_THREADS}");
-            return Err(PyValueError::new_err(sentence));
-        }
-    };
+    let threads = threads.map_or(Ok(0), checked)?;
     if corners < FEWEST_CORNERS {
         return Ok(py.detach(work));
     }
     let pool = pool(threads)?;
     Ok(py.detach(|| pool.install(work)))
+}
+
+/// Does `work` without the GIL on so many threads.
+pub fn limited<R: Send>(py: Python<'_>, threads: i64, work: impl FnOnce() -> R + Send) -> PyResult<R> {
+    let pool = pool(checked(threads)?)?;
+    Ok(py.detach(|| pool.install(work)))
+}
+
+/// Errors: no number of threads that can be had.
+fn checked(threads: i64) -> PyResult<usize> {
+    match threads {
+        1..=MOST_THREADS => Ok(threads as usize),
+        _ => Err(PyValueError::new_err(format!("threads is {threads}; it must be from 1 to {MOST_THREADS}"))),
+    }
 }
 
 /// The pool of this process. The GIL is held, so nobody forks while the lock is.

@@ -151,6 +151,11 @@ impl Journal {
         &self.folder
     }
 
+    /// Lets other processes open the journal.
+    pub fn unlock(&self) -> Result<(), String> {
+        self.file.unlock().map_err(|error| format!("{}: cannot be unlocked: {error}", self.folder.display()))
+    }
+
     /// What is known of an output.
     pub fn find(&self, output: &Path) -> Option<&Record> {
         self.records.get(&below(&self.folder, output))

@@ -88,9 +88,10 @@ impl Library {
         answer.record.map_or(Ok(()), |record| self.journal.add(&record))
     }
 
-    /// Removes what killed workers left half-written. No worker may be at work.
-    pub fn clean(&self) -> Result<(), String> {
-        remove_unfinished(self.journal.folder())
+    /// Removes what killed workers left half-written, and lets other runs write there. No worker may be at work.
+    pub fn close(&self) -> Result<(), String> {
+        remove_unfinished(self.journal.folder())?;
+        self.journal.unlock()
     }
 }
 

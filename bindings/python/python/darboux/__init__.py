@@ -18,6 +18,7 @@ array([[1., 0., 0., 1.],
 """
 
 from . import encode
+from ._batch import batch
 from ._darboux import (
     CONVENTIONS,
     Document,
@@ -60,6 +61,7 @@ __all__ = [
     "UvFidelity",
     "VertexSplit",
     "__version__",
+    "batch",
     "convert",
     "dumps",
     "encode",

@@ -1,0 +1,174 @@
+"""Many files: what is done with each, and what comes of all."""
+
+import json
+import os
+from pathlib import Path
+from typing import Any, Callable, Dict, Iterator, List, Literal, Optional, Sequence, Union
+
+from ._darboux import Library, __version__, give_up
+from ._engines import ENGINES, Engine
+from ._process import PathLike
+
+REPORT = "darboux-report.json"
+
+OPTIONS = (
+    "allow_outside",
+    "apply_texture_transform",
+    "encoding",
+    "method",
+    "mode",
+    "normals",
+    "only_needed",
+    "overwrite",
+    "strict",
+    "threshold",
+)
+
+
+def batch(
+    files: Union[PathLike, Sequence[PathLike]],
+    out: PathLike,
+    *,
+    engine: Literal["local", "ray", "dask"] = "local",
+    workers: Optional[int] = None,
+    retries: int = 2,
+    progress: Union[bool, Callable[[int, int], object]] = True,
+    **options: Any,
+) -> Dict[str, Any]:
+    """Add tangents to many glTF and GLB files, as `darboux tangents FILES --out-dir OUT --resume` does, in many processes.
+
+    A batch that was stopped goes on when it is called again: files whose output was made of the same content by the same options are left
+    as they are, others are replaced. Outputs are whole or not there, whatever is killed. A file that fails is reported and stops nothing.
+
+    Parameters
+    ----------
+    files : path-like or sequence of path-like
+        Models, and folders that are searched for models; paths below folders are kept.
+    out : path-like
+        The folder of outputs, of the journal, darboux-journal.jsonl, and of the report, darboux-report.json. One batch at a time.
+    engine : str
+        'local': processes of this machine. 'ray', 'dask': the cluster that Ray or Dask is connected to; its machines must have darboux and
+        see the same files at the same paths.
+    workers : int, optional
+        Files that are worked on at the same time; by default as many as there are processors.
+    retries : int
+        How often a file that failed, or whose worker was lost, is tried again.
+    progress : bool or callable
+        True: a bar on a terminal, where tqdm is installed. A callable is given the files done and their total, after each.
+    **options
+        Of the command: method, mode, threshold, normals ('flat', 'smooth', 'crease=30'), encoding, overwrite, only_needed, strict,
+        apply_texture_transform, allow_outside.
+
+    Returns
+    -------
+    dict
+        The report of `darboux tangents --json`, with the 'tries' of each file.
+
+    Raises
+    ------
+    ValueError
+        Options that are none; two files with one output; another batch that writes there.
+    OSError
+        The folder cannot be written.
+    """
+    if engine not in ENGINES:
+        raise ValueError(f"engine is {engine!r}; it must be one of {', '.join(map(repr, ENGINES))}")
+    if retries < 0 or (workers is not None and workers < 1):
+        raise ValueError("retries must be 0 or more, workers 1 or more")
+    out = Path(os.path.abspath(out))
+    inputs = [files] if isinstance(files, (str, os.PathLike)) else list(files)
+    library = Library([os.path.abspath(path) for path in inputs], out, list(_arguments(options)))
+    try:
+        with ENGINES[engine](workers) as running:
+            done = _carried_out(library, running, retries, progress)
+    finally:
+        library.close()
+    report = _report([json.loads(report) for report in library.failed] + done)
+    _write(out / REPORT, report)
+    return report
+
+
+def _arguments(options: Dict[str, Any]) -> Iterator[str]:
+    for name, value in options.items():
+        if name not in OPTIONS:
+            raise ValueError(f"{name} is no option of a batch; there are {', '.join(OPTIONS)}")
+        flag = "--" + name.replace("_", "-")
+        if value is True:
+            yield flag
+        elif value is not None and value is not False:
+            yield f"{flag}={value}"
+
+
+def _carried_out(
+    library: Library, engine: Engine, retries: int, progress: Union[bool, Callable[[int, int], object]]
+) -> List[Dict[str, Any]]:
+    """The reports of all files, in the order of the orders."""
+    orders = library.orders
+    reports: List[Dict[str, Any]] = [{} for _ in orders]
+    tries = [0] * len(orders)
+    waiting = list(reversed(range(len(orders))))
+    at_work = 0
+    with _Bar(len(orders), progress) as bar:
+        while waiting or at_work:
+            while waiting and at_work < engine.capacity:
+                number = waiting.pop()
+                tries[number] += 1
+                engine.start(number, orders[number])
+                at_work += 1
+            number, answer = engine.wait()
+            at_work -= 1
+            if isinstance(answer, Exception):
+                answer = give_up(orders[number], f"its worker was lost: {answer}")
+            report = json.loads(answer)["report"]
+            if report["status"] == "failed" and tries[number] <= retries:
+                # Behind all others: what was in the way may be gone by then.
+                waiting.insert(0, number)
+                continue
+            library.take(answer)
+            reports[number] = {**report, "tries": tries[number]}
+            bar.step()
+    return reports
+
+
+def _report(files: List[Dict[str, Any]]) -> Dict[str, Any]:
+    statuses = [file["status"] for file in files]
+    totals = {"files": len(files)}
+    totals.update({status: statuses.count(status) for status in ("written", "copied", "up_to_date", "failed")})
+    return {"command": "tangents", "version": __version__, "files": files, "totals": totals}
+
+
+def _write(path: Path, report: Dict[str, Any]) -> None:
+    """Whole or not at all."""
+    unfinished = path.with_name(f".darboux-{path.name}")
+    unfinished.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+    os.replace(unfinished, path)
+
+
+class _Bar:
+    """Tells how many files are done."""
+
+    def __init__(self, total: int, progress: Union[bool, Callable[[int, int], object]]) -> None:
+        self.done, self.total = 0, total
+        self.tell = progress if callable(progress) else None
+        self.bar: Any = None
+        if progress is True:
+            try:
+                from tqdm import tqdm
+            except ImportError:
+                return
+            # On a terminal only.
+            self.bar = tqdm(total=total, unit="file", disable=None)
+
+    def step(self) -> None:
+        self.done += 1
+        if self.tell:
+            self.tell(self.done, self.total)
+        if self.bar is not None:
+            self.bar.update()
+
+    def __enter__(self) -> "_Bar":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self.bar is not None:
+            self.bar.close()

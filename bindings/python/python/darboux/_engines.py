@@ -1,0 +1,173 @@
+"""Where the files of a batch are worked on: processes of this machine, Ray, Dask."""
+
+import os
+import subprocess
+import sys
+import threading
+from concurrent.futures import Future, ThreadPoolExecutor
+from queue import SimpleQueue
+from typing import Any, Callable, Dict, List, Optional, Protocol, Tuple, Union
+
+from ._darboux import carry_out
+
+Ended = Tuple[int, Union[str, Exception]]
+"""The number of an order, and its answer or why there is none."""
+
+
+class Engine(Protocol):
+    """Carries out orders. Leaving it ends its workers, at work or not."""
+
+    capacity: int
+    """The orders that it is worth starting at the same time."""
+
+    def start(self, number: int, order: str) -> None:
+        """Begin with an order."""
+
+    def wait(self) -> Ended:
+        """The next order that has ended."""
+
+    def __enter__(self) -> "Engine": ...
+
+    def __exit__(self, *_: object) -> None: ...
+
+
+def carry_out_alone(order: str) -> str:
+    """What workers of a cluster do: one processor each, as the cluster hands them out."""
+    return carry_out(order, 1)
+
+
+WORKER = """
+import sys
+sys.path[:] = {path!r}
+from darboux._worker import main
+main({threads})
+"""
+
+
+class Local:
+    """Processes of this machine, each with a thread here that waits for it. Whoever kills one costs its file one try, and no other."""
+
+    def __init__(self, workers: Optional[int]) -> None:
+        processors = os.cpu_count() or 1
+        self.capacity = workers or processors
+        program = WORKER.format(path=sys.path, threads=max(1, processors // self.capacity))
+        self.command = [sys.executable, "-X", "utf8", "-c", program]
+        self.threads = ThreadPoolExecutor(self.capacity)
+        self.ended: "SimpleQueue[Ended]" = SimpleQueue()
+        self.own = threading.local()
+        self.lock = threading.Lock()
+        self.processes: List["subprocess.Popen[str]"] = []
+        self.is_over = False
+
+    def start(self, number: int, order: str) -> None:
+        def end(future: "Future[str]") -> None:
+            error = future.exception()
+            self.ended.put((number, error if isinstance(error, Exception) else future.result()))
+
+        self.threads.submit(self._ask, order).add_done_callback(end)
+
+    def wait(self) -> Ended:
+        return self.ended.get()
+
+    def _ask(self, order: str) -> str:
+        process: "subprocess.Popen[str]" = getattr(self.own, "process", None) or self._process()
+        self.own.process = process
+        assert process.stdin and process.stdout
+        try:
+            process.stdin.write(order + "\n")
+            process.stdin.flush()
+            answer = process.stdout.readline()
+        except OSError:
+            answer = ""
+        if not answer.endswith("\n"):
+            self.own.process = None
+            raise RuntimeError(f"the process ended with code {process.wait()}")
+        return answer
+
+    def _process(self) -> "subprocess.Popen[str]":
+        with self.lock:
+            if self.is_over:
+                raise RuntimeError("the batch is over")
+            process = subprocess.Popen(
+                self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8"
+            )
+            self.processes.append(process)
+        return process
+
+    def __enter__(self) -> "Local":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        with self.lock:
+            self.is_over = True
+            for process in self.processes:
+                process.kill()
+        self.threads.shutdown()
+        for process in self.processes:
+            process.wait()
+
+
+class Ray:
+    """The cluster that Ray is connected to, or that ray.init() finds or starts."""
+
+    def __init__(self, workers: Optional[int]) -> None:
+        import ray
+
+        if not ray.is_initialized():
+            ray.init()
+        self.ray: Any = ray
+        self.task = ray.remote(max_retries=0)(carry_out_alone)
+        self.capacity = workers or 2 * int(ray.cluster_resources().get("CPU", 1))
+        self.numbers: Dict[Any, int] = {}
+
+    def start(self, number: int, order: str) -> None:
+        self.numbers[self.task.remote(order)] = number
+
+    def wait(self) -> Ended:
+        [task], _ = self.ray.wait(list(self.numbers), num_returns=1)
+        number = self.numbers.pop(task)
+        try:
+            return number, self.ray.get(task)
+        except self.ray.exceptions.RayError as error:
+            return number, error
+
+    def __enter__(self) -> "Ray":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for task in self.numbers:
+            self.ray.cancel(task, force=True)
+
+
+class Dask:
+    """The cluster of the current distributed.Client."""
+
+    def __init__(self, workers: Optional[int]) -> None:
+        import distributed
+
+        try:
+            self.client: Any = distributed.get_client()
+        except ValueError:
+            raise ValueError("there is no Dask client; make one: distributed.Client(address)") from None
+        self.first = distributed.wait
+        self.capacity = workers or 2 * max(1, sum(self.client.nthreads().values()))
+        self.numbers: Dict[Any, int] = {}
+
+    def start(self, number: int, order: str) -> None:
+        self.numbers[self.client.submit(carry_out_alone, order, pure=False)] = number
+
+    def wait(self) -> Ended:
+        done, _ = self.first(list(self.numbers), return_when="FIRST_COMPLETED")
+        task = next(iter(done))
+        number = self.numbers.pop(task)
+        error = task.exception()
+        return number, task.result() if error is None else error
+
+    def __enter__(self) -> "Dask":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.client.cancel(list(self.numbers))
+
+
+ENGINES: Dict[str, Callable[[Optional[int]], Engine]] = {"local": Local, "ray": Ray, "dask": Dask}

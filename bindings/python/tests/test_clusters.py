@@ -1,0 +1,82 @@
+"""Batches on Ray and Dask, where they are installed: workers are killed while they work, and nothing is lost."""
+
+import os
+import signal
+from pathlib import Path
+from typing import Callable, Iterator, List
+
+import darboux
+import pytest
+from test_batch import by_command, contents, library
+
+PREFIX = "ray::carry_out_alone"
+"""How Ray names a process while it works on a file."""
+
+
+@pytest.fixture
+def ray() -> Iterator[None]:
+    os.environ["RAY_AUTH_MODE"] = "disabled"
+    module = pytest.importorskip("ray")
+    module.init(num_cpus=2, include_dashboard=False, log_to_driver=False)
+    yield
+    module.shutdown()
+
+
+@pytest.fixture
+def dask() -> Iterator[None]:
+    distributed = pytest.importorskip("distributed")
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+    ) as cluster, distributed.Client(cluster):
+        yield
+
+
+def ray_workers() -> List[int]:
+    found = []
+    for command in Path("/proc").glob("[0-9]*/cmdline"):
+        try:
+            if command.read_text().startswith(PREFIX):
+                found.append(int(command.parent.name))
+        except OSError:
+            continue
+    return found
+
+
+def dask_workers() -> List[int]:
+    import distributed
+
+    return list(distributed.get_client().run(os.getpid).values())
+
+
+def check(engine: str, workers: Callable[[], List[int]], folder: Path) -> None:
+    models, out = library(folder, copies=12), folder / "out"
+    killed: List[int] = []
+
+    def kill(done: int, total: int) -> None:
+        if not killed:
+            killed.extend(workers())
+            for worker in killed:
+                os.kill(worker, signal.SIGKILL)
+
+    report = darboux.batch(models, out, engine=engine, progress=kill)  # type: ignore[arg-type]
+    assert killed
+    assert report["totals"] == {"files": 15, "written": 13, "copied": 2, "up_to_date": 0, "failed": 0}
+    assert contents(out) == by_command(models, folder / "expected")
+    (models / "a.glb").write_bytes(b"glTF")
+    again = darboux.batch(models, out, engine=engine, retries=1, progress=False)  # type: ignore[arg-type]
+    assert (again["totals"]["up_to_date"], again["totals"]["failed"]) == (14, 1)
+    assert again["files"][0]["tries"] == 2
+
+
+def test_ray(ray: None, tmp_path: Path) -> None:
+    check("ray", ray_workers, tmp_path)
+
+
+def test_dask(dask: None, tmp_path: Path) -> None:
+    check("dask", dask_workers, tmp_path)
+
+
+def test_dask_needs_a_client(tmp_path: Path) -> None:
+    pytest.importorskip("distributed")
+    with pytest.raises(ValueError, match="there is no Dask client"):
+        darboux.batch(library(tmp_path), tmp_path / "out", engine="dask")
