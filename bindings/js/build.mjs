@@ -1,7 +1,7 @@
 // `node build.mjs MODULES OUT VERSION`: makes the folder that is published in OUT, of the WebAssembly modules in MODULES.
 
 import { spawnSync } from 'node:child_process';
-import { copyFileSync, mkdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import { copyFileSync, cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { deflateRawSync } from 'node:zlib';
@@ -12,6 +12,9 @@ const [modules, out, version] = process.argv.slice(2);
 
 /** What users import, each with a WebAssembly module of its name. */
 const ENTRIES = ['darboux', 'tangents'];
+
+/** What users import beside, over one of those. */
+const ADAPTERS = ['three', 'gltf-transform', 'mikktspace'];
 
 /** What the compiler uses without being told. */
 const FEATURES = ['bulk-memory', 'bulk-memory-opt', 'nontrapping-float-to-int', 'sign-ext', 'mutable-globals', 'reference-types', 'multivalue', 'call-indirect-overlong'];
@@ -39,6 +42,16 @@ const deflated = {
     })),
 };
 
+/** Adapters import their entry as users do, so that it is there once. */
+const entries = (extension) => ({
+  name: 'entries',
+  setup: (build) =>
+    build.onResolve({ filter: new RegExp(`^\\./(${ENTRIES.join('|')})\\.js$`) }, ({ path }) => ({
+      path: path.replace('.js', extension),
+      external: true,
+    })),
+});
+
 const common = {
   absWorkingDir: join(here, 'lib'),
   outdir: out,
@@ -47,7 +60,7 @@ const common = {
   target: 'es2022',
   platform: 'neutral',
   plugins: [deflated],
-  external: ['*.scalar.js'],
+  external: ['*.scalar.js', 'three'],
   logLevel: 'warning',
 };
 
@@ -57,14 +70,23 @@ async function bundle(entry) {
   await build({ ...common, format: 'cjs', entryPoints: [`${entry}.ts`], outExtension: { '.js': '.cjs' } });
 }
 
+async function bundleAdapters() {
+  const entryPoints = ADAPTERS.map((adapter) => `${adapter}.ts`);
+  const plugins = (extension) => [entries(extension)];
+  await build({ ...common, format: 'esm', entryPoints, plugins: plugins('.js') });
+  await build({ ...common, format: 'cjs', entryPoints, plugins: plugins('.cjs'), outExtension: { '.js': '.cjs' } });
+}
+
 rmSync(out, { recursive: true, force: true });
 for (const entry of ENTRIES) {
   for (const form of ['simd', 'scalar']) optimize(entry, form);
   await bundle(entry);
 }
+await bundleAdapters();
 run('tsc', '-p', 'lib', '--outDir', out);
 for (const inner of ['engine', 'mesh', ...ENTRIES.map((entry) => `${entry}.scalar`)]) rmSync(join(out, `${inner}.d.ts`));
-for (const name of [...ENTRIES, 'types']) {
+rmSync(join(out, 'gltf'), { recursive: true });
+for (const name of [...ENTRIES, ...ADAPTERS, 'types']) {
   const types = readFileSync(join(out, `${name}.d.ts`), 'utf8');
   writeFileSync(join(out, `${name}.d.cts`), types.replaceAll(/from '(.*)\.js'/g, "from '$1.cjs'"));
 }
@@ -73,7 +95,7 @@ writeFileSync(join(out, 'package.json'), JSON.stringify({ ...manifest, version }
 copyFileSync(join(here, 'README.md'), join(out, 'README.md'));
 for (const license of ['LICENSE-APACHE', 'LICENSE-MIT']) copyFileSync(join(here, '../..', license), join(out, license));
 
-// Tests and examples import it as users do.
-const link = join(here, 'node_modules/darboux');
-rmSync(link, { recursive: true, force: true });
-symlinkSync(out, link);
+// Tests and examples import it as users do, beside the libraries that it extends.
+const installed = join(here, 'node_modules/darboux');
+rmSync(installed, { recursive: true, force: true });
+cpSync(out, installed, { recursive: true });

@@ -9,7 +9,7 @@ const examples = [...readme.matchAll(/```js\n([^]*?)```/g)].map(([, code]) => co
 
 /** Runs an example as a module, which finds the package from anywhere, and gives the variables that are asked for. */
 async function run(example, variables) {
-  const code = examples[example].replaceAll(/'(darboux[^']*)'/g, (_, name) => JSON.stringify(import.meta.resolve(name)));
+  const code = examples[example].replaceAll(/from '([^']*)'/g, (_, name) => `from ${JSON.stringify(import.meta.resolve(name))}`);
   return import(`data:text/javascript,${encodeURIComponent(`${code}\nexport { ${variables} };`)}`);
 }
 
@@ -24,4 +24,25 @@ test('vertices of a mirrored seam', async () => {
   assert.deepEqual(Array.from(newPositions.subarray(18)), [0, 0, 0, 0, 1, 0]);
   const signs = Array.from({ length: 8 }, (_, vertex) => [tangentOfVertex[4 * vertex], tangentOfVertex[4 * vertex + 3]]);
   assert.deepEqual(signs, [[-1, -1], [-1, -1], [-1, -1], [-1, -1], [1, 1], [1, 1], [1, 1], [1, 1]]);
+});
+
+test('a geometry of three.js', async () => {
+  const { geometry, mesh } = await run(2, 'geometry, mesh');
+  assert.deepEqual([geometry.getAttribute('tangent').count, geometry.index === null], [geometry.getAttribute('position').count, false]);
+  assert.equal(mesh.geometry, geometry);
+});
+
+test('the module that three.js expects', async () => {
+  const { geometry } = await run(3, 'geometry');
+  assert.equal(geometry.getAttribute('tangent').count, 64 * 8 * 6);
+});
+
+test('a document of glTF-Transform', async () => {
+  const { document } = await run(4, 'document');
+  assert.equal(document.getRoot().listAccessors().length, 0);
+});
+
+test('in place of npm mikktspace', async () => {
+  const { tangents } = await run(5, 'tangents');
+  assert.deepEqual(Array.from(tangents), Array.from({ length: 3 }, () => [1, 0, 0, 1]).flat());
 });

@@ -1,7 +1,13 @@
 // Compiled, never run: what users may write, and what they may not.
 
 import { encodeTangents, generateTangents as generateAny, measureTangents, splitVertices } from 'darboux';
+import { tangents as transform } from 'darboux/gltf-transform';
+import * as mikktspace from 'darboux/mikktspace';
 import { generateTangents, ready, type MikkTSpaceOptions } from 'darboux/tangents';
+import { computeTangents } from 'darboux/three';
+import type { Document } from '@gltf-transform/core';
+import type { SphereGeometry } from 'three';
+import { computeMikkTSpaceTangents } from 'three/addons/utils/BufferGeometryUtils.js';
 
 const loaded: Promise<void> = ready;
 const floats = new Float32Array();
@@ -20,5 +26,15 @@ const octahedral: Int16Array = encodeTangents(floats, 'octahedral');
 const diamond: Int16Array = encodeTangents(floats, 'diamond', floats);
 const largest: number = measureTangents(tangents, tangents).max;
 const sources: Uint32Array = splitVertices(new Uint32Array(), tangents, 4).sourceOfVertex;
+
+
+export async function adapters(document: Document, sphere: SphereGeometry): Promise<SphereGeometry> {
+  await document.transform(transform(), transform({ overwrite: true, generateTangents: mikktspace.generateTangents }));
+  // @ts-expect-error: this mode leaves zero tangents
+  transform({ mode: 'reference' });
+  await mikktspace.ready;
+  computeMikkTSpaceTangents(sphere, mikktspace);
+  return computeTangents(sphere, { uv: 'uv1', negateSign: false, method: 'angle-area' });
+}
 
 export { diamond, largest, loaded, octahedral, sources, tangents };
