@@ -1,7 +1,7 @@
 //! Conventions: every pair of presets against a surface that is written down anew in each.
 
 use darboux::{
-    Axes, Axis, BitangentDirection, Convention, Handedness, Mesh, SignRule, TangentDirection, TangentOptions,
+    Axes, Axis, BitangentDirection, Convention, ConventionError, Handedness, Mesh, SignRule, TangentDirection, TangentOptions,
     UvOrigin, Winding, generate_tangents,
 };
 
@@ -220,4 +220,55 @@ fn axes_must_differ() {
     assert_eq!(Axes::new(Axis::X, Axis::MinusX, Axis::Z), None);
     assert_eq!(Axes::new(Axis::X, Axis::Y, Axis::Y), None);
     assert_eq!(Axes::new(Axis::Z, Axis::Y, Axis::MinusZ), None);
+}
+
+/// Every convention that there is: 48 ways to stand and 2 of each other choice.
+fn all_conventions() -> Vec<Convention> {
+    let axes = [Axis::X, Axis::MinusX, Axis::Y, Axis::MinusY, Axis::Z, Axis::MinusZ];
+    let triples = axes.into_iter().flat_map(|a| axes.into_iter().flat_map(move |b| axes.map(|c| [a, b, c])));
+    let stands: Vec<Axes> = triples.filter_map(|[right, up, front]| Axes::new(right, up, front)).collect();
+    let choose = |bits: usize, axes: Axes| Convention {
+        axes,
+        winding: [Winding::CounterClockwise, Winding::Clockwise][bits & 1],
+        uv_origin: [UvOrigin::BottomLeft, UvOrigin::TopLeft][bits >> 1 & 1],
+        tangent: [TangentDirection::Right, TangentDirection::Left][bits >> 2 & 1],
+        bitangent: [BitangentDirection::Up, BitangentDirection::Down][bits >> 3 & 1],
+        sign: [SignRule::NormalCrossTangent, SignRule::TangentCrossNormal][bits >> 4],
+    };
+    (0..32).flat_map(|bits| stands.iter().map(move |&axes| choose(bits, axes))).collect()
+}
+
+#[test]
+fn every_convention_can_be_written_and_read() {
+    let all = all_conventions();
+    assert_eq!(all.len(), 48 * 32);
+    for convention in all {
+        let text = convention.to_string();
+        assert_eq!(text.parse(), Ok(convention), "{text}");
+    }
+    for (name, preset) in Convention::PRESETS {
+        assert_eq!(name.parse(), Ok(preset));
+        assert!(preset.names().any(|other| other == name));
+    }
+    let green_down = Convention { bitangent: BitangentDirection::Down, ..Convention::GLTF };
+    assert_eq!(green_down.to_string(), "gltf,green=down");
+    assert_eq!("directx,green=up,axes=x/z/y".parse().map(|it: Convention| it.axes.up()), Ok(Axis::Z));
+}
+
+#[test]
+fn what_is_no_convention_is_told_in_a_sentence() {
+    let sentence = |text: &str| text.parse::<Convention>().map_err(|error: ConventionError| error.to_string());
+    let cases = [
+        ("quake", "\"quake\" is no convention; begin with one of gltf, "),
+        ("", "\"\" is no convention"),
+        ("gltf,blue=up", "\"blue=up\" changes nothing; write CHOICE=VALUE with one of axes, fronts, "),
+        ("gltf,", "\"\" changes nothing"),
+        ("gltf,green=left", "green cannot be \"left\"; write up or down"),
+        ("gltf,axes=x/-x/z", "axes cannot be \"x/-x/z\"; write right, up and front as in -x/y/z"),
+        ("gltf,axes=x/y/z/z", "axes cannot be"),
+    ];
+    for (text, start) in cases {
+        let found = sentence(text).expect_err("no convention");
+        assert!(found.starts_with(start), "{found}");
+    }
 }

@@ -5,7 +5,7 @@ mod chunks;
 mod normal_map;
 
 pub use channels::{Channels, ChannelsError};
-pub use normal_map::convert_normal_map;
+pub use normal_map::{convert_normal_map, count_no_normals};
 
 use std::fs;
 use std::io::{Cursor, Write};
@@ -40,8 +40,11 @@ enum Texels {
 /// The greatest ratio of deflate (RFC 1951): 258 bytes for two bits.
 const DEFLATE_RATIO: usize = 1032;
 
-/// Chunks whose content depends on the kind of texels.
-const OF_TEXELS: [&[u8; 4]; 4] = [b"tRNS", b"bKGD", b"sBIT", b"hIST"];
+/// Chunks whose content depends on the channels of texels and on their bits.
+const OF_TEXELS: [&[u8; 4]; 3] = [b"tRNS", b"bKGD", b"sBIT"];
+
+/// Chunks that are for colours, or for greys, alone: palettes and profiles (PNG specification, third edition, 11.2.2 and 11.3.2.3).
+const OF_COLOURS: [&[u8; 4]; 4] = [b"PLTE", b"sPLT", b"hIST", b"iCCP"];
 
 impl Image {
     /// Reads a PNG. Errors: a file that cannot be read; anything but a whole PNG of a supported kind.
@@ -149,8 +152,10 @@ impl Image {
 
     /// The chunks that were read, with header and texels of `new`.
     fn spliced(&self, old: &Chunks<'_>, new: &Chunks<'_>) -> Vec<u8> {
-        let of_same_kind = old.of(b"IHDR").next().map(Chunk::kind_of_texels)
-            == new.of(b"IHDR").next().map(Chunk::kind_of_texels);
+        let [before, after] =
+            [old, new].map(|chunks| chunks.of(b"IHDR").next().and_then(Chunk::kind_of_texels));
+        let has_colours = |kind: Option<[u8; 2]>| kind.map(|[_, colour_type]| colour_type & 2);
+        let (of_same_kind, of_same_colours) = (before == after, has_colours(before) == has_colours(after));
         let mut out = chunks::SIGNATURE.to_vec();
         let mut texels = new.of(b"IDAT").peekable();
         for chunk in &old.chunks {
@@ -158,6 +163,7 @@ impl Image {
                 b"IHDR" => new.of(b"IHDR").for_each(|header| out.extend(header.bytes)),
                 b"IDAT" => texels.by_ref().for_each(|chunk| out.extend(chunk.bytes)),
                 kind if !of_same_kind && OF_TEXELS.contains(&kind) => {}
+                kind if !of_same_colours && OF_COLOURS.contains(&kind) => {}
                 _ => out.extend(chunk.bytes),
             }
         }

@@ -58,7 +58,7 @@ fn every_preset_comes_back_to_the_bit() {
         convert(&mut document, Convention::GLTF, there);
         let differs = there != Convention::GLTF;
         assert_eq!(contents(&document) != contents(&original), differs, "{name}");
-        assert_eq!(document.convention().is_some(), differs, "{name}");
+        assert_eq!(document.convention().expect("a convention"), there, "{name}");
         convert(&mut document, there, Convention::GLTF);
         assert_eq!(contents(&document), contents(&original), "{name}");
         assert_eq!(asset(&document), asset(&original), "{name}");
@@ -120,9 +120,74 @@ fn strips_fans_and_lists_without_indices_are_reversed_and_points_are_not() {
 fn a_file_remembers_its_convention() {
     let mut document = model(|_| {});
     convert(&mut document, Convention::GLTF, Convention::UNITY);
-    assert_eq!(document.convention().as_deref(), Some("unity"));
+    assert_eq!(document.convention().expect("a convention"), Convention::UNITY);
     let sentence = refusal(&mut document, Convention::GLTF, Convention::BLENDER);
     assert_eq!(sentence, "test.glb: asset.extras.darboux_convention: says \"unity\"; convert it from that");
+}
+
+#[test]
+fn any_convention_can_be_noted_and_none_is_guessed() {
+    let custom: Convention = "gltf,green=down,w=t-cross-n,fronts=cw".parse().expect("a convention");
+    let mut document = model(|_| {});
+    let before = contents(&document);
+    convert(&mut document, Convention::GLTF, custom);
+    assert_eq!(asset(&document)["extras"]["darboux_convention"], "gltf,fronts=cw,green=down,w=t-cross-n");
+    assert_eq!(document.convention().expect("a convention"), custom);
+    convert(&mut document, custom, Convention::GLTF);
+    assert_eq!((contents(&document), asset(&document)["extras"].is_null()), (before, true));
+    let noted = |note: Value| {
+        model(|builder| builder.set("asset", json!({"version": "2.0", "extras": {"darboux_convention": note}})))
+    };
+    for (note, part) in [(json!("quake"), "\"quake\" is no convention; begin with"), (json!(7), "7 is no text; ")] {
+        let mut document = noted(note);
+        let sentence = refusal(&mut document, Convention::UNITY, Convention::GLTF);
+        assert!(sentence.contains(part) && sentence.contains("asset.extras.darboux_convention: "), "{sentence}");
+        assert_eq!(document.convention().expect_err("no convention").to_string(), sentence);
+    }
+    let mut needless = noted(json!("gltf"));
+    assert_eq!(needless.convention().expect("a convention"), Convention::GLTF);
+    convert(&mut needless, Convention::GLTF, Convention::GLTF);
+    assert!(asset(&needless)["extras"].is_null());
+    let mut kept = noted(json!("unity"));
+    convert(&mut kept, Convention::UNITY, Convention::UNITY);
+    assert!(!kept.is_changed());
+}
+
+#[test]
+fn only_what_happened_is_told() {
+    let told = |document: &mut Document, from: &str, to: &str| {
+        let [from, to] = [from, to].map(|name| name.parse().expect("a convention"));
+        let summary = convert(document, from, to);
+        (summary.primitives, summary.axes_changed, summary.uvs_flipped, summary.faces_reversed, summary.tangents_changed)
+    };
+    assert_eq!(told(&mut model(|_| {}), "gltf", "unreal"), (1, true, false, false, false));
+    assert_eq!(told(&mut model(|_| {}), "gltf", "unity"), (1, true, true, true, true));
+    assert_eq!(told(&mut model(|_| {}), "blender", "3dsmax"), (1, false, false, false, true));
+    let points = |builder: &mut Builder| {
+        let position = builder.vectors(&[[0.0f32; 3]; 3]);
+        builder.mesh(&[json!({"attributes": {"POSITION": position}, "mode": 0})]);
+    };
+    let mut builder = Builder::new();
+    points(&mut builder);
+    let mut document = builder.build();
+    assert_eq!(told(&mut document, "opengl", "gltf"), (0, false, false, false, false));
+    assert!(!document.is_changed());
+    assert_eq!(told(&mut document, "gltf", "blender"), (1, true, false, false, false));
+}
+
+/// A file of cameras, bones or animations alone stands in axes, too.
+#[test]
+fn files_without_meshes_are_turned() {
+    let mut builder = Builder::new();
+    builder.set("nodes", json!([{"translation": [1, 2, 3]}, {"name": "still"}]));
+    let mut document = builder.build();
+    let summary = convert(&mut document, Convention::GLTF, Convention::UNITY);
+    assert!(summary.axes_changed && summary.primitives == 0, "{summary:?}");
+    assert_eq!(document.convention().expect("a convention"), Convention::UNITY);
+    let glb = document.to_glb().expect("a GLB");
+    let length = u32::from_le_bytes(glb[12..16].try_into().expect("four bytes")) as usize;
+    let json: Value = serde_json::from_slice(&glb[20..20 + length]).expect("JSON");
+    assert_eq!(json["nodes"], json!([{"translation": [-1.0, 2.0, 3.0]}, {"name": "still"}]));
 }
 
 /// Adds a scene around the model: a parent with a matrix, children with each kind of transform, a skin, an animation.
@@ -263,6 +328,11 @@ fn what_cannot_stand_in_other_axes_is_refused() {
             "animations[0].channels[1]: shares its sampler",
         ),
         ("animations", json!([{"channels": [{}]}]), "animations[0]: missing field"),
+        (
+            "animations",
+            json!([{"samplers": [], "channels": [channel("weights")]}]),
+            "animations[0].channels[0]: sampler 0 does not exist: there are 0",
+        ),
         (
             "nodes",
             json!([{"mesh": 0, "translation": [1, 0]}]),

@@ -1,7 +1,7 @@
 //! Normal maps in PNG files.
 
 use darboux::Convention;
-use darboux_io::image::{Channels, Image, convert_normal_map};
+use darboux_io::image::{Channels, Image, convert_normal_map, count_no_normals};
 use png::{BitDepth, ColorType, Encoder};
 
 const SIZE: [u32; 2] = [64, 32];
@@ -96,6 +96,44 @@ fn other_chunks_stay_where_they_are() {
     });
     assert!(before.len() >= 6, "header, gamma, size, text, private, end");
     assert_eq!(before, after);
+}
+
+#[test]
+fn palettes_and_profiles_of_colours_do_not_go_into_greys() {
+    let with = |color: ColorType, kinds: &[&[u8; 4]]| {
+        let mut file = png(color, BitDepth::Eight);
+        let texels = file.windows(4).position(|kind| kind == b"IDAT").expect("texels") - 4;
+        let chunk = |kind: &&[u8; 4]| {
+            let body = [&kind[..], b"abcabc"].concat();
+            [&6u32.to_be_bytes()[..], &body, &crc32(&body).to_be_bytes()].concat()
+        };
+        file.splice(texels..texels, kinds.iter().flat_map(chunk));
+        file
+    };
+    let same = Convention::GLTF;
+    let kept = |file: &[u8], from: &str, to: &str, kind: &[u8; 4]| {
+        converted(file, same, same, from, to).windows(4).any(|chunk| chunk == kind)
+    };
+    let colour = with(ColorType::Rgb, &[b"PLTE", b"sPLT"]);
+    for kind in [b"PLTE", b"sPLT"] {
+        assert!(kept(&colour, "rgb", "ag", kind) && !kept(&colour, "rgb", "la", kind));
+    }
+    let grey = with(ColorType::GrayscaleAlpha, &[b"iCCP"]);
+    assert!(kept(&grey, "la", "la", b"iCCP") && !kept(&grey, "la", "rgb", b"iCCP"));
+    assert_eq!(decoded(&converted(&colour, same, same, "rgb", "la")).0, ColorType::GrayscaleAlpha);
+}
+
+#[test]
+fn photographs_are_told_from_normal_maps() {
+    let plane = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/TwoSidedPlane/TwoSidedPlane_");
+    let share = |name: &str, letters: &str| {
+        let image = Image::open(format!("{plane}{name}.png").as_ref()).expect("a PNG");
+        let count = count_no_normals(&image, letters.parse().expect("letters"));
+        count as f64 / f64::from(image.size()[0] * image.size()[1])
+    };
+    assert!(share("Normal", "rgb") < 0.01 && share("Normal", "rg") < 0.01);
+    assert!(share("BaseColor", "rgb") > 0.5, "{}", share("BaseColor", "rgb"));
+    assert_eq!(share("Normal", "la"), 1.0);
 }
 
 #[test]

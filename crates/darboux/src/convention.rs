@@ -3,6 +3,9 @@
 //! docs/conventions.md derives the rules that stand here, and tabulates the presets.
 
 mod presets;
+mod text;
+
+pub use text::ConventionError;
 
 /// A direction along a coordinate axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

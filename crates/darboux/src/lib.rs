@@ -42,7 +42,7 @@ mod triangles;
 mod weld;
 
 pub use convention::{
-    Axes, Axis, BitangentDirection, Convention, Conversion, Handedness, SignRule, TangentDirection, UvOrigin,
+    Axes, Axis, BitangentDirection, Convention, ConventionError, Conversion, Handedness, SignRule, TangentDirection, UvOrigin,
     Winding,
 };
 pub use frame::{CornerFrames, CornerTangents, CornerTangentsRef, Frame};

@@ -86,6 +86,14 @@ impl<const N: usize> TexelLayout<N> {
         let z = self.z.map_or_else(|| rebuilt(x, y), |z| texel[z].component());
         [x, y, z].map(|component| component as f32)
     }
+
+    /// Whether a texel can be a normal of a tangent-space map: about unit length, as filters and rounding leave it, and not below the
+    /// surface. Where z is not stored, whether x and y leave room for it.
+    pub fn holds_normal<C: Channel>(&self, texel: [C; N]) -> bool {
+        let [x, y, z] = self.vector(texel);
+        let length = (x * x + y * y + z * z).sqrt();
+        (0.5..=1.2).contains(&length) && z >= -0.1
+    }
 }
 
 impl Conversion {

@@ -22,25 +22,34 @@ use faces::Faces;
 use scene::Scene;
 use turn::Turn;
 
-/// What [`convert_vertices`] did to a document.
+/// What [`convert_vertices`] did to a document: only what it did, not what other documents would have had changed.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct ConversionSummary {
     /// Primitives that changed.
     pub primitives: usize,
-    /// Whether vectors have other axes.
+    /// Whether vectors, or nodes, got other axes.
     pub axes_changed: bool,
     /// Whether v runs the other way.
     pub uvs_flipped: bool,
     /// Whether fronts are wound the other way.
     pub faces_reversed: bool,
+    /// Whether tangents point the other way, or their signs changed.
+    pub tangents_changed: bool,
     /// What a user should look at, one sentence each. Reports have them beside this.
     #[serde(skip)]
     pub warnings: Vec<String>,
 }
 
+impl ConversionSummary {
+    /// Whether anything changed.
+    pub fn has_changes(&self) -> bool {
+        self.primitives > 0 || self.axes_changed
+    }
+}
+
 /// Converts the vertex data of every primitive: positions, normals, tangents, UVs, morph targets, the winding of triangles; and where
-/// the axes differ, the transforms of nodes, skins, instances and animations.
+/// the axes differ, the transforms of nodes, skins, instances and animations, in documents without meshes too.
 ///
 /// Images, cameras and lights stay as they are; warnings name them. Accessors that change become floats. Errors: a document that says
 /// that it is in another convention than `from`; animations of what cannot stand in other axes; broken data. After an error the document may be half done: drop it.
@@ -50,40 +59,47 @@ pub fn convert_vertices(
     to: Convention,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<ConversionSummary, Error> {
-    surroundings::check_convention(document, from)?;
-    let mut summary = ConversionSummary {
-        warnings: surroundings::warnings(document, from, to),
-        ..ConversionSummary::default()
-    };
-    if from == to || document.meshes().is_empty() {
-        return Ok(summary);
+    document.check_convention(from)?;
+    let mut summary = ConversionSummary::default();
+    if from != to {
+        summary.warnings = surroundings::warnings(document, from, to);
+        if document.is_compressed() {
+            document.decompress()?;
+        }
+        let accessors = Canonical::new(document);
+        convert_primitives(document, &accessors, (from, to), &mut summary, progress)?;
+        if from.axes != to.axes {
+            summary.axes_changed |= Scene::new(&accessors, Turn::new(from, to)).convert(document)?;
+        }
     }
-    if document.is_compressed() {
-        document.decompress()?;
+    // What nothing changes in is as well in the other convention; where it never said so, there is nothing to say now.
+    if summary.has_changes() || document.has_note() {
+        document.set_convention(to)?;
     }
-    summary.axes_changed = from.axes != to.axes;
-    summary.uvs_flipped = from.uv_origin != to.uv_origin;
-    summary.faces_reversed = from.winding != to.winding;
-    let accessors = Canonical::new(document);
-    let mut attributes = Attributes::new(&accessors, from, to);
-    let mut faces = Faces::new(&accessors, from, to);
-    let places: Vec<(usize, usize)> = document
-        .meshes()
-        .iter()
-        .enumerate()
-        .flat_map(|(index, mesh)| (0..mesh.primitives.len()).map(move |place| (index, place)))
-        .collect();
+    summary.warnings.extend(document.waste_warning());
+    Ok(summary)
+}
+
+fn convert_primitives(
+    document: &mut Document,
+    accessors: &Canonical,
+    (from, to): (Convention, Convention),
+    summary: &mut ConversionSummary,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<(), Error> {
+    let mut attributes = Attributes::new(accessors, from, to);
+    let mut faces = Faces::new(accessors, from, to);
+    let counts = document.meshes().iter().map(|mesh| mesh.primitives.len());
+    let places = counts.enumerate().flat_map(|(mesh, count)| (0..count).map(move |place| (mesh, place)));
+    let places: Vec<(usize, usize)> = places.collect();
     for (done, &(mesh, place)) in places.iter().enumerate() {
         let attributes_changed = attributes.convert(document, mesh, place)?;
         let faces_changed = faces.convert(document, mesh, place)?;
+        summary.faces_reversed |= faces_changed;
         summary.primitives += usize::from(attributes_changed || faces_changed);
         excess::check_output(document)?;
         progress(Progress { done: done + 1, total: places.len() });
     }
-    if summary.axes_changed {
-        Scene::new(&accessors, Turn::new(from, to)).convert(document)?;
-    }
-    document.set_convention(to)?;
-    summary.warnings.extend(document.waste_warning());
-    Ok(summary)
+    attributes.sum_up(summary);
+    Ok(())
 }

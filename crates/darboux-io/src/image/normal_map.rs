@@ -38,6 +38,30 @@ pub fn convert_normal_map(
     Ok(())
 }
 
+/// How many texels hold no normal in these channels ([`TexelLayout::holds_normal`]): nearly none of a normal map, most of a photograph.
+///
+/// All of them where the image does not have the channels.
+pub fn count_no_normals(image: &Image, channels: Channels) -> usize {
+    let places = channels.places(image.color);
+    match (&image.texels, places) {
+        (_, None) => image.width as usize * image.height as usize,
+        (Texels::Bytes(bytes), Some(places)) => no_normals(bytes, image.color.samples(), places),
+        (Texels::Words(words), Some(places)) => no_normals(words, image.color.samples(), places),
+    }
+}
+
+fn no_normals<C: Channel>(channels: &[C], samples: usize, places: Places) -> usize {
+    fn of<C: Channel, const N: usize>(channels: &[C], places: Places) -> usize {
+        let layout = layout::<N>(places);
+        channels.as_chunks::<N>().0.iter().filter(|&&texel| !layout.holds_normal(texel)).count()
+    }
+    match samples {
+        2 => of::<C, 2>(channels, places),
+        3 => of::<C, 3>(channels, places),
+        _ => of::<C, 4>(channels, places),
+    }
+}
+
 /// The channels of x, y and z by number.
 type Places = (usize, usize, Option<usize>);
 

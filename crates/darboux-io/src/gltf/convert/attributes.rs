@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use darboux::{Convention, Conversion};
 use serde_json::Value;
 
+use super::ConversionSummary;
 use crate::Error;
 use crate::gltf::append::{is_sparse, set_attributes};
 use crate::gltf::schema;
@@ -17,6 +18,9 @@ pub struct Attributes<'a> {
     conversion: Conversion,
     /// The kinds that change.
     changed: Vec<Kind>,
+    turns: bool,
+    /// Whether tangents change otherwise than by their axes.
+    changes_tangents: bool,
     /// New accessors, by the old one and what it holds.
     made: HashMap<(usize, Kind), usize>,
 }
@@ -49,20 +53,20 @@ impl Kind {
 
 impl<'a> Attributes<'a> {
     pub fn new(accessors: &'a Canonical, from: Convention, to: Convention) -> Self {
-        let frames = |convention: Convention| {
-            (convention.axes, convention.tangent, convention.bitangent, convention.sign)
-        };
+        let conversion = from.to(to);
+        let turns = from.axes != to.axes;
         let mut changed = Vec::new();
-        if from.axes != to.axes {
+        if turns {
             changed.extend([Kind::Position, Kind::Normal]);
         }
-        if frames(from) != frames(to) {
+        let changes_tangents = conversion.inverts_red() || conversion.tangent([0.0, 0.0, 0.0, 1.0])[3] < 0.0;
+        if turns || changes_tangents {
             changed.extend([Kind::Tangent, Kind::TangentOffset]);
         }
         if from.uv_origin != to.uv_origin {
             changed.extend([Kind::Uv, Kind::UvOffset]);
         }
-        Self { accessors, conversion: from.to(to), changed, made: HashMap::new() }
+        Self { accessors, conversion, changed, turns, changes_tangents, made: HashMap::new() }
     }
 
     /// Converts a primitive; says whether anything changed.
@@ -84,6 +88,19 @@ impl<'a> Attributes<'a> {
             }
         })?;
         Ok(true)
+    }
+
+    /// Notes what changed in all primitives.
+    pub fn sum_up(&self, summary: &mut ConversionSummary) {
+        for (_, kind) in self.made.keys() {
+            let (is_uv, is_tangent) = (
+                matches!(kind, Kind::Uv | Kind::UvOffset),
+                matches!(kind, Kind::Tangent | Kind::TangentOffset),
+            );
+            summary.uvs_flipped |= is_uv;
+            summary.axes_changed |= self.turns && !is_uv;
+            summary.tangents_changed |= self.changes_tangents && is_tangent;
+        }
     }
 
     /// The accessors that take the place of others.

@@ -48,34 +48,38 @@ impl<'a> Scene<'a> {
         Self { accessors, turn, made: HashMap::new() }
     }
 
-    /// Errors: what glTF does not allow there; animations of other properties than a node's (`KHR_animation_pointer`).
-    pub fn convert(&mut self, document: &mut Document) -> Result<(), Error> {
-        self.each(document, "nodes", Self::node)?;
-        self.each(document, "skins", Self::skin)?;
-        self.each(document, "animations", Self::animation)
+    /// Says whether anything changed. Errors: what glTF does not allow there; animations of other properties than a node's
+    /// (`KHR_animation_pointer`).
+    pub fn convert(&mut self, document: &mut Document) -> Result<bool, Error> {
+        let nodes = self.each(document, "nodes", Self::node)?;
+        let skins = self.each(document, "skins", Self::skin)?;
+        let animations = self.each(document, "animations", Self::animation)?;
+        Ok(nodes || skins || animations)
     }
 
-    /// Edits every element of an array of the root object, after the edits that it has.
+    /// Edits every element of an array of the root object, after the edits that it has; says whether one changed.
     fn each(
         &mut self,
         document: &mut Document,
         key: &'static str,
         edit: fn(&mut Self, &mut Document, &str, &str) -> Result<String, Error>,
-    ) -> Result<(), Error> {
+    ) -> Result<bool, Error> {
         let array = member(document.text(), key).ok().flatten().unwrap_or("[]");
         let stored: Vec<Box<RawValue>> = parsed(document, key, array)?;
         let mut edits = document.edits.scene.remove(key).unwrap_or_default();
+        let mut has_changed = false;
         for (index, stored) in stored.iter().enumerate() {
             let text = edits.get(&index).map_or(stored.get(), String::as_str);
             let new = edit(self, document, &format!("{key}[{index}]"), text)?;
             if new != text {
                 edits.insert(index, new);
+                has_changed = true;
             }
         }
         if !edits.is_empty() {
             document.edits.scene.insert(key, edits);
         }
-        Ok(())
+        Ok(has_changed)
     }
 
     fn node(&mut self, document: &mut Document, at: &str, text: &str) -> Result<String, Error> {
@@ -115,12 +119,18 @@ impl<'a> Scene<'a> {
 
     fn animation(&mut self, document: &mut Document, at: &str, text: &str) -> Result<String, Error> {
         let animation: Animation = parsed(document, at, text)?;
+        let array = member(text, "samplers").ok().flatten().unwrap_or("[]");
+        let samplers: Vec<Box<RawValue>> = parsed(document, at, array)?;
         let mut kinds: BTreeMap<usize, Option<Kind>> = BTreeMap::new();
         for (index, Channel { sampler, target }) in animation.channels.iter().enumerate() {
             let at = format!("{at}.channels[{index}]");
             let unsupported = |problem: &str| Err(Fault::unsupported(&at, problem).in_file(document.name()));
             if !["translation", "rotation", "scale", "weights"].contains(&target.path.as_str()) {
                 return unsupported("animates something that cannot stand in other axes; take it out");
+            }
+            if *sampler >= samplers.len() {
+                let problem = format!("sampler {sampler} does not exist: there are {}", samplers.len());
+                return Err(document.invalid(at, format!("{problem}; export the file again")));
             }
             let kind = Kind::of(&target.path);
             if kinds.insert(*sampler, kind).is_some_and(|other| other != kind) {
@@ -129,8 +139,6 @@ impl<'a> Scene<'a> {
                 );
             }
         }
-        let array = member(text, "samplers").ok().flatten().unwrap_or("[]");
-        let samplers: Vec<Box<RawValue>> = parsed(document, at, array)?;
         let mut new = BTreeMap::new();
         for (index, kind) in kinds {
             let (Some(sampler), Some(kind)) = (samplers.get(index), kind) else { continue };

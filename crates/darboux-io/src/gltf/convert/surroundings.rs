@@ -11,51 +11,59 @@ use crate::gltf::Document;
 use crate::gltf::json::{keys, member, quoted, set_member};
 use crate::gltf::schema::Material;
 
-/// Errors: a document that says that it is in another convention.
-pub fn check_convention(document: &Document, from: Convention) -> Result<(), Error> {
-    match document.convention() {
-        Some(named) if preset(&named).is_some_and(|named| named != from) => {
-            let problem = format!("says {named:?}; convert it from that");
-            Err(document.invalid("asset.extras.darboux_convention", problem))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// The preset of a name.
-fn preset(name: &str) -> Option<Convention> {
-    Convention::PRESETS.iter().find(|(preset, _)| *preset == name).map(|(_, convention)| *convention)
-}
-
-/// The name of the first preset that is this convention.
-fn name_of(convention: Convention) -> Option<&'static str> {
-    Convention::PRESETS.iter().find(|(_, preset)| *preset == convention).map(|(name, _)| *name)
-}
-
 /// The member of `asset.extras` that names a convention.
 const MEMBER: &str = "darboux_convention";
 
 impl Document {
-    /// The convention that vertex data is in, as [`convert_vertices`](crate::gltf::convert_vertices) noted it; none in files that are
-    /// in glTF's, as they should be.
-    pub fn convention(&self) -> Option<String> {
-        let extras = member(self.asset_text()?, "extras").ok()??;
-        let name = member(extras, MEMBER).ok()??;
-        serde_json::from_str(name).ok()
+    /// The convention that vertex data is in: glTF's, as it should be, unless [`convert_vertices`](crate::gltf::convert_vertices) noted
+    /// another one in `asset.extras.darboux_convention`. Errors: a note that names none.
+    pub fn convention(&self) -> Result<Convention, Error> {
+        Ok(self.noted_convention()?.unwrap_or(Convention::GLTF))
+    }
+
+    fn noted_convention(&self) -> Result<Option<Convention>, Error> {
+        let Some(note) = self.note() else { return Ok(None) };
+        let name: Result<String, _> = serde_json::from_str(note);
+        let convention = name.map_err(|_| format!("{note} is no text")).and_then(|name| {
+            name.parse().map_err(|error: darboux::ConventionError| error.to_string())
+        });
+        let advice = "a newer version may know it; take the note out if it is wrong";
+        let named = |problem| self.invalid(format!("asset.extras.{MEMBER}"), format!("{problem}; {advice}"));
+        convention.map(Some).map_err(named)
+    }
+
+    fn note(&self) -> Option<&str> {
+        member(member(self.asset_text()?, "extras").ok()??, MEMBER).ok()?
+    }
+
+    /// Whether it says which convention it is in.
+    pub(super) fn has_note(&self) -> bool {
+        self.note().is_some()
+    }
+
+    /// Errors: a document that says that it is in another convention.
+    pub(super) fn check_convention(&self, from: Convention) -> Result<(), Error> {
+        match self.noted_convention()? {
+            Some(noted) if noted != from => {
+                let problem = format!("says \"{noted}\"; convert it from that");
+                Err(self.invalid(format!("asset.extras.{MEMBER}"), problem))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Notes the convention that vertex data is in, or takes the note out where it is glTF's.
     ///
     /// Errors: `asset.extras` that is no object.
     pub(super) fn set_convention(&mut self, convention: Convention) -> Result<(), Error> {
-        let name = name_of(convention).filter(|_| convention != Convention::GLTF);
-        if name.is_none() && self.convention().is_none() {
+        let name = (convention != Convention::GLTF).then(|| quoted(&convention.to_string()));
+        if name.as_deref() == self.note() {
             return Ok(());
         }
         let asset = self.asset_text().unwrap_or("{}").to_owned();
         let noted = (|| {
             let extras = member(&asset, "extras")?.unwrap_or("{}");
-            let noted = set_member(extras, MEMBER, name.map(quoted).as_deref())?;
+            let noted = set_member(extras, MEMBER, name.as_deref())?;
             let noted = (!keys(&noted)?.is_empty()).then_some(noted);
             set_member(&asset, "extras", noted.as_deref())
         })();
@@ -65,9 +73,7 @@ impl Document {
                 format!("is no object, so that {MEMBER} cannot be noted; take it out"),
             )
         })?;
-        if noted != asset {
-            self.edits.asset = Some(noted);
-        }
+        self.edits.asset = Some(noted);
         Ok(())
     }
 
