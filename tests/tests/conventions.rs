@@ -1,8 +1,8 @@
 //! Conventions: every pair of presets against a surface that is written down anew in each.
 
 use darboux::{
-    Axes, Axis, BitangentDirection, Convention, ConventionError, Handedness, Mesh, SignRule, TangentDirection, TangentOptions,
-    UvOrigin, Winding, generate_tangents,
+    Axes, Axis, BitangentDirection, Convention, ConventionError, Handedness, Mesh, SignRule,
+    TangentDirection, TangentOptions, UvOrigin, Winding, generate_tangents,
 };
 
 /// A triangle's corners as a viewer in front of the model sees it: to the model's right, up, to the front; and in the picture:
@@ -257,7 +257,8 @@ fn every_convention_can_be_written_and_read() {
 
 #[test]
 fn what_is_no_convention_is_told_in_a_sentence() {
-    let sentence = |text: &str| text.parse::<Convention>().map_err(|error: ConventionError| error.to_string());
+    let sentence =
+        |text: &str| text.parse::<Convention>().map_err(|error: ConventionError| error.to_string());
     let cases = [
         ("quake", "\"quake\" is no convention; begin with one of gltf, "),
         ("", "\"\" is no convention"),

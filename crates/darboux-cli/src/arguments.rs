@@ -8,6 +8,8 @@ mod normals;
 mod tangents;
 mod view;
 
+use std::str::FromStr;
+
 use clap::{Parser, Subcommand};
 
 pub use compare::CompareArguments;
@@ -25,6 +27,14 @@ pub struct Arguments {
     /// What to do
     #[command(subcommand)]
     pub command: Command,
+}
+
+/// An angle on the command line.
+fn degrees<T: FromStr + PartialOrd + From<u8>>(text: &str) -> Result<T, String> {
+    match text.parse() {
+        Ok(degrees) if (T::from(0)..=T::from(180)).contains(&degrees) => Ok(degrees),
+        _ => Err("not a number of degrees from 0 to 180".into()),
+    }
 }
 
 const LONG_ABOUT: &str = "\

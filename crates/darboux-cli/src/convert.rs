@@ -4,8 +4,9 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
+use darboux::Convention;
 use darboux_io::gltf::{ConversionSummary, Document, LoadOptions, Progress, convert_vertices};
-use darboux_io::image::{Image, convert_normal_map};
+use darboux_io::image::{Image, convert_normal_map, count_no_normals};
 use serde::Serialize;
 
 use crate::arguments::{ConvertArguments, Files, Talk};
@@ -45,7 +46,8 @@ impl Work for ConvertArguments {
     const IMAGES: bool = true;
 
     fn word(&self) -> &str {
-        self.to.name
+        // Names become parts of file names, other texts do not.
+        if self.to.convention.names().any(|name| name == self.to.name) { &self.to.name } else { "converted" }
     }
 
     fn files(&self) -> &Files {
@@ -68,7 +70,7 @@ impl Work for ConvertArguments {
 
     fn options(&self) -> String {
         let Self { from, to, layout, to_layout, raw, .. } = self;
-        format!("{:?}", (from.name, to.name, layout, to_layout, raw))
+        format!("{:?}", (&from.name, &to.name, layout, to_layout, raw))
     }
 
     fn process(&self, job: &Job, progress: &FileProgress<'_>) -> Result<Made<ConvertSummary>, String> {
@@ -117,6 +119,7 @@ impl ConvertArguments {
         let sentence = |error: darboux_io::Error| error.to_string();
         let conversion = self.from.convention.to(self.to.convention);
         let target = self.to_layout.unwrap_or(self.layout);
+        let warnings = self.warning(&image).into_iter().collect();
         convert_normal_map(&mut image, &conversion, self.layout, target).map_err(sentence)?;
         let (status, files_written) = self.save_image(&image, output)?;
         let [width, height] = image.size();
@@ -132,7 +135,19 @@ impl ConvertArguments {
         Ok(Made {
             status,
             files_written,
-            summary: ConvertSummary { image: Some(summary), ..Default::default() },
+            summary: ConvertSummary { image: Some(summary), warnings, ..Default::default() },
+        })
+    }
+
+    /// What is odd about an image before it is converted.
+    fn warning(&self, image: &Image) -> Option<String> {
+        let [width, height] = image.size();
+        let (texels, odd) =
+            (f64::from(width) * f64::from(height), count_no_normals(image, self.layout) as f64);
+        (odd > 0.5 * texels).then(|| {
+            let percent = (100.0 * odd / texels).round();
+            let layout = self.layout;
+            format!("this does not look like a normal map: {percent} % of its texels hold no unit vector in {layout}")
         })
     }
 
@@ -165,8 +180,8 @@ impl ConvertArguments {
         job: &Job,
         progress: &FileProgress<'_>,
     ) -> Result<Made<ConvertSummary>, String> {
-        let (from, to) = (self.from, self.to);
-        if to.convention != darboux::Convention::GLTF && !self.raw {
+        let (from, to) = (&self.from, &self.to);
+        if to.convention != Convention::GLTF && !self.raw {
             return Err(format!(
                 "{}: a glTF file must be in glTF's convention; convert --to gltf, or use --raw if a program copies its numbers as they are",
                 job.input
@@ -177,7 +192,7 @@ impl ConvertArguments {
         let mut summary = convert_vertices(&mut document, from.convention, to.convention, &mut on_progress)
             .map_err(|error| error.to_string())?;
         warnings.append(&mut summary.warnings);
-        if document.convention().is_some() {
+        if document.convention().map_err(|error| error.to_string())? != Convention::GLTF {
             warnings.push(format!(
                 "the output holds the numbers of {}: no viewer of glTF shows it right",
                 to.name
@@ -219,12 +234,17 @@ fn told_of_model(model: &ConversionSummary) -> String {
         (model.axes_changed, "other axes"),
         (model.uvs_flipped, "v turned round"),
         (model.faces_reversed, "triangles reversed"),
+        (model.tangents_changed, "tangents or their signs changed"),
     ];
-    format!("{}: {}", counted(model.primitives, "primitive", "primitives"), listed(done))
+    format!("{} changed: {}", counted(model.primitives, "primitive", "primitives"), listed(done))
 }
 
-/// What was done, or that it is the same in both conventions.
+/// What was done, or that nothing was to be done.
 fn listed<const N: usize>(done: [(bool, &str); N]) -> String {
     let done: Vec<&str> = done.into_iter().filter(|done| done.0).map(|done| done.1).collect();
-    if done.is_empty() { "the same in both conventions".to_owned() } else { done.join(", ") }
+    if done.is_empty() {
+        "nothing in it differs between these conventions".to_owned()
+    } else {
+        done.join(", ")
+    }
 }

@@ -14,7 +14,7 @@ use crate::report::{InspectReport, InspectedFile, VERSION, to_json};
 
 /// Runs the command; gives its exit code.
 pub fn run(arguments: &InspectArguments) -> u8 {
-    let messages = Messages::new(false);
+    let messages = Messages::new(arguments.talk.quiet);
     if let Err(Usage(sentence)) = jobs::check_stdin(&arguments.inputs) {
         messages.error(&sentence);
         return exit::USAGE;
@@ -29,10 +29,13 @@ pub fn run(arguments: &InspectArguments) -> u8 {
         let sentence = format!("{path}: {reason}");
         failed(path, sentence)
     }));
-    let text = if arguments.json {
-        to_json(&InspectReport { command: "inspect", version: VERSION, files: files.clone() })
-    } else {
-        Ok(files.iter().filter(|file| file.error.is_none()).map(described).collect::<String>().into_bytes())
+    let text = match (arguments.talk.json, arguments.talk.quiet) {
+        (true, _) => to_json(&InspectReport { command: "inspect", version: VERSION, files: files.clone() }),
+        (false, true) => Ok(Vec::new()),
+        (false, false) => {
+            let good = files.iter().filter(|file| file.error.is_none());
+            Ok(good.map(described).collect::<String>().into_bytes())
+        }
     };
     if let Err(error) = text.map_err(std::io::Error::from).and_then(|text| write_stdout(&text)) {
         messages.error(&format!("the table cannot be written: {error}"));

@@ -14,7 +14,7 @@ A normal map stores directions relative to the tangents of its baker: use the me
   area                the mean weighted by area: large faces decide
   face                each face's own dP/du, not smoothed: flat shading, measuring
   from-normal         any perpendicular of the normal, whatever the UVs: for sampling, never for normal maps
-`darboux compare model.glb --method NAME` shows how far two choices are apart; docs/algorithms/methods.md derives them.
+`darboux compare model.glb --method NAME` shows how far two choices are apart; docs/algorithms/methods.md in its source derives them.
 ";
 
 /// Runs the command; gives its exit code.

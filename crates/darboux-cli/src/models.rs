@@ -3,6 +3,7 @@
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
+use darboux::Convention;
 use darboux_io::Error;
 use darboux_io::gltf::{Document, LoadOptions, SaveOptions};
 
@@ -14,12 +15,16 @@ use crate::report::Status;
 /// Reads a document that is in glTF's convention, as all should be.
 pub fn load(input: &Input, allow_outside: bool) -> Result<Document, String> {
     let document = load_any(input, allow_outside)?;
-    match document.convention() {
-        None => Ok(document),
-        Some(convention) => Err(format!(
-            "{input}: its vertices are in the convention of {convention}; run darboux convert --from {convention} --to gltf first"
-        )),
+    let convention = document.convention().map_err(|error| error.to_string())?;
+    if convention == Convention::GLTF {
+        return Ok(document);
     }
+    let others: Vec<&str> = convention.names().skip(1).collect();
+    let others =
+        if others.is_empty() { String::new() } else { format!(" (that of {}, too)", others.join(" and ")) };
+    Err(format!(
+        "{input}: its vertices are in the convention {convention}{others}; first run darboux convert --from {convention} --to gltf {input}"
+    ))
 }
 
 /// Reads a document; `-` has no folder, so its buffers must be embedded.

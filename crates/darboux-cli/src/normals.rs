@@ -84,7 +84,7 @@ pub fn lines(primitives: &[PrimitiveNormals]) -> Vec<String> {
     let line = |primitive: &PrimitiveNormals| {
         let what = match &primitive.outcome {
             NormalsOutcome::Written(written) => told(written),
-            NormalsOutcome::Kept { reason } => format!("normals kept: {reason}"),
+            NormalsOutcome::Kept { reason } => format!("normals kept: {reason}; --overwrite replaces them"),
             NormalsOutcome::Skipped { reason } => format!("no normals: {reason}"),
             _ => return None,
         };

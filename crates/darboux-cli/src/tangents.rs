@@ -60,7 +60,7 @@ impl Work for TangentsArguments {
         let mut warnings = document.warnings().to_vec();
         let mut normals = None;
         if let Some(options) = self.normals.options() {
-            let options = NormalsOptions { normals: options, overwrite: true };
+            let options = NormalsOptions { normals: options, overwrite: self.overwrite };
             let made = add_normals(&mut document, &options, &mut |_| {}).map_err(sentence)?;
             warnings.extend(made.warnings);
             normals = Some(made.primitives);
@@ -68,6 +68,7 @@ impl Work for TangentsArguments {
         let mut on_progress = |Progress { done, total }: Progress| progress.set(done, total);
         let mut tangents = add_tangents(&mut document, &options(self), &mut on_progress).map_err(sentence)?;
         tangents.warnings.splice(0..0, warnings);
+        tangents.warnings.extend(advice(tangents.totals.without_normals));
         let changed = document.is_changed() && (normals.is_some() || tangents.totals.written > 0);
         let (status, files_written) = save(&document, &job.output, &self.files, changed)?;
         Ok(Made { status, files_written, summary: TangentsSummary { normals, tangents } })
@@ -78,7 +79,7 @@ impl Work for TangentsArguments {
         for primitive in &summary.tangents.primitives {
             let what = match &primitive.outcome {
                 Outcome::Written(written) => told(written),
-                Outcome::Kept { reason } => format!("kept: {reason}"),
+                Outcome::Kept { reason } => format!("kept: {reason}; --overwrite replaces them"),
                 Outcome::Skipped { reason } => format!("left alone: {reason}"),
                 _ => continue,
             };
@@ -102,6 +103,14 @@ impl Work for TangentsArguments {
             sum(|totals| totals.skipped),
         )
     }
+}
+
+/// What gives tangents to primitives that lack normals.
+fn advice(without_normals: usize) -> Option<String> {
+    (without_normals > 0).then(|| {
+        let lack = counted(without_normals, "primitive has", "primitives have");
+        format!("{lack} no normals, which tangents need; --normals smooth makes them first")
+    })
 }
 
 fn options(arguments: &TangentsArguments) -> TangentsOptions {

@@ -99,10 +99,41 @@ fn a_model_leaves_gltfs_convention_only_when_told_and_says_so() {
     assert!(run.stderr.contains("warning: ") && run.stderr.contains("no viewer of glTF"), "{}", run.stderr);
     for command in ["tangents", "normals", "inspect"] {
         let run = darboux(&[command, text(&out)]).exits(1);
-        assert!(run.stderr.contains("darboux convert --from unity --to gltf"), "{}", run.stderr);
+        assert!(run.stderr.contains("darboux convert --from unity --to gltf "), "{}", run.stderr);
     }
     let run = convert(&out, "unreal", "gltf", &[]).exits(1);
     assert!(run.stderr.contains("says \"unity\"; convert it from that"), "{}", run.stderr);
+}
+
+#[test]
+fn conventions_that_have_no_name_are_spelled() {
+    let folder = folder_with(&[MODEL, IMAGE]);
+    let [model, image] =
+        ["NormalTangentTest.glb", "TwoSidedPlane_Normal.png"].map(|name| folder.path().join(name));
+    convert(&image, "gltf", "gltf,green=down", &[]).exits(0);
+    assert!(folder.path().join("TwoSidedPlane_Normal.converted.png").is_file());
+    let out = folder.path().join("out.glb");
+    convert(&model, "gltf", "maya,fronts=cw", &["--raw", "-o", text(&out)]).exits(0);
+    let run = darboux(&["inspect", text(&out)]).exits(1);
+    assert!(run.stderr.contains("--from gltf,fronts=cw,v0=bottom --to gltf "), "{}", run.stderr);
+    convert(&model, "gltf", "maya", &["--raw", "--force", "-o", text(&out)]).exits(0);
+    let run = darboux(&["inspect", text(&out)]).exits(1);
+    assert!(run.stderr.contains("opengl (that of threejs and maya, too)"), "{}", run.stderr);
+    let run = convert(&model, "gltf", "gltf,green=left", &[]).exits(2);
+    assert!(run.stderr.contains("green cannot be"), "{}", run.stderr);
+}
+
+#[test]
+fn what_changes_nothing_is_called_a_copy_and_what_is_no_normal_map_is_warned_of() {
+    let folder = folder_with(&[MODEL, "TwoSidedPlane/TwoSidedPlane_BaseColor.png", IMAGE]);
+    let path = |name: &str| folder.path().join(name);
+    let run = convert(&path("NormalTangentTest.glb"), "gltf", "gltf", &[]).exits(0);
+    assert!(run.stderr.contains("NormalTangentTest.gltf.glb: nothing to do, a copy\n"), "{}", run.stderr);
+    assert!(run.stderr.contains("0 primitives changed: nothing in it differs"), "{}", run.stderr);
+    let run = convert(&path("TwoSidedPlane_BaseColor.png"), "gltf", "directx", &[]).exits(0);
+    assert!(run.stderr.contains("does not look like a normal map"), "{}", run.stderr);
+    let run = convert(&path("TwoSidedPlane_Normal.png"), "gltf", "directx", &[]).exits(0);
+    assert!(!run.stderr.contains("warning"), "{}", run.stderr);
 }
 
 #[test]

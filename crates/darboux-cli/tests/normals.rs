@@ -71,11 +71,13 @@ fn new_normals_take_old_tangents_with_them() {
         run.stderr
     );
     assert!(!has(&primitive(&out), "TANGENT"));
-    let run =
-        darboux(&["tangents", text(&plane), "-o", text(&out), "--normals", "flat", "--force", "--json"]);
-    let report = run.exits(0).json();
-    assert_eq!(report["files"][0]["normals"][0]["outcome"], "written");
-    assert!(has(&primitive(&out), "TANGENT"));
+    for (more, outcome) in [(&["--json"][..], "kept"), (&["--json", "--overwrite"], "written")] {
+        let arguments = ["tangents", text(&plane), "-o", text(&out), "--normals", "flat", "--force"];
+        let report = darboux(&[&arguments[..], more].concat()).exits(0).json();
+        assert_eq!(report["files"][0]["normals"][0]["outcome"], outcome);
+        assert_eq!(report["files"][0]["primitives"][0]["outcome"], outcome);
+        assert!(has(&primitive(&out), "TANGENT"));
+    }
 }
 
 #[test]

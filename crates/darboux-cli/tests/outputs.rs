@@ -132,6 +132,8 @@ fn nothing_to_do_is_a_copy_and_a_success() {
         "{}",
         run.stderr
     );
+    assert!(run.stderr.contains("Fox.glb -> ") && run.stderr.contains("copy.glb: nothing to do, a copy\n"));
+    assert!(run.stderr.contains("1 primitive has no normals, which tangents need; --normals smooth "));
 }
 
 #[test]

@@ -39,7 +39,7 @@ fn the_tangents_report_has_the_documented_fields() {
     );
     assert_eq!(
         keys(&file["totals"]),
-        ["written", "kept", "skipped", "triangles", "vertices_before", "vertices_after"]
+        ["written", "kept", "skipped", "without_normals", "triangles", "vertices_before", "vertices_after"]
     );
     let written = &file["primitives"][0];
     let counts = [
@@ -154,6 +154,13 @@ fn inspect_reports_the_same_as_json() {
     assert_eq!(primitive["has_tangents"], false);
     assert_eq!(primitive["needs_tangents"], true);
     assert_eq!(primitive["mirrored_triangles"], 8);
+}
+
+#[test]
+fn quiet_inspection_says_what_is_wrong_alone() {
+    let run = darboux(&["inspect", text(&asset(SEAM)), "none.glb", "--quiet"]).exits(1);
+    assert!(run.stdout.is_empty());
+    assert!(run.stderr.starts_with("error: none.glb: ") && run.stderr.lines().count() == 1, "{}", run.stderr);
 }
 
 #[test]

@@ -32,6 +32,8 @@ fn what_does_not_fit_together_is_refused() {
         &["tangents", a, "--mode", "fast"],
         &["tangents", a, "--threshold", "nan"],
         &["tangents", a, "--threshold", "wide"],
+        &["tangents", a, "--threshold", "-5"],
+        &["tangents", a, "--threshold", "400"],
         &["tangents", a, "--threshold", "90", "--method", "face"],
         &["tangents", a, "--method", "best"],
         &["tangents", a, "--encoding", "octahedral"],

@@ -136,12 +136,19 @@ fn any_convention_can_be_noted_and_none_is_guessed() {
     convert(&mut document, custom, Convention::GLTF);
     assert_eq!((contents(&document), asset(&document)["extras"].is_null()), (before, true));
     let noted = |note: Value| {
-        model(|builder| builder.set("asset", json!({"version": "2.0", "extras": {"darboux_convention": note}})))
+        model(|builder| {
+            builder.set("asset", json!({"version": "2.0", "extras": {"darboux_convention": note}}))
+        })
     };
-    for (note, part) in [(json!("quake"), "\"quake\" is no convention; begin with"), (json!(7), "7 is no text; ")] {
+    for (note, part) in
+        [(json!("quake"), "\"quake\" is no convention; begin with"), (json!(7), "7 is no text; ")]
+    {
         let mut document = noted(note);
         let sentence = refusal(&mut document, Convention::UNITY, Convention::GLTF);
-        assert!(sentence.contains(part) && sentence.contains("asset.extras.darboux_convention: "), "{sentence}");
+        assert!(
+            sentence.contains(part) && sentence.contains("asset.extras.darboux_convention: "),
+            "{sentence}"
+        );
         assert_eq!(document.convention().expect_err("no convention").to_string(), sentence);
     }
     let mut needless = noted(json!("gltf"));
@@ -158,7 +165,13 @@ fn only_what_happened_is_told() {
     let told = |document: &mut Document, from: &str, to: &str| {
         let [from, to] = [from, to].map(|name| name.parse().expect("a convention"));
         let summary = convert(document, from, to);
-        (summary.primitives, summary.axes_changed, summary.uvs_flipped, summary.faces_reversed, summary.tangents_changed)
+        (
+            summary.primitives,
+            summary.axes_changed,
+            summary.uvs_flipped,
+            summary.faces_reversed,
+            summary.tangents_changed,
+        )
     };
     assert_eq!(told(&mut model(|_| {}), "gltf", "unreal"), (1, true, false, false, false));
     assert_eq!(told(&mut model(|_| {}), "gltf", "unity"), (1, true, true, true, true));

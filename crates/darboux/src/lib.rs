@@ -42,8 +42,8 @@ mod triangles;
 mod weld;
 
 pub use convention::{
-    Axes, Axis, BitangentDirection, Convention, ConventionError, Conversion, Handedness, SignRule, TangentDirection, UvOrigin,
-    Winding,
+    Axes, Axis, BitangentDirection, Convention, ConventionError, Conversion, Handedness, SignRule,
+    TangentDirection, UvOrigin, Winding,
 };
 pub use frame::{CornerFrames, CornerTangents, CornerTangentsRef, Frame};
 pub use measure::{

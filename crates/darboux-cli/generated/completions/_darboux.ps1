@@ -42,13 +42,13 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             [CompletionResult]::new('--method', '--method', [CompletionResultType]::ParameterName, 'How tangents are computed: as the normal map was baked, so nearly always mikktspace')
             [CompletionResult]::new('--mode', '--mode', [CompletionResultType]::ParameterName, 'Which defects of the MikkTSpace reference to keep')
             [CompletionResult]::new('--threshold', '--threshold', [CompletionResultType]::ParameterName, 'Split tangents of faces whose directions differ by this many degrees or more')
-            [CompletionResult]::new('--normals', '--normals', [CompletionResultType]::ParameterName, 'keep normals as they are, or make new ones first: flat, smooth or crease=DEG')
+            [CompletionResult]::new('--normals', '--normals', [CompletionResultType]::ParameterName, 'keep normals as they are, or first make those that are missing: flat, smooth or crease=DEG')
             [CompletionResult]::new('--encoding', '--encoding', [CompletionResultType]::ParameterName, 'How tangents are stored: f32x4 (16 bytes), snorm16x4 (8) or snorm8x4 (4)')
             [CompletionResult]::new('--in-place', '--in-place', [CompletionResultType]::ParameterName, 'Replace each input by its output')
             [CompletionResult]::new('--force', '--force', [CompletionResultType]::ParameterName, 'Replace output files that exist')
             [CompletionResult]::new('--resume', '--resume', [CompletionResultType]::ParameterName, 'Leave out inputs whose output in --out-dir is up to date, and replace those that are not')
             [CompletionResult]::new('--allow-outside', '--allow-outside', [CompletionResultType]::ParameterName, 'Allow buffers and images outside the input''s folder')
-            [CompletionResult]::new('--overwrite', '--overwrite', [CompletionResultType]::ParameterName, 'Replace tangents that exist; without it such primitives are kept')
+            [CompletionResult]::new('--overwrite', '--overwrite', [CompletionResultType]::ParameterName, 'Replace tangents that exist, and with --normals normals; without it such primitives are kept')
             [CompletionResult]::new('--only-needed', '--only-needed', [CompletionResultType]::ParameterName, 'Only primitives whose material uses tangents (normal map, clearcoat normal map, anisotropy)')
             [CompletionResult]::new('--apply-texture-transform', '--apply-texture-transform', [CompletionResultType]::ParameterName, 'Apply KHR_texture_transform to the UVs first')
             [CompletionResult]::new('--strict', '--strict', [CompletionResultType]::ParameterName, 'Refuse files with non-finite vertex data or corners that have no usable tangent')
@@ -116,7 +116,9 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
         }
         'darboux;inspect' {
             [CompletionResult]::new('--allow-outside', '--allow-outside', [CompletionResultType]::ParameterName, 'Allow buffers and images outside the input''s folder')
-            [CompletionResult]::new('--json', '--json', [CompletionResultType]::ParameterName, 'Write the table as JSON')
+            [CompletionResult]::new('--json', '--json', [CompletionResultType]::ParameterName, 'Write a report as JSON to standard output')
+            [CompletionResult]::new('-q', '-q', [CompletionResultType]::ParameterName, 'Print errors only')
+            [CompletionResult]::new('--quiet', '--quiet', [CompletionResultType]::ParameterName, 'Print errors only')
             [CompletionResult]::new('-h', '-h', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
             [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
             break

@@ -134,7 +134,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__inspect)
-            opts="-h --allow-outside --json --help"
+            opts="-q -h --allow-outside --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0

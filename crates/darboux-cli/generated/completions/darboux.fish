@@ -48,7 +48,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l mode -d 'Wh
 repaired\t'The reference\'s bits where they are usable, a unit tangent elsewhere'
 corrected\t'As repaired, with all edges matched and one sign per triangle'"
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l threshold -d 'Split tangents of faces whose directions differ by this many degrees or more' -r
-complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l normals -d 'keep normals as they are, or make new ones first: flat, smooth or crease=DEG' -r
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l normals -d 'keep normals as they are, or first make those that are missing: flat, smooth or crease=DEG' -r
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l encoding -d 'How tangents are stored: f32x4 (16 bytes), snorm16x4 (8) or snorm8x4 (4)' -r -f -a "f32x4\t''
 snorm16x4\t''
 snorm8x4\t''"
@@ -56,7 +56,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l in-place -d
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l force -d 'Replace output files that exist'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l resume -d 'Leave out inputs whose output in --out-dir is up to date, and replace those that are not'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l allow-outside -d 'Allow buffers and images outside the input\'s folder'
-complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l overwrite -d 'Replace tangents that exist; without it such primitives are kept'
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l overwrite -d 'Replace tangents that exist, and with --normals normals; without it such primitives are kept'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l only-needed -d 'Only primitives whose material uses tangents (normal map, clearcoat normal map, anisotropy)'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l apply-texture-transform -d 'Apply KHR_texture_transform to the UVs first'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l strict -d 'Refuse files with non-finite vertex data or corners that have no usable tangent'
@@ -129,7 +129,8 @@ complete -c darboux -n "__fish_darboux_using_subcommand compare" -l json -d 'Wri
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -s q -l quiet -d 'Print errors only'
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l allow-outside -d 'Allow buffers and images outside the input\'s folder'
-complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l json -d 'Write the table as JSON'
+complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l json -d 'Write a report as JSON to standard output'
+complete -c darboux -n "__fish_darboux_using_subcommand inspect" -s q -l quiet -d 'Print errors only'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand view" -l page -d 'The folder with the page\'s files' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand view" -l no-open -d 'Print the address and open no browser'

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Method, Talk};
+use super::{Method, Talk, degrees};
 
 pub(super) const ABOUT: &str = "\
 Compare the tangents of two files of one model, or of a file with those of a method.
@@ -42,7 +42,7 @@ pub struct CompareArguments {
     pub worst: usize,
 
     /// Exit with 3 if an angle is greater than so many degrees, a sign is flipped, or tangents are missing on one side
-    #[arg(long, value_name = "DEGREES", value_parser = degrees)]
+    #[arg(long, value_name = "DEGREES", value_parser = degrees::<f64>, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
 
     /// Draw the angles over the UV layout, as a PNG
@@ -59,11 +59,4 @@ pub struct CompareArguments {
 
     #[command(flatten)]
     pub talk: Talk,
-}
-
-fn degrees(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(degrees) if (0.0..=180.0).contains(&degrees) => Ok(degrees),
-        _ => Err("not a number of degrees from 0 to 180".into()),
-    }
 }

@@ -1,7 +1,9 @@
 //! `darboux convert`.
 
+use std::ffi::OsStr;
+
 use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, StringValueParser, TypedValueParser};
 use darboux::Convention;
 use darboux_io::image::Channels;
 
@@ -11,15 +13,19 @@ pub(super) const ABOUT: &str = "\
 Convert normal maps and models between conventions.
 
 Normal maps (PNG, 8 or 16 bits): red and green are inverted where the conventions differ, to the bit, so that converting back gives the \
-first texels. Alpha and all chunks but the texels stay as they are. Channels can be moved: DXT5nm's ag, two-channel rg.
+first texels. Channels can be moved (DXT5nm's ag, two-channel rg); those that hold nothing of the vector keep what they hold, unless one \
+moves into them. Chunks stay, but for palettes, profiles and the like that do not fit other channels. A warning names images that do not \
+look like normal maps.
 
 Models: positions, normals, tangents, UVs, morph targets and the winding of triangles change; where axes differ, nodes, skins and \
 animations too. A glTF file must be in glTF's convention, so this puts files right whose writer copied the numbers of another one \
 (--to gltf). For a program that copies numbers out of the file as they are, --raw allows any --to; such a file is no right glTF until \
 it is converted back, says so in asset.extras, and other commands refuse it. Images, cameras and lights stay; warnings name them.
 
-docs/conventions.md defines the conventions. Without -o, --out-dir or --in-place the output is named by its convention: brick.png \
-becomes brick.directx.png.";
+A convention is a name, and what differs from it, separated by commas: gltf,green=down. What can differ: axes=-x/y/z (right, up, front), \
+fronts=ccw or cw, v0=bottom or top, red=right or left, green=up or down, w=n-cross-t or t-cross-n. \
+docs/conventions.md in Darboux's source defines them all. Without -o, --out-dir or --in-place the output is named by its convention: brick.png \
+becomes brick.directx.png, or brick.converted.png where a name is not all of it.";
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -40,12 +46,12 @@ pub struct ConvertArguments {
     pub files: Files,
 
     /// The convention that the files are in
-    #[arg(long, value_name = "NAME", value_parser = preset_parser(), help_heading = "Conversion")]
-    pub from: Preset,
+    #[arg(long, value_name = "CONVENTION", value_parser = NamedParser, help_heading = "Conversion")]
+    pub from: Named,
 
     /// The convention that they shall be in
-    #[arg(long, value_name = "NAME", value_parser = preset_parser(), help_heading = "Conversion")]
-    pub to: Preset,
+    #[arg(long, value_name = "CONVENTION", value_parser = NamedParser, help_heading = "Conversion")]
+    pub to: Named,
 
     /// Channels of a normal map's x, y and, where it is stored, z, in this order: rgb, rg, ag, la, ...
     #[arg(long, value_name = "LETTERS", default_value_t = Channels::RGB, help_heading = "Conversion")]
@@ -63,17 +69,31 @@ pub struct ConvertArguments {
     pub talk: Talk,
 }
 
-/// A convention and its name.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Preset {
-    pub name: &'static str,
+/// A convention as it was written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Named {
+    pub name: String,
     pub convention: Convention,
 }
 
-fn preset_parser() -> impl TypedValueParser<Value = Preset> {
-    let names = Convention::PRESETS.map(|(name, _)| name);
-    PossibleValuesParser::new(names).try_map(|name| {
-        let found = Convention::PRESETS.into_iter().find(|(preset, _)| *preset == name);
-        found.map(|(name, convention)| Preset { name, convention }).ok_or("no such convention")
-    })
+/// Reads conventions; help and completions name the presets.
+#[derive(Clone)]
+struct NamedParser;
+
+impl TypedValueParser for NamedParser {
+    type Value = Named;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<Named, clap::Error> {
+        let named = |name: String| name.parse().map(|convention| Named { name, convention });
+        StringValueParser::new().try_map(named).parse_ref(command, argument, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(Convention::PRESETS.into_iter().map(|(name, _)| PossibleValue::new(name))))
+    }
 }

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::Talk;
+
 pub(super) const ABOUT: &str = "\
 Show what each primitive holds and what its tangents would meet.
 
@@ -27,7 +29,6 @@ pub struct InspectArguments {
     #[arg(long)]
     pub allow_outside: bool,
 
-    /// Write the table as JSON
-    #[arg(long)]
-    pub json: bool,
+    #[command(flatten)]
+    pub talk: Talk,
 }

@@ -3,7 +3,7 @@
 use clap::{Args, ValueEnum};
 use darboux::{NormalOptions, NormalWeight, Shading, SmoothingSeams};
 
-use super::{Files, Talk};
+use super::{Files, Talk, degrees};
 
 pub(super) const ABOUT: &str = "\
 Add normals to glTF and GLB files.
@@ -117,11 +117,11 @@ impl From<Weight> for NormalWeight {
 }
 
 fn shading(text: &str) -> Result<ShadingChoice, String> {
-    match (text, text.strip_prefix("crease=").map(str::parse::<f32>)) {
+    match (text, text.strip_prefix("crease=").map(degrees::<f32>)) {
         ("flat", _) => Ok(ShadingChoice::Flat),
         ("smooth", _) => Ok(ShadingChoice::Smooth),
-        (_, Some(Ok(degrees))) if (0.0..=180.0).contains(&degrees) => Ok(ShadingChoice::Crease(degrees)),
-        (_, Some(_)) => Err("a crease has 0 to 180 degrees, as in crease=30".into()),
+        (_, Some(Ok(degrees))) => Ok(ShadingChoice::Crease(degrees)),
+        (_, Some(Err(_))) => Err("a crease has 0 to 180 degrees, as in crease=30".into()),
         _ => Err("choose flat, smooth or crease=DEG".into()),
     }
 }

@@ -5,7 +5,7 @@ use clap::{Args, ValueEnum};
 use darboux_io::gltf::TangentEncoding;
 
 use super::normals::{NormalsChoice, normals_choice};
-use super::{Files, Talk};
+use super::{Files, Talk, degrees};
 
 pub(super) const ABOUT: &str = "\
 Add tangents to glTF and GLB files.
@@ -56,15 +56,15 @@ pub struct TangentsArguments {
         long,
         value_name = "DEGREES",
         default_value_t = 180.0,
-        value_parser = finite,
+        value_parser = degrees::<f32>,
         allow_negative_numbers = true,
         help_heading = "Tangents"
     )]
     pub threshold: f32,
 
-    /// keep normals as they are, or make new ones first: flat, smooth or crease=DEG
+    /// keep normals as they are, or first make those that are missing: flat, smooth or crease=DEG
     ///
-    /// New normals take the place of all that exist, and so do the tangents. `darboux normals` has more options.
+    /// With --overwrite all normals are made anew. `darboux normals` has more options.
     #[arg(
         long,
         value_name = "SHADING",
@@ -88,7 +88,7 @@ pub struct TangentsArguments {
     )]
     pub encoding: TangentEncoding,
 
-    /// Replace tangents that exist; without it such primitives are kept
+    /// Replace tangents that exist, and with --normals normals; without it such primitives are kept
     #[arg(long, help_heading = "Tangents")]
     pub overwrite: bool,
 
@@ -168,13 +168,6 @@ impl From<Mode> for darboux::Mode {
             Mode::Repaired => Self::Repaired,
             Mode::Corrected => Self::Corrected,
         }
-    }
-}
-
-fn finite(text: &str) -> Result<f32, String> {
-    match text.parse::<f32>() {
-        Ok(degrees) if degrees.is_finite() => Ok(degrees),
-        _ => Err("not a number of degrees".into()),
     }
 }
 

@@ -24,9 +24,9 @@ impl Document {
     fn noted_convention(&self) -> Result<Option<Convention>, Error> {
         let Some(note) = self.note() else { return Ok(None) };
         let name: Result<String, _> = serde_json::from_str(note);
-        let convention = name.map_err(|_| format!("{note} is no text")).and_then(|name| {
-            name.parse().map_err(|error: darboux::ConventionError| error.to_string())
-        });
+        let convention = name
+            .map_err(|_| format!("{note} is no text"))
+            .and_then(|name| name.parse().map_err(|error: darboux::ConventionError| error.to_string()));
         let advice = "a newer version may know it; take the note out if it is wrong";
         let named = |problem| self.invalid(format!("asset.extras.{MEMBER}"), format!("{problem}; {advice}"));
         convention.map(Some).map_err(named)

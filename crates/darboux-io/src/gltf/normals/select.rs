@@ -94,7 +94,7 @@ fn judge(
         return Ok(Verdict::Skipped(format!("its mode is {mode}; only triangles get normals")));
     };
     if primitive.attributes.contains_key("NORMAL") && !options.overwrite {
-        return Ok(Verdict::Kept("it has normals already; overwrite replaces them".to_owned()));
+        return Ok(Verdict::Kept("it has normals already".to_owned()));
     }
     let Some(&position) = primitive.attributes.get("POSITION") else {
         return skipped("it has no POSITION, which normals need");

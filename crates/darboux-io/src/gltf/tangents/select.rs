@@ -11,6 +11,9 @@ use crate::Error;
 use crate::gltf::Document;
 use crate::gltf::schema::{Material, Primitive};
 
+/// Why a primitive without normals is left alone.
+pub const NO_NORMAL: &str = "it has no NORMAL, which tangents need";
+
 /// Every primitive of a document, in its order, with what is to be done.
 #[derive(Debug)]
 pub struct Selection {
@@ -156,7 +159,7 @@ fn judge(
     };
     let replaces = attribute("TANGENT").is_some();
     if replaces && !options.overwrite {
-        return Ok(Verdict::Kept("it has tangents already; overwrite replaces them".to_owned()));
+        return Ok(Verdict::Kept("it has tangents already".to_owned()));
     }
     if options.only_needed && !needs_tangents {
         return skipped("its material does not use tangents");
@@ -164,7 +167,7 @@ fn judge(
     let Some(position) = attribute("POSITION") else {
         return skipped("it has no POSITION, which tangents need");
     };
-    let Some(normal) = attribute("NORMAL") else { return skipped("it has no NORMAL, which tangents need") };
+    let Some(normal) = attribute("NORMAL") else { return skipped(NO_NORMAL) };
     let uv_accessor = attribute(&format!("TEXCOORD_{}", uv.set));
     if uv_accessor.is_none() && options.tangents.method != Method::FromNormal {
         return Ok(Verdict::Skipped(missing_uv(primitive, uv)));

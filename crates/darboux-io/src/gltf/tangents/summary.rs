@@ -5,6 +5,8 @@ use std::fmt;
 use darboux::Report;
 use serde::Serialize;
 
+use super::select::NO_NORMAL;
+
 /// What [`add_tangents`](super::add_tangents) did to a document.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -20,6 +22,8 @@ pub struct Summary {
 impl Summary {
     /// Appends a primitive and counts it.
     pub(super) fn push(&mut self, primitive: PrimitiveSummary) {
+        let lacks_normals = matches!(&primitive.outcome, Outcome::Skipped { reason } if reason == NO_NORMAL);
+        self.totals.without_normals += usize::from(lacks_normals);
         *match primitive.outcome {
             Outcome::Written(_) => &mut self.totals.written,
             Outcome::Kept { .. } => &mut self.totals.kept,
@@ -163,6 +167,8 @@ pub struct Totals {
     pub kept: usize,
     /// Primitives left alone.
     pub skipped: usize,
+    /// Of these, primitives that have positions but no normals.
+    pub without_normals: usize,
     /// Triangles computed.
     pub triangles: usize,
     /// Vertices before, of the vertex buffers that got tangents.
