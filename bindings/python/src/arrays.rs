@@ -1,5 +1,7 @@
 //! numpy arrays as the core reads them: borrowed where they lie as they are used, else copied once.
 
+use std::borrow::Cow;
+
 use darboux::Strided;
 use numpy::prelude::*;
 use numpy::{Element, PyArray1, PyArray2, PyArrayDyn, PyReadonlyArrayDyn, PyUntypedArray};
@@ -75,13 +77,16 @@ impl<'py, const N: usize> Rows<'py, N> {
         strided.map_err(|error| PyValueError::new_err(error.to_string()))
     }
 
-    /// The rows one after the other.
-    pub fn to_vec(&self) -> PyResult<Vec<[f32; N]>> {
-        if let Self::Packed(array) = self {
-            return Ok(array.as_slice()?.as_chunks().0.to_vec());
-        }
-        let view = self.view()?;
-        Ok((0..view.len()).map(|row| view.get(row)).collect())
+    /// The rows one after the other, copied only where they do not lie so.
+    pub fn packed(&self) -> PyResult<Cow<'_, [[f32; N]]>> {
+        Ok(match self {
+            Self::Packed(array) => Cow::Borrowed(array.as_slice()?.as_chunks().0),
+            Self::Copied(floats) => Cow::Borrowed(floats.as_chunks().0),
+            Self::Within { .. } => {
+                let view = self.view()?;
+                Cow::Owned((0..view.len()).map(|row| view.get(row)).collect())
+            }
+        })
     }
 }
 

@@ -85,7 +85,7 @@ fn mapped<'py, const N: usize>(
     change: impl Fn([f32; N]) -> [f32; N],
 ) -> PyResult<Option<Bound<'py, PyAny>>> {
     let Some(rows) = rows else { return Ok(None) };
-    let rows = Rows::<N>::new(name, "V", rows)?.to_vec()?.into_iter().map(change).collect();
+    let rows = Rows::<N>::new(name, "V", rows)?.packed()?.iter().copied().map(change).collect();
     Ok(Some(rows_array(py, rows)?.into_any()))
 }
 

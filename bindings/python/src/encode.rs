@@ -30,7 +30,7 @@ fn codes<T: Element + Copy, const N: usize>(value: &Bound<'_, PyAny>) -> PyResul
 }
 
 fn rows<const N: usize>(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<[f32; N]>> {
-    Rows::new(name, "C", value)?.to_vec()
+    Ok(Rows::new(name, "C", value)?.packed()?.into_owned())
 }
 
 /// Errors: arrays of different lengths.

@@ -31,7 +31,8 @@ pub fn measure_tangents<'py>(
     a: &Bound<'py, PyAny>,
     b: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let (a, b) = (Rows::new("a", "C", a)?.to_vec()?, Rows::new("b", "C", b)?.to_vec()?);
+    let (a, b) = (Rows::new("a", "C", a)?, Rows::new("b", "C", b)?);
+    let (a, b) = (a.packed()?, b.packed()?);
     let found = py.detach(|| darboux::measure_tangents(&a, &b)).map_err(value_error)?;
     let fields = (
         found.corners,
@@ -82,7 +83,8 @@ pub fn measure_uv_fidelity<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let (positions, uvs) = (Rows::<3>::new("positions", "V", positions)?, Rows::<2>::new("uvs", "V", uvs)?);
     let indices = IndexArray::new(indices)?;
-    let tangents = Rows::new("tangents", "C", tangents)?.to_vec()?;
+    let tangents = Rows::new("tangents", "C", tangents)?;
+    let tangents = tangents.packed()?;
     let (positions, uvs, list) = (positions.view()?, uvs.view()?, indices.view()?);
     let faces = FaceSizes::new(faces, &indices, positions.len())?;
     let found = py.detach(|| {

@@ -1,11 +1,14 @@
 //! Topology once, evaluate often.
 
-use darboux::{Faces, Indices, Mesh};
+use std::sync::Mutex;
+
+use darboux::{Faces, Indices, Mesh, Scratch};
 use pyo3::prelude::*;
 
 use crate::arrays::{Rows, rows_array};
 use crate::choices::tangent_options;
 use crate::mesh::{FaceSizes, MeshArrays, owned, value_error};
+use crate::out::Target;
 use crate::results;
 use crate::threads::detached;
 
@@ -16,7 +19,7 @@ use crate::threads::detached;
 ///
 /// Parameters
 /// ----------
-/// positions, normals, uvs, indices, faces, method, mode, threshold
+/// positions, normals, uvs, indices, faces, method, mode, threshold, threads
 ///     As for generate_tangents.
 #[pyclass(frozen, module = "darboux")]
 pub struct Plan {
@@ -24,6 +27,21 @@ pub struct Plan {
     uvs: Vec<[f32; 2]>,
     indices: Option<Vec<u32>>,
     faces: FaceSizes,
+    /// Memory that evaluations keep from one to the next. Two at once do not share it.
+    scratch: Mutex<Scratch>,
+}
+
+/// The vertices of a mesh that moved.
+struct Moved<'py> {
+    positions: Rows<'py, 3>,
+    normals: Rows<'py, 3>,
+}
+
+impl<'py> Moved<'py> {
+    fn new(positions: &Bound<'py, PyAny>, normals: &Bound<'py, PyAny>) -> PyResult<Self> {
+        let positions = Rows::new("positions", "V", positions)?;
+        Ok(Self { positions, normals: Rows::new("normals", "V", normals)? })
+    }
 }
 
 impl Plan {
@@ -31,17 +49,15 @@ impl Plan {
     fn with_moved<R: Send>(
         &self,
         py: Python<'_>,
-        positions: &Bound<'_, PyAny>,
-        normals: &Bound<'_, PyAny>,
+        threads: Option<i64>,
+        moved: &Moved<'_>,
         work: impl FnOnce(&Mesh<'_>) -> Result<R, darboux::MeshError> + Send,
     ) -> PyResult<R> {
-        let positions = Rows::new("positions", "V", positions)?;
-        let normals = Rows::new("normals", "V", normals)?;
-        let (positions, normals) = (positions.view()?, normals.view()?);
+        let (positions, normals) = (moved.positions.view()?, moved.normals.view()?);
         let indices = self.indices.as_ref().map_or(Indices::Unindexed, Indices::from);
         let faces: Faces<'_> = self.faces.view();
         let corners = self.plan.base().corners.len();
-        let done = detached(py, None, corners, || {
+        let done = detached(py, threads, corners, || {
             work(&Mesh::with_faces(positions, normals, &self.uvs, indices, faces)?)
         })?;
         done.map_err(value_error)
@@ -51,7 +67,7 @@ impl Plan {
 #[pymethods]
 impl Plan {
     #[new]
-    #[pyo3(signature = (positions, normals, uvs, indices=None, *, faces=None, method="mikktspace", mode="repaired", threshold=180.0))]
+    #[pyo3(signature = (positions, normals, uvs, indices=None, *, faces=None, method="mikktspace", mode="repaired", threshold=180.0, threads=None))]
     #[expect(clippy::too_many_arguments, reason = "Python passes them by name")]
     fn new(
         py: Python<'_>,
@@ -63,13 +79,14 @@ impl Plan {
         method: &str,
         mode: &str,
         threshold: f32,
+        threads: Option<i64>,
     ) -> PyResult<Self> {
         let options = tangent_options(method, mode, threshold)?;
         let arrays = MeshArrays::new(positions, normals, uvs, indices, faces)?;
         let mesh = arrays.view()?;
-        let plan = detached(py, None, mesh.corner_count(), || darboux::Plan::new(&mesh, &options))?;
-        let (uvs, indices) = (arrays.uvs.to_vec()?, owned(mesh.indices()));
-        Ok(Self { plan, uvs, indices, faces: arrays.faces })
+        let plan = detached(py, threads, mesh.corner_count(), || darboux::Plan::new(&mesh, &options))?;
+        let (uvs, indices) = (arrays.uvs.packed()?.into_owned(), owned(mesh.indices()));
+        Ok(Self { plan, uvs, indices, faces: arrays.faces, scratch: Mutex::default() })
     }
 
     /// The tangents of the mesh that the plan was made of: a new (C, 4) float32 array, as generate_tangents gives it.
@@ -90,6 +107,8 @@ impl Plan {
     /// ----------
     /// positions, normals : (V, 3) array_like
     ///     Of the same vertices.
+    /// threads, out
+    ///     As for generate_tangents. With `out`, and unless tangents meet what is rare, nothing is allocated.
     ///
     /// Returns
     /// -------
@@ -99,14 +118,23 @@ impl Plan {
     /// ------
     /// TypeError, ValueError
     ///     As generate_tangents; another number of vertices.
+    #[pyo3(signature = (positions, normals, *, threads=None, out=None))]
     fn evaluate<'py>(
         &self,
         py: Python<'py>,
         positions: &Bound<'py, PyAny>,
         normals: &Bound<'py, PyAny>,
+        threads: Option<i64>,
+        out: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let moved = self.with_moved(py, positions, normals, |mesh| self.plan.evaluate(mesh))?;
-        Ok(rows_array(py, moved.into_per_corner())?.into_any())
+        let moved = Moved::new(positions, normals)?;
+        let filled = Target::new(py, out, self.plan.base().corners.len())?.fill(py, |out| {
+            self.with_moved(py, threads, &moved, |mesh| match self.scratch.try_lock() {
+                Ok(mut kept) => self.plan.write_tangents(mesh, &mut kept, out),
+                Err(_) => self.plan.write_tangents(mesh, &mut Scratch::new(), out),
+            })
+        });
+        filled.map(|(tangents, ())| tangents)
     }
 
     /// Count the corners that a fresh run on the moved mesh would give another tangent (other bits) than evaluate does.
@@ -116,6 +144,7 @@ impl Plan {
         positions: &Bound<'_, PyAny>,
         normals: &Bound<'_, PyAny>,
     ) -> PyResult<usize> {
-        self.with_moved(py, positions, normals, |mesh| self.plan.count_regrouped(mesh))
+        let moved = Moved::new(positions, normals)?;
+        self.with_moved(py, None, &moved, |mesh| self.plan.count_regrouped(mesh))
     }
 }

@@ -1,6 +1,6 @@
 //! Corner values back to an indexed mesh.
 
-use darboux::{CornerTangents, Faces, Mesh, MeshError, Strided};
+use darboux::{CornerTangentsRef, Faces, Mesh, MeshError, Strided};
 use numpy::PyArray1;
 use numpy::prelude::*;
 use pyo3::exceptions::PyMemoryError;
@@ -42,16 +42,17 @@ pub fn split_vertices<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     check_room(vertex_count)?;
     let indices = IndexArray::new(Some(indices))?;
-    let corners = CornerTangents::from_per_corner(Rows::new("tangents", "C", tangents)?.to_vec()?);
-    check_corners(&indices, corners.len())?;
+    let tangents = Rows::new("tangents", "C", tangents)?;
+    let tangents = tangents.packed()?;
+    check_corners(&indices, tangents.len())?;
     let list = indices.view()?;
     let split = py.detach(|| {
         // Splitting asks for numbers alone: of vertices, and of corners in one large face.
         let (nothing, uvs) =
             (Strided::repeated(&[0.0; 3], vertex_count), Strided::repeated(&[0.0; 2], vertex_count));
-        let size = [corners.len() as u32];
+        let size = [tangents.len() as u32];
         let mesh = Mesh::with_faces(nothing, nothing, uvs, list, Faces::Mixed(&size))?;
-        darboux::split_vertices(&mesh, &corners)
+        darboux::split_vertices(&mesh, CornerTangentsRef::from_per_corner(&tangents))
     });
     let split = split.map_err(value_error)?;
     let fields = (
@@ -91,7 +92,8 @@ pub fn split_normals<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     check_room(vertex_count)?;
     let indices = IndexArray::new(Some(indices))?;
-    let normals = Rows::new("normals", "C", normals)?.to_vec()?;
+    let normals = Rows::new("normals", "C", normals)?;
+    let normals = normals.packed()?;
     check_corners(&indices, normals.len())?;
     let list = indices.view()?;
     let split = py.detach(|| darboux::split_normals(vertex_count, list, &normals)).map_err(value_error)?;

@@ -1,14 +1,13 @@
 //! Tangents of corners.
 
-use darboux::{Frame, Mesh, TangentOptions, generate_frames};
-use numpy::prelude::*;
-use numpy::{PyArray2, PyUntypedArray};
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use darboux::{Frame, Mesh, Scratch, TangentOptions, generate_frames};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::arrays::{rows_array, shape_text, wrong_type};
+use crate::arrays::rows_array;
 use crate::choices::tangent_options;
-use crate::mesh::MeshArrays;
+use crate::mesh::{MeshArrays, value_error};
+use crate::out::Target;
 use crate::results::{self, named};
 use crate::threads::detached;
 
@@ -83,18 +82,14 @@ pub fn generate_tangents<'py>(
     }
     let arrays = MeshArrays::new(positions, normals, uvs, indices, faces)?;
     let mesh = arrays.view()?;
-    let out = out.map(|out| Target::new(out, mesh.corner_count())).transpose()?;
     let (result, report) = if full {
         frames(py, threads, &mesh, &options)?
     } else {
-        let made =
-            detached(py, threads, mesh.corner_count(), || darboux::generate_tangents(&mesh, &options))?;
-        let tangents = rows_array(py, made.corners.into_per_corner())?;
-        let result = match out {
-            Some(out) => out.write(&tangents)?,
-            None => tangents.into_any(),
-        };
-        (result, made.report)
+        let corners = mesh.corner_count();
+        Target::new(py, out, corners)?.fill(py, |out| {
+            let write = || darboux::write_tangents(&mesh, &options, &mut Scratch::new(), out);
+            detached(py, threads, corners, write)?.map_err(value_error)
+        })?
     };
     if return_report {
         (result, results::report(py, &report)?).into_pyobject(py).map(Bound::into_any)
@@ -120,33 +115,4 @@ fn frames<'py>(
     })?;
     let fields = (rows_array(py, tangents)?, rows_array(py, bitangents)?, rows_array(py, magnitudes)?);
     Ok((named(py, "Frames", fields)?, report))
-}
-
-/// The array that a caller gave for results.
-struct Target<'py>(Bound<'py, PyUntypedArray>);
-
-impl<'py> Target<'py> {
-    /// Errors: not an array of float32, not of shape (corners, 4), read-only.
-    fn new(out: &Bound<'py, PyAny>, corners: usize) -> PyResult<Self> {
-        let Ok(array) = out.cast::<PyUntypedArray>() else {
-            let kind = out.get_type().name()?;
-            return Err(PyTypeError::new_err(format!("out must be a numpy array, not {kind}")));
-        };
-        if !array.dtype().is_equiv_to(&numpy::dtype::<f32>(out.py())) {
-            return Err(wrong_type("out", "float32", array));
-        }
-        if array.shape() != [corners, 4] {
-            let shape = shape_text(array.shape());
-            return Err(PyValueError::new_err(format!("out must have shape ({corners}, 4), not {shape}")));
-        }
-        if !array.getattr("flags")?.getattr("writeable")?.extract::<bool>()? {
-            return Err(PyValueError::new_err("out is read-only; give an array that may be written"));
-        }
-        Ok(Self(array.clone()))
-    }
-
-    fn write(self, tangents: &Bound<'py, PyArray2<f32>>) -> PyResult<Bound<'py, PyAny>> {
-        self.0.py().import("numpy")?.call_method1("copyto", (&self.0, tangents))?;
-        Ok(self.0.into_any())
-    }
 }

@@ -122,6 +122,23 @@ def test_out_is_written_in_place(sheet: Mesh) -> None:
     assert bits(corners[:, 0:3]) == bits(sheet.positions[sheet.indices.ravel()])
 
 
+def test_out_may_be_what_is_read(sheet: Mesh) -> None:
+    """Also where it is packed: positions of a mesh without indices, in the memory that becomes their tangents."""
+    positions, normals, uvs = (array[sheet.indices.ravel()] for array in sheet.arrays[:3])
+    expected = bits(darboux.generate_tangents(positions, normals, uvs))
+    memory = np.zeros((len(positions), 4), dtype=np.float32)
+    memory[:, :3] = positions
+    assert darboux.generate_tangents(memory[:, :3], normals, uvs, out=memory) is memory
+    assert bits(memory) == expected
+    plan = darboux.Plan(positions, normals, uvs)
+    memory[:, :3] = positions
+    assert plan.evaluate(memory[:, :3], normals, out=memory, threads=2) is memory
+    assert bits(memory) == expected
+    strided = np.zeros((len(positions), 8), dtype=np.float32)
+    assert plan.evaluate(positions, normals, out=strided[:, 2:6]).base is strided
+    assert bits(strided[:, 2:6]) == expected
+
+
 def test_inputs_stay_as_they_are(sheet: Mesh) -> None:
     before = [array.tobytes() for array in sheet.arrays]
     darboux.generate_tangents(*sheet.arrays, full=True)

@@ -189,12 +189,20 @@ class Plan:
         method: _Method = "mikktspace",
         mode: _Mode = "repaired",
         threshold: float = 180.0,
+        threads: Optional[int] = None,
     ) -> "Plan": ...
     @property
     def base(self) -> _Floats: ...
     @property
     def report(self) -> Report: ...
-    def evaluate(self, positions: npt.ArrayLike, normals: npt.ArrayLike) -> _Floats: ...
+    def evaluate(
+        self,
+        positions: npt.ArrayLike,
+        normals: npt.ArrayLike,
+        *,
+        threads: Optional[int] = None,
+        out: Optional[_Floats] = None,
+    ) -> _Floats: ...
     def count_regrouped(self, positions: npt.ArrayLike, normals: npt.ArrayLike) -> int: ...
 @final
 class Document:

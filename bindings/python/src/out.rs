@@ -1,0 +1,70 @@
+//! Arrays that results are written into: the caller's own, or new ones.
+
+use numpy::prelude::*;
+use numpy::{PyArray2, PyReadwriteArray2, PyUntypedArray};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+
+use crate::arrays::{shape_text, wrong_type};
+
+/// Where one tangent per corner goes.
+pub enum Target<'py> {
+    /// Written where it lies.
+    Direct(Bound<'py, PyArray2<f32>>),
+    /// Written into the new array first, as the caller's is not packed, or overlaps what is read.
+    Copied { to: Bound<'py, PyUntypedArray>, from: Bound<'py, PyArray2<f32>> },
+}
+
+impl<'py> Target<'py> {
+    /// The caller's array, or a new one. Errors: not an array of float32, not of shape (corners, 4), read-only.
+    pub fn new(py: Python<'py>, out: Option<&Bound<'py, PyAny>>, corners: usize) -> PyResult<Self> {
+        let Some(out) = out else { return Ok(Self::Direct(fresh(py, corners)?)) };
+        let Ok(array) = out.cast::<PyUntypedArray>() else {
+            let kind = out.get_type().name()?;
+            return Err(PyTypeError::new_err(format!("out must be a numpy array, not {kind}")));
+        };
+        if !array.dtype().is_equiv_to(&numpy::dtype::<f32>(py)) {
+            return Err(wrong_type("out", "float32", array));
+        }
+        if array.shape() != [corners, 4] {
+            let shape = shape_text(array.shape());
+            return Err(PyValueError::new_err(format!("out must have shape ({corners}, 4), not {shape}")));
+        }
+        if !array.getattr("flags")?.getattr("writeable")?.extract::<bool>()? {
+            return Err(PyValueError::new_err("out is read-only; give an array that may be written"));
+        }
+        match array.cast::<PyArray2<f32>>() {
+            Ok(floats)
+                if floats.is_c_contiguous() && floats.is_aligned() && floats.try_readwrite().is_ok() =>
+            {
+                Ok(Self::Direct(floats.clone()))
+            }
+            _ => Ok(Self::Copied { to: array.clone(), from: fresh(py, corners)? }),
+        }
+    }
+
+    /// Writes, and gives the caller's array or the new one. `write` is given one tangent per corner to fill.
+    pub fn fill<R>(
+        self,
+        py: Python<'py>,
+        write: impl FnOnce(&mut [[f32; 4]]) -> PyResult<R>,
+    ) -> PyResult<(Bound<'py, PyAny>, R)> {
+        let (Self::Direct(array) | Self::Copied { from: array, .. }) = &self;
+        let mut guard: PyReadwriteArray2<'_, f32> = array.try_readwrite()?;
+        let written = write(guard.as_slice_mut()?.as_chunks_mut().0)?;
+        drop(guard);
+        Ok(match self {
+            Self::Direct(array) => (array.into_any(), written),
+            Self::Copied { to, from } => {
+                py.import("numpy")?.call_method1("copyto", (&to, from))?;
+                (to.into_any(), written)
+            }
+        })
+    }
+}
+
+/// A new array of shape (corners, 4). numpy asks the system for large pages, which are cheaper to get than many small ones.
+fn fresh(py: Python<'_>, corners: usize) -> PyResult<Bound<'_, PyArray2<f32>>> {
+    let made = py.import("numpy")?.call_method1("empty", ((corners, 4), numpy::dtype::<f32>(py)))?;
+    Ok(made.cast_into()?)
+}
