@@ -2,7 +2,7 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use darboux::{Indices, Mesh, Mode, Scratch, TangentOptions, Tangents, generate_tangents_into};
+use darboux::{Indices, Mesh, Method, Mode, Scratch, TangentOptions, Tangents, generate_tangents_into};
 
 /// A wavy grid of quads whose UVs are mirrored from one half to the other: vertices, and triangles in order.
 fn grid(columns: u32, rows: u32) -> (Vec<[f32; 8]>, Vec<[u32; 3]>) {
@@ -21,7 +21,18 @@ fn grid(columns: u32, rows: u32) -> (Vec<[f32; 8]>, Vec<[u32; 3]>) {
     (vertices, (0..rows).flat_map(|j| (0..columns).flat_map(move |i| quad(i, j))).collect())
 }
 
-/// Hashes of the tangents and reports of a mesh, indexed, with a vertex per corner, and unindexed, in all modes.
+/// What runs on several threads: the fast path, and the methods that sum.
+const RUNS: [(Method, Mode); 7] = [
+    (Method::MikkTSpace, Mode::Reference),
+    (Method::MikkTSpace, Mode::Repaired),
+    (Method::MikkTSpace, Mode::Corrected),
+    (Method::Lengyel, Mode::Repaired),
+    (Method::LengyelPerVertex, Mode::Reference),
+    (Method::Average, Mode::Repaired),
+    (Method::Area, Mode::Repaired),
+];
+
+/// Hashes of the tangents and reports of a mesh, indexed, with a vertex per corner, and unindexed, in all runs.
 fn hash(vertices: &[[f32; 8]], triangles: &[[u32; 3]]) -> u64 {
     let mut hasher = DefaultHasher::new();
     let mut scratch = Scratch::new();
@@ -36,8 +47,8 @@ fn hash(vertices: &[[f32; 8]], triangles: &[[u32; 3]]) -> u64 {
         let normals: Vec<[f32; 3]> = vertices.iter().map(|v| [v[3], v[4], v[5]]).collect();
         let uvs: Vec<[f32; 2]> = vertices.iter().map(|v| [v[6], v[7]]).collect();
         let mesh = Mesh::triangles(&positions, &normals, &uvs, indices).expect("a mesh");
-        for mode in [Mode::Reference, Mode::Repaired, Mode::Corrected] {
-            let options = TangentOptions { mode, ..TangentOptions::default() };
+        for (method, mode) in RUNS {
+            let options = TangentOptions { method, mode, ..TangentOptions::default() };
             generate_tangents_into(&mesh, &options, &mut scratch, &mut tangents);
             let corners = tangents.corners.per_corner();
             corners.iter().for_each(|tangent| tangent.map(f32::to_bits).hash(&mut hasher));

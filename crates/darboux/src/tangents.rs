@@ -1,5 +1,6 @@
 //! Options to method: the entry points of tangent generation.
 
+mod accumulate;
 mod angle_area;
 mod area;
 mod average;
@@ -32,18 +33,23 @@ mod signs;
 pub mod stages;
 mod subgroups;
 mod sums;
+mod threads;
+mod width;
+mod windows;
 
 use crate::math::cosine_of_degrees;
 use crate::split::expect;
 use crate::{CornerFrames, CornerTangents, Frame, Mesh, MeshError};
 
-use fans::{Fans, Width};
-pub use fans::{WidthLimit, on_this_thread};
+use accumulate::Memory;
+use fans::Fans;
 pub use method::Method;
 pub(crate) use planned::Planned;
 pub use report::Report;
 use sides::Output;
-use sums::Memory;
+pub use threads::on_this_thread;
+use width::Width;
+pub use width::WidthLimit;
 
 /// How faithfully defects of the MikkTSpace reference are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

@@ -3,8 +3,9 @@
 //! The adjacency is compressed: one array of triangles, ordered by vertex, and one of running sums that says where each
 //! vertex's part ends. Each vertex reads what it needs and writes once, which is the form that parallel hardware wants.
 
+use super::accumulate::{Sums, gather, terms};
 use super::flat::Flat;
-use super::sums::{Derivatives, Sum, Sums, Weighting, accumulate_into, for_each_term};
+use super::sums::{Derivatives, Sum, Weighting};
 
 /// Weight one for every triangle.
 pub(super) struct Average;
@@ -25,27 +26,11 @@ impl Weighting<3> for Average {
     }
 }
 
-/// The sums of all vertices, gathered: what [`super::sums::accumulate`] would scatter.
-pub(super) fn gather(flat: &Flat<'_>, mut sums: Sums<3>) -> Sums<3> {
-    let mut terms: Vec<(Sum<3>, usize)> = vec![([[0.0; 4]; 3], 0); flat.triangles().len()];
-    let mut used_sides = [false; 2];
-    for_each_term::<3, Average>(flat, &mut sums, |_, (t, _), term, side| {
-        terms[t] = (*term, side);
-        used_sides[side] = true;
-    });
-    if used_sides[1] {
-        sums.side(1);
-    }
+/// The sums of all vertices, gathered: what [`super::accumulate::accumulate`] would scatter.
+pub(super) fn average(flat: &Flat<'_>, sums: &mut Sums<3>) {
+    let (terms, used) = terms::<3, Average>(flat, sums);
     let (triangle_of_entry, ends) = adjacency(flat);
-    let mut start = 0;
-    for (v, end) in ends.into_iter().map(|end| end as usize).enumerate() {
-        for &t in &triangle_of_entry[start..end] {
-            let (term, side) = &terms[t as usize];
-            accumulate_into(&mut sums.of_side[*side][v], term);
-        }
-        start = end;
-    }
-    sums
+    gather((&terms, used), (&triangle_of_entry, &ends), sums);
 }
 
 /// The triangles at each vertex, ascending, vertex after vertex, and where each vertex's part ends.

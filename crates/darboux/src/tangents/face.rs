@@ -33,14 +33,16 @@ pub(super) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut [O]) -> 
     for (number, face) in faces.iter().enumerate() {
         let frame = face.frame();
         orientations.push(frame.map_or(Orientation::None, |frame| Orientation::of(frame.sign)));
-        let vertices = &flat.vertex_of_corner[flat.corners(number)];
+        let range = flat.corners(number);
+        let vertices = &flat.vertex_of_corner[range.clone()];
         report.repaired_corners += if frame.is_some() { 0 } else { vertices.len() };
-        let of_vertex = |&v: &u32| match (frame, mode) {
-            (Some(frame), _) => O::from_frame(&frame),
-            (None, Mode::Reference) => O::NONE,
-            (None, _) => O::from_frame(&face.replacement(flat.normals[v as usize])),
-        };
-        fill(&mut corners[flat.corners(number)], vertices.iter().map(of_vertex));
+        let replacement = |&v: &u32| O::from_frame(&face.replacement(flat.normals[v as usize]));
+        let (own, corners) = (frame.map(|frame| O::from_frame(&frame)), &mut corners[range]);
+        match (own, mode) {
+            (Some(own), _) => corners.fill(own),
+            (None, Mode::Reference) => corners.fill(O::NONE),
+            (None, _) => fill(corners, vertices.iter().map(replacement)),
+        }
     }
     if let Some(of_both) = vertices_of_both(&flat, &orientations) {
         report.mirrored_edges = count_mirrored_edges(&flat, &orientations, &of_both);
@@ -71,6 +73,7 @@ fn add_up(flat: &Flat<'_>, report: &mut Report) -> Vec<Face> {
 
 impl Face {
     /// The derivatives' directions and lengths; none without UV area, or without a direction.
+    #[inline(always)]
     fn frame(&self) -> Option<Frame> {
         let area = f64::from(self.area);
         let derivatives = [self.s, self.t].map(|v| v.map(|x| f64::from(x) / area));

@@ -20,31 +20,25 @@ mod steps;
 mod stream;
 mod vertices;
 mod weld;
-mod width;
 mod workers;
-
-use std::ops::Range;
 
 use crate::weld::Bounds;
 use crate::{Faces, Mesh};
 
 use super::Mode;
+use super::threads::{self, parts, split};
+use super::width::Width;
+use super::windows::{self, Share, WINDOW, Window, overlap, shares, triangles_of, window};
 use last_run::{LastRun, Lists, TailCells};
 use names::Names;
 pub(crate) use planned::PlannedFans;
 use source::{Identity, triangles};
 use steps::{Extent, Special};
-use stream::{Share, Stream, shares};
+use stream::Stream;
 pub use vertices::UNDECIDED;
 use vertices::Vertex;
 use weld::{Refused, Weld};
-pub(crate) use width::Width;
-pub use width::WidthLimit;
-pub use workers::on_this_thread;
-use workers::{Worker, parts, split};
-
-/// Triangles per window: vertices are read when the first window that uses them begins, and finished when the last has ended.
-const WINDOW: usize = if cfg!(small_limits) { 2 } else { 1024 };
+use workers::Worker;
 
 /// The memory of a run, kept from mesh to mesh.
 #[derive(Debug, Default)]
@@ -61,15 +55,6 @@ pub(crate) struct Fans {
     last_stretches: Vec<Vec<u32>>,
 }
 
-/// A window's vertices, the lowest of all windows from it on, and the end of those of all up to it.
-#[derive(Clone, Copy, Debug, Default)]
-struct Window {
-    lowest: u32,
-    end: u32,
-    lowest_from_here: u32,
-    end_up_to_here: u32,
-}
-
 impl Fans {
     /// Writes the tangents of all triangles, and lists those with undecided vertices. False where this path does not apply:
     /// faces that are not triangles, values whose weld only the reference's order decides.
@@ -77,9 +62,9 @@ impl Fans {
         if !matches!(mesh.faces(), Faces::Triangles) {
             return false;
         }
-        let threads = workers::threads(mesh.face_count());
+        let threads = threads::count(mesh.face_count());
         self.workers.resize_with(threads, Worker::default);
-        workers::on_pool(threads, || self.run_on(mesh, mode, width, out))
+        threads::on_pool(threads, || self.run_on(mesh, mode, width, out))
     }
 
     fn run_on(&mut self, mesh: &Mesh<'_>, mode: Mode, width: Width, out: &mut [[f32; 4]]) -> bool {
@@ -114,23 +99,14 @@ impl Fans {
         let identity = self.weld.identity();
         let ranges = split(0..self.windows.len(), self.workers.len(), 1);
         let jobs = ranges.clone().zip(parts(&mut self.windows, 0, ranges));
-        workers::run(&mut self.workers, jobs, |worker, (range, windows)| {
+        threads::run(&mut self.workers, jobs, |worker, (range, windows)| {
             for (at, out) in range.zip(windows) {
                 let range = window(at, mesh.face_count());
                 let triangles = triangles(mesh, identity, range, &mut worker.triangles);
                 width.run(Extent { triangles, lowest: &mut out.lowest, end: &mut out.end });
             }
         });
-        let mut end = 0;
-        for window in &mut self.windows {
-            end = window.end.max(end);
-            window.end_up_to_here = end;
-        }
-        let mut lowest = u32::MAX;
-        for window in self.windows.iter_mut().rev() {
-            lowest = window.lowest.min(lowest);
-            window.lowest_from_here = lowest;
-        }
+        windows::look_around(&mut self.windows);
     }
 
     /// Whether triangles that share vertices are far from each other in the list.
@@ -146,13 +122,12 @@ impl Fans {
         let shares = &self.shares;
         let (identity, windows) = (self.weld.identity(), &self.windows[..]);
         let stream = Stream { mesh, identity, windows, tail, signs: None, width };
-        let added: usize = shares.iter().map(|share| share.until - share.windows.start).sum();
-        if self.workers.len() > 1 && added > self.windows.len() * 5 / 4 {
+        if overlap(shares, &self.windows) {
             shuffled::run(&stream, self.weld.count, &mut self.workers, out);
         } else {
-            let ranges = shares.iter().map(|share| triangles_of(share.windows.clone(), mesh));
+            let ranges = shares.iter().map(|share| triangles_of(share.windows.clone(), mesh.face_count()));
             let jobs = shares.iter().zip(parts(&mut *out, 0, ranges));
-            workers::run(&mut self.workers, jobs, |worker, (share, out)| stream.run(share, worker, out));
+            threads::run(&mut self.workers, jobs, |worker, (share, out)| stream.run(share, worker, out));
             write_pending(mesh, shares, &mut self.workers, self.weld.identity(), out);
         }
         self.workers.iter_mut().for_each(|worker| self.special.take(&mut worker.special));
@@ -232,18 +207,4 @@ fn write_pending(
         }
     }
     workers[0].special.take(&mut special);
-}
-
-/// The triangles of windows.
-fn triangles_of(windows: Range<usize>, mesh: &Mesh<'_>) -> Range<usize> {
-    windows.start * WINDOW..(windows.end * WINDOW).min(mesh.face_count())
-}
-
-/// A range cut into windows.
-fn windows_of(count: usize) -> impl Iterator<Item = Range<usize>> {
-    (0..count.div_ceil(WINDOW)).map(move |at| window(at, count))
-}
-
-fn window(at: usize, count: usize) -> Range<usize> {
-    at * WINDOW..((at + 1) * WINDOW).min(count)
 }

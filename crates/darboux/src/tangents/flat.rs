@@ -84,13 +84,14 @@ impl<'a> Flat<'a> {
 
     /// The corners of a face.
     pub fn corners(&self, face: usize) -> Range<usize> {
-        match &self.faces {
-            None => 3 * face..3 * face + 3,
-            Some(SplitFaces { ends, .. }) => {
-                let start = if face == 0 { 0 } else { ends[face - 1] };
-                start as usize..ends[face] as usize
-            }
-        }
+        self.corners_of(face..face + 1)
+    }
+
+    /// The corners of consecutive faces.
+    pub fn corners_of(&self, faces: Range<usize>) -> Range<usize> {
+        let Some(SplitFaces { ends, .. }) = &self.faces else { return 3 * faces.start..3 * faces.end };
+        let end_before = |face: usize| if face == 0 { 0 } else { ends[face - 1] as usize };
+        end_before(faces.start)..end_before(faces.end)
     }
 
     /// The arrays that inner loops read.

@@ -21,7 +21,7 @@ pub(super) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut [O]) -> 
         (None, Mode::Reference) => O::NONE,
         (unit, _) => {
             let tangent = unit.map_or([1.0, 0.0, 0.0], perpendicular).map(|x| x as f32);
-            let bitangent = across(normal, tangent, 1.0);
+            let bitangent = if O::IS_WHOLE { across(normal, tangent, 1.0) } else { [0.0; 3] };
             O::from_frame(&Frame { tangent, bitangent, magnitude: [1.0; 2], sign: 1.0 })
         }
     };

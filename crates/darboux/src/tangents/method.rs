@@ -2,13 +2,14 @@
 
 use crate::{Mesh, Mode};
 
+use super::accumulate::{Keeps, Memory, Sums, accumulate};
 use super::area::Area;
-use super::average::{Average, gather};
+use super::average::{Average, average};
 use super::flat::Flat;
 use super::lengyel::{Lengyel, LengyelPerVertex};
 use super::sides::{Output, fill, finish};
-use super::sums::{Keeps, Memory, Sums, Weighting, accumulate};
-use super::{Report, TangentOptions, angle_area, face, from_normal, mikktspace};
+use super::sums::Weighting;
+use super::{Report, TangentOptions, angle_area, face, from_normal, mikktspace, threads};
 
 /// How tangents are computed. Normal maps need the method that they were baked with, nearly always the default.
 ///
@@ -58,7 +59,7 @@ pub(super) fn run<O: Output>(
         Method::LengyelPerVertex => {
             summed::<2, LengyelPerVertex, O>(mesh, mode, accumulate::<2, LengyelPerVertex>, memory, corners)
         }
-        Method::Average => summed::<3, Average, O>(mesh, mode, gather, memory, corners),
+        Method::Average => summed::<3, Average, O>(mesh, mode, average, memory, corners),
         Method::Area => summed::<3, Area, O>(mesh, mode, accumulate::<3, Area>, memory, corners),
         Method::Face => face::run(mesh, mode, corners),
         Method::FromNormal => from_normal::run(mesh, mode, corners),
@@ -69,7 +70,7 @@ pub(super) fn run<O: Output>(
 fn summed<const N: usize, W: Weighting<N>, O: Output>(
     mesh: &Mesh<'_>,
     mode: Mode,
-    add_up: fn(&Flat<'_>, Sums<N>) -> Sums<N>,
+    add_up: fn(&Flat<'_>, &mut Sums<N>),
     memory: &mut Memory,
     corners: &mut [O],
 ) -> Report
@@ -77,8 +78,12 @@ where
     Memory: Keeps<N>,
 {
     let flat = Flat::new(mesh);
-    let mut sums = add_up(&flat, Sums::new(&flat, memory));
-    let report = finish::<N, W, O>(mesh, &flat, &mut sums, mode, corners);
+    let (mut sums, mut frames) = (Sums::new(&flat, memory), O::kept(memory));
+    let report = threads::on_pool(threads::count(flat.triangles().len()), || {
+        add_up(&flat, &mut sums);
+        finish::<N, W, O>(mesh, &flat, &mut sums, mode, &mut frames, corners)
+    });
     sums.keep(memory);
+    O::keep(frames, memory);
     report
 }

@@ -5,9 +5,10 @@ use std::sync::OnceLock;
 use crate::math::cosine_of_degrees;
 use crate::{Frame, Mesh};
 
-use super::fans::{Fans, PlannedFans, Width};
+use super::fans::{Fans, PlannedFans};
 use super::local::UndecidedPart;
 use super::mikktspace::{Topology, unknown};
+use super::width::Width;
 use super::{Method, Scratch, TangentOptions, Tangents, generate_tangents, run};
 
 /// What is known beforehand.

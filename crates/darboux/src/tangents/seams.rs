@@ -5,6 +5,7 @@ use crate::Mesh;
 use super::flat::Flat;
 use super::sides::Output;
 use super::sums::Orientation;
+use super::threads::{self, split};
 use super::{Report, report};
 
 /// The part of a report that does not depend on the method.
@@ -27,15 +28,21 @@ pub(super) fn survey(mesh: &Mesh<'_>, flat: &Flat<'_>) -> Report {
 }
 
 fn all_finite(values: &[f32]) -> bool {
-    // The largest exponent, as integers: a loop that runs several lanes at a time.
-    let largest = values.iter().fold(0, |largest: i32, x| largest.max((x.to_bits() & 0x7fff_ffff) as i32));
-    f32::from_bits(largest as u32).is_finite()
+    let threads = threads::count(values.len() / 8);
+    let mut found = vec![true; threads];
+    threads::run(&mut found, split(0..values.len(), threads, 1), |finite, range| {
+        // The largest exponent, as integers: a loop that runs several lanes at a time.
+        let values = values[range].iter().map(|x| (x.to_bits() & 0x7fff_ffff) as i32);
+        *finite = f32::from_bits(values.fold(0, i32::max) as u32).is_finite();
+    });
+    found.into_iter().all(|finite| finite)
 }
 
 /// For each vertex, whether faces of both orientations meet there; none when the mesh has but one.
 pub(super) fn vertices_of_both(flat: &Flat<'_>, orientation_of_face: &[Orientation]) -> Option<Vec<bool>> {
-    let has = |orientation| orientation_of_face.contains(&orientation);
-    if !has(Orientation::Keeps) || !has(Orientation::Mirrors) {
+    // All of them, as bits: a loop that runs many lanes at a time.
+    let found = orientation_of_face.iter().fold(0, |found, &orientation| found | 1u8 << orientation as u8);
+    if found & 3 != 3 {
         return None;
     }
     let mut seen = vec![0u8; flat.positions.len()];

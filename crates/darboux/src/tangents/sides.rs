@@ -9,24 +9,38 @@ use crate::math::{V3, dot, scale, sub};
 use crate::{Frame, Mesh, Mode};
 
 use super::Report;
+use super::accumulate::{Memory, Sums};
 use super::flat::Flat;
 use super::repair::{cross, direction, in_plane, mean_in_plane, perpendicular, u_direction_of, unit};
 use super::seams::{count_mirrored_edges, survey, vertices_of_both};
-use super::sums::{Orientation, Sum, Sums, Weighting, adds};
+use super::sums::{Orientation, Sum, Weighting, adds};
+use super::threads::{self, parts, split};
 
 /// What corners are given: whole frames, or tangents alone.
-pub(super) trait Output: Copy {
+pub(super) trait Output: Copy + Send + Sync {
     /// What nobody reads, or nothing reached.
     const NONE: Self;
+
+    /// Whether bitangents and magnitudes are wanted.
+    const IS_WHOLE: bool;
 
     fn from_frame(frame: &Frame) -> Self;
 
     /// Tangent xyz and sign w.
     fn tangent(&self) -> [f32; 4];
+
+    /// The memory of an earlier run, where it is kept.
+    fn kept(_memory: &mut Memory) -> [Vec<Self>; 2] {
+        Default::default()
+    }
+
+    /// Leaves memory for another run.
+    fn keep(_sides: [Vec<Self>; 2], _memory: &mut Memory) {}
 }
 
 impl Output for Frame {
     const NONE: Self = Frame { tangent: [0.0; 3], bitangent: [0.0; 3], magnitude: [0.0; 2], sign: 1.0 };
+    const IS_WHOLE: bool = true;
 
     fn from_frame(frame: &Frame) -> Self {
         *frame
@@ -39,6 +53,7 @@ impl Output for Frame {
 
 impl Output for [f32; 4] {
     const NONE: Self = [0.0, 0.0, 0.0, 1.0];
+    const IS_WHOLE: bool = false;
 
     #[inline]
     fn from_frame(frame: &Frame) -> Self {
@@ -47,6 +62,14 @@ impl Output for [f32; 4] {
 
     fn tangent(&self) -> [f32; 4] {
         *self
+    }
+
+    fn kept(memory: &mut Memory) -> [Vec<Self>; 2] {
+        std::mem::take(&mut memory.tangents_of_side)
+    }
+
+    fn keep(sides: [Vec<Self>; 2], memory: &mut Memory) {
+        memory.tangents_of_side = sides;
     }
 }
 
@@ -67,24 +90,25 @@ pub(super) fn finish<const N: usize, W: Weighting<N>, O: Output>(
     flat: &Flat<'_>,
     sums: &mut Sums<N>,
     mode: Mode,
+    frames: &mut [Vec<O>; 2],
     corners: &mut [O],
 ) -> Report {
     let mut report = survey(mesh, flat);
-    report.degenerate_triangles = sums.degenerate_triangles;
-    report.uv_degenerate_triangles = sums.uv_degenerate_triangles;
+    report.degenerate_triangles = sums.flaws.degenerate;
+    report.uv_degenerate_triangles = sums.flaws.uv_degenerate;
     if let Some(of_both) = vertices_of_both(flat, &sums.orientation_of_face) {
         report.mirrored_edges = count_mirrored_edges(flat, &sums.orientation_of_face, &of_both);
         report.merged_vertices = if W::SPLITS { 0 } else { count(&of_both) };
     }
-    let (mut frames, mut missing) = frames_of_sides::<N, W, O>(flat, sums);
+    let mut missing = frames_of_sides::<N, W, O>(flat, sums, frames);
     decide_faces::<N, W>(flat, sums, &mut missing);
     missing.sort_unstable();
     missing.dedup();
     if mode != Mode::Reference && !missing.is_empty() {
-        replace::<N, W, O>(flat, sums, &missing, &mut frames);
+        replace::<N, W, O>(flat, sums, &missing, frames);
     }
     report.repaired_corners = count_corners::<N, W>(flat, &sums.orientation_of_face, &missing);
-    to_corners::<N, W, O>(flat, &sums.orientation_of_face, &frames, corners);
+    to_corners::<N, W, O>(flat, &sums.orientation_of_face, frames, corners);
     if W::SPLITS {
         report.split_vertices =
             vertices_of_both(flat, &sums.orientation_of_face).map_or(0, |both| count(&both));
@@ -130,30 +154,45 @@ fn count_mixed_faces<O: Output>(flat: &Flat<'_>, corners: &[O]) -> usize {
     (0..flat.face_count()).filter(is_mixed).count()
 }
 
-/// The frame of every side, and the sides that have triangles but no direction.
+/// Writes the frame of every side; returns the sides that have triangles but no direction.
 fn frames_of_sides<const N: usize, W: Weighting<N>, O: Output>(
     flat: &Flat<'_>,
     sums: &Sums<N>,
-) -> ([Vec<O>; 2], Vec<Side>) {
-    let mut missing = Vec::new();
-    let frames = [0, 1].map(|side| {
-        let sign = if side == 0 { 1.0 } else { -1.0 };
-        let of_vertex = sums.of_side[side].iter().zip(flat.normals.iter()).zip(0..);
-        let frames = of_vertex.map(|((sum, normal), v)| {
-            if !is_used(sum) {
-                return O::NONE;
-            }
-            frame::<N, W>(sum, normal, sign).map_or_else(
-                || {
-                    missing.push((v, side));
-                    O::from_frame(&Frame { sign, ..Frame::NONE })
-                },
-                |frame| O::from_frame(&frame),
-            )
+    frames: &mut [Vec<O>; 2],
+) -> Vec<Side> {
+    let threads = threads::count(flat.triangles().len());
+    let mut missing = vec![Vec::new(); threads];
+    for (side, frames) in frames.iter_mut().enumerate() {
+        let sums = &sums.of_side[side];
+        frames.resize(sums.len(), O::NONE);
+        let ranges = split(0..sums.len(), threads, 1);
+        let jobs = ranges.clone().zip(parts(frames, 0, ranges));
+        threads::run(&mut missing, jobs, |missing, (range, frames)| {
+            let sums = (range.start as u32..).zip(&sums[range]);
+            frames_of_side::<N, W, O>(flat, sums, side, frames, missing);
         });
-        frames.collect()
-    });
-    (frames, missing)
+    }
+    missing.concat()
+}
+
+fn frames_of_side<'a, const N: usize, W: Weighting<N>, O: Output>(
+    flat: &Flat<'_>,
+    sums: impl Iterator<Item = (u32, &'a Sum<N>)>,
+    side: usize,
+    frames: &mut [O],
+    missing: &mut Vec<Side>,
+) {
+    let sign = if side == 0 { 1.0 } else { -1.0 };
+    for ((v, sum), out) in sums.zip(frames) {
+        *out = if !is_used(sum) {
+            O::NONE
+        } else if let Some(frame) = frame::<N, W, O>(sum, &flat.normals[v as usize], sign) {
+            O::from_frame(&frame)
+        } else {
+            missing.push((v, side));
+            O::from_frame(&Frame { sign, ..Frame::NONE })
+        };
+    }
 }
 
 fn is_used<const N: usize>(sum: &Sum<N>) -> bool {
@@ -162,7 +201,7 @@ fn is_used<const N: usize>(sum: &Sum<N>) -> bool {
 
 /// The frame that a sum makes, if its tangent has a direction in the plane of the normal.
 #[inline(always)]
-fn frame<const N: usize, W: Weighting<N>>(sum: &Sum<N>, normal: &V3, sign: f32) -> Option<Frame> {
+fn frame<const N: usize, W: Weighting<N>, O: Output>(sum: &Sum<N>, normal: &V3, sign: f32) -> Option<Frame> {
     let ([s0, s1, s2, _], [t0, t1, t2, _]) = (sum[0], sum[1]);
     let (s, t) = ([s0, s1, s2], [t0, t1, t2]);
     let mut normal = *normal;
@@ -179,6 +218,9 @@ fn frame<const N: usize, W: Weighting<N>>(sum: &Sum<N>, normal: &V3, sign: f32) 
     }
     let tangent = direction_across(s, normal, inverse)?;
     let sign = if W::SPLITS { sign } else { sign_of(normal, tangent, t) };
+    if !O::IS_WHOLE {
+        return Some(Frame { tangent, sign, ..Frame::NONE });
+    }
     let bitangent = direction_across(t, normal, inverse).unwrap_or_else(|| across(normal, tangent, sign));
     Some(Frame { tangent, bitangent, magnitude: W::magnitude(sum), sign })
 }
@@ -228,6 +270,9 @@ fn decide_faces<const N: usize, W: Weighting<N>>(
     sums: &mut Sums<N>,
     missing: &mut Vec<Side>,
 ) {
+    if sums.flaws.are_none() && flat.is_triangles() {
+        return;
+    }
     for face in 0..flat.face_count() {
         let orientation = sums.orientation_of_face[face];
         // Every corner of a triangle with an orientation has that triangle to add to its sum.
@@ -317,13 +362,21 @@ fn to_corners<const N: usize, W: Weighting<N>, O: Output>(
     frames: &[Vec<O>; 2],
     corners: &mut [O],
 ) {
-    if frames[1].is_empty() {
-        fill(corners, flat.vertex_of_corner.iter().map(|&v| frames[0][v as usize]));
-        return;
-    }
-    for (face, &orientation) in orientation_of_face.iter().enumerate() {
-        let side = &frames[side_of::<N, W>(orientation)];
-        let range = flat.corners(face);
-        fill(&mut corners[range.clone()], flat.vertex_of_corner[range].iter().map(|&v| side[v as usize]));
-    }
+    let threads = threads::count(flat.triangles().len());
+    let ranges = split(0..flat.face_count(), threads, 1);
+    let corners = parts(corners, 0, ranges.clone().map(|faces| flat.corners_of(faces)));
+    threads::run(&mut vec![(); threads], ranges.zip(corners), |(), (faces, corners)| {
+        let range = flat.corners_of(faces.clone());
+        let vertices = &flat.vertex_of_corner[range.clone()];
+        if frames[1].is_empty() {
+            fill(corners, vertices.iter().map(|&v| frames[0][v as usize]));
+            return;
+        }
+        for (face, &orientation) in faces.clone().zip(&orientation_of_face[faces]) {
+            let side = &frames[side_of::<N, W>(orientation)];
+            let own = flat.corners(face);
+            let own = own.start - range.start..own.end - range.start;
+            fill(&mut corners[own.clone()], vertices[own].iter().map(|&v| side[v as usize]));
+        }
+    });
 }

@@ -1,6 +1,6 @@
 //! Sums over the triangles around each vertex, apart for the two UV orientations.
 //!
-//! What a triangle adds is a method's business ([`Weighting`]); what becomes of the sums is in sides.rs.
+//! What a triangle adds is a method's business ([`Weighting`]); how it is added is in accumulate.rs, what becomes of the sums in sides.rs.
 
 use crate::math::{V3, length, not_zero, scale, sub};
 
@@ -96,11 +96,12 @@ pub(super) fn is_degenerate([a, b, c]: [V3; 3]) -> bool {
 }
 
 /// What the UV map does with a face's orientation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Orientation {
     Keeps = 0,
     Mirrors = 1,
     /// No UV area, no area, values that are not finite, or a face of other than 3 or 4 corners.
+    #[default]
     None = 2,
 }
 
@@ -110,130 +111,9 @@ impl Orientation {
     }
 }
 
-/// The sums of all vertices and what was met on the way.
-pub(super) struct Sums<const N: usize> {
-    /// Per orientation and vertex; none of an orientation that no triangle has, but that the first is always there.
-    pub of_side: [Vec<Sum<N>>; 2],
-    pub orientation_of_face: Vec<Orientation>,
-    pub degenerate_triangles: usize,
-    pub uv_degenerate_triangles: usize,
-}
-
-/// What sums leave behind for the next run.
-#[derive(Debug, Default)]
-pub(super) struct Memory {
-    of_two_rows: [Vec<Sum<2>>; 2],
-    of_three_rows: [Vec<Sum<3>>; 2],
-    orientation_of_face: Vec<Orientation>,
-}
-
-/// Where sums of `N` rows are kept.
-pub(super) trait Keeps<const N: usize> {
-    fn of_side(&mut self) -> &mut [Vec<Sum<N>>; 2];
-}
-
-impl Keeps<2> for Memory {
-    fn of_side(&mut self) -> &mut [Vec<Sum<2>>; 2] {
-        &mut self.of_two_rows
-    }
-}
-
-impl Keeps<3> for Memory {
-    fn of_side(&mut self) -> &mut [Vec<Sum<3>>; 2] {
-        &mut self.of_three_rows
-    }
-}
-
-impl<const N: usize> Sums<N> {
-    /// Empty sums, in the memory of earlier ones.
-    pub fn new(flat: &Flat<'_>, memory: &mut Memory) -> Self
-    where
-        Memory: Keeps<N>,
-    {
-        let mut of_side = std::mem::take(memory.of_side());
-        let mut orientation_of_face = std::mem::take(&mut memory.orientation_of_face);
-        of_side.iter_mut().for_each(Vec::clear);
-        of_side[0].resize(flat.positions.len(), [[0.0; 4]; N]);
-        orientation_of_face.clear();
-        orientation_of_face.reserve(flat.face_count());
-        Self { of_side, orientation_of_face, degenerate_triangles: 0, uv_degenerate_triangles: 0 }
-    }
-
-    /// Leaves the memory for others.
-    pub fn keep(self, memory: &mut Memory)
-    where
-        Memory: Keeps<N>,
-    {
-        *memory.of_side() = self.of_side;
-        memory.orientation_of_face = self.orientation_of_face;
-    }
-
-    /// The sums of one orientation, made when they are first asked for.
-    #[inline(always)]
-    pub fn side(&mut self, side: usize) -> &mut [Sum<N>] {
-        if self.of_side[side].is_empty() {
-            let count = self.of_side[0].len();
-            self.of_side[side].resize(count, [[0.0; 4]; N]);
-        }
-        &mut self.of_side[side]
-    }
-
-    #[cold]
-    fn count_flawed(&mut self, positions: [&V3; 3]) {
-        if is_degenerate(positions.map(|position| *position)) {
-            self.degenerate_triangles += 1;
-        } else {
-            self.uv_degenerate_triangles += 1;
-        }
-    }
-}
-
-/// Calls `add` with every triangle that has a direction: its number, its vertices, what it adds, and the side it adds to.
-#[inline(always)]
-pub(super) fn for_each_term<const N: usize, W: Weighting<N>>(
-    flat: &Flat<'_>,
-    sums: &mut Sums<N>,
-    mut add: impl FnMut(&mut Sums<N>, (usize, [u32; 3]), &Sum<N>, usize),
-) {
-    let agreed = (!flat.is_triangles()).then(|| agreed_orientations::<N, W>(flat));
-    let slices = flat.slices();
-    let mut orientations = std::mem::take(&mut sums.orientation_of_face);
-    orientations.resize(slices.triangles.len(), Orientation::None);
-    for (t, (&triangle, slot)) in slices.triangles.iter().zip(&mut orientations).enumerate() {
-        let (positions, uvs) = slices.refer(triangle);
-        let derivatives = Derivatives::new(positions, uvs);
-        let Some(term) = term::<N, W>(&derivatives) else {
-            sums.count_flawed(positions);
-            continue;
-        };
-        let own = Orientation::of(derivatives.area);
-        *slot = agreed.as_ref().map_or(own, |agreed| agreed[flat.face(t)]);
-        add(sums, (t, triangle), &term, if W::SPLITS { *slot as usize } else { 0 });
-    }
-    sums.orientation_of_face = agreed.unwrap_or(orientations);
-}
-
-/// Adds what all triangles add to sums that are empty.
-pub(super) fn accumulate<const N: usize, W: Weighting<N>>(flat: &Flat<'_>, mut sums: Sums<N>) -> Sums<N> {
-    for_each_term::<N, W>(flat, &mut sums, |sums, (_, [a, b, c]), term, side| {
-        let sums = sums.side(side);
-        accumulate_into(&mut sums[a as usize], term);
-        accumulate_into(&mut sums[b as usize], term);
-        accumulate_into(&mut sums[c as usize], term);
-    });
-    sums
-}
-
-#[inline(always)]
-pub(super) fn accumulate_into<const N: usize>(sum: &mut Sum<N>, term: &Sum<N>) {
-    for (sum, term) in sum.as_flattened_mut().iter_mut().zip(term.as_flattened()) {
-        *sum += term;
-    }
-}
-
 /// What a triangle adds; none when it adds nothing.
 #[inline(always)]
-fn term<const N: usize, W: Weighting<N>>(derivatives: &Derivatives) -> Option<Sum<N>> {
+pub(super) fn term<const N: usize, W: Weighting<N>>(derivatives: &Derivatives) -> Option<Sum<N>> {
     let term = W::term(derivatives);
     // One test for all lanes: sizes do not cancel, so their sum is finite only where all are.
     let mut sizes = 0.0;
@@ -250,21 +130,4 @@ pub(super) fn adds<const N: usize, W: Weighting<N>>(flat: &Flat<'_>, t: usize) -
     let slices = flat.slices();
     let (positions, uvs) = slices.refer(slices.triangles[t]);
     term::<N, W>(&Derivatives::new(positions, uvs)).is_some()
-}
-
-/// One orientation for each face: of the halves of a quad that add something the one with the larger UV area decides, the first
-/// on a tie.
-fn agreed_orientations<const N: usize, W: Weighting<N>>(flat: &Flat<'_>) -> Vec<Orientation> {
-    let mut deciding = vec![(Orientation::None, 0.0); flat.face_count()];
-    let slices = flat.slices();
-    for (t, &triangle) in slices.triangles.iter().enumerate() {
-        let (positions, uvs) = slices.refer(triangle);
-        let derivatives = Derivatives::new(positions, uvs);
-        let slot = &mut deciding[flat.face(t)];
-        let is_larger = slot.0 == Orientation::None || derivatives.area.abs() > slot.1;
-        if is_larger && term::<N, W>(&derivatives).is_some() {
-            *slot = (Orientation::of(derivatives.area), derivatives.area.abs());
-        }
-    }
-    deciding.into_iter().map(|(orientation, _)| orientation).collect()
 }

@@ -4,12 +4,12 @@ use std::ops::Range;
 
 use crate::Mesh;
 
-use super::WINDOW;
+use super::super::width::{Task, Width};
+use super::super::windows::WINDOW;
 use super::block::Record;
 use super::hash::{Hash, Span};
 use super::hash_set::{BitMap, Chains};
 use super::source::{RowBuffer, Rows};
-use super::width::{Task, Width};
 
 /// How many recently met vertices are looked at first.
 const RECENT: usize = if cfg!(small_limits) { 2 } else { 1 << 14 };

@@ -4,9 +4,9 @@
 
 use crate::weld::Bounds;
 
+use super::super::width::Task;
 use super::source::Rows;
 use super::weld::Refused;
-use super::width::Task;
 
 /// Hashes vertices: equal for those that are equal as floats. Notes what values they have.
 pub(super) struct Hash<'a> {

@@ -9,8 +9,8 @@ use crate::Mesh;
 use crate::topology::order_shows;
 use crate::weld::{Bounds, ByCell, CELLS, Cells, Point, for_each_final_range};
 
+use super::super::windows::windows_of;
 use super::source::{Identity, triangles};
-use super::windows_of;
 
 /// How many triangles from the end are looked at first, where triangles that share vertices are near each other in the list, and
 /// where they are not: there fewer of them have vertices that are named at the end.

@@ -6,9 +6,9 @@
 use crate::last_edges::{Edges, last_stretches};
 use crate::weld::{CELLS, Cells, Point, for_each_final_range};
 
+use super::super::windows::windows_of;
 use super::last_run::{LastEdges, LastRun};
 use super::source::triangles;
-use super::windows_of;
 
 /// The names of a mesh's vertices; the memory is kept from mesh to mesh.
 #[derive(Debug, Default)]

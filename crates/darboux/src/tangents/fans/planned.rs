@@ -2,12 +2,15 @@
 
 use crate::Mesh;
 
+use super::super::threads::{self, parts};
+use super::super::width::Width;
+use super::super::windows::{Window, overlap, shares, triangles_of};
 use super::last_run::TailCells;
 use super::source::Identity;
-use super::stream::{Stream, shares};
+use super::stream::Stream;
 use super::weld::Weld;
-use super::workers::{self, Worker, parts};
-use super::{Fans, UNDECIDED, Width, Window, triangles_of, write_pending};
+use super::workers::Worker;
+use super::{Fans, UNDECIDED, write_pending};
 
 /// What a run has found out about a mesh of triangles.
 #[derive(Debug)]
@@ -56,9 +59,9 @@ impl Fans {
         if !plan.holds(mesh) {
             return false;
         }
-        let threads = workers::threads(mesh.face_count());
+        let threads = threads::count(mesh.face_count());
         self.workers.resize_with(threads, Worker::default);
-        workers::on_pool(threads, || self.run_planned_on(plan, mesh, width, out.as_chunks_mut().0));
+        threads::on_pool(threads, || self.run_planned_on(plan, mesh, width, out.as_chunks_mut().0));
         self.workers.iter().all(|worker| worker.all_usable)
     }
 
@@ -74,15 +77,14 @@ impl Fans {
             Stream { mesh, identity, windows, tail: &TailCells::none(), signs: Some(&plan.signs), width };
         self.shares.clear();
         self.shares.extend(shares(windows, plan.weld.count, self.workers.len()));
-        let added: usize = self.shares.iter().map(|share| share.until - share.windows.start).sum();
-        if added > windows.len() * 5 / 4 {
+        if overlap(&self.shares, windows) {
             // Shares would overlap too much.
             self.shares.clear();
             self.shares.extend(shares(windows, plan.weld.count, 1));
         }
-        let ranges = self.shares.iter().map(|share| triangles_of(share.windows.clone(), mesh));
+        let ranges = self.shares.iter().map(|share| triangles_of(share.windows.clone(), mesh.face_count()));
         let jobs = self.shares.iter().zip(parts(&mut *out, 0, ranges));
-        workers::run(&mut self.workers, jobs, |worker, (share, out)| stream.run(share, worker, out));
+        threads::run(&mut self.workers, jobs, |worker, (share, out)| stream.run(share, worker, out));
         write_pending(mesh, &self.shares, &mut self.workers, identity, out);
     }
 }

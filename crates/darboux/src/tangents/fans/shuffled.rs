@@ -5,12 +5,13 @@
 
 use std::ops::Range;
 
+use super::super::threads::{self, parts, split};
+use super::super::windows::{WINDOW, triangles_of, window};
 use super::source::{rows, triangles};
 use super::steps::{Collect, Evaluate, Finish, Read, Write};
 use super::stream::Stream;
 use super::vertices::Vertex;
-use super::workers::{self, Worker, parts, split};
-use super::{WINDOW, triangles_of, window};
+use super::workers::Worker;
 
 /// Windows per thread that are added up at once.
 const WINDOWS_AT_ONCE: usize = if cfg!(small_limits) { 2 } else { 64 };
@@ -37,7 +38,7 @@ pub(super) fn run(stream: &Stream<'_>, count: usize, workers: &mut [Worker], out
 fn read(stream: &Stream<'_>, workers: &mut [Worker], vertices: &mut [Vertex], marks: &mut [u32]) {
     let ranges = split(0..vertices.len(), workers.len(), 1);
     let jobs = ranges.clone().zip(parts(vertices, 0, ranges.clone())).zip(parts(marks, 0, ranges));
-    workers::run(workers, jobs, |worker, ((range, vertices), marks)| {
+    threads::run(workers, jobs, |worker, ((range, vertices), marks)| {
         let stretches = range.step_by(WINDOW).zip(vertices.chunks_mut(WINDOW)).zip(marks.chunks_mut(WINDOW));
         for ((first, vertices), marks) in stretches {
             let rows = rows(stream.mesh, stream.identity, first..first + vertices.len(), &mut worker.rows);
@@ -54,8 +55,8 @@ fn evaluate(
     vertices: &[Vertex],
     out: &mut [[[f32; 4]; 3]],
 ) {
-    let ranges = split(triangles_of(windows, stream.mesh), workers.len(), WINDOW);
-    workers::run(workers, ranges.clone().zip(parts(out, 0, ranges)), |worker, (range, out)| {
+    let ranges = split(triangles_of(windows, stream.mesh.face_count()), workers.len(), WINDOW);
+    threads::run(workers, ranges.clone().zip(parts(out, 0, ranges)), |worker, (range, out)| {
         for (first, out) in range.step_by(WINDOW).zip(out.chunks_mut(WINDOW)) {
             let range = first..first + out.len();
             let triangles = triangles(stream.mesh, stream.identity, range, &mut worker.triangles);
@@ -75,7 +76,7 @@ fn collect(
 ) {
     let ranges = split(0..vertices.len(), workers.len(), 1);
     let jobs = ranges.clone().zip(parts(vertices, 0, ranges.clone())).zip(parts(marks, 0, ranges));
-    workers::run(workers, jobs, |worker, ((range, vertices), marks)| {
+    threads::run(workers, jobs, |worker, ((range, vertices), marks)| {
         for at in windows.clone() {
             let of_window = window(at, stream.mesh.face_count());
             let terms = &terms[of_window.clone()];
@@ -90,14 +91,14 @@ fn collect(
 fn finish(stream: &Stream<'_>, workers: &mut [Worker], vertices: &mut [Vertex], marks: &[u32]) {
     let ranges = split(0..vertices.len(), workers.len(), 1);
     let jobs = parts(vertices, 0, ranges.clone()).zip(ranges.map(|range| &marks[range]));
-    workers::run(workers, jobs, |worker, (vertices, marks)| {
+    threads::run(workers, jobs, |worker, (vertices, marks)| {
         stream.width.run(Finish { vertices, marks, unused: &mut worker.unused });
     });
 }
 
 fn write(stream: &Stream<'_>, workers: &mut [Worker], vertices: &[Vertex], out: &mut [[[f32; 4]; 3]]) {
     let ranges = split(0..out.len(), workers.len(), WINDOW);
-    workers::run(workers, ranges.clone().zip(parts(out, 0, ranges)), |worker, (range, out)| {
+    threads::run(workers, ranges.clone().zip(parts(out, 0, ranges)), |worker, (range, out)| {
         for (first, out) in range.step_by(WINDOW).zip(out.chunks_mut(WINDOW)) {
             let range = first..first + out.len();
             let triangles = triangles(stream.mesh, stream.identity, range, &mut worker.triangles);

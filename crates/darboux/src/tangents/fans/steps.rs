@@ -5,11 +5,11 @@
 use crate::math::{dot, normalized_unless_zero};
 use crate::weld::Point;
 
+use super::super::width::Task;
 use super::block::{BLOCK, Block, Fourth, marks, turns};
 use super::last_run::TailCells;
 use super::source::{Rows, Welded};
 use super::vertices::{IN_TAIL, UNDECIDED, Unused, Vertex, gather, scatter, scatter_sums};
-use super::width::Task;
 
 /// Makes vertices of rows.
 pub(super) struct Read<'a> {

@@ -4,39 +4,12 @@ use std::ops::Range;
 
 use crate::Mesh;
 
+use super::super::width::Width;
+use super::super::windows::{Share, WINDOW, Window, window};
 use super::last_run::TailCells;
 use super::source::{Identity, rows, triangles};
 use super::steps::{Add, AddTerms, Finish, FinishPlanned, Read, Write};
-use super::width::Width;
 use super::workers::Worker;
-use super::{WINDOW, Window, window};
-
-/// A part of a mesh for one thread, which shares nothing with the others while it runs.
-#[derive(Clone, Debug)]
-pub(super) struct Share {
-    /// The windows that it writes.
-    pub windows: Range<usize>,
-    /// The end of those that it adds: up to the last that uses one of its vertices. Those are added by two threads.
-    pub until: usize,
-    /// The vertices that it finishes: those met first in its windows.
-    pub vertices: Range<usize>,
-}
-
-/// The shares of `count` threads, whose windows are as many.
-pub(super) fn shares(windows: &[Window], vertices: usize, count: usize) -> impl Iterator<Item = Share> {
-    let met_before = move |window: usize| match window {
-        0 => 0,
-        _ if window == windows.len() => vertices,
-        _ => windows[window - 1].end_up_to_here as usize,
-    };
-    let share = move |at: usize| {
-        let (start, end) = (windows.len() * at / count, windows.len() * (at + 1) / count);
-        let own = met_before(start)..met_before(end);
-        let later = windows[end..].iter().take_while(|window| (window.lowest_from_here as usize) < own.end);
-        Share { windows: start..end, until: end + later.count(), vertices: own }
-    };
-    (0..count).map(share)
-}
 
 /// What all shares have in common.
 #[derive(Clone, Copy)]

@@ -7,13 +7,14 @@
 use crate::weld::Bounds;
 use crate::{Indices, Mesh};
 
-use super::WINDOW;
+use super::super::threads::{self, parts, split};
+use super::super::width::Width;
+use super::super::windows::WINDOW;
 use super::corners::{Corners, same};
 use super::hash::{Hash, Span};
 use super::hash_set::{BitMap, Chains, Crowded, mark_collisions};
 use super::source::{Identity, Rows, record};
-use super::width::Width;
-use super::workers::{self, Worker, parts, split};
+use super::workers::Worker;
 
 /// The welded vertices of a mesh; the memory is kept from mesh to mesh.
 #[derive(Debug, Default)]
@@ -87,7 +88,7 @@ impl Weld {
         self.hashes.resize(self.count, 0);
         let ranges = split(0..self.count, workers.len(), 1);
         let jobs = ranges.clone().zip(parts(&mut self.hashes, 0, ranges));
-        workers::run(workers, jobs, |worker, (range, hashes)| {
+        threads::run(workers, jobs, |worker, (range, hashes)| {
             worker.span = Span::default();
             for (first, hashes) in range.step_by(WINDOW).zip(hashes.chunks_mut(WINDOW)) {
                 let rows = Rows::new(mesh, first..first + hashes.len(), &mut worker.rows);
@@ -98,7 +99,7 @@ impl Weld {
         let ranges = split(0..self.seen.words.len(), workers.len(), 1);
         let seen = parts(&mut self.seen.words, 0, ranges.clone());
         let again = parts(&mut self.again.words, 0, ranges.clone());
-        workers::run(workers, ranges.zip(seen.zip(again)), |worker, (range, (seen, again))| {
+        threads::run(workers, ranges.zip(seen.zip(again)), |worker, (range, (seen, again))| {
             worker.collisions = mark_collisions(hashes, bits, range.start, seen, again);
         });
         self.bounds = Span::check(workers.iter().map(|worker| &worker.span))?;
@@ -138,13 +139,13 @@ impl Weld {
         self.corners.resize_with(workers.len(), Corners::default);
         let ranges = split(0..mesh.corner_count(), workers.len(), 1);
         let jobs = ranges.clone().zip(parts(&mut self.of, 0, ranges.clone())).zip(&mut self.corners);
-        workers::run(workers, jobs, |worker, ((range, of), corners)| {
+        threads::run(workers, jobs, |worker, ((range, of), corners)| {
             corners.weld(mesh, range, width, &mut worker.rows, of);
         });
         let (first, later) = self.corners.split_first_mut().expect("one for each worker");
         later.iter_mut().for_each(|later| first.absorb(later));
         let jobs = parts(&mut self.of, 0, ranges.skip(1)).zip(&*later);
-        workers::run(workers, jobs, |_, (of, later)| later.renumber(of));
+        threads::run(workers, jobs, |_, (of, later)| later.renumber(of));
         self.count = first.distinct.records.len();
         self.bounds = Span::check(self.corners.iter().map(|corners| &corners.span))?;
         if self.corners[0].distinct.refused { Err(Refused) } else { Ok(()) }

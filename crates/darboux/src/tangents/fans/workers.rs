@@ -1,7 +1,5 @@
-//! Work split among threads: every job has its own memory, and its own part of what is written.
+//! One thread's memory.
 
-#[cfg(feature = "parallel")]
-use std::cell::Cell;
 use std::ops::Range;
 
 use super::block::Block;
@@ -10,7 +8,7 @@ use super::source::RowBuffer;
 use super::steps::Special;
 use super::vertices::{Unused, Vertex};
 
-/// One thread's memory.
+/// What a thread uses again from mesh to mesh.
 #[derive(Debug, Default)]
 pub(super) struct Worker {
     pub block: Box<Block>,
@@ -55,107 +53,4 @@ impl Worker {
     pub fn vertex(&self, number: u32) -> &Vertex {
         &self.vertices[number as usize - self.first]
     }
-}
-
-/// Meshes of fewer triangles are not worth waking another thread.
-const LEAST_PER_THREAD: usize = if cfg!(small_limits) { 1 } else { 1 << 13 };
-
-/// How many threads a mesh gets: those of the current thread pool, or one without the feature `parallel`.
-pub(super) fn threads(triangles: usize) -> usize {
-    available().min(triangles / LEAST_PER_THREAD).max(1)
-}
-
-#[cfg(feature = "parallel")]
-fn available() -> usize {
-    if IS_ALONE.get() { 1 } else { rayon::current_num_threads() }
-}
-
-#[cfg(feature = "parallel")]
-thread_local! {
-    /// Within [`on_this_thread`].
-    static IS_ALONE: Cell<bool> = const { Cell::new(false) };
-}
-
-/// Does work on the calling thread alone, whatever the thread pool: for callers who have not asked for threads. Without it, the first
-/// call outside of any pool starts the threads of the global one.
-pub fn on_this_thread<R>(work: impl FnOnce() -> R) -> R {
-    #[cfg(feature = "parallel")]
-    let _until_the_end = Alone(IS_ALONE.replace(true));
-    work()
-}
-
-/// Restores what was, after a panic as well.
-#[cfg(feature = "parallel")]
-struct Alone(bool);
-
-#[cfg(feature = "parallel")]
-impl Drop for Alone {
-    fn drop(&mut self) {
-        IS_ALONE.set(self.0);
-    }
-}
-
-#[cfg(not(feature = "parallel"))]
-fn available() -> usize {
-    1
-}
-
-/// Does work for a mesh on a thread of the pool, whose others are then quick to join in: all are woken only once.
-#[cfg(feature = "parallel")]
-pub(super) fn on_pool<R: Send>(threads: usize, work: impl FnOnce() -> R + Send) -> R {
-    if threads > 1 && rayon::current_thread_index().is_none() { rayon::scope(|_| work()) } else { work() }
-}
-
-#[cfg(not(feature = "parallel"))]
-pub(super) fn on_pool<R: Send>(_threads: usize, work: impl FnOnce() -> R + Send) -> R {
-    work()
-}
-
-/// Runs `job` for every worker and its part, on all threads.
-pub(super) fn run<W: Send, P: Send>(
-    workers: &mut [W],
-    parts: impl Iterator<Item = P>,
-    job: impl Fn(&mut W, P) + Sync,
-) {
-    #[cfg(feature = "parallel")]
-    if workers.len() > 1 {
-        rayon::in_place_scope(|scope| {
-            for (worker, part) in workers.iter_mut().zip(parts) {
-                let job = &job;
-                scope.spawn(move |_| job(worker, part));
-            }
-        });
-        return;
-    }
-    for (worker, part) in workers.iter_mut().zip(parts) {
-        job(worker, part);
-    }
-}
-
-/// A range in `count` parts, of sizes that differ by one at most times `unit`.
-pub(super) fn split(
-    range: Range<usize>,
-    count: usize,
-    unit: usize,
-) -> impl Iterator<Item = Range<usize>> + Clone {
-    let units = range.len().div_ceil(unit);
-    (0..count).map(move |at| {
-        let place = |at: usize| range.start + (units * at / count * unit).min(range.len());
-        place(at)..place(at + 1)
-    })
-}
-
-/// The parts of a slice whose first element is number `first`, at consecutive ranges of such numbers.
-pub(super) fn parts<T>(
-    mut slice: &mut [T],
-    first: usize,
-    ranges: impl Iterator<Item = Range<usize>>,
-) -> impl Iterator<Item = &mut [T]> {
-    let mut at = first;
-    ranges.map(move |range| {
-        let (_, rest) = std::mem::take(&mut slice).split_at_mut(range.start - at);
-        let (part, rest) = rest.split_at_mut(range.len());
-        (slice, at) = (rest, range.end);
-        part
-    })
 }

@@ -50,7 +50,7 @@ impl Width {
     /// Runs a task at this width.
     #[cfg(target_arch = "x86_64")]
     #[expect(unsafe_code, reason = "instructions that are found at run time are called so")]
-    pub(super) fn run(self, task: impl Task) {
+    pub fn run(self, task: impl Task) {
         match self.0 {
             // SAFETY: a width is only made by `widest`, which has found these instructions, or wider ones that include them.
             WidthLimit::Bits512 => unsafe { avx512(task) },
@@ -62,7 +62,7 @@ impl Width {
 
     /// Runs a task.
     #[cfg(not(target_arch = "x86_64"))]
-    pub(super) fn run(self, task: impl Task) {
+    pub fn run(self, task: impl Task) {
         task.run();
     }
 }
