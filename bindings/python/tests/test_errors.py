@@ -8,7 +8,7 @@ from typing import Any, Dict
 import darboux
 import numpy as np
 import pytest
-from conftest import Mesh, grid
+from conftest import ROOT, Mesh, grid
 
 NAN = float("nan")
 
@@ -118,6 +118,31 @@ def test_a_sweep_of_odd_values() -> None:
                 except (ValueError, TypeError, OverflowError) as error:
                     assert "\n" not in str(error), error
     assert returned > 10
+
+
+DAMAGED = ["made/degenerate.gltf", "made/draco.glb", "made/meshopt.glb", "made/quantised-sparse.glb"]
+
+
+@pytest.mark.parametrize("model", DAMAGED)
+def test_damaged_files(model: str) -> None:
+    """Bytes replaced, cut out and doubled: an error of one sentence, or tangents."""
+    dice, whole = random.Random(2), (ROOT / "assets" / model).read_bytes()
+    refused = 0
+    for _ in range(200):
+        data = bytearray(whole)
+        for _ in range(dice.choice([1, 1, 2, 20])):
+            at = dice.randrange(len(data))
+            end = at + dice.choice([1, 1, 1, 4, 50])
+            data[at:end] = dice.choice([bytes([dice.randrange(256)]), b"", b"-1", data[at:end] * 2, b"\xff" * 4])
+        try:
+            document = darboux.loads(bytes(data))
+            document.add_tangents(overwrite=True)
+            document.inspect()
+            darboux.loads(darboux.dumps(document))
+        except ValueError as error:
+            refused += 1
+            assert "\n" not in str(error), error
+    assert 20 < refused < 200
 
 
 TRIANGLE = np.eye(3, dtype=np.float32)

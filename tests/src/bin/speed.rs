@@ -1,7 +1,7 @@
-//! Times the core on a grid of a million triangles, for bindings to other languages to be compared with.
+//! Times the core on grids of two to a million triangles, for bindings to other languages to be compared with.
 //!
-//! Writes the grid's arrays into the folder that is its argument, and prints the least time of each call in milliseconds as JSON.
-//! `RAYON_NUM_THREADS` sets the number of threads.
+//! Writes each grid's arrays into a folder of its number of triangles below the folder that is its argument, and prints the least time
+//! of each call in milliseconds as JSON. `RAYON_NUM_THREADS` sets the number of threads.
 
 use std::fs;
 use std::hint::black_box;
@@ -9,35 +9,48 @@ use std::path::Path;
 use std::time::Instant;
 
 use darboux::{Scratch, TangentOptions, Tangents, generate_tangents, generate_tangents_into, split_vertices};
-use darboux_tests::families;
+use darboux_tests::{OwnedMesh, families};
+
+/// Quads along an edge.
+const EDGES: [usize; 4] = [1, 10, 100, 707];
 
 fn main() {
-    let folder = std::env::args().nth(1).expect("a folder for the grid's arrays");
-    let mesh = families::grid(707, 707, false, false);
+    let folder = std::env::args().nth(1).expect("a folder for the grids' arrays");
+    let times = EDGES.map(|edge| {
+        let mesh = families::grid(edge, edge, false, false);
+        let triangles = 2 * edge * edge;
+        write(&Path::new(&folder).join(triangles.to_string()), &mesh);
+        format!("\"{triangles}\": {}", times(&mesh, triangles))
+    });
+    println!("{{{}}}", times.join(", "));
+}
+
+fn write(folder: &Path, mesh: &OwnedMesh) {
+    fs::create_dir_all(folder).expect("a folder that can be made");
+    let put = |name: &str, bytes: Vec<u8>| fs::write(folder.join(name), bytes).expect("a file");
+    put("positions", mesh.positions.as_flattened().iter().flat_map(|x| x.to_ne_bytes()).collect());
+    put("normals", mesh.normals.as_flattened().iter().flat_map(|x| x.to_ne_bytes()).collect());
+    put("uvs", mesh.uvs.as_flattened().iter().flat_map(|x| x.to_ne_bytes()).collect());
     let indices = mesh.indices.as_deref().expect("an indexed grid");
-    put(&folder, "positions", mesh.positions.as_flattened().iter().map(|x| x.to_bits()));
-    put(&folder, "normals", mesh.normals.as_flattened().iter().map(|x| x.to_bits()));
-    put(&folder, "uvs", mesh.uvs.as_flattened().iter().map(|x| x.to_bits()));
-    put(&folder, "indices", indices.iter().copied());
+    put("indices", indices.iter().flat_map(|index| index.to_ne_bytes()).collect());
+}
+
+fn times(mesh: &OwnedMesh, triangles: usize) -> String {
     let (view, options) = (mesh.view(), TangentOptions::default());
     let (mut scratch, mut kept) = (Scratch::new(), Tangents::default());
-    let fresh = least(|| drop(black_box(generate_tangents(&view, &options))));
-    let into = least(|| generate_tangents_into(&view, &options, &mut scratch, &mut kept));
-    let split = least(|| drop(black_box(split_vertices(&view, &kept.corners))));
-    println!("{{\"fresh\": {fresh}, \"into\": {into}, \"split\": {split}}}");
+    let calls = (100_000 / triangles).clamp(1, 1000);
+    let fresh = least(calls, || drop(black_box(generate_tangents(&view, &options))));
+    let into = least(calls, || generate_tangents_into(&view, &options, &mut scratch, &mut kept));
+    let split = least(calls, || drop(black_box(split_vertices(&view, &kept.corners))));
+    format!("{{\"fresh\": {fresh}, \"into\": {into}, \"split\": {split}}}")
 }
 
-fn put(folder: &str, name: &str, words: impl Iterator<Item = u32>) {
-    let bytes: Vec<u8> = words.flat_map(u32::to_ne_bytes).collect();
-    fs::write(Path::new(folder).join(name), bytes).expect("a folder that can be written");
-}
-
-/// The least of 15 times, in milliseconds.
-fn least(mut call: impl FnMut()) -> f64 {
+/// The least of 15 times, in milliseconds a call.
+fn least(calls: usize, mut call: impl FnMut()) -> f64 {
     let time = |_| {
         let start = Instant::now();
-        call();
-        start.elapsed().as_secs_f64() * 1000.0
+        (0..calls).for_each(|_| call());
+        start.elapsed().as_secs_f64() * 1000.0 / calls as f64
     };
     (0..15).map(time).fold(f64::INFINITY, f64::min)
 }

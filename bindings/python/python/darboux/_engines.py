@@ -25,6 +25,7 @@ class Engine(Protocol):
 
     def wait(self) -> Ended:
         """The next order that has ended."""
+        ...
 
     def __enter__(self) -> "Engine": ...
 

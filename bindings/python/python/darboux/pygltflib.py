@@ -31,4 +31,6 @@ def add_tangents(gltf: pygltflib.GLTF2, **options: Any) -> pygltflib.GLTF2:
     folder = getattr(gltf, "_path", None)
     document = loads(b"".join(gltf.save_to_bytes()), name="<GLTF2>", base=Path(folder) if folder else None)
     document.add_tangents(**options)
-    return pygltflib.GLTF2.load_from_bytes(dumps(document))
+    made = pygltflib.GLTF2.load_from_bytes(dumps(document))
+    assert made is not None
+    return made
