@@ -84,9 +84,9 @@ for (const entry of ENTRIES) {
 }
 await bundleAdapters();
 run('tsc', '-p', 'lib', '--outDir', out);
-for (const inner of ['engine', 'mesh', ...ENTRIES.map((entry) => `${entry}.scalar`)]) rmSync(join(out, `${inner}.d.ts`));
+for (const inner of ['all', 'engine', 'mesh', ...ENTRIES.map((entry) => `${entry}.scalar`)]) rmSync(join(out, `${inner}.d.ts`));
 rmSync(join(out, 'gltf'), { recursive: true });
-for (const name of [...ENTRIES, ...ADAPTERS, 'types']) {
+for (const name of [...ENTRIES, ...ADAPTERS, 'plan', 'types']) {
   const types = readFileSync(join(out, `${name}.d.ts`), 'utf8');
   writeFileSync(join(out, `${name}.d.cts`), types.replaceAll(/from '(.*)\.js'/g, "from '$1.cjs'"));
 }

@@ -1,50 +1,20 @@
 // `darboux`: everything.
 
-import { load, type Call, type Exports } from './engine.js';
-import { checkIndices, choice, degrees, floats, indexError, mesh, must, rows, whole, write, writeArrays, type Mesh } from './mesh.js';
+import { choices, engine, report, surface } from './all.js';
+import { checkIndices, choice, degrees, floats, indexError, mesh, must, rows, whole, write, writeArrays } from './mesh.js';
 import type * as types from './types.js';
-import simd from './wasm/darboux.simd.wasm';
 
+export { Plan } from './plan.js';
 export type * from './types.js';
 
-interface AllExports extends Exports {
-  generate_tangents(mode: number, threshold: number, method: number): number;
-  report(): number;
-  generate_frames(mode: number, threshold: number, method: number): number;
-  frame_bitangents(): number;
-  frame_magnitudes(): number;
-  make_plan(mode: number, threshold: number, method: number): number;
-  evaluate_plan(): number;
-  count_regrouped(): number;
-  generate_normals(shading: number, weight: number, crease: number, seams: number): number;
-  given(tangents: number): number;
-  others(tangents: number): number;
-  codes(bytes: number): number;
-  split_vertices(vertices: number): number;
-  split_tangents(): number;
-  split_indices(): number;
-  split_sources(): number;
-  measure_tangents(): number;
-  encode_tangents(form: number): number;
-  decode_tangents(form: number): number;
-}
-
 // In the order of the codes that the WebAssembly side knows.
-const MODES = ['reference', 'repaired', 'corrected'] as const;
-const METHODS = ['mikktspace', 'angle-area', 'lengyel', 'lengyel-per-vertex', 'average', 'area', 'face', 'from-normal'] as const;
 const SHADINGS = ['flat', 'smooth'] as const;
 const WEIGHTS = ['angle', 'area', 'angle-area'] as const;
 const SEAMS = ['ignored', 'respected'] as const;
-const COUNTS = [
-  'triangles', 'unsupportedFaces', 'degenerateTriangles', 'uvDegenerateTriangles', 'nonFiniteCorners', 'repairedCorners',
-  'mixedSignFaces', 'mirroredEdges', 'splitVertices', 'mergedVertices',
-] as const satisfies (keyof types.Report)[];
 const FORMS = ['snorm8', 'snorm10', 'snorm16', 'octahedral', 'diamond'] as const;
 
 /** The kind of array that each form has, and its elements per tangent. */
 const CODES = [[Int8Array, 4], [Uint32Array, 1], [Int16Array, 4], [Int16Array, 2], [Uint16Array, 1]] as const;
-
-const engine = load<AllExports>(simd, () => import('./darboux.scalar.js'));
 
 /** Resolves when the other functions may be called. */
 export const ready: Promise<void> = engine.ready;
@@ -120,95 +90,6 @@ export function generateFrames(
       report: report(exports),
     };
   });
-}
-
-/**
- * The weld, groups and subgroups of one mesh, kept to evaluate tangents again after its vertices moved (morph targets, skinning). Methods
- * other than 'mikktspace' run afresh, but for the signs. A plan has memory of its own, which goes when the plan is garbage.
- */
-export class Plan {
-  readonly #vertices: number;
-  readonly #corners: number;
-  readonly #call: Call<AllExports>;
-
-  /** The base's own tangents, 4 per corner, as {@link generateTangents} gives them. */
-  readonly base: Float32Array<ArrayBuffer>;
-
-  /** The report of the base's run. */
-  readonly report: types.Report;
-
-  /** Parameters and errors as those of {@link generateTangents}. */
-  constructor(
-    positions: Float32Array,
-    normals: Float32Array,
-    uvs: Float32Array,
-    indices?: types.Indices | null,
-    options: types.TangentOptions = {},
-  ) {
-    const given = surface(positions, normals, uvs, indices, options);
-    const chosen = choices(options);
-    this.#vertices = given.vertices;
-    this.#corners = given.corners;
-    this.#call = engine.own();
-    [this.base, this.report] = this.#call((exports) => {
-      write(exports, given);
-      const place = exports.make_plan(...chosen);
-      if (!place) throw indexError(given);
-      return [floats(exports, place, 4 * given.corners), report(exports)];
-    });
-  }
-
-  /**
-   * The tangents of the moved mesh, 4 per corner, in the base's groups and subgroups; signs stay the base's.
-   *
-   * @param positions 3 per vertex of the base. @param normals Likewise.
-   */
-  evaluate(positions: Float32Array, normals: Float32Array): Float32Array<ArrayBuffer> {
-    return this.#moved(positions, normals, (exports) => floats(exports, exports.evaluate_plan(), 4 * this.#corners));
-  }
-
-  /** How many corners a fresh run on the moved mesh would give another tangent (other bits) than {@link Plan.evaluate}. */
-  countRegrouped(positions: Float32Array, normals: Float32Array): number {
-    return this.#moved(positions, normals, (exports) => exports.count_regrouped());
-  }
-
-  #moved<R>(positions: Float32Array, normals: Float32Array, work: (exports: AllExports) => R): R {
-    const vertices = this.#vertices;
-    for (const [name, array] of [['positions', positions], ['normals', normals]] as const) {
-      const found = rows(name, array, 3);
-      if (found !== vertices) throw new RangeError(`${name} has ${found} elements but the plan has ${vertices} vertices`);
-    }
-    return this.#call((exports) => {
-      writeArrays(exports, [[positions, exports.positions(vertices)], [normals, exports.normals(vertices)]]);
-      return work(exports);
-    });
-  }
-}
-
-/** A mesh with UVs. */
-function surface(
-  positions: Float32Array,
-  normals: Float32Array,
-  uvs: Float32Array,
-  indices: types.Indices | null | undefined,
-  { faces }: types.TangentOptions,
-): Mesh {
-  return mesh(positions, [['normals', normals, 3], ['uvs', uvs, 2]], indices, faces);
-}
-
-/** Options as the WebAssembly side has them. */
-function choices(options: types.TangentOptions): [mode: number, threshold: number, method: number] {
-  const method = choice('method', options.method ?? 'mikktspace', METHODS);
-  const mode = choice('mode', options.mode ?? 'repaired', MODES);
-  const threshold = degrees('threshold', options.threshold);
-  if (method && threshold !== 180) throw new RangeError("threshold belongs to the method 'mikktspace'; leave one of them out");
-  return [mode, threshold, method];
-}
-
-/** What the last run met. */
-function report(exports: AllExports): types.Report {
-  const counts = Array.from(new Float64Array(exports.memory.buffer, exports.report() >>> 0, COUNTS.length));
-  return Object.fromEntries(COUNTS.map((name, at) => [name, counts[at]])) as unknown as types.Report;
 }
 
 /**

@@ -22,8 +22,15 @@ export interface Engine<E extends Exports> {
   /** Resolves when calls may begin. */
   ready: Promise<void>;
   call: Call<E>;
-  /** Calls to an instance of their own, which keeps its memory and goes with them. Errors: not ready yet. */
-  own(): Call<E>;
+  /** An instance for what lasts from call to call. Errors: not ready yet. */
+  own(): Own<E>;
+}
+
+/** An instance that lasts. */
+export interface Own<E extends Exports> {
+  call: Call<E>;
+  /** Whether its memory is so large, or has been so short, that another one is to be begun. */
+  isSpent(): boolean;
 }
 
 /** Compiles what build.mjs deflated. The stream is read piece by piece: `Response` would load an HTTP client in Node.js. */
@@ -70,11 +77,11 @@ export function load<E extends Exports>(
     }
   }
 
-  function own(): Call<E> {
+  function own(): Own<E> {
     shared();
     const mine = instance();
     let lost: RangeError | undefined;
-    return (work) => {
+    const call: Call<E> = (work) => {
       if (lost) throw lost;
       try {
         return work(mine);
@@ -83,6 +90,7 @@ export function load<E extends Exports>(
         throw lost ?? error;
       }
     };
+    return { call, isSpent: () => lost !== undefined || mine.memory.buffer.byteLength > KEPT };
   }
 
   const ready = start();

@@ -1,41 +1,68 @@
-//! Topology once, evaluate often. One plan per instance of the module, so that it goes when the instance goes.
+//! Topology once, evaluate often.
 
 use std::mem::take;
 
-use darboux::Plan;
+use darboux::{Mesh, Plan};
 
-use crate::room::with;
+use crate::room::{Room, Surface, with};
 use crate::tangents::options;
 
-/// Makes the plan of the mesh: where its tangents lie, or null where the mesh is not one. Choices come as those of
+/// A plan and the surface that it was made for.
+pub struct Kept {
+    plan: Plan,
+    surface: Surface,
+}
+
+/// Makes a plan of the mesh, whose surface it takes: its number, or -1 where the mesh is not one. Choices come as those of
 /// `generate_tangents`.
 #[unsafe(no_mangle)]
-pub extern "C" fn make_plan(mode: u32, threshold: f32, method: u32) -> *const f32 {
+pub extern "C" fn make_plan(mode: u32, threshold: f32, method: u32) -> i32 {
     with(|room| {
-        let Some(mesh) = room.mesh() else { return std::ptr::null() };
+        let Some(mesh) = room.mesh() else { return -1 };
         let plan = Plan::new(&mesh, &options(mode, threshold, method));
         room.tangents.report = plan.base().report;
-        room.values.plan.insert(plan).base().corners.per_corner().as_ptr().cast()
+        let kept = Kept { plan, surface: take(&mut room.surface) };
+        let plans = &mut room.values.plans;
+        let free = plans.iter().position(Option::is_none).unwrap_or(plans.len());
+        plans.resize_with(plans.len().max(free + 1), || None);
+        plans[free] = Some(kept);
+        free as i32
     })
 }
 
-/// Evaluates the plan with the positions and normals that have been written since: where the tangents lie.
+/// Where the tangents of a plan's base lie.
 #[unsafe(no_mangle)]
-pub extern "C" fn evaluate_plan() -> *const f32 {
+pub extern "C" fn plan_base(plan: usize) -> *const f32 {
+    let base = |kept: &Kept| kept.plan.base().corners.per_corner().as_ptr().cast();
+    with(|room| room.values.plans[plan].as_ref().map_or(std::ptr::null(), base))
+}
+
+/// Evaluates a plan with the positions and normals that have been written since: where the tangents lie.
+#[unsafe(no_mangle)]
+pub extern "C" fn evaluate_plan(plan: usize) -> *const f32 {
     with(|room| {
         let (mut tangents, mut scratch) = (take(&mut room.tangents), take(&mut room.scratch));
-        let (Some(mesh), Some(plan)) = (room.mesh(), &room.values.plan) else { return std::ptr::null() };
-        let evaluated = plan.evaluate_into(&mesh, &mut scratch, &mut tangents.corners);
+        moved(room, plan, |plan, mesh| plan.evaluate_into(mesh, &mut scratch, &mut tangents.corners));
         (room.tangents, room.scratch) = (tangents, scratch);
-        if evaluated.is_ok() { room.tangents.corners.per_corner().as_ptr().cast() } else { std::ptr::null() }
+        room.tangents.corners.per_corner().as_ptr().cast()
     })
 }
 
 /// How many corners a fresh run would give another tangent than [`evaluate_plan`].
 #[unsafe(no_mangle)]
-pub extern "C" fn count_regrouped() -> u32 {
-    with(|room| {
-        let plan = room.mesh().zip(room.values.plan.as_ref());
-        plan.and_then(|(mesh, plan)| plan.count_regrouped(&mesh).ok()).unwrap_or_default() as u32
-    })
+pub extern "C" fn count_regrouped(plan: usize) -> u32 {
+    let count = |room: &mut Room| moved(room, plan, |plan, mesh| plan.count_regrouped(mesh).ok());
+    with(count).flatten().unwrap_or_default() as u32
+}
+
+/// Frees a plan, whose number another may have then.
+#[unsafe(no_mangle)]
+pub extern "C" fn drop_plan(plan: usize) {
+    with(|room| room.values.plans[plan] = None);
+}
+
+/// Does something with a plan and its mesh, moved.
+fn moved<R>(room: &Room, plan: usize, use_it: impl FnOnce(&Plan, &Mesh<'_>) -> R) -> Option<R> {
+    let kept = room.values.plans[plan].as_ref()?;
+    Some(use_it(&kept.plan, &room.mesh_of(&kept.surface)?))
 }

@@ -9,14 +9,20 @@ use darboux::{Faces, Indices, Mesh, Scratch, Strided, Tangents};
 pub struct Room {
     positions: Vec<f32>,
     normals: Vec<f32>,
-    uvs: Vec<f32>,
-    indices: Vec<u32>,
-    face_sizes: Vec<u32>,
-    is_indexed: bool,
+    pub surface: Surface,
     pub tangents: Tangents,
     pub scratch: Scratch,
     #[cfg(feature = "full")]
     pub values: crate::values::Values,
+}
+
+/// What a mesh has beside places and normals of its vertices.
+#[derive(Default)]
+pub struct Surface {
+    uvs: Vec<f32>,
+    indices: Vec<u32>,
+    face_sizes: Vec<u32>,
+    is_indexed: bool,
 }
 
 thread_local! {
@@ -26,8 +32,13 @@ thread_local! {
 impl Room {
     /// The mesh, if its structure is right.
     pub fn mesh(&self) -> Option<Mesh<'_>> {
-        let (positions, normals, uvs) = (self.positions(), rows(&self.normals), rows(&self.uvs));
-        Mesh::with_faces(positions, normals, uvs, self.indices(), self.faces()).ok()
+        self.mesh_of(&self.surface)
+    }
+
+    /// As [`Room::mesh`], of another surface.
+    pub fn mesh_of<'a>(&'a self, surface: &'a Surface) -> Option<Mesh<'a>> {
+        let (positions, normals, uvs) = (self.positions(), rows(&self.normals), rows(&surface.uvs));
+        Mesh::with_faces(positions, normals, uvs, surface.indices(), surface.faces()).ok()
     }
 
     pub fn positions(&self) -> Strided<'_, 3> {
@@ -38,7 +49,9 @@ impl Room {
     pub fn normals(&self) -> &[f32] {
         &self.normals
     }
+}
 
+impl Surface {
     pub fn indices(&self) -> Indices<'_> {
         if self.is_indexed { Indices::U32(&self.indices) } else { Indices::Unindexed }
     }
@@ -62,8 +75,8 @@ pub fn with<R>(use_it: impl FnOnce(&mut Room) -> R) -> R {
 #[unsafe(no_mangle)]
 pub extern "C" fn begin() {
     with(|room| {
-        room.is_indexed = false;
-        room.face_sizes.clear();
+        room.surface.is_indexed = false;
+        room.surface.face_sizes.clear();
     });
 }
 
@@ -79,20 +92,20 @@ pub extern "C" fn normals(vertices: usize) -> *mut f32 {
 
 #[unsafe(no_mangle)]
 pub extern "C" fn uvs(vertices: usize) -> *mut f32 {
-    with(|room| sized(&mut room.uvs, 2 * vertices))
+    with(|room| sized(&mut room.surface.uvs, 2 * vertices))
 }
 
 #[unsafe(no_mangle)]
 pub extern "C" fn indices(corners: usize) -> *mut u32 {
     with(|room| {
-        room.is_indexed = true;
-        sized(&mut room.indices, corners)
+        room.surface.is_indexed = true;
+        sized(&mut room.surface.indices, corners)
     })
 }
 
 #[unsafe(no_mangle)]
 pub extern "C" fn face_sizes(faces: usize) -> *mut u32 {
-    with(|room| sized(&mut room.face_sizes, faces))
+    with(|room| sized(&mut room.surface.face_sizes, faces))
 }
 
 /// Makes an array just as long, keeping its memory: where it is.

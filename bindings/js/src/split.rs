@@ -12,7 +12,7 @@ pub extern "C" fn split_vertices(vertices: usize) -> i32 {
         // Splitting asks for numbers alone: of vertices, and of corners in one large face.
         let (nothing, uvs) = (Strided::repeated(&[0.0; 3], vertices), Strided::repeated(&[0.0; 2], vertices));
         let size = [corners.len() as u32];
-        let mesh = Mesh::with_faces(nothing, nothing, uvs, room.indices(), Faces::Mixed(&size));
+        let mesh = Mesh::with_faces(nothing, nothing, uvs, room.surface.indices(), Faces::Mixed(&size));
         let Some(split) = mesh.ok().and_then(|mesh| split(&mesh, &corners).ok()) else { return -1 };
         room.values.split = split;
         room.values.split.source_of_vertex.len() as i32

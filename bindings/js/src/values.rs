@@ -1,8 +1,9 @@
 //! What calls take and give beyond a mesh and its tangents.
 
-use darboux::{Plan, VertexSplit};
+use darboux::VertexSplit;
 
 use crate::frames::Frames;
+use crate::plan::Kept;
 use crate::room::{sized, with};
 
 #[derive(Default)]
@@ -17,7 +18,8 @@ pub struct Values {
     pub floats: Vec<f32>,
     pub split: VertexSplit,
     pub frames: Frames,
-    pub plan: Option<Plan>,
+    /// Plans, and places where others may go.
+    pub plans: Vec<Option<Kept>>,
     pub measures: Vec<f64>,
 }
 

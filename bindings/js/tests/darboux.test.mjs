@@ -2,7 +2,8 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import * as esm from 'darboux';
 import { bits, corpus, native } from './corpus.mjs';
-import { formsOf, square } from './forms.mjs';
+import { formsOf } from './forms.mjs';
+import { square } from './meshes.mjs';
 
 const forms = await formsOf('darboux');
 const METHODS = ['mikktspace', 'angle-area', 'lengyel', 'lengyel-per-vertex', 'average', 'area', 'face'];

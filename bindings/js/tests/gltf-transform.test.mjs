@@ -13,7 +13,7 @@ import { tangents as theirTangents, unweld } from '@gltf-transform/functions';
 import validator from 'gltf-validator';
 import mikktspace from 'mikktspace';
 import { tangents } from 'darboux/gltf-transform';
-import { mirrored } from './forms.mjs';
+import { mirrored } from './meshes.mjs';
 
 const root = fileURLToPath(new URL('../../..', import.meta.url));
 const silent = new Logger(Verbosity.SILENT);

@@ -5,7 +5,7 @@ import { test } from 'node:test';
 import mikktspace from 'mikktspace';
 import * as ours from 'darboux/mikktspace';
 import { corpus } from './corpus.mjs';
-import { mirrored } from './forms.mjs';
+import { mirrored } from './meshes.mjs';
 
 await ours.ready;
 

@@ -1,18 +1,67 @@
 import assert from 'node:assert/strict';
+import { setFlagsFromString } from 'node:v8';
 import { test } from 'node:test';
-import { Plan, ready } from 'darboux';
+import { runInNewContext } from 'node:vm';
 
+/** The memories of all instances. */
+const memories = [];
+const { Instance } = WebAssembly;
+WebAssembly.Instance = function (module) {
+  const instance = new Instance(module);
+  memories.push(instance.exports.memory);
+  return instance;
+};
+const { Plan, ready } = await import('darboux');
 await ready;
 
-test('10,000 plans leave no memory behind', () => {
-  const mesh = [9, 9, 6].map((length) => new Float32Array(30 * length));
-  const [positions, normals] = mesh;
-  const plans = (count) => {
-    for (let at = 0; at < count; at++) assert.equal(new Plan(...mesh).evaluate(positions, normals).length, 360);
-    return process.memoryUsage().rss;
+const mesh = [9, 9, 6].map((length) => new Float32Array(30 * length));
+const [positions, normals] = mesh;
+const plan = () => {
+  const made = new Plan(...mesh);
+  assert.equal(made.evaluate(positions, normals).length, 360);
+  return made;
+};
+
+test('10,000 plans that are disposed of leave no memory behind', () => {
+  plan().dispose();
+  const before = memories[0].buffer.byteLength;
+  for (let at = 0; at < 10_000; at++) plan().dispose();
+  assert.equal(memories[0].buffer.byteLength, before);
+  assert.equal(memories.length, 1);
+});
+
+test('nor do plans that are garbage', async () => {
+  setFlagsFromString('--expose-gc');
+  const collect = runInNewContext('gc');
+  const some = async () => {
+    for (let at = 0; at < 1000; at++) plan();
+    collect();
+    await new Promise((resolve) => setTimeout(resolve, 20));
   };
-  const some = plans(500);
-  const all = plans(10_000);
-  // What 10,000 live ones would use is 2 GB.
-  assert.ok(all - some < 300_000_000, `${some} bytes, then ${all}`);
+  await some();
+  await some();
+  const before = memories[0].buffer.byteLength;
+  for (let at = 0; at < 5; at++) await some();
+  assert.equal(memories[0].buffer.byteLength, before);
+});
+
+test('plans do not disturb each other', () => {
+  const first = plan();
+  const second = new Plan(positions.map((_, at) => at), normals.fill(1), mesh[2].map((_, at) => at * at), Uint16Array.of(0, 1, 2));
+  const before = second.evaluate(positions.map((_, at) => 2 * at), normals);
+  first.dispose();
+  first.dispose();
+  const third = plan();
+  assert.deepEqual(second.evaluate(positions.map((_, at) => 2 * at), normals), before);
+  assert.deepEqual([third.base.length, second.base.length], [360, 12]);
+  assert.throws(() => first.evaluate(positions, normals), /^Error: the plan has been disposed of; make another$/);
+});
+
+test('a mesh too large for WebAssembly takes its plan along, and the next is made', { timeout: 60_000 }, () => {
+  const kept = plan();
+  const vertices = new Float32Array(3 * 120_000_000);
+  assert.throws(() => new Plan(vertices, vertices, new Float32Array(2 * 120_000_000)), { name: 'RangeError', message: /^the mesh needs more memory / });
+  assert.throws(() => kept.evaluate(positions, normals), { name: 'RangeError', message: /^the mesh needs more memory / });
+  kept.dispose();
+  plan();
 });

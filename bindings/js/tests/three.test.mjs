@@ -6,7 +6,7 @@ import * as THREE from 'three';
 import { computeMikkTSpaceTangents } from 'three/addons/utils/BufferGeometryUtils.js';
 import { generateTangents as theirs } from 'three/addons/libs/mikktspace.module.js';
 import * as darboux from 'darboux/three';
-import { mirrored } from './forms.mjs';
+import { mirrored } from './meshes.mjs';
 
 const { computeTangents, ready } = darboux;
 await ready;

@@ -1,0 +1,82 @@
+// The package in headless Chromium, at the path in CHROMIUM or where Debian has it.
+
+import assert from 'node:assert/strict';
+import { existsSync } from 'node:fs';
+import { after, before, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { build } from 'esbuild';
+import { chromium } from 'playwright-core';
+import { corpus, native } from './corpus.mjs';
+
+const executablePath = process.env.CHROMIUM ?? '/usr/bin/chromium';
+const skip = existsSync(executablePath) ? false : `there is no Chromium at ${executablePath}`;
+const args = ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+
+let browser;
+let page;
+const faults = [];
+
+before(async () => {
+  if (skip) return;
+  const entryPoints = [fileURLToPath(new URL('browser/page.mjs', import.meta.url))];
+  const { outputFiles } = await build({ entryPoints, bundle: true, splitting: true, external: ['node:*'], format: 'esm', outdir: '/', write: false, logLevel: 'error' });
+  const files = new Map(outputFiles.map(({ path, text }) => [path, text]));
+  browser = await chromium.launch({ executablePath, args });
+  page = await browser.newPage();
+  page.on('pageerror', (error) => faults.push(error.message));
+  await page.route('http://localhost/**', (route) => {
+    const body = files.get(new URL(route.request().url()).pathname);
+    return body ? route.fulfill({ body, contentType: 'text/javascript' }) : route.fulfill({ body: '<!doctype html>', contentType: 'text/html' });
+  });
+  await page.goto('http://localhost/');
+  await page.evaluate(async () => {
+    globalThis.tested = await import('/page.js');
+    await tested.ready;
+  });
+});
+
+after(() => browser?.close());
+
+test('the corpus has the bits of the native library', { skip }, async () => {
+  const meshes = corpus.map(({ arrays, options }) => [arrays.map((array) => Array.from(new Uint32Array(array.buffer))), { ...options, faces: Array.from(options.faces) }]);
+  const found = await page.evaluate((meshes) => meshes.map(([[positions, normals, uvs, indices], options]) => {
+    const floats = [positions, normals, uvs].map((words) => new Float32Array(Uint32Array.from(words).buffer));
+    const tangents = tested.generateTangents(...floats, Uint32Array.from(indices), { ...options, faces: Uint32Array.from(options.faces) });
+    return Array.from(new Uint32Array(tangents.buffer));
+  }), meshes);
+  for (const [at, { name, answer }] of corpus.entries()) {
+    assert.deepEqual(native(found[at]), native(answer.tangents), name);
+  }
+});
+
+test('mirrored squares are lit alike with tangents of every adapter and with derivatives', { skip }, async () => {
+  const names = await page.evaluate(() => Object.keys(tested.mirroredSquares));
+  assert.equal(names.length, 7);
+  for (const name of names) {
+    const { left, right, takesTangents } = await page.evaluate((name) => tested.mirroredSquares[name](), name);
+    // The texel says 0.6 along u, which mirrors, and 0.48 up the image.
+    const up = name.endsWith('v up') ? 0.48 : -0.48;
+    const isClose = (found, expected) => found.every((x, at) => Math.abs(x - expected[at]) < 0.02);
+    assert.ok(isClose(left, [-0.6, up, 0.64]), `${name}, left: ${left}`);
+    assert.ok(isClose(right, [0.6, up, 0.64]), `${name}, right: ${right}`);
+    assert.equal(takesTangents, !name.startsWith('derivatives'), name);
+  }
+});
+
+test('MeshStandardMaterial uses the tangents, not derivatives', { skip }, async () => {
+  const found = await page.evaluate(() => tested.standardMaterial());
+  assert.deepEqual(found.takesTangents, [false, true, true]);
+  assert.ok(found.fromDerivatives > found.drawn / 10, JSON.stringify(found));
+  assert.ok(found.fromTurned > found.drawn / 2, JSON.stringify(found));
+});
+
+test('200 plans live side by side', { skip }, async () => {
+  const length = await page.evaluate(() => {
+    const mesh = [9, 9, 6].map((length) => new Float32Array(length));
+    const plans = Array.from({ length: 200 }, () => new tested.Plan(...mesh));
+    return plans.reduce((sum, plan) => sum + plan.evaluate(mesh[0], mesh[1]).length, 0);
+  });
+  assert.equal(length, 2400);
+});
+
+test('nothing failed unheard', { skip }, () => assert.deepEqual(faults, []));

@@ -1,0 +1,128 @@
+// What tests/browser.test.mjs runs in the page.
+
+import { Document, WebIO } from '@gltf-transform/core';
+import * as darboux from 'darboux';
+import { tangents } from 'darboux/gltf-transform';
+import * as mikktspace from 'darboux/mikktspace';
+import { computeTangents } from 'darboux/three';
+import * as THREE from 'three';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { computeMikkTSpaceTangents } from 'three/addons/utils/BufferGeometryUtils.js';
+import { mirrored } from '../meshes.mjs';
+
+export { generateTangents, ready } from 'darboux/tangents';
+export const { Plan } = darboux;
+
+const SIZE = 64;
+
+/** What every texel of the normal map says, three's way: x 0.6, y 0.48, z 0.64. */
+const TEXEL = [0.6, 0.48, 0.64].map((x) => Math.round(255 * (x / 2 + 0.5)));
+
+function geometry([positions, normals, uvs, indices]) {
+  const result = new THREE.BufferGeometry().setIndex(new THREE.BufferAttribute(indices, 1));
+  result.setAttribute('position', new THREE.BufferAttribute(positions, 3));
+  result.setAttribute('normal', new THREE.BufferAttribute(normals, 3));
+  return result.setAttribute('uv', new THREE.BufferAttribute(uvs, 2));
+}
+
+function normalMap() {
+  const texture = new THREE.DataTexture(Uint8Array.of(...TEXEL, 255), 1, 1);
+  texture.needsUpdate = true;
+  return texture;
+}
+
+let renderer;
+
+/** The pixels of a geometry seen from the front, and whether its shader takes tangents. */
+function render(geometry, material) {
+  renderer ??= new THREE.WebGLRenderer({ antialias: false });
+  const scene = new THREE.Scene().add(new THREE.Mesh(geometry, material));
+  const light = new THREE.DirectionalLight(0xffffff, 3);
+  light.position.set(1, 1, 1);
+  scene.add(light);
+  const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0, 10);
+  camera.position.z = 5;
+  const target = new THREE.WebGLRenderTarget(SIZE, SIZE);
+  renderer.setRenderTarget(target);
+  renderer.render(scene, camera);
+  const pixels = new Uint8Array(4 * SIZE * SIZE);
+  renderer.readRenderTargetPixels(target, 0, 0, SIZE, SIZE, pixels);
+  const gl = renderer.getContext();
+  const { vertexShader } = renderer.properties.get(material).currentProgram;
+  return { pixels, takesTangents: gl.getShaderSource(vertexShader).includes('#define USE_TANGENT') };
+}
+
+/** The normals that are drawn left and right of the seam, and whether the shader takes tangents. */
+function sides(geometry, normalScale = [1, 1]) {
+  const material = new THREE.MeshNormalMaterial({ normalMap: normalMap(), normalScale: new THREE.Vector2(...normalScale) });
+  const { pixels, takesTangents } = render(geometry, material);
+  const at = (x, y) => Array.from(pixels.subarray(4 * (SIZE * y + x)).subarray(0, 3), (code) => code / 127.5 - 1);
+  return { left: at(SIZE / 4, (3 * SIZE) / 4), right: at((3 * SIZE) / 4, (3 * SIZE) / 4), takesTangents };
+}
+
+/** The mirrored squares with the tangents of each adapter. */
+export const mirroredSquares = {
+  async 'darboux/three, v down'() {
+    return sides(computeTangents(geometry(mirrored())));
+  },
+  async 'darboux/three, v up'() {
+    return sides(computeTangents(geometry(mirrored()), { negateSign: false }));
+  },
+  async 'darboux/mikktspace in three.js, v down'() {
+    return sides(computeMikkTSpaceTangents(geometry(mirrored()), mikktspace));
+  },
+  async 'darboux/mikktspace, v up'() {
+    const unindexed = geometry(mirrored()).toNonIndexed();
+    const arrays = ['position', 'normal', 'uv'].map((name) => unindexed.getAttribute(name).array);
+    return sides(unindexed.setAttribute('tangent', new THREE.BufferAttribute(mikktspace.generateTangents(...arrays), 4)));
+  },
+  async 'darboux/gltf-transform, v down'() {
+    const { geometry, material } = await loaded(await glb([tangents()]));
+    return sides(geometry, material.normalScale.toArray());
+  },
+  async 'derivatives, v down'() {
+    const { geometry, material } = await loaded(await glb([]));
+    return sides(geometry, material.normalScale.toArray());
+  },
+  async 'derivatives, v up'() {
+    return sides(geometry(mirrored()));
+  },
+};
+
+/** A file with the mirrored squares. */
+async function glb(transforms) {
+  const document = new Document();
+  const buffer = document.createBuffer();
+  const accessor = (type, array) => document.createAccessor().setBuffer(buffer).setType(type).setArray(array);
+  const [positions, normals, uvs, indices] = mirrored();
+  const primitive = document.createPrimitive().setIndices(accessor('SCALAR', indices));
+  primitive.setAttribute('POSITION', accessor('VEC3', positions)).setAttribute('NORMAL', accessor('VEC3', normals));
+  primitive.setAttribute('TEXCOORD_0', accessor('VEC2', uvs)).setMaterial(document.createMaterial());
+  document.createScene().addChild(document.createNode().setMesh(document.createMesh().addPrimitive(primitive)));
+  await document.transform(...transforms);
+  return new WebIO().writeBinary(document);
+}
+
+async function loaded(bytes) {
+  const { scene } = await new GLTFLoader().parseAsync(bytes.buffer, '');
+  return scene.getObjectByProperty('isMesh', true);
+}
+
+/** How many pixels of a coarse sphere with a normal map differ from those that derivatives give, and from those of turned tangents. */
+export function standardMaterial() {
+  const sphere = () => new THREE.SphereGeometry(0.9, 12, 8);
+  const turned = computeTangents(sphere(), { negateSign: false });
+  const { array } = turned.getAttribute('tangent');
+  for (let at = 0; at < array.length; at += 4) array.subarray(at, at + 3).forEach((x, i) => (array[at + i] = -x));
+  const pictures = [sphere(), computeTangents(sphere(), { negateSign: false }), turned].map((geometry) =>
+    render(geometry, new THREE.MeshStandardMaterial({ normalMap: normalMap(), roughness: 0.4 })),
+  );
+  const [derivatives, ours, other] = pictures.map(({ pixels }) => pixels);
+  const differing = (a, b) => Array.from({ length: SIZE * SIZE }, (_, at) => 4 * at).filter((at) => [0, 1, 2].some((i) => Math.abs(a[at + i] - b[at + i]) > 8)).length;
+  return {
+    drawn: ours.filter((code, at) => at % 4 === 3 && code).length,
+    fromDerivatives: differing(ours, derivatives),
+    fromTurned: differing(ours, other),
+    takesTangents: pictures.map(({ takesTangents }) => takesTangents),
+  };
+}
