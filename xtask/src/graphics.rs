@@ -1,8 +1,8 @@
-//! What the tests of shaders need beside Rust: a Vulkan adapter in software, and a compiler of HLSL.
+//! What tests of shaders and pages need beside Rust: a Vulkan adapter in software, a compiler of HLSL, a browser.
 
 use crate::run::{Outcome, program, run, works};
 
-const PACKAGES: &str = "glslang-tools libvulkan1 mesa-vulkan-drivers";
+const PACKAGES: &str = "chromium glslang-tools libvulkan1 mesa-vulkan-drivers";
 
 /// In continuous integration, installs what is missing (Debian and Ubuntu, as root). Elsewhere the tests say what they skip.
 pub fn install() -> Outcome {
