@@ -24,6 +24,7 @@
     reason = "where NaN must take a branch, the negated comparison is the statement"
 )]
 
+mod cancel;
 mod convention;
 pub mod encode;
 mod frame;
@@ -41,6 +42,7 @@ mod transform;
 mod triangles;
 mod weld;
 
+pub use cancel::Cancel;
 pub use convention::{
     Axes, Axis, BitangentDirection, Convention, ConventionError, Conversion, Handedness, SignRule,
     TangentDirection, UvOrigin, Winding,

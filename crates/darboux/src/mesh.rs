@@ -397,6 +397,8 @@ pub enum MeshError {
         /// The number found.
         found: usize,
     },
+    /// The caller asked for the run to stop.
+    Cancelled,
 }
 
 impl fmt::Display for MeshError {
@@ -427,6 +429,7 @@ impl fmt::Display for MeshError {
             MeshError::TooManyVertices { vertices, limit } => {
                 write!(f, "{vertices} vertices are too many: the limit is {limit}; split the mesh")
             }
+            MeshError::Cancelled => f.write_str("the run was cancelled; what it has written is not complete"),
             MeshError::OtherMesh { what, expected, found } => write!(
                 f,
                 "{found} {what} where the mesh has {expected}; pass what was computed from this mesh"

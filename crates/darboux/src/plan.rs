@@ -50,7 +50,8 @@ impl Plan {
         self.write_tangents(mesh, scratch, &mut out.0)
     }
 
-    /// As [`Plan::evaluate_into`], into an array of the caller's: one tangent per corner. Errors: also an array of another length.
+    /// As [`Plan::evaluate_into`], into an array of the caller's: one tangent per corner. Errors: also an array of another length, and a run
+    /// that was [cancelled](Scratch::cancel_by).
     pub fn write_tangents(
         &self,
         mesh: &Mesh<'_>,
@@ -62,7 +63,7 @@ impl Plan {
         expect("corners", base.len(), corners.len())?;
         expect("vertices", self.vertex_count, mesh.vertex_count())?;
         self.planned.evaluate(mesh, (&self.options, base), scratch, corners);
-        Ok(())
+        if scratch.is_cancelled() { Err(MeshError::Cancelled) } else { Ok(()) }
     }
 
     /// How many corners a fresh run on the moved mesh would give another tangent (other bits) than [`Plan::evaluate`].

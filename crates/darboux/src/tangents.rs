@@ -39,7 +39,7 @@ mod windows;
 
 use crate::math::cosine_of_degrees;
 use crate::split::expect;
-use crate::{CornerFrames, CornerTangents, Frame, Mesh, MeshError};
+use crate::{Cancel, CornerFrames, CornerTangents, Frame, Mesh, MeshError};
 
 use accumulate::Memory;
 use fans::Fans;
@@ -105,12 +105,23 @@ pub struct Scratch {
     fans: Fans,
     sums: Memory,
     width_limit: WidthLimit,
+    cancel: Cancel,
 }
 
 impl Scratch {
     /// An empty one; it grows to what the largest mesh needs.
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// Lets `cancel` stop the runs of [`write_tangents`] and [`Plan::write_tangents`](crate::Plan::write_tangents), the calls that can
+    /// say so.
+    pub fn cancel_by(&mut self, cancel: &Cancel) {
+        self.cancel = cancel.clone();
+    }
+
+    pub(crate) fn is_cancelled(&self) -> bool {
+        self.cancel.is_cancelled()
     }
 
     /// One whose runs use no wider vector instructions than `limit`. The width never shows in a result: this is for comparing.
@@ -135,12 +146,13 @@ pub fn generate_tangents_into(
     out: &mut Tangents,
 ) {
     out.corners.0.resize(mesh.corner_count(), [0.0; 4]);
-    out.report = run(mesh, options, scratch, &mut out.corners.0);
+    out.report = run(mesh, options, &Cancel::new(), scratch, &mut out.corners.0);
 }
 
 /// As [`generate_tangents_into`], into an array of the caller's, for bindings and buffers that are not a `Vec`.
 ///
-/// `corners`: receives one tangent per corner, in corner order, which is not vertex order. Errors: an array of another length.
+/// `corners`: receives one tangent per corner, in corner order, which is not vertex order. Errors: an array of another length; a run that
+/// was [cancelled](Scratch::cancel_by), which leaves anything in `corners`.
 pub fn write_tangents(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
@@ -148,22 +160,30 @@ pub fn write_tangents(
     corners: &mut [[f32; 4]],
 ) -> Result<Report, MeshError> {
     expect("corners", mesh.corner_count(), corners.len())?;
-    Ok(run(mesh, options, scratch, corners))
+    let cancel = scratch.cancel.clone();
+    let report = run(mesh, options, &cancel, scratch, corners);
+    if cancel.is_cancelled() { Err(MeshError::Cancelled) } else { Ok(report) }
 }
 
-fn run(mesh: &Mesh<'_>, options: &TangentOptions, scratch: &mut Scratch, out: &mut [[f32; 4]]) -> Report {
+fn run(
+    mesh: &Mesh<'_>,
+    options: &TangentOptions,
+    cancel: &Cancel,
+    scratch: &mut Scratch,
+    out: &mut [[f32; 4]],
+) -> Report {
     let width = Width::widest(scratch.width_limit);
     let applies = options.method == Method::MikkTSpace && cosine_of_degrees(options.threshold) == -1.0;
     if applies && scratch.fans.run(mesh, options.mode, width, out) {
-        local::decide(mesh, options, &scratch.fans, out)
+        local::decide(mesh, options, &scratch.fans, cancel, out)
     } else {
-        method::run(mesh, options, &mut scratch.sums, out)
+        method::run(mesh, options, cancel, &mut scratch.sums, out)
     }
 }
 
 /// Computes the whole frame of every corner: tangent, bitangent, magnitudes, sign.
 pub fn generate_frames(mesh: &Mesh<'_>, options: &TangentOptions) -> Frames {
     let mut corners = vec![Frame::NONE; mesh.corner_count()];
-    let report = method::run(mesh, options, &mut Memory::default(), &mut corners);
+    let report = method::run(mesh, options, &Cancel::new(), &mut Memory::default(), &mut corners);
     Frames { corners: CornerFrames(corners), report }
 }

@@ -1,7 +1,7 @@
 //! Tangents that another machine began, for `darboux-gpu`. Not part of the API.
 
 use crate::math::cosine_of_degrees;
-use crate::{Mesh, Report, TangentOptions};
+use crate::{Cancel, Mesh, Report, TangentOptions};
 
 use super::fans::Fans;
 use super::local;
@@ -23,7 +23,7 @@ pub fn complete(
     let mut fans = Fans::default();
     fans.resume(mesh, options.mode, welded, out);
     let left = out.iter().filter(|corner| corner[3] == UNDECIDED).count();
-    (local::decide(mesh, options, &fans, out), left)
+    (local::decide(mesh, options, &fans, &Cancel::new(), out), left)
 }
 
 /// The cosine above which directions are nearer than the threshold.

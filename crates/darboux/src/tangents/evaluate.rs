@@ -9,6 +9,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::rc::Rc;
 
+use crate::Cancel;
 use crate::Frame;
 use crate::math::{V3, add, angle, direction_in_plane, dot, equal, normalized_unless_zero, scale, sub};
 use crate::triangles::Triangles;
@@ -47,6 +48,12 @@ impl Values {
     }
 }
 
+/// How groups are evaluated. Each member of a group that the threshold splits may look at all others, so a stop is heard between them.
+pub(crate) struct How<'a> {
+    pub threshold_cosine: f32,
+    pub cancel: &'a Cancel,
+}
+
 /// The frame of every corner, and what is needed to repair the unusable ones.
 #[derive(Debug)]
 pub(crate) struct RawFrames {
@@ -62,7 +69,7 @@ pub(crate) struct RawFrames {
 pub(crate) fn evaluate(
     triangles: &Triangles,
     groups: &Groups,
-    threshold_cosine: f32,
+    how: &How<'_>,
     (membership, values): (&Values, &Values),
     shape: &Shape<'_>,
     known: Vec<Frame>,
@@ -77,9 +84,12 @@ pub(crate) fn evaluate(
         of_corner: known,
         mean_of_corner: HashMap::new(),
     };
-    let mut subgroups = Subgroups::new(threshold_cosine);
+    let mut subgroups = Subgroups::new(how.threshold_cosine);
     let mut sorted = Vec::new();
     for group in 0..groups.len() {
+        if how.cancel.is_cancelled() {
+            break;
+        }
         let members = groups.members(group);
         sorted.clear();
         sorted.extend_from_slice(members);
@@ -91,7 +101,7 @@ pub(crate) fn evaluate(
             let subgroup = evaluator.subgroup(&[], sign);
             members.iter().for_each(|&member| evaluator.write(member, &subgroup));
         } else {
-            evaluator.write_split_group(members, &sorted, &mut subgroups, sign);
+            evaluator.write_split_group(members, &sorted, &mut subgroups, sign, how.cancel);
         }
     }
     RawFrames { of_corner: evaluator.of_corner, mean_of_corner: evaluator.mean_of_corner }
@@ -139,12 +149,19 @@ impl Evaluator<'_> {
 
     /// Evaluates each member's own subgroup. The order of writes shows where both halves of a quad are members and their frames
     /// differ in the sign of a zero only.
-    fn write_split_group(&mut self, members: &[u32], sorted: &[u32], subgroups: &mut Subgroups, sign: f32) {
+    fn write_split_group(
+        &mut self,
+        members: &[u32],
+        sorted: &[u32],
+        subgroups: &mut Subgroups,
+        sign: f32,
+        cancel: &Cancel,
+    ) {
         self.running.find_stretches();
         let mut of_members: HashMap<usize, Rc<Subgroup>> = HashMap::new();
         let mut of_left_out: HashMap<Vec<Range<usize>>, Rc<Subgroup>> = HashMap::new();
         let (mut left_out, mut bytes) = (Vec::new(), 0);
-        for &member in members {
+        for &member in members.iter().take_while(|_| !cancel.is_cancelled()) {
             let at = subgroups.first_alike(sorted.partition_point(|&other| other < member));
             if let Some(subgroup) = of_members.get(&at) {
                 self.write(member, subgroup);

@@ -1,6 +1,6 @@
 //! The general path for part of a mesh: the vertices that whole fans leave undecided, with all triangles around them.
 
-use crate::{Frame, Mesh};
+use crate::{Cancel, Frame, Mesh};
 
 use super::evaluate::DEFAULT_FRAME;
 use super::fans::{Fans, UNDECIDED};
@@ -46,17 +46,17 @@ impl UndecidedPart {
     }
 
     /// Writes the tangents of the undecided vertices; `out` has those of all others. Returns the report of the part.
-    pub fn decide(&self, mesh: &Mesh<'_>, out: &mut [[f32; 4]]) -> Report {
+    pub fn decide(&self, mesh: &Mesh<'_>, cancel: &Cancel, out: &mut [[f32; 4]]) -> Report {
         let part = mesh.with_triangles(&self.indices);
-        let (frames, report) = self.topology.frames_of_part(&part, self.known(out));
+        let (frames, report) = self.topology.frames_of_part(&part, self.known(out), cancel);
         self.write(&frames, out);
         report
     }
 
     /// As [`UndecidedPart::decide`] for a mesh whose vertices have moved since, with the signs of `base`.
-    pub fn decide_moved(&self, mesh: &Mesh<'_>, base: &[[f32; 4]], out: &mut [[f32; 4]]) {
+    pub fn decide_moved(&self, mesh: &Mesh<'_>, base: &[[f32; 4]], cancel: &Cancel, out: &mut [[f32; 4]]) {
         let part = mesh.with_triangles(&self.indices);
-        let (frames, _) = self.topology.frames_of_moved(&part, self.known(out));
+        let (frames, _) = self.topology.frames_of_moved(&part, self.known(out), cancel);
         self.write(&frames, out);
         for corner in self.corners.iter().map(|&corner| corner as usize) {
             out[corner][3] = base[corner][3];
@@ -82,9 +82,15 @@ impl UndecidedPart {
 }
 
 /// Decides the undecided vertices in `out`, which has the tangents of all others, and makes the report of the whole mesh.
-pub(super) fn decide(mesh: &Mesh<'_>, options: &TangentOptions, fans: &Fans, out: &mut [[f32; 4]]) -> Report {
+pub(super) fn decide(
+    mesh: &Mesh<'_>,
+    options: &TangentOptions,
+    fans: &Fans,
+    cancel: &Cancel,
+    out: &mut [[f32; 4]],
+) -> Report {
     let part = UndecidedPart::new(mesh, options, fans, out);
-    let report = part.map(|part| part.decide(mesh, out)).unwrap_or_default();
+    let report = part.map(|part| part.decide(mesh, cancel, out)).unwrap_or_default();
     Report { triangles: mesh.face_count(), ..report }
 }
 

@@ -1,6 +1,6 @@
 //! The choice of a method, and where it leads.
 
-use crate::{Mesh, Mode};
+use crate::{Cancel, Mesh, Mode};
 
 use super::accumulate::{Keeps, Memory, Sums, accumulate};
 use super::area::Area;
@@ -44,13 +44,14 @@ pub enum Method {
 pub(super) fn run<O: Output>(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
+    cancel: &Cancel,
     memory: &mut Memory,
     corners: &mut [O],
 ) -> Report {
     let mode = options.mode;
     match options.method {
         Method::MikkTSpace => {
-            let (frames, report) = mikktspace::Topology::new(mesh, options).frames(mesh);
+            let (frames, report) = mikktspace::Topology::new(mesh, options).frames(mesh, cancel);
             fill(corners, frames.iter().map(O::from_frame));
             report
         }

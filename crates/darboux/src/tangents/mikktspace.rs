@@ -5,11 +5,11 @@
 use crate::math::cosine_of_degrees;
 use crate::topology::{EdgeOrder, NONE, match_again, neighbours};
 use crate::triangles::{Triangles, Triangulation, triangulate, triangulate_welded};
-use crate::{Frame, Mesh};
+use crate::{Cancel, Frame, Mesh};
 
 use super::degenerate::fill_degenerate;
 use super::derivatives::{Derivative, agree_in_quads, derivatives};
-use super::evaluate::{DEFAULT_FRAME, RawFrames, Values, evaluate};
+use super::evaluate::{DEFAULT_FRAME, How, RawFrames, Values, evaluate};
 use super::groups::{Groups, group};
 use super::repair::{is_usable, repair};
 use super::shape::Shape;
@@ -83,24 +83,34 @@ impl Topology {
     }
 
     /// The frames of the mesh that was welded and grouped.
-    pub fn frames(&self, mesh: &Mesh<'_>) -> (Vec<Frame>, Report) {
-        self.frames_of_part(mesh, unknown(mesh))
+    pub fn frames(&self, mesh: &Mesh<'_>, cancel: &Cancel) -> (Vec<Frame>, Report) {
+        self.frames_of_part(mesh, unknown(mesh), cancel)
     }
 
     /// As [`Topology::frames`], where corners of no group keep what they have in `known`.
-    pub fn frames_of_part(&self, mesh: &Mesh<'_>, known: Vec<Frame>) -> (Vec<Frame>, Report) {
-        self.finish(mesh, &self.base, &Shape::welded(mesh), known)
+    pub fn frames_of_part(
+        &self,
+        mesh: &Mesh<'_>,
+        known: Vec<Frame>,
+        cancel: &Cancel,
+    ) -> (Vec<Frame>, Report) {
+        self.finish(mesh, &self.base, &Shape::welded(mesh), known, cancel)
     }
 
     /// As [`Topology::frames_of_part`] for a mesh whose vertices have moved since.
-    pub fn frames_of_moved(&self, mesh: &Mesh<'_>, known: Vec<Frame>) -> (Vec<Frame>, Report) {
+    pub fn frames_of_moved(
+        &self,
+        mesh: &Mesh<'_>,
+        known: Vec<Frame>,
+        cancel: &Cancel,
+    ) -> (Vec<Frame>, Report) {
         let shape = Shape::moved(mesh);
         let good = &self.triangulation.good;
         let mut moved = derivatives(good, &shape);
         for (moved, base) in moved.iter_mut().zip(&self.base.derivatives) {
             (moved.preserves, moved.any) = (base.preserves, base.any);
         }
-        self.finish(mesh, &Values::new(good, &self.groups, moved, &shape), &shape, known)
+        self.finish(mesh, &Values::new(good, &self.groups, moved, &shape), &shape, known, cancel)
     }
 
     fn finish(
@@ -109,9 +119,11 @@ impl Topology {
         values: &Values,
         shape: &Shape<'_>,
         known: Vec<Frame>,
+        cancel: &Cancel,
     ) -> (Vec<Frame>, Report) {
         let good = &self.triangulation.good;
-        let mut raw = evaluate(good, &self.groups, self.threshold_cosine, (&self.base, values), shape, known);
+        let how = How { threshold_cosine: self.threshold_cosine, cancel };
+        let mut raw = evaluate(good, &self.groups, &how, (&self.base, values), shape, known);
         let copied = fill_degenerate(&self.triangulation, shape, &mut raw);
         let mut report = self.report(mesh);
         let mixed = mixed_faces(mesh, &raw.of_corner);

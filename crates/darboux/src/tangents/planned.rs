@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use crate::math::cosine_of_degrees;
-use crate::{Frame, Mesh};
+use crate::{Cancel, Frame, Mesh};
 
 use super::fans::{Fans, PlannedFans};
 use super::local::UndecidedPart;
@@ -43,14 +43,14 @@ impl Planned {
         let applies = cosine_of_degrees(options.threshold) == -1.0;
         if !applies || !fans.run(mesh, options.mode, width, &mut base.corners.0) {
             let topology = Topology::new(mesh, options);
-            let (frames, report) = topology.frames(mesh);
+            let (frames, report) = topology.frames(mesh, &Cancel::new());
             write(&frames, &mut base.corners.0);
             return (Self::Stages(Box::new(topology)), Tangents { report, ..base });
         }
         let undecided = UndecidedPart::new(mesh, options, &fans, &base.corners.0);
         let fans = PlannedFans::new(mesh, fans, &base.corners.0);
         if let Some(part) = &undecided {
-            base.report = part.decide(mesh, &mut base.corners.0);
+            base.report = part.decide(mesh, &Cancel::new(), &mut base.corners.0);
         }
         base.report.triangles = mesh.face_count();
         let mesh = MeshCopy::new(mesh);
@@ -68,9 +68,12 @@ impl Planned {
         let (options, signs) = base;
         match self {
             Self::Fans(decided) => return decided.evaluate(mesh, base, scratch, out),
-            Self::Stages(topology) => write(&topology.frames_of_moved(mesh, unknown(mesh)).0, out),
+            Self::Stages(topology) => {
+                write(&topology.frames_of_moved(mesh, unknown(mesh), &scratch.cancel).0, out)
+            }
             Self::Nothing => {
-                run(mesh, options, scratch, out);
+                let cancel = scratch.cancel.clone();
+                run(mesh, options, &cancel, scratch, out);
             }
         }
         take_signs(signs, out);
@@ -88,12 +91,12 @@ impl Decided {
         let width = Width::widest(scratch.width_limit);
         if scratch.fans.run_planned(&self.fans, mesh, width, out) {
             if let Some(part) = &self.undecided {
-                part.decide_moved(mesh, base, out);
+                part.decide_moved(mesh, base, &scratch.cancel, out);
             }
             return;
         }
         let stages = self.stages.get_or_init(|| Topology::new(&self.mesh.view(), options));
-        write(&stages.frames_of_moved(mesh, unknown(mesh)).0, out);
+        write(&stages.frames_of_moved(mesh, unknown(mesh), &scratch.cancel).0, out);
         take_signs(base, out);
     }
 }
