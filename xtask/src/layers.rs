@@ -9,7 +9,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("darboux", &[]),
     ("darboux-io", &["darboux"]),
     ("darboux-gpu", &["darboux", "darboux-tests"]),
-    ("darboux-cli", &["darboux", "darboux-io"]),
+    ("darboux-cli", &["darboux", "darboux-io", "darboux-gpu"]),
     ("darboux-c", &["darboux", "darboux-tests"]),
     ("darboux-mikktspace", &["darboux"]),
     ("darboux-js", &["darboux"]),

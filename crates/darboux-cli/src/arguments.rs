@@ -2,6 +2,7 @@
 
 mod compare;
 mod convert;
+mod devices;
 mod files;
 mod inspect;
 mod normals;
@@ -14,10 +15,11 @@ use clap::{Parser, Subcommand};
 
 pub use compare::CompareArguments;
 pub use convert::ConvertArguments;
+pub use devices::DevicesArguments;
 pub use files::{Files, Talk};
 pub use inspect::InspectArguments;
 pub use normals::NormalsArguments;
-pub use tangents::{Method, TangentsArguments};
+pub use tangents::{Device, Method, TangentsArguments};
 pub use view::ViewArguments;
 
 /// Tangents for normal-mapped glTF models: MikkTSpace bit for bit, seams split
@@ -74,4 +76,7 @@ pub enum Command {
     View(ViewArguments),
     /// Say which method of computing tangents is for what
     Methods,
+    /// List the adapters that can compute tangents
+    #[command(long_about = devices::ABOUT)]
+    Devices(DevicesArguments),
 }

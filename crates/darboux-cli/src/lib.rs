@@ -4,6 +4,9 @@ mod arguments;
 mod batch;
 mod compare;
 mod convert;
+mod devices;
+#[cfg_attr(not(feature = "gpu"), path = "without_gpu.rs")]
+mod gpu;
 mod inspect;
 mod interrupt;
 mod jobs;
@@ -48,6 +51,7 @@ where
             Command::Inspect(arguments) => inspect::run(arguments),
             Command::View(arguments) => view::run(arguments),
             Command::Methods => methods::run(),
+            Command::Devices(arguments) => devices::run(arguments),
         },
         Err(help_or_error) => {
             let _closed_is_no_fault = help_or_error.print();

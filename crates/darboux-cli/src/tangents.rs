@@ -1,15 +1,16 @@
 //! `darboux tangents`.
 
-use darboux::TangentOptions;
+use darboux::{Mesh, Scratch, TangentOptions, Tangents};
 use darboux_io::gltf::{
     NormalsOptions, Outcome, PrimitiveNormals, Progress, Summary, TangentsOptions, Totals, Written,
-    add_normals, add_tangents,
+    add_normals, add_tangents_with,
 };
 use indicatif::HumanCount;
 use serde::Serialize;
 
-use crate::arguments::{Files, Method, Talk, TangentsArguments};
+use crate::arguments::{Device, Files, Method, Talk, TangentsArguments};
 use crate::batch::{Made, Work, counted, remarks};
+use crate::devices::{Computer, DeviceReport};
 use crate::jobs::{Job, Usage, word};
 use crate::messages::FileProgress;
 use crate::models::{load, save};
@@ -23,6 +24,8 @@ pub struct TangentsSummary {
     tangents: Summary,
     /// What was done to normals before, if anything.
     normals: Option<Vec<PrimitiveNormals>>,
+    /// What computed the tangents.
+    device: Option<DeviceReport>,
 }
 
 impl Work for TangentsArguments {
@@ -47,6 +50,9 @@ impl Work for TangentsArguments {
         if self.method != Method::MikkTSpace && self.threshold != TangentOptions::default().threshold {
             return Err(Usage("--threshold belongs to --method mikktspace; leave one of them out".into()));
         }
+        if self.method != Method::MikkTSpace && self.device == Device::Gpu {
+            return Err(Usage("--device gpu belongs to --method mikktspace; leave one of them out".into()));
+        }
         Ok(())
     }
 
@@ -56,6 +62,7 @@ impl Work for TangentsArguments {
 
     fn process(&self, job: &Job, progress: &FileProgress<'_>) -> Result<Made<TangentsSummary>, String> {
         let sentence = |error: darboux_io::Error| error.to_string();
+        let mut computer = Computer::new(self.device)?;
         let mut document = load(&job.input, self.files.allow_outside)?;
         let mut warnings = document.warnings().to_vec();
         let mut normals = None;
@@ -66,12 +73,18 @@ impl Work for TangentsArguments {
             normals = Some(made.primitives);
         }
         let mut on_progress = |Progress { done, total }: Progress| progress.set(done, total);
-        let mut tangents = add_tangents(&mut document, &options(self), &mut on_progress).map_err(sentence)?;
+        let mut generate =
+            |mesh: &Mesh<'_>, options: &TangentOptions, scratch: &mut Scratch, out: &mut Tangents| {
+                computer.generate(mesh, options, scratch, out)
+            };
+        let made = add_tangents_with(&mut document, &options(self), &mut generate, &mut on_progress);
+        let mut tangents = made.map_err(sentence)?;
         tangents.warnings.splice(0..0, warnings);
         tangents.warnings.extend(advice(tangents.totals.without_normals));
         let changed = document.is_changed() && (normals.is_some() || tangents.totals.written > 0);
+        let device = Some(computer.report(3 * tangents.totals.triangles));
         let (status, files_written) = save(&document, &job.output, &self.files, changed)?;
-        Ok(Made { status, files_written, summary: TangentsSummary { normals, tangents } })
+        Ok(Made { status, files_written, summary: TangentsSummary { normals, device, tangents } })
     }
 
     fn lines(summary: &TangentsSummary) -> Vec<String> {
@@ -85,6 +98,7 @@ impl Work for TangentsArguments {
             };
             lines.push(format!("{}: {what}", primitive.name));
         }
+        lines.extend(summary.device.as_ref().and_then(DeviceReport::line));
         lines
     }
 

@@ -34,13 +34,15 @@ fn the_tangents_report_has_the_documented_fields() {
             "primitives",
             "warnings",
             "totals",
-            "normals"
+            "normals",
+            "device"
         ]
     );
     assert_eq!(
         keys(&file["totals"]),
         ["written", "kept", "skipped", "without_normals", "triangles", "vertices_before", "vertices_after"]
     );
+    assert_eq!(keys(&file["device"]), ["kind", "adapter", "corners", "corners_of_cpu"]);
     let written = &file["primitives"][0];
     let counts = [
         "triangles",

@@ -1,6 +1,10 @@
 //! Adapters and their devices, for callers that have none.
 
-use wgpu::{Adapter, Backends, Device, DeviceDescriptor, Instance, InstanceDescriptor, Queue};
+use std::fmt;
+
+use wgpu::{
+    Adapter, Backends, Device, DeviceDescriptor, DeviceType, Instance, InstanceDescriptor, Queue,
+};
 
 use crate::GpuError;
 
@@ -13,6 +17,67 @@ pub struct Gpu {
     pub device: Device,
     /// Its queue.
     pub queue: Queue,
+}
+
+/// What an adapter says of itself.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AdapterSummary {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub kind: AdapterKind,
+    /// The interface that it is reached by: Vulkan, Metal, Dx12.
+    pub backend: String,
+    /// Its driver and that driver's version.
+    pub driver: String,
+    /// The bytes that shaders can reach of one buffer.
+    pub largest_binding: u64,
+}
+
+/// What an adapter is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AdapterKind {
+    /// A GPU with memory of its own.
+    Discrete,
+    /// A GPU that shares the CPU's memory.
+    Integrated,
+    /// A part of a GPU, or one behind a virtual machine.
+    Virtual,
+    /// A CPU that runs shaders: for tests.
+    Software,
+    /// It does not say.
+    Unknown,
+}
+
+impl fmt::Display for AdapterKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Discrete => "discrete",
+            Self::Integrated => "integrated",
+            Self::Virtual => "virtual",
+            Self::Software => "software",
+            Self::Unknown => "unknown",
+        })
+    }
+}
+
+impl AdapterSummary {
+    fn of(adapter: &Adapter) -> Self {
+        let (info, limits) = (adapter.get_info(), adapter.limits());
+        Self {
+            name: info.name,
+            kind: match info.device_type {
+                DeviceType::DiscreteGpu => AdapterKind::Discrete,
+                DeviceType::IntegratedGpu => AdapterKind::Integrated,
+                DeviceType::VirtualGpu => AdapterKind::Virtual,
+                DeviceType::Cpu => AdapterKind::Software,
+                DeviceType::Other => AdapterKind::Unknown,
+            },
+            backend: info.backend.to_string(),
+            driver: [info.driver, info.driver_info].join(" ").trim().to_owned(),
+            largest_binding: limits.max_storage_buffer_binding_size.min(limits.max_buffer_size),
+        }
+    }
 }
 
 impl Gpu {
@@ -32,11 +97,17 @@ impl Gpu {
     ///
     /// Errors: there is none, or one gives no device.
     pub async fn open_all() -> Result<Vec<Self>, GpuError> {
-        let mut gpus = Vec::new();
-        for adapter in instance().enumerate_adapters(BACKENDS).await {
-            gpus.push(Self::of(&adapter).await?);
-        }
+        let gpus = Self::list().await.into_iter().map(|(_, gpu)| gpu).collect::<Result<Vec<_>, _>>()?;
         if gpus.is_empty() { Err(GpuError::NoAdapter) } else { Ok(gpus) }
+    }
+
+    /// All adapters, software ones included, each with its device or why it gives none.
+    pub async fn list() -> Vec<(AdapterSummary, Result<Self, GpuError>)> {
+        let mut found = Vec::new();
+        for adapter in instance().enumerate_adapters(BACKENDS).await {
+            found.push((AdapterSummary::of(&adapter), Self::of(&adapter).await));
+        }
+        found
     }
 
     async fn of(adapter: &Adapter) -> Result<Self, GpuError> {

@@ -43,7 +43,7 @@ mod weld;
 pub use average::{Average, AverageOfMesh, Search};
 pub use buffers::{Destination, FrameLayout, MeshBuffers, VertexLayout};
 pub use error::GpuError;
-pub use gpu::Gpu;
+pub use gpu::{AdapterKind, AdapterSummary, Gpu};
 pub use mikktspace::{Generated, Left, MikkTSpace};
 
 /// Single stages, for tests. Not part of the API.

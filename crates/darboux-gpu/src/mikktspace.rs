@@ -16,7 +16,7 @@ use crate::kernel::{Step, buffer, module, pipeline};
 use crate::reals::Arithmetic;
 use crate::topology::{Topology, TopologyKernels, WeldedMesh};
 use crate::weld::{Weld, WeldKernels};
-use crate::{Gpu, GpuError};
+use crate::{AdapterSummary, Gpu, GpuError};
 
 const FINISH: &[&str] = &[
     include_str!("../shaders/mesh.wgsl"),
@@ -77,6 +77,11 @@ impl MikkTSpace {
     /// Compiles the shaders. Errors: the device refuses them.
     pub fn new(gpu: &Gpu) -> Result<Self, GpuError> {
         Self::with_arithmetic(gpu, Arithmetic::Exact)
+    }
+
+    /// The most triangles of a mesh that an adapter can do at once, by its largest binding.
+    pub fn triangle_limit(adapter: &AdapterSummary) -> u64 {
+        adapter.largest_binding / (3 * BYTES_OF_FRAME)
     }
 
     fn with_arithmetic(gpu: &Gpu, arithmetic: Arithmetic) -> Result<Self, GpuError> {
@@ -274,6 +279,8 @@ impl Work {
     }
 }
 
+/// Of one corner, in the largest buffer of all.
+const BYTES_OF_FRAME: u64 = 32;
 const WORDS_OF_VERTEX: u32 = 8;
 const WORDS_OF_TANGENT: u32 = 4;
 

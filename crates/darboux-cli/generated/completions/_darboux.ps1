@@ -32,6 +32,7 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             [CompletionResult]::new('inspect', 'inspect', [CompletionResultType]::ParameterValue, 'Show what each primitive holds and what its tangents would meet')
             [CompletionResult]::new('view', 'view', [CompletionResultType]::ParameterValue, 'Show a model in the browser, with its tangents')
             [CompletionResult]::new('methods', 'methods', [CompletionResultType]::ParameterValue, 'Say which method of computing tangents is for what')
+            [CompletionResult]::new('devices', 'devices', [CompletionResultType]::ParameterValue, 'List the adapters that can compute tangents')
             break
         }
         'darboux;tangents' {
@@ -42,6 +43,7 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             [CompletionResult]::new('--method', '--method', [CompletionResultType]::ParameterName, 'How tangents are computed: as the normal map was baked, so nearly always mikktspace')
             [CompletionResult]::new('--mode', '--mode', [CompletionResultType]::ParameterName, 'Which defects of the MikkTSpace reference to keep')
             [CompletionResult]::new('--threshold', '--threshold', [CompletionResultType]::ParameterName, 'Split tangents of faces whose directions differ by this many degrees or more')
+            [CompletionResult]::new('--device', '--device', [CompletionResultType]::ParameterName, 'What computes the tangents: the bits are the same')
             [CompletionResult]::new('--normals', '--normals', [CompletionResultType]::ParameterName, 'keep normals as they are, or first make those that are missing: flat, smooth or crease=DEG')
             [CompletionResult]::new('--encoding', '--encoding', [CompletionResultType]::ParameterName, 'How tangents are stored: f32x4 (16 bytes), snorm16x4 (8) or snorm8x4 (4)')
             [CompletionResult]::new('--in-place', '--in-place', [CompletionResultType]::ParameterName, 'Replace each input by its output')
@@ -134,6 +136,12 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
         'darboux;methods' {
             [CompletionResult]::new('-h', '-h', [CompletionResultType]::ParameterName, 'Print help')
             [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help')
+            break
+        }
+        'darboux;devices' {
+            [CompletionResult]::new('--json', '--json', [CompletionResultType]::ParameterName, 'Print a JSON report to standard output')
+            [CompletionResult]::new('-h', '-h', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
+            [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
             break
         }
     })

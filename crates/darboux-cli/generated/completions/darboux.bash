@@ -22,6 +22,9 @@ _darboux() {
             darboux,convert)
                 cmd="darboux__subcmd__convert"
                 ;;
+            darboux,devices)
+                cmd="darboux__subcmd__devices"
+                ;;
             darboux,inspect)
                 cmd="darboux__subcmd__inspect"
                 ;;
@@ -44,7 +47,7 @@ _darboux() {
 
     case "${cmd}" in
         darboux)
-            opts="-h -V --help --version tangents normals convert compare inspect view methods"
+            opts="-h -V --help --version tangents normals convert compare inspect view methods devices"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -133,6 +136,20 @@ _darboux() {
             COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
             return 0
             ;;
+        darboux__subcmd__devices)
+            opts="-h --json --help"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
         darboux__subcmd__inspect)
             opts="-q -h --allow-outside --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
@@ -200,7 +217,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__tangents)
-            opts="-o -q -h --output --out-dir --in-place --force --resume --jobs --allow-outside --method --mode --threshold --normals --encoding --overwrite --only-needed --apply-texture-transform --strict --json --quiet --help"
+            opts="-o -q -h --output --out-dir --in-place --force --resume --jobs --allow-outside --method --mode --threshold --device --normals --encoding --overwrite --only-needed --apply-texture-transform --strict --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -232,6 +249,10 @@ _darboux() {
                     ;;
                 --threshold)
                     COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --device)
+                    COMPREPLY=($(compgen -W "auto cpu gpu" -- "${cur}"))
                     return 0
                     ;;
                 --normals)

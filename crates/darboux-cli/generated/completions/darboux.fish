@@ -33,6 +33,7 @@ complete -c darboux -n "__fish_darboux_needs_command" -f -a "compare" -d 'Compar
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "inspect" -d 'Show what each primitive holds and what its tangents would meet'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "view" -d 'Show a model in the browser, with its tangents'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "methods" -d 'Say which method of computing tangents is for what'
+complete -c darboux -n "__fish_darboux_needs_command" -f -a "devices" -d 'List the adapters that can compute tangents'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s o -l output -d 'Output file for a single input; - is standard output, as GLB' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l out-dir -d 'Folder for all outputs; paths below input folders are kept' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l jobs -d 'How many files are worked on at the same time' -r
@@ -48,6 +49,9 @@ complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l mode -d 'Wh
 repaired\t'The reference\'s bits where they are usable, a unit tangent elsewhere'
 corrected\t'As repaired, with all edges matched and one sign per triangle'"
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l threshold -d 'Split tangents of faces whose directions differ by this many degrees or more' -r
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l device -d 'What computes the tangents: the bits are the same' -r -f -a "auto\t'The quicker one, as far as was measured: the CPU'
+cpu\t'The CPU, on all its threads'
+gpu\t'The fastest adapter; without one, or where it fails, files fail'"
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l normals -d 'keep normals as they are, or first make those that are missing: flat, smooth or crease=DEG' -r
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l encoding -d 'How tangents are stored: f32x4 (16 bytes), snorm16x4 (8) or snorm8x4 (4)' -r -f -a "f32x4\t''
 snorm16x4\t''
@@ -137,3 +141,5 @@ complete -c darboux -n "__fish_darboux_using_subcommand view" -l no-open -d 'Pri
 complete -c darboux -n "__fish_darboux_using_subcommand view" -l allow-outside -d 'Allow buffers and images outside the model\'s folder'
 complete -c darboux -n "__fish_darboux_using_subcommand view" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand methods" -s h -l help -d 'Print help'
+complete -c darboux -n "__fish_darboux_using_subcommand devices" -l json -d 'Print a JSON report to standard output'
+complete -c darboux -n "__fish_darboux_using_subcommand devices" -s h -l help -d 'Print help (see more with \'--help\')'

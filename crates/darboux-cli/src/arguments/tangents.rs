@@ -30,6 +30,7 @@ Examples:
   darboux tangents models --in-place --only-needed  only where materials use tangents
   darboux tangents a.glb --overwrite --json         replace old tangents, report as JSON
   darboux tangents a.glb --encoding snorm8x4        in a quarter of the bytes
+  darboux tangents a.glb --device gpu               the same bits, computed on a GPU
   darboux tangents scan.glb --normals smooth        normals first
   curl -s URL | darboux tangents - > model.glb      from a pipe into a file";
 
@@ -61,6 +62,13 @@ pub struct TangentsArguments {
         help_heading = "Tangents"
     )]
     pub threshold: f32,
+
+    /// What computes the tangents: the bits are the same
+    ///
+    /// auto takes the CPU: no measurement shows yet that a GPU is quicker once models have been read and sent to it. gpu computes
+    /// MikkTSpace there, and leaves to the CPU what is rare; `darboux devices` lists the adapters.
+    #[arg(long, value_enum, value_name = "DEVICE", default_value_t, help_heading = "Tangents")]
+    pub device: Device,
 
     /// keep normals as they are, or first make those that are missing: flat, smooth or crease=DEG
     ///
@@ -147,6 +155,18 @@ impl From<Method> for darboux::Method {
             Method::FromNormal => Self::FromNormal,
         }
     }
+}
+
+/// `--device`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Device {
+    /// The quicker one, as far as was measured: the CPU
+    #[default]
+    Auto,
+    /// The CPU, on all its threads
+    Cpu,
+    /// The fastest adapter; without one, or where it fails, files fail
+    Gpu,
 }
 
 /// `--mode`: [`darboux::Mode`] as people type it.

@@ -44,6 +44,13 @@ pub fn darboux_with_little_memory<A: AsRef<std::ffi::OsStr>>(arguments: &[A]) ->
     run(command, arguments, b"")
 }
 
+/// As [`darboux`], where the system can be told to have no adapter.
+pub fn darboux_without_adapters<A: AsRef<std::ffi::OsStr>>(arguments: &[A]) -> Run {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_darboux"));
+    command.env("VK_DRIVER_FILES", "/nowhere").env("VK_ICD_FILENAMES", "/nowhere");
+    run(command, arguments, b"")
+}
+
 /// Runs `darboux` with `stdin` on standard input.
 pub fn darboux_reading<A: AsRef<std::ffi::OsStr>>(arguments: &[A], stdin: &[u8]) -> Run {
     run(Command::new(env!("CARGO_BIN_EXE_darboux")), arguments, stdin)

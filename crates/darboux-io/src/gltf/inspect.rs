@@ -4,7 +4,7 @@ use darboux::{Convention, CornerTangents, Scratch};
 use serde::Serialize;
 
 use super::Document;
-use super::tangents::compute::{self, Vertices};
+use super::tangents::compute::{self, Generate, Vertices};
 use super::tangents::excess;
 use super::tangents::select::{Candidate, Verdict};
 use super::tangents::share::{self, Canonical};
@@ -60,7 +60,8 @@ pub fn inspect(document: &mut Document) -> Result<Vec<PrimitiveInfo>, Error> {
         let mut found = Vec::with_capacity(group.jobs.len());
         for job in &group.jobs {
             let at = infos[job.first].name.path();
-            let surface = compute::surface(document, &at, &mut vertices, job, false, &options, &mut scratch)?;
+            let on_cpu = (&mut compute::on_cpu as &mut Generate<'_>, &mut scratch);
+            let surface = compute::surface(document, &at, &mut vertices, job, false, &options, on_cpu)?;
             found.push((surface.report.into(), mirrored_triangles(&surface.tangents)));
         }
         for member in &group.members {

@@ -13,6 +13,7 @@ pub(super) mod topology;
 mod uv;
 mod write;
 
+pub use compute::Generate;
 pub use encoding::TangentEncoding;
 pub use summary::{Counts, Outcome, PrimitiveName, PrimitiveSummary, Summary, Totals, Written};
 
@@ -65,6 +66,18 @@ pub fn add_tangents(
     options: &TangentsOptions,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Summary, Error> {
+    add_tangents_with(document, options, &mut compute::on_cpu, progress)
+}
+
+/// As [`add_tangents`], with tangents that `generate` computes, as on a GPU; what morph targets move is computed here.
+///
+/// Further errors: those of `generate`.
+pub fn add_tangents_with(
+    document: &mut Document,
+    options: &TangentsOptions,
+    generate: &mut Generate<'_>,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<Summary, Error> {
     let selection = select_readable(document, options)?;
     let accessors = Canonical::new(document);
     let groups = share::group(&accessors, selection.chosen());
@@ -72,7 +85,7 @@ pub fn add_tangents(
     let total = groups.iter().flat_map(|group| &group.jobs).map(|job| job.triangle_count).sum();
     let at = Progress { done: 0, total };
     let (scratch, summary) = (Scratch::new(), Summary::default());
-    let mut run = Run { selection, accessors, options, progress, at, scratch, summary };
+    let mut run = Run { selection, accessors, options, generate, progress, at, scratch, summary };
     let mut written = HashMap::new();
     for group in &groups {
         let field = run.field(document, group)?;
@@ -105,17 +118,18 @@ struct Field {
 }
 
 /// One run of [`add_tangents`].
-struct Run<'a> {
+struct Run<'a, 'g> {
     selection: Selection,
     accessors: Canonical,
     options: &'a TangentsOptions,
+    generate: &'a mut Generate<'g>,
     progress: &'a mut dyn FnMut(Progress),
     at: Progress,
     scratch: Scratch,
     summary: Summary,
 }
 
-impl Run<'_> {
+impl Run<'_, '_> {
     fn field(&mut self, document: &Document, group: &Group) -> Result<Field, Error> {
         let mut vertices = Vertices::read(document, group)?;
         let morphs = morph::morphs(document, &self.accessors, group, &self.selection, self.options);
@@ -143,8 +157,8 @@ impl Run<'_> {
         let mut surfaces = Vec::with_capacity(group.jobs.len());
         for (index, job) in group.jobs.iter().enumerate() {
             let (at, moves) = (self.path(job), moved.contains(&index));
-            let surface =
-                compute::surface(document, &at, vertices, job, moves, self.options, &mut self.scratch)?;
+            let compute = (&mut *self.generate, &mut self.scratch);
+            let surface = compute::surface(document, &at, vertices, job, moves, self.options, compute)?;
             self.warn_unusable(job, &surface);
             self.warn_merged(job, &surface);
             self.at.done += job.triangle_count;

@@ -3,7 +3,9 @@
 use std::borrow::Cow;
 use std::mem;
 
-use darboux::{CornerTangents, Mesh, Plan, Report, Scratch, Tangents, generate_tangents_into};
+use darboux::{
+    CornerTangents, Mesh, Plan, Report, Scratch, TangentOptions, Tangents, generate_tangents_into,
+};
 
 use super::share::{Group, Job};
 use super::topology::Topology;
@@ -82,6 +84,21 @@ pub struct Surface<'a> {
     pub plan: Option<Plan>,
 }
 
+/// What computes the tangents of a mesh without morph targets, as [`darboux::generate_tangents_into`] does; a failure is one sentence.
+pub type Generate<'a> =
+    dyn FnMut(&Mesh<'_>, &TangentOptions, &mut Scratch, &mut Tangents) -> Result<(), String> + 'a;
+
+/// [`Generate`] on the CPU.
+pub fn on_cpu(
+    mesh: &Mesh<'_>,
+    options: &TangentOptions,
+    scratch: &mut Scratch,
+    out: &mut Tangents,
+) -> Result<(), String> {
+    generate_tangents_into(mesh, options, scratch, out);
+    Ok(())
+}
+
 /// Computes a job. `at` is the JSON path of a primitive that it belongs to; with `morphs` it is kept ready for morph targets.
 ///
 /// Errors: indices out of range, attributes of different lengths; with [`TangentsOptions::strict`], unusable data.
@@ -92,7 +109,7 @@ pub fn surface<'a>(
     job: &Job,
     morphs: bool,
     options: &TangentsOptions,
-    scratch: &mut Scratch,
+    (generate, scratch): (&mut Generate<'_>, &mut Scratch),
 ) -> Result<Surface<'a>, Error> {
     let mut corners = indices(document, job, vertices.positions.len())?;
     let rest = corners.split_off(job.topology.whole(corners.len()));
@@ -106,7 +123,8 @@ pub fn surface<'a>(
         (plan.base().clone(), Some(plan))
     } else {
         let mut tangents = Tangents::default();
-        generate_tangents_into(&mesh, &options.tangents, scratch, &mut tangents);
+        generate(&mesh, &options.tangents, scratch, &mut tangents)
+            .map_err(|sentence| document.invalid(at, sentence))?;
         (tangents, None)
     };
     if options.strict {

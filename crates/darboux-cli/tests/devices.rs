@@ -1,0 +1,92 @@
+//! `darboux devices` and `darboux tangents --device`.
+
+mod common;
+
+use std::io::Write;
+
+use common::{asset, darboux, darboux_without_adapters, text};
+
+const MODELS: [&str; 4] = [
+    "NormalTangentTest/NormalTangentTest.glb",
+    "made/draco.glb",
+    "made/meshopt.glb",
+    "made/quantised-sparse.glb",
+];
+
+/// Whether `darboux devices` lists an adapter that can be used; says so once where there is none.
+fn has_adapter() -> bool {
+    let report = darboux(&["devices", "--json"]).exits(0).json();
+    let adapters = report["adapters"].as_array().expect("a list");
+    let usable = adapters.iter().any(|adapter| adapter["problem"].is_null());
+    if !usable {
+        assert!(std::env::var_os("CI").is_none(), "no adapter: {report}");
+        writeln!(std::io::stdout(), "skipped: no adapter (Debian: mesa-vulkan-drivers, libvulkan1)")
+            .expect("standard output");
+    }
+    usable
+}
+
+#[test]
+fn a_gpu_writes_the_files_of_the_cpu() {
+    if !has_adapter() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    for model in MODELS {
+        let outputs = ["cpu", "gpu"].map(|device| folder.path().join(device).with_extension("glb"));
+        let input = asset(model);
+        let run = |device: &str, output: &std::path::Path| {
+            let (input, output) = (text(&input), text(output));
+            let all =
+                ["tangents", input, "-o", output, "--force", "--overwrite", "--json", "--device", device];
+            darboux(&all).exits(0).json()["files"][0]["device"].clone()
+        };
+        let [of_cpu, of_gpu] = [run("cpu", &outputs[0]), run("gpu", &outputs[1])];
+        let [cpu, gpu] = outputs.map(|output| std::fs::read(output).expect("an output"));
+        assert!(cpu == gpu, "{model}");
+        assert_eq!((of_cpu["kind"].as_str(), of_gpu["kind"].as_str()), (Some("cpu"), Some("gpu")), "{model}");
+        assert!(of_cpu["adapter"].is_null() && of_gpu["adapter"].is_string(), "{model}");
+        assert_eq!(of_cpu["corners_of_cpu"], of_cpu["corners"], "{model}");
+        assert_eq!(of_gpu["corners"], of_cpu["corners"], "{model}");
+        // A plan on the CPU moves morph targets.
+        let all_on_cpu = of_gpu["corners_of_cpu"] == of_gpu["corners"];
+        assert_eq!(all_on_cpu, model == "made/meshopt.glb", "{model}: {of_gpu}");
+    }
+}
+
+#[test]
+#[cfg_attr(not(target_os = "linux"), ignore = "drivers are found by environment variables on Linux only")]
+fn without_an_adapter_only_device_gpu_fails() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let input = asset(MODELS[0]);
+    let run = |device: &str| {
+        let output = folder.path().join(device).with_extension("glb");
+        let (input, output) = (text(&input), text(&output));
+        darboux_without_adapters(&[
+            "tangents",
+            input,
+            "-o",
+            output,
+            "--overwrite",
+            "--json",
+            "--device",
+            device,
+        ])
+    };
+    let failed = run("gpu").exits(1);
+    assert!(failed.stderr.contains("no GPU adapter was found"), "{}", failed.stderr);
+    assert!(failed.json()["files"][0]["device"].is_null());
+    assert!(!folder.path().join("gpu.glb").exists());
+    let done = run("auto").exits(0).json();
+    assert_eq!(done["files"][0]["device"]["kind"], "cpu");
+    let listed = darboux_without_adapters(&["devices"]).exits(0);
+    assert!(String::from_utf8_lossy(&listed.stdout).starts_with("no GPU adapter was found"));
+}
+
+#[test]
+fn other_methods_are_not_for_a_gpu() {
+    let input = asset(MODELS[0]);
+    let all = ["tangents", text(&input), "--method", "area", "--device", "gpu"];
+    let refused = darboux(&all).exits(2);
+    assert!(refused.stderr.contains("--device gpu belongs to --method mikktspace"), "{}", refused.stderr);
+}
