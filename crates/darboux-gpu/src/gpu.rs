@@ -2,9 +2,7 @@
 
 use std::fmt;
 
-use wgpu::{
-    Adapter, Backends, Device, DeviceDescriptor, DeviceType, Instance, InstanceDescriptor, Queue,
-};
+use wgpu::{Adapter, Backends, Device, DeviceDescriptor, DeviceType, Instance, InstanceDescriptor, Queue};
 
 use crate::GpuError;
 

@@ -33,7 +33,7 @@ pub use normals::{
 pub use save::SaveOptions;
 pub use schema::{ComponentType, ElementType};
 pub use tangents::{
-    Counts, Generate, Outcome, PrimitiveName, PrimitiveSummary, Progress, Summary, TangentEncoding, TangentsOptions,
-    Totals, Written, add_tangents, add_tangents_with,
+    Counts, Generate, Outcome, PrimitiveName, PrimitiveSummary, Progress, Summary, TangentEncoding,
+    TangentsOptions, Totals, Written, add_tangents, add_tangents_with,
 };
 pub use values::IndexList;
