@@ -173,7 +173,7 @@ fn files(search: Search, storage: &'static str) -> [&'static str; 6] {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::adjacency::{ADJACENCY, SCAN};
     use crate::kernel::text;
@@ -195,7 +195,7 @@ mod tests {
         ]);
     }
 
-    fn validate(files: &[&str]) {
+    pub(crate) fn validate(files: &[&str]) {
         let text = text(files);
         let module = naga::front::wgsl::parse_str(&text)
             .unwrap_or_else(|error| panic!("{}", error.emit_to_string(&text)));

@@ -108,6 +108,17 @@ impl Evaluation {
         Ok(Self { derivatives, frames, counts: buffer(device, "counts", 3), record })
     }
 
+    /// As [`Evaluation::new`], of positions, normals and UVs in this order without gaps.
+    pub fn of_packed(
+        device: &Device,
+        kernels: &EvaluationKernels,
+        [vertices, triangles]: [u32; 2],
+        threshold_cosine: f32,
+        mesh: &Grouped<'_>,
+    ) -> Result<Self, GpuError> {
+        Self::new(device, kernels, &Description::packed(vertices, triangles), threshold_cosine, mesh)
+    }
+
     /// Records the derivatives and their marks.
     pub fn record_derivatives(&self, encoder: &mut CommandEncoder) {
         self.record[0].record(encoder);

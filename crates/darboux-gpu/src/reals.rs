@@ -131,3 +131,20 @@ impl RealStep {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::average::tests::validate;
+    use crate::evaluation::{DERIVATIVES, EVALUATE, WEDGES};
+
+    #[test]
+    fn shaders_are_valid_in_every_arithmetic() {
+        for arithmetic in [Arithmetic::Exact, Arithmetic::Soft, Arithmetic::Fast] {
+            for own in [DERIVATIVES, WEDGES, EVALUATE] {
+                validate(&files(arithmetic, false, own));
+                validate(&files(arithmetic, true, own));
+            }
+        }
+    }
+}
