@@ -34,11 +34,3 @@ fn derivative(p0: V3, p1: V3, p2: V3, uv0: vec2<Real>, uv1: vec2<Real>, uv2: vec
     }
     return out;
 }
-
-// sign / length times `v`, or `v` itself.
-fn unit_unless_zero(sign: Real, length: Real, v: V3) -> V3 {
-    if not_zero(length) {
-        return scaled(over(sign, length), v);
-    }
-    return v;
-}

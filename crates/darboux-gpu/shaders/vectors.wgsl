@@ -57,3 +57,11 @@ fn angle(cosine: Real) -> Real {
     }
     return arccosine_of(cosine);
 }
+
+// sign / length times `v`, or `v` itself.
+fn unit_unless_zero(sign: Real, length: Real, v: V3) -> V3 {
+    if not_zero(length) {
+        return scaled(over(sign, length), v);
+    }
+    return v;
+}

@@ -99,4 +99,32 @@ pub enum GpuError {
         /// The largest number.
         limit: u32,
     },
+    /// A plan of faces other than triangles.
+    #[error("a plan on a GPU is of triangles: give the triangles that are drawn")]
+    NotTriangles,
+    /// A plan of another method.
+    #[error("a plan on a GPU is of MikkTSpace: other methods have nothing to plan")]
+    OtherMethod,
+    /// Vertices whose corners have several tangents, where each vertex is to have one.
+    #[error("{vertices} vertices have several tangents: split them first (split_vertices)")]
+    Unsplit {
+        /// Their number.
+        vertices: usize,
+    },
+    /// More members of sums than a thread or a buffer takes.
+    #[error("{members} triangles or more to add up are more than the {limit} that fit: use the CPU's Plan")]
+    TooManyMembers {
+        /// At least so many.
+        members: usize,
+        /// The largest number.
+        limit: usize,
+    },
+    /// Buffers that are of another mesh than a plan.
+    #[error("the plan is of {expected} vertices, these buffers of {found}")]
+    OtherMesh {
+        /// The plan's.
+        expected: u32,
+        /// The buffers'.
+        found: u32,
+    },
 }

@@ -73,28 +73,18 @@ const UNSURE: u32 = 9;
 /// An indirect dispatch of no groups, and an empty list.
 const NOTHING: [u32; 4] = [0, 1, 1, 0];
 
-/// A kernel with its buffers.
+/// Items that a kernel leaves to another, which runs as many threads as there are.
 #[derive(Clone, Debug)]
-pub(crate) struct RealStep {
-    first: Step,
-    second: Option<Second>,
-}
-
-#[derive(Clone, Debug)]
-struct Second {
-    step: Step,
-    list: Buffer,
+pub(crate) struct List {
+    pub items: Buffer,
     nothing: Buffer,
 }
 
-impl RealStep {
-    /// `buffers`: by binding; `items`: how many there are.
-    pub fn new(device: &Device, kernel: &RealKernel, buffers: &[(u32, &Buffer)], items: u32) -> Self {
-        let Some(second) = &kernel.second else {
-            return Self { first: Step::new(device, &kernel.first, buffers, items), second: None };
-        };
-        let list = device.create_buffer(&BufferDescriptor {
-            label: Some("unsure"),
+impl List {
+    /// Room for `items`.
+    pub fn new(device: &Device, label: &str, items: u32) -> Self {
+        let items = device.create_buffer(&BufferDescriptor {
+            label: Some(label),
             size: 4 * (NOTHING.len() as u64 + u64::from(items)),
             usage: BufferUsages::STORAGE
                 | BufferUsages::INDIRECT
@@ -107,27 +97,53 @@ impl RealStep {
             contents: bytemuck::cast_slice(&NOTHING),
             usage: BufferUsages::COPY_SRC,
         });
-        let buffers = [buffers, &[(UNSURE, &list)]].concat();
+        Self { items, nothing }
+    }
+
+    pub fn record_clear(&self, encoder: &mut CommandEncoder) {
+        encoder.copy_buffer_to_buffer(&self.nothing, 0, &self.items, 0, self.nothing.size());
+    }
+
+    /// Records a copy of the number of items to a word of `into`.
+    pub fn record_count(&self, encoder: &mut CommandEncoder, into: &Buffer, offset: u64) {
+        encoder.copy_buffer_to_buffer(&self.items, 12, into, offset, 4);
+    }
+}
+
+/// A kernel with its buffers.
+#[derive(Clone, Debug)]
+pub(crate) struct RealStep {
+    first: Step,
+    second: Option<(Step, List)>,
+}
+
+impl RealStep {
+    /// `buffers`: by binding; `items`: how many there are.
+    pub fn new(device: &Device, kernel: &RealKernel, buffers: &[(u32, &Buffer)], items: u32) -> Self {
+        let Some(second) = &kernel.second else {
+            return Self { first: Step::new(device, &kernel.first, buffers, items), second: None };
+        };
+        let list = List::new(device, "unsure", items);
+        let buffers = [buffers, &[(UNSURE, &list.items)]].concat();
         let first = Step::new(device, &kernel.first, &buffers, items);
-        let step = Step::indirect(device, second, &buffers, &list);
-        Self { first, second: Some(Second { step, list: list.clone(), nothing }) }
+        let step = Step::indirect(device, second, &buffers, &list.items);
+        Self { first, second: Some((step, list)) }
     }
 
     pub fn record(&self, encoder: &mut CommandEncoder) {
-        if let Some(Second { list, nothing, .. }) = &self.second {
-            encoder.copy_buffer_to_buffer(nothing, 0, list, 0, nothing.size());
+        if let Some((_, list)) = &self.second {
+            list.record_clear(encoder);
         }
         self.first.record(encoder);
-        if let Some(Second { step, .. }) = &self.second {
+        if let Some((step, _)) = &self.second {
             step.record(encoder);
         }
     }
 
-    /// Records a copy of the number of items done in whole numbers to a word of `into`.
+    /// Records a copy of the number of items done in whole numbers to a word of `into`, which is 0 before.
     pub fn record_count(&self, encoder: &mut CommandEncoder, into: &Buffer, offset: u64) {
-        match &self.second {
-            Some(Second { list, .. }) => encoder.copy_buffer_to_buffer(list, 12, into, offset, 4),
-            None => encoder.clear_buffer(into, offset, Some(4)),
+        if let Some((_, list)) = &self.second {
+            list.record_count(encoder, into, offset);
         }
     }
 }
@@ -137,11 +153,12 @@ mod tests {
     use super::*;
     use crate::average::tests::validate;
     use crate::evaluation::{DERIVATIVES, EVALUATE, WEDGES};
+    use crate::plan::{GATHER, TERMS};
 
     #[test]
     fn shaders_are_valid_in_every_arithmetic() {
         for arithmetic in [Arithmetic::Exact, Arithmetic::Soft, Arithmetic::Fast] {
-            for own in [DERIVATIVES, WEDGES, EVALUATE] {
+            for own in [DERIVATIVES, WEDGES, EVALUATE, TERMS, GATHER] {
                 validate(&files(arithmetic, false, own));
                 validate(&files(arithmetic, true, own));
             }
