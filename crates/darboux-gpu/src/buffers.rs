@@ -208,7 +208,7 @@ fn check_apart(mesh: &MeshBuffers<'_>, frames: &Buffer) -> Result<(), GpuError> 
 }
 
 /// That all parts of `count` elements are whole words inside of the buffer.
-fn check_elements(
+pub(crate) fn check_elements(
     device: &Device,
     (what, buffer): (&'static str, &Buffer),
     stride: u32,
@@ -248,7 +248,7 @@ pub(crate) fn check_size(device: &Device, what: &'static str, bytes: u64) -> Res
 }
 
 /// That what is written has a place of its own in every element, apart from what is read.
-fn check_places(
+pub(crate) fn check_places(
     stride: u32,
     written: impl Iterator<Item = Part> + Clone,
     read: &[Part],

@@ -36,6 +36,7 @@ mod evaluation;
 mod gpu;
 mod kernel;
 mod mikktspace;
+mod plan;
 mod reals;
 mod topology;
 mod weld;
@@ -45,6 +46,8 @@ pub use buffers::{Destination, FrameLayout, MeshBuffers, VertexLayout};
 pub use error::GpuError;
 pub use gpu::{AdapterKind, AdapterSummary, Gpu};
 pub use mikktspace::{Generated, Left, MikkTSpace};
+pub use plan::{Attribute, MovingMesh, Per, Plan, PlanOfBuffers, Planner};
+pub use reals::Precision;
 
 /// Single stages, for tests. Not part of the API.
 #[doc(hidden)]

@@ -5,6 +5,25 @@ use wgpu::{Buffer, BufferDescriptor, BufferUsages, CommandEncoder, ComputePipeli
 
 use crate::kernel::{Step, module, pipeline};
 
+/// How numbers are rounded.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Precision {
+    /// As on the CPU: the same bits on every device.
+    #[default]
+    Exact,
+    /// As the device likes.
+    Fast,
+}
+
+impl From<Precision> for Arithmetic {
+    fn from(precision: Precision) -> Self {
+        match precision {
+            Precision::Exact => Self::Exact,
+            Precision::Fast => Self::Fast,
+        }
+    }
+}
+
 /// What real numbers are to a kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Arithmetic {
@@ -36,15 +55,17 @@ fn pieces(arithmetic: Arithmetic, second: bool) -> [&'static [&'static str]; 2] 
     const FAST: &[&str] =
         &[include_str!("../shaders/reals/fast.wgsl"), include_str!("../shaders/vectors.wgsl")];
     const SURE: &str = include_str!("../shaders/items/sure.wgsl");
+    const LISTED: &str = include_str!("../shaders/items/listed.wgsl");
     match (arithmetic, second) {
-        (Arithmetic::Fast, _) => [FAST, &[include_str!("../shaders/items/all.wgsl")]],
-        (_, true) => [SOFT, &[include_str!("../shaders/items/unsure.wgsl")]],
+        (Arithmetic::Fast, false) => [FAST, &[include_str!("../shaders/items/all.wgsl")]],
+        (Arithmetic::Fast, true) => [FAST, &[LISTED]],
+        (_, true) => [SOFT, &[LISTED]],
         (Arithmetic::Exact, _) => [EXACT, &["const ALL_UNSURE: bool = false;", SURE]],
         (Arithmetic::Soft, _) => [EXACT, &["const ALL_UNSURE: bool = true;", SURE]],
     }
 }
 
-/// The whole text of a kernel: what it reads, arithmetic, and its own files. `second`: for what the first run is unsure of.
+/// The whole text of a kernel: arithmetic, its own files, and what calls these. `second`: with what a first kernel has listed.
 pub(crate) fn files(arithmetic: Arithmetic, second: bool, own: &[&'static str]) -> Vec<&'static str> {
     let [arithmetic, items] = pieces(arithmetic, second);
     [arithmetic, own, items].concat()
@@ -69,7 +90,7 @@ impl RealKernel {
 }
 
 /// The binding of the list.
-const UNSURE: u32 = 9;
+pub(crate) const LIST: u32 = 9;
 /// An indirect dispatch of no groups, and an empty list.
 const NOTHING: [u32; 4] = [0, 1, 1, 0];
 
@@ -124,7 +145,7 @@ impl RealStep {
             return Self { first: Step::new(device, &kernel.first, buffers, items), second: None };
         };
         let list = List::new(device, "unsure", items);
-        let buffers = [buffers, &[(UNSURE, &list.items)]].concat();
+        let buffers = [buffers, &[(LIST, &list.items)]].concat();
         let first = Step::new(device, &kernel.first, &buffers, items);
         let step = Step::indirect(device, second, &buffers, &list.items);
         Self { first, second: Some((step, list)) }
@@ -153,7 +174,7 @@ mod tests {
     use super::*;
     use crate::average::tests::validate;
     use crate::evaluation::{DERIVATIVES, EVALUATE, WEDGES};
-    use crate::plan::{GATHER, TERMS};
+    use crate::plan::{GATHER, REPAIR, TERMS, WRITE};
 
     #[test]
     fn shaders_are_valid_in_every_arithmetic() {
@@ -163,5 +184,7 @@ mod tests {
                 validate(&files(arithmetic, true, own));
             }
         }
+        validate(&files(Arithmetic::Fast, true, REPAIR));
+        validate(WRITE);
     }
 }

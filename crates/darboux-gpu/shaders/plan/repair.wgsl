@@ -1,16 +1,7 @@
 // What takes the place of unusable tangents: nearly what the core's tangents/repair.rs finds in double precision. One thread per tangent.
 
 @group(0) @binding(6) var<storage, read_write> tangent_of_sum: array<u32>;
-@group(0) @binding(7) var<storage, read> unusable: Unusable;
 @group(0) @binding(8) var<storage, read_write> repaired: atomic<u32>;
-
-struct Unusable {
-    groups: u32,
-    rows: u32,
-    layers: u32,
-    count: u32,
-    items: array<u32>,
-}
 
 fn all_finite(v: vec3f) -> bool {
     let words = bitcast<vec3u>(v) & vec3u(0x7f800000u);
@@ -64,7 +55,7 @@ fn mean(sum: u32, normal: vec3f) -> vec3f {
     return select(vec3f(), across(normal, total), dot(total, total) > 1e-10 * count * count);
 }
 
-fn repair(sum: u32) {
+fn run(sum: u32) {
     let vertex = vertex_of_sum(sum);
     let normal = unit(load_normal(vertex & ~IS_FORCED));
     let word = 4u * sum;
@@ -83,11 +74,4 @@ fn repair(sum: u32) {
     tangent_of_sum[word] = bitcast<u32>(tangent.x);
     tangent_of_sum[word + 1u] = bitcast<u32>(tangent.y);
     tangent_of_sum[word + 2u] = bitcast<u32>(tangent.z);
-}
-
-@compute @workgroup_size(WORKGROUP)
-fn repair_unusable(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    for (var place = thread.x; place < unusable.count; place += groups.x * WORKGROUP) {
-        repair(unusable.items[place]);
-    }
 }

@@ -28,12 +28,12 @@ fn load_triangle(t: u32) -> Triangle {
     let word = 5u * t;
     let corners = vec3u(triangles[word], triangles[word + 1u], triangles[word + 2u]);
     let own = corners & vec3u(VERTEX);
-    var of = own;
+    var names = own;
     if (corners.z & HAS_COPIES) != 0u {
-        of = vec3u(representatives[own.x], representatives[own.y], representatives[own.z]);
+        names = vec3u(representatives[own.x], representatives[own.y], representatives[own.z]);
     }
     let dv = vec2<Real>(real(triangles[word + 3u]), real(triangles[word + 4u]));
-    return Triangle(own, of, corners & ~vec3u(VERTEX), dv);
+    return Triangle(own, names, corners & ~vec3u(VERTEX), dv);
 }
 
 fn load_position(vertex: u32) -> V3 {

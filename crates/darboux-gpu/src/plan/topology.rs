@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use darboux::stages::{From, NONE, Stages, Triangles};
-use darboux::{CornerTangents, Faces, Mesh, Method, TangentOptions, generate_tangents};
+use darboux::{CornerTangents, Faces, Mesh, Method, Mode, TangentOptions, generate_tangents};
 
 use crate::GpuError;
 use crate::kernel::MAX_TURNS;
@@ -32,6 +32,9 @@ pub(crate) struct Topology {
     pub sum_of_corner: Vec<u32>,
     /// The base's tangents.
     pub base: CornerTangents,
+    /// Unusable tangents are replaced.
+    pub repairs: bool,
+    pub threshold_cosine: f32,
 }
 
 impl Topology {
@@ -71,6 +74,8 @@ impl Topology {
             sums: [sums.ends, sums.vertices, sums.members].concat(),
             sum_of_corner,
             base,
+            repairs: options.mode != Mode::Reference,
+            threshold_cosine: stages.threshold_cosine,
         })
     }
 
@@ -181,18 +186,19 @@ impl Sums {
                 sums[copied.corner as usize] = sums[good as usize];
             }
         }
-        let first = self.first_of_sign(stages, &sums);
+        let raw = |sum: u32| self.signs.get(sum as usize).copied().unwrap_or(DEFAULT_SIGN);
+        let is_forced: Vec<bool> =
+            sums.iter().zip(base.per_corner()).map(|(&sum, tangent)| raw(sum) != tangent[3]).collect();
+        // Where a face was given one sign, a corner has the tangent of another group at its vertex.
+        let first = if is_forced.contains(&true) { self.first_of_sign(stages, &sums) } else { HashMap::new() };
         let names = names(stages, sums.len());
         for (corner, sum) in sums.iter_mut().enumerate() {
             let sign = base.per_corner()[corner][3];
-            let raw = self.signs.get(*sum as usize).copied().unwrap_or(DEFAULT_SIGN);
-            // Where a face was given one sign, a corner has the tangent of another group at its vertex.
-            let is_forced = raw != sign;
-            if is_forced {
+            if is_forced[corner] {
                 *sum = none(first.get(&(names[corner], sign > 0.0)).copied());
             }
             if *sum == NONE {
-                *sum = self.without_members(vertex(mesh, corner as u32), is_forced);
+                *sum = self.without_members(vertex(mesh, corner as u32), is_forced[corner]);
             }
             *sum |= if sign < 0.0 { FIRST_MARK } else { 0 };
         }

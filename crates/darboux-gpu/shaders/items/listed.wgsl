@@ -1,6 +1,6 @@
 // The items that are listed.
 
-struct Unsure {
+struct List {
     groups: u32,
     rows: u32,
     layers: u32,
@@ -8,7 +8,7 @@ struct Unsure {
     items: array<u32>,
 }
 
-@group(0) @binding(9) var<storage, read> unsure: Unsure;
+@group(0) @binding(9) var<storage, read> list: List;
 
 fn is_left() -> bool {
     return false;
@@ -16,7 +16,7 @@ fn is_left() -> bool {
 
 @compute @workgroup_size(WORKGROUP)
 fn every_item(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    for (var place = thread.x; place < unsure.count; place += groups.x * WORKGROUP) {
-        run(unsure.items[place]);
+    for (var place = thread.x; place < list.count; place += groups.x * WORKGROUP) {
+        run(list.items[place]);
     }
 }
