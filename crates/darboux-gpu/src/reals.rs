@@ -106,7 +106,7 @@ impl List {
     pub fn new(device: &Device, label: &str, items: u32) -> Self {
         let items = device.create_buffer(&BufferDescriptor {
             label: Some(label),
-            size: 4 * (NOTHING.len() as u64 + u64::from(items)),
+            size: 4 * (NOTHING.len() as u64 + u64::from(items.max(1))),
             usage: BufferUsages::STORAGE
                 | BufferUsages::INDIRECT
                 | BufferUsages::COPY_DST
