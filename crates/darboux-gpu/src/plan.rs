@@ -1,5 +1,6 @@
 //! Topology once, tangents every frame: the core's `Plan` for vertices that move on the device.
 
+mod check;
 mod topology;
 
 use bytemuck::Zeroable;
@@ -11,6 +12,7 @@ use crate::buffers::{check_elements, check_places, check_size};
 use crate::kernel::{Step, buffer, module, pipeline};
 use crate::reals::{Arithmetic, LIST, List, RealKernel, RealStep, files};
 use crate::{GpuError, Precision};
+pub use check::PlanCheck;
 use topology::Topology;
 
 const PLAN: &str = include_str!("../shaders/plan/plan.wgsl");
@@ -21,6 +23,17 @@ pub(crate) const TERMS: &[&str] =
     &[PLAN, TRIANGLE, include_str!("../shaders/wedge.wgsl"), include_str!("../shaders/plan/terms.wgsl")];
 pub(crate) const GATHER: &[&str] = &[PLAN, SUMS, include_str!("../shaders/plan/gather.wgsl")];
 pub(crate) const REPAIR: &[&str] = &[PLAN, TRIANGLE, SUMS, include_str!("../shaders/plan/repair.wgsl")];
+pub(crate) const CHECK_TRIANGLES: &[&str] = &[
+    PLAN,
+    TRIANGLE,
+    include_str!("../shaders/plan/changes.wgsl"),
+    include_str!("../shaders/plan/check_triangles.wgsl"),
+];
+pub(crate) const CHECK_VERTICES: &[&str] = &[
+    PLAN,
+    include_str!("../shaders/plan/changes.wgsl"),
+    include_str!("../shaders/plan/check_vertices.wgsl"),
+];
 pub(crate) const WRITE: &[&str] = &[PLAN, include_str!("../shaders/plan/write.wgsl")];
 
 /// What plans need, compiled once for a device.
@@ -31,6 +44,8 @@ pub struct Planner {
     gather: RealKernel,
     repair: ComputePipeline,
     write: ComputePipeline,
+    check_triangles: RealKernel,
+    check_vertices: RealKernel,
 }
 
 /// The groups of one mesh, on the device: kept to evaluate its tangents again wherever its vertices are.
@@ -45,6 +60,8 @@ pub struct Plan {
     sum_of_output: [Result<(Buffer, u32), GpuError>; 2],
     terms: Buffer,
     tangents: Buffer,
+    /// What checks read besides: sums of corners, differences of u, UVs.
+    of_check: [Buffer; 3],
 }
 
 /// Three floats per vertex in a buffer of the caller's, which has `BufferUsages::STORAGE`.
@@ -132,6 +149,8 @@ impl Planner {
             gather: RealKernel::new(device, arithmetic, GATHER),
             repair: compile(&files(Arithmetic::Fast, true, REPAIR), "every_item"),
             write: compile(WRITE, "write"),
+            check_triangles: RealKernel::new(device, Arithmetic::Fast, CHECK_TRIANGLES),
+            check_vertices: RealKernel::new(device, Arithmetic::Fast, CHECK_VERTICES),
         }
     }
 
@@ -142,7 +161,8 @@ impl Planner {
     pub fn plan(&self, mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Plan, GpuError> {
         let topology = Topology::new(mesh, options)?;
         let of_corners = self.upload("sums of corners", &topology.sum_of_corner)?;
-        let of_vertices = topology.sum_of_vertex(mesh).and_then(|sums| self.upload("sums of vertices", &sums));
+        let of_vertices =
+            topology.sum_of_vertex(mesh).and_then(|sums| self.upload("sums of vertices", &sums));
         let count = |count: usize| count as u32;
         let terms = 9 * topology.triangle_count;
         check_size(&self.device, "terms", 4 * u64::from(terms))?;
@@ -165,6 +185,11 @@ impl Planner {
             ],
             terms: buffer(&self.device, "terms", terms.max(1)),
             tangents: buffer(&self.device, "tangents", (4 * topology.sum_count).max(1)),
+            of_check: [
+                self.upload("sums of places", &topology.sum_of_place)?,
+                self.upload("differences", &topology.du)?,
+                self.upload("UVs", &topology.uvs)?,
+            ],
             planner: self.clone(),
         })
     }
@@ -190,21 +215,7 @@ impl Plan {
         let (sum_of_output, outputs) = self.sum_of_output[mesh.per as usize].clone()?;
         self.check(mesh, outputs)?;
         let device = &self.planner.device;
-        let words = Words {
-            output_count: outputs,
-            position: mesh.positions.offset / 4,
-            position_stride: mesh.positions.stride / 4,
-            normal: mesh.normals.offset / 4,
-            normal_stride: mesh.normals.stride / 4,
-            tangent: mesh.tangents.offset / 4,
-            tangent_stride: mesh.tangents.stride / 4,
-            ..self.words
-        };
-        let plan = &device.create_buffer_init(&BufferInitDescriptor {
-            label: Some("plan"),
-            contents: bytemuck::bytes_of(&words),
-            usage: BufferUsages::UNIFORM,
-        });
+        let (words, plan) = (&self.words, &self.uniform(mesh, outputs));
         let (positions, normals) = (mesh.positions.buffer, mesh.normals.buffer);
         let unusable = List::new(device, "unusable", words.sum_count);
         let repaired = buffer(device, "repaired", 1);
@@ -236,6 +247,24 @@ impl Plan {
             counts: buffer(device, "counts", 3),
             unusable,
             repaired,
+        })
+    }
+
+    fn uniform(&self, mesh: &MovingMesh<'_>, output_count: u32) -> Buffer {
+        let words = Words {
+            output_count,
+            position: mesh.positions.offset / 4,
+            position_stride: mesh.positions.stride / 4,
+            normal: mesh.normals.offset / 4,
+            normal_stride: mesh.normals.stride / 4,
+            tangent: mesh.tangents.offset / 4,
+            tangent_stride: mesh.tangents.stride / 4,
+            ..self.words
+        };
+        self.planner.device.create_buffer_init(&BufferInitDescriptor {
+            label: Some("plan"),
+            contents: bytemuck::bytes_of(&words),
+            usage: BufferUsages::UNIFORM,
         })
     }
 

@@ -174,7 +174,7 @@ mod tests {
     use super::*;
     use crate::average::tests::validate;
     use crate::evaluation::{DERIVATIVES, EVALUATE, WEDGES};
-    use crate::plan::{GATHER, REPAIR, TERMS, WRITE};
+    use crate::plan::{CHECK_TRIANGLES, CHECK_VERTICES, GATHER, REPAIR, TERMS, WRITE};
 
     #[test]
     fn shaders_are_valid_in_every_arithmetic() {
@@ -185,6 +185,8 @@ mod tests {
             }
         }
         validate(&files(Arithmetic::Fast, true, REPAIR));
+        validate(&files(Arithmetic::Fast, false, CHECK_TRIANGLES));
+        validate(&files(Arithmetic::Fast, false, CHECK_VERTICES));
         validate(WRITE);
     }
 }

@@ -3,9 +3,9 @@
 mod common;
 
 use common::{buffer, gpus, triangulated, words_of};
-use darboux::{Mode, TangentOptions};
+use darboux::{Mode, TangentOptions, generate_tangents, split_vertices};
 use darboux_gpu::stages::Arithmetic;
-use darboux_gpu::{Attribute, Gpu, GpuError, MovingMesh, Per, Planner, Precision};
+use darboux_gpu::{Attribute, Gpu, MovingMesh, Per, Plan, Planner, Precision};
 use darboux_tests::{Case, OwnedMesh, families};
 use wgpu::BufferUsages;
 
@@ -27,14 +27,22 @@ fn moved(mesh: &OwnedMesh, seed: usize) -> OwnedMesh {
     moved
 }
 
-/// The words that a plan of `base` writes for `moved`, four per corner or vertex, and its counts.
-fn run(planner: &Planner, gpu: &Gpu, meshes: [&OwnedMesh; 2], mode: Mode, per: Per) -> (Vec<u32>, [u32; 3]) {
-    let [base, moved] = meshes;
+/// What a plan writes: four words per corner or vertex, its counts, and those of its check.
+#[derive(Debug, PartialEq)]
+struct Found {
+    words: Vec<u32>,
+    counts: [u32; 3],
+    changes: [u32; 5],
+}
+
+/// Runs a plan of `base` on `moved`, in buffers of their own.
+fn run(planner: &Planner, gpu: &Gpu, [base, moved]: [&OwnedMesh; 2], mode: Mode, per: Per) -> Found {
     let options = TangentOptions { mode, ..Default::default() };
     let plan = planner.plan(&base.view(), &options).unwrap_or_else(|error| panic!("{error}"));
     let words = |values: &[[f32; 3]]| values.as_flattened().iter().map(|x| x.to_bits()).collect::<Vec<_>>();
     let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
-    let [positions, normals] = [&moved.positions, &moved.normals].map(|list| buffer(gpu, &words(list), usage));
+    let [positions, normals] =
+        [&moved.positions, &moved.normals].map(|list| buffer(gpu, &words(list), usage));
     let outputs = if per == Per::Corner { base.corner_count() } else { base.positions.len() };
     let tangents = buffer(gpu, &vec![common::UNTOUCHED; 4 * outputs], usage);
     let floats = |buffer, stride| Attribute { buffer, stride, offset: 0 };
@@ -45,16 +53,25 @@ fn run(planner: &Planner, gpu: &Gpu, meshes: [&OwnedMesh; 2], mode: Mode, per: P
         tangents: floats(&tangents, 16),
         per,
     };
-    let plan = plan.of_buffers(&moving).unwrap_or_else(|error| panic!("{error}"));
+    record(gpu, &plan, &moving)
+}
+
+fn record(gpu: &Gpu, plan: &Plan, moving: &MovingMesh<'_>) -> Found {
+    let run = plan.of_buffers(moving).unwrap_or_else(|error| panic!("{error}"));
+    let check = plan.check_of_buffers(moving).unwrap_or_else(|error| panic!("{error}"));
+    let sources = [moving.tangents.buffer, run.counts(), check.counts()];
     let reading = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
-    let [found, counts] = [4 * outputs, 3].map(|count| buffer(gpu, &vec![0; count], reading));
+    let results = sources.map(|source| buffer(gpu, &vec![0; source.size() as usize / 4], reading));
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    plan.record(&mut encoder);
-    encoder.copy_buffer_to_buffer(&tangents, 0, &found, 0, None);
-    encoder.copy_buffer_to_buffer(plan.counts(), 0, &counts, 0, None);
+    run.record(&mut encoder);
+    check.record(&mut encoder);
+    for (source, result) in sources.iter().zip(&results) {
+        encoder.copy_buffer_to_buffer(source, 0, result, 0, None);
+    }
     gpu.queue.submit([encoder.finish()]);
-    let counts = words_of(gpu, &counts);
-    (words_of(gpu, &found), [counts[0], counts[1], counts[2]])
+    let [words, counts, changes] = results.map(|result| words_of(gpu, &result));
+    let fixed = "as many words";
+    Found { words, counts: counts.try_into().expect(fixed), changes: changes.try_into().expect(fixed) }
 }
 
 fn bits(tangent: [f32; 4]) -> [u32; 4] {
@@ -78,10 +95,10 @@ struct Tally {
 
 fn check(planner: &Planner, gpu: &Gpu, name: &str, meshes: [&OwnedMesh; 2], mode: Mode, tally: &mut Tally) {
     let [base, moved] = meshes;
-    let (found, counts) = run(planner, gpu, meshes, mode, Per::Corner);
+    let Found { words, counts, .. } = run(planner, gpu, meshes, mode, Per::Corner);
     let expected = on_cpu(base, moved, mode);
     let raw = on_cpu(base, moved, Mode::Reference);
-    for (corner, found) in found.as_chunks().0.iter().enumerate() {
+    for (corner, found) in words.as_chunks().0.iter().enumerate() {
         let found = bits(found.map(f32::from_bits));
         if expected[corner] == raw[corner] {
             assert_eq!(found, expected[corner], "{name}, corner {corner}, {mode:?}");
@@ -112,7 +129,7 @@ fn check_replaced(name: &str, corner: usize, [x, y, z, _]: [f32; 4], [base, move
 #[test]
 fn moved_meshes_have_the_core_s_bits() {
     for gpu in gpus() {
-        for (arithmetic, seeds) in [(Arithmetic::Exact, 0..1_500), (Arithmetic::Soft, 0..150)] {
+        for (arithmetic, seeds) in [(Arithmetic::Exact, 0..900), (Arithmetic::Soft, 0..100)] {
             let planner = Planner::with_arithmetic(&gpu.device, arithmetic);
             let mut tally = Tally::default();
             for seed in seeds {
@@ -125,5 +142,112 @@ fn moved_meshes_have_the_core_s_bits() {
             }
             println!("{arithmetic:?} on {}: {tally:?}", gpu.name);
         }
+    }
+}
+
+/// A grid with an edge of mirrored UVs, and the same as it waves.
+fn waving(mirrored: bool) -> [OwnedMesh; 2] {
+    let base = triangulated(&families::grid(40, 30, false, mirrored));
+    let split = split_vertices(&base.view(), &generate_tangents(&base.view(), &Default::default()).corners);
+    let split = split.expect("the mesh that the tangents are of");
+    let of = |list: &[[f32; 3]]| split.source_of_vertex.iter().map(|&v| list[v as usize]).collect();
+    let base = OwnedMesh {
+        positions: of(&base.positions),
+        normals: of(&base.normals),
+        uvs: split.source_of_vertex.iter().map(|&v| base.uvs[v as usize]).collect(),
+        indices: Some(split.indices.clone()),
+        ..base
+    };
+    let mut waving = base.clone();
+    for position in &mut waving.positions {
+        position[2] += 0.05 * (3.0 * position[0]).sin() * (2.0 * position[1]).cos();
+    }
+    [base, waving]
+}
+
+#[test]
+fn a_waving_surface_has_the_bits_of_a_fresh_run() {
+    for gpu in gpus() {
+        let planner = Planner::new(&gpu.device, Precision::Exact);
+        for mirrored in [false, true] {
+            let [base, waving] = &waving(mirrored);
+            let found = run(&planner, gpu, [base, waving], Mode::Repaired, Per::Vertex);
+            assert_eq!((found.counts, found.changes), ([0; 3], [0; 5]));
+            let fresh = generate_tangents(&waving.view(), &Default::default()).corners;
+            for (corner, tangent) in fresh.per_corner().iter().enumerate() {
+                let vertex = waving.vertex_of_corner(corner);
+                assert_eq!(found.words[4 * vertex..][..4], tangent.map(f32::to_bits), "vertex {vertex}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_check_that_finds_nothing_means_a_fresh_run() {
+    for gpu in gpus() {
+        let planner = Planner::new(&gpu.device, Precision::Exact);
+        let options = TangentOptions { mode: Mode::Corrected, ..Default::default() };
+        let (mut unchanged, mut changed) = (0, 0);
+        for seed in 0..800 {
+            let base = triangulated(&Case::from_seed(seed).mesh);
+            if base.corner_count() == 0 {
+                continue;
+            }
+            let mut moved = base.clone();
+            for (v, position) in moved.positions.iter_mut().enumerate() {
+                position[v % 3] *= 1.0 + 0.02 * ((seed as usize + v) % 5) as f32;
+            }
+            let plan = darboux::Plan::new(&base.view(), &options);
+            let differing = plan.count_regrouped(&moved.view()).expect("the same mesh, moved");
+            let found = run(&planner, gpu, [&base, &moved], Mode::Corrected, Per::Corner);
+            if found.changes == [0; 5] {
+                assert_eq!(differing, 0, "seed {seed}");
+                unchanged += 1;
+            } else {
+                changed += usize::from(differing > 0);
+            }
+        }
+        println!("{unchanged} unchanged; {changed} changed and found to be on {}", gpu.name);
+        assert!(unchanged > 20 && changed > 20);
+    }
+}
+
+#[test]
+fn changes_are_counted() {
+    let [base, _] = waving(false);
+    let moved = |change: &dyn Fn(&mut OwnedMesh)| {
+        let mut mesh = base.clone();
+        change(&mut mesh);
+        mesh
+    };
+    // The mesh with one more vertex, welded with its first.
+    let mut doubled = base.clone();
+    let copy = doubled.push(base.vertex(0));
+    let mut list = base.face_list();
+    list[0] = list[0].iter().map(|&v| if v == 0 { copy } else { v }).collect();
+    let doubled = doubled.with_face_list(&list);
+    let mut parted = doubled.clone();
+    parted.positions[copy as usize][2] += 1e-3;
+    let collapsed = moved(&|mesh| mesh.positions[1] = mesh.positions[0]);
+    for gpu in gpus() {
+        let planner = Planner::new(&gpu.device, Precision::Exact);
+        let changes = |base: &OwnedMesh, moved: &OwnedMesh| {
+            run(&planner, gpu, [base, moved], Mode::Repaired, Per::Corner).changes
+        };
+        assert_eq!(changes(&base, &base), [0; 5]);
+        assert_eq!(changes(&doubled, &parted)[2], 1);
+        let [triangles, ..] = changes(&base, &collapsed);
+        assert!(triangles > 0);
+        assert_eq!(changes(&collapsed, &base)[1], triangles);
+        let met = moved(&|mesh| {
+            let last = mesh.positions.len() - 1;
+            mesh.uvs[last] = mesh.uvs[0];
+        });
+        let mut at_first = met.clone();
+        let last = met.positions.len() - 1;
+        (at_first.positions[last], at_first.normals[last]) = (met.positions[0], met.normals[0]);
+        assert_eq!(changes(&met, &at_first)[3], 1);
+        let turned = moved(&|mesh| mesh.positions[0] = mesh.positions[base.positions.len() / 2]);
+        assert!(changes(&base, &turned)[4] > 0);
     }
 }

@@ -21,13 +21,15 @@ pub(crate) struct Topology {
     pub du: Vec<u32>,
     pub triangle_count: u32,
     pub degenerate_count: u32,
-    /// Of each vertex.
+    /// Of each vertex; none for those that nothing uses.
     pub representatives: Vec<u32>,
     /// Ends, vertices and members.
     pub sums: Vec<u32>,
     pub sum_count: u32,
-    /// Of the corners of the triangles that are not degenerate.
+    /// Of the corners of the triangles that are not degenerate, marked where their group has several.
     pub sum_of_place: Vec<u32>,
+    /// Two words per vertex, without -0.
+    pub uvs: Vec<u32>,
     /// Of the corners of the mesh, with signs.
     pub sum_of_corner: Vec<u32>,
     /// The base's tangents.
@@ -62,14 +64,16 @@ impl Topology {
         let list = |list: &Triangles, axis| -> Vec<u32> {
             (0..list.face.len()).flat_map(|t| differences(mesh, list.vertices[t], axis)).collect()
         };
-        let of_place = |&corner: &u32| sum_of_corner[corner as usize] & !FIRST_MARK;
         Ok(Self {
             triangle_count: good.face.len() as u32,
             degenerate_count: degenerate.face.len() as u32,
             du: [list(good, 0), list(degenerate, 0)].concat(),
             triangles,
             representatives: representatives(mesh, [good, degenerate]),
-            sum_of_place: good.corners.as_flattened().iter().map(of_place).collect(),
+            sum_of_place: sums_of_places(&stages, &sum_of_corner),
+            uvs: (0..mesh.vertex_count())
+                .flat_map(|v| mesh.uvs().get(v).map(|x| (x + 0.0).to_bits()))
+                .collect(),
             sum_count: sums.ends.len() as u32,
             sums: [sums.ends, sums.vertices, sums.members].concat(),
             sum_of_corner,
@@ -94,7 +98,11 @@ impl Topology {
             }
         }
         match has_several.iter().filter(|&&several| several).count() {
-            0 => Ok(first.iter().map(|&corner| self.sum_of_corner.get(corner as usize).copied()).map(none).collect()),
+            0 => Ok(first
+                .iter()
+                .map(|&corner| self.sum_of_corner.get(corner as usize).copied())
+                .map(none)
+                .collect()),
             vertices => Err(GpuError::Unsplit { vertices }),
         }
     }
@@ -110,13 +118,27 @@ fn vertex(mesh: &Mesh<'_>, corner: u32) -> u32 {
 
 /// Which vertex stands for each: its own number but for copies.
 fn representatives(mesh: &Mesh<'_>, lists: [&Triangles; 2]) -> Vec<u32> {
-    let mut of_vertex: Vec<u32> = (0..mesh.vertex_count() as u32).collect();
+    let mut of_vertex = vec![NONE; mesh.vertex_count()];
     for list in lists {
         for (&corner, &of) in list.corners.as_flattened().iter().zip(list.vertices.as_flattened()) {
             of_vertex[mesh.vertex_of_corner(corner as usize)] = vertex(mesh, of);
         }
     }
     of_vertex
+}
+
+/// The sum of each corner of the triangles that are not degenerate, marked where members of its group have several.
+fn sums_of_places(stages: &Stages, sum_of_corner: &[u32]) -> Vec<u32> {
+    let corners = stages.triangulation.good.corners.as_flattened();
+    let sum_of_place = |place: &u32| sum_of_corner[corners[*place as usize] as usize] & !FIRST_MARK;
+    let mut sums: Vec<u32> = (0..corners.len() as u32).map(|place| sum_of_place(&place)).collect();
+    for group in 0..stages.groups.ends().len() {
+        let members = stages.groups.members(group);
+        if members.iter().any(|member| sum_of_place(member) != sum_of_place(&members[0])) {
+            members.iter().for_each(|&member| sums[member as usize] |= FIRST_MARK);
+        }
+    }
+    sums
 }
 
 /// The words of triangle `t` of those that are not degenerate.
@@ -190,7 +212,8 @@ impl Sums {
         let is_forced: Vec<bool> =
             sums.iter().zip(base.per_corner()).map(|(&sum, tangent)| raw(sum) != tangent[3]).collect();
         // Where a face was given one sign, a corner has the tangent of another group at its vertex.
-        let first = if is_forced.contains(&true) { self.first_of_sign(stages, &sums) } else { HashMap::new() };
+        let first =
+            if is_forced.contains(&true) { self.first_of_sign(stages, &sums) } else { HashMap::new() };
         let names = names(stages, sums.len());
         for (corner, sum) in sums.iter_mut().enumerate() {
             let sign = base.per_corner()[corner][3];
