@@ -7,20 +7,35 @@ use darboux::{Method, TangentOptions, UvFidelity, generate_tangents, measure_uv_
 use darboux_tests::OwnedMesh;
 use darboux_tests::models::{meshes, models};
 
-const METHODS: [Method; 6] = [
+const METHODS: [Method; 8] = [
     Method::AngleArea,
     Method::MikkTSpace,
     Method::Lengyel,
     Method::LengyelPerVertex,
     Method::Average,
     Method::Area,
+    Method::Face,
+    Method::FromNormal,
 ];
 
-/// The names of a row's numbers: [`METHODS`], then meshoptimizer.
-const COLUMNS: [&str; 7] =
-    ["angle-area", "mikktspace", "lengyel", "per vertex", "average", "area", "meshoptimizer"];
+/// The names of a row's numbers: meshoptimizer, then [`METHODS`].
+const COLUMNS: [&str; 9] = [
+    "meshoptimizer",
+    "angle-area",
+    "mikktspace",
+    "lengyel",
+    "per vertex",
+    "average",
+    "area",
+    "face",
+    "from-normal",
+];
 
-/// Models on which every method is nearer than this, in degrees, are flat: there is nothing to compare.
+/// The columns that are smooth and follow UVs, which are what angle-area is compared with.
+const RIVALS: [usize; 6] = [0, 2, 3, 4, 5, 6];
+const ANGLE_AREA: usize = 1;
+
+/// Models on which angle-area and its rivals are all nearer than this, in degrees, are flat: there is nothing to compare.
 const FLAT: f64 = 0.001;
 
 /// The mean angle of every method and of meshoptimizer on a mesh.
@@ -39,7 +54,7 @@ fn measure(mesh: &OwnedMesh) -> Vec<UvFidelity> {
         meshopt::TangentOptions::None,
     );
     let theirs = measure_uv_fidelity(&view, &theirs).expect("the same mesh");
-    ours.into_iter().chain([theirs]).collect()
+    [theirs].into_iter().chain(ours).collect()
 }
 
 /// The mean angles over all primitives of a model, weighted by area; none where nothing can be measured.
@@ -61,31 +76,39 @@ fn table() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let folder = root.join("../shared/assets");
     let folder = if folder.is_dir() { folder } else { root.join("assets") };
+    let mut out = std::io::stdout();
     let mut rows: Vec<(PathBuf, [f64; COLUMNS.len()])> = Vec::new();
     for path in models(&folder) {
-        if let Some(row) = measure_model(&path)
-            && rows.iter().all(|(_, other)| *other != row)
-            && row.iter().any(|mean| *mean > FLAT)
-        {
-            rows.push((path.strip_prefix(&folder).expect("below it").to_path_buf(), row));
-        }
+        let name = path.strip_prefix(&folder).expect("below it").to_path_buf();
+        let Some(row) = measure_model(&path) else { continue };
+        let is_flat = RIVALS.iter().chain([&ANGLE_AREA]).all(|column| row[*column] < FLAT);
+        let reason = match rows.iter().find(|(_, other)| *other == row) {
+            Some((same, _)) => format!("the same as {}", same.display()),
+            None if is_flat => "flat".to_owned(),
+            None => {
+                rows.push((name, row));
+                continue;
+            }
+        };
+        let numbers = row.map(|mean| format!("{mean:.6} ")).concat();
+        writeln!(out, "left out: {}: {reason}: {numbers}", name.display()).expect("standard output");
     }
-    let mut out = std::io::stdout();
-    writeln!(out, "{:46} {}", "", COLUMNS.map(|name| format!("{name:>12}")).concat())
+    writeln!(out, "{:46} {}", "", COLUMNS.map(|name| format!("{name:>14}")).concat())
         .expect("standard output");
     for (path, row) in &rows {
-        let numbers = row.map(|mean| format!("{mean:12.4}")).concat();
+        let numbers = row.map(|mean| format!("{mean:14.4}")).concat();
         writeln!(out, "{:46} {numbers}", path.display()).expect("standard output");
     }
-    for (column, name) in COLUMNS.iter().enumerate().skip(1) {
-        let mut ratios: Vec<f64> = rows.iter().map(|(_, row)| row[0] / row[column]).collect();
-        let lost: Vec<_> = rows.iter().filter(|(_, row)| row[0] >= row[column]).collect();
+    for column in RIVALS {
+        let mut ratios: Vec<f64> = rows.iter().map(|(_, row)| row[ANGLE_AREA] / row[column]).collect();
+        let lost: Vec<_> = rows.iter().filter(|(_, row)| row[ANGLE_AREA] >= row[column]).collect();
         ratios.sort_unstable_by(f64::total_cmp);
-        let median = ratios[ratios.len() / 2];
+        let (name, median) = (COLUMNS[column], ratios[ratios.len() / 2]);
         writeln!(out, "{name}: median ratio {median:.4}, not better on {} of {}", lost.len(), rows.len())
-            .expect("out");
+            .expect("standard output");
         for (path, row) in lost {
-            writeln!(out, "  {}: {:.4} > {:.4}", path.display(), row[0], row[column]).expect("out");
+            writeln!(out, "  {}: {:.4} > {:.4}", path.display(), row[ANGLE_AREA], row[column])
+                .expect("standard output");
         }
     }
 }
