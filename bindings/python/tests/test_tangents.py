@@ -6,24 +6,37 @@ from typing import Any, Callable, Dict, List
 import darboux
 import numpy as np
 import pytest
-from conftest import Mesh, Specimen, bits, grid
+from conftest import Mesh, Specimen, bits, floats, grid
 
 
 def test_corpus_has_the_bits_of_rust(corpus: List[Specimen]) -> None:
     assert len({specimen.answer["name"] for specimen in corpus}) > 30
     for case in corpus:
         arguments = case.mesh.arrays
-        found = darboux.generate_tangents(*arguments, faces=case.faces, **case.options)
+        found, report = darboux.generate_tangents(*arguments, faces=case.faces, return_report=True, **case.options)
         tangents = case.floats("tangents", 4)
         assert bits(found) == bits(tangents), case.answer["name"]
+        assert report.repaired_corners == case.answer["repaired"]
         frames = darboux.generate_tangents(*arguments, faces=case.faces, full=True, **case.options)
-        assert bits(frames.tangent) == bits(tangents)
+        assert bits(frames.tangent) == bits(case.floats("frames", 4))
         assert bits(frames.bitangent) == bits(case.floats("bitangents", 3))
         assert bits(frames.magnitude) == bits(case.floats("magnitudes", 2))
         split = darboux.split_vertices(case.mesh.indices, tangents, len(case.mesh.positions))
         assert split.indices.tolist() == case.answer["split_indices"]
         assert split.source_of_vertex.tolist() == case.answer["split_sources"]
         assert bits(split.tangent_of_vertex) == bits(case.floats("split_tangents", 4))
+
+
+def test_methods_and_plans_have_the_bits_of_rust(corpus: List[Specimen]) -> None:
+    for case in corpus:
+        arguments, mode = case.mesh.arrays, case.options["mode"]
+        for method, words in case.answer["methods"].items():
+            found = darboux.generate_tangents(*arguments, faces=case.faces, method=method, mode=mode)
+            assert bits(found) == bits(floats(words, 4)), (case.answer["name"], method)
+        plan = darboux.Plan(*arguments, faces=case.faces, **case.options)
+        assert bits(plan.base) == bits(case.floats("tangents", 4))
+        planned = plan.evaluate(case.floats("moved", 3), case.mesh.normals)
+        assert bits(planned) == bits(case.floats("planned", 4)), case.answer["name"]
 
 
 def interleaved(mesh: Mesh) -> Dict[str, np.ndarray]:
