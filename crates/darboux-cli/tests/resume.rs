@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use common::{asset, darboux, names_in, text};
+use darboux_cli::{Library, carry_out, give_up};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -159,4 +160,69 @@ fn one_run_at_a_time_writes_into_a_folder() {
     drop(held);
     resume(&models, &out, &[], 0);
     darboux(&["tangents", text(&models), "--resume"]).exits(2);
+}
+
+#[test]
+fn every_command_resumes() {
+    let (_folder, models, out) = library();
+    let image = text(&models.join("plane/TwoSidedPlane_Normal.png")).to_owned();
+    let model = text(&models.join("a.glb")).to_owned();
+    let commands: [(&[&str], &[&str]); 2] = [
+        (&["normals", &model, "--overwrite"], &["--normals", "flat"]),
+        (&["convert", &image, &model, "--from", "unity", "--to", "gltf"], &["--layout", "rg"]),
+    ];
+    for (command, change) in commands {
+        let out = out.join(command[0]);
+        let run = |options: &[&str]| -> Vec<String> {
+            let ending = ["--out-dir", text(&out), "--resume", "--json", "-q"];
+            let report = darboux(&[command, options, &ending].concat()).exits(0).json();
+            statuses(&report).into_iter().map(str::to_owned).collect()
+        };
+        assert!(!run(&[]).contains(&"up_to_date".into()));
+        assert!(run(&[]).iter().all(|status| status == "up_to_date"));
+        assert!(!run(change).contains(&"up_to_date".into()));
+    }
+}
+
+#[test]
+fn other_processes_can_do_the_work() {
+    let (_folder, models, out) = library();
+    let inputs = [models.clone(), models.join("nothing.glb")];
+    let encoding = ["--encoding".to_owned(), "snorm16x4".to_owned()];
+    let library = Library::open(&inputs, &out, &encoding).expect("a library");
+    assert!(Library::open(&inputs, &out, &[]).err().expect("held").contains("another run"));
+    let statuses = |library: &Library| -> Vec<String> {
+        let answers = library.orders().iter().map(|order| carry_out(order).expect("an answer"));
+        let taken = answers.map(|answer| {
+            library.take(&answer).expect("it is noted");
+            let answer: Value = serde_json::from_str(&answer).expect("JSON");
+            answer["report"]["status"].as_str().expect("a status").to_owned()
+        });
+        taken.collect()
+    };
+    assert_eq!(statuses(&library), ["written", "copied", "copied", "failed"]);
+    library.close().expect("closed");
+    let again = Library::open(&inputs, &out, &encoding).expect("the library again");
+    assert_eq!(statuses(&again), ["up_to_date", "up_to_date", "up_to_date", "failed"]);
+    let lost = give_up(&again.orders()[3], "it was lost").expect("an answer");
+    assert!(lost.contains("nothing.glb: it was lost"), "{lost}");
+    drop(again);
+    resume(&models, &out, &["--encoding", "snorm16x4"], 0);
+}
+
+#[test]
+fn orders_and_answers_of_nobody_are_refused() {
+    let (_folder, models, out) = library();
+    for text in ["", "{}", "[1]", "{\"report\": 3"] {
+        assert!(carry_out(text).is_err() && give_up(text, "").is_err());
+    }
+    let library = Library::open(&[models.clone()], &out, &[]).expect("a library");
+    assert!(library.take("{}").is_err());
+    let refused = |options: &[&str]| {
+        let options: Vec<String> = options.iter().map(|&option| option.to_owned()).collect();
+        Library::open(&[models.clone()], &out.join("other"), &options).err().expect("refused")
+    };
+    assert_eq!(refused(&["--best"]), "unexpected argument '--best' found");
+    assert!(refused(&["--method", "area", "--threshold", "3"]).contains("--threshold belongs to"));
+    assert!(refused(&["-o", "x.glb"]).contains("cannot be used with"));
 }
