@@ -56,7 +56,7 @@ fn described(adapters: &[Adapter]) -> String {
     adapters.iter().fold(String::new(), |mut text, adapter| {
         let Adapter { name, kind, backend, driver, largest_binding, triangle_limit, problem } = adapter;
         let use_of_it = match problem {
-            None => format!("usable, meshes up to {} triangles", HumanCount(*triangle_limit)),
+            None => format!("usable, {} triangles at once", HumanCount(*triangle_limit)),
             Some(problem) => format!("not usable: {problem}"),
         };
         let binding = HumanBytes(*largest_binding);

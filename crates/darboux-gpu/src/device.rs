@@ -2,7 +2,10 @@
 
 use std::sync::mpsc;
 
-use wgpu::{Buffer, BufferDescriptor, BufferUsages, CommandEncoder, Device, ErrorFilter, MapMode, PollType};
+use bytemuck::{AnyBitPattern, NoUninit};
+use wgpu::{
+    Buffer, BufferDescriptor, BufferUsages, CommandEncoder, Device, ErrorFilter, MapMode, PollType, Queue,
+};
 
 use crate::GpuError;
 
@@ -22,12 +25,26 @@ pub(crate) fn guarded<T>(device: &Device, work: impl FnOnce() -> Result<T, GpuEr
     }
 }
 
+/// Submits what `record` records; gives copies of the `wanted` buffers as they are then.
+pub(crate) fn submit<const N: usize>(
+    device: &Device,
+    queue: &Queue,
+    record: impl FnOnce(&mut CommandEncoder),
+    wanted: [&Buffer; N],
+) -> [Copy; N] {
+    let mut encoder = device.create_command_encoder(&Default::default());
+    record(&mut encoder);
+    let copies = wanted.map(|buffer| Copy::record(device, &mut encoder, buffer));
+    queue.submit([encoder.finish()]);
+    copies
+}
+
 /// A copy of a buffer's words, for reading.
 pub(crate) struct Copy(Buffer);
 
 impl Copy {
-    /// Records the copy. `source` allows to be copied from.
-    pub fn record(device: &Device, encoder: &mut CommandEncoder, source: &Buffer) -> Self {
+    /// `source` allows to be copied from.
+    fn record(device: &Device, encoder: &mut CommandEncoder, source: &Buffer) -> Self {
         let copy = device.create_buffer(&BufferDescriptor {
             label: Some("copy"),
             size: source.size(),
@@ -38,8 +55,8 @@ impl Copy {
         Self(copy)
     }
 
-    /// Waits for all submitted work, then gives the bytes to `read`. Errors: the device is lost.
-    pub fn read<T>(self, device: &Device, read: impl FnOnce(&[u8]) -> T) -> Result<T, GpuError> {
+    /// Waits for all submitted work, then gives the elements. Errors: the device is lost.
+    pub fn read<T: AnyBitPattern + NoUninit>(self, device: &Device) -> Result<Vec<T>, GpuError> {
         let (sender, receiver) = mpsc::channel();
         self.0.map_async(MapMode::Read, .., move |mapped| {
             // Nobody waits for it only where this function has failed already.
@@ -50,6 +67,6 @@ impl Copy {
             return Err(GpuError::Lost);
         }
         let bytes = self.0.get_mapped_range(..).map_err(|_| GpuError::Lost)?;
-        Ok(read(&bytes))
+        Ok(bytemuck::pod_collect_to_vec(&bytes))
     }
 }

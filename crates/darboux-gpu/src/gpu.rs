@@ -5,6 +5,7 @@ use std::fmt;
 use wgpu::{Adapter, Backends, Device, DeviceDescriptor, DeviceType, Instance, InstanceDescriptor, Queue};
 
 use crate::GpuError;
+use crate::pieces::largest_binding;
 
 /// A device with all that its adapter allows.
 #[derive(Clone, Debug)]
@@ -73,7 +74,7 @@ impl AdapterSummary {
             },
             backend: info.backend.to_string(),
             driver: [info.driver, info.driver_info].join(" ").trim().to_owned(),
-            largest_binding: limits.max_storage_buffer_binding_size.min(limits.max_buffer_size),
+            largest_binding: largest_binding(&limits),
         }
     }
 }

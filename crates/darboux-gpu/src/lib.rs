@@ -36,6 +36,7 @@ mod evaluation;
 mod gpu;
 mod kernel;
 mod mikktspace;
+mod pieces;
 mod plan;
 mod reals;
 mod topology;

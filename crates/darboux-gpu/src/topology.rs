@@ -46,6 +46,8 @@ pub(crate) struct WeldedMesh<'a> {
     pub vertices: &'a Buffer,
     pub indices: &'a Buffer,
     pub welded: &'a Buffer,
+    /// Of every vertex: 1 where the CPU has to decide. Steps add to them.
+    pub is_left: &'a Buffer,
 }
 
 /// Triangles, neighbours and groups of one mesh, and the steps that find them.
@@ -60,8 +62,6 @@ pub(crate) struct Topology {
     pub marks: Buffer,
     /// The first corner of every corner's group.
     pub seed_of_corner: Buffer,
-    /// Of every vertex: 1 where the CPU has to decide.
-    pub is_left: Buffer,
     triangulate: Step,
     find_neighbours: Step,
     find_groups: [Step; 2],
@@ -70,15 +70,14 @@ pub(crate) struct Topology {
 impl Topology {
     /// Errors: the device binds no buffer of that size.
     pub fn new(device: &Device, kernels: &TopologyKernels, mesh: &WeldedMesh<'_>) -> Result<Self, GpuError> {
-        let WeldedMesh { description, words, vertices, indices, welded } = *mesh;
-        let (vertex_count, triangles) = (description.vertex_count, description.triangle_count);
+        let WeldedMesh { description, words, vertices, indices, welded, is_left } = *mesh;
+        let triangles = description.triangle_count;
         let corners = 3 * triangles;
         check_size(device, "the welded corners", 4 * u64::from(corners))?;
         let welded_corners = buffer(device, "welded_corners", corners);
         let [neighbours, seed_of_corner] =
             ["neighbours", "seed_of_corner"].map(|label| buffer(device, label, corners));
         let marks = buffer(device, "marks", triangles);
-        let is_left = buffer(device, "is_left", vertex_count);
         let description = description.of_welded_corners();
         let welded_words = &description.uniform(device);
         let adjacency =
@@ -88,13 +87,13 @@ impl Topology {
         };
         let triangulate = step(
             &kernels.triangulate,
-            &[(0, words), (1, indices), (2, vertices), (3, welded), (4, &welded_corners), (5, &is_left)],
+            &[(0, words), (1, indices), (2, vertices), (3, welded), (4, &welded_corners), (5, is_left)],
             triangles,
         );
         let of_corners = [(0, welded_words), (1, &welded_corners)];
         let of_edges =
-            [(2, &adjacency.ends), (3, &adjacency.triangle_of_entry), (4, &neighbours), (5, &is_left)];
-        let leaving = [(3, &marks), (6, &is_left)];
+            [(2, &adjacency.ends), (3, &adjacency.triangle_of_entry), (4, &neighbours), (5, is_left)];
+        let leaving = [(3, &marks), (6, is_left)];
         let of_groups = [(2, &adjacency.ends), (4, &neighbours), (5, &seed_of_corner)];
         let find_neighbours = step(&kernels.find_neighbours, &[&of_corners[..], &of_edges].concat(), corners);
         let find_groups = [
@@ -107,7 +106,6 @@ impl Topology {
             neighbours,
             marks,
             seed_of_corner,
-            is_left,
             triangulate,
             find_neighbours,
             find_groups,
@@ -116,7 +114,6 @@ impl Topology {
 
     /// Records what comes before derivatives are known.
     pub fn record(&self, encoder: &mut CommandEncoder) {
-        encoder.clear_buffer(&self.is_left, 0, None);
         self.triangulate.record(encoder);
         self.adjacency.record(encoder);
         self.find_neighbours.record(encoder);

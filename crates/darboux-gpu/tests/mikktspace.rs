@@ -4,7 +4,8 @@ mod common;
 
 use common::{gpus, kernels, triangulated};
 use darboux::{Mode, TangentOptions, Tangents, generate_tangents};
-use darboux_gpu::{Generated, Left};
+use darboux_gpu::stages::Arithmetic;
+use darboux_gpu::{Generated, Left, MikkTSpace};
 use darboux_tests::{Case, OwnedMesh, corpus, families};
 
 /// How corners fared.
@@ -18,8 +19,12 @@ struct Tally {
 
 /// Compares tangents, signs and reports with the core's, in every mode.
 fn check(name: &str, mesh: &OwnedMesh, threshold: f32, tally: &mut Tally) {
+    check_with(kernels(), name, mesh, threshold, tally);
+}
+
+fn check_with(kernels: &[MikkTSpace], name: &str, mesh: &OwnedMesh, threshold: f32, tally: &mut Tally) {
     let view = mesh.view();
-    for (gpu, kernels) in gpus().iter().zip(kernels()) {
+    for (gpu, kernels) in gpus().iter().zip(kernels) {
         for mode in [Mode::Reference, Mode::Repaired, Mode::Corrected] {
             let options = TangentOptions { mode, threshold, ..Default::default() };
             let expected = generate_tangents(&view, &options);
@@ -107,4 +112,33 @@ fn what_the_cpu_does_is_said() {
         assert_eq!((run(&quads).left_to_cpu, run(&quads).corners_of_cpu), (Some(Left::Faces), 64));
         assert_eq!((run(&endless).left_to_cpu, run(&endless).corners_of_cpu), (Some(Left::Values), 96));
     }
+}
+
+#[test]
+fn meshes_in_pieces_have_the_bits_of_the_core() {
+    let pieces: Vec<_> = kernels().iter().map(|kernels| kernels.clone().in_pieces_of(300)).collect();
+    let mut tally = Tally::default();
+    for (name, mesh) in [
+        ("grid", families::grid(37, 23, false, true)),
+        ("sphere", families::sphere(20, 31, false)),
+        ("fan", families::fan(1_000, false)),
+    ] {
+        check_with(&pieces, name, &mesh, 180.0, &mut tally);
+        check_with(&pieces, name, &mesh.unindexed(), 180.0, &mut tally);
+    }
+    println!("{tally:?}");
+    assert!(gpus().is_empty() || tally.of_cpu * 3 < tally.corners);
+}
+
+#[test]
+fn whole_numbers_have_the_bits_of_the_core() {
+    let soft = |gpu| MikkTSpace::with_arithmetic(gpu, Arithmetic::Soft).expect("valid shaders");
+    let soft: Vec<_> = gpus().iter().map(soft).collect();
+    let mut tally = Tally::default();
+    check_with(&soft, "sphere", &families::sphere(20, 31, false), 180.0, &mut tally);
+    for seed in 0..60 {
+        let Case { mesh, threshold } = Case::from_seed(seed);
+        check_with(&soft, &format!("seed {seed}"), &triangulated(&mesh), threshold, &mut tally);
+    }
+    println!("{tally:?}");
 }

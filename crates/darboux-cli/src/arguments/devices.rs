@@ -5,8 +5,8 @@ use clap::Args;
 pub(super) const ABOUT: &str = "\
 List the adapters that `darboux tangents --device gpu` can use, software ones included.
 
-That command takes the one which the system calls the fastest. An adapter computes meshes up to a number of triangles, by the largest \
-buffer that its shaders can reach; larger ones are for the CPU.";
+That command takes the one which the system calls the fastest. By the largest buffer that its shaders can reach, an adapter computes a \
+number of triangles at once; larger meshes are cut into pieces.";
 
 /// `darboux devices`.
 #[derive(Debug, Args)]
