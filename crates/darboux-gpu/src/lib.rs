@@ -47,7 +47,7 @@ pub use buffers::{Destination, FrameLayout, MeshBuffers, VertexLayout};
 pub use error::GpuError;
 pub use gpu::{AdapterKind, AdapterSummary, Gpu};
 pub use mikktspace::{Generated, Left, MikkTSpace};
-pub use plan::{Attribute, MovingMesh, Per, Plan, PlanCheck, PlanOfBuffers, Planner};
+pub use plan::{Attribute, MovingMesh, Per, Plan, PlanCheck, PlanNormals, PlanOfBuffers, Planner};
 pub use reals::Precision;
 
 /// Single stages, for tests. Not part of the API.

@@ -1,6 +1,7 @@
 //! Topology once, tangents every frame: the core's `Plan` for vertices that move on the device.
 
 mod check;
+mod normals;
 mod topology;
 
 use bytemuck::Zeroable;
@@ -13,7 +14,9 @@ use crate::kernel::{Step, buffer, module, pipeline};
 use crate::reals::{Arithmetic, LIST, List, RealKernel, RealStep, files};
 use crate::{GpuError, Precision};
 pub use check::PlanCheck;
-use topology::Topology;
+use normals::Fans;
+pub use normals::PlanNormals;
+use topology::{Topology, VERTEX};
 
 const PLAN: &str = include_str!("../shaders/plan/plan.wgsl");
 const TRIANGLE: &str = include_str!("../shaders/plan/triangle.wgsl");
@@ -34,6 +37,8 @@ pub(crate) const CHECK_VERTICES: &[&str] = &[
     include_str!("../shaders/plan/changes.wgsl"),
     include_str!("../shaders/plan/check_vertices.wgsl"),
 ];
+pub(crate) const NORMALS: &[&str] = &[PLAN, TRIANGLE, include_str!("../shaders/plan/normals.wgsl")];
+pub(crate) const WRITE_NORMALS: &[&str] = &[PLAN, include_str!("../shaders/plan/write_normals.wgsl")];
 pub(crate) const WRITE: &[&str] = &[PLAN, include_str!("../shaders/plan/write.wgsl")];
 
 /// What plans need, compiled once for a device.
@@ -46,6 +51,8 @@ pub struct Planner {
     write: ComputePipeline,
     check_triangles: RealKernel,
     check_vertices: RealKernel,
+    normals: RealKernel,
+    write_normals: ComputePipeline,
 }
 
 /// The groups of one mesh, on the device: kept to evaluate its tangents again wherever its vertices are.
@@ -62,6 +69,7 @@ pub struct Plan {
     tangents: Buffer,
     /// What checks read besides: sums of corners, differences of u, UVs.
     of_check: [Buffer; 3],
+    fans: Fans,
 }
 
 /// Three floats per vertex in a buffer of the caller's, which has `BufferUsages::STORAGE`.
@@ -151,6 +159,8 @@ impl Planner {
             write: compile(WRITE, "write"),
             check_triangles: RealKernel::new(device, Arithmetic::Fast, CHECK_TRIANGLES),
             check_vertices: RealKernel::new(device, Arithmetic::Fast, CHECK_VERTICES),
+            normals: RealKernel::new(device, Arithmetic::Fast, NORMALS),
+            write_normals: compile(WRITE_NORMALS, "write"),
         }
     }
 
@@ -190,6 +200,7 @@ impl Planner {
                 self.upload("differences", &topology.du)?,
                 self.upload("UVs", &topology.uvs)?,
             ],
+            fans: Fans::new(self, mesh, &topology.triangles, VERTEX)?,
             planner: self.clone(),
         })
     }

@@ -174,7 +174,9 @@ mod tests {
     use super::*;
     use crate::average::tests::validate;
     use crate::evaluation::{DERIVATIVES, EVALUATE, WEDGES};
-    use crate::plan::{CHECK_TRIANGLES, CHECK_VERTICES, GATHER, REPAIR, TERMS, WRITE};
+    use crate::plan::{
+        CHECK_TRIANGLES, CHECK_VERTICES, GATHER, NORMALS, REPAIR, TERMS, WRITE, WRITE_NORMALS,
+    };
 
     #[test]
     fn shaders_are_valid_in_every_arithmetic() {
@@ -185,8 +187,10 @@ mod tests {
             }
         }
         validate(&files(Arithmetic::Fast, true, REPAIR));
-        validate(&files(Arithmetic::Fast, false, CHECK_TRIANGLES));
-        validate(&files(Arithmetic::Fast, false, CHECK_VERTICES));
+        for own in [CHECK_TRIANGLES, CHECK_VERTICES, NORMALS] {
+            validate(&files(Arithmetic::Fast, false, own));
+        }
         validate(WRITE);
+        validate(WRITE_NORMALS);
     }
 }

@@ -251,3 +251,47 @@ fn changes_are_counted() {
         assert!(changes(&base, &turned)[4] > 0);
     }
 }
+
+#[test]
+fn normals_are_nearly_the_core_s() {
+    let [base, waving] = waving(true);
+    let sphere = triangulated(&families::sphere(20, 31, false));
+    for gpu in gpus() {
+        let planner = Planner::new(&gpu.device, Precision::Exact);
+        for (base, moved) in [(&base, &waving), (&sphere, &sphere)] {
+            // Normals that only say which vertices have one.
+            let plan = planner.plan(&base.view(), &TangentOptions::default()).expect("a plan");
+            let words =
+                |list: &[[f32; 3]]| list.as_flattened().iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+            let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
+            let count = moved.positions.len();
+            // All in one buffer: positions, then normals, then tangents.
+            let all = [words(&moved.positions), vec![0; 7 * count]].concat();
+            let all = buffer(gpu, &all, usage);
+            let part = |stride, words: usize| Attribute { buffer: &all, stride, offset: 4 * words as u32 };
+            let moving = MovingMesh {
+                vertex_count: count as u32,
+                positions: part(12, 0),
+                normals: part(12, 3 * count),
+                tangents: part(16, 6 * count),
+                per: Per::Vertex,
+            };
+            let normals = plan.normals_of_buffers(&moving).unwrap_or_else(|error| panic!("{error}"));
+            let read = buffer(gpu, &vec![0; 10 * count], BufferUsages::MAP_READ | BufferUsages::COPY_DST);
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            normals.record(&mut encoder);
+            encoder.copy_buffer_to_buffer(&all, 0, &read, 0, None);
+            gpu.queue.submit([encoder.finish()]);
+            let found = words_of(gpu, &read);
+            let indices = moved.indices.as_deref().expect("indices");
+            let options = darboux::NormalOptions::default();
+            let expected =
+                darboux::generate_normals(&moved.positions, indices, darboux::Faces::Triangles, &options);
+            for (corner, expected) in expected.expect("a mesh").corners.iter().enumerate() {
+                let at = 3 * (count + moved.vertex_of_corner(corner));
+                let error = (0..3).map(|axis| (f32::from_bits(found[at + axis]) - expected[axis]).abs());
+                assert!(error.fold(0.0, f32::max) < 2e-6, "corner {corner}: {expected:?}");
+            }
+        }
+    }
+}

@@ -11,6 +11,8 @@ use crate::kernel::MAX_TURNS;
 /// Vertices' numbers end below these bits; see shaders/plan/triangle.wgsl.
 const FIRST_MARK: u32 = 1 << 31;
 const SECOND_MARK: u32 = 1 << 30;
+/// The bits of a vertex.
+pub(crate) const VERTEX: u32 = SECOND_MARK - 1;
 
 /// The arrays of a plan.
 #[derive(Debug)]
