@@ -2,10 +2,11 @@
 
 mod common;
 
+use common::plans::{Found, run};
 use common::{buffer, gpus, triangulated, words_of};
 use darboux::{Mode, TangentOptions, generate_tangents, split_vertices};
 use darboux_gpu::stages::Arithmetic;
-use darboux_gpu::{Attribute, Gpu, MovingMesh, Per, Plan, Planner, Precision};
+use darboux_gpu::{Attribute, Gpu, MovingMesh, Per, Planner, Precision};
 use darboux_tests::{Case, OwnedMesh, families};
 use wgpu::BufferUsages;
 
@@ -25,53 +26,6 @@ fn moved(mesh: &OwnedMesh, seed: usize) -> OwnedMesh {
         }
     }
     moved
-}
-
-/// What a plan writes: four words per corner or vertex, its counts, and those of its check.
-#[derive(Debug, PartialEq)]
-struct Found {
-    words: Vec<u32>,
-    counts: [u32; 3],
-    changes: [u32; 5],
-}
-
-/// Runs a plan of `base` on `moved`, in buffers of their own.
-fn run(planner: &Planner, gpu: &Gpu, [base, moved]: [&OwnedMesh; 2], mode: Mode, per: Per) -> Found {
-    let options = TangentOptions { mode, ..Default::default() };
-    let plan = planner.plan(&base.view(), &options).unwrap_or_else(|error| panic!("{error}"));
-    let words = |values: &[[f32; 3]]| values.as_flattened().iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-    let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
-    let [positions, normals] =
-        [&moved.positions, &moved.normals].map(|list| buffer(gpu, &words(list), usage));
-    let outputs = if per == Per::Corner { base.corner_count() } else { base.positions.len() };
-    let tangents = buffer(gpu, &vec![common::UNTOUCHED; 4 * outputs], usage);
-    let floats = |buffer, stride| Attribute { buffer, stride, offset: 0 };
-    let moving = MovingMesh {
-        vertex_count: moved.positions.len() as u32,
-        positions: floats(&positions, 12),
-        normals: floats(&normals, 12),
-        tangents: floats(&tangents, 16),
-        per,
-    };
-    record(gpu, &plan, &moving)
-}
-
-fn record(gpu: &Gpu, plan: &Plan, moving: &MovingMesh<'_>) -> Found {
-    let run = plan.of_buffers(moving).unwrap_or_else(|error| panic!("{error}"));
-    let check = plan.check_of_buffers(moving).unwrap_or_else(|error| panic!("{error}"));
-    let sources = [moving.tangents.buffer, run.counts(), check.counts()];
-    let reading = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
-    let results = sources.map(|source| buffer(gpu, &vec![0; source.size() as usize / 4], reading));
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    run.record(&mut encoder);
-    check.record(&mut encoder);
-    for (source, result) in sources.iter().zip(&results) {
-        encoder.copy_buffer_to_buffer(source, 0, result, 0, None);
-    }
-    gpu.queue.submit([encoder.finish()]);
-    let [words, counts, changes] = results.map(|result| words_of(gpu, &result));
-    let fixed = "as many words";
-    Found { words, counts: counts.try_into().expect(fixed), changes: changes.try_into().expect(fixed) }
 }
 
 fn bits(tangent: [f32; 4]) -> [u32; 4] {

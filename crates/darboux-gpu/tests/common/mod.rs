@@ -3,6 +3,8 @@
 #![allow(dead_code, reason = "every test file uses its part")]
 
 pub mod bound;
+pub mod plan_bound;
+pub mod plans;
 pub mod scalar;
 
 use std::io::Write;

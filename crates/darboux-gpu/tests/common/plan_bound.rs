@@ -1,0 +1,82 @@
+//! How far from the exact answer a plan's fast tangent may be, from what WGSL promises of arithmetic.
+//!
+//! With u = 2^-24, as in bound.rs: a dP/du is off by 4 u M, M = |dv2| |e1| + |dv1| |e2|; to make a vector unit doubles its relative error and
+//! adds 20 u; the part of a unit vector in the plane of the normal, of length r, is off by 60 u besides, so its direction by
+//! D = (2 e + 120 u) / r + 20 u where e is the vector's own error. A corner's cosine is off by C = D + D' + 3 u, its angle w by
+//! A = C / sin w or sqrt(2 C), whichever is less, and 1e-6 for the arccosine. A sum of n terms w s is off by the sum of w D + A, and n u
+//! times the sum of w for the additions; its direction by twice that over its length, and 20 u.
+
+use darboux::stages::Stages;
+use darboux_tests::OwnedMesh;
+
+use super::bound::{U, dot, length, sub};
+
+type V3 = [f64; 3];
+
+/// Beyond these and below their reciprocals squares may overflow or vanish.
+const LARGEST: f64 = 1e15;
+
+/// The bound of every sum; none where it would be larger than a tenth.
+pub fn bounds(base: &Stages, moved: &OwnedMesh) -> Vec<Option<f64>> {
+    let starts = [0].into_iter().chain(base.sums.ends.iter().copied());
+    let sum = |(start, (&end, &vertex)): (u32, (&u32, &u32))| {
+        let normal = moved.normals[moved.vertex_of_corner(vertex as usize)].map(f64::from);
+        let terms = base.sums.members[start as usize..end as usize].iter().map(|&member| {
+            let good = &base.triangulation.good;
+            let corners =
+                good.corners[member as usize / 3].map(|corner| moved.vertex_of_corner(corner as usize));
+            term(moved, corners, member as usize % 3, normal)
+        });
+        let terms: Option<Vec<_>> = terms.collect();
+        of_terms(&terms?).filter(|bound| *bound < 0.1)
+    };
+    starts.zip(base.sums.ends.iter().zip(&base.sums.vertices)).map(sum).collect()
+}
+
+/// What a corner adds: its direction, the error of that, its weight, the error of that.
+type Term = (V3, f64, f64, f64);
+
+fn of_terms(terms: &[Term]) -> Option<f64> {
+    let (mut total, mut error, mut weights) = ([0.0; 3], 0.0, 0.0);
+    for (direction, off, weight, weight_off) in terms {
+        total = [0, 1, 2].map(|i| total[i] + weight * direction[i]);
+        error += weight * off + weight_off;
+        weights += weight;
+    }
+    error += terms.len() as f64 * U * weights;
+    let size = length(total);
+    (size > 1.0 / LARGEST).then(|| 2.0 * error / size + 20.0 * U)
+}
+
+fn term(mesh: &OwnedMesh, vertices: [usize; 3], k: usize, normal: V3) -> Option<Term> {
+    let at = vertices.map(|v| mesh.positions[v].map(f64::from));
+    let uv = vertices.map(|v| mesh.uvs[v].map(f64::from));
+    let (e1, e2) = (sub(at[1], at[0]), sub(at[2], at[0]));
+    let [dv1, dv2] = [uv[1][1] - uv[0][1], uv[2][1] - uv[0][1]];
+    let area = (uv[1][0] - uv[0][0]) * dv2 - dv1 * (uv[2][0] - uv[0][0]);
+    let s = [0, 1, 2].map(|i| area.signum() * (dv2 * e1[i] - dv1 * e2[i]));
+    let scale = dv2.abs() * length(e1) + dv1.abs() * length(e2);
+    let is_sized = |x: f64| (1.0 / LARGEST..LARGEST).contains(&x);
+    if !is_sized(length(s)) || !(0.99..1.01).contains(&length(normal)) {
+        return None;
+    }
+    let (direction, off) = in_plane(normal, s, 4.0 * U * scale / length(s))?;
+    let edge = |to: usize| {
+        let edge = sub(at[to % 3], at[k]);
+        is_sized(length(edge)).then(|| in_plane(normal, edge, U))?
+    };
+    let ((before, before_off), (after, after_off)) = (edge(k + 2)?, edge(k + 1)?);
+    let angle = dot(before, after).clamp(-1.0, 1.0).acos();
+    let cosine_off = before_off + after_off + 3.0 * U;
+    let weight_off = (cosine_off / (angle.sin() - cosine_off.sqrt()).max(0.0)).min((2.0 * cosine_off).sqrt());
+    Some((direction, off, angle, 2.0 * weight_off + 1e-6))
+}
+
+/// The direction of `v` in the plane of `normal`, and its error where `v` is off by `off` of its length.
+fn in_plane(normal: V3, v: V3, off: f64) -> Option<(V3, f64)> {
+    let v = v.map(|x| x / length(v));
+    let along = dot(normal, v);
+    let rest = [0, 1, 2].map(|i| v[i] - along * normal[i]);
+    let size = length(rest);
+    (size > 1e-4).then(|| (rest.map(|x| x / size), (2.0 * off + 120.0 * U) / size + 20.0 * U))
+}
