@@ -4,14 +4,14 @@ use wgpu::{Buffer, CommandEncoder, ComputePipeline, Device};
 
 use crate::GpuError;
 use crate::buffers::{Description, check_size};
-use crate::kernel::{BLOCK, Step, VALUES_PER_THREAD, buffer, module, pipeline};
+use crate::kernel::{Step, buffer, module, pipeline};
+use crate::scan::ScanKernels;
 
 /// What [`Adjacency::new`] needs, compiled once.
 #[derive(Clone, Debug)]
 pub(crate) struct AdjacencyKernels {
     count: ComputePipeline,
-    scan: ComputePipeline,
-    add_sums: ComputePipeline,
+    scan: ScanKernels,
     scatter: ComputePipeline,
     rank: ComputePipeline,
 }
@@ -26,35 +26,19 @@ pub(crate) struct Adjacency {
     steps: Vec<Step>,
 }
 
-/// The files of the two shaders.
+/// The files of the shader.
 pub(crate) const ADJACENCY: &[&str] =
     &[include_str!("../shaders/mesh.wgsl"), include_str!("../shaders/adjacency.wgsl")];
-pub(crate) const SCAN: &[&str] = &[include_str!("../shaders/scan.wgsl")];
 
 impl AdjacencyKernels {
     pub fn new(device: &Device) -> Self {
-        let (adjacency, scan) = (module(device, ADJACENCY), module(device, SCAN));
+        let adjacency = module(device, ADJACENCY);
         Self {
             count: pipeline(device, &adjacency, "count"),
-            scan: pipeline(device, &scan, "scan"),
-            add_sums: pipeline(device, &scan, "add_sums"),
+            scan: ScanKernels::new(device),
             scatter: pipeline(device, &adjacency, "scatter"),
             rank: pipeline(device, &adjacency, "rank"),
         }
-    }
-
-    /// Steps that make every value of `values`, of which there are `count`, the sum of those before it.
-    fn prefix_sum(&self, device: &Device, values: &Buffer, count: u32) -> Vec<Step> {
-        let blocks = count.div_ceil(BLOCK);
-        let sum_of_block = buffer(device, "sum_of_block", blocks);
-        let buffers = [(0, values), (1, &sum_of_block)];
-        let threads = count.div_ceil(VALUES_PER_THREAD);
-        let mut steps = vec![Step::new(device, &self.scan, &buffers, threads)];
-        if blocks > 1 {
-            steps.extend(self.prefix_sum(device, &sum_of_block, blocks));
-            steps.push(Step::new(device, &self.add_sums, &buffers, threads));
-        }
-        steps
     }
 }
 
@@ -77,7 +61,7 @@ impl Adjacency {
         let filling = [(0, description), (1, indices), (2, &ends), (3, &corner_of_entry)];
         let ranking = [&filling[..], &[(4, &triangle_of_entry)]].concat();
         let mut steps = vec![Step::new(device, &kernels.count, &counting, corners)];
-        steps.extend(kernels.prefix_sum(device, &ends, mesh.vertex_count));
+        steps.extend(kernels.scan.steps(device, &ends, mesh.vertex_count));
         steps.push(Step::new(device, &kernels.scatter, &filling, corners));
         steps.push(Step::new(device, &kernels.rank, &ranking, corners));
         Ok(Self { ends, triangle_of_entry, steps })

@@ -175,8 +175,9 @@ fn files(search: Search, storage: &'static str) -> [&'static str; 6] {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::adjacency::{ADJACENCY, SCAN};
+    use crate::adjacency::ADJACENCY;
     use crate::kernel::text;
+    use crate::scan::SCAN;
 
     #[test]
     fn shaders_are_valid_without_a_device() {

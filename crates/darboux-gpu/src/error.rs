@@ -27,6 +27,9 @@ pub enum GpuError {
         /// What it says.
         reason: String,
     },
+    /// A mesh and what was computed from another.
+    #[error(transparent)]
+    Mesh(#[from] darboux::MeshError),
     /// A stride or offset that is not whole words.
     #[error("{bytes} bytes, the stride or offset of the {what}, are not a multiple of 4")]
     Unaligned {

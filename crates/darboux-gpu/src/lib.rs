@@ -39,6 +39,8 @@ mod mikktspace;
 mod pieces;
 mod plan;
 mod reals;
+mod scan;
+mod split;
 mod topology;
 mod weld;
 
@@ -49,6 +51,7 @@ pub use gpu::{AdapterKind, AdapterSummary, Gpu};
 pub use mikktspace::{Generated, Left, MikkTSpace};
 pub use plan::{Attribute, MovingMesh, Per, Plan, PlanCheck, PlanNormals, PlanOfBuffers, Planner};
 pub use reals::Precision;
+pub use split::Splitter;
 
 /// Single stages, for tests. Not part of the API.
 #[doc(hidden)]

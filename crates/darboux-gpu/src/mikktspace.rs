@@ -219,7 +219,8 @@ struct Begun {
     tangents: Vec<[f32; 4]>,
 }
 
-fn indices<'a>(mesh: &Mesh<'a>) -> Cow<'a, [u32]> {
+/// The vertex of every corner.
+pub(crate) fn indices<'a>(mesh: &Mesh<'a>) -> Cow<'a, [u32]> {
     match mesh.indices() {
         Indices::Unindexed => (0..mesh.corner_count() as u32).collect(),
         Indices::U16(list) => list.iter().map(|&index| index.into()).collect(),

@@ -171,7 +171,8 @@ pub(crate) fn in_several(indices: &[u32], welded: &[u32], corners: usize) -> Vec
     flags
 }
 
-fn upload(device: &Device, label: &str, contents: &[u8]) -> Buffer {
+/// A buffer that shaders read.
+pub(crate) fn upload(device: &Device, label: &str, contents: &[u8]) -> Buffer {
     let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
     device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents, usage })
 }
@@ -184,4 +185,25 @@ fn packed(mesh: &Mesh<'_>) -> Vec<[f32; WORDS_OF_VERTEX as usize]> {
         [x, y, z, a, b, c, u, v]
     };
     (0..mesh.vertex_count()).map(vertex).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::average::tests::validate;
+    use crate::split::SPLIT;
+    use crate::topology::{GROUPS, NEIGHBOURS, TRIANGULATE};
+    use crate::weld::WELD;
+
+    #[test]
+    fn shaders_are_valid_without_a_device() {
+        [WELD, TRIANGULATE, NEIGHBOURS, GROUPS, FINISH, SPLIT].into_iter().for_each(validate);
+    }
+
+    #[test]
+    fn vertices_of_several_pieces_are_found() {
+        let welded = [0, 1, 2, 3, 1, 5];
+        assert_eq!(in_several(&[0, 1, 2, 2, 3, 0, 4, 5, 5], &welded, 3), [1, 1, 1, 0, 0, 0]);
+        assert_eq!(in_several(&[0, 1, 2, 2, 3, 0], &welded, 6), [0; 6]);
+    }
 }

@@ -66,8 +66,9 @@ impl Weld {
     }
 }
 
-/// A power of two: at least twice the vertices, so that the way to a slot is short; in the stress build hardly more than them.
-fn slot_count(vertices: u32) -> u32 {
-    let least = if cfg!(small_limits) { vertices + 1 } else { 2 * vertices };
+/// The slots of a hash table: a power of two, at least twice what it holds, so that the way to a slot is short; in the stress build hardly
+/// more.
+pub(crate) fn slot_count(held: u32) -> u32 {
+    let least = if cfg!(small_limits) { held + 1 } else { 2 * held };
     least.next_power_of_two()
 }
