@@ -1,7 +1,8 @@
 //! Implementations under one roof: each takes a mesh, a threshold and a mode and gives one frame per corner.
 
 use darboux::{
-    Frame, Mode, Scratch, TangentOptions, Tangents, WidthLimit, generate_frames, generate_tangents_into,
+    Frame, Frames, Mesh, Mode, Scratch, TangentOptions, Tangents, WidthLimit, generate_frames,
+    generate_tangents_into, stages,
 };
 use mikktspace_sys::{MikkTSpaceInterface, gen_tang_space};
 
@@ -21,7 +22,8 @@ pub trait Engine: Sync {
 pub fn engines() -> Vec<Box<dyn Engine>> {
     vec![
         Box::new(Reference),
-        Box::new(Darboux),
+        Box::new(DARBOUX),
+        Box::new(Darboux("darboux stages", stages::frames)),
         Box::new(DarbouxTangents("darboux tangents, compiled width", WidthLimit::Compiled)),
         Box::new(DarbouxTangents("darboux tangents, at most 256 bits", WidthLimit::Bits256)),
         Box::new(DarbouxTangents("darboux tangents, at most 512 bits", WidthLimit::Bits512)),
@@ -41,25 +43,26 @@ impl Engine for Reference {
     }
 }
 
-/// The library's processor version.
-pub struct Darboux;
+/// The library, by one of its ways to whole frames.
+pub struct Darboux(&'static str, fn(&Mesh<'_>, &TangentOptions) -> Frames);
+
+/// The way that users go.
+pub const DARBOUX: Darboux = Darboux("darboux", generate_frames);
 
 impl Engine for Darboux {
     fn name(&self) -> &'static str {
-        "darboux"
+        self.0
     }
 
     fn run(&self, mesh: &OwnedMesh, threshold: f32, mode: Mode) -> Option<Vec<Option<Frame>>> {
-        let frames =
-            generate_frames(&mesh.view(), &TangentOptions { mode, threshold, ..TangentOptions::default() })
-                .corners
-                .into_per_corner();
+        let options = TangentOptions { mode, threshold, ..TangentOptions::default() };
+        let frames = (self.1)(&mesh.view(), &options).corners.into_per_corner();
         let supported = mesh.supported_corners();
         Some(frames.into_iter().zip(supported).map(|(frame, supported)| supported.then_some(frame)).collect())
     }
 }
 
-/// The library's fast path, which gives tangents and signs only: the other numbers are [`Darboux`]'s.
+/// The library's fast path, which gives tangents and signs only: the other numbers are [`DARBOUX`]'s.
 pub struct DarbouxTangents(&'static str, WidthLimit);
 
 impl Engine for DarbouxTangents {
@@ -68,7 +71,7 @@ impl Engine for DarbouxTangents {
     }
 
     fn run(&self, mesh: &OwnedMesh, threshold: f32, mode: Mode) -> Option<Vec<Option<Frame>>> {
-        let mut frames = Darboux.run(mesh, threshold, mode)?;
+        let mut frames = DARBOUX.run(mesh, threshold, mode)?;
         let mut tangents = Tangents::default();
         let mut scratch = Scratch::with_width_limit(self.1);
         generate_tangents_into(

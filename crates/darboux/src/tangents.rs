@@ -173,8 +173,7 @@ fn run(
     out: &mut [[f32; 4]],
 ) -> Report {
     let width = Width::widest(scratch.width_limit);
-    let applies = options.method == Method::MikkTSpace && cosine_of_degrees(options.threshold) == -1.0;
-    if applies && scratch.fans.run(mesh, options.mode, width, out) {
+    if has_whole_fans(options) && scratch.fans.run(mesh, options.mode, width, out) {
         local::decide(mesh, options, &scratch.fans, cancel, out)
     } else {
         method::run(mesh, options, cancel, &mut scratch.sums, out)
@@ -184,6 +183,23 @@ fn run(
 /// Computes the whole frame of every corner: tangent, bitangent, magnitudes, sign.
 pub fn generate_frames(mesh: &Mesh<'_>, options: &TangentOptions) -> Frames {
     let mut corners = vec![Frame::NONE; mesh.corner_count()];
-    let report = method::run(mesh, options, &Cancel::new(), &mut Memory::default(), &mut corners);
+    let report = run_whole(mesh, options, &mut corners);
     Frames { corners: CornerFrames(corners), report }
+}
+
+fn run_whole(mesh: &Mesh<'_>, options: &TangentOptions, out: &mut [Frame]) -> Report {
+    let (mut fans, width) = (Fans::default(), Width::widest(WidthLimit::default()));
+    if has_whole_fans(options) {
+        let mut tangents = vec![[0.0; 4]; out.len()];
+        if fans.run(mesh, options.mode, width, &mut tangents) {
+            fans.write_frames(mesh, width, &tangents, out);
+            return local::decide_frames(mesh, options, &fans, &tangents, out);
+        }
+    }
+    method::run(mesh, options, &Cancel::new(), &mut Memory::default(), out)
+}
+
+/// Whether the fast path may apply: where no fan splits by its angles.
+fn has_whole_fans(options: &TangentOptions) -> bool {
+    options.method == Method::MikkTSpace && cosine_of_degrees(options.threshold) == -1.0
 }

@@ -20,6 +20,7 @@ mod steps;
 mod stream;
 mod vertices;
 mod weld;
+mod whole;
 mod workers;
 
 use crate::weld::Bounds;

@@ -49,7 +49,15 @@ impl UndecidedPart {
     pub fn decide(&self, mesh: &Mesh<'_>, cancel: &Cancel, out: &mut [[f32; 4]]) -> Report {
         let part = mesh.with_triangles(&self.indices);
         let (frames, report) = self.topology.frames_of_part(&part, self.known(out), cancel);
-        self.write(&frames, out);
+        self.write(&frames, |corner, frame| out[corner] = frame.tangent_and_sign());
+        report
+    }
+
+    /// As [`UndecidedPart::decide`], whole frames. `tangents`: those of all others.
+    fn decide_frames(&self, mesh: &Mesh<'_>, tangents: &[[f32; 4]], out: &mut [Frame]) -> Report {
+        let part = mesh.with_triangles(&self.indices);
+        let (frames, report) = self.topology.frames_of_part(&part, self.known(tangents), &Cancel::new());
+        self.write(&frames, |corner, frame| out[corner] = frame);
         report
     }
 
@@ -57,7 +65,7 @@ impl UndecidedPart {
     pub fn decide_moved(&self, mesh: &Mesh<'_>, base: &[[f32; 4]], cancel: &Cancel, out: &mut [[f32; 4]]) {
         let part = mesh.with_triangles(&self.indices);
         let (frames, _) = self.topology.frames_of_moved(&part, self.known(out), cancel);
-        self.write(&frames, out);
+        self.write(&frames, |corner, frame| out[corner] = frame.tangent_and_sign());
         for corner in self.corners.iter().map(|&corner| corner as usize) {
             out[corner][3] = base[corner][3];
         }
@@ -73,11 +81,10 @@ impl UndecidedPart {
         self.corners.iter().zip(&self.counts).map(known).collect()
     }
 
-    fn write(&self, frames: &[Frame], out: &mut [[f32; 4]]) {
+    /// Calls `write` with the corners of undecided vertices.
+    fn write(&self, frames: &[Frame], mut write: impl FnMut(usize, Frame)) {
         let all = self.corners.iter().zip(frames).zip(&self.counts);
-        for ((&corner, frame), _) in all.filter(|(_, counts)| **counts) {
-            out[corner as usize] = frame.tangent_and_sign();
-        }
+        all.filter(|(_, counts)| **counts).for_each(|((&corner, frame), _)| write(corner as usize, *frame));
     }
 }
 
@@ -91,6 +98,19 @@ pub(super) fn decide(
 ) -> Report {
     let part = UndecidedPart::new(mesh, options, fans, out);
     let report = part.map(|part| part.decide(mesh, cancel, out)).unwrap_or_default();
+    Report { triangles: mesh.face_count(), ..report }
+}
+
+/// As [`decide`], whole frames. `tangents`: those that `fans` wrote.
+pub(super) fn decide_frames(
+    mesh: &Mesh<'_>,
+    options: &TangentOptions,
+    fans: &Fans,
+    tangents: &[[f32; 4]],
+    out: &mut [Frame],
+) -> Report {
+    let part = UndecidedPart::new(mesh, options, fans, tangents);
+    let report = part.map(|part| part.decide_frames(mesh, tangents, out)).unwrap_or_default();
     Report { triangles: mesh.face_count(), ..report }
 }
 

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use crate::math::cosine_of_degrees;
 use crate::topology::neighbours;
-use crate::{Mesh, TangentOptions};
+use crate::{Cancel, CornerFrames, Frames, Mesh, TangentOptions};
 
 use super::degenerate::copies;
 use super::mikktspace::{Topology, agreed_derivatives, edge_order};
@@ -69,6 +69,12 @@ impl Stages {
             triangulation: topology.triangulation,
         })
     }
+}
+
+/// As [`crate::generate_frames`], by all stages in their general form.
+pub fn frames(mesh: &Mesh<'_>, options: &TangentOptions) -> Frames {
+    let (corners, report) = Topology::new(mesh, options).frames(mesh, &Cancel::new());
+    Frames { corners: CornerFrames(corners), report }
 }
 
 impl Sums {

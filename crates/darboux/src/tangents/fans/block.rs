@@ -40,6 +40,10 @@ pub(super) struct Block {
     pub sum: [Lane<[f32; 4]>; 3],
     /// What each corner adds to its vertex's fingerprint.
     pub print: [Lane<[u32; 4]>; 3],
+    /// The lengths of dP/du and dP/dv, for whole frames,
+    magnitude: [Lane<f32>; 2],
+    /// and what each corner adds to its vertex's.
+    pub magnitude_sum: [Lane<[f32; 2]>; 3],
     /// The records as they lie in vertices, in halves.
     pub packed: [[Lane<[f32; 4]>; 2]; 3],
     key: [u32; 2],
@@ -89,6 +93,14 @@ impl Block {
             }
         }
     }
+
+    /// Takes the records of one triangle.
+    #[inline(always)]
+    pub fn put(&mut self, i: usize, records: [Record; 3]) {
+        for (k, [a, b, c, d, e, f, g, h]) in records.into_iter().enumerate() {
+            (self.packed[k][0][i], self.packed[k][1][i]) = ([a, b, c, d], [e, f, g, h]);
+        }
+    }
 }
 
 impl Default for Block {
@@ -104,6 +116,8 @@ impl Default for Block {
             marks: [[0; BLOCK]; 3],
             sum: [[[0.0; 4]; BLOCK]; 3],
             print: [[[0; 4]; BLOCK]; 3],
+            magnitude: [[0.0; BLOCK]; 2],
+            magnitude_sum: [[[0.0; 2]; BLOCK]; 3],
             packed: [[[[0.0; 4]; BLOCK]; 2]; 3],
             key: key(),
         }
@@ -132,6 +146,15 @@ impl Block {
         self.angles();
         self.terms::<false>();
         self.pack(Fourth::Nothing);
+    }
+
+    /// From records to what corners add to bitangents and magnitudes. Anything where a triangle is not good.
+    #[inline(always)]
+    pub fn evaluate_bitangents(&mut self) {
+        self.unpack();
+        self.bitangent_derivatives();
+        self.angles();
+        self.bitangent_terms();
     }
 
     #[inline(always)]
@@ -230,6 +253,38 @@ impl Block {
             let s = scale(sign / s_length, s);
             for axis in 0..3 {
                 self.s[axis][i] = s[axis];
+            }
+        }
+    }
+
+    /// The derivatives by v, and the lengths of both.
+    #[inline(always)]
+    fn bitangent_derivatives(&mut self) {
+        for i in 0..BLOCK {
+            let ([e1, e2], [du1, dv1, du2, dv2], [left, right]) = self.edges(i);
+            let s = sub(scale(dv2, e1), scale(dv1, e2));
+            let t = add(scale(-du2, e1), scale(du1, e2));
+            let area = left - right;
+            let sign = if area > 0.0 { 1.0 } else { -1.0 };
+            let t_length = length(t);
+            let direction = scale(sign / t_length, t);
+            for axis in 0..3 {
+                self.t[axis][i] = direction[axis];
+            }
+            self.magnitude[0][i] = length(s) / area.abs();
+            self.magnitude[1][i] = t_length / area.abs();
+        }
+    }
+
+    #[inline(always)]
+    fn bitangent_terms(&mut self) {
+        for k in 0..3 {
+            for i in 0..BLOCK {
+                let t = [self.t[0][i], self.t[1][i], self.t[2][i]];
+                let weight = self.angle[k][i];
+                let [x, y, z] = scale(weight, direction_in_plane(self.normal(k, i), t));
+                self.sum[k][i] = [x, y, z, weight];
+                self.magnitude_sum[k][i] = [weight * self.magnitude[0][i], weight * self.magnitude[1][i]];
             }
         }
     }

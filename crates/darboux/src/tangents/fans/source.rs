@@ -113,6 +113,15 @@ impl Identity<'_> {
         }
     }
 
+    /// The record of a welded vertex.
+    #[inline(always)]
+    pub fn record(&self, mesh: &Mesh<'_>, vertex: u32) -> Record {
+        match self {
+            Self::OfCorner(_, records) => records[vertex as usize],
+            Self::Own | Self::OfVertex(_) => record(mesh, vertex as usize),
+        }
+    }
+
     /// The position of a welded vertex.
     pub fn position(&self, mesh: &Mesh<'_>, vertex: u32) -> [f32; 3] {
         match self {
