@@ -1,0 +1,117 @@
+//! How near each adapter comes to the core, on families of meshes, the corpus and random meshes: `cargo run -p darboux-gpu --example report`.
+//!
+//! Prints a table in Markdown: corners with the core's bits, the largest distance of a component in units in the last place, corners of another
+//! sign, corners in another group, and how many corners the CPU did.
+
+use darboux::stages::{NONE, Stages};
+use darboux::{Faces, Mode, TangentOptions, generate_tangents};
+use darboux_gpu::{Gpu, GpuError, MikkTSpace};
+use darboux_tests::{Case, OwnedMesh, corpus, families};
+
+/// What is reported of an adapter.
+#[derive(Default)]
+struct Row {
+    corners: usize,
+    of_cpu: usize,
+    identical: usize,
+    worst_ulp: u64,
+    signs: usize,
+    groups: usize,
+}
+
+fn main() -> Result<(), GpuError> {
+    println!("| adapter | corners | identical | worst ulp | other signs | other groups | by the CPU |");
+    println!("|---|---|---|---|---|---|---|");
+    let meshes = meshes();
+    for gpu in pollster::block_on(Gpu::open_all())? {
+        let kernels = MikkTSpace::new(&gpu)?;
+        let mut row = Row::default();
+        for mesh in &meshes {
+            row.add(&kernels, mesh)?;
+        }
+        let Row { corners, of_cpu, identical, worst_ulp, signs, groups } = row;
+        println!("| {} | {corners} | {identical} | {worst_ulp} | {signs} | {groups} | {of_cpu} |", gpu.name);
+    }
+    Ok(())
+}
+
+fn meshes() -> Vec<OwnedMesh> {
+    let mut meshes = vec![
+        families::grid(100, 100, false, false),
+        families::grid(60, 60, false, true),
+        families::sphere(60, 90, false),
+        families::fan(2_000, false),
+        families::moebius(200, false),
+        families::with_lone_degenerates(families::grid(30, 30, false, false), 50),
+    ];
+    meshes.extend(corpus::corpus().into_iter().map(|specimen| specimen.mesh));
+    meshes.extend((0..2_000).map(|seed| Case::from_seed(seed).mesh));
+    meshes.retain(|mesh| matches!(mesh.view().faces(), Faces::Triangles) && mesh.corner_count() > 0);
+    // Soup has few whole fans: some noise on a grid keeps them all, with every rounding there is.
+    meshes.extend((0..20).map(noisy_grid));
+    meshes
+}
+
+fn noisy_grid(seed: u32) -> OwnedMesh {
+    let mut mesh = families::grid(40, 40, false, false);
+    let mut state = seed;
+    let mut noise = |x: &mut f32, size: f32| {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        *x += size * ((state >> 8) as f32 / (1 << 24) as f32 - 0.5);
+    };
+    mesh.positions.as_flattened_mut().iter_mut().for_each(|x| noise(x, 0.01));
+    mesh.normals.as_flattened_mut().iter_mut().for_each(|x| noise(x, 0.2));
+    mesh.uvs.as_flattened_mut().iter_mut().for_each(|x| noise(x, 0.01));
+    mesh
+}
+
+impl Row {
+    fn add(&mut self, kernels: &MikkTSpace, mesh: &OwnedMesh) -> Result<(), GpuError> {
+        let view = mesh.view();
+        let options = TangentOptions::default();
+        let made = kernels.generate_tangents(&view, &options)?;
+        let expected = generate_tangents(&view, &options);
+        let pairs = made.tangents.corners.per_corner().iter().zip(expected.corners.per_corner());
+        for (found, expected) in pairs {
+            self.identical += usize::from(found.map(f32::to_bits) == expected.map(f32::to_bits));
+            self.signs += usize::from(found[3] != expected[3]);
+            let distances = found.iter().zip(expected).map(|(a, b)| ordered(*a).abs_diff(ordered(*b)));
+            self.worst_ulp = distances.fold(self.worst_ulp, u64::max);
+        }
+        self.corners += mesh.corner_count();
+        self.of_cpu += made.corners_of_cpu;
+        if made.left_to_cpu.is_none() {
+            self.groups += other_groups(kernels, mesh)?;
+        }
+        Ok(())
+    }
+}
+
+/// A float's place among all floats.
+fn ordered(x: f32) -> i64 {
+    let size = i64::from(x.to_bits() & !(1 << 31));
+    if x.is_sign_negative() { -size } else { size }
+}
+
+/// Corners that are not in the core's group, at vertices without UV-degenerate triangles.
+fn other_groups(kernels: &MikkTSpace, mesh: &OwnedMesh) -> Result<usize, GpuError> {
+    let options = TangentOptions { mode: Mode::Corrected, ..Default::default() };
+    let found = kernels.arrays(&mesh.view(), &options)?;
+    let core = Stages::new(&mesh.view(), &options, usize::MAX).expect("no limit");
+    let faces = &core.triangulation.good.face;
+    let mut seeds = vec![NONE; mesh.corner_count()];
+    for group in 0..core.groups.ends().len() {
+        let corners = core.groups.members(group).iter().map(|&k| 3 * faces[k as usize / 3] + k % 3);
+        let seed = corners.clone().min().unwrap_or(NONE);
+        corners.for_each(|corner| seeds[corner as usize] = seed);
+    }
+    let mut is_any = vec![false; found.welded.len()];
+    for (corner, &vertex) in found.welded_corners.iter().enumerate().filter(|(_, vertex)| **vertex != NONE) {
+        is_any[vertex as usize] |= found.marks[corner / 3] & 2 != 0;
+    }
+    let compared = (0..seeds.len()).filter(|&corner| {
+        let vertex = found.welded_corners[corner];
+        vertex != NONE && !is_any[vertex as usize]
+    });
+    Ok(compared.filter(|&corner| found.seed_of_corner[corner] != seeds[corner]).count())
+}
