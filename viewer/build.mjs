@@ -1,4 +1,4 @@
-// `node build.mjs DARBOUX`: makes the page in `dist`, of the npm package in the folder DARBOUX.
+// `node build.mjs DARBOUX MODULE`: makes the page in `dist`, of the npm package in the folder DARBOUX and the WebAssembly of `wasm`.
 
 import { spawnSync } from 'node:child_process';
 import { copyFileSync, mkdirSync, rmSync, symlinkSync } from 'node:fs';
@@ -6,7 +6,7 @@ import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const here = dirname(fileURLToPath(import.meta.url));
-const [darboux] = process.argv.slice(2);
+const [darboux, module] = process.argv.slice(2);
 
 function run(program, ...words) {
   const { status, error } = spawnSync(join(here, 'node_modules/.bin', program), words, { cwd: here, stdio: ['ignore', 2, 2] });
@@ -18,6 +18,7 @@ const link = join(here, 'node_modules/darboux');
 rmSync(link, { recursive: true, force: true });
 symlinkSync(darboux, link);
 
+copyFileSync(module, join(here, 'src/files/darboux_viewer.wasm'));
 const sample = join(here, 'public/sample');
 mkdirSync(sample, { recursive: true });
 for (const name of ['NormalTangentTest.glb', 'LICENSE.txt']) copyFileSync(join(here, '../assets/NormalTangentTest', name), join(sample, name));

@@ -8,7 +8,8 @@ use crate::validate::WithoutNpm;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-const TRIPLE: &str = "wasm32-unknown-unknown";
+/// WebAssembly, with nothing around it.
+pub const TRIPLE: &str = "wasm32-unknown-unknown";
 
 /// Forms of a module, and what the compiler may use in them.
 const FORMS: &[(&str, &str)] = &[("simd", "-Ctarget-feature=+simd128"), ("scalar", "")];

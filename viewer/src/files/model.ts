@@ -1,6 +1,6 @@
 // Opens the model in a bundle of files.
 
-import { Group, type Object3D } from 'three';
+import type { Object3D } from 'three';
 
 import type { Bundle } from './bundle';
 import { openGltf } from './gltf';
@@ -12,7 +12,7 @@ export interface Model {
   name: string;
   scene: Object3D;
   kind: 'gltf' | 'obj';
-  /** The file, with all that it refers to: what an export begins with. Null for other formats. */
+  /** The file with all that it refers to, as a GLB: what an export begins with. Null for other formats. */
   bytes: Uint8Array<ArrayBuffer> | null;
 }
 
@@ -35,11 +35,9 @@ export async function openModel(bundle: Bundle, progress: Progress): Promise<Mod
   const bytes = await read(name, bundle.get(name)!, progress);
   progress(`Opening ${name}`, 0.5);
   const isObj = /\.obj$/i.test(name);
-  const model: Model = isObj
+  return isObj
     ? { name, kind: 'obj', scene: await openObj(name, bytes, bundle), bytes: null }
     : { name, kind: 'gltf', ...(await openGltf(name, bytes, bundle)) };
-  if (!(model.scene instanceof Group) && !model.scene.children.length) throw new Error(`${name} shows nothing.`);
-  return model;
 }
 
 async function read(name: string, file: Blob, progress: Progress): Promise<Uint8Array<ArrayBuffer>> {

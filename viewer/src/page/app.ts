@@ -1,125 +1,157 @@
-// What the page does: opens models, and shows them as its controls say.
+// What the page does: opens models, computes, and shows what its controls say.
 
-import { BufferAttribute, Mesh, type Group } from 'three';
+import { Box3, Matrix3, Vector3 } from 'three';
 
-import { fromDrop, fromList, type Bundle } from '../files/bundle';
 import { openModel, type Model } from '../files/model';
+import { repairedGlb } from '../files/repaired';
+import { Marker } from '../scene/marker';
 import { partsOf, type Part } from '../scene/parts';
-import { geometryOf, groupOf, materialOf, shared } from '../scene/side';
-import { LAYERS, Stage } from '../scene/stage';
-import { SOURCES, SOURCE_NAMES, type Source } from '../surface/sources';
+import { Shown } from '../scene/shown';
+import { Stage } from '../scene/stage';
+import type { Arrangement } from '../surface/arrangement';
+import { SOURCE_NAMES } from '../surface/sources';
 import { call } from '../surface/thread';
-import { element } from './elements';
-import { showDone, showError, showProgress } from './state';
+import { connectControls, offerSources, settings } from './controls';
+import { element, numberOf } from './elements';
+import { connectKeys } from './keys';
+import { showLegend } from './legend';
+import { connectOpening, type Find } from './opening';
+import { showReport, type Found } from './report';
+import { nameLike, save } from './save';
+import { clearError, showDone, showError, showProgress } from './state';
+import { connectTheme } from './theme';
 
-const SAMPLE = 'sample/NormalTangentTest.glb';
+/** How much of the model is in view where the report leads, as a part of its radius. */
+const CLOSE = 0.12;
 
 export class App {
   private readonly stage = new Stage(element('view'));
+  private readonly shown = new Shown();
+  private readonly marker = new Marker();
+  private model: Model | null = null;
   private parts: Part[] = [];
-  private groups: Group[] = [];
-  /** Grows with each model that is opened: what belongs to an older one is dropped. */
+  /** Grows with each model and each choice of sources: what was computed for older ones is dropped. */
   private turn = 0;
 
   start(): void {
-    this.connect();
-    const named = new URLSearchParams(location.search).get('model');
-    if (named) this.openAddress('model', named);
-    else this.openAddress(SAMPLE, 'NormalTangentTest.glb');
+    this.stage.add(this.marker.object);
+    connectTheme((model, layout) => this.stage.background(model, layout));
+    connectKeys(this.stage);
+    connectControls({ sources: () => this.attempt(() => this.arrange()), look: () => this.build(), light: () => this.light() });
+    this.connectSplit();
+    element('save-picture').addEventListener('click', () => this.attempt(() => this.savePicture()));
+    element('save-model').addEventListener('click', () => this.attempt(() => this.saveModel()));
+    connectOpening((find) => this.attempt(() => this.open(find)));
   }
 
-  private connect(): void {
-    for (const [at, id] of ['left', 'right'].entries()) {
-      const select = element<HTMLSelectElement>(id);
-      select.append(...SOURCES.map((source) => new Option(SOURCE_NAMES[source], source)));
-      select.value = at ? 'derivatives' : 'mikktspace';
-      select.addEventListener('change', () => this.refresh());
-    }
-    element('open-sample').addEventListener('click', () => this.openAddress(SAMPLE, 'NormalTangentTest.glb'));
-    for (const id of ['files', 'folder']) {
-      const input = element<HTMLInputElement>(id);
-      element(`open-${id}`).addEventListener('click', () => input.click());
-      input.addEventListener('change', () => this.open(async () => fromList(input.files ?? [])));
-    }
-    document.addEventListener('dragover', (event) => event.preventDefault());
-    document.addEventListener('drop', (event) => {
-      event.preventDefault();
-      const bundle = event.dataTransfer && fromDrop(event.dataTransfer);
-      if (bundle) this.open(() => bundle);
-    });
-    const split = element<HTMLInputElement>('split');
-    split.addEventListener('input', () => this.splitAt(Number(split.value) / 100));
-    this.splitAt(0.5);
-    for (const id of ['light-around', 'light-above']) element(id).addEventListener('input', () => this.moveLight());
+  private connectSplit(): void {
+    const input = element<HTMLInputElement>('split');
+    const move = () => {
+      this.stage.split = input.valueAsNumber / 100;
+      element('divider').style.insetInlineStart = `${input.value}%`;
+      this.stage.draw();
+    };
+    input.addEventListener('input', move);
+    move();
   }
 
-  private splitAt(place: number): void {
-    this.stage.split = place;
-    element('divider').style.insetInlineStart = `${100 * place}%`;
-    this.stage.draw();
-  }
-
-  private moveLight(): void {
-    const [around, above] = ['light-around', 'light-above'].map((id) => Number(element<HTMLInputElement>(id).value));
-    this.stage.lightFrom(around, above);
-  }
-
-  /** Opens a file of this page's own server. */
-  private openAddress(address: string, name: string): void {
-    this.open(async () => {
-      const answer = await fetch(address);
-      if (!answer.ok) throw new Error(await answer.text());
-      return new Map([[name, await answer.blob()]]);
-    });
-  }
-
-  private async open(find: () => Promise<Bundle>): Promise<void> {
-    const turn = ++this.turn;
-    showError('');
+  /** Does something that may fail with a sentence. */
+  private async attempt(work: () => Promise<void>): Promise<void> {
+    clearError();
     try {
-      const model = await openModel(await find(), (what, done) => this.turn === turn && showProgress(what, done));
-      if (this.turn === turn) await this.show(model);
+      await work();
     } catch (error) {
-      if (this.turn !== turn) return;
-      showError(error instanceof Error ? error.message : String(error));
-      showDone('');
+      showError(error);
     }
   }
 
-  private async show(model: Model): Promise<void> {
-    this.parts = partsOf(model.scene, model.kind);
-    await call('open', this.parts.map((part) => part.surface));
-    await this.refresh();
-    this.stage.frame(this.groups[0]);
-    this.moveLight();
+  private async open(find: Find): Promise<void> {
+    const turn = ++this.turn;
+    showProgress('Looking for a model', 0);
+    const model = await openModel(await find(), (what, done) => this.turn === turn && showProgress(what, done));
+    const parts = partsOf(model.scene, model.kind);
+    if (turn !== this.turn) return;
+    await call('open', parts.map((part) => part.surface));
+    [this.model, this.parts] = [model, parts];
+    this.stage.measure(new Box3().setFromObject(model.scene));
+    this.marker.hide();
+    offerSources(parts.some((part) => part.surface.tangents));
     element('name').textContent = model.name;
+    showReport([], () => {});
+    await this.arrange();
+    this.stage.lookAtAll();
+    this.light();
+    await this.report();
   }
 
-  /** Arranges all parts anew, and shows them. */
-  private async refresh(): Promise<void> {
-    const turn = this.turn;
-    const sources = ['left', 'right'].map((id) => element<HTMLSelectElement>(id).value as Source) as [Source, Source];
-    const meshes: [Mesh[], Mesh[]] = [[], []];
-    const mistakes = { green: false, w: false, v: false };
+  /** Computes what both sides show. */
+  private async arrange(): Promise<void> {
+    const turn = ++this.turn;
+    const { sources } = settings();
+    const arrangements: Arrangement[] = [];
     for (const [at, part] of this.parts.entries()) {
       showProgress(`Computing tangents of ${part.name}`, at / this.parts.length);
-      const arrangement = await call('arrange', at, sources);
+      arrangements.push(await call('arrange', at, sources));
       if (turn !== this.turn) return;
-      const common = shared(part, arrangement);
-      const indices = new BufferAttribute(arrangement.indices, 1);
-      for (const side of [0, 1] as const) {
-        const hasTangents = sources[side] !== 'derivatives';
-        const geometry = geometryOf(common, indices, arrangement.tangents[side], hasTangents, mistakes);
-        const mesh = new Mesh(geometry, materialOf(part, hasTangents, true, mistakes));
-        mesh.matrixAutoUpdate = false;
-        mesh.matrix.copy(part.place);
-        meshes[side].push(mesh);
-      }
     }
-    this.stage.scene.remove(...this.groups);
-    this.groups = meshes.map((side, at) => groupOf(side, LAYERS[at]));
-    this.stage.scene.add(...this.groups);
-    this.stage.draw();
-    showDone(`${this.parts.length} parts`);
+    this.shown.arrange(this.parts, arrangements);
+    for (const [at, id] of ['caption-left', 'caption-right'].entries()) element(id).textContent = SOURCE_NAMES[sources[at]];
+    this.build();
+    showDone(this.told());
+  }
+
+  /** The model in a line. */
+  private told(): string {
+    const triangles = this.parts.reduce((sum, { surface }) => sum + surface.indices.length / 3, 0);
+    const parts = this.parts.length;
+    return `${triangles.toLocaleString('en')} triangles in ${parts} ${parts === 1 ? 'part' : 'parts'}`;
+  }
+
+  /** Shows what was computed, as the controls say. */
+  private build(): void {
+    const now = settings();
+    this.shown.build(now, this.stage.radius);
+    this.stage.show(this.shown.sides, now.layout);
+    showLegend(now);
+  }
+
+  private light(): void {
+    this.stage.lightFrom(numberOf('light-around'), numberOf('light-above'));
+    this.stage.brightness(numberOf('surroundings'), numberOf('light'));
+  }
+
+  private async report(): Promise<void> {
+    const turn = this.turn;
+    const found: Found[] = [];
+    for (const [at, part] of this.parts.entries()) {
+      showProgress(`Looking at ${part.name}`, at / this.parts.length);
+      for (const finding of await call('report', at)) found.push({ ...finding, part: at, partName: part.name });
+      if (turn !== this.turn) return;
+    }
+    showReport(found, (finding, place) => this.visit(finding, place));
+    showDone(this.told());
+  }
+
+  /** Flies to a place of the report. */
+  private visit({ part, places }: Found, place: number): void {
+    const matrix = this.parts[part].place;
+    const at = new Vector3().fromArray(places, place * 6).applyMatrix4(matrix);
+    const normal = new Vector3().fromArray(places, place * 6 + 3).applyMatrix3(new Matrix3().getNormalMatrix(matrix));
+    this.marker.showAt(at);
+    this.stage.look(at, CLOSE * this.stage.radius, normal.lengthSq() > 0 ? normal : new Vector3(0, 0, 1));
+  }
+
+  private async savePicture(): Promise<void> {
+    save(nameLike(this.model?.name ?? 'picture', '.png'), await this.stage.picture());
+  }
+
+  private async saveModel(): Promise<void> {
+    if (!this.model) throw new Error('There is no model to save.');
+    showProgress('Writing tangents', 0.5);
+    const { bytes, told } = await repairedGlb(this.model);
+    save(nameLike(this.model.name, '.tangents.glb'), new Blob([bytes], { type: 'model/gltf-binary' }));
+    const { written, skipped } = told.totals;
+    const lines = [`Tangents written to ${written} ${written === 1 ? 'primitive' : 'primitives'}, ${skipped} left alone`, ...told.warnings];
+    showDone(lines.join('. '));
   }
 }

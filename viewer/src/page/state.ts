@@ -10,13 +10,19 @@ export function showProgress(what: string, done: number): void {
   bar.value = done;
 }
 
-/** Shows that nothing is being done any more. */
+/** Shows that work has ended. */
 export function showDone(what: string): void {
   element('status').textContent = what;
   element('progress').hidden = true;
 }
 
-/** Shows what went wrong, as a sentence; '' for nothing. */
-export function showError(sentence: string): void {
-  element('error').textContent = sentence;
+/** Shows what went wrong; takes errors of all kinds. */
+export function showError(error: unknown): void {
+  element('error').textContent = error instanceof Error ? error.message : String(error);
+  showDone('');
+}
+
+/** Takes the last error away. */
+export function clearError(): void {
+  element('error').textContent = '';
 }

@@ -1,43 +1,43 @@
-// One side of the slider: every part with the tangents of one source.
+// One side of the slider: a part with the tangents of one source.
 
-import { BufferAttribute, BufferGeometry, Group, Mesh, type MeshStandardMaterial } from 'three';
+import { BufferAttribute, BufferGeometry, type MeshStandardMaterial } from 'three';
 
+import type { Mistakes } from '../page/settings';
 import type { Arrangement } from '../surface/arrangement';
 import { floatsOf, type Part } from './parts';
 import { withPattern } from './pattern';
 
-/** Mistakes that circulate, to be looked at. */
-export interface Mistakes {
-  green: boolean;
-  w: boolean;
-  v: boolean;
-}
-
-/** Attributes that both sides share. */
+/** Attributes that both sides have. */
 export type Shared = Map<string, BufferAttribute>;
 
 /** The vertices of a part once split, but for tangents. */
-export function shared(part: Part, arrangement: Arrangement): Shared {
+export function sharedOf(part: Part, arrangement: Arrangement): Shared {
   const { sourceOfVertex, positions, normals, uvs, angles } = arrangement;
-  const out: Shared = new Map();
-  const put = (name: string, array: Float32Array, width: number) => out.set(name, new BufferAttribute(array, width));
+  const shared: Shared = new Map();
+  const put = (name: string, array: Float32Array, width: number) => shared.set(name, new BufferAttribute(array, width));
   put('position', positions, 3);
   put('normal', normals, 3);
-  put('layout', uvs, 2);
-  put('angle', angles ?? new Float32Array(positions.length / 3), 1);
+  put('chart', charted(uvs, part.surface.vDown), 2);
+  if (angles) put('angle', angles, 1);
   for (const name of ['uv', 'uv1', 'uv2', 'uv3', 'color']) {
     const attribute = part.geometry.getAttribute(name);
     if (!attribute) continue;
-    const all = floatsOf(attribute, attribute.itemSize);
-    const of = new Float32Array(sourceOfVertex.length * attribute.itemSize);
-    sourceOfVertex.forEach((source, vertex) => of.set(all.subarray(source * attribute.itemSize, (source + 1) * attribute.itemSize), vertex * attribute.itemSize));
-    put(name, of, attribute.itemSize);
+    const width = attribute.itemSize;
+    const all = floatsOf(attribute, width);
+    const taken = new Float32Array(sourceOfVertex.length * width);
+    sourceOfVertex.forEach((source, vertex) => taken.set(all.subarray(source * width, (source + 1) * width), vertex * width));
+    put(name, taken, width);
   }
-  if (!out.has('uv')) put('uv', uvs, 2);
-  return out;
+  if (!shared.has('uv')) put('uv', uvs, 2);
+  return shared;
 }
 
-/** The geometry of one side of a part. `hasTangents`: false for sources that are no vertex data. */
+/** UVs as they lie on an image that is seen upright. */
+function charted(uvs: Float32Array, vDown: boolean): Float32Array {
+  return vDown ? uvs.map((x, at) => (at % 2 ? 1 - x : x)) : uvs;
+}
+
+/** The geometry of one side. `hasTangents`: false for sources that are no vertex data. */
 export function geometryOf(
   shared: Shared,
   indices: BufferAttribute,
@@ -65,23 +65,18 @@ function mapped(attribute: BufferAttribute, component: number, change: (x: numbe
   return copy;
 }
 
-/** The material of one side of a part. */
+/** The material of one side. */
 export function materialOf(part: Part, hasTangents: boolean, hasPattern: boolean, mistakes: Mistakes): MeshStandardMaterial {
   const material = part.material.clone();
-  const isPattern = !material.normalMap && hasPattern;
   const { vDown } = part.surface;
+  const isPattern = !material.normalMap && hasPattern;
   if (isPattern) withPattern(material, vDown);
   // Without tangents, three.js takes green along the derivative by v; glTF's v runs down, so green has to be turned.
   const isTurned = vDown && !hasTangents;
   const wasTurned = part.isGreenTurned && !isPattern;
   if (isTurned !== wasTurned) material.normalScale.y *= -1;
   if (mistakes.green) material.normalScale.y *= -1;
+  material.polygonOffset = true;
+  material.polygonOffsetFactor = material.polygonOffsetUnits = 1;
   return material;
-}
-
-/** A group with one mesh for each part. */
-export function groupOf(meshes: Mesh[], layer: number): Group {
-  const group = new Group().add(...meshes);
-  group.traverse((object) => object.layers.set(layer));
-  return group;
 }

@@ -1,45 +1,53 @@
 // Where the model stands: camera, light, environment, and the picture, drawn once for each side of the slider.
 
 import {
-  Box3,
+  type Box3,
+  type Camera,
   Color,
   DirectionalLight,
+  NeutralToneMapping,
   type Object3D,
+  OrthographicCamera,
   PerspectiveCamera,
   PMREMGenerator,
   Scene,
   Sphere,
-  SRGBColorSpace,
+  Spherical,
   Vector3,
   WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
 
-/** Objects of the left and the right side are in these layers; the light is in both. */
-export const LAYERS = [1, 2] as const;
+import type { Side } from './shown';
 
 const FIELD = 35;
+
+/** The side of the UV layout's square, as a part of the picture's shorter side, and its distance from the picture's edges in pixels. */
+const INSET = 0.45;
+const MARGIN = 12;
 
 export class Stage {
   readonly camera = new PerspectiveCamera(FIELD, 1, 0.01, 100);
   readonly controls: OrbitControls;
-  readonly light = new DirectionalLight(0xffffff, 2.5);
-  readonly scene = new Scene();
-  readonly renderer: WebGLRenderer;
   /** The place of the slider, from 0 to 1. */
   split = 0.5;
-  /** What is drawn in a rectangle of its own, beside the model. */
-  inset: ((renderer: WebGLRenderer, width: number, height: number) => void) | null = null;
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly light = new DirectionalLight(0xffffff, 2);
+  private readonly charts = new Scene();
+  private readonly chartCamera = new OrthographicCamera(-0.02, 1.02, 1.02, -0.02, -1, 1);
   private readonly sphere = new Sphere(new Vector3(), 1);
+  private sides: Side[] = [];
+  private hasLayout = false;
   private wanted = 0;
 
+  /** Errors: the browser has no WebGL 2. */
   constructor(private readonly canvas: HTMLCanvasElement) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: false });
-    this.renderer.outputColorSpace = SRGBColorSpace;
+    this.renderer = new WebGLRenderer({ canvas, antialias: true });
+    this.renderer.toneMapping = NeutralToneMapping;
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener('change', () => this.draw());
-    this.light.layers.enableAll();
     this.scene.add(this.light, this.light.target);
     const generator = new PMREMGenerator(this.renderer);
     this.scene.environment = generator.fromScene(new RoomEnvironment(), 0.04).texture;
@@ -47,9 +55,29 @@ export class Stage {
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
 
-  /** Sets the colour behind the model. */
-  background(color: string): void {
+  /** The radius of the model. */
+  get radius(): number {
+    return this.sphere.radius;
+  }
+
+  /** Shows two sides in place of those before. */
+  show(sides: Side[], hasLayout: boolean): void {
+    this.sides = sides;
+    this.hasLayout = hasLayout;
+    this.scene.add(...sides.map((side) => side.model));
+    this.charts.add(...sides.map((side) => side.layout));
+    this.draw();
+  }
+
+  /** Adds to what both sides show. */
+  add(object: Object3D): void {
+    this.scene.add(object);
+  }
+
+  /** Sets the colours behind the model and behind its layout. */
+  background(color: string, layout: string): void {
     this.scene.background = new Color(color);
+    this.charts.background = new Color(layout);
     this.draw();
   }
 
@@ -62,21 +90,41 @@ export class Stage {
     this.draw();
   }
 
-  /** Looks at all of an object, from the front and a little from above. */
-  frame(object: Object3D): void {
-    new Box3().setFromObject(object).getBoundingSphere(this.sphere);
+  /** Sets how bright the surroundings and the light are. */
+  brightness(surroundings: number, light: number): void {
+    this.scene.environmentIntensity = surroundings;
+    this.light.intensity = light;
+    this.draw();
+  }
+
+  /** Takes the size and the place of a model. */
+  measure(box: Box3): void {
+    box.getBoundingSphere(this.sphere);
     if (!(this.sphere.radius > 0) || !Number.isFinite(this.sphere.radius)) this.sphere.set(new Vector3(), 1);
+  }
+
+  /** Looks at all of the model, from the front and a little from above. */
+  lookAtAll(): void {
     this.look(this.sphere.center, this.sphere.radius, new Vector3(0.35, 0.3, 1));
   }
 
-  /** Looks at a place so that a radius around it is in view. */
+  /** Looks at a place from a direction, so that a radius around it is in view. */
   look(at: Vector3, radius: number, from: Vector3): void {
     const distance = radius / Math.sin(((FIELD / 2) * Math.PI) / 180) / Math.min(1, this.camera.aspect);
     this.camera.position.copy(at).addScaledVector(from.clone().normalize(), distance);
-    this.camera.near = this.sphere.radius / 1000;
-    this.camera.far = this.sphere.radius * 100;
-    this.camera.updateProjectionMatrix();
+    this.camera.near = Math.min(this.sphere.radius, radius) / 100;
+    this.camera.far = this.sphere.radius * 20 + distance;
     this.controls.target.copy(at);
+    this.controls.update();
+    this.draw();
+  }
+
+  /** Turns around the model by degrees, and comes nearer by a factor. */
+  orbit(around: number, above: number, nearer = 1): void {
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const { radius, phi, theta } = new Spherical().setFromVector3(offset);
+    const turned = new Spherical(radius / nearer, phi - (above * Math.PI) / 180, theta + (around * Math.PI) / 180).makeSafe();
+    this.camera.position.setFromSpherical(turned).add(this.controls.target);
     this.controls.update();
     this.draw();
   }
@@ -86,8 +134,16 @@ export class Stage {
     this.wanted ||= requestAnimationFrame(() => this.drawNow());
   }
 
-  /** Draws now. */
-  drawNow(): void {
+  /** The picture as a file. */
+  async picture(): Promise<Blob> {
+    // What was drawn is there until this task ends.
+    this.drawNow();
+    const blob = await new Promise<Blob | null>((resolve) => this.canvas.toBlob(resolve, 'image/png'));
+    if (!blob) throw new Error('The browser cannot make a picture of this size.');
+    return blob;
+  }
+
+  private drawNow(): void {
     cancelAnimationFrame(this.wanted);
     this.wanted = 0;
     const { renderer, canvas, camera } = this;
@@ -97,18 +153,24 @@ export class Stage {
     renderer.setSize(width, height, false);
     camera.aspect = width / height;
     camera.updateProjectionMatrix();
-    renderer.setScissorTest(true);
-    const middle = Math.round(width * this.split);
-    renderer.setViewport(0, 0, width, height);
-    this.drawSide(LAYERS[0], 0, middle, height);
-    this.drawSide(LAYERS[1], middle, width - middle, height);
-    renderer.setScissorTest(false);
+    this.drawSplit(0, 0, width, height, this.scene, camera);
+    if (!this.hasLayout) return;
+    const size = Math.round(INSET * Math.min(width, height));
+    this.drawSplit(width - size - MARGIN, height - size - MARGIN, size, size, this.charts, this.chartCamera);
   }
 
-  private drawSide(layer: number, left: number, width: number, height: number): void {
-    if (width <= 0) return;
-    this.camera.layers.set(layer);
-    this.renderer.setScissor(left, 0, width, height);
-    this.renderer.render(this.scene, this.camera);
+  /** Draws a rectangle, on either side of the slider's place in it what that side shows. */
+  private drawSplit(left: number, bottom: number, width: number, height: number, scene: Scene, camera: Camera): void {
+    const { renderer } = this;
+    const middle = Math.round(width * this.split);
+    renderer.setViewport(left, bottom, width, height);
+    renderer.setScissorTest(true);
+    for (const [at, [from, to]] of [[0, middle], [middle, width]].entries()) {
+      if (from === to) continue;
+      this.sides.forEach((side, other) => (side.model.visible = side.layout.visible = at === other));
+      renderer.setScissor(left + from, bottom, to - from, height);
+      renderer.render(scene, camera);
+    }
+    renderer.setScissorTest(false);
   }
 }

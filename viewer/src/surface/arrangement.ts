@@ -3,6 +3,7 @@
 import { splitVertices } from 'darboux';
 
 import { angles } from './angles';
+import { edgePairsOf, endsAt, seamCorners } from './seams';
 import { tangentsFrom, type Source } from './sources';
 import { gathered, type Surface } from './surface';
 
@@ -18,6 +19,8 @@ export interface Arrangement {
   tangents: [Float32Array | null, Float32Array | null];
   /** Degrees between the two, per vertex; see {@link angles}. Null where one is missing. */
   angles: Float32Array | null;
+  /** Per side the ends of its mirrored seams, 6 floats each. */
+  seams: [Float32Array, Float32Array];
 }
 
 /** Arranges a surface for two sources. */
@@ -44,6 +47,7 @@ export function arranged(surface: Surface, sources: readonly [Source, Source]): 
     uvs: gathered(surface.uvs, 2, sourceOfVertex),
     tangents: corners.map((field) => field && ofVertices(field, 4, indices, count)) as Arrangement['tangents'],
     angles: between && ofVertices(between, 1, indices, count),
+    seams: corners.map((field) => endsAt(surface, field ? seamCorners(field, edgePairsOf(surface)) : [])) as Arrangement['seams'],
   };
 }
 

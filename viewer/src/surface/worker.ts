@@ -2,14 +2,28 @@
 
 import { ready } from 'darboux';
 
+import type { Bundle } from '../files/bundle';
+import { repair, type Outcome, type Primitive, type Summary } from '../files/engine';
+import { wholeGltf } from '../files/whole';
 import { arranged, type Arrangement } from './arrangement';
 import type { Source } from './sources';
+import { findings, type Finding } from './report';
 import { completed, type GivenSurface, type Surface } from './surface';
 
 let surfaces: Surface[] = [];
 
 /** What the page can ask for. */
 const work = {
+  /** A glTF file with all that it refers to, checked. */
+  whole(name: string, bytes: Uint8Array<ArrayBuffer>, bundle: Bundle): Promise<Outcome<Primitive[]>> {
+    return wholeGltf(name, bytes, bundle);
+  },
+
+  /** A GLB with new tangents. */
+  repair(name: string, bytes: Uint8Array<ArrayBuffer>): Promise<Outcome<Summary>> {
+    return repair(name, bytes);
+  },
+
   /** Takes the surfaces of a model in place of those before. */
   open(given: GivenSurface[]): void {
     surfaces = given.map(completed);
@@ -18,6 +32,11 @@ const work = {
   /** A part, ready to be drawn. */
   arrange(part: number, sources: readonly [Source, Source]): Arrangement {
     return arranged(surfaces[part], sources);
+  },
+
+  /** What is odd about a part. */
+  report(part: number): Finding[] {
+    return findings(surfaces[part]);
   },
 };
 
@@ -37,7 +56,7 @@ addEventListener('message', async ({ data }: MessageEvent<Call>) => {
   const { id, name, args } = data;
   try {
     await ready;
-    const result = (work[name] as (...args: unknown[]) => unknown)(...args);
+    const result = await (work[name] as (...args: unknown[]) => unknown)(...args);
     postMessage({ id, result } satisfies Reply, { transfer: buffers(result) });
   } catch (error) {
     postMessage({ id, error: error instanceof Error ? error.message : String(error) } satisfies Reply);

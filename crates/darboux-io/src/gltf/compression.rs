@@ -1,7 +1,10 @@
 //! Decompression: Draco primitives and meshopt buffer views become plain accessors, and the extensions go.
 
 mod draco;
+#[cfg(feature = "meshopt")]
 mod meshopt;
+#[cfg(not(feature = "meshopt"))]
+mod no_meshopt;
 
 use std::collections::BTreeSet;
 

@@ -1,0 +1,12 @@
+// The model with new tangents, as a GLB.
+
+import { GLTFExporter } from 'three/addons/exporters/GLTFExporter.js';
+
+import { call } from '../surface/thread';
+import type { Outcome, Summary } from './engine';
+import type { Model } from './model';
+
+/** Tangents are written into the file that was opened, of which all else stays; other formats become a GLB first. */
+export async function repairedGlb({ name, scene, bytes }: Model): Promise<Outcome<Summary>> {
+  return call('repair', name, bytes ?? new Uint8Array((await new GLTFExporter().parseAsync(scene, { binary: true })) as ArrayBuffer));
+}

@@ -1,0 +1,57 @@
+// Lines over a model: frames at its vertices, and seams.
+
+import { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments, Matrix3, Matrix4, Vector3 } from 'three';
+
+import type { VectorName } from '../page/settings';
+
+/** The colours of axes, as everywhere. */
+export const VECTOR_COLORS: Record<VectorName, number> = { tangent: 0xff4d4d, bitangent: 0x4dd24d, normal: 0x5c8cff };
+
+export const SEAM_COLOR = 0xff4dd8;
+
+/** More lines of a part than this show nothing more: every so-many-th vertex is drawn then. */
+const MOST_LINES = 50_000;
+
+/** The vertices that lines start from. */
+export interface Roots {
+  positions: Float32Array;
+  normals: Float32Array;
+  /** 4 floats per vertex. */
+  tangents: Float32Array;
+  place: Matrix4;
+}
+
+/** One kind of vector at the vertices, as lines of a length. */
+export function vectorLines(roots: Roots, name: VectorName, length: number): LineSegments {
+  const count = roots.positions.length / 3;
+  const step = Math.ceil(count / MOST_LINES);
+  const directions = new Matrix3().setFromMatrix4(roots.place);
+  const out = new Float32Array(Math.ceil(count / step) * 6);
+  const [from, along] = [new Vector3(), new Vector3()];
+  for (let vertex = 0, at = 0; vertex < count; vertex += step, at += 6) {
+    from.fromArray(roots.positions, vertex * 3).applyMatrix4(roots.place).toArray(out, at);
+    direction(roots, name, vertex, along).applyMatrix3(directions).setLength(length);
+    from.add(along).toArray(out, at + 3);
+  }
+  return segments(out, VECTOR_COLORS[name]);
+}
+
+function direction({ normals, tangents }: Roots, name: VectorName, vertex: number, out: Vector3): Vector3 {
+  if (name === 'tangent') return out.fromArray(tangents, vertex * 4);
+  out.fromArray(normals, vertex * 3);
+  return name === 'normal' ? out : out.cross(new Vector3().fromArray(tangents, vertex * 4)).multiplyScalar(tangents[vertex * 4 + 3]);
+}
+
+/** Seams: 6 floats each, the ends of an edge. */
+export function seamLines(ends: Float32Array, place: Matrix4): LineSegments {
+  const lines = segments(ends, SEAM_COLOR);
+  lines.applyMatrix4(place);
+  return lines;
+}
+
+function segments(ends: Float32Array, color: number): LineSegments {
+  const geometry = new BufferGeometry().setAttribute('position', new BufferAttribute(ends, 3));
+  const lines = new LineSegments(geometry, new LineBasicMaterial({ color, toneMapped: false }));
+  lines.frustumCulled = false;
+  return lines;
+}

@@ -1,0 +1,102 @@
+// The model on the stage: both sides of the slider, lines over them, and their UV layout.
+
+import { BufferAttribute, Group, Matrix3, Mesh, type BufferGeometry, type Material, type Object3D } from 'three';
+
+import type { Settings } from '../page/settings';
+import type { Arrangement } from '../surface/arrangement';
+import { inkOf } from './ink';
+import { seamLines, vectorLines } from './lines';
+import type { Part } from './parts';
+import { geometryOf, materialOf, sharedOf, type Shared } from './side';
+
+/** A part, its vertices split for the two sources that are compared. */
+interface Piece {
+  part: Part;
+  arrangement: Arrangement;
+  shared: Shared;
+  indices: BufferAttribute;
+}
+
+/** What is drawn on one side. */
+export interface Side {
+  model: Group;
+  /** The triangles of the UV layout. */
+  layout: Group;
+}
+
+export class Shown {
+  /** The left and the right side. */
+  sides: [Side, Side] = [empty(), empty()];
+  private pieces: Piece[] = [];
+
+  /** Takes parts in place of those before. */
+  arrange(parts: Part[], arrangements: Arrangement[]): void {
+    this.pieces = parts.map((part, at) => {
+      const arrangement = arrangements[at];
+      return { part, arrangement, shared: sharedOf(part, arrangement), indices: new BufferAttribute(arrangement.indices, 1) };
+    });
+  }
+
+  /** Builds both sides anew, for a model of some radius. */
+  build(settings: Settings, radius: number): void {
+    this.sides.forEach(dispose);
+    this.sides = [this.side(0, settings, radius), this.side(1, settings, radius)];
+  }
+
+  private side(at: 0 | 1, settings: Settings, radius: number): Side {
+    const side = empty();
+    const none = { green: false, w: false, v: false };
+    const mistakes = at === 1 ? settings.mistakes : none;
+    const hasTangents = settings.sources[at] !== 'derivatives';
+    for (const piece of this.pieces) {
+      const { part, arrangement, shared, indices } = piece;
+      const geometry = geometryOf(shared, indices, arrangement.tangents[at], hasTangents, mistakes);
+      const directions = new Matrix3().setFromMatrix4(part.place);
+      const isShaded = settings.paint === 'shaded';
+      const material = isShaded ? materialOf(part, hasTangents, settings.pattern, mistakes) : inkOf(settings.paint, directions, false);
+      side.model.add(placed(new Mesh(geometry, material), part));
+      if (settings.layout) side.layout.add(flat(new Mesh(geometry, inkOf(isShaded ? 'sign' : settings.paint, directions, true))));
+      this.lines(side, at, piece, geometry, settings, radius);
+    }
+    return side;
+  }
+
+  private lines(side: Side, at: 0 | 1, { part, arrangement }: Piece, geometry: BufferGeometry, settings: Settings, radius: number): void {
+    const frames = geometry.getAttribute('frame') as BufferAttribute | undefined;
+    const { positions, normals } = arrangement;
+    const tangents = (frames?.array as Float32Array | undefined) ?? new Float32Array((positions.length / 3) * 4);
+    const roots = { positions, normals, tangents, place: part.place };
+    for (const name of ['tangent', 'bitangent', 'normal'] as const) {
+      if (settings.vectors[name]) side.model.add(vectorLines(roots, name, settings.length * radius));
+    }
+    const seams = arrangement.seams[at];
+    if (settings.seams && seams.length) side.model.add(seamLines(seams, part.place));
+  }
+}
+
+/** At its node's place. */
+function placed<O extends Object3D>(object: O, part: Part): O {
+  object.matrixAutoUpdate = false;
+  object.matrix.copy(part.place);
+  return object;
+}
+
+function flat(mesh: Mesh): Mesh {
+  mesh.frustumCulled = false;
+  return mesh;
+}
+
+function empty(): Side {
+  return { model: new Group(), layout: new Group() };
+}
+
+/** Gives back the memory of the graphics card. Textures stay: they belong to the parts. */
+function dispose({ model, layout }: Side): void {
+  for (const object of [...model.children, ...layout.children] as Mesh[]) {
+    object.geometry.dispose();
+    for (const material of [object.material].flat() as Material[]) material.dispose();
+  }
+  model.removeFromParent();
+  layout.removeFromParent();
+}
+
