@@ -1,7 +1,7 @@
 // `node build.mjs DARBOUX MODULE`: makes the page in `dist`, of the npm package in the folder DARBOUX and the WebAssembly of `wasm`.
 
 import { spawnSync } from 'node:child_process';
-import { copyFileSync, mkdirSync, rmSync, symlinkSync } from 'node:fs';
+import { copyFileSync, mkdirSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
@@ -19,9 +19,9 @@ rmSync(link, { recursive: true, force: true });
 symlinkSync(darboux, link);
 
 copyFileSync(module, join(here, 'src/files/darboux_viewer.wasm'));
-const sample = join(here, 'public/sample');
-mkdirSync(sample, { recursive: true });
-for (const name of ['NormalTangentTest.glb', 'LICENSE.txt']) copyFileSync(join(here, '../assets/NormalTangentTest', name), join(sample, name));
+const { sample } = await import('./sample.mjs');
+mkdirSync(join(here, 'public'), { recursive: true });
+writeFileSync(join(here, 'public/shield.glb'), await sample());
 
 run('tsc', '-p', '.');
 run('vite', 'build');

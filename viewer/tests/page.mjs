@@ -13,6 +13,9 @@ export const root = join(here, '../..');
 
 const KINDS = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm' };
 
+/** Longer than anything takes on a slow machine without a graphics card. */
+const LONG = 120_000;
+
 /** Serves the built page; gives its address. */
 export async function serve() {
   const server = createServer(async (request, response) => {
@@ -36,4 +39,142 @@ export function browser() {
     executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
     args: ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'],
   });
+}
+
+/** A page with the viewer, and what tests do with it. */
+export class Viewer {
+  /** What the page said that it should not have, and what it asked of others. */
+  faults = [];
+
+  static async open(browser, address, options = {}) {
+    const context = await browser.newContext({ viewport: { width: 1000, height: 600 }, reducedMotion: 'reduce', ...options });
+    const viewer = new Viewer();
+    viewer.page = await context.newPage();
+    viewer.page.setDefaultTimeout(LONG);
+    viewer.page.on('pageerror', (error) => viewer.faults.push(error.message));
+    viewer.page.on('console', (message) => message.type() === 'error' && viewer.faults.push(message.text()));
+    viewer.page.on('request', (request) => {
+      const url = request.url();
+      if (!url.startsWith(new URL(address).origin) && !/^(blob|data):/.test(url)) viewer.faults.push(`a request to ${url}`);
+    });
+    await viewer.page.goto(address);
+    await viewer.settled();
+    return viewer;
+  }
+
+  /** Waits until the page has done what it was asked for. */
+  async settled() {
+    await this.page.waitForFunction(() => {
+      const text = (id) => document.getElementById(id).textContent;
+      return document.getElementById('progress').hidden && (text('status') || text('error'));
+    });
+    // What is to be drawn is drawn in the next frame.
+    await this.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  }
+
+  text(id) {
+    return this.page.textContent(`#${id}`);
+  }
+
+  /** The lines of the report by their kind. */
+  report() {
+    return this.page.$$eval('#report li', (items) => Object.fromEntries(items.map((item) => [item.dataset.kind, item.textContent])));
+  }
+
+  async choose(id, source) {
+    await this.page.selectOption(`#${id}`, source);
+    await this.settled();
+  }
+
+  /** Sets a slider, as a hand would. */
+  async slide(id, value) {
+    await this.page.$eval(`#${id}`, (input, value) => {
+      input.value = value;
+      input.dispatchEvent(new Event('input', { bubbles: true }));
+    }, String(value));
+    await this.settled();
+  }
+
+  /** Presses, checks or unchecks something. */
+  async click(selector) {
+    await this.page.click(selector);
+    await this.settled();
+  }
+
+  /** Gives files or a folder to a button. */
+  async give(id, paths) {
+    await this.page.setInputFiles(`#${id}`, paths);
+    await this.settled();
+  }
+
+  /** Drops files and folders onto the page, as the system does it. */
+  async drop(...files) {
+    const session = await this.page.context().newCDPSession(this.page);
+    const data = { items: [], files, dragOperationsMask: 1 };
+    for (const type of ['dragEnter', 'dragOver', 'drop']) await session.send('Input.dispatchDragEvent', { type, x: 200, y: 200, data });
+    await session.detach();
+    await this.settled();
+  }
+
+  /** What a button gives as a file: its name and bytes. */
+  async download(selector) {
+    const [download] = await Promise.all([this.page.waitForEvent('download'), this.page.click(selector)]);
+    await this.settled();
+    return { name: download.suggestedFilename(), bytes: await readFile(await download.path()) };
+  }
+
+  /** The picture, without what lies over it. */
+  async picture() {
+    const show = (visibility) => this.page.$$eval('#divider, .caption, .split, #legend', (over, visibility) => over.forEach((one) => (one.style.visibility = visibility)), visibility);
+    await show('hidden');
+    const shot = await this.page.locator('#view').screenshot();
+    await show('');
+    return Picture.decode(this.page, shot);
+  }
+
+  close() {
+    return this.page.context().close();
+  }
+}
+
+/** Pixels. */
+export class Picture {
+  constructor(width, height, data) {
+    Object.assign(this, { width, height, data });
+  }
+
+  /** Has a page decode a PNG. */
+  static async decode(page, png) {
+    const { width, height, text } = await page.evaluate(async (text) => {
+      const image = await createImageBitmap(await (await fetch(`data:image/png;base64,${text}`)).blob());
+      const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
+      context.drawImage(image, 0, 0);
+      const bytes = context.getImageData(0, 0, image.width, image.height).data;
+      let out = '';
+      for (let at = 0; at < bytes.length; at += 8192) out += String.fromCharCode(...bytes.subarray(at, at + 8192));
+      return { width: image.width, height: image.height, text: btoa(out) };
+    }, png.toString('base64'));
+    return new Picture(width, height, Buffer.from(text, 'base64'));
+  }
+
+  /** The part of the pixels between two columns, from 0 to 1, that pass a test of red, green and blue. */
+  share(test, from = 0, to = 1) {
+    return this.#share((at) => test(this.data[at], this.data[at + 1], this.data[at + 2]), from, to);
+  }
+
+  /** The part of the pixels between two columns that differ from another picture's by more than noise. */
+  differs(other, from = 0, to = 1) {
+    const differs = (at) => [0, 1, 2].some((i) => Math.abs(this.data[at + i] - other.data[at + i]) > 6);
+    return this.#share(differs, from, to);
+  }
+
+  #share(test, from, to) {
+    let [found, all] = [0, 0];
+    for (let y = 0; y < this.height; y++) {
+      for (let x = Math.round(from * this.width); x < Math.round(to * this.width); x++, all++) {
+        if (test(4 * (y * this.width + x))) found++;
+      }
+    }
+    return found / all;
+  }
 }

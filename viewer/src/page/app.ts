@@ -5,7 +5,7 @@ import { Box3, Matrix3, Vector3 } from 'three';
 import { openModel, type Model } from '../files/model';
 import { repairedGlb } from '../files/repaired';
 import { Marker } from '../scene/marker';
-import { partsOf, type Part } from '../scene/parts';
+import { partsOf, squareOf, type Part } from '../scene/parts';
 import { Shown } from '../scene/shown';
 import { Stage } from '../scene/stage';
 import type { Arrangement } from '../surface/arrangement';
@@ -13,7 +13,7 @@ import { SOURCE_NAMES } from '../surface/sources';
 import { call } from '../surface/thread';
 import { connectControls, offerSources, settings } from './controls';
 import { element, numberOf } from './elements';
-import { connectKeys } from './keys';
+import { connectKeys, connectLightDrag } from './keys';
 import { showLegend } from './legend';
 import { connectOpening, type Find } from './opening';
 import { showReport, type Found } from './report';
@@ -37,6 +37,7 @@ export class App {
     this.stage.add(this.marker.object);
     connectTheme((model, layout) => this.stage.background(model, layout));
     connectKeys(this.stage);
+    connectLightDrag();
     connectControls({ sources: () => this.attempt(() => this.arrange()), look: () => this.build(), light: () => this.light() });
     this.connectSplit();
     element('save-picture').addEventListener('click', () => this.attempt(() => this.savePicture()));
@@ -74,6 +75,7 @@ export class App {
     await call('open', parts.map((part) => part.surface));
     [this.model, this.parts] = [model, parts];
     this.stage.measure(new Box3().setFromObject(model.scene));
+    this.stage.measureLayout(...squareOf(parts));
     this.marker.hide();
     offerSources(parts.some((part) => part.surface.tangents));
     element('name').textContent = model.name;
@@ -138,7 +140,7 @@ export class App {
     const at = new Vector3().fromArray(places, place * 6).applyMatrix4(matrix);
     const normal = new Vector3().fromArray(places, place * 6 + 3).applyMatrix3(new Matrix3().getNormalMatrix(matrix));
     this.marker.showAt(at);
-    this.stage.look(at, CLOSE * this.stage.radius, normal.lengthSq() > 0 ? normal : new Vector3(0, 0, 1));
+    this.stage.look(at, CLOSE * this.stage.radius, normal.lengthSq() > 0 ? normal : new Vector3(0, 0, 1), true);
   }
 
   private async savePicture(): Promise<void> {

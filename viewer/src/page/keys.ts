@@ -1,4 +1,4 @@
-// The model by keyboard.
+// The model by keyboard, and the light by hand.
 
 import type { Stage } from '../scene/stage';
 import { element } from './elements';
@@ -6,6 +6,8 @@ import { element } from './elements';
 /** Degrees per key, and how much nearer. */
 const TURN = 5;
 const NEARER = 1.15;
+
+const DEGREES_PER_PIXEL = 0.5;
 
 const ARROWS: Record<string, [number, number]> = {
   ArrowLeft: [-TURN, 0],
@@ -29,11 +31,29 @@ export function connectKeys(stage: Stage): void {
   });
 }
 
-/** Moves the light's controls, as a hand would. */
+/** With Shift, dragging moves the light instead of the model. */
+export function connectLightDrag(): void {
+  const view = element('view');
+  // Before the orbit's own listener, which must not see it.
+  view.addEventListener('pointerdown', (event) => event.shiftKey && begin(event), { capture: true });
+
+  function begin(event: PointerEvent): void {
+    event.stopImmediatePropagation();
+    view.setPointerCapture(event.pointerId);
+    const move = ({ movementX, movementY }: PointerEvent) => moveLight([movementX * DEGREES_PER_PIXEL, -movementY * DEGREES_PER_PIXEL]);
+    const end = () => view.removeEventListener('pointermove', move);
+    view.addEventListener('pointermove', move);
+    view.addEventListener('pointerup', end, { once: true });
+    view.addEventListener('pointercancel', end, { once: true });
+  }
+}
+
+/** Moves the light's controls, around as far as one likes. */
 function moveLight([around, above]: [number, number]): void {
   for (const [id, degrees] of [['light-around', around], ['light-above', above]] as const) {
     const input = element<HTMLInputElement>(id);
-    input.valueAsNumber += degrees;
+    const wanted = input.valueAsNumber + degrees;
+    input.valueAsNumber = id === 'light-around' ? ((wanted + 540) % 360) - 180 : wanted;
     input.dispatchEvent(new Event('input', { bubbles: true }));
   }
 }

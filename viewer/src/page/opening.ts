@@ -4,7 +4,7 @@ import { fromDrop, fromList, type Bundle } from '../files/bundle';
 import { element } from './elements';
 
 /** The model that is shown when nothing was asked for. */
-const SAMPLE = 'sample/NormalTangentTest.glb';
+const SAMPLE = 'shield.glb';
 
 /** Finds files: they may still have to be read. */
 export type Find = () => Promise<Bundle>;

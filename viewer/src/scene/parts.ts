@@ -67,3 +67,17 @@ export function floatsOf(attribute: Attribute, width: number): Float32Array<Arra
   }
   return out;
 }
+
+/** The square that holds the UV square and all UVs: its left, its bottom and its side. */
+export function squareOf(parts: Part[]): [number, number, number] {
+  let [left, bottom, right, top] = [0, 0, 1, 1];
+  for (const { surface } of parts) {
+    const uvs = surface.uvs ?? [];
+    for (let at = 0; at < uvs.length; at += 2) {
+      const [x, y] = [uvs[at], surface.vDown ? 1 - uvs[at + 1] : uvs[at + 1]];
+      if (!Number.isFinite(x + y)) continue;
+      [left, right, bottom, top] = [Math.min(left, x), Math.max(right, x), Math.min(bottom, y), Math.max(top, y)];
+    }
+  }
+  return [left, bottom, Math.max(right - left, top - bottom)];
+}

@@ -1,8 +1,8 @@
 // The model on the stage: both sides of the slider, lines over them, and their UV layout.
 
-import { BufferAttribute, Group, Matrix3, Mesh, type BufferGeometry, type Material, type Object3D } from 'three';
+import { BufferAttribute, Group, LineSegments, Matrix3, Mesh, type BufferGeometry, type Material, type Object3D } from 'three';
 
-import type { Settings } from '../page/settings';
+import type { Mistakes, Settings } from '../page/settings';
 import type { Arrangement } from '../surface/arrangement';
 import { inkOf } from './ink';
 import { seamLines, vectorLines } from './lines';
@@ -15,6 +15,9 @@ interface Piece {
   arrangement: Arrangement;
   shared: Shared;
   indices: BufferAttribute;
+  /** Of both sides, and the mistakes that the right one was made with. */
+  geometries: [BufferGeometry, BufferGeometry] | null;
+  mistakes: string;
 }
 
 /** What is drawn on one side. */
@@ -31,9 +34,11 @@ export class Shown {
 
   /** Takes parts in place of those before. */
   arrange(parts: Part[], arrangements: Arrangement[]): void {
+    this.pieces.forEach(forget);
     this.pieces = parts.map((part, at) => {
       const arrangement = arrangements[at];
-      return { part, arrangement, shared: sharedOf(part, arrangement), indices: new BufferAttribute(arrangement.indices, 1) };
+      const [shared, indices] = [sharedOf(part, arrangement), new BufferAttribute(arrangement.indices, 1)];
+      return { part, arrangement, shared, indices, geometries: null, mistakes: '' };
     });
   }
 
@@ -45,12 +50,11 @@ export class Shown {
 
   private side(at: 0 | 1, settings: Settings, radius: number): Side {
     const side = empty();
-    const none = { green: false, w: false, v: false };
-    const mistakes = at === 1 ? settings.mistakes : none;
+    const mistakes = at === 1 ? settings.mistakes : NONE;
     const hasTangents = settings.sources[at] !== 'derivatives';
     for (const piece of this.pieces) {
-      const { part, arrangement, shared, indices } = piece;
-      const geometry = geometryOf(shared, indices, arrangement.tangents[at], hasTangents, mistakes);
+      const { part } = piece;
+      const geometry = geometriesOf(piece, settings)[at];
       const directions = new Matrix3().setFromMatrix4(part.place);
       const isShaded = settings.paint === 'shaded';
       const material = isShaded ? materialOf(part, hasTangents, settings.pattern, mistakes) : inkOf(settings.paint, directions, false);
@@ -74,6 +78,24 @@ export class Shown {
   }
 }
 
+const NONE: Mistakes = { green: false, w: false, v: false };
+
+/** The geometry of both sides. It is kept while nothing in it changes: it may be large. */
+function geometriesOf(piece: Piece, { sources, mistakes }: Settings): [BufferGeometry, BufferGeometry] {
+  const { shared, indices, arrangement } = piece;
+  const key = JSON.stringify([mistakes.w, mistakes.v]);
+  if (piece.geometries && piece.mistakes === key) return piece.geometries;
+  forget(piece);
+  const make = (at: 0 | 1) => geometryOf(shared, indices, arrangement.tangents[at], sources[at] !== 'derivatives', at ? mistakes : NONE);
+  piece.mistakes = key;
+  return (piece.geometries = [make(0), make(1)]);
+}
+
+function forget(piece: Piece): void {
+  piece.geometries?.forEach((geometry) => geometry.dispose());
+  piece.geometries = null;
+}
+
 /** At its node's place. */
 function placed<O extends Object3D>(object: O, part: Part): O {
   object.matrixAutoUpdate = false;
@@ -90,10 +112,10 @@ function empty(): Side {
   return { model: new Group(), layout: new Group() };
 }
 
-/** Gives back the memory of the graphics card. Textures stay: they belong to the parts. */
+/** Gives back memory of the graphics card, but for geometry and textures: those belong to pieces and parts. */
 function dispose({ model, layout }: Side): void {
-  for (const object of [...model.children, ...layout.children] as Mesh[]) {
-    object.geometry.dispose();
+  for (const object of [...model.children, ...layout.children] as (Mesh | LineSegments)[]) {
+    if (object instanceof LineSegments) object.geometry.dispose();
     for (const material of [object.material].flat() as Material[]) material.dispose();
   }
   model.removeFromParent();

@@ -19,13 +19,15 @@ import {
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
 
+import { fly, type View } from './flight';
 import type { Side } from './shown';
 
 const FIELD = 35;
 
-/** The side of the UV layout's square, as a part of the picture's shorter side, and its distance from the picture's edges in pixels. */
-const INSET = 0.45;
+/** The side of the UV layout's square, as a part of the picture's shorter side, and its distances from the picture's edges in pixels. */
+const INSET = 0.5;
 const MARGIN = 12;
+const BELOW = 36;
 
 export class Stage {
   readonly camera = new PerspectiveCamera(FIELD, 1, 0.01, 100);
@@ -36,11 +38,12 @@ export class Stage {
   private readonly scene = new Scene();
   private readonly light = new DirectionalLight(0xffffff, 2);
   private readonly charts = new Scene();
-  private readonly chartCamera = new OrthographicCamera(-0.02, 1.02, 1.02, -0.02, -1, 1);
+  private readonly chartCamera = new OrthographicCamera(0, 1, 1, 0, -1, 1);
   private readonly sphere = new Sphere(new Vector3(), 1);
   private sides: Side[] = [];
   private hasLayout = false;
   private wanted = 0;
+  private stopFlight = () => {};
 
   /** Errors: the browser has no WebGL 2. */
   constructor(private readonly canvas: HTMLCanvasElement) {
@@ -48,6 +51,7 @@ export class Stage {
     this.renderer.toneMapping = NeutralToneMapping;
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener('change', () => this.draw());
+    this.controls.addEventListener('start', () => this.stopFlight());
     this.scene.add(this.light, this.light.target);
     const generator = new PMREMGenerator(this.renderer);
     this.scene.environment = generator.fromScene(new RoomEnvironment(), 0.04).texture;
@@ -103,24 +107,38 @@ export class Stage {
     if (!(this.sphere.radius > 0) || !Number.isFinite(this.sphere.radius)) this.sphere.set(new Vector3(), 1);
   }
 
+  /** Takes the square that the UV layout is shown in. */
+  measureLayout(left: number, bottom: number, size: number): void {
+    const margin = 0.02 * size;
+    Object.assign(this.chartCamera, { left: left - margin, bottom: bottom - margin, right: left + size + margin, top: bottom + size + margin });
+    this.chartCamera.updateProjectionMatrix();
+  }
+
   /** Looks at all of the model, from the front and a little from above. */
   lookAtAll(): void {
     this.look(this.sphere.center, this.sphere.radius, new Vector3(0.35, 0.3, 1));
   }
 
   /** Looks at a place from a direction, so that a radius around it is in view. */
-  look(at: Vector3, radius: number, from: Vector3): void {
+  look(at: Vector3, radius: number, from: Vector3, isFlight = false): void {
     const distance = radius / Math.sin(((FIELD / 2) * Math.PI) / 180) / Math.min(1, this.camera.aspect);
-    this.camera.position.copy(at).addScaledVector(from.clone().normalize(), distance);
     this.camera.near = Math.min(this.sphere.radius, radius) / 100;
     this.camera.far = this.sphere.radius * 20 + distance;
-    this.controls.target.copy(at);
-    this.controls.update();
-    this.draw();
+    const to = { eye: at.clone().addScaledVector(from.clone().normalize(), distance), target: at.clone() };
+    const move = ({ eye, target }: View) => {
+      this.camera.position.copy(eye);
+      this.controls.target.copy(target);
+      this.controls.update();
+      this.draw();
+    };
+    this.stopFlight();
+    if (isFlight) this.stopFlight = fly({ eye: this.camera.position.clone(), target: this.controls.target.clone() }, to, move);
+    else move(to);
   }
 
   /** Turns around the model by degrees, and comes nearer by a factor. */
   orbit(around: number, above: number, nearer = 1): void {
+    this.stopFlight();
     const offset = this.camera.position.clone().sub(this.controls.target);
     const { radius, phi, theta } = new Spherical().setFromVector3(offset);
     const turned = new Spherical(radius / nearer, phi - (above * Math.PI) / 180, theta + (around * Math.PI) / 180).makeSafe();
@@ -156,7 +174,7 @@ export class Stage {
     this.drawSplit(0, 0, width, height, this.scene, camera);
     if (!this.hasLayout) return;
     const size = Math.round(INSET * Math.min(width, height));
-    this.drawSplit(width - size - MARGIN, height - size - MARGIN, size, size, this.charts, this.chartCamera);
+    this.drawSplit(width - size - MARGIN, BELOW, size, size, this.charts, this.chartCamera);
   }
 
   /** Draws a rectangle, on either side of the slider's place in it what that side shows. */

@@ -1,0 +1,139 @@
+// What the page shows of the model that it opens with, in pixels.
+
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+
+import { browser, serve, Viewer } from './page.mjs';
+
+let server, chromium, viewer;
+
+before(async () => {
+  [server, chromium] = [await serve(), await browser()];
+  viewer = await Viewer.open(chromium, server.address);
+});
+
+after(async () => {
+  await chromium?.close();
+  server?.close();
+  assert.deepEqual(viewer?.faults, []);
+});
+
+/** Colours that are unlike all others on the page. */
+const isRed = (r, g, b) => r > 200 && g < 110 && b < 110;
+const isGreen = (r, g, b) => g > 150 && r < 120 && b < 120;
+const isBlue = (r, g, b) => b > 200 && r < 130 && g < 170;
+const isMagenta = (r, g, b) => r > 220 && b > 180 && g < 130;
+const isPlus = (r, g, b) => b > r + 60 && g > r;
+const isMinus = (r, g, b) => r > b + 80 && g < r;
+
+test('it opens with a sample, and says what is wrong with it', async () => {
+  assert.equal(await viewer.text('name'), 'shield.glb');
+  assert.equal(await viewer.text('error'), '');
+  assert.equal(await viewer.text('status'), '6,144 triangles in 1 part');
+  const report = await viewer.report();
+  assert.deepEqual(Object.keys(report).sort(), ['differs', 'flipped', 'mixed', 'seams']);
+  assert.match(report.seams, /^64 mirrored edges: Shield$/);
+  assert.equal(await viewer.page.inputValue('#left'), 'file');
+});
+
+test('the slider parts two sources', async () => {
+  await viewer.slide('split', 100);
+  const left = await viewer.picture();
+  await viewer.slide('split', 0);
+  const right = await viewer.picture();
+  assert.ok(left.differs(right, 0.45, 0.55) > 0.02, 'the seam is broken on the left');
+  assert.ok(left.differs(right, 0, 0.4) < 0.002 && left.differs(right, 0.6) < 0.002, 'all else is the same');
+  await viewer.slide('split', 50);
+  const both = await viewer.picture();
+  assert.equal(both.differs(left, 0, 0.49), 0);
+  assert.equal(both.differs(right, 0.51), 0);
+});
+
+test('every source shows a surface, and derivatives their facets', async () => {
+  await viewer.slide('split', 100);
+  const pictures = {};
+  for (const source of ['mikktspace', 'angle-area', 'lengyel', 'derivatives']) {
+    await viewer.choose('left', source);
+    pictures[source] = await viewer.picture();
+    assert.equal(await viewer.text('error'), '');
+  }
+  assert.ok(pictures.mikktspace.differs(pictures.derivatives) > 0.005);
+  assert.ok(pictures.mikktspace.differs(pictures['angle-area']) < 0.1);
+  await viewer.choose('left', 'file');
+});
+
+test('signs have two colours, one for each half', async () => {
+  await viewer.slide('split', 0);
+  await viewer.click('input[value=sign]');
+  const picture = await viewer.picture();
+  const [plus, minus] = [picture.share(isPlus, 0, 0.44), picture.share(isMinus, 0.54)];
+  assert.ok(picture.share(isPlus) > 0.05 && picture.share(isMinus) > 0.05);
+  assert.ok((plus < 0.001) === (minus < 0.001), 'each half has one');
+  assert.match(await viewer.text('legend'), /w = 1.*w = -1/);
+});
+
+test('the angle between the sides has a scale in degrees, and flips a colour of their own', async () => {
+  await viewer.click('input[value=angle]');
+  assert.match(await viewer.text('legend'), /0.01°.*1°.*180°.*signs differ/);
+  const picture = await viewer.picture();
+  assert.ok(picture.share((r, g, b) => r > 200 && g < 60 && b < 60) > 0.002, 'flipped triangles are red');
+  assert.ok(picture.share((r, g, b) => r < 90 && g < 40 && b > 50) > 0.1, 'what agrees is dark');
+  await viewer.choose('right', 'file');
+  const same = await viewer.picture();
+  assert.equal(same.share((r, g, b) => r > 200 && g < 60 && b < 60), 0, 'a source agrees with itself');
+  await viewer.choose('right', 'mikktspace');
+});
+
+test('the UV layout has the same colours', async () => {
+  const before = await viewer.picture();
+  await viewer.click('#layout');
+  const picture = await viewer.picture();
+  assert.ok(picture.differs(before, 0.65) > 0.1);
+  assert.equal(picture.differs(before, 0, 0.4), 0);
+  await viewer.click('#layout');
+});
+
+test('frames and seams are drawn as lines', async () => {
+  await viewer.click('input[value=normal]');
+  for (const [id, isTheirs] of [['lines-tangent', isRed], ['lines-bitangent', isGreen], ['lines-normal', isBlue], ['seams', isMagenta]]) {
+    const before = (await viewer.picture()).share(isTheirs);
+    await viewer.click(`#${id}`);
+    assert.ok((await viewer.picture()).share(isTheirs) > before + 0.0003, id);
+    await viewer.click(`#${id}`);
+  }
+  await viewer.click('input[value=shaded]');
+});
+
+test('mistakes show on the right alone', async () => {
+  await viewer.slide('split', 50);
+  const before = await viewer.picture();
+  for (const mistake of ['green', 'w', 'v']) {
+    await viewer.click(`#flip-${mistake}`);
+    const picture = await viewer.picture();
+    assert.ok(picture.differs(before, 0.5) > 0.05, mistake);
+    assert.equal(picture.differs(before, 0, 0.49), 0, mistake);
+    assert.equal(await viewer.page.getAttribute(`#flip-${mistake}`, 'aria-pressed'), 'true');
+    assert.notEqual(await viewer.text('mistake'), '');
+    await viewer.click(`#flip-${mistake}`);
+  }
+  assert.equal((await viewer.picture()).differs(before), 0);
+});
+
+test('the light moves', async () => {
+  const before = await viewer.picture();
+  await viewer.slide('light-around', -120);
+  assert.ok((await viewer.picture()).differs(before) > 0.05);
+  await viewer.slide('light-around', 40);
+  assert.equal((await viewer.picture()).differs(before), 0);
+});
+
+test('the report leads to each place', async () => {
+  const before = await viewer.picture();
+  await viewer.click('#report [data-kind=mixed] button');
+  assert.match(await viewer.text('status'), /^133 triangles with both signs: Shield, place 1 of 133$/);
+  const first = await viewer.picture();
+  assert.ok(first.differs(before) > 0.3);
+  assert.ok(first.share(isMagenta) > 0.0001, 'the place is marked');
+  await viewer.click('#report [data-kind=mixed] button');
+  assert.match(await viewer.text('status'), /place 2 of 133$/);
+});
