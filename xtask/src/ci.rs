@@ -7,7 +7,7 @@ use std::time::Instant;
 use crate::python::WithoutPython;
 use crate::run::{Outcome, program, root, run, shown, works};
 use crate::validate::WithoutNpm;
-use crate::{dist_js, generated, graphics, layers, python, validate};
+use crate::{dist_js, dist_viewer, generated, graphics, layers, python, validate};
 
 type Step = (&'static str, fn() -> Outcome);
 
@@ -22,6 +22,7 @@ const QUICK: &[Step] = &[
     ("tests", || test("cargo test --workspace")),
     ("python", || python::test(without_python())),
     ("npm package", || dist_js::test(without_npm())),
+    ("viewer", || dist_viewer::test(without_npm())),
 ];
 
 const LONG: &[Step] = &[

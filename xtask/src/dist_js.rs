@@ -33,11 +33,16 @@ pub fn make() -> Outcome {
     Ok(())
 }
 
+/// Where the folder is made.
+pub fn folder() -> Result<PathBuf, String> {
+    Ok(target_folder()?.join("dist-js/darboux"))
+}
+
 /// Makes the folder; gives its path.
 pub fn make_folder() -> Result<PathBuf, String> {
     run(to_stderr(&mut program(&format!("rustup target add {TRIPLE}"))))?;
-    let target = target_folder()?;
-    let (modules, folder) = (target.join("dist-js/modules"), target.join("dist-js/darboux"));
+    let (target, folder) = (target_folder()?, folder()?);
+    let modules = target.join("dist-js/modules");
     fs::create_dir_all(&modules).map_err(|error| format!("{} cannot be made: {error}", modules.display()))?;
     for (name, features) in MODULES {
         for (form, flags) in FORMS {

@@ -14,6 +14,8 @@ export interface Model {
   kind: 'gltf' | 'obj';
   /** The file with all that it refers to, as a GLB: what an export begins with. Null for other formats. */
   bytes: Uint8Array<ArrayBuffer> | null;
+  /** What is odd but not an error, as sentences. */
+  warnings: string[];
 }
 
 /** How far it is: what is being done, and which part of it is, from 0 to 1. */
@@ -36,7 +38,7 @@ export async function openModel(bundle: Bundle, progress: Progress): Promise<Mod
   progress(`Opening ${name}`, 0.5);
   const isObj = /\.obj$/i.test(name);
   return isObj
-    ? { name, kind: 'obj', scene: await openObj(name, bytes, bundle), bytes: null }
+    ? { name, kind: 'obj', scene: await openObj(name, bytes, bundle), bytes: null, warnings: [] }
     : { name, kind: 'gltf', ...(await openGltf(name, bytes, bundle)) };
 }
 

@@ -16,7 +16,8 @@ export async function openObj(name: string, bytes: Uint8Array<ArrayBuffer>, bund
   if (materials) loader.setMaterials(new MTLLoader(managerOf(bundle, name)).parse(await materials.text(), ''));
   const scene = loader.parse(text);
   scene.traverse((object) => {
-    if (object instanceof Mesh) object.material = [object.material].flat().map(standard);
+    if (!(object instanceof Mesh)) return;
+    object.material = Array.isArray(object.material) ? object.material.map(standard) : standard(object.material);
   });
   return scene;
 }

@@ -102,11 +102,12 @@ export class App {
     showDone(this.told());
   }
 
-  /** The model in a line. */
+  /** The model in a line, and what is odd about its file. */
   private told(): string {
     const triangles = this.parts.reduce((sum, { surface }) => sum + surface.indices.length / 3, 0);
     const parts = this.parts.length;
-    return `${triangles.toLocaleString('en')} triangles in ${parts} ${parts === 1 ? 'part' : 'parts'}`;
+    const size = `${triangles.toLocaleString('en')} triangles in ${parts} ${parts === 1 ? 'part' : 'parts'}`;
+    return [size, ...(this.model?.warnings ?? [])].join('; ');
   }
 
   /** Shows what was computed, as the controls say. */

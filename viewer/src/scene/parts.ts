@@ -59,8 +59,11 @@ function surfaceOf(geometry: BufferGeometry, uvName: string, start: number, coun
   return { positions, normals: floats('normal', 3), uvs: floats(uvName, 2), tangents: floats('tangent', 4), indices, vDown };
 }
 
-/** The elements of an attribute as floats: dequantised, and out of interleaved arrays. */
+/** The elements of an attribute as floats: dequantised, and out of interleaved arrays. Errors: three.js could not read it. */
 export function floatsOf(attribute: Attribute, width: number): Float32Array<ArrayBuffer> {
+  if (!Number.isInteger(attribute.count)) {
+    throw new Error('The model cannot be shown: three.js does not read sparse data whose elements lie apart; the command darboux does.');
+  }
   const out = new Float32Array(attribute.count * width);
   for (let at = 0; at < attribute.count; at++) {
     for (let i = 0; i < width; i++) out[at * width + i] = attribute.getComponent(at, i);

@@ -1,0 +1,176 @@
+// Models in: by address, button and drop; good and bad. Models out: as the command writes them.
+
+import assert from 'node:assert/strict';
+import { execFileSync, spawn } from 'node:child_process';
+import { copyFileSync, mkdirSync, mkdtempSync, readFileSync, rmSync, truncateSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { createInterface } from 'node:readline';
+import { after, before, test } from 'node:test';
+
+import { browser, root, serve, Viewer } from './page.mjs';
+
+const DARBOUX = process.env.DARBOUX;
+const asset = (path) => join(root, 'assets', path);
+
+let server, chromium, viewer, folder;
+
+before(async () => {
+  folder = mkdtempSync(join(tmpdir(), 'viewer-'));
+  [server, chromium] = [await serve(), await browser()];
+  viewer = await Viewer.open(chromium, server.address, { viewport: { width: 500, height: 400 } });
+});
+
+after(async () => {
+  await chromium?.close();
+  server?.close();
+  rmSync(folder, { recursive: true });
+  // Some models have pictures that no decoder takes, which the page says in words.
+  assert.deepEqual(viewer?.faults.filter((fault) => !fault.includes("Couldn't load texture")), []);
+});
+
+/** What the command's inspection says of a file's only primitive. */
+function inspected(path) {
+  return JSON.parse(execFileSync(DARBOUX, ['inspect', '--json', path])).files[0].primitives[0];
+}
+
+test('a file by button', async () => {
+  await viewer.give('files', [asset('NormalTangentTest/NormalTangentTest.glb')]);
+  assert.equal(await viewer.text('name'), 'NormalTangentTest.glb');
+  assert.equal(await viewer.text('status'), '7,774 triangles in 1 part');
+  assert.deepEqual(Object.keys(await viewer.report()), ['no-tangents']);
+  assert.equal(await viewer.page.$eval('#left option[value=file]', (option) => option.disabled), true);
+});
+
+test('a folder by button', async () => {
+  await viewer.give('folder', asset('TwoSidedPlane'));
+  assert.equal(await viewer.text('error'), '');
+  assert.equal(await viewer.text('name'), 'TwoSidedPlane/TwoSidedPlane.gltf');
+});
+
+test('a file and a folder by drop', async () => {
+  await viewer.drop(asset('Fox/Fox.glb'));
+  assert.equal(await viewer.text('name'), 'Fox.glb');
+  assert.match((await viewer.report())['no-normals'], /^No normals/);
+  await viewer.drop(asset('Morphing'));
+  assert.equal(await viewer.text('name'), 'Morphing/morphing.gltf');
+  assert.equal(await viewer.text('error'), '');
+});
+
+test('compressed, strips, several UV sets, skins and morph targets', async () => {
+  const triangles = { 'draco.glb': 48, 'meshopt.glb': 16, 'strips-fans-lines-points.gltf': 32, 'shared-vertices-two-uv-sets.gltf': 48, 'skinned-morphed-mirrored.gltf': 16 };
+  for (const [name, count] of Object.entries(triangles)) {
+    await viewer.give('files', [asset(`made/${name}`)]);
+    assert.deepEqual([await viewer.text('error'), await viewer.text('name')], ['', name]);
+    assert.equal(parseInt(await viewer.text('status'), 10), count, name);
+  }
+});
+
+test('what three.js cannot read is said', async () => {
+  await viewer.give('files', [asset('made/quantised-sparse.glb')]);
+  assert.match(await viewer.text('error'), /three\.js does not read sparse data/);
+});
+
+test('an OBJ, and what is saved of it', async () => {
+  const path = join(folder, 'quad.obj');
+  writeFileSync(path, 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1 4/4/1\n');
+  await viewer.give('files', [path]);
+  assert.equal(await viewer.text('status'), '2 triangles in 1 part');
+  const { name, bytes } = await viewer.download('#save-model');
+  assert.deepEqual([name, await viewer.text('error')], ['quad.tangents.glb', '']);
+  assert.ok('TANGENT' in glbJson(bytes).meshes[0].primitives[0].attributes);
+});
+
+test('the report counts as the command does', { skip: !DARBOUX && 'DARBOUX names no command' }, async () => {
+  for (const name of ['made/degenerate.gltf', 'made/skinned-morphed-mirrored.gltf']) {
+    await viewer.give('files', [asset(name)]);
+    const found = await viewer.report();
+    const told = inspected(asset(name));
+    const kinds = { degenerate: 'degenerate_triangles', 'uv-degenerate': 'uv_degenerate_triangles', seams: 'mirrored_edges', repaired: 'repaired_corners' };
+    for (const [kind, member] of Object.entries(kinds)) assert.equal(parseInt(found[kind] ?? '0', 10), told[member], `${name}: ${kind}`);
+  }
+});
+
+test('the repaired GLB is the command\'s, and has no faults', { skip: !DARBOUX && 'DARBOUX names no command' }, async () => {
+  await viewer.click('#open-sample');
+  const shield = join(folder, 'shield.glb');
+  writeFileSync(shield, Buffer.from(await (await fetch(`${server.address}shield.glb`)).arrayBuffer()));
+  const { name, bytes } = await viewer.download('#save-model');
+  assert.equal(name, 'shield.tangents.glb');
+  assert.match(await viewer.text('status'), /^Tangents written to 1 primitive, 0 left alone/);
+  const ours = join(folder, 'ours.glb');
+  execFileSync(DARBOUX, ['tangents', '--overwrite', '--quiet', shield, '-o', ours]);
+  assert.ok(bytes.equals(readFileSync(ours)), 'the same bytes');
+  const again = join(folder, name);
+  writeFileSync(again, bytes);
+  await viewer.give('files', [again]);
+  assert.equal(await viewer.text('report-none'), 'No faults found.');
+  assert.deepEqual(Object.keys(await viewer.report()), ['seams']);
+});
+
+test('the picture is a PNG', async () => {
+  const { name, bytes } = await viewer.download('#save-picture');
+  assert.match(name, /\.png$/);
+  assert.deepEqual([...bytes.subarray(0, 4)], [0x89, 0x50, 0x4e, 0x47]);
+  assert.ok(bytes.length > 2000, 'more than one colour');
+});
+
+test('bad files get a sentence, and leave the model that is open', async () => {
+  await viewer.give('files', [asset('NormalTangentTest/NormalTangentTest.glb')]);
+  const good = readFileSync(asset('NormalTangentTest/NormalTangentTest.glb'));
+  const plane = readFileSync(asset('TwoSidedPlane/TwoSidedPlane.gltf'), 'utf8');
+  const bad = {
+    'empty.glb': ['', /^empty\.glb is empty; export it again\.$/],
+    'short.glb': [good.subarray(0, 40_000), /^short\.glb: .*; .*\.$/],
+    'header.glb': [good.subarray(0, 11), /^header\.glb: .*\.$/],
+    'noise.glb': [Buffer.from(Array.from({ length: 5000 }, (_, at) => (at * 7919) % 251)), /^noise\.glb: .*\.$/],
+    'text.gltf': ['{"asset": ', /^text\.gltf: .*not JSON.*\.$/],
+    'index.gltf': [readFileSync(asset('made/shared-vertices-two-uv-sets.gltf'), 'utf8').replace(/"POSITION": *\d+/, '"POSITION": 99'), /^index\.gltf: .*99.*\.$/],
+    'alone.gltf': [plane, /^alone\.gltf refers to TwoSidedPlane.*, which was not given; drop the whole folder\.$/],
+    'remote.gltf': [plane.replace('TwoSidedPlane.bin', 'https://example.com/a.bin'), /^remote\.gltf refers to https:.*nothing is fetched/],
+    'empty.obj': ['# nothing\n', /^empty\.obj has no vertices/],
+    'points.obj': ['v 0 0 0\nv 1 0 0\n', /no triangles/],
+    'notes.txt': ['hello', /^There is no model in what was given \(notes\.txt\)/],
+  };
+  for (const [name, [content, sentence]] of Object.entries(bad)) {
+    writeFileSync(join(folder, name), content);
+    await viewer.give('files', [join(folder, name)]);
+    assert.match(await viewer.text('error'), sentence);
+    assert.equal(await viewer.text('name'), 'NormalTangentTest.glb');
+  }
+  const huge = join(folder, 'huge.glb');
+  writeFileSync(huge, 'glTF');
+  truncateSync(huge, 1_600_000_000);
+  await viewer.drop(huge);
+  assert.match(await viewer.text('error'), /^huge\.glb has 1\.6 GB, more than a page can hold; use the command/);
+  await viewer.click('#open-sample');
+  assert.equal(await viewer.text('error'), '');
+});
+
+test('darboux view shows its model', { skip: !DARBOUX && 'DARBOUX names no command' }, async () => {
+  const place = join(folder, 'with space');
+  mkdirSync(place);
+  for (const name of ['TwoSidedPlane.gltf', 'TwoSidedPlane.bin', 'TwoSidedPlane_BaseColor.png', 'TwoSidedPlane_MetallicRoughness.png', 'TwoSidedPlane_Normal.png']) {
+    copyFileSync(asset(`TwoSidedPlane/${name}`), join(place, name));
+  }
+  const path = join(place, 'TwoSidedPlane.gltf');
+  const command = spawn(DARBOUX, ['view', '--no-open', path], { stdio: ['ignore', 'pipe', 'ignore'] });
+  try {
+    const { value: address } = await createInterface({ input: command.stdout })[Symbol.asyncIterator]().next();
+    const served = await Viewer.open(chromium, address, { viewport: { width: 500, height: 400 } });
+    assert.equal(await served.text('name'), 'TwoSidedPlane.glb');
+    assert.deepEqual(served.faults, []);
+    writeFileSync(path, '{}');
+    await served.page.reload();
+    await served.settled();
+    assert.match(await served.text('error'), /TwoSidedPlane\.gltf: .*asset/);
+    await served.close();
+  } finally {
+    command.kill();
+  }
+});
+
+/** The JSON of a GLB. */
+function glbJson(bytes) {
+  return JSON.parse(bytes.subarray(20, 20 + bytes.readUInt32LE(12)).toString());
+}
