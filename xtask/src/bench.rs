@@ -21,6 +21,12 @@ pub fn bench(arguments: &[&str]) -> Outcome {
     run(&mut command)
 }
 
+/// `cargo xtask bench --gpu`: `arguments` go to the example that measures every adapter.
+pub fn bench_gpu(arguments: &[&str]) -> Outcome {
+    let line = "cargo run --quiet --profile bench-room --package darboux-gpu --example times --";
+    run(program(line).args(arguments))
+}
+
 /// Installs the packages of benches/node at the versions of its lock file; none on a machine without node and npm.
 fn node_packages() -> Result<Option<PathBuf>, String> {
     if !works(&mut program("npm --version")) || !works(&mut program("node --version")) {

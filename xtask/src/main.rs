@@ -23,6 +23,7 @@ usage: cargo xtask <task>
   layers        check who imports whom
   validate      check the command's outputs for all models with independent tools (needs node and npm)
   bench [...]   time every engine on every mesh; see bench --help
+  bench --gpu   time everything on every adapter: [--quick] [TRIANGLES ...]
   dist-c        make the folder for users of C and C++; its path is the last line (Linux: needs ld, objcopy, nm and ar)
   dist-js       make the folder of the npm package; its path is the last line (needs node, npm and rustup)
   dist-viewer   make the viewer's page, which darboux view serves; its folder is the last line (needs what dist-js needs)
@@ -38,6 +39,7 @@ fn main() -> ExitCode {
         ["gen"] => generated::write(),
         ["layers"] => layers::check(),
         ["validate"] => validate::all_models(validate::WithoutNpm::Fail),
+        ["bench", "--gpu", ref options @ ..] => bench::bench_gpu(options),
         ["bench", ref options @ ..] => bench::bench(options),
         ["dist-c"] => dist_c::make(),
         ["dist-js"] => dist_js::make(),

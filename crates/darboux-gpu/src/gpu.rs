@@ -2,7 +2,9 @@
 
 use std::fmt;
 
-use wgpu::{Adapter, Backends, Device, DeviceDescriptor, DeviceType, Instance, InstanceDescriptor, Queue};
+use wgpu::{
+    Adapter, Backends, Device, DeviceDescriptor, DeviceType, Features, Instance, InstanceDescriptor, Queue,
+};
 
 use crate::GpuError;
 use crate::pieces::largest_binding;
@@ -111,13 +113,20 @@ impl Gpu {
 
     async fn of(adapter: &Adapter) -> Result<Self, GpuError> {
         let name = adapter.get_info().name;
-        let descriptor = DeviceDescriptor { required_limits: adapter.limits(), ..Default::default() };
+        let descriptor = DeviceDescriptor {
+            required_features: adapter.features() & CLOCK,
+            required_limits: adapter.limits(),
+            ..Default::default()
+        };
         match adapter.request_device(&descriptor).await {
             Ok((device, queue)) => Ok(Self { name, device, queue }),
             Err(error) => Err(GpuError::NoDevice { adapter: name, reason: error.to_string() }),
         }
     }
 }
+
+/// What measuring needs.
+const CLOCK: Features = Features::TIMESTAMP_QUERY.union(Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
 
 /// Without OpenGL, whose compute shaders are few and old.
 const BACKENDS: Backends = Backends::PRIMARY;

@@ -57,6 +57,6 @@ pub use split::Splitter;
 #[doc(hidden)]
 pub mod stages {
     pub use crate::evaluation::{Evaluation, EvaluationKernels, Grouped};
-    pub use crate::mikktspace::Arrays;
+    pub use crate::mikktspace::{Arrays, Recorded};
     pub use crate::reals::Arithmetic;
 }

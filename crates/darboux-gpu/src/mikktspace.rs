@@ -153,6 +153,18 @@ impl MikkTSpace {
         })
     }
 
+    /// What the device does for a mesh of one piece, to be measured. Errors as for [`MikkTSpace::generate_tangents`].
+    #[doc(hidden)]
+    pub fn recorded(&self, mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Recorded, GpuError> {
+        let device = &self.device;
+        guarded(device, || {
+            let vertices = Vertices::new(device, &self.kernels, mesh)?;
+            let threshold_cosine = elsewhere::threshold_cosine(options);
+            let piece = Piece::new(device, &self.kernels, &vertices, &indices(mesh), &[], threshold_cosine)?;
+            Ok(Recorded { vertices, piece })
+        })
+    }
+
     /// Everything up to what the CPU does; none where only the CPU can weld.
     fn run(
         &self,
@@ -191,6 +203,21 @@ impl Generated {
             corners_of_cpu: mesh.corner_count(),
             left_to_cpu: Some(why),
         }
+    }
+}
+
+/// The stages of one mesh.
+#[doc(hidden)]
+pub struct Recorded {
+    vertices: Vertices,
+    piece: Piece,
+}
+
+impl Recorded {
+    /// Records all stages.
+    pub fn record(&self, encoder: &mut CommandEncoder) {
+        self.vertices.record(encoder);
+        self.piece.record(encoder);
     }
 }
 
