@@ -22,7 +22,7 @@ fn grid(columns: u32, rows: u32) -> (Vec<[f32; 8]>, Vec<[u32; 3]>) {
 }
 
 /// What runs on several threads: the fast path, and the methods that sum.
-const RUNS: [(Method, Mode); 7] = [
+const RUNS: [(Method, Mode); 8] = [
     (Method::MikkTSpace, Mode::Reference),
     (Method::MikkTSpace, Mode::Repaired),
     (Method::MikkTSpace, Mode::Corrected),
@@ -30,6 +30,7 @@ const RUNS: [(Method, Mode); 7] = [
     (Method::LengyelPerVertex, Mode::Reference),
     (Method::Average, Mode::Repaired),
     (Method::Area, Mode::Repaired),
+    (Method::AngleArea, Mode::Repaired),
 ];
 
 /// Hashes of the tangents and reports of a mesh, indexed, with a vertex per corner, and unindexed, in all runs.

@@ -21,6 +21,7 @@ use super::repair::{
 use super::seams::{count_split_vertices, survey};
 use super::shape::Shape;
 use super::sides::{Output, across};
+use super::threads;
 
 /// No group.
 const NONE: u32 = u32::MAX;
@@ -82,7 +83,7 @@ struct GroupFrame {
 
 impl Evaluation<'_> {
     fn frames(&self, groups: &Groups) -> Vec<GroupFrame> {
-        (0..groups.len()).map(|group| self.frame(groups.members(group), groups.preserves(group))).collect()
+        threads::map(groups.len(), |group| self.frame(groups.members(group), groups.preserves(group)))
     }
 
     fn frame(&self, members: &[u32], preserves: bool) -> GroupFrame {

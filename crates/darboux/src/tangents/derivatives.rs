@@ -6,6 +6,7 @@ use crate::math::{V3, add, length, not_zero, scale, sub};
 use crate::triangles::Triangles;
 
 use super::shape::Shape;
+use super::threads;
 
 /// One triangle's derivatives.
 #[derive(Clone, Copy, Debug)]
@@ -24,7 +25,7 @@ pub struct Derivative {
 
 /// The derivatives of every triangle.
 pub(crate) fn derivatives(triangles: &Triangles, shape: &Shape<'_>) -> Vec<Derivative> {
-    (0..triangles.len()).map(|t| derivative(shape.positions(triangles, t), shape.uvs(triangles, t))).collect()
+    threads::map(triangles.len(), |t| derivative(shape.positions(triangles, t), shape.uvs(triangles, t)))
 }
 
 fn derivative(positions: [V3; 3], uvs: [[f32; 2]; 3]) -> Derivative {

@@ -79,6 +79,20 @@ pub(super) fn run<W: Send, P: Send>(
     }
 }
 
+/// The values of `of` at 0 to `count`, in their order, found by all threads.
+pub(super) fn map<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let threads = self::count(count);
+    let mut found: Vec<Vec<T>> = (0..threads).map(|_| Vec::new()).collect();
+    run(&mut found, split(0..count, threads, 1), |found, range| *found = range.map(&of).collect());
+    found
+        .into_iter()
+        .reduce(|mut all, mut more| {
+            all.append(&mut more);
+            all
+        })
+        .unwrap_or_default()
+}
+
 /// A range in `count` parts, of sizes that differ by one at most times `unit`.
 pub(super) fn split(
     range: Range<usize>,
