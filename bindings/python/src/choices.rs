@@ -41,3 +41,8 @@ pub fn tangent_options(method: &str, mode: &str, threshold: f32) -> PyResult<Tan
     }
     Ok(TangentOptions { method, mode, threshold })
 }
+
+/// Whether fans of many triangles may take their size squared.
+pub fn is_slow(options: &TangentOptions) -> bool {
+    options.method == Method::MikkTSpace && options.threshold < TangentOptions::default().threshold
+}

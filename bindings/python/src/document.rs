@@ -184,7 +184,7 @@ impl Document {
     ///     As the reports of `darboux inspect --json`.
     fn inspect<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let document = &mut self.document;
-        let infos = attended(py, |_| gltf::inspect(document), |(): ()| Ok(()))?;
+        let infos = attended(py, 0, |_| gltf::inspect(document), |(): ()| Ok(()), || ())?;
         python_of(py, &infos.map_err(file_error)?)
     }
 
@@ -349,7 +349,7 @@ impl Document {
             Some(progress) => progress.call1((done, total)).map(drop),
             None => Ok(()),
         };
-        let summary = attended(py, work, receive)?.map_err(file_error)?;
+        let summary = attended(py, 0, work, receive, || ())?.map_err(file_error)?;
         python_of(py, &summary)
     }
 }

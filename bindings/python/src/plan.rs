@@ -2,15 +2,15 @@
 
 use std::sync::Mutex;
 
-use darboux::{Faces, Indices, Mesh, Scratch};
+use darboux::{Cancel, Indices, Mesh, Scratch};
 use pyo3::prelude::*;
 
 use crate::arrays::{Rows, rows_array};
-use crate::choices::tangent_options;
+use crate::choices::{is_slow, tangent_options};
 use crate::mesh::{FaceSizes, MeshArrays, owned, value_error};
 use crate::out::Target;
 use crate::results;
-use crate::threads::detached;
+use crate::threads::{cancellable, detached};
 
 /// The weld, groups and subgroups of one mesh, kept to evaluate tangents again after its vertices moved.
 ///
@@ -27,6 +27,7 @@ pub struct Plan {
     uvs: Vec<[f32; 2]>,
     indices: Option<Vec<u32>>,
     faces: FaceSizes,
+    is_slow: bool,
     /// Memory that evaluations keep from one to the next. Two at once do not share it.
     scratch: Mutex<Scratch>,
 }
@@ -45,22 +46,15 @@ impl<'py> Moved<'py> {
 }
 
 impl Plan {
-    /// Does `work` with the mesh that has these positions and normals.
-    fn with_moved<R: Send>(
-        &self,
-        py: Python<'_>,
-        threads: Option<i64>,
-        moved: &Moved<'_>,
-        work: impl FnOnce(&Mesh<'_>) -> Result<R, darboux::MeshError> + Send,
-    ) -> PyResult<R> {
-        let (positions, normals) = (moved.positions.view()?, moved.normals.view()?);
+    /// The mesh with these positions and normals. Errors: those of a mesh.
+    fn moved<'a>(&'a self, moved: &'a Moved<'_>) -> PyResult<Mesh<'a>> {
         let indices = self.indices.as_ref().map_or(Indices::Unindexed, Indices::from);
-        let faces: Faces<'_> = self.faces.view();
-        let corners = self.plan.base().corners.len();
-        let done = detached(py, threads, corners, || {
-            work(&Mesh::with_faces(positions, normals, &self.uvs, indices, faces)?)
-        })?;
-        done.map_err(value_error)
+        let (positions, normals) = (moved.positions.view()?, moved.normals.view()?);
+        Mesh::with_faces(positions, normals, &self.uvs, indices, self.faces.view()).map_err(value_error)
+    }
+
+    fn corner_count(&self) -> usize {
+        self.plan.base().corners.len()
     }
 }
 
@@ -86,7 +80,8 @@ impl Plan {
         let mesh = arrays.view()?;
         let plan = detached(py, threads, mesh.corner_count(), || darboux::Plan::new(&mesh, &options))?;
         let (uvs, indices) = (arrays.uvs.packed()?.into_owned(), owned(mesh.indices()));
-        Ok(Self { plan, uvs, indices, faces: arrays.faces, scratch: Mutex::default() })
+        let is_slow = is_slow(&options);
+        Ok(Self { plan, uvs, indices, faces: arrays.faces, is_slow, scratch: Mutex::default() })
     }
 
     /// The tangents of the mesh that the plan was made of: a new (C, 4) float32 array, as generate_tangents gives it.
@@ -128,11 +123,17 @@ impl Plan {
         out: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let moved = Moved::new(positions, normals)?;
-        let filled = Target::new(py, out, self.plan.base().corners.len())?.fill(py, |out| {
-            self.with_moved(py, threads, &moved, |mesh| match self.scratch.try_lock() {
-                Ok(mut kept) => self.plan.write_tangents(mesh, &mut kept, out),
-                Err(_) => self.plan.write_tangents(mesh, &mut Scratch::new(), out),
-            })
+        let mesh = self.moved(&moved)?;
+        let size = (self.corner_count(), self.is_slow);
+        let filled = Target::new(py, out, self.corner_count())?.fill(py, |out| {
+            let write = |cancel: &Cancel| {
+                let (mut own, kept) = (Scratch::new(), self.scratch.try_lock());
+                let mut kept = kept.ok();
+                let scratch = kept.as_deref_mut().unwrap_or(&mut own);
+                scratch.cancel_by(cancel);
+                self.plan.write_tangents(&mesh, scratch, out)
+            };
+            cancellable(py, threads, size, write)?.map_err(value_error)
         });
         filled.map(|(tangents, ())| tangents)
     }
@@ -145,6 +146,8 @@ impl Plan {
         normals: &Bound<'_, PyAny>,
     ) -> PyResult<usize> {
         let moved = Moved::new(positions, normals)?;
-        self.with_moved(py, None, &moved, |mesh| self.plan.count_regrouped(mesh))
+        let mesh = self.moved(&moved)?;
+        let count = detached(py, None, self.corner_count(), || self.plan.count_regrouped(&mesh))?;
+        count.map_err(value_error)
     }
 }

@@ -1,15 +1,15 @@
 //! Tangents of corners.
 
-use darboux::{Frame, Mesh, Scratch, TangentOptions, generate_frames};
+use darboux::{Cancel, Frame, Mesh, Scratch, TangentOptions, generate_frames};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arrays::rows_array;
-use crate::choices::tangent_options;
+use crate::choices::{is_slow, tangent_options};
 use crate::mesh::{MeshArrays, value_error};
 use crate::out::Target;
 use crate::results::{self, named};
-use crate::threads::detached;
+use crate::threads::{cancellable, detached};
 
 /// Compute the tangent of every corner: unit xyz and the sign w, bitangent = w * cross(normal, xyz).
 ///
@@ -87,8 +87,12 @@ pub fn generate_tangents<'py>(
     } else {
         let corners = mesh.corner_count();
         Target::new(py, out, corners)?.fill(py, |out| {
-            let write = || darboux::write_tangents(&mesh, &options, &mut Scratch::new(), out);
-            detached(py, threads, corners, write)?.map_err(value_error)
+            let write = |cancel: &Cancel| {
+                let mut scratch = Scratch::new();
+                scratch.cancel_by(cancel);
+                darboux::write_tangents(&mesh, &options, &mut scratch, out)
+            };
+            cancellable(py, threads, (corners, is_slow(&options)), write)?.map_err(value_error)
         })?
     };
     if return_report {

@@ -8,6 +8,7 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
+use darboux::Cancel;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -55,7 +56,7 @@ fn checked(threads: i64) -> PyResult<usize> {
     }
 }
 
-/// The pool of this process. The GIL is held, so nobody forks while the lock is.
+/// The pool of this process with so many threads; 0 stands for as many as the machine has. The GIL is held, so nobody forks while the lock is.
 fn pool(threads: usize) -> PyResult<Arc<ThreadPool>> {
     let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
     let process = std::process::id();
@@ -77,21 +78,38 @@ fn pool(threads: usize) -> PyResult<Arc<ThreadPool>> {
     Ok(pool)
 }
 
+/// Does `work` over so many corners without the GIL, and takes Ctrl-C meanwhile: then `work` is cancelled. `is_slow`: it may take its
+/// size squared.
+pub fn cancellable<R: Send>(
+    py: Python<'_>,
+    threads: Option<i64>,
+    (corners, is_slow): (usize, bool),
+    work: impl FnOnce(&Cancel) -> R + Send,
+) -> PyResult<R> {
+    let (threads, cancel) = (threads.map_or(Ok(0), checked)?, Cancel::new());
+    if corners < FEWEST_CORNERS && !is_slow {
+        return Ok(py.detach(|| work(&cancel)));
+    }
+    attended(py, threads, |_| work(&cancel), |(): ()| Ok(()), || cancel.cancel())
+}
+
 /// How often Python is asked for Ctrl-C while work goes on elsewhere.
 const PATIENCE: Duration = Duration::from_millis(50);
 
 /// Does `work` on a pool without the GIL, while this thread waits: it gives what work sends to `receive`, and takes Ctrl-C.
 ///
-/// After Ctrl-C, or an error of `receive`, the work goes on to its end, which is waited for; its result is dropped.
+/// After Ctrl-C, or an error of `receive`, `stop` is called and the work's end waited for; its result is dropped. `threads`: as for [`pool`].
 pub fn attended<M: Send, R: Send>(
     py: Python<'_>,
+    threads: usize,
     work: impl FnOnce(&Sender<M>) -> R + Send,
     mut receive: impl FnMut(M) -> PyResult<()>,
+    stop: impl Fn(),
 ) -> PyResult<R> {
     let (sender, mut receiver) = channel();
     let mut done = None;
     let mut outcome = Ok(());
-    let pool = pool(0)?;
+    let pool = pool(threads)?;
     let result = &mut done;
     pool.in_place_scope(|scope| {
         scope.spawn(move |_| *result = Some(work(&sender)));
@@ -104,6 +122,9 @@ pub fn attended<M: Send, R: Send>(
             let is_done = matches!(message, Err(RecvTimeoutError::Disconnected));
             if outcome.is_ok() {
                 outcome = message.map_or_else(|_| py.check_signals(), &mut receive);
+                if outcome.is_err() {
+                    stop();
+                }
             }
             if is_done {
                 break;

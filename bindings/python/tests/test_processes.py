@@ -99,6 +99,38 @@ def test_ctrl_c_during_arrays() -> None:
     assert darboux.generate_tangents(*mesh.arrays).tobytes() == expected
 
 
+def fan(triangles: int) -> Mesh:
+    """All around one vertex, each turned against the next: below 180 degrees their groups take the square of their number."""
+    turns = np.linspace(0, 6, triangles + 1)
+    rim = np.stack([np.cos(turns), np.sin(turns), 0.1 * np.sin(900 * turns)], -1)
+    positions = np.concatenate([np.zeros((1, 3)), rim])
+    normals = np.broadcast_to([0.0, 0.0, 1.0], positions.shape)
+    uvs = positions[:, :2] * [1, 2]
+    first = np.arange(1, triangles + 1)
+    return Mesh(positions, normals, uvs, np.stack([np.zeros_like(first), first, first + 1], -1))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
+def test_ctrl_c_stops_what_would_take_minutes() -> None:
+    mesh = fan(400_000)
+
+    def compute() -> None:
+        darboux.generate_tangents(*mesh.arrays, threshold=1)
+
+    main = threading.main_thread().ident or 0
+
+    def interrupt() -> None:
+        while sys._current_frames()[main].f_code is not compute.__code__:
+            time.sleep(0.01)
+        signal.pthread_kill(main, signal.SIGINT)
+
+    thread = threading.Thread(target=interrupt)
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        compute()
+    thread.join()
+
+
 def resident() -> int:
     """Bytes in memory."""
     return int(Path("/proc/self/statm").read_text().split()[1]) * 4096
