@@ -1,5 +1,7 @@
 //! Tangents of corners.
 
+use std::sync::Mutex;
+
 use darboux::{Cancel, Frame, Mesh, Scratch, TangentOptions, generate_frames};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -38,7 +40,7 @@ use crate::threads::{cancellable, detached};
 /// threads : int, optional
 ///     How many threads large meshes use; all of the machine by default. The result is the same for any number.
 /// out : (C, 4) float32 array, optional
-///     Written and returned.
+///     Written and returned. Calls with `out` keep their working memory for the next.
 /// return_report : bool
 ///     Return (result, Report): what was met on the way, non-finite and degenerate input above all.
 ///
@@ -85,12 +87,16 @@ pub fn generate_tangents<'py>(
     let (result, report) = if full {
         frames(py, threads, &mesh, &options)?
     } else {
-        let corners = mesh.corner_count();
+        let (corners, keeps) = (mesh.corner_count(), out.is_some());
         Target::new(py, out, corners)?.fill(py, |out| {
             let write = |cancel: &Cancel| {
-                let mut scratch = Scratch::new();
+                let mut scratch = if keeps { take_scratch() } else { Scratch::new() };
                 scratch.cancel_by(cancel);
-                darboux::write_tangents(&mesh, &options, &mut scratch, out)
+                let report = darboux::write_tangents(&mesh, &options, &mut scratch, out);
+                if keeps {
+                    keep_scratch(scratch);
+                }
+                report
             };
             cancellable(py, threads, (corners, is_slow(&options)), write)?.map_err(value_error)
         })?
@@ -99,6 +105,20 @@ pub fn generate_tangents<'py>(
         (result, results::report(py, &report)?).into_pyobject(py).map(Bound::into_any)
     } else {
         Ok(result)
+    }
+}
+
+/// What calls with `out` keep from one to the next: who gives an array again and again wants nothing allocated. Two at once do not
+/// share it.
+static KEPT: Mutex<Option<Scratch>> = Mutex::new(None);
+
+fn take_scratch() -> Scratch {
+    KEPT.try_lock().ok().and_then(|mut kept| kept.take()).unwrap_or_default()
+}
+
+fn keep_scratch(scratch: Scratch) {
+    if let Ok(mut kept) = KEPT.try_lock() {
+        *kept = Some(scratch);
     }
 }
 
