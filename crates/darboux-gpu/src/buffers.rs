@@ -1,10 +1,10 @@
 //! A caller's buffers: where in them what lies, checked once.
 
 use bytemuck::Zeroable;
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{Buffer, BufferUsages, Device, IndexFormat};
 
 use crate::GpuError;
+use crate::kernel::filled;
 
 /// A triangle mesh in buffers of the caller's, all with `BufferUsages::STORAGE`.
 ///
@@ -104,11 +104,7 @@ impl Description {
     }
 
     pub fn uniform(&self, device: &Device) -> Buffer {
-        device.create_buffer_init(&BufferInitDescriptor {
-            label: Some("mesh"),
-            contents: bytemuck::bytes_of(self),
-            usage: BufferUsages::UNIFORM,
-        })
+        filled(device, "mesh", bytemuck::bytes_of(self), BufferUsages::UNIFORM)
     }
 
     /// The same with triangles from `first` on, `count` at most.

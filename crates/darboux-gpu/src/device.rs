@@ -21,7 +21,8 @@ pub(crate) fn guarded<T>(device: &Device, work: impl FnOnce() -> Result<T, GpuEr
     match errors.fold(None, Option::or) {
         None => done,
         Some(wgpu::Error::OutOfMemory { .. }) => Err(GpuError::OutOfMemory),
-        Some(error) => Err(GpuError::Refused { reason: error.to_string() }),
+        // A lost device refuses everything.
+        Some(error) => done.and(Err(GpuError::Refused { reason: error.to_string() })),
     }
 }
 

@@ -1,11 +1,10 @@
 //! Derivatives, and from groups to frames: twins of the core's stages of these names.
 
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{Buffer, BufferUsages, CommandEncoder, Device};
 
 use crate::GpuError;
 use crate::buffers::{Description, check_size};
-use crate::kernel::buffer;
+use crate::kernel::{buffer, filled};
 use crate::reals::{Arithmetic, RealKernel, RealStep};
 
 const MESH: &str = include_str!("../shaders/mesh.wgsl");
@@ -82,11 +81,12 @@ impl Evaluation {
         let wedges = buffer(device, "wedges", WORDS * corners);
         let frames = buffer(device, "frames", WORDS * corners);
         let words = &description.of_welded_corners().uniform(device);
-        let evaluation = device.create_buffer_init(&BufferInitDescriptor {
-            label: Some("evaluation"),
-            contents: bytemuck::cast_slice(&[corners, threshold_cosine.to_bits(), 0, 0]),
-            usage: BufferUsages::UNIFORM,
-        });
+        let evaluation = filled(
+            device,
+            "evaluation",
+            bytemuck::cast_slice(&[corners, threshold_cosine.to_bits(), 0, 0]),
+            BufferUsages::UNIFORM,
+        );
         let of_mesh =
             [(0, words), (1, mesh.welded_corners), (2, mesh.vertices), (3, &derivatives), (4, mesh.marks)];
         let of_wedges = [&of_mesh[..], &[(5, &wedges)]].concat();

@@ -137,6 +137,19 @@ pub(crate) fn buffer(device: &Device, label: &str, words: u32) -> Buffer {
     })
 }
 
+/// A buffer with these words.
+pub(crate) fn filled(device: &Device, label: &str, contents: &[u8], usage: BufferUsages) -> Buffer {
+    let size = contents.len() as u64;
+    let descriptor = BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: true };
+    let buffer = device.create_buffer(&descriptor);
+    // Where there is nothing to write to, the device has said why.
+    if let Ok(mut words) = buffer.get_mapped_range_mut(..) {
+        words.slice(..).copy_from_slice(contents);
+    }
+    buffer.unmap();
+    buffer
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

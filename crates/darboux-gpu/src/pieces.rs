@@ -2,13 +2,12 @@
 
 use bytemuck::cast_slice;
 use darboux::Mesh;
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{Buffer, BufferUsages, CommandEncoder, ComputePipeline, Device, Limits};
 
 use crate::GpuError;
 use crate::buffers::{Description, check_size};
 use crate::evaluation::{Evaluation, EvaluationKernels, Grouped};
-use crate::kernel::{Step, buffer, module, pipeline};
+use crate::kernel::{Step, buffer, filled, module, pipeline};
 use crate::reals::Arithmetic;
 use crate::topology::{Topology, TopologyKernels, WeldedMesh};
 use crate::weld::{Weld, WeldKernels};
@@ -174,7 +173,7 @@ pub(crate) fn in_several(indices: &[u32], welded: &[u32], corners: usize) -> Vec
 /// A buffer that shaders read.
 pub(crate) fn upload(device: &Device, label: &str, contents: &[u8]) -> Buffer {
     let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
-    device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents, usage })
+    filled(device, label, contents, usage)
 }
 
 /// The vertices, as [`Description::packed`] describes them.

@@ -6,11 +6,10 @@ mod topology;
 
 use bytemuck::Zeroable;
 use darboux::{Mesh, TangentOptions};
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{Buffer, BufferUsages, CommandEncoder, ComputePipeline, Device};
 
 use crate::buffers::{check_elements, check_places, check_size};
-use crate::kernel::{Step, buffer, module, pipeline};
+use crate::kernel::{Step, buffer, filled, module, pipeline};
 use crate::reals::{Arithmetic, LIST, List, RealKernel, RealStep, files};
 use crate::{GpuError, Precision};
 pub use check::PlanCheck;
@@ -208,11 +207,7 @@ impl Planner {
     fn upload(&self, what: &'static str, words: &[u32]) -> Result<Buffer, GpuError> {
         check_size(&self.device, what, 4 * words.len() as u64)?;
         let contents = if words.is_empty() { &[0] } else { words };
-        Ok(self.device.create_buffer_init(&BufferInitDescriptor {
-            label: Some(what),
-            contents: bytemuck::cast_slice(contents),
-            usage: BufferUsages::STORAGE,
-        }))
+        Ok(filled(&self.device, what, bytemuck::cast_slice(contents), BufferUsages::STORAGE))
     }
 }
 
@@ -272,11 +267,7 @@ impl Plan {
             tangent_stride: mesh.tangents.stride / 4,
             ..self.words
         };
-        self.planner.device.create_buffer_init(&BufferInitDescriptor {
-            label: Some("plan"),
-            contents: bytemuck::bytes_of(&words),
-            usage: BufferUsages::UNIFORM,
-        })
+        filled(&self.planner.device, "plan", bytemuck::bytes_of(&words), BufferUsages::UNIFORM)
     }
 
     fn check(&self, mesh: &MovingMesh<'_>, outputs: u32) -> Result<(), GpuError> {

@@ -1,9 +1,8 @@
 //! Kernels that are written once for several arithmetics, and what is done again where the first was unsure.
 
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{Buffer, BufferDescriptor, BufferUsages, CommandEncoder, ComputePipeline, Device};
 
-use crate::kernel::{Step, module, pipeline};
+use crate::kernel::{Step, filled, module, pipeline};
 
 /// How numbers are rounded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -113,11 +112,7 @@ impl List {
                 | BufferUsages::COPY_SRC,
             mapped_at_creation: false,
         });
-        let nothing = device.create_buffer_init(&BufferInitDescriptor {
-            label: Some("nothing"),
-            contents: bytemuck::cast_slice(&NOTHING),
-            usage: BufferUsages::COPY_SRC,
-        });
+        let nothing = filled(device, "nothing", bytemuck::cast_slice(&NOTHING), BufferUsages::COPY_SRC);
         Self { items, nothing }
     }
 

@@ -2,12 +2,11 @@
 
 use bytemuck::cast_slice;
 use darboux::{CornerTangents, Mesh, VertexSplit, split_vertices};
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{Buffer, BufferUsages, CommandEncoder, ComputePipeline, Device, Queue};
 
 use crate::buffers::check_size;
 use crate::device::{guarded, submit};
-use crate::kernel::{Step, buffer, module, pipeline};
+use crate::kernel::{Step, buffer, filled, module, pipeline};
 use crate::mikktspace::indices;
 use crate::pieces::upload;
 use crate::scan::ScanKernels;
@@ -143,11 +142,8 @@ impl Corners {
         check_size(device, "the tangents", 16 * u64::from(corner_count))?;
         check_size(device, "the hash table of corners", 4 * u64::from(slot_count))?;
         check_size(device, "the first corners of vertices", 4 * u64::from(vertex_count))?;
-        let words = device.create_buffer_init(&BufferInitDescriptor {
-            label: Some("split"),
-            contents: cast_slice(&[corner_count, vertex_count, 0, 0]),
-            usage: BufferUsages::UNIFORM,
-        });
+        let words =
+            filled(device, "split", cast_slice(&[corner_count, vertex_count, 0, 0]), BufferUsages::UNIFORM);
         // Fresh buffers hold zeros: no corner, no vertex.
         Ok(Self {
             words,

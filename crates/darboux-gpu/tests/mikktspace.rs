@@ -5,7 +5,7 @@ mod common;
 use common::{gpus, kernels, triangulated};
 use darboux::{Mode, TangentOptions, Tangents, generate_tangents};
 use darboux_gpu::stages::Arithmetic;
-use darboux_gpu::{Generated, Left, MikkTSpace};
+use darboux_gpu::{Generated, Gpu, GpuError, Left, MikkTSpace, Splitter};
 use darboux_tests::{Case, OwnedMesh, corpus, families};
 
 /// How corners fared.
@@ -141,4 +141,35 @@ fn whole_numbers_have_the_bits_of_the_core() {
         check_with(&soft, &format!("seed {seed}"), &triangulated(&mesh), threshold, &mut tally);
     }
     println!("{tally:?}");
+}
+
+/// More triangles than a binding of 128 MiB holds, the least that devices promise.
+#[test]
+#[ignore = "half a minute and a gigabyte"]
+fn meshes_past_a_binding_have_the_bits_of_the_core() {
+    let mesh = families::grid(1_000, 750, false, true);
+    let options = TangentOptions::default();
+    let expected = generate_tangents(&mesh.view(), &options);
+    for (gpu, kernels) in gpus().iter().zip(kernels()) {
+        let made = kernels.generate_tangents(&mesh.view(), &options);
+        let made = made.unwrap_or_else(|error| panic!("{}: {error}", gpu.name));
+        same(&gpu.name, &made.tangents, &expected);
+        println!("{}: {} of {} corners on the CPU", gpu.name, made.corners_of_cpu, mesh.corner_count());
+        assert!(made.corners_of_cpu * 100 < mesh.corner_count());
+    }
+}
+
+#[test]
+fn a_lost_device_is_an_error() {
+    let mesh = families::grid(4, 4, false, false);
+    let lost = gpus().iter().map(|_| pollster::block_on(Gpu::open()).expect("a second device"));
+    for gpu in lost {
+        let kernels = MikkTSpace::new(&gpu).expect("valid shaders");
+        let splitter = Splitter::new(&gpu).expect("valid shaders");
+        gpu.device.destroy();
+        let run = kernels.generate_tangents(&mesh.view(), &Default::default());
+        assert_eq!(run.err(), Some(GpuError::Lost));
+        let tangents = generate_tangents(&mesh.view(), &Default::default()).corners;
+        assert_eq!(splitter.split_vertices(&mesh.view(), &tangents).err(), Some(GpuError::Lost));
+    }
 }
