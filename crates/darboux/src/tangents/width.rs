@@ -22,7 +22,7 @@ pub enum WidthLimit {
 
 /// A vector width that the machine has.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Width(WidthLimit);
+pub(crate) struct Width(#[cfg(target_arch = "x86_64")] WidthLimit);
 
 impl Width {
     /// The widest that the machine has within `limit`.
@@ -44,7 +44,7 @@ impl Width {
     /// The width that the program was compiled for.
     #[cfg(not(target_arch = "x86_64"))]
     pub fn widest(_limit: WidthLimit) -> Self {
-        Self(WidthLimit::Compiled)
+        Self()
     }
 
     /// Runs a task at this width.
