@@ -172,11 +172,15 @@ fn run(
     scratch: &mut Scratch,
     out: &mut [[f32; 4]],
 ) -> Report {
+    // Asked before anything is called, so that a program whose method is constant carries no other.
+    if options.method != Method::MikkTSpace {
+        return method::run(mesh, options, cancel, &mut scratch.sums, out);
+    }
     let width = Width::widest(scratch.width_limit);
     if has_whole_fans(options) && scratch.fans.run(mesh, options.mode, width, out) {
         local::decide(mesh, options, &scratch.fans, cancel, out)
     } else {
-        method::run(mesh, options, cancel, &mut scratch.sums, out)
+        method::mikktspace(mesh, options, cancel, out)
     }
 }
 

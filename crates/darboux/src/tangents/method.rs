@@ -50,11 +50,7 @@ pub(super) fn run<O: Output>(
 ) -> Report {
     let mode = options.mode;
     match options.method {
-        Method::MikkTSpace => {
-            let (frames, report) = mikktspace::Topology::new(mesh, options).frames(mesh, cancel);
-            fill(corners, frames.iter().map(O::from_frame));
-            report
-        }
+        Method::MikkTSpace => mikktspace(mesh, options, cancel, corners),
         Method::AngleArea => angle_area::run(mesh, mode, corners),
         Method::Lengyel => summed::<2, Lengyel, O>(mesh, mode, accumulate::<2, Lengyel>, memory, corners),
         Method::LengyelPerVertex => {
@@ -65,6 +61,18 @@ pub(super) fn run<O: Output>(
         Method::Face => face::run(mesh, mode, corners),
         Method::FromNormal => from_normal::run(mesh, mode, corners),
     }
+}
+
+/// MikkTSpace by its stages.
+pub(super) fn mikktspace<O: Output>(
+    mesh: &Mesh<'_>,
+    options: &TangentOptions,
+    cancel: &Cancel,
+    corners: &mut [O],
+) -> Report {
+    let (frames, report) = mikktspace::Topology::new(mesh, options).frames(mesh, cancel);
+    fill(corners, frames.iter().map(O::from_frame));
+    report
 }
 
 /// Sums as `add_up` does, and makes corners of the sums.

@@ -58,7 +58,7 @@ pub(super) fn shares(windows: &[Window], vertices: usize, count: usize) -> impl 
 /// True when threads would do the same so often that shares do not pay.
 pub(super) fn overlap(shares: &[Share], windows: &[Window]) -> bool {
     let added: usize = shares.iter().map(|share| share.until - share.windows.start).sum();
-    shares.len() > 1 && added > windows.len() * 5 / 4
+    cfg!(feature = "parallel") && shares.len() > 1 && added > windows.len() * 5 / 4
 }
 
 /// The triangles of windows, of `count` in all.
