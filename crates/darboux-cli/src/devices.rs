@@ -51,7 +51,7 @@ pub fn run(arguments: &DevicesArguments) -> u8 {
 
 fn described(adapters: &[Adapter]) -> String {
     if adapters.is_empty() {
-        return "no GPU adapter was found; tangents are computed on the CPU\n".into();
+        return format!("{}; tangents are computed on the CPU\n", gpu::NO_ADAPTERS);
     }
     adapters.iter().fold(String::new(), |mut text, adapter| {
         let Adapter { name, kind, backend, driver, largest_binding, triangle_limit, problem } = adapter;

@@ -7,6 +7,9 @@ use darboux_gpu::{Generated, Gpu, MikkTSpace};
 
 use crate::devices::Adapter;
 
+/// What there is to say where no adapter is listed.
+pub const NO_ADAPTERS: &str = "no GPU adapter was found";
+
 /// The fastest adapter, with everything compiled.
 pub struct Opened {
     pub name: String,

@@ -4,6 +4,9 @@ use darboux::{Mesh, TangentOptions, Tangents};
 
 use crate::devices::Adapter;
 
+/// Why no adapter is listed.
+pub const NO_ADAPTERS: &str = "this darboux was built without GPUs";
+
 /// Nothing that could be opened.
 pub struct Opened {
     pub name: String,
@@ -12,7 +15,7 @@ pub struct Opened {
 
 /// Errors: always.
 pub fn open() -> Result<&'static Opened, String> {
-    Err("this darboux was built without GPUs: leave --device gpu out, or build with the feature gpu".into())
+    Err(format!("{NO_ADAPTERS}: leave --device gpu out, or build with the feature gpu"))
 }
 
 impl Opened {

@@ -24,7 +24,7 @@ pub struct MikkTSpace {
 }
 
 /// No mesh has more triangles; the stress build cuts most.
-const PIECE: u32 = if cfg!(small_limits) { 50 } else { (1 << 30) / 3 };
+const PIECE: u32 = if cfg!(small_limits) { 200 } else { (1 << 30) / 3 };
 
 /// What [`MikkTSpace::generate_tangents`] gives.
 #[derive(Clone, Debug)]
