@@ -6,7 +6,7 @@ import { crc32, deflateSync } from 'node:zlib';
 import { generateNormals, generateTangents, ready } from 'darboux';
 
 /** Quads across one half, and from the top down. */
-const [ACROSS, DOWN] = [24, 64];
+const [ACROSS, DOWN] = [8, 24];
 /** Texels along a side of the normal map. */
 const SIZE = 512;
 
@@ -109,7 +109,8 @@ function glb({ positions, normals, uvs, tangents, indices }, image) {
     asset: { version: '2.0', generator: 'Darboux', copyright: 'CC0' },
     scene: 0,
     scenes: [{ nodes: [0] }],
-    nodes: [{ mesh: 0, name: 'Shield' }],
+    // Leaning, so that the middle crosses an upright slider.
+    nodes: [{ mesh: 0, name: 'Shield', rotation: [0, 0, Math.sin(-0.15), Math.cos(-0.15)] }],
     meshes: [{ name: 'Shield', primitives: [{ attributes: { POSITION: 0, NORMAL: 1, TEXCOORD_0: 2, TANGENT: 3 }, indices: 4, material: 0 }] }],
     materials: [{ name: 'Bronze', doubleSided: true, normalTexture: { index: 0 }, pbrMetallicRoughness: { baseColorFactor: [0.4, 0.23, 0.11, 1], metallicFactor: 0.6, roughnessFactor: 0.45 } }],
     textures: [{ source: 0, sampler: 0 }],

@@ -86,7 +86,7 @@ test('the report counts as the command does', { skip: !DARBOUX && 'DARBOUX names
     await viewer.give('files', [asset(name)]);
     const found = await viewer.report();
     const told = inspected(asset(name));
-    const kinds = { degenerate: 'degenerate_triangles', 'uv-degenerate': 'uv_degenerate_triangles', seams: 'mirrored_edges', repaired: 'repaired_corners' };
+    const kinds = { degenerate: 'degenerate_triangles', 'uv-degenerate': 'uv_degenerate_triangles', seams: 'mirrored_edges', repaired: 'repaired_corners', mixed: 'mixed_sign_triangles' };
     for (const [kind, member] of Object.entries(kinds)) assert.equal(parseInt(found[kind] ?? '0', 10), told[member], `${name}: ${kind}`);
   }
 });
@@ -113,6 +113,17 @@ test('the picture is a PNG', async () => {
   assert.match(name, /\.png$/);
   assert.deepEqual([...bytes.subarray(0, 4)], [0x89, 0x50, 0x4e, 0x47]);
   assert.ok(bytes.length > 2000, 'more than one colour');
+});
+
+test('textures that are missing are said, and not looked for elsewhere', async () => {
+  const plane = readFileSync(asset('TwoSidedPlane/TwoSidedPlane.gltf'), 'utf8');
+  const path = join(folder, 'plain');
+  mkdirSync(path);
+  copyFileSync(asset('TwoSidedPlane/TwoSidedPlane.bin'), join(path, 'TwoSidedPlane.bin'));
+  writeFileSync(join(path, 'plain.gltf'), plane.replace('TwoSidedPlane_Normal.png', 'https://example.com/normal.png'));
+  await viewer.give('folder', path);
+  assert.equal(await viewer.text('error'), '');
+  assert.match(await viewer.text('status'), /3 textures missing or not decodable$/);
 });
 
 test('bad files get a sentence, and leave the model that is open', async () => {

@@ -18,8 +18,8 @@ export interface Model {
   warnings: string[];
 }
 
-/** How far it is: what is being done, and which part of it is, from 0 to 1. */
-export type Progress = (what: string, done: number) => void;
+/** How far it is: what is being done, and how much of that is, from 0 to 1, or null. */
+export type Progress = (what: string, done: number | null) => void;
 
 /** The largest file that is read: the page holds it several times over. */
 const MOST_BYTES = 1.5e9;
@@ -35,7 +35,7 @@ export async function openModel(bundle: Bundle, progress: Progress): Promise<Mod
     throw new Error(`There is no model in what was given (${given}); give a .glb, an .obj, or a folder with a .gltf.`);
   }
   const bytes = await read(name, bundle.get(name)!, progress);
-  progress(`Opening ${name}`, 0.5);
+  progress(`Opening ${name}`, null);
   const isObj = /\.obj$/i.test(name);
   return isObj
     ? { name, kind: 'obj', scene: await openObj(name, bytes, bundle), bytes: null, warnings: [] }
@@ -54,7 +54,7 @@ async function read(name: string, file: Blob, progress: Progress): Promise<Uint8
   for (let part = await reader.read(); !part.done; part = await reader.read()) {
     bytes.set(part.value, at);
     at += part.value.length;
-    progress(`Reading ${name}`, (0.5 * at) / file.size);
+    progress(`Reading ${name}`, at / file.size);
   }
   return bytes;
 }

@@ -59,16 +59,18 @@ function parsed(text: string): References | null {
   }
 }
 
-/** The text with files of the bundle in place of references to them; all else stays as it is spelled. */
+/** The text with files of the bundle in place of references to them; all else stays as it is spelled. Errors: a buffer is missing. */
 async function embedded(name: string, text: string, json: References, bundle: Bundle): Promise<string> {
   const data = new Map<string, string>();
-  for (const uri of urisOf(json)) {
-    if (uri.startsWith('data:')) continue;
-    const path = located(uri, name);
-    if (path === null) throw new Error(`${name} refers to ${uri}, which is elsewhere; nothing is fetched, so put it into the file's folder.`);
-    const file = bundle.get(path);
-    if (!file) throw new Error(`${name} refers to ${path}, which was not given; drop the whole folder.`);
-    data.set(uri, await dataUri(file));
+  for (const uri of urisOf(json.buffers)) {
+    const file = fileOf(uri, name, bundle);
+    if (file) data.set(uri, await dataUri(file));
+    else if (located(uri, name) === null) throw new Error(`${name} refers to ${uri}, which is elsewhere; nothing is fetched, so put it into the file's folder.`);
+    else throw new Error(`${name} refers to ${located(uri, name)}, which was not given; drop the whole folder.`);
+  }
+  for (const uri of urisOf(json.images)) {
+    const file = fileOf(uri, name, bundle);
+    if (file) data.set(uri, await dataUri(file));
   }
   if (!data.size) return text;
   return text.replaceAll(/"uri"(\s*:\s*)("(?:[^"\\]|\\.)*")/g, (all, between, literal) => {
@@ -77,9 +79,14 @@ async function embedded(name: string, text: string, json: References, bundle: Bu
   });
 }
 
-function urisOf(json: References): string[] {
-  const all = [json.buffers, json.images].flatMap((list) => (Array.isArray(list) ? list : []));
-  return all.map((entry) => entry?.uri).filter((uri): uri is string => typeof uri === 'string');
+/** References to what is outside the file. */
+function urisOf(list: References['images']): string[] {
+  const all = Array.isArray(list) ? list.map((entry) => entry?.uri) : [];
+  return all.filter((uri): uri is string => typeof uri === 'string' && !uri.startsWith('data:'));
+}
+
+function fileOf(uri: string, name: string, bundle: Bundle): Blob | undefined {
+  return bundle.get(located(uri, name) ?? '');
 }
 
 /** Images keep their media type. */

@@ -20,9 +20,12 @@ import { showReport, type Found } from './report';
 import { nameLike, save } from './save';
 import { clearError, showDone, showError, showProgress } from './state';
 import { connectTheme } from './theme';
+import { counted } from './words';
 
 /** How much of the model is in view where the report leads, as a part of its radius. */
 const CLOSE = 0.12;
+
+const LOST = 'The graphics card was lost, perhaps for want of memory; load the page again, and a smaller model.';
 
 export class App {
   private readonly stage = new Stage(element('view'));
@@ -35,6 +38,7 @@ export class App {
 
   start(): void {
     this.stage.add(this.marker.object);
+    element('view').addEventListener('webglcontextlost', () => showError(new Error(LOST)));
     connectTheme((model, layout) => this.stage.background(model, layout));
     connectKeys(this.stage);
     connectLightDrag();
@@ -68,7 +72,7 @@ export class App {
 
   private async open(find: Find): Promise<void> {
     const turn = ++this.turn;
-    showProgress('Looking for a model', 0);
+    showProgress('Looking for a model', null);
     const model = await openModel(await find(), (what, done) => this.turn === turn && showProgress(what, done));
     const parts = partsOf(model.scene, model.kind);
     if (turn !== this.turn) return;
@@ -92,7 +96,7 @@ export class App {
     const { sources } = settings();
     const arrangements: Arrangement[] = [];
     for (const [at, part] of this.parts.entries()) {
-      showProgress(`Computing tangents of ${part.name}`, at / this.parts.length);
+      showProgress(`Computing tangents of ${part.name}`, this.done(at));
       arrangements.push(await call('arrange', at, sources));
       if (turn !== this.turn) return;
     }
@@ -105,9 +109,13 @@ export class App {
   /** The model in a line, and what is odd about its file. */
   private told(): string {
     const triangles = this.parts.reduce((sum, { surface }) => sum + surface.indices.length / 3, 0);
-    const parts = this.parts.length;
-    const size = `${triangles.toLocaleString('en')} triangles in ${parts} ${parts === 1 ? 'part' : 'parts'}`;
+    const size = `${counted(triangles, 'triangle', 'triangles')} in ${counted(this.parts.length, 'part', 'parts')}`;
     return [size, ...(this.model?.warnings ?? [])].join('; ');
+  }
+
+  /** How much is done when as many parts are. */
+  private done(parts: number): number | null {
+    return this.parts.length > 1 ? parts / this.parts.length : null;
   }
 
   /** Shows what was computed, as the controls say. */
@@ -127,7 +135,7 @@ export class App {
     const turn = this.turn;
     const found: Found[] = [];
     for (const [at, part] of this.parts.entries()) {
-      showProgress(`Looking at ${part.name}`, at / this.parts.length);
+      showProgress(`Looking at ${part.name}`, this.done(at));
       for (const finding of await call('report', at)) found.push({ ...finding, part: at, partName: part.name });
       if (turn !== this.turn) return;
     }
@@ -150,11 +158,11 @@ export class App {
 
   private async saveModel(): Promise<void> {
     if (!this.model) throw new Error('There is no model to save.');
-    showProgress('Writing tangents', 0.5);
+    showProgress('Writing tangents', null);
     const { bytes, told } = await repairedGlb(this.model);
     save(nameLike(this.model.name, '.tangents.glb'), new Blob([bytes], { type: 'model/gltf-binary' }));
     const { written, skipped } = told.totals;
-    const lines = [`Tangents written to ${written} ${written === 1 ? 'primitive' : 'primitives'}, ${skipped} left alone`, ...told.warnings];
+    const lines = [`Tangents written to ${counted(written, 'primitive', 'primitives')}, ${skipped} left alone`, ...told.warnings];
     showDone(lines.join('. '));
   }
 }

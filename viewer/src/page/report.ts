@@ -2,6 +2,7 @@
 
 import type { Finding, FindingKind } from '../surface/report';
 import { element } from './elements';
+import { counted } from './words';
 
 /** What was found, and in which part. */
 export interface Found extends Finding {
@@ -64,5 +65,5 @@ function sentence({ kind, count, worst }: Finding): string {
   const [one, many] = NAMES[kind];
   if (!many) return one;
   const by = worst === undefined ? '' : `, by up to ${worst.toFixed(1)}°`;
-  return `${count.toLocaleString('en')} ${count === 1 ? one : many}${by}`;
+  return counted(count, one, many) + by;
 }

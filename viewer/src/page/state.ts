@@ -2,12 +2,13 @@
 
 import { element } from './elements';
 
-/** Shows work, and how much of it is done. */
-export function showProgress(what: string, done: number): void {
+/** Shows work, and how much of it is done, from 0 to 1; null where that is not known. */
+export function showProgress(what: string, done: number | null): void {
   element('status').textContent = what;
   const bar = element<HTMLProgressElement>('progress');
   bar.hidden = false;
-  bar.value = done;
+  if (done === null) bar.removeAttribute('value');
+  else bar.value = done;
 }
 
 /** Shows that work has ended. */

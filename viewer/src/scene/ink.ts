@@ -76,7 +76,7 @@ void main() {
   if (paint == 4) color = vSign > 0.0 ? ${color(COLORS.plus)} : ${color(COLORS.minus)};
   if (paint == 5) color = heat(vAngle);
   #ifdef LAYOUT
-    gl_FragColor = vec4(color, 0.85);
+    gl_FragColor = vec4(color, 0.6);
   #else
     // A little light from the eye, so that the shape is seen.
     float facing = abs(dot(normalize(cross(dFdx(vEye), dFdy(vEye))), normalize(vEye)));

@@ -1,0 +1,104 @@
+// The page for everyone: by keyboard, read aloud, dark and light, and where there is no graphics card.
+
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+
+import { browser, serve, Viewer } from './page.mjs';
+
+let server, chromium, viewer;
+
+before(async () => {
+  [server, chromium] = [await serve(), await browser()];
+  viewer = await Viewer.open(chromium, server.address, { colorScheme: 'light' });
+});
+
+after(async () => {
+  await chromium?.close();
+  server?.close();
+  assert.deepEqual(viewer?.faults, []);
+});
+
+/** The brightness of the pixel in the corner, behind the model. */
+async function background() {
+  return (await viewer.picture()).data[0];
+}
+
+test('dark and light follow the system, then the button', async () => {
+  assert.ok((await background()) > 180);
+  await viewer.page.emulateMedia({ colorScheme: 'dark' });
+  assert.ok((await background()) < 80);
+  await viewer.click('#theme');
+  assert.ok((await background()) > 180);
+  assert.equal(await viewer.page.getAttribute('#theme', 'aria-pressed'), 'true');
+});
+
+test('text stands out from what is behind it', async () => {
+  for (const theme of ['light', 'dark']) {
+    const ratios = await viewer.page.evaluate((theme) => {
+      document.documentElement.dataset.theme = theme;
+      const style = getComputedStyle(document.documentElement);
+      const light = (name) => {
+        const context = new OffscreenCanvas(1, 1).getContext('2d');
+        context.fillStyle = style.getPropertyValue(name);
+        context.fillRect(0, 0, 1, 1);
+        const linear = (x) => (x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4);
+        const [r, g, b] = [...context.getImageData(0, 0, 1, 1).data].map((x) => linear(x / 255));
+        return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+      };
+      const back = light('--back');
+      return ['--front', '--faint', '--bad', '--accent'].map((name) => {
+        const [less, more] = [back, light(name)].sort((a, b) => a - b);
+        return (more + 0.05) / (less + 0.05);
+      });
+    }, theme);
+    // WCAG 2.2, success criterion 1.4.3.
+    assert.ok(ratios.every((ratio) => ratio >= 4.5), `${theme}: ${ratios}`);
+  }
+});
+
+test('everything that can be used has a name', async () => {
+  const snapshot = await viewer.page.locator('body').ariaSnapshot();
+  for (const line of snapshot.split('\n')) {
+    const [, role, name] = /^\s*- (button|checkbox|radio|slider|combobox)\b(?: "(.*?)")?/.exec(line) ?? [];
+    if (role) assert.ok(name, `nameless: ${line}`);
+  }
+  const some = ['button "Open files"', 'combobox "Left"', 'slider "Where left and right meet, in percent"', 'radio "Shaded" [checked]', 'button "Flip green"', 'heading "Report"', 'button "24 mirrored edges: Shield"', 'img "The model'];
+  for (const expected of some) assert.ok(snapshot.includes(expected), expected);
+});
+
+test('the keyboard reaches and turns the model', async () => {
+  await viewer.page.focus('#theme');
+  await viewer.page.keyboard.press('Tab');
+  assert.equal(await viewer.page.evaluate(() => document.activeElement.id), 'view');
+  const front = await viewer.picture();
+  for (const [key, least] of [['ArrowLeft', 0.05], ['ArrowUp', 0.05], ['+', 0.02], ['Shift+ArrowRight', 0.005]]) {
+    const before = await viewer.picture();
+    for (let times = 0; times < 4; times++) await viewer.page.keyboard.press(key);
+    await viewer.settled();
+    assert.ok((await viewer.picture()).differs(before) > least, key);
+  }
+  for (let times = 0; times < 4; times++) await viewer.page.keyboard.press('Shift+ArrowLeft');
+  await viewer.page.keyboard.press('Home');
+  await viewer.settled();
+  assert.ok((await viewer.picture()).differs(front) < 0.001, 'Home is where it began');
+  await viewer.page.keyboard.press('Tab');
+  assert.equal(await viewer.page.evaluate(() => document.activeElement.id), 'split');
+  await viewer.page.keyboard.press('Home');
+  await viewer.settled();
+  assert.ok((await viewer.picture()).differs(front, 0.4, 0.5) > 0.005, 'the slider moves, too');
+});
+
+test('what is said is said to screen readers, too', async () => {
+  assert.equal(await viewer.page.getAttribute('#status', 'role'), 'status');
+  assert.equal(await viewer.page.getAttribute('#error', 'role'), 'alert');
+});
+
+test('without WebGL there is a sentence', async () => {
+  const blind = await browser(['--disable-3d-apis']);
+  try {
+    const page = await Viewer.open(blind, server.address);
+    assert.match(await page.text('error'), /WebGL 2 is missing/);
+  } finally {
+    await blind.close();
+  }
+});

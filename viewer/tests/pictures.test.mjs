@@ -1,0 +1,29 @@
+// The picture for the documentation. Where PICTURES names a folder it is written there.
+
+import assert from 'node:assert/strict';
+import { writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+
+import { browser, serve, Viewer } from './page.mjs';
+
+/** What a page of documentation can have. */
+const MOST_BYTES = 300_000;
+
+test('a picture of the page', async () => {
+  const [server, chromium] = [await serve(), await browser()];
+  try {
+    const viewer = await Viewer.open(chromium, server.address, { viewport: { width: 1080, height: 620 }, colorScheme: 'dark' });
+    await viewer.slide('light-around', 15);
+    await viewer.page.focus('#view');
+    for (const key of ['+', '+', 'ArrowLeft', 'ArrowLeft']) await viewer.page.keyboard.press(key);
+    await viewer.page.$eval('#view', (view) => view.blur());
+    await viewer.settled();
+    const png = await viewer.page.screenshot();
+    assert.ok(png.length < MOST_BYTES, `${png.length} bytes`);
+    if (process.env.PICTURES) writeFileSync(join(process.env.PICTURES, 'viewer.png'), png);
+  } finally {
+    await chromium.close();
+    server.close();
+  }
+});
