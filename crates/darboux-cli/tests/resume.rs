@@ -221,11 +221,11 @@ fn orders_and_answers_of_nobody_are_refused() {
     for text in ["", "{}", "[1]", "{\"report\": 3"] {
         assert!(carry_out(text).is_err() && give_up(text, "").is_err());
     }
-    let library = Library::open(&[models.clone()], &out, &[]).expect("a library");
+    let library = Library::open(std::slice::from_ref(&models), &out, &[]).expect("a library");
     assert!(library.take("{}").is_err());
     let refused = |options: &[&str]| {
         let options: Vec<String> = options.iter().map(|&option| option.to_owned()).collect();
-        Library::open(&[models.clone()], &out.join("other"), &options).err().expect("refused")
+        Library::open(std::slice::from_ref(&models), &out.join("other"), &options).err().expect("refused")
     };
     assert_eq!(refused(&["--best"]), "unexpected argument '--best' found");
     assert!(refused(&["--method", "area", "--threshold", "3"]).contains("--threshold belongs to"));
