@@ -22,7 +22,8 @@ pub fn complete(
 ) -> (Report, usize) {
     let mut fans = Fans::default();
     fans.resume(mesh, options.mode, welded, out);
-    let left = out.iter().filter(|corner| corner[3] == UNDECIDED).count();
+    let triangles = fans.undecided().iter().map(|&triangle| &out.as_chunks::<3>().0[triangle as usize]);
+    let left = triangles.flatten().filter(|corner| corner[3] == UNDECIDED).count();
     (local::decide(mesh, options, &fans, &Cancel::new(), out), left)
 }
 

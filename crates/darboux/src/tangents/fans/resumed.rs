@@ -2,9 +2,10 @@
 
 use crate::Mesh;
 use crate::tangents::Mode;
+use crate::weld::{Bounds, Point};
 
 use super::last_run::{LastRun, TailCells};
-use super::{Fans, UNDECIDED, bounds_of_used};
+use super::{Fans, UNDECIDED};
 
 impl Fans {
     /// As after [`Fans::run`].
@@ -24,11 +25,23 @@ impl Fans {
         }
     }
 
+    /// Positions are looked at vertex by vertex: by corners it would take as long as a run.
     fn leave_last_edges_of_all(&mut self, mesh: &Mesh<'_>, out: &mut [[f32; 4]]) {
-        let bounds = bounds_of_used(mesh);
+        let position = |vertex| mesh.positions().get(vertex);
+        let mut is_wanted = vec![false; mesh.vertex_count()];
+        (0..mesh.corner_count()).for_each(|corner| is_wanted[mesh.vertex_of_corner(corner)] = true);
+        let mut used = (0..is_wanted.len()).filter(|&vertex| is_wanted[vertex]).map(position);
+        let bounds = Bounds::of(used.next().unwrap_or_default(), used);
         let run = LastRun { mesh, identity: self.weld.identity(), bounds: &bounds };
         let tail = TailCells::first(mesh, &bounds, true);
-        if let Some(last) = run.find(tail, None, &mut self.lists) {
+        for (vertex, is_wanted) in is_wanted.iter_mut().enumerate() {
+            *is_wanted = tail.hold(position(vertex));
+        }
+        let vertices = (0..).zip((0..mesh.corner_count()).map(|corner| mesh.vertex_of_corner(corner)));
+        let in_tail = vertices.filter(|(_, vertex)| is_wanted[*vertex]);
+        let points: Vec<Point> =
+            in_tail.map(|(entry, vertex)| Point { position: position(vertex), entry }).collect();
+        if let Some(last) = run.find(tail, Some(&points), &mut self.lists) {
             let suspects = &self.special.undecided;
             self.last_stretches = self.names.last_stretches(&run, &last, self.weld.count, suspects);
             self.special.leave(self.names.corners_of(&last.vertices), out);
