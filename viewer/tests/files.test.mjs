@@ -108,6 +108,33 @@ test('the repaired GLB is the command\'s, and has no faults', { skip: !DARBOUX &
   assert.deepEqual(Object.keys(await viewer.report()), ['seams']);
 });
 
+test('every fault of tangents in a file is found', async () => {
+  const bytes = Buffer.from(await (await fetch(`${server.address}shield.glb`)).arrayBuffer());
+  const { accessors, bufferViews, meshes } = glbJson(bytes);
+  const view = bufferViews[accessors[meshes[0].primitives[0].attributes.TANGENT].bufferView];
+  const start = 20 + bytes.readUInt32LE(12) + 8 + view.byteOffset;
+  const set = (vertex, values) => values.forEach((value, at) => bytes.writeFloatLE(value, start + 16 * vertex + 4 * at));
+  set(20, [0, 0, 0, 1]);
+  set(60, [NaN, 0, 0, 1]);
+  set(100, [0, 2, 0, 1]);
+  set(140, [1, 0, 0, 0.5]);
+  const path = join(folder, 'faulty.glb');
+  writeFileSync(path, bytes);
+  await viewer.give('files', [path]);
+  const report = await viewer.report();
+  for (const kind of ['zero', 'not-finite', 'not-unit', 'bad-sign']) assert.match(report[kind] ?? '', /^[1-6] corners? /, kind);
+  assert.match(report['not-unit'], /^6 corners whose tangents are not of unit length: Shield$/);
+});
+
+test('of two models that are opened at once the later is shown', async () => {
+  await viewer.page.setInputFiles('#files', [asset('NormalTangentTest/NormalTangentTest.glb')]);
+  await viewer.page.setInputFiles('#files', [asset('made/draco.glb')]);
+  await viewer.settled();
+  await viewer.page.waitForFunction(() => document.getElementById('status').textContent.startsWith('48 triangles'));
+  await viewer.settled();
+  assert.deepEqual([await viewer.text('name'), await viewer.text('error')], ['draco.glb', '']);
+});
+
 test('the picture is a PNG', async () => {
   const { name, bytes } = await viewer.download('#save-picture');
   assert.match(name, /\.png$/);

@@ -16,7 +16,7 @@ import { element, numberOf } from './elements';
 import { connectKeys, connectLightDrag } from './keys';
 import { showLegend } from './legend';
 import { connectOpening, type Find } from './opening';
-import { showReport, type Found } from './report';
+import { clearReport, showReport, type Found } from './report';
 import { nameLike, save } from './save';
 import { clearError, showDone, showError, showProgress } from './state';
 import { connectTheme } from './theme';
@@ -33,8 +33,9 @@ export class App {
   private readonly marker = new Marker();
   private model: Model | null = null;
   private parts: Part[] = [];
-  /** Grows with each model and each choice of sources: what was computed for older ones is dropped. */
-  private turn = 0;
+  /** Grow with each model and each arrangement: what belongs to older ones is dropped. */
+  private opening = 0;
+  private arranging = 0;
 
   start(): void {
     this.stage.add(this.marker.object);
@@ -71,34 +72,60 @@ export class App {
   }
 
   private async open(find: Find): Promise<void> {
-    const turn = ++this.turn;
-    showProgress('Looking for a model', null);
-    const model = await openModel(await find(), (what, done) => this.turn === turn && showProgress(what, done));
-    const parts = partsOf(model.scene, model.kind);
-    if (turn !== this.turn) return;
-    await call('open', parts.map((part) => part.surface));
+    const turn = ++this.opening;
+    const isOld = () => turn !== this.opening;
+    try {
+      showProgress('Looking for a model', null);
+      const model = await openModel(await find(), (what, done) => isOld() || showProgress(what, done));
+      const parts = partsOf(model.scene, model.kind);
+      if (isOld()) return;
+      // What is computed of the model before asks for no more of it.
+      this.arranging++;
+      await call('open', parts.map((part) => part.surface));
+      if (isOld()) return;
+      this.take(model, parts);
+      await this.arrange();
+      if (isOld()) return;
+      this.stage.lookAtAll();
+      this.light();
+      showReport(await this.findings(isOld), (finding, place) => this.visit(finding, place));
+      showDone(this.told());
+    } catch (error) {
+      if (!isOld()) throw error;
+    }
+  }
+
+  /** Takes a model in place of the one before. */
+  private take(model: Model, parts: Part[]): void {
     [this.model, this.parts] = [model, parts];
     this.stage.measure(new Box3().setFromObject(model.scene));
     this.stage.measureLayout(...squareOf(parts));
     this.marker.hide();
     offerSources(parts.some((part) => part.surface.tangents));
     element('name').textContent = model.name;
-    showReport([], () => {});
-    await this.arrange();
-    this.stage.lookAtAll();
-    this.light();
-    await this.report();
+    clearReport();
+  }
+
+  /** What is odd about the model. */
+  private async findings(isOld: () => boolean): Promise<Found[]> {
+    const found: Found[] = [];
+    for (const [at, part] of this.parts.entries()) {
+      showProgress(`Looking at ${part.name}`, this.done(at));
+      for (const finding of await call('report', at)) found.push({ ...finding, part: at, partName: part.name });
+      if (isOld()) throw new Error('Another model was opened.');
+    }
+    return found;
   }
 
   /** Computes what both sides show. */
   private async arrange(): Promise<void> {
-    const turn = ++this.turn;
+    const turn = ++this.arranging;
     const { sources } = settings();
     const arrangements: Arrangement[] = [];
     for (const [at, part] of this.parts.entries()) {
       showProgress(`Computing tangents of ${part.name}`, this.done(at));
       arrangements.push(await call('arrange', at, sources));
-      if (turn !== this.turn) return;
+      if (turn !== this.arranging) return;
     }
     this.shown.arrange(this.parts, arrangements);
     for (const [at, id] of ['caption-left', 'caption-right'].entries()) element(id).textContent = SOURCE_NAMES[sources[at]];
@@ -129,18 +156,6 @@ export class App {
   private light(): void {
     this.stage.lightFrom(numberOf('light-around'), numberOf('light-above'));
     this.stage.brightness(numberOf('surroundings'), numberOf('light'));
-  }
-
-  private async report(): Promise<void> {
-    const turn = this.turn;
-    const found: Found[] = [];
-    for (const [at, part] of this.parts.entries()) {
-      showProgress(`Looking at ${part.name}`, this.done(at));
-      for (const finding of await call('report', at)) found.push({ ...finding, part: at, partName: part.name });
-      if (turn !== this.turn) return;
-    }
-    showReport(found, (finding, place) => this.visit(finding, place));
-    showDone(this.told());
   }
 
   /** Flies to a place of the report. */

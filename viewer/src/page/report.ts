@@ -38,6 +38,12 @@ export function showReport(found: Found[], visit: (finding: Found, place: number
   element('report-none').textContent = faults.length ? '' : 'No faults found.';
 }
 
+/** Takes the report of another model away. */
+export function clearReport(): void {
+  element('report').replaceChildren();
+  element('report-none').textContent = '';
+}
+
 function row(finding: Found, visit: (finding: Found, place: number) => void): HTMLElement {
   const item = document.createElement('li');
   item.dataset.kind = finding.kind;

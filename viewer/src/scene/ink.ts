@@ -73,7 +73,7 @@ void main() {
   if (paint == 1) color = direction(vTangent);
   if (paint == 2) color = direction(cross(vNormal, vTangent) * vSign);
   if (paint == 3) color = direction(vNormal);
-  if (paint == 4) color = vSign > 0.0 ? ${color(COLORS.plus)} : ${color(COLORS.minus)};
+  if (paint == 4) color = vSign > 0.0 ? ${color(COLORS.plus)} : vSign < 0.0 ? ${color(COLORS.minus)} : ${color(COLORS.none)};
   if (paint == 5) color = heat(vAngle);
   #ifdef LAYOUT
     gl_FragColor = vec4(color, 0.6);

@@ -51,9 +51,9 @@ export class Shown {
   private side(at: 0 | 1, settings: Settings, radius: number): Side {
     const side = empty();
     const mistakes = at === 1 ? settings.mistakes : NONE;
-    const hasTangents = settings.sources[at] !== 'derivatives';
     for (const piece of this.pieces) {
       const { part } = piece;
+      const hasTangents = isVertexData(piece, settings, at);
       const geometry = geometriesOf(piece, settings)[at];
       const directions = new Matrix3().setFromMatrix4(part.place);
       const isShaded = settings.paint === 'shaded';
@@ -66,9 +66,8 @@ export class Shown {
   }
 
   private lines(side: Side, at: 0 | 1, { part, arrangement }: Piece, geometry: BufferGeometry, settings: Settings, radius: number): void {
-    const frames = geometry.getAttribute('frame') as BufferAttribute | undefined;
     const { positions, normals } = arrangement;
-    const tangents = (frames?.array as Float32Array | undefined) ?? new Float32Array((positions.length / 3) * 4);
+    const tangents = geometry.getAttribute('frame').array as Float32Array;
     const roots = { positions, normals, tangents, place: part.place };
     for (const name of ['tangent', 'bitangent', 'normal'] as const) {
       if (settings.vectors[name]) side.model.add(vectorLines(roots, name, settings.length * radius));
@@ -81,14 +80,24 @@ export class Shown {
 const NONE: Mistakes = { green: false, w: false, v: false };
 
 /** The geometry of both sides. It is kept while nothing in it changes: it may be large. */
-function geometriesOf(piece: Piece, { sources, mistakes }: Settings): [BufferGeometry, BufferGeometry] {
+function geometriesOf(piece: Piece, settings: Settings): [BufferGeometry, BufferGeometry] {
   const { shared, indices, arrangement } = piece;
+  const { mistakes } = settings;
   const key = JSON.stringify([mistakes.w, mistakes.v]);
   if (piece.geometries && piece.mistakes === key) return piece.geometries;
   forget(piece);
-  const make = (at: 0 | 1) => geometryOf(shared, indices, arrangement.tangents[at], sources[at] !== 'derivatives', at ? mistakes : NONE);
+  const none = () => new Float32Array(arrangement.sourceOfVertex.length * 4);
+  const make = (at: 0 | 1) => {
+    const frames = arrangement.tangents[at] ?? none();
+    return geometryOf(shared, indices, frames, isVertexData(piece, settings, at), at ? mistakes : NONE);
+  };
   piece.mistakes = key;
   return (piece.geometries = [make(0), make(1)]);
+}
+
+/** Whether a side's tangents are given to the renderer; what it has none for it derives itself. */
+function isVertexData({ arrangement }: Piece, { sources }: Settings, at: 0 | 1): boolean {
+  return sources[at] !== 'derivatives' && arrangement.tangents[at] !== null;
 }
 
 function forget(piece: Piece): void {

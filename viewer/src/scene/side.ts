@@ -3,6 +3,7 @@
 import { BufferAttribute, BufferGeometry, type MeshStandardMaterial } from 'three';
 
 import type { Mistakes } from '../page/settings';
+import { NO_ANGLE } from '../surface/angles';
 import type { Arrangement } from '../surface/arrangement';
 import { floatsOf, type Part } from './parts';
 import { withPattern } from './pattern';
@@ -18,7 +19,7 @@ export function sharedOf(part: Part, arrangement: Arrangement): Shared {
   put('position', positions, 3);
   put('normal', normals, 3);
   put('chart', charted(uvs, part.surface.vDown), 2);
-  if (angles) put('angle', angles, 1);
+  put('angle', angles ?? new Float32Array(sourceOfVertex.length).fill(NO_ANGLE), 1);
   for (const name of ['uv', 'uv1', 'uv2', 'uv3', 'color']) {
     const attribute = part.geometry.getAttribute(name);
     if (!attribute) continue;
@@ -37,11 +38,11 @@ function charted(uvs: Float32Array, vDown: boolean): Float32Array {
   return vDown ? uvs.map((x, at) => (at % 2 ? 1 - x : x)) : uvs;
 }
 
-/** The geometry of one side. `hasTangents`: false for sources that are no vertex data. */
+/** The geometry of one side. `frames`: 4 floats per vertex; `hasTangents`: whether the renderer gets them. */
 export function geometryOf(
   shared: Shared,
   indices: BufferAttribute,
-  tangents: Float32Array | null,
+  frames: Float32Array,
   hasTangents: boolean,
   mistakes: Mistakes,
 ): BufferGeometry {
@@ -50,8 +51,7 @@ export function geometryOf(
     const isTurned = mistakes.v && name.startsWith('uv');
     geometry.setAttribute(name, isTurned ? mapped(attribute, 1, (v) => 1 - v) : attribute);
   }
-  if (!tangents) return geometry;
-  const frame = new BufferAttribute(tangents, 4);
+  const frame = new BufferAttribute(frames, 4);
   const shown = mistakes.w ? mapped(frame, 3, (w) => -w) : frame;
   geometry.setAttribute('frame', shown);
   if (hasTangents) geometry.setAttribute('tangent', shown);
