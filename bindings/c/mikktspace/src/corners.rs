@@ -107,21 +107,22 @@ const BLOCK: usize = 64;
 struct Reader {
     vertices: Vec<[f32; 8]>,
     vertex_of_corner: Vec<u32>,
-    /// The last vertex of each hash. Where two share one, the earlier is forgotten: its next corner is a vertex of its own.
-    vertex_of_hash: Vec<u32>,
+    /// The last two vertices of each hash, the last first: the upper half of the hash, so that a vertex is only looked at when it is most
+    /// likely the one, and the vertex. Earlier ones are forgotten: their next corner is a vertex of its own.
+    pairs: Vec<[u64; 2]>,
 }
 
 impl Reader {
     /// None without memory for `count` corners.
     fn new(count: usize) -> Option<Self> {
-        let bits = (count / 4).next_power_of_two().clamp(1 << 4, 1 << 16).trailing_zeros();
-        let (mut vertices, mut vertex_of_corner, mut vertex_of_hash) = (Vec::new(), Vec::new(), Vec::new());
+        let pair_count = (count / 8).next_power_of_two().clamp(1 << 3, 1 << 14);
+        let (mut vertices, mut vertex_of_corner, mut pairs) = (Vec::new(), Vec::new(), Vec::new());
         // Room for the worst: what is not used of it costs nothing.
         vertices.try_reserve_exact(count).ok()?;
         vertex_of_corner.try_reserve_exact(count).ok()?;
-        vertex_of_hash.try_reserve_exact(1 << bits).ok()?;
-        vertex_of_hash.resize(1 << bits, u32::MAX);
-        Some(Self { vertices, vertex_of_corner, vertex_of_hash })
+        pairs.try_reserve_exact(pair_count).ok()?;
+        pairs.resize(pair_count, [u64::MAX; 2]);
+        Some(Self { vertices, vertex_of_corner, pairs })
     }
 
     /// Reads all corners. Block by block: what a callback has just stored in small parts is slow to load in large ones.
@@ -143,15 +144,22 @@ impl Reader {
 
     /// Adds corners.
     fn add(&mut self, corners: &[[f32; 8]]) {
-        let mask = self.vertex_of_hash.len() - 1;
+        let mask = self.pairs.len() - 1;
         let vertex = |corner: &[f32; 8]| {
             let bits = corner.map(f32::to_bits);
-            let slot = &mut self.vertex_of_hash[hash(bits) as usize & mask];
-            if self.vertices.get(*slot as usize).is_none_or(|known| known.map(f32::to_bits) != bits) {
-                *slot = self.vertices.len() as u32;
-                self.vertices.push(*corner);
+            let hash = hash(bits);
+            let pair = &mut self.pairs[hash as usize & mask];
+            let is_it = |entry: u64| {
+                let known = || self.vertices.get(entry as u32 as usize);
+                (entry ^ hash) >> 32 == 0 && known().is_some_and(|known| known.map(f32::to_bits) == bits)
+            };
+            if let Some(&entry) = pair.iter().find(|&&entry| is_it(entry)) {
+                return entry as u32;
             }
-            *slot
+            let vertex = self.vertices.len() as u32;
+            *pair = [hash >> 32 << 32 | u64::from(vertex), pair[0]];
+            self.vertices.push(*corner);
+            vertex
         };
         self.vertex_of_corner.extend(corners.iter().map(vertex));
     }
