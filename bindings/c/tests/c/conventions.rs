@@ -135,10 +135,12 @@ fn odd_conventions_are_refused() {
             darboux_convert_faces(null(), null(), 1, null(), 0, c, 4, 0),
             darboux_convert_faces(null(), null(), 1, null(), 0, null_mut(), 4, 4),
             darboux_convention_of(10, &mut zeroed()),
+            // No corners: nothing to multiply their size with.
+            darboux_convert_faces(null(), null(), 0, null(), 0, null_mut(), 0, usize::MAX),
         ]
     };
-    use darboux_status::{Faces, NullPointer, Stride, UnknownValue};
-    assert_eq!(found, [Faces, Faces, Stride, NullPointer, UnknownValue]);
+    use darboux_status::{Faces, NullPointer, Ok, Stride, UnknownValue};
+    assert_eq!(found, [Faces, Faces, Stride, NullPointer, UnknownValue, Ok]);
 }
 
 fn arrays(normals: &mut [[f32; 3]], tangents: &mut [[f32; 4]]) -> darboux_frame_arrays {
