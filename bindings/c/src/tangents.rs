@@ -124,8 +124,8 @@ pub(crate) unsafe fn options<'a>(
 /// These are not vertex tangents: corners of one vertex may disagree, so they cannot be written through the mesh's indices.
 /// darboux_split_vertices gives vertices and new indices. Where corner i is vertex i they may go straight into the vertices.
 /// `mesh`: normals and UVs must be there. `options`: null for the defaults. `tangents`: room for C by 4 floats, unit xyz and the sign w
-/// (bitangent = w * cross(normal, xyz)); it may lie between the mesh's own elements. `tangent_count`: C. `tangent_stride`: bytes from one
-/// tangent to the next, 0 for packed. `report`: what was met, or null.
+/// (bitangent = w * cross(normal, xyz)), beside the mesh's arrays or, with a stride, between their elements. `tangent_count`: C.
+/// `tangent_stride`: bytes from one tangent to the next, 0 for packed. `report`: what was met, or null.
 /// Errors: what darboux_status lists.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_generate_tangents(
@@ -155,7 +155,7 @@ pub unsafe extern "C" fn darboux_generate_tangents(
 
 /// Computes the whole frame of every corner: tangent, bitangent, magnitudes, sign. Slower than darboux_generate_tangents.
 ///
-/// `mesh`, `options`, `report`, errors: as for darboux_generate_tangents; the scratch is not used. `frames`: room for C frames.
+/// `mesh`, `options`, `report`, errors: as for darboux_generate_tangents; of a scratch the threads alone are used. `frames`: room for C frames.
 /// `frame_count`: C. `frame_stride`: bytes from one frame to the next, 0 for packed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_generate_frames(

@@ -132,18 +132,20 @@ fn pkg_config_finds_the_library() {
     if !has("pkg-config") || !has("gcc") {
         return;
     }
-    for options in [&["--cflags", "--libs"][..], &["--cflags", "--libs", "--static"]] {
+    let ask = |options: &[&str]| {
         let mut ask = Command::new("pkg-config");
         ask.env("PKG_CONFIG_PATH", dist().join("lib/pkgconfig")).args(options).arg("darboux");
-        let flags = String::from_utf8(run(&mut ask).stdout).expect("text");
-        let program = folder().join("pkg-config");
+        String::from_utf8(run(&mut ask).stdout).expect("text")
+    };
+    let rpath = format!("-Wl,-rpath,{}", ask(&["--variable=libdir"]).trim());
+    for options in [&["--cflags", "--libs"][..], &["--cflags", "--libs", "--static"]] {
+        let (flags, program) = (ask(options), folder().join("pkg-config"));
         run(compiler("c99")
             .arg(example("tangents.c"))
             .args(flags.split_whitespace())
-            .arg("-o")
+            .args([&rpath, "-o"])
             .arg(&program));
-        let printed = run(Command::new(program).env("LD_LIBRARY_PATH", dist().join("lib"))).stdout;
-        assert_eq!(printed, expected().as_bytes());
+        assert_eq!(run(&mut Command::new(program)).stdout, expected().as_bytes());
     }
 }
 
