@@ -1,8 +1,8 @@
-//! What tests of shaders and pages need beside Rust: a Vulkan adapter in software, a compiler of HLSL, a browser.
+//! What tests need beside Rust: a Vulkan adapter in software, a compiler of HLSL, a browser; what C users build and check with.
 
 use crate::run::{Outcome, program, run, works};
 
-const PACKAGES: &str = "chromium glslang-tools libvulkan1 mesa-vulkan-drivers";
+const PACKAGES: &str = "chromium cmake glslang-tools libvulkan1 mesa-vulkan-drivers pkg-config valgrind";
 
 /// In continuous integration, installs what is missing (Debian and Ubuntu, as root). Elsewhere the tests say what they skip.
 pub fn install() -> Outcome {
