@@ -19,7 +19,7 @@ pub(crate) const EVALUATE: &[&str] = &[include_str!("../shaders/evaluate.wgsl")]
 /// Words of a triangle's derivatives, of a corner's wedge and of its frame.
 const WORDS: u32 = 8;
 
-/// What [`Evaluation::new`] needs, compiled once.
+/// What evaluation needs, compiled once.
 #[derive(Clone, Debug)]
 pub struct EvaluationKernels {
     derivatives: RealKernel,
