@@ -5,9 +5,9 @@ use std::ptr::{null, null_mut};
 
 use darboux::encode;
 use darboux::{
-    CornerTangents, Method, Mode, NormalOptions, NormalWeight, Plan, Shading, SmoothingSeams, TangentOptions,
-    generate_frames, generate_normals, generate_tangents, measure_tangents, measure_uv_fidelity,
-    split_normals, split_vertices,
+    CornerTangents, Method, Mode, NormalOptions, NormalWeight, Plan, Shading, SmoothingSeams, Splitter,
+    TangentOptions, generate_frames, generate_normals, generate_tangents, measure_tangents,
+    measure_uv_fidelity, split_normals, split_vertices,
 };
 use darboux_c::*;
 use darboux_tests::{Case, Dice, FaceSizes, OwnedMesh, corpus, families};
@@ -296,6 +296,36 @@ fn splits() {
             darboux_vertex_split_free(split);
         }
     }
+}
+
+/// Submeshes over one vertex buffer are split by one call over all of their corners, as the core splits them one after the other.
+#[test]
+fn submeshes_split_together() {
+    let mut count = 0;
+    for mesh in meshes(100) {
+        let OwnedMesh { indices: Some(indices), faces: FaceSizes::Triangles, .. } = &mesh else { continue };
+        count += 1;
+        let middle = indices.len() / 6 * 3;
+        let mut splitter = Splitter::new(mesh.positions.len());
+        let (mut expected, mut tangents) = (Vec::new(), Vec::new());
+        for part in [&indices[..middle], &indices[middle..]] {
+            let part = OwnedMesh { indices: Some(part.to_vec()), ..mesh.clone() };
+            let corners = generate_tangents(&part.view(), &TangentOptions::default()).corners;
+            expected.extend(splitter.add(&part.view(), &corners).expect("its tangents"));
+            tangents.extend(corners.into_per_corner());
+        }
+        let (_, sources) = splitter.finish();
+        let (view, mut split) = (packed(&mesh), null_mut());
+        // SAFETY: all pointers are to arrays of the lengths given; what comes back is as long as it says until it is freed.
+        unsafe {
+            ok(darboux_split_vertices(&view, tangents.as_ptr().cast(), tangents.len(), 0, &mut split));
+            let found = &*split;
+            assert_eq!(std::slice::from_raw_parts(found.source_of_vertex, found.vertex_count), sources);
+            assert_eq!(std::slice::from_raw_parts(found.indices, found.index_count), expected);
+            darboux_vertex_split_free(split);
+        }
+    }
+    assert!(count > 20, "{count} meshes");
 }
 
 #[test]
