@@ -81,6 +81,52 @@ test('an OBJ, and what is saved of it', async () => {
   assert.ok('TANGENT' in glbJson(bytes).meshes[0].primitives[0].attributes);
 });
 
+test('on a flat surface every source lights alike, in OBJ and glTF', async () => {
+  const saved = join(folder, 'saved.glb');
+  await viewer.give('files', [join(folder, 'quad.obj')]);
+  writeFileSync(saved, (await viewer.download('#save-model')).bytes);
+  for (const [path, sources] of [[join(folder, 'quad.obj'), ['mikktspace', 'derivatives']], [saved, ['file', 'mikktspace', 'derivatives']]]) {
+    await viewer.give('files', [path]);
+    await viewer.slide('split', 100);
+    const pictures = [];
+    for (const source of sources) {
+      await viewer.choose('left', source);
+      pictures.push(await viewer.picture());
+    }
+    for (const picture of pictures) assert.ok(picture.differs(pictures[0]) < 0.002, path);
+    await viewer.click('#pattern');
+    assert.ok((await viewer.picture()).differs(pictures[0]) > 0.02, 'the domes are seen');
+    await viewer.click('#pattern');
+  }
+});
+
+test('an OBJ with materials and normal map looks the same when it is saved', async () => {
+  const path = join(folder, 'materials');
+  mkdirSync(path);
+  const quad = readFileSync(join(folder, 'quad.obj'), 'utf8').replace(/^f/m, 'mtllib quad.mtl\nusemtl plane\nf');
+  writeFileSync(join(path, 'quad.obj'), quad);
+  writeFileSync(join(path, 'quad.mtl'), 'newmtl plane\nKd 1 1 1\nmap_Kd color.png\nnorm normal.png\n');
+  copyFileSync(asset('TwoSidedPlane/TwoSidedPlane_BaseColor.png'), join(path, 'color.png'));
+  copyFileSync(asset('TwoSidedPlane/TwoSidedPlane_Normal.png'), join(path, 'normal.png'));
+  await viewer.give('folder', path);
+  await viewer.slide('split', 100);
+  await viewer.choose('left', 'mikktspace');
+  const before = await viewer.picture();
+  await viewer.click('#pattern');
+  assert.equal((await viewer.picture()).differs(before), 0, 'it has a normal map of its own');
+  await viewer.click('#pattern');
+  await viewer.slide('split', 0);
+  await viewer.choose('right', 'mikktspace');
+  await viewer.click('#flip-green');
+  assert.ok((await viewer.picture()).differs(before) > 0.02, 'green matters');
+  await viewer.click('#flip-green');
+  await viewer.slide('split', 100);
+  const saved = join(folder, 'materials.glb');
+  writeFileSync(saved, (await viewer.download('#save-model')).bytes);
+  await viewer.give('files', [saved]);
+  assert.ok((await viewer.picture()).differs(before) < 0.01);
+});
+
 test('the report counts as the command does', { skip: !DARBOUX && 'DARBOUX names no command' }, async () => {
   for (const name of ['made/degenerate.gltf', 'made/skinned-morphed-mirrored.gltf']) {
     await viewer.give('files', [asset(name)]);

@@ -13,8 +13,14 @@ export async function openObj(name: string, bytes: Uint8Array<ArrayBuffer>, bund
   const loader = new OBJLoader();
   const library = /^\s*mtllib\s+(.+?)\s*$/m.exec(text)?.[1];
   const materials = library && bundle.get(located(library, name) ?? '');
-  if (materials) loader.setMaterials(new MTLLoader(managerOf(bundle, name)).parse(await materials.text(), ''));
+  const manager = managerOf(bundle, name);
+  const loaded = new Promise<void>((resolve) => (manager.onLoad = resolve));
+  // Holds back the end of loading until all textures have begun, of which there may be none.
+  manager.itemStart(name);
+  if (materials) loader.setMaterials(new MTLLoader(manager).parse(await materials.text(), ''));
   const scene = loader.parse(text);
+  manager.itemEnd(name);
+  await loaded;
   scene.traverse((object) => {
     if (!(object instanceof Mesh)) return;
     object.material = Array.isArray(object.material) ? object.material.map(standard) : standard(object.material);
