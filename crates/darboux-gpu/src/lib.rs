@@ -36,6 +36,8 @@ mod evaluation;
 mod gpu;
 mod kernel;
 mod mikktspace;
+#[cfg(test)]
+mod operations;
 mod pieces;
 mod plan;
 mod reals;

@@ -1,0 +1,121 @@
+//! How many operations kernels take, counted from their shaders: what can be said of speed without a GPU.
+
+use naga::valid::{FunctionInfo, ModuleInfo};
+use naga::{
+    BinaryOperator, Block, Expression, Function, Handle, MathFunction, Module, ScalarKind, Statement,
+    TypeInner,
+};
+
+use crate::kernel::text;
+use crate::reals::{Arithmetic, files};
+
+/// Operations on single numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Cost {
+    /// All but those below.
+    simple: usize,
+    /// Quotients and roots of floats, and of whole numbers: ten times a simple one, or more.
+    slow: usize,
+}
+
+impl Cost {
+    fn plus(self, other: Self) -> Self {
+        Self { simple: self.simple + other.simple, slow: self.slow + other.slow }
+    }
+
+    fn times(self, turns: usize) -> Self {
+        Self { simple: self.simple * turns, slow: self.slow * turns }
+    }
+
+    fn max(self, other: Self) -> Self {
+        if self.simple + 10 * self.slow > other.simple + 10 * other.slow { self } else { other }
+    }
+}
+
+/// A shader, and how often each of its loops turns.
+struct Counter<'a> {
+    module: Module,
+    info: ModuleInfo,
+    turns: &'a dyn Fn(&str) -> usize,
+}
+
+impl Counter<'_> {
+    fn function(&self, function: &Function, info: &FunctionInfo) -> Cost {
+        let name = function.name.as_deref().unwrap_or_default();
+        self.block(&function.body, function, info, (self.turns)(name))
+    }
+
+    fn block(&self, block: &Block, function: &Function, info: &FunctionInfo, turns: usize) -> Cost {
+        let inner = |block: &Block| self.block(block, function, info, turns);
+        let statement = |statement: &Statement| match statement {
+            Statement::Emit(range) => {
+                let costs = range.clone().map(|handle| self.expression(handle, function, info));
+                costs.fold(Cost::default(), Cost::plus)
+            }
+            Statement::Block(block) => inner(block),
+            Statement::If { accept, reject, .. } => inner(accept).max(inner(reject)),
+            Statement::Loop { body, continuing, .. } => inner(body).plus(inner(continuing)).times(turns),
+            Statement::Call { function, .. } => {
+                self.function(&self.module.functions[*function], &self.info[*function])
+            }
+            _ => Cost::default(),
+        };
+        block.iter().map(statement).fold(Cost::default(), Cost::plus)
+    }
+
+    fn expression(&self, handle: Handle<Expression>, function: &Function, info: &FunctionInfo) -> Cost {
+        let inner = info[handle].ty.inner_with(&self.module.types);
+        let (components, kind) = match *inner {
+            TypeInner::Vector { size, scalar } => (size as usize, scalar.kind),
+            TypeInner::Scalar(scalar) => (1, scalar.kind),
+            _ => (1, ScalarKind::Bool),
+        };
+        let is_slow = match function.expressions[handle] {
+            Expression::Binary { op: BinaryOperator::Divide | BinaryOperator::Modulo, .. } => true,
+            Expression::Math { fun: MathFunction::Sqrt, .. } => true,
+            Expression::Math { fun: MathFunction::Dot, .. } => {
+                return Cost { simple: 5, slow: 0 };
+            }
+            Expression::As { convert: None, .. } => return Cost::default(),
+            Expression::Binary { .. }
+            | Expression::Unary { .. }
+            | Expression::Select { .. }
+            | Expression::Math { .. }
+            | Expression::As { .. } => false,
+            _ => return Cost::default(),
+        };
+        // Combining conditions costs what they cost.
+        let simple = if kind == ScalarKind::Bool && components == 1 { 1 } else { components };
+        if is_slow { Cost { simple: 0, slow: components } } else { Cost { simple, slow: 0 } }
+    }
+}
+
+/// The cost of one item of a kernel. `turns`: of the loops of each function.
+fn cost_of_item(arithmetic: Arithmetic, own: &[&'static str], turns: &dyn Fn(&str) -> usize) -> Cost {
+    let text = text(&files(arithmetic, false, own));
+    let module = naga::front::wgsl::parse_str(&text).expect("a valid shader");
+    let mut validator = naga::valid::Validator::new(Default::default(), naga::valid::Capabilities::empty());
+    let info = validator.validate(&module).expect("a valid shader");
+    let counter = Counter { module, info, turns };
+    let run = counter.module.functions.iter().find(|(_, function)| function.name.as_deref() == Some("run"));
+    let (handle, function) = run.expect("a kernel's function");
+    counter.function(function, &counter.info[handle])
+}
+
+#[test]
+fn operations_are_as_many_as_the_notes_say() {
+    use crate::evaluation::{DERIVATIVES, EVALUATE, WEDGES};
+    use crate::plan::{GATHER, TERMS};
+    // Of a large regular mesh: six triangles at a vertex, two vertices' sums per four triangles.
+    let of_vertex = |name: &str| if name == "run" { 6 } else { 3 };
+    let of_triangle = |name: &str| if name == "arccosine_of_large" || name == "root64" { 6 } else { 3 };
+    for arithmetic in [Arithmetic::Exact, Arithmetic::Fast] {
+        let terms = cost_of_item(arithmetic, TERMS, &of_triangle);
+        let gather = cost_of_item(arithmetic, GATHER, &of_vertex);
+        println!("{arithmetic:?} plan: {terms:?} per triangle, {gather:?} per sum");
+        let derivatives = cost_of_item(arithmetic, DERIVATIVES, &of_triangle);
+        let wedges = cost_of_item(arithmetic, WEDGES, &of_triangle);
+        let evaluate = cost_of_item(arithmetic, EVALUATE, &of_vertex);
+        println!("{arithmetic:?} run: {derivatives:?} and {wedges:?} per triangle, {evaluate:?} per corner");
+    }
+}
