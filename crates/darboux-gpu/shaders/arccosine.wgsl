@@ -44,7 +44,6 @@ fn float_of_double(a: vec2u, scale: i32) -> f32 {
 fn arccosine(x: f32) -> f32 {
     let word = bitcast<u32>(x);
     let is_negative = (word & SIGN) != 0u;
-    is_unsure = is_unsure || (word & ~SIGN) > ONE;
     // |x| = significand 2^(exponent - 23)
     let significand = significand_of(word);
     let exponent = exponent_of(word) - 127;

@@ -16,10 +16,21 @@ fn derivative(p0: V3, p1: V3, p2: V3, uv0: vec2<Real>, uv1: vec2<Real>, uv2: vec
     let dv1 = minus(uv1.y, uv0.y);
     let du2 = minus(uv2.x, uv0.x);
     let dv2 = minus(uv2.y, uv0.y);
-    let area = minus(times(du1, dv2), times(dv1, du2));
+    let first = times(du1, dv2);
+    let second = times(dv1, du2);
+    let area = minus(first, second);
+    watch_vector(e1);
+    watch_vector(e2);
+    watch(du1);
+    watch(dv1);
+    watch(du2);
+    watch(dv2);
+    watch(area);
+    watch_cancelling(area, first, second);
     var out: Derivative;
-    out.s = less(scaled(dv2, e1), scaled(dv1, e2));
-    out.t = added(scaled(negated(du2), e1), scaled(du1, e2));
+    out.s = difference_of_scaled(dv2, e1, dv1, e2);
+    // The core has -du2 e1 + du1 e2: the same but for the signs of zeros.
+    out.t = difference_of_scaled(du1, e2, du2, e1);
     out.preserves = is_above(area, real(0u));
     out.any = true;
     if not_zero(area) {

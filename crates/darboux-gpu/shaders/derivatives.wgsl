@@ -5,7 +5,10 @@
 @group(0) @binding(4) var<storage, read_write> marks: array<u32>;
 
 fn uv_at(start: u32) -> vec2<Real> {
-    return vec2<Real>(real(vertices[start + mesh.uv]), real(vertices[start + mesh.uv + 1u]));
+    let found = vec2<Real>(real(vertices[start + mesh.uv]), real(vertices[start + mesh.uv + 1u]));
+    watch(found.x);
+    watch(found.y);
+    return found;
 }
 
 fn run(t: u32) {
@@ -24,10 +27,10 @@ fn run(t: u32) {
         uv_at(starts.z),
     );
     for (var axis = 0u; axis < 3u; axis++) {
-        derivative_of_triangle[8u * t + axis] = word_of(found.s[axis]);
-        derivative_of_triangle[8u * t + 3u + axis] = word_of(found.t[axis]);
+        derivative_of_triangle[8u * t + axis] = stored(found.s[axis]);
+        derivative_of_triangle[8u * t + 3u + axis] = stored(found.t[axis]);
     }
-    derivative_of_triangle[8u * t + 6u] = word_of(found.magnitude.x);
-    derivative_of_triangle[8u * t + 7u] = word_of(found.magnitude.y);
+    derivative_of_triangle[8u * t + 6u] = stored(found.magnitude.x);
+    derivative_of_triangle[8u * t + 7u] = stored(found.magnitude.y);
     marks[t] = select(0u, PRESERVES, found.preserves) | select(0u, ANY, found.any);
 }

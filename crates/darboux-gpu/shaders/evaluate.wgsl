@@ -61,12 +61,14 @@ fn estimate(a: V3, b: V3) -> f32 {
 fn are_near(a: Wedge, b: Wedge) -> bool {
     let threshold = real(evaluation.threshold_cosine);
     if (a.flags & b.flags & BOUNDED) != 0u && !is_nan(evaluation.threshold_cosine) {
-        let least = min(estimate(a.s, b.s), estimate(a.t, b.t)) - bitcast<f32>(evaluation.threshold_cosine);
-        if abs(least) > DOUBT {
-            return least > 0.0;
+        let above = min(estimate(a.s, b.s), estimate(a.t, b.t)) - bitcast<f32>(evaluation.threshold_cosine);
+        if abs(above) > DOUBT {
+            return above > 0.0;
         }
+    } else {
+        give_up();
     }
-    return is_above(dotted(a.s, b.s), threshold) && is_above(dotted(a.t, b.t), threshold);
+    return is_above(watched_dot(a.s, b.s), threshold) && is_above(watched_dot(a.t, b.t), threshold);
 }
 
 fn corner_at(triangle: u32, vertex: u32) -> u32 {
@@ -89,13 +91,32 @@ struct Sums {
     weight: Real,
 }
 
+// Of what is wide no sum vanishes that should not.
+fn watched_term(weight: Real, direction: V3) -> V3 {
+    watch_wide(direction.x);
+    watch_wide(direction.y);
+    watch_wide(direction.z);
+    let term = scaled(weight, direction);
+    watch_wide(term.x);
+    watch_wide(term.y);
+    watch_wide(term.z);
+    return term;
+}
+
 fn add(sums: ptr<function, Sums>, corner: u32, own: Wedge) {
     let weight = real(wedge_of_corner[8u * corner + 3u]);
     let of_triangle = 8u * (corner / 3u) + 6u;
-    (*sums).s = added((*sums).s, scaled(weight, own.s));
-    (*sums).t = added((*sums).t, scaled(weight, own.t));
-    let x = times(weight, real(derivative_of_triangle[of_triangle]));
-    let y = times(weight, real(derivative_of_triangle[of_triangle + 1u]));
+    let s = watched_term(weight, own.s);
+    let t = watched_term(weight, own.t);
+    let magnitude_x = real(derivative_of_triangle[of_triangle]);
+    let magnitude_y = real(derivative_of_triangle[of_triangle + 1u]);
+    watch(weight);
+    watch_wide(magnitude_x);
+    watch_wide(magnitude_y);
+    (*sums).s = added((*sums).s, s);
+    (*sums).t = added((*sums).t, t);
+    let x = times(weight, magnitude_x);
+    let y = times(weight, magnitude_y);
     (*sums).magnitude = vec2<Real>(plus((*sums).magnitude.x, x), plus((*sums).magnitude.y, y));
     (*sums).weight = plus((*sums).weight, weight);
 }
@@ -108,11 +129,11 @@ fn store(corner: u32, sums: Sums) {
     let tangent = direction(sums.s);
     let bitangent = direction(sums.t);
     for (var axis = 0u; axis < 3u; axis++) {
-        frame_of_corner[8u * corner + axis] = word_of(tangent[axis]);
-        frame_of_corner[8u * corner + 3u + axis] = word_of(bitangent[axis]);
+        frame_of_corner[8u * corner + axis] = stored(tangent[axis]);
+        frame_of_corner[8u * corner + 3u + axis] = stored(bitangent[axis]);
     }
-    frame_of_corner[8u * corner + 6u] = word_of(magnitude.x);
-    frame_of_corner[8u * corner + 7u] = word_of(magnitude.y);
+    frame_of_corner[8u * corner + 6u] = stored(magnitude.x);
+    frame_of_corner[8u * corner + 7u] = stored(magnitude.y);
 }
 
 fn run(corner: u32) {

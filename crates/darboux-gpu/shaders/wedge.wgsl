@@ -2,7 +2,11 @@
 // the corner there. The twin of `term` of the core's tangents/evaluate.rs.
 
 fn angle_at(normal: V3, before: V3, here: V3, after: V3) -> Real {
-    let to_before = direction_in_plane(normal, less(before, here));
-    let to_after = direction_in_plane(normal, less(after, here));
+    let edge_before = less(before, here);
+    let edge_after = less(after, here);
+    watch_vector(edge_before);
+    watch_vector(edge_after);
+    let to_before = direction_in_plane(normal, edge_before);
+    let to_after = direction_in_plane(normal, edge_after);
     return angle(dotted(to_before, to_after));
 }

@@ -6,11 +6,13 @@
 @group(0) @binding(5) var<storage, read_write> wedge_of_corner: array<u32>;
 
 fn load_derivative(word: u32) -> V3 {
-    return V3(
+    let found = V3(
         real(derivative_of_triangle[word]),
         real(derivative_of_triangle[word + 1u]),
         real(derivative_of_triangle[word + 2u]),
     );
+    watch_vector(found);
+    return found;
 }
 
 // True for what no component of a unit vector is larger than, whatever it was rounded from.
@@ -25,26 +27,28 @@ fn run(t: u32) {
         return;
     }
     let starts = corners * mesh.vertex_stride;
+    if (marks[t] & ANY) != 0u {
+        for (var k = 0u; k < 3u; k++) {
+            wedge_of_corner[8u * (3u * t + k) + 7u] = marks[t];
+        }
+        return;
+    }
     let s = load_derivative(8u * t);
     let other = load_derivative(8u * t + 3u);
     for (var k = 0u; k < 3u; k++) {
         let out = 8u * (3u * t + k);
-        var flags = marks[t];
-        if (flags & ANY) == 0u {
-            let normal = load_vector(starts[k] + mesh.normal);
-            let here = load_vector(starts[k] + mesh.position);
-            let before = load_vector(starts[(k + 2u) % 3u] + mesh.position);
-            let after = load_vector(starts[(k + 1u) % 3u] + mesh.position);
-            let across_s = direction_in_plane(normal, s);
-            let across_t = direction_in_plane(normal, other);
-            for (var axis = 0u; axis < 3u; axis++) {
-                wedge_of_corner[out + axis] = word_of(across_s[axis]);
-                wedge_of_corner[out + 4u + axis] = word_of(across_t[axis]);
-            }
-            wedge_of_corner[out + 3u] = word_of(angle_at(normal, before, here, after));
-            flags |= select(0u, BOUNDED, is_bounded(across_s) && is_bounded(across_t));
+        let normal = load_vector(starts[k] + mesh.normal);
+        let here = load_vector(starts[k] + mesh.position);
+        let before = load_vector(starts[(k + 2u) % 3u] + mesh.position);
+        let after = load_vector(starts[(k + 1u) % 3u] + mesh.position);
+        let across_s = direction_in_plane(normal, s);
+        let across_t = direction_in_plane(normal, other);
+        for (var axis = 0u; axis < 3u; axis++) {
+            wedge_of_corner[out + axis] = stored(across_s[axis]);
+            wedge_of_corner[out + 4u + axis] = stored(across_t[axis]);
         }
-        wedge_of_corner[out + 7u] = flags;
+        wedge_of_corner[out + 3u] = stored(angle_at(normal, before, here, after));
+        wedge_of_corner[out + 7u] = marks[t] | select(0u, BOUNDED, is_bounded(across_s) && is_bounded(across_t));
     }
 }
 

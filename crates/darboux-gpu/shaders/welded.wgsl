@@ -11,7 +11,9 @@ const ANY: u32 = 2u;
 const SECOND_HALF: u32 = 8u;
 
 fn load_vector(word: u32) -> V3 {
-    return V3(real(vertices[word]), real(vertices[word + 1u]), real(vertices[word + 2u]));
+    let found = V3(real(vertices[word]), real(vertices[word + 1u]), real(vertices[word + 2u]));
+    watch_vector(found);
+    return found;
 }
 
 fn item_count() -> u32 {

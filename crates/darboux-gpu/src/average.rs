@@ -158,9 +158,10 @@ const IN_PLACE: &str = include_str!("../shaders/in_place.wgsl");
 const SECOND_BUFFER: &str = include_str!("../shaders/second_buffer.wgsl");
 
 /// The files of a shader, by search and where frames go.
-fn files(search: Search, storage: &'static str) -> [&'static str; 6] {
+fn files(search: Search, storage: &'static str) -> [&'static str; 7] {
     [
         include_str!("../shaders/mesh.wgsl"),
+        include_str!("../shaders/device.wgsl"),
         include_str!("../shaders/exact.wgsl"),
         storage,
         include_str!("../shaders/average.wgsl"),
@@ -189,6 +190,7 @@ pub(crate) mod tests {
         validate(SCAN);
         validate(&[
             "fn zero() -> u32 { return 0u; }",
+            include_str!("../shaders/device.wgsl"),
             include_str!("../shaders/exact.wgsl"),
             include_str!("../shaders/whole.wgsl"),
             include_str!("../shaders/soft.wgsl"),

@@ -60,7 +60,18 @@ impl Counter<'_> {
             }
             _ => Cost::default(),
         };
-        block.iter().map(statement).fold(Cost::default(), Cost::plus)
+        let mut total = Cost::default();
+        for (at, found) in block.iter().enumerate() {
+            // What returns early does not do the rest.
+            if let Statement::If { accept, reject, .. } = found
+                && accept.last().is_some_and(|last| matches!(last, Statement::Return { .. }))
+            {
+                let rest: Block = block[at + 1..].to_vec().into();
+                return total.plus(inner(accept).max(inner(reject).plus(inner(&rest))));
+            }
+            total = total.plus(statement(found));
+        }
+        total
     }
 
     fn expression(&self, handle: Handle<Expression>, function: &Function, info: &FunctionInfo) -> Cost {

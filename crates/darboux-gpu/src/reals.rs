@@ -30,44 +30,40 @@ pub enum Arithmetic {
     Exact,
     /// Whole numbers alone, after floats have been tried: what a device would do that is never sure. For tests.
     Soft,
+    /// As `Exact`, on a device that takes every liberty with floats. For tests.
+    Hostile,
     /// Floats as the device rounds them.
     Fast,
 }
 
-/// The files that a kernel's own come after, and what runs them.
-fn pieces(arithmetic: Arithmetic, second: bool) -> [&'static [&'static str]; 2] {
-    const EXACT: &[&str] = &[
-        include_str!("../shaders/exact.wgsl"),
-        include_str!("../shaders/whole.wgsl"),
-        include_str!("../shaders/arccosine.wgsl"),
-        include_str!("../shaders/reals/exact.wgsl"),
-        include_str!("../shaders/vectors.wgsl"),
-    ];
-    const SOFT: &[&str] = &[
-        include_str!("../shaders/exact.wgsl"),
-        include_str!("../shaders/whole.wgsl"),
-        include_str!("../shaders/soft.wgsl"),
-        include_str!("../shaders/arccosine.wgsl"),
-        include_str!("../shaders/reals/soft.wgsl"),
-        include_str!("../shaders/vectors.wgsl"),
-    ];
-    const FAST: &[&str] =
-        &[include_str!("../shaders/reals/fast.wgsl"), include_str!("../shaders/vectors.wgsl")];
-    const SURE: &str = include_str!("../shaders/items/sure.wgsl");
-    const LISTED: &str = include_str!("../shaders/items/listed.wgsl");
-    match (arithmetic, second) {
-        (Arithmetic::Fast, false) => [FAST, &[include_str!("../shaders/items/all.wgsl")]],
-        (Arithmetic::Fast, true) => [FAST, &[LISTED]],
-        (_, true) => [SOFT, &[LISTED]],
-        (Arithmetic::Exact, _) => [EXACT, &["const ALL_UNSURE: bool = false;", SURE]],
-        (Arithmetic::Soft, _) => [EXACT, &["const ALL_UNSURE: bool = true;", SURE]],
-    }
-}
+const DEVICE: &str = include_str!("../shaders/device.wgsl");
+const HOSTILE: &str = include_str!("../shaders/hostile.wgsl");
+const WHOLE: &[&str] = &[
+    include_str!("../shaders/exact.wgsl"),
+    include_str!("../shaders/whole.wgsl"),
+    include_str!("../shaders/arccosine.wgsl"),
+];
+const EXACT: &str = include_str!("../shaders/reals/exact.wgsl");
+const SOFT: &[&str] = &[include_str!("../shaders/soft.wgsl"), include_str!("../shaders/reals/soft.wgsl")];
+const FAST: &str = include_str!("../shaders/reals/fast.wgsl");
+const VECTORS: &str = include_str!("../shaders/vectors.wgsl");
+const ALL: &str = include_str!("../shaders/items/all.wgsl");
+const SURE: &str = include_str!("../shaders/items/sure.wgsl");
+const LISTED: &str = include_str!("../shaders/items/listed.wgsl");
 
 /// The whole text of a kernel: arithmetic, its own files, and what calls these. `second`: with what a first kernel has listed.
 pub(crate) fn files(arithmetic: Arithmetic, second: bool, own: &[&'static str]) -> Vec<&'static str> {
-    let [arithmetic, items] = pieces(arithmetic, second);
-    [arithmetic, own, items].concat()
+    let device = if arithmetic == Arithmetic::Hostile { HOSTILE } else { DEVICE };
+    let (first, last): (&[&[&str]], &[&str]) = match (arithmetic, second) {
+        (Arithmetic::Fast, false) => (&[&[FAST]], &[ALL]),
+        (Arithmetic::Fast, true) => (&[&[FAST]], &[LISTED]),
+        (_, true) => (&[&[device], WHOLE, SOFT], &[LISTED]),
+        (Arithmetic::Soft, false) => {
+            (&[&[device], WHOLE, &[EXACT]], &["const ALL_UNSURE: bool = true;", SURE])
+        }
+        (_, false) => (&[&[device], WHOLE, &[EXACT]], &["const ALL_UNSURE: bool = false;", SURE]),
+    };
+    [&first.concat()[..], &[VECTORS], own, last].concat()
 }
 
 /// A kernel, compiled.
@@ -175,7 +171,7 @@ mod tests {
 
     #[test]
     fn shaders_are_valid_in_every_arithmetic() {
-        for arithmetic in [Arithmetic::Exact, Arithmetic::Soft, Arithmetic::Fast] {
+        for arithmetic in [Arithmetic::Exact, Arithmetic::Soft, Arithmetic::Hostile, Arithmetic::Fast] {
             for own in [DERIVATIVES, WEDGES, EVALUATE, TERMS, GATHER] {
                 validate(&files(arithmetic, false, own));
                 validate(&files(arithmetic, true, own));

@@ -83,7 +83,9 @@ fn check_replaced(name: &str, corner: usize, [x, y, z, _]: [f32; 4], [base, move
 #[test]
 fn moved_meshes_have_the_core_s_bits() {
     for gpu in gpus() {
-        for (arithmetic, seeds) in [(Arithmetic::Exact, 0..900), (Arithmetic::Soft, 0..100)] {
+        let arithmetics =
+            [(Arithmetic::Exact, 0..900), (Arithmetic::Hostile, 0..900), (Arithmetic::Soft, 0..100)];
+        for (arithmetic, seeds) in arithmetics {
             let planner = Planner::with_arithmetic(&gpu.device, arithmetic);
             let mut tally = Tally::default();
             for seed in seeds {

@@ -12,7 +12,7 @@ struct Unsure {
 @group(0) @binding(9) var<storage, read_write> unsure: Unsure;
 
 fn is_left() -> bool {
-    return is_unsure || ALL_UNSURE;
+    return is_unsure() || ALL_UNSURE;
 }
 
 @compute @workgroup_size(WORKGROUP)

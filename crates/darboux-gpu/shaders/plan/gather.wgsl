@@ -57,6 +57,9 @@ fn run(sum: u32) {
             real(term_of_corner[word + 1u]),
             real(term_of_corner[word + 2u]),
         );
+        watch_wide(term.x);
+        watch_wide(term.y);
+        watch_wide(term.z);
         total = added(total, term);
     }
     // What no group reaches has a tangent of its own.
@@ -64,9 +67,9 @@ fn run(sum: u32) {
     if start < end {
         tangent = direction(total);
     }
-    tangent_of_sum[4u * sum] = word_of(tangent.x);
-    tangent_of_sum[4u * sum + 1u] = word_of(tangent.y);
-    tangent_of_sum[4u * sum + 2u] = word_of(tangent.z);
+    tangent_of_sum[4u * sum] = stored(tangent.x);
+    tangent_of_sum[4u * sum + 1u] = stored(tangent.y);
+    tangent_of_sum[4u * sum + 2u] = stored(tangent.z);
     if plan.repairs == 0u || is_left() {
         return;
     }

@@ -16,16 +16,21 @@ fn run(t: u32) {
     for (var k = 0u; k < 3u; k++) {
         at[k] = position_of(triangle.vertices[k], triangle.representatives[k]);
     }
-    let raw = less(scaled(triangle.dv.y, less(at[1], at[0])), scaled(triangle.dv.x, less(at[2], at[0])));
+    let e1 = less(at[1], at[0]);
+    let e2 = less(at[2], at[0]);
+    watch_vector(e1);
+    watch_vector(e2);
+    let raw = difference_of_scaled(triangle.dv.y, e1, triangle.dv.x, e2);
     let sign = real(select(ONE, ONE | SIGN, (triangle.marks.x & MIRRORS) != 0u));
     let s = unit_unless_zero(sign, length_of(raw), raw);
+    watch_vector(s);
     for (var k = 0u; k < 3u; k++) {
         let normal = load_normal(triangle.representatives[k]);
         let weight = angle_at(normal, at[(k + 2u) % 3u], at[k], at[(k + 1u) % 3u]);
         let term = scaled(weight, direction_in_plane(normal, s));
         let word = 3u * (3u * t + k);
-        term_of_corner[word] = word_of(term.x);
-        term_of_corner[word + 1u] = word_of(term.y);
-        term_of_corner[word + 2u] = word_of(term.z);
+        term_of_corner[word] = stored(term.x);
+        term_of_corner[word + 1u] = stored(term.y);
+        term_of_corner[word + 2u] = stored(term.z);
     }
 }

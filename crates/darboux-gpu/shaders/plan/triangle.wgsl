@@ -33,17 +33,23 @@ fn load_triangle(t: u32) -> Triangle {
         names = vec3u(representatives[own.x], representatives[own.y], representatives[own.z]);
     }
     let dv = vec2<Real>(real(triangles[word + 3u]), real(triangles[word + 4u]));
+    watch(dv.x);
+    watch(dv.y);
     return Triangle(own, names, corners & ~vec3u(VERTEX), dv);
 }
 
 fn load_position(vertex: u32) -> V3 {
     let word = vertex * plan.position_stride + plan.position;
-    return V3(real(positions[word]), real(positions[word + 1u]), real(positions[word + 2u]));
+    let found = V3(real(positions[word]), real(positions[word + 1u]), real(positions[word + 2u]));
+    watch_vector(found);
+    return found;
 }
 
 fn load_normal(vertex: u32) -> V3 {
     let word = vertex * plan.normal_stride + plan.normal;
-    return V3(real(normals[word]), real(normals[word + 1u]), real(normals[word + 2u]));
+    let found = V3(real(normals[word]), real(normals[word + 1u]), real(normals[word + 2u]));
+    watch_vector(found);
+    return found;
 }
 
 fn are_equal_words(a: u32, b: u32) -> bool {

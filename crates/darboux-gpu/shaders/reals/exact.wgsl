@@ -1,8 +1,54 @@
-// Real numbers as the device's own floats, rounded as the CPU's; needs exact.wgsl, whole.wgsl, arccosine.wgsl. What these are unsure of is
-// done again with reals/soft.wgsl. Stages are written in the functions of these files alone, so that each is one text in all
-// three arithmetics.
+// Real numbers as the device's own floats, rounded as the CPU's; needs exact.wgsl, whole.wgsl, arccosine.wgsl. Stages are written in the functions
+// of these files alone, so that each is one text in all three arithmetics.
+//
+// Nothing is looked at operation by operation. Stages let vectors and sums be watched where they are small in number, such that no
+// operation between can have met or made a number that is subnormal, infinite or NaN: with what is not zero in [2^-62, 2^40],
+// - products and squares are at least 2^-124, and lengths, their reciprocals and quotients far from both ends;
+// - a difference is a multiple of the last unit of what it is of, so at least 2^-86;
+// - a sum of products can only vanish that should not where all of them are below 2^-102: so where it is zero, these are watched.
+// The sign of a zero never shows in sums of terms, which begin at +0; what is stored has none.
+//
+// What was unsure is done again with reals/soft.wgsl.
 
 alias Real = f32;
+
+// The least and the largest that were watched, as words times two, less one where zeros do not count.
+var<private> least: u32 = 0xffffffffu;
+var<private> largest: u32 = 0u;
+var<private> least_of_wide: u32 = 0xffffffffu;
+var<private> largest_of_wide: u32 = 0u;
+var<private> is_lost: bool = false;
+
+fn is_unsure() -> bool {
+    let is_small = least < (65u << 24u) - 1u || least_of_wide < (25u << 24u) - 1u;
+    return is_lost || is_small || largest > (167u << 24u) || largest_of_wide > (229u << 24u);
+}
+
+// In [2^-62, 2^40], or zero.
+fn watch(a: Real) {
+    let word = bitcast<u32>(a) << 1u;
+    least = min(least, word - 1u);
+    largest = max(largest, word);
+}
+
+// In [2^-102, 2^102], or zero.
+fn watch_wide(a: Real) {
+    let word = bitcast<u32>(a) << 1u;
+    least_of_wide = min(least_of_wide, word - 1u);
+    largest_of_wide = max(largest_of_wide, word);
+}
+
+// Of two products that are `total` together, zero where they cancel.
+fn watch_cancelling(total: Real, a: Real, b: Real) {
+    if is_zero(bitcast<u32>(total)) {
+        watch_wide(a);
+        watch_wide(b);
+    }
+}
+
+fn give_up() {
+    is_lost = true;
+}
 
 fn real(word: u32) -> Real {
     return bitcast<f32>(word);
@@ -10,6 +56,12 @@ fn real(word: u32) -> Real {
 
 fn word_of(a: Real) -> u32 {
     return bitcast<u32>(a);
+}
+
+// The word that is kept of a result: where arithmetic is sure, no zero of the core's has a sign.
+fn stored(a: Real) -> u32 {
+    let word = bitcast<u32>(a);
+    return select(word, 0u, is_zero(word));
 }
 
 // For estimates, whose errors the caller allows for.
@@ -38,7 +90,7 @@ fn root_of(a: Real) -> Real {
 }
 
 fn is_above(a: Real, b: Real) -> bool {
-    return is_less(b, a);
+    return a > b;
 }
 
 fn arccosine_of(a: Real) -> Real {

@@ -5,11 +5,28 @@ alias Real = f32;
 const SIGN: u32 = 0x80000000u;
 const ONE: u32 = 0x3f800000u;
 
+// Nothing to watch here.
+fn is_unsure() -> bool {
+    return false;
+}
+
+fn watch(a: Real) {}
+
+fn watch_wide(a: Real) {}
+
+fn watch_cancelling(total: Real, a: Real, b: Real) {}
+
+fn give_up() {}
+
 fn real(word: u32) -> Real {
     return bitcast<f32>(word);
 }
 
 fn word_of(a: Real) -> u32 {
+    return bitcast<u32>(a);
+}
+
+fn stored(a: Real) -> u32 {
     return bitcast<u32>(a);
 }
 

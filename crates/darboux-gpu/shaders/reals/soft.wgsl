@@ -3,11 +3,28 @@
 
 alias Real = u32;
 
+// Nothing to watch here.
+fn is_unsure() -> bool {
+    return false;
+}
+
+fn watch(a: Real) {}
+
+fn watch_wide(a: Real) {}
+
+fn watch_cancelling(total: Real, a: Real, b: Real) {}
+
+fn give_up() {}
+
 fn real(word: u32) -> Real {
     return word;
 }
 
 fn word_of(a: Real) -> u32 {
+    return a;
+}
+
+fn stored(a: Real) -> u32 {
     return a;
 }
 
