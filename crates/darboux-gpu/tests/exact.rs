@@ -11,7 +11,7 @@ const FILES: &[&str] = &[
     include_str!("../shaders/whole.wgsl"),
     include_str!("../shaders/soft.wgsl"),
 ];
-const STEPS: usize = 3_000_000;
+const STEPS: usize = 1_500_000;
 
 /// The splitmix64 sequence.
 struct Random(u64);
