@@ -117,7 +117,7 @@ fn short_arcsine_tail(t: u32, twice: u32) -> u32 {
 // What sums and differences of arcsines are off by, at most, times 2^62: arcsines themselves are too small.
 const SHORT_ERROR: vec2u = vec2u(0u, 0x40000000u);
 
-// The arccosine of x in [-1, 1]: an estimate to 2^-32, and where its two ends are not one float, for one in 450 of all floats, the long way.
+// The arccosine of x in [-1, 1]: an estimate to 2^-32, and where its two ends are not one float, for one in 500 of all floats, the long way.
 fn arccosine(x: f32) -> f32 {
     let word = bitcast<u32>(x);
     let is_negative = (word & SIGN) != 0u;
