@@ -23,6 +23,7 @@ struct Evaluation {
 
 const NONE: u32 = 0xffffffffu;
 const ANY: u32 = 2u;
+// The triangle before is the other half of its quad.
 const SECOND_HALF: u32 = 8u;
 const BOUNDED: u32 = 16u;
 // Far more than the errors of dot products of what is bounded.

@@ -7,8 +7,6 @@ const NONE: u32 = 0xffffffffu;
 const PRESERVES: u32 = 1u;
 // It is UV-degenerate: it goes with any group, and adds nothing.
 const ANY: u32 = 2u;
-// The triangle before is the other half of its quad.
-const SECOND_HALF: u32 = 8u;
 
 fn load_vector(word: u32) -> V3 {
     let found = V3(real(vertices[word]), real(vertices[word + 1u]), real(vertices[word + 2u]));

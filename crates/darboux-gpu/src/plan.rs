@@ -41,6 +41,31 @@ pub(crate) const WRITE_NORMALS: &[&str] = &[PLAN, include_str!("../shaders/plan/
 pub(crate) const WRITE: &[&str] = &[PLAN, include_str!("../shaders/plan/write.wgsl")];
 
 /// What plans need, compiled once for a device.
+///
+/// ```no_run
+/// use darboux::{Mesh, TangentOptions};
+/// use darboux_gpu::{Attribute, GpuError, MovingMesh, Per, Planner, Precision};
+///
+/// # fn plan(
+/// #     device: &wgpu::Device, mesh: &Mesh<'_>, vertices: &wgpu::Buffer, encoder: &mut wgpu::CommandEncoder,
+/// # ) -> Result<(), GpuError> {
+/// let plan = Planner::new(device, Precision::Exact).plan(mesh, &TangentOptions::default())?;
+/// // A vertex of 12 floats: position, normal, UV, tangent.
+/// let part = |offset| Attribute { buffer: vertices, stride: 48, offset };
+/// let moving = MovingMesh {
+///     vertex_count: mesh.vertex_count() as u32,
+///     positions: part(0),
+///     normals: part(12),
+///     tangents: part(32),
+///     per: Per::Vertex,
+/// };
+/// let every_frame = plan.of_buffers(&moving)?;
+///
+/// // After the pass that moves the vertices:
+/// every_frame.record(encoder);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug)]
 pub struct Planner {
     device: Device,
