@@ -18,7 +18,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("darboux-tests", &["darboux", "darboux-io", "darboux-cli"]),
     ("darboux-shader-tests", &["darboux"]),
     ("darboux-benches", &["darboux", "darboux-io", "darboux-tests"]),
-    ("darboux-fuzz", &["darboux", "darboux-io", "darboux-tests"]),
+    ("darboux-fuzz", &["darboux", "darboux-c", "darboux-io", "darboux-tests"]),
     ("xtask", &[]),
 ];
 
