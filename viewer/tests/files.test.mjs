@@ -107,7 +107,7 @@ test('an OBJ with materials and normal map looks the same when it is saved', asy
   writeFileSync(join(path, 'quad.obj'), quad);
   writeFileSync(join(path, 'quad.mtl'), 'newmtl plane\nKd 1 1 1\nmap_Kd color.png\nnorm normal.png\n');
   copyFileSync(asset('TwoSidedPlane/TwoSidedPlane_BaseColor.png'), join(path, 'color.png'));
-  copyFileSync(asset('TwoSidedPlane/TwoSidedPlane_Normal.png'), join(path, 'normal.png'));
+  writeFileSync(join(path, 'normal.png'), await normalMapOfSample());
   await viewer.give('folder', path);
   await viewer.slide('split', 100);
   await viewer.choose('left', 'mikktspace');
@@ -253,6 +253,15 @@ test('darboux view shows its model', { skip: !DARBOUX && 'DARBOUX names no comma
     command.kill();
   }
 });
+
+/** The normal map of the model that the page opens with: scales, which look otherwise upside down. */
+async function normalMapOfSample() {
+  const bytes = Buffer.from(await (await fetch(`${server.address}shield.glb`)).arrayBuffer());
+  const { bufferViews, images } = glbJson(bytes);
+  const { byteOffset, byteLength } = bufferViews[images[0].bufferView];
+  const start = 20 + bytes.readUInt32LE(12) + 8 + byteOffset;
+  return bytes.subarray(start, start + byteLength);
+}
 
 /** The JSON of a GLB. */
 function glbJson(bytes) {
