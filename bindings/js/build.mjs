@@ -13,8 +13,8 @@ const [modules, out, version] = process.argv.slice(2);
 /** What users import, each with a WebAssembly module of its name. */
 const ENTRIES = ['darboux', 'tangents'];
 
-/** What users import beside, over one of those. */
-const ADAPTERS = ['three', 'gltf-transform', 'mikktspace'];
+/** What users import beside, most of it over one of those. */
+const ADAPTERS = ['three', 'gltf-transform', 'mikktspace', 'webgpu'];
 
 /** What the compiler uses without being told. */
 const FEATURES = ['bulk-memory', 'bulk-memory-opt', 'nontrapping-float-to-int', 'sign-ext', 'mutable-globals', 'reference-types', 'multivalue', 'call-indirect-overlong'];
@@ -61,6 +61,7 @@ const common = {
   platform: 'neutral',
   plugins: [deflated],
   external: ['*.scalar.js', 'three'],
+  loader: { '.wgsl': 'text' },
   logLevel: 'warning',
 };
 
@@ -85,7 +86,7 @@ for (const entry of ENTRIES) {
 await bundleAdapters();
 run('tsc', '-p', 'lib', '--outDir', out);
 for (const inner of ['all', 'engine', 'mesh', ...ENTRIES.map((entry) => `${entry}.scalar`)]) rmSync(join(out, `${inner}.d.ts`));
-rmSync(join(out, 'gltf'), { recursive: true });
+for (const inner of ['gltf', 'gpu']) rmSync(join(out, inner), { recursive: true });
 for (const name of [...ENTRIES, ...ADAPTERS, 'plan', 'types']) {
   const types = readFileSync(join(out, `${name}.d.ts`), 'utf8');
   writeFileSync(join(out, `${name}.d.cts`), types.replaceAll(/from '(.*)\.js'/g, "from '$1.cjs'"));

@@ -1,7 +1,7 @@
 // `darboux`: everything.
 
 import { choices, engine, report, surface } from './all.js';
-import { checkIndices, choice, degrees, floats, indexError, mesh, must, rows, whole, write, writeArrays } from './mesh.js';
+import { checkIndices, checkOut, choice, degrees, floats, indexError, mesh, must, rows, whole, write, writeArrays } from './mesh.js';
 import type * as types from './types.js';
 
 export { Plan } from './plan.js';
@@ -29,16 +29,18 @@ export const ready: Promise<void> = engine.ready;
  * @param normals 3 per vertex, used as given; they should be unit length.
  * @param uvs 2 per vertex.
  * @param indices The vertex of each corner; without, every vertex is a corner of its own.
+ * @param out Receives the tangents, 4 per corner, and is returned: arrays that are used again cost less than new ones.
  * @returns 4 per corner.
  * @throws TypeError for arrays of another kind; RangeError for lengths that differ, an index out of range, corners that are not whole faces.
  */
-export function generateTangents(
+export function generateTangents<Out extends Float32Array = Float32Array<ArrayBuffer>>(
   positions: Float32Array,
   normals: Float32Array,
   uvs: Float32Array,
   indices?: types.Indices | null,
   options?: types.TangentOptions & { returnReport?: false },
-): Float32Array<ArrayBuffer>;
+  out?: Out,
+): Out;
 /** As above, with the report of the run. */
 export function generateTangents(
   positions: Float32Array,
@@ -53,15 +55,17 @@ export function generateTangents(
   uvs: Float32Array,
   indices?: types.Indices | null,
   options: types.TangentOptions & { returnReport?: boolean } = {},
-): Float32Array<ArrayBuffer> | types.ReportedTangents {
+  out?: Float32Array,
+): Float32Array | types.ReportedTangents {
   const given = surface(positions, normals, uvs, indices, options);
   const chosen = choices(options);
+  if (out) checkOut(out, given.corners);
   return engine.call((exports) => {
     write(exports, given);
     const place = exports.generate_tangents(...chosen);
     if (!place) throw indexError(given);
-    const tangents = floats(exports, place, 4 * given.corners);
-    return options.returnReport ? { tangents, report: report(exports) } : tangents;
+    if (!options.returnReport) return floats<Float32Array>(exports, place, 4 * given.corners, out);
+    return { tangents: floats(exports, place, 4 * given.corners), report: report(exports) };
   });
 }
 

@@ -112,9 +112,22 @@ export function indexError({ indices, vertices }: Pick<Mesh, 'indices' | 'vertic
   return new RangeError(`index ${indices![at]} at place ${at} is out of range: there are ${vertices} vertices`);
 }
 
-/** A copy of floats that the WebAssembly side made. */
-export function floats(exports: Exports, place: number, length: number): Float32Array<ArrayBuffer> {
-  return new Float32Array(exports.memory.buffer, place >>> 0, length).slice() as Float32Array<ArrayBuffer>;
+/** A copy of floats that the WebAssembly side made, in `out` if there is one. */
+export function floats<A extends Float32Array = Float32Array<ArrayBuffer>>(
+  exports: Exports,
+  place: number,
+  length: number,
+  out?: A | null,
+): A {
+  const made = new Float32Array(exports.memory.buffer, place >>> 0, length);
+  if (!out) return made.slice() as Float32Array as A;
+  out.set(made);
+  return out;
+}
+
+/** Errors: another kind of array, or another length. */
+export function checkOut(out: Float32Array, corners: number): void {
+  if (rows('out', out, 4) !== corners) throw new RangeError(`out has room for ${out.length / 4} tangents but there are ${corners} corners`);
 }
 
 /** The place of a name among names. */

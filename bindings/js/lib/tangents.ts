@@ -1,7 +1,7 @@
 // `darboux/tangents`: MikkTSpace alone.
 
 import { load, type Exports } from './engine.js';
-import { choice, degrees, floats, indexError, mesh, write } from './mesh.js';
+import { checkOut, choice, degrees, floats, indexError, mesh, write } from './mesh.js';
 import type { Indices, MikkTSpaceOptions } from './types.js';
 import simd from './wasm/tangents.simd.wasm';
 
@@ -27,23 +27,26 @@ export const ready: Promise<void> = engine.ready;
  * @param normals 3 per vertex, used as given; they should be unit length.
  * @param uvs 2 per vertex.
  * @param indices The vertex of each corner; without, every vertex is a corner of its own.
+ * @param out Receives the tangents, 4 per corner, and is returned: arrays that are used again cost less than new ones.
  * @returns 4 per corner.
  * @throws TypeError for arrays of another kind; RangeError for lengths that differ, an index out of range, corners that are not whole faces.
  */
-export function generateTangents(
+export function generateTangents<Out extends Float32Array = Float32Array<ArrayBuffer>>(
   positions: Float32Array,
   normals: Float32Array,
   uvs: Float32Array,
   indices?: Indices | null,
   options: MikkTSpaceOptions = {},
-): Float32Array<ArrayBuffer> {
+  out?: Out,
+): Out {
   const given = mesh(positions, [['normals', normals, 3], ['uvs', uvs, 2]], indices, options.faces);
   const mode = choice('mode', options.mode ?? 'repaired', MODES);
   const threshold = degrees('threshold', options.threshold);
+  if (out) checkOut(out, given.corners);
   return engine.call((exports) => {
     write(exports, given);
     const place = exports.generate_tangents(mode, threshold);
     if (!place) throw indexError(given);
-    return floats(exports, place, 4 * given.corners);
+    return floats(exports, place, 4 * given.corners, out);
   });
 }

@@ -1,17 +1,10 @@
-// The package in headless Chromium, at the path in CHROMIUM or where Debian has it.
+// The package in headless Chromium.
 
 import assert from 'node:assert/strict';
-import { existsSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { build } from 'esbuild';
-import { chromium } from 'playwright-core';
+import { open, skip } from './browser/open.mjs';
 import { corpus, native } from './corpus.mjs';
-
-const executablePath = process.env.CHROMIUM ?? '/usr/bin/chromium';
-const isThere = existsSync(executablePath) || process.env.CI !== undefined;
-const skip = isThere ? false : `there is no Chromium at ${executablePath}`;
-const args = ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
 
 let browser;
 let page;
@@ -19,21 +12,9 @@ const faults = [];
 
 before(async () => {
   if (skip) return;
-  const entryPoints = [fileURLToPath(new URL('browser/page.mjs', import.meta.url))];
-  const { outputFiles } = await build({ entryPoints, bundle: true, splitting: true, external: ['node:*'], format: 'esm', outdir: '/', write: false, logLevel: 'error' });
-  const files = new Map(outputFiles.map(({ path, text }) => [path, text]));
-  browser = await chromium.launch({ executablePath, args });
-  page = await browser.newPage();
+  ({ browser, page } = await open(fileURLToPath(new URL('browser/page.mjs', import.meta.url))));
   page.on('pageerror', (error) => faults.push(error.message));
-  await page.route('http://localhost/**', (route) => {
-    const body = files.get(new URL(route.request().url()).pathname);
-    return body ? route.fulfill({ body, contentType: 'text/javascript' }) : route.fulfill({ body: '<!doctype html>', contentType: 'text/html' });
-  });
-  await page.goto('http://localhost/');
-  await page.evaluate(async () => {
-    globalThis.tested = await import('/page.js');
-    await tested.ready;
-  });
+  await page.evaluate(() => tested.ready);
 });
 
 after(() => browser?.close());
@@ -69,6 +50,18 @@ test('MeshStandardMaterial uses the tangents, not derivatives', { skip }, async 
   assert.deepEqual(found.takesTangents, [false, true, true]);
   assert.ok(found.fromDerivatives > found.drawn / 10, JSON.stringify(found));
   assert.ok(found.fromTurned > found.drawn / 2, JSON.stringify(found));
+});
+
+test('WebGPU finds the tangents of the CPU', { skip }, async (context) => {
+  for (const format of ['uint32', 'uint16']) {
+    const found = await page.evaluate((format) => tested.averages(format), format);
+    if (!found) return context.skip('this Chromium has no WebGPU adapter');
+    assert.deepEqual(found.errors, []);
+    assert.deepEqual(found.counts, [1, 0, 0]);
+    const { corners, signFlips, withoutAngle, max } = found.difference;
+    assert.deepEqual([corners, signFlips, withoutAngle], [42_000, 0, 0]);
+    assert.ok(max < 1e-4, `${max} degrees`);
+  }
 });
 
 test('200 plans live side by side', { skip }, async () => {

@@ -15,3 +15,18 @@ export const mirrored = () => [
   new Float32Array([1, 0, 0, 0, 0, 1, 1, 1, 1, 0, 1, 1]),
   new Uint16Array([0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2]),
 ];
+
+/** A wavy grid of columns by rows squares, and one vertex more that nothing uses. */
+export function grid(columns, rows) {
+  const vertices = Array.from({ length: (columns + 1) * (rows + 1) }, (_, at) => [at % (columns + 1), Math.floor(at / (columns + 1))]);
+  const unit = (v) => v.map((x) => x / Math.hypot(...v));
+  const positions = vertices.flatMap(([x, y]) => [x, y, 3 * Math.sin(x / 7) * Math.cos(y / 5)]);
+  const normals = vertices.flatMap(([x, y]) => unit([(-3 / 7) * Math.cos(x / 7) * Math.cos(y / 5), (3 / 5) * Math.sin(x / 7) * Math.sin(y / 5), 1]));
+  const uvs = vertices.flatMap(([x, y]) => [x / columns + 0.01 * Math.sin(y), y / rows]);
+  const square = (at) => {
+    const corner = at + Math.floor(at / columns);
+    return [corner, corner + 1, corner + columns + 2, corner, corner + columns + 2, corner + columns + 1];
+  };
+  const indices = Array.from({ length: columns * rows }, (_, at) => square(at)).flat();
+  return [Float32Array.of(...positions, 0, 0, 0), Float32Array.of(...normals, 0, 0, 1), Float32Array.of(...uvs, 0, 0), Uint32Array.from(indices)];
+}

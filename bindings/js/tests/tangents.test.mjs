@@ -37,6 +37,12 @@ test('a result is the caller\'s own', () => {
   assert.deepEqual(first, copy);
 });
 
+test('tangents go where they are told to', () => {
+  const out = new Float32Array(24);
+  assert.equal(esm.generateTangents(...square(), {}, out), out);
+  assert.deepEqual(out, esm.generateTangents(...square()));
+});
+
 test('arrays of another realm and shared ones are as good', async () => {
   const { runInNewContext } = await import('node:vm');
   const arrays = square();
@@ -66,6 +72,8 @@ const wrong = [
   [[positions, normals, uvs, indices, { faces: [3, 3] }], TypeError, 'faces must be a Uint32Array, not Array'],
   [[positions, normals, uvs, indices, { faces: Uint32Array.of(3, 4) }], RangeError, 'the face sizes add up to 7 but there are 6 corners'],
   [[positions, normals, uvs, indices, { mode: 'best' }], RangeError, "mode is 'best'; it must be one of 'reference', 'repaired', 'corrected'"],
+  [[positions, normals, uvs, indices, {}, [0, 0]], TypeError, 'out must be a Float32Array, not Array'],
+  [[positions, normals, uvs, indices, {}, new Float32Array(16)], RangeError, 'out has room for 4 tangents but there are 6 corners'],
   [[positions, normals, uvs, indices, { threshold: NaN }], RangeError, 'threshold is NaN; it must be a number of degrees'],
 ];
 

@@ -5,10 +5,11 @@ import * as darboux from 'darboux';
 import { tangents } from 'darboux/gltf-transform';
 import * as mikktspace from 'darboux/mikktspace';
 import { computeTangents } from 'darboux/three';
+import { Average } from 'darboux/webgpu';
 import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { computeMikkTSpaceTangents } from 'three/addons/utils/BufferGeometryUtils.js';
-import { mirrored } from '../meshes.mjs';
+import { grid, mirrored } from '../meshes.mjs';
 
 export { generateTangents, ready } from 'darboux/tangents';
 export const { Plan } = darboux;
@@ -125,4 +126,41 @@ export function standardMaterial() {
     fromTurned: differing(ours, other),
     takesTangents: pictures.map(({ takesTangents }) => takesTangents),
   };
+}
+
+/** Tangents of a grid by WebGPU and by the CPU, per vertex, with one vertex more that nothing uses; none where there is no adapter. */
+export async function averages(indexFormat) {
+  const adapter = await navigator.gpu?.requestAdapter();
+  if (!adapter) return null;
+  const device = await adapter.requestDevice();
+  const errors = [];
+  device.addEventListener('uncapturederror', ({ error }) => errors.push(error.message));
+  const [positions, normals, uvs, indices] = grid(100, 70);
+  const vertexCount = positions.length / 3;
+  const interleaved = new Float32Array(8 * vertexCount);
+  for (let at = 0; at < vertexCount; at++) {
+    interleaved.set([...uvs.subarray(2 * at, 2 * at + 2), ...positions.subarray(3 * at, 3 * at + 3), ...normals.subarray(3 * at, 3 * at + 3)], 8 * at);
+  }
+  const { STORAGE, COPY_DST, COPY_SRC, MAP_READ } = GPUBufferUsage;
+  const filled = (array) => {
+    const buffer = device.createBuffer({ size: 4 * Math.ceil(array.byteLength / 4), usage: STORAGE | COPY_DST });
+    device.queue.writeBuffer(buffer, 0, array);
+    return buffer;
+  };
+  const list = indexFormat === 'uint16' ? Uint16Array.from(indices) : indices;
+  const frames = device.createBuffer({ size: 28 * vertexCount, usage: STORAGE | COPY_SRC });
+  const mesh = { vertices: filled(interleaved), vertexCount, stride: 32, position: 8, normal: 20, uv: 0, indices: filled(list), indexFormat, indexCount: list.length };
+  const work = new Average(device).ofMesh(mesh, { buffer: frames, stride: 28, tangent: 0, sign: 12, bitangent: 16 });
+  const read = device.createBuffer({ size: frames.size + 12, usage: COPY_DST | MAP_READ });
+  const encoder = device.createCommandEncoder();
+  work.record(encoder);
+  encoder.copyBufferToBuffer(frames, 0, read, 0, frames.size);
+  encoder.copyBufferToBuffer(work.counts, 0, read, frames.size, 12);
+  device.queue.submit([encoder.finish()]);
+  await read.mapAsync(GPUMapMode.READ);
+  const found = new Float32Array(read.getMappedRange().slice(0));
+  const counts = Array.from(new Uint32Array(found.buffer, frames.size, 3));
+  const ofCorner = darboux.generateTangents(positions, normals, uvs, indices, { method: 'average' });
+  const ours = Float32Array.from({ length: ofCorner.length }, (_, at) => found[7 * indices[at >> 2] + (at & 3)]);
+  return { errors, counts, difference: darboux.measureTangents(ours, ofCorner) };
 }

@@ -1,0 +1,66 @@
+// Compute pipelines, and how many groups of threads they need: the counterpart of crates/darboux-gpu/src/kernel.rs.
+
+/** Threads of a group. */
+const WORKGROUP = 64;
+const VALUES_PER_THREAD = 4;
+/** Values of a block of a prefix sum. */
+const BLOCK = WORKGROUP * VALUES_PER_THREAD;
+/** Turns that one thread's loops take at most: drivers end what runs too long. */
+const MAX_TURNS = 2 ** 15;
+
+const SIZES = { WORKGROUP, VALUES_PER_THREAD, BLOCK, MAX_TURNS };
+
+/** GPUBufferUsage, which is there only where WebGPU is. */
+export const USAGE = { COPY_SRC: 4, COPY_DST: 8, UNIFORM: 64, STORAGE: 128 } as const;
+
+/** A shader of files that are read one after the other. */
+export function module(device: GPUDevice, files: readonly string[]): GPUShaderModule {
+  const sizes = Object.entries(SIZES).map(([name, value]) => `const ${name}: u32 = ${value}u;\n`);
+  return device.createShaderModule({ label: 'darboux', code: [...sizes, files.join('\n')].join('') });
+}
+
+/** One entry point of a shader. */
+export function pipeline(device: GPUDevice, module: GPUShaderModule, entryPoint: string): GPUComputePipeline {
+  return device.createComputePipeline({ label: entryPoint, layout: 'auto', compute: { module, entryPoint } });
+}
+
+/** A buffer of words that shaders fill. */
+export function buffer(device: GPUDevice, label: string, words: number): GPUBuffer {
+  const usage = USAGE.STORAGE | USAGE.COPY_DST | USAGE.COPY_SRC;
+  return device.createBuffer({ label, size: 4 * Math.max(words, 1), usage });
+}
+
+/** Records a pipeline with its buffers, by binding, as a pass of its own. */
+export type Step = (encoder: GPUCommandEncoder) => void;
+
+/** A step of at least `threads` threads; the shader turns others away. */
+export function step(device: GPUDevice, pipeline: GPUComputePipeline, buffers: Record<number, GPUBuffer>, threads: number): Step {
+  const entries = Object.entries(buffers).map(([binding, buffer]) => ({ binding: Number(binding), resource: { buffer } }));
+  const group = device.createBindGroup({ layout: pipeline.getBindGroupLayout(0), entries });
+  const groups = Math.ceil(threads / WORKGROUP);
+  const row = Math.min(Math.max(groups, 1), device.limits.maxComputeWorkgroupsPerDimension);
+  return (encoder) => {
+    const pass = encoder.beginComputePass();
+    pass.setPipeline(pipeline);
+    pass.setBindGroup(0, group);
+    pass.dispatchWorkgroups(row, Math.ceil(groups / row));
+    pass.end();
+  };
+}
+
+/** The pipelines of a prefix sum. */
+export interface Scan {
+  scan: GPUComputePipeline;
+  addSums: GPUComputePipeline;
+}
+
+/** Steps that make every one of `count` values the sum of those before it. */
+export function scanSteps(device: GPUDevice, kernels: Scan, values: GPUBuffer, count: number): Step[] {
+  const blocks = Math.ceil(count / BLOCK);
+  const sumOfBlock = buffer(device, 'sum_of_block', blocks);
+  const threads = Math.ceil(count / VALUES_PER_THREAD);
+  const buffers = { 0: values, 1: sumOfBlock };
+  const first = step(device, kernels.scan, buffers, threads);
+  if (blocks <= 1) return [first];
+  return [first, ...scanSteps(device, kernels, sumOfBlock, blocks), step(device, kernels.addSums, buffers, threads)];
+}
