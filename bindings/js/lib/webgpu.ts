@@ -2,6 +2,7 @@
 
 import adjacency from '../../../crates/darboux-gpu/shaders/adjacency.wgsl';
 import average from '../../../crates/darboux-gpu/shaders/average.wgsl';
+import arithmetic from '../../../crates/darboux-gpu/shaders/device.wgsl';
 import exact from '../../../crates/darboux-gpu/shaders/exact.wgsl';
 import frame from '../../../crates/darboux-gpu/shaders/frame.wgsl';
 import gather from '../../../crates/darboux-gpu/shaders/gather.wgsl';
@@ -13,7 +14,7 @@ import { buffer, module, pipeline, scanSteps, step, USAGE } from './gpu/kernels.
 /** The shaders as data, each of files that are read one after the other, after the constants WORKGROUP, VALUES_PER_THREAD, BLOCK and MAX_TURNS. */
 export const shaders = {
   adjacency: [mesh, adjacency],
-  average: [mesh, exact, secondBuffer, average, frame, gather],
+  average: [mesh, arithmetic, exact, secondBuffer, average, frame, gather],
   scan: [scan],
 } as const;
 
