@@ -2,7 +2,9 @@
 
 use std::alloc::System;
 
-use darboux::{Indices, Mesh, Scratch, TangentOptions, Tangents, generate_tangents_into};
+use darboux::{
+    CornerTangents, Indices, Mesh, Method, Plan, Scratch, TangentOptions, Tangents, generate_tangents_into,
+};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 
 #[global_allocator]
@@ -15,6 +17,17 @@ fn allocations(mesh: &Mesh<'_>) -> usize {
     generate_tangents_into(mesh, &options, &mut scratch, &mut tangents);
     let region = Region::new(ALLOCATOR);
     generate_tangents_into(mesh, &options, &mut scratch, &mut tangents);
+    let change = region.change();
+    change.allocations + change.reallocations
+}
+
+/// How often the second of two evaluations of a plan allocates.
+fn allocations_of_plan(mesh: &Mesh<'_>, method: Method) -> usize {
+    let plan = Plan::new(mesh, &TangentOptions { method, ..TangentOptions::default() });
+    let (mut scratch, mut tangents) = (Scratch::new(), CornerTangents::default());
+    plan.evaluate_into(mesh, &mut scratch, &mut tangents).expect("the same mesh");
+    let region = Region::new(ALLOCATOR);
+    plan.evaluate_into(mesh, &mut scratch, &mut tangents).expect("the same mesh");
     let change = region.change();
     change.allocations + change.reallocations
 }
@@ -36,7 +49,10 @@ fn none_for_a_plain_surface() {
     for indices in [Indices::U32(&indices), Indices::U16(&short)] {
         let mesh = Mesh::triangles(&positions, &normals, &uvs, indices).expect("a mesh");
         assert_eq!(allocations(&mesh), 0);
+        assert_eq!(allocations_of_plan(&mesh, Method::MikkTSpace), 0);
     }
+    let mesh = Mesh::triangles(&positions, &normals, &uvs, &indices).expect("a mesh");
+    assert_eq!(allocations_of_plan(&mesh, Method::AngleArea), 0);
     let of = |list: &[[f32; 3]]| indices.iter().map(|&at| list[at as usize]).collect::<Vec<_>>();
     let soup_uvs: Vec<[f32; 2]> = indices.iter().map(|&at| uvs[at as usize]).collect();
     let (positions, normals) = (of(&positions), of(&normals));

@@ -6,7 +6,7 @@ use crate::{CornerTangents, Mesh, MeshError, Scratch, TangentOptions, Tangents, 
 
 /// The weld, groups and subgroups of one mesh, kept to evaluate tangents again after its vertices moved (morph targets, skinning).
 ///
-/// Methods other than MikkTSpace run afresh, but for the signs.
+/// Of the other methods only [`Method::AngleArea`](crate::Method::AngleArea) has groups to keep; the rest run afresh, but for the signs.
 #[derive(Debug)]
 pub struct Plan {
     planned: Planned,

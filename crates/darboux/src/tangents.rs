@@ -13,6 +13,7 @@ mod face;
 mod fans;
 mod flat;
 mod from_normal;
+mod group_sums;
 mod groups;
 mod lengyel;
 mod local;

@@ -6,6 +6,7 @@ use std::ops::Range;
 use crate::math::V3;
 
 use super::flat::Flat;
+use super::group_sums::GroupMemory;
 use super::sums::{Derivatives, Orientation, Sum, Weighting, is_degenerate, term};
 use super::threads::{self, parts, split};
 use super::windows::{WINDOW, Window, look_around, overlap, shares, triangles_of, windows_of};
@@ -52,6 +53,7 @@ pub(super) struct Memory {
     of_three_rows: [Vec<Sum<3>>; 2],
     orientation_of_face: Vec<Orientation>,
     pub tangents_of_side: [Vec<[f32; 4]>; 2],
+    pub of_groups: GroupMemory,
 }
 
 /// Where sums of `N` rows are kept.

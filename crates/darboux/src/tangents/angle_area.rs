@@ -5,49 +5,193 @@
 //! From there one step goes towards the least-squares fit, which takes into account that a triangle's inside is interpolated from three
 //! vertices. Thresholds do not apply, all edges are matched, and sums are in f64.
 
-use crate::math::{V3, angle};
+use crate::math::V3;
 use crate::topology::{EdgeOrder, neighbours};
 use crate::triangles::{Triangles, Triangulation, triangulate};
 use crate::{Frame, Mesh, Mode};
 
-use super::Report;
-use super::derivatives::{Derivative, agree_in_quads, derivatives};
+use super::derivatives::{Derivative, agree_in_quads, derivatives, derivatives_into};
 use super::flat::Flat;
+use super::group_sums::{GroupFrame, GroupMemory, GroupSum, GroupedTriangles, NONE, add};
 use super::groups::{Groups, group};
 use super::mikktspace::count_mirrored_edges;
-use super::repair::{
-    D3, cross, direction, dot, in_plane, length, mean_in_plane, perpendicular, u_direction_of, unit,
-};
+use super::repair::{D3, direction, in_plane, length, mean_in_plane, perpendicular, u_direction_of, unit};
 use super::seams::{count_split_vertices, survey};
 use super::shape::Shape;
 use super::sides::{Output, across};
-use super::threads;
-
-/// No group.
-const NONE: u32 = u32::MAX;
+use super::{Report, Tangents, threads};
 
 /// The frame of every corner's group.
-pub(super) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut [O]) -> Report {
-    let (flat, shape) = (Flat::new(mesh), Shape::welded(mesh));
-    let triangulation = triangulate(mesh);
-    let good = &triangulation.good;
-    let mut derivatives = derivatives(good, &shape);
-    derivatives.iter_mut().for_each(leave_out_unless_finite);
-    agree_in_quads(good, &shape, &mut derivatives);
-    let neighbours = neighbours(good, EdgeOrder::Complete);
-    let mut report = survey(mesh, &flat);
-    report.degenerate_triangles = triangulation.degenerate.len();
-    report.uv_degenerate_triangles = derivatives.iter().filter(|derivative| derivative.any).count();
-    report.mirrored_edges = count_mirrored_edges(&neighbours, &derivatives);
-    let preserves = orientation_of_faces(&flat, good, &derivatives);
-    let groups = group(good, &neighbours, |_| true, &mut derivatives);
-    let places = Places::new(&flat, &triangulation, &groups);
-    let evaluation = Evaluation { triangles: good, derivatives: &derivatives, shape: &shape };
-    let mut frames = evaluation.frames(&groups);
-    evaluation.fit(&places, &mut frames);
-    report.repaired_corners = to_corners(&flat, &places, (&groups, &frames), &preserves, mode, corners);
+pub(super) fn run<O: Output>(
+    mesh: &Mesh<'_>,
+    mode: Mode,
+    memory: &mut GroupMemory,
+    corners: &mut [O],
+) -> Report {
+    topology_and_report(mesh, mode, memory, corners).1
+}
+
+/// What does not depend on where vertices are, and the tangents where they are now.
+pub(crate) fn plan(mesh: &Mesh<'_>, mode: Mode) -> (Topology, Tangents) {
+    let mut base = Tangents::default();
+    base.corners.0.resize(mesh.corner_count(), Output::NONE);
+    let memory = &mut GroupMemory::default();
+    let (topology, report) = topology_and_report(mesh, mode, memory, &mut base.corners.0);
+    (topology, Tangents { report, ..base })
+}
+
+fn topology_and_report<O: Output>(
+    mesh: &Mesh<'_>,
+    mode: Mode,
+    memory: &mut GroupMemory,
+    corners: &mut [O],
+) -> (Topology, Report) {
+    let (topology, mut report) = Topology::new(mesh, memory);
+    let flat = Flat::new(mesh);
+    report.repaired_corners = topology.frames(&flat, &Shape::welded(mesh), mode, memory, corners);
     report.split_vertices = count_split_vertices(&flat, corners);
-    report
+    (topology, report)
+}
+
+/// What does not depend on where vertices are, once they are welded and grouped.
+#[derive(Debug)]
+pub(crate) struct Topology {
+    triangulation: Triangulation,
+    groups: Groups,
+    places: Places,
+    /// Of good triangles: those that add nothing, wherever they are.
+    is_left_out: Vec<bool>,
+    orientation_of_face: Vec<Option<bool>>,
+}
+
+impl Topology {
+    /// Welds, finds neighbours and groups; leaves the derivatives in `memory`, and what is known of the report.
+    pub(super) fn new(mesh: &Mesh<'_>, memory: &mut GroupMemory) -> (Self, Report) {
+        let (flat, shape) = (Flat::new(mesh), Shape::welded(mesh));
+        let triangulation = triangulate(mesh);
+        let good = &triangulation.good;
+        let mut derivatives = derivatives(good, &shape);
+        derivatives.iter_mut().for_each(leave_out_unless_finite);
+        agree_in_quads(good, &shape, &mut derivatives);
+        let neighbours = neighbours(good, EdgeOrder::Complete);
+        let mut report = survey(mesh, &flat);
+        report.degenerate_triangles = triangulation.degenerate.len();
+        report.uv_degenerate_triangles = derivatives.iter().filter(|derivative| derivative.any).count();
+        report.mirrored_edges = count_mirrored_edges(&neighbours, &derivatives);
+        let orientation_of_face = orientation_of_faces(&flat, good, &derivatives);
+        let groups = group(good, &neighbours, |_| true, &mut derivatives);
+        let places = Places::new(&flat, &triangulation, &groups);
+        let is_left_out = derivatives.iter().map(|derivative| derivative.any).collect();
+        memory.derivatives = derivatives;
+        (Self { triangulation, groups, places, is_left_out, orientation_of_face }, report)
+    }
+
+    /// The frames of a mesh whose vertices have moved since it was grouped.
+    pub(super) fn frames_of_moved<O: Output>(
+        &self,
+        mesh: &Mesh<'_>,
+        mode: Mode,
+        memory: &mut GroupMemory,
+        corners: &mut [O],
+    ) {
+        let shape = Shape::moved(mesh);
+        derivatives_into(&self.triangulation.good, &shape, &mut memory.derivatives);
+        for (derivative, &is_left_out) in memory.derivatives.iter_mut().zip(&self.is_left_out) {
+            leave_out_unless_finite(derivative);
+            derivative.any |= is_left_out;
+        }
+        self.frames(&Flat::new(mesh), &shape, mode, memory, corners);
+    }
+
+    /// Gives every corner a frame, by the derivatives in `memory`; says how many have a repair.
+    fn frames<O: Output>(
+        &self,
+        flat: &Flat<'_>,
+        shape: &Shape<'_>,
+        mode: Mode,
+        memory: &mut GroupMemory,
+        corners: &mut [O],
+    ) -> usize {
+        let triangles = &self.triangulation.good;
+        let grouped = GroupedTriangles {
+            triangles,
+            shape,
+            groups: &self.groups,
+            group_of_corner: &self.places.group_of_corner,
+        };
+        let normal = |group| direction(self.normal_of_vertex(group, shape)).unwrap_or_default();
+        memory.normals.resize(self.groups.len(), [0.0; 3]);
+        threads::fill(&mut memory.normals, normal);
+        grouped.add_up(O::IS_WHOLE, memory);
+        let mut frames = std::mem::take(&mut memory.frames);
+        frames.resize(self.groups.len(), GroupFrame { frame: Frame::NONE, repaired: true });
+        let known = &*memory;
+        threads::fill(&mut frames, |group| self.frame(group, O::IS_WHOLE, shape, known));
+        grouped.fit(&frames, memory);
+        frames.iter_mut().zip(&memory.normals).zip(&memory.residuals).for_each(fit);
+        let groups = (&self.groups, &frames[..]);
+        let repaired = to_corners(flat, &self.places, groups, &self.orientation_of_face, mode, corners);
+        memory.frames = frames;
+        repaired
+    }
+
+    fn normal_of_vertex(&self, group: usize, shape: &Shape<'_>) -> V3 {
+        let first = self.groups.members(group)[0] as usize;
+        shape.normal(self.triangulation.good.vertices.as_flattened()[first])
+    }
+
+    fn frame(&self, group: usize, is_whole: bool, shape: &Shape<'_>, memory: &GroupMemory) -> GroupFrame {
+        let GroupSum { s, t, magnitude, weight } = memory.sums[group];
+        let normal = unless_zero(memory.normals[group]);
+        let sign = if self.groups.preserves(group) { 1.0 } else { -1.0 };
+        // What is left of tangents that cancel is rounding.
+        let found = (length(s) > 1e-6 * weight).then(|| flat_direction_of(s, normal)).flatten();
+        let mean = || self.mean(group, shape, &memory.derivatives);
+        let tangent = found.map_or_else(mean, |s| s.map(|x| x as f32));
+        let mut frame = Frame { tangent, sign, ..Frame::NONE };
+        if is_whole {
+            let bitangent = flat_direction_of(t, normal).map(|t| t.map(|x| x as f32));
+            let across = || across(self.normal_of_vertex(group, shape), tangent, sign);
+            frame.bitangent = bitangent.unwrap_or_else(across);
+            frame.magnitude = magnitude.map(|sum| if weight > 0.0 { (sum / weight) as f32 } else { 1.0 });
+        }
+        GroupFrame { frame, repaired: found.is_none() }
+    }
+
+    /// The repair of a group: the mean of its tangents, all weighted alike; the first triangle's own; a perpendicular.
+    fn mean(&self, group: usize, shape: &Shape<'_>, derivatives: &[Derivative]) -> V3 {
+        let normal = self.normal_of_vertex(group, shape);
+        let Some(unit_normal) = direction(normal) else { return [1.0, 0.0, 0.0] };
+        let members = self.groups.members(group);
+        let counted = members.iter().map(|&member| &derivatives[member as usize / 3]);
+        let directions = counted.filter(|derivative| !derivative.any).map(|derivative| derivative.s);
+        mean_in_plane(directions, normal).unwrap_or_else(|| {
+            let (first, good) = (members[0] as usize / 3, &self.triangulation.good);
+            let own = u_direction_of(shape.positions(good, first), shape.uvs(good, first));
+            in_plane(own, unit_normal).unwrap_or_else(|| perpendicular(unit_normal)).map(|x| x as f32)
+        })
+    }
+}
+
+/// Moves a tangent a part of the way to the fit. The whole step overshoots, half of one still does where neighbours differ much; see
+/// docs/notes/methods.md.
+fn fit(((group, &normal), &(residual, weight)): ((&mut GroupFrame, &D3), &(D3, f64))) {
+    const PART: f64 = 0.25;
+    let moved = add(group.frame.tangent.map(f64::from), PART / weight, residual);
+    if !group.repaired
+        && let Some(tangent) = flat_direction_of(moved, unless_zero(normal))
+    {
+        group.frame.tangent = tangent.map(|x| x as f32);
+    }
+}
+
+fn unless_zero(normal: D3) -> Option<D3> {
+    Some(normal).filter(|normal| *normal != [0.0; 3])
+}
+
+/// The direction of `v` in the plane of the normal; its direction where there is no normal.
+fn flat_direction_of(v: D3, normal: Option<D3>) -> Option<D3> {
+    normal.map_or_else(|| unit(v), |normal| in_plane(v, normal))
 }
 
 /// Triangles with values that are not finite join any group and add nothing.
@@ -67,136 +211,8 @@ fn orientation_of_faces(flat: &Flat<'_>, good: &Triangles, derivatives: &[Deriva
     preserves
 }
 
-/// What groups are evaluated on.
-struct Evaluation<'a> {
-    triangles: &'a Triangles,
-    derivatives: &'a [Derivative],
-    shape: &'a Shape<'a>,
-}
-
-/// A group's frame, the direction of its normal, and whether it is a repair.
-struct GroupFrame {
-    frame: Frame,
-    normal: Option<D3>,
-    repaired: bool,
-}
-
-impl Evaluation<'_> {
-    fn frames(&self, groups: &Groups) -> Vec<GroupFrame> {
-        threads::map(groups.len(), |group| self.frame(groups.members(group), groups.preserves(group)))
-    }
-
-    fn frame(&self, members: &[u32], preserves: bool) -> GroupFrame {
-        let normal = self.shape.normal(self.triangles.vertices.as_flattened()[members[0] as usize]);
-        let unit_normal = direction(normal);
-        let (mut s, mut t, mut magnitude, mut weights) = ([0.0; 3], [0.0; 3], [0.0; 2], 0.0);
-        for &member in members {
-            let (triangle, k) = (member as usize / 3, member as usize % 3);
-            let derivative = &self.derivatives[triangle];
-            if derivative.any {
-                continue;
-            }
-            let weight = weight(self.shape.positions(self.triangles, triangle), k, unit_normal);
-            s = add(s, weight, flat_direction(derivative.s, unit_normal));
-            t = add(t, weight, flat_direction(derivative.t, unit_normal));
-            let lengths = derivative.magnitude.map(f64::from);
-            magnitude = [magnitude[0] + weight * lengths[0], magnitude[1] + weight * lengths[1]];
-            weights += weight;
-        }
-        let sign = if preserves { 1.0 } else { -1.0 };
-        let magnitude = magnitude.map(|sum| if weights > 0.0 { (sum / weights) as f32 } else { 1.0 });
-        // What is left of tangents that cancel is rounding.
-        let found = (length(s) > 1e-6 * weights).then(|| flat_direction_of(s, unit_normal)).flatten();
-        let tangent = found.map_or_else(|| self.mean(members, normal), |s| s.map(|x| x as f32));
-        let bitangent = flat_direction_of(t, unit_normal).map(|t| t.map(|x| x as f32));
-        let bitangent = bitangent.unwrap_or_else(|| across(normal, tangent, sign));
-        GroupFrame {
-            frame: Frame { tangent, bitangent, magnitude, sign },
-            normal: unit_normal,
-            repaired: found.is_none(),
-        }
-    }
-
-    /// The repair of a group: the mean of its tangents, all weighted alike; the first triangle's own; a perpendicular.
-    fn mean(&self, members: &[u32], normal: V3) -> V3 {
-        let Some(unit_normal) = direction(normal) else { return [1.0, 0.0, 0.0] };
-        let counted = members.iter().map(|&member| &self.derivatives[member as usize / 3]);
-        let directions = counted.filter(|derivative| !derivative.any).map(|derivative| derivative.s);
-        mean_in_plane(directions, normal).unwrap_or_else(|| {
-            let first = members[0] as usize / 3;
-            let (positions, uvs) =
-                (self.shape.positions(self.triangles, first), self.shape.uvs(self.triangles, first));
-            let own = in_plane(u_direction_of(positions, uvs), unit_normal);
-            own.unwrap_or_else(|| perpendicular(unit_normal)).map(|x| x as f32)
-        })
-    }
-}
-
-impl Evaluation<'_> {
-    /// Moves every tangent a part of the way to the least squares of what is seen: the integral over the surface of the squared
-    /// distance between the interpolated tangent T and the direction s of dP/du.
-    ///
-    /// With linear weights w_i over a triangle of area A, integral w_i w_j = A/12, or A/6 for i = j, and integral w_i = A/3; so the
-    /// residual of corner i is A/3 s - A/12 (t_i + t_0 + t_1 + t_2), and its step (Jacobi's) is that over the sum of A/6. The whole step
-    /// overshoots, half of one still does where neighbours differ much; see docs/notes/methods.md.
-    fn fit(&self, places: &Places, frames: &mut [GroupFrame]) {
-        const PART: f64 = 0.25;
-        let mut residuals = vec![([0.0; 3], 0.0); frames.len()];
-        for (t, derivative) in self.derivatives.iter().enumerate() {
-            let groups = self.triangles.corners[t].map(|corner| places.group_of_corner[corner as usize]);
-            if derivative.any || groups.contains(&NONE) {
-                continue;
-            }
-            let area = 0.5 * doubled_area(self.shape.positions(self.triangles, t));
-            let tangents = groups.map(|group| frames[group as usize].frame.tangent.map(f64::from));
-            let sum = tangents.into_iter().fold([0.0; 3], |sum, tangent| add(sum, 1.0, tangent));
-            let target = add(sum, -4.0, derivative.s.map(f64::from));
-            for (group, tangent) in groups.into_iter().zip(tangents) {
-                let (residual, weight) = &mut residuals[group as usize];
-                *residual = add(*residual, -area / 12.0, add(target, 1.0, tangent));
-                *weight += area / 6.0;
-            }
-        }
-        for (group, (residual, weight)) in frames.iter_mut().zip(residuals) {
-            let moved = add(group.frame.tangent.map(f64::from), PART / weight, residual);
-            if !group.repaired
-                && let Some(tangent) = flat_direction_of(moved, group.normal)
-            {
-                group.frame.tangent = tangent.map(|x| x as f32);
-            }
-        }
-    }
-}
-
-fn doubled_area(positions: [V3; 3]) -> f64 {
-    let [a, b, c] = positions.map(|position| position.map(f64::from));
-    length(cross(add(b, -1.0, a), add(c, -1.0, a)))
-}
-
-/// The angle of corner `k` in the plane of the normal, times the triangle's area.
-fn weight(positions: [V3; 3], k: usize, normal: Option<D3>) -> f64 {
-    let [before, here, after] = [k + 2, k, k + 1].map(|k| positions[k % 3].map(f64::from));
-    let [a, b] = [before, after].map(|end| add(end, -1.0, here));
-    let directions = [a, b].map(|edge| flat_direction_of(edge, normal));
-    let [Some(along_a), Some(along_b)] = directions else { return 0.0 };
-    f64::from(angle(dot(along_a, along_b) as f32)) * doubled_area(positions)
-}
-
-fn flat_direction(v: V3, normal: Option<D3>) -> D3 {
-    flat_direction_of(v.map(f64::from), normal).unwrap_or_default()
-}
-
-/// The direction of `v` in the plane of the normal; its direction where there is no normal.
-fn flat_direction_of(v: D3, normal: Option<D3>) -> Option<D3> {
-    normal.map_or_else(|| unit(v), |normal| in_plane(v, normal))
-}
-
-/// sum + weight * v.
-fn add(sum: D3, weight: f64, v: D3) -> D3 {
-    [sum[0] + weight * v[0], sum[1] + weight * v[1], sum[2] + weight * v[2]]
-}
-
 /// Where corners are: their group and their welded vertex, and the groups of each vertex.
+#[derive(Debug)]
 struct Places {
     group_of_corner: Vec<u32>,
     /// None for corners of unsupported faces.

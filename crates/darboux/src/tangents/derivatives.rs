@@ -28,6 +28,13 @@ pub(crate) fn derivatives(triangles: &Triangles, shape: &Shape<'_>) -> Vec<Deriv
     threads::map(triangles.len(), |t| derivative(shape.positions(triangles, t), shape.uvs(triangles, t)))
 }
 
+/// As [`derivatives`], in the memory of others.
+pub(crate) fn derivatives_into(triangles: &Triangles, shape: &Shape<'_>, derivatives: &mut Vec<Derivative>) {
+    let none = Derivative { s: [0.0; 3], t: [0.0; 3], magnitude: [0.0; 2], preserves: false, any: true };
+    derivatives.resize(triangles.len(), none);
+    threads::fill(derivatives, |t| derivative(shape.positions(triangles, t), shape.uvs(triangles, t)));
+}
+
 fn derivative(positions: [V3; 3], uvs: [[f32; 2]; 3]) -> Derivative {
     let [e1, e2] = [sub(positions[1], positions[0]), sub(positions[2], positions[0])];
     let [du1, dv1] = [uvs[1][0] - uvs[0][0], uvs[1][1] - uvs[0][1]];

@@ -50,8 +50,8 @@ pub(super) fn run<O: Output>(
 ) -> Report {
     let mode = options.mode;
     match options.method {
-        Method::MikkTSpace => mikktspace(mesh, options, cancel, corners),
-        Method::AngleArea => angle_area::run(mesh, mode, corners),
+Method::MikkTSpace => mikktspace(mesh, options, cancel, corners),
+        Method::AngleArea => angle_area::run(mesh, mode, &mut memory.of_groups, corners),
         Method::Lengyel => summed::<2, Lengyel, O>(mesh, mode, accumulate::<2, Lengyel>, memory, corners),
         Method::LengyelPerVertex => {
             summed::<2, LengyelPerVertex, O>(mesh, mode, accumulate::<2, LengyelPerVertex>, memory, corners)

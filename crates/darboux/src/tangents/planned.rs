@@ -9,7 +9,7 @@ use super::fans::{Fans, PlannedFans};
 use super::local::UndecidedPart;
 use super::mikktspace::{Topology, unknown};
 use super::width::Width;
-use super::{Method, Scratch, TangentOptions, Tangents, generate_tangents, run};
+use super::{Method, Scratch, TangentOptions, Tangents, angle_area, generate_tangents, run};
 
 /// What is known beforehand.
 #[derive(Debug)]
@@ -18,7 +18,9 @@ pub(crate) enum Planned {
     Fans(Box<Decided>),
     /// MikkTSpace elsewhere.
     Stages(Box<Topology>),
-    /// Other methods run afresh.
+    /// Angle and area, on the same groups.
+    Groups(Box<angle_area::Topology>),
+    /// Other methods run afresh: they have no groups that were worth keeping.
     Nothing,
 }
 
@@ -34,8 +36,13 @@ pub(crate) struct Decided {
 impl Planned {
     /// Runs on the base, and keeps what does not depend on where vertices are.
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions) -> (Self, Tangents) {
-        if options.method != Method::MikkTSpace {
-            return (Self::Nothing, generate_tangents(mesh, options));
+        match options.method {
+            Method::MikkTSpace => {}
+            Method::AngleArea => {
+                let (topology, base) = angle_area::plan(mesh, options.mode);
+                return (Self::Groups(Box::new(topology)), base);
+            }
+            _ => return (Self::Nothing, generate_tangents(mesh, options)),
         }
         let mut base = Tangents::default();
         base.corners.0.resize(mesh.corner_count(), [0.0; 4]);
@@ -70,6 +77,9 @@ impl Planned {
             Self::Fans(decided) => return decided.evaluate(mesh, base, scratch, out),
             Self::Stages(topology) => {
                 write(&topology.frames_of_moved(mesh, unknown(mesh), &scratch.cancel).0, out)
+            }
+            Self::Groups(topology) => {
+                topology.frames_of_moved(mesh, options.mode, &mut scratch.sums.of_groups, out);
             }
             Self::Nothing => {
                 let cancel = scratch.cancel.clone();
