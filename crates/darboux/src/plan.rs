@@ -39,7 +39,8 @@ impl Plan {
     }
 
     /// As [`Plan::evaluate`], into `out`, whose memory is used again, as is that of `scratch`: repeated calls allocate nothing where
-    /// all vertices of an indexed triangle mesh are plain (no mirrored or degenerate triangles, no collapsed ones).
+    /// all vertices of an indexed triangle mesh are plain (no mirrored or degenerate triangles, no collapsed ones); those of
+    /// [`Method::AngleArea`](crate::Method::AngleArea) nothing for any mesh of triangles with packed arrays and 32-bit indices.
     pub fn evaluate_into(
         &self,
         mesh: &Mesh<'_>,

@@ -107,6 +107,8 @@ pub struct Scratch {
     sums: Memory,
     width_limit: WidthLimit,
     cancel: Cancel,
+    /// For runs that cannot say that they were stopped; nobody asks them to.
+    never: Cancel,
 }
 
 impl Scratch {
@@ -147,7 +149,8 @@ pub fn generate_tangents_into(
     out: &mut Tangents,
 ) {
     out.corners.0.resize(mesh.corner_count(), [0.0; 4]);
-    out.report = run(mesh, options, &Cancel::new(), scratch, &mut out.corners.0);
+    let never = scratch.never.clone();
+    out.report = run(mesh, options, &never, scratch, &mut out.corners.0);
 }
 
 /// As [`generate_tangents_into`], into an array of the caller's, for bindings and buffers that are not a `Vec`.
