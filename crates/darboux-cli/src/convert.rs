@@ -12,7 +12,7 @@ use serde::Serialize;
 use crate::arguments::{ConvertArguments, Files, Talk};
 use crate::batch::{Made, Work, counted};
 use crate::interrupt;
-use crate::jobs::{Input, Job, Output, Usage, is_png};
+use crate::jobs::{Input, Job, Output, Usage, has_extension, is_png};
 use crate::messages::{FileProgress, write_stdout};
 use crate::models::{load_any, read_stdin, save};
 use crate::report::{FileReport, Status};
@@ -214,9 +214,7 @@ fn starts_as_png(path: &Path) -> bool {
 fn is_other_image(path: &Path) -> bool {
     const EXTENSIONS: [&str; 12] =
         ["jpg", "jpeg", "webp", "avif", "tga", "tif", "tiff", "exr", "dds", "ktx2", "bmp", "psd"];
-    let known =
-        |extension: &std::ffi::OsStr| EXTENSIONS.iter().any(|known| extension.eq_ignore_ascii_case(known));
-    path.extension().is_some_and(known)
+    has_extension(path, &EXTENSIONS)
 }
 
 fn told_of_image(image: &ImageSummary) -> String {

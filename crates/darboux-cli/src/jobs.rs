@@ -189,6 +189,12 @@ fn check_usage(files: &Files, rules: Rules<'_>) -> Result<(), Usage> {
     if stdin && (files.in_place || files.out_dir.is_some()) {
         return usage("standard input has no name and no place; use -o FILE");
     }
+    if let Some(file) = files.out_dir.as_ref().filter(|path| path.exists() && !path.is_dir()) {
+        return Err(Usage(format!(
+            "{} is not a folder; name one, or use -o FILE for a single output",
+            file.display()
+        )));
+    }
     let Some(output) = &files.output else {
         return match rules.json && stdin {
             true => usage("the file and the report cannot both go to standard output; use -o FILE"),
@@ -276,14 +282,17 @@ fn identity(path: &Path) -> PathBuf {
 
 /// True for .gltf, .glb and .vrm, which is a GLB.
 fn is_model(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| {
-        ["gltf", "glb", "vrm"].iter().any(|model| extension.eq_ignore_ascii_case(model))
-    })
+    has_extension(path, &["gltf", "glb", "vrm"])
 }
 
 /// True for .png.
 pub fn is_png(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"))
+    has_extension(path, &["png"])
+}
+
+/// True for one of these extensions, in whichever case.
+pub fn has_extension(path: &Path, extensions: &[&str]) -> bool {
+    path.extension().is_some_and(|found| extensions.iter().any(|known| found.eq_ignore_ascii_case(known)))
 }
 
 /// The words in the names of outputs, by command. Those of `convert` are conventions.

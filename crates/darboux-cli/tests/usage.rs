@@ -44,6 +44,7 @@ fn what_does_not_fit_together_is_refused() {
         &["tangents", a, "-o", dir],
         &["tangents", a, "-o", "x.obj"],
         &["tangents", a, "-o", a],
+        &["tangents", a, "--out-dir", b],
         &["tangents", a, "-o", "-", "--json"],
         &["tangents", "-", "--json"],
         &["tangents", "-", "--in-place"],

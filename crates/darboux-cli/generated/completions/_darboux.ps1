@@ -38,7 +38,7 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
         'darboux;tangents' {
             [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'Output file for a single input; - is standard output, as GLB')
             [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'Output file for a single input; - is standard output, as GLB')
-            [CompletionResult]::new('--out-dir', '--out-dir', [CompletionResultType]::ParameterName, 'Folder for all outputs; paths below input folders are kept')
+            [CompletionResult]::new('--out-dir', '--out-dir', [CompletionResultType]::ParameterName, 'Folder for all outputs, which have the names of their inputs; below an input folder its structure is kept')
             [CompletionResult]::new('--jobs', '--jobs', [CompletionResultType]::ParameterName, 'How many files are worked on at the same time')
             [CompletionResult]::new('--method', '--method', [CompletionResultType]::ParameterName, 'How tangents are computed: as the normal map was baked, so nearly always mikktspace')
             [CompletionResult]::new('--mode', '--mode', [CompletionResultType]::ParameterName, 'Which defects of the MikkTSpace reference to keep')
@@ -64,7 +64,7 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
         'darboux;normals' {
             [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'Output file for a single input; - is standard output, as GLB')
             [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'Output file for a single input; - is standard output, as GLB')
-            [CompletionResult]::new('--out-dir', '--out-dir', [CompletionResultType]::ParameterName, 'Folder for all outputs; paths below input folders are kept')
+            [CompletionResult]::new('--out-dir', '--out-dir', [CompletionResultType]::ParameterName, 'Folder for all outputs, which have the names of their inputs; below an input folder its structure is kept')
             [CompletionResult]::new('--jobs', '--jobs', [CompletionResultType]::ParameterName, 'How many files are worked on at the same time')
             [CompletionResult]::new('--normals', '--normals', [CompletionResultType]::ParameterName, 'flat, smooth, or crease=DEG: smooth but for edges that are sharper than so many degrees')
             [CompletionResult]::new('--weight', '--weight', [CompletionResultType]::ParameterName, 'How much each face counts at a vertex of a smooth surface')
@@ -82,7 +82,7 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             break
         }
         'darboux;convert' {
-            [CompletionResult]::new('--out-dir', '--out-dir', [CompletionResultType]::ParameterName, 'Folder for all outputs; paths below input folders are kept')
+            [CompletionResult]::new('--out-dir', '--out-dir', [CompletionResultType]::ParameterName, 'Folder for all outputs, which have the names of their inputs; below an input folder its structure is kept')
             [CompletionResult]::new('--jobs', '--jobs', [CompletionResultType]::ParameterName, 'How many files are worked on at the same time')
             [CompletionResult]::new('--from', '--from', [CompletionResultType]::ParameterName, 'The convention that the files are in')
             [CompletionResult]::new('--to', '--to', [CompletionResultType]::ParameterName, 'The convention that they shall be in')

@@ -17,14 +17,14 @@ pub struct Files {
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub output: Option<PathBuf>,
 
-    /// Folder for all outputs; paths below input folders are kept
+    /// Folder for all outputs, which have the names of their inputs; below an input folder its structure is kept
     #[arg(long, value_name = "FOLDER", help_heading = "Output")]
     pub out_dir: Option<PathBuf>,
 
     /// Replace each input by its output
     ///
-    /// The new file is written beside the old one and renamed when it is complete. A file in which nothing changes is not
-    /// touched.
+    /// The new file is written beside the old one and renamed when it is complete. New data of a .gltf goes to a .bin file of its own,
+    /// and no file is removed. A file in which nothing changes is not touched.
     #[arg(long, help_heading = "Output")]
     pub in_place: bool,
 

@@ -40,6 +40,9 @@ pub(super) struct GroupMemory {
     pub residuals: Vec<(D3, f64)>,
     /// Twice the area of each triangle; 0 of those that add nothing.
     pub areas: Vec<f64>,
+    /// What each triangle adds at its corners.
+    terms: Vec<[[f64; 4]; 3]>,
+    t_terms: Vec<[D3; 3]>,
     pub frames: Vec<GroupFrame>,
 }
 
@@ -53,13 +56,21 @@ pub(super) struct GroupedTriangles<'a> {
 
 impl GroupedTriangles<'_> {
     /// Sums over every group; `memory` has the derivatives and the groups' normals. With bitangents and magnitudes, if `is_whole`.
+    ///
+    /// First what every triangle adds at its corners, then what groups gather: both by all threads, in the same order on any number.
     pub fn add_up(&self, is_whole: bool, memory: &mut GroupMemory) {
-        let GroupMemory { derivatives, normals, sums, areas, .. } = memory;
-        let derivatives = &derivatives[..];
+        let GroupMemory { derivatives, normals, sums, areas, terms, t_terms, .. } = memory;
+        let (derivatives, normals) = (&derivatives[..], &normals[..]);
         areas.resize(derivatives.len(), 0.0);
         threads::fill(areas, |t| if derivatives[t].any { 0.0 } else { self.doubled_area(t) });
+        terms.resize(derivatives.len(), [[0.0; 4]; 3]);
+        threads::fill(terms, |t| self.terms(t, &derivatives[t], normals, areas[t]));
+        t_terms.resize(if is_whole { derivatives.len() } else { 0 }, [[0.0; 3]; 3]);
+        threads::fill(t_terms, |t| {
+            self.corner_normals(t, normals).map(|n| direction_in_plane(derivatives[t].t, n))
+        });
         sums.resize(normals.len(), GroupSum::default());
-        threads::fill(sums, |group| self.sum(group, is_whole, normals[group], derivatives, areas));
+        threads::fill(sums, |group| self.gathered(group, derivatives, terms, t_terms));
     }
 
     fn doubled_area(&self, t: usize) -> f64 {
@@ -71,29 +82,45 @@ impl GroupedTriangles<'_> {
         self.shape.positions(self.triangles, t).map(|position| position.map(f64::from))
     }
 
-    fn sum(
+    /// The normal of the group at each corner; zero where there is none.
+    fn corner_normals(&self, t: usize, normals: &[D3]) -> [D3; 3] {
+        let groups = self.triangles.corners[t].map(|corner| self.group_of_corner[corner as usize]);
+        groups.map(|group| normals.get(group as usize).copied().unwrap_or_default())
+    }
+
+    /// What a triangle adds at each corner: the weight times the direction of dP/du, and the weight.
+    #[inline(always)]
+    fn terms(&self, t: usize, derivative: &Derivative, normals: &[D3], area: f64) -> [[f64; 4]; 3] {
+        if derivative.any {
+            return [[0.0; 4]; 3];
+        }
+        let [a, b, c] = self.positions(t);
+        let (ab, bc, ca) = (sub(b, a), sub(c, b), sub(a, c));
+        let [of_a, of_b, of_c] = self.corner_normals(t, normals);
+        // Written out, as `map` becomes calls.
+        [
+            term(derivative.s, [ab, ca], of_a, area),
+            term(derivative.s, [bc, ab], of_b, area),
+            term(derivative.s, [ca, bc], of_c, area),
+        ]
+    }
+
+    fn gathered(
         &self,
         group: usize,
-        is_whole: bool,
-        normal: D3,
         derivatives: &[Derivative],
-        areas: &[f64],
+        terms: &[[[f64; 4]; 3]],
+        t_terms: &[[D3; 3]],
     ) -> GroupSum {
         let mut sum = GroupSum::default();
         for &member in self.groups.members(group) {
             let (t, k) = (member as usize / 3, member as usize % 3);
-            let derivative = &derivatives[t];
-            if derivative.any {
-                continue;
-            }
-            let positions = self.positions(t);
-            let [next, last] = [1, 2].map(|step| sub(positions[(k + step) % 3], positions[k]));
-            let weight = angle_in_plane(next, last, normal) * areas[t];
-            sum.s = add(sum.s, weight, direction_in_plane(derivative.s, normal));
+            let [x, y, z, weight] = terms[t][k];
+            sum.s = add(sum.s, 1.0, [x, y, z]);
             sum.weight += weight;
-            if is_whole {
-                sum.t = add(sum.t, weight, direction_in_plane(derivative.t, normal));
-                let lengths = derivative.magnitude.map(f64::from);
+            if let Some(t_term) = t_terms.get(t).filter(|_| !derivatives[t].any) {
+                sum.t = add(sum.t, weight, t_term[k]);
+                let lengths = derivatives[t].magnitude.map(f64::from);
                 sum.magnitude = [0, 1].map(|i| sum.magnitude[i] + weight * lengths[i]);
             }
         }
@@ -127,8 +154,18 @@ impl GroupedTriangles<'_> {
     }
 }
 
+/// What a triangle adds at the corner between `edges`, of which one leaves it and the other comes to it.
+#[inline(always)]
+fn term(s: V3, edges: [D3; 2], normal: D3, area: f64) -> [f64; 4] {
+    let [leaving, [x, y, z]] = edges;
+    let weight = angle_in_plane(leaving, [-x, -y, -z], normal) * area;
+    let [x, y, z] = direction_in_plane(s, normal);
+    [weight * x, weight * y, weight * z, weight]
+}
+
 /// The angle between the parts of `a` and `b` perpendicular to the normal, which is a unit vector or zero; 0 where one has none but
 /// rounding.
+#[inline(always)]
 fn angle_in_plane(a: D3, b: D3, normal: D3) -> f64 {
     let (along_a, along_b) = (dot(a, normal), dot(b, normal));
     let (square_a, square_b) = (dot(a, a), dot(b, b));
@@ -142,22 +179,25 @@ fn angle_in_plane(a: D3, b: D3, normal: D3) -> f64 {
 }
 
 /// The direction of the part of `v` perpendicular to the normal, which is a unit vector or zero; zero where there is none but rounding.
+#[inline(always)]
 fn direction_in_plane(v: V3, normal: D3) -> D3 {
-    let v = v.map(f64::from);
+    let v = [f64::from(v[0]), f64::from(v[1]), f64::from(v[2])];
     let rest = add(v, -dot(v, normal), normal);
     let square = dot(rest, rest);
     let inverse = if square > ROUNDING * dot(v, v) { 1.0 / square.sqrt() } else { 0.0 };
-    rest.map(|x| inverse * x)
+    [inverse * rest[0], inverse * rest[1], inverse * rest[2]]
 }
 
 /// The part of a squared length below which a difference is rounding: a millionth of the length.
 const ROUNDING: f64 = 1e-12;
 
+#[inline(always)]
 fn sub(a: D3, b: D3) -> D3 {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 /// sum + weight * v.
+#[inline(always)]
 pub(super) fn add(sum: D3, weight: f64, v: D3) -> D3 {
     [sum[0] + weight * v[0], sum[1] + weight * v[1], sum[2] + weight * v[2]]
 }
