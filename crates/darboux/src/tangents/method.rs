@@ -50,7 +50,7 @@ pub(super) fn run<O: Output>(
 ) -> Report {
     let mode = options.mode;
     match options.method {
-Method::MikkTSpace => mikktspace(mesh, options, cancel, corners),
+        Method::MikkTSpace => mikktspace(mesh, options, cancel, corners),
         Method::AngleArea => angle_area::run(mesh, mode, &mut memory.of_groups, corners),
         Method::Lengyel => summed::<2, Lengyel, O>(mesh, mode, accumulate::<2, Lengyel>, memory, corners),
         Method::LengyelPerVertex => {
