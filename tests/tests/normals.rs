@@ -1,8 +1,8 @@
 //! Normals against their brute force, on shapes whose normals are known, and on odd input.
 
 use darboux::{
-    Faces, Indices, Mesh, MeshError, NormalOptions, NormalWeight, Normals, Shading, SmoothingSeams,
-    generate_normals, naive, split_normals,
+    Faces, Indices, Mesh, MeshError, NormalOptions, NormalPlan, NormalWeight, Normals, Shading,
+    SmoothingSeams, generate_normals, naive, split_normals,
 };
 use darboux_tests::{Case, FaceSizes, OwnedMesh, families};
 
@@ -171,4 +171,58 @@ fn tangents_without_normals() {
         assert!(cosine.abs() < 1e-6, "{tangent:?} {normal:?}");
     }
     assert_eq!(mesh.faces, FaceSizes::Triangles);
+}
+
+fn plan(mesh: &OwnedMesh, options: &NormalOptions) -> NormalPlan {
+    let indices = mesh.indices.as_ref().map_or(Indices::Unindexed, Indices::from);
+    let sizes = mesh.face_sizes();
+    NormalPlan::new(&mesh.positions, indices, Faces::Mixed(&sizes), options).expect("a valid mesh")
+}
+
+#[test]
+fn plans_give_moved_meshes_what_a_fresh_run_does() {
+    for quads in [false, true] {
+        for mut mesh in [
+            families::cube(quads),
+            families::sphere(6, 9, quads),
+            families::grid(6, 5, quads, true).unindexed(),
+        ] {
+            for options in all_options() {
+                let plan = plan(&mesh, &options);
+                // A turn about z and a stretch: exact, no crease comes or goes.
+                for [x, y, z] in &mut mesh.positions {
+                    (*x, *y, *z) = (-2.0 * *y, 2.0 * *x, 2.0 * *z);
+                }
+                let (planned, fresh) =
+                    (plan.evaluate(&mesh.positions).expect("as many"), run(&mesh, &options));
+                assert_eq!(planned.report, fresh.report, "{options:?}");
+                let bits = |normals: &Normals| {
+                    normals.corners.iter().map(|n| n.map(f32::to_bits)).collect::<Vec<_>>()
+                };
+                assert_eq!(bits(&planned), bits(&fresh), "{options:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn plans_keep_the_creases_that_they_began_with() {
+    let mesh = families::cube(true);
+    let plan = plan(
+        &mesh,
+        &NormalOptions { crease: 60.0, seams: SmoothingSeams::Ignored, ..NormalOptions::default() },
+    );
+    let mut flat = mesh.clone();
+    flat.positions.iter_mut().for_each(|position| position[2] = 0.0);
+    let planned = plan.evaluate(&flat.positions).expect("as many");
+    assert_eq!(planned.report.creased_edges, 12);
+    assert_eq!(planned.report.degenerate_faces, 4);
+}
+
+#[test]
+fn plans_refuse_other_meshes() {
+    let mesh = families::cube(false);
+    let refused = plan(&mesh, &NormalOptions::default()).evaluate(&mesh.positions[1..]).err();
+    let (expected, found) = (mesh.positions.len(), mesh.positions.len() - 1);
+    assert_eq!(refused, Some(MeshError::OtherMesh { what: "vertices", expected, found }));
 }

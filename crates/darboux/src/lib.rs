@@ -55,7 +55,7 @@ pub use measure::{
 pub use mesh::{Faces, Indices, Mesh, MeshError, Strided};
 pub use normal_map::{Channel, TexelLayout, repack_texels};
 pub use normals::{
-    NormalOptions, NormalReport, NormalSplit, NormalWeight, Normals, Shading, SmoothingSeams,
+    NormalOptions, NormalPlan, NormalReport, NormalSplit, NormalWeight, Normals, Shading, SmoothingSeams,
     generate_normals, split_normals,
 };
 pub use plan::Plan;

@@ -7,6 +7,7 @@
 use std::collections::HashMap;
 
 use crate::math::angle;
+use crate::split::expect;
 use crate::{CornerTangents, Faces, Indices, Mesh, MeshError, Splitter, Strided};
 
 type D3 = [f64; 3];
@@ -101,28 +102,84 @@ pub fn generate_normals<'a>(
     faces: Faces<'a>,
     options: &NormalOptions,
 ) -> Result<Normals, MeshError> {
-    let mesh = bare_mesh(positions.into(), indices.into(), faces)?;
-    let polygons = Polygons::new(&mesh);
-    let mut report = NormalReport { faces: mesh.face_count(), ..NormalReport::default() };
-    report.degenerate_faces = polygons.normal_of_face.iter().filter(|normal| normal.is_none()).count();
-    let vertex_of_corner = vertices_of_corners(&mesh, options.seams);
-    let fan_of_corner = match options.shading {
-        Shading::Flat => polygons.face_of_corner.clone(),
-        Shading::Smooth if options.crease >= 180.0 => vertex_of_corner.clone(),
-        Shading::Smooth => fans(&polygons, &vertex_of_corner, options.crease, &mut report),
-    };
-    let weight = if options.shading == Shading::Flat { NormalWeight::Area } else { options.weight };
-    let fans = polygons.sums(&mesh, &fan_of_corner, weight);
-    let vertices = polygons.sums(&mesh, &vertex_of_corner, weight);
-    let normal = |corner: usize| {
-        let found = fans[fan_of_corner[corner] as usize].direction();
-        report.repaired_corners += usize::from(found.is_none());
-        let own = || polygons.normal_of_face[polygons.face_of_corner[corner] as usize];
-        let of_vertex = || vertices[vertex_of_corner[corner] as usize].direction();
-        found.or_else(own).or_else(of_vertex).unwrap_or([0.0, 0.0, 1.0]).map(|x| x as f32)
-    };
-    let corners = (0..mesh.corner_count()).map(normal).collect();
-    Ok(Normals { corners, report })
+    let positions = positions.into();
+    NormalPlan::new(positions, indices, faces, options)?.evaluate(positions)
+}
+
+/// The smoothed vertices and creases of one mesh, kept to compute its normals again after its vertices moved (morph targets, skinning).
+#[derive(Clone, Debug)]
+pub struct NormalPlan {
+    vertex_count: usize,
+    indices: Vec<u32>,
+    /// None where all faces are triangles.
+    sizes: Option<Vec<u32>>,
+    /// Corners that share a vertex, seams or not.
+    vertex_of_corner: Vec<u32>,
+    /// Corners that share a normal.
+    fan_of_corner: Vec<u32>,
+    weight: NormalWeight,
+    creased_edges: usize,
+}
+
+impl NormalPlan {
+    /// Finds vertices and creases. All as for [`generate_normals`].
+    pub fn new<'a>(
+        positions: impl Into<Strided<'a, 3>>,
+        indices: impl Into<Indices<'a>>,
+        faces: Faces<'a>,
+        options: &NormalOptions,
+    ) -> Result<Self, MeshError> {
+        let mesh = bare_mesh(positions.into(), indices.into(), faces)?;
+        let vertex_of_corner = vertices_of_corners(&mesh, options.seams);
+        let (fan_of_corner, creased_edges) = fans_of_corners(&mesh, &vertex_of_corner, options);
+        let is_flat = options.shading == Shading::Flat;
+        Ok(Self {
+            vertex_count: mesh.vertex_count(),
+            indices: (0..mesh.corner_count()).map(|corner| mesh.vertex_of_corner(corner) as u32).collect(),
+            sizes: match faces {
+                Faces::Triangles => None,
+                Faces::Quads => Some(vec![4; mesh.face_count()]),
+                Faces::Mixed(sizes) => Some(sizes.to_vec()),
+            },
+            vertex_of_corner,
+            fan_of_corner,
+            weight: if is_flat { NormalWeight::Area } else { options.weight },
+            creased_edges,
+        })
+    }
+
+    /// The normals of the moved mesh, smoothed over the same corners: what [`generate_normals`] gives while no position meets or leaves
+    /// another and no edge becomes a crease or ceases to be one.
+    ///
+    /// `positions`: as many as before. Errors: another number.
+    pub fn evaluate<'a>(&self, positions: impl Into<Strided<'a, 3>>) -> Result<Normals, MeshError> {
+        let positions = positions.into();
+        expect("vertices", self.vertex_count, positions.len())?;
+        let faces = self.sizes.as_deref().map_or(Faces::Triangles, Faces::Mixed);
+        let mesh = bare_mesh(positions, Indices::U32(&self.indices), faces)?;
+        let polygons = Polygons::new(&mesh);
+        let fans = polygons.sums(&mesh, &self.fan_of_corner, self.weight);
+        let mut repaired_corners = 0;
+        let mut vertices = None;
+        let normal = |corner: usize| {
+            let found = fans[self.fan_of_corner[corner] as usize].direction();
+            repaired_corners += usize::from(found.is_none());
+            let own = || polygons.normal_of_face[polygons.face_of_corner[corner] as usize];
+            let of_vertex = || {
+                let sums = || polygons.sums(&mesh, &self.vertex_of_corner, self.weight);
+                vertices.get_or_insert_with(sums)[self.vertex_of_corner[corner] as usize].direction()
+            };
+            found.or_else(own).or_else(of_vertex).unwrap_or([0.0, 0.0, 1.0]).map(|x| x as f32)
+        };
+        let corners = (0..mesh.corner_count()).map(normal).collect();
+        let report = NormalReport {
+            faces: mesh.face_count(),
+            degenerate_faces: polygons.normal_of_face.iter().filter(|normal| normal.is_none()).count(),
+            repaired_corners,
+            creased_edges: self.creased_edges,
+        };
+        Ok(Normals { corners, report })
+    }
 }
 
 /// An indexed mesh's vertices after splitting by normals, as [`VertexSplit`](crate::VertexSplit) is by tangents.
@@ -287,10 +344,21 @@ fn vertices_of_corners(mesh: &Mesh<'_>, seams: SmoothingSeams) -> Vec<u32> {
     corners.map(vertex).collect()
 }
 
-/// The fan of every corner, named by one of its corners: corners at a vertex that edges without a crease connect.
+/// The corners that share a normal, and how many edges are creases.
+fn fans_of_corners(mesh: &Mesh<'_>, vertex_of_corner: &[u32], options: &NormalOptions) -> (Vec<u32>, usize) {
+    match options.shading {
+        Shading::Smooth if options.crease >= 180.0 => (vertex_of_corner.to_vec(), 0),
+        Shading::Flat => (Polygons::new(mesh).face_of_corner, 0),
+        Shading::Smooth => fans(&Polygons::new(mesh), vertex_of_corner, options.crease),
+    }
+}
+
+/// The fan of every corner, named by one of its corners: corners at a vertex that edges without a crease connect. And how many edges are
+/// creases.
 ///
 /// On an edge of more than two faces each is compared with the next. Degenerate faces crease nothing.
-fn fans(polygons: &Polygons, vertex_of_corner: &[u32], crease: f32, report: &mut NormalReport) -> Vec<u32> {
+fn fans(polygons: &Polygons, vertex_of_corner: &[u32], crease: f32) -> (Vec<u32>, usize) {
+    let mut creased_edges = 0;
     let least_cosine = f64::from(crease.max(0.0)).to_radians().cos();
     let mut edges: Vec<([u32; 2], u32)> = (0..vertex_of_corner.len())
         .map(|corner| {
@@ -308,7 +376,7 @@ fn fans(polygons: &Polygons, vertex_of_corner: &[u32], crease: f32, report: &mut
             [a, b].map(|&corner| polygons.normal_of_face[polygons.face_of_corner[corner as usize] as usize]);
         // A hair more than the rounding of a cosine, so that equal normals never crease.
         let is_crease = matches!(normals, [Some(a), Some(b)] if dot(a, b) < least_cosine - 1e-12);
-        report.creased_edges += usize::from(is_crease);
+        creased_edges += usize::from(is_crease);
         if !is_crease {
             let corners = [a, b].map(|&corner| [corner as usize, polygons.around(corner as usize)[1]]);
             for a in corners[0] {
@@ -319,7 +387,8 @@ fn fans(polygons: &Polygons, vertex_of_corner: &[u32], crease: f32, report: &mut
             }
         }
     }
-    (0..fan_of_corner.len()).map(|corner| find(&mut fan_of_corner, corner) as u32).collect()
+    let names = (0..fan_of_corner.len()).map(|corner| find(&mut fan_of_corner, corner) as u32).collect();
+    (names, creased_edges)
 }
 
 /// The corner that names a corner's fan; halves the way there (R. Tarjan and J. van Leeuwen 1984).
