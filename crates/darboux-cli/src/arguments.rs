@@ -6,6 +6,7 @@ mod devices;
 mod files;
 mod inspect;
 mod normals;
+mod render;
 mod tangents;
 mod view;
 
@@ -19,6 +20,8 @@ pub use devices::DevicesArguments;
 pub use files::{Files, Talk};
 pub use inspect::InspectArguments;
 pub use normals::NormalsArguments;
+#[cfg_attr(not(feature = "gpu"), expect(unused_imports, reason = "only render reads them"))]
+pub use render::{RenderArguments, Source, View};
 pub use tangents::{Device, Method, TangentsArguments};
 pub use view::ViewArguments;
 
@@ -71,6 +74,9 @@ pub enum Command {
     /// Show what each primitive holds and what its tangents would meet
     #[command(long_about = inspect::ABOUT, after_long_help = inspect::EXAMPLES)]
     Inspect(InspectArguments),
+    /// Draw a model or its tangents into a PNG
+    #[command(long_about = render::ABOUT, after_long_help = render::EXAMPLES)]
+    Render(RenderArguments),
     /// Show a model in the browser, with its tangents
     #[command(long_about = view::ABOUT, after_long_help = view::EXAMPLES)]
     View(ViewArguments),

@@ -1,6 +1,6 @@
 //! `darboux compare`.
 
-mod heat_map;
+pub mod heat_map;
 mod statistics;
 mod text;
 
@@ -145,8 +145,8 @@ fn nothing_to_compare(documents: [&Document; 2]) -> String {
     }
 }
 
-/// Says that a heat map would replace a file of the inputs.
-fn refuse_used(path: &Path, documents: [&Document; 2]) -> Result<(), String> {
+/// Says that a picture would replace a file of the inputs.
+pub fn refuse_used(path: &Path, documents: [&Document; 2]) -> Result<(), String> {
     match documents.into_iter().find(|document| document.uses_file(path)) {
         Some(document) => {
             Err(format!("{}: is a file that {} uses; name another file", path.display(), document.name()))

@@ -16,6 +16,8 @@ mod messages;
 mod methods;
 mod models;
 mod normals;
+#[cfg_attr(not(feature = "gpu"), path = "render_without_gpu.rs")]
+mod render;
 mod report;
 mod tangents;
 mod view;
@@ -49,6 +51,7 @@ where
             Command::Convert(arguments) => batch::run(arguments),
             Command::Compare(arguments) => compare::run(arguments),
             Command::Inspect(arguments) => inspect::run(arguments),
+            Command::Render(arguments) => render::run(arguments),
             Command::View(arguments) => view::run(arguments),
             Command::Methods => methods::run(),
             Command::Devices(arguments) => devices::run(arguments),

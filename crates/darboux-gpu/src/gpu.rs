@@ -3,11 +3,12 @@
 use std::fmt;
 
 use wgpu::{
-    Adapter, Backends, Device, DeviceDescriptor, DeviceType, Features, Instance, InstanceDescriptor, Queue,
+    Adapter, Backends, Buffer, CommandEncoder, Device, DeviceDescriptor, DeviceType, Features, Instance,
+    InstanceDescriptor, Queue,
 };
 
-use crate::GpuError;
 use crate::pieces::largest_binding;
+use crate::{GpuError, device};
 
 /// A device with all that its adapter allows.
 #[derive(Clone, Debug)]
@@ -109,6 +110,23 @@ impl Gpu {
             found.push((AdapterSummary::of(&adapter), Self::of(&adapter).await));
         }
         found
+    }
+
+    /// Runs `work`, whose calls of the device would panic where the device refuses.
+    ///
+    /// Errors: those of `work`; the device has no memory left, or refused something.
+    pub fn guarded<T, E: From<GpuError>>(&self, work: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
+        device::guarded(&self.device, || Ok(work()))?
+    }
+
+    /// Submits what `record` records; gives what is in `buffer` then, which allows to be copied from. Errors: the device is lost.
+    pub fn read(
+        &self,
+        record: impl FnOnce(&mut CommandEncoder),
+        buffer: &Buffer,
+    ) -> Result<Vec<u8>, GpuError> {
+        let [copy] = device::submit(&self.device, &self.queue, record, [buffer]);
+        copy.read(&self.device)
     }
 
     async fn of(adapter: &Adapter) -> Result<Self, GpuError> {

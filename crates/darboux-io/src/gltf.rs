@@ -6,17 +6,20 @@ mod compare;
 mod compression;
 mod container;
 mod convert;
+mod corners;
 mod document;
 mod file_bytes;
 mod inspect;
 mod json;
 mod layout;
+mod looks;
 mod normals;
 mod object;
 mod pieces;
 mod references;
 mod resources;
 mod save;
+mod scene;
 pub mod schema;
 mod tangents;
 mod values;
@@ -25,12 +28,15 @@ mod waste;
 pub use accessor::{Elements, NewAccessor, Target};
 pub use compare::{Pair, PairedCorners, Unpaired, pair_tangents};
 pub use convert::{ConversionSummary, convert_vertices};
+pub use corners::PrimitiveCorners;
 pub use document::{Document, LoadOptions};
 pub use inspect::{PrimitiveInfo, inspect};
+pub use looks::{Alpha, Look, TextureUse, Wrap};
 pub use normals::{
     NormalsOptions, NormalsOutcome, NormalsSummary, PrimitiveNormals, WrittenNormals, add_normals,
 };
 pub use save::SaveOptions;
+pub use scene::PlacedMesh;
 pub use schema::{ComponentType, ElementType};
 pub use tangents::{
     Counts, Generate, Outcome, PrimitiveName, PrimitiveSummary, Progress, Summary, TangentEncoding,

@@ -11,7 +11,7 @@ use super::statistics::differences;
 const SIZE: usize = 1024;
 /// Rows of black, then rows of the scale, below it.
 const GAP: usize = 8;
-const SCALE: usize = 24;
+pub const SCALE: usize = 24;
 
 /// The scale's ends in degrees; it is logarithmic between them.
 pub const ENDS: [f64; 2] = [0.01, 180.0];
@@ -19,7 +19,7 @@ pub const ENDS: [f64; 2] = [0.01, 180.0];
 pub const TICKS: [f64; 4] = [0.1, 1.0, 10.0, 100.0];
 
 /// From least to greatest: nine colours of viridis (N. Smith and S. van der Walt, 2015, CC0), which grow lighter evenly.
-const RAMP: [[u8; 3]; 9] = [
+pub const RAMP: [[u8; 3]; 9] = [
     [68, 1, 84],
     [71, 44, 122],
     [59, 81, 139],
@@ -33,7 +33,7 @@ const RAMP: [[u8; 3]; 9] = [
 const BACKGROUND: [u8; 3] = [16, 16, 16];
 const TICK: [u8; 3] = [255, 255, 255];
 /// A flipped sign, whatever the angle.
-const FLIP: [u8; 3] = [230, 40, 40];
+pub const FLIP: [u8; 3] = [230, 40, 40];
 
 /// How many texels are looked at before only corners are drawn: some seconds.
 const MOST_TEXELS: u64 = 1 << 30;
@@ -108,13 +108,17 @@ impl HeatMap {
         let mut texels: Vec<[u8; 3]> =
             self.worst.iter().map(|worst| worst.map_or(BACKGROUND, colour)).collect();
         texels.resize(SIZE * (SIZE + GAP), [0; 3]);
-        let ticks = TICKS.map(|tick| (place(tick) * (SIZE - 1) as f64).round() as usize);
-        let row =
-            (0..SIZE).map(|x| if ticks.contains(&x) { TICK } else { ramp(x as f64 / (SIZE - 1) as f64) });
-        let row: Vec<[u8; 3]> = row.collect();
+        let row = scale(SIZE);
         (0..SCALE).for_each(|_| texels.extend_from_slice(&row));
         Image::from_rgb(name, [SIZE as u32, (SIZE + GAP + SCALE) as u32], &texels)
     }
+}
+
+/// A row of the scale, from its first colour to its last, with ticks.
+pub fn scale(width: usize) -> Vec<[u8; 3]> {
+    let last = width.saturating_sub(1).max(1) as f64;
+    let ticks = TICKS.map(|tick| (place(tick) * last).round() as usize);
+    (0..width).map(|x| if ticks.contains(&x) { TICK } else { ramp(x as f64 / last) }).collect()
 }
 
 /// The angle; without one nothing where both are identical, and as far off as can be where they are not.

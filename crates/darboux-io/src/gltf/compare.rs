@@ -1,8 +1,7 @@
 //! The tangents of two documents of one model, corner by corner.
 
-use darboux::MeshError;
-
-use super::tangents::select::{Candidate, element_count, select};
+use super::corners::{PrimitiveCorners, triangle_count};
+use super::tangents::select::{Candidate, select};
 use super::tangents::topology::{Topology, mode_name};
 use super::tangents::{PrimitiveName, TangentsOptions, excess};
 use super::{Document, schema};
@@ -63,12 +62,7 @@ pub fn pair_tangents(a: &mut Document, b: &mut Document) -> Result<Vec<Pair>, Er
 /// The triangles of every primitive with tangents, as its accessors claim them.
 fn triangle_counts(document: &Document) -> impl Iterator<Item = usize> {
     let primitives = document.meshes().iter().flat_map(|mesh| &mesh.primitives).filter(|p| has_tangents(p));
-    primitives.filter_map(|primitive| {
-        let source = primitive.indices.or_else(|| primitive.attributes.get("POSITION").copied());
-        let count =
-            source.and_then(|accessor| document.accessors().get(accessor)).map_or(0, |found| found.count);
-        Topology::from_mode(primitive.mode).map(|topology| topology.triangle_count(count))
-    })
+    primitives.filter_map(|primitive| triangle_count(document, primitive))
 }
 
 fn has_tangents(primitive: &schema::Primitive) -> bool {
@@ -76,12 +70,12 @@ fn has_tangents(primitive: &schema::Primitive) -> bool {
 }
 
 fn pair(a: &Document, b: &Document, candidate: &Candidate) -> Result<Pair, Error> {
-    let name = candidate.name.clone();
+    let name = &candidate.name;
     let [first, second] = [a, b].map(|document| &document.meshes()[name.mesh].primitives[name.primitive]);
     if let Some(unpaired) = unpaired([a, b], [first, second]) {
-        return Ok(Pair { name, corners: Err(unpaired) });
+        return Ok(Pair { name: name.clone(), corners: Err(unpaired) });
     }
-    let [corners, others] = [corners(a, &name, first)?, corners(b, &name, second)?];
+    let [corners, others] = [corners(a, name, first)?, corners(b, name, second)?];
     if corners.len() != others.len() {
         let problem = format!(
             "has {} corners, but {} in {}; compare files of one model",
@@ -91,14 +85,14 @@ fn pair(a: &Document, b: &Document, candidate: &Candidate) -> Result<Pair, Error
         );
         return Err(b.invalid(name.path(), problem));
     }
-    let positions = gather::<3>(a, &name, first, "POSITION", &corners)?.unwrap_or_default();
-    let moved = gather::<3>(b, &name, second, "POSITION", &others)?.unwrap_or_default();
-    let tangents = gather(a, &name, first, "TANGENT", &corners)?.unwrap_or_default();
-    let other_tangents = gather(b, &name, second, "TANGENT", &others)?.unwrap_or_default();
-    let uvs = gather(a, &name, first, &format!("TEXCOORD_{}", candidate.uv.set), &corners)?;
+    let positions = corners.vectors::<3>("POSITION")?.unwrap_or_default();
+    let moved = others.vectors::<3>("POSITION")?.unwrap_or_default();
+    let tangents = corners.vectors("TANGENT")?.unwrap_or_default();
+    let other_tangents = others.vectors("TANGENT")?.unwrap_or_default();
+    let uvs = corners.vectors(&format!("TEXCOORD_{}", candidate.uv.set))?;
     let moved = positions.iter().zip(&moved).filter(|(position, moved)| position != moved).count();
     let tangents = [tangents, other_tangents];
-    Ok(Pair { corners: Ok(PairedCorners { positions, uvs, tangents, moved }), name })
+    Ok(Pair { corners: Ok(PairedCorners { positions, uvs, tangents, moved }), name: name.clone() })
 }
 
 /// Why there is nothing to compare, if there is nothing.
@@ -116,42 +110,12 @@ fn unpaired([a, b]: [&Document; 2], [first, second]: [&schema::Primitive; 2]) ->
     Some(Unpaired { reason, is_one_sided: has_tangents(first) != has_tangents(second) })
 }
 
-/// The vertices of all whole triangles, three each.
-fn corners(
-    document: &Document,
+fn corners<'a>(
+    document: &'a Document,
     name: &PrimitiveName,
-    primitive: &schema::Primitive,
-) -> Result<Vec<u32>, Error> {
-    let Some(topology) = Topology::from_mode(primitive.mode) else {
-        return Err(
-            document.invalid(name.path(), "has another mode in the other file; compare files of one model")
-        );
-    };
-    let mut indices = match (primitive.indices, primitive.attributes.get("POSITION")) {
-        (Some(accessor), _) => document.read_indices(accessor)?,
-        (None, Some(&position)) => (0..element_count(document, position)? as u32).collect(),
-        (None, None) => Vec::new(),
-    };
-    indices.truncate(topology.whole(indices.len()));
-    Ok(topology.corners(indices))
-}
-
-/// An attribute at every corner; none where the primitive does not have it. Errors: an index out of range.
-fn gather<const N: usize>(
-    document: &Document,
-    name: &PrimitiveName,
-    primitive: &schema::Primitive,
-    semantic: &str,
-    corners: &[u32],
-) -> Result<Option<Vec<[f32; N]>>, Error> {
-    let Some(&accessor) = primitive.attributes.get(semantic) else { return Ok(None) };
-    let vectors = document.vectors::<N>(accessor)?;
-    let vertices = vectors.len();
-    let at = |(at, &index): (usize, &u32)| {
-        let vector = vectors.get(index as usize).copied();
-        vector.ok_or_else(|| {
-            document.mesh_error(name.path(), MeshError::IndexOutOfRange { at, index, vertices })
-        })
-    };
-    corners.iter().enumerate().map(at).collect::<Result<_, _>>().map(Some)
+    primitive: &'a schema::Primitive,
+) -> Result<PrimitiveCorners<'a>, Error> {
+    PrimitiveCorners::find(document, name, primitive)?.ok_or_else(|| {
+        document.invalid(name.path(), "has another mode in the other file; compare files of one model")
+    })
 }

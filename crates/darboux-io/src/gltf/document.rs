@@ -6,6 +6,7 @@ use std::sync::{Arc, OnceLock};
 
 use darboux::MeshError;
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use serde_json::value::RawValue;
 use serde_json::{Map, Value};
 
@@ -361,6 +362,12 @@ impl Document {
     /// The JSON text as it was read.
     pub(super) fn text(&self) -> &str {
         &self.text
+    }
+
+    /// What a type reads out of the JSON text as it was read. Errors: text that it cannot be read from.
+    pub(super) fn parsed<T: DeserializeOwned>(&self) -> Result<T, Fault> {
+        let mut parser = serde_json::Deserializer::from_str(&self.text);
+        serde_path_to_error::deserialize(&mut parser).map_err(json_fault)
     }
 
     /// The bytes of a buffer view and its stride. `at` is the JSON path that refers to it.

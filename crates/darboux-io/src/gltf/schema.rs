@@ -375,12 +375,13 @@ impl Buffer {
 /// An image.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
-#[serde(remote = "Self")]
+#[serde(remote = "Self", rename_all = "camelCase")]
 pub struct Image {
     /// Where the image is; without, in a buffer view.
     pub uri: Option<String>,
+    /// That buffer view.
+    pub buffer_view: Option<usize>,
     /// What it is.
-    #[serde(rename = "mimeType")]
     pub mime_type: Option<String>,
 }
 

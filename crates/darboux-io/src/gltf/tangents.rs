@@ -10,7 +10,7 @@ pub(super) mod share;
 mod split;
 mod summary;
 pub(super) mod topology;
-mod uv;
+pub(super) mod uv;
 mod write;
 
 pub use compute::Generate;

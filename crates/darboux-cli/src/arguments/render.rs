@@ -1,0 +1,146 @@
+//! `darboux render`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::{Method, Talk};
+
+pub(super) const ABOUT: &str = "\
+Draw a model or its tangents into a PNG, without a window.
+
+The views are those of `darboux view`. Node transforms count, mirrors included; skins, morph targets and animations do not. Parts \
+without a normal map are shaded with a pattern of domes, so that wrong tangents show.
+
+Drawing needs an adapter, as `darboux devices` lists them; software ones such as Mesa's lavapipe do.";
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  darboux render model.glb -o model.png
+  darboux render model.glb -o t.png --view tangent --tangents lengyel
+  darboux render model.glb -o heat.png --view heat --tangents file --against mikktspace
+  darboux render model.glb -o back.png --camera 180,10,1.5 --size 1920x1080";
+
+/// `darboux render`.
+#[derive(Debug, Args)]
+#[cfg_attr(not(feature = "gpu"), expect(dead_code, reason = "such builds draw nothing"))]
+pub struct RenderArguments {
+    /// A model (.gltf, .glb, .vrm)
+    #[arg(value_name = "MODEL")]
+    pub model: PathBuf,
+
+    /// The picture
+    #[arg(short, long, value_name = "PNG")]
+    pub output: PathBuf,
+
+    /// What is drawn
+    #[arg(long, value_enum, value_name = "VIEW", default_value_t)]
+    pub view: View,
+
+    /// Whose tangents: file, or a method, as `darboux methods` lists them
+    ///
+    /// Without it those of the file, and MikkTSpace's where it has none.
+    #[arg(long, value_name = "SOURCE", value_parser = source)]
+    pub tangents: Option<Source>,
+
+    /// For --view heat: the tangents that they are compared with
+    #[arg(long, value_name = "SOURCE", value_parser = source, required_if_eq("view", "heat"))]
+    pub against: Option<Source>,
+
+    /// Pixels across and down
+    #[arg(long, value_name = "WxH", default_value = "1024x768", value_parser = size)]
+    pub size: [u32; 2],
+
+    /// Degrees around the model (0 is its front), degrees above the horizon, and how many times nearer than all of it in view
+    #[arg(
+        long,
+        value_name = "YAW,PITCH[,ZOOM]",
+        default_value = "30,20,1",
+        value_parser = camera,
+        allow_hyphen_values = true
+    )]
+    pub camera: [f64; 3],
+
+    /// The colour behind the model
+    #[arg(long, value_name = "RRGGBB", default_value = "eceff1", value_parser = color)]
+    pub background: [u8; 3],
+
+    /// Replace a picture that exists
+    #[arg(long)]
+    pub force: bool,
+
+    /// Allow buffers and images outside the model's folder
+    #[arg(long)]
+    pub allow_outside: bool,
+
+    #[command(flatten)]
+    pub talk: Talk,
+}
+
+/// `--view`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum View {
+    /// The surface with its base colour and normal map, lit from above right
+    #[default]
+    Shaded,
+    /// Tangents as colours, 0.5 + 0.5 of each component in the scene
+    Tangent,
+    /// Bitangents, likewise
+    Bitangent,
+    /// Normals of the mesh, likewise
+    Normal,
+    /// The sign w: blue 1, orange -1
+    Sign,
+    /// The angle between two sources, with the scale of compare's heat maps (0.01 to 180 degrees); red where signs differ
+    #[value(alias = "angle")]
+    Heat,
+    /// The UV layout, v down, in the colours of tangents
+    Uv,
+}
+
+/// `--tangents` and `--against`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// What the file has.
+    File,
+    /// What a method computes.
+    Method(Method),
+}
+
+fn source(text: &str) -> Result<Source, String> {
+    if text == "file" {
+        return Ok(Source::File);
+    }
+    let unknown = |_| "neither file nor a method; `darboux methods` lists them".to_owned();
+    Method::from_str(text, false).map(Source::Method).map_err(unknown)
+}
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let sides =
+        text.split_once('x').and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
+    sides.ok_or_else(|| "not a size such as 1024x768".to_owned())
+}
+
+fn camera(text: &str) -> Result<[f64; 3], String> {
+    let parts: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+    let (yaw, pitch, zoom) = match parts.as_deref() {
+        Some(&[yaw, pitch]) => (yaw, pitch, 1.0),
+        Some(&[yaw, pitch, zoom]) => (yaw, pitch, zoom),
+        _ => return Err("not two or three numbers such as 30,20 or 30,20,1.5".to_owned()),
+    };
+    if !((-360.0..=360.0).contains(&yaw)
+        && (-90.0..=90.0).contains(&pitch)
+        && (0.01..=1000.0).contains(&zoom))
+    {
+        return Err("not from -360 to 360, -90 to 90 and 0.01 to 1000".to_owned());
+    }
+    Ok([yaw, pitch, zoom])
+}
+
+fn color(text: &str) -> Result<[u8; 3], String> {
+    let digits = text.strip_prefix('#').unwrap_or(text);
+    let is_color = digits.len() == 6 && digits.bytes().all(|digit| digit.is_ascii_hexdigit());
+    let number = u32::from_str_radix(digits, 16).ok().filter(|_| is_color);
+    let [_, r, g, b] = number.ok_or("not a colour of six hexadecimal digits such as eceff1")?.to_be_bytes();
+    Ok([r, g, b])
+}

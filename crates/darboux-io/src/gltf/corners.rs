@@ -1,0 +1,98 @@
+//! The corners of a primitive's triangles, and attributes at each of them.
+
+use darboux::MeshError;
+
+use super::tangents::select::element_count;
+use super::tangents::topology::Topology;
+use super::tangents::{PrimitiveName, excess};
+use super::{Document, schema};
+use crate::Error;
+
+/// The corners of all whole triangles of a primitive, three each, in the order of the file; strips and fans cut up.
+#[derive(Debug)]
+pub struct PrimitiveCorners<'a> {
+    document: &'a Document,
+    name: PrimitiveName,
+    primitive: &'a schema::Primitive,
+    vertices: Vec<u32>,
+}
+
+impl<'a> PrimitiveCorners<'a> {
+    /// The corners; none of points and lines. Errors: broken indices.
+    pub(super) fn find(
+        document: &'a Document,
+        name: &PrimitiveName,
+        primitive: &'a schema::Primitive,
+    ) -> Result<Option<Self>, Error> {
+        let Some(topology) = Topology::from_mode(primitive.mode) else { return Ok(None) };
+        let mut indices = match (primitive.indices, primitive.attributes.get("POSITION")) {
+            (Some(accessor), _) => document.read_indices(accessor)?,
+            (None, Some(&position)) => (0..element_count(document, position)? as u32).collect(),
+            (None, None) => Vec::new(),
+        };
+        indices.truncate(topology.whole(indices.len()));
+        Ok(Some(Self { document, name: name.clone(), primitive, vertices: topology.corners(indices) }))
+    }
+
+    /// The primitive.
+    pub fn name(&self) -> &PrimitiveName {
+        &self.name
+    }
+
+    /// The index of its material, if it has one.
+    pub fn material(&self) -> Option<usize> {
+        self.primitive.material
+    }
+
+    /// Their number.
+    pub fn len(&self) -> usize {
+        self.vertices.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.vertices.is_empty()
+    }
+
+    /// An attribute at every corner, as floats; none where the primitive does not have it.
+    ///
+    /// `semantic`: as the file names it, such as `TEXCOORD_0`. Errors: broken data; an index out of range.
+    pub fn vectors<const N: usize>(&self, semantic: &str) -> Result<Option<Vec<[f32; N]>>, Error> {
+        let Some(&accessor) = self.primitive.attributes.get(semantic) else { return Ok(None) };
+        let vectors = self.document.vectors::<N>(accessor)?;
+        let vertices = vectors.len();
+        let at = |(at, &index): (usize, &u32)| {
+            let vector = vectors.get(index as usize).copied();
+            vector.ok_or_else(|| {
+                let problem = MeshError::IndexOutOfRange { at, index, vertices };
+                self.document.mesh_error(self.name.path(), problem)
+            })
+        };
+        self.vertices.iter().enumerate().map(at).collect::<Result<_, _>>().map(Some)
+    }
+}
+
+impl Document {
+    /// The corners of every primitive that has triangles. Compressed documents must be [decompressed](Document::decompress) first.
+    ///
+    /// Errors: broken indices; more corners than a file of this size can mean.
+    pub fn corners(&self) -> Result<Vec<PrimitiveCorners<'_>>, Error> {
+        let primitives = || self.meshes().iter().flat_map(|mesh| &mesh.primitives);
+        excess::check_triangles(self, primitives().filter_map(|primitive| triangle_count(self, primitive)))?;
+        let mut found = Vec::new();
+        for (index, mesh) in self.meshes().iter().enumerate() {
+            for (place, primitive) in mesh.primitives.iter().enumerate() {
+                let name = PrimitiveName { mesh: index, mesh_name: mesh.name.clone(), primitive: place };
+                found.extend(PrimitiveCorners::find(self, &name, primitive)?);
+            }
+        }
+        Ok(found)
+    }
+}
+
+/// The triangles of a primitive, as its accessors claim them; none of points and lines.
+pub(super) fn triangle_count(document: &Document, primitive: &schema::Primitive) -> Option<usize> {
+    let source = primitive.indices.or_else(|| primitive.attributes.get("POSITION").copied());
+    let count = source.and_then(|accessor| document.accessors().get(accessor)).map_or(0, |found| found.count);
+    Topology::from_mode(primitive.mode).map(|topology| topology.triangle_count(count))
+}

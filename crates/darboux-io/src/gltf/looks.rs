@@ -1,0 +1,255 @@
+//! Materials and images, as far as a picture needs them.
+
+use std::borrow::Cow;
+use std::fs;
+
+use serde::Deserialize;
+
+use super::Document;
+use super::object::read_from_objects;
+use super::resources::{Reference, decode_data_uri};
+use super::schema::{Image, TextureInfoExtensions};
+use super::tangents::uv::{UvChoice, UvTransform};
+use crate::Error;
+use crate::error::Fault;
+
+/// How a material looks.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Look {
+    /// Linear red, green, blue, and alpha.
+    pub base_color: [f32; 4],
+    /// Its texture, in sRGB.
+    pub base_texture: Option<TextureUse>,
+    /// The normal map.
+    pub normal_texture: Option<TextureUse>,
+    /// How far the normal map leans.
+    pub normal_scale: f32,
+    /// What alpha means.
+    pub alpha: Alpha,
+    /// The UV set that tangents follow: n of `TEXCOORD_n`.
+    pub tangent_uv_set: usize,
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Self {
+            base_color: [1.0; 4],
+            base_texture: None,
+            normal_texture: None,
+            normal_scale: 1.0,
+            alpha: Alpha::Opaque,
+            tangent_uv_set: 0,
+        }
+    }
+}
+
+/// What the alpha of a material's base colour means.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Alpha {
+    /// Nothing.
+    Opaque,
+    /// What is below is not there.
+    Mask(f32),
+    /// How much covers what is behind.
+    Blend,
+}
+
+/// A texture where a material uses it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextureUse {
+    /// The index of the image; none where it is only in a format of an extension.
+    pub image: Option<usize>,
+    /// n of `TEXCOORD_n`.
+    pub uv_set: usize,
+    /// What UVs beyond the image show, along u and v.
+    pub wrap: [Wrap; 2],
+    /// Whether texels stay squares where they are large.
+    pub is_nearest: bool,
+    transform: Option<UvTransform>,
+}
+
+impl TextureUse {
+    /// Where a UV of the set meets the image, after `KHR_texture_transform`.
+    pub fn place(&self, uv: [f32; 2]) -> [f32; 2] {
+        self.transform.map_or(uv, |transform| transform.apply(uv))
+    }
+}
+
+/// What UVs beyond an image show.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Wrap {
+    /// The image again.
+    #[default]
+    Repeat,
+    /// The image again, every other one mirrored.
+    Mirror,
+    /// Its edge.
+    Clamp,
+}
+
+read_from_objects! { Looks, Material, Metallic, Use, Texture, Sampler }
+
+#[derive(Deserialize)]
+#[serde(remote = "Self")]
+struct Looks {
+    #[serde(default)]
+    materials: Vec<Material>,
+    #[serde(default)]
+    textures: Vec<Texture>,
+    #[serde(default)]
+    samplers: Vec<Sampler>,
+}
+
+#[derive(Deserialize)]
+#[serde(remote = "Self", rename_all = "camelCase")]
+struct Material {
+    #[serde(default)]
+    pbr_metallic_roughness: Metallic,
+    normal_texture: Option<Use>,
+    alpha_mode: Option<String>,
+    #[serde(default = "half")]
+    alpha_cutoff: f32,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(remote = "Self", rename_all = "camelCase")]
+struct Metallic {
+    base_color_factor: Option<[f32; 4]>,
+    base_color_texture: Option<Use>,
+}
+
+#[derive(Deserialize)]
+#[serde(remote = "Self", rename_all = "camelCase")]
+struct Use {
+    index: usize,
+    #[serde(default)]
+    tex_coord: usize,
+    #[serde(default = "one")]
+    scale: f32,
+    #[serde(default)]
+    extensions: TextureInfoExtensions,
+}
+
+#[derive(Deserialize)]
+#[serde(remote = "Self")]
+struct Texture {
+    sampler: Option<usize>,
+    source: Option<usize>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(remote = "Self", rename_all = "camelCase")]
+struct Sampler {
+    mag_filter: Option<u32>,
+    wrap_s: Option<u32>,
+    wrap_t: Option<u32>,
+}
+
+fn half() -> f32 {
+    0.5
+}
+
+fn one() -> f32 {
+    1.0
+}
+
+impl Document {
+    /// How every material looks. Errors: textures, samplers or images that do not exist.
+    pub fn looks(&self) -> Result<Vec<Look>, Error> {
+        let looks = || -> Result<Vec<Look>, Fault> {
+            let all: Looks = self.parsed()?;
+            let look = |(index, material)| self.look(&all, index, material);
+            all.materials.iter().enumerate().map(look).collect()
+        };
+        looks().map_err(|fault| fault.in_file(self.name()))
+    }
+
+    fn look(&self, all: &Looks, index: usize, material: &Material) -> Result<Look, Fault> {
+        let at = format!("materials[{index}]");
+        let texture = |used: &Option<Use>, member: &str| {
+            used.as_ref().map(|used| self.texture_use(all, used, &format!("{at}.{member}"))).transpose()
+        };
+        let metallic = &material.pbr_metallic_roughness;
+        let choice = self.materials().get(index).and_then(|material| UvChoice::of(material, index));
+        Ok(Look {
+            base_color: metallic.base_color_factor.unwrap_or([1.0; 4]),
+            base_texture: texture(&metallic.base_color_texture, "pbrMetallicRoughness.baseColorTexture")?,
+            normal_texture: texture(&material.normal_texture, "normalTexture")?,
+            normal_scale: material.normal_texture.as_ref().map_or(1.0, |used| used.scale),
+            alpha: match material.alpha_mode.as_deref() {
+                Some("MASK") => Alpha::Mask(material.alpha_cutoff),
+                Some("BLEND") => Alpha::Blend,
+                _ => Alpha::Opaque,
+            },
+            tangent_uv_set: choice.unwrap_or_default().set,
+        })
+    }
+
+    fn texture_use(&self, all: &Looks, used: &Use, at: &str) -> Result<TextureUse, Fault> {
+        let missing = |what: &str, index: usize| {
+            Fault::invalid(at, format!("{what} {index} does not exist; export the file again"))
+        };
+        let texture = all.textures.get(used.index).ok_or_else(|| missing("texture", used.index))?;
+        let none = Sampler::default();
+        let sampler = match texture.sampler {
+            Some(index) => all.samplers.get(index).ok_or_else(|| missing("sampler", index))?,
+            None => &none,
+        };
+        if let Some(image) = texture.source.filter(|&image| image >= self.root.images.len()) {
+            return Err(missing("image", image));
+        }
+        let transform = used.extensions.transform.as_ref();
+        Ok(TextureUse {
+            image: texture.source,
+            uv_set: transform.and_then(|transform| transform.tex_coord).unwrap_or(used.tex_coord),
+            wrap: [sampler.wrap_s, sampler.wrap_t].map(Wrap::from_code),
+            is_nearest: sampler.mag_filter == Some(NEAREST),
+            transform: transform.and_then(UvTransform::new),
+        })
+    }
+
+    /// The bytes of an image file, whatever its format. Errors: none there, or none that may be read.
+    pub fn image_bytes(&self, index: usize) -> Result<Cow<'_, [u8]>, Error> {
+        self.find_image(index).map_err(|fault| fault.in_file(self.name()))
+    }
+
+    fn find_image(&self, index: usize) -> Result<Cow<'_, [u8]>, Fault> {
+        let at = format!("images[{index}]");
+        let (uri, at) = match self.root.images.get(index) {
+            Some(&Image { buffer_view: Some(view), .. }) => {
+                return Ok(self.view(view, &at)?.0.into());
+            }
+            Some(Image { uri: Some(uri), .. }) => (uri, format!("{at}.uri")),
+            Some(_) => return Err(Fault::invalid(at, "has no content; export the file again")),
+            None => return Err(Fault::invalid(at, "does not exist; export the file again")),
+        };
+        match self.resources.resolve(uri) {
+            Ok(Reference::Data(data)) => {
+                decode_data_uri(data).map(Cow::Owned).map_err(|problem| Fault::invalid(at, problem))
+            }
+            Ok(Reference::Remote) => {
+                Err(Fault::resource(at, "is on another machine; download it and refer to the file"))
+            }
+            Ok(Reference::File(located)) => fs::read(&located.path)
+                .map(Cow::Owned)
+                .map_err(|error| Fault::resource(at, format!("cannot be read: {error}"))),
+            Err(problem) => Err(Fault::resource(at, problem)),
+        }
+    }
+}
+
+/// OpenGL's numbers, which glTF uses.
+const NEAREST: u32 = 9728;
+const CLAMP_TO_EDGE: u32 = 33071;
+const MIRRORED_REPEAT: u32 = 33648;
+
+impl Wrap {
+    fn from_code(code: Option<u32>) -> Self {
+        match code {
+            Some(CLAMP_TO_EDGE) => Self::Clamp,
+            Some(MIRRORED_REPEAT) => Self::Mirror,
+            _ => Self::Repeat,
+        }
+    }
+}

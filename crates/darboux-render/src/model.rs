@@ -1,0 +1,202 @@
+//! What is drawn of a document.
+
+use std::collections::HashMap;
+
+use bytemuck::{Pod, Zeroable};
+use darboux_io::Error;
+use darboux_io::gltf::{Document, Look, Pair, PrimitiveCorners, TextureUse};
+
+use crate::camera::Bounds;
+use crate::{View, heat};
+
+/// A corner as the shader takes it.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub struct Corner {
+    pub position: [f32; 3],
+    pub normal: [f32; 3],
+    /// Zero where there is none.
+    pub tangent: [f32; 4],
+    /// Of the base colour, then of the normal map.
+    pub uvs: [[f32; 2]; 2],
+    /// The angle, [`heat::FLIP`] or [`heat::NONE`].
+    pub degrees: f32,
+}
+
+/// The triangles of a primitive.
+pub struct Part {
+    pub mesh: usize,
+    /// The index of its material.
+    pub material: Option<usize>,
+    pub corners: Vec<Corner>,
+    /// The UVs that its tangents follow, at every corner; empty where there are none.
+    pub layout: Vec<[f32; 2]>,
+}
+
+/// What is drawn of a document.
+pub struct Model<'a> {
+    pub(crate) document: &'a Document,
+    pub(crate) looks: Vec<Look>,
+    pub(crate) parts: Vec<Part>,
+    /// The matrices of every mesh's nodes.
+    pub(crate) places: Vec<Vec<[[f64; 4]; 4]>>,
+    left_out: usize,
+}
+
+impl<'a> Model<'a> {
+    /// Reads the meshes of the scene with the tangents that the document has.
+    ///
+    /// `compared`: its pairs with the tangents of another document, for [`View::Heat`]. Compressed documents are decompressed. Errors:
+    /// broken data.
+    pub fn read(document: &'a mut Document, compared: &[Pair]) -> Result<Self, Error> {
+        document.decompress()?;
+        let document: &'a Document = document;
+        let looks = document.looks()?;
+        let mut places = vec![Vec::new(); document.meshes().len()];
+        for placed in document.placed_meshes()? {
+            if let Some(places) = places.get_mut(placed.mesh) {
+                places.push(placed.matrix);
+            }
+        }
+        let mut degrees: HashMap<_, _> = compared
+            .iter()
+            .filter_map(|pair| {
+                Some(((pair.name.mesh, pair.name.primitive), heat::degrees(pair.corners.as_ref().ok()?)))
+            })
+            .collect();
+        let (mut parts, mut left_out) = (Vec::new(), 0);
+        for corners in document.corners()? {
+            let name = corners.name();
+            if places.get(name.mesh).is_none_or(Vec::is_empty) {
+                continue;
+            }
+            let degrees = degrees.remove(&(name.mesh, name.primitive));
+            let part = read_part(document, &looks, &corners, degrees.unwrap_or_default())?;
+            left_out += (corners.len() - part.corners.len()) / 3;
+            parts.push(part);
+        }
+        Ok(Self { document, looks, parts, places, left_out })
+    }
+
+    /// Triangles that views of the surface show, counted as often as nodes place them.
+    pub fn triangle_count(&self) -> u64 {
+        let placed = |part: &Part| (part.corners.len() / 3) as u64 * self.places_of(part).len() as u64;
+        self.parts.iter().map(placed).fold(0, u64::saturating_add)
+    }
+
+    pub(crate) fn places_of(&self, part: &Part) -> &[[[f64; 4]; 4]] {
+        self.places.get(part.mesh).map_or(&[], Vec::as_slice)
+    }
+
+    /// What a view does not show, and should.
+    pub(crate) fn warnings(&self, view: View) -> Vec<String> {
+        let left_out = (view != View::Uv && self.left_out > 0).then(|| {
+            format!("{} triangles have positions that are not finite, and are left out", self.left_out)
+        });
+        left_out.into_iter().collect()
+    }
+
+    /// The box that holds all that a view shows; none without triangles.
+    pub(crate) fn bounds(&self, view: View) -> Option<Bounds> {
+        let mut all = Box3::EMPTY;
+        for part in &self.parts {
+            if view == View::Uv {
+                part.layout.iter().for_each(|&uv| all.add(on_layout(uv).map(f64::from)));
+                continue;
+            }
+            let mut own = Box3::EMPTY;
+            part.corners.iter().for_each(|corner| own.add(corner.position.map(f64::from)));
+            for (matrix, corner) in
+                self.places_of(part).iter().flat_map(|m| own.corners().map(move |c| (m, c)))
+            {
+                let [a, b, c, d] = matrix;
+                all.add([0, 1, 2].map(|i| a[i] * corner[0] + b[i] * corner[1] + c[i] * corner[2] + d[i]));
+            }
+        }
+        if view == View::Uv && all.least[0] <= all.most[0] {
+            for uv in [[0.0, 0.0], [1.0, 1.0]] {
+                all.add(on_layout(uv).map(f64::from));
+            }
+        }
+        (all.least[0] <= all.most[0]).then_some([all.least, all.most])
+    }
+}
+
+/// Where a UV lies in the layout, whose v goes down.
+pub fn on_layout([u, v]: [f32; 2]) -> [f32; 3] {
+    [u, -v, 0.0]
+}
+
+/// Reads a primitive, leaving out triangles that have no place.
+fn read_part(
+    document: &Document,
+    looks: &[Look],
+    corners: &PrimitiveCorners<'_>,
+    degrees: Vec<f32>,
+) -> Result<Part, Error> {
+    let none = Look::default();
+    let look = match corners.material() {
+        None => &none,
+        Some(material) => looks.get(material).ok_or_else(|| {
+            let problem = format!("its material {material} does not exist; export the file again");
+            document.invalid(corners.name().path(), problem)
+        })?,
+    };
+    let positions = corners.vectors::<3>("POSITION")?.unwrap_or_default();
+    let normals = corners.vectors::<3>("NORMAL")?.unwrap_or_default();
+    let tangents = corners.vectors::<4>("TANGENT")?.unwrap_or_default();
+    let layout = corners.vectors::<2>(&set_name(look.tangent_uv_set))?.unwrap_or_default();
+    let uvs = |texture: &Option<TextureUse>| -> Result<Vec<[f32; 2]>, Error> {
+        let Some(texture) = texture else { return Ok(layout.clone()) };
+        let uvs = corners.vectors::<2>(&set_name(texture.uv_set))?.unwrap_or_default();
+        Ok(uvs.into_iter().map(|uv| texture.place(uv)).collect())
+    };
+    let uvs = [uvs(&look.base_texture)?, uvs(&look.normal_texture)?];
+    let at = |i: usize| Corner {
+        position: positions[i],
+        normal: normals.get(i).copied().unwrap_or_default(),
+        tangent: tangents.get(i).copied().unwrap_or_default(),
+        uvs: [0, 1].map(|k| uvs[k].get(i).copied().unwrap_or_default()),
+        degrees: degrees.get(i).copied().unwrap_or(heat::NONE),
+    };
+    let is_finite = |triangle: &[[f32; 3]; 3]| triangle.as_flattened().iter().all(|x| x.is_finite());
+    let triangles = positions.as_chunks::<3>().0.iter().enumerate();
+    let kept = triangles.filter(|(_, triangle)| is_finite(triangle)).map(|(triangle, _)| triangle);
+    let kept: Vec<usize> = kept.flat_map(|triangle| [0, 1, 2].map(|i| 3 * triangle + i)).collect();
+    Ok(Part {
+        mesh: corners.name().mesh,
+        material: corners.material(),
+        corners: kept.iter().map(|&corner| at(corner)).collect(),
+        layout: kept.iter().filter_map(|&corner| layout.get(corner).copied()).collect(),
+    })
+}
+
+/// glTF's name of a UV set.
+fn set_name(set: usize) -> String {
+    format!("TEXCOORD_{set}")
+}
+
+/// A box that grows.
+struct Box3 {
+    least: [f64; 3],
+    most: [f64; 3],
+}
+
+impl Box3 {
+    const EMPTY: Self = Self { least: [f64::INFINITY; 3], most: [f64::NEG_INFINITY; 3] };
+
+    /// Points that are not finite have no place.
+    fn add(&mut self, point: [f64; 3]) {
+        if point.iter().all(|x| x.is_finite()) {
+            (0..3).for_each(|i| {
+                self.least[i] = self.least[i].min(point[i]);
+                self.most[i] = self.most[i].max(point[i]);
+            });
+        }
+    }
+
+    fn corners(&self) -> [[f64; 3]; 8] {
+        let ends = [self.least, self.most];
+        [0, 1, 2, 3, 4, 5, 6, 7].map(|bits: usize| [0, 1, 2].map(|i| ends[bits >> i & 1][i]))
+    }
+}
