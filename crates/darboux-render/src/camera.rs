@@ -50,8 +50,18 @@ impl Camera {
         let up = (0.5 * FIELD).to_radians().tan();
         let slopes = [up * aspect, up].map(|slope| slope * (1.0 - MARGIN));
         let corners = corners(bounds).map(|corner| turned(turn, scaled(minus(corner, center), scale)));
-        let needed = |[x, y, z]: V3| z + (x.abs() / slopes[0]).max(y.abs() / slopes[1]);
-        let distance = corners.map(needed).into_iter().fold(1e-3, f64::max) / self.zoom;
+        // Along x, and along y, two planes through the eye touch the box: x + slope z and -x + slope z are greatest there.
+        let touch = |axis: usize, side: f64| {
+            corners
+                .iter()
+                .map(|corner| side * corner[axis] + slopes[axis] * corner[2])
+                .fold(f64::MIN, f64::max)
+        };
+        let [x, y] = [0, 1].map(|axis| [touch(axis, 1.0), touch(axis, -1.0)]);
+        let needed = (0.5 * (x[0] + x[1]) / slopes[0]).max(0.5 * (y[0] + y[1]) / slopes[1]);
+        let distance = needed.max(1e-3) / self.zoom;
+        let aside = [0.5 * (x[0] - x[1]), 0.5 * (y[0] - y[1])];
+        let center = [0, 1, 2].map(|i| center[i] + (aside[0] * turn[0][i] + aside[1] * turn[1][i]) / scale);
         let depth = |f: fn(f64, f64) -> f64| corners.map(|corner| distance - corner[2]).into_iter().reduce(f);
         let far = depth(f64::max).unwrap_or(1.0).max(1e-3) * 1.01;
         let near = (depth(f64::min).unwrap_or(0.0) * 0.99).max(far * 1e-3);

@@ -1,0 +1,132 @@
+//! `darboux render`: what it writes and what it refuses.
+
+mod common;
+
+use std::fs;
+use std::io::Write;
+
+use common::{asset, darboux, darboux_without_adapters, folder_with, names_in, text};
+
+const MODEL: &str = "NormalTangentTest/NormalTangentTest.glb";
+
+/// Whether there is an adapter; says so where there is none.
+fn has_adapter() -> bool {
+    let report = darboux(&["devices", "--json"]).exits(0).json();
+    let adapters = report["adapters"].as_array().expect("a list");
+    let usable = adapters.iter().any(|adapter| adapter["problem"].is_null());
+    if !usable {
+        assert!(std::env::var_os("CI").is_none(), "no adapter: {report}");
+        writeln!(std::io::stdout(), "skipped: no adapter (Debian: mesa-vulkan-drivers, libvulkan1)")
+            .expect("standard output");
+    }
+    usable
+}
+
+#[test]
+fn a_picture_is_written_and_not_replaced_unasked() {
+    if !has_adapter() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let (model, output) = (asset(MODEL), folder.path().join("picture.png"));
+    let draw = |more: &[&str]| {
+        let all = ["render", text(&model), "-o", text(&output), "--size", "120x90"];
+        darboux(&[&all, more].concat())
+    };
+    let report = draw(&["--json"]).exits(0).json();
+    assert_eq!(
+        (&report["view"], &report["size"][0], &report["triangles"]),
+        (&"shaded".into(), &120.into(), &7774.into())
+    );
+    let first = fs::read(&output).expect("a picture");
+    assert!(first.starts_with(b"\x89PNG"));
+    assert!(draw(&["--view", "tangent"]).exits(1).stderr.contains("exists; use --force"));
+    assert!(fs::read(&output).expect("a picture") == first);
+    draw(&["--view", "heat", "--tangents", "mikktspace", "--against", "lengyel", "--force"]).exits(0);
+    assert!(fs::read(&output).expect("a picture") != first);
+    assert_eq!(names_in(folder.path()), ["picture.png"]);
+}
+
+#[test]
+fn the_heat_of_equal_sources_is_least_everywhere() {
+    if !has_adapter() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let (model, output) = (asset(MODEL), folder.path().join("heat.png"));
+    // Black behind it, so that edges are darker, never lighter.
+    let all = ["--view", "heat", "--tangents", "lengyel", "--size", "80x60", "--background", "000000"];
+    let draw = |against: &str| {
+        let last = ["--against", against, "--force", "--quiet"];
+        darboux(&[&["render", text(&model), "-o", text(&output)], &all[..], &last].concat()).exits(0);
+        let image = fs::read(&output).expect("a picture");
+        let mut reader = png::Decoder::new(std::io::Cursor::new(image)).read_info().expect("a PNG");
+        let mut pixels = vec![0; 80 * 60 * 3];
+        reader.next_frame(&mut pixels).expect("pixels");
+        pixels.as_chunks::<3>().0.iter().map(|pixel| pixel[1]).max()
+    };
+    // Green grows along the scale, from 1.
+    assert_eq!(draw("lengyel"), Some(1));
+    assert!(draw("mikktspace") > Some(60));
+}
+
+#[test]
+fn bad_arguments_are_usage() {
+    let wrong = [
+        (&["--size", "100"][..], "not a size"),
+        (&["--size", "0x-1"], "not a size"),
+        (&["--camera", "30"], "not two or three numbers"),
+        (&["--camera", "30,100"], "-90 to 90"),
+        (&["--camera", "30,NaN"], "-90 to 90"),
+        (&["--camera", "30,20,0"], "0.01 to 1000"),
+        (&["--background", "+12345"], "six hexadecimal digits"),
+        (&["--tangents", "best"], "neither file nor a method"),
+        (&["--view", "heat"], "--against"),
+        (&["--view", "sideways"], "possible values"),
+    ];
+    for (arguments, problem) in wrong {
+        let refused = darboux(&[&["render", "a.glb", "-o", "a.png"], arguments].concat()).exits(2);
+        assert!(refused.stderr.contains(problem), "{arguments:?}: {}", refused.stderr);
+    }
+}
+
+#[test]
+fn bad_inputs_are_sentences_and_leave_nothing() {
+    let folder = folder_with(&[MODEL]);
+    let at = |name: &str| folder.path().join(name);
+    fs::write(at("cut.glb"), &fs::read(asset(MODEL)).expect("a model")[..5000]).expect("a file");
+    let nodes = |nodes: &str| {
+        format!(r#"{{"asset":{{"version":"2.0"}},"nodes":{nodes},"scenes":[{{"nodes":[0]}}]}}"#)
+    };
+    fs::write(at("circle.gltf"), nodes(r#"[{"children":[1]},{"children":[0]}]"#)).expect("a file");
+    fs::write(at("lost.gltf"), nodes(r#"[{"mesh":3}]"#)).expect("a file");
+    fs::write(at("none.gltf"), nodes(r#"[{"children":[7]}]"#)).expect("a file");
+    let before = names_in(folder.path());
+    let cases = [
+        ("cut.glb", "a.png", "cut.glb: "),
+        ("circle.gltf", "a.png", "nodes[0]: is in the scene twice"),
+        ("lost.gltf", "a.png", "nodes[0]: mesh 3 does not exist"),
+        ("none.gltf", "a.png", "nodes[7]: does not exist"),
+        ("NormalTangentTest.glb", "a.jpg", "name it .png"),
+        ("missing.glb", "a.png", "cannot be read"),
+    ];
+    for (model, output, problem) in cases {
+        let failed = darboux(&["render", text(&at(model)), "-o", text(&at(output))]).exits(1);
+        assert!(failed.stderr.contains(problem), "{model}: {}", failed.stderr);
+    }
+    let of_file = ["--tangents", "file"];
+    let all = ["render", text(&at("NormalTangentTest.glb")), "-o", text(&at("a.png"))].map(str::to_owned);
+    let all: Vec<&str> = all.iter().map(String::as_str).chain(of_file).collect();
+    assert!(darboux(&all).exits(1).stderr.contains("has no tangents; name a method"));
+    assert_eq!(names_in(folder.path()), before);
+}
+
+#[test]
+#[cfg_attr(not(target_os = "linux"), ignore = "drivers are found by environment variables on Linux only")]
+fn without_an_adapter_nothing_is_drawn() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (model, output) = (asset(MODEL), folder.path().join("a.png"));
+    let failed = darboux_without_adapters(&["render", text(&model), "-o", text(&output)]).exits(1);
+    assert!(failed.stderr.contains("no adapter was found to draw with"), "{}", failed.stderr);
+    assert!(names_in(folder.path()).is_empty());
+}

@@ -1,0 +1,160 @@
+//! A quad with a normal map, as a GLB.
+
+use std::io::{Cursor, Write};
+use std::sync::OnceLock;
+
+use darboux_gpu::Gpu;
+use darboux_io::gltf::{Document, LoadOptions, pair_tangents};
+use darboux_render::{Camera, HeatScale, Model, RenderOptions, View};
+
+pub const BACKGROUND: [u8; 3] = [10, 20, 30];
+
+/// A quad from -1 to 1 that faces the camera, in two halves.
+#[derive(Clone)]
+pub struct Quad {
+    pub half_size: f32,
+    /// Whether u grows from the middle to either side; else from left to right.
+    pub is_mirrored: bool,
+    pub u_scale: f32,
+    pub has_tangents: bool,
+    /// Where the tangent points on the right; on the left its x is mirrored where UVs are.
+    pub tangent: [f32; 3],
+    /// Of the left half, and of the right.
+    pub w: [f32; 2],
+    /// All of the normal map.
+    pub texel: [u8; 3],
+    /// Members of the node.
+    pub node: &'static str,
+}
+
+impl Default for Quad {
+    fn default() -> Self {
+        Self {
+            half_size: 1.0,
+            is_mirrored: false,
+            u_scale: 1.0,
+            has_tangents: true,
+            tangent: [1.0, 0.0, 0.0],
+            w: [1.0; 2],
+            texel: [128, 128, 255],
+            node: r#""translation":[5,0,0]"#,
+        }
+    }
+}
+
+impl Quad {
+    /// Its left half is mirrored.
+    pub fn mirrored() -> Self {
+        Self { is_mirrored: true, w: [-1.0, 1.0], ..Self::default() }
+    }
+
+    /// Positions, normals, tangents and UVs of all corners, each array after the other.
+    fn floats(&self) -> Vec<f32> {
+        let (mut positions, mut tangents, mut uvs) = (Vec::new(), Vec::new(), Vec::new());
+        for (side, from, to) in [(0, -1.0, 0.0), (1, 0.0, 1.0)] {
+            let corners: [[f32; 2]; 6] =
+                [[from, -1.0], [to, -1.0], [to, 1.0], [from, -1.0], [to, 1.0], [from, 1.0]];
+            for [x, y] in corners {
+                positions.extend([x * self.half_size, y * self.half_size, 0.0]);
+                let [tx, ty, tz] = self.tangent;
+                let tx = if self.is_mirrored && side == 0 { -tx } else { tx };
+                tangents.extend([tx, ty, tz, self.w[side]]);
+                let u = if self.is_mirrored { x.abs() } else { 0.5 + 0.5 * x };
+                uvs.extend([u * self.u_scale, 0.5 - 0.5 * y]);
+            }
+        }
+        let normals = [0.0, 0.0, 1.0].repeat(12);
+        [positions, normals, tangents, uvs].concat()
+    }
+
+    fn glb(&self) -> Vec<u8> {
+        let mut png = Vec::new();
+        let map = image::RgbImage::from_pixel(4, 4, image::Rgb(self.texel));
+        map.write_to(&mut Cursor::new(&mut png), image::ImageFormat::Png).expect("a PNG");
+        let mut bytes: Vec<u8> = self.floats().iter().flat_map(|x| x.to_le_bytes()).collect();
+        let (floats, image) = (bytes.len(), png.len());
+        bytes.extend(png);
+        bytes.resize(bytes.len().next_multiple_of(4), 0);
+        let accessor = |offset: usize, kind: &str| {
+            format!(
+                r#"{{"bufferView":0,"byteOffset":{offset},"componentType":5126,"count":12,"type":"{kind}"}}"#
+            )
+        };
+        let accessors =
+            [accessor(0, "VEC3"), accessor(144, "VEC3"), accessor(288, "VEC4"), accessor(480, "VEC2")];
+        let tangents = if self.has_tangents { r#","TANGENT":2"# } else { "" };
+        let json = format!(
+            r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0,{node}}}],
+            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"NORMAL":1,"TEXCOORD_0":3{tangents}}},"material":0}}]}}],
+            "materials":[{{"normalTexture":{{"index":0}},"pbrMetallicRoughness":{{"baseColorFactor":[0.5,0.5,0.5,1]}}}}],
+            "textures":[{{"source":0}}],"images":[{{"bufferView":1,"mimeType":"image/png"}}],
+            "accessors":[{accessors}],
+            "bufferViews":[{{"buffer":0,"byteLength":{floats}}},{{"buffer":0,"byteOffset":{floats},"byteLength":{image}}}],
+            "buffers":[{{"byteLength":{length}}}]}}"#,
+            node = self.node,
+            accessors = accessors.join(","),
+            length = bytes.len(),
+        );
+        let mut json = json.into_bytes();
+        json.resize(json.len().next_multiple_of(4), b' ');
+        let length = 12 + 8 + json.len() + 8 + bytes.len();
+        let words = |words: [u32; 2]| words.map(u32::to_le_bytes).concat();
+        [
+            b"glTF".to_vec(),
+            words([2, length as u32]),
+            words([json.len() as u32, u32::from_le_bytes(*b"JSON")]),
+            json,
+            words([bytes.len() as u32, u32::from_le_bytes(*b"BIN\0")]),
+            bytes,
+        ]
+        .concat()
+    }
+}
+
+pub fn document(quad: &Quad) -> Document {
+    Document::from_bytes("quad", quad.glb(), None, &LoadOptions::default()).expect("a document")
+}
+
+/// The fastest adapter, opened once; none where there is none.
+pub fn gpu() -> Option<&'static Gpu> {
+    static GPU: OnceLock<Option<Gpu>> = OnceLock::new();
+    GPU.get_or_init(|| pollster::block_on(Gpu::open()).ok()).as_ref()
+}
+
+/// Where there is none, says that the test is skipped.
+pub fn has_adapter_or_says_so() -> bool {
+    if gpu().is_none() {
+        assert!(std::env::var_os("CI").is_none(), "no adapter");
+        writeln!(std::io::stdout(), "skipped: no adapter (Debian: mesa-vulkan-drivers, libvulkan1)")
+            .expect("standard output");
+    }
+    gpu().is_some()
+}
+
+pub fn heat() -> HeatScale {
+    let ramp = [0, 1, 2, 3, 4, 5, 6, 7, 8].map(|step| [20 * step, 10, 255 - 20 * step]);
+    HeatScale { ends: [0.01, 180.0], ramp, flip: [255, 0, 0], none: [0; 3] }
+}
+
+/// Straight from the front.
+pub fn options(view: View) -> RenderOptions {
+    RenderOptions {
+        view,
+        size: [64, 64],
+        camera: Camera { yaw: 0.0, pitch: 0.0, zoom: 1.0 },
+        background: BACKGROUND,
+        heat: heat(),
+    }
+}
+
+/// The pixels of a quad, compared with another. Expects that there is an adapter.
+pub fn picture(quad: &Quad, other: &Quad, view: View) -> Vec<[u8; 3]> {
+    let [mut document, mut other] = [quad, other].map(document);
+    let pairs = pair_tangents(&mut document, &mut other).expect("pairs");
+    let model = Model::read(&mut document, &pairs).expect("a model");
+    let gpu = gpu().expect("an adapter");
+    let picture =
+        darboux_render::render(gpu, &model, &options(view)).unwrap_or_else(|error| panic!("{error}"));
+    assert!(picture.warnings.is_empty(), "{:?}", picture.warnings);
+    picture.pixels
+}
