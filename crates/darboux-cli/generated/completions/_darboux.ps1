@@ -30,6 +30,7 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             [CompletionResult]::new('convert', 'convert', [CompletionResultType]::ParameterValue, 'Convert normal maps and models between conventions')
             [CompletionResult]::new('compare', 'compare', [CompletionResultType]::ParameterValue, 'Compare the tangents of two files, or of a file and a method')
             [CompletionResult]::new('inspect', 'inspect', [CompletionResultType]::ParameterValue, 'Show what each primitive holds and what its tangents would meet')
+            [CompletionResult]::new('render', 'render', [CompletionResultType]::ParameterValue, 'Draw a model or its tangents into a PNG')
             [CompletionResult]::new('view', 'view', [CompletionResultType]::ParameterValue, 'Show a model in the browser, with its tangents')
             [CompletionResult]::new('methods', 'methods', [CompletionResultType]::ParameterValue, 'Say which method of computing tangents is for what')
             [CompletionResult]::new('devices', 'devices', [CompletionResultType]::ParameterValue, 'List the adapters that can compute tangents')
@@ -118,6 +119,24 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
         }
         'darboux;inspect' {
             [CompletionResult]::new('--allow-outside', '--allow-outside', [CompletionResultType]::ParameterName, 'Allow buffers and images outside the input''s folder')
+            [CompletionResult]::new('--json', '--json', [CompletionResultType]::ParameterName, 'Write a report as JSON to standard output')
+            [CompletionResult]::new('-q', '-q', [CompletionResultType]::ParameterName, 'Print errors only')
+            [CompletionResult]::new('--quiet', '--quiet', [CompletionResultType]::ParameterName, 'Print errors only')
+            [CompletionResult]::new('-h', '-h', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
+            [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
+            break
+        }
+        'darboux;render' {
+            [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'The picture')
+            [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'The picture')
+            [CompletionResult]::new('--view', '--view', [CompletionResultType]::ParameterName, 'What is drawn')
+            [CompletionResult]::new('--tangents', '--tangents', [CompletionResultType]::ParameterName, 'Whose tangents: file, or a method, as `darboux methods` lists them')
+            [CompletionResult]::new('--against', '--against', [CompletionResultType]::ParameterName, 'For --view heat: the tangents that they are compared with')
+            [CompletionResult]::new('--size', '--size', [CompletionResultType]::ParameterName, 'Pixels across and down')
+            [CompletionResult]::new('--camera', '--camera', [CompletionResultType]::ParameterName, 'Degrees around the model (0 is its front), degrees above the horizon, and how many times nearer than all of it in view')
+            [CompletionResult]::new('--background', '--background', [CompletionResultType]::ParameterName, 'The colour behind the model')
+            [CompletionResult]::new('--force', '--force', [CompletionResultType]::ParameterName, 'Replace a picture that exists')
+            [CompletionResult]::new('--allow-outside', '--allow-outside', [CompletionResultType]::ParameterName, 'Allow buffers and images outside the model''s folder')
             [CompletionResult]::new('--json', '--json', [CompletionResultType]::ParameterName, 'Write a report as JSON to standard output')
             [CompletionResult]::new('-q', '-q', [CompletionResultType]::ParameterName, 'Print errors only')
             [CompletionResult]::new('--quiet', '--quiet', [CompletionResultType]::ParameterName, 'Print errors only')

@@ -34,6 +34,9 @@ _darboux() {
             darboux,normals)
                 cmd="darboux__subcmd__normals"
                 ;;
+            darboux,render)
+                cmd="darboux__subcmd__render"
+                ;;
             darboux,tangents)
                 cmd="darboux__subcmd__tangents"
                 ;;
@@ -47,7 +50,7 @@ _darboux() {
 
     case "${cmd}" in
         darboux)
-            opts="-h -V --help --version tangents normals convert compare inspect view methods devices"
+            opts="-h -V --help --version tangents normals convert compare inspect render view methods devices"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -207,6 +210,52 @@ _darboux() {
                     ;;
                 --weight)
                     COMPREPLY=($(compgen -W "angle area angle-area" -- "${cur}"))
+                    return 0
+                    ;;
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
+        darboux__subcmd__render)
+            opts="-o -q -h --output --view --tangents --against --size --camera --background --force --allow-outside --json --quiet --help"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                --output)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                -o)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --view)
+                    COMPREPLY=($(compgen -W "shaded tangent bitangent normal sign heat uv" -- "${cur}"))
+                    return 0
+                    ;;
+                --tangents)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --against)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --size)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --camera)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --background)
+                    COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
                 *)

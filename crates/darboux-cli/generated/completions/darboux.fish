@@ -31,6 +31,7 @@ complete -c darboux -n "__fish_darboux_needs_command" -f -a "normals" -d 'Add no
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "convert" -d 'Convert normal maps and models between conventions'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "compare" -d 'Compare the tangents of two files, or of a file and a method'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "inspect" -d 'Show what each primitive holds and what its tangents would meet'
+complete -c darboux -n "__fish_darboux_needs_command" -f -a "render" -d 'Draw a model or its tangents into a PNG'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "view" -d 'Show a model in the browser, with its tangents'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "methods" -d 'Say which method of computing tangents is for what'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "devices" -d 'List the adapters that can compute tangents'
@@ -136,6 +137,24 @@ complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l allow-outsid
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -s q -l quiet -d 'Print errors only'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c darboux -n "__fish_darboux_using_subcommand render" -s o -l output -d 'The picture' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l view -d 'What is drawn' -r -f -a "shaded\t'The surface with its base colour and normal map, lit from above right'
+tangent\t'Tangents as colours, 0.5 + 0.5 of each component in the scene'
+bitangent\t'Bitangents, likewise'
+normal\t'Normals of the mesh, likewise'
+sign\t'The sign w: blue 1, orange -1'
+heat\t'The angle between two sources, with the scale of compare\'s heat maps (0.01 to 180 degrees); red where signs differ'
+uv\t'The UV layout, v down, in the colours of tangents'"
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l tangents -d 'Whose tangents: file, or a method, as `darboux methods` lists them' -r
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l against -d 'For --view heat: the tangents that they are compared with' -r
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l size -d 'Pixels across and down' -r
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l camera -d 'Degrees around the model (0 is its front), degrees above the horizon, and how many times nearer than all of it in view' -r
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l background -d 'The colour behind the model' -r
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l force -d 'Replace a picture that exists'
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l allow-outside -d 'Allow buffers and images outside the model\'s folder'
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l json -d 'Write a report as JSON to standard output'
+complete -c darboux -n "__fish_darboux_using_subcommand render" -s q -l quiet -d 'Print errors only'
+complete -c darboux -n "__fish_darboux_using_subcommand render" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand view" -l page -d 'The folder with the page\'s files' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand view" -l no-open -d 'Print the address and open no browser'
 complete -c darboux -n "__fish_darboux_using_subcommand view" -l allow-outside -d 'Allow buffers and images outside the model\'s folder'
