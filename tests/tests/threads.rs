@@ -2,7 +2,7 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use darboux::{Indices, Mesh, Method, Mode, Scratch, TangentOptions, Tangents, generate_tangents_into};
+use darboux::{Indices, Mesh, Method, Mode, Plan, Scratch, TangentOptions, Tangents, generate_tangents_into};
 
 /// A wavy grid of quads whose UVs are mirrored from one half to the other: vertices, and triangles in order.
 fn grid(columns: u32, rows: u32) -> (Vec<[f32; 8]>, Vec<[u32; 3]>) {
@@ -77,6 +77,32 @@ fn parts_without_own_vertices() {
     triangles.extend(rows.iter().map(|&[a, b, c]| [a, c, b]));
     triangles.extend(rows);
     assert_alike(&vertices, &triangles, &[1, 4, 7, 8, 9]);
+}
+
+/// Plans on threads that worked on a larger mesh before, and have no part of this one.
+#[test]
+fn plans_after_larger_meshes() {
+    let ((large, in_order), (small, mut shuffled)) = (grid(300, 300), grid(150, 150));
+    let triangles = shuffled.clone();
+    (0..triangles.len()).for_each(|at| shuffled[at] = triangles[at * 7919 % triangles.len()]);
+    let values = |vertices: &[[f32; 8]]| {
+        let positions: Vec<[f32; 3]> = vertices.iter().map(|v| [v[0], v[1], v[2]]).collect();
+        let normals: Vec<[f32; 3]> = vertices.iter().map(|v| [v[3], v[4], v[5]]).collect();
+        (positions, normals, vertices.iter().map(|v| [v[6], v[7]]).collect::<Vec<[f32; 2]>>())
+    };
+    let (large, small) = (values(&large), values(&small));
+    let large = Mesh::triangles(&large.0, &large.1, &large.2, Indices::U32(in_order.as_flattened())).unwrap();
+    let small = Mesh::triangles(&small.0, &small.1, &small.2, Indices::U32(shuffled.as_flattened())).unwrap();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(4).build().expect("a thread pool");
+    pool.install(|| {
+        let (options, mut scratch) = (TangentOptions::default(), Scratch::new());
+        let mut tangents = Tangents::default();
+        generate_tangents_into(&large, &options, &mut scratch, &mut tangents);
+        let plan = Plan::new(&small, &options);
+        let mut corners = vec![[0.0; 4]; small.corner_count()];
+        plan.write_tangents(&small, &mut scratch, &mut corners).expect("the same mesh");
+        assert_eq!(corners, plan.base().corners.per_corner());
+    });
 }
 
 #[test]

@@ -140,8 +140,9 @@ pub fn generate_tangents(mesh: &Mesh<'_>, options: &TangentOptions) -> Tangents 
     out
 }
 
-/// As [`generate_tangents`], into `out`, whose memory is used again, as is that of `scratch`: repeated calls on one thread allocate
-/// only what vertices of the general path need (UV-degenerate, split or mirrored fans; degenerate triangles).
+/// As [`generate_tangents`], into `out`, whose memory is used again, as is that of `scratch`: repeated calls of MikkTSpace on one thread
+/// allocate only what vertices of the general path need (UV-degenerate, split or mirrored fans; degenerate triangles). Memory stays as large as the
+/// largest mesh and method needed it.
 pub fn generate_tangents_into(
     mesh: &Mesh<'_>,
     options: &TangentOptions,

@@ -9,7 +9,9 @@ const LEAST_PER_THREAD: usize = if cfg!(small_limits) { 1 } else { 1 << 13 };
 
 /// How many threads a mesh gets: those of the current thread pool, or one without the feature `parallel`.
 pub(super) fn count(triangles: usize) -> usize {
-    available().min(triangles / LEAST_PER_THREAD).max(1)
+    // Asking how many there are starts them.
+    let most = triangles / LEAST_PER_THREAD;
+    if most > 1 { available().min(most) } else { 1 }
 }
 
 #[cfg(feature = "parallel")]

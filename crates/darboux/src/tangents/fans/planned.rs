@@ -62,7 +62,7 @@ impl Fans {
         let threads = threads::count(mesh.face_count());
         self.workers.resize_with(threads, Worker::default);
         threads::on_pool(threads, || self.run_planned_on(plan, mesh, width, out.as_chunks_mut().0));
-        self.workers.iter().all(|worker| worker.all_usable)
+        self.workers[..self.shares.len()].iter().all(|worker| worker.all_usable)
     }
 
     fn run_planned_on(
@@ -82,9 +82,11 @@ impl Fans {
             self.shares.clear();
             self.shares.extend(shares(windows, plan.weld.count, 1));
         }
+        // The others' memory is that of earlier meshes.
+        let workers = &mut self.workers[..self.shares.len()];
         let ranges = self.shares.iter().map(|share| triangles_of(share.windows.clone(), mesh.face_count()));
         let jobs = self.shares.iter().zip(parts(&mut *out, 0, ranges));
-        threads::run(&mut self.workers, jobs, |worker, (share, out)| stream.run(share, worker, out));
-        write_pending(mesh, &self.shares, &mut self.workers, identity, out);
+        threads::run(workers, jobs, |worker, (share, out)| stream.run(share, worker, out));
+        write_pending(mesh, &self.shares, workers, identity, out);
     }
 }
