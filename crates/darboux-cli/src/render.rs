@@ -13,6 +13,7 @@ use darboux_render::{Camera, HeatScale, Model, RenderError, RenderOptions};
 use serde::Serialize;
 
 use crate::arguments::{RenderArguments, Source, View};
+use crate::batch::counted;
 use crate::compare::heat_map::{self, ENDS, FLIP, RAMP};
 use crate::compare::refuse_used;
 use crate::jobs::{Input, is_png};
@@ -52,7 +53,8 @@ pub fn run(arguments: &RenderArguments) -> u8 {
     };
     report.warnings.iter().for_each(|warning| messages.warn(warning));
     let RenderReport { output, view, size: [width, height], triangles, adapter, .. } = &report;
-    messages.say(&format!("{output}: {view}, {width} x {height}, {triangles} triangles, drawn by {adapter}"));
+    let triangles = counted(*triangles as usize, "triangle", "triangles");
+    messages.say(&format!("{output}: {view}, {width} x {height}, {triangles}, drawn by {adapter}"));
     let told = match arguments.talk.json {
         true => to_json(&report).map_err(std::io::Error::from).and_then(|text| write_stdout(&text)),
         false => Ok(()),
@@ -75,14 +77,12 @@ fn draw(arguments: &RenderArguments) -> Result<RenderReport, String> {
         (View::Heat, Some(source)) => compared(arguments, &mut document, source)?,
         _ => Vec::new(),
     };
-    let mut warnings: Vec<String> = document.warnings().to_vec();
     let model = Model::read(&mut document, &pairs).map_err(|error| error.to_string())?;
     let gpu = pollster::block_on(Gpu::open()).map_err(no_adapter)?;
     let picture = darboux_render::render(&gpu, &model, &options(arguments)).map_err(|error| match error {
         RenderError::Nothing | RenderError::TooMany { .. } => format!("{name}: {error}"),
         error => error.to_string(),
     })?;
-    warnings.extend(picture.warnings);
     let mut pixels = picture.pixels;
     if *view == View::Heat {
         add_scale(&mut pixels, *size);
@@ -100,7 +100,7 @@ fn draw(arguments: &RenderArguments) -> Result<RenderReport, String> {
         size: *size,
         adapter: gpu.name.clone(),
         triangles: model.triangle_count(),
-        warnings: warnings.into_iter().map(|warning| with_name(&name, warning)).collect(),
+        warnings: picture.warnings.into_iter().map(|warning| with_name(&name, warning)).collect(),
     })
 }
 

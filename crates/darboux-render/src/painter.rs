@@ -18,7 +18,7 @@ use crate::{HeatScale, RenderError, RenderOptions, View};
 /// Corners per buffer: 47 MB.
 const PIECE: usize = 3 << 18;
 
-/// What is drawn in about a minute in software.
+/// Small files can ask for any number: their nodes place one mesh again and again.
 const MOST_TRIANGLES: u64 = 1 << 28;
 
 const SHADER: &str = concat!(

@@ -8,7 +8,7 @@ use crate::RenderError;
 pub const SAMPLES: u32 = 4;
 pub const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 
-/// Pixels in all: with their samples and depths about 1 GB.
+/// Pixels in all: with their samples and depths 1.2 GB.
 const MOST_PIXELS: u64 = 1 << 25;
 
 /// Errors: a size that the adapter cannot draw.

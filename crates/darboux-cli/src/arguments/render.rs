@@ -23,7 +23,6 @@ Examples:
 
 /// `darboux render`.
 #[derive(Debug, Args)]
-#[cfg_attr(not(feature = "gpu"), expect(dead_code, reason = "such builds draw nothing"))]
 pub struct RenderArguments {
     /// A model (.gltf, .glb, .vrm)
     #[arg(value_name = "MODEL")]
