@@ -80,7 +80,7 @@ def test_forked_processes_work() -> None:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 def test_ctrl_c_during_arrays() -> None:
-    """It is raised when the call is done, and calls go on working."""
+    """It is raised, from a call or between two, and calls go on working."""
     mesh = grid(300, 300)
     expected = darboux.generate_tangents(*mesh.arrays).tobytes()
     called = threading.Event()

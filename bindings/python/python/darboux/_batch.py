@@ -81,10 +81,11 @@ def batch(
     try:
         with ENGINES[engine](workers) as running:
             done = _carried_out(library, running, retries, progress)
+        report = _report([json.loads(report) for report in library.failed] + done)
+        # While the folder is locked: the next batch writes its own.
+        _write(out / REPORT, report)
     finally:
         library.close()
-    report = _report([json.loads(report) for report in library.failed] + done)
-    _write(out / REPORT, report)
     return report
 
 
