@@ -37,10 +37,12 @@ pub fn reference_sources() -> PathBuf {
     Path::new(package["manifest_path"].as_str().expect("a path")).with_file_name("c_code")
 }
 
-/// Whether a program is there to run; says so where it is not.
+/// Whether a program is there to run; says so where it is not. Panics instead where `CI` is set: there nothing may be passed over.
+#[track_caller]
 pub fn has(program: &str) -> bool {
     let found = Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
     if found.is_err() {
+        assert!(std::env::var_os("CI").is_none(), "there is no {program}, and CI is set");
         writeln!(std::io::stdout(), "skipped: there is no {program}").expect("standard output");
     }
     found.is_ok()
