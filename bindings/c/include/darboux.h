@@ -34,7 +34,7 @@ enum darboux_status
   DARBOUX_STATUS_NULL_POINTER = 1,
   /// A struct's `size` is no version's size, or has values that this version of the library does not know.
   DARBOUX_STATUS_STRUCT_SIZE = 2,
-  /// A number is none of its enumeration.
+  /// A number is none of its enumeration, or two fields are set of which one must be null.
   DARBOUX_STATUS_UNKNOWN_VALUE = 3,
   /// A stride is smaller than the element that it steps over.
   DARBOUX_STATUS_STRIDE = 4,
@@ -966,7 +966,8 @@ darboux_status darboux_skin_frames(const struct darboux_skin *skin,
 /// Has all of the library's memory come from the caller's functions.
 ///
 /// Call it before any other function of the library: memory that was taken elsewhere could not be given back. `allocate`,
-/// `deallocate`: called from any thread that calls the library, several at once. `context`: passed to them.
+/// `deallocate`: called from any thread that calls the library and from the threads of every scratch that was made with more than one,
+/// several at once. `context`: passed to them.
 /// Errors: null; the library has memory already.
 darboux_status darboux_set_allocator(darboux_allocate allocate,
                                      darboux_deallocate deallocate,

@@ -64,8 +64,9 @@ struct SMikkTSpaceContext {
 
 /* Computes the tangents of every corner, with the threshold of 180 degrees that normal maps are baked with.
  *
- * Returns 1; or 0, without having written: no face has 3 or 4 corners, more than 2^30 - 1 corners, no memory, a null pointer where
- * there must be one (which mikktspace.c does not survive). */
+ * Returns 1; or 0, without having written: no face has 3 or 4 corners, more than 2^30 - 1 corners, no memory for what is read, one of
+ * the five functions that must be set is null, or pContext or m_pInterface is. (mikktspace.c crashes where pContext, m_pInterface or
+ * m_getNumFaces is null.) Running out of memory after the mesh was read ends the program. */
 tbool genTangSpaceDefault(const SMikkTSpaceContext *pContext);
 
 /* As genTangSpaceDefault. fAngularThreshold: faces around a vertex share a frame while their directions of u and of v each differ by

@@ -1,5 +1,7 @@
 //! What numbers mean, and the change from one meaning to another.
 
+use std::mem::offset_of;
+
 use darboux::{
     Axes, Axis, BitangentDirection, Convention, Conversion, SignRule, TangentDirection, UvOrigin, Winding,
 };
@@ -39,6 +41,7 @@ pub struct darboux_convention {
 // SAFETY: `repr(C)`, the size first, numbers.
 unsafe impl Versioned for darboux_convention {
     const NAME: &str = "darboux_convention";
+    const FIRST_SIZE: usize = pointers::size_through::<Self, darboux_sign_rule>(offset_of!(Self, sign));
 }
 
 impl darboux_convention {

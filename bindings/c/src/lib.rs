@@ -1,6 +1,7 @@
 //! The C interface. `include/darboux.h` is generated from this crate; the contract of every pointer is what its documentation there says.
 //!
-//! A call reads its structs and pointers into checked views ([`pointers`]), runs the core, and writes what came out. No panic leaves it.
+//! A call reads its structs and pointers into checked views ([`pointers`]), runs the core, and writes what came out. A panic in
+//! [`status::call`] becomes a status; one anywhere else, as while something is freed, ends the program, as running out of memory does.
 
 #![allow(unsafe_code, reason = "C passes pointers")]
 #![allow(non_camel_case_types, reason = "types are called as C calls them")]

@@ -1,9 +1,11 @@
 //! How far tangents are apart, and how well they follow the UVs.
 
+use std::mem::offset_of;
+
 use darboux::{HISTOGRAM_ENDS, TangentDifference, UvFidelity, measure_tangents, measure_uv_fidelity};
 
 use crate::mesh::{self, darboux_mesh};
-use crate::pointers::{Receiver, Versioned, gathered, gathered_of_corners};
+use crate::pointers::{self, Receiver, Versioned, gathered, gathered_of_corners};
 use crate::status::{call, darboux_status};
 
 /// How many bins a histogram of angles has.
@@ -50,6 +52,8 @@ pub struct darboux_tangent_difference {
 // SAFETY: `repr(C)`, the size first, numbers.
 unsafe impl Versioned for darboux_tangent_difference {
     const NAME: &str = "darboux_tangent_difference";
+    const FIRST_SIZE: usize =
+        pointers::size_through::<Self, [f64; DARBOUX_WORST_CORNERS]>(offset_of!(Self, worst_angles));
 }
 
 impl From<TangentDifference> for darboux_tangent_difference {
@@ -97,6 +101,7 @@ pub struct darboux_uv_fidelity {
 // SAFETY: `repr(C)`, the size first, numbers.
 unsafe impl Versioned for darboux_uv_fidelity {
     const NAME: &str = "darboux_uv_fidelity";
+    const FIRST_SIZE: usize = pointers::size_through::<Self, usize>(offset_of!(Self, left_out));
 }
 
 impl From<UvFidelity> for darboux_uv_fidelity {

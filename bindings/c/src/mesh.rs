@@ -1,5 +1,7 @@
 //! The mesh that callers describe.
 
+use std::mem::offset_of;
+
 use darboux::{Faces, Indices, Mesh, Strided};
 
 use crate::codes::{self, FacesCode, darboux_faces};
@@ -48,6 +50,7 @@ pub struct darboux_mesh {
 // SAFETY: `repr(C)`, the size first, null pointers and zeros.
 unsafe impl Versioned for darboux_mesh {
     const NAME: &str = "darboux_mesh";
+    const FIRST_SIZE: usize = pointers::size_through::<Self, usize>(offset_of!(Self, face_count));
 }
 
 /// Vertices beyond this could not be split within 32 bits.

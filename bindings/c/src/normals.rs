@@ -1,5 +1,7 @@
 //! Normals of corners.
 
+use std::mem::offset_of;
+
 use darboux::{NormalOptions, NormalReport, generate_normals};
 
 use crate::codes::{self, darboux_normal_weight, darboux_shading, darboux_smoothing_seams};
@@ -27,6 +29,8 @@ pub struct darboux_normal_options {
 // SAFETY: `repr(C)`, the size first, numbers.
 unsafe impl Versioned for darboux_normal_options {
     const NAME: &str = "darboux_normal_options";
+    const FIRST_SIZE: usize =
+        pointers::size_through::<Self, darboux_smoothing_seams>(offset_of!(Self, seams));
 }
 
 /// What was met on the way.
@@ -48,6 +52,7 @@ pub struct darboux_normal_report {
 // SAFETY: `repr(C)`, the size first, integers.
 unsafe impl Versioned for darboux_normal_report {
     const NAME: &str = "darboux_normal_report";
+    const FIRST_SIZE: usize = pointers::size_through::<Self, usize>(offset_of!(Self, creased_edges));
 }
 
 impl From<NormalReport> for darboux_normal_report {

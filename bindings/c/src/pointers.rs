@@ -18,8 +18,14 @@ use crate::status::{Error, darboux_status};
 pub(crate) unsafe trait Versioned: Copy {
     /// What C calls it.
     const NAME: &str;
-    /// Its size in the version that introduced it: what a `size` of 0 stands for. A struct that grows says where it ended.
-    const FIRST_SIZE: usize = size_of::<Self>();
+    /// Its size in the version that introduced it: what a `size` of 0 stands for. Named by that version's last field, so that fields
+    /// which come later do not change it.
+    const FIRST_SIZE: usize;
+}
+
+/// The size of a struct that ends with a `Last` at `offset`.
+pub(crate) const fn size_through<Struct, Last>(offset: usize) -> usize {
+    (offset + size_of::<Last>()).next_multiple_of(align_of::<Struct>())
 }
 
 /// A copy of the struct at `from`, with zeros for fields that the caller's version does not have.

@@ -19,7 +19,7 @@ pub enum darboux_status {
     NullPointer = 1,
     /// A struct's `size` is no version's size, or has values that this version of the library does not know.
     StructSize = 2,
-    /// A number is none of its enumeration.
+    /// A number is none of its enumeration, or two fields are set of which one must be null.
     UnknownValue = 3,
     /// A stride is smaller than the element that it steps over.
     Stride = 4,

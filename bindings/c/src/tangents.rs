@@ -1,5 +1,7 @@
 //! Tangents of corners.
 
+use std::mem::offset_of;
+
 use darboux::{Frame, Report, TangentOptions, generate_frames, write_tangents};
 
 use crate::codes::{self, darboux_method, darboux_mode};
@@ -28,6 +30,7 @@ pub struct darboux_tangent_options {
 // SAFETY: `repr(C)`, the size first, zeros and a null pointer.
 unsafe impl Versioned for darboux_tangent_options {
     const NAME: &str = "darboux_tangent_options";
+    const FIRST_SIZE: usize = pointers::size_through::<Self, *mut darboux_scratch>(offset_of!(Self, scratch));
 }
 
 /// What was met on the way. Quads count as the two triangles that they are split into.
@@ -61,6 +64,7 @@ pub struct darboux_report {
 // SAFETY: `repr(C)`, the size first, integers.
 unsafe impl Versioned for darboux_report {
     const NAME: &str = "darboux_report";
+    const FIRST_SIZE: usize = pointers::size_through::<Self, usize>(offset_of!(Self, merged_vertices));
 }
 
 impl From<Report> for darboux_report {

@@ -1,5 +1,7 @@
 //! Frames under node matrices and skins.
 
+use std::mem::offset_of;
+
 use darboux::Transform;
 
 use crate::pointers::{self, Output, Rows, Versioned, copied, rows};
@@ -37,6 +39,7 @@ pub struct darboux_frame_arrays {
 // SAFETY: `repr(C)`, the size first, numbers and null pointers.
 unsafe impl Versioned for darboux_frame_arrays {
     const NAME: &str = "darboux_frame_arrays";
+    const FIRST_SIZE: usize = pointers::size_through::<Self, usize>(offset_of!(Self, out_tangent_stride));
 }
 
 /// A skin: matrices of bones, and which of them move each vertex.
@@ -68,6 +71,7 @@ pub struct darboux_skin {
 // SAFETY: `repr(C)`, the size first, numbers and null pointers.
 unsafe impl Versioned for darboux_skin {
     const NAME: &str = "darboux_skin";
+    const FIRST_SIZE: usize = pointers::size_through::<Self, usize>(offset_of!(Self, weight_stride));
 }
 
 /// Moves normals and tangents as a node's matrix moves their surface, mirrors and uneven scales included.
@@ -88,9 +92,12 @@ pub unsafe extern "C" fn darboux_transform_frames(
         let mut columns = copied::<[f32; 3]>("matrix", matrix.cast(), 3, column_stride)?;
         let transform = Transform::new([(); 3].map(|()| columns.next().unwrap_or_default()));
         let arrays = Arrays::new(arrays)?;
+        let orientation = (!orientation.is_null())
+            .then(|| Output::new("orientation", orientation.cast(), 1, 0))
+            .transpose()?;
         arrays.write(|_, normal, tangent| transform.frame(normal, tangent));
-        if !orientation.is_null() {
-            Output::new("orientation", orientation.cast(), 1, 0)?.copy(&[transform.orientation()]);
+        if let Some(orientation) = orientation {
+            orientation.copy(&[transform.orientation()]);
         }
         Ok(())
     })

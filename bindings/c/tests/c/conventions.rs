@@ -178,6 +178,19 @@ fn matrices() {
     }
 }
 
+/// An orientation that cannot be written is found before anything is.
+#[test]
+fn a_refused_orientation_leaves_the_arrays() {
+    let (mut normals, mut tangents) = (vec![[0.0, 0.0, 1.0]], vec![[1.0, 0.0, 0.0, 1.0]]);
+    let arrays = arrays(&mut normals, &mut tangents);
+    let matrix = [0.0f32, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0];
+    let nowhere = std::ptr::without_provenance_mut(usize::MAX - 1);
+    // SAFETY: all pointers are to arrays of the lengths given, but for one that is refused.
+    let status = unsafe { darboux_transform_frames(matrix.as_ptr(), 0, &arrays, nowhere) };
+    assert_eq!(status, darboux_status::TooLarge);
+    assert_eq!((normals, tangents), (vec![[0.0, 0.0, 1.0]], vec![[1.0, 0.0, 0.0, 1.0]]));
+}
+
 #[test]
 fn skins() {
     let mut dice = Dice::from_seed(6);
