@@ -12,6 +12,8 @@ from typing import Dict, List, Tuple
 import darboux
 import pytest
 from conftest import ROOT
+from darboux._batch import _reason
+from darboux._engines import Lost
 
 ASSETS = ROOT / "assets"
 MODEL = ASSETS / "NormalTangentTest/NormalTangentTest.glb"
@@ -189,6 +191,13 @@ def test_a_file_that_kills_its_worker_is_given_up(tmp_path: Path, monkeypatch: p
     [file] = report["files"]
     assert (file["status"], file["tries"]) == ("failed", 2)
     assert file["error"].endswith("b.glb: its worker was lost: the process ended with code 9")
+
+
+def test_an_error_is_no_lost_worker() -> None:
+    remote = ValueError("ray::carry_out()\n  File x\nValueError: burnt\n")
+    assert _reason(remote) == "its worker raised an error: ValueError: burnt"
+    assert _reason(Lost("killed\nby whom")) == "its worker was lost: killed"
+    assert _reason(OSError()) == "its worker raised an error: OSError"
 
 
 DRIVER = """

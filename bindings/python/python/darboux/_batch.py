@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, Callable, Dict, Iterator, List, Literal, Optional, Sequence, Union
 
 from ._darboux import Library, __version__, give_up
-from ._engines import ENGINES, Engine
+from ._engines import ENGINES, Engine, Lost
 from ._process import PathLike
 
 REPORT = "darboux-report.json"
@@ -119,7 +119,7 @@ def _carried_out(
             number, answer = engine.wait()
             at_work -= 1
             if isinstance(answer, Exception):
-                answer = give_up(orders[number], f"its worker was lost: {answer}")
+                answer = give_up(orders[number], _reason(answer))
             report = json.loads(answer)["report"]
             if report["status"] == "failed" and tries[number] <= retries:
                 # Behind all others: what was in the way may be gone by then.
@@ -129,6 +129,12 @@ def _carried_out(
             reports[number] = {**report, "tries": tries[number]}
             bar.step()
     return reports
+
+
+def _reason(error: Exception) -> str:
+    """One sentence. Clusters put a traceback before it, whose last line tells most; a lost worker's first line does."""
+    lines = [line.strip() for line in str(error).splitlines() if line.strip()] or [type(error).__name__]
+    return f"its worker was lost: {lines[0]}" if isinstance(error, Lost) else f"its worker raised an error: {lines[-1]}"
 
 
 def _report(files: List[Dict[str, Any]]) -> Dict[str, Any]:

@@ -14,8 +14,13 @@ Ended = Tuple[int, Union[str, Exception]]
 """The number of an order, and its answer or why there is none."""
 
 
+class Lost(Exception):
+    """A worker ended before its order did."""
+
+
 class Engine(Protocol):
-    """Carries out orders. Leaving it ends its workers, at work or not."""
+    """Carries out orders. Leaving it ends local workers, at work or not. A cluster is told to; it may end them later, and Dask finishes
+    what runs."""
 
     capacity: int
     """The orders that it is worth starting at the same time."""
@@ -82,7 +87,7 @@ class Local:
             answer = ""
         if not answer.endswith("\n"):
             self.own.process = None
-            raise RuntimeError(f"the process ended with code {process.wait()}")
+            raise Lost(f"the process ended with code {process.wait()}")
         return answer
 
     def _process(self) -> "subprocess.Popen[str]":
@@ -129,8 +134,10 @@ class Ray:
         number = self.numbers.pop(task)
         try:
             return number, self.ray.get(task)
-        except self.ray.exceptions.RayError as error:
+        except self.ray.exceptions.RayTaskError as error:
             return number, error
+        except self.ray.exceptions.RayError as error:
+            return number, Lost(str(error))
 
     def __enter__(self) -> "Ray":
         return self
@@ -150,7 +157,7 @@ class Dask:
             self.client: Any = distributed.get_client()
         except ValueError:
             raise ValueError("there is no Dask client; make one: distributed.Client(address)") from None
-        self.first = distributed.wait
+        self.first, self.killed = distributed.wait, distributed.KilledWorker
         self.capacity = workers or 2 * max(1, sum(self.client.nthreads().values()))
         self.numbers: Dict[Any, int] = {}
 
@@ -162,6 +169,8 @@ class Dask:
         task = next(iter(done))
         number = self.numbers.pop(task)
         error = task.exception()
+        if isinstance(error, self.killed):
+            return number, Lost(str(error))
         return number, task.result() if error is None else error
 
     def __enter__(self) -> "Dask":
