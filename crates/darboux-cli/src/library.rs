@@ -45,8 +45,8 @@ struct Answer<R> {
 impl Library {
     /// Finds the models in files and folders, as the command does, and opens the journal of `folder`.
     ///
-    /// `options` are those of the command. Errors, one sentence each: what the command refuses; another run that writes there; a path
-    /// that is not UTF-8.
+    /// `options` are those of the command. A file whose path is not UTF-8 fails alone. Errors, one sentence each: what the command refuses;
+    /// another run that writes there.
     pub fn open(inputs: &[PathBuf], folder: &Path, options: &[String]) -> Result<Self, String> {
         let arguments = parsed(inputs, folder, options)?;
         arguments.check().map_err(|usage| usage.0)?;
@@ -63,10 +63,20 @@ impl Library {
                 output: output.clone(),
                 record: journal.find(output).cloned(),
             };
-            Some(serde_json::to_string(&order).map_err(|_| format!("{}: the path is not UTF-8", job.input)))
+            // JSON takes every order but one with such a path.
+            Some(
+                serde_json::to_string(&order)
+                    .map_err(|_| (input.clone(), "the path is not UTF-8".to_owned())),
+            )
         };
-        let orders = jobs.iter().filter_map(order).collect::<Result<_, String>>()?;
-        let failed = found.failed.into_iter().map(unsearched::<TangentsSummary>);
+        let (mut orders, mut failed) = (Vec::new(), found.failed);
+        for order in jobs.iter().filter_map(order) {
+            match order {
+                Ok(order) => orders.push(order),
+                Err(unnamed) => failed.push(unnamed),
+            }
+        }
+        let failed = failed.into_iter().map(unsearched::<TangentsSummary>);
         let failed = failed.map(|report| json(&report)).collect::<Result<_, String>>()?;
         Ok(Self { journal, orders, failed })
     }
@@ -76,7 +86,7 @@ impl Library {
         &self.orders
     }
 
-    /// The reports of places that could not be searched.
+    /// The reports of places that could not be searched, and of files that no order can name.
     pub fn failed(&self) -> &[String] {
         &self.failed
     }
@@ -137,4 +147,29 @@ fn sentence_of(error: &clap::Error) -> String {
 
 fn json(value: &impl Serialize) -> Result<String, String> {
     serde_json::to_string(value).map_err(|error| error.to_string())
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use std::ffi::OsStr;
+    use std::fs;
+    use std::os::unix::ffi::OsStrExt;
+
+    use super::*;
+
+    #[test]
+    fn a_path_that_is_not_utf8_fails_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let models = folder.path().join("models");
+        fs::create_dir(&models).unwrap();
+        for name in [OsStr::new("good.glb"), OsStr::from_bytes(b"bad\xff.glb")] {
+            fs::write(models.join(name), "").unwrap();
+        }
+        let library = Library::open(&[models], &folder.path().join("out"), &[]).unwrap();
+        assert_eq!(library.orders().len(), 1);
+        assert!(library.orders()[0].contains("good.glb"));
+        assert_eq!(library.failed().len(), 1);
+        assert!(library.failed()[0].contains("the path is not UTF-8"));
+        library.close().unwrap();
+    }
 }

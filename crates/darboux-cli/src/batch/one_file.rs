@@ -1,5 +1,6 @@
 //! The work on one file, up to its report.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use super::{Made, Work, size_of};
@@ -24,7 +25,7 @@ pub struct Done<S> {
     pub record: Option<Record>,
 }
 
-/// Works on a file. `known`: none where no journal is kept.
+/// Works on a file; a panic fails this file alone. `known`: none where no journal is kept.
 pub fn work<W: Work>(
     command: &W,
     job: &Job,
@@ -32,17 +33,27 @@ pub fn work<W: Work>(
     messages: &Messages,
 ) -> Done<W::Summary> {
     let progress = messages.file(&job.input.to_string(), size_of(&job.input));
-    let done = match (known, &job.input, &job.output) {
+    let done = caught(&job.input, || match (known, &job.input, &job.output) {
         (Some(known), Input::File(input), Output::File(output)) => {
             resumed(command, job, known, (input, output), &progress)
         }
         _ => refuse_existing(&job.output, command.files())
             .and_then(|()| command.process(job, &progress))
             .map(|made| Done { report: told(job, made), record: None }),
-    };
+    });
     done.unwrap_or_else(|sentence| Done {
         report: FileReport::failed(job.input.to_string(), sentence),
         record: None,
+    })
+}
+
+/// What `work` gives, or one sentence for its panic. Nothing that it changed is looked at afterwards but whole files.
+fn caught<T>(input: &Input, work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
+        let told =
+            panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
+        let reason = told.and_then(|told| told.lines().next()).unwrap_or("no reason given");
+        Err(format!("{input}: the work on it broke off: {reason}; this is a defect of darboux"))
     })
 }
 
@@ -90,5 +101,18 @@ fn refuse_existing(output: &Output, files: &Files) -> Result<(), String> {
             Err(format!("{output}: exists; use --force to replace it, or name another output"))
         }
         _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_one_sentence() {
+        let sentence = "a.glb: the work on it broke off: burnt; this is a defect of darboux";
+        let input = Input::File("a.glb".into());
+        assert_eq!(caught::<()>(&input, || panic!("burnt\nto the ground")), Err(sentence.into()));
+        assert_eq!(caught(&input, || Ok(3)), Ok(3));
     }
 }
