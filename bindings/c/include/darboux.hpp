@@ -71,6 +71,10 @@ inline void check(darboux_status status) {
   if (status != DARBOUX_STATUS_OK) throw error(status, darboux_last_error());
 }
 
+/// False for numbers and enumerations that are not floats, and arrays of them; what a class holds cannot be seen.
+template <class T, class Scalar = std::remove_cv_t<std::remove_all_extents_t<T>>>
+inline constexpr bool may_be_floats = std::is_same_v<Scalar, float> || !(std::is_arithmetic_v<Scalar> || std::is_enum_v<Scalar>);
+
 /// `N` floats per element, borrowed from any layout. `Float` is `const float` for what is read and `float` for what is written.
 template <class Float, std::size_t N>
 class strided {
@@ -83,7 +87,8 @@ class strided {
 
   /// Elements one after the other, of any type of the size of `N` floats: std::array<float, N>, or an engine's own vector.
   template <class Container, class Element = std::remove_pointer_t<decltype(std::data(std::declval<Container &>()))>,
-            class = std::enable_if_t<sizeof(Element) == N * sizeof(float) && std::is_trivially_copyable_v<Element> &&
+            class = std::enable_if_t<sizeof(Element) == N * sizeof(float) && may_be_floats<Element> &&
+                                     std::is_trivially_copyable_v<Element> &&
                                      (std::is_const_v<Float> || !std::is_const_v<Element>)>>
   strided(Container &&elements)
       : strided(reinterpret_cast<Float *>(std::data(elements)), std::size(elements)) {}
@@ -111,7 +116,8 @@ template <class Container, class Struct, class Member>
 auto field(Container &&structs, Member Struct::*member) {
   using Element = std::remove_pointer_t<decltype(std::data(structs))>;
   using Float = std::conditional_t<std::is_const_v<Element>, const float, float>;
-  static_assert(sizeof(Member) % sizeof(float) == 0 && std::is_trivially_copyable_v<Member>, "a member that is floats");
+  static_assert(sizeof(Member) % sizeof(float) == 0 && may_be_floats<Member> && std::is_trivially_copyable_v<Member>,
+                "a member that is floats");
   Element *first = std::data(structs);
   Float *data = std::size(structs) == 0 ? nullptr : reinterpret_cast<Float *>(&(first->*member));
   return strided<Float, sizeof(Member) / sizeof(float)>(data, std::size(structs), sizeof(Element));

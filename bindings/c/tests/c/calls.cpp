@@ -216,6 +216,9 @@ static void threads() {
   for (auto &thread : running) thread.join();
 }
 
+static_assert(std::is_constructible_v<darboux::floats<1>, std::vector<float> &>, "floats");
+static_assert(!std::is_constructible_v<darboux::floats<1>, std::vector<std::int32_t> &>, "integers are not floats");
+static_assert(!darboux::may_be_floats<std::uint32_t[3]> && darboux::may_be_floats<const float[3]>, "members");
 static_assert(std::is_nothrow_move_constructible_v<darboux::plan> && !std::is_copy_constructible_v<darboux::plan>, "RAII");
 
 int main() {
