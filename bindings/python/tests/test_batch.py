@@ -107,7 +107,7 @@ def test_bad_batches(tmp_path: Path) -> None:
     assert not out.exists()
     out.mkdir()
     (out / "file").write_text("")
-    with pytest.raises(ValueError, match="cannot be opened"):
+    with pytest.raises(ValueError, match="is not a folder"):
         darboux.batch(models, out / "file")
 
 
