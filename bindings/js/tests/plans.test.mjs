@@ -42,7 +42,8 @@ test('nor do plans that are garbage', async () => {
   await some();
   const before = memories[0].buffer.byteLength;
   for (let at = 0; at < 5; at++) await some();
-  assert.equal(memories[0].buffer.byteLength, before);
+  // When garbage is seen differs from run to run; 5,000 plans that stay would take over 5 MB.
+  assert.ok(memories[0].buffer.byteLength - before < 1 << 20);
 });
 
 test('plans do not disturb each other', () => {
