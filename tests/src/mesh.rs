@@ -116,6 +116,24 @@ impl OwnedMesh {
         self.face_sizes().into_iter().flat_map(supported).collect()
     }
 
+    /// With vertices moved: some a little, some onto others, some to nowhere.
+    pub fn moved(&self, seed: usize) -> Self {
+        let mut moved = self.clone();
+        let count = self.positions.len();
+        for vertex in 0..count {
+            let place = (seed + vertex) * 7919;
+            match place % 23 {
+                0 => moved.positions[vertex] = self.positions[place % count],
+                1 if seed.is_multiple_of(3) => moved.positions[vertex][place % 3] = f32::NAN,
+                2 if seed.is_multiple_of(4) => moved.normals[vertex] = [0.0; 3],
+                3..10 if seed.is_multiple_of(2) => moved.positions[vertex][place % 3] += 0.125,
+                10..15 => moved.normals[vertex][place % 3] *= -0.5,
+                _ => {}
+            }
+        }
+        moved
+    }
+
     /// The mesh as text: `v` lines (position, normal, UV), then `f` lines (vertices from 0). Reads back to the same bits.
     pub fn to_text(&self) -> String {
         let mut text = String::new();

@@ -17,31 +17,13 @@ fn both(base: &OwnedMesh, moved: &OwnedMesh, mode: Mode) -> [Vec<[u32; 4]>; 2] {
     [evaluate(FaceSizes::Triangles), evaluate(FaceSizes::Mixed(vec![3; base.corner_count() / 3]))]
 }
 
-/// Moves vertices: some a little, some onto others, some to nowhere.
-fn moved(mesh: &OwnedMesh, seed: usize) -> OwnedMesh {
-    let mut moved = mesh.clone();
-    let count = mesh.positions.len();
-    for vertex in 0..count {
-        let place = (seed + vertex) * 7919;
-        match place % 23 {
-            0 => moved.positions[vertex] = mesh.positions[place % count],
-            1 if seed.is_multiple_of(3) => moved.positions[vertex][place % 3] = f32::NAN,
-            2 if seed.is_multiple_of(4) => moved.normals[vertex] = [0.0; 3],
-            3..10 if seed.is_multiple_of(2) => moved.positions[vertex][place % 3] += 0.125,
-            10..15 => moved.normals[vertex][place % 3] *= -0.5,
-            _ => {}
-        }
-    }
-    moved
-}
-
 #[test]
 fn every_stage_agrees_with_the_short_way() {
     for seed in 0..20_000 {
         let mesh = Case::from_seed(seed).mesh;
         if mesh.faces == FaceSizes::Triangles && mesh.corner_count() > 0 {
             let mode = [Mode::Reference, Mode::Repaired, Mode::Corrected][seed as usize % 3];
-            let [short, long] = both(&mesh, &moved(&mesh, seed as usize), mode);
+            let [short, long] = both(&mesh, &mesh.moved(seed as usize), mode);
             assert_eq!(short, long, "seed {seed}");
         }
     }
@@ -80,7 +62,7 @@ fn groups_of_angle_and_area_hold_whatever_moves() {
     let options = TangentOptions { method: Method::AngleArea, ..TangentOptions::default() };
     for seed in 0..5_000 {
         let mesh = Case::from_seed(seed).mesh;
-        let moved = moved(&mesh, seed as usize);
+        let moved = mesh.moved(seed as usize);
         let plan = Plan::new(&mesh.view(), &options);
         let base = generate_tangents(&mesh.view(), &options);
         assert_eq!(plan.base().report, base.report, "seed {seed}");

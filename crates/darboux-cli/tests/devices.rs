@@ -2,9 +2,7 @@
 
 mod common;
 
-use std::io::Write;
-
-use common::{asset, darboux, darboux_without_adapters, text};
+use common::{asset, darboux, darboux_without_adapters, has_adapter, text};
 
 const MODELS: [&str; 4] = [
     "NormalTangentTest/NormalTangentTest.glb",
@@ -12,19 +10,6 @@ const MODELS: [&str; 4] = [
     "made/meshopt.glb",
     "made/quantised-sparse.glb",
 ];
-
-/// Whether `darboux devices` lists an adapter that can be used; says so once where there is none.
-fn has_adapter() -> bool {
-    let report = darboux(&["devices", "--json"]).exits(0).json();
-    let adapters = report["adapters"].as_array().expect("a list");
-    let usable = adapters.iter().any(|adapter| adapter["problem"].is_null());
-    if !usable {
-        assert!(std::env::var_os("CI").is_none(), "no adapter: {report}");
-        writeln!(std::io::stdout(), "skipped: no adapter (Debian: mesa-vulkan-drivers, libvulkan1)")
-            .expect("standard output");
-    }
-    usable
-}
 
 #[test]
 fn a_gpu_writes_the_files_of_the_cpu() {

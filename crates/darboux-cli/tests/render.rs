@@ -3,24 +3,10 @@
 mod common;
 
 use std::fs;
-use std::io::Write;
 
-use common::{asset, darboux, darboux_without_adapters, folder_with, names_in, text};
+use common::{asset, darboux, darboux_without_adapters, folder_with, has_adapter, names_in, text};
 
 const MODEL: &str = "NormalTangentTest/NormalTangentTest.glb";
-
-/// Whether there is an adapter; says so where there is none.
-fn has_adapter() -> bool {
-    let report = darboux(&["devices", "--json"]).exits(0).json();
-    let adapters = report["adapters"].as_array().expect("a list");
-    let usable = adapters.iter().any(|adapter| adapter["problem"].is_null());
-    if !usable {
-        assert!(std::env::var_os("CI").is_none(), "no adapter: {report}");
-        writeln!(std::io::stdout(), "skipped: no adapter (Debian: mesa-vulkan-drivers, libvulkan1)")
-            .expect("standard output");
-    }
-    usable
-}
 
 #[test]
 fn a_picture_is_written_and_not_replaced_unasked() {

@@ -10,24 +10,6 @@ use darboux_gpu::{Attribute, Gpu, MovingMesh, Per, Planner, Precision};
 use darboux_tests::{Case, OwnedMesh, families};
 use wgpu::BufferUsages;
 
-/// Moves vertices: some a little, some onto others, some to nowhere.
-fn moved(mesh: &OwnedMesh, seed: usize) -> OwnedMesh {
-    let mut moved = mesh.clone();
-    let count = mesh.positions.len();
-    for vertex in 0..count {
-        let place = (seed + vertex) * 7919;
-        match place % 23 {
-            0 => moved.positions[vertex] = mesh.positions[place % count],
-            1 if seed.is_multiple_of(3) => moved.positions[vertex][place % 3] = f32::NAN,
-            2 if seed.is_multiple_of(4) => moved.normals[vertex] = [0.0; 3],
-            3..10 if seed.is_multiple_of(2) => moved.positions[vertex][place % 3] += 0.125,
-            10..15 => moved.normals[vertex][place % 3] *= -0.5,
-            _ => {}
-        }
-    }
-    moved
-}
-
 fn bits(tangent: [f32; 4]) -> [u32; 4] {
     tangent.map(|x| if x.is_nan() { f32::NAN } else { x }.to_bits())
 }
@@ -92,7 +74,7 @@ fn moved_meshes_have_the_core_s_bits() {
                 let mesh = triangulated(&Case::from_seed(seed as u64).mesh);
                 if mesh.corner_count() > 0 {
                     let mode = [Mode::Reference, Mode::Repaired][seed % 2];
-                    let meshes = [&mesh, &moved(&mesh, seed)];
+                    let meshes = [&mesh, &mesh.moved(seed)];
                     check(&planner, gpu, &format!("seed {seed}"), meshes, mode, &mut tally);
                 }
             }

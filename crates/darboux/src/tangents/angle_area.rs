@@ -6,13 +6,13 @@
 //! vertices. Thresholds do not apply, all edges are matched, and sums are in f64.
 
 use crate::math::V3;
-use crate::topology::{EdgeOrder, neighbours};
+use crate::topology::{EdgeOrder, NONE, neighbours};
 use crate::triangles::{Triangles, Triangulation, triangulate};
 use crate::{Frame, Mesh, Mode};
 
 use super::derivatives::{Derivative, agree_in_quads, derivatives, derivatives_into};
 use super::flat::Flat;
-use super::group_sums::{GroupFrame, GroupMemory, GroupSum, GroupedTriangles, NONE, add};
+use super::group_sums::{GroupFrame, GroupMemory, GroupSum, GroupedTriangles, add};
 use super::groups::{Groups, group};
 use super::mikktspace::count_mirrored_edges;
 use super::repair::{D3, direction, in_plane, length, mean_in_plane, perpendicular, u_direction_of, unit};

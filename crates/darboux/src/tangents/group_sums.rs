@@ -2,6 +2,7 @@
 
 use crate::Frame;
 use crate::math::{V3, angle};
+use crate::topology::NONE;
 use crate::triangles::Triangles;
 
 use super::derivatives::Derivative;
@@ -9,9 +10,6 @@ use super::groups::Groups;
 use super::repair::{D3, cross, dot, length};
 use super::shape::Shape;
 use super::threads;
-
-/// No group.
-pub(super) const NONE: u32 = u32::MAX;
 
 /// What is summed over a group.
 #[derive(Clone, Copy, Debug, Default)]

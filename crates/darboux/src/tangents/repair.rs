@@ -44,7 +44,7 @@ pub(crate) fn repair(mesh: &Mesh<'_>, triangulation: &Triangulation, raw: &mut R
 }
 
 /// sign * cross(normal, tangent), unit; without a normal, or where the tangent runs along it, a perpendicular of the tangent.
-fn bitangent(normal: Option<D3>, tangent: V3, sign: f32) -> V3 {
+pub(super) fn bitangent(normal: Option<D3>, tangent: V3, sign: f32) -> V3 {
     let tangent = tangent.map(f64::from);
     let across = normal.and_then(|normal| unit(cross(normal, tangent)));
     across.unwrap_or_else(|| perpendicular(tangent)).map(|x| (f64::from(sign) * x) as f32)

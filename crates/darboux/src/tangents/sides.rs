@@ -11,7 +11,7 @@ use crate::{Frame, Mesh, Mode};
 use super::Report;
 use super::accumulate::{Memory, Sums};
 use super::flat::Flat;
-use super::repair::{cross, direction, in_plane, mean_in_plane, perpendicular, u_direction_of, unit};
+use super::repair::{bitangent, direction, in_plane, mean_in_plane, perpendicular, u_direction_of, unit};
 use super::seams::{count_mirrored_edges, survey, vertices_of_both};
 use super::sums::{Orientation, Sum, Weighting, adds};
 use super::threads::{self, parts, split};
@@ -258,9 +258,7 @@ fn precise_direction_across(v: V3, normal: V3) -> Option<V3> {
 
 /// sign * cross(normal, tangent), unit; without a normal, or where the tangent runs along it, a perpendicular of the tangent.
 pub(super) fn across(normal: V3, tangent: V3, sign: f32) -> V3 {
-    let tangent = tangent.map(f64::from);
-    let across = direction(normal).and_then(|normal| unit(cross(normal, tangent)));
-    across.unwrap_or_else(|| perpendicular(tangent)).map(|x| (f64::from(sign) * x) as f32)
+    bitangent(direction(normal), tangent, sign)
 }
 
 /// Gives every face without an orientation the one that more of its corners have triangles of, +1 on a tie, and adds the sides
