@@ -16,8 +16,8 @@ const PLACES: &[&str] = &[
     "shaders/hlsl",
 ];
 
-/// Packages whose example `generate` writes them below the folder that it is given.
-const PACKAGES: &[&str] = &["darboux-cli", "darboux-c"];
+/// Packages, and their examples that write them below the folder that they are given.
+const WRITERS: &[(&str, &str)] = &[("darboux-cli", "pages"), ("darboux-c", "header")];
 
 /// Writes all generated files in their places.
 pub fn write() -> Outcome {
@@ -47,8 +47,8 @@ pub fn compare() -> Outcome {
 
 fn generate(into: &Path) -> Outcome {
     shaders::write(into)?;
-    PACKAGES.iter().try_for_each(|package| {
-        run(program("cargo run --quiet --example generate --package").args([package, "--"]).arg(into))
+    WRITERS.iter().try_for_each(|(package, example)| {
+        run(program("cargo run --quiet").args(["--package", package, "--example", example, "--"]).arg(into))
     })
 }
 

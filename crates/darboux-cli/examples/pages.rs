@@ -12,7 +12,7 @@ use darboux_cli::Arguments;
 
 fn main() -> io::Result<()> {
     let Some(root) = std::env::args_os().nth(1) else {
-        return Err(io::Error::other("usage: generate FOLDER"));
+        return Err(io::Error::other("usage: pages FOLDER"));
     };
     let root = Path::new(&root);
     let mut command = Arguments::command().term_width(100).disable_help_subcommand(true);

@@ -7,7 +7,7 @@ use std::fs::{create_dir_all, write};
 use std::path::Path;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let root = std::env::args_os().nth(1).ok_or("usage: generate FOLDER")?;
+    let root = std::env::args_os().nth(1).ok_or("usage: header FOLDER")?;
     let interface = Path::new(env!("CARGO_MANIFEST_DIR"));
     let config = cbindgen::Config::from_file(interface.join("cbindgen.toml"))?;
     let header = cbindgen::Builder::new().with_crate(interface).with_config(config).generate()?;
