@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,6 +12,9 @@ import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[3]
+
+# Shells ignore Ctrl-C for what they start in the background, and so would this process and all that it starts.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def bits(array: np.ndarray) -> List[int]:

@@ -121,6 +121,23 @@ def test_ctrl_c_ends_the_command(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
+def test_the_command_leaves_ctrl_c_ignored() -> None:
+    ignoring = "import os, signal, sys; signal.signal(signal.SIGINT, signal.SIG_IGN); os.execv(sys.executable, sys.argv[1:])"
+    command = [sys.executable, "-c", ignoring, sys.executable, "-m", "darboux", "tangents", "-"]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdin is not None
+        process.stdin.write(b"g")
+        process.stdin.flush()
+        while bytes_waiting(process.stdin.fileno()) > 0:
+            assert process.poll() is None
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        process.stdin.close()
+        # It reads on, and refuses the one byte.
+        assert process.wait() == 1
+
+
 def bytes_waiting(pipe: int) -> int:
     """How many bytes nobody has read yet."""
     import fcntl
