@@ -39,6 +39,8 @@ const FILES: &[(&str, &str)] = &[
     ("examples/CMakeLists.txt", "examples/CMakeLists.txt"),
     ("examples/tangents.c", "examples/tangents.c"),
     ("examples/tangents.cpp", "examples/tangents.cpp"),
+    ("examples/vertices.c", "examples/vertices.c"),
+    ("examples/vertices.cpp", "examples/vertices.cpp"),
     ("examples/mikktspace.c", "examples/mikktspace.c"),
     ("../../LICENSE-APACHE", "LICENSE-APACHE"),
     ("../../LICENSE-MIT", "LICENSE-MIT"),

@@ -1,49 +1,18 @@
-// Tangents for an engine's vertices: four triangles whose UVs are mirrored at x = 0.
+// Tangents of a strip of two quads whose texture is mirrored at x = 0, one per corner: those of one vertex may differ.
 
-#include <algorithm>
 #include <cstdio>
-#include <exception>
-#include <vector>
 
 #include "darboux.hpp"
 
-struct Vertex {
-  float position[3];
-  float uv[2];
-  float normal[3];
-  float tangent[4];
-};
-
-static void run() {
-  std::vector<Vertex> vertices = {
-      {{-1, 0, 0}, {1, 0}, {0, 0, 1}, {}}, {{0, 0, 0}, {0, 0}, {0, 0, 1}, {}}, {{1, 0, 0}, {1, 0}, {0, 0, 1}, {}},
-      {{-1, 1, 0}, {1, 1}, {0, 0, 1}, {}}, {{0, 1, 0}, {0, 1}, {0, 0, 1}, {}}, {{1, 1, 0}, {1, 1}, {0, 0, 1}, {}},
-  };
-  const std::vector<std::uint16_t> indices = {0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4};
-
-  darboux::mesh mesh;
-  mesh.positions = darboux::field(vertices, &Vertex::position);
-  mesh.normals = darboux::field(vertices, &Vertex::normal);
-  mesh.uvs = darboux::field(vertices, &Vertex::uv);
-  mesh.indices = indices;
-  const auto tangents = darboux::generate_tangents(mesh);
-
-  const auto split = darboux::split_vertices(mesh, tangents.corners);
-  std::printf("%u vertices became %u\n", unsigned(vertices.size()), unsigned(split.vertex_count()));
-  for (std::size_t v = 0; v < split.vertex_count(); v++) {
-    Vertex vertex = vertices[split.source_of_vertex()[v]];
-    std::copy_n(split.tangent_of_vertex()[v].data(), 4, vertex.tangent);
-    std::printf("%g %g %g: tangent %g %g %g %g\n", vertex.position[0], vertex.position[1], vertex.position[2],
-                vertex.tangent[0], vertex.tangent[1], vertex.tangent[2], vertex.tangent[3]);
-  }
-}
-
 int main() {
-  try {
-    run();
-    return 0;
-  } catch (const std::exception &error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
+  const float positions[6][3] = {{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {-1, 1, 0}, {0, 1, 0}, {1, 1, 0}};
+  const float normals[6][3] = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
+  const float uvs[6][2] = {{1, 0}, {0, 0}, {1, 0}, {1, 1}, {0, 1}, {1, 1}};
+  const std::uint32_t quads[8] = {0, 1, 4, 3, 1, 2, 5, 4};
+  const darboux::mesh mesh = {positions, normals, uvs, quads, DARBOUX_FACES_QUADS};
+  const auto tangents = darboux::generate_tangents(mesh).corners;
+  for (std::size_t corner = 0; corner < tangents.size(); corner++) {
+    const auto [x, y, z, w] = tangents[corner];
+    std::printf("vertex %u: %g %g %g %g\n", unsigned(quads[corner]), x, y, z, w);
   }
 }

@@ -17,18 +17,12 @@
 #include <utility>
 #include <vector>
 
-#if __cplusplus >= 202002L
-#include <span>
-#endif
-
 #include "darboux.h"
 
 namespace darboux {
 
-#if __cplusplus >= 202002L
-using std::span;
-#else
-/// Borrowed elements, one after the other: as much of C++20's std::span as there is need for.
+/// Borrowed elements, one after the other. It becomes a std::span by itself where there is one, and is the same type where there is none,
+/// so that parts of one program may be compiled for different standards.
 template <class T>
 class span {
  public:
@@ -49,7 +43,6 @@ class span {
   T *data_ = nullptr;
   std::size_t size_ = 0;
 };
-#endif
 
 /// Unit xyz and the sign w: bitangent = w * cross(normal, xyz).
 using tangent = std::array<float, 4>;
@@ -161,7 +154,7 @@ struct mesh {
   index_list indices;
   darboux_faces faces = DARBOUX_FACES_TRIANGLES;
   /// For DARBOUX_FACES_MIXED.
-  span<const std::uint32_t> face_sizes;
+  span<const std::uint32_t> face_sizes = {};
 
   std::size_t corner_count() const { return indices.is_present() ? indices.size() : positions.size(); }
 
@@ -434,5 +427,13 @@ inline float transform_frames(const std::array<float, 16> &matrix, strided<float
 }
 
 }  // namespace darboux
+
+#if __cplusplus >= 202002L
+#include <ranges>
+
+/// What a span shows outlives the span, so std::span takes a temporary one, of elements that may be written too.
+template <class T>
+inline constexpr bool std::ranges::enable_borrowed_range<darboux::span<T>> = true;
+#endif
 
 #endif  // DARBOUX_HPP

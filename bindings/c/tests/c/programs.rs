@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
-use darboux::{Mesh, TangentOptions, generate_tangents, split_vertices};
+use darboux::{Faces, Mesh, TangentOptions, generate_tangents, split_vertices};
 
 use crate::support::{Link, build, compiler, dist, folder, has, run, source};
 
@@ -12,18 +12,38 @@ fn example(name: &str) -> PathBuf {
     dist().join("examples").join(name)
 }
 
-/// What `examples/tangents` prints, as the core computes it.
-fn expected() -> String {
+/// Three columns of vertices in two rows, their texture mirrored at the middle column.
+struct Strip {
+    positions: Vec<[f32; 3]>,
+    normals: [[f32; 3]; 6],
+    uvs: Vec<[f32; 2]>,
+}
+
+fn strip() -> Strip {
     let positions: Vec<[f32; 3]> = (0..6).map(|v| [(v % 3) as f32 - 1.0, (v / 3) as f32, 0.0]).collect();
-    let normals = [[0.0, 0.0, 1.0]; 6];
-    let uvs: Vec<[f32; 2]> = positions.iter().map(|[x, y, _]| [x.abs(), *y]).collect();
-    let indices = [0u16, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4];
-    let mesh = Mesh::triangles(&positions, &normals, &uvs, &indices).expect("a mesh");
+    let uvs = positions.iter().map(|[x, y, _]| [x.abs(), *y]).collect();
+    Strip { positions, normals: [[0.0, 0.0, 1.0]; 6], uvs }
+}
+
+/// What `examples/tangents` prints, as the core computes it.
+fn corners() -> String {
+    let (strip, quads) = (strip(), [0u32, 1, 4, 3, 1, 2, 5, 4]);
+    let (positions, normals, uvs) = (&strip.positions, &strip.normals, &strip.uvs);
+    let mesh = Mesh::with_faces(positions, normals, uvs, &quads, Faces::Quads).expect("a mesh");
+    let tangents = generate_tangents(&mesh, &TangentOptions::default()).corners.into_per_corner();
+    let lines = quads.iter().zip(tangents);
+    lines.map(|(vertex, [x, y, z, w])| format!("vertex {vertex}: {x} {y} {z} {w}\n")).collect()
+}
+
+/// What `examples/vertices` prints, as the core computes it.
+fn vertices() -> String {
+    let (strip, indices) = (strip(), [0u16, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4]);
+    let mesh = Mesh::triangles(&strip.positions, &strip.normals, &strip.uvs, &indices).expect("a mesh");
     let tangents = generate_tangents(&mesh, &TangentOptions::default());
     let split = split_vertices(&mesh, &tangents.corners).expect("its tangents");
     let mut text = format!("6 vertices became {}\n", split.source_of_vertex.len());
     for (&old, [a, b, c, d]) in split.source_of_vertex.iter().zip(&split.tangent_of_vertex) {
-        let [x, y, z] = positions[old as usize];
+        let [x, y, z] = strip.positions[old as usize];
         text += &format!("{x} {y} {z}: tangent {a} {b} {c} {d}\n");
     }
     text
@@ -34,12 +54,15 @@ fn examples_print_what_rust_computes() {
     if !has("gcc") || !has("g++") {
         return;
     }
-    for (standard, file) in [("c99", "tangents.c"), ("c++17", "tangents.cpp"), ("c++20", "tangents.cpp")] {
-        for link in [Link::Shared, Link::Static] {
-            let name = format!("example-{standard}-{link:?}");
-            let program = build(&name, standard, &[example(file)], &["darboux"], link);
-            let printed = String::from_utf8(run(&mut Command::new(program)).stdout).expect("text");
-            assert_eq!(printed, expected(), "{name}");
+    for (example_name, expected) in [("tangents", corners()), ("vertices", vertices())] {
+        for (standard, extension) in [("c99", "c"), ("c++17", "cpp"), ("c++20", "cpp")] {
+            for link in [Link::Shared, Link::Static] {
+                let name = format!("example-{example_name}-{standard}-{link:?}");
+                let file = example(&format!("{example_name}.{extension}"));
+                let program = build(&name, standard, &[file], &["darboux"], link);
+                let printed = String::from_utf8(run(&mut Command::new(program)).stdout).expect("text");
+                assert_eq!(printed, expected, "{name}");
+            }
         }
     }
     let program =
@@ -72,6 +95,28 @@ fn headers_are_clean() {
     check(&all, "darboux.h");
     check(&all, "mikktspace/mikktspace.h");
     check(&["c++17", "c++20"], "darboux.hpp");
+}
+
+#[test]
+fn parts_of_a_program_may_have_different_standards() {
+    if !has("g++") {
+        return;
+    }
+    let object = |standard: &str| {
+        let object = folder().join(format!("{standard}.o"));
+        let include = dist().join("include");
+        run(compiler(standard)
+            .arg("-I")
+            .arg(include)
+            .arg("-c")
+            .arg(source("standards.cpp"))
+            .arg("-o")
+            .arg(&object));
+        object
+    };
+    let objects = ["c++17", "c++20"].map(object);
+    let program = build("standards", "c++20", &objects, &["darboux"], Link::Shared);
+    run(&mut Command::new(program));
 }
 
 #[test]
@@ -121,8 +166,13 @@ fn cmake_finds_the_package() {
     configure.arg("-S").arg(dist().join("examples")).arg("-B").arg(&build);
     run(configure.arg(format!("-DCMAKE_PREFIX_PATH={}", dist().display())));
     run(Command::new("cmake").arg("--build").arg(&build));
-    for program in ["tangents_c", "tangents_cpp"] {
-        assert_eq!(run(&mut Command::new(build.join(program))).stdout, expected().as_bytes());
+    for (program, expected) in [
+        ("tangents_c", corners()),
+        ("tangents_cpp", corners()),
+        ("vertices_c", vertices()),
+        ("vertices_cpp", vertices()),
+    ] {
+        assert_eq!(run(&mut Command::new(build.join(program))).stdout, expected.as_bytes());
     }
     run(&mut Command::new(build.join("mikktspace")));
 }
@@ -145,7 +195,7 @@ fn pkg_config_finds_the_library() {
             .args(flags.split_whitespace())
             .args([&rpath, "-o"])
             .arg(&program));
-        assert_eq!(run(&mut Command::new(program)).stdout, expected().as_bytes());
+        assert_eq!(run(&mut Command::new(program)).stdout, corners().as_bytes());
     }
 }
 
