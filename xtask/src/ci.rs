@@ -29,6 +29,7 @@ const LONG: &[Step] = &[
     ("acos", acos),
     ("small limits", small_limits),
     ("long tests", || test("cargo test --release --workspace -- --ignored --skip acos_exhaustive")),
+    ("Python wheel", python::test_wheel),
     ("Blender", python::blender),
     ("Ray, Dask, Open3D", python::large_packages),
     ("fuzzing", fuzz),

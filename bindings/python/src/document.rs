@@ -15,6 +15,7 @@ use crate::arrays::rows_array;
 use crate::choices::{choice, tangent_options};
 use crate::convention::convention;
 use crate::normals::normal_options;
+use crate::numbers::{degrees, place};
 use crate::threads::attended;
 
 const ENCODINGS: &[(&str, TangentEncoding)] = &[
@@ -155,9 +156,15 @@ impl Document {
     /// ValueError
     ///     The bytes behind an attribute are not there.
     #[pyo3(signature = (mesh=0, primitive=0))]
-    fn arrays<'py>(&self, py: Python<'py>, mesh: usize, primitive: usize) -> PyResult<Bound<'py, PyDict>> {
+    fn arrays<'py>(
+        &self,
+        py: Python<'py>,
+        #[pyo3(from_py_with = place)] mesh: i64,
+        #[pyo3(from_py_with = place)] primitive: i64,
+    ) -> PyResult<Bound<'py, PyDict>> {
         let meshes = self.document.meshes();
-        let found = meshes.get(mesh).and_then(|mesh| mesh.primitives.get(primitive));
+        let found = usize::try_from(mesh).ok().and_then(|mesh| meshes.get(mesh));
+        let found = usize::try_from(primitive).ok().and_then(|primitive| found?.primitives.get(primitive));
         let Some(found) = found else {
             let sentence =
                 format!("meshes[{mesh}].primitives[{primitive}] does not exist; see primitive_counts");
@@ -168,7 +175,7 @@ impl Document {
             arrays.set_item(name, self.vectors(py, accessor)?)?;
         }
         if let Some(accessor) = found.indices {
-            let indices = self.document.read_indices(accessor).map_err(file_error)?;
+            let indices = py.detach(|| self.document.read_indices(accessor)).map_err(file_error)?;
             arrays.set_item("indices", numpy::PyArray1::from_vec(py, indices))?;
         }
         Ok(arrays)
@@ -228,7 +235,7 @@ impl Document {
         py: Python<'py>,
         method: &str,
         mode: &str,
-        threshold: f32,
+        #[pyo3(from_py_with = degrees)] threshold: f32,
         encoding: &str,
         overwrite: bool,
         only_needed: bool,
@@ -273,7 +280,7 @@ impl Document {
         py: Python<'py>,
         shading: &str,
         weight: &str,
-        crease: f32,
+        #[pyo3(from_py_with = degrees)] crease: f32,
         seams: &str,
         overwrite: bool,
         progress: Option<&Bound<'py, PyAny>>,
@@ -316,15 +323,15 @@ impl Document {
     fn vectors<'py>(&self, py: Python<'py>, accessor: usize) -> PyResult<Bound<'py, PyAny>> {
         let components = self.document.accessors().get(accessor).map(|found| found.element_type.components());
         Ok(match components {
-            Some(1) => rows_array(py, self.read::<1>(accessor)?)?.into_any(),
-            Some(2) => rows_array(py, self.read::<2>(accessor)?)?.into_any(),
-            Some(3) => rows_array(py, self.read::<3>(accessor)?)?.into_any(),
-            _ => rows_array(py, self.read::<4>(accessor)?)?.into_any(),
+            Some(1) => rows_array(py, self.read::<1>(py, accessor)?)?.into_any(),
+            Some(2) => rows_array(py, self.read::<2>(py, accessor)?)?.into_any(),
+            Some(3) => rows_array(py, self.read::<3>(py, accessor)?)?.into_any(),
+            _ => rows_array(py, self.read::<4>(py, accessor)?)?.into_any(),
         })
     }
 
-    fn read<const N: usize>(&self, accessor: usize) -> PyResult<Vec<[f32; N]>> {
-        self.document.read_vectors(accessor).map_err(file_error)
+    fn read<const N: usize>(&self, py: Python<'_>, accessor: usize) -> PyResult<Vec<[f32; N]>> {
+        py.detach(|| self.document.read_vectors(accessor)).map_err(file_error)
     }
 
     /// Edits the document without the GIL and gives the summary as Python's own types.

@@ -2,14 +2,22 @@
 
 use darboux::encode;
 use numpy::prelude::*;
-use numpy::{Element, PyArray1, PyArrayDyn};
+use numpy::{Element, PyArray1, PyArrayDyn, PyReadonlyArrayDyn};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arrays::{Rows, array_of, packed, rows_array, shape_text, wrong_type};
 
 /// `N` integers per row, of just the type that the encoding has.
-fn codes<T: Element + Copy, const N: usize>(value: &Bound<'_, PyAny>) -> PyResult<Vec<[T; N]>> {
+struct Codes<'py, T: Element, const N: usize>(PyReadonlyArrayDyn<'py, T>);
+
+impl<T: Element, const N: usize> Codes<'_, T, N> {
+    fn packed(&self) -> PyResult<&[[T; N]]> {
+        Ok(self.0.as_slice()?.as_chunks().0)
+    }
+}
+
+fn codes<'py, T: Element, const N: usize>(value: &Bound<'py, PyAny>) -> PyResult<Codes<'py, T, N>> {
     let array = array_of("codes", value)?;
     if array.cast::<PyArrayDyn<T>>().is_err() {
         return Err(wrong_type("codes", &numpy::dtype::<T>(value.py()).to_string(), &array));
@@ -26,35 +34,45 @@ fn codes<T: Element + Copy, const N: usize>(value: &Bound<'_, PyAny>) -> PyResul
             shape_text(shape)
         )));
     }
-    Ok(packed::<T>(&array)?.as_slice()?.as_chunks().0.to_vec())
+    Ok(Codes(packed(&array)?))
 }
 
-fn rows<const N: usize>(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<[f32; N]>> {
-    Ok(Rows::new(name, "C", value)?.packed()?.into_owned())
+fn rows<'py, const N: usize>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Rows<'py, N>> {
+    Rows::new(name, "C", value)
 }
 
-/// Errors: arrays of different lengths.
-fn pairs<A, B>(normals: Vec<A>, name: &str, others: Vec<B>) -> PyResult<impl Iterator<Item = (A, B)>> {
+/// What `change` makes of each row, without the GIL.
+fn mapped<A: Copy + Sync, B: Send>(py: Python<'_>, rows: &[A], change: impl Fn(A) -> B + Sync) -> Vec<B> {
+    py.detach(|| rows.iter().map(|&row| change(row)).collect())
+}
+
+/// What `change` makes of each normal and what belongs to it, without the GIL. Errors: arrays of different lengths.
+fn mapped_pairs<A: Copy + Sync, B: Send>(
+    py: Python<'_>,
+    normals: &[[f32; 3]],
+    (name, others): (&str, &[A]),
+    change: impl Fn([f32; 3], A) -> B + Sync,
+) -> PyResult<Vec<B>> {
     if normals.len() != others.len() {
         let (expected, found) = (normals.len(), others.len());
         return Err(PyValueError::new_err(format!(
             "{name} has {found} elements but there are {expected} normals"
         )));
     }
-    Ok(normals.into_iter().zip(others))
+    Ok(py.detach(|| normals.iter().zip(others).map(|(&normal, &other)| change(normal, other)).collect()))
 }
 
 macro_rules! encodings {
-    ($($(#[$doc:meta])* fn $name:ident($argument:ident: [$from:ty; $columns:literal]) -> [$to:ty; $width:tt];)*) => {$(
+    ($($(#[$doc:meta])* fn $name:ident($argument:ident: [$from:ident; $columns:literal]) -> [$to:ty; $width:tt];)*) => {$(
         $(#[$doc])*
         #[pyfunction]
         pub fn $name<'py>(py: Python<'py>, $argument: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
             let rows = encodings!(@read $from, $columns, $argument);
-            encodings!(@write $width, $to, py, py.detach(|| rows.into_iter().map(encode::$name).collect::<Vec<_>>()))
+            encodings!(@write $width, $to, py, mapped(py, &rows.packed()?, encode::$name))
         }
     )*};
     (@read f32, $columns:literal, $argument:ident) => { rows::<$columns>(stringify!($argument), $argument)? };
-    (@read $from:ty, $columns:literal, $argument:ident) => { codes::<$from, $columns>($argument)? };
+    (@read $from:ident, $columns:literal, $argument:ident) => { codes::<$from, $columns>($argument)? };
     (@write 1, $to:ty, $py:ident, $rows:expr) => { Ok(PyArray1::<$to>::from_vec($py, $rows).into_any()) };
     (@write $width:literal, $to:ty, $py:ident, $rows:expr) => {
         Ok(rows_array::<$to, $width>($py, $rows)?.into_any())
@@ -86,7 +104,7 @@ encodings! {
 #[pyfunction]
 pub fn tangent_from_snorm10<'py>(py: Python<'py>, codes: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let codes = self::codes::<u32, 1>(codes)?;
-    let tangents = codes.into_iter().map(|[code]| encode::tangent_from_snorm10(code)).collect();
+    let tangents = mapped(py, codes.packed()?, |[code]| encode::tangent_from_snorm10(code));
     Ok(rows_array(py, tangents)?.into_any())
 }
 
@@ -99,8 +117,9 @@ pub fn tangent_to_diamond<'py>(
     normals: &Bound<'py, PyAny>,
     tangents: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let pairs = pairs(rows("normals", normals)?, "tangents", rows("tangents", tangents)?)?;
-    let codes = pairs.map(|(normal, tangent)| encode::tangent_to_diamond(normal, tangent)).collect();
+    let (normals, tangents) = (rows("normals", normals)?, rows("tangents", tangents)?);
+    let tangents = ("tangents", &*tangents.packed()?);
+    let codes = mapped_pairs(py, &normals.packed()?, tangents, encode::tangent_to_diamond)?;
     Ok(PyArray1::from_vec(py, codes).into_any())
 }
 
@@ -111,8 +130,9 @@ pub fn tangent_from_diamond<'py>(
     normals: &Bound<'py, PyAny>,
     codes: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let pairs = pairs(rows("normals", normals)?, "codes", self::codes(codes)?)?;
-    let tangents = pairs.map(|(normal, [code])| encode::tangent_from_diamond(normal, code)).collect();
+    let (normals, codes) = (rows("normals", normals)?, self::codes(codes)?);
+    let decode = |normal, [code]: [u16; 1]| encode::tangent_from_diamond(normal, code);
+    let tangents = mapped_pairs(py, &normals.packed()?, ("codes", codes.packed()?), decode)?;
     Ok(rows_array(py, tangents)?.into_any())
 }
 
@@ -123,14 +143,17 @@ pub fn frame_to_quaternion<'py>(
     normals: &Bound<'py, PyAny>,
     tangents: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let pairs = pairs(rows("normals", normals)?, "tangents", rows("tangents", tangents)?)?;
-    let codes = pairs.map(|(normal, tangent)| encode::frame_to_quaternion(normal, tangent)).collect();
+    let (normals, tangents) = (rows("normals", normals)?, rows("tangents", tangents)?);
+    let tangents = ("tangents", &*tangents.packed()?);
+    let codes = mapped_pairs(py, &normals.packed()?, tangents, encode::frame_to_quaternion)?;
     Ok(rows_array(py, codes)?.into_any())
 }
 
 /// (C, 4) int16 to normals (C, 3) and tangents (C, 4), float32.
 #[pyfunction]
 pub fn frame_from_quaternion<'py>(py: Python<'py>, codes: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-    let (normals, tangents) = self::codes(codes)?.into_iter().map(encode::frame_from_quaternion).unzip();
+    let codes = self::codes(codes)?;
+    let codes = codes.packed()?;
+    let (normals, tangents) = py.detach(|| codes.iter().copied().map(encode::frame_from_quaternion).unzip());
     (rows_array(py, normals)?, rows_array(py, tangents)?).into_pyobject(py).map(Bound::into_any)
 }

@@ -13,6 +13,7 @@ mod library;
 mod measure;
 mod mesh;
 mod normals;
+mod numbers;
 mod out;
 mod plan;
 mod results;

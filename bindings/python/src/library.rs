@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::numbers::Threads;
 use crate::threads::limited;
 
 /// Models on their way into a folder of outputs: an order per file, and the journal that takes the answers.
@@ -57,7 +58,7 @@ impl Library {
 
 /// Do what an order says with so many threads; return the answer.
 #[pyfunction]
-pub fn carry_out(py: Python<'_>, order: &str, threads: i64) -> PyResult<String> {
+pub fn carry_out(py: Python<'_>, order: &str, threads: Threads) -> PyResult<String> {
     limited(py, threads, || darboux_cli::carry_out(order))?.map_err(PyValueError::new_err)
 }
 

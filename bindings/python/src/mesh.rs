@@ -126,16 +126,20 @@ fn unsigned(name: &str, array: &Bound<'_, PyUntypedArray>) -> PyResult<Vec<u32>>
 }
 
 /// `bits` of a negative number are those of a large one.
-fn narrowed<T: Element + Copy + Display>(
+fn narrowed<T: Element + Copy + Display + Sync>(
     name: &str,
     array: &Bound<'_, PyUntypedArray>,
     bits: fn(T) -> u64,
 ) -> PyResult<Vec<u32>> {
     let array = packed::<T>(array)?;
     let numbers = array.as_slice()?;
-    match numbers.iter().position(|&number| bits(number) > u32::MAX.into()) {
+    let narrow = || match numbers.iter().position(|&number| bits(number) > u32::MAX.into()) {
         None => Ok(numbers.iter().map(|&number| bits(number) as u32).collect()),
-        Some(at) => Err(PyValueError::new_err(format!(
+        Some(at) => Err(at),
+    };
+    match array.py().detach(narrow) {
+        Ok(narrowed) => Ok(narrowed),
+        Err(at) => Err(PyValueError::new_err(format!(
             "{name} holds {} at place {at}, which is no 32-bit unsigned number",
             numbers[at]
         ))),

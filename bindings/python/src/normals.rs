@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 use crate::arrays::{Rows, rows_array};
 use crate::choices::choice;
 use crate::mesh::{FaceSizes, IndexArray, value_error};
+use crate::numbers::degrees;
 use crate::results::named;
 
 const SHADINGS: &[(&str, Shading)] = &[("flat", Shading::Flat), ("smooth", Shading::Smooth)];
@@ -74,7 +75,7 @@ pub fn generate_normals<'py>(
     faces: Option<&Bound<'py, PyAny>>,
     shading: &str,
     weight: &str,
-    crease: f32,
+    #[pyo3(from_py_with = degrees)] crease: f32,
     seams: &str,
     return_report: bool,
 ) -> PyResult<Bound<'py, PyAny>> {

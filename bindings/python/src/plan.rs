@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 use crate::arrays::{Rows, rows_array};
 use crate::choices::{is_slow, tangent_options};
 use crate::mesh::{FaceSizes, MeshArrays, owned, value_error};
+use crate::numbers::{Threads, degrees};
 use crate::out::Target;
 use crate::results;
 use crate::threads::{cancellable, detached};
@@ -72,8 +73,8 @@ impl Plan {
         faces: Option<&Bound<'_, PyAny>>,
         method: &str,
         mode: &str,
-        threshold: f32,
-        threads: Option<i64>,
+        #[pyo3(from_py_with = degrees)] threshold: f32,
+        threads: Option<Threads>,
     ) -> PyResult<Self> {
         let options = tangent_options(method, mode, threshold)?;
         let arrays = MeshArrays::new(positions, normals, uvs, indices, faces)?;
@@ -87,7 +88,8 @@ impl Plan {
     /// The tangents of the mesh that the plan was made of: a new (C, 4) float32 array, as generate_tangents gives it.
     #[getter]
     fn base<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        Ok(rows_array(py, self.plan.base().corners.per_corner().to_vec())?.into_any())
+        let tangents = py.detach(|| self.plan.base().corners.per_corner().to_vec());
+        Ok(rows_array(py, tangents)?.into_any())
     }
 
     /// What was met on the way.
@@ -119,7 +121,7 @@ impl Plan {
         py: Python<'py>,
         positions: &Bound<'py, PyAny>,
         normals: &Bound<'py, PyAny>,
-        threads: Option<i64>,
+        threads: Option<Threads>,
         out: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let moved = Moved::new(positions, normals)?;

@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 
 use crate::arrays::{Rows, rows_array};
 use crate::mesh::{IndexArray, value_error};
+use crate::numbers::VertexCount;
 use crate::results::named;
 
 /// Split the vertices whose corners need different tangents, as few as correctness allows.
@@ -38,8 +39,9 @@ pub fn split_vertices<'py>(
     py: Python<'py>,
     indices: &Bound<'py, PyAny>,
     tangents: &Bound<'py, PyAny>,
-    vertex_count: usize,
+    vertex_count: VertexCount,
 ) -> PyResult<Bound<'py, PyAny>> {
+    let VertexCount(vertex_count) = vertex_count;
     check_room(vertex_count)?;
     let indices = IndexArray::new(Some(indices))?;
     let tangents = Rows::new("tangents", "C", tangents)?;
@@ -88,8 +90,9 @@ pub fn split_normals<'py>(
     py: Python<'py>,
     indices: &Bound<'py, PyAny>,
     normals: &Bound<'py, PyAny>,
-    vertex_count: usize,
+    vertex_count: VertexCount,
 ) -> PyResult<Bound<'py, PyAny>> {
+    let VertexCount(vertex_count) = vertex_count;
     check_room(vertex_count)?;
     let indices = IndexArray::new(Some(indices))?;
     let normals = Rows::new("normals", "C", normals)?;
@@ -107,9 +110,8 @@ pub fn split_normals<'py>(
 
 /// A number that a caller made up must not end the process: the tables of this many vertices have to fit. Errors: they do not.
 fn check_room(vertex_count: usize) -> PyResult<()> {
-    let is_numbered = u32::try_from(vertex_count).is_ok();
     // A tangent, its source and a link.
-    if is_numbered && Vec::<[u32; 6]>::new().try_reserve_exact(vertex_count).is_ok() {
+    if Vec::<[u32; 6]>::new().try_reserve_exact(vertex_count).is_ok() {
         return Ok(());
     }
     Err(PyMemoryError::new_err(format!(

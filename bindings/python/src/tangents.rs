@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use crate::arrays::rows_array;
 use crate::choices::{is_slow, tangent_options};
 use crate::mesh::{MeshArrays, value_error};
+use crate::numbers::{Threads, degrees};
 use crate::out::Target;
 use crate::results::{self, named};
 use crate::threads::{cancellable, detached};
@@ -34,7 +35,7 @@ use crate::threads::{cancellable, detached};
 ///     'reference': every bit of mikktspace.c, its defects included; 'repaired': the same but for unusable tangents;
 ///     'corrected': its known defects corrected as well.
 /// threshold : float
-///     Degrees, mikktspace's alone: faces around a vertex share a tangent while their tangents and bitangents differ by less.
+///     mikktspace's alone: faces around a vertex share a tangent while their tangents and bitangents differ by less.
 /// full : bool
 ///     Return Frames instead: tangent, bitangent and magnitude.
 /// threads : int, optional
@@ -72,9 +73,9 @@ pub fn generate_tangents<'py>(
     faces: Option<&Bound<'py, PyAny>>,
     method: &str,
     mode: &str,
-    threshold: f32,
+    #[pyo3(from_py_with = degrees)] threshold: f32,
     full: bool,
-    threads: Option<i64>,
+    threads: Option<Threads>,
     out: Option<&Bound<'py, PyAny>>,
     return_report: bool,
 ) -> PyResult<Bound<'py, PyAny>> {
@@ -125,7 +126,7 @@ fn keep_scratch(scratch: Scratch) {
 /// Whole frames as arrays, and the report.
 fn frames<'py>(
     py: Python<'py>,
-    threads: Option<i64>,
+    threads: Option<Threads>,
     mesh: &Mesh<'_>,
     options: &TangentOptions,
 ) -> PyResult<(Bound<'py, PyAny>, darboux::Report)> {

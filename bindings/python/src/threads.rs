@@ -9,9 +9,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use darboux::Cancel;
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
+
+use crate::numbers::Threads;
 
 /// The pools of a process by their number of threads; 0 stands for as many as the machine has.
 struct Pools {
@@ -24,36 +26,28 @@ static POOLS: Mutex<Option<Pools>> = Mutex::new(None);
 /// Meshes of fewer corners are worth no second thread: they are done where they are, which saves waking one.
 const FEWEST_CORNERS: usize = 3 << 14;
 
-/// A number that a caller made up must not exhaust the machine.
-const MOST_THREADS: i64 = 1024;
-
 /// Does `work` over so many corners without the GIL. `threads`: none stands for as many as the machine has.
 pub fn detached<R: Send>(
     py: Python<'_>,
-    threads: Option<i64>,
+    threads: Option<Threads>,
     corners: usize,
     work: impl FnOnce() -> R + Send,
 ) -> PyResult<R> {
-    let threads = threads.map_or(Ok(0), checked)?;
     if corners < FEWEST_CORNERS {
         return Ok(py.detach(work));
     }
-    let pool = pool(threads)?;
+    let pool = pool(Threads::or_all(threads))?;
     Ok(py.detach(|| pool.install(work)))
 }
 
 /// Does `work` without the GIL on so many threads.
-pub fn limited<R: Send>(py: Python<'_>, threads: i64, work: impl FnOnce() -> R + Send) -> PyResult<R> {
-    let pool = pool(checked(threads)?)?;
+pub fn limited<R: Send>(
+    py: Python<'_>,
+    Threads(threads): Threads,
+    work: impl FnOnce() -> R + Send,
+) -> PyResult<R> {
+    let pool = pool(threads)?;
     Ok(py.detach(|| pool.install(work)))
-}
-
-/// Errors: no number of threads that can be had.
-fn checked(threads: i64) -> PyResult<usize> {
-    match threads {
-        1..=MOST_THREADS => Ok(threads as usize),
-        _ => Err(PyValueError::new_err(format!("threads is {threads}; it must be from 1 to {MOST_THREADS}"))),
-    }
 }
 
 /// The pool of this process with so many threads; 0 stands for as many as the machine has. The GIL is held, so nobody forks while the lock is.
@@ -82,15 +76,15 @@ fn pool(threads: usize) -> PyResult<Arc<ThreadPool>> {
 /// size squared.
 pub fn cancellable<R: Send>(
     py: Python<'_>,
-    threads: Option<i64>,
+    threads: Option<Threads>,
     (corners, is_slow): (usize, bool),
     work: impl FnOnce(&Cancel) -> R + Send,
 ) -> PyResult<R> {
-    let (threads, cancel) = (threads.map_or(Ok(0), checked)?, Cancel::new());
+    let cancel = Cancel::new();
     if corners < FEWEST_CORNERS && !is_slow {
         return Ok(py.detach(|| work(&cancel)));
     }
-    attended(py, threads, |_| work(&cancel), |(): ()| Ok(()), || cancel.cancel())
+    attended(py, Threads::or_all(threads), |_| work(&cancel), |(): ()| Ok(()), || cancel.cancel())
 }
 
 /// How often Python is asked for Ctrl-C while work goes on elsewhere.

@@ -62,8 +62,9 @@ def test_bad_files(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="broken.glb: "):
         darboux.load(broken)
     document = darboux.load(MODEL)
-    with pytest.raises(IndexError, match=r"meshes\[1\].primitives\[0\] does not exist"):
-        document.arrays(1)
+    for mesh in (1, -1, 1 << 62):
+        with pytest.raises(IndexError, match=rf"meshes\[{mesh}\].primitives\[0\] does not exist"):
+            document.arrays(mesh)
     with pytest.raises(ValueError, match="encoding is 'octahedral'; it must be one of 'f32x4'"):
         document.add_tangents(encoding="octahedral")  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="progress must be callable, not int"):

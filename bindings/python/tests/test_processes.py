@@ -1,14 +1,16 @@
 """Threads, forked processes and memory."""
 
 import gc
+import json
 import multiprocessing
 import signal
+import struct
 import subprocess
 import sys
 import threading
 import time
 from pathlib import Path
-from typing import Callable, List
+from typing import Callable, Dict, List
 
 import darboux
 import numpy as np
@@ -30,25 +32,72 @@ def test_results_outlive_inputs() -> None:
     assert np.array_equal(tangents, before)
 
 
-def test_other_threads_run_meanwhile() -> None:
-    """The GIL is released: a thread counts on while another computes."""
-    mesh = grid(700, 700)
-    counts: List[int] = []
-    done = threading.Event()
+def long_calls() -> Dict[str, Callable[[], object]]:
+    """What takes long on the thread that calls it."""
+    mesh = grid(300, 300)
+    corners = np.tile(mesh.normals, (6, 1))
+    tangents = np.concatenate([corners, np.ones((len(corners), 1), np.float32)], axis=1)
+    codes = darboux.encode.frame_to_quaternion(corners, tangents)
+    model = darboux.loads(large_model())
+    return {
+        "generate_tangents": lambda: darboux.generate_tangents(*mesh.arrays, threads=1),
+        "convert": lambda: darboux.convert("gltf", "unity", positions=corners, tangents=tangents, indices=np.arange(600_000, dtype=np.uint32)),
+        "tangent_to_diamond": lambda: darboux.encode.tangent_to_diamond(corners, tangents),
+        "frame_from_quaternion": lambda: darboux.encode.frame_from_quaternion(codes),
+        "Document.arrays": lambda: model.arrays(),
+    }
 
-    def count() -> None:
+
+def large_model() -> bytes:
+    """A GLB of one primitive with many positions and normals."""
+    count = 300_000
+    accessor = {"bufferView": 0, "componentType": 5126, "count": count, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0]}
+    gltf = {
+        "asset": {"version": "2.0"},
+        "buffers": [{"byteLength": 12 * count}],
+        "bufferViews": [{"buffer": 0, "byteLength": 12 * count}],
+        "accessors": [accessor],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 0}, "mode": 0}]}],
+    }
+    text = json.dumps(gltf).encode()
+    text += b" " * (-len(text) % 4)
+    header = struct.pack("<4sII", b"glTF", 2, 12 + 8 + len(text) + 8 + 12 * count)
+    chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", 12 * count, b"BIN\0")
+    return header + chunks + bytes(12 * count)
+
+
+def lets_others_run(call: Callable[[], object]) -> bool:
+    """Whether another thread of Python's runs during one of many calls. Nothing takes the GIL from a thread here: it has to give it."""
+    turns, done = [0], threading.Event()
+
+    def take_turns() -> None:
         while not done.is_set():
-            counts.append(1)
-            time.sleep(0.0005)
+            turns[0] += 1
+            time.sleep(0)
 
-    counter = threading.Thread(target=count)
-    counter.start()
-    before = len(counts)
-    darboux.generate_tangents(*mesh.arrays, threads=1, full=True)
-    during = len(counts) - before
-    done.set()
-    counter.join()
-    assert during > 20
+    other, interval = threading.Thread(target=take_turns), sys.getswitchinterval()
+    sys.setswitchinterval(100)
+    other.start()
+    try:
+        for _ in range(200):
+            before = turns[0]
+            call()
+            if turns[0] != before:
+                return True
+        return False
+    finally:
+        done.set()
+        sys.setswitchinterval(interval)
+        other.join()
+
+
+@pytest.mark.parametrize("name", long_calls())
+def test_other_threads_run_meanwhile(name: str) -> None:
+    assert lets_others_run(long_calls()[name])
+
+
+def test_a_call_that_keeps_the_gil_is_seen() -> None:
+    assert not lets_others_run(lambda: sorted(range(2000)))
 
 
 def test_many_threads_get_the_same() -> None:

@@ -19,8 +19,8 @@ class Lost(Exception):
 
 
 class Engine(Protocol):
-    """Carries out orders. Leaving it ends local workers, at work or not. A cluster is told to; it may end them later, and Dask finishes
-    what runs."""
+    """Carries out orders. Once it is left nobody works on them any more: local workers and Ray's are ended, Dask's finish what they were
+    handed."""
 
     capacity: int
     """The orders that it is worth starting at the same time."""
@@ -143,8 +143,11 @@ class Ray:
         return self
 
     def __exit__(self, *_: object) -> None:
-        for task in self.numbers:
+        tasks = list(self.numbers)
+        for task in tasks:
             self.ray.cancel(task, force=True)
+        if tasks:
+            self.ray.wait(tasks, num_returns=len(tasks), fetch_local=False)
 
 
 class Dask:
@@ -177,7 +180,9 @@ class Dask:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self.client.cancel(list(self.numbers))
+        # Dask forgets tasks that it cancels, and lets them run on where nobody can wait for them.
+        if self.numbers:
+            self.first(list(self.numbers))
 
 
 ENGINES: Dict[str, Callable[[Optional[int]], Engine]] = {"local": Local, "ray": Ray, "dask": Dask}
