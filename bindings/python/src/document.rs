@@ -114,7 +114,7 @@ pub fn save(
     force: bool,
 ) -> PyResult<Vec<PathBuf>> {
     let document = &document.document;
-    py.detach(|| document.save(&path, &SaveOptions { force })).map_err(file_error)
+    py.detach(|| document.save(&path, &SaveOptions { force, run: None })).map_err(file_error)
 }
 
 #[pymethods]

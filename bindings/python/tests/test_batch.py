@@ -111,6 +111,40 @@ def test_bad_batches(tmp_path: Path) -> None:
         darboux.batch(models, out / "file")
 
 
+def test_one_batch_at_a_time(tmp_path: Path) -> None:
+    models, out = library(tmp_path), tmp_path / "out"
+    refused: List[str] = []
+
+    def begin_another(done: int, total: int) -> None:
+        with pytest.raises(ValueError, match="another run is writing there") as caught:
+            darboux.batch(models, out, progress=False)
+        refused.append(str(caught.value))
+
+    report = darboux.batch(models, out, workers=2, progress=begin_another)
+    assert len(refused) == 3
+    assert report["totals"]["failed"] == 0
+    assert contents(out) == by_command(models, tmp_path / "expected")
+
+
+def test_what_others_write_stays(tmp_path: Path) -> None:
+    models, out = library(tmp_path), tmp_path / "out"
+    out.mkdir()
+    for name in (".darboux-abc123", ".darboux-0123456789abcdef-abc123"):
+        (out / name).write_text("half a file")
+    darboux.batch(models, out, progress=False)
+    darboux.batch(models, out, progress=False)
+    assert len(list(out.glob(".darboux-*"))) == 2
+
+
+def test_outputs_that_were_changed_are_made_again(tmp_path: Path) -> None:
+    models, out = library(tmp_path), tmp_path / "out"
+    darboux.batch(models, out, progress=False)
+    whole = (out / "a.glb").read_bytes()
+    (out / "a.glb").write_bytes(whole[:-1] + bytes([whole[-1] ^ 1]))
+    assert darboux.batch(models, out, progress=False)["totals"]["up_to_date"] == 2
+    assert (out / "a.glb").read_bytes() == whole
+
+
 def test_an_error_of_the_callback_ends_the_batch_and_loses_nothing(tmp_path: Path) -> None:
     models, out = library(tmp_path, copies=4), tmp_path / "out"
 
@@ -119,7 +153,8 @@ def test_an_error_of_the_callback_ends_the_batch_and_loses_nothing(tmp_path: Pat
 
     with pytest.raises(KeyboardInterrupt) as kept:
         darboux.batch(models, out, workers=2, progress=stop)
-    assert len((out / JOURNAL).read_text().splitlines()) == 1
+    # The run, and what it did.
+    assert len((out / JOURNAL).read_text().splitlines()) == 2
     # The traceback is still there, the batch's hold on the folder is not.
     assert kept.traceback
     report = darboux.batch(models, out, progress=False)
@@ -214,7 +249,7 @@ def test_a_killed_batch_goes_on(tmp_path: Path) -> None:
         while True:
             # Before the journal: a machine that pauses here must not make it seem that nothing was journalled.
             has_ended = driver.poll() is not None
-            if journal.exists() and journal.stat().st_size:
+            if journal.exists() and len(journal.read_bytes().splitlines()) > 1:
                 break
             assert not has_ended
         driver.kill()

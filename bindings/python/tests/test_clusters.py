@@ -2,6 +2,7 @@
 
 import os
 import signal
+import time
 from pathlib import Path
 from typing import Callable, Iterator, List
 
@@ -66,6 +67,31 @@ def check(engine: str, workers: Callable[[], List[int]], folder: Path) -> None:
     again = darboux.batch(models, out, engine=engine, retries=1, progress=False)  # type: ignore[arg-type]
     assert (again["totals"]["up_to_date"], again["totals"]["failed"]) == (14, 1)
     assert again["files"][0]["tries"] == 2
+
+
+def check_early_end(engine: str, folder: Path) -> None:
+    """Nobody works on the files of a batch that has ended."""
+    models, out = library(folder, copies=12), folder / "out"
+
+    def stop(done: int, total: int) -> None:
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        darboux.batch(models, out, engine=engine, progress=stop)  # type: ignore[arg-type]
+    before = contents(out)
+    assert not [name for name in before if ".darboux-" in name]
+    time.sleep(1)
+    assert contents(out) == before
+    assert darboux.batch(models, out, engine=engine, progress=False)["totals"]["failed"] == 0  # type: ignore[arg-type]
+    assert contents(out) == by_command(models, folder / "expected")
+
+
+def test_ray_ends_early(ray: None, tmp_path: Path) -> None:
+    check_early_end("ray", tmp_path)
+
+
+def test_dask_ends_early(dask: None, tmp_path: Path) -> None:
+    check_early_end("dask", tmp_path)
 
 
 def test_ray(ray: None, tmp_path: Path) -> None:

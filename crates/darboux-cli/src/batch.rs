@@ -87,7 +87,8 @@ pub fn run<W: Work>(command: &W) -> u8 {
     }
     interrupt::wait_for_writes();
     messages.start(jobs.iter().map(|job| size_of(&job.input)).sum());
-    let journal = files.out_dir.as_deref().filter(|_| files.resume).map(Journal::open).transpose();
+    let folder = files.out_dir.as_deref().filter(|_| files.resume);
+    let journal = folder.map(|folder| Journal::open(folder, files.run)).transpose();
     let done = journal.and_then(|journal| work_all(command, &jobs, journal.as_ref(), &messages));
     messages.end_progress();
     match done {

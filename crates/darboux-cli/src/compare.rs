@@ -8,7 +8,7 @@ use std::path::Path;
 
 use clap::ValueEnum;
 use darboux::TangentOptions;
-use darboux_io::gltf::{Document, Pair, Progress, TangentsOptions, add_tangents, pair_tangents};
+use darboux_io::gltf::{Document, Pair, Progress, SaveOptions, TangentsOptions, add_tangents, pair_tangents};
 use serde::Serialize;
 
 use crate::arguments::CompareArguments;
@@ -192,6 +192,6 @@ fn draw(pairs: &[Pair], path: &Path, force: bool, warnings: &mut Vec<String>) ->
     }
     let _guard = interrupt::writing();
     let image = map.image(&path.display().to_string()).map_err(|error| error.to_string())?;
-    let written = image.save(path, force).map_err(|error| error.to_string())?;
+    let written = image.save(path, &SaveOptions { force, run: None }).map_err(|error| error.to_string())?;
     Ok(written.display().to_string())
 }

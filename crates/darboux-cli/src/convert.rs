@@ -168,7 +168,7 @@ impl ConvertArguments {
             }
             Output::File(path) => {
                 let _guard = interrupt::writing();
-                let written = image.save(path, self.files.replace()).map_err(sentence)?;
+                let written = image.save(path, &self.files.save_options()).map_err(sentence)?;
                 Ok((status, vec![written.display().to_string()]))
             }
         }

@@ -1,15 +1,17 @@
-//! What is done in a folder of outputs, so that a run that was stopped can go on: one line of JSON per output.
+//! What is done in a folder of outputs, so that a run that was stopped can go on: one line of JSON per run that began, and one per output.
 //!
 //! An output is up to date while its input's content, the options and the version are those that it was made with, and all that was
-//! written with it is there. A line that is broken, as a killed process may leave it, counts as none: its file is done again.
+//! written with it has the content that it had. A line that is broken, as a killed process may leave it, counts as none: its file is done
+//! again. What killed runs have half-written is known by their names in the journal; nothing else is removed.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fs::{self, File, OpenOptions, TryLockError};
+use std::hash::{BuildHasher, Hasher, RandomState};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
+use darboux_io::RunId;
 use darboux_io::gltf::{Document, LoadOptions};
-use darboux_io::is_unfinished;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use walkdir::WalkDir;
@@ -22,6 +24,8 @@ const NAME: &str = "darboux-journal.jsonl";
 pub struct Journal {
     folder: PathBuf,
     file: File,
+    /// All that ever began, this one too.
+    runs: HashSet<RunId>,
     records: HashMap<String, Record>,
 }
 
@@ -32,10 +36,16 @@ pub struct Record {
     output: String,
     #[serde(flatten)]
     origin: Origin,
-    /// What was written, below the folder, and of how many bytes.
-    files: Vec<(String, u64)>,
+    /// What was written, below the folder, and BLAKE3 of its content.
+    files: Vec<(String, String)>,
     /// What the report said of it, beyond what it says of all.
     pub summary: Map<String, Value>,
+}
+
+/// A run that begins.
+#[derive(Serialize, Deserialize)]
+struct Begun {
+    run: String,
 }
 
 /// What decides an output.
@@ -63,12 +73,22 @@ fn content_of(input: &Path, allow_outside: bool) -> Result<String, (PathBuf, io:
     let files = document.map_or_else(|_| vec![input.to_owned()], |document| document.source_files());
     let mut all = blake3::Hasher::new();
     for file in files {
-        let mut one = blake3::Hasher::new();
-        let hashed = File::open(&file).and_then(|file| one.update_reader(file).map(drop));
-        hashed.map_err(|error| (file, error))?;
-        all.update(one.finalize().as_bytes());
+        let hash = hash_of(&file).map_err(|error| (file, error))?;
+        all.update(hash.as_bytes());
     }
     Ok(all.finalize().to_hex().to_string())
+}
+
+fn hash_of(file: &Path) -> io::Result<blake3::Hash> {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update_reader(File::open(file)?)?;
+    Ok(hasher.finalize())
+}
+
+/// A number that no other run has.
+pub fn new_run() -> RunId {
+    // The standard library's hashers begin with random keys.
+    RunId(RandomState::new().build_hasher().finish())
 }
 
 impl Record {
@@ -80,11 +100,12 @@ impl Record {
         written: &[String],
         summary: &impl Serialize,
     ) -> Result<Self, String> {
-        let sized = |path: &String| {
-            let length = Path::new(path).metadata().map_err(|error| format!("{path}: {error}"))?.len();
-            Ok((below(folder, Path::new(path)), length))
+        let hashed = |path: &String| {
+            let hash =
+                hash_of(Path::new(path)).map_err(|error| format!("{path}: cannot be read again: {error}"))?;
+            Ok((below(folder, Path::new(path)), hash.to_hex().to_string()))
         };
-        let files = written.iter().map(sized).collect::<Result<_, String>>()?;
+        let files = written.iter().map(hashed).collect::<Result<_, String>>()?;
         let summary = match serde_json::to_value(summary) {
             Ok(Value::Object(summary)) => summary,
             _ => Map::new(),
@@ -92,10 +113,10 @@ impl Record {
         Ok(Self { output: below(folder, output), origin, files, summary })
     }
 
-    /// Whether an output of this origin is there, with all that was written with it.
+    /// Whether an output of this origin is there, with all that was written with it, and as it was written.
     pub fn is_of(&self, origin: &Origin, folder: &Path) -> bool {
-        let is_there = |(path, length): &(String, u64)| {
-            folder.join(path).metadata().is_ok_and(|file| file.is_file() && file.len() == *length)
+        let is_there = |(path, hash): &(String, String)| {
+            hash_of(&folder.join(path)).is_ok_and(|found| found.to_hex().as_str() == hash)
         };
         self.origin == *origin && self.files.iter().all(is_there)
     }
@@ -108,22 +129,12 @@ fn below(folder: &Path, path: &Path) -> String {
     names.join("/")
 }
 
-/// Removes what killed processes left half-written in a folder and below it.
-pub fn remove_unfinished(folder: &Path) -> Result<(), String> {
-    for entry in WalkDir::new(folder).into_iter().filter_map(Result::ok) {
-        if entry.file_type().is_file() && is_unfinished(entry.path()) {
-            let removed = fs::remove_file(entry.path());
-            removed.map_err(|error| format!("{}: cannot be removed: {error}", entry.path().display()))?;
-        }
-    }
-    Ok(())
-}
-
 impl Journal {
-    /// Opens the journal of a folder, which is made where it is missing, and removes what killed processes left half-written there.
+    /// Opens the journal of a folder, which is made where it is missing, removes what killed runs left half-written there, and notes that
+    /// `run` begins.
     ///
     /// Errors: another process has it open; the system refuses.
-    pub fn open(folder: &Path) -> Result<Self, String> {
+    pub fn open(folder: &Path, run: RunId) -> Result<Self, String> {
         let path = folder.join(NAME);
         let failed = |error: io::Error| format!("{}: cannot be opened: {error}", path.display());
         fs::create_dir_all(folder).map_err(failed)?;
@@ -135,15 +146,40 @@ impl Journal {
                 folder.display()
             ));
         }
-        remove_unfinished(folder)?;
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes).map_err(failed)?;
         if bytes.last().is_some_and(|&last| last != b'\n') {
             file.write_all(b"\n").map_err(failed)?;
         }
-        let records = bytes.split(|&byte| byte == b'\n').filter_map(|line| serde_json::from_slice(line).ok());
-        let records = records.map(|record: Record| (record.output.clone(), record)).collect();
-        Ok(Self { folder: folder.to_owned(), file, records })
+        let mut journal =
+            Self { folder: folder.to_owned(), file, runs: HashSet::new(), records: HashMap::new() };
+        bytes.split(|&byte| byte == b'\n').for_each(|line| journal.read(line));
+        journal.remove_left()?;
+        journal.runs.insert(run);
+        journal.append(&Begun { run: run.to_string() })?;
+        Ok(journal)
+    }
+
+    /// Takes in a line, unless it is broken.
+    fn read(&mut self, line: &[u8]) {
+        if let Ok(record) = serde_json::from_slice::<Record>(line) {
+            self.records.insert(record.output.clone(), record);
+        } else if let Some(run) = serde_json::from_slice(line).ok().and_then(|Begun { run }| run.parse().ok())
+        {
+            self.runs.insert(run);
+        }
+    }
+
+    /// Removes what this run and earlier ones left half-written. No worker may be at work.
+    pub fn remove_left(&self) -> Result<(), String> {
+        let is_left = |path: &Path| RunId::that_left(path).is_some_and(|run| self.runs.contains(&run));
+        for entry in WalkDir::new(&self.folder).into_iter().filter_map(Result::ok) {
+            if entry.file_type().is_file() && is_left(entry.path()) {
+                let removed = fs::remove_file(entry.path());
+                removed.map_err(|error| format!("{}: cannot be removed: {error}", entry.path().display()))?;
+            }
+        }
+        Ok(())
     }
 
     /// The folder of outputs.
@@ -161,9 +197,14 @@ impl Journal {
         self.records.get(&below(&self.folder, output))
     }
 
-    /// Adds what is done, in one line.
+    /// Adds what is done.
     pub fn add(&self, record: &Record) -> Result<(), String> {
-        let line = serde_json::to_vec(record).map_err(io::Error::from);
+        self.append(record)
+    }
+
+    /// Adds one line.
+    fn append(&self, value: &impl Serialize) -> Result<(), String> {
+        let line = serde_json::to_vec(value).map_err(io::Error::from);
         let written = line.and_then(|mut line| {
             line.push(b'\n');
             (&self.file).write_all(&line)

@@ -7,13 +7,14 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use clap::Parser;
+use darboux_io::RunId;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 
 use crate::arguments::{Arguments, Command, TangentsArguments};
 use crate::batch::{Known, Work, unsearched, work};
 use crate::jobs::{self, Input, Job, Output, Rules, Scan};
-use crate::journal::{Journal, Record, remove_unfinished};
+use crate::journal::{Journal, Record};
 use crate::messages::Messages;
 use crate::report::FileReport;
 use crate::tangents::TangentsSummary;
@@ -28,6 +29,7 @@ pub struct Library {
 /// One file's work.
 #[derive(Serialize, Deserialize)]
 struct Order {
+    run: u64,
     options: Vec<String>,
     folder: PathBuf,
     input: PathBuf,
@@ -53,10 +55,12 @@ impl Library {
         let found = jobs::find(inputs, Scan::Sources { out_dir: Some(folder) });
         let rules = Rules { word: arguments.word(), json: false, images: TangentsArguments::IMAGES };
         let jobs = jobs::plan(&arguments.files, rules, &found).map_err(|usage| usage.0)?;
-        let journal = Journal::open(folder)?;
+        let run = arguments.files.run;
+        let journal = Journal::open(folder, run)?;
         let order = |job: &Job| {
             let (Input::File(input), Output::File(output)) = (&job.input, &job.output) else { return None };
             let order = Order {
+                run: run.0,
                 options: options.to_vec(),
                 folder: folder.to_owned(),
                 input: input.clone(),
@@ -100,7 +104,7 @@ impl Library {
 
     /// Removes what killed workers left half-written, and lets other runs write there. No worker may be at work.
     pub fn close(&self) -> Result<(), String> {
-        remove_unfinished(self.journal.folder())?;
+        self.journal.remove_left()?;
         self.journal.unlock()
     }
 }
@@ -109,7 +113,8 @@ impl Library {
 pub fn carry_out(order: &str) -> Result<String, String> {
     let order: Order =
         serde_json::from_str(order).map_err(|error| format!("the order is not one: {error}"))?;
-    let arguments = parsed(std::slice::from_ref(&order.input), &order.folder, &order.options)?;
+    let mut arguments = parsed(std::slice::from_ref(&order.input), &order.folder, &order.options)?;
+    arguments.files.run = RunId(order.run);
     let job = Job { input: Input::File(order.input), output: Output::File(order.output) };
     let known = Known { folder: &order.folder, record: order.record.as_ref() };
     let done = work(&arguments, &job, Some(known), &Messages::new(true));

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use darboux::Convention;
 use darboux_io::Error;
-use darboux_io::gltf::{Document, LoadOptions, SaveOptions};
+use darboux_io::gltf::{Document, LoadOptions};
 
 use crate::arguments::Files;
 use crate::interrupt;
@@ -68,7 +68,7 @@ pub fn save(
     let _guard = interrupt::writing();
     let written = match files.in_place {
         true => document.save_in_place(),
-        false => document.save(path, &SaveOptions { force: files.replace() }),
+        false => document.save(path, &files.save_options()),
     };
     let written: Vec<String> =
         written.map_err(sentence)?.iter().map(|path| path.display().to_string()).collect();

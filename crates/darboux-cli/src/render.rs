@@ -6,7 +6,7 @@ use clap::ValueEnum;
 use darboux::{NormalOptions, Shading, TangentOptions};
 use darboux_gpu::{Gpu, GpuError};
 use darboux_io::gltf::{
-    Document, NormalsOptions, Pair, TangentsOptions, add_normals, add_tangents, pair_tangents,
+    Document, NormalsOptions, Pair, SaveOptions, TangentsOptions, add_normals, add_tangents, pair_tangents,
 };
 use darboux_io::image::Image;
 use darboux_render::{Camera, HeatScale, Model, RenderError, RenderOptions};
@@ -90,7 +90,9 @@ fn draw(arguments: &RenderArguments) -> Result<RenderReport, String> {
     let image =
         Image::from_rgb(&output.display().to_string(), *size, &pixels).map_err(|error| error.to_string())?;
     let _guard = interrupt::writing();
-    let written = image.save(output, arguments.force).map_err(|error| error.to_string())?;
+    let written = image
+        .save(output, &SaveOptions { force: arguments.force, run: None })
+        .map_err(|error| error.to_string())?;
     Ok(RenderReport {
         command: "render",
         version: VERSION,

@@ -69,6 +69,12 @@ fn only_what_changed_is_done_again() {
     assert_eq!(statuses(&resume(&models, &out, &[], 0)), ["written", "up_to_date", "up_to_date"]);
     fs::write(out.join("a.glb"), b"cut").expect("the output");
     assert_eq!(statuses(&resume(&models, &out, &[], 0)), ["written", "up_to_date", "up_to_date"]);
+    let whole = fs::read(out.join("a.glb")).expect("the output");
+    let mut spoilt = whole.clone();
+    *spoilt.last_mut().expect("bytes") ^= 1;
+    fs::write(out.join("a.glb"), spoilt).expect("the output");
+    assert_eq!(statuses(&resume(&models, &out, &[], 0)), ["written", "up_to_date", "up_to_date"]);
+    assert_eq!(fs::read(out.join("a.glb")).expect("the output"), whole);
 
     let other = resume(&models, &out, &["--encoding", "snorm8x4", "--overwrite"], 0);
     assert!(!statuses(&other).contains(&"up_to_date"));
@@ -115,18 +121,26 @@ fn a_killed_run_goes_on() {
     loop {
         // Before the journal: a machine that pauses here must not make it seem that nothing was journalled.
         let has_ended = killed.try_wait().expect("a status").is_some();
-        if fs::metadata(out.join(JOURNAL)).is_ok_and(|journal| journal.len() > 0) {
+        // One line is the run, the next an output.
+        if fs::read_to_string(out.join(JOURNAL)).is_ok_and(|journal| journal.lines().count() > 1) {
             break;
         }
         assert!(!has_ended, "nothing was journalled");
     }
     killed.kill().expect("it can be killed");
     killed.wait().expect("it ends");
-    // A file that it was about to write when it was killed.
-    fs::write(out.join("plane/.darboux-a1B2c3"), b"glT")
-        .or_else(|_| fs::write(out.join(".darboux-a1B2c3"), b""))
-        .expect("half a file");
+    // A file that it was about to write when it was killed, one of another run that writes there, and one of nobody's.
+    let journal = fs::read_to_string(out.join(JOURNAL)).expect("the journal");
+    let begun: Value = serde_json::from_str(journal.lines().next().expect("a line")).expect("JSON");
+    let run = begun["run"].as_str().expect("a run");
+    fs::create_dir_all(out.join("plane")).expect("a folder");
+    let unfinished = out.join(format!("plane/.darboux-{run}-a1B2c3"));
+    let others =
+        [".darboux-a1B2c3", ".darboux-0123456789abcdef-a1B2c3", ".darboux-mine"].map(|name| out.join(name));
+    [&unfinished].into_iter().chain(&others).for_each(|file| fs::write(file, b"glT").expect("half a file"));
     let report = resume(&models, &out, &[], 0);
+    assert!(!unfinished.exists());
+    others.iter().for_each(|file| fs::remove_file(file).expect("what is another's is left alone"));
     assert!(statuses(&report).contains(&"up_to_date"));
     let relative = |folder: &Path| -> Vec<(PathBuf, Vec<u8>)> {
         let files = contents(folder).into_iter();

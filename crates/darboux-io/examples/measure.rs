@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let mut document = phases.time("open", || Document::open(&input, &LoadOptions::default()))?;
         phases
             .time("add_tangents", || add_tangents(&mut document, &TangentsOptions::default(), &mut |_| {}))?;
-        phases.time("save", || document.save(&output, &SaveOptions { force: true }))?;
+        phases.time("save", || document.save(&output, &SaveOptions { force: true, run: None }))?;
         phases.time("close", || drop(document));
         phases.time("cp of both", || copy_both(&input, &output))?;
         let mesh = Mesh::triangles(&grid.positions, &grid.normals, &grid.uvs, &grid.indices)?;

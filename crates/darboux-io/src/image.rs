@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 use png::{BitDepth, ColorType, Decoder, Encoder, Transformations};
 
 use crate::error::Fault;
+use crate::gltf::SaveOptions;
 use crate::staging::Staging;
 use crate::{Error, paths};
 use chunks::{Chunk, Chunks};
@@ -173,11 +174,11 @@ impl Image {
 
     /// Writes the image. Errors: an existing file without `force`, or one that is no regular file; a place that cannot be written.
     /// After an error nothing is left.
-    pub fn save(&self, path: &Path, force: bool) -> Result<PathBuf, Error> {
-        let target = paths::writable(path, force, |_| None)?;
+    pub fn save(&self, path: &Path, options: &SaveOptions) -> Result<PathBuf, Error> {
+        let target = paths::writable(path, options.force, |_| None)?;
         let bytes = self.to_bytes()?;
-        let mut staging = Staging::default();
-        staging.stage(&target, force, |file| file.write_all(&bytes))?;
+        let mut staging = Staging::of_run(options.run);
+        staging.stage(&target, options.force, |file| file.write_all(&bytes))?;
         staging.commit()?;
         Ok(path.to_owned())
     }

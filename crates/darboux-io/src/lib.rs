@@ -10,4 +10,4 @@ mod paths;
 mod staging;
 
 pub use error::Error;
-pub use staging::is_unfinished;
+pub use staging::RunId;

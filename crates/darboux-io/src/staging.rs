@@ -1,16 +1,19 @@
 //! Writing files whole or not at all: beside their targets first, then renamed together.
 
+use std::fmt;
 use std::fs::{self, File};
 use std::io;
+use std::num::ParseIntError;
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 
 use tempfile::TempPath;
 
 use crate::Error;
 
 /// Files written beside their targets, to be renamed together. Dropped before that, it removes everything it made.
-#[derive(Default)]
 pub struct Staging {
+    run: Option<RunId>,
     staged: Vec<Staged>,
     made_folders: Vec<PathBuf>,
     renamed: Vec<PathBuf>,
@@ -22,7 +25,15 @@ struct Staged {
     replace: bool,
 }
 
+/// A run of many files. Those that it has not completed are named after it, so that what it left when it was killed is known for its.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct RunId(pub u64);
+
 impl Staging {
+    pub fn of_run(run: Option<RunId>) -> Self {
+        Self { run, staged: Vec::new(), made_folders: Vec::new(), renamed: Vec::new() }
+    }
+
     /// Writes the content of `target` to a file beside it, down to the disk.
     pub fn stage(
         &mut self,
@@ -35,7 +46,7 @@ impl Staging {
             target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         self.make_folders(folder).map_err(failed)?;
         let temporary = || -> io::Result<TempPath> {
-            let mut file = new_file(folder)?;
+            let mut file = new_file(folder, self.run)?;
             write(file.as_file_mut())?;
             if let Some(existing) = fs::metadata(target).ok().filter(|_| replace) {
                 file.as_file().set_permissions(existing.permissions())?;
@@ -89,15 +100,38 @@ impl Drop for Staging {
 /// What the names of files begin with until they are complete.
 const UNFINISHED: &str = ".darboux-";
 
-/// Whether a name is one that files have until they are complete: what is found while nobody writes was left by a process that was killed.
-pub fn is_unfinished(path: &Path) -> bool {
-    path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(UNFINISHED.as_bytes()))
+impl RunId {
+    /// What the names of this run's files begin with until they are complete.
+    fn unfinished(self) -> String {
+        format!("{UNFINISHED}{self}-")
+    }
+
+    /// The run that has not completed a file, by its name: where the run has ended, it was killed meanwhile.
+    pub fn that_left(path: &Path) -> Option<Self> {
+        let name = path.file_name()?.to_str()?.strip_prefix(UNFINISHED)?;
+        name.split_once('-')?.0.parse().ok()
+    }
+}
+
+impl fmt::Display for RunId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:016x}", self.0)
+    }
+}
+
+impl FromStr for RunId {
+    type Err = ParseIntError;
+
+    fn from_str(text: &str) -> Result<Self, ParseIntError> {
+        u64::from_str_radix(text, 16).map(Self)
+    }
 }
 
 /// A temporary file with the permissions of an ordinary new file.
-fn new_file(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+fn new_file(folder: &Path, run: Option<RunId>) -> io::Result<tempfile::NamedTempFile> {
+    let prefix = run.map_or(UNFINISHED.into(), RunId::unfinished);
     let mut builder = tempfile::Builder::new();
-    builder.prefix(UNFINISHED);
+    builder.prefix(&prefix);
     #[cfg(unix)]
     let builder = {
         use std::os::unix::fs::PermissionsExt;

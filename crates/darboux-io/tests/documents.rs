@@ -340,7 +340,7 @@ fn an_input_with_external_files_is_embedded_or_brought_along() {
     assert!(text.contains(r#"{"uri": "tex%20tures/n.png", "name": "n"}"#), "{text}");
 
     // Once more: what is there already is used again.
-    document.save(&output.join("a.gltf"), &SaveOptions { force: true }).unwrap();
+    document.save(&output.join("a.gltf"), &SaveOptions { force: true, run: None }).unwrap();
     assert_eq!(names(&output), ["a.bin", "a.gltf", "b 1.bin", "b 1_1.bin", "tex tures"]);
 }
 
@@ -360,7 +360,7 @@ fn in_place_changes_the_document_and_nothing_else() {
     fs::write(folder.path().join("a.bin"), triangle()).unwrap();
     let mut document = Document::open(&path, &LoadOptions::default()).unwrap();
     assert_eq!(document.save_in_place().unwrap(), [] as [std::path::PathBuf; 0]);
-    let refused = document.save(&path, &SaveOptions { force: true }).unwrap_err();
+    let refused = document.save(&path, &SaveOptions { force: true, run: None }).unwrap_err();
     assert!(refused.to_string().contains("is the input"), "{refused}");
     add_tangents(&mut document);
     document.save_in_place().unwrap();
@@ -398,7 +398,9 @@ fn a_failure_leaves_nothing_behind() {
     assert!(error.to_string().contains("exists"), "{error}");
     assert!(document.save(&folder.path().join("out.txt"), &SaveOptions::default()).is_err());
     fs::create_dir_all(folder.path().join("new/out.gltf/x")).unwrap();
-    assert!(document.save(&folder.path().join("new/out.gltf"), &SaveOptions { force: true }).is_err());
+    assert!(
+        document.save(&folder.path().join("new/out.gltf"), &SaveOptions { force: true, run: None }).is_err()
+    );
     assert_eq!(names(folder.path()), ["new", "out.gltf"]);
     assert_eq!(names(&folder.path().join("new")), ["out.gltf"]);
     assert_eq!(fs::read(&existing).unwrap(), b"old");

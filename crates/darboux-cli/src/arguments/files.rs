@@ -4,6 +4,10 @@ use std::num::NonZero;
 use std::path::PathBuf;
 
 use clap::{ArgGroup, Args};
+use darboux_io::RunId;
+use darboux_io::gltf::SaveOptions;
+
+use crate::journal::new_run;
 
 /// Which files are read, and where their outputs go.
 #[derive(Debug, Args)]
@@ -46,12 +50,21 @@ pub struct Files {
     /// Allow buffers and images outside the input's folder
     #[arg(long, help_heading = "Input")]
     pub allow_outside: bool,
+
+    /// What the journal of --resume knows this run by.
+    #[arg(skip = new_run())]
+    pub run: RunId,
 }
 
 impl Files {
     /// Whether an output may take the place of a file that exists.
     pub fn replace(&self) -> bool {
         self.force || self.in_place || self.resume
+    }
+
+    /// How outputs are written.
+    pub fn save_options(&self) -> SaveOptions {
+        SaveOptions { force: self.replace(), run: self.resume.then_some(self.run) }
     }
 }
 

@@ -13,7 +13,7 @@ use super::layout::{Home, Layout};
 use super::pieces::{self, Piece};
 use super::resources::{Located, Reference, encode_path};
 use crate::error::Fault;
-use crate::staging::Staging;
+use crate::staging::{RunId, Staging};
 use crate::{Error, paths};
 
 /// How a document is written.
@@ -21,6 +21,8 @@ use crate::{Error, paths};
 pub struct SaveOptions {
     /// Replace an existing output; without, that is an error.
     pub force: bool,
+    /// The run that this is a part of, if any.
+    pub run: Option<RunId>,
 }
 
 impl Document {
@@ -52,7 +54,7 @@ impl Document {
     pub fn save(&self, path: &Path, options: &SaveOptions) -> Result<Vec<PathBuf>, Error> {
         let is_glb = is_glb_path(path)?;
         let target = self.checked_target(path, options)?;
-        self.write(&target, is_glb, options.force)
+        self.write(&target, is_glb, options)
     }
 
     /// Replaces the input file, keeping its container and permissions; gives the files written, none when there are no edits.
@@ -66,7 +68,7 @@ impl Document {
         if !self.is_changed() {
             return Ok(Vec::new());
         }
-        self.write(input, self.container.is_glb, true)
+        self.write(input, self.container.is_glb, &SaveOptions { force: true, run: None })
     }
 
     /// The file of a buffer that an earlier run made for new data: edited, the document gets another in its place. The file itself
@@ -100,10 +102,10 @@ impl Document {
         self.files().iter().any(|file| file.path == resolved)
     }
 
-    fn write(&self, target: &Path, is_glb: bool, replace: bool) -> Result<Vec<PathBuf>, Error> {
-        let mut staging = Staging::default();
+    fn write(&self, target: &Path, is_glb: bool, options: &SaveOptions) -> Result<Vec<PathBuf>, Error> {
+        let mut staging = Staging::of_run(options.run);
         let pieces = if is_glb { self.glb_pieces()? } else { self.stage_gltf(target, &mut staging)? };
-        staging.stage(target, replace, |file| pieces::write(&pieces, file))?;
+        staging.stage(target, options.force, |file| pieces::write(&pieces, file))?;
         staging.commit()
     }
 
