@@ -231,6 +231,20 @@ test('bad files get a sentence, and leave the model that is open', async () => {
   assert.equal(await viewer.text('error'), '');
 });
 
+/** Starts `darboux view` and opens what it serves. */
+async function viewed(path, use) {
+  const command = spawn(DARBOUX, ['view', '--no-open', path], { stdio: ['ignore', 'pipe', 'ignore'] });
+  try {
+    const { value: address } = await createInterface({ input: command.stdout })[Symbol.asyncIterator]().next();
+    const served = await Viewer.open(chromium, address, { viewport: { width: 500, height: 400 } });
+    assert.deepEqual(served.faults, []);
+    await use(served);
+    await served.close();
+  } finally {
+    command.kill();
+  }
+}
+
 test('darboux view shows its model', { skip: !DARBOUX && 'DARBOUX names no command' }, async () => {
   const place = join(folder, 'with space');
   mkdirSync(place);
@@ -238,20 +252,35 @@ test('darboux view shows its model', { skip: !DARBOUX && 'DARBOUX names no comma
     copyFileSync(asset(`TwoSidedPlane/${name}`), join(place, name));
   }
   const path = join(place, 'TwoSidedPlane.gltf');
-  const command = spawn(DARBOUX, ['view', '--no-open', path], { stdio: ['ignore', 'pipe', 'ignore'] });
-  try {
-    const { value: address } = await createInterface({ input: command.stdout })[Symbol.asyncIterator]().next();
-    const served = await Viewer.open(chromium, address, { viewport: { width: 500, height: 400 } });
+  await viewed(path, async (served) => {
     assert.equal(await served.text('name'), 'TwoSidedPlane.glb');
-    assert.deepEqual(served.faults, []);
     writeFileSync(path, '{}');
     await served.page.reload();
     await served.settled();
     assert.match(await served.text('error'), /TwoSidedPlane\.gltf: .*asset/);
-    await served.close();
-  } finally {
-    command.kill();
-  }
+  });
+});
+
+test('darboux view shows an OBJ with its materials and textures', { skip: !DARBOUX && 'DARBOUX names no command' }, async () => {
+  const place = join(folder, 'dressed');
+  mkdirSync(join(place, 'dress'), { recursive: true });
+  const quad = readFileSync(join(folder, 'quad.obj'), 'utf8');
+  writeFileSync(join(place, 'quad.obj'), quad.replace(/^f/m, 'mtllib dress/quad one.mtl\nusemtl plane\nf'));
+  writeFileSync(join(place, 'dress/quad one.mtl'), 'newmtl plane\nKd 0 1 0\nnorm ../normal 1.png\n');
+  writeFileSync(join(place, 'normal 1.png'), await normalMapOfSample());
+  await viewer.give('folder', place);
+  const given = await viewer.picture();
+  assert.ok(given.share((r, g, b) => g > 2 * r && g > 2 * b) > 0.05, 'it is green');
+  await viewed(join(place, 'quad.obj'), async (served) => {
+    assert.deepEqual([await served.text('name'), await served.text('status')], ['quad.obj', '2 triangles in 1 part']);
+    assert.ok((await served.picture()).differs(given) < 0.002);
+  });
+  // Alone it is shown, and what it lacks is said.
+  await viewer.give('files', [join(place, 'quad.obj')]);
+  assert.match(await viewer.text('status'), /; dress\/quad one\.mtl was not given, and its materials are missing$/);
+  rmSync(join(place, 'normal 1.png'));
+  await viewer.give('folder', place);
+  assert.match(await viewer.text('status'), /; 1 texture missing or not decodable$/);
 });
 
 /** The normal map of the model that the page opens with: scales, which look otherwise upside down. */

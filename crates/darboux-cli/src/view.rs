@@ -1,6 +1,7 @@
 //! `darboux view`.
 
 mod model;
+mod obj;
 mod page;
 mod server;
 

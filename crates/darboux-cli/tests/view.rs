@@ -8,7 +8,7 @@ use std::net::TcpStream;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
-use common::darboux;
+use common::{asset, darboux, folder_with};
 
 /// A running viewer, which ends with the test.
 struct Viewer {
@@ -60,10 +60,6 @@ impl Viewer {
     }
 }
 
-fn asset(name: &str) -> std::path::PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets").join(name)
-}
-
 #[test]
 fn the_page_and_the_model_are_behind_the_secret() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -73,9 +69,18 @@ fn the_page_and_the_model_are_behind_the_secret() {
     assert!(host.starts_with("127.0.0.1:") && secret.len() == 32, "{}", viewer.address);
     assert!(viewer.address.ends_with("/?model=NormalTangentTest.glb"), "{}", viewer.address);
     assert_eq!(viewer.get(host, &format!("/{secret}/")), (200, b"the page".to_vec()));
-    let (status, body) = viewer.get(host, &format!("/{secret}/model"));
+    let names = viewer.get(host, &format!("/{secret}/model"));
+    assert_eq!(names, (200, br#"["NormalTangentTest.glb"]"#.to_vec()));
+    let (status, body) = viewer.get(host, &format!("/{secret}/model/0"));
     assert!(status == 200 && body == fs::read(model).expect("a model"), "{status}, {} bytes", body.len());
-    for path in ["/", "/index.html", "/model", "/0123456789abcdef0123456789abcdef/", &format!("/{secret}")] {
+    for path in [
+        "/",
+        "/index.html",
+        "/model",
+        "/model/0",
+        "/0123456789abcdef0123456789abcdef/",
+        &format!("/{secret}"),
+    ] {
         assert_eq!(viewer.get(host, path).0, 403, "{path}");
     }
     assert_eq!(viewer.get("evil.example", &format!("/{secret}/")).0, 403);
@@ -94,21 +99,59 @@ fn files_beside_the_page_are_not_served() {
 }
 
 #[test]
-fn a_gltf_comes_whole_and_a_broken_one_as_a_sentence() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let viewer = Viewer::start(folder.path(), &asset("TwoSidedPlane/TwoSidedPlane.gltf"));
+fn a_gltf_comes_whole_and_as_a_sentence_once_it_is_broken() {
+    let folder = folder_with(&[
+        "TwoSidedPlane/TwoSidedPlane.gltf",
+        "TwoSidedPlane/TwoSidedPlane.bin",
+        "TwoSidedPlane/TwoSidedPlane_BaseColor.png",
+        "TwoSidedPlane/TwoSidedPlane_MetallicRoughness.png",
+        "TwoSidedPlane/TwoSidedPlane_Normal.png",
+    ]);
+    let model = folder.path().join("TwoSidedPlane.gltf");
+    let viewer = Viewer::start(folder.path(), &model);
     let (host, secret) = viewer.parts();
     assert!(viewer.address.ends_with("/?model=TwoSidedPlane.glb"), "{}", viewer.address);
-    let (status, body) = viewer.get(host, &format!("/{secret}/model"));
+    let address = format!("/{secret}/model/0");
+    let (status, body) = viewer.get(host, &address);
     assert_eq!((status, body.get(..4)), (200, Some(&b"glTF"[..])));
-
-    let broken = folder.path().join("broken.glb");
-    fs::write(&broken, "glTF").expect("a file");
-    let viewer = Viewer::start(folder.path(), &broken);
-    let (host, secret) = viewer.parts();
-    let (status, body) = viewer.get(host, &format!("/{secret}/model"));
+    for none in ["1", "-1", "", "x", "18446744073709551616"] {
+        assert_eq!(viewer.get(host, &format!("/{secret}/model/{none}")).0, 404, "{none}");
+    }
+    fs::write(&model, "glTF").expect("a file");
+    let (status, body) = viewer.get(host, &address);
     let sentence = String::from_utf8(body).expect("text");
-    assert!(status == 422 && sentence.contains("broken.glb: "), "{status} {sentence}");
+    assert!(status == 422 && sentence.contains("TwoSidedPlane.gltf: "), "{status} {sentence}");
+}
+
+#[test]
+fn an_obj_comes_with_what_it_refers_to_in_its_folder() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let place = folder.path().join("model");
+    fs::create_dir_all(place.join("maps")).expect("a folder");
+    let write = |path: &str, text: &str| fs::write(place.join(path), text).expect("a file");
+    write("quad.obj", "mtllib maps/quad one.mtl\r\nmtllib ../outside.mtl\nmtllib linked.mtl\nf 1 2 3\n");
+    write(
+        "maps/quad one.mtl",
+        "newmtl a\nmap_Kd -s 1 1 1 -o 0 0 0 my color.png\n  norm ..\\normal.png\nmap_Bump -bm 2 gone.png\nKd private\n\
+         map_Ks ../../outside.png\nmap_Ke /etc/hostname\nmap_d my color.png\n",
+    );
+    for name in ["maps/my color.png", "normal.png", "private", "maps/color.png"] {
+        write(name, name);
+    }
+    for name in ["outside.mtl", "outside.png"] {
+        fs::write(folder.path().join(name), "newmtl b\n").expect("a file");
+    }
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("../outside.mtl", place.join("linked.mtl")).expect("a link");
+    let viewer = Viewer::start(folder.path(), &place.join("quad.obj"));
+    let (host, secret) = viewer.parts();
+    let (_, names) = viewer.get(host, &format!("/{secret}/model"));
+    let names: Vec<String> = serde_json::from_slice(&names).expect("a list");
+    assert_eq!(names, ["quad.obj", "maps/my color.png", "normal.png", "maps/quad one.mtl"]);
+    for (at, name) in names.iter().enumerate() {
+        let content = fs::read(place.join(name)).expect("a file");
+        assert_eq!(viewer.get(host, &format!("/{secret}/model/{at}")), (200, content), "{name}");
+    }
 }
 
 #[test]
@@ -119,11 +162,32 @@ fn without_the_page_the_command_says_what_makes_it() {
 }
 
 #[test]
-fn what_is_no_model_is_refused() {
-    for (model, said) in
-        [("no-such.glb", "cannot be read"), (".", "is not a file"), ("Cargo.toml", "cannot be shown")]
-    {
-        let run = darboux(&["view", "--no-open", model]).exits(1);
-        assert!(run.stderr.contains(said), "{model}: {}", run.stderr);
+fn what_is_no_model_is_refused_in_a_sentence() {
+    let folder = folder_with(&["NormalTangentTest/NormalTangentTest.glb"]);
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    fs::write(at("index.html"), "the page").expect("a page");
+    fs::write(at("empty.glb"), "").expect("a file");
+    fs::write(at("start.glb"), "glTF").expect("a file");
+    let good = fs::read(at("NormalTangentTest.glb")).expect("a model");
+    fs::write(at("cut.glb"), &good[..good.len() / 2]).expect("a file");
+    let text = fs::read_to_string(asset("made/shared-vertices-two-uv-sets.gltf")).expect("a model");
+    fs::write(at("index.gltf"), text.replacen("\"POSITION\": 0", "\"POSITION\": 99", 1)).expect("a file");
+    fs::write(at("empty.obj"), "").expect("a file");
+    fs::write(at("points.obj"), "v 0 0 0\n").expect("a file");
+    let cases = [
+        ("no-such.glb", "cannot be read"),
+        (".", "is not a file"),
+        ("index.html", "cannot be shown"),
+        ("empty.glb", "empty.glb: "),
+        ("start.glb", "start.glb: "),
+        ("cut.glb", "cut.glb: "),
+        ("index.gltf", "accessors[99]: does not exist"),
+        ("empty.obj", "has no faces"),
+        ("points.obj", "has no faces"),
+    ];
+    for (model, said) in cases {
+        let run = darboux(&["view", "--no-open", "--page", &at(""), &at(model)]).exits(1);
+        assert!(run.stderr.contains(said) && run.stderr.lines().count() == 1, "{model}: {}", run.stderr);
+        assert!(run.stdout.is_empty(), "{model}: no address");
     }
 }

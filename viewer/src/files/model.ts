@@ -38,7 +38,7 @@ export async function openModel(bundle: Bundle, progress: Progress): Promise<Mod
   progress(`Opening ${name}`, null);
   const isObj = /\.obj$/i.test(name);
   return isObj
-    ? { name, kind: 'obj', scene: await openObj(name, bytes, bundle), bytes: null, warnings: [] }
+    ? { name, kind: 'obj', bytes: null, ...(await openObj(name, bytes, bundle)) }
     : { name, kind: 'gltf', ...(await openGltf(name, bytes, bundle)) };
 }
 

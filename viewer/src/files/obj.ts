@@ -4,20 +4,30 @@ import { LoadingManager, Mesh, MeshPhongMaterial, MeshStandardMaterial, type Mat
 import { MTLLoader } from 'three/addons/loaders/MTLLoader.js';
 import { OBJLoader } from 'three/addons/loaders/OBJLoader.js';
 
+import { counted } from '../page/words';
 import { located, type Bundle } from './bundle';
 
+/** What an OBJ shows. */
+export interface Obj {
+  scene: Object3D;
+  /** What is odd but not an error, as sentences. */
+  warnings: string[];
+}
+
 /** Opens an OBJ. Errors: a sentence for people. */
-export async function openObj(name: string, bytes: Uint8Array<ArrayBuffer>, bundle: Bundle): Promise<Object3D> {
+export async function openObj(name: string, bytes: Uint8Array<ArrayBuffer>, bundle: Bundle): Promise<Obj> {
   const text = new TextDecoder().decode(bytes);
   if (!/^\s*(v|f)\s/m.test(text)) throw new Error(`${name} has no vertices and faces as an OBJ has them; export it again.`);
   const loader = new OBJLoader();
-  const library = /^\s*mtllib\s+(.+?)\s*$/m.exec(text)?.[1];
-  const materials = library && bundle.get(located(library, name) ?? '');
   const manager = managerOf(bundle, name);
   const loaded = new Promise<void>((resolve) => (manager.onLoad = resolve));
+  let lost = 0;
+  manager.onError = () => lost++;
   // Holds back the end of loading until all textures have begun, of which there may be none.
   manager.itemStart(name);
-  if (materials) loader.setMaterials(new MTLLoader(manager).parse(await materials.text(), ''));
+  const libraries = new Set(Array.from(text.matchAll(/^\s*mtllib\s+(.+?)\s*$/gm), ([, library]) => library));
+  const { creators, missing } = await creatorsOf([...libraries], name, bundle, manager);
+  loader.setMaterials({ create: (material: string) => creators.find(({ materialsInfo }) => Object.hasOwn(materialsInfo, material))?.create(material) } as MaterialCreator);
   const scene = loader.parse(text);
   manager.itemEnd(name);
   await loaded;
@@ -25,7 +35,23 @@ export async function openObj(name: string, bytes: Uint8Array<ArrayBuffer>, bund
     if (!(object instanceof Mesh)) return;
     object.material = Array.isArray(object.material) ? object.material.map(standard) : standard(object.material);
   });
-  return scene;
+  const warnings = missing.map((library) => `${library} was not given, and its materials are missing`);
+  if (lost) warnings.push(`${counted(lost, 'texture', 'textures')} missing or not decodable`);
+  return { scene, warnings };
+}
+
+type MaterialCreator = MTLLoader.MaterialCreator;
+
+/** The material libraries that were given, and the names of those that were not. */
+async function creatorsOf(libraries: string[], name: string, bundle: Bundle, manager: LoadingManager) {
+  const [creators, missing]: [MaterialCreator[], string[]] = [[], []];
+  for (const library of libraries) {
+    const file = bundle.get(located(library, name) ?? '');
+    // Textures lie where their library lies.
+    if (file) creators.push(new MTLLoader(manager).parse(await file.text(), library.replace(/[^/\\]*$/, '')));
+    else missing.push(library);
+  }
+  return { creators, missing };
 }
 
 /** Textures are read from the bundle. What is not there stays away. */

@@ -29,18 +29,25 @@ export function connectOpening(open: (find: Find) => void): void {
     if (bundle) open(() => bundle);
   });
   const named = new URLSearchParams(location.search).get('model');
-  open(named === null ? sample : () => fetched('model', named));
+  open(named === null ? sample : () => served(named));
 }
 
-function sample(): Promise<Bundle> {
-  return fetched(SAMPLE, SAMPLE);
+async function sample(): Promise<Bundle> {
+  return new Map([[SAMPLE, await (await fetched(SAMPLE, SAMPLE)).blob()]]);
 }
 
-/** A file of this page's own server. */
-async function fetched(address: string, name: string): Promise<Bundle> {
+/** The model that this page's own server was started with, and what it refers to. */
+async function served(model: string): Promise<Bundle> {
+  const names: string[] = await (await fetched('model', model)).json();
+  const files = names.map(async (name, at) => [name, await (await fetched(`model/${at}`, name)).blob()] as const);
+  return new Map(await Promise.all(files));
+}
+
+/** What this page's own server has at an address. */
+async function fetched(address: string, name: string): Promise<Response> {
   const answer = await fetch(address).catch(() => {
     throw new Error(`${name} cannot be fetched: the server has ended.`);
   });
   if (!answer.ok) throw new Error(`${await answer.text()}.`);
-  return new Map([[name, await answer.blob()]]);
+  return answer;
 }

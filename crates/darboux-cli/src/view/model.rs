@@ -3,7 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use darboux_io::gltf::{Document, LoadOptions};
+use darboux_io::gltf::{Document, LoadOptions, inspect};
+
+use super::obj::{Companion, companions};
 
 /// A model, read anew whenever the page asks for it.
 pub struct Model {
@@ -14,11 +16,12 @@ pub struct Model {
 
 enum Kind {
     Gltf,
-    Obj,
+    /// With what it refers to.
+    Obj(Vec<Companion>),
 }
 
 impl Model {
-    /// Errors: no such file, another format.
+    /// Reads the model once, so that a broken one is known before there is a page. Errors: no such file, another format, broken data.
     pub fn find(path: &Path, allow_outside: bool) -> Result<Self, String> {
         let shown = path.display();
         let metadata = fs::metadata(path).map_err(|error| format!("{shown}: cannot be read: {error}"))?;
@@ -28,32 +31,48 @@ impl Model {
         let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
         let kind = match extension.to_str() {
             Some("gltf" | "glb" | "vrm") => Kind::Gltf,
-            Some("obj") => Kind::Obj,
+            Some("obj") => Kind::Obj(companions(path)?),
             _ => return Err(format!("{shown}: cannot be shown; give a .gltf, .glb, .vrm or .obj")),
         };
-        Ok(Self { path: path.to_owned(), kind, allow_outside })
+        let model = Self { path: path.to_owned(), kind, allow_outside };
+        if let Kind::Gltf = model.kind {
+            model
+                .open()
+                .and_then(|mut document| inspect(&mut document))
+                .map_err(|error| error.to_string())?;
+        }
+        Ok(model)
     }
 
-    /// The name under which the page has it: that of the file, ending in what is sent.
-    pub fn name(&self) -> String {
+    /// The names of what is sent: the model's, ending in what it is sent as, then what an OBJ refers to.
+    pub fn names(&self) -> Vec<String> {
         let name = self.path.file_name().unwrap_or_default();
-        let sent = match self.kind {
-            Kind::Gltf => Path::new(name).with_extension("glb"),
-            Kind::Obj => name.into(),
-        };
-        sent.to_string_lossy().into_owned()
-    }
-
-    /// What is sent: an OBJ as it is, all else as a GLB that holds its buffers and images. Errors: a sentence about the file.
-    pub fn read(&self) -> Result<Vec<u8>, String> {
-        match self.kind {
-            Kind::Obj => fs::read(&self.path)
-                .map_err(|error| format!("{}: cannot be read: {error}", self.path.display())),
-            Kind::Gltf => {
-                let options = LoadOptions { allow_outside: self.allow_outside };
-                let document = Document::open(&self.path, &options);
-                document.and_then(|document| document.to_glb()).map_err(|error| error.to_string())
+        match &self.kind {
+            Kind::Gltf => vec![Path::new(name).with_extension("glb").to_string_lossy().into_owned()],
+            Kind::Obj(companions) => {
+                let names = companions.iter().map(|companion| companion.name.clone());
+                [name.to_string_lossy().into_owned()].into_iter().chain(names).collect()
             }
         }
+    }
+
+    /// What is sent under the name at a place of [`Model::names`]; none past their end. An OBJ and what it refers to are sent as they are,
+    /// all else as a GLB that holds its buffers and images. Errors: a sentence about the file.
+    pub fn read(&self, at: usize) -> Option<Result<Vec<u8>, String>> {
+        let as_it_is = |path: &Path| {
+            fs::read(path).map_err(|error| format!("{}: cannot be read: {error}", path.display()))
+        };
+        match (&self.kind, at) {
+            (Kind::Gltf, 0) => {
+                Some(self.open().and_then(|document| document.to_glb()).map_err(|error| error.to_string()))
+            }
+            (Kind::Gltf, _) => None,
+            (Kind::Obj(_), 0) => Some(as_it_is(&self.path)),
+            (Kind::Obj(companions), at) => companions.get(at - 1).map(|companion| as_it_is(&companion.path)),
+        }
+    }
+
+    fn open(&self) -> Result<Document, darboux_io::Error> {
+        Document::open(&self.path, &LoadOptions { allow_outside: self.allow_outside })
     }
 }

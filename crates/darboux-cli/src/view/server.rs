@@ -36,8 +36,8 @@ impl Server {
     pub fn address(&self) -> String {
         let Self { host, secret, model, .. } = self;
         let query =
-            model.as_ref().map_or(String::new(), |model| format!("?model={}", in_query(&model.name())));
-        format!("http://{host}/{secret}/{query}")
+            model.iter().flat_map(Model::names).take(1).map(|name| format!("?model={}", in_query(&name)));
+        format!("http://{host}/{secret}/{}", query.collect::<String>())
     }
 
     /// Answers, for ever.
@@ -66,8 +66,11 @@ impl Server {
         let path = request.url().split('?').next().unwrap_or_default();
         match path.get(self.secret.len() + 2..).unwrap_or_default() {
             "" => self.file("index.html"),
-            "model" => self.model(),
-            name => self.file(name),
+            "model" => self.names(),
+            name => match name.strip_prefix("model/") {
+                Some(at) => self.model(at),
+                None => self.file(name),
+            },
         }
     }
 
@@ -86,11 +89,22 @@ impl Server {
         }
     }
 
-    fn model(&self) -> Answer {
-        match self.model.as_ref().map(Model::read) {
+    /// The names of the model's files, as a list in JSON.
+    fn names(&self) -> Answer {
+        let names = self.model.as_ref().map(|model| serde_json::to_vec(&model.names()));
+        match names {
+            Some(Ok(names)) => (200, "application/json", names),
+            _ => (404, TEXT, b"no model was named".to_vec()),
+        }
+    }
+
+    /// The file whose name is at a place of that list.
+    fn model(&self, at: &str) -> Answer {
+        let read = self.model.as_ref().zip(at.parse().ok()).and_then(|(model, at)| model.read(at));
+        match read {
             Some(Ok(bytes)) => (200, "application/octet-stream", bytes),
             Some(Err(sentence)) => (422, TEXT, sentence.into_bytes()),
-            None => (404, TEXT, b"no model was named".to_vec()),
+            None => (404, TEXT, b"no such file".to_vec()),
         }
     }
 }

@@ -1,0 +1,91 @@
+//! What an OBJ refers to: material libraries, and their textures.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A file, and the path by which the OBJ's folder knows it: with `/` between parts.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Companion {
+    pub name: String,
+    pub path: PathBuf,
+}
+
+/// The libraries and textures that the OBJ at `path` names, as far as they lie in its folder or below; whatever is elsewhere is left out.
+///
+/// Errors: the file cannot be read; it has no faces.
+pub fn companions(path: &Path) -> Result<Vec<Companion>, String> {
+    let shown = path.display();
+    let bytes = fs::read(path).map_err(|error| format!("{shown}: cannot be read: {error}"))?;
+    let mut libraries = Vec::new();
+    let mut has_faces = false;
+    for (word, rest) in statements(&bytes) {
+        has_faces |= word == b"f";
+        if word == b"mtllib" {
+            libraries.push(rest);
+        }
+    }
+    if !has_faces {
+        return Err(format!("{shown}: has no faces as an OBJ has them; export it again"));
+    }
+    let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
+    let folder = parent.unwrap_or(Path::new(".")).canonicalize();
+    let folder = folder.map_err(|error| format!("{shown}: its folder cannot be read: {error}"))?;
+    let mut found = Vec::new();
+    for library in libraries.into_iter().filter_map(|library| inside(&folder, "", library)) {
+        for texture in fs::read(&library.path).iter().flat_map(|text| textures(&folder, &library.name, text))
+        {
+            note(&mut found, texture);
+        }
+        note(&mut found, library);
+    }
+    Ok(found)
+}
+
+fn note(found: &mut Vec<Companion>, companion: Companion) {
+    if !found.contains(&companion) {
+        found.push(companion);
+    }
+}
+
+/// The textures of a material library. Options stand before a texture's name, which may have spaces: it is the longest end of the line that
+/// names a file.
+fn textures(folder: &Path, library: &str, text: &[u8]) -> Vec<Companion> {
+    let maps = statements(text).filter(|(word, _)| is_texture(word));
+    let found = maps.filter_map(|(_, line)| {
+        let starts = line.iter().enumerate().filter(|&(at, _)| at == 0 || line[at - 1].is_ascii_whitespace());
+        starts.map(|(at, _)| &line[at..]).find_map(|end| inside(folder, library, end))
+    });
+    found.collect()
+}
+
+fn is_texture(word: &[u8]) -> bool {
+    let word = word.to_ascii_lowercase();
+    word.starts_with(b"map_") || [&b"norm"[..], b"bump", b"disp", b"decal", b"refl"].contains(&&word[..])
+}
+
+/// The first word of every line, and what follows it.
+fn statements(text: &[u8]) -> impl Iterator<Item = (&[u8], &[u8])> {
+    text.split(|&byte| byte == b'\n' || byte == b'\r').map(|line| {
+        let line = line.trim_ascii();
+        let end = line.iter().position(u8::is_ascii_whitespace).unwrap_or(line.len());
+        (&line[..end], line[end..].trim_ascii())
+    })
+}
+
+/// The file that `reference` means, seen from the file `base`, if it is one in `folder` or below, links followed.
+fn inside(folder: &Path, base: &str, reference: &[u8]) -> Option<Companion> {
+    let reference = str::from_utf8(reference).ok()?.replace('\\', "/");
+    let mut parts: Vec<&str> = base.split('/').collect();
+    parts.pop();
+    for part in reference.split('/') {
+        match part {
+            "" | "." => {}
+            ".." => _ = parts.pop()?,
+            part => parts.push(part),
+        }
+    }
+    let name = parts.join("/");
+    let path = folder.join(&name).canonicalize().ok()?;
+    let is_ours = !reference.starts_with('/') && path.starts_with(folder) && path.is_file();
+    is_ours.then_some(Companion { name, path })
+}
