@@ -1,10 +1,10 @@
 // glTF and GLB.
 
-import { Loader, LoadingManager, type Object3D } from 'three';
-import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
-import type { KTX2Loader } from 'three/addons/loaders/KTX2Loader.js';
+import { LoadingManager, Mesh, type Object3D, type Texture } from 'three';
+import { type GLTF, GLTFLoader, type GLTFLoaderPlugin, type GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
 
 import { counted } from '../page/words';
+import { TANGENT_TARGETS } from '../scene/pose';
 import { call } from '../surface/thread';
 import type { Bundle } from './bundle';
 
@@ -16,11 +16,31 @@ export interface Gltf {
   warnings: string[];
 }
 
-/** In place of a decoder of KTX 2, which would be larger than all else of the page: the model is shown without those textures. */
-class NoKtx2 extends Loader {
-  override load(url: string, _: unknown, __: unknown, failed: (error: unknown) => void): void {
-    this.manager.itemError(url);
-    failed(new Error('KTX 2 is not read'));
+const KTX2 = 'KHR_texture_basisu';
+
+/**
+ * In place of a decoder of KTX 2, which would be larger than all else of the page: the textures that stand in for them where there are
+ * some, else none, of which `told` is told.
+ */
+function withoutKtx2({ json }: GLTFParser, told: () => void): GLTFLoaderPlugin {
+  const loadTexture = (index: number) => {
+    const { source, extensions } = json.textures[index];
+    if (!extensions?.[KTX2] || source !== undefined) return null;
+    told();
+    return Promise.resolve(null) as unknown as Promise<Texture>;
+  };
+  return { name: KTX2, loadTexture };
+}
+
+/** Leaves with geometries what morph targets do to tangents. */
+async function keepTangentTargets({ scene, parser }: GLTF): Promise<void> {
+  const meshes: Mesh[] = [];
+  scene.traverse((object) => object instanceof Mesh && meshes.push(object));
+  for (const mesh of meshes) {
+    const { meshes: index, primitives = 0 } = parser.associations.get(mesh) ?? {};
+    const targets: Record<string, number>[] = parser.json.meshes?.[index!]?.primitives[primitives].targets ?? [];
+    const read = targets.map(({ TANGENT }) => (TANGENT === undefined ? undefined : parser.getDependency('accessor', TANGENT)));
+    mesh.geometry.userData[TANGENT_TARGETS] = await Promise.all(read);
   }
 }
 
@@ -31,12 +51,24 @@ export async function openGltf(name: string, bytes: Uint8Array<ArrayBuffer>, bun
   const manager = new LoadingManager().setURLModifier((url) => (/^(data|blob):/.test(url) ? url : 'data:,'));
   let lost = 0;
   manager.onError = () => lost++;
-  const loader = new GLTFLoader(manager).setKTX2Loader(new NoKtx2(manager) as unknown as KTX2Loader);
+  let ktx2 = 0;
+  const loader = new GLTFLoader(manager).register((parser) => withoutKtx2(parser, () => ktx2++));
   try {
-    const { scene } = await loader.parseAsync(whole.buffer, '');
-    const warnings = lost ? [`${counted(lost, 'texture', 'textures')} missing or not decodable`] : [];
-    return { scene, bytes: whole, warnings };
+    const gltf = await loader.parseAsync(whole.buffer, '');
+    await keepTangentTargets(gltf);
+    const warnings = [];
+    if (ktx2) warnings.push(`${counted(ktx2, 'texture in KTX 2 is', 'textures in KTX 2 are')} left out, as this page has no decoder for it`);
+    if (lost) warnings.push(`${counted(lost, 'texture', 'textures')} missing or not decodable`);
+    if (hasMoreJoints(gltf.scene)) warnings.push('vertices have more than 4 joints, of which the first 4 move them');
+    return { scene: gltf.scene, bytes: whole, warnings };
   } catch (error) {
     throw new Error(`${name} cannot be shown: ${error instanceof Error ? error.message : error}.`, { cause: error });
   }
+}
+
+/** Whether there are joints that three.js does not use. */
+function hasMoreJoints(scene: Object3D): boolean {
+  let found = false;
+  scene.traverse((object) => (found ||= object instanceof Mesh && object.geometry.hasAttribute('joints_1')));
+  return found;
 }

@@ -5,7 +5,7 @@ import { Box3, Matrix3, Vector3 } from 'three';
 import { openModel, type Model } from '../files/model';
 import { repairedGlb } from '../files/repaired';
 import { Marker } from '../scene/marker';
-import { partsOf, squareOf, type Part } from '../scene/parts';
+import { partsOf, placesOf, squareOf, type Part } from '../scene/parts';
 import { Shown } from '../scene/shown';
 import { Stage } from '../scene/stage';
 import type { Arrangement } from '../surface/arrangement';
@@ -160,7 +160,7 @@ export class App {
 
   /** Flies to a place of the report. */
   private visit({ part, places }: Found, place: number): void {
-    const matrix = this.parts[part].place;
+    const [matrix] = placesOf(this.parts[part]);
     const at = new Vector3().fromArray(places, place * 6).applyMatrix4(matrix);
     const normal = new Vector3().fromArray(places, place * 6 + 3).applyMatrix3(new Matrix3().getNormalMatrix(matrix));
     this.marker.showAt(at);

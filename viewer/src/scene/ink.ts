@@ -22,13 +22,22 @@ varying vec3 vNormal;
 varying float vSign;
 varying float vAngle;
 varying vec3 vEye;
+uniform mat3 place;
+// To the world's directions.
+flat varying mat3 vPlace;
 
 void main() {
+  vPlace = place;
+  vec4 local = vec4(position, 1.0);
+  #ifdef USE_INSTANCING
+    vPlace = place * mat3(instanceMatrix);
+    local = instanceMatrix * local;
+  #endif
   vTangent = frame.xyz;
   vNormal = normal;
   vSign = frame.w;
   vAngle = angle;
-  vec4 eye = modelViewMatrix * vec4(position, 1.0);
+  vec4 eye = modelViewMatrix * local;
   vEye = eye.xyz;
   gl_Position = projectionMatrix * eye;
   #ifdef LAYOUT
@@ -43,7 +52,7 @@ const color = (hex: string) => {
 
 const FRAGMENT = /* glsl */ `
 uniform int paint;
-uniform mat3 place;
+flat varying mat3 vPlace;
 varying vec3 vTangent;
 varying vec3 vNormal;
 varying float vSign;
@@ -64,8 +73,9 @@ vec3 heat(float degrees) {
 }
 
 vec3 direction(vec3 v) {
-  float l = length(place * v);
-  return l > 0.0 ? 0.5 + 0.5 * (place * v) / l : vec3(0.0);
+  vec3 seen = vPlace * v;
+  float l = length(seen);
+  return l > 0.0 ? 0.5 + 0.5 * seen / l : vec3(0.0);
 }
 
 void main() {

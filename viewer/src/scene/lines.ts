@@ -18,19 +18,20 @@ export interface Roots {
   normals: Float32Array;
   /** 4 floats per vertex. */
   tangents: Float32Array;
-  place: Matrix4;
+  places: Matrix4[];
 }
 
 /** One kind of vector at the vertices, as lines of a length. */
 export function vectorLines(roots: Roots, name: VectorName, length: number): LineSegments {
-  const count = roots.positions.length / 3;
-  const step = Math.ceil(count / MOST_LINES);
-  const directions = new Matrix3().setFromMatrix4(roots.place);
-  const out = new Float32Array(Math.ceil(count / step) * 6);
-  const [from, along] = [new Vector3(), new Vector3()];
-  for (let vertex = 0, at = 0; vertex < count; vertex += step, at += 6) {
-    from.fromArray(roots.positions, vertex * 3).applyMatrix4(roots.place).toArray(out, at);
-    direction(roots, name, vertex, along).applyMatrix3(directions).setLength(length);
+  const { positions, places } = roots;
+  const count = positions.length / 3;
+  const step = Math.ceil((count * places.length) / MOST_LINES);
+  const out = new Float32Array(Math.ceil((count * places.length) / step) * 6);
+  const [from, along, directions] = [new Vector3(), new Vector3(), new Matrix3()];
+  for (let line = 0, at = 0; line < count * places.length; line += step, at += 6) {
+    const [vertex, place] = [line % count, places[Math.floor(line / count)]];
+    from.fromArray(positions, vertex * 3).applyMatrix4(place).toArray(out, at);
+    direction(roots, name, vertex, along).applyMatrix3(directions.setFromMatrix4(place)).setLength(length);
     from.add(along).toArray(out, at + 3);
   }
   return segments(out, VECTOR_COLORS[name]);
@@ -42,11 +43,14 @@ function direction({ normals, tangents }: Roots, name: VectorName, vertex: numbe
   return name === 'normal' ? out : out.cross(new Vector3().fromArray(tangents, vertex * 4)).multiplyScalar(tangents[vertex * 4 + 3]);
 }
 
-/** Seams: 6 floats each, the ends of an edge. */
-export function seamLines(ends: Float32Array, place: Matrix4): LineSegments {
-  const lines = segments(ends, SEAM_COLOR);
-  lines.applyMatrix4(place);
-  return lines;
+/** Seams, wherever a part is: 6 floats each, the ends of an edge. */
+export function seamLines(ends: Float32Array, places: Matrix4[]): LineSegments {
+  const out = new Float32Array(ends.length * places.length);
+  const end = new Vector3();
+  places.forEach((place, copy) => {
+    for (let at = 0; at < ends.length; at += 3) end.fromArray(ends, at).applyMatrix4(place).toArray(out, copy * ends.length + at);
+  });
+  return segments(out, SEAM_COLOR);
 }
 
 function segments(ends: Float32Array, color: number): LineSegments {

@@ -1,12 +1,24 @@
 // The parts of a model: its meshes, one material each.
 
-import { Mesh, MeshStandardMaterial, type BufferAttribute, type BufferGeometry, type InterleavedBufferAttribute, type Matrix4, type Object3D } from 'three';
+import {
+  type BufferAttribute,
+  type BufferGeometry,
+  type InstancedBufferAttribute,
+  InstancedMesh,
+  type InterleavedBufferAttribute,
+  Matrix4,
+  Mesh,
+  MeshStandardMaterial,
+  type Object3D,
+  SkinnedMesh,
+} from 'three';
 
 import type { GivenSurface } from '../surface/surface';
+import { shapeOf, skinOf } from './pose';
 
 type Attribute = BufferAttribute | InterleavedBufferAttribute;
 
-/** A mesh of the model. It is shown as its file stores it, without skin and morph targets, at its node's place. */
+/** A mesh of the model, in the pose of its scene, at its node's place; skins place meshes themselves. */
 export interface Part {
   name: string;
   geometry: BufferGeometry;
@@ -14,6 +26,8 @@ export interface Part {
   /** Which UVs the normal map is laid by: the attribute's name. */
   uvName: string;
   place: Matrix4;
+  /** Where instances are, seen from there; null where there is one. */
+  instances: InstancedBufferAttribute | null;
   surface: GivenSurface;
   /** Whether three.js turned the normal map's green channel because it found no tangents. */
   isGreenTurned: boolean;
@@ -34,20 +48,23 @@ function partsOfMesh(mesh: Mesh, kind: 'gltf' | 'obj'): Part[] {
   const materials = [mesh.material].flat();
   const geometry = mesh.geometry as BufferGeometry;
   const count = geometry.index?.count ?? geometry.getAttribute('position').count;
+  const place = mesh instanceof SkinnedMesh ? new Matrix4() : mesh.matrixWorld;
+  const instances = mesh instanceof InstancedMesh ? mesh.instanceMatrix : null;
   const ranges = materials.length > 1 ? geometry.groups : [{ start: 0, count, materialIndex: 0 }];
   return ranges.map(({ start, count, materialIndex }, at) => {
     const found = materials[materialIndex ?? 0];
     const material = found instanceof MeshStandardMaterial ? found : new MeshStandardMaterial({ roughness: 0.6 });
     const channel = material.normalMap?.channel ?? 0;
     const uvName = channel ? `uv${channel}` : 'uv';
-    const surface = surfaceOf(geometry, uvName, start, count, kind === 'gltf');
+    const surface = surfaceOf(mesh, uvName, start, count, kind === 'gltf');
     const name = [mesh.name || 'mesh', ranges.length > 1 && (material.name || at + 1)].filter(Boolean).join(' / ');
     const isGreenTurned = kind === 'gltf' && !surface.tangents;
-    return { name, geometry, material, uvName, place: mesh.matrixWorld, surface, isGreenTurned };
+    return { name, geometry, material, uvName, place, instances, surface, isGreenTurned };
   });
 }
 
-function surfaceOf(geometry: BufferGeometry, uvName: string, start: number, count: number, vDown: boolean): GivenSurface {
+function surfaceOf(mesh: Mesh, uvName: string, start: number, count: number, vDown: boolean): GivenSurface {
+  const geometry = mesh.geometry as BufferGeometry;
   const floats = (name: string, width: number) => {
     const attribute = geometry.getAttribute(name) as Attribute | undefined;
     return attribute ? floatsOf(attribute, width) : null;
@@ -55,8 +72,8 @@ function surfaceOf(geometry: BufferGeometry, uvName: string, start: number, coun
   const list = geometry.index;
   const whole = count - (count % 3);
   const indices = Uint32Array.from({ length: whole }, (_, corner) => (list ? list.getX(start + corner) : start + corner));
-  const positions = floats('position', 3)!;
-  return { positions, normals: floats('normal', 3), uvs: floats(uvName, 2), tangents: floats('tangent', 4), indices, vDown };
+  const vectors = { positions: floats('position', 3)!, normals: floats('normal', 3), tangents: floats('tangent', 4) };
+  return { ...vectors, uvs: floats(uvName, 2), indices, shape: shapeOf(mesh, vectors), skin: skinOf(mesh), vDown };
 }
 
 /** The elements of an attribute as floats: dequantised, and out of interleaved arrays. Errors: three.js could not read it. */
@@ -69,6 +86,12 @@ export function floatsOf(attribute: Attribute, width: number): Float32Array<Arra
     for (let i = 0; i < width; i++) out[at * width + i] = attribute.getComponent(at, i);
   }
   return out;
+}
+
+/** Everywhere that a part is. */
+export function placesOf({ place, instances }: Part): Matrix4[] {
+  if (!instances) return [place];
+  return Array.from({ length: instances.count }, (_, at) => new Matrix4().fromArray(instances.array, at * 16).premultiply(place));
 }
 
 /** The square that holds the UV square and all UVs: its left, its bottom and its side. */

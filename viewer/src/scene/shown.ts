@@ -1,12 +1,12 @@
 // The model on the stage: both sides of the slider, lines over them, and their UV layout.
 
-import { BufferAttribute, Group, LineSegments, Matrix3, Mesh, type BufferGeometry, type Material, type Object3D } from 'three';
+import { BufferAttribute, Group, InstancedMesh, LineSegments, Matrix3, Mesh, type BufferGeometry, type Material, type Object3D } from 'three';
 
 import type { Mistakes, Settings } from '../page/settings';
 import type { Arrangement } from '../surface/arrangement';
 import { inkOf } from './ink';
 import { seamLines, vectorLines } from './lines';
-import type { Part } from './parts';
+import { placesOf, type Part } from './parts';
 import { geometryOf, materialOf, sharedOf, type Shared } from './side';
 
 /** A part, its vertices split for the two sources that are compared. */
@@ -58,7 +58,7 @@ export class Shown {
       const directions = new Matrix3().setFromMatrix4(part.place);
       const isShaded = settings.paint === 'shaded';
       const material = isShaded ? materialOf(part, hasTangents, settings.pattern, mistakes) : inkOf(settings.paint, directions, false);
-      side.model.add(placed(new Mesh(geometry, material), part));
+      side.model.add(placed(meshOf(part, geometry, material), part));
       if (settings.layout) side.layout.add(flat(new Mesh(geometry, inkOf(isShaded ? 'sign' : settings.paint, directions, true))));
       this.lines(side, at, piece, geometry, settings, radius);
     }
@@ -68,12 +68,13 @@ export class Shown {
   private lines(side: Side, at: 0 | 1, { part, arrangement }: Piece, geometry: BufferGeometry, settings: Settings, radius: number): void {
     const { positions, normals } = arrangement;
     const tangents = geometry.getAttribute('frame').array as Float32Array;
-    const roots = { positions, normals, tangents, place: part.place };
+    const places = placesOf(part);
+    const roots = { positions, normals, tangents, places };
     for (const name of ['tangent', 'bitangent', 'normal'] as const) {
       if (settings.vectors[name]) side.model.add(vectorLines(roots, name, settings.length * radius));
     }
     const seams = arrangement.seams[at];
-    if (settings.seams && seams.length) side.model.add(seamLines(seams, part.place));
+    if (settings.seams && seams.length) side.model.add(seamLines(seams, places));
   }
 }
 
@@ -103,6 +104,14 @@ function isVertexData({ arrangement }: Piece, { sources }: Settings, at: 0 | 1):
 function forget(piece: Piece): void {
   piece.geometries?.forEach((geometry) => geometry.dispose());
   piece.geometries = null;
+}
+
+/** A part, as often as there are instances. */
+function meshOf({ instances }: Part, geometry: BufferGeometry, material: Material): Mesh {
+  if (!instances) return new Mesh(geometry, material);
+  const mesh = new InstancedMesh(geometry, material, 0);
+  [mesh.instanceMatrix, mesh.count] = [instances, instances.count];
+  return mesh;
 }
 
 /** At its node's place. */

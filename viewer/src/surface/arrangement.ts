@@ -3,6 +3,7 @@
 import { splitVertices } from 'darboux';
 
 import { angles } from './angles';
+import { posed, posedTangents } from './pose';
 import { edgePairsOf, endsAt, seamCorners } from './seams';
 import { tangentsFrom, type Source } from './sources';
 import { gathered, type Surface } from './surface';
@@ -23,9 +24,15 @@ export interface Arrangement {
   seams: [Float32Array, Float32Array];
 }
 
-/** Arranges a surface for two sources. */
-export function arranged(surface: Surface, sources: readonly [Source, Source]): Arrangement {
-  const corners = sources.map((source) => tangentsFrom(surface, source)) as [Float32Array | null, Float32Array | null];
+/** Arranges a surface for two sources, in its pose. */
+export function arranged(shape: Surface, sources: readonly [Source, Source]): Arrangement {
+  const surface = posed(shape);
+  const corners = sources.map((source) => {
+    // Renderers turn vertex data with the skin; derivatives are those of what is seen.
+    if (source === 'derivatives') return tangentsFrom(surface, source);
+    const tangents = tangentsFrom(shape, source);
+    return tangents && posedTangents(shape, tangents);
+  }) as [Float32Array | null, Float32Array | null];
   const between = corners[0] && corners[1] && angles(corners[0], corners[1]);
   let indices = surface.indices;
   let sourceOfVertex: Uint32Array = Uint32Array.from({ length: surface.positions.length / 3 }, (_, vertex) => vertex);
@@ -47,7 +54,7 @@ export function arranged(surface: Surface, sources: readonly [Source, Source]): 
     uvs: gathered(surface.uvs, 2, sourceOfVertex),
     tangents: corners.map((field) => field && ofVertices(field, 4, indices, count)) as Arrangement['tangents'],
     angles: between && ofVertices(between, 1, indices, count),
-    seams: corners.map((field) => endsAt(surface, field ? seamCorners(field, edgePairsOf(surface)) : [])) as Arrangement['seams'],
+    seams: corners.map((field) => endsAt(surface, field ? seamCorners(field, edgePairsOf(shape)) : [])) as Arrangement['seams'],
   };
 }
 

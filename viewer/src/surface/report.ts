@@ -46,8 +46,8 @@ const UNIT_TOLERANCE = 0.0005;
 /** Tangents that differ from a fresh run by less are the same but for rounding and compression. */
 const SAME_DEGREES = 1;
 
-/** Looks at a surface: its structure, the tangents in the file, and those of a fresh run. */
-export function findings(surface: Surface): Finding[] {
+/** Looks at a surface: its structure, the tangents in the file, and those of a fresh run. `shown`: where its vertices are seen. */
+export function findings(surface: Surface, shown: Surface): Finding[] {
   const { uvs, normals } = surface.without;
   const facts: FindingKind[] = [];
   if (uvs) facts.push('no-uvs');
@@ -56,7 +56,7 @@ export function findings(surface: Surface): Finding[] {
   const found: Finding[] = facts.map((kind) => ({ kind, count: 1, places: new Float32Array() }));
   if (uvs) return found;
   const note = (kind: FindingKind, corners: number[], worst?: number) => {
-    if (corners.length) found.push({ kind, count: corners.length, places: placesAt(surface, corners), worst });
+    if (corners.length) found.push({ kind, count: corners.length, places: placesAt(shown, corners), worst });
   };
   const fresh = computedTangents(surface, 'mikktspace');
   const file = tangentsFrom(surface, 'file');

@@ -2,6 +2,15 @@
 
 import { generateNormals } from 'darboux';
 
+import type { Skin } from './pose';
+
+/** Vertices with 3, 3 and 4 floats each. */
+export interface Shape {
+  positions: Float32Array;
+  normals: Float32Array | null;
+  tangents: Float32Array | null;
+}
+
 /** A part's vertices as the file has them. Arrays have 3, 3, 2 and 4 floats per vertex. */
 export interface GivenSurface {
   positions: Float32Array;
@@ -9,6 +18,9 @@ export interface GivenSurface {
   uvs: Float32Array | null;
   tangents: Float32Array | null;
   indices: Uint32Array;
+  /** Where morph targets move the vertices, as the file weights them; null where they do not. */
+  shape: Shape | null;
+  skin: Skin | null;
   /** Whether v runs down the image, as in glTF; then signs are the opposite of MikkTSpace's. */
   vDown: boolean;
 }
@@ -40,6 +52,11 @@ export function completed(given: GivenSurface): Surface {
     sourceOfVertex: corners,
     without,
   };
+}
+
+/** The surface as morph targets shape it, whose tangents are computed from that shape. */
+export function shaped(given: GivenSurface): Surface {
+  return completed({ ...given, ...given.shape });
 }
 
 /** Elements of `width` floats, taken from the places `sources`. */

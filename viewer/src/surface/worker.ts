@@ -8,9 +8,11 @@ import { wholeGltf } from '../files/whole';
 import { arranged, type Arrangement } from './arrangement';
 import type { Source } from './sources';
 import { findings, type Finding } from './report';
-import { completed, type GivenSurface, type Surface } from './surface';
+import { posed } from './pose';
+import { completed, shaped, type GivenSurface, type Surface } from './surface';
 
-let surfaces: Surface[] = [];
+/** As their files have them, and as the pose of the scene shapes them. */
+let surfaces: { stored: Surface; shape: Surface }[] = [];
 
 /** What the page can ask for. */
 const work = {
@@ -26,17 +28,21 @@ const work = {
 
   /** Takes the surfaces of a model in place of those before. */
   open(given: GivenSurface[]): void {
-    surfaces = given.map(completed);
+    surfaces = given.map((one) => {
+      const stored = completed(one);
+      return { stored, shape: one.shape ? shaped(one) : stored };
+    });
   },
 
   /** A part, ready to be drawn. */
   arrange(part: number, sources: readonly [Source, Source]): Arrangement {
-    return arranged(surfaces[part], sources);
+    return arranged(surfaces[part].shape, sources);
   },
 
   /** What is odd about a part. */
   report(part: number): Finding[] {
-    return findings(surfaces[part]);
+    const { stored, shape } = surfaces[part];
+    return findings(stored, posed(shape));
   },
 };
 
@@ -72,7 +78,7 @@ function buffers(result: unknown): ArrayBuffer[] {
   };
   look(result);
   // What the surfaces themselves hold stays here.
-  for (const surface of surfaces) {
+  for (const surface of surfaces.flatMap(({ stored, shape }) => [stored, shape])) {
     for (const value of Object.values(surface)) if (ArrayBuffer.isView(value)) found.delete(value.buffer as ArrayBuffer);
   }
   return [...found];
