@@ -1,11 +1,14 @@
 // `node build.mjs DARBOUX MODULE`: makes the page in `dist`, of the npm package in the folder DARBOUX and the WebAssembly of `wasm`.
 
 import { spawnSync } from 'node:child_process';
-import { copyFileSync, mkdirSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import { mkdirSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const here = dirname(fileURLToPath(import.meta.url));
+/** What the compiler uses without being told. */
+const FEATURES = ['bulk-memory', 'bulk-memory-opt', 'nontrapping-float-to-int', 'sign-ext', 'mutable-globals', 'reference-types', 'multivalue', 'call-indirect-overlong'];
+
 const [darboux, module] = process.argv.slice(2);
 
 function run(program, ...words) {
@@ -18,7 +21,9 @@ const link = join(here, 'node_modules/darboux');
 rmSync(link, { recursive: true, force: true });
 symlinkSync(darboux, link);
 
-copyFileSync(module, join(here, 'src/files/darboux_viewer.wasm'));
+const features = FEATURES.map((name) => `--enable-${name}`);
+const stripped = ['debug', 'producers', 'target-features'].map((name) => `--strip-${name}`);
+run('wasm-opt', ...features, '-O3', ...stripped, module, '-o', join(here, 'src/files/darboux_viewer.wasm'));
 const { sample } = await import('./sample.mjs');
 mkdirSync(join(here, 'public'), { recursive: true });
 writeFileSync(join(here, 'public/shield.glb'), await sample());

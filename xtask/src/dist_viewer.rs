@@ -39,9 +39,9 @@ fn viewer() -> PathBuf {
 
 /// Makes the page with the npm package in a folder; gives the page's own.
 fn make_with(package: &Path) -> Result<PathBuf, String> {
-    let mut cargo = program("cargo build --quiet --profile dist --package darboux-viewer --target");
+    let mut cargo = program("cargo build --quiet --profile page --package darboux-viewer --target");
     run(to_stderr(cargo.arg(TRIPLE)))?;
-    let module = target_folder()?.join(TRIPLE).join("dist/darboux_viewer.wasm");
+    let module = target_folder()?.join(TRIPLE).join("page/darboux_viewer.wasm");
     run(to_stderr(program("npm ci --no-audit --no-fund").current_dir(viewer())))?;
     run(to_stderr(program("node build.mjs").args([package, &module]).current_dir(viewer())))?;
     Ok(viewer().join("dist"))
