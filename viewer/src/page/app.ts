@@ -1,6 +1,6 @@
 // What the page does: opens models, computes, and shows what its controls say.
 
-import { Box3, Matrix3, Vector3 } from 'three';
+import { Matrix3, Vector3 } from 'three';
 
 import { openModel, type Model } from '../files/model';
 import { repairedGlb } from '../files/repaired';
@@ -98,7 +98,6 @@ export class App {
   /** Takes a model in place of the one before. */
   private take(model: Model, parts: Part[]): void {
     [this.model, this.parts] = [model, parts];
-    this.stage.measure(new Box3().setFromObject(model.scene));
     this.stage.measureLayout(...squareOf(parts));
     this.marker.hide();
     offerSources(parts.some((part) => part.surface.tangents));
@@ -128,6 +127,7 @@ export class App {
       if (turn !== this.arranging) return;
     }
     this.shown.arrange(this.parts, arrangements);
+    this.stage.measure(this.shown.bounds());
     for (const [at, id] of ['caption-left', 'caption-right'].entries()) element(id).textContent = SOURCE_NAMES[sources[at]];
     this.build();
     showDone(this.told());

@@ -1,6 +1,6 @@
 // Frames as colours: on the surface, and laid out by the UVs.
 
-import { DoubleSide, ShaderMaterial, type Matrix3 } from 'three';
+import { DoubleSide, ShaderMaterial, Matrix3, type Matrix4 } from 'three';
 
 import { PAINTS, type Paint } from '../page/settings';
 
@@ -95,12 +95,12 @@ void main() {
 }`;
 
 /** What paints frames. `place`: the matrix of the part's node, whose directions are the world's. */
-export function inkOf(paint: Paint, place: Matrix3, isLayout: boolean): ShaderMaterial {
+export function inkOf(paint: Paint, place: Matrix4, isLayout: boolean): ShaderMaterial {
   return new ShaderMaterial({
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
     defines: isLayout ? { LAYOUT: '' } : {},
-    uniforms: { paint: { value: PAINTS.indexOf(paint) }, place: { value: place } },
+    uniforms: { paint: { value: PAINTS.indexOf(paint) }, place: { value: new Matrix3().setFromMatrix4(place) } },
     side: DoubleSide,
     transparent: isLayout,
     depthTest: !isLayout,

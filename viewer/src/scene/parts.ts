@@ -3,7 +3,7 @@
 import {
   type BufferAttribute,
   type BufferGeometry,
-  type InstancedBufferAttribute,
+  InstancedBufferAttribute,
   InstancedMesh,
   type InterleavedBufferAttribute,
   Matrix4,
@@ -18,16 +18,20 @@ import { shapeOf, skinOf } from './pose';
 
 type Attribute = BufferAttribute | InterleavedBufferAttribute;
 
-/** A mesh of the model, in the pose of its scene, at its node's place; skins place meshes themselves. */
+/** Where a part is: at its node's place, and there where its instances are, if it has some. Skins place meshes themselves. */
+export interface Copy {
+  place: Matrix4;
+  instances: InstancedBufferAttribute | null;
+}
+
+/** A mesh of the model, in the pose of its scene. */
 export interface Part {
   name: string;
   geometry: BufferGeometry;
   material: MeshStandardMaterial;
   /** Which UVs the normal map is laid by: the attribute's name. */
   uvName: string;
-  place: Matrix4;
-  /** Where instances are, seen from there; null where there is one. */
-  instances: InstancedBufferAttribute | null;
+  copies: Copy[];
   surface: GivenSurface;
   /** Whether three.js turned the normal map's green channel because it found no tangents. */
   isGreenTurned: boolean;
@@ -48,8 +52,8 @@ function partsOfMesh(mesh: Mesh, kind: 'gltf' | 'obj'): Part[] {
   const materials = [mesh.material].flat();
   const geometry = mesh.geometry as BufferGeometry;
   const count = geometry.index?.count ?? geometry.getAttribute('position').count;
-  const place = mesh instanceof SkinnedMesh ? new Matrix4() : mesh.matrixWorld;
-  const instances = mesh instanceof InstancedMesh ? mesh.instanceMatrix : null;
+  const copies = copiesOf(mesh);
+  if (!copies.length) return [];
   const ranges = materials.length > 1 ? geometry.groups : [{ start: 0, count, materialIndex: 0 }];
   return ranges.map(({ start, count, materialIndex }, at) => {
     const found = materials[materialIndex ?? 0];
@@ -59,7 +63,7 @@ function partsOfMesh(mesh: Mesh, kind: 'gltf' | 'obj'): Part[] {
     const surface = surfaceOf(mesh, uvName, start, count, kind === 'gltf');
     const name = [mesh.name || 'mesh', ranges.length > 1 && (material.name || at + 1)].filter(Boolean).join(' / ');
     const isGreenTurned = kind === 'gltf' && !surface.tangents;
-    return { name, geometry, material, uvName, place, instances, surface, isGreenTurned };
+    return { name, geometry, material, uvName, copies, surface, isGreenTurned };
   });
 }
 
@@ -88,10 +92,27 @@ export function floatsOf(attribute: Attribute, width: number): Float32Array<Arra
   return out;
 }
 
+/** Instances that mirror are apart from others: three.js takes the sides of triangles from the place that they share. */
+function copiesOf(mesh: Mesh): Copy[] {
+  if (mesh instanceof SkinnedMesh) return [{ place: new Matrix4(), instances: null }];
+  if (!(mesh instanceof InstancedMesh)) return [{ place: mesh.matrixWorld, instances: null }];
+  const all = matricesOf(mesh.instanceMatrix);
+  return [new Matrix4(), new Matrix4().makeScale(-1, 1, 1)].flatMap((turn) => {
+    // A mirror is its own inverse.
+    const matrices = all.filter((matrix) => matrix.determinant() < 0 === turn.determinant() < 0).map((matrix) => matrix.clone().premultiply(turn));
+    if (!matrices.length) return [];
+    const instances = new InstancedBufferAttribute(new Float32Array(matrices.flatMap((matrix) => matrix.elements)), 16);
+    return [{ place: mesh.matrixWorld.clone().multiply(turn), instances }];
+  });
+}
+
+function matricesOf(instances: InstancedBufferAttribute): Matrix4[] {
+  return Array.from({ length: instances.count }, (_, at) => new Matrix4().fromArray(instances.array, at * 16));
+}
+
 /** Everywhere that a part is. */
-export function placesOf({ place, instances }: Part): Matrix4[] {
-  if (!instances) return [place];
-  return Array.from({ length: instances.count }, (_, at) => new Matrix4().fromArray(instances.array, at * 16).premultiply(place));
+export function placesOf({ copies }: Part): Matrix4[] {
+  return copies.flatMap(({ place, instances }) => (instances ? matricesOf(instances).map((matrix) => matrix.premultiply(place)) : [place]));
 }
 
 /** The square that holds the UV square and all UVs: its left, its bottom and its side. */

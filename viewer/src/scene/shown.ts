@@ -1,12 +1,12 @@
 // The model on the stage: both sides of the slider, lines over them, and their UV layout.
 
-import { BufferAttribute, Group, InstancedMesh, LineSegments, Matrix3, Mesh, type BufferGeometry, type Material, type Object3D } from 'three';
+import { Box3, BufferAttribute, Group, InstancedMesh, LineSegments, Mesh, type BufferGeometry, type Material, Vector3 } from 'three';
 
 import type { Mistakes, Settings } from '../page/settings';
 import type { Arrangement } from '../surface/arrangement';
 import { inkOf } from './ink';
 import { seamLines, vectorLines } from './lines';
-import { placesOf, type Part } from './parts';
+import { type Copy, placesOf, type Part } from './parts';
 import { geometryOf, materialOf, sharedOf, type Shared } from './side';
 
 /** A part, its vertices split for the two sources that are compared. */
@@ -42,6 +42,16 @@ export class Shown {
     });
   }
 
+  /** What holds all that is seen, wherever parts are. */
+  bounds(): Box3 {
+    const all = new Box3();
+    for (const { part, arrangement } of this.pieces) {
+      const own = boundsOf(arrangement.positions);
+      if (!own.isEmpty()) placesOf(part).forEach((place) => all.union(own.clone().applyMatrix4(place)));
+    }
+    return all;
+  }
+
   /** Builds both sides anew, for a model of some radius. */
   build(settings: Settings, radius: number): void {
     this.sides.forEach(dispose);
@@ -55,11 +65,12 @@ export class Shown {
       const { part } = piece;
       const hasTangents = isVertexData(piece, settings, at);
       const geometry = geometriesOf(piece, settings)[at];
-      const directions = new Matrix3().setFromMatrix4(part.place);
       const isShaded = settings.paint === 'shaded';
-      const material = isShaded ? materialOf(part, hasTangents, settings.pattern, mistakes) : inkOf(settings.paint, directions, false);
-      side.model.add(placed(meshOf(part, geometry, material), part));
-      if (settings.layout) side.layout.add(flat(new Mesh(geometry, inkOf(isShaded ? 'sign' : settings.paint, directions, true))));
+      for (const copy of part.copies) {
+        const material = isShaded ? materialOf(part, hasTangents, settings.pattern, mistakes) : inkOf(settings.paint, copy.place, false);
+        side.model.add(placed(copy, geometry, material));
+      }
+      if (settings.layout) side.layout.add(flat(new Mesh(geometry, inkOf(isShaded ? 'sign' : settings.paint, part.copies[0].place, true))));
       this.lines(side, at, piece, geometry, settings, radius);
     }
     return side;
@@ -101,24 +112,29 @@ function isVertexData({ arrangement }: Piece, { sources }: Settings, at: 0 | 1):
   return sources[at] !== 'derivatives' && arrangement.tangents[at] !== null;
 }
 
+/** The box that holds points, but for those that are not finite. */
+function boundsOf(positions: Float32Array): Box3 {
+  const box = new Box3();
+  const point = new Vector3();
+  for (let at = 0; at < positions.length; at += 3) {
+    point.fromArray(positions, at);
+    if (Number.isFinite(point.x + point.y + point.z)) box.expandByPoint(point);
+  }
+  return box;
+}
+
 function forget(piece: Piece): void {
   piece.geometries?.forEach((geometry) => geometry.dispose());
   piece.geometries = null;
 }
 
-/** A part, as often as there are instances. */
-function meshOf({ instances }: Part, geometry: BufferGeometry, material: Material): Mesh {
-  if (!instances) return new Mesh(geometry, material);
-  const mesh = new InstancedMesh(geometry, material, 0);
-  [mesh.instanceMatrix, mesh.count] = [instances, instances.count];
+/** At its node's place, as often as there are instances. */
+function placed({ place, instances }: Copy, geometry: BufferGeometry, material: Material): Mesh {
+  const mesh = instances ? new InstancedMesh(geometry, material, 0) : new Mesh(geometry, material);
+  if (mesh instanceof InstancedMesh && instances) [mesh.instanceMatrix, mesh.count] = [instances, instances.count];
+  mesh.matrixAutoUpdate = false;
+  mesh.matrix.copy(place);
   return mesh;
-}
-
-/** At its node's place. */
-function placed<O extends Object3D>(object: O, part: Part): O {
-  object.matrixAutoUpdate = false;
-  object.matrix.copy(part.place);
-  return object;
 }
 
 function flat(mesh: Mesh): Mesh {

@@ -1,0 +1,175 @@
+// Models that are more than meshes at nodes: skins, morph targets, instances, and textures in formats of extensions.
+
+import assert from 'node:assert/strict';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+
+import { browser, serve, Viewer } from './page.mjs';
+import { gltf, QUAD } from './quads.mjs';
+
+let server, chromium, viewer, folder;
+
+before(async () => {
+  folder = mkdtempSync(join(tmpdir(), 'viewer-'));
+  [server, chromium] = [await serve(), await browser()];
+  viewer = await Viewer.open(chromium, server.address, { viewport: { width: 700, height: 400 } });
+  await viewer.slide('split', 100);
+});
+
+after(async () => {
+  await chromium?.close();
+  server?.close();
+  rmSync(folder, { recursive: true });
+  assert.deepEqual(viewer?.faults.filter((fault) => !fault.includes("Couldn't load texture")), []);
+});
+
+async function open(text) {
+  writeFileSync(join(folder, 'quad.gltf'), text);
+  await viewer.give('files', [join(folder, 'quad.gltf')]);
+  assert.equal(await viewer.text('error'), '');
+}
+
+/** What a file looks like from some sources, in views that show its shape, its frames and its seams, and where its report leads. */
+async function seen(text, sources) {
+  await open(text);
+  const pictures = {};
+  for (const source of sources) {
+    await viewer.choose('left', source);
+    pictures[`${source}, shaded`] = await viewer.picture();
+    await viewer.click('input[value=bitangent]');
+    for (const id of LINES) await viewer.page.click(`#${id}`);
+    pictures[`${source}, bitangent and lines`] = await viewer.picture();
+    for (const id of LINES) await viewer.page.click(`#${id}`);
+    await viewer.click('input[value=shaded]');
+  }
+  await viewer.click('#report [data-kind=seams] button');
+  pictures.place = await viewer.picture();
+  return pictures;
+}
+
+const LINES = ['lines-tangent', 'lines-normal', 'seams'];
+
+/** Expects that two files look alike from some sources, and unlike a third. */
+async function looksAs(text, expected, other, sources) {
+  const [ours, theirs] = [await seen(text, sources), await seen(expected, sources)];
+  for (const view in ours) {
+    const apart = ours[view].differs(theirs[view]);
+    assert.ok(apart < 0.003, `${view}: ${apart} differs`);
+  }
+  await open(other);
+  assert.ok(ours[`${sources[0]}, shaded`].differs(await viewer.picture()) > 0.02, 'the pose is seen');
+}
+
+/** A sixth of a turn about z, larger, and aside. */
+const [SINE, COSINE] = [Math.sin(Math.PI / 3), Math.cos(Math.PI / 3)];
+const MATRIX = [2 * COSINE, 2 * SINE, 0, 0, -2 * SINE, 2 * COSINE, 0, 0, 0, 0, 2, 0, 3, 1, 0, 1];
+
+const FILE_TANGENTS = [Float32Array.from([-1, 1, 1, -1, 1, 1].flatMap((x) => [x, 0, 0, x < 0 ? 1 : -1])), 4];
+
+test('skins move models and their frames as the scene\'s joints stand', async () => {
+  const joints = [Uint8Array.from({ length: 24 }, (_, at) => (at % 4 === 1 ? 1 : 0)), 4];
+  const weights = [Float32Array.from({ length: 24 }, (_, at) => (at % 4 < 2 ? 0.5 : 0)), 4];
+  const attributes = { ...QUAD, TANGENT: FILE_TANGENTS, JOINTS_0: joints, WEIGHTS_0: weights };
+  // The inverse bind matrices take away what both joints' bind pose would add.
+  const inverse = [Float32Array.from([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -7, 0, 0, 1]), 16];
+  const inverses = [Float32Array.from([...inverse[0], ...inverse[0]]), 16];
+  const moved = (node) => {
+    const [before, after] = [[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 7, 0, 0, 1], MATRIX];
+    return gltf({
+      attributes,
+      more: { inverses },
+      json: ({ inverses: inverseBindMatrices }) => ({
+        scenes: [{ nodes: [0, 1] }],
+        // The place of the mesh's own node means nothing.
+        nodes: [{ mesh: 0, skin: 0, translation: [9, 9, 9] }, { matrix: node ? after : before, children: [2, 3] }, node ? { translation: [7, 0, 0] } : {}, node ? { translation: [7, 0, 0] } : {}],
+        skins: [{ joints: [2, 3], inverseBindMatrices }],
+      }),
+    });
+  };
+  const placed = gltf({ attributes: { ...QUAD, TANGENT: FILE_TANGENTS }, json: () => ({ nodes: [{ mesh: 0, matrix: MATRIX }] }) });
+  await looksAs(moved(true), placed, moved(false), ['mikktspace', 'file', 'derivatives']);
+});
+
+test('morph targets move models and their frames as the scene weights them', async () => {
+  const { POSITION: [positions] } = QUAD;
+  // A step along z at the right, and a slide along y.
+  const step = positions.map((x, at) => (at % 3 === 2 && positions[at - 2] > 0 ? 1 : 0));
+  const slide = positions.map((_, at) => (at % 3 === 1 ? 0.25 : 0));
+  const lean = positions.map((_, at) => (at % 3 === 0 ? -0.5 : 0));
+  const turn = positions.map((_, at) => (at % 3 === 2 ? 0.5 : 0));
+  const targets = [{ POSITION: [step, 3], NORMAL: [lean, 3], TANGENT: [turn, 3] }, { POSITION: [slide, 3] }];
+  const sum = (array, width, offsets) => array.map((x, at) => x + (at % width < 3 ? offsets[Math.floor(at / width) * 3 + (at % width)] : 0));
+  const attributes = { ...QUAD, TANGENT: FILE_TANGENTS };
+  const weighted = (weights) => gltf({ attributes, targets, mesh: { weights: [0, 1] }, json: () => ({ nodes: [{ mesh: 0, weights }] }) });
+  const baked = gltf({
+    attributes: {
+      ...QUAD,
+      POSITION: [sum(positions, 3, step.map((x) => 0.5 * x)), 3],
+      NORMAL: [sum(QUAD.NORMAL[0], 3, lean.map((x) => 0.5 * x)), 3],
+      TANGENT: [sum(FILE_TANGENTS[0], 4, turn.map((x) => 0.5 * x)), 4],
+    },
+  });
+  await looksAs(weighted([0.5, 0]), baked, weighted([0, 0]), ['mikktspace', 'file']);
+});
+
+test('instances are where the file places them', async () => {
+  const [translations, scales] = [Float32Array.of(0, 0, 0, 2.5, 0, 0, 0, 2, 1), Float32Array.of(1, 1, 1, 1, 2, 1, -1, 1, 1)];
+  const turned = { rotation: [0, 0, Math.sin(0.2), Math.cos(0.2)] };
+  const instanced = gltf({
+    more: { TRANSLATION: [translations, 3], SCALE: [scales, 3] },
+    json: (attributes) => ({
+      extensionsUsed: ['EXT_mesh_gpu_instancing'],
+      extensionsRequired: ['EXT_mesh_gpu_instancing'],
+      nodes: [{ mesh: 0, ...turned, extensions: { EXT_mesh_gpu_instancing: { attributes } } }],
+    }),
+  });
+  const three = (array, at) => [...array.subarray(at * 3, at * 3 + 3)];
+  const nodes = [0, 1, 2].map((at) => ({ mesh: 0, translation: three(translations, at), scale: three(scales, at) }));
+  const placed = gltf({ json: () => ({ nodes: [{ children: [1, 2, 3], ...turned }, ...nodes] }) });
+  await looksAs(instanced, placed, gltf(), ['mikktspace']);
+});
+
+/** All green, as are the others. */
+const GREEN_PNG = 'iVBORw0KGgoAAAANSUhEUgAAAAgAAAAICAIAAABLbSncAAAAFElEQVR4nGOUO6HBgA0wYRUdtBIA19IBHqVA1jcAAAAASUVORK5CYII=';
+
+/** A quad with an image of an extension as its base colour. */
+function dressed(extension, mimeType, bytes, texture = {}) {
+  return gltf({
+    primitive: { material: 0 },
+    json: () => ({
+      materials: [{ pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }],
+      textures: [{ ...texture, extensions: { [extension]: { source: 0 } } }],
+      images: [{ uri: `data:${mimeType};base64,${bytes.toString('base64')}` }, { uri: `data:image/png;base64,${GREEN_PNG}` }],
+      extensionsUsed: [extension],
+      extensionsRequired: 'source' in texture ? [] : [extension],
+    }),
+  });
+}
+
+const AVIF = Buffer.from(
+  'AAAAIGZ0eXBhdmlmAAAAAGF2aWZtaWYxbWlhZk1BMUIAAADrbWV0YQAAAAAAAAAhaGRscgAAAAAAAAAAcGljdAAAAAAAAAAAAAAAAAAAAAAOcGl0bQAAAAAAAQAAAB5pbG9jAAAAAEQAAAEAAQAAAAEAAAETAAAAJwAAAChpaW5mAAAAAAABAAAAGmluZmUCAAAAAAEAAGF2MDFDb2xvcgAAAABqaXBycAAAAEtpcGNvAAAAFGlzcGUAAAAAAAAACAAAAAgAAAAQcGl4aQAAAAADCAgIAAAADGF2MUOBAAwAAAAAE2NvbHJuY2x4AAEADQAGgAAAABdpcG1hAAAAAAAAAAEAAQQBAoMEAAAAL21kYXQSAAoIGAi/aICGg0IyGReHh4YhhJJJJlAAAABIVDZgY5pI7uGL18A=',
+  'base64',
+);
+const WEBP = Buffer.from('UklGRh4AAABXRUJQVlA4TBEAAAAvB8ABAAdQ5HoUpf+BiOh/AAA=', 'base64');
+
+const isGreen = (r, g, b) => g > 1.5 * r && g > 1.5 * b;
+
+test('textures in WebP and AVIF are shown', async () => {
+  for (const [extension, mimeType, bytes] of [['EXT_texture_webp', 'image/webp', WEBP], ['EXT_texture_avif', 'image/avif', AVIF]]) {
+    await open(dressed(extension, mimeType, bytes));
+    assert.equal(await viewer.text('status'), '4 triangles in 1 part');
+    assert.ok((await viewer.picture()).share(isGreen) > 0.05, extension);
+  }
+});
+
+test('textures in KTX 2 are left out and said, or their stand-ins shown', async () => {
+  const ktx2 = Buffer.from('«KTX 20»\r\n\x1a\n', 'latin1');
+  await open(dressed('KHR_texture_basisu', 'image/ktx2', ktx2));
+  assert.match(await viewer.text('status'), /; 1 texture in KTX 2 is left out, as this page has no decoder for it$/);
+  assert.ok((await viewer.picture()).share(isGreen) < 0.001);
+  await open(dressed('KHR_texture_basisu', 'image/ktx2', ktx2, { source: 1 }));
+  assert.equal(await viewer.text('status'), '4 triangles in 1 part');
+  assert.ok((await viewer.picture()).share(isGreen) > 0.05);
+});

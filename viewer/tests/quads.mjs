@@ -1,0 +1,39 @@
+// Small models for tests: a quad whose halves mirror their texture, as a glTF with all that it needs.
+
+const TYPES = { 1: 'SCALAR', 2: 'VEC2', 3: 'VEC3', 4: 'VEC4', 16: 'MAT4' };
+const COMPONENTS = new Map([[Uint8Array, 5121], [Uint16Array, 5123], [Float32Array, 5126]]);
+
+/** From x = -1 to 1 and y = -0.5 to 0.5, facing +z; u grows from the middle to either side. */
+const CORNERS = [[-1, -0.5], [0, -0.5], [1, -0.5], [-1, 0.5], [0, 0.5], [1, 0.5]];
+
+/** What the quad's vertices have, each an array and its width. */
+export const QUAD = {
+  POSITION: [Float32Array.from(CORNERS.flatMap(([x, y]) => [x, y, 0])), 3],
+  NORMAL: [Float32Array.from(CORNERS.flatMap(() => [0, 0, 1])), 3],
+  TEXCOORD_0: [Float32Array.from(CORNERS.flatMap(([x, y]) => [Math.abs(x), 0.5 - y])), 2],
+};
+
+const INDICES = Uint16Array.from([0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4]);
+
+/**
+ * The text of a glTF with one mesh. `attributes`: as in QUAD; `targets`: of morph targets; `more`: arrays by name, of which `json` says what
+ * they are for, told the accessor of each; its members take the place of the file's own.
+ */
+export function gltf({ attributes = QUAD, targets = [], more = {}, mesh = {}, primitive = {}, json = () => ({}) } = {}) {
+  const [accessors, bufferViews, bytes] = [[], [], []];
+  let length = 0;
+  const accessor = ([array, width]) => {
+    const data = Buffer.from(array.buffer);
+    bufferViews.push({ buffer: 0, byteOffset: length, byteLength: data.length });
+    bytes.push(data, Buffer.alloc(-data.length & 3));
+    length += data.length + (-data.length & 3);
+    const bounds = width === 3 ? Object.fromEntries([['min', Math.min], ['max', Math.max]].map(([name, best]) => [name, [0, 1, 2].map((i) => best(...array.filter((_, at) => at % 3 === i)))])) : {};
+    return accessors.push({ bufferView: bufferViews.length - 1, componentType: COMPONENTS.get(array.constructor), count: array.length / width, type: TYPES[width], ...bounds }) - 1;
+  };
+  const all = (arrays) => Object.fromEntries(Object.entries(arrays).map(([name, array]) => [name, accessor(array)]));
+  const one = { attributes: all(attributes), indices: accessor([INDICES, 1]), ...primitive };
+  if (targets.length) one.targets = targets.map(all);
+  const others = json(all(more));
+  const buffers = [{ byteLength: length, uri: `data:application/octet-stream;base64,${Buffer.concat(bytes).toString('base64')}` }];
+  return JSON.stringify({ asset: { version: '2.0' }, scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }], meshes: [{ primitives: [one], ...mesh }], accessors, bufferViews, buffers, ...others });
+}
