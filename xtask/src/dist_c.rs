@@ -55,6 +55,12 @@ const TEMPLATES: &[(&str, &str)] = &[
 
 /// `cargo xtask dist-c`: makes the folder, and prints its absolute path as the last line.
 pub fn make() -> Outcome {
+    if !matches!(std::env::consts::OS, "linux" | "macos") {
+        return Err(format!(
+            "dist-c makes the folder on Linux and macOS, not on {}; docs/c.md says how the libraries are built elsewhere",
+            std::env::consts::OS
+        ));
+    }
     let target = target_folder()?;
     let folder = target.join("dist-c/darboux");
     if folder.exists() {
@@ -91,10 +97,10 @@ fn shared_name(library: &Library, version: &str) -> String {
 /// Builds both forms. The shared one carries the name that programs look for at their start.
 fn build(library: &Library) -> Outcome {
     let name = shared_name(library, &series());
-    let own_name = match std::env::consts::OS {
-        "linux" => format!("link-arg=-Wl,-soname,{name}"),
-        "macos" => format!("link-arg=-Wl,-install_name,@rpath/{name}"),
-        system => return Err(format!("dist-c knows Linux and macOS, not {system}")),
+    let own_name = if cfg!(target_os = "macos") {
+        format!("link-arg=-Wl,-install_name,@rpath/{name}")
+    } else {
+        format!("link-arg=-Wl,-soname,{name}")
     };
     let mut cargo = program("cargo rustc --profile dist --lib --crate-type cdylib,staticlib --package");
     run(cargo.args([library.package, "--", "-C", &own_name]))

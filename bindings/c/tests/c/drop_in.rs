@@ -42,6 +42,16 @@ impl<'a> Input<'a> {
     }
 }
 
+/// What `drop_in.c` reads: random meshes for every setter.
+pub fn a_few_meshes() -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for (seed, setters) in (0..60).zip([0, BASIC, FULL, BASIC | FULL].into_iter().cycle()) {
+        let case = Case::from_seed(seed);
+        Input::new(&case.mesh, setters, case.threshold).write(&mut bytes);
+    }
+    bytes
+}
+
 /// `drop_in.c` with mikktspace.c, and with ours in every way that users may link it; built once.
 fn programs() -> &'static (PathBuf, Vec<PathBuf>) {
     static PROGRAMS: OnceLock<(PathBuf, Vec<PathBuf>)> = OnceLock::new();
