@@ -3,7 +3,8 @@
 use std::alloc::System;
 
 use darboux::{
-    CornerTangents, Indices, Mesh, Method, Plan, Scratch, TangentOptions, Tangents, generate_tangents_into,
+    CornerTangents, Frame, Indices, Mesh, Method, Plan, Scratch, TangentOptions, Tangents,
+    generate_tangents_into, write_frames,
 };
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 
@@ -25,6 +26,12 @@ fn allocations_of(mut call: impl FnMut()) -> usize {
 fn allocations(mesh: &Mesh<'_>) -> usize {
     let (mut scratch, mut tangents) = (Scratch::new(), Tangents::default());
     allocations_of(|| generate_tangents_into(mesh, &TangentOptions::default(), &mut scratch, &mut tangents))
+}
+
+fn allocations_of_frames(mesh: &Mesh<'_>) -> usize {
+    let (mut scratch, mut frames) = (Scratch::new(), vec![Frame::default(); mesh.corner_count()]);
+    let options = TangentOptions::default();
+    allocations_of(|| _ = write_frames(mesh, &options, &mut scratch, &mut frames).expect("as many frames"))
 }
 
 fn allocations_of_plan(mesh: &Mesh<'_>, method: Method) -> usize {
@@ -50,6 +57,7 @@ fn none_for_a_plain_surface() {
     for indices in [Indices::U32(&indices), Indices::U16(&short)] {
         let mesh = Mesh::triangles(&positions, &normals, &uvs, indices).expect("a mesh");
         assert_eq!(allocations(&mesh), 0);
+        assert_eq!(allocations_of_frames(&mesh), 0);
         assert_eq!(allocations_of_plan(&mesh, Method::MikkTSpace), 0);
     }
     let mesh = Mesh::triangles(&positions, &normals, &uvs, &indices).expect("a mesh");

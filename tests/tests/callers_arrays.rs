@@ -1,8 +1,8 @@
 //! Arrays of the caller's: the same results as in the library's own, and none for an array that does not fit.
 
 use darboux::{
-    Cancel, CornerTangentsRef, MeshError, Method, Mode, Plan, Scratch, TangentOptions, generate_tangents,
-    split_vertices, write_tangents,
+    Cancel, CornerTangentsRef, Frame, MeshError, Method, Mode, Plan, Scratch, TangentOptions,
+    generate_frames, generate_tangents, lend_frames, split_vertices, write_frames, write_tangents,
 };
 use darboux_tests::{OwnedMesh, families};
 
@@ -35,6 +35,45 @@ fn have_the_same_tangents_and_splits() {
     }
 }
 
+/// On one thread and on several, with a scratch that has had larger and smaller meshes, of every method.
+#[test]
+fn have_the_same_frames() {
+    let large = families::grid(97, 97, false, true);
+    let mut scratch = Scratch::new();
+    for mesh in meshes().iter().chain([&large, &families::fan(9, false)]) {
+        for (method, threshold) in
+            METHODS.map(|method| (method, 180.0)).into_iter().chain([(METHODS[0], 60.0)])
+        {
+            let options = TangentOptions { method, threshold, mode: Mode::Repaired };
+            let (view, count) = (mesh.view(), mesh.corner_count());
+            let own = generate_frames(&view, &options);
+            let mut frames = vec![Frame::default(); count];
+            let report = write_frames(&view, &options, &mut scratch, &mut frames).unwrap();
+            assert_eq!((report, &frames[..]), (own.report, own.corners.per_corner()), "{method:?}");
+
+            let lent = lend_frames(&view, &options, &mut scratch).unwrap();
+            assert_eq!((lent.report(), lent.len()), (own.report, count));
+            for (first, size) in [(0, count), (1, 7), (count - 1, 4), (count, 1), (count + 9, 1)] {
+                let (mut part, there) = (vec![Frame::default(); size], size.min(count.saturating_sub(first)));
+                lent.write(first, &mut part);
+                assert_eq!(
+                    part[..there],
+                    own.corners.per_corner()[first.min(count)..][..there],
+                    "{method:?}"
+                );
+                assert!(part[there..].iter().all(|frame| *frame == Frame::default()));
+            }
+            let (mut tangents, mut bitangents) = (vec![[0.0; 4]; count], vec![[0.0; 3]; count]);
+            let mut magnitudes = vec![[0.0; 2]; count];
+            lent.write_apart(&mut tangents, &mut bitangents, &mut magnitudes).unwrap();
+            assert!(lent.write_apart(&mut tangents, &mut bitangents[1..], &mut magnitudes).is_err());
+            let parts = |frame: &Frame| (frame.tangent_and_sign(), frame.bitangent, frame.magnitude);
+            let apart = tangents.into_iter().zip(bitangents).zip(magnitudes).map(|((t, b), m)| (t, b, m));
+            assert!(apart.eq(frames.iter().map(parts)), "{method:?}");
+        }
+    }
+}
+
 #[test]
 fn of_another_length_are_left_alone() {
     let [mesh, ..] = meshes();
@@ -49,6 +88,9 @@ fn of_another_length_are_left_alone() {
         assert!(matches!(result, Err(MeshError::OtherMesh { what: "corners", .. })), "{result:?}");
     }
     assert!(corners.iter().all(|corner| *corner == [7.0; 4]));
+    let mut frames = vec![Frame::default(); mesh.corner_count() + 1];
+    let result = write_frames(&view, &options, &mut scratch, &mut frames);
+    assert!(matches!(result, Err(MeshError::OtherMesh { what: "corners", .. })), "{result:?}");
 }
 
 /// Below 180 degrees a fan costs its size squared: this one would take the better part of an hour.

@@ -700,7 +700,7 @@ darboux_status darboux_generate_tangents(const struct darboux_mesh *mesh,
 
 /// Computes the whole frame of every corner: tangent, bitangent, magnitudes, sign. Slower than darboux_generate_tangents.
 ///
-/// `mesh`, `options`, `report`, errors: as for darboux_generate_tangents; of a scratch the threads alone are used. `frames`: room for C frames.
+/// `mesh`, `options`, `report`, errors: as for darboux_generate_tangents. `frames`: room for C frames.
 /// `frame_count`: C. `frame_stride`: bytes from one frame to the next, 0 for packed.
 darboux_status darboux_generate_frames(const struct darboux_mesh *mesh,
                                        const struct darboux_tangent_options *options,

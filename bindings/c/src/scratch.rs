@@ -18,8 +18,8 @@ pub struct darboux_scratch {
 }
 
 #[derive(Default)]
-struct Memory {
-    scratch: Scratch,
+pub(crate) struct Memory {
+    pub scratch: Scratch,
     /// Results on their way to arrays that the core cannot write.
     tangents: Vec<[f32; 4]>,
 }
@@ -89,14 +89,24 @@ pub(crate) fn fill<R: Send>(
     out: Output<[f32; 4]>,
     work: impl FnOnce(&mut Scratch, &mut [[f32; 4]]) -> Result<R, MeshError> + Send,
 ) -> Result<R, Error> {
+    let filled = lend(scratch, |kept, Memory { scratch, tangents }| {
+        out.fill(tangents, |corners| run(Some(kept), corners.len(), || work(scratch, corners)))
+    });
+    Ok(filled?)
+}
+
+/// Has `work` use a scratch and its memory, or ones that are gone afterwards.
+pub(crate) fn lend<R>(
+    scratch: Option<&mut darboux_scratch>,
+    work: impl FnOnce(&darboux_scratch, &mut Memory) -> R,
+) -> R {
     let mut local = darboux_scratch::default();
     let kept = scratch.unwrap_or(&mut local);
     // Out of the caller's hands, so that a defect cannot leave it half-written.
-    let Memory { mut scratch, mut tangents } = std::mem::take(&mut kept.memory);
-    let result =
-        out.fill(&mut tangents, |corners| run(Some(kept), corners.len(), || work(&mut scratch, corners)));
-    kept.memory = Memory { scratch, tangents };
-    Ok(result?)
+    let mut memory = std::mem::take(&mut kept.memory);
+    let result = work(kept, &mut memory);
+    kept.memory = memory;
+    result
 }
 
 /// Makes an empty scratch, which grows to what the largest mesh needs.

@@ -2,7 +2,7 @@
 
 use std::mem::offset_of;
 
-use darboux::{Frame, Report, TangentOptions, generate_frames, write_tangents};
+use darboux::{Frame, LentFrames, Report, TangentOptions, lend_frames, write_tangents};
 
 use crate::codes::{self, darboux_method, darboux_mode};
 use crate::mesh::{self, darboux_mesh};
@@ -159,7 +159,7 @@ pub unsafe extern "C" fn darboux_generate_tangents(
 
 /// Computes the whole frame of every corner: tangent, bitangent, magnitudes, sign. Slower than darboux_generate_tangents.
 ///
-/// `mesh`, `options`, `report`, errors: as for darboux_generate_tangents; of a scratch the threads alone are used. `frames`: room for C frames.
+/// `mesh`, `options`, `report`, errors: as for darboux_generate_tangents. `frames`: room for C frames.
 /// `frame_count`: C. `frame_stride`: bytes from one frame to the next, 0 for packed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_generate_frames(
@@ -178,12 +178,24 @@ pub unsafe extern "C" fn darboux_generate_frames(
             let out = Output::expecting(corners, "frames", frames.cast(), frame_count, frame_stride)?;
             (mesh, self::options(options)?, Receiver::optional(report)?, out)
         };
-        let frames =
-            scratch::run(scratch.as_deref(), mesh.corner_count(), || generate_frames(&mesh, &options));
-        out.write(frames.corners.per_corner().iter().map(|&frame| darboux_frame::from(frame)));
+        let report_of_run = scratch::lend(scratch, |kept, memory| {
+            let corners = mesh.corner_count();
+            let frames =
+                scratch::run(Some(kept), corners, || lend_frames(&mesh, &options, &mut memory.scratch))?;
+            write(&frames, &out);
+            Ok::<_, Error>(frames.report())
+        })?;
         if let Some(report) = report {
-            report.put(frames.report.into());
+            report.put(report_of_run.into());
         }
         Ok(())
     })
+}
+
+fn write(frames: &LentFrames<'_>, out: &Output<darboux_frame>) {
+    let mut block = [Frame::default(); 64];
+    for first in (0..frames.len()).step_by(block.len()) {
+        frames.write(first, &mut block);
+        (first..frames.len()).zip(&block).for_each(|(at, &frame)| out.set(at, frame.into()));
+    }
 }

@@ -18,7 +18,7 @@ pub enum Target<'py> {
 impl<'py> Target<'py> {
     /// The caller's array, or a new one. Errors: not an array of float32, not of shape (corners, 4), read-only.
     pub fn new(py: Python<'py>, out: Option<&Bound<'py, PyAny>>, corners: usize) -> PyResult<Self> {
-        let Some(out) = out else { return Ok(Self::Direct(fresh(py, corners)?)) };
+        let Some(out) = out else { return Ok(Self::Direct(fresh(py, corners, 4)?)) };
         let Ok(array) = out.cast::<PyUntypedArray>() else {
             let kind = out.get_type().name()?;
             return Err(PyTypeError::new_err(format!("out must be a numpy array, not {kind}")));
@@ -39,7 +39,7 @@ impl<'py> Target<'py> {
             {
                 Ok(Self::Direct(floats.clone()))
             }
-            _ => Ok(Self::Copied { to: array.clone(), from: fresh(py, corners)? }),
+            _ => Ok(Self::Copied { to: array.clone(), from: fresh(py, corners, 4)? }),
         }
     }
 
@@ -63,8 +63,8 @@ impl<'py> Target<'py> {
     }
 }
 
-/// A new array of shape (corners, 4). numpy asks the system for large pages, which are cheaper to get than many small ones.
-fn fresh(py: Python<'_>, corners: usize) -> PyResult<Bound<'_, PyArray2<f32>>> {
-    let made = py.import("numpy")?.call_method1("empty", ((corners, 4), numpy::dtype::<f32>(py)))?;
+/// A new array of shape (rows, columns). numpy asks the system for large pages, which are cheaper to get than many small ones.
+pub fn fresh(py: Python<'_>, rows: usize, columns: usize) -> PyResult<Bound<'_, PyArray2<f32>>> {
+    let made = py.import("numpy")?.call_method1("empty", ((rows, columns), numpy::dtype::<f32>(py)))?;
     Ok(made.cast_into()?)
 }

@@ -2,17 +2,17 @@
 
 use std::sync::Mutex;
 
-use darboux::{Cancel, Frame, Mesh, Scratch, TangentOptions, generate_frames};
+use darboux::{Cancel, Mesh, Scratch, TangentOptions, lend_frames};
+use numpy::prelude::*;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::arrays::rows_array;
 use crate::choices::{is_slow, tangent_options};
 use crate::mesh::{MeshArrays, value_error};
 use crate::numbers::{Threads, degrees};
-use crate::out::Target;
+use crate::out::{Target, fresh};
 use crate::results::{self, named};
-use crate::threads::{cancellable, detached};
+use crate::threads::cancellable;
 
 /// Compute the tangent of every corner: unit xyz and the sign w, bitangent = w * cross(normal, xyz).
 ///
@@ -130,14 +130,23 @@ fn frames<'py>(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
 ) -> PyResult<(Bound<'py, PyAny>, darboux::Report)> {
-    let (tangents, bitangents, magnitudes, report) = detached(py, threads, mesh.corner_count(), || {
-        let made = generate_frames(mesh, options);
-        let frames = made.corners.per_corner().iter();
-        let tangents: Vec<_> = frames.clone().map(Frame::tangent_and_sign).collect();
-        let bitangents: Vec<_> = frames.clone().map(|frame| frame.bitangent).collect();
-        let magnitudes: Vec<_> = frames.map(|frame| frame.magnitude).collect();
-        (tangents, bitangents, magnitudes, made.report)
-    })?;
-    let fields = (rows_array(py, tangents)?, rows_array(py, bitangents)?, rows_array(py, magnitudes)?);
-    Ok((named(py, "Frames", fields)?, report))
+    let corners = mesh.corner_count();
+    let (tangents, bitangents, magnitudes) =
+        (fresh(py, corners, 4)?, fresh(py, corners, 3)?, fresh(py, corners, 2)?);
+    let report = {
+        let (mut tangents, mut bitangents, mut magnitudes) =
+            (tangents.try_readwrite()?, bitangents.try_readwrite()?, magnitudes.try_readwrite()?);
+        let tangents = tangents.as_slice_mut()?.as_chunks_mut().0;
+        let bitangents = bitangents.as_slice_mut()?.as_chunks_mut().0;
+        let magnitudes = magnitudes.as_slice_mut()?.as_chunks_mut().0;
+        let write = |cancel: &Cancel| {
+            let mut scratch = Scratch::new();
+            scratch.cancel_by(cancel);
+            let frames = lend_frames(mesh, options, &mut scratch)?;
+            frames.write_apart(tangents, bitangents, magnitudes)?;
+            Ok(frames.report())
+        };
+        cancellable(py, threads, (corners, is_slow(options)), write)?.map_err(value_error)?
+    };
+    Ok((named(py, "Frames", (tangents, bitangents, magnitudes))?, report))
 }

@@ -67,8 +67,8 @@ impl<'a> From<&'a CornerTangents> for CornerTangentsRef<'a> {
     }
 }
 
-/// One corner's whole MikkTSpace result.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// One corner's whole MikkTSpace result. The default is all zeros, for arrays that are to be written.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Frame {
     /// The direction of increasing u, unit length, perpendicular to the normal.
     pub tangent: [f32; 3],

@@ -62,8 +62,8 @@ pub use plan::Plan;
 pub use split::{Splitter, VertexSplit, split_vertices};
 pub use tangents::naive;
 pub use tangents::{
-    Frames, Method, Mode, Report, Scratch, TangentOptions, Tangents, WidthLimit, generate_frames,
-    generate_tangents, generate_tangents_into, on_this_thread, write_tangents,
+    Frames, LentFrames, Method, Mode, Report, Scratch, TangentOptions, Tangents, WidthLimit, generate_frames,
+    generate_tangents, generate_tangents_into, lend_frames, on_this_thread, write_frames, write_tangents,
 };
 #[doc(hidden)]
 pub use tangents::{elsewhere, stages};

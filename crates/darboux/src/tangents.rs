@@ -12,6 +12,7 @@ mod evaluate;
 mod face;
 mod fans;
 mod flat;
+mod frames;
 mod from_normal;
 mod group_sums;
 mod groups;
@@ -40,14 +41,15 @@ mod windows;
 
 use crate::math::cosine_of_degrees;
 use crate::split::expect;
-use crate::{Cancel, CornerFrames, CornerTangents, Frame, Mesh, MeshError};
+use crate::{Cancel, CornerFrames, CornerTangents, Mesh, MeshError};
 
 use accumulate::Memory;
 use fans::Fans;
+use frames::FrameMemory;
+pub use frames::{LentFrames, generate_frames, lend_frames, write_frames};
 pub use method::Method;
 pub(crate) use planned::Planned;
 pub use report::Report;
-use sides::Output;
 pub use threads::on_this_thread;
 use width::Width;
 pub use width::WidthLimit;
@@ -105,6 +107,7 @@ pub struct Frames {
 pub struct Scratch {
     fans: Fans,
     sums: Memory,
+    frames: FrameMemory,
     width_limit: WidthLimit,
     cancel: Cancel,
     /// For runs that cannot say that they were stopped; nobody asks them to.
@@ -187,25 +190,6 @@ fn run(
     } else {
         method::mikktspace(mesh, options, cancel, out)
     }
-}
-
-/// Computes the whole frame of every corner: tangent, bitangent, magnitudes, sign.
-pub fn generate_frames(mesh: &Mesh<'_>, options: &TangentOptions) -> Frames {
-    let mut corners = vec![Frame::NONE; mesh.corner_count()];
-    let report = run_whole(mesh, options, &mut corners);
-    Frames { corners: CornerFrames(corners), report }
-}
-
-fn run_whole(mesh: &Mesh<'_>, options: &TangentOptions, out: &mut [Frame]) -> Report {
-    let (mut fans, width) = (Fans::default(), Width::widest(WidthLimit::default()));
-    if has_whole_fans(options) {
-        let mut tangents = vec![[0.0; 4]; out.len()];
-        if fans.run(mesh, options.mode, width, &mut tangents) {
-            fans.write_frames(mesh, width, &tangents, out);
-            return local::decide_frames(mesh, options, &fans, &tangents, out);
-        }
-    }
-    method::run(mesh, options, &Cancel::new(), &mut Memory::default(), out)
 }
 
 /// Whether the fast path may apply: where no fan splits by its angles.

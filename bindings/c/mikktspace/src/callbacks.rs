@@ -110,11 +110,11 @@ impl Caller {
                 set(self.context, tangent.as_ptr(), bitangent.as_ptr(), *s, *t, preserves, face, corner)
             };
         }
-        self.write_tangent(face, corner, frame.tangent_and_sign());
+        self.write_tangent(face, corner, &frame.tangent_and_sign());
     }
 
     /// Hands out a tangent and its sign.
-    pub fn write_tangent(&self, face: c_int, corner: c_int, tangent: [f32; 4]) {
+    pub fn write_tangent(&self, face: c_int, corner: c_int, tangent: &[f32; 4]) {
         if let Some(set) = self.set_tspace_basic {
             // SAFETY: as of `new`; the array lives for the call.
             unsafe { set(self.context, tangent.as_ptr(), tangent[3], face, corner) };

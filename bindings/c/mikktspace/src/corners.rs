@@ -58,13 +58,24 @@ impl Corners {
         Mesh::with_faces(positions, normals, uvs, Indices::U32(&self.vertex_of_corner), faces).ok()
     }
 
-    /// Hands every answer, one per corner of the mesh, to `write` with its face and its place in it.
-    pub fn hand_out<T>(&self, answers: &[T], write: impl Fn(c_int, c_int, &T)) {
-        let mut rest = &answers[self.skipped..];
+    /// Hands every corner's answer to `write`, with the face and the place in it.
+    ///
+    /// `read` is given the number of a corner of the mesh, and writes answers from this one on.
+    pub fn hand_out<T: Copy + Default>(
+        &self,
+        read: impl Fn(usize, &mut [T]),
+        write: impl Fn(c_int, c_int, &T),
+    ) {
+        let mut block = [T::default(); BLOCK];
+        let mut at = 0;
         for (face, &size) in (0..).zip(&self.size_of_face) {
-            let (of_face, others) = rest.split_at(usize::from(size));
-            (0..).zip(of_face).for_each(|(corner, answer)| write(face, corner, answer));
-            rest = others;
+            for corner in 0..c_int::from(size) {
+                if at % BLOCK == 0 {
+                    read(self.skipped + at, &mut block);
+                }
+                write(face, corner, &block[at % BLOCK]);
+                at += 1;
+            }
         }
     }
 }
@@ -100,7 +111,7 @@ impl Kind {
     }
 }
 
-/// Corners that are read before any of them is looked at.
+/// Corners that are read before any of them is looked at, and answers before any is handed out.
 const BLOCK: usize = 64;
 
 /// Makes most corners with the same bits one vertex again: that takes less time than the core needs for vertices apart.

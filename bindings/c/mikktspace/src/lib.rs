@@ -14,7 +14,7 @@ mod corners;
 use std::ffi::c_int;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use darboux::{Mode, TangentOptions, generate_frames, generate_tangents};
+use darboux::{Mode, Scratch, TangentOptions, generate_tangents, lend_frames};
 
 use callbacks::{Caller, Context};
 use corners::Corners;
@@ -38,14 +38,26 @@ pub unsafe extern "C-unwind" fn genTangSpace(context: *const Context, threshold:
 fn run(caller: &Caller, threshold: f32) -> Option<()> {
     let corners = Corners::read(caller)?;
     let options = TangentOptions { mode: Mode::Reference, threshold, ..TangentOptions::default() };
+    let mesh = corners.mesh()?;
     if caller.wants_frames() {
-        let compute = || Some(generate_frames(&corners.mesh()?, &options).corners.into_per_corner());
-        let frames = catch_unwind(AssertUnwindSafe(compute)).ok()??;
-        corners.hand_out(&frames, |face, corner, frame| caller.write(face, corner, frame));
+        let mut scratch = Scratch::new();
+        let frames = contained(|| lend_frames(&mesh, &options, &mut scratch).ok())?;
+        let write = |face, corner, frame: &_| caller.write(face, corner, frame);
+        corners.hand_out(|first, out| frames.write(first, out), write);
     } else {
-        let compute = || Some(generate_tangents(&corners.mesh()?, &options).corners.into_per_corner());
-        let tangents = catch_unwind(AssertUnwindSafe(compute)).ok()??;
-        corners.hand_out(&tangents, |face, corner, tangent| caller.write_tangent(face, corner, *tangent));
+        let tangents = contained(|| Some(generate_tangents(&mesh, &options).corners.into_per_corner()))?;
+        let write = |face, corner, tangent: &_| caller.write_tangent(face, corner, tangent);
+        corners.hand_out(|first, out| copy(&tangents[first..], out), write);
     }
     Some(())
+}
+
+/// None where it panics.
+fn contained<R>(compute: impl FnOnce() -> Option<R>) -> Option<R> {
+    catch_unwind(AssertUnwindSafe(compute)).ok()?
+}
+
+/// Copies as many as there are and fit.
+fn copy<T: Copy>(from: &[T], to: &mut [T]) {
+    from.iter().zip(to).for_each(|(from, to)| *to = *from);
 }

@@ -39,6 +39,7 @@ use stream::Stream;
 pub use vertices::UNDECIDED;
 use vertices::Vertex;
 use weld::{Refused, Weld};
+use whole::Sums;
 use workers::Worker;
 
 /// The memory of a run, kept from mesh to mesh.
@@ -54,6 +55,8 @@ pub(crate) struct Fans {
     names: Names,
     /// The last edges in the reference's stretches, as the corners where they start, where their order shows.
     last_stretches: Vec<Vec<u32>>,
+    /// Of each welded vertex, where whole frames are wanted.
+    sums: Vec<Sums>,
 }
 
 impl Fans {

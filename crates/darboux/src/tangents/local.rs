@@ -53,11 +53,17 @@ impl UndecidedPart {
         report
     }
 
-    /// As [`UndecidedPart::decide`], whole frames. `tangents`: those of all others.
-    fn decide_frames(&self, mesh: &Mesh<'_>, tangents: &[[f32; 4]], out: &mut [Frame]) -> Report {
+    /// As [`UndecidedPart::decide`], whole frames with their corners, ascending. `tangents`: those of all others.
+    fn decide_frames(
+        &self,
+        mesh: &Mesh<'_>,
+        cancel: &Cancel,
+        tangents: &[[f32; 4]],
+        out: &mut Vec<(u32, Frame)>,
+    ) -> Report {
         let part = mesh.with_triangles(&self.indices);
-        let (frames, report) = self.topology.frames_of_part(&part, self.known(tangents), &Cancel::new());
-        self.write(&frames, |corner, frame| out[corner] = frame);
+        let (frames, report) = self.topology.frames_of_part(&part, self.known(tangents), cancel);
+        self.write(&frames, |corner, frame| out.push((corner as u32, frame)));
         report
     }
 
@@ -101,16 +107,17 @@ pub(super) fn decide(
     Report { triangles: mesh.face_count(), ..report }
 }
 
-/// As [`decide`], whole frames. `tangents`: those that `fans` wrote.
+/// As [`decide`], whole frames: those of the corners that are undecided in `tangents`, which `fans` wrote, ascending.
 pub(super) fn decide_frames(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
     fans: &Fans,
+    cancel: &Cancel,
     tangents: &[[f32; 4]],
-    out: &mut [Frame],
+    out: &mut Vec<(u32, Frame)>,
 ) -> Report {
     let part = UndecidedPart::new(mesh, options, fans, tangents);
-    let report = part.map(|part| part.decide_frames(mesh, tangents, out)).unwrap_or_default();
+    let report = part.map(|part| part.decide_frames(mesh, cancel, tangents, out)).unwrap_or_default();
     Report { triangles: mesh.face_count(), ..report }
 }
 

@@ -93,14 +93,6 @@ impl Block {
             }
         }
     }
-
-    /// Takes the records of one triangle.
-    #[inline(always)]
-    pub fn put(&mut self, i: usize, records: [Record; 3]) {
-        for (k, [a, b, c, d, e, f, g, h]) in records.into_iter().enumerate() {
-            (self.packed[k][0][i], self.packed[k][1][i]) = ([a, b, c, d], [e, f, g, h]);
-        }
-    }
 }
 
 impl Default for Block {

@@ -113,12 +113,20 @@ impl Identity<'_> {
         }
     }
 
-    /// The record of a welded vertex.
+    /// Calls `visit` with the welded vertex at each of some corners.
     #[inline(always)]
-    pub fn record(&self, mesh: &Mesh<'_>, vertex: u32) -> Record {
-        match self {
-            Self::OfCorner(_, records) => records[vertex as usize],
-            Self::Own | Self::OfVertex(_) => record(mesh, vertex as usize),
+    pub fn visit(&self, mesh: &Mesh<'_>, corners: Range<usize>, visit: impl FnMut(u32)) {
+        match (self, mesh.indices()) {
+            (Self::OfCorner(list, _), _) => list[corners].iter().copied().for_each(visit),
+            (_, Indices::Unindexed) => {}
+            (Self::Own, Indices::U32(list)) => list[corners].iter().copied().for_each(visit),
+            (Self::Own, Indices::U16(list)) => list[corners].iter().copied().map(u32::from).for_each(visit),
+            (Self::OfVertex(of), Indices::U32(list)) => {
+                list[corners].iter().map(|&vertex| of[vertex as usize]).for_each(visit);
+            }
+            (Self::OfVertex(of), Indices::U16(list)) => {
+                list[corners].iter().map(|&vertex| of[usize::from(vertex)]).for_each(visit);
+            }
         }
     }
 
