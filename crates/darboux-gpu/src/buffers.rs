@@ -1,7 +1,7 @@
 //! A caller's buffers: where in them what lies, checked once.
 
 use bytemuck::Zeroable;
-use wgpu::{Buffer, BufferUsages, Device, IndexFormat};
+use wgpu::{Buffer, BufferUsages, Device, IndexFormat, Limits};
 
 use crate::GpuError;
 use crate::kernel::filled;
@@ -236,10 +236,14 @@ fn check_buffer(device: &Device, what: &'static str, buffer: &Buffer, needed: u6
     check_size(device, what, found)
 }
 
-/// That a buffer of this size can be made and bound, and its words numbered.
+/// The bytes of the largest buffer that can be made and bound, and whose bytes 32 bits count.
+pub(crate) fn largest_buffer(limits: &Limits) -> u64 {
+    limits.max_storage_buffer_binding_size.min(limits.max_buffer_size).min(u64::from(u32::MAX))
+}
+
+/// That a buffer of this size is no larger.
 pub(crate) fn check_size(device: &Device, what: &'static str, bytes: u64) -> Result<(), GpuError> {
-    let limits = device.limits();
-    let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size).min(u64::from(u32::MAX));
+    let limit = largest_buffer(&device.limits());
     if bytes > limit { Err(GpuError::PastLimit { what, bytes, limit }) } else { Ok(()) }
 }
 

@@ -103,7 +103,9 @@ pub enum GpuError {
         limit: u32,
     },
     /// A plan of faces other than triangles.
-    #[error("a plan on a GPU is of triangles: give the triangles that are drawn")]
+    #[error(
+        "a plan on a GPU is of triangles: plan the triangles that are drawn, or use the CPU's Plan, which takes faces as they are"
+    )]
     NotTriangles,
     /// A plan of another method.
     #[error("a plan on a GPU is of MikkTSpace: other methods have nothing to plan")]

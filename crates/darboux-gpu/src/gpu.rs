@@ -7,7 +7,7 @@ use wgpu::{
     InstanceDescriptor, Queue,
 };
 
-use crate::pieces::largest_binding;
+use crate::buffers::largest_buffer;
 use crate::{GpuError, device};
 
 /// A device with all that its adapter allows.
@@ -77,7 +77,7 @@ impl AdapterSummary {
             },
             backend: info.backend.to_string(),
             driver: [info.driver, info.driver_info].join(" ").trim().to_owned(),
-            largest_binding: largest_binding(&limits),
+            largest_binding: largest_buffer(&limits),
         }
     }
 }

@@ -7,8 +7,9 @@ use darboux::{
 };
 use wgpu::{CommandEncoder, Device, Queue};
 
+use crate::buffers::largest_buffer;
 use crate::device::{guarded, submit};
-use crate::pieces::{Kernels, Piece, Vertices, in_several, largest_binding, triangle_limit};
+use crate::pieces::{BYTES_OF_TRIANGLE, Cut, Kernels, Piece, Vertices, in_several, weld};
 use crate::reals::Arithmetic;
 use crate::topology::Topology;
 use crate::{AdapterSummary, Gpu, GpuError};
@@ -70,7 +71,7 @@ impl MikkTSpace {
 
     /// The most triangles that an adapter does at once, by its largest binding; larger meshes are cut into pieces.
     pub fn triangle_limit(adapter: &AdapterSummary) -> u64 {
-        triangle_limit(adapter.largest_binding)
+        adapter.largest_binding / BYTES_OF_TRIANGLE
     }
 
     /// The same in pieces of so many triangles at most, for tests.
@@ -96,8 +97,8 @@ impl MikkTSpace {
     /// Computes the tangent of every corner: the bits of `darboux::generate_tangents`.
     ///
     /// Vertices that the order of triangles decides, that have several tangents or an unusable one, or lie in several pieces of a mesh that is
-    /// too large for the device, are left to the CPU. Waits for the device. Errors: the vertices are past a limit of the device, the mesh
-    /// past its memory; the device is lost.
+    /// too large for the device, are left to the CPU. Waits for the device. Errors: the mesh is past the device's memory; the device is
+    /// lost, or binds no buffer that a triangle fits in.
     pub fn generate_tangents(
         &self,
         mesh: &Mesh<'_>,
@@ -172,6 +173,33 @@ impl MikkTSpace {
         indices: &[u32],
         options: &TangentOptions,
     ) -> Result<Option<Begun>, GpuError> {
+        let corners = 3 * self.triangles_at_once()?;
+        let threshold_cosine = elsewhere::threshold_cosine(options);
+        let limit = largest_buffer(&self.device.limits());
+        if Vertices::bytes(mesh.vertex_count()) > limit {
+            self.run_cut(mesh, indices, corners, threshold_cosine)
+        } else {
+            self.run_together(mesh, indices, corners, threshold_cosine)
+        }
+    }
+
+    /// The triangles of a piece. Errors: not even one fits.
+    fn triangles_at_once(&self) -> Result<usize, GpuError> {
+        let limit = largest_buffer(&self.device.limits());
+        match (limit / BYTES_OF_TRIANGLE).min(self.piece.into()) {
+            0 => Err(GpuError::PastLimit { what: "a triangle", bytes: BYTES_OF_TRIANGLE, limit }),
+            triangles => Ok(triangles as usize),
+        }
+    }
+
+    /// All vertices on the device, the triangles in pieces of so many corners.
+    fn run_together(
+        &self,
+        mesh: &Mesh<'_>,
+        indices: &[u32],
+        corners: usize,
+        threshold_cosine: f32,
+    ) -> Result<Option<Begun>, GpuError> {
         let (device, queue) = (&self.device, &self.queue);
         let vertices = Vertices::new(device, &self.kernels, mesh)?;
         let wanted = [&vertices.refused, &vertices.weld.welded];
@@ -180,13 +208,9 @@ impl MikkTSpace {
             return Ok(None);
         }
         let welded = welded.read(device)?;
-        let fit = triangle_limit(largest_binding(&device.limits()));
-        let corners = 3 * fit.min(self.piece.into()) as usize;
-        let is_left =
-            if indices.len() > corners { in_several(indices, &welded, corners) } else { Vec::new() };
+        let is_left = left(indices, &welded, corners);
         let mut tangents = Vec::with_capacity(indices.len());
         for indices in indices.chunks(corners) {
-            let threshold_cosine = elsewhere::threshold_cosine(options);
             let piece = Piece::new(device, &self.kernels, &vertices, indices, &is_left, threshold_cosine)?;
             let wanted = [&piece.tangent_of_corner];
             let [of_piece] = submit(device, queue, |encoder| piece.record(encoder), wanted);
@@ -194,6 +218,44 @@ impl MikkTSpace {
         }
         Ok(Some(Begun { welded, tangents }))
     }
+
+    /// As [`MikkTSpace::run_together`], each piece with its own vertices.
+    fn run_cut(
+        &self,
+        mesh: &Mesh<'_>,
+        indices: &[u32],
+        corners: usize,
+        threshold_cosine: f32,
+    ) -> Result<Option<Begun>, GpuError> {
+        let (device, queue) = (&self.device, &self.queue);
+        let Some(welded) = weld(mesh) else { return Ok(None) };
+        let is_left = left(indices, &welded, corners);
+        let mut tangents = Vec::with_capacity(indices.len());
+        for indices in indices.chunks(corners) {
+            let cut = Cut::new(indices);
+            let vertices = Vertices::of_cut(device, &self.kernels, mesh, &cut)?;
+            let is_left = |&vertex: &u32| is_left.get(welded[vertex as usize] as usize).copied();
+            let is_left: Vec<u32> = cut.vertices.iter().filter_map(is_left).collect();
+            let piece =
+                Piece::new(device, &self.kernels, &vertices, &cut.indices, &is_left, threshold_cosine)?;
+            let record = |encoder: &mut CommandEncoder| {
+                vertices.record(encoder);
+                piece.record(encoder);
+            };
+            let wanted = [&vertices.refused, &piece.tangent_of_corner];
+            let [refused, of_piece] = submit(device, queue, record, wanted);
+            if refused.read::<u32>(device)? != [0] {
+                return Ok(None);
+            }
+            tangents.extend(of_piece.read::<[f32; 4]>(device)?);
+        }
+        Ok(Some(Begun { welded, tangents }))
+    }
+}
+
+/// Of every vertex: 1 where several pieces of so many corners have it; nothing where there is one piece.
+fn left(indices: &[u32], welded: &[u32], corners: usize) -> Vec<u32> {
+    if indices.len() > corners { in_several(indices, welded, corners) } else { Vec::new() }
 }
 
 impl Generated {

@@ -1,8 +1,10 @@
 //! A mesh on the device: its vertices at once, its triangles in pieces that fit.
 
+use std::collections::HashMap;
+
 use bytemuck::cast_slice;
 use darboux::Mesh;
-use wgpu::{Buffer, BufferUsages, CommandEncoder, ComputePipeline, Device, Limits};
+use wgpu::{Buffer, BufferUsages, CommandEncoder, ComputePipeline, Device};
 
 use crate::GpuError;
 use crate::buffers::{Description, check_size};
@@ -43,18 +45,10 @@ impl Kernels {
     }
 }
 
-/// The bytes that shaders can reach of one buffer.
-pub(crate) fn largest_binding(limits: &Limits) -> u64 {
-    limits.max_storage_buffer_binding_size.min(limits.max_buffer_size)
-}
+/// The bytes of a triangle in the largest buffers: those of frames, and of vertices where it shares none.
+pub(crate) const BYTES_OF_TRIANGLE: u64 = 3 * 32;
 
-/// The triangles whose largest buffer, that of frames, is no larger.
-pub(crate) fn triangle_limit(largest_binding: u64) -> u64 {
-    const BYTES_OF_FRAME: u64 = 32;
-    largest_binding / (3 * BYTES_OF_FRAME)
-}
-
-const WORDS_OF_VERTEX: u32 = 8;
+const WORDS_OF_VERTEX: usize = 8;
 const WORDS_OF_TANGENT: u32 = 4;
 
 /// A mesh's vertices, and what welds them.
@@ -67,11 +61,30 @@ pub(crate) struct Vertices {
 }
 
 impl Vertices {
-    /// Uploads them. Errors: the device binds no buffer of that size.
+    /// Uploads all of a mesh. Errors: the device binds no buffer of that size.
     pub fn new(device: &Device, kernels: &Kernels, mesh: &Mesh<'_>) -> Result<Self, GpuError> {
-        let count = mesh.vertex_count() as u32;
-        check_size(device, "vertices", 4 * u64::from(WORDS_OF_VERTEX) * u64::from(count))?;
-        let vertices = upload(device, "vertices", cast_slice(&packed(mesh)));
+        check_size(device, "vertices", Self::bytes(mesh.vertex_count()))?;
+        Self::of(device, kernels, (0..mesh.vertex_count()).map(|vertex| packed(mesh, vertex)))
+    }
+
+    /// The bytes of so many.
+    pub fn bytes(count: usize) -> u64 {
+        4 * (WORDS_OF_VERTEX * count) as u64
+    }
+
+    /// Uploads the vertices of a piece. Errors: as [`Vertices::new`].
+    pub fn of_cut(device: &Device, kernels: &Kernels, mesh: &Mesh<'_>, cut: &Cut) -> Result<Self, GpuError> {
+        Self::of(device, kernels, cut.vertices.iter().map(|&vertex| packed(mesh, vertex as usize)))
+    }
+
+    fn of(
+        device: &Device,
+        kernels: &Kernels,
+        vertices: impl Iterator<Item = [f32; WORDS_OF_VERTEX]>,
+    ) -> Result<Self, GpuError> {
+        let vertices: Vec<_> = vertices.collect();
+        let count = vertices.len() as u32;
+        let vertices = upload(device, "vertices", cast_slice(&vertices));
         let refused = buffer(device, "refused", 1);
         let description = Description::packed(count, 0);
         let words = description.uniform(device);
@@ -154,6 +167,47 @@ impl Piece {
     }
 }
 
+/// Some triangles with the vertices that they use alone, for meshes whose vertices no buffer holds.
+pub(crate) struct Cut {
+    /// The mesh's.
+    pub vertices: Vec<u32>,
+    /// Three per triangle, into these.
+    pub indices: Vec<u32>,
+}
+
+impl Cut {
+    pub fn new(indices: &[u32]) -> Self {
+        let mut place_of_vertex = HashMap::new();
+        let mut vertices = Vec::new();
+        let place = |&vertex: &u32| {
+            *place_of_vertex.entry(vertex).or_insert_with(|| {
+                vertices.push(vertex);
+                vertices.len() as u32 - 1
+            })
+        };
+        let indices = indices.iter().map(place).collect();
+        Self { vertices, indices }
+    }
+}
+
+/// From half of the largest float on the reference does not weld positions.
+const LARGEST: f32 = 1e38;
+
+/// The first vertex that equals each vertex; none where only the reference's order decides. The twin of shaders/weld.wgsl for meshes whose
+/// vertices no buffer holds.
+pub(crate) fn weld(mesh: &Mesh<'_>) -> Option<Vec<u32>> {
+    let mut first_of_words = HashMap::new();
+    let welded = |vertex: usize| {
+        let own = packed(mesh, vertex);
+        own.iter().all(|x| x.abs() <= LARGEST).then_some(())?;
+        // Adding zero turns -0 into +0.
+        let words = own.map(|x| (x + 0.0).to_bits());
+        let first = *first_of_words.entry(words).or_insert(vertex as u32);
+        (packed(mesh, first as usize).map(f32::to_bits) == own.map(f32::to_bits)).then_some(first)
+    };
+    (0..mesh.vertex_count()).map(welded).collect()
+}
+
 /// Of every vertex: 1 where triangles of several pieces, of so many corners each, have it.
 pub(crate) fn in_several(indices: &[u32], welded: &[u32], corners: usize) -> Vec<u32> {
     const NO_PIECE: usize = usize::MAX;
@@ -176,14 +230,11 @@ pub(crate) fn upload(device: &Device, label: &str, contents: &[u8]) -> Buffer {
     filled(device, label, contents, usage)
 }
 
-/// The vertices, as [`Description::packed`] describes them.
-fn packed(mesh: &Mesh<'_>) -> Vec<[f32; WORDS_OF_VERTEX as usize]> {
-    let vertex = |vertex| {
-        let ([x, y, z], [a, b, c]) = (mesh.positions().get(vertex), mesh.normals().get(vertex));
-        let [u, v] = mesh.uvs().get(vertex);
-        [x, y, z, a, b, c, u, v]
-    };
-    (0..mesh.vertex_count()).map(vertex).collect()
+/// A vertex as [`Description::packed`] describes it.
+fn packed(mesh: &Mesh<'_>, vertex: usize) -> [f32; WORDS_OF_VERTEX] {
+    let ([x, y, z], [a, b, c]) = (mesh.positions().get(vertex), mesh.normals().get(vertex));
+    let [u, v] = mesh.uvs().get(vertex);
+    [x, y, z, a, b, c, u, v]
 }
 
 #[cfg(test)]
@@ -197,6 +248,25 @@ mod tests {
     #[test]
     fn shaders_are_valid_without_a_device() {
         [WELD, TRIANGULATE, NEIGHBOURS, GROUPS, FINISH, SPLIT].into_iter().for_each(validate);
+    }
+
+    #[test]
+    fn a_cut_has_the_vertices_that_it_uses() {
+        let cut = Cut::new(&[7, 9, 7, 2, 9, 30]);
+        assert_eq!((&cut.vertices[..], &cut.indices[..]), (&[7, 9, 2, 30][..], &[0, 1, 0, 2, 1, 3][..]));
+    }
+
+    #[test]
+    fn the_twin_of_the_shader_welds_and_refuses() {
+        let welded = |xs: &[f32]| {
+            let positions: Vec<[f32; 3]> = xs.iter().map(|&x| [x, 1.0, 2.0]).collect();
+            let (normals, uvs) = (vec![[0.0; 3]; xs.len()], vec![[0.5; 2]; xs.len()]);
+            weld(&Mesh::triangles(&positions, &normals, &uvs, &[0u32, 1, 2]).expect("a mesh"))
+        };
+        assert_eq!(welded(&[3.0, 4.0, 3.0, 4.0, -0.0]), Some(vec![0, 1, 0, 1, 4]));
+        for refused in [[0.0, 1.0, -0.0], [0.0, 1.0, f32::NAN], [0.0, f32::INFINITY, 1.0], [0.0, 2.0, 2e38]] {
+            assert_eq!(welded(&refused), None);
+        }
     }
 
     #[test]

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{gpus, kernels, triangulated};
-use darboux::{Mesh, Mode, Strided, TangentOptions, Tangents, generate_tangents};
+use darboux::{Mode, TangentOptions, Tangents, generate_tangents};
 use darboux_gpu::stages::Arithmetic;
 use darboux_gpu::{Generated, Gpu, GpuError, Left, MikkTSpace, Splitter};
 use darboux_tests::{Case, OwnedMesh, corpus, families};
@@ -171,18 +171,5 @@ fn a_lost_device_is_an_error() {
         assert_eq!(run.err(), Some(GpuError::Lost));
         let tangents = generate_tangents(&mesh.view(), &Default::default()).corners;
         assert_eq!(splitter.split_vertices(&mesh.view(), &tangents).err(), Some(GpuError::Lost));
-    }
-}
-
-#[test]
-fn vertices_past_a_binding_are_an_error() {
-    for (gpu, kernels) in gpus().iter().zip(kernels()) {
-        let limits = gpu.device.limits();
-        let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
-        let count = (limit.min(u64::from(u32::MAX)) / 32 + 1) as usize;
-        let (vectors, uvs) = (Strided::repeated(&[0.0; 3], count), Strided::repeated(&[0.0; 2], count));
-        let mesh = Mesh::triangles(vectors, vectors, uvs, &[0u32, 1, 2]).expect("a mesh");
-        let refused = kernels.generate_tangents(&mesh, &Default::default()).err();
-        assert!(matches!(refused, Some(GpuError::PastLimit { what: "vertices", .. })), "{refused:?}");
     }
 }

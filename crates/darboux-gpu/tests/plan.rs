@@ -4,9 +4,9 @@ mod common;
 
 use common::plans::{Found, run};
 use common::{buffer, gpus, triangulated, words_of};
-use darboux::{Mode, TangentOptions, generate_tangents, split_vertices};
+use darboux::{Method, Mode, TangentOptions, generate_tangents, split_vertices};
 use darboux_gpu::stages::Arithmetic;
-use darboux_gpu::{Attribute, Gpu, MovingMesh, Per, Planner, Precision};
+use darboux_gpu::{Attribute, Gpu, GpuError, MovingMesh, Per, Planner, Precision};
 use darboux_tests::{Case, OwnedMesh, families};
 use wgpu::BufferUsages;
 
@@ -231,5 +231,34 @@ fn normals_are_nearly_the_core_s() {
                 assert!(error.fold(0.0, f32::max) < 2e-6, "corner {corner}: {expected:?}");
             }
         }
+    }
+}
+
+#[test]
+fn what_has_no_plan_is_said() {
+    let quads = families::grid(3, 3, true, false);
+    let grid = families::grid(3, 3, false, true);
+    for gpu in gpus() {
+        let planner = Planner::new(&gpu.device, Precision::Exact);
+        let plan = |mesh: &OwnedMesh, options| planner.plan(&mesh.view(), &options);
+        let options = TangentOptions::default();
+        let of_quads = plan(&quads, options).err().map(|error| error.to_string());
+        assert!(
+            of_quads.is_some_and(|text| text.contains("plan the triangles that are drawn, or use the CPU's"))
+        );
+        let average = TangentOptions { method: Method::Average, ..options };
+        assert_eq!(plan(&grid, average).err(), Some(GpuError::OtherMethod));
+        let floats = buffer(gpu, &vec![0; 4 * grid.positions.len()], BufferUsages::STORAGE);
+        let part = |stride| Attribute { buffer: &floats, stride, offset: 0 };
+        let [positions, normals, tangents] = [12, 12, 16].map(part);
+        let moving =
+            |vertex_count| MovingMesh { vertex_count, positions, normals, tangents, per: Per::Vertex };
+        let of_seam = plan(&grid, options).expect("a plan").of_buffers(&moving(grid.positions.len() as u32));
+        assert!(matches!(of_seam.err(), Some(GpuError::Unsplit { vertices: 1.. })));
+        let whole = plan(&families::grid(3, 3, false, false), options).expect("a plan");
+        assert_eq!(
+            whole.of_buffers(&moving(15)).err(),
+            Some(GpuError::OtherMesh { expected: 16, found: 15 })
+        );
     }
 }

@@ -1,0 +1,135 @@
+//! Devices that hold little: pieces, and errors that name what is too large.
+
+mod common;
+
+use std::sync::OnceLock;
+
+use common::{APART, APART_STRIDE, ENGINE, buffer, gpus, triangulated};
+use darboux::{TangentOptions, generate_tangents};
+use darboux_gpu::{
+    Average, Destination, Gpu, GpuError, MeshBuffers, MikkTSpace, Planner, Precision, Search, Splitter,
+};
+use darboux_tests::{Case, OwnedMesh, families};
+use wgpu::{Backends, BufferUsages, DeviceDescriptor, IndexFormat, Instance, InstanceDescriptor, Limits};
+
+/// Every adapter with a device whose buffers hold so many bytes.
+fn small_devices(bytes: u64) -> Vec<Gpu> {
+    devices(InstanceDescriptor::new_without_display_handle(), |limits| Limits {
+        max_buffer_size: bytes,
+        max_storage_buffer_binding_size: bytes,
+        ..limits
+    })
+}
+
+fn devices(descriptor: InstanceDescriptor, limited: impl Fn(Limits) -> Limits) -> Vec<Gpu> {
+    // Says once where there are none.
+    if gpus().is_empty() {
+        return Vec::new();
+    }
+    let instance = Instance::new(InstanceDescriptor { backends: Backends::PRIMARY, ..descriptor });
+    let adapters = pollster::block_on(instance.enumerate_adapters(Backends::PRIMARY));
+    let open = |adapter: &wgpu::Adapter| {
+        let required_limits = limited(adapter.limits());
+        let asked = adapter.request_device(&DeviceDescriptor { required_limits, ..Default::default() });
+        let (device, queue) = pollster::block_on(asked).expect("a device that asks for less");
+        Gpu { name: adapter.get_info().name, device, queue }
+    };
+    adapters.iter().map(open).collect()
+}
+
+/// The bytes of 42 triangles and of 128 vertices.
+const LITTLE: u64 = 4096;
+
+/// MikkTSpace on such devices, compiled once.
+fn little() -> &'static [MikkTSpace] {
+    static KERNELS: OnceLock<Vec<MikkTSpace>> = OnceLock::new();
+    let compile = |gpu: &Gpu| MikkTSpace::new(gpu).expect("valid shaders");
+    KERNELS.get_or_init(|| small_devices(LITTLE).iter().map(compile).collect())
+}
+
+fn has_the_bits_of_the_core(kernels: &MikkTSpace, name: &str, mesh: &OwnedMesh) -> usize {
+    let (view, options) = (mesh.view(), TangentOptions::default());
+    let expected = generate_tangents(&view, &options);
+    let made = kernels.generate_tangents(&view, &options).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let bits = |tangents: &darboux::Tangents| {
+        let words = |tangent: &[f32; 4]| tangent.map(|x| if x.is_nan() { f32::NAN } else { x }.to_bits());
+        tangents.corners.per_corner().iter().map(words).collect::<Vec<_>>()
+    };
+    assert!(bits(&made.tangents) == bits(&expected), "{name}");
+    assert_eq!(made.tangents.report, expected.report, "{name}");
+    made.corners_of_cpu
+}
+
+#[test]
+fn vertices_past_a_binding_are_cut_into_pieces() {
+    for kernels in little() {
+        for (name, mesh) in [
+            ("as many vertices as fit", families::grid(15, 7, false, false)),
+            ("more", families::grid(15, 8, false, false)),
+            ("many more", families::grid(40, 9, false, true)),
+            ("unindexed", families::sphere(9, 12, false).unindexed()),
+        ] {
+            let of_cpu = has_the_bits_of_the_core(kernels, name, &mesh);
+            assert!(of_cpu < mesh.corner_count(), "{name}");
+        }
+    }
+}
+
+#[test]
+fn random_meshes_in_little_pieces_have_the_bits_of_the_core() {
+    for kernels in little() {
+        for seed in 0..150 {
+            let mesh = triangulated(&Case::from_seed(seed).mesh);
+            has_the_bits_of_the_core(kernels, &format!("seed {seed}"), &mesh);
+        }
+    }
+}
+
+#[test]
+fn where_no_triangle_fits_an_error_says_so() {
+    let mesh = families::grid(4, 4, false, false);
+    for gpu in small_devices(64) {
+        let kernels = MikkTSpace::new(&gpu).expect("valid shaders");
+        let refused = kernels.generate_tangents(&mesh.view(), &TangentOptions::default()).err();
+        assert_eq!(refused, Some(GpuError::PastLimit { what: "a triangle", bytes: 96, limit: 64 }));
+    }
+}
+
+#[test]
+fn what_little_devices_cannot_hold_is_named() {
+    let mesh = families::grid(20, 20, false, false);
+    let (view, options) = (mesh.view(), TangentOptions::default());
+    let tangents = generate_tangents(&view, &options).corners;
+    for gpu in small_devices(LITTLE) {
+        let limit = LITTLE;
+        let split = Splitter::new(&gpu).expect("valid shaders").split_vertices(&view, &tangents);
+        let bytes = 16 * mesh.corner_count() as u64;
+        assert_eq!(split.err(), Some(GpuError::PastLimit { what: "the tangents", bytes, limit }));
+        let plan = Planner::new(&gpu.device, Precision::Exact).plan(&view, &options);
+        let bytes = 4 * mesh.corner_count() as u64;
+        assert_eq!(plan.err(), Some(GpuError::PastLimit { what: "sums of corners", bytes, limit }));
+    }
+}
+
+/// The caller's own buffers fit, those of the adjacency do not.
+#[test]
+fn a_table_past_a_binding_is_named() {
+    for gpu in small_devices(LITTLE) {
+        let words = |count: usize| buffer(&gpu, &vec![0; count], BufferUsages::STORAGE);
+        let (vertices, indices, frames) = (words(14), words(1_023), words(7));
+        let mesh = MeshBuffers {
+            vertices: &vertices,
+            layout: ENGINE,
+            vertex_count: 1,
+            indices: &indices,
+            index_format: IndexFormat::Uint16,
+            first_index: 0,
+            index_count: 2_046,
+        };
+        let frames = Destination::Buffer { buffer: &frames, stride: APART_STRIDE, layout: APART };
+        let refused = Average::new(&gpu.device, Search::Adjacency).of_mesh(&mesh, &frames).err();
+        let bytes = 4 * 2_046;
+        let what = "the triangles of vertices";
+        assert_eq!(refused, Some(GpuError::PastLimit { what, bytes, limit: LITTLE }));
+    }
+}
