@@ -76,9 +76,15 @@ fn arccosine_of_large(above: u32, is_negative: bool) -> f32 {
     return float_of_double(arcsine, 1 - i32(halvings));
 }
 
+// The whole part of sqrt(square 2^23), square in [2^23, 2^25), and what is left, from an estimate of 1 / sqrt(square).
+fn root_of_square(square: u32, inverse: f32) -> vec2i {
+    let estimate = i32(f32(square) * inverse * 2896.3093);
+    return whole_root(bitcast<i32>(square << 23u), estimate, inverse * 1.7263349e-4);
+}
+
 // sqrt(square / 2^25) 2^62, square in [2^23, 2^25), off by less than 4.
 fn root64(square: u32) -> vec2u {
-    let found = whole_root(square << 23u, i32(sqrt(f32(square)) * 2896.3093));
+    let found = root_of_square(square, inverseSqrt(f32(square)));
     // (n + f)^2 = n^2 + rest: f = (rest - f^2) / 2n. First rest / 2n, by long division to 42 bits behind the point.
     let divisor = u32(2 * found.x);
     var rest = u32(found.y);
@@ -102,67 +108,74 @@ fn product32(a: u32, b: u32) -> u32 {
     return high.x * high.y + ((low.x * high.y) >> 16u) + ((high.x * low.y) >> 16u);
 }
 
-// t P(t) times 2^35, from t times 2^32 and 2^33: too small, by less than 2^-33.5 at 1/4. P interpolates at 9 Chebyshev nodes, to 2^-40.
+// t P(t) times 2^35, from t times 2^32 and 2^33: too small, by less than 2^-32.4 at 1/4. P interpolates at 9 Chebyshev nodes, to 2^-40. What
+// t^3 belongs to is summed in floats, off by less than 2^-28, and 2^-28 taken off.
 fn short_arcsine_tail(t: u32, twice: u32) -> u32 {
-    var p = 0x1144d1f1u + product32(t, 0x0117d723u + product32(t, 0x1d06eddfu));
-    p = 0x114eefeau + product32(t, p);
-    p = 0x16f347e5u + product32(t, p);
-    p = 0x1f1beb9du + product32(t, p);
-    p = 0x2db6debdu + product32(t, p);
+    let x = f32(t) * 2.3283064e-10;
+    let rest = 0.0303799454 + x * (0.0224124175 + x * (0.0169026833 + x * (0.0168640912 + x * (0.00106750638 + x * 0.0283467453))));
+    var p = 0x2db6debdu + product32(t, u32(rest * 17179869184.0) - 64u);
     p = 0x4cccccc5u + product32(t, p);
     p = 0xaaaaaaabu + product32(t, p);
     return product32(twice, p);
 }
 
-// What sums and differences of arcsines are off by, at most, times 2^62: arcsines themselves are too small.
+// What an arcsine is too small by, at most, times 2^62.
 const SHORT_ERROR: vec2u = vec2u(0u, 0x40000000u);
 
-// The arccosine of x in [-1, 1]: an estimate to 2^-32, and where its two ends are not one float, for one in 500 of all floats, the long way.
+// a 2^(scale - 62) is too small by at most 2^-32, twice that where `a` has no leading zero.
+struct Estimate {
+    a: vec2u,
+    scale: i32,
+}
+
+// The arccosine of x in [-1, 1]: an estimate, and where that leaves the rounding open, for one float in 500, the long way.
 fn arccosine(x: f32) -> f32 {
     let word = bitcast<u32>(x);
     let is_negative = (word & SIGN) != 0u;
     let significand = significand_of(word);
     let exponent = exponent_of(word) - 127;
-    var ends: vec2f;
+    var estimate: Estimate;
     if exponent >= -1 {
         let above = (HIDDEN << 1u) - (significand << u32(exponent + 1));
         if above == 0u {
             return select(0.0, float_of_double(PI, 0), is_negative);
         }
-        ends = short_arccosine_of_large(above, is_negative);
+        estimate = arccosine_estimate_of_large(above, is_negative);
     } else {
         let size = shifted(vec2u(significand, 0u), exponent + 7);
         let z = shifted_left(size, 3u).x;
         let t = product32(z, z);
         let rest = product32(z, short_arcsine_tail(t >> 2u, t >> 1u) << 1u);
         let arcsine = sum64(size, vec2u(rest >> 7u, rest << 25u));
-        let more = sum64(arcsine, SHORT_ERROR);
-        ends = vec2f(float_of_double(difference64(HALF_PI, arcsine), 0), float_of_double(difference64(HALF_PI, more), 0));
-        if is_negative {
-            ends = vec2f(float_of_double(sum64(HALF_PI, arcsine), 0), float_of_double(sum64(HALF_PI, more), 0));
-        }
+        let less = difference64(HALF_PI, sum64(arcsine, SHORT_ERROR));
+        estimate = Estimate(select(less, sum64(HALF_PI, arcsine), is_negative), 0);
     }
-    if bitcast<u32>(ends.x) == bitcast<u32>(ends.y) {
-        return ends.x;
+    let zeros = countLeadingZeros(estimate.a.x);
+    let significant = shifted_left(estimate.a, zeros);
+    // What lies behind the float, in 32 bits: open where a half is between it and what it is too small by, or nearer than doubles round.
+    let behind = (significant.x << 24u) | (significant.y >> 8u);
+    let error = 0x400000u << max(zeros, 1u);
+    if behind - (0x7ffffff8u - error) < error + 16u {
+        return long_arccosine(x);
     }
-    return long_arccosine(x);
+    let binary_exponent = u32(128 + estimate.scale) - zeros;
+    return bitcast<f32>((binary_exponent << 23u) + (significant.x >> 8u) - HIDDEN + ((significant.x >> 7u) & 1u));
 }
 
-// The ends of the estimate, as `arccosine_of_large`. The root needs a fraction of 12 bits: a float's is more.
-fn short_arccosine_of_large(above: u32, is_negative: bool) -> vec2f {
+// As `arccosine_of_large`. The root needs a fraction of 12 bits: a float's is more.
+fn arccosine_estimate_of_large(above: u32, is_negative: bool) -> Estimate {
     let halvings = (countLeadingZeros(above) - 7u) >> 1u;
     let square = above << (2u * halvings);
-    let found = whole_root(square << 23u, i32(sqrt(f32(square)) * 2896.3093));
-    let fraction = u32(f32(found.y) / f32(2 * found.x) * 2147483648.0);
+    let inverse = inverseSqrt(f32(square));
+    let found = root_of_square(square, inverse);
+    // Times 2^31, and less by 2^-20 of it, so that it is too small.
+    let fraction = u32(f32(found.y) * inverse * 370727.2);
     let z = vec2u((u32(found.x) << 6u) + (fraction >> 25u), fraction << 7u);
     let rest = product32((z.x << 1u) | (z.y >> 31u), short_arcsine_tail(above << 7u, above << 8u) << 1u);
     let arcsine = sum64(z, vec2u(rest >> 5u, rest << 27u));
-    let more = sum64(arcsine, SHORT_ERROR);
     if is_negative {
-        let less = difference64(PI, shifted_right(shifted_left(more, 1u), halvings));
-        let most = difference64(PI, shifted_right(shifted_left(arcsine, 1u), halvings));
-        return vec2f(float_of_double(most, 0), float_of_double(less, 0));
+        let more = sum64(arcsine, SHORT_ERROR);
+        return Estimate(difference64(PI, shifted_right(shifted_left(more, 1u), halvings)), 0);
     }
-    let scale = 1 - i32(halvings);
-    return vec2f(float_of_double(arcsine, scale), float_of_double(more, scale));
+    return Estimate(arcsine, 1 - i32(halvings));
 }

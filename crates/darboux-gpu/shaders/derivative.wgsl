@@ -19,14 +19,14 @@ fn derivative(p0: V3, p1: V3, p2: V3, uv0: vec2<Real>, uv1: vec2<Real>, uv2: vec
     let first = times(du1, dv2);
     let second = times(dv1, du2);
     let area = minus(first, second);
-    watch_vector(e1);
-    watch_vector(e2);
-    watch(du1);
-    watch(dv1);
-    watch(du2);
-    watch(dv2);
+    watch_vector_from_below(e1);
+    watch_vector_from_below(e2);
+    watch_from_below(du1);
+    watch_from_below(dv1);
+    watch_from_below(du2);
+    watch_from_below(dv2);
     watch(area);
-    watch_cancelling(area, first, second);
+    watch_cancelling(area, V3(first, second, second));
     var out: Derivative;
     out.s = difference_of_scaled(dv2, e1, dv1, e2);
     // The core has -du2 e1 + du1 e2: the same but for the signs of zeros.
@@ -34,13 +34,12 @@ fn derivative(p0: V3, p1: V3, p2: V3, uv0: vec2<Real>, uv1: vec2<Real>, uv2: vec
     out.preserves = is_above(area, real(0u));
     out.any = true;
     if not_zero(area) {
-        let sign = real(select(ONE | SIGN, ONE, out.preserves));
         let size = real(word_of(area) & ~SIGN);
-        let s_length = length_of(out.s);
-        let t_length = length_of(out.t);
-        out.s = unit_unless_zero(sign, s_length, out.s);
-        out.t = unit_unless_zero(sign, t_length, out.t);
-        out.magnitude = vec2<Real>(over(s_length, size), over(t_length, size));
+        let s_length = length_and_inverse(out.s);
+        let t_length = length_and_inverse(out.t);
+        out.s = unit_unless_zero(!out.preserves, s_length, out.s);
+        out.t = unit_unless_zero(!out.preserves, t_length, out.t);
+        out.magnitude = vec2<Real>(over(s_length.x, size), over(t_length.x, size));
         out.any = !(not_zero(out.magnitude.x) && not_zero(out.magnitude.y));
     }
     return out;

@@ -19,9 +19,9 @@ fn run(t: u32) {
     }
     let starts = corners * mesh.vertex_stride;
     let found = derivative(
-        load_vector(starts.x + mesh.position),
-        load_vector(starts.y + mesh.position),
-        load_vector(starts.z + mesh.position),
+        load_position(starts.x),
+        load_position(starts.y),
+        load_position(starts.z),
         uv_at(starts.x),
         uv_at(starts.y),
         uv_at(starts.z),

@@ -104,9 +104,9 @@ fn watched_term(weight: Real, direction: V3) -> V3 {
     return term;
 }
 
-fn add(sums: ptr<function, Sums>, corner: u32, own: Wedge) {
+fn add(sums: ptr<function, Sums>, triangle: u32, corner: u32, own: Wedge) {
     let weight = real(wedge_of_corner[8u * corner + 3u]);
-    let of_triangle = 8u * (corner / 3u) + 6u;
+    let of_triangle = 8u * triangle + 6u;
     let s = watched_term(weight, own.s);
     let t = watched_term(weight, own.t);
     let magnitude_x = real(derivative_of_triangle[of_triangle]);
@@ -127,6 +127,8 @@ fn store(corner: u32, sums: Sums) {
     if is_above(sums.weight, real(0u)) {
         magnitude = vec2<Real>(over(magnitude.x, sums.weight), over(magnitude.y, sums.weight));
     }
+    watch_vector(sums.s);
+    watch_vector(sums.t);
     let tangent = direction(sums.s);
     let bitangent = direction(sums.t);
     for (var axis = 0u; axis < 3u; axis++) {
@@ -151,14 +153,15 @@ fn run(corner: u32) {
     let own = wedge(corner);
     var sums: Sums;
     for (var entry = start; entry < end; entry++) {
-        let member = corner_at(triangle_of_entry[entry], vertex);
+        let triangle = triangle_of_entry[entry];
+        let member = corner_at(triangle, vertex);
         let other = wedge(member);
         if seed_of_corner[member] != seed || (other.flags & ANY) != 0u {
             continue;
         }
-        let is_of_one_face = are_of_one_face(corner / 3u, own.flags, member / 3u, other.flags);
+        let is_of_one_face = are_of_one_face(corner / 3u, own.flags, triangle, other.flags);
         if is_of_one_face || (own.flags & ANY) != 0u || are_near(own, other) {
-            add(&sums, member, other);
+            add(&sums, triangle, member, other);
         }
     }
     store(corner, sums);

@@ -38,6 +38,11 @@ fn difference(a: f32, b: f32) -> f32 {
     return rounded(device_sum(a, -b));
 }
 
+// The nearest whole number to a correction, or the one below it: estimates of corrections are right to a thousandth.
+fn nearly_rounded(correction: f32) -> i32 {
+    return i32(floor(correction + 0.499));
+}
+
 fn quotient(a: f32, b: f32) -> f32 {
     return quotient_near(a, b, device_reciprocal(bitcast<f32>((bitcast<u32>(b) & 0x7fffffu) | ONE)));
 }
@@ -50,46 +55,69 @@ fn quotient_near(a: f32, b: f32, reciprocal: f32) -> f32 {
     let y = significand_of(words.y);
     // Of the quotient's significand 23 or 24 bits lie behind the point.
     let shift = select(23u, 24u, x < y);
-    var quotient = i32(f32(x << (shift - 23u)) * reciprocal);
-    var remainder = i32((x << shift) - u32(quotient) * y);
-    let whole = i32(round(f32(remainder) * reciprocal * 1.1920929e-7));
-    quotient += whole;
-    remainder -= whole * i32(y);
+    let estimate = i32(f32(x << (shift - 23u)) * reciprocal);
+    let remainder = i32((x << shift) - u32(estimate) * y);
+    let near = nearly_rounded(f32(remainder) * reciprocal * 1.1920929e-7);
     // Never exactly one half: no float times an odd multiple of half a unit is a float.
-    quotient += i32(2 * remainder > i32(y)) - i32(2 * remainder < -i32(y));
+    let quotient = estimate + near + i32(2 * (remainder - near * i32(y)) > i32(y));
     let exponent = exponent_of(words.x) - exponent_of(words.y) + 150 - i32(shift);
     let result = u32((exponent << 23u) + quotient - i32(HIDDEN)) | ((words.x ^ words.y) & SIGN);
     return bitcast<f32>(select(result, 0u, is_zero(words.x)));
 }
 
-fn root(a: f32) -> f32 {
-    let word = bitcast<u32>(a);
-    // In [1, 4): with the last bit of the exponent.
-    let x = bitcast<f32>((word & 0x7fffffu) | select(ONE, 0x40000000u, (exponent_of(word) & 1) == 0));
-    return root_near(a, device_reciprocal_root(x));
+// A significand with the last bit of its exponent: in [1, 4).
+fn from_one_to_four(word: u32) -> f32 {
+    return bitcast<f32>(ONE + (word & 0x7fffffu) + ((word & HIDDEN) ^ HIDDEN));
 }
 
-// The root of a from an estimate of the reciprocal root of its significand in [1, 4), off by 25 units at most, as quotients.
-fn root_near(a: f32, reciprocal: f32) -> f32 {
+// The exponent of the root of a positive number.
+fn exponent_of_root(word: u32) -> u32 {
+    return ((word >> 23u) + 127u) >> 1u;
+}
+
+fn root_and_reciprocal(a: f32) -> vec2f {
+    let x = from_one_to_four(bitcast<u32>(a));
+    return root_and_reciprocal_near(a, x, device_reciprocal_root(x));
+}
+
+// The root of a number, and for one that is not zero one over the root, from an estimate of the reciprocal root of its significand x, off by
+// 25 units at most.
+fn root_and_reciprocal_near(a: f32, x: f32, estimate: f32) -> vec2f {
     let word = bitcast<u32>(a);
-    let exponent = exponent_of(word);
-    let square = significand_of(word) << select(23u, 24u, (exponent & 1) == 0);
-    var root = i32(f32(significand_of(word) << select(0u, 1u, (exponent & 1) == 0)) * reciprocal);
-    let rest = f32(i32(square - u32(root) * u32(root)));
-    root += i32(round(rest * reciprocal * 5.9604645e-8));
-    let left = i32(square - u32(root) * u32(root));
+    let exponent = exponent_of_root(word);
+    let found = significands_of_root(x, estimate);
+    let root = select(((exponent - 1u) << 23u) + found.x, 0u, is_zero(word));
+    return bitcast<vec2f>(vec2u(root, ((252u - exponent) << 23u) + found.y));
+}
+
+// One over the root of a number that is not zero, where the root itself is not asked for.
+fn reciprocal_root(a: f32) -> f32 {
+    let word = bitcast<u32>(a);
+    let x = from_one_to_four(word);
+    let found = significands_of_root(x, device_reciprocal_root(x));
+    return bitcast<f32>(((252u - exponent_of_root(word)) << 23u) + found.y);
+}
+
+// The root of x in [1, 4) times 2^23 and one over that root times 2^24, as whole numbers. As for quotients, 32 bits hold what is left.
+fn significands_of_root(x: f32, reciprocal: f32) -> vec2u {
+    let scaled = x * 8388608.0;
+    let square = i32(scaled) << 23u;
+    let estimate = i32(scaled * reciprocal);
+    let near = estimate + nearly_rounded(f32(square - estimate * estimate) * reciprocal * 5.9604645e-8);
     // Never exactly one half: (n + 1/2)^2 is no whole number.
-    root += i32(left > root) - i32(left <= -root);
-    let result = u32((((exponent + 127) >> 1u) << 23u) + root - i32(HIDDEN));
-    return bitcast<f32>(select(result, 0u, is_zero(word)));
+    let root = near + i32(square - near * near > near);
+    // 2^47 over the root is in [2^23, 2^24], and never exactly one half either: only powers of two divide 2^48.
+    let inverse = i32(reciprocal * 16777216.0);
+    let remainder = -(inverse * root);
+    let whole = nearly_rounded(f32(remainder) * reciprocal * 1.1920929e-7);
+    return bitcast<vec2u>(vec2i(root, inverse + whole + i32(2 * (remainder - whole * root) > root)));
 }
 
 // The largest n whose square is not above that of which `square` is the last 32 bits, and what is left of it. `estimate`: of n, within 50;
-// n in [2^23, 2^24).
-fn whole_root(square: u32, estimate: i32) -> vec2i {
-    var root = estimate;
-    root += i32(round(f32(i32(square - u32(root) * u32(root))) * (0.5 / f32(root))));
-    var rest = i32(square - u32(root) * u32(root));
+// n in [2^23, 2^24). `half_inverse`: of 1 / 2 n, by a thousandth.
+fn whole_root(square: i32, estimate: i32, half_inverse: f32) -> vec2i {
+    var root = estimate + i32(round(f32(square - estimate * estimate) * half_inverse));
+    var rest = square - root * root;
     if rest < 0 {
         root -= 1;
         rest += 2 * root + 1;

@@ -110,9 +110,9 @@ fn soft_root(a: u32) -> u32 {
     }
     let x = parts_of(a);
     let is_even = (x.exponent & 1) == 0;
-    let square = x.significand << select(23u, 24u, is_even);
-    let estimate = sqrt(bitcast<f32>((x.significand & 0x7fffffu) | select(ONE, 0x40000000u, is_even)));
-    let root = whole_root(square, i32(estimate * 8388608.0));
+    let square = i32(x.significand << select(23u, 24u, is_even));
+    let estimate = 8388608.0 * sqrt(bitcast<f32>((x.significand & 0x7fffffu) | select(ONE, 0x40000000u, is_even)));
+    let root = whole_root(square, i32(estimate), 0.5 / estimate);
     let significand = u32(root.x + i32(root.y > root.x));
     return (u32((x.exponent + 127) >> 1u) << 23u) + significand - HIDDEN;
 }

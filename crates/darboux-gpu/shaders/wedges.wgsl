@@ -35,19 +35,20 @@ fn run(t: u32) {
     }
     let s = load_derivative(8u * t);
     let other = load_derivative(8u * t + 3u);
+    var edges = edges_of(load_position(starts.x), load_position(starts.y), load_position(starts.z));
+    var coming = edges[2];
     for (var k = 0u; k < 3u; k++) {
         let out = 8u * (3u * t + k);
-        let normal = load_vector(starts[k] + mesh.normal);
-        let here = load_vector(starts[k] + mesh.position);
-        let before = load_vector(starts[(k + 2u) % 3u] + mesh.position);
-        let after = load_vector(starts[(k + 1u) % 3u] + mesh.position);
+        let normal = vector_at(starts[k] + mesh.normal);
+        watch_short_vector(normal);
         let across_s = direction_in_plane(normal, s);
         let across_t = direction_in_plane(normal, other);
         for (var axis = 0u; axis < 3u; axis++) {
-            wedge_of_corner[out + axis] = stored(across_s[axis]);
-            wedge_of_corner[out + 4u + axis] = stored(across_t[axis]);
+            wedge_of_corner[out + axis] = word_of(across_s[axis]);
+            wedge_of_corner[out + 4u + axis] = word_of(across_t[axis]);
         }
-        wedge_of_corner[out + 3u] = stored(angle_at(normal, before, here, after));
+        wedge_of_corner[out + 3u] = word_of(angle_between(normal, coming, edges[k]));
+        coming = edges[k];
         wedge_of_corner[out + 7u] = marks[t] | select(0u, BOUNDED, is_bounded(across_s) && is_bounded(across_t));
     }
 }

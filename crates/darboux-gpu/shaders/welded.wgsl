@@ -8,8 +8,12 @@ const PRESERVES: u32 = 1u;
 // It is UV-degenerate: it goes with any group, and adds nothing.
 const ANY: u32 = 2u;
 
-fn load_vector(word: u32) -> V3 {
-    let found = V3(real(vertices[word]), real(vertices[word + 1u]), real(vertices[word + 2u]));
+fn vector_at(word: u32) -> V3 {
+    return V3(real(vertices[word]), real(vertices[word + 1u]), real(vertices[word + 2u]));
+}
+
+fn load_position(start: u32) -> V3 {
+    let found = vector_at(start + mesh.position);
     watch_vector(found);
     return found;
 }

@@ -2,6 +2,7 @@
 
 mod common;
 
+use std::io::Write;
 use std::sync::OnceLock;
 
 use common::{APART, APART_STRIDE, ENGINE, buffer, gpus, triangulated};
@@ -131,5 +132,79 @@ fn a_table_past_a_binding_is_named() {
         let bytes = 4 * 2_046;
         let what = "the triangles of vertices";
         assert_eq!(refused, Some(GpuError::PastLimit { what, bytes, limit: LITTLE }));
+    }
+}
+
+/// In a process of its own, whose memory ends soon after everything is compiled.
+#[test]
+#[cfg_attr(not(target_os = "linux"), ignore = "processes have no limits elsewhere")]
+fn memory_that_is_used_up_is_an_error() {
+    const NAME: &str = "memory_that_is_used_up_is_an_error";
+    const IS_CHILD: &str = "DARBOUX_TEST_IN_LITTLE_MEMORY";
+    if std::env::var_os(IS_CHILD).is_some() {
+        return run_in_little_memory();
+    }
+    // A real GPU has memory of its own, which no process can limit.
+    if software().is_none() || !has_prlimit() {
+        let why = "skipped: no adapter whose memory is this machine's, or no prlimit (Debian: util-linux)";
+        writeln!(std::io::stdout(), "{why}").expect("standard output");
+        return;
+    }
+    let program = std::env::current_exe().expect("this test");
+    let mut child = std::process::Command::new(program);
+    let output = child.args([NAME, "--exact", "--nocapture"]).env(IS_CHILD, "1").output().expect("a process");
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success() && said.contains("refused in little memory"), "{said}");
+}
+
+fn has_prlimit() -> bool {
+    std::process::Command::new("prlimit")
+        .arg("--version")
+        .output()
+        .is_ok_and(|output| output.status.success())
+}
+
+/// An adapter whose memory is this machine's.
+fn software() -> Option<&'static Gpu> {
+    gpus().iter().find(|gpu| gpu.name.contains("llvmpipe"))
+}
+
+fn run_in_little_memory() {
+    let gpu = software().expect("as in the process before");
+    let kernels = MikkTSpace::new(gpu).expect("valid shaders");
+    let status = std::fs::read_to_string("/proc/self/status").expect("Linux");
+    let size = status.lines().find_map(|line| line.strip_prefix("VmSize:")?.trim().strip_suffix(" kB"));
+    let size: u64 = size.and_then(|size| size.trim().parse().ok()).expect("a size");
+    let limit = format!("--as={}", 1024 * size + (100 << 20));
+    let id = format!("--pid={}", std::process::id());
+    let limited = std::process::Command::new("prlimit").args([id, limit]).status();
+    assert!(limited.is_ok_and(|status| status.success()));
+    let mesh = families::grid(500, 500, false, false);
+    let refused = kernels.generate_tangents(&mesh.view(), &TangentOptions::default()).err();
+    assert_eq!(refused, Some(GpuError::OutOfMemory));
+    // What fits is done as before.
+    has_the_bits_of_the_core(&kernels, "after that", &families::grid(10, 10, false, false));
+    println!("refused in little memory");
+}
+
+#[test]
+fn a_device_lost_in_the_middle_is_an_error_or_too_late() {
+    let mesh = families::grid(100, 100, false, true);
+    let options = TangentOptions::default();
+    let expected = generate_tangents(&mesh.view(), &options);
+    for milliseconds in [0, 1, 3, 10, 30, 100, 300] {
+        for gpu in devices(InstanceDescriptor::new_without_display_handle(), |limits| limits) {
+            let kernels = MikkTSpace::new(&gpu).expect("valid shaders").in_pieces_of(2_000);
+            let device = gpu.device.clone();
+            let end = std::thread::spawn(move || {
+                std::thread::sleep(std::time::Duration::from_millis(milliseconds));
+                device.destroy();
+            });
+            match kernels.generate_tangents(&mesh.view(), &options) {
+                Ok(made) => assert!(made.tangents.corners.per_corner() == expected.corners.per_corner()),
+                Err(error) => assert_eq!(error, GpuError::Lost, "after {milliseconds} ms"),
+            }
+            end.join().expect("no panic");
+        }
     }
 }

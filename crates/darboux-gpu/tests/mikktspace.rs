@@ -73,7 +73,8 @@ fn families_have_the_bits_of_the_core() {
         check(name, &mesh, 60.0, &mut tally);
     }
     println!("{tally:?}");
-    assert!(tally.of_cpu * 4 < tally.corners || gpus().is_empty());
+    // In the stress build pieces are small, and vertices between them many.
+    assert!(tally.of_cpu * 4 < tally.corners || gpus().is_empty() || cfg!(small_limits));
 }
 
 #[test]

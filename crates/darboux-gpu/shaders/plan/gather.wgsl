@@ -65,6 +65,7 @@ fn run(sum: u32) {
     // What no group reaches has a tangent of its own.
     var tangent = V3(real(ONE), real(0u), real(0u));
     if start < end {
+        watch_vector(total);
         tangent = direction(total);
     }
     tangent_of_sum[4u * sum] = stored(tangent.x);

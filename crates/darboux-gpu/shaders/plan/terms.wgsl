@@ -12,25 +12,23 @@ fn run(t: u32) {
     if (triangle.marks.y & ADDS_NOTHING) != 0u {
         return;
     }
-    var at: array<V3, 3>;
+    let names = triangle.representatives;
+    let a = position_of(triangle.vertices.x, names.x);
+    let b = position_of(triangle.vertices.y, names.y);
+    let c = position_of(triangle.vertices.z, names.z);
+    var edges = edges_of(a, b, c);
+    let raw = difference_of_scaled(triangle.dv.y, edges[0], negated(triangle.dv.x), edges[2]);
+    let s = unit_unless_zero((triangle.marks.x & MIRRORS) != 0u, length_and_inverse(raw), raw);
+    watch_vector_from_below(s);
+    var coming = edges[2];
     for (var k = 0u; k < 3u; k++) {
-        at[k] = position_of(triangle.vertices[k], triangle.representatives[k]);
-    }
-    let e1 = less(at[1], at[0]);
-    let e2 = less(at[2], at[0]);
-    watch_vector(e1);
-    watch_vector(e2);
-    let raw = difference_of_scaled(triangle.dv.y, e1, triangle.dv.x, e2);
-    let sign = real(select(ONE, ONE | SIGN, (triangle.marks.x & MIRRORS) != 0u));
-    let s = unit_unless_zero(sign, length_of(raw), raw);
-    watch_vector(s);
-    for (var k = 0u; k < 3u; k++) {
-        let normal = load_normal(triangle.representatives[k]);
-        let weight = angle_at(normal, at[(k + 2u) % 3u], at[k], at[(k + 1u) % 3u]);
+        let normal = load_normal(names[k]);
+        let weight = angle_between(normal, coming, edges[k]);
         let term = scaled(weight, direction_in_plane(normal, s));
         let word = 3u * (3u * t + k);
-        term_of_corner[word] = stored(term.x);
-        term_of_corner[word + 1u] = stored(term.y);
-        term_of_corner[word + 2u] = stored(term.z);
+        term_of_corner[word] = word_of(term.x);
+        term_of_corner[word + 1u] = word_of(term.y);
+        term_of_corner[word + 2u] = word_of(term.z);
+        coming = edges[k];
     }
 }

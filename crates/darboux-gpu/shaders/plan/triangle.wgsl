@@ -48,7 +48,7 @@ fn load_position(vertex: u32) -> V3 {
 fn load_normal(vertex: u32) -> V3 {
     let word = vertex * plan.normal_stride + plan.normal;
     let found = V3(real(normals[word]), real(normals[word + 1u]), real(normals[word + 2u]));
-    watch_vector(found);
+    watch_short_vector(found);
     return found;
 }
 
@@ -64,10 +64,14 @@ fn are_equal(a: V3, b: V3) -> bool {
 
 // The position of a corner: that of its vertex's representative, unless they have moved apart.
 fn position_of(vertex: u32, representative: u32) -> V3 {
-    let own = load_position(vertex);
     if vertex == representative {
-        return own;
+        return load_position(vertex);
     }
+    return position_of_copy(vertex, representative);
+}
+
+fn position_of_copy(vertex: u32, representative: u32) -> V3 {
+    let own = load_position(vertex);
     let other = load_position(representative);
     if are_equal(own, other) {
         return other;

@@ -14,7 +14,15 @@ fn watch(a: Real) {}
 
 fn watch_wide(a: Real) {}
 
-fn watch_cancelling(total: Real, a: Real, b: Real) {}
+fn watch_from_below(a: Real) {}
+
+fn watch_short(a: Real) {}
+
+fn watch_cancelling(total: Real, products: vec3<Real>) {}
+
+fn has_direction(v: vec3<Real>, squares: Real) -> bool {
+    return not_zero(v.x) || not_zero(v.y) || not_zero(v.z);
+}
 
 fn give_up() {}
 
@@ -50,8 +58,13 @@ fn over(a: Real, b: Real) -> Real {
     return a / b;
 }
 
-fn root_of(a: Real) -> Real {
-    return sqrt(a);
+// And one over the root.
+fn root_and_inverse_of(a: Real) -> vec2<Real> {
+    return vec2<Real>(sqrt(a), inverseSqrt(a));
+}
+
+fn inverse_root_of(a: Real) -> Real {
+    return inverseSqrt(a);
 }
 
 fn is_nan(word: u32) -> bool {

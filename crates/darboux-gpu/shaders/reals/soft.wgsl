@@ -12,7 +12,15 @@ fn watch(a: Real) {}
 
 fn watch_wide(a: Real) {}
 
-fn watch_cancelling(total: Real, a: Real, b: Real) {}
+fn watch_from_below(a: Real) {}
+
+fn watch_short(a: Real) {}
+
+fn watch_cancelling(total: Real, products: vec3<Real>) {}
+
+fn has_direction(v: vec3<Real>, squares: Real) -> bool {
+    return not_zero(v.x) || not_zero(v.y) || not_zero(v.z);
+}
 
 fn give_up() {}
 
@@ -48,8 +56,14 @@ fn over(a: Real, b: Real) -> Real {
     return soft_quotient(a, b);
 }
 
-fn root_of(a: Real) -> Real {
-    return soft_root(a);
+// And one over the root.
+fn root_and_inverse_of(a: Real) -> vec2<Real> {
+    let root = soft_root(a);
+    return vec2<Real>(root, soft_quotient(ONE, root));
+}
+
+fn inverse_root_of(a: Real) -> Real {
+    return soft_quotient(ONE, soft_root(a));
 }
 
 fn is_above(a: Real, b: Real) -> bool {
