@@ -13,7 +13,7 @@ use serde::Serialize;
 
 use crate::arguments::CompareArguments;
 use crate::batch::size_of;
-use crate::jobs::{Input, is_png};
+use crate::jobs::{Input, is_png, refuse_missing_folder};
 use crate::messages::{FileProgress, Messages, write_stdout};
 use crate::models::load;
 use crate::report::{VERSION, to_json};
@@ -78,6 +78,7 @@ fn compare(arguments: &CompareArguments, messages: &Messages) -> Result<CompareR
     if let Some(path) = arguments.heat_map.as_ref().filter(|path| !is_png(path)) {
         return Err(format!("{}: the heat map is a PNG; name it .png", path.display()));
     }
+    arguments.heat_map.as_deref().map_or(Ok(()), refuse_missing_folder)?;
     let other = arguments.second.as_ref().unwrap_or(&arguments.first);
     let inputs = [&arguments.first, other].map(|path| Input::File(path.clone()));
     messages.start(inputs.iter().map(size_of).sum());

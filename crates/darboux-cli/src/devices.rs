@@ -1,6 +1,7 @@
 //! `darboux devices`, and which device computes the tangents of a file.
 
 use std::fmt::Write as _;
+use std::sync::atomic::Ordering;
 
 use darboux::{Mesh, Scratch, TangentOptions, Tangents, generate_tangents_into};
 use indicatif::{HumanBytes, HumanCount};
@@ -108,6 +109,14 @@ impl Computer {
             }
         }
         Ok(())
+    }
+
+    /// What a user should know of it, in a sentence; once, however many files there are.
+    pub fn warning(&self) -> Option<String> {
+        let Self::Gpu(Opened { name, is_secretly_software, .. }, _) = self else { return None };
+        is_secretly_software
+            .swap(false, Ordering::Relaxed)
+            .then(|| format!("{name} is software: --device cpu gives the same bits sooner"))
     }
 
     /// `corners`: all that were computed, those of morphed meshes, which the CPU does, included.

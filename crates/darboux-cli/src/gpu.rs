@@ -1,9 +1,10 @@
 //! Tangents on a GPU.
 
+use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 use darboux::{Mesh, TangentOptions, Tangents};
-use darboux_gpu::{Generated, Gpu, MikkTSpace};
+use darboux_gpu::{AdapterKind, Generated, Gpu, MikkTSpace};
 
 use crate::devices::Adapter;
 
@@ -13,6 +14,8 @@ pub const NO_ADAPTERS: &str = "no GPU adapter was found";
 /// The fastest adapter, with everything compiled.
 pub struct Opened {
     pub name: String,
+    /// Whether it is a CPU after all, and nobody was told yet.
+    pub is_secretly_software: AtomicBool,
     /// One mesh at a time: several may be more than the adapter's memory holds.
     kernels: Mutex<MikkTSpace>,
 }
@@ -23,7 +26,8 @@ pub fn open() -> Result<&'static Opened, String> {
     let open = || {
         let gpu = pollster::block_on(Gpu::open())?;
         let kernels = Mutex::new(MikkTSpace::new(&gpu)?);
-        Ok(Opened { name: gpu.name, kernels })
+        let is_secretly_software = AtomicBool::new(gpu.kind() == AdapterKind::Software);
+        Ok(Opened { name: gpu.name, is_secretly_software, kernels })
     };
     let opened = OPENED.get_or_init(|| open().map_err(|error: darboux_gpu::GpuError| error.to_string()));
     opened.as_ref().map_err(Clone::clone)

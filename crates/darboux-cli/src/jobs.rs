@@ -220,7 +220,19 @@ fn check_usage(files: &Files, rules: Rules<'_>) -> Result<(), Usage> {
         let extensions = if rules.images { ".glb, .vrm, .gltf or .png" } else { ".glb, .vrm or .gltf" };
         return Err(Usage(format!("{} must end in {extensions}", output.display())));
     }
-    Ok(())
+    refuse_missing_folder(output).map_err(Usage)
+}
+
+/// Says that the folder of a named output is not there: most likely its name is mistyped.
+pub fn refuse_missing_folder(output: &Path) -> Result<(), String> {
+    match output.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.exists()) {
+        Some(folder) => Err(format!(
+            "{}: there is no folder {}; make it, or name another one",
+            output.display(),
+            folder.display()
+        )),
+        None => Ok(()),
+    }
 }
 
 fn destination(files: &Files, rules: Rules<'_>, input: &Input, folder: Option<&Path>) -> Output {

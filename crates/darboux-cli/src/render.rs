@@ -16,7 +16,7 @@ use crate::arguments::{RenderArguments, Source, View};
 use crate::batch::counted;
 use crate::compare::heat_map::{self, ENDS, FLIP, RAMP};
 use crate::compare::refuse_used;
-use crate::jobs::{Input, is_png};
+use crate::jobs::{Input, is_png, refuse_missing_folder};
 use crate::messages::{Messages, write_stdout};
 use crate::models::load;
 use crate::report::{VERSION, to_json};
@@ -114,7 +114,7 @@ fn check_output(path: &Path, force: bool) -> Result<(), String> {
     if !is_png(path) {
         return Err(format!("{}: the picture is a PNG; name it .png", path.display()));
     }
-    Ok(())
+    refuse_missing_folder(path)
 }
 
 /// The model with the tangents of a source. Triangles without normals get flat ones, as glTF asks of renderers.

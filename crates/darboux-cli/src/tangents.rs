@@ -65,6 +65,7 @@ impl Work for TangentsArguments {
         let mut computer = Computer::new(self.device)?;
         let mut document = load(&job.input, self.files.allow_outside)?;
         let mut warnings = document.warnings().to_vec();
+        warnings.extend(computer.warning());
         let mut normals = None;
         if let Some(options) = self.normals.options() {
             let options = NormalsOptions { normals: options, overwrite: self.overwrite };

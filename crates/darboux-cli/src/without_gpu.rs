@@ -1,5 +1,7 @@
 //! In place of gpu.rs: a build that knows no GPU.
 
+use std::sync::atomic::AtomicBool;
+
 use darboux::{Mesh, TangentOptions, Tangents};
 
 use crate::devices::Adapter;
@@ -10,6 +12,7 @@ pub const NO_ADAPTERS: &str = "this darboux was built without GPUs";
 /// Nothing that could be opened.
 pub struct Opened {
     pub name: String,
+    pub is_secretly_software: AtomicBool,
     never: std::convert::Infallible,
 }
 

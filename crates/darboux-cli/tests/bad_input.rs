@@ -264,3 +264,55 @@ fn pipes_with_names_and_folders_are_no_files() {
         run.stderr
     );
 }
+
+#[test]
+fn a_folder_in_place_of_a_model_gets_one_sentence() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (model, picture) = (asset("Fox/Fox.glb"), folder.path().join("a.png"));
+    let place = text(folder.path());
+    for arguments in [
+        &["compare", place, text(&model)][..],
+        &["compare", text(&model), place],
+        &["compare", place, "--method", "area"],
+        &["render", place, "-o", text(&picture)],
+        &["view", place, "--no-open"],
+    ] {
+        let run = darboux(arguments).exits(1);
+        let sentence = format!("error: {place}: cannot be read: it is a folder; name a file in it\n");
+        assert_eq!(run.stderr, sentence, "{arguments:?}");
+    }
+}
+
+/// The file that the user named, not the one that stands for it until it is whole.
+#[test]
+#[cfg(target_os = "linux")]
+fn an_output_that_cannot_be_made_is_called_by_its_name() {
+    let model = asset("made/quantised-sparse.glb");
+    let run = darboux(&["tangents", text(&model), "-o", "/proc/model.glb"]).exits(1);
+    assert!(run.stderr.starts_with("error: /proc/model.glb: cannot be written: "), "{}", run.stderr);
+    assert!(!run.stderr.contains(".darboux-"), "{}", run.stderr);
+}
+
+/// A mistyped folder is not made; nothing is read or written.
+#[test]
+fn named_outputs_go_into_folders_that_exist() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (model, missing) = (asset("made/quantised-sparse.glb"), folder.path().join("mistyped"));
+    let [glb, png] = ["a.glb", "a.png"].map(|name| missing.join(name));
+    for (arguments, code) in [
+        (&["tangents", text(&model), "-o", text(&glb)][..], 2),
+        (&["compare", text(&model), "--method", "area", "--heat-map", text(&png)], 1),
+        (&["render", text(&model), "-o", text(&png)], 1),
+    ] {
+        let run = darboux(arguments).exits(code);
+        assert!(
+            run.stderr.contains(&format!("there is no folder {}; ", missing.display())),
+            "{}",
+            run.stderr
+        );
+        assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
+    }
+    assert!(!missing.exists());
+    darboux(&["tangents", text(&model), "--out-dir", text(&missing)]).exits(0);
+    assert_eq!(names_in(&missing), ["quantised-sparse.glb"]);
+}

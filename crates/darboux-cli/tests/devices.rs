@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{asset, darboux, darboux_without_adapters, has_adapter, text};
+use common::{asset, darboux, darboux_without_adapters, folder_with, has_adapter, text};
 
 const MODELS: [&str; 4] = [
     "NormalTangentTest/NormalTangentTest.glb",
@@ -74,4 +74,38 @@ fn other_methods_are_not_for_a_gpu() {
     let all = ["tangents", text(&input), "--method", "area", "--device", "gpu"];
     let refused = darboux(&all).exits(2);
     assert!(refused.stderr.contains("--device gpu belongs to --method mikktspace"), "{}", refused.stderr);
+}
+
+#[test]
+fn software_is_told_once_and_nothing_else_is() {
+    if !has_adapter() {
+        return;
+    }
+    let listed = darboux(&["devices", "--json"]).exits(0).json();
+    let is_software = |adapter: &serde_json::Value| adapter["kind"] == "software";
+    let all = listed["adapters"].as_array().expect("a list").iter().all(is_software);
+    let (folder, out) = (folder_with(&[MODELS[0], MODELS[3]]), tempfile::tempdir().expect("a folder"));
+    let words = ["tangents", text(folder.path()), "--out-dir", text(out.path()), "--device", "gpu"];
+    let told = darboux(&words).exits(0).stderr;
+    assert_eq!(
+        told.matches("is software: --device cpu gives the same bits sooner").count(),
+        usize::from(all)
+    );
+}
+
+/// Mesa's layer looks for Wayland, whose library complains where there is none.
+#[test]
+#[cfg(target_os = "linux")]
+fn adapters_are_looked_for_quietly() {
+    if !has_adapter() {
+        return;
+    }
+    for desktop in [None, Some(""), Some("nowhere")] {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_darboux"));
+        command.arg("devices").env_remove("NODEVICE_SELECT").env_remove("XDG_RUNTIME_DIR");
+        command.envs(desktop.map(|folder| ("XDG_RUNTIME_DIR", folder)));
+        let output = command.output().expect("the command runs");
+        assert!(output.status.success() && !output.stdout.is_empty());
+        assert_eq!(String::from_utf8_lossy(&output.stderr), "", "{desktop:?}");
+    }
 }

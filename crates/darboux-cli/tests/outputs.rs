@@ -88,6 +88,7 @@ fn the_extension_of_the_output_decides_the_container() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let plane = asset("TwoSidedPlane/TwoSidedPlane.gltf");
     let (glb, gltf) = (folder.path().join("plane.glb"), folder.path().join("again/plane.gltf"));
+    fs::create_dir(folder.path().join("again")).expect("a folder");
     darboux(&["tangents", text(&plane), "-o", text(&glb), "--overwrite"]).exits(0);
     let json = glb_json(&fs::read(&glb).expect("the GLB"));
     let embedded =

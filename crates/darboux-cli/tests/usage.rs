@@ -43,6 +43,9 @@ fn what_does_not_fit_together_is_refused() {
         &["tangents", dir, "-o", "x.glb"],
         &["tangents", a, "-o", dir],
         &["tangents", a, "-o", "x.obj"],
+        &["tangents", a, "-o", "mistyped/x.glb"],
+        &["compare", a],
+        &["compare", a, b, "--method", "area"],
         &["tangents", a, "-o", a],
         &["tangents", a, "--out-dir", b],
         &["tangents", a, "-o", "-", "--json"],
@@ -65,6 +68,13 @@ fn what_does_not_fit_together_is_refused() {
         assert!(run.stderr.starts_with("error: "), "{arguments:?}: {}", run.stderr);
     }
     assert_eq!(names_in(folder.path()), ["degenerate.gltf", "skinned-morphed-mirrored.gltf"]);
+}
+
+/// Each thing that would do is named, not the first alone.
+#[test]
+fn comparing_one_file_asks_for_another_or_a_method() {
+    let run = darboux(&["compare", "a.glb"]).exits(2);
+    assert!(run.stderr.contains("<B|--method <NAME>>"), "{}", run.stderr);
 }
 
 #[test]

@@ -176,7 +176,7 @@ fn what_is_no_model_is_refused_in_a_sentence() {
     fs::write(at("points.obj"), "v 0 0 0\n").expect("a file");
     let cases = [
         ("no-such.glb", "cannot be read"),
-        (".", "is not a file"),
+        (".", "it is a folder; name a file in it"),
         ("index.html", "cannot be shown"),
         ("empty.glb", "empty.glb: "),
         ("start.glb", "start.glb: "),

@@ -63,18 +63,24 @@ impl fmt::Display for AdapterKind {
     }
 }
 
+impl From<DeviceType> for AdapterKind {
+    fn from(device: DeviceType) -> Self {
+        match device {
+            DeviceType::DiscreteGpu => Self::Discrete,
+            DeviceType::IntegratedGpu => Self::Integrated,
+            DeviceType::VirtualGpu => Self::Virtual,
+            DeviceType::Cpu => Self::Software,
+            DeviceType::Other => Self::Unknown,
+        }
+    }
+}
+
 impl AdapterSummary {
     fn of(adapter: &Adapter) -> Self {
         let (info, limits) = (adapter.get_info(), adapter.limits());
         Self {
             name: info.name,
-            kind: match info.device_type {
-                DeviceType::DiscreteGpu => AdapterKind::Discrete,
-                DeviceType::IntegratedGpu => AdapterKind::Integrated,
-                DeviceType::VirtualGpu => AdapterKind::Virtual,
-                DeviceType::Cpu => AdapterKind::Software,
-                DeviceType::Other => AdapterKind::Unknown,
-            },
+            kind: info.device_type.into(),
             backend: info.backend.to_string(),
             driver: [info.driver, info.driver_info].join(" ").trim().to_owned(),
             largest_binding: largest_buffer(&limits),
@@ -110,6 +116,11 @@ impl Gpu {
             found.push((AdapterSummary::of(&adapter), Self::of(&adapter).await));
         }
         found
+    }
+
+    /// What its adapter is.
+    pub fn kind(&self) -> AdapterKind {
+        self.device.adapter_info().device_type.into()
     }
 
     /// Runs `work`, whose calls of the device would panic where the device refuses.

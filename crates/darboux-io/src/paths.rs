@@ -10,7 +10,11 @@ use crate::Error;
 pub fn readable(path: &Path) -> Result<PathBuf, Error> {
     let failed = |source| Error::Read { file: path.to_owned(), source };
     // Asked first, as a piped /dev/stdin links to nothing that has a name.
-    if !fs::metadata(path).map_err(failed)?.is_file() {
+    let metadata = fs::metadata(path).map_err(failed)?;
+    if metadata.is_dir() {
+        return Err(failed(io::Error::other("it is a folder; name a file in it")));
+    }
+    if !metadata.is_file() {
         return Err(failed(io::Error::other("it is not a regular file; save its content as one")));
     }
     path.canonicalize().map_err(failed)

@@ -127,15 +127,8 @@ impl FromStr for RunId {
     }
 }
 
-/// A temporary file with the permissions of an ordinary new file.
+/// A temporary file with the permissions of an ordinary new file. Its errors do not name it: nobody asked for it.
 fn new_file(folder: &Path, run: Option<RunId>) -> io::Result<tempfile::NamedTempFile> {
     let prefix = run.map_or(UNFINISHED.into(), RunId::unfinished);
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(&prefix);
-    #[cfg(unix)]
-    let builder = {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(fs::Permissions::from_mode(0o666))
-    };
-    builder.tempfile_in(folder)
+    tempfile::Builder::new().prefix(&prefix).make_in(folder, |path| File::create_new(path))
 }

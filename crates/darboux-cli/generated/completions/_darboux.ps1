@@ -37,9 +37,9 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             break
         }
         'darboux;tangents' {
-            [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'Output file for a single input; - is standard output, as GLB')
-            [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'Output file for a single input; - is standard output, as GLB')
-            [CompletionResult]::new('--out-dir', '--out-dir', [CompletionResultType]::ParameterName, 'Folder for all outputs, which have the names of their inputs; below an input folder its structure is kept')
+            [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'Output file for a single input, in a folder that exists; - is standard output, as GLB')
+            [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'Output file for a single input, in a folder that exists; - is standard output, as GLB')
+            [CompletionResult]::new('--out-dir', '--out-dir', [CompletionResultType]::ParameterName, 'Folder for all outputs, made if missing; they have the names of their inputs, and an input folder''s structure is kept')
             [CompletionResult]::new('--jobs', '--jobs', [CompletionResultType]::ParameterName, 'How many files are worked on at the same time')
             [CompletionResult]::new('--method', '--method', [CompletionResultType]::ParameterName, 'How tangents are computed: as the normal map was baked, so nearly always mikktspace')
             [CompletionResult]::new('--mode', '--mode', [CompletionResultType]::ParameterName, 'Which defects of the MikkTSpace reference to keep')
@@ -63,9 +63,9 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             break
         }
         'darboux;normals' {
-            [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'Output file for a single input; - is standard output, as GLB')
-            [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'Output file for a single input; - is standard output, as GLB')
-            [CompletionResult]::new('--out-dir', '--out-dir', [CompletionResultType]::ParameterName, 'Folder for all outputs, which have the names of their inputs; below an input folder its structure is kept')
+            [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'Output file for a single input, in a folder that exists; - is standard output, as GLB')
+            [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'Output file for a single input, in a folder that exists; - is standard output, as GLB')
+            [CompletionResult]::new('--out-dir', '--out-dir', [CompletionResultType]::ParameterName, 'Folder for all outputs, made if missing; they have the names of their inputs, and an input folder''s structure is kept')
             [CompletionResult]::new('--jobs', '--jobs', [CompletionResultType]::ParameterName, 'How many files are worked on at the same time')
             [CompletionResult]::new('--normals', '--normals', [CompletionResultType]::ParameterName, 'flat, smooth, or crease=DEG: smooth but for edges that are sharper than so many degrees')
             [CompletionResult]::new('--weight', '--weight', [CompletionResultType]::ParameterName, 'How much each face counts at a vertex of a smooth surface')
@@ -83,14 +83,14 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             break
         }
         'darboux;convert' {
-            [CompletionResult]::new('--out-dir', '--out-dir', [CompletionResultType]::ParameterName, 'Folder for all outputs, which have the names of their inputs; below an input folder its structure is kept')
+            [CompletionResult]::new('--out-dir', '--out-dir', [CompletionResultType]::ParameterName, 'Folder for all outputs, made if missing; they have the names of their inputs, and an input folder''s structure is kept')
             [CompletionResult]::new('--jobs', '--jobs', [CompletionResultType]::ParameterName, 'How many files are worked on at the same time')
             [CompletionResult]::new('--from', '--from', [CompletionResultType]::ParameterName, 'The convention that the files are in')
             [CompletionResult]::new('--to', '--to', [CompletionResultType]::ParameterName, 'The convention that they shall be in')
             [CompletionResult]::new('--layout', '--layout', [CompletionResultType]::ParameterName, 'Channels of a normal map''s x, y and, where it is stored, z, in this order: rgb, rg, ag, la, ...')
             [CompletionResult]::new('--to-layout', '--to-layout', [CompletionResultType]::ParameterName, 'Channels that they shall be in; the same unless given. A z that was not stored is rebuilt')
-            [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'Output file for a single input; - is standard output')
-            [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'Output file for a single input; - is standard output')
+            [CompletionResult]::new('-o', '-o', [CompletionResultType]::ParameterName, 'Output file for a single input, in a folder that exists; - is standard output')
+            [CompletionResult]::new('--output', '--output', [CompletionResultType]::ParameterName, 'Output file for a single input, in a folder that exists; - is standard output')
             [CompletionResult]::new('--in-place', '--in-place', [CompletionResultType]::ParameterName, 'Replace each input by its output')
             [CompletionResult]::new('--force', '--force', [CompletionResultType]::ParameterName, 'Replace output files that exist')
             [CompletionResult]::new('--resume', '--resume', [CompletionResultType]::ParameterName, 'Leave out inputs whose output in --out-dir is up to date, and replace those that are not')

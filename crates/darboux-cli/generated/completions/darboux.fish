@@ -35,8 +35,8 @@ complete -c darboux -n "__fish_darboux_needs_command" -f -a "render" -d 'Draw a 
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "view" -d 'Show a model in the browser, with its tangents'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "methods" -d 'Say which method of computing tangents is for what'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "devices" -d 'List the adapters that can compute tangents'
-complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s o -l output -d 'Output file for a single input; - is standard output, as GLB' -r -F
-complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l out-dir -d 'Folder for all outputs, which have the names of their inputs; below an input folder its structure is kept' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s o -l output -d 'Output file for a single input, in a folder that exists; - is standard output, as GLB' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l out-dir -d 'Folder for all outputs, made if missing; they have the names of their inputs, and an input folder\'s structure is kept' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l jobs -d 'How many files are worked on at the same time' -r
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l method -d 'How tangents are computed: as the normal map was baked, so nearly always mikktspace' -r -f -a "mikktspace\t'The standard of bakers and engines'
 angle-area\t'Weighted by angle and area: follows the UVs best where no baked map asks for MikkTSpace'
@@ -68,8 +68,8 @@ complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l strict -d '
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s q -l quiet -d 'Print errors only'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s h -l help -d 'Print help (see more with \'--help\')'
-complete -c darboux -n "__fish_darboux_using_subcommand normals" -s o -l output -d 'Output file for a single input; - is standard output, as GLB' -r -F
-complete -c darboux -n "__fish_darboux_using_subcommand normals" -l out-dir -d 'Folder for all outputs, which have the names of their inputs; below an input folder its structure is kept' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand normals" -s o -l output -d 'Output file for a single input, in a folder that exists; - is standard output, as GLB' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand normals" -l out-dir -d 'Folder for all outputs, made if missing; they have the names of their inputs, and an input folder\'s structure is kept' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l jobs -d 'How many files are worked on at the same time' -r
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l normals -d 'flat, smooth, or crease=DEG: smooth but for edges that are sharper than so many degrees' -r
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l weight -d 'How much each face counts at a vertex of a smooth surface' -r -f -a "angle\t'The angle of its corner: independent of how a flat surface is cut'
@@ -84,7 +84,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand normals" -l overwrite -d
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -s q -l quiet -d 'Print errors only'
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -s h -l help -d 'Print help (see more with \'--help\')'
-complete -c darboux -n "__fish_darboux_using_subcommand convert" -l out-dir -d 'Folder for all outputs, which have the names of their inputs; below an input folder its structure is kept' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l out-dir -d 'Folder for all outputs, made if missing; they have the names of their inputs, and an input folder\'s structure is kept' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l jobs -d 'How many files are worked on at the same time' -r
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l from -d 'The convention that the files are in' -r -f -a "gltf\t''
 opengl\t''
@@ -108,7 +108,7 @@ maya\t''
 3dsmax\t''"
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l layout -d 'Channels of a normal map\'s x, y and, where it is stored, z, in this order: rgb, rg, ag, la, ...' -r
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l to-layout -d 'Channels that they shall be in; the same unless given. A z that was not stored is rebuilt' -r
-complete -c darboux -n "__fish_darboux_using_subcommand convert" -s o -l output -d 'Output file for a single input; - is standard output' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -s o -l output -d 'Output file for a single input, in a folder that exists; - is standard output' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l in-place -d 'Replace each input by its output'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l force -d 'Replace output files that exist'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l resume -d 'Leave out inputs whose output in --out-dir is up to date, and replace those that are not'

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{ArgGroup, Args};
 
 use super::{Method, Talk, degrees};
 
@@ -24,13 +24,14 @@ Examples:
 
 /// `darboux compare`.
 #[derive(Debug, Args)]
+#[command(group = ArgGroup::new("with").args(["second", "method"]).required(true))]
 pub struct CompareArguments {
     /// The first file (.gltf, .glb, .vrm)
     #[arg(value_name = "A")]
     pub first: PathBuf,
 
     /// The second file
-    #[arg(value_name = "B", required_unless_present = "method", conflicts_with = "method")]
+    #[arg(value_name = "B")]
     pub second: Option<PathBuf>,
 
     /// Compare A with the tangents that this method gives it; `darboux methods` lists them

@@ -36,7 +36,8 @@ Examples:
   darboux convert exported.glb --from unity --to gltf         a file that holds Unity's numbers, put right
   darboux convert model.glb --from gltf --to unreal --raw     numbers for a loader of one's own";
 
-pub(super) const OUTPUT: &str = "Output file for a single input; - is standard output";
+pub(super) const OUTPUT: &str =
+    "Output file for a single input, in a folder that exists; - is standard output";
 pub(super) const INPUTS: &str = "Normal maps (.png) and models (.gltf, .glb, .vrm); - is standard input";
 
 /// `darboux convert`.

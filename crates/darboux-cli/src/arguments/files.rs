@@ -17,11 +17,11 @@ pub struct Files {
     #[arg(required = true, value_name = "INPUT")]
     pub inputs: Vec<PathBuf>,
 
-    /// Output file for a single input; - is standard output, as GLB
+    /// Output file for a single input, in a folder that exists; - is standard output, as GLB
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub output: Option<PathBuf>,
 
-    /// Folder for all outputs, which have the names of their inputs; below an input folder its structure is kept
+    /// Folder for all outputs, made if missing; they have the names of their inputs, and an input folder's structure is kept
     #[arg(long, value_name = "FOLDER", help_heading = "Output")]
     pub out_dir: Option<PathBuf>,
 

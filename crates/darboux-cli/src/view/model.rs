@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use darboux_io::gltf::{Document, LoadOptions, inspect};
+use darboux_io::readable;
 
 use super::obj::{Companion, companions};
 
@@ -24,10 +25,7 @@ impl Model {
     /// Reads the model once, so that a broken one is known before there is a page. Errors: no such file, another format, broken data.
     pub fn find(path: &Path, allow_outside: bool) -> Result<Self, String> {
         let shown = path.display();
-        let metadata = fs::metadata(path).map_err(|error| format!("{shown}: cannot be read: {error}"))?;
-        if !metadata.is_file() {
-            return Err(format!("{shown}: is not a file; name a model"));
-        }
+        readable(path).map_err(|error| error.to_string())?;
         let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
         let kind = match extension.to_str() {
             Some("gltf" | "glb" | "vrm") => Kind::Gltf,

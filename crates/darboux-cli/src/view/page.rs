@@ -35,9 +35,9 @@ impl Page {
 fn usual_places() -> Vec<PathBuf> {
     let program = std::env::current_exe().ok();
     let beside = program.as_deref().and_then(Path::parent).map(|folder| folder.join("viewer"));
-    let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../viewer/dist");
-    let sources = sources.canonicalize().unwrap_or(sources);
-    beside.into_iter().chain([sources]).collect()
+    let sources =
+        Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).map(|root| root.join("viewer/dist"));
+    beside.into_iter().chain(sources).collect()
 }
 
 fn files_in(folder: &Path) -> HashMap<String, PathBuf> {
@@ -62,5 +62,24 @@ fn media_type(path: &Path) -> &'static str {
         Some("json") => "application/json",
         Some("txt") => "text/plain; charset=utf-8",
         _ => "application/octet-stream",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Component;
+
+    use super::usual_places;
+
+    #[test]
+    fn places_are_named_as_people_look_them_up() {
+        let places = usual_places();
+        assert_eq!(places.len(), 2);
+        for place in places {
+            assert!(
+                place.is_absolute() && !place.components().any(|part| part == Component::ParentDir),
+                "{place:?}"
+            );
+        }
     }
 }
