@@ -1,7 +1,7 @@
 // `node build.mjs DARBOUX MODULE`: makes the page in `dist`, of the npm package in the folder DARBOUX and the WebAssembly of `wasm`.
 
 import { spawnSync } from 'node:child_process';
-import { mkdirSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import { copyFileSync, mkdirSync, rmSync, symlinkSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
@@ -24,9 +24,8 @@ symlinkSync(darboux, link);
 const features = FEATURES.map((name) => `--enable-${name}`);
 const stripped = ['debug', 'producers', 'target-features'].map((name) => `--strip-${name}`);
 run('wasm-opt', ...features, '-O3', ...stripped, module, '-o', join(here, 'src/files/darboux_viewer.wasm'));
-const { sample } = await import('./sample.mjs');
 mkdirSync(join(here, 'public'), { recursive: true });
-writeFileSync(join(here, 'public/shield.glb'), await sample());
+copyFileSync(join(here, '../assets/made/shield.glb'), join(here, 'public/shield.glb'));
 
 run('tsc', '-p', '.');
 run('vite', 'build');

@@ -1,6 +1,7 @@
-// Makes the model that the page opens with: a shield whose halves share one half of the texture, with tangents in the file as many tools
-// write them, one per vertex, so that its middle is broken.
+// `node viewer/sample.mjs`, after `cargo xtask dist-viewer`, makes assets/made/shield.glb, which the page opens with: a shield whose halves
+// share one half of the texture, with tangents in the file as many tools write them, one per vertex, so that its middle is broken.
 
+import { writeFileSync } from 'node:fs';
 import { crc32, deflateSync } from 'node:zlib';
 
 import { generateNormals, generateTangents, ready } from 'darboux';
@@ -10,9 +11,11 @@ const [ACROSS, DOWN] = [8, 24];
 /** Texels along a side of the normal map. */
 const SIZE = 512;
 
+await ready;
+writeFileSync(new URL('../assets/made/shield.glb', import.meta.url), sample());
+
 /** The bytes of the GLB. */
-export async function sample() {
-  await ready;
+function sample() {
   const { positions, uvs, indices } = shield();
   const normals = ofVertices(generateNormals(positions, indices), 3, indices, positions.length / 3);
   const corners = generateTangents(positions, normals, uvs, indices, { method: 'lengyel-per-vertex' });

@@ -7,7 +7,9 @@ use std::process::Command;
 use darboux::{Faces, Mesh, TangentOptions, generate_tangents, split_vertices};
 
 use crate::drop_in::a_few_meshes;
-use crate::support::{Link, build, compiler, dist, folder, has, run, run_with_input, source};
+use crate::support::{
+    Link, build, compiler, dist, folder, has, repository, run, run_with_input, source,
+};
 
 fn example(name: &str) -> PathBuf {
     dist().join("examples").join(name)
@@ -69,6 +71,23 @@ fn examples_print_what_rust_computes() {
     let program =
         build("example-mikktspace", "c99", &[example("mikktspace.c")], &["darboux_mikktspace"], Link::Static);
     assert_eq!(run(&mut Command::new(program)).stdout, "1 0 0 1\n".repeat(4).as_bytes());
+}
+
+#[test]
+fn the_readmes_example_prints_what_it_says() {
+    if !has("gcc") {
+        return;
+    }
+    let readme = fs::read_to_string(repository().join("README.md")).expect("the README");
+    let rest = readme.split("```c\n").nth(1).expect("an example in C");
+    let code = rest.split("```").next().expect("its end");
+    let file = folder().join("readme.c");
+    fs::write(&file, code).expect("a file");
+    let program = build("readme", "c99", &[file], &["darboux"], Link::Shared);
+    let printed = run(&mut Command::new(program)).stdout;
+    let (_, said) =
+        code.split_once("printf").and_then(|(_, rest)| rest.split_once("// ")).expect("a comment");
+    assert_eq!(printed, format!("{}\n", said.lines().next().unwrap_or_default()).as_bytes());
 }
 
 #[test]
