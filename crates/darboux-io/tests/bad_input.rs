@@ -210,7 +210,7 @@ fn files_outside_the_folder_are_not_read() {
     }
     refused(open_with(&inside, "gone.bin", false), "buffers[0].uri: the file \"gone.bin\" does not exist");
     refused(open_with(&inside, "sub", false), "is not a regular file");
-    refused(Document::open(&inside, &LoadOptions::default()).map(drop), "is not a regular file");
+    refused(Document::open(&inside, &LoadOptions::default()).map(drop), "it is a folder");
     refused(Document::open(&inside.join("gone.glb"), &LoadOptions::default()).map(drop), "cannot be read");
 }
 
