@@ -121,7 +121,9 @@ fn shared_vertices_stay_shared() {
 #[test]
 fn normals_that_exist_are_kept_unless_they_are_to_be_replaced_and_then_tangents_go() {
     let mut builder = Builder::new();
-    let attributes = square().attributes(&mut builder);
+    let mut leaning = square();
+    leaning.normals.fill([0.0, 0.6, 0.8]);
+    let attributes = leaning.attributes(&mut builder);
     let tangents = builder.vectors(&[[1.0f32, 0.0, 0.0, 1.0]; 4]);
     let offsets = builder.vectors(&[[0.0f32, 0.0, 0.5]; 4]);
     let indices = builder.indices(&SQUARE);

@@ -5,7 +5,10 @@ mod support;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use darboux_io::gltf::{Document, LoadOptions, SaveOptions, TangentEncoding, TangentsOptions, add_tangents};
+use darboux_io::gltf::{
+    Document, LoadOptions, NormalsOptions, SaveOptions, TangentEncoding, TangentsOptions, add_normals,
+    add_tangents,
+};
 use serde_json::{Value, json};
 use support::{BOTH, Builder, butterfly, run, run_with};
 
@@ -228,4 +231,53 @@ fn writing_in_place_again_and_again_adds_no_buffers() {
     std::fs::copy(&path, &other).unwrap();
     again(Snorm8x4);
     Document::open(&other, &LoadOptions::default()).unwrap();
+}
+
+/// The butterfly with a morph target, and an extension that may name any accessor.
+fn morphing_with_unknown_extension() -> (Value, Vec<u8>) {
+    let mut builder = Builder::new();
+    builder.set("extensions", json!({"VENDOR_lists": {"list": 3}}));
+    let vertices = butterfly();
+    let attributes = vertices.attributes(&mut builder);
+    let moved: Vec<_> = vertices.positions.iter().map(|[x, y, _]| [0.0, 0.0, x * y]).collect();
+    let (indices, target) = (builder.indices(&BOTH), builder.vectors(&moved));
+    builder.mesh(&[json!({"attributes": attributes, "indices": indices, "targets": [{"POSITION": target}]})]);
+    glb(&builder.build())
+}
+
+/// Not even where what an earlier run replaced must stay.
+#[test]
+fn a_run_in_place_that_gives_what_is_there_leaves_the_files_as_they_are() {
+    let (mut json, chunk) = morphing_with_unknown_extension();
+    let folder = tempfile::tempdir().unwrap();
+    let [gltf, glb] = ["model.gltf", "model.glb"].map(|name| folder.path().join(name));
+    json["buffers"][0]["uri"] = json!("data.bin");
+    std::fs::write(folder.path().join("data.bin"), &chunk).unwrap();
+    std::fs::write(&gltf, json.to_string()).unwrap();
+    let open = |path: &Path| Document::open(path, &LoadOptions::default()).unwrap();
+    std::fs::write(&glb, open(&gltf).to_glb().unwrap()).unwrap();
+    let tangents = |path: &Path, encoding| {
+        let mut document = open(path);
+        let options = TangentsOptions { overwrite: true, encoding, ..TangentsOptions::default() };
+        run_with(&mut document, &options);
+        document.save_in_place().unwrap()
+    };
+    let normals = |path: &Path| {
+        let mut document = open(path);
+        let options = NormalsOptions { overwrite: true, ..NormalsOptions::default() };
+        add_normals(&mut document, &options, &mut |_| {}).unwrap();
+        document.save_in_place().unwrap()
+    };
+    for path in [&gltf, &glb] {
+        for encoding in [TangentEncoding::F32x4, TangentEncoding::Snorm16x4, TangentEncoding::Snorm8x4] {
+            assert!(!tangents(path, encoding).is_empty());
+            assert_eq!(tangents(path, encoding), [PathBuf::new(); 0], "{path:?} {encoding:?}");
+        }
+        assert!(!normals(path).is_empty());
+        assert!(!tangents(path, TangentEncoding::F32x4).is_empty(), "other normals took the tangents out");
+        let before = std::fs::read(path).unwrap();
+        assert_eq!(normals(path), [PathBuf::new(); 0], "their tangents stay");
+        assert_eq!(tangents(path, TangentEncoding::F32x4), [PathBuf::new(); 0]);
+        assert_eq!(std::fs::read(path).unwrap(), before);
+    }
 }

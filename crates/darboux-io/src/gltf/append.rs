@@ -76,9 +76,10 @@ impl<'a> Appended<'a> {
     }
 }
 
-/// Appends an accessor of floats, one element per vertex; without the zeros, if `sparse`.
+/// Appends an accessor of floats, one element per vertex; without the zeros, if `sparse`. In place of `old`, which stays if it has them.
 pub fn push_vectors<const N: usize>(
     document: &mut Document,
+    old: Option<usize>,
     element_type: ElementType,
     vectors: &[[f32; N]],
     sparse: bool,
@@ -91,7 +92,7 @@ pub fn push_vectors<const N: usize>(
         normalized: false,
     };
     let target = Target::Vertices;
-    document.push_accessor(NewAccessor { elements, target, bounds: false, sparse, like: None })
+    document.push_in_place_of(old, NewAccessor { elements, target, bounds: false, sparse, like: None })
 }
 
 /// Whether an accessor leaves out zeros, so that what follows it should do the same.

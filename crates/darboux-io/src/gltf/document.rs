@@ -207,6 +207,16 @@ impl Document {
         self.root.accessors.len() - 1
     }
 
+    /// As [`Document::push_accessor`], unless the accessor that `new` would take the place of has the same elements: then that stays. So
+    /// nothing new is stored where a run gives what an earlier one gave.
+    pub(super) fn push_in_place_of(&mut self, old: Option<usize>, new: NewAccessor) -> usize {
+        let is_same = |&old: &usize| self.elements(old).is_ok_and(|elements| elements == new.elements);
+        match old.filter(is_same) {
+            Some(old) => old,
+            None => self.push_accessor(new),
+        }
+    }
+
     /// Stores the elements of `new` in views of their own.
     fn store(&mut self, new: NewAccessor) -> schema::Accessor {
         let elements = new.elements;
@@ -311,13 +321,16 @@ impl Document {
         Some(texts.get(mesh)?.get(primitive)?.get())
     }
 
-    /// Sets the JSON of a primitive that exists.
+    /// Sets the JSON of a primitive that exists; no edit where it is that already.
     pub(super) fn replace_primitive(
         &mut self,
         mesh: usize,
         primitive: usize,
         text: String,
     ) -> serde_json::Result<()> {
+        if self.primitive_text(mesh, primitive) == Some(&text) {
+            return Ok(());
+        }
         let replaced: schema::Primitive = serde_json::from_str(&text)?;
         let replaced = std::mem::replace(&mut self.root.meshes[mesh].primitives[primitive], replaced);
         let attributes = replaced.targets.iter().chain([&replaced.attributes]).flat_map(BTreeMap::values);

@@ -236,13 +236,16 @@ impl Run<'_, '_> {
         field: Field,
     ) -> Result<Vec<(usize, Written)>, Error> {
         let Field { reports, split, lists, offsets } = field;
-        let tangents = write::push_tangents(document, self.options.encoding, &split.tangents);
+        let first = &self.selection.candidates[group.members[0].candidate].name;
+        let old =
+            document.meshes()[first.mesh].primitives[first.primitive].attributes.get("TANGENT").copied();
+        let tangents = write::push_tangents(document, old, self.options.encoding, &split.tangents);
         excess::check_output(document)?;
         let mut offset_accessors = HashMap::new();
         let mut misfits: HashMap<(Movement, usize), Misfits> = HashMap::new();
-        for (Morph { movement, jobs, .. }, moved) in offsets {
+        for (Morph { movement, old, jobs, .. }, moved) in offsets {
             let sparse = movement.accessors().all(|accessor| is_sparse(document, accessor));
-            let accessor = push_vectors(document, ElementType::Vec3, &moved.of_vertex, sparse);
+            let accessor = push_vectors(document, old, ElementType::Vec3, &moved.of_vertex, sparse);
             offset_accessors.insert(movement, accessor);
             misfits.extend(jobs.into_iter().map(|job| (movement, job)).zip(moved.misfits));
         }

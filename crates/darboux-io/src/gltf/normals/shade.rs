@@ -40,6 +40,8 @@ pub struct Part {
 pub struct Move {
     /// The accessor of position offsets: the first that reads them.
     pub accessor: usize,
+    /// The accessor of normal offsets that the target has, if any.
+    pub old: Option<usize>,
     /// Corners whose normal changes, and by how much.
     pub offsets: Vec<(usize, [f32; 3])>,
 }
@@ -90,10 +92,11 @@ fn part(
     let rest = corners.split_off(chosen.topology.whole(corners.len()));
     let corners = chosen.topology.corners(corners);
     let targets = &document.meshes()[name.mesh].primitives[name.primitive].targets;
-    let position = |target: &Attributes| target.get("POSITION").copied();
-    let moves = targets.iter().map(position).map(|accessor| {
-        accessor.map(|accessor| Move { accessor: accessors.of(accessor), offsets: Vec::new() })
-    });
+    let moved = |target: &Attributes| {
+        let accessor = accessors.of(*target.get("POSITION")?);
+        Some(Move { accessor, old: target.get("NORMAL").copied(), offsets: Vec::new() })
+    };
+    let moves = targets.iter().map(moved);
     Ok(Part {
         candidate,
         position: accessors.of(chosen.position),

@@ -26,7 +26,10 @@ pub fn write(
     let split = split(document, position, parts)?;
     let old_count = document.accessors()[position].count;
     let copies = &split.source_of_vertex[old_count..];
-    let normals = push_vectors(document, ElementType::Vec3, &split.normal_of_vertex, false);
+    let old = parts.first().and_then(|part| {
+        document.meshes()[part.name.mesh].primitives[part.name.primitive].attributes.get("NORMAL").copied()
+    });
+    let normals = push_vectors(document, old, ElementType::Vec3, &split.normal_of_vertex, false);
     excess::check_output(document)?;
     let appended = Appended::new(accessors, copies, old_count);
     let mut writer = Writer {
@@ -90,6 +93,7 @@ impl<'a> Writer<'a> {
             first += part.corners.len();
         }
         for (accessor, moves) in moves_of_accessor {
+            let old = moves.first().and_then(|(.., moved)| moved.old);
             let mut offsets = vec![[0.0; 3]; self.split.normal_of_vertex.len()];
             // The first corner that moves decides for its vertex.
             for &(_, first, moved) in moves.iter().rev() {
@@ -101,7 +105,7 @@ impl<'a> Writer<'a> {
                 let vertices = &self.split.indices[first..first + part.corners.len()];
                 *self.conflicting.entry(part.candidate).or_default() += conflicts(vertices, moved, &offsets);
             }
-            self.offsets.insert(accessor, push_vectors(document, ElementType::Vec3, &offsets, true));
+            self.offsets.insert(accessor, push_vectors(document, old, ElementType::Vec3, &offsets, true));
             excess::check_output(document)?;
         }
         Ok(())
@@ -117,12 +121,14 @@ impl<'a> Writer<'a> {
         let primitive = document.meshes()[name.mesh].primitives[name.primitive].clone();
         let normals = Some(self.normals);
         let at = format!("{}.attributes", name.path());
-        let attributes = self.attributes(document, &at, &primitive.attributes, normals)?;
+        let keeps_tangents = self.is_same(&primitive.attributes, normals);
+        let attributes = self.attributes(document, &at, &primitive.attributes, normals, keeps_tangents)?;
         let mut targets = Vec::with_capacity(primitive.targets.len());
         for (place, (target, moved)) in primitive.targets.iter().zip(&part.moves).enumerate() {
             let at = format!("{}.targets[{place}]", name.path());
             let offsets = moved.as_ref().map(|moved| self.offsets[&moved.accessor]);
-            let mut target = self.attributes(document, &at, target, offsets)?;
+            let keeps_tangents = keeps_tangents && self.is_same(target, offsets);
+            let mut target = self.attributes(document, &at, target, offsets, keeps_tangents)?;
             if target.is_empty() {
                 target.insert("NORMAL".to_owned(), self.zeros(document));
             }
@@ -142,13 +148,18 @@ impl<'a> Writer<'a> {
                 }
             }
         })?;
-        Ok(self.written(part, &primitive))
+        Ok(self.written(part, &primitive, keeps_tangents))
     }
 
-    fn written(&self, part: &Part, before: &Primitive) -> WrittenNormals {
+    /// Whether attributes have these normals, if any, already: then their tangents belong to them.
+    fn is_same(&self, old: &Attributes, normals: Option<usize>) -> bool {
+        !self.appended.is_needed() && normals.is_none_or(|normals| old.get("NORMAL") == Some(&normals))
+    }
+
+    fn written(&self, part: &Part, before: &Primitive, keeps_tangents: bool) -> WrittenNormals {
         WrittenNormals {
             replaced: before.attributes.contains_key("NORMAL"),
-            tangents_removed: before.attributes.contains_key("TANGENT"),
+            tangents_removed: !keeps_tangents && before.attributes.contains_key("TANGENT"),
             vertices_before: self.appended.old_count(),
             vertices_after: self.split.normal_of_vertex.len(),
             morph_targets: part.moves.iter().flatten().count(),
@@ -160,17 +171,18 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// `old` with the appended vertices, without tangents, and with `normals` in place of its own, if given.
+    /// `old` with the appended vertices, without tangents unless they are kept, and with `normals` in place of its own, if given.
     fn attributes(
         &mut self,
         document: &mut Document,
         at: &str,
         old: &Attributes,
         normals: Option<usize>,
+        keeps_tangents: bool,
     ) -> Result<Attributes, Error> {
         let mut new = Attributes::new();
         for (semantic, &accessor) in old {
-            if semantic == "TANGENT" || (semantic == "NORMAL" && normals.is_some()) {
+            if (semantic == "TANGENT" && !keeps_tangents) || (semantic == "NORMAL" && normals.is_some()) {
                 continue;
             }
             let accessor = if self.appended.is_needed() {
@@ -192,9 +204,9 @@ impl<'a> Writer<'a> {
     /// Normal offsets for a target that had nothing but tangent offsets: a target must not be empty.
     fn zeros(&mut self, document: &mut Document) -> usize {
         let count = self.split.normal_of_vertex.len();
-        *self
-            .zeros
-            .get_or_insert_with(|| push_vectors(document, ElementType::Vec3, &vec![[0.0; 3]; count], true))
+        *self.zeros.get_or_insert_with(|| {
+            push_vectors(document, None, ElementType::Vec3, &vec![[0.0; 3]; count], true)
+        })
     }
 
     /// The accessor of new indices; none where the old ones, or their absence, serve.

@@ -40,6 +40,8 @@ impl Movement {
 #[derive(Debug)]
 pub struct Morph {
     pub movement: Movement,
+    /// The accessor of tangent offsets that the first such target has, if any.
+    pub old: Option<usize>,
     /// The JSON path of a target that has it.
     at: String,
     /// The jobs of the primitives that have it.
@@ -64,7 +66,8 @@ pub fn morphs(
             let Some(movement) = Movement::of(accessors, target, options) else { continue };
             let place = *place_of.entry(movement).or_insert_with(|| {
                 let at = format!("{}.targets[{place}]", name.path());
-                morphs.push(Morph { movement, at, jobs: Vec::new() });
+                let old = target.get("TANGENT").copied();
+                morphs.push(Morph { movement, old, at, jobs: Vec::new() });
                 morphs.len() - 1
             });
             moved.entry((place, member.job)).or_insert_with(|| morphs[place].jobs.push(member.job));

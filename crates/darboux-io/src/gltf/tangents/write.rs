@@ -15,12 +15,17 @@ use crate::gltf::append::{Appended, index_elements, set_attributes};
 use crate::gltf::schema::Attributes;
 use crate::gltf::{Document, NewAccessor, Target};
 
-/// Appends an accessor of tangents, one per vertex, and declares the extension that it needs.
-pub fn push_tangents(document: &mut Document, encoding: TangentEncoding, tangents: &[[f32; 4]]) -> usize {
+/// Appends an accessor of tangents, one per vertex, and declares the extension that it needs. In place of `old`, which stays if it has them.
+pub fn push_tangents(
+    document: &mut Document,
+    old: Option<usize>,
+    encoding: TangentEncoding,
+    tangents: &[[f32; 4]],
+) -> usize {
     document.require_extensions(encoding.extension());
     let elements = encoding.elements(tangents);
     let target = Target::Vertices;
-    document.push_accessor(NewAccessor { elements, target, bounds: false, sparse: false, like: None })
+    document.push_in_place_of(old, NewAccessor { elements, target, bounds: false, sparse: false, like: None })
 }
 
 /// What the primitives of a group refer to.
