@@ -5,6 +5,7 @@ use std::io::Read;
 use std::path::Path;
 
 use darboux::Convention;
+use darboux_io::FileKind;
 use darboux_io::gltf::{ConversionSummary, Document, LoadOptions, Progress, convert_vertices};
 use darboux_io::image::{Image, convert_normal_map, count_no_normals};
 use serde::Serialize;
@@ -12,7 +13,7 @@ use serde::Serialize;
 use crate::arguments::{ConvertArguments, Files, Talk};
 use crate::batch::{Made, Work, counted};
 use crate::interrupt;
-use crate::jobs::{Input, Job, Output, Usage, has_extension, is_png};
+use crate::jobs::{Input, Job, Output, Usage, is_png};
 use crate::messages::{FileProgress, write_stdout};
 use crate::models::{load_any, read_stdin, save};
 use crate::report::{FileReport, Status};
@@ -91,7 +92,7 @@ impl Work for ConvertArguments {
             Input::File(path) if is_png(path) || starts_as_png(path) => {
                 self.image(Image::open(path).map_err(sentence)?, &job.output)
             }
-            Input::File(path) if is_other_image(path) => Err(format!(
+            Input::File(path) if FileKind::of(path) == Some(FileKind::OtherImage) => Err(format!(
                 "{}: only PNG files are converted, which keep every texel; save it as one",
                 path.display()
             )),
@@ -208,13 +209,6 @@ impl ConvertArguments {
 fn starts_as_png(path: &Path) -> bool {
     let mut first = [0; 8];
     File::open(path).and_then(|mut file| file.read_exact(&mut first)).is_ok() && Image::is_png(&first)
-}
-
-/// Images that lose texels, or that few programs write as normal maps.
-fn is_other_image(path: &Path) -> bool {
-    const EXTENSIONS: [&str; 12] =
-        ["jpg", "jpeg", "webp", "avif", "tga", "tif", "tiff", "exr", "dds", "ktx2", "bmp", "psd"];
-    has_extension(path, &EXTENSIONS)
 }
 
 fn told_of_image(image: &ImageSummary) -> String {

@@ -5,6 +5,7 @@ use std::ffi::OsStr;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use darboux_io::FileKind;
 use walkdir::{DirEntry, WalkDir};
 
 use crate::arguments::Files;
@@ -292,19 +293,13 @@ fn identity(path: &Path) -> PathBuf {
     path
 }
 
-/// True for .gltf, .glb and .vrm, which is a GLB.
 fn is_model(path: &Path) -> bool {
-    has_extension(path, &["gltf", "glb", "vrm"])
+    FileKind::of(path).is_some_and(FileKind::is_model)
 }
 
 /// True for .png.
 pub fn is_png(path: &Path) -> bool {
-    has_extension(path, &["png"])
-}
-
-/// True for one of these extensions, in whichever case.
-pub fn has_extension(path: &Path, extensions: &[&str]) -> bool {
-    path.extension().is_some_and(|found| extensions.iter().any(|known| found.eq_ignore_ascii_case(known)))
+    FileKind::of(path) == Some(FileKind::Png)
 }
 
 /// The words in the names of outputs, by command. Those of `convert` are conventions.

@@ -10,5 +10,5 @@ mod paths;
 mod staging;
 
 pub use error::Error;
-pub use paths::readable;
+pub use paths::{FileKind, readable};
 pub use staging::RunId;

@@ -1,10 +1,42 @@
-//! Which paths may be read and written: regular files, links resolved. A pipe would wait for its other end, a device give no end.
+//! What paths stand for, and which may be read and written: regular files, links resolved. A pipe would wait for its other end, a device give no end.
 
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::Error;
+
+/// What a file is, as its extension says in whichever case.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileKind {
+    /// `.glb`, and `.vrm`, which is one.
+    Glb,
+    /// `.gltf`.
+    Gltf,
+    /// `.png`.
+    Png,
+    /// An image that loses texels, or that few programs write as a normal map: nothing here reads it.
+    OtherImage,
+}
+
+impl FileKind {
+    /// None: another extension, or none.
+    pub fn of(path: &Path) -> Option<Self> {
+        match path.extension()?.to_ascii_lowercase().to_str()? {
+            "glb" | "vrm" => Some(Self::Glb),
+            "gltf" => Some(Self::Gltf),
+            "png" => Some(Self::Png),
+            "avif" | "bmp" | "dds" | "exr" | "jpeg" | "jpg" | "ktx2" | "psd" | "tga" | "tif" | "tiff"
+            | "webp" => Some(Self::OtherImage),
+            _ => None,
+        }
+    }
+
+    /// Whether it holds a model.
+    pub fn is_model(self) -> bool {
+        matches!(self, Self::Glb | Self::Gltf)
+    }
+}
 
 /// The file to read: `path`, or what it links to. Errors: none there; anything but a regular file.
 pub fn readable(path: &Path) -> Result<PathBuf, Error> {

@@ -14,7 +14,7 @@ use super::pieces::{self, Piece};
 use super::resources::{Located, Reference, encode_path};
 use crate::error::Fault;
 use crate::staging::{RunId, Staging};
-use crate::{Error, paths};
+use crate::{Error, FileKind, paths};
 
 /// How a document is written.
 #[derive(Clone, Copy, Debug, Default)]
@@ -52,7 +52,7 @@ impl Document {
     /// output without [`SaveOptions::force`]; the input, or a file that it uses, as output; a GLB's chunks of unknown type in a
     /// `.gltf`. After an error nothing is left behind.
     pub fn save(&self, path: &Path, options: &SaveOptions) -> Result<Vec<PathBuf>, Error> {
-        let is_glb = is_glb_path(path)?;
+        let is_glb = is_glb(path)?;
         let target = self.checked_target(path, options)?;
         self.write(&target, is_glb, options)
     }
@@ -211,11 +211,11 @@ impl Document {
     }
 }
 
-fn is_glb_path(path: &Path) -> Result<bool, Error> {
-    let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
-    match extension.to_str() {
-        Some("glb" | "vrm") => Ok(true),
-        Some("gltf") => Ok(false),
+/// Whether the file to write is a GLB. Errors: its extension does not say.
+fn is_glb(path: &Path) -> Result<bool, Error> {
+    match FileKind::of(path) {
+        Some(FileKind::Glb) => Ok(true),
+        Some(FileKind::Gltf) => Ok(false),
         _ => {
             let problem = "does not say what to write; name it .glb or .gltf".to_owned();
             Err(Error::Output { file: path.to_owned(), problem })
