@@ -1,13 +1,13 @@
-//! Ctrl-C: a file that is being written is finished or withdrawn first, so that nothing half-written stays behind.
+//! Ctrl-C, and whatever else asks the process to end: a file that is being written is finished or withdrawn first, so that nothing half-written stays behind.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 static WRITING: Mutex<()> = Mutex::new(());
 
-/// The exit code of a program that was interrupted: 128 + SIGINT.
+/// The exit code of a program that was interrupted: 128 + SIGINT, for SIGTERM and SIGHUP as well.
 const INTERRUPTED: i32 = 130;
 
-/// From now on Ctrl-C waits for [`writing`]'s guard before the process ends.
+/// From now on Ctrl-C, and on Unix SIGTERM and SIGHUP, wait for [`writing`]'s guard before the process ends.
 pub fn wait_for_writes() {
     // A handler may be there already when the command runs inside another program; then that one decides.
     let _already_set = ctrlc::try_set_handler(|| {

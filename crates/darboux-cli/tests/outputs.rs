@@ -160,3 +160,55 @@ fn options_reach_the_tangents() {
     assert!(bytes_with(&morphing, &[]) != bytes_with(&morphing, &["--overwrite"]));
     assert!(bytes_with(&morphing, &[]) == bytes_with(&morphing, &["--overwrite", "--only-needed"]));
 }
+
+#[test]
+fn read_only_files_are_not_replaced() {
+    let folder = folder_with(&[QUANTISED]);
+    let [input, output] = ["quantised-sparse.glb", "out.glb"].map(|name| folder.path().join(name));
+    fs::write(&output, b"precious").expect("a file");
+    let before = fs::read(&input).expect("the input");
+    for path in [&input, &output] {
+        let mut permissions = fs::metadata(path).expect("a file").permissions();
+        permissions.set_readonly(true);
+        fs::set_permissions(path, permissions).expect("a read-only file");
+    }
+    for (words, file) in [(&["--in-place"][..], &input), (&["--force", "-o", text(&output)], &output)] {
+        let run = darboux(&[&["tangents", text(&input)], words].concat()).exits(1);
+        let sentence =
+            format!("error: {}: is read-only; make it writable, or name another output\n", file.display());
+        assert_eq!(run.stderr, sentence);
+    }
+    assert_eq!(fs::read(&input).expect("the input"), before);
+    assert_eq!(fs::read(&output).expect("the output"), b"precious");
+    darboux(&["tangents", text(&input)]).exits(0);
+}
+
+/// As batch systems end what takes too long: by SIGTERM, on which a file that is being written is withdrawn first.
+#[test]
+#[cfg(target_os = "linux")]
+fn being_told_to_end_is_taken_as_ctrl_c_is() {
+    use std::process::{Command, Stdio};
+    use std::time::{Duration, Instant};
+
+    const SIGTERM: u32 = 15;
+    let mut waiting = Command::new(env!("CARGO_BIN_EXE_darboux"))
+        .args(["tangents", "-"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("the command starts");
+    let id = waiting.id().to_string();
+    let catches = || {
+        let status = fs::read_to_string(format!("/proc/{id}/status")).expect("a running command");
+        let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).expect("a set of signals");
+        u64::from_str_radix(caught.trim(), 16).expect("its bits") >> (SIGTERM - 1) & 1 == 1
+    };
+    let start = Instant::now();
+    while !catches() && start.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let killed = Command::new("kill").args(["-TERM", &id]).status().expect("kill runs");
+    let ended = waiting.wait().expect("it ends");
+    assert!(killed.success());
+    assert_eq!(ended.code(), Some(130));
+}

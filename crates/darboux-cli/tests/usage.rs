@@ -44,6 +44,7 @@ fn what_does_not_fit_together_is_refused() {
         &["tangents", a, "-o", dir],
         &["tangents", a, "-o", "x.obj"],
         &["tangents", a, "-o", "mistyped/x.glb"],
+        &["tangents", a, "--jobs", "0"],
         &["compare", a],
         &["compare", a, b, "--method", "area"],
         &["tangents", a, "-o", a],

@@ -54,7 +54,7 @@ pub fn readable(path: &Path) -> Result<PathBuf, Error> {
 
 /// The file to write: `path`, or what it links to. `why_not` says why an existing one must stay, if it must.
 ///
-/// Errors: a broken link; what is no regular file, or must stay; an existing file without `force`.
+/// Errors: a broken link; what is no regular file, is read-only, or must stay; an existing file without `force`.
 pub fn writable(
     path: &Path,
     force: bool,
@@ -71,9 +71,19 @@ pub fn writable(
     if !metadata.is_file() {
         return Err(refuse("exists and is not a regular file; name another output"));
     }
+    refuse_read_only(path, &metadata)?;
     let target = path.canonicalize().map_err(|source| Error::Write { file: path.to_owned(), source })?;
     if let Some(problem) = why_not(&target) {
         return Err(refuse(problem));
     }
     if force { Ok(target) } else { Err(refuse("exists; force its replacement or name another output")) }
+}
+
+/// A file can be replaced where its folder can be written; one that is read-only was made so to prevent that, as some version control does.
+pub fn refuse_read_only(path: &Path, metadata: &fs::Metadata) -> Result<(), Error> {
+    if metadata.permissions().readonly() {
+        let problem = "is read-only; make it writable, or name another output".to_owned();
+        return Err(Error::Output { file: path.to_owned(), problem });
+    }
+    Ok(())
 }

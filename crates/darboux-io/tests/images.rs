@@ -66,6 +66,32 @@ fn every_pair_of_presets_comes_back_to_the_bit() {
     }
 }
 
+/// Each component in each order of channels: what is inverted is the component, wherever it lies.
+#[test]
+fn presets_and_layouts_go_together_and_come_back() {
+    for depth in DEPTHS {
+        let file = png(ColorType::Rgba, depth);
+        for layout in ["rgb", "ag", "bgr", "gra"] {
+            for (name, to) in Convention::PRESETS {
+                let from = Convention::GLTF;
+                let there = converted(&file, from, to, layout, layout);
+                let size = if depth == BitDepth::Eight { 1 } else { 2 };
+                let green = "rgba".find(&layout[1..2]).expect("a channel");
+                let inverts = from.bitangent != to.bitangent;
+                let (before, after) = (decoded(&file).2, decoded(&there).2);
+                let is_right = before.iter().zip(&after).enumerate().all(|(i, (before, after))| {
+                    *after == if inverts && i / size % 4 == green { 255 - before } else { *before }
+                });
+                assert!(is_right, "{name} {layout}");
+                assert!(
+                    decoded(&converted(&there, to, from, layout, layout)) == decoded(&file),
+                    "{name} {layout}"
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn only_green_changes() {
     for depth in DEPTHS {

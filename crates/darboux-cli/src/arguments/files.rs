@@ -44,7 +44,7 @@ pub struct Files {
     pub resume: bool,
 
     /// How many files are worked on at the same time
-    #[arg(long, value_name = "NUMBER", default_value = "1", help_heading = "Output")]
+    #[arg(long, value_name = "NUMBER", default_value = "1", value_parser = jobs, help_heading = "Output")]
     pub jobs: NonZero<u16>,
 
     /// Allow buffers and images outside the input's folder
@@ -54,6 +54,10 @@ pub struct Files {
     /// What the journal of --resume knows this run by.
     #[arg(skip = new_run())]
     pub run: RunId,
+}
+
+fn jobs(text: &str) -> Result<NonZero<u16>, &'static str> {
+    text.parse().map_err(|_| "not a number from 1 to 65535")
 }
 
 impl Files {

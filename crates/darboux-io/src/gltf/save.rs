@@ -59,7 +59,7 @@ impl Document {
 
     /// Replaces the input file, keeping its container and permissions; gives the files written, none when there are no edits.
     ///
-    /// Errors: as [`Document::save`]; a document that was not read from a file.
+    /// Errors: as [`Document::save`]; a document that was not read from a file; an input that is gone.
     pub fn save_in_place(&self) -> Result<Vec<PathBuf>, Error> {
         let input = self.input.as_ref().ok_or_else(|| Error::Output {
             file: self.name().into(),
@@ -68,6 +68,8 @@ impl Document {
         if !self.is_changed() {
             return Ok(Vec::new());
         }
+        let metadata = fs::metadata(input).map_err(|source| Error::Write { file: input.clone(), source })?;
+        paths::refuse_read_only(Path::new(self.name()), &metadata)?;
         self.write(input, self.container.is_glb, &SaveOptions { force: true, run: None })
     }
 
