@@ -7,9 +7,7 @@ use std::process::Command;
 use darboux::{Faces, Mesh, TangentOptions, generate_tangents, split_vertices};
 
 use crate::drop_in::a_few_meshes;
-use crate::support::{
-    Link, build, compiler, dist, folder, has, repository, run, run_with_input, source,
-};
+use crate::support::{Link, build, compiler, dist, folder, has, repository, run, run_with_input, source};
 
 fn example(name: &str) -> PathBuf {
     dist().join("examples").join(name)
