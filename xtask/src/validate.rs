@@ -67,7 +67,10 @@ fn check(folder: &str, number: usize) -> Outcome {
             _ => continue,
         };
         let number = reports.len();
-        let out = work.join(format!("other/{number}/model.{other}"));
+        let folder = work.join(format!("other/{number}"));
+        fs::create_dir_all(&folder)
+            .map_err(|error| format!("{} cannot be made: {error}", folder.display()))?;
+        let out = folder.join(format!("model.{other}"));
         reports.push(tangents(&[model.as_os_str(), "-o".as_ref(), out.as_os_str()], &work, number)?);
     }
     println!("{folder}:");
