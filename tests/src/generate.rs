@@ -305,7 +305,7 @@ fn damage_faces(dice: &mut Dice, mesh: &mut OwnedMesh) {
     *mesh = std::mem::take(mesh).with_face_list(&faces);
 }
 
-/// Many faces on few edges, both ways round, in an order that sorting has to undo.
+/// Many faces on few edges, both ways round, in an order that sorting has to undo; some are quads.
 fn crowded_edges(dice: &mut Dice) -> OwnedMesh {
     let mut mesh = OwnedMesh::default();
     let spokes = 3 + dice.below(6) as u32;
@@ -316,10 +316,12 @@ fn crowded_edges(dice: &mut Dice) -> OwnedMesh {
         mesh.push((position, normal, if i == 0 { [0.0; 2] } else { uv }));
     }
     let hub = dice.pick(&[0, spokes - 1]);
+    let has_quads = dice.one_in(2);
     let mut faces = Vec::new();
     for _ in 0..2 + dice.below(60) {
-        let [a, b] = [(); 2].map(|()| (hub + 1 + dice.below(spokes as usize - 1) as u32) % spokes);
-        let mut face = vec![hub, a, b];
+        let [a, b, c] = [(); 3].map(|()| (hub + 1 + dice.below(spokes as usize - 1) as u32) % spokes);
+        let mut face = vec![hub, a, b, c];
+        face.truncate(if has_quads && dice.one_in(2) { 4 } else { 3 });
         face.rotate_left(dice.below(3));
         faces.push(face);
     }

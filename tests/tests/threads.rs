@@ -2,7 +2,10 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use darboux::{Indices, Mesh, Method, Mode, Plan, Scratch, TangentOptions, Tangents, generate_tangents_into};
+use darboux::{
+    Faces, Indices, Mesh, Method, Mode, Plan, Scratch, TangentOptions, Tangents, generate_frames,
+    generate_tangents_into,
+};
 
 /// A wavy grid of quads whose UVs are mirrored from one half to the other: vertices, and triangles in order.
 fn grid(columns: u32, rows: u32) -> (Vec<[f32; 8]>, Vec<[u32; 3]>) {
@@ -21,11 +24,15 @@ fn grid(columns: u32, rows: u32) -> (Vec<[f32; 8]>, Vec<[u32; 3]>) {
     (vertices, (0..rows).flat_map(|j| (0..columns).flat_map(move |i| quad(i, j))).collect())
 }
 
-/// What runs on several threads: the fast path, and the methods that sum.
-const RUNS: [(Method, Mode); 8] = [
+/// The modes of the fast path.
+const MIKKTSPACE: [(Method, Mode); 3] = [
     (Method::MikkTSpace, Mode::Reference),
     (Method::MikkTSpace, Mode::Repaired),
     (Method::MikkTSpace, Mode::Corrected),
+];
+
+/// The methods that sum, which run on several threads as well.
+const SUMS: [(Method, Mode); 5] = [
     (Method::Lengyel, Mode::Repaired),
     (Method::LengyelPerVertex, Mode::Reference),
     (Method::Average, Mode::Repaired),
@@ -33,40 +40,88 @@ const RUNS: [(Method, Mode); 8] = [
     (Method::AngleArea, Mode::Repaired),
 ];
 
-/// Hashes of the tangents and reports of a mesh, indexed, with a vertex per corner, and unindexed, in all runs.
-fn hash(vertices: &[[f32; 8]], triangles: &[[u32; 3]]) -> u64 {
-    let mut hasher = DefaultHasher::new();
-    let mut scratch = Scratch::new();
-    let mut tangents = Tangents::default();
-    let soup: Vec<[f32; 8]> =
-        triangles.as_flattened().iter().map(|&vertex| vertices[vertex as usize]).collect();
+/// Faces over vertices.
+#[derive(Clone, Copy)]
+struct Shape<'a> {
+    vertices: &'a [[f32; 8]],
+    corners: &'a [u32],
+    faces: Faces<'a>,
+}
+
+/// Calls `take` with a mesh: indexed, with a vertex per corner, and unindexed.
+fn for_each_layout(shape: &Shape<'_>, mut take: impl FnMut(&Mesh<'_>)) {
+    let soup: Vec<[f32; 8]> = shape.corners.iter().map(|&vertex| shape.vertices[vertex as usize]).collect();
     let own: Vec<u32> = (0..soup.len() as u32).collect();
-    let indexed = Indices::U32(triangles.as_flattened());
-    for (vertices, indices) in [(vertices, indexed), (&soup, Indices::U32(&own)), (&soup, Indices::Unindexed)]
+    let indexed = Indices::U32(shape.corners);
+    for (vertices, indices) in
+        [(shape.vertices, indexed), (&soup, Indices::U32(&own)), (&soup, Indices::Unindexed)]
     {
         let positions: Vec<[f32; 3]> = vertices.iter().map(|v| [v[0], v[1], v[2]]).collect();
         let normals: Vec<[f32; 3]> = vertices.iter().map(|v| [v[3], v[4], v[5]]).collect();
         let uvs: Vec<[f32; 2]> = vertices.iter().map(|v| [v[6], v[7]]).collect();
-        let mesh = Mesh::triangles(&positions, &normals, &uvs, indices).expect("a mesh");
-        for (method, mode) in RUNS {
+        take(&Mesh::with_faces(&positions, &normals, &uvs, indices, shape.faces).expect("a mesh"));
+    }
+}
+
+/// Hashes of the tangents and reports in some runs.
+fn hash(shape: &Shape<'_>, runs: &[(Method, Mode)]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    let mut scratch = Scratch::new();
+    let mut tangents = Tangents::default();
+    for_each_layout(shape, |mesh| {
+        for &(method, mode) in runs {
             let options = TangentOptions { method, mode, ..TangentOptions::default() };
-            generate_tangents_into(&mesh, &options, &mut scratch, &mut tangents);
+            generate_tangents_into(mesh, &options, &mut scratch, &mut tangents);
             let corners = tangents.corners.per_corner();
             corners.iter().for_each(|tangent| tangent.map(f32::to_bits).hash(&mut hasher));
             format!("{:?}", tangents.report).hash(&mut hasher);
         }
-    }
+    });
+    hasher.finish()
+}
+
+/// Hashes of whole frames.
+fn hash_frames(shape: &Shape<'_>) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    for_each_layout(shape, |mesh| {
+        for frame in generate_frames(mesh, &TangentOptions::default()).corners.per_corner() {
+            let [[x, y, z], [a, b, c], [m, n, s]] =
+                [frame.tangent, frame.bitangent, [frame.magnitude[0], frame.magnitude[1], frame.sign]];
+            [x, y, z, a, b, c, m, n, s].map(f32::to_bits).hash(&mut hasher);
+        }
+    });
     hasher.finish()
 }
 
 /// All thread counts give one hash.
-fn assert_alike(vertices: &[[f32; 8]], triangles: &[[u32; 3]], threads: &[usize]) {
+fn assert_alike(threads: &[usize], hash: impl Fn() -> u64 + Sync) {
     let hash = |&threads: &usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
-        pool.install(|| hash(vertices, triangles))
+        pool.install(&hash)
     };
     let hashes: Vec<u64> = threads.iter().map(hash).collect();
     assert!(hashes.iter().all(|hash| *hash == hashes[0]), "{threads:?}");
+}
+
+/// Pairs of triangles as quads: all of them, or all but every third.
+fn quads(triangles: &[[u32; 3]], all: bool) -> (Vec<u32>, Vec<u32>) {
+    let (mut corners, mut sizes) = (Vec::new(), Vec::new());
+    for (at, pair) in triangles.as_chunks().0.iter().enumerate() {
+        let [[a, b, c], [_, _, d]] = *pair;
+        if all || at % 3 > 0 {
+            corners.extend([a, b, c, d]);
+            sizes.push(4);
+        } else {
+            corners.extend(pair.as_flattened());
+            sizes.extend([3, 3]);
+        }
+    }
+    (corners, sizes)
+}
+
+/// Gives every `step`th corner the vertex of the one before it, which makes some faces degenerate and leaves holes.
+fn damage(corners: &mut [u32], step: usize) {
+    (1..corners.len()).step_by(step).for_each(|at| corners[at] = corners[at - 1]);
 }
 
 /// Threads whose triangles bring no vertices of their own: the end of the list repeats what is in its midst.
@@ -76,7 +131,9 @@ fn parts_without_own_vertices() {
     let rows = triangles[163 * 400..178 * 400].to_vec();
     triangles.extend(rows.iter().map(|&[a, b, c]| [a, c, b]));
     triangles.extend(rows);
-    assert_alike(&vertices, &triangles, &[1, 4, 7, 8, 9]);
+    let corners = triangles.as_flattened();
+    let shape = Shape { vertices: &vertices, corners, faces: Faces::Triangles };
+    assert_alike(&[1, 4, 7, 8, 9], || hash(&shape, &MIKKTSPACE) ^ hash(&shape, &SUMS));
 }
 
 /// Plans on threads that worked on a larger mesh before, and have no part of this one.
@@ -105,13 +162,48 @@ fn plans_after_larger_meshes() {
     });
 }
 
+const ONE_TWO_THREE_SIXTEEN: [usize; 4] = [1, 2, 3, 16];
+
+/// A step without a common factor visits every face once.
+fn shuffled<T: Copy>(faces: &[T]) -> Vec<T> {
+    (0..faces.len()).map(|at| faces[at * 7919 % faces.len()]).collect()
+}
+
 #[test]
-fn one_two_three_and_sixteen() {
+fn triangles() {
     let (vertices, triangles) = grid(300, 300);
-    let mut shuffled = triangles.clone();
-    // A step without a common factor visits every triangle once.
-    (0..triangles.len()).for_each(|at| shuffled[at] = triangles[at * 7919 % triangles.len()]);
-    for triangles in [triangles, shuffled] {
-        assert_alike(&vertices, &triangles, &[1, 2, 3, 16]);
+    for triangles in [shuffled(&triangles), triangles] {
+        let corners = triangles.as_flattened();
+        let shape = Shape { vertices: &vertices, corners, faces: Faces::Triangles };
+        assert_alike(&ONE_TWO_THREE_SIXTEEN, || hash(&shape, &MIKKTSPACE) ^ hash(&shape, &SUMS));
+        assert_alike(&ONE_TWO_THREE_SIXTEEN, || hash_frames(&shape));
+    }
+}
+
+#[test]
+fn faces_of_three_and_four_corners() {
+    let (vertices, triangles) = grid(260, 260);
+    let pairs: Vec<[[u32; 3]; 2]> = triangles.as_chunks().0.to_vec();
+    for pairs in [shuffled(&pairs), pairs] {
+        for all in [true, false] {
+            let (corners, sizes) = quads(pairs.as_flattened(), all);
+            let faces = if all { Faces::Quads } else { Faces::Mixed(&sizes) };
+            let shape = Shape { vertices: &vertices, corners: &corners, faces };
+            assert_alike(&ONE_TWO_THREE_SIXTEEN, || hash(&shape, &MIKKTSPACE));
+            assert_alike(&ONE_TWO_THREE_SIXTEEN, || hash_frames(&shape));
+        }
+    }
+}
+
+#[test]
+fn degenerate_faces() {
+    let (vertices, triangles) = grid(200, 200);
+    let mut of_triangles = triangles.as_flattened().to_vec();
+    let (mut of_quads, _) = quads(&triangles, true);
+    for (corners, faces) in [(&mut of_triangles, Faces::Triangles), (&mut of_quads, Faces::Quads)] {
+        damage(corners, 997);
+        let shape = Shape { vertices: &vertices, corners, faces };
+        assert_alike(&ONE_TWO_THREE_SIXTEEN, || hash(&shape, &MIKKTSPACE));
+        assert_alike(&ONE_TWO_THREE_SIXTEEN, || hash_frames(&shape));
     }
 }

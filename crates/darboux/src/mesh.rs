@@ -236,12 +236,17 @@ impl<'a> Mesh<'a> {
         Ok(mesh)
     }
 
-    /// Other triangles over the same vertices; `indices` are in range.
-    pub(crate) fn with_triangles<'b>(&self, indices: &'b [u32]) -> Mesh<'b>
+    /// Other faces over the same vertices; `indices` are in range, and as many as the sum of `sizes`.
+    pub(crate) fn with_other_faces<'b>(&self, indices: &'b [u32], sizes: &'b [u32]) -> Mesh<'b>
     where
         'a: 'b,
     {
-        Mesh { indices: Indices::U32(indices), faces: Faces::Triangles, corner_count: indices.len(), ..*self }
+        Mesh {
+            indices: Indices::U32(indices),
+            faces: Faces::Mixed(sizes),
+            corner_count: indices.len(),
+            ..*self
+        }
     }
 
     fn check_faces(&self) -> Result<(), MeshError> {

@@ -1,6 +1,6 @@
 //! Faces to triangles, welded, with the degenerate ones set aside.
 
-use crate::math::{dot, equal, sub};
+use crate::math::{V3, dot, equal, sub};
 use crate::weld::weld;
 use crate::{Faces, Mesh};
 
@@ -59,17 +59,19 @@ pub(crate) fn triangulate(mesh: &Mesh<'_>) -> Triangulation {
     out
 }
 
-/// As [`triangulate`] for a mesh of triangles, whose corners' vertices are known.
+/// As [`triangulate`] for a mesh whose corners' vertices are known.
 pub(crate) fn triangulate_welded(mesh: &Mesh<'_>, vertex_of_corner: &[u32]) -> Triangulation {
     let mut out = Triangulation::default();
     let all = split_faces(mesh, &mut out);
-    out.set_aside_degenerate(mesh, &all, vertex_of_corner);
+    let vertices: Vec<u32> =
+        all.corners.as_flattened().iter().map(|&corner| vertex_of_corner[corner as usize]).collect();
+    out.set_aside_degenerate(mesh, &all, &vertices);
     out
 }
 
 impl Triangulation {
-    fn set_aside_degenerate(&mut self, mesh: &Mesh<'_>, all: &Triangles, vertex_of_corner: &[u32]) {
-        for (t, vertices) in vertex_of_corner.as_chunks().0.iter().enumerate() {
+    fn set_aside_degenerate(&mut self, mesh: &Mesh<'_>, all: &Triangles, vertex_of_entry: &[u32]) {
+        for (t, vertices) in vertex_of_entry.as_chunks().0.iter().enumerate() {
             let [a, b, c] = vertices.map(|vertex| position(mesh, vertex));
             let degenerate = equal(a, b) || equal(a, c) || equal(b, c);
             let list = if degenerate { &mut self.degenerate } else { &mut self.good };
@@ -104,27 +106,32 @@ fn split_faces(mesh: &Mesh<'_>, out: &mut Triangulation) -> Triangles {
     all
 }
 
-/// The halves of the quad whose first corner is `first`, cut along the shorter diagonal in UV space; where neither is shorter
-/// (or one is NaN), along the one that is shorter in space, 0-2 unless 1-3 is strictly shorter.
+/// The halves of the quad whose first corner is `first`.
 pub(crate) fn split_quad(mesh: &Mesh<'_>, first: u32) -> [[u32; 3]; 2] {
     let [a, b, c, d] = [first, first + 1, first + 2, first + 3];
-    let uv = |corner: u32| {
-        let [u, v] = mesh.uvs().get(mesh.vertex_of_corner(corner as usize));
-        [u, v, 1.0]
-    };
-    let squared = |p: [f32; 3], q: [f32; 3]| dot(sub(p, q), sub(p, q));
-    let (ac, bd) = (squared(uv(c), uv(a)), squared(uv(d), uv(b)));
-    let cut_ac = ac < bd
-        || !(bd < ac) && {
-            let (ac, bd) = (
-                squared(position(mesh, c), position(mesh, a)),
-                squared(position(mesh, d), position(mesh, b)),
-            );
-            !(bd < ac)
-        };
-    if cut_ac { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
+    let uv = |corner: u32| mesh.uvs().get(mesh.vertex_of_corner(corner as usize));
+    let is_across = is_cut_across([a, b, c, d].map(uv), || [a, b, c, d].map(|corner| position(mesh, corner)));
+    if is_across { [[a, b, d], [b, c, d]] } else { [[a, b, c], [a, c, d]] }
 }
 
-fn position(mesh: &Mesh<'_>, corner: u32) -> [f32; 3] {
+/// Whether a quad is cut from corner 1 to 3: along the shorter diagonal in UV space; where neither is shorter (or one is NaN), along the
+/// one that is shorter in space, 0-2 unless 1-3 is strictly shorter.
+#[inline(always)]
+pub(crate) fn is_cut_across(uvs: [[f32; 2]; 4], positions: impl FnOnce() -> [V3; 4]) -> bool {
+    match shorter_diagonal(uvs.map(|[u, v]| [u, v, 1.0])) {
+        (_, true) => shorter_diagonal(positions()).0,
+        (is_across, _) => is_across,
+    }
+}
+
+/// Whether the diagonal from corner 1 to 3 is shorter than that from 0 to 2, and whether neither is shorter.
+#[inline(always)]
+pub(crate) fn shorter_diagonal([a, b, c, d]: [V3; 4]) -> (bool, bool) {
+    let squared = |p: V3, q: V3| dot(sub(p, q), sub(p, q));
+    let (ac, bd) = (squared(c, a), squared(d, b));
+    (bd < ac, !(bd < ac) & !(ac < bd))
+}
+
+fn position(mesh: &Mesh<'_>, corner: u32) -> V3 {
     mesh.positions().get(mesh.vertex_of_corner(corner as usize))
 }

@@ -55,7 +55,8 @@ fn derivative(positions: [V3; 3], uvs: [[f32; 2]; 3]) -> Derivative {
 }
 
 /// Twice the signed area of a triangle in UV space.
-fn doubled_area(uvs: [[f32; 2]; 3]) -> f32 {
+#[inline(always)]
+pub(super) fn doubled_area(uvs: [[f32; 2]; 3]) -> f32 {
     let [du1, dv1] = [uvs[1][0] - uvs[0][0], uvs[1][1] - uvs[0][1]];
     let [du2, dv2] = [uvs[2][0] - uvs[0][0], uvs[2][1] - uvs[0][1]];
     du1 * dv2 - dv1 * du2

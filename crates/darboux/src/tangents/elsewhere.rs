@@ -22,8 +22,8 @@ pub fn complete(
 ) -> (Report, usize) {
     let mut fans = Fans::default();
     fans.resume(mesh, options.mode, welded, out);
-    let triangles = fans.undecided().iter().map(|&triangle| &out.as_chunks::<3>().0[triangle as usize]);
-    let left = triangles.flatten().filter(|corner| corner[3] == UNDECIDED).count();
+    let corners = fans.undecided(mesh).flatten().map(|corner| out[corner as usize]);
+    let left = corners.filter(|corner| corner[3] == UNDECIDED).count();
     (local::decide(mesh, options, &fans, &Cancel::new(), out), left)
 }
 

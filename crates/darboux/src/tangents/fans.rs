@@ -8,12 +8,14 @@
 
 mod block;
 mod corners;
+mod cut;
 mod hash;
 mod hash_set;
 mod last_run;
 mod names;
 mod planned;
 mod resumed;
+mod rows;
 mod shuffled;
 mod source;
 mod steps;
@@ -23,17 +25,22 @@ mod weld;
 mod whole;
 mod workers;
 
+use std::ops::Range;
+
+use crate::Mesh;
 use crate::weld::Bounds;
-use crate::{Faces, Mesh};
 
 use super::Mode;
+use super::mikktspace::HalfEdge;
 use super::threads::{self, parts, split};
 use super::width::Width;
-use super::windows::{self, Share, WINDOW, Window, overlap, shares, triangles_of, window};
+use super::windows::{self, Share, Window, overlap, shares};
+use cut::{Cut, triangle_count};
 use last_run::{LastRun, Lists, TailCells};
 use names::Names;
 pub(crate) use planned::PlannedFans;
-use source::{Identity, triangles};
+use shuffled::Terms;
+use source::Source;
 use steps::{Extent, Special};
 use stream::Stream;
 pub use vertices::UNDECIDED;
@@ -46,68 +53,85 @@ use workers::Worker;
 #[derive(Debug, Default)]
 pub(crate) struct Fans {
     weld: Weld,
+    cut: Cut,
     windows: Vec<Window>,
     shares: Vec<Share>,
     workers: Vec<Worker>,
-    /// Triangles and corners that need another look.
+    /// What triangles add, where the tangents' array has no room for it.
+    terms: Vec<Terms>,
+    /// Faces and corners that need another look.
     special: Special,
     lists: Lists,
     names: Names,
-    /// The last edges in the reference's stretches, as the corners where they start, where their order shows.
+    /// The last edges in the reference's stretches, as the entries where they start, where their order shows.
     last_stretches: Vec<Vec<u32>>,
     /// Of each welded vertex, where whole frames are wanted.
     sums: Vec<Sums>,
 }
 
 impl Fans {
-    /// Writes the tangents of all triangles, and lists those with undecided vertices. False where this path does not apply:
-    /// faces that are not triangles, values whose weld only the reference's order decides.
+    /// Writes the tangents of all faces, and lists those with undecided vertices. False where this path does not apply: faces of
+    /// other than 3 or 4 corners, values whose weld only the reference's order decides.
     pub fn run(&mut self, mesh: &Mesh<'_>, mode: Mode, width: Width, out: &mut [[f32; 4]]) -> bool {
-        if !matches!(mesh.faces(), Faces::Triangles) {
-            return false;
-        }
-        let threads = threads::count(mesh.face_count());
+        let threads = threads::count(triangle_count(mesh));
         self.workers.resize_with(threads, Worker::default);
-        threads::on_pool(threads, || self.run_on(mesh, mode, width, out))
+        threads::on_pool(threads, || self.run_on(mesh, mode, width, out)).is_ok()
     }
 
-    fn run_on(&mut self, mesh: &Mesh<'_>, mode: Mode, width: Width, out: &mut [[f32; 4]]) -> bool {
-        if let Err(Refused) = self.weld.weld(mesh, width, &mut self.workers) {
-            return false;
-        }
+    fn run_on(
+        &mut self,
+        mesh: &Mesh<'_>,
+        mode: Mode,
+        width: Width,
+        out: &mut [[f32; 4]],
+    ) -> Result<(), Refused> {
+        self.cut.cut(mesh, width, &mut self.workers)?;
+        self.weld.weld(mesh, width, &mut self.workers)?;
         self.find_windows(mesh, width);
-        let tail = TailCells::first(mesh, &self.weld.bounds, self.is_shuffled());
-        self.add_and_write(mesh, &tail, width, out.as_chunks_mut().0);
+        let tail = TailCells::first(&self.source(mesh), &self.weld.bounds, self.is_shuffled());
+        self.add_and_write(mesh, &tail, width, out);
         self.last_stretches.clear();
         if mode != Mode::Corrected {
             self.leave_last_edges(mesh, tail, out);
         }
-        true
+        Ok(())
     }
 
-    /// The triangles with undecided vertices, ascending.
-    pub fn undecided(&self) -> &[u32] {
-        &self.special.undecided
+    /// The mesh that this has just run on, as triangles.
+    fn source<'a>(&'a self, mesh: &'a Mesh<'a>) -> Source<'a> {
+        source(mesh, &self.weld, &self.cut)
+    }
+
+    /// How many triangles that mesh has.
+    pub fn triangle_count(&self, mesh: &Mesh<'_>) -> usize {
+        self.source(mesh).count()
+    }
+
+    /// The corners of the faces with undecided vertices, ascending.
+    pub fn undecided<'a>(&'a self, mesh: &'a Mesh<'a>) -> impl Iterator<Item = Range<u32>> + Clone {
+        let source = self.source(mesh);
+        self.special.undecided.iter().map(move |&triangle| source.corners_of_face(triangle))
     }
 
     /// The last edges, where the order in which the reference leaves them shows: stretches of edges that are matched with each other
-    /// only, as the corners where they start.
-    pub fn last_stretches(&self) -> &[Vec<u32>] {
-        &self.last_stretches
+    /// only.
+    pub fn last_stretches(&self, mesh: &Mesh<'_>) -> Vec<Vec<HalfEdge>> {
+        let source = self.source(mesh);
+        let edge = |&entry: &u32| (source.corners(entry / 3), entry % 3);
+        self.last_stretches.iter().map(|stretch| stretch.iter().map(edge).collect()).collect()
     }
 
     /// Finds which vertices each window uses.
     fn find_windows(&mut self, mesh: &Mesh<'_>, width: Width) {
+        let source = source(mesh, &self.weld, &self.cut);
         self.windows.clear();
-        self.windows.resize(mesh.face_count().div_ceil(WINDOW), Window::default());
-        let identity = self.weld.identity();
+        self.windows.resize(source.window_count(), Window::default());
         let ranges = split(0..self.windows.len(), self.workers.len(), 1);
         let jobs = ranges.clone().zip(parts(&mut self.windows, 0, ranges));
         threads::run(&mut self.workers, jobs, |worker, (range, windows)| {
             for (at, out) in range.zip(windows) {
-                let range = window(at, mesh.face_count());
-                let triangles = triangles(mesh, identity, range, &mut worker.triangles);
-                width.run(Extent { triangles, lowest: &mut out.lowest, end: &mut out.end });
+                let vertices = source.vertices(source.corners_of(at..at + 1), &mut worker.corners);
+                width.run(Extent { vertices, lowest: &mut out.lowest, end: &mut out.end });
             }
         });
         windows::look_around(&mut self.windows);
@@ -119,23 +143,23 @@ impl Fans {
     }
 
     /// Gives each thread its share of the windows, or, where shares would overlap too much, all threads all of them.
-    fn add_and_write(&mut self, mesh: &Mesh<'_>, tail: &TailCells, width: Width, out: &mut [[[f32; 4]; 3]]) {
+    fn add_and_write(&mut self, mesh: &Mesh<'_>, tail: &TailCells, width: Width, out: &mut [[f32; 4]]) {
         self.special.clear();
         self.shares.clear();
         self.shares.extend(shares(&self.windows, self.weld.count, self.workers.len()));
         let shares = &self.shares;
-        let (identity, windows) = (self.weld.identity(), &self.windows[..]);
-        let stream = Stream { mesh, identity, windows, tail, signs: None, width };
+        let (source, windows) = (source(mesh, &self.weld, &self.cut), &self.windows[..]);
+        let stream = Stream { source, windows, tail, signs: None, width };
         if overlap(shares, &self.windows) {
-            shuffled::run(&stream, self.weld.count, &mut self.workers, out);
+            shuffled::run(&stream, self.weld.count, &mut self.workers, &mut self.terms, out);
         } else {
-            let ranges = shares.iter().map(|share| triangles_of(share.windows.clone(), mesh.face_count()));
+            let ranges = shares.iter().map(|share| source.corners_of(share.windows.clone()));
             let jobs = shares.iter().zip(parts(&mut *out, 0, ranges));
             threads::run(&mut self.workers, jobs, |worker, (share, out)| stream.run(share, worker, out));
-            write_pending(mesh, shares, &mut self.workers, self.weld.identity(), out);
+            write_pending(&source, shares, &mut self.workers, out);
         }
         self.workers.iter_mut().for_each(|worker| self.special.take(&mut worker.special));
-        self.special.sort();
+        self.special.settle(&source);
     }
 
     /// Leaves the vertices of the reference's last edges undecided, where the order of these shows. `tail` is of all vertices, used
@@ -143,17 +167,17 @@ impl Fans {
     fn leave_last_edges(&mut self, mesh: &Mesh<'_>, tail: TailCells, out: &mut [[f32; 4]]) {
         let bounds_are_of_used = self.unused_do_not_count();
         let bounds = if bounds_are_of_used { self.weld.bounds } else { bounds_of_used(mesh) };
-        let run = LastRun { mesh, identity: self.weld.identity(), bounds: &bounds };
+        let run = LastRun { source: source(mesh, &self.weld, &self.cut), bounds: &bounds };
         let last = if bounds_are_of_used {
             run.find(tail, Some(&self.special.in_tail), &mut self.lists)
         } else {
-            let tail = TailCells::first(mesh, &bounds, self.is_shuffled());
+            let tail = TailCells::first(&run.source, &bounds, self.is_shuffled());
             run.find(tail, None, &mut self.lists)
         };
         if let Some(last) = last {
             let (names, suspects) = (&mut self.names, &self.special.undecided);
             self.last_stretches = names.last_stretches(&run, &last, self.weld.count, suspects);
-            self.special.leave(names.corners_of(&last.vertices), out);
+            self.special.leave(&run.source, names.entries_of(&last.vertices), out);
         }
     }
 
@@ -167,11 +191,11 @@ impl Fans {
                 && seen.all(|unused| unused.are_inside(&self.weld.bounds))
     }
 
-    /// The welded vertex at each corner of some triangles, named by the first corner of these.
+    /// The welded vertex at each of some corners, named by the first of these.
     pub fn names(&self, mesh: &Mesh<'_>, list: &[u32]) -> Vec<u32> {
-        let identity = self.weld.identity();
-        let of = |&at: &u32| (3 * at..3 * at + 3).map(move |corner| identity.vertex(mesh, corner));
-        let mut corners: Vec<(u32, u32)> = list.iter().flat_map(of).zip(0..).collect();
+        let source = self.source(mesh);
+        let mut corners: Vec<(u32, u32)> =
+            list.iter().map(|&corner| source.vertex(corner)).zip(0..).collect();
         let mut names = vec![0; corners.len()];
         corners.sort_unstable();
         for same in corners.chunk_by(|a, b| a.0 == b.0) {
@@ -181,6 +205,10 @@ impl Fans {
     }
 }
 
+fn source<'a>(mesh: &'a Mesh<'a>, weld: &'a Weld, cut: &'a Cut) -> Source<'a> {
+    Source { mesh, identity: weld.identity(), cut }
+}
+
 /// The bounds of the positions that corners have.
 fn bounds_of_used(mesh: &Mesh<'_>) -> Bounds {
     let mut used = (0..mesh.corner_count()).map(|corner| mesh.positions().get(mesh.vertex_of_corner(corner)));
@@ -188,27 +216,37 @@ fn bounds_of_used(mesh: &Mesh<'_>) -> Bounds {
 }
 
 /// Writes the windows with vertices that several threads have finished.
-fn write_pending(
-    mesh: &Mesh<'_>,
-    shares: &[Share],
-    workers: &mut [Worker],
-    identity: Identity<'_>,
-    out: &mut [[[f32; 4]; 3]],
-) {
+fn write_pending(source: &Source<'_>, shares: &[Share], workers: &mut [Worker], out: &mut [[f32; 4]]) {
     let mut special = Special::default();
     let mut buffer = Vec::new();
     for &at in workers.iter().flat_map(|worker| &worker.pending) {
-        let range = window(at, mesh.face_count());
-        let triangles = triangles(mesh, identity, range.clone(), &mut buffer);
-        for ((at, triangle), out) in range.clone().zip(triangles).zip(&mut out[range]) {
-            let of = |vertex: u32| {
-                let owner = shares.partition_point(|share| share.vertices.end <= vertex as usize);
-                workers[owner].vertex(vertex)
-            };
-            let vertices = triangle.map(of);
-            *out = vertices.map(|vertex| vertex.sum);
-            special.note(at as u32, vertices.map(Vertex::position), out);
+        let of = |vertex: u32| {
+            let owner = shares.partition_point(|share| share.vertices.end <= vertex as usize);
+            workers[owner].vertex(vertex)
+        };
+        let corners = source.corners_of(at..at + 1);
+        let vertices = source.vertices(corners.clone(), &mut buffer);
+        if source.is_cut() {
+            write_faces::<1>(vertices, corners, of, &mut special, out);
+        } else {
+            write_faces::<3>(vertices, corners, of, &mut special, out);
         }
     }
     workers[0].special.take(&mut special);
+}
+
+/// Writes faces of `N` corners, or corners one after the other. `vertices`: of `corners`.
+fn write_faces<'a, const N: usize>(
+    vertices: &[u32],
+    corners: Range<usize>,
+    of: impl Fn(u32) -> &'a Vertex,
+    special: &mut Special,
+    out: &mut [[f32; 4]],
+) {
+    let faces = vertices.as_chunks::<N>().0.iter().zip(out[corners.clone()].as_chunks_mut().0);
+    for ((vertices, out), face) in faces.zip((corners.start / N) as u32..) {
+        let vertices = vertices.map(&of);
+        *out = vertices.map(|vertex| vertex.sum);
+        special.note(face, vertices.map(Vertex::position), out);
+    }
 }

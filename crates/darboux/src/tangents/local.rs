@@ -4,10 +4,10 @@ use crate::{Cancel, Frame, Mesh};
 
 use super::evaluate::DEFAULT_FRAME;
 use super::fans::{Fans, UNDECIDED};
-use super::mikktspace::{Part, Topology};
+use super::mikktspace::{HalfEdge, Part, Topology};
 use super::{Report, TangentOptions};
 
-/// The triangles with an undecided vertex, in their order, as a mesh of their own.
+/// The faces with an undecided vertex, in their order, as a mesh of their own.
 ///
 /// What decides about a vertex is there: a UV-degenerate triangle, whose group another vertex can decide, leaves all its vertices
 /// undecided.
@@ -16,6 +16,8 @@ pub(crate) struct UndecidedPart {
     /// The corner of the whole mesh at each of the part's, and its vertex.
     corners: Vec<u32>,
     indices: Vec<u32>,
+    /// The number of corners of each face.
+    sizes: Vec<u32>,
     /// Of each corner: its vertex is undecided.
     counts: Vec<bool>,
     topology: Topology,
@@ -29,25 +31,26 @@ impl UndecidedPart {
         fans: &Fans,
         tangents: &[[f32; 4]],
     ) -> Option<Self> {
-        let triangles = fans.undecided();
-        if triangles.is_empty() {
+        let faces = fans.undecided(mesh);
+        let sizes: Vec<u32> = faces.clone().map(|corners| corners.len() as u32).collect();
+        if sizes.is_empty() {
             return None;
         }
-        let corners: Vec<u32> = triangles.iter().flat_map(|&t| 3 * t..3 * t + 3).collect();
+        let corners: Vec<u32> = faces.flatten().collect();
         let vertex = |&corner: &u32| mesh.vertex_of_corner(corner as usize) as u32;
         let indices: Vec<u32> = corners.iter().map(vertex).collect();
         let is_undecided = |&corner: &u32| tangents[corner as usize][3] == UNDECIDED;
         let counts: Vec<bool> = corners.iter().map(is_undecided).collect();
-        let names = fans.names(mesh, triangles);
-        let last_stretches = stretches_within(triangles, fans.last_stretches());
+        let names = fans.names(mesh, &corners);
+        let last_stretches = stretches_within(&corners, &fans.last_stretches(mesh));
         let part = Part { names: &names, counts: &counts, last_stretches: &last_stretches };
-        let topology = Topology::of_part(&mesh.with_triangles(&indices), &part, options);
-        Some(Self { corners, indices, counts, topology })
+        let topology = Topology::of_part(&mesh.with_other_faces(&indices, &sizes), &part, options);
+        Some(Self { corners, indices, sizes, counts, topology })
     }
 
     /// Writes the tangents of the undecided vertices; `out` has those of all others. Returns the report of the part.
     pub fn decide(&self, mesh: &Mesh<'_>, cancel: &Cancel, out: &mut [[f32; 4]]) -> Report {
-        let part = mesh.with_triangles(&self.indices);
+        let part = mesh.with_other_faces(&self.indices, &self.sizes);
         let (frames, report) = self.topology.frames_of_part(&part, self.known(out), cancel);
         self.write(&frames, |corner, frame| out[corner] = frame.tangent_and_sign());
         report
@@ -61,7 +64,7 @@ impl UndecidedPart {
         tangents: &[[f32; 4]],
         out: &mut Vec<(u32, Frame)>,
     ) -> Report {
-        let part = mesh.with_triangles(&self.indices);
+        let part = mesh.with_other_faces(&self.indices, &self.sizes);
         let (frames, report) = self.topology.frames_of_part(&part, self.known(tangents), cancel);
         self.write(&frames, |corner, frame| out.push((corner as u32, frame)));
         report
@@ -69,7 +72,7 @@ impl UndecidedPart {
 
     /// As [`UndecidedPart::decide`] for a mesh whose vertices have moved since, with the signs of `base`.
     pub fn decide_moved(&self, mesh: &Mesh<'_>, base: &[[f32; 4]], cancel: &Cancel, out: &mut [[f32; 4]]) {
-        let part = mesh.with_triangles(&self.indices);
+        let part = mesh.with_other_faces(&self.indices, &self.sizes);
         let (frames, _) = self.topology.frames_of_moved(&part, self.known(out), cancel);
         self.write(&frames, |corner, frame| out[corner] = frame.tangent_and_sign());
         for corner in self.corners.iter().map(|&corner| corner as usize) {
@@ -104,7 +107,7 @@ pub(super) fn decide(
 ) -> Report {
     let part = UndecidedPart::new(mesh, options, fans, out);
     let report = part.map(|part| part.decide(mesh, cancel, out)).unwrap_or_default();
-    Report { triangles: mesh.face_count(), ..report }
+    Report { triangles: fans.triangle_count(mesh), ..report }
 }
 
 /// As [`decide`], whole frames: those of the corners that are undecided in `tangents`, which `fans` wrote, ascending.
@@ -118,12 +121,12 @@ pub(super) fn decide_frames(
 ) -> Report {
     let part = UndecidedPart::new(mesh, options, fans, tangents);
     let report = part.map(|part| part.decide_frames(mesh, cancel, tangents, out)).unwrap_or_default();
-    Report { triangles: mesh.face_count(), ..report }
+    Report { triangles: fans.triangle_count(mesh), ..report }
 }
 
-/// Corners of the mesh as corners of the part that some of its triangles are.
-fn stretches_within(triangles: &[u32], stretches: &[Vec<u32>]) -> Vec<Vec<u32>> {
-    let within =
-        |corner: &u32| 3 * triangles.partition_point(|&triangle| triangle < corner / 3) as u32 + corner % 3;
-    stretches.iter().map(|stretch| stretch.iter().map(within).collect()).collect()
+/// Edges of the mesh as edges of the part that has these of its corners.
+fn stretches_within(corners: &[u32], stretches: &[Vec<HalfEdge>]) -> Vec<Vec<HalfEdge>> {
+    let within = |corner: u32| corners.partition_point(|&other| other < corner) as u32;
+    let edge = |&(triangle, start): &HalfEdge| (triangle.map(within), start);
+    stretches.iter().map(|stretch| stretch.iter().map(edge).collect()).collect()
 }

@@ -29,15 +29,18 @@ pub(crate) struct Topology {
     mode: Mode,
 }
 
-/// Part of a mesh: some triangles, as a mesh of their own, of which some vertices count.
+/// Part of a mesh: some faces, as a mesh of their own, of which some vertices count.
 pub(crate) struct Part<'a> {
     /// The welded vertex of each corner, named by its first corner here.
     pub names: &'a [u32],
-    /// Of each corner: its vertex counts, and all triangles around it are here. Other corners stay as they were.
+    /// Of each corner: its vertex counts, and all faces around it are here. Other corners stay as they were.
     pub counts: &'a [bool],
-    /// Stretches of edges, by the corners where they start, that are matched with each other only.
-    pub last_stretches: &'a [Vec<u32>],
+    /// Stretches of edges that are matched with each other only.
+    pub last_stretches: &'a [Vec<HalfEdge>],
 }
+
+/// An edge of a triangle: the triangle's corners, and the place among these where the edge starts.
+pub(crate) type HalfEdge = ([u32; 3], u32);
 
 impl Topology {
     /// Welds, finds neighbours and groups.
@@ -52,7 +55,7 @@ impl Topology {
         let triangulation = triangulate_welded(mesh, part.names);
         let good = &triangulation.good;
         let mut neighbours = neighbours(good, EdgeOrder::Complete);
-        match_again(good, &half_edges_at(good, part.last_stretches), &mut neighbours);
+        match_again(good, &numbered(good, part.last_stretches), &mut neighbours);
         Self::of(mesh, triangulation, &neighbours, |vertex| part.counts[vertex as usize], options)
     }
 
@@ -183,11 +186,12 @@ pub(crate) fn unknown(mesh: &Mesh<'_>) -> Vec<Frame> {
     vec![DEFAULT_FRAME; mesh.corner_count()]
 }
 
-/// The half-edges that start at some corners of a mesh of triangles; none of its triangles there is degenerate.
-fn half_edges_at(good: &Triangles, stretches: &[Vec<u32>]) -> Vec<Vec<u32>> {
-    let half_edge =
-        |corner: &u32| 3 * good.face.partition_point(|&face| face < corner / 3) as u32 + corner % 3;
-    stretches.iter().map(|stretch| stretch.iter().map(half_edge).collect()).collect()
+/// Numbers half-edges of triangles that are not degenerate. Their corners ascend.
+fn numbered(good: &Triangles, stretches: &[Vec<HalfEdge>]) -> Vec<Vec<u32>> {
+    let number = |(corners, start): &HalfEdge| {
+        3 * good.corners.partition_point(|other| other < corners) as u32 + start
+    };
+    stretches.iter().map(|stretch| stretch.iter().map(number).collect()).collect()
 }
 
 /// Edges between two triangles, neither UV-degenerate, of opposite orientation.

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use crate::math::cosine_of_degrees;
-use crate::{Cancel, Frame, Mesh};
+use crate::{Cancel, Faces, Frame, Mesh};
 
 use super::fans::{Fans, PlannedFans};
 use super::local::UndecidedPart;
@@ -47,7 +47,8 @@ impl Planned {
         let mut base = Tangents::default();
         base.corners.0.resize(mesh.corner_count(), [0.0; 4]);
         let (mut fans, width) = (Fans::default(), Width::widest(Default::default()));
-        let applies = cosine_of_degrees(options.threshold) == -1.0;
+        let applies =
+            matches!(mesh.faces(), Faces::Triangles) && cosine_of_degrees(options.threshold) == -1.0;
         if !applies || !fans.run(mesh, options.mode, width, &mut base.corners.0) {
             let topology = Topology::new(mesh, options);
             let (frames, report) = topology.frames(mesh, &Cancel::new());

@@ -9,7 +9,7 @@ use super::super::windows::WINDOW;
 use super::block::Record;
 use super::hash::{Hash, Span};
 use super::hash_set::{BitMap, Chains};
-use super::source::{RowBuffer, Rows};
+use super::rows::{RowBuffer, Rows};
 
 /// How many recently met vertices are looked at first.
 const RECENT: usize = if cfg!(small_limits) { 2 } else { 1 << 14 };

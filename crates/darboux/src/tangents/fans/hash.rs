@@ -5,7 +5,7 @@
 use crate::weld::Bounds;
 
 use super::super::width::Task;
-use super::source::Rows;
+use super::rows::Rows;
 use super::weld::Refused;
 
 /// Hashes vertices: equal for those that are equal as floats. Notes what values they have.

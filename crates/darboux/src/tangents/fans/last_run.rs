@@ -5,12 +5,10 @@
 //! depends on the vertices' names, the corners that represent them (see `crate::weld`). Names near the end of the triangle list
 //! decide, and those are names of vertices that the last triangles use: only the cells of these are put into the reference's order.
 
-use crate::Mesh;
 use crate::topology::order_shows;
 use crate::weld::{Bounds, ByCell, CELLS, Cells, Point, for_each_final_range};
 
-use super::super::windows::windows_of;
-use super::source::{Identity, triangles};
+use super::source::{Source, TriangleBuffer};
 
 /// How many triangles from the end are looked at first, where triangles that share vertices are near each other in the list, and
 /// where they are not: there fewer of them have vertices that are named at the end.
@@ -20,6 +18,7 @@ const FIRST_TAIL_SHUFFLED: usize = 8 * FIRST_TAIL;
 /// The cells in which a tail of the triangle list has vertices.
 #[derive(Debug)]
 pub(super) struct TailCells {
+    /// Its first triangle, which begins a face: entries from there on are of corners whose numbers are not below its first corner's.
     start: usize,
     cells: Cells,
     wanted: [bool; CELLS],
@@ -29,12 +28,13 @@ pub(super) struct TailCells {
 
 impl TailCells {
     /// Of the triangles from `start` on; `bounds` are those of all vertices in use.
-    fn new(mesh: &Mesh<'_>, bounds: &Bounds, start: usize) -> Self {
+    fn new(source: &Source<'_>, bounds: &Bounds, triangle: usize) -> Self {
+        let start = source.face_of(triangle as u32).start as usize;
         let cells = Cells::of(bounds);
         let mut tail =
             Self { start, cells, wanted: [false; CELLS], low: f32::INFINITY, high: f32::NEG_INFINITY };
-        for corner in 3 * start..mesh.corner_count() {
-            let position = mesh.positions().get(mesh.vertex_of_corner(corner));
+        for vertex in (start..source.count()).flat_map(|triangle| source.triangle(triangle as u32)) {
+            let position = source.position(vertex);
             tail.wanted[cells.at(position)] = true;
             let along = position[cells.axis];
             (tail.low, tail.high) = (tail.low.min(along), tail.high.max(along));
@@ -52,13 +52,13 @@ impl TailCells {
     }
 
     /// Of the first tail to look at: so many triangles that have edges, and whatever lies among and behind them.
-    pub fn first(mesh: &Mesh<'_>, bounds: &Bounds, is_shuffled: bool) -> Self {
+    pub fn first(source: &Source<'_>, bounds: &Bounds, is_shuffled: bool) -> Self {
         let tail = if is_shuffled { FIRST_TAIL_SHUFFLED } else { FIRST_TAIL };
-        let mut good = (0..mesh.face_count()).rev().filter(|&triangle| {
-            let [a, b, c] = [0, 1, 2].map(|k| mesh.positions().get(mesh.vertex_of_corner(3 * triangle + k)));
-            !are_degenerate([a, b, c])
+        let mut good = (0..source.count()).rev().filter(|&triangle| {
+            let positions = source.triangle(triangle as u32).map(|vertex| source.position(vertex));
+            !are_degenerate(positions)
         });
-        Self::new(mesh, bounds, good.nth(tail - 1).unwrap_or(0))
+        Self::new(source, bounds, good.nth(tail - 1).unwrap_or(0))
     }
 
     /// True for vertices in these cells.
@@ -116,9 +116,9 @@ fn sorted<T: PartialOrd>(a: T, b: T) -> (T, T) {
 pub(super) struct Lists {
     points: Vec<Point>,
     by_cell: ByCell,
-    /// Corners of vertices that are named after a corner of the tail, each with that name.
+    /// Entries of vertices that are named after a corner of the tail, each with that name.
     named: Vec<(u32, u32)>,
-    /// Corners of one range, by vertex.
+    /// Entries of one range, by vertex.
     of_range: Vec<(u32, u32)>,
     edges: Vec<Edge>,
 }
@@ -126,13 +126,12 @@ pub(super) struct Lists {
 /// A welded mesh.
 #[derive(Clone, Copy)]
 pub(super) struct LastRun<'a> {
-    pub mesh: &'a Mesh<'a>,
-    pub identity: Identity<'a>,
+    pub source: Source<'a>,
     pub bounds: &'a Bounds,
 }
 
 impl LastRun<'_> {
-    /// The last edges, where their order shows. `points` are the corners of `cells`' vertices, ascending, or none if they have to be
+    /// The last edges, where their order shows. `points` are the entries of `cells`' vertices, ascending, or none if they have to be
     /// looked for.
     pub fn find(
         &self,
@@ -146,8 +145,8 @@ impl LastRun<'_> {
         }
         self.list_edges(&cells, lists);
         while lists.edges.is_empty() && cells.start > 0 {
-            let tail = 4 * (self.mesh.face_count() - cells.start);
-            cells = TailCells::new(self.mesh, self.bounds, self.mesh.face_count().saturating_sub(tail));
+            let tail = 4 * (self.source.count() - cells.start);
+            cells = TailCells::new(&self.source, self.bounds, self.source.count().saturating_sub(tail));
             self.sort_points(&cells, lists);
             self.list_edges(&cells, lists);
         }
@@ -159,28 +158,23 @@ impl LastRun<'_> {
         self.list_named(cells, lists);
         lists.edges.clear();
         let triangles = lists.named.chunk_by(|a, b| a.0 / 3 == b.0 / 3);
-        lists.edges.extend(triangles.filter_map(|corners| self.highest_edge(corners)));
+        lists.edges.extend(triangles.filter_map(|entries| self.highest_edge(entries)));
     }
 
-    /// The welded vertex at a corner.
-    fn vertex(&self, corner: u32) -> u32 {
-        self.identity.vertex(self.mesh, corner)
+    /// The welded vertex at an entry.
+    fn vertex(&self, entry: u32) -> u32 {
+        self.source.vertex(self.source.corner(entry))
     }
 
-    /// The position of a welded vertex.
-    pub fn position(&self, vertex: u32) -> [f32; 3] {
-        self.identity.position(self.mesh, vertex)
-    }
-
-    /// Sorts the corners of all vertices in the cells.
+    /// Sorts the entries of all vertices in the cells.
     fn sort_points(&self, cells: &TailCells, lists: &mut Lists) {
-        let mut buffer = Vec::new();
+        let mut buffer = TriangleBuffer::default();
         lists.points.clear();
-        for range in windows_of(self.mesh.face_count()) {
+        for range in self.source.windows() {
             let first = 3 * range.start as u32;
-            let triangles = triangles(self.mesh, self.identity, range, &mut buffer);
+            let triangles = self.source.triangles(range, &mut buffer);
             for (entry, &vertex) in (first..).zip(triangles.as_flattened()) {
-                let position = self.position(vertex);
+                let position = self.source.position(vertex);
                 if cells.hold(position) {
                     lists.points.push(Point { position, entry });
                 }
@@ -189,7 +183,7 @@ impl LastRun<'_> {
         lists.by_cell.sort(&cells.cells, &lists.points);
     }
 
-    /// Lists the corners of all vertices that are named after a corner of the tail, ascending.
+    /// Lists the entries of all vertices that are named after a corner of the tail, ascending.
     fn list_named(&self, cells: &TailCells, lists: &mut Lists) {
         let Lists { by_cell, named, of_range, .. } = lists;
         let in_tail = |entry: u32| entry as usize >= 3 * cells.start;
@@ -200,11 +194,12 @@ impl LastRun<'_> {
                 let place = |(at, point): (u32, &Point)| (self.vertex(point.entry), at);
                 of_range.clear();
                 of_range.extend((0..).zip(points).map(place));
-                // By vertex, in the range's order: the first corner of each vertex is its name.
+                // By vertex, in the range's order: the corner at the first entry of each vertex is its name.
                 of_range.sort_unstable();
                 for same in of_range.chunk_by(|a, b| a.0 == b.0) {
-                    let name = points[same[0].1 as usize].entry;
-                    if in_tail(name) {
+                    let first = points[same[0].1 as usize].entry;
+                    if in_tail(first) {
+                        let name = self.source.corner(first);
                         named.extend(same.iter().map(|&(_, at)| (points[at as usize].entry, name)));
                     }
                 }
@@ -214,9 +209,9 @@ impl LastRun<'_> {
     }
 
     /// The edge between the two higher vertices of a triangle, if two of its corners are named.
-    fn highest_edge(&self, corners: &[(u32, u32)]) -> Option<Edge> {
-        let named = |&(corner, name): &(u32, u32)| (name, self.vertex(corner));
-        let (lower, upper) = match corners {
+    fn highest_edge(&self, entries: &[(u32, u32)]) -> Option<Edge> {
+        let named = |&(entry, name): &(u32, u32)| (name, self.vertex(entry));
+        let (lower, upper) = match entries {
             [a, b] => sorted(named(a), named(b)),
             [a, b, c] => {
                 let (low, high) = sorted(named(a), named(b));
@@ -225,15 +220,14 @@ impl LastRun<'_> {
             }
             _ => return None,
         };
-        let first = 3 * (corners[0].0 / 3);
-        let triangle = [first, first + 1, first + 2].map(|corner| self.vertex(corner));
+        let triangle = self.source.triangle(entries[0].0 / 3);
         let edge = Edge { names: [lower.0, upper.0], ends: [lower.1, upper.1] };
         (!self.is_degenerate(triangle)).then_some(edge)
     }
 
     /// True for triangles of which the reference makes no edges.
     pub fn is_degenerate(&self, triangle: [u32; 3]) -> bool {
-        are_degenerate(triangle.map(|vertex| self.position(vertex)))
+        are_degenerate(triangle.map(|vertex| self.source.position(vertex)))
     }
 }
 

@@ -6,21 +6,20 @@
 use crate::last_edges::{Edges, last_stretches};
 use crate::weld::{CELLS, Cells, Point, for_each_final_range};
 
-use super::super::windows::windows_of;
 use super::last_run::{LastEdges, LastRun};
-use super::source::triangles;
+use super::source::TriangleBuffer;
 
 /// The names of a mesh's vertices; the memory is kept from mesh to mesh.
 #[derive(Debug, Default)]
 pub(super) struct Names {
-    /// The welded vertex of each corner.
+    /// The welded vertex of each entry.
     vertices: Vec<u32>,
     bounds: Vec<[u32; 2]>,
     is_wanted: Vec<bool>,
     /// The cell of each welded vertex.
     cell_of: Vec<u16>,
-    /// All corners, by cell, and where each cell ends.
-    corners: Vec<u32>,
+    /// All entries, by cell, and where each cell ends.
+    entries: Vec<u32>,
     ends: Vec<u32>,
     edges: Vec<u32>,
     /// Of each cell.
@@ -28,8 +27,8 @@ pub(super) struct Names {
 }
 
 impl Names {
-    /// The last edges in the reference's stretches (see `crate::last_edges`), as the corners where they start. `count` is that of
-    /// welded vertices; `suspects` holds all triangles that could be degenerate, ascending.
+    /// The last edges in the reference's stretches (see `crate::last_edges`), as the entries where they start. `count` is that of
+    /// welded vertices; `suspects` holds the first triangles of all faces that could be degenerate, ascending.
     pub fn last_stretches(
         &mut self,
         run: &LastRun<'_>,
@@ -46,26 +45,27 @@ impl Names {
         stretches
     }
 
-    /// The corners of some vertices, ascending.
-    pub fn corners_of(&self, vertices: &[u32]) -> impl Iterator<Item = u32> {
+    /// The entries of some vertices, ascending.
+    pub fn entries_of(&self, vertices: &[u32]) -> impl Iterator<Item = u32> {
         let mut is_asked_for = vec![false; self.bounds.len()];
         vertices.iter().for_each(|&vertex| is_asked_for[vertex as usize] = true);
-        let corners = (0..).zip(&self.vertices);
-        corners.filter(move |(_, vertex)| is_asked_for[**vertex as usize]).map(|(corner, _)| corner)
+        let entries = (0..).zip(&self.vertices);
+        entries.filter(move |(_, vertex)| is_asked_for[**vertex as usize]).map(|(entry, _)| entry)
     }
 
     fn find_bounds(&mut self, run: &LastRun<'_>, count: usize) {
         self.vertices.clear();
-        let mut buffer = Vec::new();
-        for range in windows_of(run.mesh.face_count()) {
-            let triangles = triangles(run.mesh, run.identity, range, &mut buffer);
+        let mut buffer = TriangleBuffer::default();
+        for range in run.source.windows() {
+            let triangles = run.source.triangles(range, &mut buffer);
             self.vertices.extend_from_slice(triangles.as_flattened());
         }
         self.bounds.clear();
         self.bounds.resize(count, [u32::MAX, 0]);
-        for (&vertex, corner) in self.vertices.iter().zip(0..) {
+        for (&vertex, entry) in self.vertices.iter().zip(0..) {
+            let corner = run.source.corner(entry);
             let [low, high] = &mut self.bounds[vertex as usize];
-            (*low, *high) = (corner.min(*low), corner);
+            (*low, *high) = (corner.min(*low), corner.max(*high));
         }
     }
 
@@ -75,7 +75,7 @@ impl Names {
         self.is_wanted.clear();
         self.is_wanted.resize(self.bounds.len(), false);
         self.cell_of.clear();
-        self.cell_of.extend((0..count).map(|vertex| cells.at(run.position(vertex)) as u16));
+        self.cell_of.extend((0..count).map(|vertex| cells.at(run.source.position(vertex)) as u16));
         self.was_asked_for.clear();
         self.was_asked_for.resize(CELLS, false);
         self.ends.clear();
@@ -86,10 +86,10 @@ impl Names {
         for cell in 0..CELLS {
             self.ends[cell + 1] += self.ends[cell];
         }
-        self.corners.resize(self.vertices.len(), 0);
-        for (&vertex, corner) in self.vertices.iter().zip(0..) {
+        self.entries.resize(self.vertices.len(), 0);
+        for (&vertex, entry) in self.vertices.iter().zip(0..) {
             let next = &mut self.ends[usize::from(self.cell_of[vertex as usize])];
-            self.corners[*next as usize] = corner;
+            self.entries[*next as usize] = entry;
             *next += 1;
         }
     }
@@ -98,7 +98,7 @@ impl Names {
     fn list_edges(&mut self, run: &LastRun<'_>, suspects: &[u32]) {
         self.edges.clear();
         let mut next = 0;
-        for &suspect in suspects {
+        for suspect in suspects.iter().flat_map(|&suspect| run.source.face_of(suspect)) {
             let first = 3 * suspect;
             if run.is_degenerate(self.vertices.as_chunks().0[suspect as usize]) {
                 self.edges.extend(next..first);
@@ -114,15 +114,15 @@ impl Names {
         let start = if cell == 0 { 0 } else { self.ends[cell - 1] };
         let (vertices, bounds) = (&self.vertices, &mut self.bounds);
         let vertex = |point: &Point| vertices[point.entry as usize];
-        let point = |&entry: &u32| Point { position: run.position(vertices[entry as usize]), entry };
+        let point = |&entry: &u32| Point { position: run.source.position(vertices[entry as usize]), entry };
         let mut points: Vec<Point> =
-            self.corners[start as usize..self.ends[cell] as usize].iter().map(point).collect();
+            self.entries[start as usize..self.ends[cell] as usize].iter().map(point).collect();
         let is_known = std::mem::replace(&mut self.was_asked_for[cell], true);
         let is_wanted = |point: &Point| is_known || self.is_wanted[vertex(point) as usize];
         for_each_final_range(&mut points, &|points| points.iter().any(is_wanted), &mut |points| {
-            // From the last to the first: the first corner of each vertex remains its name.
+            // From the last to the first: the corner at the first entry of each vertex remains its name.
             for point in points.iter().rev() {
-                bounds[vertex(point) as usize] = [point.entry; 2];
+                bounds[vertex(point) as usize] = [run.source.corner(point.entry); 2];
             }
         });
     }
@@ -138,7 +138,7 @@ impl Edges for NamesIn<'_> {
     #[inline(always)]
     fn ends(&self, edge: u32) -> [u32; 2] {
         let next = if edge % 3 == 2 { edge - 2 } else { edge + 1 };
-        [edge, next].map(|corner| self.names.vertices[corner as usize])
+        [edge, next].map(|entry| self.names.vertices[entry as usize])
     }
 
     #[inline(always)]

@@ -4,18 +4,20 @@ use crate::Mesh;
 
 use super::super::threads::{self, parts};
 use super::super::width::Width;
-use super::super::windows::{Window, overlap, shares, triangles_of};
+use super::super::windows::{Window, overlap, shares};
+use super::cut::{Cut, triangle_count};
 use super::last_run::TailCells;
 use super::source::Identity;
 use super::stream::Stream;
 use super::weld::Weld;
 use super::workers::Worker;
-use super::{Fans, UNDECIDED, write_pending};
+use super::{Fans, UNDECIDED, source, write_pending};
 
 /// What a run has found out about a mesh of triangles.
 #[derive(Debug)]
 pub(crate) struct PlannedFans {
     weld: Weld,
+    cut: Cut,
     windows: Vec<Window>,
     /// Of each welded vertex; [`UNDECIDED`] where other stages decide.
     signs: Vec<f32>,
@@ -24,13 +26,13 @@ pub(crate) struct PlannedFans {
 impl PlannedFans {
     /// Of the mesh that `fans` has just run on, with the tangents that it wrote.
     pub fn new(mesh: &Mesh<'_>, fans: Fans, tangents: &[[f32; 4]]) -> Self {
-        let Fans { weld, windows, .. } = fans;
-        let identity = weld.identity();
+        let Fans { weld, cut, windows, .. } = fans;
+        let source = source(mesh, &weld, &cut);
         let mut signs = vec![UNDECIDED; weld.count];
         for (corner, tangent) in (0..).zip(tangents) {
-            signs[identity.vertex(mesh, corner) as usize] = tangent[3];
+            signs[source.vertex(corner) as usize] = tangent[3];
         }
-        Self { weld, windows, signs }
+        Self { weld, cut, windows, signs }
     }
 
     /// True when vertices that were welded are still one.
@@ -59,22 +61,15 @@ impl Fans {
         if !plan.holds(mesh) {
             return false;
         }
-        let threads = threads::count(mesh.face_count());
+        let threads = threads::count(triangle_count(mesh));
         self.workers.resize_with(threads, Worker::default);
-        threads::on_pool(threads, || self.run_planned_on(plan, mesh, width, out.as_chunks_mut().0));
+        threads::on_pool(threads, || self.run_planned_on(plan, mesh, width, out));
         self.workers[..self.shares.len()].iter().all(|worker| worker.all_usable)
     }
 
-    fn run_planned_on(
-        &mut self,
-        plan: &PlannedFans,
-        mesh: &Mesh<'_>,
-        width: Width,
-        out: &mut [[[f32; 4]; 3]],
-    ) {
-        let (windows, identity) = (&plan.windows[..], plan.weld.identity());
-        let stream =
-            Stream { mesh, identity, windows, tail: &TailCells::none(), signs: Some(&plan.signs), width };
+    fn run_planned_on(&mut self, plan: &PlannedFans, mesh: &Mesh<'_>, width: Width, out: &mut [[f32; 4]]) {
+        let (windows, source) = (&plan.windows[..], source(mesh, &plan.weld, &plan.cut));
+        let stream = Stream { source, windows, tail: &TailCells::none(), signs: Some(&plan.signs), width };
         self.shares.clear();
         self.shares.extend(shares(windows, plan.weld.count, self.workers.len()));
         if overlap(&self.shares, windows) {
@@ -84,9 +79,9 @@ impl Fans {
         }
         // The others' memory is that of earlier meshes.
         let workers = &mut self.workers[..self.shares.len()];
-        let ranges = self.shares.iter().map(|share| triangles_of(share.windows.clone(), mesh.face_count()));
+        let ranges = self.shares.iter().map(|share| source.corners_of(share.windows.clone()));
         let jobs = self.shares.iter().zip(parts(&mut *out, 0, ranges));
         threads::run(workers, jobs, |worker, (share, out)| stream.run(share, worker, out));
-        write_pending(mesh, &self.shares, workers, identity, out);
+        write_pending(&source, &self.shares, workers, out);
     }
 }

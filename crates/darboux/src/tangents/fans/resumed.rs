@@ -5,7 +5,7 @@ use crate::tangents::Mode;
 use crate::weld::{Bounds, Point};
 
 use super::last_run::{LastRun, TailCells};
-use super::{Fans, UNDECIDED};
+use super::{Fans, UNDECIDED, source};
 
 impl Fans {
     /// As after [`Fans::run`].
@@ -32,8 +32,8 @@ impl Fans {
         (0..mesh.corner_count()).for_each(|corner| is_wanted[mesh.vertex_of_corner(corner)] = true);
         let mut used = (0..is_wanted.len()).filter(|&vertex| is_wanted[vertex]).map(position);
         let bounds = Bounds::of(used.next().unwrap_or_default(), used);
-        let run = LastRun { mesh, identity: self.weld.identity(), bounds: &bounds };
-        let tail = TailCells::first(mesh, &bounds, true);
+        let run = LastRun { source: source(mesh, &self.weld, &self.cut), bounds: &bounds };
+        let tail = TailCells::first(&run.source, &bounds, true);
         for (vertex, is_wanted) in is_wanted.iter_mut().enumerate() {
             *is_wanted = tail.hold(position(vertex));
         }
@@ -44,7 +44,7 @@ impl Fans {
         if let Some(last) = run.find(tail, Some(&points), &mut self.lists) {
             let suspects = &self.special.undecided;
             self.last_stretches = self.names.last_stretches(&run, &last, self.weld.count, suspects);
-            self.special.leave(self.names.corners_of(&last.vertices), out);
+            self.special.leave(&run.source, self.names.entries_of(&last.vertices), out);
         }
     }
 }

@@ -1,14 +1,14 @@
 //! All threads on all windows, where triangles that share vertices are far from each other in the list.
 //!
-//! Each thread writes what its part of the triangles adds to the output array, then adds to its part of the vertices what is there,
-//! in triangle order, and at last writes its part of the triangles.
+//! Each thread writes down what its part of the triangles adds, to the output array where that has a place for it, then adds to its
+//! part of the vertices what is there, in triangle order, and at last writes its part of the faces.
 
 use std::ops::Range;
 
 use super::super::threads::{self, parts, split};
-use super::super::windows::{WINDOW, triangles_of, window};
-use super::source::{rows, triangles};
-use super::steps::{Collect, Evaluate, Finish, Read, Write};
+use super::super::windows::WINDOW;
+use super::cut::mark_doubtful;
+use super::steps::{Collect, Evaluate, Finish, Read};
 use super::stream::Stream;
 use super::vertices::Vertex;
 use super::workers::Worker;
@@ -16,8 +16,17 @@ use super::workers::Worker;
 /// Windows per thread that are added up at once.
 const WINDOWS_AT_ONCE: usize = if cfg!(small_limits) { 2 } else { 64 };
 
+/// What the corners of a triangle add to their vertices.
+pub(super) type Terms = [[f32; 4]; 3];
+
 /// Does what `Stream::run` does for one thread.
-pub(super) fn run(stream: &Stream<'_>, count: usize, workers: &mut [Worker], out: &mut [[[f32; 4]; 3]]) {
+pub(super) fn run(
+    stream: &Stream<'_>,
+    count: usize,
+    workers: &mut [Worker],
+    memory: &mut Vec<Terms>,
+    out: &mut [[f32; 4]],
+) {
     workers.iter_mut().for_each(|worker| worker.begin(0..0));
     let (mut vertices, mut marks) =
         (std::mem::take(&mut workers[0].vertices), std::mem::take(&mut workers[0].marks));
@@ -27,8 +36,15 @@ pub(super) fn run(stream: &Stream<'_>, count: usize, workers: &mut [Worker], out
     let at_once = workers.len() * WINDOWS_AT_ONCE;
     for first in (0..stream.windows.len()).step_by(at_once) {
         let windows = first..(first + at_once).min(stream.windows.len());
-        evaluate(stream, windows.clone(), workers, &vertices, out);
-        collect(stream, windows, workers, out, &mut vertices, &mut marks);
+        let triangles = stream.source.triangles_of(windows.clone());
+        let terms = if stream.source.is_cut() {
+            memory.resize(triangles.len(), Terms::default());
+            &mut memory[..]
+        } else {
+            &mut out.as_chunks_mut().0[triangles]
+        };
+        evaluate(stream, windows.clone(), workers, &vertices, terms);
+        collect(stream, windows, workers, terms, &mut vertices, &mut marks);
     }
     finish(stream, workers, &mut vertices, &marks);
     write(stream, workers, &vertices, out);
@@ -41,49 +57,57 @@ fn read(stream: &Stream<'_>, workers: &mut [Worker], vertices: &mut [Vertex], ma
     threads::run(workers, jobs, |worker, ((range, vertices), marks)| {
         let stretches = range.step_by(WINDOW).zip(vertices.chunks_mut(WINDOW)).zip(marks.chunks_mut(WINDOW));
         for ((first, vertices), marks) in stretches {
-            let rows = rows(stream.mesh, stream.identity, first..first + vertices.len(), &mut worker.rows);
+            let rows = stream.source.rows(first..first + vertices.len(), &mut worker.rows);
             stream.width.run(Read { rows, tail: stream.tail, vertices, marks });
         }
     });
 }
 
-/// Writes what corners add to their vertices to the corners' place in `out`.
+/// Writes down what the triangles of `windows` add to their vertices.
 fn evaluate(
     stream: &Stream<'_>,
     windows: Range<usize>,
     workers: &mut [Worker],
     vertices: &[Vertex],
-    out: &mut [[[f32; 4]; 3]],
+    terms: &mut [Terms],
 ) {
-    let ranges = split(triangles_of(windows, stream.mesh.face_count()), workers.len(), WINDOW);
-    threads::run(workers, ranges.clone().zip(parts(out, 0, ranges)), |worker, (range, out)| {
-        for (first, out) in range.step_by(WINDOW).zip(out.chunks_mut(WINDOW)) {
-            let range = first..first + out.len();
-            let triangles = triangles(stream.mesh, stream.identity, range, &mut worker.triangles);
+    let source = &stream.source;
+    let first = source.triangles_of(windows.clone()).start;
+    let ranges = split(windows, workers.len(), 1);
+    let triangles = ranges.clone().map(|windows| source.triangles_of(windows));
+    threads::run(workers, ranges.zip(parts(terms, first, triangles)), |worker, (windows, mut terms)| {
+        for at in windows {
+            let range = source.window(at);
+            let out;
+            (out, terms) = std::mem::take(&mut terms).split_at_mut(range.len());
+            let triangles = source.triangles(range, &mut worker.triangles);
             stream.width.run(Evaluate { triangles, block: &mut worker.block, vertices, out });
         }
     });
 }
 
-/// Adds what was written to `out` to the vertices, in triangle order.
+/// Adds the terms to the vertices, in triangle order.
 fn collect(
     stream: &Stream<'_>,
     windows: Range<usize>,
     workers: &mut [Worker],
-    terms: &[[[f32; 4]; 3]],
+    terms: &[Terms],
     vertices: &mut [Vertex],
     marks: &mut [u32],
 ) {
     let ranges = split(0..vertices.len(), workers.len(), 1);
     let jobs = ranges.clone().zip(parts(vertices, 0, ranges.clone())).zip(parts(marks, 0, ranges));
-    threads::run(workers, jobs, |worker, ((range, vertices), marks)| {
+    threads::run(workers, jobs, |worker, ((own, vertices), marks)| {
+        let mut rest = terms;
         for at in windows.clone() {
-            let of_window = window(at, stream.mesh.face_count());
-            let terms = &terms[of_window.clone()];
-            let triangles = triangles(stream.mesh, stream.identity, of_window, &mut worker.triangles);
+            let range = stream.source.window(at);
+            let terms;
+            (terms, rest) = rest.split_at(range.len());
+            let triangles = stream.source.triangles(range.clone(), &mut worker.triangles);
+            let first = own.start as u32;
             let (vertices, marks) = (&mut *vertices, &mut *marks);
-            let first = range.start as u32;
             stream.width.run(Collect { triangles, terms, first, block: &mut worker.block, vertices, marks });
+            mark_doubtful(&stream.source, range, own.start, marks);
         }
     });
 }
@@ -96,14 +120,15 @@ fn finish(stream: &Stream<'_>, workers: &mut [Worker], vertices: &mut [Vertex], 
     });
 }
 
-fn write(stream: &Stream<'_>, workers: &mut [Worker], vertices: &[Vertex], out: &mut [[[f32; 4]; 3]]) {
-    let ranges = split(0..out.len(), workers.len(), WINDOW);
-    threads::run(workers, ranges.clone().zip(parts(out, 0, ranges)), |worker, (range, out)| {
-        for (first, out) in range.step_by(WINDOW).zip(out.chunks_mut(WINDOW)) {
-            let range = first..first + out.len();
-            let triangles = triangles(stream.mesh, stream.identity, range, &mut worker.triangles);
-            let special = &mut worker.special;
-            stream.width.run(Write { triangles, first, vertices, first_vertex: 0, out, special });
+fn write(stream: &Stream<'_>, workers: &mut [Worker], vertices: &[Vertex], out: &mut [[f32; 4]]) {
+    let ranges = split(0..stream.windows.len(), workers.len(), 1);
+    let corners = ranges.clone().map(|windows| stream.source.corners_of(windows));
+    threads::run(workers, ranges.zip(parts(out, 0, corners)), |worker, (windows, mut rest)| {
+        let Worker { corners, special, .. } = worker;
+        for at in windows {
+            let out;
+            (out, rest) = std::mem::take(&mut rest).split_at_mut(stream.source.corners_of(at..at + 1).len());
+            stream.write(at, (vertices, 0), corners, special, out);
         }
     });
 }

@@ -8,7 +8,8 @@ use crate::weld::Point;
 use super::super::width::Task;
 use super::block::{BLOCK, Block, Fourth, marks, turns};
 use super::last_run::TailCells;
-use super::source::{Rows, Welded};
+use super::rows::{Rows, Welded};
+use super::source::Source;
 use super::vertices::{IN_TAIL, UNDECIDED, Unused, Vertex, gather, scatter, scatter_sums};
 
 /// Makes vertices of rows.
@@ -233,42 +234,42 @@ impl Lanes {
     }
 }
 
-/// Copies tangents from vertices to corners.
-pub(super) struct Write<'a> {
-    pub triangles: &'a [[u32; 3]],
-    /// The number of the first triangle.
+/// Copies tangents from vertices to corners: those of faces of `N` corners, or one after the other.
+pub(super) struct Write<'a, const N: usize> {
+    pub faces: &'a [[u32; N]],
+    /// The number of the first face.
     pub first: usize,
     pub vertices: &'a [Vertex],
     /// The number of the first of `vertices`.
     pub first_vertex: u32,
-    pub out: &'a mut [[[f32; 4]; 3]],
+    pub out: &'a mut [[[f32; 4]; N]],
     pub special: &'a mut Special,
 }
 
-/// Triangles and corners that need another look, ascending.
+/// Faces and corners that need another look, ascending.
 #[derive(Debug, Default)]
 pub(crate) struct Special {
-    /// Triangles with an undecided vertex.
+    /// Faces with an undecided vertex, as they were written; in the end their first triangles.
     pub undecided: Vec<u32>,
-    /// Corners of vertices in the tail's cells.
+    /// Corners of vertices in the tail's cells; in the end entries.
     pub in_tail: Vec<Point>,
 }
 
-impl Task for Write<'_> {
+impl<const N: usize> Task for Write<'_, N> {
     #[inline(always)]
     fn run(self) {
-        let out = &mut self.out[..self.triangles.len()];
-        for i in 0..self.triangles.len() {
+        let out = &mut self.out[..self.faces.len()];
+        for i in 0..self.faces.len() {
             let mut specials = 0;
-            for k in 0..3 {
-                let at = self.triangles[i][k].wrapping_sub(self.first_vertex) as usize;
+            for k in 0..N {
+                let at = self.faces[i][k].wrapping_sub(self.first_vertex) as usize;
                 let vertex = &self.vertices[at];
                 out[i][k] = vertex.sum;
                 specials |= (vertex.sum[3].to_bits() << 1) ^ (1f32.to_bits() << 1);
             }
             if specials != 0 {
                 let at = |vertex: u32| vertex.wrapping_sub(self.first_vertex) as usize;
-                let positions = self.triangles[i].map(|vertex| self.vertices[at(vertex)].position());
+                let positions = self.faces[i].map(|vertex| self.vertices[at(vertex)].position());
                 self.special.note((self.first + i) as u32, positions, &mut out[i]);
             }
         }
@@ -281,10 +282,28 @@ impl Special {
         self.in_tail.clear();
     }
 
-    /// Puts everything in ascending order.
-    pub fn sort(&mut self) {
+    /// Puts everything in ascending order, and makes triangles and entries of corners, which cut faces were written as.
+    pub fn settle(&mut self, source: &Source<'_>) {
         self.undecided.sort_unstable();
         self.in_tail.sort_unstable_by_key(|point| point.entry);
+        if source.is_cut() {
+            let mut end = 0;
+            self.undecided.retain_mut(|corner| {
+                let is_new = *corner >= end;
+                if is_new {
+                    *corner = source.triangles_at(*corner).start;
+                    end = source.corners_of_face(*corner).end;
+                }
+                is_new
+            });
+            for at in 0..self.in_tail.len() {
+                let Point { position, entry: corner } = self.in_tail[at];
+                let mut points = source.entries(corner).map(|entry| Point { position, entry });
+                self.in_tail[at] = points.next().expect("a triangle has the corner");
+                self.in_tail.extend(points);
+            }
+            self.in_tail.sort_unstable_by_key(|point| point.entry);
+        }
     }
 
     /// Appends what another has, which is empty afterwards.
@@ -293,21 +312,21 @@ impl Special {
         self.in_tail.append(&mut other.in_tail);
     }
 
-    /// Leaves corners undecided, all of their vertices'.
+    /// Leaves entries undecided, all of their vertices'.
     #[cold]
-    pub fn leave(&mut self, corners: impl Iterator<Item = u32>, out: &mut [[f32; 4]]) {
-        for corner in corners {
-            out[corner as usize][3] = UNDECIDED;
-            self.undecided.push(corner / 3);
+    pub fn leave(&mut self, source: &Source<'_>, entries: impl Iterator<Item = u32>, out: &mut [[f32; 4]]) {
+        for entry in entries {
+            out[source.corner(entry) as usize][3] = UNDECIDED;
+            self.undecided.push(source.face_of(entry / 3).start);
         }
         self.undecided.sort_unstable();
         self.undecided.dedup();
     }
 
-    /// Lists a triangle with undecided vertices, and its corners in the tail's cells, which get their signs back.
+    /// Lists a face with undecided vertices, and its corners in the tail's cells, which get their signs back.
     #[cold]
-    pub fn note(&mut self, triangle: u32, positions: [[f32; 3]; 3], out: &mut [[f32; 4]; 3]) {
-        for ((entry, position), [_, _, _, sign]) in (3 * triangle..).zip(positions).zip(&mut *out) {
+    pub fn note<const N: usize>(&mut self, face: u32, positions: [[f32; 3]; N], out: &mut [[f32; 4]; N]) {
+        for ((entry, position), [_, _, _, sign]) in (N as u32 * face..).zip(positions).zip(&mut *out) {
             let is_minus_zero = *sign == 0.0 && sign.is_sign_negative();
             if sign.abs() == IN_TAIL.abs() || is_minus_zero {
                 *sign /= IN_TAIL;
@@ -315,14 +334,14 @@ impl Special {
             }
         }
         if out.iter().any(|tangent| tangent[3] == UNDECIDED) {
-            self.undecided.push(triangle);
+            self.undecided.push(face);
         }
     }
 }
 
-/// Finds the lowest and the highest vertex of triangles.
+/// Finds the lowest and the highest of vertices.
 pub(super) struct Extent<'a> {
-    pub triangles: &'a [[u32; 3]],
+    pub vertices: &'a [u32],
     pub lowest: &'a mut u32,
     /// One more than the highest.
     pub end: &'a mut u32,
@@ -332,7 +351,7 @@ impl Task for Extent<'_> {
     #[inline(always)]
     fn run(self) {
         let (mut lowest, mut highest) = (u32::MAX, 0);
-        for &vertex in self.triangles.as_flattened() {
+        for &vertex in self.vertices {
             lowest = vertex.min(lowest);
             highest = vertex.max(highest);
         }

@@ -2,20 +2,19 @@
 
 use std::ops::Range;
 
-use crate::Mesh;
-
 use super::super::width::Width;
-use super::super::windows::{Share, WINDOW, Window, window};
+use super::super::windows::{Share, WINDOW, Window};
+use super::cut::mark_doubtful;
 use super::last_run::TailCells;
-use super::source::{Identity, rows, triangles};
-use super::steps::{Add, AddTerms, Finish, FinishPlanned, Read, Write};
+use super::source::Source;
+use super::steps::{Add, AddTerms, Finish, FinishPlanned, Read, Special, Write};
+use super::vertices::Vertex;
 use super::workers::Worker;
 
 /// What all shares have in common.
 #[derive(Clone, Copy)]
 pub(super) struct Stream<'a> {
-    pub mesh: &'a Mesh<'a>,
-    pub identity: Identity<'a>,
+    pub source: Source<'a>,
     pub windows: &'a [Window],
     pub tail: &'a TailCells,
     /// Where they are known: the signs of the vertices, of which those that are decided are so.
@@ -26,8 +25,9 @@ pub(super) struct Stream<'a> {
 impl Stream<'_> {
     /// Goes through the windows of a share: reads the vertices that each needs first, adds its triangles, finishes vertices that
     /// none needs any more, writes windows whose vertices are finished. Windows with vertices of other shares are left pending.
-    pub fn run(&self, share: &Share, worker: &mut Worker, out: &mut [[[f32; 4]; 3]]) {
+    pub fn run(&self, share: &Share, worker: &mut Worker, out: &mut [[f32; 4]]) {
         let first_window = share.windows.start;
+        let corner = |window: usize| self.source.corners_of(first_window..window).len();
         worker.begin(self.span(share));
         let (mut finished, mut written) = (share.vertices.start.max(worker.first), first_window);
         worker.unused.unseen = finished - share.vertices.start;
@@ -46,7 +46,9 @@ impl Stream<'_> {
                 if (lowest as usize) < share.vertices.start || end as usize > share.vertices.end {
                     worker.pending.push(written);
                 } else if end as usize <= finished {
-                    self.write(worker, written, &mut out[(written - first_window) * WINDOW..]);
+                    let Worker { vertices, first, special, corners, .. } = &mut *worker;
+                    let out = &mut out[corner(written)..corner(written + 1)];
+                    self.write(written, (vertices, *first as u32), corners, special, out);
                 } else {
                     break;
                 }
@@ -73,20 +75,23 @@ impl Stream<'_> {
             let (vertices, marks) = (&mut worker.vertices[place.clone()], &mut worker.marks[place]);
             start = range.end;
             worker.read = start - worker.first;
-            let rows = rows(self.mesh, self.identity, range, &mut worker.rows);
+            let rows = self.source.rows(range, &mut worker.rows);
             self.width.run(Read { rows, tail: self.tail, vertices, marks });
         }
     }
 
     /// Adds a window to its vertices.
     fn add(&self, worker: &mut Worker, at: usize) {
-        let range = window(at, self.mesh.face_count());
-        let triangles = triangles(self.mesh, self.identity, range, &mut worker.triangles);
+        let range = self.source.window(at);
+        let triangles = self.source.triangles(range.clone(), &mut worker.triangles);
         let Worker { block, vertices, marks, first, .. } = worker;
-        let first = *first as u32;
+        let first_vertex = *first as u32;
         match self.signs {
-            None => self.width.run(Add { triangles, first, block, vertices, marks }),
-            Some(_) => self.width.run(AddTerms { triangles, first, block, vertices }),
+            None => {
+                self.width.run(Add { triangles, first: first_vertex, block, vertices, marks });
+                mark_doubtful(&self.source, range, *first, marks);
+            }
+            Some(_) => self.width.run(AddTerms { triangles, first: first_vertex, block, vertices }),
         }
     }
 
@@ -107,19 +112,34 @@ impl Stream<'_> {
         }
     }
 
-    /// Writes the corners of a window.
-    fn write(&self, worker: &mut Worker, at: usize, out: &mut [[[f32; 4]; 3]]) {
-        let range = window(at, self.mesh.face_count());
-        let (first, out) = (range.start, &mut out[..range.len()]);
-        let triangles = triangles(self.mesh, self.identity, range, &mut worker.triangles);
-        let Worker { vertices, special, first: first_vertex, .. } = worker;
-        self.width.run(Write {
-            triangles,
-            first,
-            vertices,
-            first_vertex: *first_vertex as u32,
-            out,
-            special,
-        });
+    /// Writes the corners of a window. `vertices`: consecutive ones, and the number of the first.
+    pub fn write(
+        &self,
+        at: usize,
+        vertices: (&[Vertex], u32),
+        corners: &mut Vec<u32>,
+        special: &mut Special,
+        out: &mut [[f32; 4]],
+    ) {
+        let range = self.source.corners_of(at..at + 1);
+        let corners = self.source.vertices(range.clone(), corners);
+        if self.source.is_cut() {
+            self.write_faces::<1>(corners, range.start, vertices, special, out);
+        } else {
+            self.write_faces::<3>(corners, range.start, vertices, special, out);
+        }
+    }
+
+    fn write_faces<const N: usize>(
+        &self,
+        corners: &[u32],
+        first_corner: usize,
+        (vertices, first_vertex): (&[Vertex], u32),
+        special: &mut Special,
+        out: &mut [[f32; 4]],
+    ) {
+        let (faces, out) = (corners.as_chunks::<N>().0, out.as_chunks_mut().0);
+        let first = first_corner / N;
+        self.width.run(Write { faces, first, vertices, first_vertex, out, special });
     }
 }

@@ -13,7 +13,8 @@ use super::super::windows::WINDOW;
 use super::corners::{Corners, same};
 use super::hash::{Hash, Span};
 use super::hash_set::{BitMap, Chains, Crowded, mark_collisions};
-use super::source::{Identity, Rows, record};
+use super::rows::{Rows, record};
+use super::source::Identity;
 use super::workers::Worker;
 
 /// The welded vertices of a mesh; the memory is kept from mesh to mesh.

@@ -9,12 +9,12 @@ use crate::{Frame, Mesh};
 
 use super::super::threads::{self, parts};
 use super::super::width::{Task, Width};
-use super::super::windows::{Share, overlap, window};
-use super::Fans;
+use super::super::windows::{Share, overlap};
 use super::block::{BLOCK, Block};
-use super::source::{Identity, triangles};
+use super::source::Source;
 use super::vertices::{Vertex, gather};
 use super::workers::Worker;
+use super::{Fans, source};
 
 /// What the corners of a vertex add up to: the bitangent and the weight; the magnitudes of both directions.
 #[derive(Clone, Copy, Debug, Default)]
@@ -34,9 +34,10 @@ impl Fans {
         let one = overlap(&self.shares, &self.windows);
         let shares = if one { std::slice::from_ref(&all) } else { &self.shares[..] };
         let vertices = shares.iter().map(|share| share.vertices.clone());
-        let (jobs, identity) = (shares.iter().zip(parts(&mut self.sums, 0, vertices)), self.weld.identity());
+        let jobs = shares.iter().zip(parts(&mut self.sums, 0, vertices));
+        let source = source(mesh, &self.weld, &self.cut);
         threads::run(&mut self.workers, jobs, |worker, (share, sums)| {
-            add_share(mesh, identity, share, width, worker, sums);
+            add_share(&source, share, width, worker, sums);
         });
     }
 
@@ -45,7 +46,7 @@ impl Fans {
     pub fn write_rest(&self, mesh: &Mesh<'_>, first: usize, out: &mut [Frame]) {
         let corners = first..first + out.len();
         let mut out = out.iter_mut();
-        self.weld.identity().visit(mesh, corners, |vertex| {
+        self.source(mesh).visit(corners, |vertex| {
             let Sums { bitangent: [x, y, z, _], magnitude } = self.sums[vertex as usize];
             if let Some(out) = out.next() {
                 (out.bitangent, out.magnitude) = ([x, y, z], magnitude);
@@ -55,17 +56,10 @@ impl Fans {
 }
 
 /// Adds the windows of a share to the vertices that are its own, and finishes these.
-fn add_share(
-    mesh: &Mesh<'_>,
-    identity: Identity<'_>,
-    share: &Share,
-    width: Width,
-    worker: &mut Worker,
-    sums: &mut [Sums],
-) {
+fn add_share(source: &Source<'_>, share: &Share, width: Width, worker: &mut Worker, sums: &mut [Sums]) {
     let Worker { block, vertices, triangles: buffer, first, .. } = worker;
     for at in share.windows.start..share.until {
-        let triangles = triangles(mesh, identity, window(at, mesh.face_count()), buffer);
+        let triangles = source.triangles(source.window(at), buffer);
         let (first, own) = (*first as u32, share.vertices.clone());
         width.run(AddFrames { triangles, first, block, vertices, own, sums });
     }

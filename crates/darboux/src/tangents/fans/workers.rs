@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use super::block::Block;
 use super::hash::Span;
-use super::source::RowBuffer;
+use super::rows::RowBuffer;
+use super::source::TriangleBuffer;
 use super::steps::Special;
 use super::vertices::{Unused, Vertex};
 
@@ -13,7 +14,9 @@ use super::vertices::{Unused, Vertex};
 pub(super) struct Worker {
     pub block: Box<Block>,
     pub rows: RowBuffer,
-    pub triangles: Vec<[u32; 3]>,
+    pub triangles: TriangleBuffer,
+    /// Vertices of corners, where they do not lie one after the other in the mesh.
+    pub corners: Vec<u32>,
     /// The vertices from `first` on, of which `read` have been read.
     pub vertices: Vec<Vertex>,
     /// What the corners of each vertex say of it.
@@ -23,6 +26,8 @@ pub(super) struct Worker {
     /// Windows with vertices that other threads finish.
     pub pending: Vec<usize>,
     pub special: Special,
+    /// The quads that it has cut of which `Cut` wants to know.
+    pub doubtful: Vec<u32>,
     /// Of its vertices' values.
     pub span: Span,
     /// Its hashes that were met before.
