@@ -170,9 +170,9 @@ fn tell<W: Work>(report: &FileReport<W::Summary>, messages: &Messages) {
     let (Some(output), FileReport { input, summary, .. }) = (&report.output, report) else { return };
     let Some(summary) = summary.now() else { return messages.say(&format!("{input}: up to date")) };
     match report.status {
-        Status::Copied => messages.say(&format!("{input} -> {output}: nothing to do, a copy")),
+        Status::Copied => messages.say(&format!("{input} -> {output}: nothing changes, a copy")),
         Status::Written if input != output => messages.say(&format!("{input} -> {output}")),
-        Status::Untouched => messages.say(&format!("{input}: nothing to do, left as it was")),
+        Status::Untouched => messages.say(&format!("{input}: nothing changes, left as it was")),
         _ => messages.say(input),
     }
     W::lines(summary).iter().for_each(|line| messages.say(&format!("  {line}")));

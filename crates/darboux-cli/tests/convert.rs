@@ -128,7 +128,7 @@ fn what_changes_nothing_is_called_a_copy_and_what_is_no_normal_map_is_warned_of(
     let folder = folder_with(&[MODEL, "TwoSidedPlane/TwoSidedPlane_BaseColor.png", IMAGE]);
     let path = |name: &str| folder.path().join(name);
     let run = convert(&path("NormalTangentTest.glb"), "gltf", "gltf", &[]).exits(0);
-    assert!(run.stderr.contains("NormalTangentTest.gltf.glb: nothing to do, a copy\n"), "{}", run.stderr);
+    assert!(run.stderr.contains("NormalTangentTest.gltf.glb: nothing changes, a copy\n"), "{}", run.stderr);
     assert!(run.stderr.contains("0 primitives changed: nothing in it differs"), "{}", run.stderr);
     let run = convert(&path("TwoSidedPlane_BaseColor.png"), "gltf", "directx", &[]).exits(0);
     assert!(run.stderr.contains("does not look like a normal map"), "{}", run.stderr);

@@ -133,7 +133,7 @@ fn nothing_to_do_is_a_copy_and_a_success() {
         "{}",
         run.stderr
     );
-    assert!(run.stderr.contains("Fox.glb -> ") && run.stderr.contains("copy.glb: nothing to do, a copy\n"));
+    assert!(run.stderr.contains("Fox.glb -> ") && run.stderr.contains("copy.glb: nothing changes, a copy\n"));
     assert!(run.stderr.contains("1 primitive has no normals, which tangents need; --normals smooth "));
 }
 
@@ -211,4 +211,18 @@ fn being_told_to_end_is_taken_as_ctrl_c_is() {
     let ended = waiting.wait().expect("it ends");
     assert!(killed.success());
     assert_eq!(ended.code(), Some(130));
+}
+
+/// Not even its time, so that nothing downstream is built again.
+#[test]
+fn a_second_run_in_place_changes_nothing() {
+    let folder = folder_with(&["made/shield.glb"]);
+    let model = folder.path().join("shield.glb");
+    let run = || darboux(&["tangents", "--overwrite", "--in-place", text(&model)]).exits(0).stderr;
+    let state =
+        || (fs::read(&model).expect("the model"), fs::metadata(&model).and_then(|file| file.modified()).ok());
+    assert!(run().contains("425 vertices became 450"));
+    let first = state();
+    assert!(run().contains("shield.glb: nothing changes, left as it was\n"));
+    assert!(state() == first);
 }
