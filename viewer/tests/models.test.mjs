@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
 import { browser, serve, Viewer } from './page.mjs';
-import { gltf, QUAD } from './quads.mjs';
+import { gltf, QUAD, TANGENTS } from './quads.mjs';
 
 let server, chromium, viewer, folder;
 
@@ -66,12 +66,10 @@ async function looksAs(text, expected, other, sources) {
 const [SINE, COSINE] = [Math.sin(Math.PI / 3), Math.cos(Math.PI / 3)];
 const MATRIX = [2 * COSINE, 2 * SINE, 0, 0, -2 * SINE, 2 * COSINE, 0, 0, 0, 0, 2, 0, 3, 1, 0, 1];
 
-const FILE_TANGENTS = [Float32Array.from([-1, 1, 1, -1, 1, 1].flatMap((x) => [x, 0, 0, x < 0 ? 1 : -1])), 4];
-
 test('skins move models and their frames as the scene\'s joints stand', async () => {
   const joints = [Uint8Array.from({ length: 24 }, (_, at) => (at % 4 === 1 ? 1 : 0)), 4];
   const weights = [Float32Array.from({ length: 24 }, (_, at) => (at % 4 < 2 ? 0.5 : 0)), 4];
-  const attributes = { ...QUAD, TANGENT: FILE_TANGENTS, JOINTS_0: joints, WEIGHTS_0: weights };
+  const attributes = { ...QUAD, TANGENT: TANGENTS, JOINTS_0: joints, WEIGHTS_0: weights };
   // The inverse bind matrices take away what both joints' bind pose would add.
   const inverse = [Float32Array.from([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -7, 0, 0, 1]), 16];
   const inverses = [Float32Array.from([...inverse[0], ...inverse[0]]), 16];
@@ -88,7 +86,7 @@ test('skins move models and their frames as the scene\'s joints stand', async ()
       }),
     });
   };
-  const placed = gltf({ attributes: { ...QUAD, TANGENT: FILE_TANGENTS }, json: () => ({ nodes: [{ mesh: 0, matrix: MATRIX }] }) });
+  const placed = gltf({ attributes: { ...QUAD, TANGENT: TANGENTS }, json: () => ({ nodes: [{ mesh: 0, matrix: MATRIX }] }) });
   await looksAs(moved(true), placed, moved(false), ['mikktspace', 'file', 'derivatives']);
 });
 
@@ -101,14 +99,14 @@ test('morph targets move models and their frames as the scene weights them', asy
   const turn = positions.map((_, at) => (at % 3 === 2 ? 0.5 : 0));
   const targets = [{ POSITION: [step, 3], NORMAL: [lean, 3], TANGENT: [turn, 3] }, { POSITION: [slide, 3] }];
   const sum = (array, width, offsets) => array.map((x, at) => x + (at % width < 3 ? offsets[Math.floor(at / width) * 3 + (at % width)] : 0));
-  const attributes = { ...QUAD, TANGENT: FILE_TANGENTS };
+  const attributes = { ...QUAD, TANGENT: TANGENTS };
   const weighted = (weights) => gltf({ attributes, targets, mesh: { weights: [0, 1] }, json: () => ({ nodes: [{ mesh: 0, weights }] }) });
   const baked = gltf({
     attributes: {
       ...QUAD,
       POSITION: [sum(positions, 3, step.map((x) => 0.5 * x)), 3],
       NORMAL: [sum(QUAD.NORMAL[0], 3, lean.map((x) => 0.5 * x)), 3],
-      TANGENT: [sum(FILE_TANGENTS[0], 4, turn.map((x) => 0.5 * x)), 4],
+      TANGENT: [sum(TANGENTS[0], 4, turn.map((x) => 0.5 * x)), 4],
     },
   });
   await looksAs(weighted([0.5, 0]), baked, weighted([0, 0]), ['mikktspace', 'file']);

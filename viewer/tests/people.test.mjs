@@ -1,6 +1,8 @@
 // The page for everyone: by keyboard, read aloud, dark and light, and where there is no graphics card.
 
 import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
+import { createRequire } from 'node:module';
 import { after, before, test } from 'node:test';
 
 import { browser, serve, Viewer } from './page.mjs';
@@ -56,13 +58,54 @@ test('text stands out from what is behind it', async () => {
   }
 });
 
+test('the rules for accessible pages hold, dark and light', async () => {
+  const axe = await readFile(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+  await viewer.page.evaluate(axe);
+  await viewer.click('input[value=angle]');
+  for (const colorScheme of ['light', 'dark']) {
+    await viewer.page.emulateMedia({ colorScheme });
+    const { violations, passes } = await viewer.page.evaluate(() => globalThis.axe.run());
+    assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)]), []);
+    assert.ok(passes.some(({ id }) => id === 'color-contrast'), 'contrast was looked at');
+  }
+  await viewer.click('input[value=shaded]');
+});
+
+test('Tab goes through all that can be used, in the order of the page, and shows where it is', async () => {
+  const all = await viewer.page.evaluate(() => {
+    // Of radio buttons only the chosen one.
+    const usable = document.querySelectorAll('button, select, summary, canvas, input:not([hidden], [type=radio]:not(:checked))');
+    return [...usable].map((one, at) => (one.dataset.order = String(at)));
+  });
+  await viewer.page.focus('[data-order="0"]');
+  const reached = ['0'];
+  while (reached.length < all.length) {
+    await viewer.page.keyboard.press('Tab');
+    const [order, outline] = await viewer.page.evaluate(() => [document.activeElement.dataset.order, getComputedStyle(document.activeElement).outlineStyle]);
+    reached.push(order);
+    assert.notEqual(outline, 'none', `${order} after ${reached.length}`);
+  }
+  assert.deepEqual(reached, all);
+});
+
+test('sliders say what their values mean', async () => {
+  await viewer.slide('split', 30);
+  assert.equal(await viewer.page.getAttribute('#split', 'aria-valuetext'), '30 percent: In the file on the left, MikkTSpace on the right');
+  await viewer.choose('right', 'lengyel');
+  assert.match(await viewer.page.getAttribute('#split', 'aria-valuetext'), /Lengyel on the right$/);
+  await viewer.choose('right', 'mikktspace');
+  await viewer.slide('split', 50);
+  await viewer.slide('light-above', 35.04);
+  assert.equal(await viewer.page.getAttribute('#light-above', 'aria-valuetext'), '35 degrees');
+});
+
 test('everything that can be used has a name', async () => {
   const snapshot = await viewer.page.locator('body').ariaSnapshot();
   for (const line of snapshot.split('\n')) {
     const [, role, name] = /^\s*- (button|checkbox|radio|slider|combobox)\b(?: "(.*?)")?/.exec(line) ?? [];
     if (role) assert.ok(name, `nameless: ${line}`);
   }
-  const some = ['button "Open files"', 'combobox "Left"', 'slider "Where left and right meet, in percent"', 'radio "Shaded" [checked]', 'button "Flip green"', 'heading "Report"', 'button "24 mirrored edges: Shield"', 'img "The model'];
+  const some = ['button "Open files"', 'combobox "Left"', 'slider "Where left and right meet, in percent"', 'radio "Shaded" [checked]', 'button "Flip green"', 'heading "Report"', 'button "24 mirrored edges: Shield"', 'application "The model'];
   for (const expected of some) assert.ok(snapshot.includes(expected), expected);
 });
 

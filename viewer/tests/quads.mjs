@@ -1,7 +1,7 @@
 // Small models for tests: a quad whose halves mirror their texture, as a glTF with all that it needs.
 
 const TYPES = { 1: 'SCALAR', 2: 'VEC2', 3: 'VEC3', 4: 'VEC4', 16: 'MAT4' };
-const COMPONENTS = new Map([[Uint8Array, 5121], [Uint16Array, 5123], [Float32Array, 5126]]);
+const COMPONENTS = new Map([[Uint8Array, 5121], [Uint16Array, 5123], [Uint32Array, 5125], [Float32Array, 5126]]);
 
 /** From x = -1 to 1 and y = -0.5 to 0.5, facing +z; u grows from the middle to either side. */
 const CORNERS = [[-1, -0.5], [0, -0.5], [1, -0.5], [-1, 0.5], [0, 0.5], [1, 0.5]];
@@ -13,13 +13,17 @@ export const QUAD = {
   TEXCOORD_0: [Float32Array.from(CORNERS.flatMap(([x, y]) => [Math.abs(x), 0.5 - y])), 2],
 };
 
-const INDICES = Uint16Array.from([0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4]);
+/** Tangents of the vertices, of which the two in the middle are right on one side only. */
+export const TANGENTS = [Float32Array.from([-1, 1, 1, -1, 1, 1].flatMap((x) => [x, 0, 0, Math.sign(x)])), 4];
+
+/** Two triangles on either side. */
+export const INDICES = Uint16Array.from([0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4]);
 
 /**
  * The text of a glTF with one mesh. `attributes`: as in QUAD; `targets`: of morph targets; `more`: arrays by name, of which `json` says what
  * they are for, told the accessor of each; its members take the place of the file's own.
  */
-export function gltf({ attributes = QUAD, targets = [], more = {}, mesh = {}, primitive = {}, json = () => ({}) } = {}) {
+export function gltf({ attributes = QUAD, indices = INDICES, targets = [], more = {}, mesh = {}, primitive = {}, json = () => ({}) } = {}) {
   const [accessors, bufferViews, bytes] = [[], [], []];
   let length = 0;
   const accessor = ([array, width]) => {
@@ -31,9 +35,24 @@ export function gltf({ attributes = QUAD, targets = [], more = {}, mesh = {}, pr
     return accessors.push({ bufferView: bufferViews.length - 1, componentType: COMPONENTS.get(array.constructor), count: array.length / width, type: TYPES[width], ...bounds }) - 1;
   };
   const all = (arrays) => Object.fromEntries(Object.entries(arrays).map(([name, array]) => [name, accessor(array)]));
-  const one = { attributes: all(attributes), indices: accessor([INDICES, 1]), ...primitive };
+  const one = { attributes: all(attributes), indices: accessor([indices, 1]), ...primitive };
   if (targets.length) one.targets = targets.map(all);
   const others = json(all(more));
   const buffers = [{ byteLength: length, uri: `data:application/octet-stream;base64,${Buffer.concat(bytes).toString('base64')}` }];
   return JSON.stringify({ asset: { version: '2.0' }, scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }], meshes: [{ primitives: [one], ...mesh }], accessors, bufferViews, buffers, ...others });
+}
+
+/** A grid of so many quads along either side, for {@link gltf}: u grows from the middle to either side. */
+export function grid(side) {
+  const line = Array.from({ length: side + 1 }, (_, at) => at / side - 0.5);
+  const places = line.flatMap((y) => line.map((x) => [x, y]));
+  const of = (width, values) => [Float32Array.from({ length: places.length * width }, (_, at) => values(places[Math.floor(at / width)])[at % width]), width];
+  const POSITION = of(3, ([x, y]) => [x, y, 0.05 * Math.sin(20 * x) * Math.cos(20 * y)]);
+  const attributes = { POSITION, NORMAL: of(3, () => [0, 0, 1]), TEXCOORD_0: of(2, ([x, y]) => [Math.abs(x), 0.5 - y]) };
+  const corners = [0, 1, side + 2, 0, side + 2, side + 1];
+  const indices = Uint32Array.from({ length: side * side * 6 }, (_, at) => {
+    const quad = Math.floor(at / 6);
+    return Math.floor(quad / side) * (side + 1) + (quad % side) + corners[at % 6];
+  });
+  return { attributes, indices };
 }

@@ -130,10 +130,10 @@ test('the light moves', async () => {
 test('the report leads to each place', async () => {
   const before = await viewer.picture();
   await viewer.click('#report [data-kind=mixed] button');
-  assert.match(await viewer.text('status'), /^48 triangles with both signs: Shield, place 1 of 48$/);
+  assert.match(await viewer.text('status'), /^48 triangles with both signs: Shield, place 1 of 48, at \(.*\)$/);
   const first = await viewer.picture();
   assert.ok(first.differs(before) > 0.3);
   assert.ok(first.share(isMagenta) > 0.0001, 'the place is marked');
   await viewer.click('#report [data-kind=mixed] button');
-  assert.match(await viewer.text('status'), /place 2 of 48$/);
+  assert.match(await viewer.text('status'), /place 2 of 48, at /);
 });

@@ -1,6 +1,6 @@
 // OBJ, with materials and textures where they were given.
 
-import { LoadingManager, Mesh, MeshPhongMaterial, MeshStandardMaterial, type Material, type Object3D } from 'three';
+import { LoadingManager, Mesh, MeshPhongMaterial, MeshStandardMaterial, type Material, type Object3D, type Texture } from 'three';
 import { MTLLoader } from 'three/addons/loaders/MTLLoader.js';
 import { OBJLoader } from 'three/addons/loaders/OBJLoader.js';
 
@@ -62,12 +62,17 @@ function managerOf(bundle: Bundle, name: string): LoadingManager {
   });
 }
 
+/** Without its image a texture could be neither drawn nor saved. */
+function loadedOf(texture: Texture | null): Texture | null {
+  return texture?.image ? texture : null;
+}
+
 /** The kind of material that has normal maps as glTF's. */
 function standard(material: Material): MeshStandardMaterial {
   const out = new MeshStandardMaterial({ name: material.name, side: material.side, roughness: 0.6 });
   if (!(material instanceof MeshPhongMaterial)) return out;
   out.color.copy(material.color);
-  out.map = material.map;
-  out.normalMap = material.normalMap;
+  out.map = loadedOf(material.map);
+  out.normalMap = loadedOf(material.normalMap);
   return out;
 }

@@ -51,14 +51,17 @@ export class App {
   }
 
   private connectSplit(): void {
+    element('split').addEventListener('input', () => this.moveSplit());
+    this.moveSplit();
+  }
+
+  private moveSplit(): void {
     const input = element<HTMLInputElement>('split');
-    const move = () => {
-      this.stage.split = input.valueAsNumber / 100;
-      element('divider').style.insetInlineStart = `${input.value}%`;
-      this.stage.draw();
-    };
-    input.addEventListener('input', move);
-    move();
+    this.stage.split = input.valueAsNumber / 100;
+    element('divider').style.insetInlineStart = `${input.value}%`;
+    const [left, right] = settings().sources.map((source) => SOURCE_NAMES[source]);
+    input.ariaValueText = `${Math.round(input.valueAsNumber)} percent: ${left} on the left, ${right} on the right`;
+    this.stage.draw();
   }
 
   /** Does something that may fail with a sentence. */
@@ -129,6 +132,7 @@ export class App {
     this.shown.arrange(this.parts, arrangements);
     this.stage.measure(this.shown.bounds());
     for (const [at, id] of ['caption-left', 'caption-right'].entries()) element(id).textContent = SOURCE_NAMES[sources[at]];
+    this.moveSplit();
     this.build();
     showDone(this.told());
   }
@@ -158,13 +162,14 @@ export class App {
     this.stage.brightness(numberOf('surroundings'), numberOf('light'));
   }
 
-  /** Flies to a place of the report. */
-  private visit({ part, places }: Found, place: number): void {
+  /** Flies to a place of the report; gives its coordinates. */
+  private visit({ part, places }: Found, place: number): number[] {
     const [matrix] = placesOf(this.parts[part]);
     const at = new Vector3().fromArray(places, place * 6).applyMatrix4(matrix);
     const normal = new Vector3().fromArray(places, place * 6 + 3).applyMatrix3(new Matrix3().getNormalMatrix(matrix));
     this.marker.showAt(at);
     this.stage.look(at, CLOSE * this.stage.radius, normal.lengthSq() > 0 ? normal : new Vector3(0, 0, 1), true);
+    return at.toArray();
   }
 
   private async savePicture(): Promise<void> {

@@ -52,6 +52,11 @@ export function connectControls(changes: Changes): void {
       changes.look();
     });
   }
+  for (const input of document.querySelectorAll<HTMLInputElement>('input[data-unit]')) {
+    const tell = () => (input.ariaValueText = `${Math.round(input.valueAsNumber * 10) / 10} ${input.dataset.unit}`);
+    input.addEventListener('input', tell);
+    tell();
+  }
   for (const id of ['light-around', 'light-above', 'light', 'surroundings']) element(id).addEventListener('input', changes.light);
 }
 

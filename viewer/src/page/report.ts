@@ -31,8 +31,11 @@ const NAMES: Record<FindingKind, [string, string]> = {
 /** What is no fault. */
 const PLAIN: FindingKind[] = ['seams', 'no-tangents'];
 
+/** Goes to a place of a finding; gives its coordinates in the scene. */
+export type Visit = (finding: Found, place: number) => number[];
+
 /** Lists what was found; `visit` is called with a place in it when that is asked for. */
-export function showReport(found: Found[], visit: (finding: Found, place: number) => void): void {
+export function showReport(found: Found[], visit: Visit): void {
   element('report').replaceChildren(...found.map((finding) => row(finding, visit)));
   const faults = found.filter(({ kind }) => !PLAIN.includes(kind));
   element('report-none').textContent = faults.length ? '' : 'No faults found.';
@@ -44,7 +47,7 @@ export function clearReport(): void {
   element('report-none').textContent = '';
 }
 
-function row(finding: Found, visit: (finding: Found, place: number) => void): HTMLElement {
+function row(finding: Found, visit: Visit): HTMLElement {
   const item = document.createElement('li');
   item.dataset.kind = finding.kind;
   const places = finding.places.length / 6;
@@ -59,8 +62,9 @@ function row(finding: Found, visit: (finding: Found, place: number) => void): HT
   button.textContent = text;
   let next = 0;
   button.addEventListener('click', () => {
-    visit(finding, next);
-    element('status').textContent = `${text}, place ${next + 1} of ${places}`;
+    // Single precision has seven digits.
+    const at = visit(finding, next).map((x) => Number(x.toPrecision(7)));
+    element('status').textContent = `${text}, place ${next + 1} of ${places}, at (${at.join(', ')})`;
     next = (next + 1) % places;
   });
   item.append(button);

@@ -4,7 +4,7 @@ import { element } from './elements';
 
 /** Shows work, and how much of it is done, from 0 to 1; null where that is not known. */
 export function showProgress(what: string, done: number | null): void {
-  element('status').textContent = what;
+  say(what);
   const bar = element<HTMLProgressElement>('progress');
   bar.hidden = false;
   if (done === null) bar.removeAttribute('value');
@@ -13,8 +13,14 @@ export function showProgress(what: string, done: number | null): void {
 
 /** Shows that work has ended. */
 export function showDone(what: string): void {
-  element('status').textContent = what;
+  say(what);
   element('progress').hidden = true;
+}
+
+/** What is said again is not read aloud again. */
+function say(what: string): void {
+  const status = element('status');
+  if (status.textContent !== what) status.textContent = what;
 }
 
 /** Shows what went wrong; takes errors of all kinds. */
