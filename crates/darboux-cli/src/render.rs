@@ -77,7 +77,9 @@ fn draw(arguments: &RenderArguments) -> Result<RenderReport, String> {
         (View::Heat, Some(source)) => compared(arguments, &mut document, source)?,
         _ => Vec::new(),
     };
+    let meshes = chosen(&document, &arguments.mesh)?;
     let model = Model::read(&mut document, &pairs).map_err(|error| error.to_string())?;
+    let model = if arguments.mesh.is_empty() { model } else { model.only(&meshes) };
     let gpu = pollster::block_on(Gpu::open()).map_err(no_adapter)?;
     let picture = darboux_render::render(&gpu, &model, &options(arguments)).map_err(|error| match error {
         RenderError::Nothing | RenderError::TooMany { .. } => format!("{name}: {error}"),
@@ -140,6 +142,33 @@ fn document(arguments: &RenderArguments, source: Option<Source>) -> Result<Docum
     };
     add_tangents(&mut document, &tangents, &mut |_| {}).map_err(sentence)?;
     Ok(document)
+}
+
+/// The meshes that names and indices mean. The error is a sentence.
+fn chosen(document: &Document, words: &[String]) -> Result<Vec<usize>, String> {
+    let meshes = document.meshes();
+    let mut chosen = Vec::new();
+    for word in words {
+        let named = meshes.iter().enumerate().filter(|(_, mesh)| mesh.name.as_ref() == Some(word));
+        let before = chosen.len();
+        chosen.extend(named.map(|(index, _)| index));
+        if chosen.len() == before {
+            let index = word.parse().ok().filter(|&index: &usize| index < meshes.len());
+            chosen.push(index.ok_or_else(|| no_mesh(document, word))?);
+        }
+    }
+    Ok(chosen)
+}
+
+/// More names than this help nobody.
+const MOST_NAMES: usize = 8;
+
+fn no_mesh(document: &Document, word: &str) -> String {
+    let names: Vec<&str> =
+        document.meshes().iter().filter_map(|mesh| mesh.name.as_deref()).take(MOST_NAMES).collect();
+    let names = if names.is_empty() { String::new() } else { format!(", such as {}", names.join(", ")) };
+    let count = counted(document.meshes().len(), "mesh", "meshes");
+    format!("{}: has no mesh {word}; name one of its {count}{names}, or an index from 0", document.name())
 }
 
 fn has_tangents(document: &Document) -> bool {

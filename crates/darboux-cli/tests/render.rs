@@ -4,6 +4,8 @@ mod common;
 
 use std::fs;
 
+use serde_json::Value;
+
 use common::{asset, darboux, darboux_without_adapters, folder_with, has_adapter, names_in, text};
 
 const MODEL: &str = "NormalTangentTest/NormalTangentTest.glb";
@@ -54,6 +56,39 @@ fn the_heat_of_equal_sources_is_least_everywhere() {
     // Green grows along the scale, from 1.
     assert_eq!(draw("lengyel"), Some(1));
     assert!(draw("mikktspace") > Some(60));
+}
+
+#[test]
+fn meshes_are_chosen_by_name_or_index() {
+    if !has_adapter() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let (model, output) = (folder.path().join("two.gltf"), folder.path().join("a.png"));
+    let text_of = fs::read_to_string(asset("made/skinned-morphed-mirrored.gltf")).expect("a model");
+    let mut json: Value = serde_json::from_str(&text_of).expect("JSON");
+    let mut other = json["meshes"][0].clone();
+    other["name"] = "other".into();
+    json["meshes"].as_array_mut().expect("a list").push(other);
+    json["nodes"].as_array_mut().expect("a list").push(serde_json::json!({ "mesh": 1 }));
+    json["scenes"][0]["nodes"].as_array_mut().expect("a list").push(3.into());
+    fs::write(&model, json.to_string()).expect("a file");
+    let draw = |meshes: &[&str]| {
+        let all = ["render", text(&model), "-o", text(&output), "--size", "32x32", "--force", "--json"];
+        let chosen = meshes.iter().flat_map(|mesh| ["--mesh", mesh]);
+        darboux(&all.into_iter().chain(chosen).collect::<Vec<_>>())
+    };
+    let triangles = |meshes: &[&str]| draw(meshes).exits(0).json()["triangles"].as_u64();
+    assert_eq!([triangles(&[]), triangles(&["sleeve", "1"])], [Some(32); 2]);
+    assert_eq!([triangles(&["sleeve"]), triangles(&["other"]), triangles(&["0", "sleeve"])], [Some(16); 3]);
+    // What is not drawn is not spoken of.
+    let tells_of_skin =
+        |mesh: &str| draw(&[mesh]).exits(0).json()["warnings"].to_string().contains("without its skin");
+    assert_eq!([tells_of_skin("sleeve"), tells_of_skin("other")], [true, false]);
+    for none in ["2", "-1", "Sleeve", ""] {
+        let refused = draw(&[none]).exits(1).stderr;
+        assert!(refused.contains("has no mesh") && refused.contains("sleeve, other"), "{none}: {refused}");
+    }
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use bytemuck::{Pod, Zeroable};
 use darboux_io::Error;
-use darboux_io::gltf::{Document, Look, Pair, PrimitiveCorners, TextureUse};
+use darboux_io::gltf::{Document, Look, Pair, PlacedMesh, PrimitiveCorners, TextureUse};
 
 use crate::camera::Bounds;
 use crate::{View, heat};
@@ -29,6 +29,8 @@ pub struct Part {
     /// The index of its material.
     pub material: Option<usize>,
     pub corners: Vec<Corner>,
+    /// Triangles without a place.
+    left_out: usize,
     /// The UVs that its tangents follow, at every corner; empty where there are none.
     pub layout: Vec<[f32; 2]>,
 }
@@ -40,7 +42,8 @@ pub struct Model<'a> {
     pub(crate) parts: Vec<Part>,
     /// The matrices of every mesh's nodes.
     pub(crate) places: Vec<Vec<[[f64; 4]; 4]>>,
-    left_out: usize,
+    /// What every mesh is drawn without.
+    unposed: Vec<Option<&'static str>>,
 }
 
 impl<'a> Model<'a> {
@@ -53,9 +56,12 @@ impl<'a> Model<'a> {
         let document: &'a Document = document;
         let looks = document.looks()?;
         let mut places = vec![Vec::new(); document.meshes().len()];
+        let mut unposed = vec![None; document.meshes().len()];
         for placed in document.placed_meshes()? {
-            if let Some(places) = places.get_mut(placed.mesh) {
+            if let (Some(places), Some(unposed)) = (places.get_mut(placed.mesh), unposed.get_mut(placed.mesh))
+            {
                 places.push(placed.matrix);
+                *unposed = unposed.or(without(&placed));
             }
         }
         let mut degrees: HashMap<_, _> = compared
@@ -64,18 +70,22 @@ impl<'a> Model<'a> {
                 Some(((pair.name.mesh, pair.name.primitive), heat::degrees(pair.corners.as_ref().ok()?)))
             })
             .collect();
-        let (mut parts, mut left_out) = (Vec::new(), 0);
+        let mut parts = Vec::new();
         for corners in document.corners()? {
             let name = corners.name();
             if places.get(name.mesh).is_none_or(Vec::is_empty) {
                 continue;
             }
             let degrees = degrees.remove(&(name.mesh, name.primitive));
-            let part = read_part(document, &looks, &corners, degrees.unwrap_or_default())?;
-            left_out += (corners.len() - part.corners.len()) / 3;
-            parts.push(part);
+            parts.push(read_part(document, &looks, &corners, degrees.unwrap_or_default())?);
         }
-        Ok(Self { document, looks, parts, places, left_out })
+        Ok(Self { document, looks, parts, places, unposed })
+    }
+
+    /// The model without all other meshes. `meshes`: indices.
+    pub fn only(mut self, meshes: &[usize]) -> Self {
+        self.parts.retain(|part| meshes.contains(&part.mesh));
+        self
     }
 
     /// Triangles that views of the surface show, counted as often as nodes place them.
@@ -90,10 +100,17 @@ impl<'a> Model<'a> {
 
     /// What a view does not show, and should.
     pub(crate) fn warnings(&self, view: View) -> Vec<String> {
-        let left_out = (view != View::Uv && self.left_out > 0).then(|| {
-            format!("{} triangles have positions that are not finite, and are left out", self.left_out)
-        });
-        left_out.into_iter().collect()
+        if view == View::Uv {
+            return Vec::new();
+        }
+        let left_out: usize = self.parts.iter().map(|part| part.left_out).sum();
+        let left_out = (left_out > 0)
+            .then(|| format!("{left_out} triangles have positions that are not finite, and are left out"));
+        let is_drawn = |mesh: usize| self.parts.iter().any(|part| part.mesh == mesh);
+        let unposed = self.unposed.iter().enumerate().filter(|&(mesh, _)| is_drawn(mesh));
+        let unposed =
+            unposed.filter_map(|(mesh, what)| Some(format!("meshes[{mesh}]: is drawn {}", (*what)?)));
+        left_out.into_iter().chain(unposed).collect()
     }
 
     /// The box that holds all that a view shows; none without triangles.
@@ -119,6 +136,22 @@ impl<'a> Model<'a> {
             }
         }
         (all.least[0] <= all.most[0]).then_some([all.least, all.most])
+    }
+}
+
+/// What of a mesh's pose is not drawn, in words.
+fn without(placed: &PlacedMesh) -> Option<&'static str> {
+    match placed {
+        PlacedMesh { is_skinned: true, .. } => {
+            Some("without its skin, as it was bound; `darboux view` shows its pose")
+        }
+        PlacedMesh { is_morphed: true, .. } => {
+            Some("without its morph targets, as if none had a weight; `darboux view` shows its pose")
+        }
+        PlacedMesh { is_instanced: true, .. } => {
+            Some("once, at its node, and not where its instances are; `darboux view` shows them")
+        }
+        _ => None,
     }
 }
 
@@ -166,6 +199,7 @@ fn read_part(
     Ok(Part {
         mesh: corners.name().mesh,
         material: corners.material(),
+        left_out: positions.len() / 3 - kept.len() / 3,
         corners: kept.iter().map(|&corner| at(corner)).collect(),
         layout: kept.iter().filter_map(|&corner| layout.get(corner).copied()).collect(),
     })

@@ -4,6 +4,7 @@ mod common;
 
 use common::{Quad, document, has_adapter_or_says_so, picture};
 use darboux_render::{RenderOptions, View};
+use image::{DynamicImage, ImageFormat, Rgb, RgbImage, Rgba, RgbaImage};
 
 /// Pixels across and down.
 const SIZE: usize = 64;
@@ -79,6 +80,94 @@ fn mirrored_halves_are_lit_from_the_same_side() {
     // The same of a node that mirrors: neither inside out nor lit from below.
     let [left, right] = halves(&Quad { node: r#""scale":[-1,1,1]"#, ..up }, View::Shaded);
     assert!(is_about(left, right) && light(left) > light(level) + 30, "{left:?} {right:?} {level:?}");
+}
+
+/// The light shines a little more on one half.
+fn is_like(a: [u8; 3], b: [u8; 3]) -> bool {
+    a.iter().zip(b).all(|(a, b)| a.abs_diff(b) <= 12)
+}
+
+/// A quad with a base colour whose left and right half have some alpha.
+fn translucent(alpha: [u8; 2], material: &'static str) -> Quad {
+    let texels = RgbaImage::from_fn(8, 8, |x, _| Rgba([255, 0, 0, alpha[usize::from(x >= 4)]]));
+    let base = common::file_of(&texels.into(), ImageFormat::Png);
+    Quad { base: Some((base, "image/png")), material, ..Quad::default() }
+}
+
+#[test]
+fn alpha_means_what_the_material_says() {
+    if !has_adapter_or_says_so() {
+        return;
+    }
+    let seen = |alpha, material| halves(&translucent(alpha, material), View::Shaded);
+    let is_red = |pixel: [u8; 3]| pixel[0] > 100 && pixel[1] < 80;
+    // Of opaque materials it means nothing.
+    let [left, right] = seen([0, 255], "");
+    assert!(is_red(left) && is_like(left, right), "{left:?} {right:?}");
+    // The cutoff is one half where none is said; what has just as much is there.
+    for (material, alpha) in
+        [(r#","alphaMode":"MASK""#, [127, 128]), (r#","alphaMode":"MASK","alphaCutoff":0.8"#, [203, 204])]
+    {
+        let [gone, there] = seen(alpha, material);
+        assert!(gone == common::BACKGROUND && is_like(there, right), "{material}: {gone:?} {there:?}");
+    }
+    // About half of what is behind shines through: some of the four samples, which adapters round either way.
+    let [none, half] = seen([0, 128], r#","alphaMode":"BLEND""#);
+    assert_eq!(none, common::BACKGROUND);
+    let linear = |channel: u8| (f64::from(channel) / 255.0).powf(2.2);
+    let covered = linear(half[0]) / linear(right[0]);
+    assert!((0.24..0.77).contains(&covered), "{half:?} of {right:?}");
+    // Frames are seen whatever covers them.
+    let [left, right] = halves(&translucent([0, 255], r#","alphaMode":"BLEND""#), View::Tangent);
+    assert!(is_like(left, right) && left != common::BACKGROUND, "{left:?} {right:?}");
+}
+
+#[test]
+fn textures_may_be_jpeg_and_others_are_said() {
+    if !has_adapter_or_says_so() {
+        return;
+    }
+    let texels = DynamicImage::from(RgbImage::from_fn(32, 32, |x, _| match x < 16 {
+        true => Rgb([220, 30, 30]),
+        false => Rgb([30, 30, 220]),
+    }));
+    let base = |format, kind| Some((common::file_of(&texels, format), kind));
+    let shown = |base| halves(&Quad { base, ..Quad::default() }, View::Shaded);
+    let png = shown(base(ImageFormat::Png, "image/png"));
+    let jpeg = shown(base(ImageFormat::Jpeg, "image/jpeg"));
+    for (png, jpeg) in png.into_iter().zip(jpeg) {
+        assert!(is_like(png, jpeg), "{png:?} {jpeg:?}");
+    }
+    assert!(jpeg[0][0] > jpeg[0][2] + 60 && jpeg[1][2] > jpeg[1][0] + 60, "{jpeg:?}");
+    let other = Quad { base: Some((b"GIF89a, or so".to_vec(), "image/gif")), ..Quad::default() };
+    let warnings = common::drawn(&other, View::Shaded).warnings;
+    assert!(
+        matches!(&warnings[..], [one] if one.contains("images[1]") && one.ends_with("drawn without it")),
+        "{warnings:?}"
+    );
+}
+
+#[test]
+fn what_is_drawn_out_of_its_pose_is_said() {
+    if !has_adapter_or_says_so() {
+        return;
+    }
+    for (node, said) in [
+        (r#""skin":0"#, "meshes[0]: is drawn without its skin"),
+        (r#""weights":[0,0.5]"#, "meshes[0]: is drawn without its morph targets"),
+        (r#""extensions":{"EXT_mesh_gpu_instancing":{"attributes":{}}}"#, "meshes[0]: is drawn once"),
+    ] {
+        let quad = Quad { node, ..Quad::default() };
+        let warnings = common::drawn(&quad, View::Shaded).warnings;
+        assert!(matches!(&warnings[..], [one] if one.starts_with(said)), "{warnings:?}");
+        // A layout has no pose.
+        assert!(common::drawn(&quad, View::Uv).warnings.is_empty());
+    }
+    assert!(
+        common::drawn(&Quad { node: r#""weights":[0,0]"#, ..Quad::default() }, View::Shaded)
+            .warnings
+            .is_empty()
+    );
 }
 
 #[test]

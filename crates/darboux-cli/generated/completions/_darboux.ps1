@@ -132,6 +132,7 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             [CompletionResult]::new('--view', '--view', [CompletionResultType]::ParameterName, 'What is drawn')
             [CompletionResult]::new('--tangents', '--tangents', [CompletionResultType]::ParameterName, 'Whose tangents: file, or a method, as `darboux methods` lists them')
             [CompletionResult]::new('--against', '--against', [CompletionResultType]::ParameterName, 'For --view heat: the tangents that they are compared with')
+            [CompletionResult]::new('--mesh', '--mesh', [CompletionResultType]::ParameterName, 'Draw this mesh alone: its name, or its index; several times for several')
             [CompletionResult]::new('--size', '--size', [CompletionResultType]::ParameterName, 'Pixels across and down')
             [CompletionResult]::new('--camera', '--camera', [CompletionResultType]::ParameterName, 'Degrees around the model (0 is its front), degrees above the horizon, and how many times nearer than all of it in view')
             [CompletionResult]::new('--background', '--background', [CompletionResultType]::ParameterName, 'The colour behind the model')
@@ -147,7 +148,7 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
         'darboux;view' {
             [CompletionResult]::new('--page', '--page', [CompletionResultType]::ParameterName, 'The folder with the page''s files')
             [CompletionResult]::new('--no-open', '--no-open', [CompletionResultType]::ParameterName, 'Print the address and open no browser')
-            [CompletionResult]::new('--allow-outside', '--allow-outside', [CompletionResultType]::ParameterName, 'Allow buffers and images outside the model''s folder')
+            [CompletionResult]::new('--allow-outside', '--allow-outside', [CompletionResultType]::ParameterName, 'Allow a glTF''s buffers and images outside its folder; what lies outside an OBJ''s is never sent')
             [CompletionResult]::new('-h', '-h', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
             [CompletionResult]::new('--help', '--help', [CompletionResultType]::ParameterName, 'Print help (see more with ''--help'')')
             break

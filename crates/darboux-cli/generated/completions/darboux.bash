@@ -220,7 +220,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__render)
-            opts="-o -q -h --output --view --tangents --against --size --camera --background --force --allow-outside --json --quiet --help"
+            opts="-o -q -h --output --view --tangents --against --mesh --size --camera --background --force --allow-outside --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -243,6 +243,10 @@ _darboux() {
                     return 0
                     ;;
                 --against)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --mesh)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

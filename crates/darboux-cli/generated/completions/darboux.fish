@@ -147,6 +147,7 @@ heat\t'The angle between two sources, with the scale of compare\'s heat maps (0.
 uv\t'The UV layout, v down, in the colours of tangents'"
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l tangents -d 'Whose tangents: file, or a method, as `darboux methods` lists them' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l against -d 'For --view heat: the tangents that they are compared with' -r
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l mesh -d 'Draw this mesh alone: its name, or its index; several times for several' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l size -d 'Pixels across and down' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l camera -d 'Degrees around the model (0 is its front), degrees above the horizon, and how many times nearer than all of it in view' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l background -d 'The colour behind the model' -r
@@ -157,7 +158,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand render" -s q -l quiet -d
 complete -c darboux -n "__fish_darboux_using_subcommand render" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand view" -l page -d 'The folder with the page\'s files' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand view" -l no-open -d 'Print the address and open no browser'
-complete -c darboux -n "__fish_darboux_using_subcommand view" -l allow-outside -d 'Allow buffers and images outside the model\'s folder'
+complete -c darboux -n "__fish_darboux_using_subcommand view" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder; what lies outside an OBJ\'s is never sent'
 complete -c darboux -n "__fish_darboux_using_subcommand view" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand methods" -s h -l help -d 'Print help'
 complete -c darboux -n "__fish_darboux_using_subcommand devices" -l json -d 'Print a JSON report to standard output'

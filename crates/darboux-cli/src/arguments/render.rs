@@ -9,8 +9,8 @@ use super::{Method, Talk};
 pub(super) const ABOUT: &str = "\
 Draw a model or its tangents into a PNG, without a window.
 
-The views are those of `darboux view`. Node transforms count, mirrors included; skins, morph targets and animations do not. Parts \
-without a normal map are shaded with a pattern of domes, so that wrong tangents show.
+The views are those of `darboux view`. Node transforms count, mirrors included; skins, morph targets and instances do not, which is \
+said of models that have them. Parts without a normal map are shaded with a pattern of domes, so that wrong tangents show.
 
 Drawing needs an adapter, as `darboux devices` lists them; software ones such as Mesa's lavapipe do.";
 
@@ -19,6 +19,7 @@ Examples:
   darboux render model.glb -o model.png
   darboux render model.glb -o t.png --view tangent --tangents lengyel
   darboux render model.glb -o heat.png --view heat --tangents file --against mikktspace
+  darboux render model.glb -o shield.png --mesh Shield
   darboux render model.glb -o back.png --camera 180,10,1.5 --size 1920x1080";
 
 /// `darboux render`.
@@ -45,6 +46,10 @@ pub struct RenderArguments {
     /// For --view heat: the tangents that they are compared with
     #[arg(long, value_name = "SOURCE", value_parser = source, required_if_eq("view", "heat"))]
     pub against: Option<Source>,
+
+    /// Draw this mesh alone: its name, or its index; several times for several
+    #[arg(long, value_name = "MESH", allow_hyphen_values = true)]
+    pub mesh: Vec<String>,
 
     /// Pixels across and down
     #[arg(long, value_name = "WxH", default_value = "1024x768", value_parser = size)]

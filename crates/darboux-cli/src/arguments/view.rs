@@ -29,7 +29,7 @@ pub struct ViewArguments {
     #[arg(long)]
     pub no_open: bool,
 
-    /// Allow buffers and images outside the model's folder
+    /// Allow a glTF's buffers and images outside its folder; what lies outside an OBJ's is never sent
     #[arg(long)]
     pub allow_outside: bool,
 

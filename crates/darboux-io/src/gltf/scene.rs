@@ -1,6 +1,7 @@
 //! Where the meshes of the scene are.
 
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 
 use super::Document;
 use super::object::read_from_objects;
@@ -20,9 +21,15 @@ pub struct PlacedMesh {
     pub mesh: usize,
     /// From the mesh to the scene: the columns of a matrix for column vectors.
     pub matrix: [[f64; 4]; 4],
+    /// Whether a skin moves its vertices, and not the matrix.
+    pub is_skinned: bool,
+    /// Whether weights of morph targets move its vertices.
+    pub is_morphed: bool,
+    /// Whether it is at several places seen from there, by `EXT_mesh_gpu_instancing`.
+    pub is_instanced: bool,
 }
 
-read_from_objects! { Scenes, Scene, Node }
+read_from_objects! { Scenes, Scene, Node, NodeExtensions, Weights }
 
 #[derive(Deserialize)]
 #[serde(remote = "Self")]
@@ -33,6 +40,16 @@ struct Scenes {
     scenes: Vec<Scene>,
     #[serde(default)]
     nodes: Vec<Node>,
+    #[serde(default)]
+    meshes: Vec<Weights>,
+}
+
+/// The weights of a mesh's morph targets, where its node has none.
+#[derive(Deserialize)]
+#[serde(remote = "Self")]
+struct Weights {
+    #[serde(default)]
+    weights: Vec<f64>,
 }
 
 #[derive(Deserialize)]
@@ -46,6 +63,10 @@ struct Scene {
 #[serde(remote = "Self")]
 struct Node {
     mesh: Option<usize>,
+    skin: Option<usize>,
+    weights: Option<Vec<f64>>,
+    #[serde(default)]
+    extensions: NodeExtensions,
     #[serde(default)]
     children: Vec<usize>,
     matrix: Option<[f64; 16]>,
@@ -57,6 +78,13 @@ struct Node {
     scale: [f64; 3],
 }
 
+#[derive(Default, Deserialize)]
+#[serde(remote = "Self")]
+struct NodeExtensions {
+    #[serde(rename = "EXT_mesh_gpu_instancing")]
+    instancing: Option<IgnoredAny>,
+}
+
 fn no_rotation() -> [f64; 4] {
     [0.0, 0.0, 0.0, 1.0]
 }
@@ -66,7 +94,7 @@ fn no_scale() -> [f64; 3] {
 }
 
 impl Document {
-    /// The meshes of the scene that is shown first, with all their nodes say, as they were read; skins move nothing.
+    /// The meshes of the scene that is shown first, with all their nodes say, as they were read.
     ///
     /// A document without scenes shows all nodes, one without nodes all meshes. Errors: nodes that are not there, or have several
     /// parents.
@@ -75,9 +103,9 @@ impl Document {
     }
 
     fn place_meshes(&self) -> Result<Vec<PlacedMesh>, Fault> {
-        let Scenes { scene, scenes, nodes } = self.parsed()?;
+        let Scenes { scene, scenes, nodes, meshes } = self.parsed()?;
         if nodes.is_empty() {
-            return Ok((0..self.meshes().len()).map(|mesh| PlacedMesh { mesh, matrix: IDENTITY }).collect());
+            return Ok((0..meshes.len()).map(|mesh| place(None, mesh, &meshes, IDENTITY)).collect());
         }
         let roots = match scenes.get(scene) {
             Some(scene) => scene.nodes.clone(),
@@ -100,15 +128,28 @@ impl Document {
             }
             let matrix = product(parent, node.matrix());
             if let Some(mesh) = node.mesh {
-                if mesh >= self.meshes().len() {
-                    let problem = format!("mesh {mesh} does not exist: there are {}", self.meshes().len());
+                if mesh >= meshes.len() {
+                    let problem = format!("mesh {mesh} does not exist: there are {}", meshes.len());
                     return Err(Fault::invalid(at(), format!("{problem}; export the file again")));
                 }
-                placed.push(PlacedMesh { mesh, matrix });
+                placed.push(place(Some(node), mesh, &meshes, matrix));
             }
             left.extend(node.children.iter().rev().map(|&child| (child, matrix)));
         }
         Ok(placed)
+    }
+}
+
+/// A mesh as its node has it, if it has one.
+fn place(node: Option<&Node>, mesh: usize, meshes: &[Weights], matrix: Matrix) -> PlacedMesh {
+    let of_mesh = meshes.get(mesh).map(|mesh| &mesh.weights);
+    let weights = node.and_then(|node| node.weights.as_ref()).or(of_mesh);
+    PlacedMesh {
+        mesh,
+        matrix,
+        is_skinned: node.is_some_and(|node| node.skin.is_some()),
+        is_morphed: weights.is_some_and(|weights| weights.iter().any(|&weight| weight != 0.0)),
+        is_instanced: node.is_some_and(|node| node.extensions.instancing.is_some()),
     }
 }
 

@@ -25,6 +25,10 @@ pub struct Quad {
     pub texel: [u8; 3],
     /// Members of the node.
     pub node: &'static str,
+    /// Other members of the material, each with a comma before it.
+    pub material: &'static str,
+    /// The file of the base colour's texture, in place of grey, and its media type.
+    pub base: Option<(Vec<u8>, &'static str)>,
 }
 
 impl Default for Quad {
@@ -38,6 +42,8 @@ impl Default for Quad {
             w: [1.0; 2],
             texel: [128, 128, 255],
             node: r#""translation":[5,0,0]"#,
+            material: "",
+            base: None,
         }
     }
 }
@@ -68,13 +74,18 @@ impl Quad {
     }
 
     fn glb(&self) -> Vec<u8> {
-        let mut png = Vec::new();
         let map = image::RgbImage::from_pixel(4, 4, image::Rgb(self.texel));
-        map.write_to(&mut Cursor::new(&mut png), image::ImageFormat::Png).expect("a PNG");
+        let png = file_of(&map.into(), image::ImageFormat::Png);
         let mut bytes: Vec<u8> = self.floats().iter().flat_map(|x| x.to_le_bytes()).collect();
         let (floats, image) = (bytes.len(), png.len());
         bytes.extend(png);
-        bytes.resize(bytes.len().next_multiple_of(4), 0);
+        let (base, kind) = self.base.as_ref().map_or((&[][..], "image/png"), |(base, kind)| (base, kind));
+        let base_at = bytes.len();
+        bytes.extend(base);
+        let base_texture = if base.is_empty() { "" } else { r#","baseColorTexture":{"index":1}"# };
+        // A view of nothing is invalid.
+        let base_len = base.len().max(1);
+        bytes.resize((bytes.len() + 1).next_multiple_of(4), 0);
         let accessor = |offset: usize, kind: &str| {
             format!(
                 r#"{{"bufferView":0,"byteOffset":{offset},"componentType":5126,"count":12,"type":"{kind}"}}"#
@@ -86,12 +97,16 @@ impl Quad {
         let json = format!(
             r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0,{node}}}],
             "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"NORMAL":1,"TEXCOORD_0":3{tangents}}},"material":0}}]}}],
-            "materials":[{{"normalTexture":{{"index":0}},"pbrMetallicRoughness":{{"baseColorFactor":[0.5,0.5,0.5,1]}}}}],
-            "textures":[{{"source":0}}],"images":[{{"bufferView":1,"mimeType":"image/png"}}],
+            "materials":[{{"normalTexture":{{"index":0}},"pbrMetallicRoughness":{{"baseColorFactor":{factor}{base_texture}}}{material}}}],
+            "textures":[{{"source":0}},{{"source":1,"sampler":0}}],"samplers":[{{"magFilter":9728,"wrapS":33071,"wrapT":33071}}],
+            "images":[{{"bufferView":1,"mimeType":"image/png"}},{{"bufferView":2,"mimeType":"{kind}"}}],
             "accessors":[{accessors}],
-            "bufferViews":[{{"buffer":0,"byteLength":{floats}}},{{"buffer":0,"byteOffset":{floats},"byteLength":{image}}}],
+            "bufferViews":[{{"buffer":0,"byteLength":{floats}}},{{"buffer":0,"byteOffset":{floats},"byteLength":{image}}},
+            {{"buffer":0,"byteOffset":{base_at},"byteLength":{base_len}}}],
             "buffers":[{{"byteLength":{length}}}]}}"#,
             node = self.node,
+            material = self.material,
+            factor = if base.is_empty() { "[0.5,0.5,0.5,1]" } else { "[1,1,1,1]" },
             accessors = accessors.join(","),
             length = bytes.len(),
         );
@@ -109,6 +124,13 @@ impl Quad {
         ]
         .concat()
     }
+}
+
+/// An image as a file.
+pub fn file_of(image: &image::DynamicImage, format: image::ImageFormat) -> Vec<u8> {
+    let mut file = Vec::new();
+    image.write_to(&mut Cursor::new(&mut file), format).expect("an image");
+    file
 }
 
 pub fn document(quad: &Quad) -> Document {
@@ -157,4 +179,11 @@ pub fn picture(quad: &Quad, other: &Quad, view: View) -> Vec<[u8; 3]> {
         darboux_render::render(gpu, &model, &options(view)).unwrap_or_else(|error| panic!("{error}"));
     assert!(picture.warnings.is_empty(), "{:?}", picture.warnings);
     picture.pixels
+}
+
+/// A quad drawn, whatever there is to say about it. Expects that there is an adapter.
+pub fn drawn(quad: &Quad, view: View) -> darboux_render::Picture {
+    let mut document = document(quad);
+    let model = Model::read(&mut document, &[]).expect("a model");
+    darboux_render::render(gpu().expect("an adapter"), &model, &options(view)).expect("a picture")
 }
