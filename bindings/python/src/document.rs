@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::mpsc::Sender;
 
+use darboux::Cancel;
 use darboux_io::gltf::{
     self, LoadOptions, NormalsOptions, Progress, SaveOptions, TangentEncoding, TangentsOptions,
 };
@@ -14,6 +15,7 @@ use serde::Serialize;
 use crate::arrays::rows_array;
 use crate::choices::{choice, tangent_options};
 use crate::convention::convention;
+use crate::mesh::value_error;
 use crate::normals::normal_options;
 use crate::numbers::{degrees, place};
 use crate::threads::attended;
@@ -345,18 +347,18 @@ impl Document {
             let kind = progress.get_type().name()?;
             return Err(PyTypeError::new_err(format!("progress must be callable, not {kind}")));
         }
-        let document = &mut self.document;
+        let (document, cancel) = (&mut self.document, &Cancel::new());
         let work = move |sender: &Sender<Progress>| {
-            edit(document, &mut |progress| {
-                // The listener stays until the sender is gone.
-                let _heard = sender.send(progress);
-            })
+            // The listener stays until the sender is gone.
+            let mut report = |progress| _ = sender.send(progress);
+            cancel.run(|| edit(document, &mut report))
         };
         let receive = |Progress { done, total }| match progress {
             Some(progress) => progress.call1((done, total)).map(drop),
             None => Ok(()),
         };
-        let summary = attended(py, 0, work, receive, || ())?.map_err(file_error)?;
+        let edited = attended(py, 0, work, receive, || cancel.cancel())?;
+        let summary = edited.map_err(value_error)?.map_err(file_error)?;
         python_of(py, &summary)
     }
 }

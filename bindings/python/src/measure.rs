@@ -8,6 +8,7 @@ use pyo3::types::PyList;
 use crate::arrays::Rows;
 use crate::mesh::{FaceSizes, IndexArray, value_error};
 use crate::results::named;
+use crate::threads::cancellable;
 
 /// Compare two sets of tangents of one mesh, corner by corner (or vertex by vertex).
 ///
@@ -33,7 +34,8 @@ pub fn measure_tangents<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let (a, b) = (Rows::new("a", "C", a)?, Rows::new("b", "C", b)?);
     let (a, b) = (a.packed()?, b.packed()?);
-    let found = py.detach(|| darboux::measure_tangents(&a, &b)).map_err(value_error)?;
+    let found = cancellable(py, None, (a.len(), false), || darboux::measure_tangents(&a, &b))?
+        .map_err(value_error)?;
     let fields = (
         found.corners,
         found.identical,
@@ -87,11 +89,11 @@ pub fn measure_uv_fidelity<'py>(
     let tangents = tangents.packed()?;
     let (positions, uvs, list) = (positions.view()?, uvs.view()?, indices.view()?);
     let faces = FaceSizes::new(faces, &indices, positions.len())?;
-    let found = py.detach(|| {
+    let found = cancellable(py, None, (tangents.len(), false), || {
         let unread = Strided::repeated(&[0.0; 3], positions.len());
         let mesh = Mesh::with_faces(positions, unread, uvs, list, faces.view())?;
         darboux::measure_uv_fidelity(&mesh, &tangents)
-    });
+    })?;
     let found = found.map_err(value_error)?;
     named(py, "UvFidelity", (found.mean, found.root_mean_square, found.area, found.left_out))
 }

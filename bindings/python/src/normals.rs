@@ -9,6 +9,7 @@ use crate::choices::choice;
 use crate::mesh::{FaceSizes, IndexArray, value_error};
 use crate::numbers::degrees;
 use crate::results::named;
+use crate::threads::cancellable;
 
 const SHADINGS: &[(&str, Shading)] = &[("flat", Shading::Flat), ("smooth", Shading::Smooth)];
 
@@ -84,7 +85,9 @@ pub fn generate_normals<'py>(
     let indices = IndexArray::new(indices)?;
     let (positions, list) = (positions.view()?, indices.view()?);
     let faces = FaceSizes::new(faces, &indices, positions.len())?;
-    let made = py.detach(|| darboux::generate_normals(positions, list, faces.view(), &options));
+    let size = (indices.len().unwrap_or(positions.len()), false);
+    let made =
+        cancellable(py, None, size, || darboux::generate_normals(positions, list, faces.view(), &options))?;
     let darboux::Normals { corners, report } = made.map_err(value_error)?;
     let normals = rows_array(py, corners)?.into_any();
     if !return_report {

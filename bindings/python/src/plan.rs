@@ -2,7 +2,7 @@
 
 use std::sync::Mutex;
 
-use darboux::{Cancel, Indices, Mesh, Scratch};
+use darboux::{Indices, Mesh, Scratch};
 use pyo3::prelude::*;
 
 use crate::arrays::{Rows, rows_array};
@@ -11,7 +11,7 @@ use crate::mesh::{FaceSizes, MeshArrays, owned, value_error};
 use crate::numbers::{Threads, degrees};
 use crate::out::Target;
 use crate::results;
-use crate::threads::{cancellable, detached};
+use crate::threads::cancellable;
 
 /// The weld, groups and subgroups of one mesh, kept to evaluate tangents again after its vertices moved.
 ///
@@ -79,7 +79,8 @@ impl Plan {
         let options = tangent_options(method, mode, threshold)?;
         let arrays = MeshArrays::new(positions, normals, uvs, indices, faces)?;
         let mesh = arrays.view()?;
-        let plan = detached(py, threads, mesh.corner_count(), || darboux::Plan::new(&mesh, &options))?;
+        let size = (mesh.corner_count(), is_slow(&options));
+        let plan = cancellable(py, threads, size, || darboux::Plan::new(&mesh, &options))?;
         let (uvs, indices) = (arrays.uvs.packed()?.into_owned(), owned(mesh.indices()));
         let is_slow = is_slow(&options);
         Ok(Self { plan, uvs, indices, faces: arrays.faces, is_slow, scratch: Mutex::default() })
@@ -128,11 +129,10 @@ impl Plan {
         let mesh = self.moved(&moved)?;
         let size = (self.corner_count(), self.is_slow);
         let filled = Target::new(py, out, self.corner_count())?.fill(py, |out| {
-            let write = |cancel: &Cancel| {
+            let write = || {
                 let (mut own, kept) = (Scratch::new(), self.scratch.try_lock());
                 let mut kept = kept.ok();
                 let scratch = kept.as_deref_mut().unwrap_or(&mut own);
-                scratch.cancel_by(cancel);
                 self.plan.write_tangents(&mesh, scratch, out)
             };
             cancellable(py, threads, size, write)?.map_err(value_error)
@@ -149,7 +149,8 @@ impl Plan {
     ) -> PyResult<usize> {
         let moved = Moved::new(positions, normals)?;
         let mesh = self.moved(&moved)?;
-        let count = detached(py, None, self.corner_count(), || self.plan.count_regrouped(&mesh))?;
+        let count =
+            cancellable(py, None, (self.corner_count(), self.is_slow), || self.plan.count_regrouped(&mesh))?;
         count.map_err(value_error)
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Mutex;
 
-use darboux::{Cancel, Mesh, Scratch, TangentOptions, lend_frames};
+use darboux::{Mesh, Scratch, TangentOptions, lend_frames};
 use numpy::prelude::*;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -90,9 +90,8 @@ pub fn generate_tangents<'py>(
     } else {
         let (corners, keeps) = (mesh.corner_count(), out.is_some());
         Target::new(py, out, corners)?.fill(py, |out| {
-            let write = |cancel: &Cancel| {
+            let write = || {
                 let mut scratch = if keeps { take_scratch() } else { Scratch::new() };
-                scratch.cancel_by(cancel);
                 let report = darboux::write_tangents(&mesh, &options, &mut scratch, out);
                 if keeps {
                     keep_scratch(scratch);
@@ -139,9 +138,8 @@ fn frames<'py>(
         let tangents = tangents.as_slice_mut()?.as_chunks_mut().0;
         let bitangents = bitangents.as_slice_mut()?.as_chunks_mut().0;
         let magnitudes = magnitudes.as_slice_mut()?.as_chunks_mut().0;
-        let write = |cancel: &Cancel| {
+        let write = || {
             let mut scratch = Scratch::new();
-            scratch.cancel_by(cancel);
             let frames = lend_frames(mesh, options, &mut scratch)?;
             frames.write_apart(tangents, bitangents, magnitudes)?;
             Ok(frames.report())

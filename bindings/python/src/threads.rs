@@ -13,6 +13,7 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
+use crate::mesh::value_error;
 use crate::numbers::Threads;
 
 /// The pools of a process by their number of threads; 0 stands for as many as the machine has.
@@ -25,20 +26,6 @@ static POOLS: Mutex<Option<Pools>> = Mutex::new(None);
 
 /// Meshes of fewer corners are worth no second thread: they are done where they are, which saves waking one.
 const FEWEST_CORNERS: usize = 3 << 14;
-
-/// Does `work` over so many corners without the GIL. `threads`: none stands for as many as the machine has.
-pub fn detached<R: Send>(
-    py: Python<'_>,
-    threads: Option<Threads>,
-    corners: usize,
-    work: impl FnOnce() -> R + Send,
-) -> PyResult<R> {
-    if corners < FEWEST_CORNERS {
-        return Ok(py.detach(work));
-    }
-    let pool = pool(Threads::or_all(threads))?;
-    Ok(py.detach(|| pool.install(work)))
-}
 
 /// Does `work` without the GIL on so many threads.
 pub fn limited<R: Send>(
@@ -72,19 +59,21 @@ fn pool(threads: usize) -> PyResult<Arc<ThreadPool>> {
     Ok(pool)
 }
 
-/// Does `work` over so many corners without the GIL, and takes Ctrl-C meanwhile: then `work` is cancelled. `is_slow`: it may take its
-/// size squared.
+/// Does `work` over so many corners without the GIL, and takes Ctrl-C meanwhile, which stops the core. `is_slow`: it may take its size
+/// squared.
 pub fn cancellable<R: Send>(
     py: Python<'_>,
     threads: Option<Threads>,
     (corners, is_slow): (usize, bool),
-    work: impl FnOnce(&Cancel) -> R + Send,
+    work: impl FnOnce() -> R + Send,
 ) -> PyResult<R> {
-    let cancel = Cancel::new();
     if corners < FEWEST_CORNERS && !is_slow {
-        return Ok(py.detach(|| work(&cancel)));
+        return Ok(py.detach(work));
     }
-    attended(py, Threads::or_all(threads), |_| work(&cancel), |(): ()| Ok(()), || cancel.cancel())
+    let cancel = Cancel::new();
+    let done =
+        attended(py, Threads::or_all(threads), |_| cancel.run(work), |(): ()| Ok(()), || cancel.cancel())?;
+    done.map_err(value_error)
 }
 
 /// How often Python is asked for Ctrl-C while work goes on elsewhere.

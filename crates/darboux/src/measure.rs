@@ -1,5 +1,6 @@
 //! How far two sets of tangents are apart, and how well tangents follow the UVs.
 
+use crate::cancel::Stop;
 use crate::math::V3;
 use crate::split::expect;
 use crate::{Faces, Mesh, MeshError};
@@ -74,9 +75,11 @@ impl CornerDifference {
 /// convention. Errors: another number of corners.
 pub fn measure_tangents(a: &[[f32; 4]], b: &[[f32; 4]]) -> Result<TangentDifference, MeshError> {
     expect("corners", a.len(), b.len())?;
+    let stop = Stop::heard();
     let mut out = TangentDifference { corners: a.len(), ..TangentDifference::default() };
     let mut angles = Vec::with_capacity(a.len());
     for (corner, (a, b)) in a.iter().zip(b).enumerate() {
+        stop.check_at(corner)?;
         let difference = CornerDifference::between(*a, *b);
         out.identical += usize::from(difference.is_identical);
         out.sign_flips += usize::from(difference.flips_sign);
@@ -122,12 +125,13 @@ pub struct UvFidelity {
 /// Each triangle is sampled at the centres of 16 equal parts. There the three corners' tangents are interpolated linearly and compared,
 /// as directions in space, with the triangle's dP/du. A part of the angle is not the tangents' fault: they are perpendicular to
 /// smoothed normals, dP/du lies in the face. `tangents`: one per corner. Quads count as the halves of diagonal 0-2. Errors: tangents of another number
-/// of corners.
+/// of corners; a run that was [cancelled](crate::Cancel::run).
 pub fn measure_uv_fidelity(mesh: &Mesh<'_>, tangents: &[[f32; 4]]) -> Result<UvFidelity, MeshError> {
     expect("corners", mesh.corner_count(), tangents.len())?;
-    let mut out = UvFidelity::default();
+    let (mut out, stop) = (UvFidelity::default(), Stop::heard());
     let (mut sum, mut squares) = (0.0, 0.0);
-    for triangle in triangles(mesh) {
+    for (number, triangle) in triangles(mesh).enumerate() {
+        stop.check_at(number)?;
         let Some((u_direction, area)) = u_direction_and_area(mesh, triangle) else {
             out.left_out += 1;
             continue;

@@ -6,6 +6,7 @@
 
 use std::collections::HashMap;
 
+use crate::cancel::Stop;
 use crate::math::angle;
 use crate::split::expect;
 use crate::{CornerTangents, Faces, Indices, Mesh, MeshError, Splitter, Strided};
@@ -95,7 +96,7 @@ pub struct NormalReport {
 ///
 /// `positions`: V by 3, any values; `indices`: one per corner; `faces`: how corners make faces, of any size from 3 on (smaller ones are
 /// degenerate). Faces wind counter-clockwise seen from where their normal points. Errors: an index out of range, corners that do not
-/// make whole faces, too many corners.
+/// make whole faces, too many corners, a run that was [cancelled](crate::Cancel::run).
 pub fn generate_normals<'a>(
     positions: impl Into<Strided<'a, 3>>,
     indices: impl Into<Indices<'a>>,
@@ -129,9 +130,9 @@ impl NormalPlan {
         faces: Faces<'a>,
         options: &NormalOptions,
     ) -> Result<Self, MeshError> {
-        let mesh = bare_mesh(positions.into(), indices.into(), faces)?;
-        let vertex_of_corner = vertices_of_corners(&mesh, options.seams);
-        let (fan_of_corner, creased_edges) = fans_of_corners(&mesh, &vertex_of_corner, options);
+        let (mesh, stop) = (bare_mesh(positions.into(), indices.into(), faces)?, Stop::heard());
+        let vertex_of_corner = vertices_of_corners(&mesh, options.seams, &stop)?;
+        let (fan_of_corner, creased_edges) = fans_of_corners(&mesh, &vertex_of_corner, options, &stop)?;
         let is_flat = options.shading == Shading::Flat;
         Ok(Self {
             vertex_count: mesh.vertex_count(),
@@ -157,8 +158,9 @@ impl NormalPlan {
         expect("vertices", self.vertex_count, positions.len())?;
         let faces = self.sizes.as_deref().map_or(Faces::Triangles, Faces::Mixed);
         let mesh = bare_mesh(positions, Indices::U32(&self.indices), faces)?;
-        let polygons = Polygons::new(&mesh);
-        let fans = polygons.sums(&mesh, &self.fan_of_corner, self.weight);
+        let stop = Stop::heard();
+        let polygons = Polygons::new(&mesh, &stop)?;
+        let fans = polygons.sums(&mesh, &self.fan_of_corner, self.weight, &stop);
         let mut repaired_corners = 0;
         let mut vertices = None;
         let normal = |corner: usize| {
@@ -166,12 +168,13 @@ impl NormalPlan {
             repaired_corners += usize::from(found.is_none());
             let own = || polygons.normal_of_face[polygons.face_of_corner[corner] as usize];
             let of_vertex = || {
-                let sums = || polygons.sums(&mesh, &self.vertex_of_corner, self.weight);
+                let sums = || polygons.sums(&mesh, &self.vertex_of_corner, self.weight, &stop);
                 vertices.get_or_insert_with(sums)[self.vertex_of_corner[corner] as usize].direction()
             };
             found.or_else(own).or_else(of_vertex).unwrap_or([0.0, 0.0, 1.0]).map(|x| x as f32)
         };
         let corners = (0..mesh.corner_count()).map(normal).collect();
+        stop.check()?;
         let report = NormalReport {
             faces: mesh.face_count(),
             degenerate_faces: polygons.normal_of_face.iter().filter(|normal| normal.is_none()).count(),
@@ -254,7 +257,7 @@ impl Sum {
 }
 
 impl Polygons {
-    fn new(mesh: &Mesh<'_>) -> Self {
+    fn new(mesh: &Mesh<'_>, stop: &Stop) -> Result<Self, MeshError> {
         let mut polygons = Self {
             face_of_corner: Vec::with_capacity(mesh.corner_count()),
             ends: Vec::with_capacity(mesh.face_count()),
@@ -262,6 +265,7 @@ impl Polygons {
             area_of_face: Vec::with_capacity(mesh.face_count()),
         };
         for face in 0..mesh.face_count() {
+            stop.check_at(face)?;
             let start = polygons.face_of_corner.len();
             let size = match mesh.faces() {
                 Faces::Triangles => 3,
@@ -274,7 +278,7 @@ impl Polygons {
             polygons.normal_of_face.push(unit(area_vector));
             polygons.area_of_face.push(length(area_vector));
         }
-        polygons
+        Ok(polygons)
     }
 
     /// The corners before and after a corner in its face.
@@ -285,11 +289,14 @@ impl Polygons {
         [size - 1, 1].map(|step| start + (corner - start + step) % size)
     }
 
-    /// For every group of corners the sum of their faces' normals.
-    fn sums(&self, mesh: &Mesh<'_>, group_of_corner: &[u32], weight: NormalWeight) -> Vec<Sum> {
+    /// For every group of corners the sum of their faces' normals; anything once it shall stop.
+    fn sums(&self, mesh: &Mesh<'_>, group_of_corner: &[u32], weight: NormalWeight, stop: &Stop) -> Vec<Sum> {
         let groups = group_of_corner.iter().max().map_or(0, |&last| last as usize + 1);
         let mut sums = vec![Sum::default(); groups];
         for (corner, &group) in group_of_corner.iter().enumerate() {
+            if stop.check_at(corner).is_err() {
+                break;
+            }
             let face = self.face_of_corner[corner] as usize;
             let Some(normal) = self.normal_of_face[face] else { continue };
             let area = self.area_of_face[face];
@@ -327,29 +334,35 @@ fn area_vector(mesh: &Mesh<'_>, corners: std::ops::Range<usize>) -> D3 {
 }
 
 /// The smoothed vertex of every corner: the first of the mesh's vertices at its position, or its own.
-fn vertices_of_corners(mesh: &Mesh<'_>, seams: SmoothingSeams) -> Vec<u32> {
+fn vertices_of_corners(mesh: &Mesh<'_>, seams: SmoothingSeams, stop: &Stop) -> Result<Vec<u32>, MeshError> {
     let corners = 0..mesh.corner_count();
     if seams == SmoothingSeams::Respected {
-        return corners.map(|corner| mesh.vertex_of_corner(corner) as u32).collect();
+        return Ok(corners.map(|corner| mesh.vertex_of_corner(corner) as u32).collect());
     }
     let mut first = HashMap::new();
     let vertex = |corner: usize| {
+        stop.check_at(corner)?;
         let vertex = mesh.vertex_of_corner(corner);
         let position = mesh.positions().get(vertex);
         // Adding zero turns -0 into +0. NaN is nobody's equal.
         let key = position.map(|x| (x + 0.0).to_bits());
         let is_nan = position.iter().any(|x| x.is_nan());
-        if is_nan { vertex as u32 } else { *first.entry(key).or_insert(vertex as u32) }
+        Ok(if is_nan { vertex as u32 } else { *first.entry(key).or_insert(vertex as u32) })
     };
     corners.map(vertex).collect()
 }
 
 /// The corners that share a normal, and how many edges are creases.
-fn fans_of_corners(mesh: &Mesh<'_>, vertex_of_corner: &[u32], options: &NormalOptions) -> (Vec<u32>, usize) {
+fn fans_of_corners(
+    mesh: &Mesh<'_>,
+    vertex_of_corner: &[u32],
+    options: &NormalOptions,
+    stop: &Stop,
+) -> Result<(Vec<u32>, usize), MeshError> {
     match options.shading {
-        Shading::Smooth if options.crease >= 180.0 => (vertex_of_corner.to_vec(), 0),
-        Shading::Flat => (Polygons::new(mesh).face_of_corner, 0),
-        Shading::Smooth => fans(&Polygons::new(mesh), vertex_of_corner, options.crease),
+        Shading::Smooth if options.crease >= 180.0 => Ok((vertex_of_corner.to_vec(), 0)),
+        Shading::Flat => Ok((Polygons::new(mesh, stop)?.face_of_corner, 0)),
+        Shading::Smooth => fans(&Polygons::new(mesh, stop)?, vertex_of_corner, options.crease, stop),
     }
 }
 
@@ -357,7 +370,12 @@ fn fans_of_corners(mesh: &Mesh<'_>, vertex_of_corner: &[u32], options: &NormalOp
 /// creases.
 ///
 /// On an edge of more than two faces each is compared with the next. Degenerate faces crease nothing.
-fn fans(polygons: &Polygons, vertex_of_corner: &[u32], crease: f32) -> (Vec<u32>, usize) {
+fn fans(
+    polygons: &Polygons,
+    vertex_of_corner: &[u32],
+    crease: f32,
+    stop: &Stop,
+) -> Result<(Vec<u32>, usize), MeshError> {
     let mut creased_edges = 0;
     let least_cosine = f64::from(crease.max(0.0)).to_radians().cos();
     let mut edges: Vec<([u32; 2], u32)> = (0..vertex_of_corner.len())
@@ -368,7 +386,8 @@ fn fans(polygons: &Polygons, vertex_of_corner: &[u32], crease: f32) -> (Vec<u32>
         .collect();
     edges.sort_unstable();
     let mut fan_of_corner: Vec<u32> = (0..vertex_of_corner.len() as u32).collect();
-    for [(ends, a), (others, b)] in edges.array_windows() {
+    for (at, [(ends, a), (others, b)]) in edges.array_windows().enumerate() {
+        stop.check_at(at)?;
         if ends != others {
             continue;
         }
@@ -388,7 +407,7 @@ fn fans(polygons: &Polygons, vertex_of_corner: &[u32], crease: f32) -> (Vec<u32>
         }
     }
     let names = (0..fan_of_corner.len()).map(|corner| find(&mut fan_of_corner, corner) as u32).collect();
-    (names, creased_edges)
+    Ok((names, creased_edges))
 }
 
 /// The corner that names a corner's fan; halves the way there (R. Tarjan and J. van Leeuwen 1984).

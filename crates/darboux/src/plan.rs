@@ -1,5 +1,6 @@
 //! Topology once, evaluate often.
 
+use crate::cancel::Stop;
 use crate::split::expect;
 use crate::tangents::Planned;
 use crate::{CornerTangents, Mesh, MeshError, Scratch, TangentOptions, Tangents, generate_tangents};
@@ -16,7 +17,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Computes the base's tangents and keeps its topology.
+    /// Computes the base's tangents and keeps its topology. One that was [cancelled](crate::Cancel::run) is not complete.
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions) -> Self {
         let (planned, base) = Planned::new(mesh, options);
         Self { planned, options: *options, vertex_count: mesh.vertex_count(), base }
@@ -52,7 +53,7 @@ impl Plan {
     }
 
     /// As [`Plan::evaluate_into`], into an array of the caller's: one tangent per corner. Errors: also an array of another length, and a run
-    /// that was [cancelled](Scratch::cancel_by).
+    /// that was [cancelled](crate::Cancel::run).
     pub fn write_tangents(
         &self,
         mesh: &Mesh<'_>,
@@ -64,13 +65,14 @@ impl Plan {
         expect("corners", base.len(), corners.len())?;
         expect("vertices", self.vertex_count, mesh.vertex_count())?;
         self.planned.evaluate(mesh, (&self.options, base), scratch, corners);
-        if scratch.is_cancelled() { Err(MeshError::Cancelled) } else { Ok(()) }
+        Stop::heard().check()
     }
 
     /// How many corners a fresh run on the moved mesh would give another tangent (other bits) than [`Plan::evaluate`].
     pub fn count_regrouped(&self, mesh: &Mesh<'_>) -> Result<usize, MeshError> {
         let planned = self.evaluate(mesh)?;
         let fresh = generate_tangents(mesh, &self.options).corners;
+        Stop::heard().check()?;
         let pairs = planned.per_corner().iter().zip(fresh.per_corner());
         Ok(pairs.filter(|(planned, fresh)| planned.map(f32::to_bits) != fresh.map(f32::to_bits)).count())
     }

@@ -39,9 +39,10 @@ mod threads;
 mod width;
 mod windows;
 
+use crate::cancel::Stop;
 use crate::math::cosine_of_degrees;
 use crate::split::expect;
-use crate::{Cancel, CornerFrames, CornerTangents, Mesh, MeshError};
+use crate::{CornerFrames, CornerTangents, Mesh, MeshError};
 
 use accumulate::Memory;
 use fans::Fans;
@@ -109,25 +110,12 @@ pub struct Scratch {
     sums: Memory,
     frames: FrameMemory,
     width_limit: WidthLimit,
-    cancel: Cancel,
-    /// For runs that cannot say that they were stopped; nobody asks them to.
-    never: Cancel,
 }
 
 impl Scratch {
     /// An empty one; it grows to what the largest mesh needs.
     pub fn new() -> Self {
         Self::default()
-    }
-
-    /// Lets `cancel` stop the runs of [`write_tangents`] and [`Plan::write_tangents`](crate::Plan::write_tangents), the calls that can
-    /// say so.
-    pub fn cancel_by(&mut self, cancel: &Cancel) {
-        self.cancel = cancel.clone();
-    }
-
-    pub(crate) fn is_cancelled(&self) -> bool {
-        self.cancel.is_cancelled()
     }
 
     /// One whose runs use no wider vector instructions than `limit`. The width never shows in a result: this is for comparing.
@@ -153,14 +141,13 @@ pub fn generate_tangents_into(
     out: &mut Tangents,
 ) {
     out.corners.0.resize(mesh.corner_count(), [0.0; 4]);
-    let never = scratch.never.clone();
-    out.report = run(mesh, options, &never, scratch, &mut out.corners.0);
+    out.report = run(mesh, options, &Stop::heard(), scratch, &mut out.corners.0);
 }
 
 /// As [`generate_tangents_into`], into an array of the caller's, for bindings and buffers that are not a `Vec`.
 ///
 /// `corners`: receives one tangent per corner, in corner order, which is not vertex order. Errors: an array of another length; a run that
-/// was [cancelled](Scratch::cancel_by), which leaves anything in `corners`.
+/// was [cancelled](crate::Cancel::run), which leaves anything in `corners`.
 pub fn write_tangents(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
@@ -168,27 +155,31 @@ pub fn write_tangents(
     corners: &mut [[f32; 4]],
 ) -> Result<Report, MeshError> {
     expect("corners", mesh.corner_count(), corners.len())?;
-    let cancel = scratch.cancel.clone();
-    let report = run(mesh, options, &cancel, scratch, corners);
-    if cancel.is_cancelled() { Err(MeshError::Cancelled) } else { Ok(report) }
+    let stop = Stop::heard();
+    let report = run(mesh, options, &stop, scratch, corners);
+    stop.check().map(|()| report)
 }
 
 fn run(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
-    cancel: &Cancel,
+    stop: &Stop,
     scratch: &mut Scratch,
     out: &mut [[f32; 4]],
 ) -> Report {
     // Asked before anything is called, so that a program whose method is constant carries no other.
     if options.method != Method::MikkTSpace {
-        return method::run(mesh, options, cancel, &mut scratch.sums, out);
+        return method::run(mesh, options, stop, &mut scratch.sums, out);
     }
     let width = Width::widest(scratch.width_limit);
     if has_whole_fans(options) && scratch.fans.run(mesh, options.mode, width, out) {
-        local::decide(mesh, options, &scratch.fans, cancel, out)
+        if stop.is_asked() {
+            Report::default()
+        } else {
+            local::decide(mesh, options, &scratch.fans, stop, out)
+        }
     } else {
-        method::mikktspace(mesh, options, cancel, out)
+        method::mikktspace(mesh, options, stop, out)
     }
 }
 

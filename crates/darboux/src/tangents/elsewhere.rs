@@ -1,7 +1,8 @@
 //! Tangents that another machine began, for `darboux-gpu`. Not part of the API.
 
+use crate::cancel::Stop;
 use crate::math::cosine_of_degrees;
-use crate::{Cancel, Mesh, Report, TangentOptions};
+use crate::{Mesh, Report, TangentOptions};
 
 use super::fans::Fans;
 use super::local;
@@ -24,7 +25,7 @@ pub fn complete(
     fans.resume(mesh, options.mode, welded, out);
     let corners = fans.undecided(mesh).flatten().map(|corner| out[corner as usize]);
     let left = corners.filter(|corner| corner[3] == UNDECIDED).count();
-    (local::decide(mesh, options, &fans, &Cancel::new(), out), left)
+    (local::decide(mesh, options, &fans, &Stop::heard(), out), left)
 }
 
 /// The cosine above which directions are nearer than the threshold.

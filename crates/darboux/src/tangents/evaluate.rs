@@ -9,8 +9,8 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::rc::Rc;
 
-use crate::Cancel;
 use crate::Frame;
+use crate::cancel::Stop;
 use crate::math::{V3, add, angle, direction_in_plane, dot, equal, normalized_unless_zero, scale, sub};
 use crate::triangles::Triangles;
 
@@ -51,7 +51,7 @@ impl Values {
 /// How groups are evaluated. Each member of a group that the threshold splits may look at all others, so a stop is heard between them.
 pub(crate) struct How<'a> {
     pub threshold_cosine: f32,
-    pub cancel: &'a Cancel,
+    pub stop: &'a Stop,
 }
 
 /// The frame of every corner, and what is needed to repair the unusable ones.
@@ -87,7 +87,7 @@ pub(crate) fn evaluate(
     let mut subgroups = Subgroups::new(how.threshold_cosine);
     let mut sorted = Vec::new();
     for group in 0..groups.len() {
-        if how.cancel.is_cancelled() {
+        if how.stop.is_asked() {
             break;
         }
         let members = groups.members(group);
@@ -101,7 +101,7 @@ pub(crate) fn evaluate(
             let subgroup = evaluator.subgroup(&[], sign);
             members.iter().for_each(|&member| evaluator.write(member, &subgroup));
         } else {
-            evaluator.write_split_group(members, &sorted, &mut subgroups, sign, how.cancel);
+            evaluator.write_split_group(members, &sorted, &mut subgroups, sign, how.stop);
         }
     }
     RawFrames { of_corner: evaluator.of_corner, mean_of_corner: evaluator.mean_of_corner }
@@ -155,13 +155,13 @@ impl Evaluator<'_> {
         sorted: &[u32],
         subgroups: &mut Subgroups,
         sign: f32,
-        cancel: &Cancel,
+        stop: &Stop,
     ) {
         self.running.find_stretches();
         let mut of_members: HashMap<usize, Rc<Subgroup>> = HashMap::new();
         let mut of_left_out: HashMap<Vec<Range<usize>>, Rc<Subgroup>> = HashMap::new();
         let (mut left_out, mut bytes) = (Vec::new(), 0);
-        for &member in members.iter().take_while(|_| !cancel.is_cancelled()) {
+        for &member in members.iter().take_while(|_| !stop.is_asked()) {
             let at = subgroups.first_alike(sorted.partition_point(|&other| other < member));
             if let Some(subgroup) = of_members.get(&at) {
                 self.write(member, subgroup);

@@ -1,7 +1,8 @@
 //! Whole frames: tangents first, then what goes with them, and last each corner's from these.
 
+use crate::cancel::Stop;
 use crate::split::expect;
-use crate::{Cancel, CornerFrames, Frame, Mesh, MeshError};
+use crate::{CornerFrames, Frame, Mesh, MeshError};
 
 use super::fans::{Fans, UNDECIDED};
 use super::sides::{Output, fill};
@@ -23,14 +24,14 @@ pub(super) struct FrameMemory {
 /// Computes the whole frame of every corner: tangent, bitangent, magnitudes, sign.
 pub fn generate_frames(mesh: &Mesh<'_>, options: &TangentOptions) -> Frames {
     let mut corners = vec![Frame::NONE; mesh.corner_count()];
-    let report = run(mesh, options, &Cancel::new(), &mut Scratch::new(), &mut corners);
+    let report = run(mesh, options, &Stop::heard(), &mut Scratch::new(), &mut corners);
     Frames { corners: CornerFrames(corners), report }
 }
 
 /// As [`generate_frames`], into an array of the caller's, with the memory of earlier runs.
 ///
 /// `corners`: receives one frame per corner, in corner order, which is not vertex order. Errors: an array of another length; a run that
-/// was [cancelled](Scratch::cancel_by), which leaves anything in `corners`.
+/// was [cancelled](crate::Cancel::run), which leaves anything in `corners`.
 pub fn write_frames(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
@@ -38,9 +39,9 @@ pub fn write_frames(
     corners: &mut [Frame],
 ) -> Result<Report, MeshError> {
     expect("corners", mesh.corner_count(), corners.len())?;
-    let cancel = scratch.cancel.clone();
-    let report = run(mesh, options, &cancel, scratch, corners);
-    if cancel.is_cancelled() { Err(MeshError::Cancelled) } else { Ok(report) }
+    let stop = Stop::heard();
+    let report = run(mesh, options, &stop, scratch, corners);
+    stop.check().map(|()| report)
 }
 
 /// As [`write_frames`], left in the scratch for arrays of any other form: frames are made from what is smaller, as they are read.
@@ -49,20 +50,18 @@ pub fn lend_frames<'a>(
     options: &TangentOptions,
     scratch: &'a mut Scratch,
 ) -> Result<LentFrames<'a>, MeshError> {
-    let cancel = scratch.cancel.clone();
-    let report = if let Some(report) = run_fans(mesh, options, &cancel, scratch) {
+    let stop = Stop::heard();
+    let report = if let Some(report) = run_fans(mesh, options, &stop, scratch) {
         report
     } else {
         let mut frames = std::mem::take(&mut scratch.frames.frames);
         frames.resize(mesh.corner_count(), Frame::NONE);
         scratch.frames.tangents.clear();
-        let report = method::run(mesh, options, &cancel, &mut scratch.sums, &mut frames);
+        let report = method::run(mesh, options, &stop, &mut scratch.sums, &mut frames);
         scratch.frames.frames = frames;
         report
     };
-    if cancel.is_cancelled() {
-        return Err(MeshError::Cancelled);
-    }
+    stop.check()?;
     Ok(LentFrames { mesh, fans: &scratch.fans, memory: &scratch.frames, report })
 }
 
@@ -156,13 +155,16 @@ const BLOCK: usize = 64;
 fn run(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
-    cancel: &Cancel,
+    stop: &Stop,
     scratch: &mut Scratch,
     out: &mut [Frame],
 ) -> Report {
-    let Some(report) = run_fans(mesh, options, cancel, scratch) else {
-        return method::run(mesh, options, cancel, &mut scratch.sums, out);
+    let Some(report) = run_fans(mesh, options, stop, scratch) else {
+        return method::run(mesh, options, stop, &mut scratch.sums, out);
     };
+    if stop.is_asked() {
+        return report;
+    }
     let frames = LentFrames { mesh, fans: &scratch.fans, memory: &scratch.frames, report };
     let threads = threads::count(mesh.face_count());
     let ranges = split(0..out.len(), threads, 1);
@@ -173,12 +175,7 @@ fn run(
 }
 
 /// Leaves the frames of a mesh that whole fans suffice for in the scratch; else nothing.
-fn run_fans(
-    mesh: &Mesh<'_>,
-    options: &TangentOptions,
-    cancel: &Cancel,
-    scratch: &mut Scratch,
-) -> Option<Report> {
+fn run_fans(mesh: &Mesh<'_>, options: &TangentOptions, stop: &Stop, scratch: &mut Scratch) -> Option<Report> {
     if !has_whole_fans(options) {
         return None;
     }
@@ -190,5 +187,8 @@ fn run_fans(
         fans.run(mesh, options.mode, width, tangents).then(|| fans.add_frames(mesh, width))
     })?;
     decided.clear();
-    Some(local::decide_frames(mesh, options, fans, cancel, tangents, decided))
+    if stop.is_asked() {
+        return Some(Report::default());
+    }
+    Some(local::decide_frames(mesh, options, fans, stop, tangents, decided))
 }

@@ -1,6 +1,7 @@
 //! The general path for part of a mesh: the vertices that whole fans leave undecided, with all triangles around them.
 
-use crate::{Cancel, Frame, Mesh};
+use crate::cancel::Stop;
+use crate::{Frame, Mesh};
 
 use super::evaluate::DEFAULT_FRAME;
 use super::fans::{Fans, UNDECIDED};
@@ -49,9 +50,9 @@ impl UndecidedPart {
     }
 
     /// Writes the tangents of the undecided vertices; `out` has those of all others. Returns the report of the part.
-    pub fn decide(&self, mesh: &Mesh<'_>, cancel: &Cancel, out: &mut [[f32; 4]]) -> Report {
+    pub fn decide(&self, mesh: &Mesh<'_>, stop: &Stop, out: &mut [[f32; 4]]) -> Report {
         let part = mesh.with_other_faces(&self.indices, &self.sizes);
-        let (frames, report) = self.topology.frames_of_part(&part, self.known(out), cancel);
+        let (frames, report) = self.topology.frames_of_part(&part, self.known(out), stop);
         self.write(&frames, |corner, frame| out[corner] = frame.tangent_and_sign());
         report
     }
@@ -60,20 +61,20 @@ impl UndecidedPart {
     fn decide_frames(
         &self,
         mesh: &Mesh<'_>,
-        cancel: &Cancel,
+        stop: &Stop,
         tangents: &[[f32; 4]],
         out: &mut Vec<(u32, Frame)>,
     ) -> Report {
         let part = mesh.with_other_faces(&self.indices, &self.sizes);
-        let (frames, report) = self.topology.frames_of_part(&part, self.known(tangents), cancel);
+        let (frames, report) = self.topology.frames_of_part(&part, self.known(tangents), stop);
         self.write(&frames, |corner, frame| out.push((corner as u32, frame)));
         report
     }
 
     /// As [`UndecidedPart::decide`] for a mesh whose vertices have moved since, with the signs of `base`.
-    pub fn decide_moved(&self, mesh: &Mesh<'_>, base: &[[f32; 4]], cancel: &Cancel, out: &mut [[f32; 4]]) {
+    pub fn decide_moved(&self, mesh: &Mesh<'_>, base: &[[f32; 4]], stop: &Stop, out: &mut [[f32; 4]]) {
         let part = mesh.with_other_faces(&self.indices, &self.sizes);
-        let (frames, _) = self.topology.frames_of_moved(&part, self.known(out), cancel);
+        let (frames, _) = self.topology.frames_of_moved(&part, self.known(out), stop);
         self.write(&frames, |corner, frame| out[corner] = frame.tangent_and_sign());
         for corner in self.corners.iter().map(|&corner| corner as usize) {
             out[corner][3] = base[corner][3];
@@ -102,11 +103,11 @@ pub(super) fn decide(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
     fans: &Fans,
-    cancel: &Cancel,
+    stop: &Stop,
     out: &mut [[f32; 4]],
 ) -> Report {
     let part = UndecidedPart::new(mesh, options, fans, out);
-    let report = part.map(|part| part.decide(mesh, cancel, out)).unwrap_or_default();
+    let report = part.map(|part| part.decide(mesh, stop, out)).unwrap_or_default();
     Report { triangles: fans.triangle_count(mesh), ..report }
 }
 
@@ -115,12 +116,12 @@ pub(super) fn decide_frames(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
     fans: &Fans,
-    cancel: &Cancel,
+    stop: &Stop,
     tangents: &[[f32; 4]],
     out: &mut Vec<(u32, Frame)>,
 ) -> Report {
     let part = UndecidedPart::new(mesh, options, fans, tangents);
-    let report = part.map(|part| part.decide_frames(mesh, cancel, tangents, out)).unwrap_or_default();
+    let report = part.map(|part| part.decide_frames(mesh, stop, tangents, out)).unwrap_or_default();
     Report { triangles: fans.triangle_count(mesh), ..report }
 }
 

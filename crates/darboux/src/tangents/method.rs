@@ -1,6 +1,7 @@
 //! The choice of a method, and where it leads.
 
-use crate::{Cancel, Mesh, Mode};
+use crate::cancel::Stop;
+use crate::{Mesh, Mode};
 
 use super::accumulate::{Keeps, Memory, Sums, accumulate};
 use super::area::Area;
@@ -44,13 +45,13 @@ pub enum Method {
 pub(super) fn run<O: Output>(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
-    cancel: &Cancel,
+    stop: &Stop,
     memory: &mut Memory,
     corners: &mut [O],
 ) -> Report {
     let mode = options.mode;
     match options.method {
-        Method::MikkTSpace => mikktspace(mesh, options, cancel, corners),
+        Method::MikkTSpace => mikktspace(mesh, options, stop, corners),
         Method::AngleArea => angle_area::run(mesh, mode, &mut memory.of_groups, corners),
         Method::Lengyel => summed::<2, Lengyel, O>(mesh, mode, accumulate::<2, Lengyel>, memory, corners),
         Method::LengyelPerVertex => {
@@ -67,10 +68,11 @@ pub(super) fn run<O: Output>(
 pub(super) fn mikktspace<O: Output>(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
-    cancel: &Cancel,
+    stop: &Stop,
     corners: &mut [O],
 ) -> Report {
-    let (frames, report) = mikktspace::Topology::new(mesh, options).frames(mesh, cancel);
+    let Some(topology) = mikktspace::Topology::new(mesh, options, stop) else { return Report::default() };
+    let (frames, report) = topology.frames(mesh, stop);
     fill(corners, frames.iter().map(O::from_frame));
     report
 }

@@ -2,10 +2,11 @@
 //!
 //! Every operation on floats is rounded to `f32` in the reference's order; see docs/algorithms/mikktspace.md for what "exact" means.
 
+use crate::cancel::Stop;
 use crate::math::cosine_of_degrees;
 use crate::topology::{EdgeOrder, NONE, match_again, neighbours};
 use crate::triangles::{Triangles, Triangulation, triangulate, triangulate_welded};
-use crate::{Cancel, Frame, Mesh};
+use crate::{Frame, Mesh};
 
 use super::degenerate::fill_degenerate;
 use super::derivatives::{Derivative, agree_in_quads, derivatives};
@@ -43,11 +44,13 @@ pub(crate) struct Part<'a> {
 pub(crate) type HalfEdge = ([u32; 3], u32);
 
 impl Topology {
-    /// Welds, finds neighbours and groups.
-    pub fn new(mesh: &Mesh<'_>, options: &TangentOptions) -> Self {
+    /// Welds, finds neighbours and groups; nothing once it shall stop.
+    pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, stop: &Stop) -> Option<Self> {
         let triangulation = triangulate(mesh);
+        stop.check().ok()?;
         let neighbours = neighbours(&triangulation.good, edge_order(options));
-        Self::of(mesh, triangulation, &neighbours, |_| true, options)
+        stop.check().ok()?;
+        Some(Self::of(mesh, triangulation, &neighbours, |_| true, options))
     }
 
     /// Of the vertices of `part` that count, where the order of vertices shows nowhere but in the last edges.
@@ -86,34 +89,24 @@ impl Topology {
     }
 
     /// The frames of the mesh that was welded and grouped.
-    pub fn frames(&self, mesh: &Mesh<'_>, cancel: &Cancel) -> (Vec<Frame>, Report) {
-        self.frames_of_part(mesh, unknown(mesh), cancel)
+    pub fn frames(&self, mesh: &Mesh<'_>, stop: &Stop) -> (Vec<Frame>, Report) {
+        self.frames_of_part(mesh, unknown(mesh), stop)
     }
 
     /// As [`Topology::frames`], where corners of no group keep what they have in `known`.
-    pub fn frames_of_part(
-        &self,
-        mesh: &Mesh<'_>,
-        known: Vec<Frame>,
-        cancel: &Cancel,
-    ) -> (Vec<Frame>, Report) {
-        self.finish(mesh, &self.base, &Shape::welded(mesh), known, cancel)
+    pub fn frames_of_part(&self, mesh: &Mesh<'_>, known: Vec<Frame>, stop: &Stop) -> (Vec<Frame>, Report) {
+        self.finish(mesh, &self.base, &Shape::welded(mesh), known, stop)
     }
 
     /// As [`Topology::frames_of_part`] for a mesh whose vertices have moved since.
-    pub fn frames_of_moved(
-        &self,
-        mesh: &Mesh<'_>,
-        known: Vec<Frame>,
-        cancel: &Cancel,
-    ) -> (Vec<Frame>, Report) {
+    pub fn frames_of_moved(&self, mesh: &Mesh<'_>, known: Vec<Frame>, stop: &Stop) -> (Vec<Frame>, Report) {
         let shape = Shape::moved(mesh);
         let good = &self.triangulation.good;
         let mut moved = derivatives(good, &shape);
         for (moved, base) in moved.iter_mut().zip(&self.base.derivatives) {
             (moved.preserves, moved.any) = (base.preserves, base.any);
         }
-        self.finish(mesh, &Values::new(good, &self.groups, moved, &shape), &shape, known, cancel)
+        self.finish(mesh, &Values::new(good, &self.groups, moved, &shape), &shape, known, stop)
     }
 
     fn finish(
@@ -122,11 +115,14 @@ impl Topology {
         values: &Values,
         shape: &Shape<'_>,
         known: Vec<Frame>,
-        cancel: &Cancel,
+        stop: &Stop,
     ) -> (Vec<Frame>, Report) {
         let good = &self.triangulation.good;
-        let how = How { threshold_cosine: self.threshold_cosine, cancel };
+        let how = How { threshold_cosine: self.threshold_cosine, stop };
         let mut raw = evaluate(good, &self.groups, &how, (&self.base, values), shape, known);
+        if stop.is_asked() {
+            return (raw.of_corner, Report::default());
+        }
         let copied = fill_degenerate(&self.triangulation, shape, &mut raw);
         let mut report = self.report(mesh);
         let mixed = mixed_faces(mesh, &raw.of_corner);

@@ -2,8 +2,9 @@
 
 use std::sync::OnceLock;
 
+use crate::cancel::Stop;
 use crate::math::cosine_of_degrees;
-use crate::{Cancel, Faces, Frame, Mesh};
+use crate::{Faces, Frame, Mesh};
 
 use super::fans::{Fans, PlannedFans};
 use super::local::UndecidedPart;
@@ -36,6 +37,7 @@ pub(crate) struct Decided {
 impl Planned {
     /// Runs on the base, and keeps what does not depend on where vertices are.
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions) -> (Self, Tangents) {
+        let stop = &Stop::heard();
         match options.method {
             Method::MikkTSpace => {}
             Method::AngleArea => {
@@ -50,15 +52,18 @@ impl Planned {
         let applies =
             matches!(mesh.faces(), Faces::Triangles) && cosine_of_degrees(options.threshold) == -1.0;
         if !applies || !fans.run(mesh, options.mode, width, &mut base.corners.0) {
-            let topology = Topology::new(mesh, options);
-            let (frames, report) = topology.frames(mesh, &Cancel::new());
+            let Some(topology) = Topology::new(mesh, options, stop) else { return (Self::Nothing, base) };
+            let (frames, report) = topology.frames(mesh, stop);
             write(&frames, &mut base.corners.0);
             return (Self::Stages(Box::new(topology)), Tangents { report, ..base });
+        }
+        if stop.is_asked() {
+            return (Self::Nothing, base);
         }
         let undecided = UndecidedPart::new(mesh, options, &fans, &base.corners.0);
         let fans = PlannedFans::new(mesh, fans, &base.corners.0);
         if let Some(part) = &undecided {
-            base.report = part.decide(mesh, &Cancel::new(), &mut base.corners.0);
+            base.report = part.decide(mesh, stop, &mut base.corners.0);
         }
         base.report.triangles = mesh.face_count();
         let mesh = MeshCopy::new(mesh);
@@ -73,18 +78,15 @@ impl Planned {
         scratch: &mut Scratch,
         out: &mut [[f32; 4]],
     ) {
-        let (options, signs) = base;
+        let ((options, signs), stop) = (base, &Stop::heard());
         match self {
-            Self::Fans(decided) => return decided.evaluate(mesh, base, scratch, out),
-            Self::Stages(topology) => {
-                write(&topology.frames_of_moved(mesh, unknown(mesh), &scratch.cancel).0, out)
-            }
+            Self::Fans(decided) => return decided.evaluate(mesh, base, stop, scratch, out),
+            Self::Stages(topology) => write(&topology.frames_of_moved(mesh, unknown(mesh), stop).0, out),
             Self::Groups(topology) => {
                 topology.frames_of_moved(mesh, options.mode, &mut scratch.sums.of_groups, out);
             }
             Self::Nothing => {
-                let cancel = scratch.cancel.clone();
-                run(mesh, options, &cancel, scratch, out);
+                run(mesh, options, stop, scratch, out);
             }
         }
         take_signs(signs, out);
@@ -96,19 +98,30 @@ impl Decided {
         &self,
         mesh: &Mesh<'_>,
         (options, base): (&TangentOptions, &[[f32; 4]]),
+        stop: &Stop,
         scratch: &mut Scratch,
         out: &mut [[f32; 4]],
     ) {
         let width = Width::widest(scratch.width_limit);
         if scratch.fans.run_planned(&self.fans, mesh, width, out) {
             if let Some(part) = &self.undecided {
-                part.decide_moved(mesh, base, &scratch.cancel, out);
+                part.decide_moved(mesh, base, stop, out);
             }
             return;
         }
-        let stages = self.stages.get_or_init(|| Topology::new(&self.mesh.view(), options));
-        write(&stages.frames_of_moved(mesh, unknown(mesh), &scratch.cancel).0, out);
+        let Some(stages) = self.stages(options, stop) else { return };
+        write(&stages.frames_of_moved(mesh, unknown(mesh), stop).0, out);
         take_signs(base, out);
+    }
+
+    /// The stages of the mesh that was planned, which are made when they are first asked for; nothing once it shall stop.
+    fn stages(&self, options: &TangentOptions, stop: &Stop) -> Option<&Topology> {
+        if self.stages.get().is_none() {
+            let made = Topology::new(&self.mesh.view(), options, stop)?;
+            // Another thread may have been quicker, with the same.
+            _ = self.stages.set(made);
+        }
+        self.stages.get()
     }
 }
 

@@ -3,9 +3,10 @@
 
 use std::collections::HashMap;
 
+use crate::cancel::Stop;
 use crate::math::cosine_of_degrees;
 use crate::topology::neighbours;
-use crate::{Cancel, CornerFrames, Frames, Mesh, TangentOptions};
+use crate::{CornerFrames, Frames, Mesh, TangentOptions};
 
 use super::degenerate::copies;
 use super::mikktspace::{Topology, agreed_derivatives, edge_order};
@@ -55,7 +56,7 @@ pub struct Sums {
 impl Stages {
     /// Runs every stage in its general form. `None` where the members of all sums would be more than `limit`.
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, limit: usize) -> Option<Self> {
-        let topology = Topology::new(mesh, options);
+        let topology = Topology::new(mesh, options, &Stop::heard())?;
         let good = &topology.triangulation.good;
         let threshold_cosine = cosine_of_degrees(options.threshold);
         Some(Self {
@@ -73,7 +74,9 @@ impl Stages {
 
 /// As [`crate::generate_frames`], by all stages in their general form.
 pub fn frames(mesh: &Mesh<'_>, options: &TangentOptions) -> Frames {
-    let (corners, report) = Topology::new(mesh, options).frames(mesh, &Cancel::new());
+    let stop = &Stop::heard();
+    let Some(topology) = Topology::new(mesh, options, stop) else { return Frames::default() };
+    let (corners, report) = topology.frames(mesh, stop);
     Frames { corners: CornerFrames(corners), report }
 }
 

@@ -4,6 +4,9 @@
 use std::cell::Cell;
 use std::ops::Range;
 
+#[cfg(feature = "parallel")]
+use crate::cancel::Heard;
+
 /// Meshes of fewer triangles are not worth waking another thread.
 const LEAST_PER_THREAD: usize = if cfg!(small_limits) { 1 } else { 1 << 13 };
 
@@ -68,6 +71,7 @@ pub(super) fn run<W: Send, P: Send>(
 ) {
     #[cfg(feature = "parallel")]
     if workers.len() > 1 {
+        let _until_the_end = Heard::nothing();
         rayon::in_place_scope(|scope| {
             for (worker, part) in workers.iter_mut().zip(parts) {
                 let job = &job;
