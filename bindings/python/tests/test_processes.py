@@ -160,16 +160,23 @@ def fan(triangles: int) -> Mesh:
     return Mesh(positions, normals, uvs, np.stack([np.zeros_like(first), first, first + 1], -1))
 
 
-def interrupt_what_would_take_minutes() -> None:
+SLOW: Dict[str, Callable[[Mesh], object]] = {
+    "tangents": lambda mesh: darboux.generate_tangents(*mesh.arrays, threshold=1),
+    "frames": lambda mesh: darboux.generate_tangents(*mesh.arrays, threshold=1, full=True),
+    "Plan": lambda mesh: darboux.Plan(*mesh.arrays, threshold=1),
+}
+
+
+def interrupt_what_would_take_minutes(name: str) -> None:
     mesh = fan(400_000)
 
     def compute() -> None:
-        darboux.generate_tangents(*mesh.arrays, threshold=1)
+        SLOW[name](mesh)
 
     main = threading.main_thread().ident or 0
 
     def interrupt() -> None:
-        while sys._current_frames()[main].f_code is not compute.__code__:
+        while sys._current_frames()[main].f_code is not SLOW[name].__code__:
             time.sleep(0.01)
         signal.pthread_kill(main, signal.SIGINT)
 
@@ -181,9 +188,10 @@ def interrupt_what_would_take_minutes() -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
-def test_ctrl_c_stops_what_would_take_minutes() -> None:
+@pytest.mark.parametrize("name", SLOW)
+def test_ctrl_c_stops_what_would_take_minutes(name: str) -> None:
     """In a process of its own, which is ended where Ctrl-C does not."""
-    program = "import test_processes; test_processes.interrupt_what_would_take_minutes()"
+    program = f"import test_processes; test_processes.interrupt_what_would_take_minutes({name!r})"
     subprocess.run([sys.executable, "-c", program], cwd=Path(__file__).parent, check=True, timeout=60)
 
 

@@ -172,7 +172,7 @@ fn run(
         return method::run(mesh, options, stop, &mut scratch.sums, out);
     }
     let width = Width::widest(scratch.width_limit);
-    if has_whole_fans(options) && scratch.fans.run(mesh, options.mode, width, out) {
+    if has_whole_fans(options) && scratch.fans.run(mesh, options.mode, width, stop, out) {
         if stop.is_asked() {
             Report::default()
         } else {

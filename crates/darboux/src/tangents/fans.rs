@@ -28,6 +28,7 @@ mod workers;
 use std::ops::Range;
 
 use crate::Mesh;
+use crate::cancel::Stop;
 use crate::weld::Bounds;
 
 use super::Mode;
@@ -72,10 +73,18 @@ pub(crate) struct Fans {
 impl Fans {
     /// Writes the tangents of all faces, and lists those with undecided vertices. False where this path does not apply: faces of
     /// other than 3 or 4 corners, values whose weld only the reference's order decides.
-    pub fn run(&mut self, mesh: &Mesh<'_>, mode: Mode, width: Width, out: &mut [[f32; 4]]) -> bool {
+    /// Anything once it shall stop.
+    pub fn run(
+        &mut self,
+        mesh: &Mesh<'_>,
+        mode: Mode,
+        width: Width,
+        stop: &Stop,
+        out: &mut [[f32; 4]],
+    ) -> bool {
         let threads = threads::count(triangle_count(mesh));
         self.workers.resize_with(threads, Worker::default);
-        threads::on_pool(threads, || self.run_on(mesh, mode, width, out)).is_ok()
+        threads::on_pool(threads, || self.run_on(mesh, mode, width, stop, out)).is_ok()
     }
 
     fn run_on(
@@ -83,15 +92,19 @@ impl Fans {
         mesh: &Mesh<'_>,
         mode: Mode,
         width: Width,
+        stop: &Stop,
         out: &mut [[f32; 4]],
     ) -> Result<(), Refused> {
         self.cut.cut(mesh, width, &mut self.workers)?;
         self.weld.weld(mesh, width, &mut self.workers)?;
+        if stop.is_asked() {
+            return Ok(());
+        }
         self.find_windows(mesh, width);
         let tail = TailCells::first(&self.source(mesh), &self.weld.bounds, self.is_shuffled());
-        self.add_and_write(mesh, &tail, width, out);
+        self.add_and_write(mesh, &tail, width, stop, out);
         self.last_stretches.clear();
-        if mode != Mode::Corrected {
+        if mode != Mode::Corrected && !stop.is_asked() {
             self.leave_last_edges(mesh, tail, out);
         }
         Ok(())
@@ -143,13 +156,20 @@ impl Fans {
     }
 
     /// Gives each thread its share of the windows, or, where shares would overlap too much, all threads all of them.
-    fn add_and_write(&mut self, mesh: &Mesh<'_>, tail: &TailCells, width: Width, out: &mut [[f32; 4]]) {
+    fn add_and_write(
+        &mut self,
+        mesh: &Mesh<'_>,
+        tail: &TailCells,
+        width: Width,
+        stop: &Stop,
+        out: &mut [[f32; 4]],
+    ) {
         self.special.clear();
         self.shares.clear();
         self.shares.extend(shares(&self.windows, self.weld.count, self.workers.len()));
         let shares = &self.shares;
         let (source, windows) = (source(mesh, &self.weld, &self.cut), &self.windows[..]);
-        let stream = Stream { source, windows, tail, signs: None, width };
+        let stream = Stream { source, windows, tail, signs: None, width, stop };
         if overlap(shares, &self.windows) {
             shuffled::run(&stream, self.weld.count, &mut self.workers, &mut self.terms, out);
         } else {

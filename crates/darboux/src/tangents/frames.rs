@@ -184,7 +184,7 @@ fn run_fans(mesh: &Mesh<'_>, options: &TangentOptions, stop: &Stop, scratch: &mu
     frames.clear();
     tangents.resize(mesh.corner_count(), [0.0; 4]);
     threads::on_pool(threads::count(mesh.face_count()), || {
-        fans.run(mesh, options.mode, width, tangents).then(|| fans.add_frames(mesh, width))
+        fans.run(mesh, options.mode, width, stop, tangents).then(|| fans.add_frames(mesh, width, stop))
     })?;
     decided.clear();
     if stop.is_asked() {

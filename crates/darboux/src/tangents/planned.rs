@@ -51,7 +51,7 @@ impl Planned {
         let (mut fans, width) = (Fans::default(), Width::widest(Default::default()));
         let applies =
             matches!(mesh.faces(), Faces::Triangles) && cosine_of_degrees(options.threshold) == -1.0;
-        if !applies || !fans.run(mesh, options.mode, width, &mut base.corners.0) {
+        if !applies || !fans.run(mesh, options.mode, width, stop, &mut base.corners.0) {
             let Some(topology) = Topology::new(mesh, options, stop) else { return (Self::Nothing, base) };
             let (frames, report) = topology.frames(mesh, stop);
             write(&frames, &mut base.corners.0);
@@ -103,7 +103,7 @@ impl Decided {
         out: &mut [[f32; 4]],
     ) {
         let width = Width::widest(scratch.width_limit);
-        if scratch.fans.run_planned(&self.fans, mesh, width, out) {
+        if scratch.fans.run_planned(&self.fans, mesh, width, stop, out) {
             if let Some(part) = &self.undecided {
                 part.decide_moved(mesh, base, stop, out);
             }

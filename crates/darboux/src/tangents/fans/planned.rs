@@ -1,6 +1,7 @@
 //! A run whose vertices are welded and decided beforehand: sums alone are left.
 
 use crate::Mesh;
+use crate::cancel::Stop;
 
 use super::super::threads::{self, parts};
 use super::super::width::Width;
@@ -56,6 +57,7 @@ impl Fans {
         plan: &PlannedFans,
         mesh: &Mesh<'_>,
         width: Width,
+        stop: &Stop,
         out: &mut [[f32; 4]],
     ) -> bool {
         if !plan.holds(mesh) {
@@ -63,13 +65,21 @@ impl Fans {
         }
         let threads = threads::count(triangle_count(mesh));
         self.workers.resize_with(threads, Worker::default);
-        threads::on_pool(threads, || self.run_planned_on(plan, mesh, width, out));
+        threads::on_pool(threads, || self.run_planned_on(plan, mesh, width, stop, out));
         self.workers[..self.shares.len()].iter().all(|worker| worker.all_usable)
     }
 
-    fn run_planned_on(&mut self, plan: &PlannedFans, mesh: &Mesh<'_>, width: Width, out: &mut [[f32; 4]]) {
+    fn run_planned_on(
+        &mut self,
+        plan: &PlannedFans,
+        mesh: &Mesh<'_>,
+        width: Width,
+        stop: &Stop,
+        out: &mut [[f32; 4]],
+    ) {
         let (windows, source) = (&plan.windows[..], source(mesh, &plan.weld, &plan.cut));
-        let stream = Stream { source, windows, tail: &TailCells::none(), signs: Some(&plan.signs), width };
+        let stream =
+            Stream { source, windows, tail: &TailCells::none(), signs: Some(&plan.signs), width, stop };
         self.shares.clear();
         self.shares.extend(shares(windows, plan.weld.count, self.workers.len()));
         if overlap(&self.shares, windows) {

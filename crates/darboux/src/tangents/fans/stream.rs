@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use crate::cancel::Stop;
+
 use super::super::width::Width;
 use super::super::windows::{Share, WINDOW, Window};
 use super::cut::mark_doubtful;
@@ -20,6 +22,7 @@ pub(super) struct Stream<'a> {
     /// Where they are known: the signs of the vertices, of which those that are decided are so.
     pub signs: Option<&'a [f32]>,
     pub width: Width,
+    pub stop: &'a Stop,
 }
 
 impl Stream<'_> {
@@ -32,6 +35,9 @@ impl Stream<'_> {
         let (mut finished, mut written) = (share.vertices.start.max(worker.first), first_window);
         worker.unused.unseen = finished - share.vertices.start;
         for at in first_window..share.until {
+            if self.stop.is_asked() {
+                break;
+            }
             self.read(worker, self.windows[at].end as usize);
             self.add(worker, at);
             let unfinished = match self.windows.get(at + 1) {

@@ -4,6 +4,7 @@
 
 use std::ops::Range;
 
+use crate::cancel::Stop;
 use crate::math::normalized_unless_zero;
 use crate::{Frame, Mesh};
 
@@ -25,7 +26,10 @@ pub(super) struct Sums {
 
 impl Fans {
     /// Adds up the bitangents and magnitudes of all vertices of the mesh that this has just run on.
-    pub fn add_frames(&mut self, mesh: &Mesh<'_>, width: Width) {
+    pub fn add_frames(&mut self, mesh: &Mesh<'_>, width: Width, stop: &Stop) {
+        if stop.is_asked() {
+            return;
+        }
         self.sums.clear();
         self.sums.resize(self.weld.count, Sums::default());
         let all =
@@ -37,7 +41,7 @@ impl Fans {
         let jobs = shares.iter().zip(parts(&mut self.sums, 0, vertices));
         let source = source(mesh, &self.weld, &self.cut);
         threads::run(&mut self.workers, jobs, |worker, (share, sums)| {
-            add_share(&source, share, width, worker, sums);
+            add_share(&source, share, (width, stop), worker, sums);
         });
     }
 
@@ -56,9 +60,15 @@ impl Fans {
 }
 
 /// Adds the windows of a share to the vertices that are its own, and finishes these.
-fn add_share(source: &Source<'_>, share: &Share, width: Width, worker: &mut Worker, sums: &mut [Sums]) {
+fn add_share(
+    source: &Source<'_>,
+    share: &Share,
+    (width, stop): (Width, &Stop),
+    worker: &mut Worker,
+    sums: &mut [Sums],
+) {
     let Worker { block, vertices, triangles: buffer, first, .. } = worker;
-    for at in share.windows.start..share.until {
+    for at in (share.windows.start..share.until).take_while(|_| !stop.is_asked()) {
         let triangles = source.triangles(source.window(at), buffer);
         let (first, own) = (*first as u32, share.vertices.clone());
         width.run(AddFrames { triangles, first, block, vertices, own, sums });
