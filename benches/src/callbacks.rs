@@ -1,12 +1,14 @@
 //! A mesh behind the callbacks that the reference and its ports ask for.
 
-use darboux_tests::OwnedMesh;
+use darboux_tests::{FaceSizes, OwnedMesh};
 
 use crate::engines::Tangent;
 
-/// A triangle mesh to read and a list to write: one tangent per corner.
+/// A mesh of triangles or of quads to read and a list to write: one tangent per corner.
 pub struct Callbacks<'a> {
     mesh: &'a OwnedMesh,
+    /// Corners per face.
+    size: usize,
     tangents: &'a mut [Tangent],
 }
 
@@ -14,11 +16,12 @@ impl<'a> Callbacks<'a> {
     /// Makes `tangents` as long as the mesh has corners.
     pub fn new(mesh: &'a OwnedMesh, tangents: &'a mut Vec<Tangent>) -> Self {
         tangents.resize(mesh.corner_count(), [0.0; 4]);
-        Self { mesh, tangents }
+        let size = if mesh.faces == FaceSizes::Quads { 4 } else { 3 };
+        Self { mesh, size, tangents }
     }
 
     fn vertex(&self, face: usize, corner: usize) -> usize {
-        self.mesh.vertex_of_corner(3 * face + corner)
+        self.mesh.vertex_of_corner(self.size * face + corner)
     }
 }
 
@@ -26,11 +29,11 @@ impl<'a> Callbacks<'a> {
 macro_rules! read {
     ($faces:ident, $corners:ident, $position:ident, $normal:ident, $uv:ident) => {
         fn $faces(&self) -> usize {
-            self.tangents.len() / 3
+            self.tangents.len() / self.size
         }
 
         fn $corners(&self, _face: usize) -> usize {
-            3
+            self.size
         }
 
         fn $position(&self, face: usize, corner: usize) -> [f32; 3] {
@@ -51,7 +54,7 @@ impl mikktspace_sys::MikkTSpaceInterface for Callbacks<'_> {
     read!(get_num_faces, get_num_vertices_of_face, get_position, get_normal, get_tex_coord);
 
     fn set_tspace_basic(&mut self, [x, y, z]: [f32; 3], sign: f32, face: usize, corner: usize) {
-        self.tangents[3 * face + corner] = [x, y, z, sign];
+        self.tangents[self.size * face + corner] = [x, y, z, sign];
     }
 }
 
@@ -59,7 +62,7 @@ impl mikktspace::Geometry for Callbacks<'_> {
     read!(num_faces, num_vertices_of_face, position, normal, tex_coord);
 
     fn set_tangent_encoded(&mut self, tangent: Tangent, face: usize, corner: usize) {
-        self.tangents[3 * face + corner] = tangent;
+        self.tangents[self.size * face + corner] = tangent;
     }
 }
 
@@ -67,6 +70,6 @@ impl bevy_mikktspace::Geometry for Callbacks<'_> {
     read!(num_faces, num_vertices_of_face, position, normal, tex_coord);
 
     fn set_tangent(&mut self, space: Option<bevy_mikktspace::TangentSpace>, face: usize, corner: usize) {
-        self.tangents[3 * face + corner] = space.unwrap_or_default().tangent_encoded();
+        self.tangents[self.size * face + corner] = space.unwrap_or_default().tangent_encoded();
     }
 }

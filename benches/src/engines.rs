@@ -8,7 +8,7 @@ use cpu_time::ProcessTime;
 use darboux::{
     Mode, Scratch, TangentOptions, Tangents, WidthLimit, generate_tangents, generate_tangents_into,
 };
-use darboux_tests::OwnedMesh;
+use darboux_tests::{FaceSizes, OwnedMesh};
 
 use crate::callbacks::Callbacks;
 use crate::lengyel::lengyel;
@@ -38,6 +38,8 @@ pub struct Engine {
     pub threads: usize,
     /// What it computes.
     pub method: Method,
+    /// Whether it takes quads as they are.
+    quads: bool,
     start: Start,
 }
 
@@ -93,13 +95,13 @@ pub fn all() -> Vec<Engine> {
         native("bevy_mikktspace", "1.0.0", MikkTSpace, |mesh| {
             per_corner(mesh, |out| _ = bevy_mikktspace::generate_tangents(&mut Callbacks::new(mesh, out)))
         }),
-        native(MESHOPT, "0.7.0", MikkTSpace, |mesh| {
+        triangles_only(native(MESHOPT, "0.7.0", MikkTSpace, |mesh| {
             per_corner(mesh, |out| *out = meshopt(mesh, meshopt::TangentOptions::None))
-        }),
-        native("meshopt-compatible", "0.7.0", MikkTSpace, |mesh| {
+        })),
+        triangles_only(native("meshopt-compatible", "0.7.0", MikkTSpace, |mesh| {
             per_corner(mesh, |out| *out = meshopt(mesh, meshopt::TangentOptions::Compatible))
-        }),
-        native("lengyel-loop", "", Other, |mesh| per_vertex(mesh, |out| lengyel(mesh, out))),
+        })),
+        triangles_only(native("lengyel-loop", "", Other, |mesh| per_vertex(mesh, |out| lengyel(mesh, out)))),
         native("memcpy", "", Copy, |mesh| {
             let (mut input, mut from) = (mesh.clone(), Vec::new());
             per_corner(mesh, move |out| copy(mesh, &mut input, &mut from, out))
@@ -173,6 +175,11 @@ impl Engine {
         }
     }
 
+    /// True where the engine can be started on a mesh with these faces.
+    pub fn takes(&self, mesh: &OwnedMesh) -> bool {
+        self.quads || mesh.faces == FaceSizes::Triangles
+    }
+
     /// True where the engine runs in this process, so that its memory and instructions can be counted.
     pub fn is_native(&self) -> bool {
         matches!(self.start, Start::Native(_))
@@ -185,11 +192,15 @@ fn native(
     method: Method,
     start: for<'a> fn(&'a OwnedMesh) -> Box<dyn Run + 'a>,
 ) -> Engine {
-    Engine { name, version, threads: 1, method, start: Start::Native(start) }
+    Engine { name, version, threads: 1, method, quads: true, start: Start::Native(start) }
+}
+
+fn triangles_only(engine: Engine) -> Engine {
+    Engine { quads: false, ..engine }
 }
 
 fn in_node(name: &'static str, version: &'static str, method: Method) -> Engine {
-    Engine { name, version, threads: 1, method, start: Start::Node }
+    Engine { name, version, threads: 1, method, quads: false, start: Start::Node }
 }
 
 /// A call that fills an output, which is kept between calls.

@@ -28,7 +28,7 @@ pub fn count(engines: &[Engine]) -> Result<Vec<Counts>, String> {
 /// The difference of three calls and one, so that neither making the mesh nor the first call's set-up counts.
 fn per_triangle(engine: &str, mesh: &str) -> Option<f64> {
     eprintln!("counting {engine} on {mesh}");
-    let triangles = meshes::make(mesh, Size::Quick)?.mesh.corner_count() / 3;
+    let triangles = meshes::make(mesh, Size::Quick)?.triangles();
     Some((collected(engine, mesh, 3)? - collected(engine, mesh, 1)?) / (2 * triangles) as f64)
 }
 

@@ -116,7 +116,7 @@ fn time(arguments: &Arguments, mut engines: Vec<Engine>, meshes: &[Named]) -> Re
     engines.retain(|engine| engine.is_native() || arguments.node.is_some());
     let mut rows = Vec::new();
     for mesh in meshes {
-        eprintln!("{}: {} triangles", mesh.name, mesh.mesh.corner_count() / 3);
+        eprintln!("{}: {} triangles", mesh.name, mesh.triangles());
         let count = if arguments.quick { 3 } else { 7 };
         let mut measured = rounds::measure(mesh, &engines, count, arguments.node.as_deref());
         rounds::add_memory(&mut measured, &engines, arguments.quick, &arguments.models);

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::f32::consts::{PI, TAU};
 use std::path::Path;
 
-use darboux_tests::{Dice, OwnedMesh, families, models};
+use darboux_tests::{Dice, FaceSizes, OwnedMesh, families, models};
 
 /// How large the made meshes are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,8 +20,15 @@ pub enum Size {
 pub struct Named {
     /// Its name.
     pub name: String,
-    /// A triangle mesh.
+    /// A mesh of triangles or of quads.
     pub mesh: OwnedMesh,
+}
+
+impl Named {
+    /// The number of triangles; a quad is two.
+    pub fn triangles(&self) -> usize {
+        self.mesh.corner_count() - 2 * self.mesh.face_sizes().len()
+    }
 }
 
 type Maker = fn(Size) -> OwnedMesh;
@@ -29,6 +36,7 @@ type Maker = fn(Size) -> OwnedMesh;
 /// The made meshes, in the table's order. The last three take the reference time quadratic in their size.
 const MAKERS: &[(&str, Maker)] = &[
     ("grid", |size| grid(size.side(1000), size.side(500))),
+    ("quads", |size| quads(grid(size.side(1000), size.side(500)))),
     ("sphere", |size| sphere(size.side(500), size.side(1000))),
     ("soup", |size| grid(size.side(1000), size.side(500)).unindexed()),
     ("charts", |size| charts(size.count(20_000))),
@@ -113,6 +121,13 @@ fn grid(width: usize, height: usize) -> OwnedMesh {
         }
     }
     OwnedMesh { indices: Some(cells(width, height)), ..mesh }
+}
+
+/// The quads that a mesh's triangles are halves of, cut from the first corner to the third.
+fn quads(mesh: OwnedMesh) -> OwnedMesh {
+    let halves: &[[u32; 6]] = mesh.indices.as_deref().map_or(&[], |list| list.as_chunks().0);
+    let corners = halves.iter().flat_map(|&[a, b, c, _, _, d]| [a, b, c, d]).collect();
+    OwnedMesh { indices: Some(corners), faces: FaceSizes::Quads, ..mesh }
 }
 
 /// A point of the height field over the unit square, and its UV a slight warp of the square.
@@ -203,12 +218,12 @@ mod tests {
     use super::*;
 
     fn triangles(name: &str, size: Size) -> usize {
-        make(name, size).expect("a mesh of this name").mesh.corner_count() / 3
+        make(name, size).expect("a mesh of this name").triangles()
     }
 
     #[test]
     fn sizes_are_as_named() {
-        for name in ["grid", "sphere", "soup", "charts"] {
+        for name in ["grid", "quads", "sphere", "soup", "charts"] {
             assert_eq!(triangles(name, Size::Full), 1_000_000, "{name}");
             assert!((48_000..=50_000).contains(&triangles(name, Size::Quick)), "{name}");
         }

@@ -33,7 +33,7 @@ impl Row {
     fn new(engine: &Engine, named: &Named) -> Self {
         Self {
             mesh: named.name.clone(),
-            triangles: named.mesh.corner_count() / 3,
+            triangles: named.triangles(),
             engine: engine.name,
             version: engine.version,
             threads: engine.threads,
@@ -70,12 +70,13 @@ struct Runner<'a> {
     rounds: Vec<Time>,
 }
 
-/// Measures each engine on a mesh in at most `rounds` rounds. An engine that fails, or is not what it claims, gets a row that says so.
+/// Measures each engine that takes a mesh's faces in at most `rounds` rounds. An engine that fails, or is not what it claims, gets a row that says so.
 pub fn measure(named: &Named, engines: &[Engine], rounds: usize, node: Option<&Path>) -> Vec<Row> {
     let expected = expected(&named.mesh);
-    let mut rows: Vec<Row> = engines.iter().map(|engine| Row::new(engine, named)).collect();
+    let engines = engines.iter().filter(|engine| engine.takes(&named.mesh));
+    let mut rows: Vec<Row> = engines.clone().map(|engine| Row::new(engine, named)).collect();
     let mut runners = Vec::new();
-    for (engine, row) in engines.iter().zip(&mut rows) {
+    for (engine, row) in engines.zip(&mut rows) {
         let started = start(engine, &named.mesh, &expected, rounds, node);
         match started {
             Ok((runner, answer)) => {
