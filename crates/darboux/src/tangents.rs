@@ -35,6 +35,7 @@ mod signs;
 pub mod stages;
 mod subgroups;
 mod sums;
+mod terms;
 mod threads;
 mod width;
 mod windows;
@@ -167,11 +168,11 @@ fn run(
     scratch: &mut Scratch,
     out: &mut [[f32; 4]],
 ) -> Report {
+    let width = Width::widest(scratch.width_limit);
     // Asked before anything is called, so that a program whose method is constant carries no other.
     if options.method != Method::MikkTSpace {
-        return method::run(mesh, options, stop, &mut scratch.sums, out);
+        return method::run(mesh, options, stop, width, &mut scratch.sums, out);
     }
-    let width = Width::widest(scratch.width_limit);
     if has_whole_fans(options) && scratch.fans.run(mesh, options.mode, width, stop, out) {
         if stop.is_asked() {
             Report::default()

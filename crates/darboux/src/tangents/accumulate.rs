@@ -5,10 +5,12 @@ use std::ops::Range;
 
 use crate::math::V3;
 
-use super::flat::Flat;
+use super::flat::{Flat, Slices};
 use super::group_sums::GroupMemory;
 use super::sums::{Derivatives, Orientation, Sum, Weighting, is_degenerate, term};
+use super::terms::{BLOCK, Block};
 use super::threads::{self, parts, split};
+use super::width::Width;
 use super::windows::{WINDOW, Window, look_around, overlap, shares, triangles_of, windows_of};
 
 /// The sums of all vertices and what was met on the way.
@@ -157,49 +159,73 @@ impl<'a> Count<'a> {
         Self { first, orientations, flaws: Flaws::default() }
     }
 
+    /// Notes the orientations of consecutive triangles, of which any may be another's to count.
     #[inline(always)]
-    fn note(&mut self, triangle: usize, orientation: Orientation) {
-        if let Some(slot) = self.orientations.get_mut(triangle.wrapping_sub(self.first)) {
-            *slot = orientation;
+    fn note(&mut self, slices: &Slices<'_>, first: usize, orientations: &[Orientation]) {
+        let start = first.max(self.first);
+        let end = (first + orientations.len()).min(self.first + self.orientations.len());
+        if start >= end {
+            return;
+        }
+        let own = &orientations[start - first..end - first];
+        self.orientations[start - self.first..end - self.first].copy_from_slice(own);
+        if found(own) & 1 << Orientation::None as u8 != 0 {
+            self.note_flaws(slices, start, own);
         }
     }
 
     #[cold]
-    fn note_flawed(&mut self, triangle: usize, positions: [&V3; 3]) {
-        if let Some(slot) = self.orientations.get_mut(triangle.wrapping_sub(self.first)) {
-            *slot = Orientation::None;
-            self.flaws.count(positions);
+    fn note_flaws(&mut self, slices: &Slices<'_>, first: usize, orientations: &[Orientation]) {
+        for (t, _) in (first..).zip(orientations).filter(|(_, found)| **found == Orientation::None) {
+            self.flaws.count(slices.refer(slices.triangles[t]).0);
         }
     }
 }
 
-/// Calls `add` with every triangle of a range that has a direction: its number, its vertices, what it adds, and the side it adds to.
+/// One bit for each orientation that is found: a loop that runs many lanes at a time.
+#[inline(always)]
+fn found(orientations: &[Orientation]) -> u8 {
+    orientations.iter().fold(0, |found, &orientation| found | 1 << orientation as u8)
+}
+
+/// Calls `add` with every block of a range: the number of its first triangle, the triangles, what they add, and their orientations.
 ///
 /// `agreed`: where faces are not all triangles, the orientations of the faces.
 #[inline(always)]
-fn for_each_term<const N: usize, W: Weighting<N>>(
+fn for_each_block<const N: usize, W: Weighting<N>>(
     flat: &Flat<'_>,
     agreed: Option<&[Orientation]>,
+    width: Width,
     range: Range<usize>,
     count: &mut Count<'_>,
-    mut add: impl FnMut(usize, [u32; 3], &Sum<N>, usize),
+    mut add: impl FnMut(usize, &[[u32; 3]], &[Sum<N>], &[Orientation]),
 ) {
     let slices = flat.slices();
-    for (t, &triangle) in range.clone().zip(&slices.triangles[range]) {
-        let (positions, uvs) = slices.refer(triangle);
-        let derivatives = Derivatives::new(positions, uvs);
-        let Some(term) = term::<N, W>(&derivatives) else {
-            count.note_flawed(t, positions);
-            continue;
-        };
-        let orientation = agreed.map_or(Orientation::of(derivatives.area), |agreed| agreed[flat.face(t)]);
-        count.note(t, orientation);
-        add(t, triangle, &term, if W::SPLITS { orientation as usize } else { 0 });
+    let mut block = Block::<N>::new();
+    for first in range.clone().step_by(BLOCK) {
+        let triangles = &slices.triangles[first..range.end.min(first + BLOCK)];
+        block.set(&slices, triangles);
+        block.evaluate::<W>(width);
+        let orientations = &mut block.orientations[..triangles.len()];
+        if let Some(agreed) = agreed {
+            agree(orientations, |i| agreed[flat.face(first + i)]);
+        }
+        count.note(&slices, first, orientations);
+        add(first, triangles, &block.terms[..triangles.len()], orientations);
+    }
+}
+
+/// Gives triangles that add something the orientations of their faces.
+fn agree(orientations: &mut [Orientation], of_face: impl Fn(usize) -> Orientation) {
+    for (i, orientation) in orientations.iter_mut().enumerate() {
+        if *orientation != Orientation::None {
+            *orientation = of_face(i);
+        }
     }
 }
 
 /// Adds what all triangles add.
-pub(super) fn accumulate<const N: usize, W: Weighting<N>>(flat: &Flat<'_>, sums: &mut Sums<N>) {
+pub(super) fn accumulate<const N: usize, W: Weighting<N>>(flat: &Flat<'_>, width: Width, sums: &mut Sums<N>) {
     let agreed = (!flat.is_triangles()).then(|| agreed_orientations::<N, W>(flat));
     let agreed_slice = agreed.as_deref();
     let list = parts_of(flat);
@@ -211,7 +237,7 @@ pub(super) fn accumulate<const N: usize, W: Weighting<N>>(flat: &Flat<'_>, sums:
     let jobs = list.iter().zip(keeps).zip(orientations);
     threads::run(&mut found, jobs, |(mirrors, flaws), ((part, keeps), orientations)| {
         let mut count = Count::new(part.own.start, orientations);
-        add_part::<N, W>(flat, agreed_slice, part, keeps, mirrors, &mut count);
+        add_part::<N, W>(flat, agreed_slice, width, part, keeps, mirrors, &mut count);
         *flaws = count.flaws;
     });
     found.iter().for_each(|(_, found)| flaws.add(*found));
@@ -225,6 +251,7 @@ pub(super) fn accumulate<const N: usize, W: Weighting<N>>(flat: &Flat<'_>, sums:
 fn add_part<const N: usize, W: Weighting<N>>(
     flat: &Flat<'_>,
     agreed: Option<&[Orientation]>,
+    width: Width,
     part: &Part,
     keeps: &mut [Sum<N>],
     mirrors: &mut Vec<Sum<N>>,
@@ -232,17 +259,43 @@ fn add_part<const N: usize, W: Weighting<N>>(
 ) {
     keeps.fill([[0.0; 4]; N]);
     let first = part.vertices.start as u32;
-    for_each_term::<N, W>(flat, agreed, part.adds.clone(), count, |_, triangle, term, side| {
-        if side == 1 && mirrors.is_empty() {
-            mirrors.resize(keeps.len(), [[0.0; 4]; N]);
-        }
-        let sums = if side == 0 { &mut *keeps } else { &mut **mirrors };
-        for vertex in triangle {
-            if let Some(sum) = sums.get_mut(vertex.wrapping_sub(first) as usize) {
-                accumulate_into(sum, term);
+    for_each_block::<N, W>(
+        flat,
+        agreed,
+        width,
+        part.adds.clone(),
+        count,
+        |_, triangles, terms, orientations| {
+            let found = found(orientations);
+            let is_one_side = found == 1 || !W::SPLITS && found < 4;
+            if is_one_side {
+                for (triangle, term) in triangles.iter().zip(terms) {
+                    scatter(keeps, first, *triangle, term);
+                }
+                return;
             }
+            if W::SPLITS && found & 2 != 0 && mirrors.is_empty() {
+                mirrors.resize(keeps.len(), [[0.0; 4]; N]);
+            }
+            for ((triangle, term), orientation) in triangles.iter().zip(terms).zip(orientations) {
+                match orientation {
+                    Orientation::None => {}
+                    Orientation::Mirrors if W::SPLITS => scatter(mirrors, first, *triangle, term),
+                    _ => scatter(keeps, first, *triangle, term),
+                }
+            }
+        },
+    );
+}
+
+/// Adds a term to the vertices of a triangle, of which the first sum's is `first`, and others may be other threads'.
+#[inline(always)]
+fn scatter<const N: usize>(sums: &mut [Sum<N>], first: u32, triangle: [u32; 3], term: &Sum<N>) {
+    for vertex in triangle {
+        if let Some(sum) = sums.get_mut(vertex.wrapping_sub(first) as usize) {
+            accumulate_into(sum, term);
         }
-    });
+    }
 }
 
 #[inline(always)]
@@ -272,6 +325,7 @@ fn joined<const N: usize>(
 /// What the triangles add and the sides that they add it to, in their order, and whether any adds to each side. Also counts the triangles.
 pub(super) fn terms<const N: usize, W: Weighting<N>>(
     flat: &Flat<'_>,
+    width: Width,
     sums: &mut Sums<N>,
 ) -> (Vec<(Sum<N>, u8)>, [bool; 2]) {
     let agreed = (!flat.is_triangles()).then(|| agreed_orientations::<N, W>(flat));
@@ -282,16 +336,31 @@ pub(super) fn terms<const N: usize, W: Weighting<N>>(
     let ranges = split(0..count, threads, WINDOW);
     let orientations = parts(&mut sums.orientation_of_face, 0, ranges.clone());
     let jobs = ranges.clone().zip(parts(&mut terms, 0, ranges)).zip(orientations);
-    let mut found = vec![(Flaws::default(), [false; 2]); threads];
-    threads::run(&mut found, jobs, |(flaws, used), ((range, terms), orientations)| {
-        let first = range.start;
-        let mut count = Count::new(first, orientations);
-        for_each_term::<N, W>(flat, agreed_slice, range, &mut count, |t, _, term, side| {
-            terms[t - first] = (*term, side as u8);
-            used[side] = true;
-        });
+    let mut all_found = vec![(Flaws::default(), [false; 2]); threads];
+    threads::run(&mut all_found, jobs, |(flaws, used), ((range, terms), orientations)| {
+        let start = range.start;
+        let mut count = Count::new(start, orientations);
+        for_each_block::<N, W>(
+            flat,
+            agreed_slice,
+            width,
+            range,
+            &mut count,
+            |first, _, of_block, orientations| {
+                let found = found(orientations);
+                *used = [used[0] | (found & 1 != 0), used[1] | (found & 2 != 0)];
+                for ((slot, term), orientation) in
+                    terms[first - start..].iter_mut().zip(of_block).zip(orientations)
+                {
+                    if *orientation != Orientation::None {
+                        *slot = (*term, *orientation as u8);
+                    }
+                }
+            },
+        );
         *flaws = count.flaws;
     });
+    let found = all_found;
     found.iter().for_each(|(found, _)| sums.flaws.add(*found));
     if let Some(agreed) = agreed {
         sums.orientation_of_face = agreed;

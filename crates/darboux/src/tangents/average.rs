@@ -6,6 +6,7 @@
 use super::accumulate::{Sums, gather, terms};
 use super::flat::Flat;
 use super::sums::{Derivatives, Sum, Weighting};
+use super::width::Width;
 
 /// Weight one for every triangle.
 pub(super) struct Average;
@@ -27,8 +28,8 @@ impl Weighting<3> for Average {
 }
 
 /// The sums of all vertices, gathered: what [`super::accumulate::accumulate`] would scatter.
-pub(super) fn average(flat: &Flat<'_>, sums: &mut Sums<3>) {
-    let (terms, used) = terms::<3, Average>(flat, sums);
+pub(super) fn average(flat: &Flat<'_>, width: Width, sums: &mut Sums<3>) {
+    let (terms, used) = terms::<3, Average>(flat, width, sums);
     let (triangle_of_entry, ends) = adjacency(flat);
     gather((&terms, used), (&triangle_of_entry, &ends), sums);
 }

@@ -57,7 +57,8 @@ pub fn lend_frames<'a>(
         let mut frames = std::mem::take(&mut scratch.frames.frames);
         frames.resize(mesh.corner_count(), Frame::NONE);
         scratch.frames.tangents.clear();
-        let report = method::run(mesh, options, &stop, &mut scratch.sums, &mut frames);
+        let width = Width::widest(scratch.width_limit);
+        let report = method::run(mesh, options, &stop, width, &mut scratch.sums, &mut frames);
         scratch.frames.frames = frames;
         report
     };
@@ -160,7 +161,8 @@ fn run(
     out: &mut [Frame],
 ) -> Report {
     let Some(report) = run_fans(mesh, options, stop, scratch) else {
-        return method::run(mesh, options, stop, &mut scratch.sums, out);
+        let width = Width::widest(scratch.width_limit);
+        return method::run(mesh, options, stop, width, &mut scratch.sums, out);
     };
     if stop.is_asked() {
         return report;

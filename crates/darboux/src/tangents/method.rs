@@ -10,6 +10,7 @@ use super::flat::Flat;
 use super::lengyel::{Lengyel, LengyelPerVertex};
 use super::sides::{Output, fill, finish};
 use super::sums::Weighting;
+use super::width::Width;
 use super::{Report, TangentOptions, angle_area, face, from_normal, mikktspace, threads};
 
 /// How tangents are computed. Normal maps need the method that they were baked with, nearly always the default.
@@ -46,6 +47,7 @@ pub(super) fn run<O: Output>(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
     stop: &Stop,
+    width: Width,
     memory: &mut Memory,
     corners: &mut [O],
 ) -> Report {
@@ -53,12 +55,18 @@ pub(super) fn run<O: Output>(
     match options.method {
         Method::MikkTSpace => mikktspace(mesh, options, stop, corners),
         Method::AngleArea => angle_area::run(mesh, mode, &mut memory.of_groups, corners),
-        Method::Lengyel => summed::<2, Lengyel, O>(mesh, mode, accumulate::<2, Lengyel>, memory, corners),
-        Method::LengyelPerVertex => {
-            summed::<2, LengyelPerVertex, O>(mesh, mode, accumulate::<2, LengyelPerVertex>, memory, corners)
+        Method::Lengyel => {
+            summed::<2, Lengyel, O>(mesh, (mode, width), accumulate::<2, Lengyel>, memory, corners)
         }
-        Method::Average => summed::<3, Average, O>(mesh, mode, average, memory, corners),
-        Method::Area => summed::<3, Area, O>(mesh, mode, accumulate::<3, Area>, memory, corners),
+        Method::LengyelPerVertex => summed::<2, LengyelPerVertex, O>(
+            mesh,
+            (mode, width),
+            accumulate::<2, LengyelPerVertex>,
+            memory,
+            corners,
+        ),
+        Method::Average => summed::<3, Average, O>(mesh, (mode, width), average, memory, corners),
+        Method::Area => summed::<3, Area, O>(mesh, (mode, width), accumulate::<3, Area>, memory, corners),
         Method::Face => face::run(mesh, mode, corners),
         Method::FromNormal => from_normal::run(mesh, mode, corners),
     }
@@ -80,8 +88,8 @@ pub(super) fn mikktspace<O: Output>(
 /// Sums as `add_up` does, and makes corners of the sums.
 fn summed<const N: usize, W: Weighting<N>, O: Output>(
     mesh: &Mesh<'_>,
-    mode: Mode,
-    add_up: fn(&Flat<'_>, &mut Sums<N>),
+    (mode, width): (Mode, Width),
+    add_up: fn(&Flat<'_>, Width, &mut Sums<N>),
     memory: &mut Memory,
     corners: &mut [O],
 ) -> Report
@@ -91,7 +99,7 @@ where
     let flat = Flat::new(mesh);
     let (mut sums, mut frames) = (Sums::new(&flat, memory), O::kept(memory));
     let report = threads::on_pool(threads::count(flat.triangles().len()), || {
-        add_up(&flat, &mut sums);
+        add_up(&flat, width, &mut sums);
         finish::<N, W, O>(mesh, &flat, &mut sums, mode, &mut frames, corners)
     });
     sums.keep(memory);

@@ -111,9 +111,9 @@ impl Orientation {
     }
 }
 
-/// What a triangle adds; none when it adds nothing.
+/// What a triangle adds, and whether it adds it. No branches.
 #[inline(always)]
-pub(super) fn term<const N: usize, W: Weighting<N>>(derivatives: &Derivatives) -> Option<Sum<N>> {
+pub(super) fn term_and_test<const N: usize, W: Weighting<N>>(derivatives: &Derivatives) -> (Sum<N>, bool) {
     let term = W::term(derivatives);
     // One test for all lanes: sizes do not cancel, so their sum is finite only where all are.
     let mut sizes = 0.0;
@@ -121,7 +121,13 @@ pub(super) fn term<const N: usize, W: Weighting<N>>(derivatives: &Derivatives) -
         sizes += size([a, b, c]) + d.abs();
     }
     let is_finite = sizes < f32::INFINITY;
-    let adds = derivatives.has_direction() & is_finite & (term[0][3] > 0.0);
+    (term, derivatives.has_direction() & is_finite & (term[0][3] > 0.0))
+}
+
+/// What a triangle adds; none when it adds nothing.
+#[inline(always)]
+pub(super) fn term<const N: usize, W: Weighting<N>>(derivatives: &Derivatives) -> Option<Sum<N>> {
+    let (term, adds) = term_and_test::<N, W>(derivatives);
     adds.then_some(term)
 }
 
