@@ -14,6 +14,7 @@ mod fans;
 mod flat;
 mod frames;
 mod from_normal;
+mod gather;
 mod group_sums;
 mod groups;
 mod lengyel;
@@ -37,6 +38,7 @@ mod subgroups;
 mod sums;
 mod terms;
 mod threads;
+mod vertex_block;
 mod width;
 mod windows;
 

@@ -6,12 +6,13 @@ use std::ops::Range;
 use crate::math::V3;
 
 use super::flat::{Flat, Slices};
+use super::gather::gather_all;
 use super::group_sums::GroupMemory;
 use super::sums::{Derivatives, Orientation, Sum, Weighting, is_degenerate, term};
 use super::terms::{BLOCK, Block};
-use super::threads::{self, parts, split};
+use super::threads::{self, parts};
 use super::width::Width;
-use super::windows::{WINDOW, Window, look_around, overlap, shares, triangles_of, windows_of};
+use super::windows::{Share, Window, look_around, overlap, shares, triangles_of, windows_of};
 
 /// The sums of all vertices and what was met on the way.
 pub(super) struct Sums<const N: usize> {
@@ -42,7 +43,7 @@ impl Flaws {
         }
     }
 
-    fn add(&mut self, other: Self) {
+    pub fn add(&mut self, other: Self) {
         self.degenerate += other.degenerate;
         self.uv_degenerate += other.uv_degenerate;
     }
@@ -109,28 +110,22 @@ struct Part {
     vertices: Range<usize>,
 }
 
-/// Gives each thread a part: consecutive triangles and the vertices that they meet first, or, where these lie all over the mesh, an
-/// equal part of the vertices and all triangles to add.
-fn parts_of(flat: &Flat<'_>) -> Vec<Part> {
+/// Gives each thread consecutive triangles and the vertices that they meet first; none where vertices lie all over the mesh.
+fn parts_of(flat: &Flat<'_>) -> Option<Vec<Part>> {
     let (triangles, vertices) = (flat.triangles(), flat.positions.len());
     let count = triangles.len();
     let threads = threads::count(count);
     if threads == 1 {
-        return vec![Part { own: 0..count, adds: 0..count, vertices: 0..vertices }];
+        return Some(vec![Part { own: 0..count, adds: 0..count, vertices: 0..vertices }]);
     }
     let windows = windows(triangles);
     let shares: Vec<_> = shares(&windows, vertices, threads).collect();
-    let own = |at: usize| triangles_of(shares[at].windows.clone(), count);
-    if overlap(&shares, &windows) {
-        let ranges = split(0..vertices, threads, 1).enumerate();
-        return ranges.map(|(at, vertices)| Part { own: own(at), adds: 0..count, vertices }).collect();
-    }
-    let part = |at: usize| Part {
-        own: own(at),
-        adds: triangles_of(shares[at].windows.start..shares[at].until, count),
-        vertices: shares[at].vertices.clone(),
+    let part = |share: &Share| Part {
+        own: triangles_of(share.windows.clone(), count),
+        adds: triangles_of(share.windows.start..share.until, count),
+        vertices: share.vertices.clone(),
     };
-    (0..threads).map(part).collect()
+    (!overlap(&shares, &windows)).then(|| shares.iter().map(part).collect())
 }
 
 fn windows(triangles: &[[u32; 3]]) -> Vec<Window> {
@@ -148,14 +143,14 @@ fn windows(triangles: &[[u32; 3]]) -> Vec<Window> {
 }
 
 /// What a thread finds out about the triangles that it counts.
-struct Count<'a> {
+pub(super) struct Count<'a> {
     first: usize,
     orientations: &'a mut [Orientation],
-    flaws: Flaws,
+    pub flaws: Flaws,
 }
 
 impl<'a> Count<'a> {
-    fn new(first: usize, orientations: &'a mut [Orientation]) -> Self {
+    pub fn new(first: usize, orientations: &'a mut [Orientation]) -> Self {
         Self { first, orientations, flaws: Flaws::default() }
     }
 
@@ -169,7 +164,7 @@ impl<'a> Count<'a> {
         }
         let own = &orientations[start - first..end - first];
         self.orientations[start - self.first..end - self.first].copy_from_slice(own);
-        if found(own) & 1 << Orientation::None as u8 != 0 {
+        if found(own) & bit(Orientation::None) != 0 {
             self.note_flaws(slices, start, own);
         }
     }
@@ -184,21 +179,25 @@ impl<'a> Count<'a> {
 
 /// One bit for each orientation that is found: a loop that runs many lanes at a time.
 #[inline(always)]
-fn found(orientations: &[Orientation]) -> u8 {
-    orientations.iter().fold(0, |found, &orientation| found | 1 << orientation as u8)
+pub(super) fn found(orientations: &[Orientation]) -> u8 {
+    orientations.iter().fold(0, |found, &orientation| found | bit(orientation))
 }
 
-/// Calls `add` with every block of a range: the number of its first triangle, the triangles, what they add, and their orientations.
+#[inline(always)]
+pub(super) fn bit(orientation: Orientation) -> u8 {
+    1 << orientation as u8
+}
+
+/// Calls `add` with every block of a range: the number of its first triangle, the triangles, their orientations, and what they add.
 ///
 /// `agreed`: where faces are not all triangles, the orientations of the faces.
 #[inline(always)]
-fn for_each_block<const N: usize, W: Weighting<N>>(
+pub(super) fn for_each_block<const N: usize, W: Weighting<N>>(
     flat: &Flat<'_>,
-    agreed: Option<&[Orientation]>,
-    width: Width,
+    (agreed, width): (Option<&[Orientation]>, Width),
     range: Range<usize>,
     count: &mut Count<'_>,
-    mut add: impl FnMut(usize, &[[u32; 3]], &[Sum<N>], &[Orientation]),
+    mut add: impl FnMut(usize, &[[u32; 3]], &Block<N>),
 ) {
     let slices = flat.slices();
     let mut block = Block::<N>::new();
@@ -211,7 +210,7 @@ fn for_each_block<const N: usize, W: Weighting<N>>(
             agree(orientations, |i| agreed[flat.face(first + i)]);
         }
         count.note(&slices, first, orientations);
-        add(first, triangles, &block.terms[..triangles.len()], orientations);
+        add(first, triangles, &block);
     }
 }
 
@@ -227,8 +226,22 @@ fn agree(orientations: &mut [Orientation], of_face: impl Fn(usize) -> Orientatio
 /// Adds what all triangles add.
 pub(super) fn accumulate<const N: usize, W: Weighting<N>>(flat: &Flat<'_>, width: Width, sums: &mut Sums<N>) {
     let agreed = (!flat.is_triangles()).then(|| agreed_orientations::<N, W>(flat));
-    let agreed_slice = agreed.as_deref();
-    let list = parts_of(flat);
+    let how = (agreed.as_deref(), width);
+    match parts_of(flat) {
+        Some(list) => scatter_all::<N, W>(flat, how, &list, sums),
+        None => gather_all::<N, W>(flat, how, sums),
+    }
+    if let Some(agreed) = agreed {
+        sums.orientation_of_face = agreed;
+    }
+}
+
+fn scatter_all<const N: usize, W: Weighting<N>>(
+    flat: &Flat<'_>,
+    how: (Option<&[Orientation]>, Width),
+    list: &[Part],
+    sums: &mut Sums<N>,
+) {
     let Sums { of_side: [keeps, mirrors], orientation_of_face, flaws } = sums;
     let keeps = parts(keeps, 0, list.iter().map(|part| part.vertices.clone()));
     let orientations = parts(orientation_of_face, 0, list.iter().map(|part| part.own.clone()));
@@ -237,55 +250,44 @@ pub(super) fn accumulate<const N: usize, W: Weighting<N>>(flat: &Flat<'_>, width
     let jobs = list.iter().zip(keeps).zip(orientations);
     threads::run(&mut found, jobs, |(mirrors, flaws), ((part, keeps), orientations)| {
         let mut count = Count::new(part.own.start, orientations);
-        add_part::<N, W>(flat, agreed_slice, width, part, keeps, mirrors, &mut count);
+        add_part::<N, W>(flat, how, part, (keeps, mirrors), &mut count);
         *flaws = count.flaws;
     });
     found.iter().for_each(|(_, found)| flaws.add(*found));
-    *mirrors = joined(found.into_iter().map(|(mirrors, _)| mirrors), &list, flat.positions.len());
-    if let Some(agreed) = agreed {
-        *orientation_of_face = agreed;
-    }
+    *mirrors = joined(found.into_iter().map(|(mirrors, _)| mirrors), list, flat.positions.len());
 }
 
 /// Adds what a thread's triangles add to its vertices, whose sums for mirrored triangles are made when the first comes.
 fn add_part<const N: usize, W: Weighting<N>>(
     flat: &Flat<'_>,
-    agreed: Option<&[Orientation]>,
-    width: Width,
+    how: (Option<&[Orientation]>, Width),
     part: &Part,
-    keeps: &mut [Sum<N>],
-    mirrors: &mut Vec<Sum<N>>,
+    (keeps, mirrors): (&mut [Sum<N>], &mut Vec<Sum<N>>),
     count: &mut Count<'_>,
 ) {
     keeps.fill([[0.0; 4]; N]);
     let first = part.vertices.start as u32;
-    for_each_block::<N, W>(
-        flat,
-        agreed,
-        width,
-        part.adds.clone(),
-        count,
-        |_, triangles, terms, orientations| {
-            let found = found(orientations);
-            let is_one_side = found == 1 || !W::SPLITS && found < 4;
-            if is_one_side {
-                for (triangle, term) in triangles.iter().zip(terms) {
-                    scatter(keeps, first, *triangle, term);
-                }
-                return;
+    for_each_block::<N, W>(flat, how, part.adds.clone(), count, |_, triangles, block| {
+        let orientations = &block.orientations[..triangles.len()];
+        let found = found(orientations);
+        if W::SPLITS && found & bit(Orientation::Mirrors) != 0 && mirrors.is_empty() {
+            mirrors.resize(keeps.len(), [[0.0; 4]; N]);
+        }
+        let all_add = found & bit(Orientation::None) == 0;
+        if all_add && (!W::SPLITS || found == bit(Orientation::Keeps)) {
+            for (i, &triangle) in triangles.iter().enumerate() {
+                scatter(keeps, first, triangle, &block.term(i));
             }
-            if W::SPLITS && found & 2 != 0 && mirrors.is_empty() {
-                mirrors.resize(keeps.len(), [[0.0; 4]; N]);
+            return;
+        }
+        for (i, (&triangle, orientation)) in triangles.iter().zip(orientations).enumerate() {
+            match orientation {
+                Orientation::None => {}
+                Orientation::Mirrors if W::SPLITS => scatter(mirrors, first, triangle, &block.term(i)),
+                _ => scatter(keeps, first, triangle, &block.term(i)),
             }
-            for ((triangle, term), orientation) in triangles.iter().zip(terms).zip(orientations) {
-                match orientation {
-                    Orientation::None => {}
-                    Orientation::Mirrors if W::SPLITS => scatter(mirrors, first, *triangle, term),
-                    _ => scatter(keeps, first, *triangle, term),
-                }
-            }
-        },
-    );
+        }
+    });
 }
 
 /// Adds a term to the vertices of a triangle, of which the first sum's is `first`, and others may be other threads'.
@@ -299,7 +301,7 @@ fn scatter<const N: usize>(sums: &mut [Sum<N>], first: u32, triangle: [u32; 3], 
 }
 
 #[inline(always)]
-fn accumulate_into<const N: usize>(sum: &mut Sum<N>, term: &Sum<N>) {
+pub(super) fn accumulate_into<const N: usize>(sum: &mut Sum<N>, term: &Sum<N>) {
     for (sum, term) in sum.as_flattened_mut().iter_mut().zip(term.as_flattened()) {
         *sum += term;
     }
@@ -320,79 +322,6 @@ fn joined<const N: usize>(
         all[part.vertices.clone()].copy_from_slice(&of_part);
     }
     all
-}
-
-/// What the triangles add and the sides that they add it to, in their order, and whether any adds to each side. Also counts the triangles.
-pub(super) fn terms<const N: usize, W: Weighting<N>>(
-    flat: &Flat<'_>,
-    width: Width,
-    sums: &mut Sums<N>,
-) -> (Vec<(Sum<N>, u8)>, [bool; 2]) {
-    let agreed = (!flat.is_triangles()).then(|| agreed_orientations::<N, W>(flat));
-    let agreed_slice = agreed.as_deref();
-    let count = flat.triangles().len();
-    let mut terms = vec![([[0.0; 4]; N], 0); count];
-    let threads = threads::count(count);
-    let ranges = split(0..count, threads, WINDOW);
-    let orientations = parts(&mut sums.orientation_of_face, 0, ranges.clone());
-    let jobs = ranges.clone().zip(parts(&mut terms, 0, ranges)).zip(orientations);
-    let mut all_found = vec![(Flaws::default(), [false; 2]); threads];
-    threads::run(&mut all_found, jobs, |(flaws, used), ((range, terms), orientations)| {
-        let start = range.start;
-        let mut count = Count::new(start, orientations);
-        for_each_block::<N, W>(
-            flat,
-            agreed_slice,
-            width,
-            range,
-            &mut count,
-            |first, _, of_block, orientations| {
-                let found = found(orientations);
-                *used = [used[0] | (found & 1 != 0), used[1] | (found & 2 != 0)];
-                for ((slot, term), orientation) in
-                    terms[first - start..].iter_mut().zip(of_block).zip(orientations)
-                {
-                    if *orientation != Orientation::None {
-                        *slot = (*term, *orientation as u8);
-                    }
-                }
-            },
-        );
-        *flaws = count.flaws;
-    });
-    let found = all_found;
-    found.iter().for_each(|(found, _)| sums.flaws.add(*found));
-    if let Some(agreed) = agreed {
-        sums.orientation_of_face = agreed;
-    }
-    (terms, [0, 1].map(|side| found.iter().any(|(_, used)| used[side])))
-}
-
-/// Gathers, for every vertex, the terms of the triangles around it, in their order.
-///
-/// `triangle_of_entry`, `ends`: the triangles at each vertex, vertex after vertex, and where each vertex's part ends.
-pub(super) fn gather<const N: usize>(
-    (terms, used): (&[(Sum<N>, u8)], [bool; 2]),
-    (triangle_of_entry, ends): (&[u32], &[u32]),
-    sums: &mut Sums<N>,
-) {
-    let [keeps, mirrors] = &mut sums.of_side;
-    keeps.fill([[0.0; 4]; N]);
-    mirrors.resize(if used[1] { keeps.len() } else { 0 }, [[0.0; 4]; N]);
-    let threads = threads::count(terms.len());
-    let ranges = split(0..ends.len(), threads, 1);
-    let mirrors = parts(mirrors, 0, ranges.clone().map(|range| if used[1] { range } else { 0..0 }));
-    let jobs = ranges.clone().zip(parts(keeps, 0, ranges)).zip(mirrors);
-    threads::run(&mut vec![(); threads], jobs, |(), ((range, keeps), mirrors)| {
-        let mut start = if range.start == 0 { 0 } else { ends[range.start - 1] };
-        for (at, &end) in ends[range].iter().enumerate() {
-            for &t in &triangle_of_entry[start as usize..end as usize] {
-                let (term, side) = &terms[t as usize];
-                accumulate_into(if *side == 0 { &mut keeps[at] } else { &mut mirrors[at] }, term);
-            }
-            start = end;
-        }
-    });
 }
 
 /// One orientation for each face: of the halves of a quad that add something the one with the larger UV area decides, the first

@@ -1,12 +1,9 @@
-//! The mean of the adjacent triangles' unit tangents and bitangents, gathered per vertex: every triangle counts the same.
+//! The mean of the adjacent triangles' unit tangents and bitangents: every triangle counts the same.
 //!
-//! The adjacency is compressed: one array of triangles, ordered by vertex, and one of running sums that says where each
-//! vertex's part ends. Each vertex reads what it needs and writes once, which is the form that parallel hardware wants.
+//! Each vertex's mean is what it would gather over its adjacency, triangle by triangle. Where the triangles around it lie near each other in the
+//! list, adding each to its three vertices gives the same bits sooner (docs/notes/methods.md); where not, they are gathered (gather.rs).
 
-use super::accumulate::{Sums, gather, terms};
-use super::flat::Flat;
 use super::sums::{Derivatives, Sum, Weighting};
-use super::width::Width;
 
 /// Weight one for every triangle.
 pub(super) struct Average;
@@ -25,32 +22,4 @@ impl Weighting<3> for Average {
     fn magnitude([[_, _, _, count], [_, _, _, m0], [_, _, _, m1]]: &Sum<3>) -> [f32; 2] {
         [m0 / count, m1 / count]
     }
-}
-
-/// The sums of all vertices, gathered: what [`super::accumulate::accumulate`] would scatter.
-pub(super) fn average(flat: &Flat<'_>, width: Width, sums: &mut Sums<3>) {
-    let (terms, used) = terms::<3, Average>(flat, width, sums);
-    let (triangle_of_entry, ends) = adjacency(flat);
-    gather((&terms, used), (&triangle_of_entry, &ends), sums);
-}
-
-/// The triangles at each vertex, ascending, vertex after vertex, and where each vertex's part ends.
-fn adjacency(flat: &Flat<'_>) -> (Vec<u32>, Vec<u32>) {
-    let vertices = flat.triangles().as_flattened();
-    let mut ends = vec![0u32; flat.positions.len()];
-    for &v in vertices {
-        ends[v as usize] += 1;
-    }
-    let mut sum = 0;
-    for end in &mut ends {
-        // For now the start; filling moves it to the end.
-        sum += std::mem::replace(end, sum);
-    }
-    let mut triangle_of_entry = vec![0; vertices.len()];
-    for (corner, &v) in vertices.iter().enumerate() {
-        let slot = &mut ends[v as usize];
-        triangle_of_entry[*slot as usize] = (corner / 3) as u32;
-        *slot += 1;
-    }
-    (triangle_of_entry, ends)
 }

@@ -96,7 +96,9 @@ impl<'a> Flat<'a> {
 
     /// The arrays that inner loops read.
     pub fn slices(&self) -> Slices<'_> {
-        Slices { triangles: self.triangles(), positions: &self.positions, uvs: &self.uvs }
+        // Of one length, so that an index is checked once.
+        let (positions, uvs) = (&self.positions[..], &self.uvs[..self.positions.len()]);
+        Slices { triangles: self.triangles(), positions, uvs }
     }
 
     /// Positions and UVs of triangle `t`.

@@ -5,7 +5,7 @@ use crate::{Mesh, Mode};
 
 use super::accumulate::{Keeps, Memory, Sums, accumulate};
 use super::area::Area;
-use super::average::{Average, average};
+use super::average::Average;
 use super::flat::Flat;
 use super::lengyel::{Lengyel, LengyelPerVertex};
 use super::sides::{Output, fill, finish};
@@ -65,7 +65,9 @@ pub(super) fn run<O: Output>(
             memory,
             corners,
         ),
-        Method::Average => summed::<3, Average, O>(mesh, (mode, width), average, memory, corners),
+        Method::Average => {
+            summed::<3, Average, O>(mesh, (mode, width), accumulate::<3, Average>, memory, corners)
+        }
         Method::Area => summed::<3, Area, O>(mesh, (mode, width), accumulate::<3, Area>, memory, corners),
         Method::Face => face::run(mesh, mode, corners),
         Method::FromNormal => from_normal::run(mesh, mode, corners),
@@ -100,7 +102,7 @@ where
     let (mut sums, mut frames) = (Sums::new(&flat, memory), O::kept(memory));
     let report = threads::on_pool(threads::count(flat.triangles().len()), || {
         add_up(&flat, width, &mut sums);
-        finish::<N, W, O>(mesh, &flat, &mut sums, mode, &mut frames, corners)
+        finish::<N, W, O>(mesh, &flat, &mut sums, (mode, width), &mut frames, corners)
     });
     sums.keep(memory);
     O::keep(frames, memory);

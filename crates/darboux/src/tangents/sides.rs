@@ -14,7 +14,10 @@ use super::flat::Flat;
 use super::repair::{bitangent, direction, in_plane, mean_in_plane, perpendicular, u_direction_of, unit};
 use super::seams::{count_mirrored_edges, survey, vertices_of_both};
 use super::sums::{Orientation, Sum, Weighting, adds};
+use super::terms::BLOCK;
 use super::threads::{self, parts, split};
+use super::vertex_block::VertexBlock;
+use super::width::Width;
 
 /// What corners are given: whole frames, or tangents alone.
 pub(super) trait Output: Copy + Send + Sync {
@@ -25,6 +28,9 @@ pub(super) trait Output: Copy + Send + Sync {
     const IS_WHOLE: bool;
 
     fn from_frame(frame: &Frame) -> Self;
+
+    /// `tangent`: xyz and sign w, of a frame that is not whole.
+    fn from_tangent(tangent: [f32; 4]) -> Self;
 
     /// Tangent xyz and sign w.
     fn tangent(&self) -> [f32; 4];
@@ -46,6 +52,10 @@ impl Output for Frame {
         *frame
     }
 
+    fn from_tangent([x, y, z, sign]: [f32; 4]) -> Self {
+        Self { tangent: [x, y, z], sign, ..Self::NONE }
+    }
+
     fn tangent(&self) -> [f32; 4] {
         self.tangent_and_sign()
     }
@@ -58,6 +68,11 @@ impl Output for [f32; 4] {
     #[inline]
     fn from_frame(frame: &Frame) -> Self {
         frame.tangent_and_sign()
+    }
+
+    #[inline(always)]
+    fn from_tangent(tangent: [f32; 4]) -> Self {
+        tangent
     }
 
     fn tangent(&self) -> [f32; 4] {
@@ -89,7 +104,7 @@ pub(super) fn finish<const N: usize, W: Weighting<N>, O: Output>(
     mesh: &Mesh<'_>,
     flat: &Flat<'_>,
     sums: &mut Sums<N>,
-    mode: Mode,
+    (mode, width): (Mode, Width),
     frames: &mut [Vec<O>; 2],
     corners: &mut [O],
 ) -> Report {
@@ -100,7 +115,7 @@ pub(super) fn finish<const N: usize, W: Weighting<N>, O: Output>(
         report.mirrored_edges = count_mirrored_edges(flat, &sums.orientation_of_face, &of_both);
         report.merged_vertices = if W::SPLITS { 0 } else { count(&of_both) };
     }
-    let mut missing = frames_of_sides::<N, W, O>(flat, sums, frames);
+    let mut missing = frames_of_sides::<N, W, O>(flat, width, sums, frames);
     decide_faces::<N, W>(flat, sums, &mut missing);
     missing.sort_unstable();
     missing.dedup();
@@ -157,6 +172,7 @@ fn count_mixed_faces<O: Output>(flat: &Flat<'_>, corners: &[O]) -> usize {
 /// Writes the frame of every side; returns the sides that have triangles but no direction.
 fn frames_of_sides<const N: usize, W: Weighting<N>, O: Output>(
     flat: &Flat<'_>,
+    width: Width,
     sums: &Sums<N>,
     frames: &mut [Vec<O>; 2],
 ) -> Vec<Side> {
@@ -168,30 +184,49 @@ fn frames_of_sides<const N: usize, W: Weighting<N>, O: Output>(
         let ranges = split(0..sums.len(), threads, 1);
         let jobs = ranges.clone().zip(parts(frames, 0, ranges));
         threads::run(&mut missing, jobs, |missing, (range, frames)| {
-            let sums = (range.start as u32..).zip(&sums[range]);
-            frames_of_side::<N, W, O>(flat, sums, side, frames, missing);
+            let place = Place { first: range.start, side, width };
+            frames_of_side::<N, W, O>(&sums[range.clone()], &flat.normals[range], place, frames, missing);
         });
     }
     missing.concat()
 }
 
-fn frames_of_side<'a, const N: usize, W: Weighting<N>, O: Output>(
-    flat: &Flat<'_>,
-    sums: impl Iterator<Item = (u32, &'a Sum<N>)>,
+/// Where consecutive sums are, and how wide vectors may be.
+struct Place {
+    first: usize,
     side: usize,
+    width: Width,
+}
+
+fn frames_of_side<const N: usize, W: Weighting<N>, O: Output>(
+    sums: &[Sum<N>],
+    normals: &[V3],
+    Place { first, side, width }: Place,
     frames: &mut [O],
     missing: &mut Vec<Side>,
 ) {
     let sign = if side == 0 { 1.0 } else { -1.0 };
-    for ((v, sum), out) in sums.zip(frames) {
-        *out = if !is_used(sum) {
-            O::NONE
-        } else if let Some(frame) = frame::<N, W, O>(sum, &flat.normals[v as usize], sign) {
-            O::from_frame(&frame)
-        } else {
-            missing.push((v, side));
-            O::from_frame(&Frame { sign, ..Frame::NONE })
-        };
+    let mut block = VertexBlock::new();
+    let blocks = sums.chunks(BLOCK).zip(normals.chunks(BLOCK)).zip(frames.chunks_mut(BLOCK));
+    for (first, ((sums, normals), frames)) in (first..).step_by(BLOCK).zip(blocks) {
+        if !O::IS_WHOLE {
+            block.set::<N, W>(sums, normals);
+            block.evaluate::<N, W>(sign, width);
+            if block.are_sure(sums.len()) {
+                fill(frames, block.tangents.iter().map(|&tangent| O::from_tangent(tangent)));
+                continue;
+            }
+        }
+        for ((v, (sum, normal)), out) in (first as u32..).zip(sums.iter().zip(normals)).zip(frames) {
+            *out = if !is_used(sum) {
+                O::NONE
+            } else if let Some(frame) = frame::<N, W, O>(sum, normal, sign) {
+                O::from_frame(&frame)
+            } else {
+                missing.push((v, side));
+                O::from_frame(&Frame { sign, ..Frame::NONE })
+            };
+        }
     }
 }
 
@@ -204,46 +239,64 @@ fn is_used<const N: usize>(sum: &Sum<N>) -> bool {
 fn frame<const N: usize, W: Weighting<N>, O: Output>(sum: &Sum<N>, normal: &V3, sign: f32) -> Option<Frame> {
     let ([s0, s1, s2, _], [t0, t1, t2, _]) = (sum[0], sum[1]);
     let (s, t) = ([s0, s1, s2], [t0, t1, t2]);
-    let mut normal = *normal;
-    let square = dot(normal, normal);
-    let is_about_unit = (0.25..4.0).contains(&square);
-    if !is_about_unit && direction(normal).is_none() {
-        normal = W::own_normal(sum);
+    let (mut normal, size) = (*normal, W::size(sum));
+    let (mut tangent, is_sure) = sure_tangent(s, normal, size);
+    if !is_sure {
+        if cancels(s, size) {
+            return None;
+        }
+        normal = if direction(normal).is_some() { normal } else { W::own_normal(sum) };
+        tangent = precise_direction_across(s, normal)?;
     }
-    let inverse = if is_about_unit { 1.0 / square } else { f32::NAN };
-    // What is left of tangents that cancel is rounding.
-    let least = 1e-5 * W::size(sum);
-    if dot(s, s) < least * least {
-        return None;
-    }
-    let tangent = direction_across(s, normal, inverse)?;
     let sign = if W::SPLITS { sign } else { sign_of(normal, tangent, t) };
     if !O::IS_WHOLE {
         return Some(Frame { tangent, sign, ..Frame::NONE });
     }
-    let bitangent = direction_across(t, normal, inverse).unwrap_or_else(|| across(normal, tangent, sign));
+    let bitangent = direction_across(t, normal).unwrap_or_else(|| across(normal, tangent, sign));
     Some(Frame { tangent, bitangent, magnitude: W::magnitude(sum), sign })
 }
 
+/// The direction of a sum of tangents in the plane of the normal, and whether it is that: nearly always, as normals are nearly unit vectors.
+///
+/// `size`: what the lengths of the added tangents come to.
+#[inline(always)]
+pub(super) fn sure_tangent(s: V3, normal: V3, size: f32) -> (V3, bool) {
+    let (direction, is_sure) = sure_direction_across(s, normal);
+    (direction, is_sure & !cancels(s, size))
+}
+
+/// What is left of tangents that cancel is rounding.
+#[inline(always)]
+fn cancels(s: V3, size: f32) -> bool {
+    let least = 1e-5 * size;
+    dot(s, s) < least * least
+}
+
 /// The sign for which sign * cross(normal, tangent) is on the bitangent's side; +1 where it is on neither.
-fn sign_of(normal: V3, tangent: V3, bitangent: V3) -> f32 {
+#[inline(always)]
+pub(super) fn sign_of(normal: V3, tangent: V3, bitangent: V3) -> f32 {
     let ([a, b, c], [x, y, z]) = (normal, tangent);
     let across = [b * z - c * y, c * x - a * z, a * y - b * x];
     if dot(across, bitangent) < 0.0 { -1.0 } else { 1.0 }
 }
 
 /// The direction of `v` in the plane of `normal`; without a normal the direction of `v`.
-///
-/// `inverse`: 1 / dot(normal, normal), or NaN where the normal is far from unit length.
 #[inline(always)]
-fn direction_across(v: V3, normal: V3, inverse: f32) -> Option<V3> {
-    let rest = sub(v, scale(dot(normal, v) * inverse, normal));
+fn direction_across(v: V3, normal: V3) -> Option<V3> {
+    let (direction, is_sure) = sure_direction_across(v, normal);
+    if is_sure { Some(direction) } else { precise_direction_across(v, normal) }
+}
+
+/// The direction of `v` in the plane of `normal`, and whether it is that. No branches.
+#[inline(always)]
+fn sure_direction_across(v: V3, normal: V3) -> (V3, bool) {
+    let square = dot(normal, normal);
+    let is_about_unit = (square >= 0.25) & (square < 4.0);
+    let rest = sub(v, scale(dot(normal, v) * (1.0 / square), normal));
     let size = dot(rest, rest);
-    // Far from overflow, and with enough left of `v` to be sure of the angle: nearly always. NaN is not.
-    if (size > 1e-2 * dot(v, v)) & (size > 1e-24) & (size < 1e24) {
-        return Some(scale(1.0 / size.sqrt(), rest));
-    }
-    precise_direction_across(v, normal)
+    // Far from overflow, and with enough left of `v` to be sure of the angle. NaN is not.
+    let is_clear = (size > 1e-2 * dot(v, v)) & (size > 1e-24) & (size < 1e24);
+    (scale(1.0 / size.sqrt(), rest), is_about_unit & is_clear)
 }
 
 #[cold]

@@ -14,7 +14,7 @@ use super::width::{Task, Width};
 /// Triangles per block.
 pub(super) const BLOCK: usize = if cfg!(small_limits) { 2 } else { 64 };
 
-type Lane<T> = [T; BLOCK];
+pub(super) type Lane<T> = [T; BLOCK];
 
 /// One block's arrays; reused from block to block.
 pub(super) struct Block<const N: usize> {
@@ -23,8 +23,8 @@ pub(super) struct Block<const N: usize> {
     lanes: [[Lane<f32>; 4]; N],
     /// Orientations as wide as the other lanes.
     sides: Lane<u32>,
-    /// What each triangle adds,
-    pub terms: Lane<Sum<N>>,
+    /// What each triangle adds, one row after the other,
+    rows: [Lane<[f32; 4]>; N],
     /// and to which side, or that it adds nothing.
     pub orientations: Lane<Orientation>,
 }
@@ -36,9 +36,19 @@ impl<const N: usize> Block<N> {
             uvs: [[[0.0; BLOCK]; 2]; 3],
             lanes: [[[0.0; BLOCK]; 4]; N],
             sides: [0; BLOCK],
-            terms: [[[0.0; 4]; N]; BLOCK],
+            rows: [[[0.0; 4]; BLOCK]; N],
             orientations: [Orientation::None; BLOCK],
         }
+    }
+
+    /// What triangle `i` adds.
+    #[inline(always)]
+    pub fn term(&self, i: usize) -> Sum<N> {
+        let mut term = [[0.0; 4]; N];
+        for row in 0..N {
+            term[row] = self.rows[row][i];
+        }
+        term
     }
 
     /// Takes up to [`BLOCK`] triangles; the lanes beyond them keep what they had.
@@ -97,7 +107,7 @@ impl<const N: usize> Block<N> {
         for row in 0..N {
             let [a, b, c, d] = &self.lanes[row];
             for i in 0..BLOCK {
-                self.terms[i][row] = [a[i], b[i], c[i], d[i]];
+                self.rows[row][i] = [a[i], b[i], c[i], d[i]];
             }
         }
         for i in 0..BLOCK {
