@@ -3,7 +3,7 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use darboux::{
-    Faces, Indices, Mesh, Method, Mode, Plan, Scratch, TangentOptions, Tangents, generate_frames,
+    Faces, Indices, Mesh, Method, Mode, Plan, Scratch, TangentOptions, Tangents, WidthLimit, generate_frames,
     generate_tangents_into,
 };
 
@@ -65,8 +65,11 @@ fn for_each_layout(shape: &Shape<'_>, mut take: impl FnMut(&Mesh<'_>)) {
 
 /// Hashes of the tangents and reports in some runs.
 fn hash(shape: &Shape<'_>, runs: &[(Method, Mode)]) -> u64 {
+    hash_with(Scratch::new(), shape, runs)
+}
+
+fn hash_with(mut scratch: Scratch, shape: &Shape<'_>, runs: &[(Method, Mode)]) -> u64 {
     let mut hasher = DefaultHasher::new();
-    let mut scratch = Scratch::new();
     let mut tangents = Tangents::default();
     for_each_layout(shape, |mesh| {
         for &(method, mode) in runs {
@@ -206,4 +209,17 @@ fn degenerate_faces() {
         assert_alike(&ONE_TWO_THREE_SIXTEEN, || hash(&shape, &MIKKTSPACE));
         assert_alike(&ONE_TWO_THREE_SIXTEEN, || hash_frames(&shape));
     }
+}
+
+/// All vector widths that the machine has give one hash, with flaws in some blocks.
+#[test]
+fn every_width() {
+    let (mut vertices, mut triangles) = grid(60, 60);
+    (0..40).for_each(|at| vertices[at * 83][6] = [0.5, f32::NAN][at % 2]);
+    (0..40).for_each(|at| vertices[at * 71][3..6].fill([0.0, 1e-12][at % 2]));
+    (0..40).for_each(|at| triangles[at * 97][1] = triangles[at * 97][0]);
+    let shape = Shape { vertices: &vertices, corners: triangles.as_flattened(), faces: Faces::Triangles };
+    let hash = |width| hash_with(Scratch::with_width_limit(width), &shape, &SUMS);
+    let compiled = hash(WidthLimit::Compiled);
+    assert_eq!([WidthLimit::Bits256, WidthLimit::Bits512].map(hash), [compiled; 2]);
 }

@@ -1,6 +1,7 @@
 //! What all triangles add to their vertices, by all threads: each has vertices of its own and adds to them in the triangles' order, so that
 //! no sum depends on how many threads there are.
 
+use std::marker::PhantomData;
 use std::ops::Range;
 
 use crate::math::V3;
@@ -10,8 +11,8 @@ use super::gather::gather_all;
 use super::group_sums::GroupMemory;
 use super::sums::{Derivatives, Orientation, Sum, Weighting, is_degenerate, term};
 use super::terms::{BLOCK, Block};
-use super::threads::{self, parts};
-use super::width::Width;
+use super::threads::{self, parts, split};
+use super::width::{Task, Width};
 use super::windows::{Share, Window, look_around, overlap, shares, triangles_of, windows_of};
 
 /// The sums of all vertices and what was met on the way.
@@ -188,29 +189,50 @@ pub(super) fn bit(orientation: Orientation) -> u8 {
     1 << orientation as u8
 }
 
-/// Calls `add` with every block of a range: the number of its first triangle, the triangles, their orientations, and what they add.
-///
-/// `agreed`: where faces are not all triangles, the orientations of the faces.
-#[inline(always)]
+/// The orientations of faces, where these are not all triangles, and how wide vectors may be.
+pub(super) type How<'a> = (Option<&'a [Orientation]>, Width);
+
+/// Calls `add` with every block of a range: the number of its first triangle, the triangles, and what they add. `add` must be
+/// `#[inline(always)]` to be compiled for wide vectors as well.
 pub(super) fn for_each_block<const N: usize, W: Weighting<N>>(
     flat: &Flat<'_>,
-    (agreed, width): (Option<&[Orientation]>, Width),
+    (agreed, width): How<'_>,
     range: Range<usize>,
     count: &mut Count<'_>,
-    mut add: impl FnMut(usize, &[[u32; 3]], &Block<N>),
+    add: impl FnMut(usize, &[[u32; 3]], &Block<N>),
 ) {
-    let slices = flat.slices();
-    let mut block = Block::<N>::new();
-    for first in range.clone().step_by(BLOCK) {
-        let triangles = &slices.triangles[first..range.end.min(first + BLOCK)];
-        block.set(&slices, triangles);
-        block.evaluate::<W>(width);
-        let orientations = &mut block.orientations[..triangles.len()];
-        if let Some(agreed) = agreed {
-            agree(orientations, |i| agreed[flat.face(first + i)]);
+    width.run(ForEachBlock::<N, W, _> { flat, agreed, range, count, add, weighting: PhantomData });
+}
+
+struct ForEachBlock<'a, 'b, const N: usize, W, F> {
+    flat: &'a Flat<'a>,
+    agreed: Option<&'a [Orientation]>,
+    range: Range<usize>,
+    count: &'a mut Count<'b>,
+    add: F,
+    weighting: PhantomData<W>,
+}
+
+impl<const N: usize, W, F> Task for ForEachBlock<'_, '_, N, W, F>
+where
+    W: Weighting<N>,
+    F: FnMut(usize, &[[u32; 3]], &Block<N>),
+{
+    #[inline(always)]
+    fn run(mut self) {
+        let slices = self.flat.slices();
+        let mut block = Block::<N>::new();
+        for first in self.range.clone().step_by(BLOCK) {
+            let triangles = &slices.triangles[first..self.range.end.min(first + BLOCK)];
+            block.set(&slices, triangles);
+            block.evaluate::<W>();
+            let orientations = &mut block.orientations[..triangles.len()];
+            if let Some(agreed) = self.agreed {
+                agree(orientations, |i| agreed[self.flat.face(first + i)]);
+            }
+            self.count.note(&slices, first, orientations);
+            (self.add)(first, triangles, &block);
         }
-        count.note(&slices, first, orientations);
-        add(first, triangles, &block);
     }
 }
 
@@ -238,7 +260,7 @@ pub(super) fn accumulate<const N: usize, W: Weighting<N>>(flat: &Flat<'_>, width
 
 fn scatter_all<const N: usize, W: Weighting<N>>(
     flat: &Flat<'_>,
-    how: (Option<&[Orientation]>, Width),
+    how: How<'_>,
     list: &[Part],
     sums: &mut Sums<N>,
 ) {
@@ -260,34 +282,41 @@ fn scatter_all<const N: usize, W: Weighting<N>>(
 /// Adds what a thread's triangles add to its vertices, whose sums for mirrored triangles are made when the first comes.
 fn add_part<const N: usize, W: Weighting<N>>(
     flat: &Flat<'_>,
-    how: (Option<&[Orientation]>, Width),
+    how: How<'_>,
     part: &Part,
     (keeps, mirrors): (&mut [Sum<N>], &mut Vec<Sum<N>>),
     count: &mut Count<'_>,
 ) {
     keeps.fill([[0.0; 4]; N]);
     let first = part.vertices.start as u32;
-    for_each_block::<N, W>(flat, how, part.adds.clone(), count, |_, triangles, block| {
-        let orientations = &block.orientations[..triangles.len()];
-        let found = found(orientations);
-        if W::SPLITS && found & bit(Orientation::Mirrors) != 0 && mirrors.is_empty() {
-            mirrors.resize(keeps.len(), [[0.0; 4]; N]);
-        }
-        let all_add = found & bit(Orientation::None) == 0;
-        if all_add && (!W::SPLITS || found == bit(Orientation::Keeps)) {
-            for (i, &triangle) in triangles.iter().enumerate() {
-                scatter(keeps, first, triangle, &block.term(i));
+    for_each_block::<N, W>(
+        flat,
+        how,
+        part.adds.clone(),
+        count,
+        #[inline(always)]
+        |_, triangles, block| {
+            let orientations = &block.orientations[..triangles.len()];
+            let found = found(orientations);
+            if W::SPLITS && found & bit(Orientation::Mirrors) != 0 && mirrors.is_empty() {
+                mirrors.resize(keeps.len(), [[0.0; 4]; N]);
             }
-            return;
-        }
-        for (i, (&triangle, orientation)) in triangles.iter().zip(orientations).enumerate() {
-            match orientation {
-                Orientation::None => {}
-                Orientation::Mirrors if W::SPLITS => scatter(mirrors, first, triangle, &block.term(i)),
-                _ => scatter(keeps, first, triangle, &block.term(i)),
+            let all_add = found & bit(Orientation::None) == 0;
+            if all_add && (!W::SPLITS || found == bit(Orientation::Keeps)) {
+                for (i, &triangle) in triangles.iter().enumerate() {
+                    scatter(keeps, first, triangle, &block.term(i));
+                }
+                return;
             }
-        }
-    });
+            for (i, (&triangle, orientation)) in triangles.iter().zip(orientations).enumerate() {
+                match orientation {
+                    Orientation::None => {}
+                    Orientation::Mirrors if W::SPLITS => scatter(mirrors, first, triangle, &block.term(i)),
+                    _ => scatter(keeps, first, triangle, &block.term(i)),
+                }
+            }
+        },
+    );
 }
 
 /// Adds a term to the vertices of a triangle, of which the first sum's is `first`, and others may be other threads'.
@@ -327,16 +356,28 @@ fn joined<const N: usize>(
 /// One orientation for each face: of the halves of a quad that add something the one with the larger UV area decides, the first
 /// on a tie.
 fn agreed_orientations<const N: usize, W: Weighting<N>>(flat: &Flat<'_>) -> Vec<Orientation> {
-    let mut deciding = vec![(Orientation::None, 0.0); flat.face_count()];
+    let mut agreed = vec![Orientation::None; flat.face_count()];
+    let threads = threads::count(flat.triangles().len());
+    let ranges = split(0..agreed.len(), threads, 1);
+    let jobs = ranges.clone().zip(parts(&mut agreed, 0, ranges));
+    threads::run(&mut vec![(); threads], jobs, |(), (faces, agreed)| agree_in::<N, W>(flat, faces, agreed));
+    agreed
+}
+
+fn agree_in<const N: usize, W: Weighting<N>>(
+    flat: &Flat<'_>,
+    faces: Range<usize>,
+    agreed: &mut [Orientation],
+) {
     let slices = flat.slices();
-    for (t, &triangle) in slices.triangles.iter().enumerate() {
-        let (positions, uvs) = slices.refer(triangle);
+    let mut last = (0, 0.0);
+    for t in flat.triangles_of(faces.clone()) {
+        let (positions, uvs) = slices.refer(slices.triangles[t]);
         let derivatives = Derivatives::new(positions, uvs);
-        let slot = &mut deciding[flat.face(t)];
-        let is_larger = slot.0 == Orientation::None || derivatives.area.abs() > slot.1;
+        let (face, area) = (flat.face(t) - faces.start, derivatives.area.abs());
+        let is_larger = agreed[face] == Orientation::None || last.0 == face && area > last.1;
         if is_larger && term::<N, W>(&derivatives).is_some() {
-            *slot = (Orientation::of(derivatives.area), derivatives.area.abs());
+            (agreed[face], last) = (Orientation::of(derivatives.area), (face, area));
         }
     }
-    deciding.into_iter().map(|(orientation, _)| orientation).collect()
 }

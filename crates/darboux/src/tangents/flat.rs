@@ -82,6 +82,13 @@ impl<'a> Flat<'a> {
         self.faces.as_ref().map_or(t, |faces| faces.face_of_triangle[t] as usize)
     }
 
+    /// The triangles of consecutive faces.
+    pub fn triangles_of(&self, faces: Range<usize>) -> Range<usize> {
+        let Some(SplitFaces { face_of_triangle, .. }) = &self.faces else { return faces };
+        let first = |face: usize| face_of_triangle.partition_point(|&other| (other as usize) < face);
+        first(faces.start)..first(faces.end)
+    }
+
     /// The corners of a face.
     pub fn corners(&self, face: usize) -> Range<usize> {
         self.corners_of(face..face + 1)

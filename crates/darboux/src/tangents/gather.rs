@@ -5,19 +5,15 @@
 //! hardware wants. The adjacency is compressed: one array of triangles, ordered by vertex, and one of running sums that says where each
 //! vertex's part ends. Triangles come in their order, so that the bits are those of adding one by one.
 
-use super::accumulate::{Count, Flaws, Sums, accumulate_into, bit, for_each_block, found};
+use super::accumulate::{Count, Flaws, How, Sums, accumulate_into, bit, for_each_block, found};
 use super::flat::Flat;
 use super::sums::{Orientation, Sum, Weighting};
+use super::terms::Block;
 use super::threads::{self, parts, split};
-use super::width::Width;
 use super::windows::WINDOW;
 
 /// What [`super::accumulate::accumulate`] does, vertex by vertex.
-pub(super) fn gather_all<const N: usize, W: Weighting<N>>(
-    flat: &Flat<'_>,
-    how: (Option<&[Orientation]>, Width),
-    sums: &mut Sums<N>,
-) {
+pub(super) fn gather_all<const N: usize, W: Weighting<N>>(flat: &Flat<'_>, how: How<'_>, sums: &mut Sums<N>) {
     let (terms, uses_mirrors) = terms::<N, W>(flat, how, sums);
     let (triangle_of_entry, ends) = adjacency(flat);
     gather((&terms, uses_mirrors), (&triangle_of_entry, &ends), sums);
@@ -26,7 +22,7 @@ pub(super) fn gather_all<const N: usize, W: Weighting<N>>(
 /// What each triangle adds, and whether to the sums of mirrored triangles; and whether any does. Also counts the triangles.
 fn terms<const N: usize, W: Weighting<N>>(
     flat: &Flat<'_>,
-    how: (Option<&[Orientation]>, Width),
+    how: How<'_>,
     sums: &mut Sums<N>,
 ) -> (Vec<(Sum<N>, bool)>, bool) {
     let count = flat.triangles().len();
@@ -39,15 +35,24 @@ fn terms<const N: usize, W: Weighting<N>>(
     threads::run(&mut of_threads, jobs, |(flaws, all_found), ((range, terms), orientations)| {
         let start = range.start;
         let mut count = Count::new(start, orientations);
-        for_each_block::<N, W>(flat, how, range, &mut count, |first, triangles, block| {
-            let orientations = &block.orientations[..triangles.len()];
-            *all_found |= found(orientations);
-            for (i, (slot, &orientation)) in terms[first - start..].iter_mut().zip(orientations).enumerate() {
-                if orientation != Orientation::None {
-                    *slot = (block.term(i), W::SPLITS && orientation == Orientation::Mirrors);
+        for_each_block::<N, W>(
+            flat,
+            how,
+            range,
+            &mut count,
+            #[inline(always)]
+            |first: usize, triangles: &[[u32; 3]], block: &Block<N>| {
+                let orientations = &block.orientations[..triangles.len()];
+                *all_found |= found(orientations);
+                for (i, (slot, &orientation)) in
+                    terms[first - start..].iter_mut().zip(orientations).enumerate()
+                {
+                    if orientation != Orientation::None {
+                        *slot = (block.term(i), W::SPLITS && orientation == Orientation::Mirrors);
+                    }
                 }
-            }
-        });
+            },
+        );
         *flaws = count.flaws;
     });
     of_threads.iter().for_each(|(flaws, _)| sums.flaws.add(*flaws));

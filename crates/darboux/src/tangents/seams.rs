@@ -10,21 +10,33 @@ use super::{Report, report};
 
 /// The part of a report that does not depend on the method.
 pub(super) fn survey(mesh: &Mesh<'_>, flat: &Flat<'_>) -> Report {
+    survey_where(mesh, flat, has_finite_vertices(flat))
+}
+
+/// As [`survey`]. `is_finite`: whether all values that corners have are known to be finite.
+pub(super) fn survey_where(mesh: &Mesh<'_>, flat: &Flat<'_>, is_finite: bool) -> Report {
     let is_supported = |face: &usize| matches!(flat.corners(*face).len(), 3 | 4);
     let supported = if flat.is_triangles() {
         flat.face_count()
     } else {
         (0..flat.face_count()).filter(is_supported).count()
     };
-    let finite = all_finite(flat.positions.as_flattened())
-        && all_finite(flat.normals.as_flattened())
-        && all_finite(flat.uvs.as_flattened());
     Report {
         triangles: flat.triangles().len(),
         unsupported_faces: flat.face_count() - supported,
-        non_finite_corners: if finite { 0 } else { report::count_non_finite_corners(mesh) },
+        non_finite_corners: if is_finite { 0 } else { report::count_non_finite_corners(mesh) },
         ..Report::default()
     }
+}
+
+pub(super) fn has_finite_vertices(flat: &Flat<'_>) -> bool {
+    all_finite(flat.positions.as_flattened())
+        && has_finite_normals(flat)
+        && all_finite(flat.uvs.as_flattened())
+}
+
+pub(super) fn has_finite_normals(flat: &Flat<'_>) -> bool {
+    all_finite(flat.normals.as_flattened())
 }
 
 fn all_finite(values: &[f32]) -> bool {

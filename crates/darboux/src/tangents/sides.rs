@@ -12,7 +12,9 @@ use super::Report;
 use super::accumulate::{Memory, Sums};
 use super::flat::Flat;
 use super::repair::{bitangent, direction, in_plane, mean_in_plane, perpendicular, u_direction_of, unit};
-use super::seams::{count_mirrored_edges, survey, vertices_of_both};
+use super::seams::{
+    count_mirrored_edges, has_finite_normals, has_finite_vertices, survey_where, vertices_of_both,
+};
 use super::sums::{Orientation, Sum, Weighting, adds};
 use super::terms::BLOCK;
 use super::threads::{self, parts, split};
@@ -108,7 +110,10 @@ pub(super) fn finish<const N: usize, W: Weighting<N>, O: Output>(
     frames: &mut [Vec<O>; 2],
     corners: &mut [O],
 ) -> Report {
-    let mut report = survey(mesh, flat);
+    // A triangle with a position or a UV that is not finite is flawed.
+    let adds_all = flat.is_triangles() && sums.flaws.are_none();
+    let is_finite = if adds_all { has_finite_normals(flat) } else { has_finite_vertices(flat) };
+    let mut report = survey_where(mesh, flat, is_finite);
     report.degenerate_triangles = sums.flaws.degenerate;
     report.uv_degenerate_triangles = sums.flaws.uv_degenerate;
     if let Some(of_both) = vertices_of_both(flat, &sums.orientation_of_face) {
@@ -127,7 +132,7 @@ pub(super) fn finish<const N: usize, W: Weighting<N>, O: Output>(
     if W::SPLITS {
         report.split_vertices =
             vertices_of_both(flat, &sums.orientation_of_face).map_or(0, |both| count(&both));
-    } else {
+    } else if has_both_signs(&frames[0]) {
         report.mixed_sign_faces = count_mixed_faces(flat, corners);
     }
     report
@@ -158,6 +163,10 @@ fn count_corners<const N: usize, W: Weighting<N>>(
 /// The side that the corners of a face have.
 fn side_of<const N: usize, W: Weighting<N>>(orientation: Orientation) -> usize {
     usize::from(W::SPLITS && orientation == Orientation::Mirrors)
+}
+
+fn has_both_signs<O: Output>(frames: &[O]) -> bool {
+    frames.iter().any(|frame| frame.tangent()[3] != frames[0].tangent()[3])
 }
 
 fn count_mixed_faces<O: Output>(flat: &Flat<'_>, corners: &[O]) -> usize {

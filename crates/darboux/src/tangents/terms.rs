@@ -5,11 +5,8 @@
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
 
-use std::marker::PhantomData;
-
 use super::flat::Slices;
 use super::sums::{Derivatives, Orientation, Sum, Weighting, term_and_test};
-use super::width::{Task, Width};
 
 /// Triangles per block.
 pub(super) const BLOCK: usize = if cfg!(small_limits) { 2 } else { 64 };
@@ -68,18 +65,10 @@ impl<const N: usize> Block<N> {
     }
 
     /// Computes the terms and orientations of what was [set](Block::set).
-    pub fn evaluate<W: Weighting<N>>(&mut self, width: Width) {
-        width.run(Evaluate::<N, W>(self, PhantomData));
-    }
-}
-
-struct Evaluate<'a, const N: usize, W>(&'a mut Block<N>, PhantomData<W>);
-
-impl<const N: usize, W: Weighting<N>> Task for Evaluate<'_, N, W> {
     #[inline(always)]
-    fn run(self) {
-        self.0.compute::<W>();
-        self.0.pack();
+    pub fn evaluate<W: Weighting<N>>(&mut self) {
+        self.compute::<W>();
+        self.pack();
     }
 }
 

@@ -40,7 +40,10 @@ impl VertexBlock {
     /// Takes up to [`BLOCK`] vertices; the lanes beyond them keep what they had.
     #[inline(always)]
     pub fn set<const N: usize, W: Weighting<N>>(&mut self, sums: &[Sum<N>], normals: &[V3]) {
-        for (i, (sum, normal)) in sums.iter().zip(normals).take(BLOCK).enumerate() {
+        let count = sums.len().min(normals.len()).min(BLOCK);
+        let (sums, normals) = (&sums[..count], &normals[..count]);
+        for i in 0..count {
+            let (sum, normal) = (&sums[i], &normals[i]);
             for axis in 0..3 {
                 self.normals[axis][i] = normal[axis];
                 self.sums[0][axis][i] = sum[0][axis];
