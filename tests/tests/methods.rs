@@ -1,6 +1,6 @@
 //! Every method but MikkTSpace against its brute force in double precision, and on odd meshes.
 
-use darboux::{Frame, Method, Mode, Report, TangentOptions, generate_frames, generate_tangents, naive};
+use darboux::{Frame, Mesh, Method, Mode, Report, TangentOptions, generate_frames, generate_tangents, naive};
 use darboux_tests::{Case, OwnedMesh, families};
 
 /// A method and its brute force.
@@ -177,4 +177,17 @@ fn random_meshes() {
 #[ignore = "long"]
 fn many_random_meshes() {
     sweep(10_000..300_000);
+}
+
+/// A bitangent that the UVs do not give, as dP/dv runs along the normal, is perpendicular to the tangent that the fit leaves.
+#[test]
+fn bitangents_without_a_direction_follow_the_fit() {
+    let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 1.0f32]];
+    let normals = [[0.0, 1.0, 0.0], [-0.6, 0.0, 0.8], [-0.6, 0.0, 0.8], [0.0, 0.0, 1.0f32]];
+    let uvs = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0f32]];
+    let mesh = Mesh::triangles(&positions, &normals, &uvs, &[0u32, 1, 2, 1, 3, 2]).expect("a mesh");
+    let options = TangentOptions { method: Method::AngleArea, ..TangentOptions::default() };
+    let frame = generate_frames(&mesh, &options).corners.per_corner()[0];
+    assert!(frame.tangent[2].abs() > 0.01, "the fit moved nothing: {frame:?}");
+    assert!(dot(frame.bitangent, frame.tangent).abs() < 1e-6, "{frame:?}");
 }

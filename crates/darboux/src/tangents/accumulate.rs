@@ -193,7 +193,7 @@ pub(super) fn bit(orientation: Orientation) -> u8 {
 pub(super) type How<'a> = (Option<&'a [Orientation]>, Width);
 
 /// Calls `add` with every block of a range: the number of its first triangle, the triangles, and what they add. `add` must be
-/// `#[inline(always)]` to be compiled for wide vectors as well.
+/// `#[inline(always)]` to be compiled for wide vectors as well, and own its slices, which would be loaded from memory each time.
 pub(super) fn for_each_block<const N: usize, W: Weighting<N>>(
     flat: &Flat<'_>,
     (agreed, width): How<'_>,
@@ -219,19 +219,20 @@ where
     F: FnMut(usize, &[[u32; 3]], &Block<N>),
 {
     #[inline(always)]
-    fn run(mut self) {
-        let slices = self.flat.slices();
+    fn run(self) {
+        let Self { flat, agreed, range, count, mut add, .. } = self;
+        let slices = flat.slices();
         let mut block = Block::<N>::new();
-        for first in self.range.clone().step_by(BLOCK) {
-            let triangles = &slices.triangles[first..self.range.end.min(first + BLOCK)];
+        for first in range.clone().step_by(BLOCK) {
+            let triangles = &slices.triangles[first..range.end.min(first + BLOCK)];
             block.set(&slices, triangles);
             block.evaluate::<W>();
             let orientations = &mut block.orientations[..triangles.len()];
-            if let Some(agreed) = self.agreed {
-                agree(orientations, |i| agreed[self.flat.face(first + i)]);
+            if let Some(agreed) = agreed {
+                agree(orientations, |i| agreed[flat.face(first + i)]);
             }
-            self.count.note(&slices, first, orientations);
-            (self.add)(first, triangles, &block);
+            count.note(&slices, first, orientations);
+            add(first, triangles, &block);
         }
     }
 }
@@ -295,7 +296,7 @@ fn add_part<const N: usize, W: Weighting<N>>(
         part.adds.clone(),
         count,
         #[inline(always)]
-        |_, triangles, block| {
+        move |_, triangles, block| {
             let orientations = &block.orientations[..triangles.len()];
             let found = found(orientations);
             if W::SPLITS && found & bit(Orientation::Mirrors) != 0 && mirrors.is_empty() {

@@ -28,7 +28,12 @@ pub(super) fn run<O: Output>(
     memory: &mut GroupMemory,
     corners: &mut [O],
 ) -> Report {
-    topology_and_report(mesh, mode, memory, corners).1
+    on_pool(mesh, || topology_and_report(mesh, mode, memory, corners).1)
+}
+
+/// Enters the thread pool once for all stages.
+fn on_pool<R: Send>(mesh: &Mesh<'_>, work: impl FnOnce() -> R + Send) -> R {
+    threads::on_pool(threads::count(mesh.face_count()), work)
 }
 
 /// What does not depend on where vertices are, and the tangents where they are now.
@@ -36,7 +41,8 @@ pub(crate) fn plan(mesh: &Mesh<'_>, mode: Mode) -> (Topology, Tangents) {
     let mut base = Tangents::default();
     base.corners.0.resize(mesh.corner_count(), Output::NONE);
     let memory = &mut GroupMemory::default();
-    let (topology, report) = topology_and_report(mesh, mode, memory, &mut base.corners.0);
+    let corners = &mut base.corners.0;
+    let (topology, report) = on_pool(mesh, || topology_and_report(mesh, mode, memory, corners));
     (topology, Tangents { report, ..base })
 }
 
@@ -95,12 +101,14 @@ impl Topology {
         corners: &mut [O],
     ) {
         let shape = Shape::moved(mesh);
-        derivatives_into(&self.triangulation.good, &shape, &mut memory.derivatives);
-        for (derivative, &is_left_out) in memory.derivatives.iter_mut().zip(&self.is_left_out) {
-            leave_out_unless_finite(derivative);
-            derivative.any |= is_left_out;
-        }
-        self.frames(&Flat::new(mesh), &shape, mode, memory, corners);
+        on_pool(mesh, || {
+            derivatives_into(&self.triangulation.good, &shape, &mut memory.derivatives);
+            threads::update(&mut memory.derivatives, |t, derivative| {
+                leave_out_unless_finite(derivative);
+                derivative.any |= self.is_left_out[t];
+            });
+            self.frames(&Flat::new(mesh), &shape, mode, memory, corners);
+        });
     }
 
     /// Gives every corner a frame, by the derivatives in `memory`; says how many have a repair.
@@ -128,7 +136,14 @@ impl Topology {
         let known = &*memory;
         threads::fill(&mut frames, |group| self.frame(group, O::IS_WHOLE, shape, known));
         grouped.fit(&frames, memory);
-        frames.iter_mut().zip(&memory.normals).zip(&memory.residuals).for_each(fit);
+        let known = &*memory;
+        threads::update(&mut frames, |group, frame| {
+            fit(frame, known.normals[group], known.residuals[group]);
+            if O::IS_WHOLE && frame.frame.bitangent == Frame::NONE.bitangent {
+                let Frame { tangent, sign, .. } = frame.frame;
+                frame.frame.bitangent = across(self.normal_of_vertex(group, shape), tangent, sign);
+            }
+        });
         let groups = (&self.groups, &frames[..]);
         let repaired = to_corners(flat, &self.places, groups, &self.orientation_of_face, mode, corners);
         memory.frames = frames;
@@ -151,8 +166,8 @@ impl Topology {
         let mut frame = Frame { tangent, sign, ..Frame::NONE };
         if is_whole {
             let bitangent = flat_direction_of(t, normal).map(|t| t.map(|x| x as f32));
-            let across = || across(self.normal_of_vertex(group, shape), tangent, sign);
-            frame.bitangent = bitangent.unwrap_or_else(across);
+            // Without a direction it is made from the tangent, once that is fitted.
+            frame.bitangent = bitangent.unwrap_or(Frame::NONE.bitangent);
             frame.magnitude = magnitude.map(|sum| if weight > 0.0 { (sum / weight) as f32 } else { 1.0 });
         }
         GroupFrame { frame, repaired: found.is_none() }
@@ -175,7 +190,7 @@ impl Topology {
 
 /// Moves a tangent a part of the way to the fit. The whole step overshoots, half of one still does where neighbours differ much; see
 /// docs/notes/methods.md.
-fn fit(((group, &normal), &(residual, weight)): ((&mut GroupFrame, &D3), &(D3, f64))) {
+fn fit(group: &mut GroupFrame, normal: D3, (residual, weight): (D3, f64)) {
     const PART: f64 = 0.25;
     let moved = add(group.frame.tangent.map(f64::from), PART / weight, residual);
     if !group.repaired

@@ -116,9 +116,10 @@ pub(super) fn finish<const N: usize, W: Weighting<N>, O: Output>(
     let mut report = survey_where(mesh, flat, is_finite);
     report.degenerate_triangles = sums.flaws.degenerate;
     report.uv_degenerate_triangles = sums.flaws.uv_degenerate;
-    if let Some(of_both) = vertices_of_both(flat, &sums.orientation_of_face) {
-        report.mirrored_edges = count_mirrored_edges(flat, &sums.orientation_of_face, &of_both);
-        report.merged_vertices = if W::SPLITS { 0 } else { count(&of_both) };
+    let mut of_both = vertices_of_both(flat, &sums.orientation_of_face);
+    if let Some(of_both) = &of_both {
+        report.mirrored_edges = count_mirrored_edges(flat, &sums.orientation_of_face, of_both);
+        report.merged_vertices = if W::SPLITS { 0 } else { count(of_both) };
     }
     let mut missing = frames_of_sides::<N, W, O>(flat, width, sums, frames);
     decide_faces::<N, W>(flat, sums, &mut missing);
@@ -130,8 +131,10 @@ pub(super) fn finish<const N: usize, W: Weighting<N>, O: Output>(
     report.repaired_corners = count_corners::<N, W>(flat, &sums.orientation_of_face, &missing);
     to_corners::<N, W, O>(flat, &sums.orientation_of_face, frames, corners);
     if W::SPLITS {
-        report.split_vertices =
-            vertices_of_both(flat, &sums.orientation_of_face).map_or(0, |both| count(&both));
+        if !adds_all {
+            of_both = vertices_of_both(flat, &sums.orientation_of_face);
+        }
+        report.split_vertices = of_both.map_or(0, |both| count(&both));
     } else if has_both_signs(&frames[0]) {
         report.mixed_sign_faces = count_mixed_faces(flat, corners);
     }
@@ -300,7 +303,7 @@ fn direction_across(v: V3, normal: V3) -> Option<V3> {
 #[inline(always)]
 fn sure_direction_across(v: V3, normal: V3) -> (V3, bool) {
     let square = dot(normal, normal);
-    let is_about_unit = (square >= 0.25) & (square < 4.0);
+    let is_about_unit = (0.25..4.0).contains(&square);
     let rest = sub(v, scale(dot(normal, v) * (1.0 / square), normal));
     let size = dot(rest, rest);
     // Far from overflow, and with enough left of `v` to be sure of the angle. NaN is not.

@@ -101,11 +101,16 @@ pub(super) fn map<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<
 
 /// Sets every element to the value of `of` at its place, by all threads; on one it allocates nothing.
 pub(super) fn fill<T: Send>(slice: &mut [T], of: impl Fn(usize) -> T + Sync) {
+    update(slice, |at, element| *element = of(at));
+}
+
+/// Calls `with` with every element and its place, by all threads; on one it allocates nothing.
+pub(super) fn update<T: Send>(slice: &mut [T], with: impl Fn(usize, &mut T) + Sync) {
     let threads = self::count(slice.len());
     let ranges = split(0..slice.len(), threads, 1);
     let jobs = parts(slice, 0, ranges.clone()).zip(ranges);
     run(&mut vec![(); threads], jobs, |(), (part, range)| {
-        part.iter_mut().zip(range).for_each(|(element, at)| *element = of(at));
+        part.iter_mut().zip(range).for_each(|(element, at)| with(at, element));
     });
 }
 
