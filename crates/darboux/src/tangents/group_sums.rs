@@ -28,7 +28,7 @@ pub(super) struct GroupFrame {
     pub repaired: bool,
 }
 
-/// What runs keep from one to the next.
+/// What runs keep from one to the next: 140 bytes per triangle (for whole frames 212) and 170 per group.
 #[derive(Debug, Default)]
 pub(super) struct GroupMemory {
     pub derivatives: Vec<Derivative>,
