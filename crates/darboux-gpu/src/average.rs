@@ -155,10 +155,10 @@ impl AverageOfMesh {
 const WORDS_OF_SUMS: u32 = 16;
 
 const IN_PLACE: &str = include_str!("../shaders/in_place.wgsl");
-const SECOND_BUFFER: &str = include_str!("../shaders/second_buffer.wgsl");
+pub(crate) const SECOND_BUFFER: &str = include_str!("../shaders/second_buffer.wgsl");
 
 /// The files of a shader, by search and where frames go.
-fn files(search: Search, storage: &'static str) -> [&'static str; 7] {
+pub(crate) fn files(search: Search, storage: &'static str) -> [&'static str; 7] {
     [
         include_str!("../shaders/mesh.wgsl"),
         include_str!("../shaders/device.wgsl"),

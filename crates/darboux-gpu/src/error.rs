@@ -1,5 +1,7 @@
 //! What can be wrong with what a caller hands over.
 
+use darboux::moving::Unplanned;
+
 /// Why something cannot run on a GPU. Degenerate or non-finite geometry is no error.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -132,4 +134,14 @@ pub enum GpuError {
         /// The buffers'.
         found: u32,
     },
+}
+
+impl From<Unplanned> for GpuError {
+    fn from(why: Unplanned) -> Self {
+        match why {
+            Unplanned::NotTriangles => Self::NotTriangles,
+            Unplanned::OtherMethod => Self::OtherMethod,
+            Unplanned::TooManyMembers { members, limit } => Self::TooManyMembers { members, limit },
+        }
+    }
 }

@@ -35,6 +35,8 @@ mod error;
 mod evaluation;
 mod gpu;
 mod kernel;
+#[cfg(test)]
+mod kernels;
 mod mikktspace;
 #[cfg(test)]
 mod operations;

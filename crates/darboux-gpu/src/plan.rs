@@ -2,20 +2,19 @@
 
 mod check;
 mod normals;
-mod topology;
 
 use bytemuck::Zeroable;
+use darboux::moving::{Topology, VERTEX};
 use darboux::{Mesh, TangentOptions};
 use wgpu::{Buffer, BufferUsages, CommandEncoder, ComputePipeline, Device};
 
 use crate::buffers::{check_elements, check_places, check_size};
-use crate::kernel::{Step, buffer, filled, module, pipeline};
+use crate::kernel::{MAX_TURNS, Step, buffer, filled, module, pipeline};
 use crate::reals::{Arithmetic, LIST, List, RealKernel, RealStep, files};
 use crate::{GpuError, Precision};
 pub use check::PlanCheck;
 use normals::Fans;
 pub use normals::PlanNormals;
-use topology::{Topology, VERTEX};
 
 const PLAN: &str = include_str!("../shaders/plan/plan.wgsl");
 const TRIANGLE: &str = include_str!("../shaders/plan/triangle.wgsl");
@@ -193,10 +192,11 @@ impl Planner {
     /// Errors: faces other than triangles, methods other than MikkTSpace, vertices of too many triangles, a buffer past a limit of the
     /// device.
     pub fn plan(&self, mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Plan, GpuError> {
-        let topology = Topology::new(mesh, options)?;
+        let topology = Topology::new(mesh, options, MAX_TURNS as usize)?;
         let of_corners = self.upload("sums of corners", &topology.sum_of_corner)?;
-        let of_vertices =
-            topology.sum_of_vertex(mesh).and_then(|sums| self.upload("sums of vertices", &sums));
+        let of_vertices = (topology.sum_of_vertex(mesh))
+            .map_err(|vertices| GpuError::Unsplit { vertices })
+            .and_then(|sums| self.upload("sums of vertices", &sums));
         let count = |count: usize| count as u32;
         let terms = 9 * topology.triangle_count;
         check_size(&self.device, "terms", 4 * u64::from(terms))?;

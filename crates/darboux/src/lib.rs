@@ -66,5 +66,5 @@ pub use tangents::{
     generate_tangents, generate_tangents_into, lend_frames, on_this_thread, write_frames, write_tangents,
 };
 #[doc(hidden)]
-pub use tangents::{elsewhere, stages};
+pub use tangents::{elsewhere, moving, stages};
 pub use transform::Transform;

@@ -21,6 +21,8 @@ mod lengyel;
 mod local;
 mod method;
 pub(crate) mod mikktspace;
+#[doc(hidden)]
+pub mod moving;
 pub mod naive;
 mod opposites;
 mod orthogonal;

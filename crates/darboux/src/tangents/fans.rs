@@ -43,7 +43,7 @@ pub(crate) use planned::PlannedFans;
 use shuffled::Terms;
 use source::Source;
 use steps::{Extent, Special};
-use stream::Stream;
+use stream::{Stream, Unknown};
 pub use vertices::UNDECIDED;
 use vertices::Vertex;
 use weld::{Refused, Weld};
@@ -169,7 +169,7 @@ impl Fans {
         self.shares.extend(shares(&self.windows, self.weld.count, self.workers.len()));
         let shares = &self.shares;
         let (source, windows) = (source(mesh, &self.weld, &self.cut), &self.windows[..]);
-        let stream = Stream { source, windows, tail, signs: None, width, stop };
+        let stream = Stream { source, windows, tail, signs: Unknown, width, stop };
         if overlap(shares, &self.windows) {
             shuffled::run(&stream, self.weld.count, &mut self.workers, &mut self.terms, out);
         } else {

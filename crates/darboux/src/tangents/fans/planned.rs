@@ -79,7 +79,7 @@ impl Fans {
     ) {
         let (windows, source) = (&plan.windows[..], source(mesh, &plan.weld, &plan.cut));
         let stream =
-            Stream { source, windows, tail: &TailCells::none(), signs: Some(&plan.signs), width, stop };
+            Stream { source, windows, tail: &TailCells::none(), signs: &plan.signs[..], width, stop };
         self.shares.clear();
         self.shares.extend(shares(windows, plan.weld.count, self.workers.len()));
         if overlap(&self.shares, windows) {

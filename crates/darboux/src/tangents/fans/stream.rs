@@ -15,17 +15,38 @@ use super::workers::Worker;
 
 /// What all shares have in common.
 #[derive(Clone, Copy)]
-pub(super) struct Stream<'a> {
+pub(super) struct Stream<'a, S = Unknown> {
     pub source: Source<'a>,
     pub windows: &'a [Window],
     pub tail: &'a TailCells,
-    /// Where they are known: the signs of the vertices, of which those that are decided are so.
-    pub signs: Option<&'a [f32]>,
+    pub signs: S,
     pub width: Width,
     pub stop: &'a Stop,
 }
 
-impl Stream<'_> {
+/// The signs of the vertices, where they are known: of those that are decided. Two types, so that a program without plans has no code
+/// of theirs.
+pub(super) trait Signs: Copy {
+    fn known(&self) -> Option<&[f32]>;
+}
+
+/// Signs that are still to be found.
+#[derive(Clone, Copy)]
+pub(super) struct Unknown;
+
+impl Signs for Unknown {
+    fn known(&self) -> Option<&[f32]> {
+        None
+    }
+}
+
+impl Signs for &[f32] {
+    fn known(&self) -> Option<&[f32]> {
+        Some(self)
+    }
+}
+
+impl<S: Signs> Stream<'_, S> {
     /// Goes through the windows of a share: reads the vertices that each needs first, adds its triangles, finishes vertices that
     /// none needs any more, writes windows whose vertices are finished. Windows with vertices of other shares are left pending.
     pub fn run(&self, share: &Share, worker: &mut Worker, out: &mut [[f32; 4]]) {
@@ -92,7 +113,7 @@ impl Stream<'_> {
         let triangles = self.source.triangles(range.clone(), &mut worker.triangles);
         let Worker { block, vertices, marks, first, .. } = worker;
         let first_vertex = *first as u32;
-        match self.signs {
+        match self.signs.known() {
             None => {
                 self.width.run(Add { triangles, first: first_vertex, block, vertices, marks });
                 mark_doubtful(&self.source, range, *first, marks);
@@ -109,7 +130,7 @@ impl Stream<'_> {
         }
         let place = range.start - worker.first..range.end - worker.first;
         let (vertices, marks) = (&mut worker.vertices[place.clone()], &worker.marks[place]);
-        match self.signs {
+        match self.signs.known() {
             None => self.width.run(Finish { vertices, marks, unused: &mut worker.unused }),
             Some(signs) => {
                 let signs = &signs[range];

@@ -1,22 +1,36 @@
-//! What of a mesh does not move, as plans' shaders read it.
+//! What of a mesh does not move, as the shaders of plans read it: for `darboux-gpu` and the npm package. Not part of the API.
 
 use std::collections::HashMap;
 
-use darboux::stages::{From, NONE, Stages, Triangles};
-use darboux::{CornerTangents, Faces, Mesh, Method, Mode, TangentOptions, generate_tangents};
+use crate::{CornerTangents, Faces, Mesh, Method, Mode, TangentOptions, generate_tangents};
 
-use crate::GpuError;
-use crate::kernel::MAX_TURNS;
+use super::stages::{From, NONE, Stages, Triangles};
 
-/// Vertices' numbers end below these bits; see shaders/plan/triangle.wgsl.
+/// Vertices' numbers end below these bits; see darboux-gpu's shaders/plan/triangle.wgsl.
 const FIRST_MARK: u32 = 1 << 31;
 const SECOND_MARK: u32 = 1 << 30;
 /// The bits of a vertex.
-pub(crate) const VERTEX: u32 = SECOND_MARK - 1;
+pub const VERTEX: u32 = SECOND_MARK - 1;
+
+/// Why a mesh has no plan there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unplanned {
+    /// Faces other than triangles.
+    NotTriangles,
+    /// Another method than MikkTSpace.
+    OtherMethod,
+    /// More members of sums than fit.
+    TooManyMembers {
+        /// At least so many.
+        members: usize,
+        /// The largest number.
+        limit: usize,
+    },
+}
 
 /// The arrays of a plan.
-#[derive(Debug)]
-pub(crate) struct Topology {
+#[derive(Debug, Default)]
+pub struct Topology {
     /// Five words per triangle, degenerate ones last.
     pub triangles: Vec<u32>,
     /// Two words per triangle: the differences of u.
@@ -42,22 +56,22 @@ pub(crate) struct Topology {
 }
 
 impl Topology {
-    /// Errors: faces that are not triangles, another method, too many members.
-    pub fn new(mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Self, GpuError> {
+    /// `most_members`: of one sum. Errors: faces that are not triangles, another method, too many members.
+    pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, most_members: usize) -> Result<Self, Unplanned> {
         if !matches!(mesh.faces(), Faces::Triangles) {
-            return Err(GpuError::NotTriangles);
+            return Err(Unplanned::NotTriangles);
         }
         if options.method != Method::MikkTSpace {
-            return Err(GpuError::OtherMethod);
+            return Err(Unplanned::OtherMethod);
         }
         let limit = 8 * mesh.corner_count() + (1 << 20);
-        let too_many = |members, limit| GpuError::TooManyMembers { members, limit };
+        let too_many = |members, limit| Unplanned::TooManyMembers { members, limit };
         let stages = Stages::new(mesh, options, limit).ok_or_else(|| too_many(limit + 1, limit))?;
         let base = generate_tangents(mesh, options).corners;
         let mut sums = Sums::new(mesh, &stages);
         let sum_of_corner = sums.of_corners(mesh, &stages, &base);
-        if let Some(members) = sums.largest().filter(|&members| members > MAX_TURNS as usize) {
-            return Err(too_many(members, MAX_TURNS as usize));
+        if let Some(members) = sums.largest().filter(|&members| members > most_members) {
+            return Err(too_many(members, most_members));
         }
         let (good, degenerate) = (&stages.triangulation.good, &stages.triangulation.degenerate);
         let mut triangles = Vec::new();
@@ -87,8 +101,8 @@ impl Topology {
 
     /// The sum of each vertex: that of its first corner, [`NONE`] for those that nothing uses.
     ///
-    /// Errors: corners of one vertex have different tangents.
-    pub fn sum_of_vertex(&self, mesh: &Mesh<'_>) -> Result<Vec<u32>, GpuError> {
+    /// Errors: corners of one vertex have different tangents; the number of such vertices.
+    pub fn sum_of_vertex(&self, mesh: &Mesh<'_>) -> Result<Vec<u32>, usize> {
         let mut first = vec![NONE; mesh.vertex_count()];
         let mut has_several = vec![false; mesh.vertex_count()];
         let bits = |corner: usize| self.base.per_corner()[corner].map(f32::to_bits);
@@ -105,7 +119,7 @@ impl Topology {
                 .map(|&corner| self.sum_of_corner.get(corner as usize).copied())
                 .map(none)
                 .collect()),
-            vertices => Err(GpuError::Unsplit { vertices }),
+            vertices => Err(vertices),
         }
     }
 }
