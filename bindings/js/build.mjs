@@ -4,7 +4,8 @@ import { spawnSync } from 'node:child_process';
 import { copyFileSync, cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { deflateRawSync } from 'node:zlib';
+import zopfli from '@gfx/zopfli';
+import binaryen from 'binaryen';
 import { build } from 'esbuild';
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -24,22 +25,56 @@ function run(program, ...words) {
   if (status !== 0) throw error ?? new Error(`${program} failed`);
 }
 
+/** Functions of the standard library that end a call. What they would say no one hears. */
+const ENDS = /^_RNv.*(9panicking\d|_fail$|_failed$|17rust_begin_unwind|15panic_with_hook|12handle_error|18handle_alloc_error|17capacity_overflow|8rust_oom)/;
+
+/** A module whose panics are traps, without their words. */
+function withoutWords(from, to) {
+  const module = binaryen.readBinary(readFileSync(from));
+  for (let at = 0; at < module.getNumFunctions(); at++) {
+    const place = module.getFunctionByIndex(at);
+    if (ENDS.test(binaryen.getFunctionInfo(place).name)) binaryen.Function(place).body = module.unreachable();
+  }
+  writeFileSync(to, module.emitBinary());
+  module.dispose();
+}
+
 /** The modules, made smaller. */
 function optimize(entry, form) {
   const features = [...FEATURES, ...(form === 'simd' ? ['simd'] : [])].map((name) => `--enable-${name}`);
   const place = join(here, 'lib/wasm', `${entry}.${form}.wasm`);
   mkdirSync(dirname(place), { recursive: true });
-  run('wasm-opt', ...features, '-O3', '--strip-debug', '--strip-producers', '--strip-target-features', join(modules, `${entry}.${form}.wasm`), '-o', place);
+  withoutWords(join(modules, `${entry}.${form}.wasm`), place);
+  run('wasm-opt', ...features, '-O3', '--strip-debug', '--strip-producers', '--strip-target-features', place, '-o', place);
 }
 
 /** Modules are embedded deflated: what a server compresses again then barely grows, while plain base64 grows by half. */
 const deflated = {
   name: 'deflated',
   setup: (build) =>
-    build.onLoad({ filter: /\.wasm$/ }, ({ path }) => ({
-      contents: deflateRawSync(readFileSync(path), { level: 9 }),
+    build.onLoad({ filter: /\.wasm$/ }, async ({ path }) => ({
+      contents: await (smallest[path] ??= zopfli.deflateAsync(readFileSync(path), { numiterations: 5 })),
       loader: 'binary',
     })),
+};
+
+/** Modules that have been deflated, by path: both forms of an entry have the same. */
+const smallest = {};
+
+/** The shaders of crates/darboux-gpu, each file once, put together as its list says. Parts that are no files stand for themselves. */
+const shaders = {
+  name: 'shaders',
+  setup: (build) => {
+    const folder = join(here, '../../crates/darboux-gpu/shaders');
+    build.onResolve({ filter: /^darboux-gpu\/kernels$/ }, () => ({ path: join(folder, 'kernels.json'), namespace: 'shaders' }));
+    build.onLoad({ filter: /.*/, namespace: 'shaders' }, ({ path }) => {
+      const kernels = Object.entries(JSON.parse(readFileSync(path, 'utf8')));
+      const parts = [...new Set(kernels.flatMap(([, parts]) => parts))];
+      const texts = parts.map((part) => (part.endsWith('.wgsl') ? readFileSync(join(folder, part), 'utf8') : part));
+      const lists = kernels.map(([name, list]) => `${name}: [${list.map((part) => `t[${parts.indexOf(part)}]`)}]`);
+      return { contents: `const t = ${JSON.stringify(texts)};\nexport default { ${lists} };` };
+    });
+  },
 };
 
 /** Adapters import their entry as users do, so that it is there once. */
@@ -59,9 +94,8 @@ const common = {
   minify: true,
   target: 'es2022',
   platform: 'neutral',
-  plugins: [deflated],
+  plugins: [deflated, shaders],
   external: ['*.scalar.js', 'three'],
-  loader: { '.wgsl': 'text' },
   logLevel: 'warning',
 };
 
@@ -73,7 +107,7 @@ async function bundle(entry) {
 
 async function bundleAdapters() {
   const entryPoints = ADAPTERS.map((adapter) => `${adapter}.ts`);
-  const plugins = (extension) => [entries(extension)];
+  const plugins = (extension) => [entries(extension), shaders];
   await build({ ...common, format: 'esm', entryPoints, plugins: plugins('.js') });
   await build({ ...common, format: 'cjs', entryPoints, plugins: plugins('.cjs'), outExtension: { '.js': '.cjs' } });
 }
@@ -87,7 +121,7 @@ await bundleAdapters();
 run('tsc', '-p', 'lib', '--outDir', out);
 for (const inner of ['all', 'engine', 'mesh', ...ENTRIES.map((entry) => `${entry}.scalar`)]) rmSync(join(out, `${inner}.d.ts`));
 for (const inner of ['gltf', 'gpu']) rmSync(join(out, inner), { recursive: true });
-for (const name of [...ENTRIES, ...ADAPTERS, 'plan', 'types']) {
+for (const name of [...ENTRIES, ...ADAPTERS, 'plan', 'planner', 'topology', 'types']) {
   const types = readFileSync(join(out, `${name}.d.ts`), 'utf8');
   writeFileSync(join(out, `${name}.d.cts`), types.replaceAll(/from '(.*)\.js'/g, "from '$1.cjs'"));
 }

@@ -17,6 +17,10 @@ export interface AllExports extends Exports {
   evaluate_plan(plan: number): number;
   count_regrouped(plan: number): number;
   drop_plan(plan: number): void;
+  plan_topology(mode: number, threshold: number, most: number): number;
+  topology_list(list: number): number;
+  topology_length(list: number): number;
+  drop_topology(): void;
   generate_normals(shading: number, weight: number, crease: number, seams: number): number;
   given(tangents: number): number;
   others(tangents: number): number;

@@ -5,6 +5,7 @@ import { checkIndices, checkOut, choice, degrees, floats, indexError, mesh, must
 import type * as types from './types.js';
 
 export { Plan } from './plan.js';
+export { planTopology } from './topology.js';
 export type * from './types.js';
 
 // In the order of the codes that the WebAssembly side knows.

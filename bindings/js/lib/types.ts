@@ -140,3 +140,23 @@ export interface TangentCodes {
 
 /** Names of encodings. */
 export type TangentEncoding = keyof TangentCodes;
+
+/** What of a mesh does not move when its vertices do, as the shaders of `darboux/webgpu` read it. Data: it may be posted and stored. */
+export interface PlanTopology {
+  vertexCount: number;
+  cornerCount: number;
+  /** Triangles without those that have two equal positions, which come after them. */
+  triangleCount: number;
+  degenerateCount: number;
+  sumCount: number;
+  /** Whether unusable tangents are replaced. */
+  repairs: boolean;
+  /** Vertices whose corners have several tangents. */
+  splitVertices: number;
+  triangles: Uint32Array<ArrayBuffer>;
+  representatives: Uint32Array<ArrayBuffer>;
+  sums: Uint32Array<ArrayBuffer>;
+  sumOfCorner: Uint32Array<ArrayBuffer>;
+  /** Empty where there are split vertices. */
+  sumOfVertex: Uint32Array<ArrayBuffer>;
+}

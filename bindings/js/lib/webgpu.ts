@@ -1,22 +1,17 @@
-// `darboux/webgpu`: the method 'average' on WebGPU, per vertex.
+// `darboux/webgpu`: plans and the method 'average' on WebGPU.
 
-import adjacency from '../../../crates/darboux-gpu/shaders/adjacency.wgsl';
-import average from '../../../crates/darboux-gpu/shaders/average.wgsl';
-import arithmetic from '../../../crates/darboux-gpu/shaders/device.wgsl';
-import exact from '../../../crates/darboux-gpu/shaders/exact.wgsl';
-import frame from '../../../crates/darboux-gpu/shaders/frame.wgsl';
-import gather from '../../../crates/darboux-gpu/shaders/gather.wgsl';
-import mesh from '../../../crates/darboux-gpu/shaders/mesh.wgsl';
-import scan from '../../../crates/darboux-gpu/shaders/scan.wgsl';
-import secondBuffer from '../../../crates/darboux-gpu/shaders/second_buffer.wgsl';
+import shaders from 'darboux-gpu/kernels';
+import { checkRows, reach } from './gpu/check.js';
 import { buffer, module, pipeline, scanSteps, step, USAGE } from './gpu/kernels.js';
 
-/** The shaders as data, each of files that are read one after the other, after the constants WORKGROUP, VALUES_PER_THREAD, BLOCK and MAX_TURNS. */
-export const shaders = {
-  adjacency: [mesh, adjacency],
-  average: [mesh, arithmetic, exact, secondBuffer, average, frame, gather],
-  scan: [scan],
-} as const;
+export { GpuPlan, Planner, PlanOfBuffers } from './planner.js';
+export type { GpuAttribute, GpuMovingMesh } from './planner.js';
+
+/**
+ * The shaders as data, each of texts that are read one after the other, after the constants WORKGROUP, VALUES_PER_THREAD, BLOCK, MAX_GROUPS and
+ * MAX_TURNS.
+ */
+export { shaders };
 
 /** Vertices and indices on the GPU. Offsets and strides count bytes and are multiples of 4; buffers have the usage STORAGE. */
 export interface GpuMesh {
@@ -141,7 +136,7 @@ function describe(device: GPUDevice, mesh: GpuMesh, frames: GpuFrames): GPUBuffe
   return result;
 }
 
-/** Reads past a buffer are none of WebGPU's errors: they give anything. */
+/** Errors: indices that are not whole triangles; places that are not whole words or past their buffer. */
 function check(mesh: GpuMesh, frames: GpuFrames): void {
   const { vertexCount, indexCount, firstIndex = 0 } = mesh;
   if (vertexCount < 1 || indexCount < 3 || indexCount % 3) {
@@ -150,9 +145,7 @@ function check(mesh: GpuMesh, frames: GpuFrames): void {
   const size = mesh.indexFormat === 'uint16' ? 2 : 4;
   reach('indices', mesh.indices, (firstIndex + indexCount) * size);
   const rows = (what: string, buffer: GPUBuffer, stride: number, offset: number | undefined, bytes: number) => {
-    if (offset === undefined) return;
-    if (stride % 4 || offset % 4) throw new RangeError(`the ${what} are not whole words apart; strides and offsets must be multiples of 4`);
-    reach(what, buffer, (vertexCount - 1) * stride + offset + bytes);
+    if (offset !== undefined) checkRows(what, buffer, stride, offset, vertexCount, bytes);
   };
   rows('positions', mesh.vertices, mesh.stride, mesh.position, 12);
   rows('normals', mesh.vertices, mesh.stride, mesh.normal, 12);
@@ -160,8 +153,4 @@ function check(mesh: GpuMesh, frames: GpuFrames): void {
   rows('tangents', frames.buffer, frames.stride, frames.tangent, 12);
   rows('bitangents', frames.buffer, frames.stride, frames.bitangent, 12);
   rows('signs', frames.buffer, frames.stride, frames.sign, 4);
-}
-
-function reach(what: string, buffer: GPUBuffer, needed: number): void {
-  if (needed > buffer.size) throw new RangeError(`the ${what} need ${needed} bytes but their buffer has ${buffer.size}`);
 }

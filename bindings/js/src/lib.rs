@@ -21,4 +21,6 @@ mod room;
 mod split;
 mod tangents;
 #[cfg(feature = "full")]
+mod topology;
+#[cfg(feature = "full")]
 mod values;

@@ -21,6 +21,8 @@ pub struct Values {
     /// Plans, and places where others may go.
     pub plans: Vec<Option<Kept>>,
     pub measures: Vec<f64>,
+    /// The lists of a mesh that is planned for shaders.
+    pub topology: Vec<Vec<u32>>,
 }
 
 #[unsafe(no_mangle)]

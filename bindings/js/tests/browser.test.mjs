@@ -64,6 +64,34 @@ test('WebGPU finds the tangents of the CPU', { skip }, async (context) => {
   }
 });
 
+test('plans on WebGPU have the bits of those on the CPU', { skip }, async (context) => {
+  const cases = [['vertex', 'waves', {}], ['corner', 'waves', { threshold: 20 }], ['corner', 'seams', { mode: 'reference' }], ['corner', 'seams', {}]];
+  for (const [per, mesh, options] of cases) {
+    const found = await page.evaluate(([per, options, mesh]) => tested.plans(per, options, mesh), [per, options, mesh]);
+    if (!found) return context.skip('this Chromium has no WebGPU adapter');
+    assert.deepEqual([found.errors, found.corners, found.differing, found.counts], [[], 14_400, 0, [0, 0, 0]], `${mesh} ${per} ${JSON.stringify(options)}`);
+  }
+});
+
+test('plans on WebGPU count what they leave to the CPU', { skip }, async (context) => {
+  const found = await page.evaluate(() => tested.plans('corner', {}, 'waves', 2 ** -70)); // too small for floats to be exact
+  if (!found) return context.skip('this Chromium has no WebGPU adapter');
+  assert.deepEqual(found.errors, []);
+  assert.equal(found.counts[0], 4800);
+});
+
+test('plans on WebGPU refuse buffers that do not fit', { skip }, async (context) => {
+  const found = await page.evaluate(() => tested.refusals());
+  if (!found) return context.skip('this Chromium has no WebGPU adapter');
+  assert.deepEqual(found, [
+    'RangeError: 2 vertices have several tangents; split them first (splitVertices)',
+    'RangeError: the positions are not whole words apart; strides and offsets must be multiples of 4',
+    'RangeError: the tangents need 464 bytes but their buffer has 240',
+    'RangeError: the tangents need 480 bytes but their buffer has 240',
+    [],
+  ]);
+});
+
 test('200 plans live side by side', { skip }, async () => {
   const length = await page.evaluate(() => {
     const mesh = [9, 9, 6].map((length) => new Float32Array(length));

@@ -2,6 +2,7 @@ import assert from 'node:assert/strict';
 import { setFlagsFromString } from 'node:v8';
 import { test } from 'node:test';
 import { runInNewContext } from 'node:vm';
+import { mirrored, square } from './meshes.mjs';
 
 /** The memories of all instances. */
 const memories = [];
@@ -11,7 +12,7 @@ WebAssembly.Instance = function (module) {
   memories.push(instance.exports.memory);
   return instance;
 };
-const { Plan, ready } = await import('darboux');
+const { Plan, planTopology, ready } = await import('darboux');
 await ready;
 
 const mesh = [9, 9, 6].map((length) => new Float32Array(30 * length));
@@ -65,4 +66,14 @@ test('a mesh too large for WebAssembly takes its plan along, and the next is mad
   assert.throws(() => kept.evaluate(positions, normals), { name: 'RangeError', message: /^the mesh needs more memory / });
   kept.dispose();
   plan();
+});
+
+test('the topology for shaders is that of the mesh', () => {
+  const topology = planTopology(...square());
+  assert.deepEqual([topology.vertexCount, topology.cornerCount, topology.triangleCount, topology.sumCount, topology.splitVertices], [4, 6, 2, 4, 0]);
+  assert.deepEqual(Array.from(topology.sumOfCorner), Array.from(square()[3], (vertex) => topology.sumOfVertex[vertex]));
+  assert.equal(planTopology(...mirrored()).splitVertices, 2);
+  assert.throws(() => planTopology(...square(), { method: 'area' }), /has no plan for shaders/);
+  assert.throws(() => planTopology(...square().slice(0, 3), Uint16Array.of(0, 1, 2, 3), { faces: 4 }), /shaders take triangles/);
+  assert.throws(() => planTopology(...square().slice(0, 3), Uint16Array.of(0, 1, 9)), /index 9/);
 });

@@ -5,13 +5,15 @@ const WORKGROUP = 64;
 const VALUES_PER_THREAD = 4;
 /** Values of a block of a prefix sum. */
 const BLOCK = WORKGROUP * VALUES_PER_THREAD;
+/** Groups that an indirect dispatch asks for at most, in its one row. */
+const MAX_GROUPS = 65_535;
 /** Turns that one thread's loops take at most: drivers end what runs too long. */
 const MAX_TURNS = 2 ** 15;
 
-const SIZES = { WORKGROUP, VALUES_PER_THREAD, BLOCK, MAX_TURNS };
+const SIZES = { WORKGROUP, VALUES_PER_THREAD, BLOCK, MAX_GROUPS, MAX_TURNS };
 
 /** GPUBufferUsage, which is there only where WebGPU is. */
-export const USAGE = { COPY_SRC: 4, COPY_DST: 8, UNIFORM: 64, STORAGE: 128 } as const;
+export const USAGE = { COPY_SRC: 4, COPY_DST: 8, UNIFORM: 64, STORAGE: 128, INDIRECT: 256 } as const;
 
 /** A shader of files that are read one after the other. */
 export function module(device: GPUDevice, files: readonly string[]): GPUShaderModule {
@@ -30,20 +32,40 @@ export function buffer(device: GPUDevice, label: string, words: number): GPUBuff
   return device.createBuffer({ label, size: 4 * Math.max(words, 1), usage });
 }
 
+/** A buffer with these words. */
+export function filled(device: GPUDevice, label: string, words: Uint32Array, usage: number = USAGE.STORAGE): GPUBuffer {
+  const result = device.createBuffer({ label, size: Math.max(words.byteLength, 4), usage, mappedAtCreation: true });
+  new Uint32Array(result.getMappedRange()).set(words);
+  result.unmap();
+  return result;
+}
+
 /** Records a pipeline with its buffers, by binding, as a pass of its own. */
 export type Step = (encoder: GPUCommandEncoder) => void;
 
+/** Buffers by binding. */
+export type Buffers = Record<number, GPUBuffer>;
+
 /** A step of at least `threads` threads; the shader turns others away. */
-export function step(device: GPUDevice, pipeline: GPUComputePipeline, buffers: Record<number, GPUBuffer>, threads: number): Step {
-  const entries = Object.entries(buffers).map(([binding, buffer]) => ({ binding: Number(binding), resource: { buffer } }));
-  const group = device.createBindGroup({ layout: pipeline.getBindGroupLayout(0), entries });
+export function step(device: GPUDevice, pipeline: GPUComputePipeline, buffers: Buffers, threads: number): Step {
   const groups = Math.ceil(threads / WORKGROUP);
   const row = Math.min(Math.max(groups, 1), device.limits.maxComputeWorkgroupsPerDimension);
+  return recorded(device, pipeline, buffers, (pass) => pass.dispatchWorkgroups(row, Math.ceil(groups / row)));
+}
+
+/** A step over what is listed, as many as these are then. */
+export function stepOverList(device: GPUDevice, pipeline: GPUComputePipeline, buffers: Buffers, list: GPUBuffer): Step {
+  return recorded(device, pipeline, buffers, (pass) => pass.dispatchWorkgroupsIndirect(list, 0));
+}
+
+function recorded(device: GPUDevice, pipeline: GPUComputePipeline, buffers: Buffers, dispatch: (pass: GPUComputePassEncoder) => void): Step {
+  const entries = Object.entries(buffers).map(([binding, buffer]) => ({ binding: Number(binding), resource: { buffer } }));
+  const group = device.createBindGroup({ layout: pipeline.getBindGroupLayout(0), entries });
   return (encoder) => {
     const pass = encoder.beginComputePass();
     pass.setPipeline(pipeline);
     pass.setBindGroup(0, group);
-    pass.dispatchWorkgroups(row, Math.ceil(groups / row));
+    dispatch(pass);
     pass.end();
   };
 }

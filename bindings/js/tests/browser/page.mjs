@@ -5,7 +5,7 @@ import * as darboux from 'darboux';
 import { tangents } from 'darboux/gltf-transform';
 import * as mikktspace from 'darboux/mikktspace';
 import { computeTangents } from 'darboux/three';
-import { Average } from 'darboux/webgpu';
+import { Average, Planner } from 'darboux/webgpu';
 import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { computeMikkTSpaceTangents } from 'three/addons/utils/BufferGeometryUtils.js';
@@ -128,39 +128,112 @@ export function standardMaterial() {
   };
 }
 
-/** Tangents of a grid by WebGPU and by the CPU, per vertex, with one vertex more that nothing uses; none where there is no adapter. */
-export async function averages(indexFormat) {
+/** A device of WebGPU, its errors, and buffers of it; none where there is no adapter. */
+async function gpu() {
   const adapter = await navigator.gpu?.requestAdapter();
   if (!adapter) return null;
   const device = await adapter.requestDevice();
   const errors = [];
   device.addEventListener('uncapturederror', ({ error }) => errors.push(error.message));
+  const { STORAGE, COPY_DST, COPY_SRC, MAP_READ } = GPUBufferUsage;
+  const filled = (array) => {
+    const buffer = device.createBuffer({ size: 4 * Math.ceil(array.byteLength / 4), usage: STORAGE | COPY_DST | COPY_SRC });
+    device.queue.writeBuffer(buffer, 0, array);
+    return buffer;
+  };
+  /** Records, and reads the buffers' words. */
+  const read = async (record, buffers) => {
+    const encoder = device.createCommandEncoder();
+    record(encoder);
+    const copies = buffers.map((buffer) => {
+      const copy = device.createBuffer({ size: buffer.size, usage: COPY_DST | MAP_READ });
+      encoder.copyBufferToBuffer(buffer, 0, copy, 0, buffer.size);
+      return copy;
+    });
+    device.queue.submit([encoder.finish()]);
+    return Promise.all(copies.map(async (copy) => {
+      await copy.mapAsync(GPUMapMode.READ);
+      return new Uint32Array(copy.getMappedRange().slice(0));
+    }));
+  };
+  return { device, errors, filled, read };
+}
+
+/** Tangents of a grid by WebGPU and by the CPU, per vertex, with one vertex more that nothing uses; none where there is no adapter. */
+export async function averages(indexFormat) {
+  const found = await gpu();
+  if (!found) return null;
+  const { device, errors, filled, read } = found;
   const [positions, normals, uvs, indices] = grid(100, 70);
   const vertexCount = positions.length / 3;
   const interleaved = new Float32Array(8 * vertexCount);
   for (let at = 0; at < vertexCount; at++) {
     interleaved.set([...uvs.subarray(2 * at, 2 * at + 2), ...positions.subarray(3 * at, 3 * at + 3), ...normals.subarray(3 * at, 3 * at + 3)], 8 * at);
   }
-  const { STORAGE, COPY_DST, COPY_SRC, MAP_READ } = GPUBufferUsage;
-  const filled = (array) => {
-    const buffer = device.createBuffer({ size: 4 * Math.ceil(array.byteLength / 4), usage: STORAGE | COPY_DST });
-    device.queue.writeBuffer(buffer, 0, array);
-    return buffer;
-  };
   const list = indexFormat === 'uint16' ? Uint16Array.from(indices) : indices;
-  const frames = device.createBuffer({ size: 28 * vertexCount, usage: STORAGE | COPY_SRC });
+  const frames = filled(new Float32Array(7 * vertexCount));
   const mesh = { vertices: filled(interleaved), vertexCount, stride: 32, position: 8, normal: 20, uv: 0, indices: filled(list), indexFormat, indexCount: list.length };
   const work = new Average(device).ofMesh(mesh, { buffer: frames, stride: 28, tangent: 0, sign: 12, bitangent: 16 });
-  const read = device.createBuffer({ size: frames.size + 12, usage: COPY_DST | MAP_READ });
-  const encoder = device.createCommandEncoder();
-  work.record(encoder);
-  encoder.copyBufferToBuffer(frames, 0, read, 0, frames.size);
-  encoder.copyBufferToBuffer(work.counts, 0, read, frames.size, 12);
-  device.queue.submit([encoder.finish()]);
-  await read.mapAsync(GPUMapMode.READ);
-  const found = new Float32Array(read.getMappedRange().slice(0));
-  const counts = Array.from(new Uint32Array(found.buffer, frames.size, 3));
+  const [words, counts] = await read((encoder) => work.record(encoder), [frames, work.counts]);
+  const ofVertex = new Float32Array(words.buffer);
   const ofCorner = darboux.generateTangents(positions, normals, uvs, indices, { method: 'average' });
-  const ours = Float32Array.from({ length: ofCorner.length }, (_, at) => found[7 * indices[at >> 2] + (at & 3)]);
-  return { errors, counts, difference: darboux.measureTangents(ours, ofCorner) };
+  const ours = Float32Array.from({ length: ofCorner.length }, (_, at) => ofVertex[7 * indices[at >> 2] + (at & 3)]);
+  return { errors, counts: Array.from(counts), difference: darboux.measureTangents(ours, ofCorner) };
 }
+
+/** A grid that moves and shrinks, and its plans: how many corners have other bits on WebGPU than on the CPU. */
+export async function plans(per, options, name, scale = 1) {
+  const found = await gpu();
+  if (!found) return null;
+  const { device, errors, filled, read } = found;
+  const mesh = MESHES[name]();
+  const [positions, normals, , indices] = mesh;
+  const moved = positions.map((x, at) => scale * (x + (at % 3 === 2 ? Math.sin(positions[at - 2] / 3) : 0)));
+  const vertexCount = positions.length / 3;
+  const outputs = per === 'corner' ? indices.length : vertexCount;
+  // Positions, normals and, where vertices have tangents, these, in one buffer.
+  const vertices = new Float32Array(10 * vertexCount);
+  for (let at = 0; at < vertexCount; at++) {
+    vertices.set(moved.subarray(3 * at, 3 * at + 3), 10 * at);
+    vertices.set(normals.subarray(3 * at, 3 * at + 3), 10 * at + 3);
+  }
+  const buffer = filled(vertices);
+  const part = (offset) => ({ buffer, stride: 40, offset });
+  const tangents = per === 'corner' ? { buffer: filled(new Float32Array(4 * outputs)), stride: 16, offset: 0 } : part(24);
+  const plan = new Planner(device).plan(darboux.planTopology(...mesh, options));
+  const work = plan.ofBuffers({ positions: part(0), normals: part(12), tangents, per });
+  const [words, counts] = await read((encoder) => work.record(encoder), [tangents.buffer, work.counts]);
+  const ours = new Float32Array(words.buffer);
+  const theirs = new darboux.Plan(...mesh, options).evaluate(moved, normals);
+  const of = (corner, i) => (per === 'corner' ? ours[4 * corner + i] : ours[10 * indices[corner] + 6 + i]);
+  const differs = (corner) => [0, 1, 2, 3].some((i) => !Object.is(of(corner, i), theirs[4 * corner + i]));
+  const differing = Array.from(indices.keys()).filter(differs).length;
+  return { errors, counts: Array.from(counts), corners: indices.length, differing };
+}
+
+/** What a plan says of buffers that do not fit. */
+export async function refusals() {
+  const found = await gpu();
+  if (!found) return null;
+  const buffer = found.filled(new Float32Array(60));
+  const part = (offset, stride = 40) => ({ buffer, stride, offset });
+  const plan = new Planner(found.device).plan(darboux.planTopology(...mirrored()));
+  const said = (mesh) => {
+    try {
+      plan.ofBuffers({ positions: part(0), normals: part(12), tangents: part(24), per: 'corner', ...mesh });
+    } catch (error) {
+      return `${error.name}: ${error.message}`;
+    }
+  };
+  return [said({ per: 'vertex' }), said({ positions: part(2) }), said({ tangents: part(8) }), said({}), found.errors];
+}
+
+const MESHES = {
+  waves: () => grid(60, 40),
+  /** With UVs that mirror in stripes. */
+  seams: () => {
+    const mesh = grid(60, 40);
+    mesh[2] = mesh[2].map((x, at) => (at % 2 ? x : Math.abs((8 * x) % 2 - 1)));
+    return mesh;
+  },
+};
