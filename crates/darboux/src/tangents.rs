@@ -165,6 +165,8 @@ pub fn write_tangents(
     stop.check().map(|()| report)
 }
 
+/// Asks for the method where the caller is, so that a program whose method is constant carries no other.
+#[inline(always)]
 fn run(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
@@ -173,10 +175,20 @@ fn run(
     out: &mut [[f32; 4]],
 ) -> Report {
     let width = Width::widest(scratch.width_limit);
-    // Asked before anything is called, so that a program whose method is constant carries no other.
     if options.method != Method::MikkTSpace {
         return method::run(mesh, options, stop, width, &mut scratch.sums, out);
     }
+    mikktspace_of_corners(mesh, options, stop, width, scratch, out)
+}
+
+fn mikktspace_of_corners(
+    mesh: &Mesh<'_>,
+    options: &TangentOptions,
+    stop: &Stop,
+    width: Width,
+    scratch: &mut Scratch,
+    out: &mut [[f32; 4]],
+) -> Report {
     if has_whole_fans(options) && scratch.fans.run(mesh, options.mode, width, stop, out) {
         if stop.is_asked() {
             Report::default()
