@@ -29,7 +29,8 @@ pub fn record(options: &[&str]) -> Outcome {
         let is_last = heading == "Times";
         command.args(if is_last { options } else { &[] });
         let (lines, succeeded) = lines_of(&mut command)?;
-        let kept = if heading.starts_with("Tests") { results_of(&lines) } else { lines };
+        let is_markdown = is_last || heading == "Adapters against the core";
+        let kept = if is_markdown { lines } else { plain(&lines) };
         if let Some(name) = kept.first().filter(|_| is_last) {
             adapter = slug(name.split(',').next().unwrap_or(name));
         }
@@ -59,11 +60,10 @@ fn lines_of(command: &mut Command) -> Result<(Vec<String>, bool), String> {
     Ok((lines, status.success()))
 }
 
-/// What tests say of themselves: which ran, what they counted, what they skipped.
-fn results_of(lines: &[String]) -> Vec<String> {
-    let is_noise =
-        |line: &str| line.is_empty() || line.starts_with("running ") || line.starts_with("error: XDG");
-    lines.iter().filter(|line| !is_noise(line)).map(|line| format!("    {line}")).collect()
+/// Plain text in Markdown, without what says nothing.
+fn plain(lines: &[String]) -> Vec<String> {
+    let says_something = |line: &&String| !line.is_empty() && !line.starts_with("running ");
+    lines.iter().filter(says_something).map(|line| format!("    {line}")).collect()
 }
 
 /// Lower-case letters and digits, a hyphen for each run of anything else.

@@ -34,6 +34,15 @@ pub fn open() -> Result<&'static Opened, String> {
 }
 
 impl Opened {
+    /// One whose device is lost; none without an adapter.
+    #[cfg(test)]
+    pub fn lost() -> Option<Self> {
+        let gpu = pollster::block_on(Gpu::open()).ok()?;
+        let kernels = Mutex::new(MikkTSpace::new(&gpu).ok()?);
+        gpu.device.destroy();
+        Some(Self { name: gpu.name, is_secretly_software: AtomicBool::new(false), kernels })
+    }
+
     /// Computes the tangents of a mesh; gives the number of corners that the CPU did. Errors: what stops the adapter.
     pub fn generate(
         &self,

@@ -65,7 +65,6 @@ impl Work for TangentsArguments {
         let mut computer = Computer::new(self.device)?;
         let mut document = load(&job.input, self.files.allow_outside)?;
         let mut warnings = document.warnings().to_vec();
-        warnings.extend(computer.warning());
         let mut normals = None;
         if let Some(options) = self.normals.options() {
             let options = NormalsOptions { normals: options, overwrite: self.overwrite };
@@ -82,6 +81,7 @@ impl Work for TangentsArguments {
         let mut tangents = made.map_err(sentence)?;
         tangents.warnings.splice(0..0, warnings);
         tangents.warnings.extend(advice(tangents.totals.without_normals));
+        tangents.warnings.extend(computer.warning());
         let changed = document.is_changed() && (normals.is_some() || tangents.totals.written > 0);
         let device = Some(computer.report(3 * tangents.totals.triangles));
         let (status, files_written) = save(&document, &job.output, &self.files, changed)?;

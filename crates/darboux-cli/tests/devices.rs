@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{asset, darboux, darboux_without_adapters, folder_with, has_adapter, text};
+use common::{asset, darboux, darboux_with, darboux_without_adapters, folder_with, has_adapter, text};
 
 const MODELS: [&str; 4] = [
     "NormalTangentTest/NormalTangentTest.glb",
@@ -66,6 +66,44 @@ fn without_an_adapter_only_device_gpu_fails() {
     assert_eq!(done["files"][0]["device"]["kind"], "cpu");
     let listed = darboux_without_adapters(&["devices"]).exits(0);
     assert!(String::from_utf8_lossy(&listed.stdout).starts_with("no GPU adapter was found"));
+}
+
+/// Runs `darboux tangents --json` where auto takes the GPU from so many triangles on.
+fn auto_from(triangles: &str, drivers: Option<&str>) -> common::Run {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (input, output) = (asset(MODELS[0]), folder.path().join("out.glb"));
+    let mut variables = vec![("DARBOUX_GPU_TRIANGLES", triangles)];
+    for name in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
+        variables.extend(drivers.map(|drivers| (name, drivers)));
+    }
+    darboux_with(&variables, &["tangents", text(&input), "-o", text(&output), "--overwrite", "--json"])
+}
+
+#[test]
+#[cfg_attr(not(target_os = "linux"), ignore = "drivers are found by environment variables on Linux only")]
+fn auto_takes_the_cpu_where_there_is_no_gpu_and_says_so() {
+    let run = auto_from("1", Some("/nowhere")).exits(0);
+    let file = &run.json()["files"][0];
+    assert_eq!(file["device"]["kind"], "cpu");
+    let warning = file["warnings"].to_string();
+    let expected = "the CPU computed what the GPU was to compute: no GPU adapter was found";
+    assert!(warning.contains(expected), "{warning}");
+    assert!(run.stderr.contains(expected), "{}", run.stderr);
+}
+
+#[test]
+fn auto_takes_the_gpu_from_the_triangles_that_were_measured() {
+    if !has_adapter() {
+        return;
+    }
+    let kind = |triangles| auto_from(triangles, None).exits(0).json()["files"][0]["device"]["kind"].clone();
+    assert_eq!([kind("1"), kind("100000000")], ["gpu", "cpu"]);
+    let refused = auto_from("many", None).exits(1);
+    assert!(
+        refused.stderr.contains("DARBOUX_GPU_TRIANGLES is many: set it to a number"),
+        "{}",
+        refused.stderr
+    );
 }
 
 #[test]

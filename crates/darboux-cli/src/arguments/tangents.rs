@@ -65,8 +65,9 @@ pub struct TangentsArguments {
 
     /// What computes the tangents: the bits are the same
     ///
-    /// auto takes the CPU: no measurement shows yet that a GPU is quicker once models have been read and sent to it. gpu computes
-    /// MikkTSpace there, and leaves to the CPU what is rare; `darboux devices` lists the adapters.
+    /// auto takes the CPU: no measurement shows yet that a GPU is quicker once models have been read and sent to it. Where yours is, set
+    /// DARBOUX_GPU_TRIANGLES to the triangles of a mesh from which on it is: auto then takes the GPU for these, and the CPU with a warning
+    /// where it fails. gpu computes MikkTSpace there, and leaves to the CPU what is rare; `darboux devices` lists the adapters.
     #[arg(long, value_enum, value_name = "DEVICE", default_value_t, help_heading = "Tangents")]
     pub device: Device,
 

@@ -46,8 +46,13 @@ pub fn darboux_with_little_memory<A: AsRef<std::ffi::OsStr>>(arguments: &[A]) ->
 
 /// As [`darboux`], where the system can be told to have no adapter.
 pub fn darboux_without_adapters<A: AsRef<std::ffi::OsStr>>(arguments: &[A]) -> Run {
+    darboux_with(&[("VK_DRIVER_FILES", "/nowhere"), ("VK_ICD_FILENAMES", "/nowhere")], arguments)
+}
+
+/// Runs `darboux` with variables of the environment.
+pub fn darboux_with<A: AsRef<std::ffi::OsStr>>(variables: &[(&str, &str)], arguments: &[A]) -> Run {
     let mut command = Command::new(env!("CARGO_BIN_EXE_darboux"));
-    command.env("VK_DRIVER_FILES", "/nowhere").env("VK_ICD_FILENAMES", "/nowhere");
+    command.envs(variables.iter().copied());
     run(command, arguments, b"")
 }
 
