@@ -192,3 +192,33 @@ fn bitangents_without_a_direction_follow_the_fit() {
     assert!(frame.tangent[2].abs() > 0.01, "the fit moved nothing: {frame:?}");
     assert!(dot(frame.bitangent, frame.tangent).abs() < 1e-6, "{frame:?}");
 }
+
+/// A triangle with a NaN has corners that are counted, and is no UV-degenerate one.
+#[test]
+fn what_is_not_finite_is_not_uv_degenerate() {
+    for method in [
+        Method::MikkTSpace,
+        Method::AngleArea,
+        Method::Lengyel,
+        Method::LengyelPerVertex,
+        Method::Average,
+        Method::Area,
+        Method::Face,
+    ] {
+        let options = TangentOptions { method, ..TangentOptions::default() };
+        let counts = |mesh: &OwnedMesh| {
+            let report = generate_tangents(&mesh.view(), &options).report;
+            [report.non_finite_corners, report.uv_degenerate_triangles, report.degenerate_triangles]
+        };
+        let mesh = families::grid(2, 2, false, false);
+        let users = mesh.indices.as_ref().unwrap().iter().filter(|&&vertex| vertex == 4).count();
+        let (mut with_position, mut with_uv, mut flat) = (mesh.clone(), mesh.clone(), mesh.clone());
+        with_position.positions[4][0] = f32::NAN;
+        with_uv.uvs[4][1] = f32::INFINITY;
+        flat.uvs.fill([0.5; 2]);
+        assert_eq!(counts(&mesh), [0, 0, 0], "{method:?}");
+        assert_eq!(counts(&with_position), [users, 0, 0], "{method:?}");
+        assert_eq!(counts(&with_uv), [users, 0, 0], "{method:?}");
+        assert_eq!(counts(&flat), [0, 8, 0], "{method:?}");
+    }
+}

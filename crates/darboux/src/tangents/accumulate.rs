@@ -9,6 +9,7 @@ use crate::math::V3;
 use super::flat::{Flat, Slices};
 use super::gather::gather_all;
 use super::group_sums::GroupMemory;
+use super::report::are_finite;
 use super::sums::{Derivatives, Orientation, Sum, Weighting, is_degenerate, term};
 use super::terms::{BLOCK, Block};
 use super::threads::{self, parts, split};
@@ -28,17 +29,21 @@ pub(super) struct Sums<const N: usize> {
 pub(super) struct Flaws {
     pub degenerate: usize,
     pub uv_degenerate: usize,
+    /// Others, with a value that is not finite.
+    non_finite: usize,
 }
 
 impl Flaws {
     pub fn are_none(&self) -> bool {
-        self.degenerate + self.uv_degenerate == 0
+        self.degenerate + self.uv_degenerate + self.non_finite == 0
     }
 
     #[cold]
-    fn count(&mut self, positions: [&V3; 3]) {
+    fn count(&mut self, positions: [&V3; 3], uvs: [&[f32; 2]; 3]) {
         if is_degenerate(positions.map(|position| *position)) {
             self.degenerate += 1;
+        } else if !are_finite(positions.map(|position| *position), uvs.map(|uv| *uv)) {
+            self.non_finite += 1;
         } else {
             self.uv_degenerate += 1;
         }
@@ -47,6 +52,7 @@ impl Flaws {
     pub fn add(&mut self, other: Self) {
         self.degenerate += other.degenerate;
         self.uv_degenerate += other.uv_degenerate;
+        self.non_finite += other.non_finite;
     }
 }
 
@@ -173,7 +179,8 @@ impl<'a> Count<'a> {
     #[cold]
     fn note_flaws(&mut self, slices: &Slices<'_>, first: usize, orientations: &[Orientation]) {
         for (t, _) in (first..).zip(orientations).filter(|(_, found)| **found == Orientation::None) {
-            self.flaws.count(slices.refer(slices.triangles[t]).0);
+            let (positions, uvs) = slices.refer(slices.triangles[t]);
+            self.flaws.count(positions, uvs);
         }
     }
 }

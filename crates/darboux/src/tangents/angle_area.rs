@@ -10,7 +10,7 @@ use crate::topology::{EdgeOrder, NONE, neighbours};
 use crate::triangles::{Triangles, Triangulation, triangulate};
 use crate::{Frame, Mesh, Mode};
 
-use super::derivatives::{Derivative, agree_in_quads, derivatives, derivatives_into};
+use super::derivatives::{Derivative, agree_in_quads, count_uv_degenerate, derivatives, derivatives_into};
 use super::flat::Flat;
 use super::group_sums::{GroupFrame, GroupMemory, GroupSum, GroupedTriangles, add};
 use super::groups::{Groups, group};
@@ -82,7 +82,7 @@ impl Topology {
         let neighbours = neighbours(good, EdgeOrder::Complete);
         let mut report = survey(mesh, &flat);
         report.degenerate_triangles = triangulation.degenerate.len();
-        report.uv_degenerate_triangles = derivatives.iter().filter(|derivative| derivative.any).count();
+        report.uv_degenerate_triangles = count_uv_degenerate(good, &shape, &derivatives);
         report.mirrored_edges = count_mirrored_edges(&neighbours, &derivatives);
         let orientation_of_face = orientation_of_faces(&flat, good, &derivatives);
         let groups = group(good, &neighbours, |_| true, &mut derivatives);

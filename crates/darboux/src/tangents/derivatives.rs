@@ -5,6 +5,7 @@
 use crate::math::{V3, add, length, not_zero, scale, sub};
 use crate::triangles::Triangles;
 
+use super::report::are_finite;
 use super::shape::Shape;
 use super::threads;
 
@@ -52,6 +53,16 @@ fn derivative(positions: [V3; 3], uvs: [[f32; 2]; 3]) -> Derivative {
         out.any = !out.magnitude.iter().all(|&magnitude| not_zero(magnitude));
     }
     out
+}
+
+/// The number of UV-degenerate triangles, of those whose values are finite.
+pub(super) fn count_uv_degenerate(
+    triangles: &Triangles,
+    shape: &Shape<'_>,
+    derivatives: &[Derivative],
+) -> usize {
+    let finite = |t| are_finite(shape.positions(triangles, t), shape.uvs(triangles, t));
+    derivatives.iter().enumerate().filter(|(t, derivative)| derivative.any && finite(*t)).count()
 }
 
 /// Twice the signed area of a triangle in UV space.

@@ -9,6 +9,7 @@ use crate::{Frame, Mesh, Mode};
 use super::Report;
 use super::flat::Flat;
 use super::repair::{direction, in_plane, perpendicular, unit};
+use super::report::are_finite;
 use super::seams::{count_mirrored_edges, count_split_vertices, survey, vertices_of_both};
 use super::sides::{Output, across, fill};
 use super::sums::{Derivatives, Orientation, is_degenerate};
@@ -59,7 +60,9 @@ fn add_up(flat: &Flat<'_>, report: &mut Report) -> Vec<Face> {
         let derivatives = Derivatives::new(positions, uvs);
         if is_degenerate(flat.values(t).0) {
             report.degenerate_triangles += 1;
-        } else if !derivatives.has_direction() {
+        } else if !derivatives.has_direction()
+            && are_finite(positions.map(|position| *position), uvs.map(|uv| *uv))
+        {
             report.uv_degenerate_triangles += 1;
         }
         let face = &mut faces[flat.face(t)];

@@ -9,7 +9,7 @@ use crate::triangles::{Triangles, Triangulation, triangulate, triangulate_welded
 use crate::{Frame, Mesh};
 
 use super::degenerate::fill_degenerate;
-use super::derivatives::{Derivative, agree_in_quads, derivatives};
+use super::derivatives::{Derivative, agree_in_quads, count_uv_degenerate, derivatives};
 use super::evaluate::{DEFAULT_FRAME, How, RawFrames, Values, evaluate};
 use super::groups::{Groups, group};
 use super::repair::{is_usable, repair};
@@ -72,7 +72,7 @@ impl Topology {
         let shape = Shape::welded(mesh);
         let good = &triangulation.good;
         let mut derivatives = agreed_derivatives(good, &shape);
-        let uv_degenerate = derivatives.iter().filter(|derivative| derivative.any).count();
+        let uv_degenerate = count_uv_degenerate(good, &shape, &derivatives);
         let mirrored_edges = count_mirrored_edges(neighbours, &derivatives);
         let groups = group(good, neighbours, counts, &mut derivatives);
         let base = Values::new(good, &groups, derivatives, &shape);

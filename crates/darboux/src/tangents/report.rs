@@ -2,6 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
+use crate::math::V3;
 use crate::{Frame, Mesh};
 
 /// What was met on the way. Quads count as the two triangles that they are split into.
@@ -14,7 +15,7 @@ pub struct Report {
     pub unsupported_faces: usize,
     /// Triangles with two equal positions.
     pub degenerate_triangles: usize,
-    /// Triangles, not degenerate, whose UVs span no area (or too little for a direction).
+    /// Triangles, not degenerate and with finite positions and UVs, whose UVs span no area (or too little for a direction).
     pub uv_degenerate_triangles: usize,
     /// Corners with a NaN or an infinity in position, normal or UV.
     pub non_finite_corners: usize,
@@ -30,6 +31,11 @@ pub struct Report {
     /// Vertices at which triangles of both UV orientations share one tangent: seams that
     /// [`Method::LengyelPerVertex`](crate::Method::LengyelPerVertex) breaks. None in all other methods.
     pub merged_vertices: usize,
+}
+
+/// Whether a triangle's positions and UVs are numbers to compute with.
+pub(super) fn are_finite(positions: [V3; 3], uvs: [[f32; 2]; 3]) -> bool {
+    positions.as_flattened().iter().chain(uvs.as_flattened()).all(|x| x.is_finite())
 }
 
 pub(super) fn count_non_finite_corners(mesh: &Mesh<'_>) -> usize {
