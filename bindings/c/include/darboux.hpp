@@ -430,7 +430,9 @@ inline float transform_frames(const std::array<float, 16> &matrix, strided<float
 
 #if __cplusplus >= 202002L
 #include <ranges>
+#endif
 
+#ifdef __cpp_lib_ranges
 /// What a span shows outlives the span, so std::span takes a temporary one, of elements that may be written too.
 template <class T>
 inline constexpr bool std::ranges::enable_borrowed_range<darboux::span<T>> = true;

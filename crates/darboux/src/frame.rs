@@ -67,12 +67,13 @@ impl<'a> From<&'a CornerTangents> for CornerTangentsRef<'a> {
     }
 }
 
-/// One corner's whole MikkTSpace result. The default is all zeros, for arrays that are to be written.
+/// All that a method says of one corner. The default is all zeros, for arrays that are to be written.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Frame {
-    /// The direction of increasing u, unit length, perpendicular to the normal.
+    /// The direction of increasing u, unit length; perpendicular to the normal but for [`Method::Face`](crate::Method::Face), whose frame
+    /// is the triangle's.
     pub tangent: [f32; 3],
-    /// The direction of increasing v, unit length, perpendicular to the normal but not always to the tangent.
+    /// The direction of increasing v, unit length; as the tangent to the normal, but not always perpendicular to the tangent.
     pub bitangent: [f32; 3],
     /// World units per unit of u and per unit of v.
     pub magnitude: [f32; 2],

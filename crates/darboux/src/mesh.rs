@@ -176,7 +176,7 @@ pub struct Mesh<'a> {
 }
 
 /// The largest number of corners, and of vertices: ids of corners, half-edges and vertices stay within 32 bits, with room for marks.
-const MAX_CORNERS: usize = (1 << 30) - 1;
+pub(crate) const MAX_CORNERS: usize = (1 << 30) - 1;
 const MAX_VERTICES: usize = MAX_CORNERS;
 
 impl<'a> Mesh<'a> {

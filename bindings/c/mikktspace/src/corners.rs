@@ -60,23 +60,24 @@ impl Corners {
 
     /// Hands every corner's answer to `write`, with the face and the place in it.
     ///
-    /// `read` is given the number of a corner of the mesh, and writes answers from this one on.
+    /// `read` is given the number of a corner of the mesh, and writes answers from this one on. None where it gives none.
     pub fn hand_out<T: Copy + Default>(
         &self,
-        read: impl Fn(usize, &mut [T]),
+        read: impl Fn(usize, &mut [T]) -> Option<()>,
         write: impl Fn(c_int, c_int, &T),
-    ) {
+    ) -> Option<()> {
         let mut block = [T::default(); BLOCK];
         let mut at = 0;
         for (face, &size) in (0..).zip(&self.size_of_face) {
             for corner in 0..c_int::from(size) {
                 if at % BLOCK == 0 {
-                    read(self.skipped + at, &mut block);
+                    read(self.skipped + at, &mut block)?;
                 }
                 write(face, corner, &block[at % BLOCK]);
                 at += 1;
             }
         }
+        Some(())
     }
 }
 

@@ -42,14 +42,18 @@ fn run(caller: &Caller, threshold: f32) -> Option<()> {
     if caller.wants_frames() {
         let mut scratch = Scratch::new();
         let frames = contained(|| lend_frames(&mesh, &options, &mut scratch).ok())?;
-        let write = |face, corner, frame: &_| caller.write(face, corner, frame);
-        corners.hand_out(|first, out| frames.write(first, out), write);
+        let read = |first, out: &mut [_]| {
+            contained(|| {
+                frames.write(first, out);
+                Some(())
+            })
+        };
+        corners.hand_out(read, |face, corner, frame| caller.write(face, corner, frame))
     } else {
         let tangents = contained(|| Some(generate_tangents(&mesh, &options).corners.into_per_corner()))?;
         let write = |face, corner, tangent: &_| caller.write_tangent(face, corner, tangent);
-        corners.hand_out(|first, out| copy(&tangents[first..], out), write);
+        corners.hand_out(|first, out| copy(tangents.get(first..)?, out), write)
     }
-    Some(())
 }
 
 /// None where it panics.
@@ -58,6 +62,7 @@ fn contained<R>(compute: impl FnOnce() -> Option<R>) -> Option<R> {
 }
 
 /// Copies as many as there are and fit.
-fn copy<T: Copy>(from: &[T], to: &mut [T]) {
+fn copy<T: Copy>(from: &[T], to: &mut [T]) -> Option<()> {
     from.iter().zip(to).for_each(|(from, to)| *to = *from);
+    Some(())
 }

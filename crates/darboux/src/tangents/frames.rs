@@ -4,7 +4,7 @@ use crate::cancel::Stop;
 use crate::split::expect;
 use crate::{CornerFrames, Frame, Mesh, MeshError};
 
-use super::fans::{Fans, UNDECIDED};
+use super::fans::{Fans, UNDECIDED, triangle_count};
 use super::sides::{Output, fill};
 use super::threads::{self, parts, split};
 use super::width::Width;
@@ -125,7 +125,7 @@ impl LentFrames<'_> {
         for len in [tangents.len(), bitangents.len(), magnitudes.len()] {
             expect("corners", self.len(), len)?;
         }
-        let threads = threads::count(self.mesh.face_count());
+        let threads = threads::count(triangle_count(self.mesh));
         let ranges = split(0..self.len(), threads, 1);
         let (tangents, bitangents) =
             (parts(tangents, 0, ranges.clone()), parts(bitangents, 0, ranges.clone()));
@@ -168,7 +168,7 @@ fn run(
         return report;
     }
     let frames = LentFrames { mesh, fans: &scratch.fans, memory: &scratch.frames, report };
-    let threads = threads::count(mesh.face_count());
+    let threads = threads::count(triangle_count(mesh));
     let ranges = split(0..out.len(), threads, 1);
     threads::run(&mut vec![(); threads], ranges.clone().zip(parts(out, 0, ranges)), |(), (range, out)| {
         frames.write(range.start, out);
@@ -185,7 +185,7 @@ fn run_fans(mesh: &Mesh<'_>, options: &TangentOptions, stop: &Stop, scratch: &mu
     let Scratch { fans, frames: FrameMemory { tangents, decided, frames }, .. } = scratch;
     frames.clear();
     tangents.resize(mesh.corner_count(), [0.0; 4]);
-    threads::on_pool(threads::count(mesh.face_count()), || {
+    threads::on_pool(threads::count(triangle_count(mesh)), || {
         fans.run(mesh, options.mode, width, stop, tangents).then(|| fans.add_frames(mesh, width, stop))
     })?;
     decided.clear();

@@ -9,6 +9,7 @@
 
 use std::ops::Range;
 
+use crate::mesh::MAX_CORNERS;
 use crate::triangles::{is_cut_across, shorter_diagonal};
 use crate::{Faces, Indices, Mesh};
 
@@ -29,6 +30,7 @@ const CORNERS: [[u32; 3]; 4] = [[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]];
 
 /// Corners' numbers are below this.
 const CORNER_BITS: u32 = 30;
+const _: () = assert!(MAX_CORNERS < 1 << CORNER_BITS);
 
 impl Piece {
     #[inline(always)]
@@ -68,6 +70,9 @@ pub(super) struct Cut {
     /// The first halves of quads whose halves may have to agree on an orientation, ascending.
     doubtful: Vec<u32>,
 }
+
+/// Of meshes of triangles.
+pub(super) static UNCUT: Cut = Cut { pieces: Vec::new(), doubtful: Vec::new() };
 
 impl Cut {
     /// Cuts the faces of a mesh. Refuses those of other than 3 or 4 corners.
@@ -119,7 +124,7 @@ pub(super) fn mark_doubtful(source: &Source<'_>, triangles: Range<usize>, first:
 }
 
 /// How many triangles there are, where all faces have 3 or 4 corners.
-pub(super) fn triangle_count(mesh: &Mesh<'_>) -> usize {
+pub(in crate::tangents) fn triangle_count(mesh: &Mesh<'_>) -> usize {
     mesh.corner_count().saturating_sub(2 * mesh.face_count())
 }
 

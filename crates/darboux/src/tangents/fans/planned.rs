@@ -6,7 +6,7 @@ use crate::cancel::Stop;
 use super::super::threads::{self, parts};
 use super::super::width::Width;
 use super::super::windows::{Window, overlap, shares};
-use super::cut::{Cut, triangle_count};
+use super::cut::{UNCUT, triangle_count};
 use super::last_run::TailCells;
 use super::source::Identity;
 use super::stream::Stream;
@@ -18,7 +18,6 @@ use super::{Fans, UNDECIDED, source, write_pending};
 #[derive(Debug)]
 pub(crate) struct PlannedFans {
     weld: Weld,
-    cut: Cut,
     windows: Vec<Window>,
     /// Of each welded vertex; [`UNDECIDED`] where other stages decide.
     signs: Vec<f32>,
@@ -27,13 +26,13 @@ pub(crate) struct PlannedFans {
 impl PlannedFans {
     /// Of the mesh that `fans` has just run on, with the tangents that it wrote.
     pub fn new(mesh: &Mesh<'_>, fans: Fans, tangents: &[[f32; 4]]) -> Self {
-        let Fans { weld, cut, windows, .. } = fans;
-        let source = source(mesh, &weld, &cut);
+        let Fans { weld, windows, .. } = fans;
+        let source = source(mesh, &weld, &UNCUT);
         let mut signs = vec![UNDECIDED; weld.count];
         for (corner, tangent) in (0..).zip(tangents) {
             signs[source.vertex(corner) as usize] = tangent[3];
         }
-        Self { weld, cut, windows, signs }
+        Self { weld, windows, signs }
     }
 
     /// True when vertices that were welded are still one.
@@ -77,7 +76,7 @@ impl Fans {
         stop: &Stop,
         out: &mut [[f32; 4]],
     ) {
-        let (windows, source) = (&plan.windows[..], source(mesh, &plan.weld, &plan.cut));
+        let (windows, source) = (&plan.windows[..], source(mesh, &plan.weld, &UNCUT));
         let stream =
             Stream { source, windows, tail: &TailCells::none(), signs: &plan.signs[..], width, stop };
         self.shares.clear();

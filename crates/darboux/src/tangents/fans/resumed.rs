@@ -4,13 +4,14 @@ use crate::Mesh;
 use crate::tangents::Mode;
 use crate::weld::{Bounds, Point};
 
+use super::cut::UNCUT;
 use super::last_run::{LastRun, TailCells};
 use super::{Fans, UNDECIDED, source};
 
 impl Fans {
     /// As after [`Fans::run`].
     ///
-    /// `welded`: the first vertex that equals each vertex of `mesh`, which is indexed. `out`: the tangents of decided vertices;
+    /// `mesh`: of triangles, with indices. `welded`: the first vertex that equals each of its vertices. `out`: the tangents of decided vertices;
     /// [`UNDECIDED`] signs at all corners of the others, among which are those of degenerate and of UV-degenerate triangles.
     pub fn resume(&mut self, mesh: &Mesh<'_>, mode: Mode, welded: Vec<u32>, out: &mut [[f32; 4]]) {
         self.weld.take(welded);
@@ -32,7 +33,7 @@ impl Fans {
         (0..mesh.corner_count()).for_each(|corner| is_wanted[mesh.vertex_of_corner(corner)] = true);
         let mut used = (0..is_wanted.len()).filter(|&vertex| is_wanted[vertex]).map(position);
         let bounds = Bounds::of(used.next().unwrap_or_default(), used);
-        let run = LastRun { source: source(mesh, &self.weld, &self.cut), bounds: &bounds };
+        let run = LastRun { source: source(mesh, &self.weld, &UNCUT), bounds: &bounds };
         let tail = TailCells::first(&run.source, &bounds, true);
         for (vertex, is_wanted) in is_wanted.iter_mut().enumerate() {
             *is_wanted = tail.hold(position(vertex));
