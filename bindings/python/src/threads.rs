@@ -68,7 +68,7 @@ pub fn cancellable<R: Send>(
     work: impl FnOnce() -> R + Send,
 ) -> PyResult<R> {
     if corners < FEWEST_CORNERS && !is_slow {
-        return Ok(py.detach(work));
+        return Ok(py.detach(|| darboux::on_this_thread(work)));
     }
     let cancel = Cancel::new();
     let done =

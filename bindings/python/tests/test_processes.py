@@ -23,6 +23,13 @@ def large() -> Mesh:
     return grid(200, 150)
 
 
+def quads() -> Mesh:
+    """Too few corners for a second thread, though enough triangles for one once the quads are cut."""
+    mesh = grid(100, 100)
+    assert mesh.indices is not None
+    return Mesh(mesh.positions, mesh.normals, mesh.uvs, mesh.indices.reshape(-1, 6)[:, [0, 1, 2, 5]].copy())
+
+
 def test_results_outlive_inputs() -> None:
     mesh = large()
     tangents = darboux.generate_tangents(*mesh.arrays)
@@ -115,17 +122,33 @@ def test_many_threads_get_the_same() -> None:
     assert found == [expected] * 8
 
 
-def hash_of_tangents(_: int) -> int:
-    return hash(darboux.generate_tangents(*large().arrays).tobytes().hex())
+def hash_of_tangents(mesh: Mesh) -> int:
+    return hash(darboux.generate_tangents(*mesh.arrays).tobytes().hex())
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no fork")
 @pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
-def test_forked_processes_work() -> None:
+@pytest.mark.parametrize("mesh", [large(), quads()], ids=["large", "quads"])
+def test_forked_processes_work(mesh: Mesh) -> None:
     """A child has none of its parent's threads; it must not wait for them."""
-    expected = hash_of_tangents(0)
+    expected = hash_of_tangents(mesh)
     with multiprocessing.get_context("fork").Pool(2) as pool:
-        assert pool.map_async(hash_of_tangents, range(4)).get(timeout=60) == [expected] * 4
+        assert pool.map_async(hash_of_tangents, [mesh] * 4).get(timeout=60) == [expected] * 4
+
+
+def threads_started_by_quads() -> int:
+    mesh, threads = quads(), Path("/proc/self/task")
+    before = len(list(threads.iterdir()))
+    darboux.generate_tangents(*mesh.arrays, threads=1)
+    return len(list(threads.iterdir())) - before
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="reads /proc")
+def test_few_corners_start_no_thread() -> None:
+    """In a process of its own, where nothing has started any."""
+    program = "import test_processes; print(test_processes.threads_started_by_quads())"
+    ran = subprocess.run([sys.executable, "-c", program], cwd=Path(__file__).parent, check=True, capture_output=True)
+    assert ran.stdout.split() == [b"0"]
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
