@@ -7,7 +7,7 @@ use darboux::Cancel;
 use darboux_io::gltf::{
     self, LoadOptions, NormalsOptions, Progress, SaveOptions, TangentEncoding, TangentsOptions,
 };
-use pyo3::exceptions::{PyIndexError, PyOSError, PyTypeError, PyValueError};
+use pyo3::exceptions::{PyIndexError, PyOSError, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use serde::Serialize;
@@ -30,6 +30,8 @@ const ENCODINGS: &[(&str, TangentEncoding)] = &[
 #[pyclass(module = "darboux")]
 pub struct Document {
     document: gltf::Document,
+    /// An edit began and did not end well: nobody may take what is here for its result.
+    is_half_done: bool,
 }
 
 /// Read a .glb or .gltf file and the buffers that it names.
@@ -50,7 +52,7 @@ pub struct Document {
 #[pyo3(signature = (path, *, allow_outside=false))]
 pub fn load(py: Python<'_>, path: PathBuf, allow_outside: bool) -> PyResult<Document> {
     let document = py.detach(|| gltf::Document::open(&path, &LoadOptions { allow_outside }));
-    Ok(Document { document: document.map_err(file_error)? })
+    Ok(Document { document: document.map_err(file_error)?, is_half_done: false })
 }
 
 /// Read a document from the bytes of a .glb or .gltf file.
@@ -72,7 +74,7 @@ pub fn load(py: Python<'_>, path: PathBuf, allow_outside: bool) -> PyResult<Docu
 pub fn loads(py: Python<'_>, data: Vec<u8>, name: &str, base: Option<PathBuf>) -> PyResult<Document> {
     let options = LoadOptions::default();
     let document = py.detach(|| gltf::Document::from_bytes(name, data, base.as_deref(), &options));
-    Ok(Document { document: document.map_err(file_error)? })
+    Ok(Document { document: document.map_err(file_error)?, is_half_done: false })
 }
 
 /// Give a document as the bytes of a GLB that holds all its buffers and images, but for remote and missing ones.
@@ -83,7 +85,7 @@ pub fn loads(py: Python<'_>, data: Vec<u8>, name: &str, base: Option<PathBuf>) -
 ///     Files that cannot be read; more than 4 GiB.
 #[pyfunction]
 pub fn dumps<'py>(py: Python<'py>, document: PyRef<'py, Document>) -> PyResult<Bound<'py, PyBytes>> {
-    let document = &document.document;
+    let document = document.whole()?;
     let bytes = py.detach(|| document.to_glb()).map_err(file_error)?;
     Ok(PyBytes::new(py, &bytes))
 }
@@ -115,7 +117,7 @@ pub fn save(
     path: PathBuf,
     force: bool,
 ) -> PyResult<Vec<PathBuf>> {
-    let document = &document.document;
+    let document = document.whole()?;
     py.detach(|| document.save(&path, &SaveOptions { force, run: None })).map_err(file_error)
 }
 
@@ -164,7 +166,7 @@ impl Document {
         #[pyo3(from_py_with = place)] mesh: i64,
         #[pyo3(from_py_with = place)] primitive: i64,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let meshes = self.document.meshes();
+        let meshes = self.whole()?.meshes();
         let found = usize::try_from(mesh).ok().and_then(|mesh| meshes.get(mesh));
         let found = usize::try_from(primitive).ok().and_then(|primitive| found?.primitives.get(primitive));
         let Some(found) = found else {
@@ -192,6 +194,7 @@ impl Document {
     /// list of dict
     ///     As the reports of `darboux inspect --json`.
     fn inspect<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.whole()?;
         let document = &mut self.document;
         let infos = attended(py, 0, |_| gltf::inspect(document), |(): ()| Ok(()), || ())?;
         python_of(py, &infos.map_err(file_error)?)
@@ -199,7 +202,7 @@ impl Document {
 
     /// Give every triangle primitive that has positions, normals and UVs its tangents; vertices are split where they must be.
     ///
-    /// After an error or Ctrl-C the document may be half done: drop it.
+    /// After Ctrl-C or an error on the way the document refuses all work: load it again.
     ///
     /// Parameters
     /// ----------
@@ -258,7 +261,7 @@ impl Document {
 
     /// Give every triangle primitive its normals; primitives of one mesh are shaded as one surface.
     ///
-    /// After an error or Ctrl-C the document may be half done: drop it.
+    /// After Ctrl-C or an error on the way the document refuses all work: load it again.
     ///
     /// Parameters
     /// ----------
@@ -295,7 +298,8 @@ impl Document {
     /// Convert the vertex data of every primitive from one convention to another.
     ///
     /// A glTF file is in glTF's convention, so one that is right needs no conversion: this is for files whose writer copied the numbers of
-    /// another convention, and for programs that copy them out. After an error or Ctrl-C the document may be half done: drop it.
+    /// another convention, and for programs that copy them out. After Ctrl-C or an error on the way the document refuses all work: load it
+    /// again.
     ///
     /// Parameters
     /// ----------
@@ -322,6 +326,16 @@ impl Document {
 }
 
 impl Document {
+    /// The document, unless an edit left it half done.
+    fn whole(&self) -> PyResult<&gltf::Document> {
+        if self.is_half_done {
+            let sentence =
+                "the document is half done: a method that changes it was stopped or failed; load it again";
+            return Err(PyRuntimeError::new_err(sentence));
+        }
+        Ok(&self.document)
+    }
+
     fn vectors<'py>(&self, py: Python<'py>, accessor: usize) -> PyResult<Bound<'py, PyAny>> {
         let components = self.document.accessors().get(accessor).map(|found| found.element_type.components());
         Ok(match components {
@@ -347,6 +361,9 @@ impl Document {
             let kind = progress.get_type().name()?;
             return Err(PyTypeError::new_err(format!("progress must be callable, not {kind}")));
         }
+        self.whole()?;
+        // The core stops within a primitive and darboux-io goes on with what is there, so only an edit's end makes the document good again.
+        self.is_half_done = true;
         let (document, cancel) = (&mut self.document, &Cancel::new());
         let work = move |sender: &Sender<Progress>| {
             // The listener stays until the sender is gone.
@@ -359,6 +376,7 @@ impl Document {
         };
         let edited = attended(py, 0, work, receive, || cancel.cancel())?;
         let summary = edited.map_err(value_error)?.map_err(file_error)?;
+        self.is_half_done = false;
         python_of(py, &summary)
     }
 }

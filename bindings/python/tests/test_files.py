@@ -5,7 +5,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
-from typing import Any, List, Tuple
+from typing import Any, Callable, List, Tuple
 
 import darboux
 import numpy as np
@@ -85,6 +85,45 @@ def test_an_error_of_the_progress_callback_comes_through(tmp_path: Path) -> None
         darboux.process(MODEL, tmp_path / "out.glb", progress=fail)
     assert len(calls) == 1
     assert list(tmp_path.iterdir()) == []
+
+
+def refuses(*arguments: object) -> None:
+    raise RuntimeError("enough")
+
+
+EDITS: List[Callable[[Any], object]] = [
+    lambda document: document.add_tangents(progress=refuses),
+    lambda document: document.add_normals(overwrite=True, progress=refuses),
+    lambda document: document.convert("unity", "gltf", progress=refuses),
+]
+
+
+@pytest.mark.parametrize("edit", EDITS)
+def test_a_stopped_edit_leaves_nothing_to_save(edit: Callable[[Any], object], tmp_path: Path) -> None:
+    document = darboux.load(MODEL)
+    with pytest.raises(RuntimeError, match="enough"):
+        edit(document)
+    uses: List[Callable[[], object]] = [
+        lambda: darboux.save(document, tmp_path / "out.glb"),
+        lambda: darboux.dumps(document),
+        lambda: document.arrays(),
+        lambda: document.inspect(),
+        lambda: document.add_tangents(),
+        lambda: document.add_normals(),
+        lambda: document.convert("unity", "gltf"),
+    ]
+    for use in uses:
+        with pytest.raises(RuntimeError, match="the document is half done: .*; load it again"):
+            use()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_options_that_are_none_leave_the_document_as_it_is() -> None:
+    document = darboux.load(MODEL)
+    before = darboux.dumps(document)
+    with pytest.raises(TypeError, match="progress must be callable"):
+        document.add_tangents(progress=3)  # type: ignore[arg-type]
+    assert darboux.dumps(document) == before
 
 
 INTERRUPTED = """
