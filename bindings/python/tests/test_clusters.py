@@ -8,6 +8,7 @@ from typing import Callable, Iterator, List
 
 import darboux
 import pytest
+from darboux import _engines
 from test_batch import by_command, contents, library
 
 PREFIX = "ray::carry_out_alone"
@@ -100,6 +101,29 @@ def test_ray(ray: None, tmp_path: Path) -> None:
 
 def test_dask(dask: None, tmp_path: Path) -> None:
     check("dask", dask_workers, tmp_path)
+
+
+def doze(seconds: str) -> None:
+    time.sleep(float(seconds))
+
+
+def test_dask_is_not_waited_for_without_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    distributed = pytest.importorskip("distributed")
+    monkeypatch.setattr(_engines, "carry_out_alone", doze)
+    monkeypatch.setattr(_engines, "PATIENCE", 1)
+    with distributed.LocalCluster(n_workers=1, processes=False, dashboard_address=None) as cluster, distributed.Client(cluster):
+        with pytest.warns(RuntimeWarning, match="did not end 1 of the files in 1 seconds"):
+            with _engines.Dask(None) as engine:
+                engine.start(0, "5")
+
+
+def test_dask_is_not_waited_for_without_workers() -> None:
+    distributed = pytest.importorskip("distributed")
+    with distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=None) as cluster, distributed.Client(cluster):
+        before = time.monotonic()
+        with _engines.Dask(None) as engine:
+            engine.start(0, "")
+        assert time.monotonic() - before < _engines.PATIENCE / 2
 
 
 def test_dask_needs_a_client(tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ import os
 import subprocess
 import sys
 import threading
+import warnings
 from concurrent.futures import Future, ThreadPoolExecutor
 from queue import SimpleQueue
 from typing import Any, Callable, Dict, List, Optional, Protocol, Tuple, Union
@@ -150,6 +151,10 @@ class Ray:
             self.ray.wait(tasks, num_returns=len(tasks), fetch_local=False)
 
 
+PATIENCE = 60
+"""Seconds for Dask's workers to end what they were handed by a batch that ends early."""
+
+
 class Dask:
     """The cluster of the current distributed.Client."""
 
@@ -160,7 +165,7 @@ class Dask:
             self.client: Any = distributed.get_client()
         except ValueError:
             raise ValueError("there is no Dask client; make one: distributed.Client(address)") from None
-        self.first, self.killed = distributed.wait, distributed.KilledWorker
+        self.first, self.killed, self.too_late = distributed.wait, distributed.KilledWorker, distributed.TimeoutError
         self.capacity = workers or 2 * max(1, sum(self.client.nthreads().values()))
         self.numbers: Dict[Any, int] = {}
 
@@ -180,9 +185,23 @@ class Dask:
         return self
 
     def __exit__(self, *_: object) -> None:
-        # Dask forgets tasks that it cancels, and lets them run on where nobody can wait for them.
-        if self.numbers:
-            self.first(list(self.numbers))
+        # Dask forgets tasks that it cancels, and lets them run on where nobody can wait for them: first they may end.
+        tasks = list(self.numbers)
+        if not tasks:
+            return
+        try:
+            if self.client.nthreads():
+                self.first(tasks, timeout=PATIENCE)
+        except self.too_late:
+            at_work = sum(not task.done() for task in tasks)
+            warnings.warn(
+                f"Dask's workers did not end {at_work} of the files in {PATIENCE} seconds: they may still write them; "
+                "restart them, or wait, before these files are used",
+                RuntimeWarning,
+                stacklevel=2,
+            )
+        finally:
+            self.client.cancel(tasks)
 
 
 ENGINES: Dict[str, Callable[[Optional[int]], Engine]] = {"local": Local, "ray": Ray, "dask": Dask}
