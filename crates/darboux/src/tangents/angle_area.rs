@@ -16,7 +16,8 @@ use super::group_sums::{GroupFrame, GroupMemory, GroupSum, GroupedTriangles, add
 use super::groups::{Groups, group};
 use super::mikktspace::count_mirrored_edges;
 use super::repair::{D3, direction, in_plane, length, mean_in_plane, perpendicular, u_direction_of, unit};
-use super::seams::{count_split_vertices, survey};
+use super::report::count_split_vertices;
+use super::seams::survey;
 use super::shape::Shape;
 use super::sides::{Output, across};
 use super::{Report, Tangents, threads};
@@ -55,7 +56,7 @@ fn topology_and_report<O: Output>(
     let (topology, mut report) = Topology::new(mesh, memory);
     let flat = Flat::new(mesh);
     report.repaired_corners = topology.frames(&flat, &Shape::welded(mesh), mode, memory, corners);
-    report.split_vertices = count_split_vertices(&flat, corners);
+    report.split_vertices = count_split_vertices(mesh, corners);
     (topology, report)
 }
 

@@ -16,12 +16,12 @@ pub struct Copied {
     /// The corner.
     pub corner: u32,
     /// Good corners.
-    pub from: From,
+    pub from: CopiedFrom,
 }
 
 /// Which good corner is copied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum From {
+pub enum CopiedFrom {
     /// The first one at the same welded vertex.
     Vertex(u32),
     /// Of the good half of the same quad: the first one with the same position, if there is one.
@@ -43,14 +43,16 @@ pub fn copies(triangulation: &Triangulation) -> Vec<Copied> {
     let first_good = first_good_corners(good, degenerate);
     for t in (0..degenerate.len()).filter(|&t| !half_of_good_quad[t]) {
         for (&corner, vertex) in degenerate.corners[t].iter().zip(&degenerate.vertices[t]) {
-            copies.extend(first_good.get(vertex).map(|&good| Copied { corner, from: From::Vertex(good) }));
+            copies.extend(
+                first_good.get(vertex).map(|&good| Copied { corner, from: CopiedFrom::Vertex(good) }),
+            );
         }
     }
     for t in (0..degenerate.len()).filter(|&t| half_of_good_quad[t]) {
         let Ok(half) = good.face.binary_search(&degenerate.face[t]) else { continue };
         let present = good.corners[half];
         let missing = degenerate.corners[t].into_iter().filter(|corner| !present.contains(corner));
-        copies.extend(missing.map(|corner| Copied { corner, from: From::Half(present) }));
+        copies.extend(missing.map(|corner| Copied { corner, from: CopiedFrom::Half(present) }));
     }
     copies
 }
@@ -65,8 +67,8 @@ pub(crate) fn fill_degenerate(
     for Copied { corner, from } in copies(triangulation) {
         let at_same_place = |source: &u32| equal(shape.position(*source), shape.position(corner));
         let source = match from {
-            From::Vertex(good) => Some(good),
-            From::Half(present) => present.into_iter().find(at_same_place),
+            CopiedFrom::Vertex(good) => Some(good),
+            CopiedFrom::Half(present) => present.into_iter().find(at_same_place),
         };
         if let Some(source) = source {
             copy(raw, source, corner);

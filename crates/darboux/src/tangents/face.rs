@@ -9,8 +9,8 @@ use crate::{Frame, Mesh, Mode};
 use super::Report;
 use super::flat::Flat;
 use super::repair::{direction, in_plane, perpendicular, unit};
-use super::report::are_finite;
-use super::seams::{count_mirrored_edges, count_split_vertices, survey, vertices_of_both};
+use super::report::{are_finite, count_split_vertices};
+use super::seams::{count_mirrored_edges, survey, vertices_of_both};
 use super::sides::{Output, across, fill};
 use super::sums::{Derivatives, Orientation, is_degenerate};
 
@@ -48,7 +48,7 @@ pub(super) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut [O]) -> 
     if let Some(of_both) = vertices_of_both(&flat, &orientations) {
         report.mirrored_edges = count_mirrored_edges(&flat, &orientations, &of_both);
     }
-    report.split_vertices = count_split_vertices(&flat, corners);
+    report.split_vertices = count_split_vertices(mesh, corners);
     report
 }
 

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::{CornerTangents, Faces, Mesh, Method, Mode, TangentOptions, generate_tangents};
 
-use super::stages::{From, NONE, Stages, Triangles};
+use super::stages::{CopiedFrom, NONE, Stages, Triangles};
 
 /// Vertices' numbers end below these bits; see darboux-gpu's shaders/plan/triangle.wgsl.
 const FIRST_MARK: u32 = 1 << 31;
@@ -220,7 +220,7 @@ impl Sums {
     fn of_corners(&mut self, mesh: &Mesh<'_>, stages: &Stages, base: &CornerTangents) -> Vec<u32> {
         let mut sums: Vec<u32> = stages.sums.of_corner.iter().map(|sums| sums[0]).collect();
         for copied in &stages.copies {
-            if let From::Vertex(good) = copied.from {
+            if let CopiedFrom::Vertex(good) = copied.from {
                 sums[copied.corner as usize] = sums[good as usize];
             }
         }

@@ -2,8 +2,10 @@
 
 use std::collections::{HashMap, HashSet};
 
+use crate::Mesh;
 use crate::math::V3;
-use crate::{Frame, Mesh};
+
+use super::sides::Output;
 
 /// What was met on the way. Quads count as the two triangles that they are split into.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -47,13 +49,13 @@ pub(super) fn count_non_finite_corners(mesh: &Mesh<'_>) -> usize {
 }
 
 /// Vertices with corners of different tangents, compared as bits. Costs time in the corners, however many vertices there are.
-pub(super) fn count_split_vertices(mesh: &Mesh<'_>, frames: &[Frame]) -> usize {
+pub(super) fn count_split_vertices<O: Output>(mesh: &Mesh<'_>, corners: &[O]) -> usize {
     let mut split = HashSet::new();
     let mut first = FirstCorners::new(mesh);
     for corner in 0..mesh.corner_count() {
         let vertex = mesh.vertex_of_corner(corner);
         let held = first.of(vertex, corner);
-        let [ours, theirs] = [corner, held].map(|corner| frames[corner].tangent_and_sign().map(f32::to_bits));
+        let [ours, theirs] = [corner, held].map(|corner| corners[corner].tangent().map(f32::to_bits));
         if ours != theirs {
             split.insert(vertex);
         }

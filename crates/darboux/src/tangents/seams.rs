@@ -3,7 +3,6 @@
 use crate::Mesh;
 
 use super::flat::Flat;
-use super::sides::Output;
 use super::sums::Orientation;
 use super::threads::{self, split};
 use super::{Report, report};
@@ -90,15 +89,4 @@ fn count_mirrored_pairs(along: &[([u32; 2], bool, Orientation)]) -> usize {
     let count = |up, orientation| along.iter().filter(|edge| edge.1 == up && edge.2 == orientation).count();
     let (keeps, mirrors) = (Orientation::Keeps, Orientation::Mirrors);
     count(true, keeps).min(count(false, mirrors)) + count(true, mirrors).min(count(false, keeps))
-}
-
-/// Vertices with corners of different tangents, compared as bits.
-pub(super) fn count_split_vertices<O: Output>(flat: &Flat<'_>, corners: &[O]) -> usize {
-    let mut first: Vec<Option<[u32; 4]>> = vec![None; flat.positions.len()];
-    let mut split = vec![false; flat.positions.len()];
-    for (&v, corner) in flat.vertex_of_corner.iter().zip(corners) {
-        let bits = corner.tangent().map(f32::to_bits);
-        split[v as usize] |= *first[v as usize].get_or_insert(bits) != bits;
-    }
-    split.into_iter().filter(|split| *split).count()
 }

@@ -13,7 +13,7 @@ use super::mikktspace::{Topology, agreed_derivatives, edge_order};
 use super::shape::Shape;
 use super::subgroups::Subgroups;
 
-pub use super::degenerate::{Copied, From};
+pub use super::degenerate::{Copied, CopiedFrom};
 pub use super::derivatives::Derivative;
 pub use super::groups::Groups;
 pub use crate::topology::NONE;
