@@ -280,7 +280,7 @@ fn check_inputs_survive(jobs: &[Job], input_of_output: &HashMap<PathBuf, &Input>
 }
 
 /// One path for all spellings of a file's path, whether it exists yet or not.
-fn identity(path: &Path) -> PathBuf {
+pub fn identity(path: &Path) -> PathBuf {
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
     for ancestor in path.ancestors() {
         if let Ok(existing) = ancestor.canonicalize() {

@@ -2,7 +2,8 @@
 //!
 //! An output is up to date while its input's content, the options and the version are those that it was made with, and all that was
 //! written with it has the content that it had. A line that is broken, as a killed process may leave it, counts as none: its file is done
-//! again. What killed runs have half-written is known by their names in the journal; nothing else is removed.
+//! again. What killed runs have half-written is known by their names in the journal; nothing else is removed. All paths are below the folder,
+//! so that it can be moved; an output that a link leads out of it is not noted, and is done again each time.
 
 use std::collections::{HashMap, HashSet};
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -16,6 +17,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use walkdir::WalkDir;
 
+use crate::jobs::identity;
 use crate::report::VERSION;
 
 const NAME: &str = "darboux-journal.jsonl";
@@ -92,41 +94,48 @@ pub fn new_run() -> RunId {
 }
 
 impl Record {
-    /// The record of an output in `folder`, of which these files were written. Errors: a file that is gone already.
+    /// The record of an output in `folder`, of which these files were written; none if one of them is elsewhere. Errors: a file that is
+    /// gone already.
     pub fn new(
         folder: &Path,
         output: &Path,
         origin: Origin,
         written: &[String],
         summary: &impl Serialize,
-    ) -> Result<Self, String> {
-        let hashed = |path: &String| {
+    ) -> Result<Option<Self>, String> {
+        let names = written.iter().map(|path| below(folder, Path::new(path)));
+        let (Some(output), Some(names)) = (below(folder, output), names.collect::<Option<Vec<_>>>()) else {
+            return Ok(None);
+        };
+        let hashed = |(name, path): (String, &String)| {
             let hash =
                 hash_of(Path::new(path)).map_err(|error| format!("{path}: cannot be read again: {error}"))?;
-            Ok((below(folder, Path::new(path)), hash.to_hex().to_string()))
+            Ok((name, hash.to_hex().to_string()))
         };
-        let files = written.iter().map(hashed).collect::<Result<_, String>>()?;
+        let files = names.into_iter().zip(written).map(hashed).collect::<Result<_, String>>()?;
         let summary = match serde_json::to_value(summary) {
             Ok(Value::Object(summary)) => summary,
             _ => Map::new(),
         };
-        Ok(Self { output: below(folder, output), origin, files, summary })
+        Ok(Some(Self { output, origin, files, summary }))
     }
 
     /// Whether an output of this origin is there, with all that was written with it, and as it was written.
     pub fn is_of(&self, origin: &Origin, folder: &Path) -> bool {
         let is_there = |(path, hash): &(String, String)| {
-            hash_of(&folder.join(path)).is_ok_and(|found| found.to_hex().as_str() == hash)
+            let is_below = Path::new(path).is_relative();
+            is_below && hash_of(&folder.join(path)).is_ok_and(|found| found.to_hex().as_str() == hash)
         };
         self.origin == *origin && self.files.iter().all(is_there)
     }
 }
 
-/// A path below the folder as text, the same on every system.
-fn below(folder: &Path, path: &Path) -> String {
-    let relative = path.strip_prefix(folder).unwrap_or(path);
+/// A path below the folder as text, the same on every system, whatever spells the two; none for what is elsewhere.
+fn below(folder: &Path, path: &Path) -> Option<String> {
+    let path = identity(path);
+    let relative = path.strip_prefix(identity(folder)).ok()?;
     let names: Vec<_> = relative.iter().map(|name| name.to_string_lossy()).collect();
-    names.join("/")
+    Some(names.join("/"))
 }
 
 impl Journal {
@@ -194,7 +203,7 @@ impl Journal {
 
     /// What is known of an output.
     pub fn find(&self, output: &Path) -> Option<&Record> {
-        self.records.get(&below(&self.folder, output))
+        self.records.get(&below(&self.folder, output)?)
     }
 
     /// Adds what is done.

@@ -82,6 +82,49 @@ fn only_what_changed_is_done_again() {
     assert_eq!(statuses(&resume(&models, &out, &[], 0)), ["up_to_date"; 3]);
 }
 
+/// A folder of outputs may be named in any way, and be moved.
+#[test]
+fn the_journal_knows_nothing_of_other_folders() {
+    let (folder, models, _) = library();
+    let resume = |out: &str| -> Value {
+        let run = Command::new(env!("CARGO_BIN_EXE_darboux"))
+            .args(["tangents", text(&models.join("a.glb")), "--resume", "--json", "--out-dir", out])
+            .current_dir(&folder)
+            .output()
+            .expect("the command runs");
+        assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+        let report: Value = serde_json::from_slice(&run.stdout).expect("the report is JSON");
+        report["files"][0]["status"].clone()
+    };
+    let output = folder.path().join("out/a.glb");
+    assert_eq!(resume("out"), "written");
+    for spelling in ["./out", text(&folder.path().join("out")), "models/../out"] {
+        assert_eq!(resume(spelling), "up_to_date", "{spelling}");
+    }
+    fs::write(&output, b"cut").expect("the output");
+    assert_eq!(resume("out"), "written");
+    fs::rename(folder.path().join("out"), folder.path().join("moved")).expect("the folder moves");
+    assert_eq!(resume("moved"), "up_to_date");
+    fs::create_dir(folder.path().join("out")).expect("a folder");
+    fs::rename(folder.path().join("moved/a.glb"), &output).expect("the output moves");
+    assert_eq!(resume("moved"), "written");
+}
+
+#[test]
+#[cfg(unix)]
+fn an_output_outside_the_folder_is_done_each_time() {
+    let (folder, models, out) = library();
+    let elsewhere = folder.path().join("elsewhere.glb");
+    fs::create_dir(&out).expect("a folder");
+    fs::write(&elsewhere, b"old").expect("a file");
+    std::os::unix::fs::symlink(&elsewhere, out.join("a.glb")).expect("a link");
+    for _ in 0..2 {
+        assert_eq!(statuses(&resume(&models.join("a.glb"), &out, &[], 0)), ["written"]);
+    }
+    let journal = fs::read_to_string(out.join(JOURNAL)).expect("the journal");
+    assert!(!journal.contains("elsewhere"), "{journal}");
+}
+
 #[test]
 fn failures_are_collected_and_tried_again() {
     let (_folder, models, out) = library();

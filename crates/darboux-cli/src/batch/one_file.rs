@@ -80,7 +80,7 @@ fn resumed<W: Work>(
     }
     let made = command.process(job, progress)?;
     let record = Record::new(folder, output, origin, &made.files_written, &made.summary)?;
-    Ok(Done { report: told(job, made), record: Some(record) })
+    Ok(Done { report: told(job, made), record })
 }
 
 fn told<S>(job: &Job, made: Made<S>) -> FileReport<S> {
