@@ -49,7 +49,8 @@ A normal map looks right only when the renderer's tangents are the baker's. Darb
 as bakers do, and writes them into .gltf and .glb files without changing anything else.
 
 Messages go to standard error. Exit codes: 0 done (nothing to do included), 1 an input is bad or a file failed, \
-2 wrong usage, 3 compared files are further apart than asked for.";
+2 wrong usage, 3 compared files are further apart than asked for. Ctrl-C, SIGTERM and SIGHUP let a file be finished that is being \
+written, then end the command with 128 plus the number of the signal.";
 
 /// The subcommands.
 #[derive(Debug, Subcommand)]
