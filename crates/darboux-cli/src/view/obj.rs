@@ -3,6 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+/// References in longer lines are left out: so many bytes are more than a path has, and every word may begin one.
+const LONGEST_LINE: usize = 4096;
+
 /// A file, and the path by which the OBJ's folder knows it: with `/` between parts.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Companion {
@@ -20,7 +23,7 @@ pub fn companions(path: &Path) -> Result<Vec<Companion>, String> {
     let mut has_faces = false;
     for (word, rest) in statements(&bytes) {
         has_faces |= word == b"f";
-        if word == b"mtllib" {
+        if word == b"mtllib" && rest.len() <= LONGEST_LINE {
             libraries.push(rest);
         }
     }
@@ -31,7 +34,7 @@ pub fn companions(path: &Path) -> Result<Vec<Companion>, String> {
     let folder = parent.unwrap_or(Path::new(".")).canonicalize();
     let folder = folder.map_err(|error| format!("{shown}: its folder cannot be read: {error}"))?;
     let mut found = Vec::new();
-    for library in libraries.into_iter().filter_map(|library| inside(&folder, "", library)) {
+    for library in libraries.into_iter().flat_map(|line| named(&folder, line)) {
         for texture in fs::read(&library.path).iter().flat_map(|text| textures(&folder, &library.name, text))
         {
             note(&mut found, texture);
@@ -39,6 +42,12 @@ pub fn companions(path: &Path) -> Result<Vec<Companion>, String> {
         note(&mut found, library);
     }
     Ok(found)
+}
+
+/// The libraries of a line: one whose name may have spaces, or several.
+fn named(folder: &Path, line: &[u8]) -> Vec<Companion> {
+    let words = || line.split(u8::is_ascii_whitespace).filter_map(|word| inside(folder, "", word));
+    inside(folder, "", line).map_or_else(|| words().collect(), |library| vec![library])
 }
 
 fn note(found: &mut Vec<Companion>, companion: Companion) {
@@ -50,7 +59,7 @@ fn note(found: &mut Vec<Companion>, companion: Companion) {
 /// The textures of a material library. Options stand before a texture's name, which may have spaces: it is the longest end of the line that
 /// names a file.
 fn textures(folder: &Path, library: &str, text: &[u8]) -> Vec<Companion> {
-    let maps = statements(text).filter(|(word, _)| is_texture(word));
+    let maps = statements(text).filter(|(word, line)| is_texture(word) && line.len() <= LONGEST_LINE);
     let found = maps.filter_map(|(_, line)| {
         let starts = line.iter().enumerate().filter(|&(at, _)| at == 0 || line[at - 1].is_ascii_whitespace());
         starts.map(|(at, _)| &line[at..]).find_map(|end| inside(folder, library, end))
@@ -88,4 +97,33 @@ fn inside(folder: &Path, base: &str, reference: &[u8]) -> Option<Companion> {
     let path = folder.join(&name).canonicalize().ok()?;
     let is_ours = !reference.starts_with('/') && path.starts_with(folder) && path.is_file();
     is_ours.then_some(Companion { name, path })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The names of an OBJ's companions; all files given are there.
+    fn names_of(obj: &str, library: &str, files: &[&str]) -> Vec<String> {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        files.iter().for_each(|file| fs::write(at(file), library).unwrap());
+        fs::write(at("a.obj"), format!("{obj}\nf 1 2 3\n")).unwrap();
+        companions(&at("a.obj")).unwrap().into_iter().map(|companion| companion.name).collect()
+    }
+
+    #[test]
+    fn a_line_names_one_library_or_several() {
+        assert_eq!(names_of("mtllib a.mtl\tb.mtl  c.mtl", "", &["a.mtl", "b.mtl"]), ["a.mtl", "b.mtl"]);
+        assert_eq!(names_of("mtllib a b.mtl", "", &["a b.mtl", "a", "b.mtl"]), ["a b.mtl"]);
+    }
+
+    #[test]
+    fn longer_lines_than_paths_are_left_out() {
+        let line = |words: usize| format!("map_Kd {}a.png", "- ".repeat(words));
+        let names = |words| names_of("mtllib a.mtl", &line(words), &["a.mtl", "a.png"]);
+        assert_eq!(names(2000), ["a.png", "a.mtl"]);
+        assert_eq!(names(60_000), ["a.mtl"]);
+        assert!(names_of(&format!("mtllib {}a.mtl", " - ".repeat(60_000)), "", &["a.mtl"]).is_empty());
+    }
 }
