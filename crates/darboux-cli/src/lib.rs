@@ -27,7 +27,7 @@ use std::ffi::OsString;
 use clap::Parser;
 
 pub use arguments::Arguments;
-use arguments::{Command, Device};
+use arguments::Command;
 pub use library::{Library, carry_out, give_up};
 
 /// Exit codes, as `darboux --help` lists them.
@@ -36,16 +36,6 @@ mod exit {
     pub const FAILED: u8 = 1;
     pub const USAGE: u8 = 2;
     pub const DIFFERENT: u8 = 3;
-}
-
-/// Whether a run with these arguments looks for GPUs.
-pub fn looks_for_adapters(arguments: impl IntoIterator<Item = OsString>) -> bool {
-    let parsed = Arguments::try_parse_from(arguments);
-    parsed.is_ok_and(|arguments| match arguments.command {
-        Command::Devices(_) | Command::Render(_) => true,
-        Command::Tangents(arguments) => arguments.device == Device::Gpu,
-        _ => false,
-    })
 }
 
 /// Runs the command on the process's standard streams and gives its exit code: 0 done, 1 an input is bad or a file failed,
