@@ -47,6 +47,10 @@ pub fn run(arguments: &CompareArguments) -> u8 {
         messages.error("standard input cannot be compared; save it to a file");
         return exit::USAGE;
     }
+    if let Err(sentence) = arguments.heat_map.as_deref().map_or(Ok(()), refuse_missing_folder) {
+        messages.error(&sentence);
+        return exit::USAGE;
+    }
     interrupt::wait_for_writes();
     let report = match compare(arguments, &messages) {
         Ok(report) => report,
@@ -78,7 +82,6 @@ fn compare(arguments: &CompareArguments, messages: &Messages) -> Result<CompareR
     if let Some(path) = arguments.heat_map.as_ref().filter(|path| !is_png(path)) {
         return Err(format!("{}: the heat map is a PNG; name it .png", path.display()));
     }
-    arguments.heat_map.as_deref().map_or(Ok(()), refuse_missing_folder)?;
     let other = arguments.second.as_ref().unwrap_or(&arguments.first);
     let inputs = [&arguments.first, other].map(|path| Input::File(path.clone()));
     messages.start(inputs.iter().map(size_of).sum());

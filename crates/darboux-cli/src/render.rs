@@ -43,6 +43,10 @@ pub fn run(arguments: &RenderArguments) -> u8 {
         messages.error("a model on standard input cannot be drawn; save it to a file");
         return exit::USAGE;
     }
+    if let Err(sentence) = refuse_missing_folder(&arguments.output) {
+        messages.error(&sentence);
+        return exit::USAGE;
+    }
     interrupt::wait_for_writes();
     let report = match draw(arguments) {
         Ok(report) => report,
@@ -116,7 +120,7 @@ fn check_output(path: &Path, force: bool) -> Result<(), String> {
     if !is_png(path) {
         return Err(format!("{}: the picture is a PNG; name it .png", path.display()));
     }
-    refuse_missing_folder(path)
+    Ok(())
 }
 
 /// The model with the tangents of a source. Triangles without normals get flat ones, as glTF asks of renderers.

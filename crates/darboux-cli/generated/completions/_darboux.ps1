@@ -132,7 +132,7 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             [CompletionResult]::new('--view', '--view', [CompletionResultType]::ParameterName, 'What is drawn')
             [CompletionResult]::new('--tangents', '--tangents', [CompletionResultType]::ParameterName, 'Whose tangents: file, or a method, as `darboux methods` lists them')
             [CompletionResult]::new('--against', '--against', [CompletionResultType]::ParameterName, 'For --view heat: the tangents that they are compared with')
-            [CompletionResult]::new('--mesh', '--mesh', [CompletionResultType]::ParameterName, 'Draw this mesh alone: its name, or its index; several times for several')
+            [CompletionResult]::new('--mesh', '--mesh', [CompletionResultType]::ParameterName, 'Draw this mesh alone: its name, or else its index; several times for several')
             [CompletionResult]::new('--size', '--size', [CompletionResultType]::ParameterName, 'Pixels across and down')
             [CompletionResult]::new('--camera', '--camera', [CompletionResultType]::ParameterName, 'Degrees around the model (0 is its front), degrees above the horizon, and how many times nearer than all of it in view')
             [CompletionResult]::new('--background', '--background', [CompletionResultType]::ParameterName, 'The colour behind the model')

@@ -147,7 +147,7 @@ heat\t'The angle between two sources, with the scale of compare\'s heat maps (0.
 uv\t'The UV layout, v down, in the colours of tangents'"
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l tangents -d 'Whose tangents: file, or a method, as `darboux methods` lists them' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l against -d 'For --view heat: the tangents that they are compared with' -r
-complete -c darboux -n "__fish_darboux_using_subcommand render" -l mesh -d 'Draw this mesh alone: its name, or its index; several times for several' -r
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l mesh -d 'Draw this mesh alone: its name, or else its index; several times for several' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l size -d 'Pixels across and down' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l camera -d 'Degrees around the model (0 is its front), degrees above the horizon, and how many times nearer than all of it in view' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l background -d 'The colour behind the model' -r

@@ -47,7 +47,7 @@ pub struct RenderArguments {
     #[arg(long, value_name = "SOURCE", value_parser = source, required_if_eq("view", "heat"))]
     pub against: Option<Source>,
 
-    /// Draw this mesh alone: its name, or its index; several times for several
+    /// Draw this mesh alone: its name, or else its index; several times for several
     #[arg(long, value_name = "MESH", allow_hyphen_values = true)]
     pub mesh: Vec<String>,
 
