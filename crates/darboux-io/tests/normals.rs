@@ -148,6 +148,28 @@ fn normals_that_exist_are_kept_unless_they_are_to_be_replaced_and_then_tangents_
     assert_eq!(document.read_vectors::<3>(target["NORMAL"]).expect("offsets"), [[0.0; 3]; 4]);
 }
 
+/// Exporters that write accessors per primitive say the same of shared positions in other bytes.
+#[test]
+fn tangents_stay_with_normals_that_stay_in_any_accessor() {
+    let mut builder = Builder::new();
+    let (positions, indices) = (builder.vectors(&square().positions), builder.indices(&SQUARE));
+    let tangents = builder.vectors(&[[1.0f32, 0.0, 0.0, 1.0]; 4]);
+    let mut with_normals = |z: f32| {
+        let normals = builder.vectors(&[[0.0, 0.0, z]; 4]);
+        let attributes = json!({"POSITION": positions, "NORMAL": normals, "TANGENT": tangents});
+        json!({"attributes": attributes, "indices": indices})
+    };
+    let primitives = [1.0, 1.0, -1.0].map(&mut with_normals);
+    builder.mesh(&primitives);
+    let mut document = builder.build();
+    let summary = run(&mut document, &NormalsOptions { overwrite: true, ..NormalsOptions::default() });
+    let removed = [0, 1, 2].map(|place| written(&summary, place).tangents_removed);
+    assert_eq!(removed, [false, false, true]);
+    let has_tangents =
+        |place: usize| document.meshes()[0].primitives[place].attributes.contains_key("TANGENT");
+    assert_eq!([0, 1, 2].map(has_tangents), [true, true, false]);
+}
+
 #[test]
 fn morph_targets_get_the_normals_of_what_they_make() {
     let mut moved = BEND;

@@ -33,8 +33,10 @@ pub fn write(
     excess::check_output(document)?;
     let appended = Appended::new(accessors, copies, old_count);
     let mut writer = Writer {
+        accessors,
         split: &split,
         normals,
+        same: HashMap::new(),
         appended,
         offsets: HashMap::new(),
         conflicting: HashMap::new(),
@@ -67,9 +69,12 @@ fn split(document: &Document, position: usize, parts: &[&Part]) -> Result<Normal
 }
 
 struct Writer<'a> {
+    accessors: &'a Canonical,
     split: &'a NormalSplit,
     /// The accessor of the normals.
     normals: usize,
+    /// Whether an accessor that was there has the elements of one of ours.
+    same: HashMap<[usize; 2], bool>,
     appended: Appended<'a>,
     /// Accessors of normal offsets, by that of position offsets.
     offsets: HashMap<usize, usize>,
@@ -121,13 +126,13 @@ impl<'a> Writer<'a> {
         let primitive = document.meshes()[name.mesh].primitives[name.primitive].clone();
         let normals = Some(self.normals);
         let at = format!("{}.attributes", name.path());
-        let keeps_tangents = self.is_same(&primitive.attributes, normals);
+        let keeps_tangents = self.is_same(document, &primitive.attributes, normals);
         let attributes = self.attributes(document, &at, &primitive.attributes, normals, keeps_tangents)?;
         let mut targets = Vec::with_capacity(primitive.targets.len());
         for (place, (target, moved)) in primitive.targets.iter().zip(&part.moves).enumerate() {
             let at = format!("{}.targets[{place}]", name.path());
             let offsets = moved.as_ref().map(|moved| self.offsets[&moved.accessor]);
-            let keeps_tangents = keeps_tangents && self.is_same(target, offsets);
+            let keeps_tangents = keeps_tangents && self.is_same(document, target, offsets);
             let mut target = self.attributes(document, &at, target, offsets, keeps_tangents)?;
             if target.is_empty() {
                 target.insert("NORMAL".to_owned(), self.zeros(document));
@@ -152,8 +157,17 @@ impl<'a> Writer<'a> {
     }
 
     /// Whether attributes have these normals, if any, already: then their tangents belong to them.
-    fn is_same(&self, old: &Attributes, normals: Option<usize>) -> bool {
-        !self.appended.is_needed() && normals.is_none_or(|normals| old.get("NORMAL") == Some(&normals))
+    fn is_same(&mut self, document: &Document, old: &Attributes, normals: Option<usize>) -> bool {
+        if self.appended.is_needed() {
+            return false;
+        }
+        let Some(normals) = normals else { return true };
+        let Some(&old) = old.get("NORMAL") else { return false };
+        let pair = [self.accessors.of(old), normals];
+        *self.same.entry(pair).or_insert_with(|| {
+            let elements = |accessor: usize| document.read_elements(accessor).ok();
+            pair[0] == pair[1] || elements(old).is_some_and(|old| elements(normals) == Some(old))
+        })
     }
 
     fn written(&self, part: &Part, before: &Primitive, keeps_tangents: bool) -> WrittenNormals {
