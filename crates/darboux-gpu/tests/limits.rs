@@ -193,7 +193,7 @@ fn a_device_lost_in_the_middle_is_an_error_or_too_late() {
     let mesh = families::grid(100, 100, false, true);
     let options = TangentOptions::default();
     let expected = generate_tangents(&mesh.view(), &options);
-    for milliseconds in [0, 1, 3, 10, 30, 100, 300] {
+    for milliseconds in [0, 10, 100] {
         for gpu in devices(InstanceDescriptor::new_without_display_handle(), |limits| limits) {
             let kernels = MikkTSpace::new(&gpu).expect("valid shaders").in_pieces_of(2_000);
             let device = gpu.device.clone();
