@@ -103,8 +103,9 @@ test('on a flat surface every source lights alike, in OBJ and glTF', async () =>
 test('an OBJ with materials and normal map looks the same when it is saved', async () => {
   const path = join(folder, 'materials');
   mkdirSync(path);
-  const quad = readFileSync(join(folder, 'quad.obj'), 'utf8').replace(/^f/m, 'mtllib quad.mtl\nusemtl plane\nf');
+  const quad = readFileSync(join(folder, 'quad.obj'), 'utf8').replace(/^f/m, 'mtllib other.mtl quad.mtl\nusemtl plane\nf');
   writeFileSync(join(path, 'quad.obj'), quad);
+  writeFileSync(join(path, 'other.mtl'), 'newmtl other\nKd 1 0 0\n');
   writeFileSync(join(path, 'quad.mtl'), 'newmtl plane\nKd 1 1 1\nmap_Kd color.png\nnorm normal.png\n');
   copyFileSync(asset('TwoSidedPlane/TwoSidedPlane_BaseColor.png'), join(path, 'color.png'));
   writeFileSync(join(path, 'normal.png'), await normalMapOfSample());

@@ -25,7 +25,8 @@ export async function openObj(name: string, bytes: Uint8Array<ArrayBuffer>, bund
   manager.onError = () => lost++;
   // Holds back the end of loading until all textures have begun, of which there may be none.
   manager.itemStart(name);
-  const libraries = new Set(Array.from(text.matchAll(/^\s*mtllib\s+(.+?)\s*$/gm), ([, library]) => library));
+  const lines = Array.from(text.matchAll(/^\s*mtllib\s+(.+?)\s*$/gm), ([, line]) => line);
+  const libraries = new Set(lines.flatMap((line) => librariesOf(line, name, bundle)));
   const { creators, missing } = await creatorsOf([...libraries], name, bundle, manager);
   loader.setMaterials({ create: (material: string) => creators.find(({ materialsInfo }) => Object.hasOwn(materialsInfo, material))?.create(material) } as MaterialCreator);
   const scene = loader.parse(text);
@@ -41,6 +42,13 @@ export async function openObj(name: string, bytes: Uint8Array<ArrayBuffer>, bund
 }
 
 type MaterialCreator = MTLLoader.MaterialCreator;
+
+/** The libraries of a line: one whose name may have spaces, or several. */
+function librariesOf(line: string, name: string, bundle: Bundle): string[] {
+  const isGiven = (library: string) => bundle.has(located(library, name) ?? '');
+  const words = line.split(/\s+/);
+  return !isGiven(line) && words.some(isGiven) ? words : [line];
+}
 
 /** The material libraries that were given, and the names of those that were not. */
 async function creatorsOf(libraries: string[], name: string, bundle: Bundle, manager: LoadingManager) {
