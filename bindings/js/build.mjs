@@ -92,6 +92,8 @@ const common = {
   outdir: out,
   bundle: true,
   minify: true,
+  // Node.js shows the line that throws: not the whole module.
+  lineLimit: 400,
   target: 'es2022',
   platform: 'neutral',
   plugins: [deflated, shaders],
