@@ -19,6 +19,21 @@ pub use engine::{Engine, engines};
 pub use generate::{Case, Dice};
 pub use mesh::{FaceSizes, OwnedMesh};
 
+/// All methods, in the order of C's numbers for them.
+pub const METHODS: [darboux::Method; 8] = {
+    use darboux::Method;
+    [
+        Method::MikkTSpace,
+        Method::AngleArea,
+        Method::Lengyel,
+        Method::LengyelPerVertex,
+        Method::Average,
+        Method::Area,
+        Method::Face,
+        Method::FromNormal,
+    ]
+};
+
 /// The README's example runs.
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]

@@ -4,21 +4,9 @@
 //! multiply errors.
 
 use darboux::{Frame, Method, TangentOptions, generate_frames};
-use darboux_tests::{OwnedMesh, families};
+use darboux_tests::{METHODS, OwnedMesh, families};
 
 const TOLERANCE: f32 = 2.4e-5;
-
-/// The methods that sum, and those that look at one face or vertex alone.
-const METHODS: [Method; 8] = [
-    Method::MikkTSpace,
-    Method::AngleArea,
-    Method::Lengyel,
-    Method::LengyelPerVertex,
-    Method::Average,
-    Method::Area,
-    Method::Face,
-    Method::FromNormal,
-];
 
 fn frames(mesh: &OwnedMesh, method: Method) -> Vec<Frame> {
     let options = TangentOptions { method, ..TangentOptions::default() };

@@ -5,7 +5,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
-from typing import Any, Callable, List, Tuple
+from typing import IO, Any, Callable, List, Tuple
 
 import darboux
 import numpy as np
@@ -147,15 +147,10 @@ def test_ctrl_c_leaves_no_file(tmp_path: Path) -> None:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 def test_ctrl_c_ends_the_command(tmp_path: Path) -> None:
-    # The command waits for a standard input that never ends. Once it has taken a byte, its handlers stand.
+    # The command waits for a standard input that never ends.
     command = [sys.executable, "-m", "darboux", "tangents", "-", "-o", str(tmp_path / "out.glb")]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as process:
-        assert process.stdin is not None
-        process.stdin.write(b"g")
-        process.stdin.flush()
-        while bytes_waiting(process.stdin.fileno()) > 0:
-            assert process.poll() is None
-            time.sleep(0.01)
+        started(process)
         process.send_signal(signal.SIGINT)
         assert process.wait() in (130, -signal.SIGINT)
     assert list(tmp_path.iterdir()) == []
@@ -166,16 +161,22 @@ def test_the_command_leaves_ctrl_c_ignored() -> None:
     ignoring = "import os, signal, sys; signal.signal(signal.SIGINT, signal.SIG_IGN); os.execv(sys.executable, sys.argv[1:])"
     command = [sys.executable, "-c", ignoring, sys.executable, "-m", "darboux", "tangents", "-"]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
-        assert process.stdin is not None
-        process.stdin.write(b"g")
-        process.stdin.flush()
-        while bytes_waiting(process.stdin.fileno()) > 0:
-            assert process.poll() is None
-            time.sleep(0.01)
+        pipe = started(process)
         process.send_signal(signal.SIGINT)
-        process.stdin.close()
+        pipe.close()
         # It reads on, and refuses the one byte.
         assert process.wait() == 1
+
+
+def started(process: "subprocess.Popen[bytes]") -> IO[bytes]:
+    """The standard input of a command that reads it, once that has taken a byte: its handlers stand then."""
+    assert process.stdin is not None
+    process.stdin.write(b"g")
+    process.stdin.flush()
+    while bytes_waiting(process.stdin.fileno()) > 0:
+        assert process.poll() is None
+        time.sleep(0.01)
+    return process.stdin
 
 
 def bytes_waiting(pipe: int) -> int:

@@ -10,7 +10,7 @@ use darboux::{
     measure_uv_fidelity, split_normals, split_vertices,
 };
 use darboux_c::*;
-use darboux_tests::{Case, Dice, FaceSizes, OwnedMesh, corpus, families};
+use darboux_tests::{Case, Dice, FaceSizes, METHODS, OwnedMesh, corpus, families};
 
 pub fn empty_mesh() -> darboux_mesh {
     darboux_mesh {
@@ -92,16 +92,6 @@ fn meshes(random: u64) -> Vec<OwnedMesh> {
     meshes
 }
 
-const METHODS: [Method; 8] = [
-    Method::MikkTSpace,
-    Method::AngleArea,
-    Method::Lengyel,
-    Method::LengyelPerVertex,
-    Method::Average,
-    Method::Area,
-    Method::Face,
-    Method::FromNormal,
-];
 /// In the order of C.
 const MODES: [Mode; 3] = [Mode::Repaired, Mode::Reference, Mode::Corrected];
 

@@ -116,11 +116,6 @@ impl Fans {
         source(mesh, &self.weld, &self.cut)
     }
 
-    /// How many triangles that mesh has.
-    pub fn triangle_count(&self, mesh: &Mesh<'_>) -> usize {
-        self.source(mesh).count()
-    }
-
     /// The corners of the faces with undecided vertices, ascending.
     pub fn undecided<'a>(&'a self, mesh: &'a Mesh<'a>) -> impl Iterator<Item = Range<u32>> + Clone {
         let source = self.source(mesh);

@@ -4,7 +4,7 @@ use crate::cancel::Stop;
 use crate::{Frame, Mesh};
 
 use super::evaluate::DEFAULT_FRAME;
-use super::fans::{Fans, UNDECIDED};
+use super::fans::{Fans, UNDECIDED, triangle_count};
 use super::mikktspace::{HalfEdge, Part, Topology};
 use super::{Report, TangentOptions};
 
@@ -108,7 +108,7 @@ pub(super) fn decide(
 ) -> Report {
     let part = UndecidedPart::new(mesh, options, fans, out);
     let report = part.map(|part| part.decide(mesh, stop, out)).unwrap_or_default();
-    Report { triangles: fans.triangle_count(mesh), ..report }
+    Report { triangles: triangle_count(mesh), ..report }
 }
 
 /// As [`decide`], whole frames: those of the corners that are undecided in `tangents`, which `fans` wrote, ascending.
@@ -122,7 +122,7 @@ pub(super) fn decide_frames(
 ) -> Report {
     let part = UndecidedPart::new(mesh, options, fans, tangents);
     let report = part.map(|part| part.decide_frames(mesh, stop, tangents, out)).unwrap_or_default();
-    Report { triangles: fans.triangle_count(mesh), ..report }
+    Report { triangles: triangle_count(mesh), ..report }
 }
 
 /// Edges of the mesh as edges of the part that has these of its corners.
