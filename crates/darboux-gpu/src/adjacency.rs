@@ -1,44 +1,31 @@
 //! The triangles at each vertex, found by counting, a prefix sum and scattering.
 
-use wgpu::{Buffer, CommandEncoder, ComputePipeline, Device};
+use wgpu::{Buffer, CommandEncoder, Device};
 
 use crate::GpuError;
 use crate::buffers::{Description, check_size};
-use crate::kernel::{Step, buffer, module, pipeline};
-use crate::scan::ScanKernels;
+use crate::passes::OF_ADJACENCY;
+use crate::program::{Buffers, Program, Recording};
+use crate::reals::Arithmetic;
 
 /// What [`Adjacency::new`] needs, compiled once.
 #[derive(Clone, Debug)]
-pub(crate) struct AdjacencyKernels {
-    count: ComputePipeline,
-    scan: ScanKernels,
-    scatter: ComputePipeline,
-    rank: ComputePipeline,
-}
+pub(crate) struct AdjacencyKernels(Program);
 
-/// The adjacency of one mesh, and the steps that make it.
+/// The adjacency of one mesh, and what makes it.
 #[derive(Clone, Debug)]
 pub(crate) struct Adjacency {
     /// Where the part of each vertex ends.
     pub ends: Buffer,
     /// The triangles, part after part, ascending in each.
     pub triangle_of_entry: Buffer,
-    steps: Vec<Step>,
+    recording: Recording,
 }
-
-/// The files of the shader.
-pub(crate) const ADJACENCY: &[&str] =
-    &[include_str!("../shaders/mesh.wgsl"), include_str!("../shaders/adjacency.wgsl")];
 
 impl AdjacencyKernels {
     pub fn new(device: &Device) -> Self {
-        let adjacency = module(device, ADJACENCY);
-        Self {
-            count: pipeline(device, &adjacency, "count"),
-            scan: ScanKernels::new(device),
-            scatter: pipeline(device, &adjacency, "scatter"),
-            rank: pipeline(device, &adjacency, "rank"),
-        }
+        // It has no floats.
+        Self(Program::new(device, Arithmetic::Fast, OF_ADJACENCY))
     }
 }
 
@@ -51,24 +38,16 @@ impl Adjacency {
         description: &Buffer,
         indices: &Buffer,
     ) -> Result<Self, GpuError> {
-        let corners = 3 * mesh.triangle_count;
-        check_size(device, "the triangles of vertices", 4 * u64::from(corners))?;
+        let sizes = [mesh.vertex_count, mesh.triangle_count];
+        check_size(device, "the triangles of vertices", 12 * u64::from(mesh.triangle_count))?;
         check_size(device, "the ends of vertices", 4 * u64::from(mesh.vertex_count))?;
-        let ends = buffer(device, "ends", mesh.vertex_count);
-        let corner_of_entry = buffer(device, "corner_of_entry", corners);
-        let triangle_of_entry = buffer(device, "triangle_of_entry", corners);
-        let counting = [(0, description), (1, indices), (2, &ends)];
-        let filling = [(0, description), (1, indices), (2, &ends), (3, &corner_of_entry)];
-        let ranking = [&filling[..], &[(4, &triangle_of_entry)]].concat();
-        let mut steps = vec![Step::new(device, &kernels.count, &counting, corners)];
-        steps.extend(kernels.scan.steps(device, &ends, mesh.vertex_count));
-        steps.push(Step::new(device, &kernels.scatter, &filling, corners));
-        steps.push(Step::new(device, &kernels.rank, &ranking, corners));
-        Ok(Self { ends, triangle_of_entry, steps })
+        let mut buffers = Buffers::given([("mesh", description), ("vertex_of_corner", indices)]);
+        let recording = kernels.0.on(device, sizes, &mut buffers)?;
+        let [ends, triangle_of_entry] = ["ends", "triangle_of_entry"].map(|name| buffers.of(name).clone());
+        Ok(Self { ends, triangle_of_entry, recording })
     }
 
     pub fn record(&self, encoder: &mut CommandEncoder) {
-        encoder.clear_buffer(&self.ends, 0, None);
-        self.steps.iter().for_each(|step| step.record(encoder));
+        self.recording.record(encoder);
     }
 }

@@ -176,7 +176,6 @@ pub(crate) fn files(search: Search, storage: &'static str) -> [&'static str; 7] 
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::adjacency::ADJACENCY;
     use crate::kernel::text;
     use crate::scan::SCAN;
 
@@ -186,7 +185,6 @@ pub(crate) mod tests {
             validate(&files(search, IN_PLACE));
             validate(&files(search, SECOND_BUFFER));
         }
-        validate(ADJACENCY);
         validate(SCAN);
         validate(&[
             "fn zero() -> u32 { return 0u; }",

@@ -98,11 +98,6 @@ impl Description {
         Self { vertex_count, triangle_count, vertex_stride, position, normal, uv, ..Self::zeroed() }
     }
 
-    /// The same with a list of welded corners for indices.
-    pub fn of_welded_corners(&self) -> Self {
-        Self { first_index: 0, index_shift: 0, ..*self }
-    }
-
     pub fn uniform(&self, device: &Device) -> Buffer {
         filled(device, "mesh", bytemuck::bytes_of(self), BufferUsages::UNIFORM)
     }

@@ -40,13 +40,13 @@ mod kernels;
 mod mikktspace;
 #[cfg(test)]
 mod operations;
+mod passes;
 mod pieces;
 mod plan;
+mod program;
 mod reals;
 mod scan;
 mod split;
-mod topology;
-mod weld;
 
 pub use average::{Average, AverageOfMesh, Search};
 pub use buffers::{Destination, FrameLayout, MeshBuffers, VertexLayout};

@@ -11,7 +11,6 @@ use crate::buffers::largest_buffer;
 use crate::device::{guarded, submit};
 use crate::pieces::{BYTES_OF_TRIANGLE, Cut, Kernels, Piece, Vertices, in_several, weld};
 use crate::reals::Arithmetic;
-use crate::topology::Topology;
 use crate::{AdapterSummary, Gpu, GpuError};
 
 /// MikkTSpace, compiled for a device.
@@ -138,9 +137,11 @@ impl MikkTSpace {
                 vertices.record(encoder);
                 piece.record(encoder);
             };
-            let Topology { welded_corners, neighbours, marks, seed_of_corner, .. } = &piece.topology;
-            let Vertices { refused, weld, .. } = &vertices;
-            let wanted = [refused, &weld.welded, welded_corners, neighbours, marks, seed_of_corner];
+            let [refused, welded] = ["refused", "welded"].map(|name| vertices.buffers.of(name));
+            let [corners, neighbours, marks, seeds] =
+                ["vertex_of_corner", "neighbours", "marks", "seed_of_corner"]
+                    .map(|name| piece.buffers.of(name));
+            let wanted = [refused, welded, corners, neighbours, marks, seeds];
             let [refused, welded, corners, neighbours, marks, seeds] =
                 submit(device, queue, record, wanted).map(|copy| copy.read::<u32>(device));
             Ok(Arrays {
@@ -202,7 +203,7 @@ impl MikkTSpace {
     ) -> Result<Option<Begun>, GpuError> {
         let (device, queue) = (&self.device, &self.queue);
         let vertices = Vertices::new(device, &self.kernels, mesh)?;
-        let wanted = [&vertices.refused, &vertices.weld.welded];
+        let wanted = ["refused", "welded"].map(|name| vertices.buffers.of(name));
         let [refused, welded] = submit(device, queue, |encoder| vertices.record(encoder), wanted);
         if refused.read::<u32>(device)? != [0] {
             return Ok(None);
@@ -212,7 +213,7 @@ impl MikkTSpace {
         let mut tangents = Vec::with_capacity(indices.len());
         for indices in indices.chunks(corners) {
             let piece = Piece::new(device, &self.kernels, &vertices, indices, &is_left, threshold_cosine)?;
-            let wanted = [&piece.tangent_of_corner];
+            let wanted = [piece.buffers.of("tangent_of_corner")];
             let [of_piece] = submit(device, queue, |encoder| piece.record(encoder), wanted);
             tangents.extend(of_piece.read::<[f32; 4]>(device)?);
         }
@@ -242,7 +243,7 @@ impl MikkTSpace {
                 vertices.record(encoder);
                 piece.record(encoder);
             };
-            let wanted = [&vertices.refused, &piece.tangent_of_corner];
+            let wanted = [vertices.buffers.of("refused"), piece.buffers.of("tangent_of_corner")];
             let [refused, of_piece] = submit(device, queue, record, wanted);
             if refused.read::<u32>(device)? != [0] {
                 return Ok(None);

@@ -140,15 +140,15 @@ fn cost_of_item(arithmetic: Arithmetic, own: &[&'static str], turns: &dyn Fn(&st
 
 #[test]
 fn operations_are_as_many_as_the_notes_say() {
-    use crate::evaluation::{DERIVATIVES, EVALUATE, WEDGES};
+    use crate::passes::{DERIVATIVES, EVALUATE, WEDGES};
     use crate::plan::{GATHER, TERMS};
     // Of a large regular mesh: six triangles at a vertex.
     let of_vertex = |name: &str| if name == "run" { 6 } else { 3 };
     let of_triangle = |_: &str| 3;
     let costs = |arithmetic| {
         let of_triangles =
-            [TERMS, DERIVATIVES, WEDGES].map(|own| cost_of_item(arithmetic, own, &of_triangle));
-        let of_vertices = [GATHER, EVALUATE].map(|own| cost_of_item(arithmetic, own, &of_vertex));
+            [TERMS, DERIVATIVES.files, WEDGES.files].map(|own| cost_of_item(arithmetic, own, &of_triangle));
+        let of_vertices = [GATHER, EVALUATE.files].map(|own| cost_of_item(arithmetic, own, &of_vertex));
         let all = [&of_triangles[..], &of_vertices].concat();
         all.iter().map(|cost| (cost.simple, cost.of_floats, cost.slow)).collect()
     };

@@ -4,43 +4,28 @@ use std::collections::HashMap;
 
 use bytemuck::cast_slice;
 use darboux::Mesh;
-use wgpu::{Buffer, BufferUsages, CommandEncoder, ComputePipeline, Device};
+use wgpu::{Buffer, BufferUsages, CommandEncoder, Device};
 
 use crate::GpuError;
 use crate::buffers::{Description, check_size};
-use crate::evaluation::{Evaluation, EvaluationKernels, Grouped};
-use crate::kernel::{Step, buffer, filled, module, pipeline};
+use crate::evaluation::evaluation;
+use crate::kernel::{buffer, filled};
+use crate::passes::{OF_VERTICES, of_triangles};
+use crate::program::{Buffers, Program, Recording};
 use crate::reals::Arithmetic;
-use crate::topology::{Topology, TopologyKernels, WeldedMesh};
-use crate::weld::{Weld, WeldKernels};
 
-/// The files of the last shader.
-pub(crate) const FINISH: &[&str] = &[
-    include_str!("../shaders/mesh.wgsl"),
-    include_str!("../shaders/common.wgsl"),
-    include_str!("../shaders/around.wgsl"),
-    include_str!("../shaders/finish.wgsl"),
-];
-
-/// All stages, compiled.
+/// All passes, compiled.
 #[derive(Clone, Debug)]
 pub(crate) struct Kernels {
-    weld: WeldKernels,
-    topology: TopologyKernels,
-    evaluation: EvaluationKernels,
-    check_frames: ComputePipeline,
-    store_tangents: ComputePipeline,
+    of_vertices: Program,
+    of_triangles: Program,
 }
 
 impl Kernels {
     pub fn new(device: &Device, arithmetic: Arithmetic) -> Self {
-        let finish = module(device, FINISH);
         Self {
-            weld: WeldKernels::new(device),
-            topology: TopologyKernels::new(device),
-            evaluation: EvaluationKernels::new(device, arithmetic),
-            check_frames: pipeline(device, &finish, "check_frames"),
-            store_tangents: pipeline(device, &finish, "store_tangents"),
+            of_vertices: Program::new(device, arithmetic, OF_VERTICES),
+            of_triangles: Program::new(device, arithmetic, &of_triangles()),
         }
     }
 }
@@ -49,15 +34,13 @@ impl Kernels {
 pub(crate) const BYTES_OF_TRIANGLE: u64 = 3 * 32;
 
 const WORDS_OF_VERTEX: usize = 8;
-const WORDS_OF_TANGENT: u32 = 4;
 
 /// A mesh's vertices, and what welds them.
 pub(crate) struct Vertices {
-    buffer: Buffer,
     count: u32,
-    /// One word: vertices that only the CPU can weld.
-    pub refused: Buffer,
-    pub weld: Weld,
+    /// Those of [`OF_VERTICES`].
+    pub buffers: Buffers,
+    recording: Recording,
 }
 
 impl Vertices {
@@ -84,27 +67,24 @@ impl Vertices {
     ) -> Result<Self, GpuError> {
         let vertices: Vec<_> = vertices.collect();
         let count = vertices.len() as u32;
-        let vertices = upload(device, "vertices", cast_slice(&vertices));
-        let refused = buffer(device, "refused", 1);
-        let description = Description::packed(count, 0);
-        let words = description.uniform(device);
-        let weld = Weld::new(device, &kernels.weld, &description, &words, &vertices, &refused)?;
-        Ok(Self { buffer: vertices, count, refused, weld })
+        let mut buffers = Buffers::given([
+            ("mesh", &Description::packed(count, 0).uniform(device)),
+            ("vertices", &upload(device, "vertices", cast_slice(&vertices))),
+        ]);
+        let recording = kernels.of_vertices.on(device, [count, 0], &mut buffers)?;
+        Ok(Self { count, buffers, recording })
     }
 
     pub fn record(&self, encoder: &mut CommandEncoder) {
-        encoder.clear_buffer(&self.refused, 0, None);
-        self.weld.record(encoder);
+        self.recording.record(encoder);
     }
 }
 
 /// Some triangles of a mesh, and what makes their tangents.
 pub(crate) struct Piece {
-    pub topology: Topology,
-    evaluation: Evaluation,
-    finish: [Step; 2],
-    /// Tangents and signs; signs of zero where the CPU has to decide.
-    pub tangent_of_corner: Buffer,
+    /// Those of [`of_triangles`].
+    pub buffers: Buffers,
+    recording: Recording,
 }
 
 impl Piece {
@@ -119,51 +99,26 @@ impl Piece {
         threshold_cosine: f32,
     ) -> Result<Self, GpuError> {
         let corners = indices.len() as u32;
-        let description = Description::packed(vertices.count, corners / 3);
-        let words = description.uniform(device);
-        check_size(device, "the tangents", 4 * u64::from(WORDS_OF_TANGENT) * u64::from(corners))?;
+        let sizes = [vertices.count, corners / 3];
         let is_left = match is_left {
             [] => buffer(device, "is_left", vertices.count),
             flags => upload(device, "is_left", cast_slice(flags)),
         };
-        let mesh = WeldedMesh {
-            description,
-            words: &words,
-            vertices: &vertices.buffer,
-            indices: &upload(device, "indices", cast_slice(indices)),
-            welded: &vertices.weld.welded,
-            is_left: &is_left,
-        };
-        let topology = Topology::new(device, &kernels.topology, &mesh)?;
-        let grouped = Grouped {
-            vertices: &vertices.buffer,
-            welded_corners: &topology.welded_corners,
-            ends: &topology.adjacency.ends,
-            triangle_of_entry: &topology.adjacency.triangle_of_entry,
-            marks: &topology.marks,
-            seed_of_corner: &topology.seed_of_corner,
-        };
-        let evaluation =
-            Evaluation::new(device, &kernels.evaluation, &description, threshold_cosine, &grouped)?;
-        let tangent_of_corner = buffer(device, "tangent_of_corner", WORDS_OF_TANGENT * corners);
-        let words = description.of_welded_corners().uniform(device);
-        let both = [(0, &words), (1, grouped.welded_corners), (3, &evaluation.frames), (7, &is_left)];
-        let checking = [(2, grouped.ends), (4, &vertices.buffer), (5, grouped.triangle_of_entry)];
-        let storing = [(6, grouped.marks), (8, &tangent_of_corner)];
-        let step = |pipeline, buffers: &[(u32, &Buffer)]| {
-            Step::new(device, pipeline, &[&both[..], buffers].concat(), corners)
-        };
-        let finish = [step(&kernels.check_frames, &checking), step(&kernels.store_tangents, &storing)];
-        Ok(Self { topology, evaluation, finish, tangent_of_corner })
+        let mut buffers = Buffers::given([
+            ("mesh", &Description::packed(vertices.count, corners / 3).uniform(device)),
+            ("evaluation", &evaluation(device, corners, threshold_cosine)),
+            ("vertices", vertices.buffers.of("vertices")),
+            ("indices", &upload(device, "indices", cast_slice(indices))),
+            ("welded", vertices.buffers.of("welded")),
+            ("is_left", &is_left),
+        ]);
+        let recording = kernels.of_triangles.on(device, sizes, &mut buffers)?;
+        Ok(Self { buffers, recording })
     }
 
     /// Records everything, once vertices are welded.
     pub fn record(&self, encoder: &mut CommandEncoder) {
-        self.topology.record(encoder);
-        self.evaluation.record_derivatives(encoder);
-        self.topology.record_groups(encoder);
-        self.evaluation.record_frames(encoder);
-        self.finish.iter().for_each(|step| step.record(encoder));
+        self.recording.record(encoder);
     }
 }
 
@@ -241,13 +196,18 @@ fn packed(mesh: &Mesh<'_>, vertex: usize) -> [f32; WORDS_OF_VERTEX] {
 mod tests {
     use super::*;
     use crate::average::tests::validate;
+    use crate::passes::Pass;
     use crate::split::SPLIT;
-    use crate::topology::{GROUPS, NEIGHBOURS, TRIANGULATE};
-    use crate::weld::WELD;
 
     #[test]
     fn shaders_are_valid_without_a_device() {
-        [WELD, TRIANGULATE, NEIGHBOURS, GROUPS, FINISH, SPLIT].into_iter().for_each(validate);
+        for pass in [OF_VERTICES, &of_triangles()].concat() {
+            match pass {
+                Pass::Run(run) | Pass::Real(_, run) => validate(run.kernel.files),
+                Pass::Clear(_) | Pass::Scan(..) => {}
+            }
+        }
+        validate(SPLIT);
     }
 
     #[test]

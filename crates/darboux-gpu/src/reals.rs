@@ -32,6 +32,9 @@ pub enum Arithmetic {
     Soft,
     /// As `Exact`, on a device that takes every liberty with floats. For tests.
     Hostile,
+    /// As `Exact`, without whole numbers: the CPU does what floats are unsure of, as in browsers, whose adapters take minutes to compile these.
+    /// For tests of MikkTSpace.
+    Leaving,
     /// Floats as the device rounds them.
     Fast,
 }
@@ -77,11 +80,20 @@ impl RealKernel {
     /// `own`: files with `fn run(item: u32)`, `fn item_count() -> u32` and `fn zero() -> u32`, all numbers in the functions of
     /// shaders/reals.
     pub fn new(device: &Device, arithmetic: Arithmetic, own: &[&'static str]) -> Self {
-        let compile =
-            |second| pipeline(device, &module(device, &files(arithmetic, second, own)), "every_item");
-        let second = (arithmetic != Arithmetic::Fast).then(|| compile(true));
-        Self { first: compile(false), second }
+        let second =
+            (arithmetic != Arithmetic::Fast).then(|| compiled(device, &files(arithmetic, true, own)));
+        Self { first: compiled(device, &files(arithmetic, false, own)), second }
     }
+
+    /// Of exact arithmetic, with another kernel for what it is unsure of.
+    pub fn with_second(device: &Device, own: &[&'static str], second: &[&str]) -> Self {
+        let first = files(Arithmetic::Exact, false, own);
+        Self { first: compiled(device, &first), second: Some(compiled(device, second)) }
+    }
+}
+
+fn compiled(device: &Device, files: &[&str]) -> ComputePipeline {
+    pipeline(device, &module(device, files), "every_item")
 }
 
 /// The binding of the list.
@@ -132,13 +144,24 @@ pub(crate) struct RealStep {
 impl RealStep {
     /// `buffers`: by binding; `items`: how many there are.
     pub fn new(device: &Device, kernel: &RealKernel, buffers: &[(u32, &Buffer)], items: u32) -> Self {
+        Self::with_second(device, kernel, buffers, buffers, items)
+    }
+
+    /// As [`RealStep::new`], the second kernel with other buffers.
+    pub fn with_second(
+        device: &Device,
+        kernel: &RealKernel,
+        buffers: &[(u32, &Buffer)],
+        of_second: &[(u32, &Buffer)],
+        items: u32,
+    ) -> Self {
         let Some(second) = &kernel.second else {
             return Self { first: Step::new(device, &kernel.first, buffers, items), second: None };
         };
         let list = List::new(device, "unsure", items);
-        let buffers = [buffers, &[(LIST, &list.items)]].concat();
+        let [buffers, of_second] = [buffers, of_second].map(|own| [own, &[(LIST, &list.items)]].concat());
         let first = Step::new(device, &kernel.first, &buffers, items);
-        let step = Step::indirect(device, second, &buffers, &list.items);
+        let step = Step::indirect(device, second, &of_second, &list.items);
         Self { first, second: Some((step, list)) }
     }
 
@@ -164,7 +187,7 @@ impl RealStep {
 mod tests {
     use super::*;
     use crate::average::tests::validate;
-    use crate::evaluation::{DERIVATIVES, EVALUATE, WEDGES};
+    use crate::passes::{DERIVATIVES, EVALUATE, WEDGES};
     use crate::plan::{
         CHECK_TRIANGLES, CHECK_VERTICES, GATHER, NORMALS, REPAIR, TERMS, WRITE, WRITE_NORMALS,
     };
@@ -172,7 +195,7 @@ mod tests {
     #[test]
     fn shaders_are_valid_in_every_arithmetic() {
         for arithmetic in [Arithmetic::Exact, Arithmetic::Soft, Arithmetic::Hostile, Arithmetic::Fast] {
-            for own in [DERIVATIVES, WEDGES, EVALUATE, TERMS, GATHER] {
+            for own in [DERIVATIVES.files, WEDGES.files, EVALUATE.files, TERMS, GATHER] {
                 validate(&files(arithmetic, false, own));
                 validate(&files(arithmetic, true, own));
             }

@@ -9,8 +9,8 @@ use crate::device::{guarded, submit};
 use crate::kernel::{Step, buffer, filled, module, pipeline};
 use crate::mikktspace::indices;
 use crate::pieces::upload;
+use crate::program::slot_count;
 use crate::scan::ScanKernels;
-use crate::weld::slot_count;
 use crate::{Gpu, GpuError};
 
 /// The files of the shader.

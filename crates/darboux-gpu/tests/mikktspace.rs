@@ -144,6 +144,27 @@ fn whole_numbers_have_the_bits_of_the_core() {
     println!("{tally:?}");
 }
 
+/// As the packages of other languages run it.
+#[test]
+fn what_floats_are_unsure_of_is_left_to_the_cpu() {
+    let leaving = |gpu| MikkTSpace::with_arithmetic(gpu, Arithmetic::Leaving).expect("valid shaders");
+    let leaving: Vec<_> = gpus().iter().map(leaving).collect();
+    let sphere = families::sphere(20, 31, false);
+    let mut tiny = sphere.clone();
+    tiny.positions.as_flattened_mut().iter_mut().for_each(|x| *x *= 2f32.powi(-70));
+    let (mut plain, mut left) = (Tally::default(), Tally::default());
+    check_with(&leaving, "sphere", &sphere, 180.0, &mut plain);
+    check_with(&leaving, "a tiny sphere", &tiny, 180.0, &mut left);
+    println!("{plain:?}, {left:?}");
+    assert!(plain.of_cpu < left.of_cpu && left.of_cpu == left.corners || gpus().is_empty());
+    let mut random = Tally::default();
+    for seed in 0..200 {
+        let Case { mesh, threshold } = Case::from_seed(seed);
+        check_with(&leaving, &format!("seed {seed}"), &triangulated(&mesh), threshold, &mut random);
+    }
+    println!("{random:?}");
+}
+
 /// More triangles than a binding of 128 MiB holds, the least that devices promise.
 #[test]
 #[ignore = "half a minute and a gigabyte"]
