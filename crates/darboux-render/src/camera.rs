@@ -130,6 +130,18 @@ fn turned(turn: [V3; 3], v: V3) -> V3 {
 }
 
 impl Sight {
+    /// Where a mesh's point comes to in the eye's space; `matrix` goes from the mesh to the scene.
+    pub fn place(&self, [a, b, c, d]: &[[f64; 4]; 4], point: [f32; 3]) -> V3 {
+        let [x, y, z] = point.map(f64::from);
+        let in_scene = [0, 1, 2].map(|i| a[i] * x + b[i] * y + c[i] * z + d[i]);
+        turned(self.turn, scaled(minus(in_scene, self.center), self.scale))
+    }
+
+    /// The direction in the eye's space.
+    pub fn turned(&self, direction: V3) -> V3 {
+        turned(self.turn, direction)
+    }
+
     /// The columns of the matrix from a mesh to the eye's space, where `matrix` goes from the mesh to the scene.
     pub fn to_eye(&self, matrix: &[[f64; 4]; 4]) -> [[f32; 4]; 4] {
         let mut eye = matrix.map(|[x, y, z, w]| {

@@ -1,4 +1,4 @@
-// A model in one of the views. Needs shaders/wgsl: frame, normal_map, transform.
+// A model in one of the views. Needs shaders/wgsl: frame, normal_map, transform, derivatives.
 
 struct Picture {
     // From the eye's space to clip space.
@@ -7,17 +7,30 @@ struct Picture {
     turn: mat3x3f,
     // How far the eye is from the origin, along z.
     distance: f32,
-    // 0 shaded, 1 tangent, 2 bitangent, 3 normal, 4 sign, 5 heat, 6 UV layout.
+    // 0 shaded, 1 tangent, 2 bitangent, 3 normal, 4 sign, 5 angle.
     view: u32,
     // Degrees.
     heat_ends: vec2f,
     ramp: array<vec4f, 9>,
     flip: vec4f,
     none: vec4f,
+    // -1 where w is flipped by mistake, and where green is.
+    w_side: f32,
+    green_side: f32,
+    // Whether images are sampled at 1 - v by mistake.
+    is_v_flipped: u32,
+    // Whether frames are derived at every pixel.
+    is_derived: u32,
+    // Whether this is a UV layout, which has no shape to be seen.
+    is_flat: u32,
 }
 
 struct Material {
     base_color: vec4f,
+    // Where u and v are taken on the image of the base colour, and of the normal map; and where the origin of both is.
+    base_axes: vec4f,
+    normal_axes: vec4f,
+    origins: vec4f,
     normal_scale: f32,
     // Below it nothing is there; negative where alpha means nothing, above 1 where it covers partly.
     alpha_cutoff: f32,
@@ -75,12 +88,19 @@ fn place_corner(corner: Corner, place: Place) -> Seen {
     seen.normal = transformed_normal(transform, corner.normal);
     // Not made perpendicular to the normal: what the file has is to be seen.
     let tangent = unit_or(mapped(transform.map, corner.tangent.xyz), vec3f(0.0, 0.0, 0.0));
-    seen.tangent = vec4f(tangent, transform.orientation * corner.tangent.w);
-    seen.uvs = corner.uvs;
+    seen.sign = picture.w_side * corner.tangent.w;
+    seen.tangent = vec4f(tangent, transform.orientation * seen.sign);
+    let base_uv = on_image(corner.uvs.xy, material.base_axes, material.origins.xy);
+    seen.uvs = vec4f(base_uv, on_image(corner.uvs.zw, material.normal_axes, material.origins.zw));
     seen.degrees = corner.degrees;
-    seen.sign = corner.tangent.w;
     seen.orientation = transform.orientation;
     return seen;
+}
+
+// Where a UV meets an image.
+fn on_image(uv: vec2f, axes: vec4f, origin: vec2f) -> vec2f {
+    let v = select(uv.y, 1.0 - uv.y, picture.is_v_flipped != 0u);
+    return origin + uv.x * axes.xy + v * axes.zw;
 }
 
 @fragment
@@ -89,7 +109,7 @@ fn shade(seen: Seen, @builtin(front_facing) is_front: bool) -> @location(0) vec4
     let texel = textureSample(normal_texture, normal_sampler, seen.uvs.zw).xyz;
     let facet = cross(dpdx(seen.eye), dpdy(seen.eye));
     let to_eye = unit_or(vec3f(0.0, 0.0, picture.distance) - seen.eye, vec3f(0.0, 0.0, 1.0));
-    let facing = abs(dot(unit_or(facet, to_eye), to_eye));
+    let facing = select(abs(dot(unit_or(facet, to_eye), to_eye)), 1.0, picture.is_flat != 0u);
     if (picture.view == 0u) {
         let side = select(-1.0, 1.0, is_front) * seen.orientation;
         return vec4f(lit(base.rgb, side * surface_normal(seen, texel), to_eye), coverage(base.a));
@@ -99,15 +119,27 @@ fn shade(seen: Seen, @builtin(front_facing) is_front: bool) -> @location(0) vec4
 
 // The unit normal with what the normal map says, in the eye's directions.
 fn surface_normal(seen: Seen, texel: vec3f) -> vec3f {
+    // As MikkTSpace wants them: interpolated, not made unit.
+    var frame = tangent_frame(seen.normal, seen.tangent);
+    if (picture.is_derived != 0u) {
+        frame = derived_frame(seen);
+    }
     var normal = vec3f(0.0, 0.0, 1.0);
     if (material.has_normal_map != 0u) {
         normal = scaled_normal(normal_from_texel(texel), vec2f(material.normal_scale, material.normal_scale));
     } else if (seen.sign != 0.0) {
         normal = dome(seen.uvs.zw);
     }
-    // As MikkTSpace wants them: interpolated, not made unit.
-    let frame = tangent_frame(seen.normal, seen.tangent);
+    normal.y *= picture.green_side;
     return picture.turn * normal_to_surface(frame, normal);
+}
+
+// The frame of shaders that have no tangents, in the scene's directions.
+fn derived_frame(seen: Seen) -> TangentFrame {
+    let position = seen.eye * picture.turn;
+    // v goes down the image, green up.
+    let uv = vec2f(seen.uvs.z, -seen.uvs.w);
+    return cotangent_frame_from_derivatives(unit_or(seen.normal, vec3f(0.0, 0.0, 1.0)), position, uv);
 }
 
 // The pattern of parts without a normal map: eight domes across the UV square, as the viewer has it.

@@ -1,7 +1,6 @@
 //! Angles between two sets of tangents, and their colours.
 
 use darboux::CornerDifference;
-use darboux_io::gltf::PairedCorners;
 
 /// The colours of angles: callers give it, so that all their pictures have the same.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,15 +22,11 @@ pub const FLIP: f32 = 1000.0;
 /// As far apart as can be, where only one of two different tangents has a direction.
 const APART: f64 = 180.0;
 
-/// Degrees between the tangents of every corner, or [`FLIP`] for whole triangles.
-pub fn degrees(corners: &PairedCorners) -> Vec<f32> {
-    let [a, b] = &corners.tangents;
-    let differences: Vec<_> = a.iter().zip(b).map(|(&a, &b)| CornerDifference::between(a, b)).collect();
-    let of_triangle = |differences: &[CornerDifference; 3]| {
-        let flips = differences.iter().any(|difference| difference.flips_sign);
-        if flips { [FLIP; 3] } else { differences.map(|difference| angle(difference) as f32) }
-    };
-    differences.as_chunks().0.iter().flat_map(of_triangle).collect()
+/// Degrees between two tangents of every corner of a triangle, or [`FLIP`].
+pub fn degrees(a: [[f32; 4]; 3], b: [[f32; 4]; 3]) -> [f32; 3] {
+    let differences = [0, 1, 2].map(|i| CornerDifference::between(a[i], b[i]));
+    let flips = differences.iter().any(|difference| difference.flips_sign);
+    if flips { [FLIP; 3] } else { differences.map(|difference| angle(difference) as f32) }
 }
 
 /// Without an angle nothing where both are identical.

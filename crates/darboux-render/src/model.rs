@@ -4,10 +4,11 @@ use std::collections::HashMap;
 
 use bytemuck::{Pod, Zeroable};
 use darboux_io::Error;
-use darboux_io::gltf::{Document, Look, Pair, PlacedMesh, PrimitiveCorners, TextureUse};
+use darboux_io::gltf::{Document, Look, PlacedMesh, PrimitiveCorners, TextureUse};
 
 use crate::camera::Bounds;
-use crate::{View, heat};
+use crate::painter::Shape;
+use crate::{derivatives, heat};
 
 /// A corner as the shader takes it.
 #[repr(C)]
@@ -17,7 +18,7 @@ pub struct Corner {
     pub normal: [f32; 3],
     /// Zero where there is none.
     pub tangent: [f32; 4],
-    /// Of the base colour, then of the normal map.
+    /// Of the base colour, then of the normal map, as stored.
     pub uvs: [[f32; 2]; 2],
     /// The angle, [`heat::FLIP`] or [`heat::NONE`].
     pub degrees: f32,
@@ -26,9 +27,11 @@ pub struct Corner {
 /// The triangles of a primitive.
 pub struct Part {
     pub mesh: usize,
+    primitive: usize,
     /// The index of its material.
     pub material: Option<usize>,
     pub corners: Vec<Corner>,
+    has_tangents: bool,
     /// Triangles without a place.
     left_out: usize,
     /// The UVs that its tangents follow, at every corner; empty where there are none.
@@ -42,16 +45,17 @@ pub struct Model<'a> {
     pub(crate) parts: Vec<Part>,
     /// The matrices of every mesh's nodes.
     pub(crate) places: Vec<Vec<[[f64; 4]; 4]>>,
+    /// Whether tangents are what shaders derive.
+    pub(crate) is_derived: bool,
     /// What every mesh is drawn without.
     unposed: Vec<Option<&'static str>>,
 }
 
 impl<'a> Model<'a> {
-    /// Reads the meshes of the scene with the tangents that the document has.
+    /// Reads the meshes of the scene with the tangents that the document has. Compressed documents are decompressed.
     ///
-    /// `compared`: its pairs with the tangents of another document, for [`View::Heat`]. Compressed documents are decompressed. Errors:
-    /// broken data.
-    pub fn read(document: &'a mut Document, compared: &[Pair]) -> Result<Self, Error> {
+    /// Errors: broken data.
+    pub fn read(document: &'a mut Document) -> Result<Self, Error> {
         document.decompress()?;
         let document: &'a Document = document;
         let looks = document.looks()?;
@@ -64,22 +68,45 @@ impl<'a> Model<'a> {
                 *unposed = unposed.or(without(&placed));
             }
         }
-        let mut degrees: HashMap<_, _> = compared
-            .iter()
-            .filter_map(|pair| {
-                Some(((pair.name.mesh, pair.name.primitive), heat::degrees(pair.corners.as_ref().ok()?)))
-            })
-            .collect();
         let mut parts = Vec::new();
         for corners in document.corners()? {
-            let name = corners.name();
-            if places.get(name.mesh).is_none_or(Vec::is_empty) {
-                continue;
+            if places.get(corners.name().mesh).is_some_and(|places| !places.is_empty()) {
+                parts.push(read_part(document, &looks, &corners)?);
             }
-            let degrees = degrees.remove(&(name.mesh, name.primitive));
-            parts.push(read_part(document, &looks, &corners, degrees.unwrap_or_default())?);
         }
-        Ok(Self { document, looks, parts, places, unposed })
+        Ok(Self { document, looks, parts, places, is_derived: false, unposed })
+    }
+
+    /// The model with the tangents that shaders derive from positions and UVs, in place of its own.
+    pub fn derived(mut self) -> Self {
+        self.is_derived = true;
+        for part in &mut self.parts {
+            part.has_tangents = !part.layout.is_empty();
+            for (corners, uvs) in
+                part.corners.as_chunks_mut::<3>().0.iter_mut().zip(part.layout.as_chunks().0)
+            {
+                let tangents =
+                    derivatives::tangents(corners.map(|c| c.position), corners.map(|c| c.normal), *uvs);
+                corners.iter_mut().zip(tangents).for_each(|(corner, tangent)| corner.tangent = tangent);
+            }
+        }
+        self
+    }
+
+    /// The model with the angles to the tangents of another one of the same file, for [`View::Angle`](crate::View::Angle).
+    pub fn compared_with(mut self, other: &Model<'_>) -> Self {
+        let others: HashMap<_, _> =
+            other.parts.iter().map(|part| ((part.mesh, part.primitive), part)).collect();
+        for part in &mut self.parts {
+            let other = others.get(&(part.mesh, part.primitive)).filter(|other| part.is_comparable(other));
+            let Some(other) = other else { continue };
+            let pairs = part.corners.as_chunks_mut::<3>().0.iter_mut().zip(other.corners.as_chunks::<3>().0);
+            for (corners, others) in pairs {
+                let degrees = heat::degrees(corners.map(|c| c.tangent), others.map(|c| c.tangent));
+                corners.iter_mut().zip(degrees).for_each(|(corner, degrees)| corner.degrees = degrees);
+            }
+        }
+        self
     }
 
     /// The model without all other meshes. `meshes`: indices.
@@ -98,9 +125,9 @@ impl<'a> Model<'a> {
         self.places.get(part.mesh).map_or(&[], Vec::as_slice)
     }
 
-    /// What a view does not show, and should.
-    pub(crate) fn warnings(&self, view: View) -> Vec<String> {
-        if view == View::Uv {
+    /// What is not drawn of a shape, and should be.
+    pub(crate) fn warnings(&self, shape: Shape) -> Vec<String> {
+        if shape == Shape::Layout {
             return Vec::new();
         }
         let left_out: usize = self.parts.iter().map(|part| part.left_out).sum();
@@ -113,11 +140,11 @@ impl<'a> Model<'a> {
         left_out.into_iter().chain(unposed).collect()
     }
 
-    /// The box that holds all that a view shows; none without triangles.
-    pub(crate) fn bounds(&self, view: View) -> Option<Bounds> {
+    /// The box that holds all that is drawn; none without triangles.
+    pub(crate) fn bounds(&self, shape: Shape) -> Option<Bounds> {
         let mut all = Box3::EMPTY;
         for part in &self.parts {
-            if view == View::Uv {
+            if shape == Shape::Layout {
                 part.layout.iter().for_each(|&uv| all.add(on_layout(uv).map(f64::from)));
                 continue;
             }
@@ -130,12 +157,19 @@ impl<'a> Model<'a> {
                 all.add([0, 1, 2].map(|i| a[i] * corner[0] + b[i] * corner[1] + c[i] * corner[2] + d[i]));
             }
         }
-        if view == View::Uv && all.least[0] <= all.most[0] {
+        if shape == Shape::Layout && all.least[0] <= all.most[0] {
             for uv in [[0.0, 0.0], [1.0, 1.0]] {
                 all.add(on_layout(uv).map(f64::from));
             }
         }
         (all.least[0] <= all.most[0]).then_some([all.least, all.most])
+    }
+}
+
+impl Part {
+    /// Whether there are tangents on both sides, of the same corners.
+    fn is_comparable(&self, other: &Part) -> bool {
+        self.has_tangents && other.has_tangents && self.corners.len() == other.corners.len()
     }
 }
 
@@ -161,12 +195,7 @@ pub fn on_layout([u, v]: [f32; 2]) -> [f32; 3] {
 }
 
 /// Reads a primitive, leaving out triangles that have no place.
-fn read_part(
-    document: &Document,
-    looks: &[Look],
-    corners: &PrimitiveCorners<'_>,
-    degrees: Vec<f32>,
-) -> Result<Part, Error> {
+fn read_part(document: &Document, looks: &[Look], corners: &PrimitiveCorners<'_>) -> Result<Part, Error> {
     let none = Look::default();
     let look = match corners.material() {
         None => &none,
@@ -181,8 +210,7 @@ fn read_part(
     let layout = corners.vectors::<2>(&set_name(look.tangent_uv_set))?.unwrap_or_default();
     let uvs = |texture: &Option<TextureUse>| -> Result<Vec<[f32; 2]>, Error> {
         let Some(texture) = texture else { return Ok(layout.clone()) };
-        let uvs = corners.vectors::<2>(&set_name(texture.uv_set))?.unwrap_or_default();
-        Ok(uvs.into_iter().map(|uv| texture.place(uv)).collect())
+        Ok(corners.vectors::<2>(&set_name(texture.uv_set))?.unwrap_or_default())
     };
     let uvs = [uvs(&look.base_texture)?, uvs(&look.normal_texture)?];
     let at = |i: usize| Corner {
@@ -190,7 +218,7 @@ fn read_part(
         normal: normals.get(i).copied().unwrap_or_default(),
         tangent: tangents.get(i).copied().unwrap_or_default(),
         uvs: [0, 1].map(|k| uvs[k].get(i).copied().unwrap_or_default()),
-        degrees: degrees.get(i).copied().unwrap_or(heat::NONE),
+        degrees: heat::NONE,
     };
     let is_finite = |triangle: &[[f32; 3]; 3]| triangle.as_flattened().iter().all(|x| x.is_finite());
     let triangles = positions.as_chunks::<3>().0.iter().enumerate();
@@ -198,6 +226,8 @@ fn read_part(
     let kept: Vec<usize> = kept.flat_map(|triangle| [0, 1, 2].map(|i| 3 * triangle + i)).collect();
     Ok(Part {
         mesh: corners.name().mesh,
+        primitive: corners.name().primitive,
+        has_tangents: !tangents.is_empty(),
         material: corners.material(),
         left_out: positions.len() / 3 - kept.len() / 3,
         corners: kept.iter().map(|&corner| at(corner)).collect(),

@@ -1,8 +1,8 @@
-//! Draws a model.
+//! Draws the sides of a picture.
 
-use bytemuck::{Pod, Zeroable};
+use bytemuck::Pod;
 use darboux_gpu::Gpu;
-use darboux_io::gltf::{Alpha, Look};
+use darboux_io::gltf::Look;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindingResource, Buffer, BufferUsages, CommandEncoder,
@@ -11,9 +11,12 @@ use wgpu::{
 
 use crate::camera::Sight;
 use crate::model::{Corner, Model, Part, on_layout};
-use crate::target::{DEPTH, SAMPLES, Target};
+use crate::pipelines::{line_pipeline, surface_pipeline};
+use crate::strokes::{Stroke, strokes};
+use crate::target::Target;
 use crate::textures::{Kind, Textures, sampler};
-use crate::{HeatScale, RenderError, RenderOptions, View};
+use crate::uniforms::{MaterialUniforms, PictureUniforms, Place, StrokesUniforms};
+use crate::{RenderError, RenderOptions, Side, View};
 
 /// Corners per buffer: 47 MB.
 const PIECE: usize = 3 << 18;
@@ -21,47 +24,43 @@ const PIECE: usize = 3 << 18;
 /// Small files can ask for any number: their nodes place one mesh again and again.
 const MOST_TRIANGLES: u64 = 1 << 28;
 
-const SHADER: &str = concat!(
-    include_str!("../../../shaders/wgsl/frame.wgsl"),
-    include_str!("../../../shaders/wgsl/normal_map.wgsl"),
-    include_str!("../../../shaders/wgsl/transform.wgsl"),
-    include_str!("draw.wgsl"),
-);
-
-const IDENTITY: [[f64; 4]; 4] =
-    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
-
-/// The uniforms of draw.wgsl's `Picture`.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct PictureUniforms {
-    projection: [[f32; 4]; 4],
-    turn: [[f32; 4]; 3],
-    distance: f32,
-    view: u32,
-    heat_ends: [f32; 2],
-    ramp: [[f32; 4]; 9],
-    flip: [f32; 4],
-    none: [f32; 4],
+/// What of a model is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// Its surface in the scene.
+    Model,
+    /// Its UV layout.
+    Layout,
 }
 
-/// The uniforms of draw.wgsl's `Material`.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct MaterialUniforms {
-    base_color: [f32; 4],
-    normal_scale: f32,
-    alpha_cutoff: f32,
-    has_normal_map: u32,
-    unused: u32,
+/// What a picture shows.
+pub struct Show<'a> {
+    pub left: Side<'a>,
+    /// What is seen right of a part of the width.
+    pub right: Option<(Side<'a>, f64)>,
+    pub shape: Shape,
+    pub size: [u32; 2],
+    pub sight: Sight,
+    pub options: &'a RenderOptions,
 }
 
-/// draw.wgsl's `Place`.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct Place {
-    eye: [[f32; 4]; 4],
-    directions: [[f32; 3]; 3],
+impl<'a> Show<'a> {
+    /// What the surface is painted with.
+    pub fn view(&self) -> View {
+        match (self.shape, self.options.view) {
+            (Shape::Layout, View::Shaded) => View::Sign,
+            (_, view) => view,
+        }
+    }
+
+    /// The sides, and the columns of pixels in which each is seen: from, and how many.
+    fn sides(&self) -> Vec<(Side<'a>, [u32; 2])> {
+        let width = self.size[0];
+        let Some((right, part)) = self.right else { return vec![(self.left, [0, width])] };
+        let middle = (f64::from(width) * part.clamp(0.0, 1.0)).round() as u32;
+        let sides = [(self.left, [0, middle]), (right, [middle, width - middle])];
+        sides.into_iter().filter(|(_, [_, columns])| *columns > 0).collect()
+    }
 }
 
 /// A piece of a primitive, on the adapter.
@@ -73,48 +72,48 @@ struct Piece {
     material: Option<usize>,
 }
 
+/// A side, on the adapter.
+struct SideOnGpu {
+    columns: [u32; 2],
+    picture: BindGroup,
+    pieces: Vec<Piece>,
+    materials: Vec<Option<BindGroup>>,
+    /// The material of pieces without one.
+    plain: BindGroup,
+    strokes: Option<Strokes>,
+}
+
+/// Lines, on the adapter.
+struct Strokes {
+    uniforms: BindGroup,
+    lines: Buffer,
+    count: u32,
+}
+
 /// Draws the picture; gives its pixels.
-pub fn paint(
-    gpu: &Gpu,
-    model: &Model<'_>,
-    sight: &Sight,
-    options: &RenderOptions,
-    warnings: &mut Vec<String>,
-) -> Result<Vec<[u8; 3]>, RenderError> {
-    let triangles = model.triangle_count();
+pub fn paint(gpu: &Gpu, show: &Show<'_>, warnings: &mut Vec<String>) -> Result<Vec<[u8; 3]>, RenderError> {
+    let sides = show.sides();
+    let triangles = sides.iter().map(|(side, _)| side.model.triangle_count()).fold(0, u64::saturating_add);
     if triangles > MOST_TRIANGLES {
         return Err(RenderError::TooMany { triangles, limit: MOST_TRIANGLES });
     }
-    let format = match options.view {
+    let format = match show.view() {
         View::Shaded => TextureFormat::Rgba8UnormSrgb,
         _ => TextureFormat::Rgba8Unorm,
     };
-    let painter = Painter { gpu, pipeline: pipeline(gpu, options.view, format) };
-    let target = Target::new(gpu, options.size, format);
-    let picture = painter.group(0, &[painter.uniform(&picture_uniforms(sight, options)).as_entire_binding()]);
-    let pieces: Vec<Piece> =
-        model.parts.iter().flat_map(|part| painter.pieces(model, part, sight, options.view)).collect();
-    let mut textures = Textures::new(gpu, model.document);
-    let none = painter.material(&Look::default(), &mut textures);
-    let used = |material| {
-        options.view == View::Shaded && pieces.iter().any(|piece| piece.material == Some(material))
+    let painter = Painter {
+        gpu,
+        show,
+        format,
+        surfaces: surface_pipeline(gpu, show.shape, show.view(), format),
+        lines: line_pipeline(gpu, format),
     };
-    let looks = model.looks.iter().enumerate();
-    let materials: Vec<Option<BindGroup>> =
-        looks.map(|(material, look)| used(material).then(|| painter.material(look, &mut textures))).collect();
-    warnings.append(&mut textures.warnings);
-    let draw = |pass: &mut RenderPass<'_>| {
-        pass.set_pipeline(&painter.pipeline);
-        pass.set_bind_group(0, &picture, &[]);
-        for piece in &pieces {
-            let material = piece.material.and_then(|material| materials.get(material)?.as_ref());
-            pass.set_bind_group(1, material.unwrap_or(&none), &[]);
-            pass.set_vertex_buffer(0, piece.corners.slice(..));
-            pass.set_vertex_buffer(1, piece.places.slice(..));
-            pass.draw(0..piece.count, 0..piece.place_count);
-        }
-    };
-    let clear = clear_color(options.background, format);
+    let target = Target::new(gpu, show.size, format);
+    let sides: Vec<SideOnGpu> =
+        sides.iter().map(|(side, columns)| painter.side(side, *columns, warnings)).collect();
+    let draw = |pass: &mut RenderPass<'_>| sides.iter().for_each(|side| painter.draw(pass, side));
+    let [r, g, b] = color_in(show.options.background, format);
+    let clear = wgpu::Color { r, g, b, a: 1.0 };
     Ok(target.read(|encoder| record(encoder, &target, clear, draw))?)
 }
 
@@ -146,8 +145,8 @@ fn record(
 }
 
 /// A colour of sRGB as the target's format takes it.
-fn clear_color(color: [u8; 3], format: TextureFormat) -> wgpu::Color {
-    let [r, g, b] = color.map(|channel| {
+fn color_in(color: [u8; 3], format: TextureFormat) -> [f64; 3] {
+    color.map(|channel| {
         let channel = f64::from(channel) / 255.0;
         match format {
             TextureFormat::Rgba8Unorm => channel,
@@ -155,36 +154,85 @@ fn clear_color(color: [u8; 3], format: TextureFormat) -> wgpu::Color {
             _ if channel <= 0.04045 => channel / 12.92,
             _ => ((channel + 0.055) / 1.055).powf(2.4),
         }
-    });
-    wgpu::Color { r, g, b, a: 1.0 }
-}
-
-fn picture_uniforms(sight: &Sight, options: &RenderOptions) -> PictureUniforms {
-    let HeatScale { ends, ramp, flip, none } = &options.heat;
-    let color = |[r, g, b]: [u8; 3]| [r, g, b, 255].map(|channel| f32::from(channel) / 255.0);
-    let turn = [0, 1, 2].map(|column| {
-        let [x, y, z] = sight.turn.map(|row| row[column] as f32);
-        [x, y, z, 0.0]
-    });
-    PictureUniforms {
-        projection: sight.projection,
-        turn,
-        distance: sight.distance as f32,
-        view: options.view as u32,
-        heat_ends: *ends,
-        ramp: ramp.map(color),
-        flip: color(*flip),
-        none: color(*none),
-    }
+    })
 }
 
 /// What draws on an adapter.
 struct Painter<'a> {
     gpu: &'a Gpu,
-    pipeline: RenderPipeline,
+    show: &'a Show<'a>,
+    format: TextureFormat,
+    surfaces: RenderPipeline,
+    lines: RenderPipeline,
 }
 
 impl Painter<'_> {
+    fn draw(&self, pass: &mut RenderPass<'_>, side: &SideOnGpu) {
+        pass.set_scissor_rect(side.columns[0], 0, side.columns[1], self.show.size[1]);
+        pass.set_pipeline(&self.surfaces);
+        pass.set_bind_group(0, &side.picture, &[]);
+        for piece in &side.pieces {
+            let material = piece.material.and_then(|material| side.materials.get(material)?.as_ref());
+            pass.set_bind_group(1, material.unwrap_or(&side.plain), &[]);
+            pass.set_vertex_buffer(0, piece.corners.slice(..));
+            pass.set_vertex_buffer(1, piece.places.slice(..));
+            pass.draw(0..piece.count, 0..piece.place_count);
+        }
+        if let Some(strokes) = &side.strokes {
+            pass.set_pipeline(&self.lines);
+            pass.set_bind_group(0, &strokes.uniforms, &[]);
+            pass.set_vertex_buffer(0, strokes.lines.slice(..));
+            pass.draw(0..4, 0..strokes.count);
+        }
+    }
+
+    fn side(&self, side: &Side<'_>, columns: [u32; 2], warnings: &mut Vec<String>) -> SideOnGpu {
+        let Side { model, .. } = side;
+        let mut textures = Textures::new(self.gpu, model.document);
+        let is_used = |material| {
+            let mut parts = model.parts.iter();
+            self.show.view() == View::Shaded && parts.any(|part| part.material == Some(material))
+        };
+        let looks = model.looks.iter().enumerate();
+        let materials =
+            looks.map(|(material, look)| is_used(material).then(|| self.material(look, &mut textures)));
+        let materials = materials.collect();
+        let plain = self.material(&Look::default(), &mut textures);
+        let told = model.warnings(self.show.shape).into_iter().chain(textures.warnings);
+        for warning in told {
+            // Both sides of one file have the same to say.
+            if !warnings.contains(&warning) {
+                warnings.push(warning);
+            }
+        }
+        let picture = self.uniform(&PictureUniforms::of(self.show, side));
+        SideOnGpu {
+            columns,
+            picture: self.group(&self.surfaces, 0, &[picture.as_entire_binding()]),
+            pieces: model.parts.iter().flat_map(|part| self.pieces(model, part)).collect(),
+            materials,
+            plain,
+            strokes: self.strokes(side),
+        }
+    }
+
+    /// The lines over a side; none where there are none.
+    fn strokes(&self, side: &Side<'_>) -> Option<Strokes> {
+        let Show { shape, size, sight, options, .. } = self.show;
+        if *shape == Shape::Layout {
+            return None;
+        }
+        let color = |color| color_in(color, self.format).map(|channel| channel as f32);
+        let parts = side.model.parts.iter();
+        let lines: Vec<Stroke> = parts.flat_map(|part| strokes(side, part, sight, options, color)).collect();
+        let uniforms = self.uniform(&StrokesUniforms::of(sight, *size));
+        (!lines.is_empty()).then(|| Strokes {
+            uniforms: self.group(&self.lines, 0, &[uniforms.as_entire_binding()]),
+            lines: self.buffer(bytemuck::cast_slice(&lines), BufferUsages::VERTEX),
+            count: lines.len() as u32,
+        })
+    }
+
     fn uniform(&self, value: &impl Pod) -> Buffer {
         self.buffer(bytemuck::bytes_of(value), BufferUsages::UNIFORM)
     }
@@ -193,13 +241,13 @@ impl Painter<'_> {
         self.gpu.device.create_buffer_init(&BufferInitDescriptor { label: None, contents, usage })
     }
 
-    fn group(&self, index: u32, resources: &[BindingResource<'_>]) -> BindGroup {
+    fn group(&self, pipeline: &RenderPipeline, index: u32, resources: &[BindingResource<'_>]) -> BindGroup {
         let entries = (0..).zip(resources.iter().cloned());
         let entries: Vec<_> =
             entries.map(|(binding, resource)| BindGroupEntry { binding, resource }).collect();
         self.gpu.device.create_bind_group(&BindGroupDescriptor {
             label: None,
-            layout: &self.pipeline.get_bind_group_layout(index),
+            layout: &pipeline.get_bind_group_layout(index),
             entries: &entries,
         })
     }
@@ -207,22 +255,13 @@ impl Painter<'_> {
     fn material(&self, look: &Look, textures: &mut Textures<'_>) -> BindGroup {
         let [base, normal] = [(&look.base_texture, Kind::Color), (&look.normal_texture, Kind::Normal)]
             .map(|(used, kind)| (textures.view(used.as_ref(), kind), sampler(self.gpu, used.as_ref())));
-        let uniforms = MaterialUniforms {
-            base_color: look.base_color,
-            normal_scale: look.normal_scale,
-            alpha_cutoff: match look.alpha {
-                Alpha::Opaque => -1.0,
-                Alpha::Mask(cutoff) => cutoff.clamp(0.0, 1.0),
-                Alpha::Blend => 2.0,
-            },
-            has_normal_map: normal.0.is_some().into(),
-            unused: 0,
-        };
+        let uniforms = MaterialUniforms::of(look, normal.0.is_some());
         let [base_view, normal_view] = [
             base.0.unwrap_or_else(|| textures.neutral(Kind::Color)),
             normal.0.unwrap_or_else(|| textures.neutral(Kind::Normal)),
         ];
         self.group(
+            &self.surfaces,
             1,
             &[
                 self.uniform(&uniforms).as_entire_binding(),
@@ -234,15 +273,16 @@ impl Painter<'_> {
         )
     }
 
-    fn pieces(&self, model: &Model<'_>, part: &Part, sight: &Sight, view: View) -> Vec<Piece> {
-        let laid_out = if view == View::Uv { laid_out(part) } else { Vec::new() };
-        let corners = if view == View::Uv { &laid_out } else { &part.corners };
+    fn pieces(&self, model: &Model<'_>, part: &Part) -> Vec<Piece> {
+        let is_layout = self.show.shape == Shape::Layout;
+        let laid_out = if is_layout { laid_out(part) } else { Vec::new() };
+        let corners = if is_layout { &laid_out } else { &part.corners };
         let places: Vec<Place> = model
             .places_of(part)
             .iter()
             // A layout shows a part once, with the directions of its first node.
-            .take(if view == View::Uv { 1 } else { usize::MAX })
-            .map(|matrix| place(matrix, sight, view))
+            .take(if is_layout { 1 } else { usize::MAX })
+            .map(|matrix| Place::of(matrix, &self.show.sight, self.show.shape))
             .collect();
         let places_buffer = self.buffer(bytemuck::cast_slice(&places), BufferUsages::VERTEX);
         let piece = |corners: &[Corner]| Piece {
@@ -264,66 +304,4 @@ fn laid_out(part: &Part) -> Vec<Corner> {
         .filter(|(_, uvs)| has_place(uvs))
         .flat_map(|(corners, uvs)| [0, 1, 2].map(|i| Corner { position: on_layout(uvs[i]), ..corners[i] }));
     placed.collect()
-}
-
-fn place(matrix: &[[f64; 4]; 4], sight: &Sight, view: View) -> Place {
-    let largest = matrix[..3].as_flattened().iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
-    // Only their directions matter; so they fit 32 bits.
-    let scale = if largest > 0.0 && largest.is_finite() { 1.0 / largest } else { 1.0 };
-    Place {
-        eye: sight.to_eye(if view == View::Uv { &IDENTITY } else { matrix }),
-        directions: [0, 1, 2].map(|i| [0, 1, 2].map(|k| (matrix[i][k] * scale) as f32)),
-    }
-}
-
-fn pipeline(gpu: &Gpu, view: View, format: TextureFormat) -> RenderPipeline {
-    let source = wgpu::ShaderSource::Wgsl(SHADER.into());
-    let module =
-        gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some("draw"), source });
-    let of_corner = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x4, 4 => Float32];
-    let of_place = wgpu::vertex_attr_array![
-        5 => Float32x4, 6 => Float32x4, 7 => Float32x4, 8 => Float32x4, 9 => Float32x3, 10 => Float32x3, 11 => Float32x3
-    ];
-    let layout = |stride: usize, step_mode, attributes| {
-        Some(wgpu::VertexBufferLayout { array_stride: stride as u64, step_mode, attributes })
-    };
-    let is_flat = view == View::Uv;
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("draw"),
-        layout: None,
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("place_corner"),
-            compilation_options: Default::default(),
-            buffers: &[
-                layout(size_of::<Corner>(), wgpu::VertexStepMode::Vertex, &of_corner),
-                layout(size_of::<Place>(), wgpu::VertexStepMode::Instance, &of_place),
-            ],
-        },
-        primitive: Default::default(),
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: DEPTH,
-            depth_write_enabled: Some(!is_flat),
-            depth_compare: Some(if is_flat {
-                wgpu::CompareFunction::Always
-            } else {
-                wgpu::CompareFunction::Less
-            }),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
-        multisample: wgpu::MultisampleState {
-            count: SAMPLES,
-            alpha_to_coverage_enabled: view == View::Shaded,
-            ..Default::default()
-        },
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some("shade"),
-            compilation_options: Default::default(),
-            targets: &[Some(format.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
 }

@@ -2,8 +2,8 @@
 
 mod common;
 
-use common::{Quad, document, has_adapter_or_says_so, picture};
-use darboux_render::{RenderOptions, View};
+use common::{Quad, document, has_adapter_or_says_so};
+use darboux_render::{Layout, Mistakes, Model, RenderOptions, Side, View};
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage, Rgba, RgbaImage};
 
 /// Pixels across and down.
@@ -12,6 +12,15 @@ const SIZE: usize = 64;
 /// The pixel in the middle of the left, or of the right, half.
 fn half(pixels: &[[u8; 3]], is_right: bool) -> [u8; 3] {
     pixels[SIZE / 2 * SIZE + if is_right { 3 * SIZE / 4 } else { SIZE / 4 }]
+}
+
+/// The pixels of a quad, compared with another. Expects that there is an adapter.
+fn picture(quad: &Quad, other: &Quad, view: View) -> Vec<[u8; 3]> {
+    let [mut document, mut other] = [quad, other].map(document);
+    let [model, other] = [&mut document, &mut other].map(|document| Model::read(document).expect("a model"));
+    let picture = common::shown(&model.compared_with(&other), Mistakes::default(), &common::options(view));
+    assert!(picture.warnings.is_empty(), "{:?}", picture.warnings);
+    picture.pixels
 }
 
 fn halves(quad: &Quad, view: View) -> [[u8; 3]; 2] {
@@ -140,7 +149,7 @@ fn textures_may_be_jpeg_and_others_are_said() {
     }
     assert!(jpeg[0][0] > jpeg[0][2] + 60 && jpeg[1][2] > jpeg[1][0] + 60, "{jpeg:?}");
     let other = Quad { base: Some((b"GIF89a, or so".to_vec(), "image/gif")), ..Quad::default() };
-    let warnings = common::drawn(&other, View::Shaded).warnings;
+    let warnings = common::drawn(&other, &common::options(View::Shaded)).warnings;
     assert!(
         matches!(&warnings[..], [one] if one.contains("images[1]") && one.ends_with("drawn without it")),
         "{warnings:?}"
@@ -158,15 +167,18 @@ fn what_is_drawn_out_of_its_pose_is_said() {
         (r#""extensions":{"EXT_mesh_gpu_instancing":{"attributes":{}}}"#, "meshes[0]: is drawn once"),
     ] {
         let quad = Quad { node, ..Quad::default() };
-        let warnings = common::drawn(&quad, View::Shaded).warnings;
+        let warnings = common::drawn(&quad, &common::options(View::Shaded)).warnings;
         assert!(matches!(&warnings[..], [one] if one.starts_with(said)), "{warnings:?}");
         // A layout has no pose.
-        assert!(common::drawn(&quad, View::Uv).warnings.is_empty());
+        assert!(common::drawn(&quad, &alone(View::Tangent)).warnings.is_empty());
     }
     assert!(
-        common::drawn(&Quad { node: r#""weights":[0,0]"#, ..Quad::default() }, View::Shaded)
-            .warnings
-            .is_empty()
+        common::drawn(
+            &Quad { node: r#""weights":[0,0]"#, ..Quad::default() },
+            &common::options(View::Shaded)
+        )
+        .warnings
+        .is_empty()
     );
 }
 
@@ -187,7 +199,7 @@ fn heat_is_the_angle() {
     }
     let quad = Quad::default();
     let (scale, middle) = (common::heat(), SIZE / 2 * SIZE + SIZE / 2);
-    let shown = |other: &Quad| picture(&quad, other, View::Heat)[middle];
+    let shown = |other: &Quad| picture(&quad, other, View::Angle)[middle];
     assert!(is_about(shown(&quad), scale.ramp[0]));
     let opposite = Quad { tangent: [-1.0, 0.0, 0.0], ..Quad::default() };
     assert!(is_about(shown(&opposite), scale.ramp[8]));
@@ -201,15 +213,43 @@ fn heat_is_the_angle() {
     assert!(is_about(shown(&without), scale.none));
 }
 
+/// The UV layout in place of the model.
+fn alone(view: View) -> RenderOptions {
+    RenderOptions { layout: Some(Layout::Alone), ..common::options(view) }
+}
+
 #[test]
-fn layouts_show_where_uvs_are() {
+fn layouts_show_where_uvs_are_in_the_colours_of_the_surface() {
     if !has_adapter_or_says_so() {
         return;
     }
     // UVs in the left half of the square.
-    let [left, right] = halves(&Quad { u_scale: 0.5, ..Quad::default() }, View::Uv);
-    assert!(is_about(left, [255, 128, 128]), "{left:?}");
-    assert_eq!(right, common::BACKGROUND);
+    let quad = Quad { u_scale: 0.5, ..Quad::default() };
+    let laid_out = |view| {
+        let pixels = common::drawn(&quad, &alone(view)).pixels;
+        [false, true].map(|is_right| half(&pixels, is_right))
+    };
+    assert_eq!(laid_out(View::Tangent)[1], common::BACKGROUND);
+    for (view, color) in [
+        (View::Tangent, [255, 128, 128]),
+        (View::Bitangent, [128, 255, 128]),
+        (View::Normal, [128, 128, 255]),
+    ] {
+        assert!(is_about(laid_out(view)[0], color), "{view:?}: {:?}", laid_out(view));
+    }
+    // Exactly, as there is no shape to be seen.
+    for view in [View::Sign, View::Shaded] {
+        assert!(is_about(laid_out(view)[0], [61, 139, 217]), "{view:?}: {:?}", laid_out(view));
+    }
+    let corner =
+        RenderOptions { layout: Some(Layout::Corner), size: [200, 200], ..common::options(View::Normal) };
+    let [with, without] = [corner.clone(), RenderOptions { layout: None, ..corner }]
+        .map(|options| common::drawn(&quad, &options).pixels);
+    // The square is 76 pixels wide and 12 from the edges: UVs on its left, none on its right.
+    let at = |x: usize, y: usize| [with[200 * y + x], without[200 * y + x]];
+    assert!(is_about(at(120, 150)[0], [128, 128, 255]));
+    assert_eq!(at(180, 150)[0], common::BACKGROUND);
+    assert!(at(108, 150)[0] == at(108, 150)[1] && at(190, 150)[0] == at(190, 150)[1]);
 }
 
 #[test]
@@ -221,8 +261,9 @@ fn what_cannot_be_drawn_is_said() {
     let options = common::options(View::Shaded);
     let said = |quad: &Quad, options: &RenderOptions| {
         let mut document = document(quad);
-        let model = darboux_render::Model::read(&mut document, &[]).expect("a model");
-        darboux_render::render(gpu, &model, options).expect_err("no picture").to_string()
+        let model = &Model::read(&mut document).expect("a model");
+        let side = Side { model, mistakes: Mistakes::default() };
+        darboux_render::render(gpu, side, None, options).expect_err("no picture").to_string()
     };
     assert!(
         said(&Quad { half_size: f32::NAN, ..Quad::default() }, &options).starts_with("has nothing to draw")

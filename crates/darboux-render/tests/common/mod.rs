@@ -4,8 +4,8 @@ use std::io::{Cursor, Write};
 use std::sync::OnceLock;
 
 use darboux_gpu::Gpu;
-use darboux_io::gltf::{Document, LoadOptions, pair_tangents};
-use darboux_render::{Camera, HeatScale, Model, RenderOptions, View};
+use darboux_io::gltf::{Document, LoadOptions};
+use darboux_render::{Camera, HeatScale, Lines, Mistakes, Model, Picture, RenderOptions, Side, View};
 
 pub const BACKGROUND: [u8; 3] = [10, 20, 30];
 
@@ -162,6 +162,9 @@ pub fn heat() -> HeatScale {
 pub fn options(view: View) -> RenderOptions {
     RenderOptions {
         view,
+        lines: Lines::default(),
+        seams: false,
+        layout: None,
         size: [64, 64],
         camera: Camera { yaw: 0.0, pitch: 0.0, zoom: 1.0 },
         background: BACKGROUND,
@@ -169,21 +172,19 @@ pub fn options(view: View) -> RenderOptions {
     }
 }
 
-/// The pixels of a quad, compared with another. Expects that there is an adapter.
-pub fn picture(quad: &Quad, other: &Quad, view: View) -> Vec<[u8; 3]> {
-    let [mut document, mut other] = [quad, other].map(document);
-    let pairs = pair_tangents(&mut document, &mut other).expect("pairs");
-    let model = Model::read(&mut document, &pairs).expect("a model");
+/// A model drawn. Expects that there is an adapter.
+pub fn shown(model: &Model<'_>, mistakes: Mistakes, options: &RenderOptions) -> Picture {
     let gpu = gpu().expect("an adapter");
-    let picture =
-        darboux_render::render(gpu, &model, &options(view)).unwrap_or_else(|error| panic!("{error}"));
-    assert!(picture.warnings.is_empty(), "{:?}", picture.warnings);
-    picture.pixels
+    darboux_render::render(gpu, Side { model, mistakes }, None, options).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// A quad drawn, whatever there is to say about it. Expects that there is an adapter.
-pub fn drawn(quad: &Quad, view: View) -> darboux_render::Picture {
+pub fn drawn(quad: &Quad, options: &RenderOptions) -> Picture {
+    drawn_wrong(quad, Mistakes::default(), options)
+}
+
+/// A quad drawn with mistakes. Expects that there is an adapter.
+pub fn drawn_wrong(quad: &Quad, mistakes: Mistakes, options: &RenderOptions) -> Picture {
     let mut document = document(quad);
-    let model = Model::read(&mut document, &[]).expect("a model");
-    darboux_render::render(gpu().expect("an adapter"), &model, &options(view)).expect("a picture")
+    shown(&Model::read(&mut document).expect("a model"), mistakes, options)
 }

@@ -1,0 +1,114 @@
+//! Lines over a model: frames at its vertices, and seams.
+
+use std::collections::HashSet;
+
+use bytemuck::{Pod, Zeroable};
+use darboux::Transform;
+
+use crate::camera::Sight;
+use crate::model::{Corner, Part};
+use crate::seams::seams;
+use crate::{RenderOptions, Side};
+
+/// The vectors of frames that are drawn as lines, at every vertex.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Lines {
+    /// Tangents.
+    pub tangent: bool,
+    /// Bitangents.
+    pub bitangent: bool,
+    /// Normals.
+    pub normal: bool,
+    /// Their length, as a part of the model's radius.
+    pub length: f64,
+}
+
+/// The colours of tangents, bitangents and normals as lines, in sRGB; the viewer's.
+pub const COLORS: [[u8; 3]; 3] = [[255, 77, 77], [77, 210, 77], [92, 140, 255]];
+
+/// The colour of mirrored seams, in sRGB.
+pub const SEAM_COLOR: [u8; 3] = [255, 77, 216];
+
+/// More lines of a part than this show nothing more: every so-many-th vertex is drawn then.
+const MOST_LINES: usize = 50_000;
+
+/// A line in the eye's space, as the shader takes it.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub struct Stroke {
+    pub ends: [[f32; 3]; 2],
+    pub color: [f32; 3],
+}
+
+/// The lines over a part of a side. `color`: gives a colour as the target takes it.
+pub fn strokes(
+    side: &Side<'_>,
+    part: &Part,
+    sight: &Sight,
+    options: &RenderOptions,
+    color: impl Fn([u8; 3]) -> [f32; 3],
+) -> Vec<Stroke> {
+    let Lines { tangent, bitangent, normal, length } = options.lines;
+    let places = side.model.places_of(part);
+    let asked = [tangent, bitangent, normal];
+    let mut out = Vec::new();
+    let roots = if asked.contains(&true) { vertices(&part.corners) } else { Vec::new() };
+    let step = (roots.len() * places.len()).div_ceil(MOST_LINES).max(1);
+    let placed = places.iter().flat_map(|matrix| roots.iter().map(move |root| (matrix, root)));
+    for (matrix, corner) in placed.step_by(step) {
+        let from = sight.place(matrix, corner.position);
+        let vectors = vectors(matrix, corner, if side.mistakes.w { -1.0 } else { 1.0 });
+        for (at, vector) in vectors.into_iter().enumerate().filter(|&(at, _)| asked[at]) {
+            let along = sight.turned(vector.map(f64::from));
+            let to = [0, 1, 2].map(|i| from[i] + length * along[i]);
+            out.push(stroke([from, to], color(COLORS[at])));
+        }
+    }
+    let seams = if options.seams { seams(&part.corners) } else { Vec::new() };
+    for matrix in places {
+        let placed = seams.iter().map(|ends| ends.map(|end| sight.place(matrix, end)));
+        out.extend(placed.map(|ends| stroke(ends, color(SEAM_COLOR))));
+    }
+    out
+}
+
+fn stroke(ends: [[f64; 3]; 2], color: [f32; 3]) -> Stroke {
+    Stroke { ends: ends.map(|end| end.map(|x| x as f32)), color }
+}
+
+/// Corners of different places and frames, each once.
+fn vertices(corners: &[Corner]) -> Vec<&Corner> {
+    let bits = |corner: &Corner| {
+        (corner.position.map(f32::to_bits), corner.normal.map(f32::to_bits), corner.tangent.map(f32::to_bits))
+    };
+    let mut known = HashSet::new();
+    corners.iter().filter(|corner| known.insert(bits(corner))).collect()
+}
+
+/// The unit tangent, bitangent and normal in the scene; zero where there is none. As the surface is shaded: the tangent is not made
+/// perpendicular to the normal.
+fn vectors(matrix: &[[f64; 4]; 4], corner: &Corner, side: f32) -> [[f32; 3]; 3] {
+    let columns = direction_columns(matrix);
+    let transform = Transform::new(columns);
+    let [x, y, z, w] = corner.tangent;
+    let normal = transform.normal(corner.normal);
+    let tangent = unit([0, 1, 2].map(|i| x * columns[0][i] + y * columns[1][i] + z * columns[2][i]));
+    let bitangent = unit(cross(normal, tangent)).map(|part| side * transform.orientation() * w * part);
+    [tangent, bitangent, unit(normal)]
+}
+
+/// Where a matrix takes the x, y and z directions. Only directions matter; so they fit 32 bits.
+pub fn direction_columns(matrix: &[[f64; 4]; 4]) -> [[f32; 3]; 3] {
+    let largest = matrix[..3].as_flattened().iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    let scale = if largest > 0.0 && largest.is_finite() { 1.0 / largest } else { 1.0 };
+    [0, 1, 2].map(|i| [0, 1, 2].map(|k| (matrix[i][k] * scale) as f32))
+}
+
+fn unit(v: [f32; 3]) -> [f32; 3] {
+    let size = v.iter().map(|x| x * x).sum::<f32>().sqrt();
+    if size > 0.0 && size.is_finite() { v.map(|x| x / size) } else { [0.0; 3] }
+}
+
+fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}

@@ -1,0 +1,211 @@
+//! What the views beside the surface show: lines, seams, derivatives, mistakes, and two sides.
+
+mod common;
+
+use common::{BACKGROUND, Quad, document, has_adapter_or_says_so};
+use darboux_render::{COLORS, Lines, Mistakes, Model, RenderOptions, SEAM_COLOR, Side, View};
+
+/// Pixels across and down.
+const SIZE: usize = 64;
+
+/// The pixel in the middle of the left, or of the right, half.
+fn halves(pixels: &[[u8; 3]]) -> [[u8; 3]; 2] {
+    [SIZE / 4, 3 * SIZE / 4].map(|column| pixels[SIZE / 2 * SIZE + column])
+}
+
+fn light([r, g, b]: [u8; 3]) -> u32 {
+    u32::from(r) + u32::from(g) + u32::from(b)
+}
+
+fn is_about(pixel: [u8; 3], color: [u8; 3]) -> bool {
+    pixel.iter().zip(color).all(|(a, b)| a.abs_diff(b) <= 3)
+}
+
+/// The columns, and the rows, from and to, in which lines of a colour are seen. They are narrow: pixels have some of what is beside them.
+fn extent(pixels: &[[u8; 3]], color: [u8; 3]) -> Option<[[usize; 2]; 2]> {
+    let is_like = |pixel: &[u8; 3]| pixel.iter().zip(color).all(|(a, b)| a.abs_diff(b) <= 100);
+    let places = pixels.iter().enumerate().filter(|(_, pixel)| is_like(pixel));
+    let places: Vec<[usize; 2]> = places.map(|(at, _)| [at % SIZE, at / SIZE]).collect();
+    let ends = |i: usize| Some([places.iter().map(|p| p[i]).min()?, places.iter().map(|p| p[i]).max()?]);
+    Some([ends(0)?, ends(1)?])
+}
+
+/// A flat quad of one colour that is none of lines'.
+fn plain() -> RenderOptions {
+    common::options(View::Normal)
+}
+
+#[test]
+fn lines_lead_from_vertices_along_their_vectors() {
+    if !has_adapter_or_says_so() {
+        return;
+    }
+    let none = Lines { length: 0.25, ..Lines::default() };
+    let quad = Quad { w: [-1.0; 2], ..Quad::default() };
+    let seen = |lines: Lines, color| {
+        extent(&common::drawn(&quad, &RenderOptions { lines, ..plain() }).pixels, color)
+    };
+    let tangents = Lines { tangent: true, ..none };
+    let bitangents = Lines { bitangent: true, ..none };
+    // Vertices are at the columns 1, 32 and 63 and at the rows 1 and 63; the lines are 11 pixels long.
+    let [columns, rows] = seen(tangents, COLORS[0]).expect("tangents");
+    assert!(columns[0] >= 1 && rows == [1, 62], "{columns:?} {rows:?}");
+    assert_eq!(seen(tangents, COLORS[1]), None);
+    // With this w they lead down.
+    let crosses = |quad: &Quad, row: usize| {
+        let pixels = common::drawn(quad, &RenderOptions { lines: bitangents, ..plain() }).pixels;
+        extent(&pixels[row * SIZE..][..SIZE], COLORS[1]).is_some()
+    };
+    assert!(crosses(&quad, 8) && !crosses(&quad, 56));
+    let up = Quad::default();
+    assert!(crosses(&up, 56) && !crosses(&up, 8) && !crosses(&up, 40));
+    // From the side: the surface is a line in the middle, and normals lead to its left.
+    let mut side = RenderOptions { lines: Lines { normal: true, ..none }, ..common::options(View::Tangent) };
+    side.camera.yaw = 90.0;
+    let [columns, _] = extent(&common::drawn(&quad, &side).pixels, COLORS[2]).expect("normals");
+    assert!(columns[1] <= 33 && columns[1] - columns[0] > 4, "{columns:?}");
+    assert_eq!(seen(none, COLORS[0]), None);
+}
+
+#[test]
+fn bitangents_follow_a_wrong_w() {
+    if !has_adapter_or_says_so() {
+        return;
+    }
+    let options =
+        RenderOptions { lines: Lines { bitangent: true, length: 0.25, ..Lines::default() }, ..plain() };
+    let has_lines = |w, row: usize| {
+        let pixels =
+            common::drawn_wrong(&Quad::default(), Mistakes { w, ..Mistakes::default() }, &options).pixels;
+        extent(&pixels[row * SIZE..][..SIZE], COLORS[1]).is_some()
+    };
+    // From the lower vertices up, or from the upper ones down.
+    assert!(has_lines(false, 56) && !has_lines(false, 8));
+    assert!(has_lines(true, 8) && !has_lines(true, 56));
+}
+
+#[test]
+fn seams_are_where_the_sign_changes() {
+    if !has_adapter_or_says_so() {
+        return;
+    }
+    let options = RenderOptions { seams: true, ..plain() };
+    let [columns, rows] =
+        extent(&common::drawn(&Quad::mirrored(), &options).pixels, SEAM_COLOR).expect("a seam");
+    assert!(columns[0] >= 31 && columns[1] <= 33, "{columns:?}");
+    assert!(rows[0] <= 4 && rows[1] >= 60, "{rows:?}");
+    assert_eq!(extent(&common::drawn(&Quad::default(), &options).pixels, SEAM_COLOR), None);
+    // What is behind a surface is hidden by it.
+    let mut behind = options;
+    behind.camera.yaw = 180.0;
+    assert!(extent(&common::drawn(&Quad::mirrored(), &behind).pixels, SEAM_COLOR).is_some());
+}
+
+#[test]
+fn derivatives_are_along_the_uvs_of_every_triangle() {
+    if !has_adapter_or_says_so() {
+        return;
+    }
+    let derived = |quad: &Quad, view| {
+        let mut document = document(quad);
+        let model = Model::read(&mut document).expect("a model").derived();
+        halves(&common::shown(&model, Mistakes::default(), &common::options(view)).pixels)
+    };
+    // Tangents of the file that are all wrong, and none.
+    for has_tangents in [false, true] {
+        let quad = Quad { has_tangents, tangent: [0.0, 0.0, 1.0], ..Quad::mirrored() };
+        let [left, right] = derived(&quad, View::Tangent);
+        assert!(is_about(left, [0, 128, 128]) && is_about(right, [255, 128, 128]), "{left:?} {right:?}");
+        for pixel in derived(&quad, View::Bitangent) {
+            assert!(is_about(pixel, [128, 255, 128]), "{pixel:?}");
+        }
+    }
+    // Shaded at every pixel: along u as with the right vertex data, along v, where the map is stretched, to the same side.
+    let along_u = Quad { texel: [220, 128, 200], ..Quad::mirrored() };
+    let right = halves(&common::drawn(&along_u, &common::options(View::Shaded)).pixels);
+    let seen = |quad| derived(&Quad { tangent: [0.0, 0.0, 1.0], ..quad }, View::Shaded);
+    for (a, b) in seen(along_u).into_iter().zip(right) {
+        assert!(is_about(a, b), "{a:?} {b:?}");
+    }
+    let [up, flat] = [[128, 220, 200], [128, 128, 255]].map(|texel| seen(Quad { texel, ..Quad::mirrored() }));
+    assert!((0..2).all(|half| light(up[half]) > light(flat[half]) + 15), "{up:?} {flat:?}");
+}
+
+#[test]
+fn the_angle_to_derivatives_is_seen() {
+    if !has_adapter_or_says_so() {
+        return;
+    }
+    let [mut first, mut second] =
+        [(); 2].map(|()| document(&Quad { tangent: [0.0, 1.0, 0.0], ..Quad::default() }));
+    let derived = Model::read(&mut second).expect("a model").derived();
+    let model = Model::read(&mut first).expect("a model").compared_with(&derived);
+    let [left, _] = halves(&common::shown(&model, Mistakes::default(), &common::options(View::Angle)).pixels);
+    // 90 degrees lie at 0.93 of the scale.
+    let [below, last] = [7, 8].map(|step| common::heat().ramp[step]);
+    assert!(left[0] > below[0] && left[0] < last[0], "{left:?}");
+}
+
+#[test]
+fn mistakes_look_as_they_do() {
+    if !has_adapter_or_says_so() {
+        return;
+    }
+    let up = Quad { texel: [128, 220, 200], ..Quad::default() };
+    let options = common::options(View::Shaded);
+    let seen = |mistakes| halves(&common::drawn_wrong(&up, mistakes, &options).pixels)[0];
+    let (none, right) = (Mistakes::default(), seen(Mistakes::default()));
+    for wrong in [Mistakes { green: true, ..none }, Mistakes { w: true, ..none }] {
+        assert!(light(seen(wrong)) + 60 < light(right), "{wrong:?}");
+    }
+    // Two that cancel out.
+    assert!(is_about(seen(Mistakes { green: true, w: true, v: false }), right));
+    let sign = |mistakes| halves(&common::drawn_wrong(&up, mistakes, &common::options(View::Sign)).pixels)[0];
+    assert!(sign(none)[2] > 190 && sign(Mistakes { w: true, ..none })[0] > 200);
+}
+
+#[test]
+fn images_stand_on_their_heads_where_v_is_flipped() {
+    if !has_adapter_or_says_so() {
+        return;
+    }
+    let texels = image::RgbImage::from_fn(32, 32, |_, y| {
+        image::Rgb(if y < 16 { [220, 30, 30] } else { [30, 30, 220] })
+    });
+    let base = common::file_of(&texels.into(), image::ImageFormat::Png);
+    let quad = Quad { base: Some((base, "image/png")), ..Quad::default() };
+    let upper = |v| {
+        let pixels =
+            common::drawn_wrong(&quad, Mistakes { v, ..Mistakes::default() }, &common::options(View::Shaded))
+                .pixels;
+        pixels[SIZE / 4 * SIZE + SIZE / 2]
+    };
+    let [right, wrong] = [upper(false), upper(true)];
+    assert!(right[0] > right[2] + 60 && wrong[2] > wrong[0] + 60, "{right:?} {wrong:?}");
+}
+
+#[test]
+fn a_picture_has_two_sides() {
+    if !has_adapter_or_says_so() {
+        return;
+    }
+    let [mut left, mut right] =
+        [Quad::default(), Quad { tangent: [0.0, 1.0, 0.0], ..Quad::default() }].map(|quad| document(&quad));
+    let [left, right] = [&mut left, &mut right].map(|document| Model::read(document).expect("a model"));
+    let side = |model| Side { model, mistakes: Mistakes::default() };
+    let split = |at| {
+        let gpu = common::gpu().expect("an adapter");
+        let right = Some((side(&right), at));
+        darboux_render::render(gpu, side(&left), right, &common::options(View::Tangent))
+            .expect("a picture")
+            .pixels
+    };
+    let [along_x, along_y] = [[255, 128, 128], [128, 255, 128]];
+    for (at, colors) in [(0.5, [along_x, along_y]), (0.0, [along_y; 2]), (1.0, [along_x; 2])] {
+        let seen = halves(&split(at));
+        assert!(is_about(seen[0], colors[0]) && is_about(seen[1], colors[1]), "{at}: {seen:?}");
+    }
+    // At the very column.
+    let row = &split(0.5)[SIZE / 2 * SIZE..][..SIZE];
+    assert!(is_about(row[31], along_x) && is_about(row[32], along_y) && row[0] == BACKGROUND);
+}
