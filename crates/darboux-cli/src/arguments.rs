@@ -21,7 +21,7 @@ pub use files::{Files, Talk};
 pub use inspect::InspectArguments;
 pub use normals::NormalsArguments;
 #[cfg_attr(not(feature = "gpu"), expect(unused_imports, reason = "only render reads them"))]
-pub use render::{RenderArguments, Source, View};
+pub use render::{Layout, Mistake, RenderArguments, Source, Vector, View};
 pub use tangents::{Device, Method, TangentsArguments};
 pub use view::ViewArguments;
 

@@ -1,26 +1,27 @@
 //! `darboux render`.
 
+mod legend;
+
 use std::path::Path;
 
 use clap::ValueEnum;
 use darboux::{NormalOptions, Shading, TangentOptions};
 use darboux_gpu::{Gpu, GpuError};
-use darboux_io::gltf::{
-    Document, NormalsOptions, Pair, SaveOptions, TangentsOptions, add_normals, add_tangents, pair_tangents,
-};
+use darboux_io::gltf::{Document, NormalsOptions, SaveOptions, TangentsOptions, add_normals, add_tangents};
 use darboux_io::image::Image;
-use darboux_render::{Camera, HeatScale, Model, RenderError, RenderOptions};
+use darboux_render::{Camera, HeatScale, Lines, Mistakes, Model, Picture, RenderError, RenderOptions, Side};
 use serde::Serialize;
 
-use crate::arguments::{RenderArguments, Source, View};
+use crate::arguments::{Layout, Method, Mistake, RenderArguments, Source, Vector, View};
 use crate::batch::counted;
-use crate::compare::heat_map::{self, ENDS, FLIP, RAMP};
+use crate::compare::heat_map::{ENDS, FLIP, RAMP};
 use crate::compare::refuse_used;
 use crate::jobs::{Input, is_png, refuse_missing_folder};
 use crate::messages::{Messages, write_stdout};
 use crate::models::load;
 use crate::report::{VERSION, to_json};
 use crate::{exit, interrupt};
+use legend::Legend;
 
 /// What `darboux render --json` prints.
 #[derive(Serialize)]
@@ -43,7 +44,8 @@ pub fn run(arguments: &RenderArguments) -> u8 {
         messages.error("a model on standard input cannot be drawn; save it to a file");
         return exit::USAGE;
     }
-    if let Err(sentence) = refuse_missing_folder(&arguments.output) {
+    let refused = refuse_missing_folder(&arguments.output).and_then(|()| refuse_useless(arguments));
+    if let Err(sentence) = refused {
         messages.error(&sentence);
         return exit::USAGE;
     }
@@ -70,31 +72,44 @@ pub fn run(arguments: &RenderArguments) -> u8 {
     exit::DONE
 }
 
+/// Says which arguments would change nothing.
+fn refuse_useless(arguments: &RenderArguments) -> Result<(), String> {
+    let RenderArguments { view, against, split, mistakes, .. } = arguments;
+    if against.is_some() && *view != View::Angle && split.is_none() {
+        return Err("--against is for --view angle and for --split, and neither is there".to_owned());
+    }
+    if split.is_some() && against.is_none() && mistakes.is_empty() {
+        return Err("--split shows twice the same: give --against or --mistakes, too".to_owned());
+    }
+    Ok(())
+}
+
 /// Reads, draws, writes. Errors are one sentence each.
 fn draw(arguments: &RenderArguments) -> Result<RenderReport, String> {
     let RenderArguments { model: path, output, view, size, .. } = arguments;
     check_output(output, arguments.force)?;
-    let mut document = document(arguments, arguments.tangents)?;
-    refuse_used(output, [&document, &document])?;
+    let (mut document, source) = document(arguments, arguments.tangents)?;
+    let other = arguments.against.map(|source| self::document(arguments, Some(source))).transpose()?;
+    let mut other = other.map(|(document, _)| document);
+    refuse_used(output, [&document, other.as_ref().unwrap_or(&document)])?;
     let name = document.name().to_owned();
-    let pairs = match (view, arguments.against) {
-        (View::Heat, Some(source)) => compared(arguments, &mut document, source)?,
-        _ => Vec::new(),
+    let model = model(arguments, &mut document, Some(source))?;
+    let other = other.as_mut().map(|document| self::model(arguments, document, arguments.against));
+    let (model, other) = match other.transpose()? {
+        Some(other) => {
+            let model = model.compared_with(&other);
+            let other = other.compared_with(&model);
+            (model, Some(other))
+        }
+        None => (model, None),
     };
-    let meshes = chosen(&document, &arguments.mesh)?;
-    let model = Model::read(&mut document, &pairs).map_err(|error| error.to_string())?;
-    let model = if arguments.mesh.is_empty() { model } else { model.only(&meshes) };
     let gpu = pollster::block_on(Gpu::open()).map_err(no_adapter)?;
-    let picture = darboux_render::render(&gpu, &model, &options(arguments)).map_err(|error| match error {
+    let picture = picture(arguments, source, &gpu, &model, other.as_ref()).map_err(|error| match error {
         RenderError::Nothing | RenderError::TooMany { .. } => format!("{name}: {error}"),
         error => error.to_string(),
     })?;
-    let mut pixels = picture.pixels;
-    if *view == View::Heat {
-        add_scale(&mut pixels, *size);
-    }
-    let image =
-        Image::from_rgb(&output.display().to_string(), *size, &pixels).map_err(|error| error.to_string())?;
+    let image = Image::from_rgb(&output.display().to_string(), *size, &picture.pixels)
+        .map_err(|error| error.to_string())?;
     let _guard = interrupt::writing();
     let written = image
         .save(output, &SaveOptions { force: arguments.force, run: None })
@@ -112,6 +127,40 @@ fn draw(arguments: &RenderArguments) -> Result<RenderReport, String> {
     })
 }
 
+/// What is drawn of a document with the tangents of a source.
+fn model<'a>(
+    arguments: &RenderArguments,
+    document: &'a mut Document,
+    source: Option<Source>,
+) -> Result<Model<'a>, String> {
+    let meshes = chosen(document, &arguments.mesh)?;
+    let model = Model::read(document).map_err(|error| error.to_string())?;
+    let model = if arguments.mesh.is_empty() { model } else { model.only(&meshes) };
+    Ok(if source == Some(Source::Derivatives) { model.derived() } else { model })
+}
+
+/// Draws the model, and what explains it.
+fn picture(
+    arguments: &RenderArguments,
+    source: Source,
+    gpu: &Gpu,
+    model: &Model<'_>,
+    other: Option<&Model<'_>>,
+) -> Result<Picture, RenderError> {
+    let options = options(arguments);
+    let legend = Legend::of(arguments, source, &options);
+    let has = |mistake| arguments.mistakes.contains(&mistake);
+    let mistakes = Mistakes { green: has(Mistake::Green), w: has(Mistake::W), v: has(Mistake::V) };
+    let right = arguments.split.map(|part| {
+        let side = Side { model: other.unwrap_or(model), mistakes };
+        (side, part / 100.0)
+    });
+    let mistakes = if right.is_some() { Mistakes::default() } else { mistakes };
+    let mut picture = darboux_render::render(gpu, Side { model, mistakes }, right, &legend.above(&options))?;
+    legend.add(&mut picture);
+    Ok(picture)
+}
+
 /// Says what is wrong with the output before any work.
 fn check_output(path: &Path, force: bool) -> Result<(), String> {
     if path.exists() && !force {
@@ -123,21 +172,22 @@ fn check_output(path: &Path, force: bool) -> Result<(), String> {
     Ok(())
 }
 
-/// The model with the tangents of a source. Triangles without normals get flat ones, as glTF asks of renderers.
-fn document(arguments: &RenderArguments, source: Option<Source>) -> Result<Document, String> {
+/// The model with the tangents of a source, and which that is. Triangles without normals get flat ones, as glTF asks of renderers.
+fn document(arguments: &RenderArguments, source: Option<Source>) -> Result<(Document, Source), String> {
     let sentence = |error: darboux_io::Error| error.to_string();
     let mut document = load(&Input::File(arguments.model.clone()), arguments.allow_outside)?;
     let flat = NormalOptions { shading: Shading::Flat, ..NormalOptions::default() };
     let flat = NormalsOptions { normals: flat, ..NormalsOptions::default() };
     add_normals(&mut document, &flat, &mut |_| {}).map_err(sentence)?;
+    let of_file = if has_tangents(&document) { Source::File } else { Source::Method(Method::default()) };
     let tangents = match source {
-        Some(Source::File) if !has_tangents(&document) => {
+        Some(Source::File) if of_file != Source::File => {
             let name = document.name();
             return Err(format!(
                 "{name}: has no tangents; name a method in place of file, or make some: darboux tangents {name}"
             ));
         }
-        Some(Source::File) => return Ok(document),
+        Some(source @ (Source::File | Source::Derivatives)) => return Ok((document, source)),
         Some(Source::Method(method)) => {
             let tangents = TangentOptions { method: method.into(), ..TangentOptions::default() };
             TangentsOptions { tangents, overwrite: true, ..TangentsOptions::default() }
@@ -145,7 +195,7 @@ fn document(arguments: &RenderArguments, source: Option<Source>) -> Result<Docum
         None => TangentsOptions::default(),
     };
     add_tangents(&mut document, &tangents, &mut |_| {}).map_err(sentence)?;
-    Ok(document)
+    Ok((document, source.unwrap_or(of_file)))
 }
 
 /// The meshes that names and indices mean. The error is a sentence.
@@ -180,18 +230,9 @@ fn has_tangents(document: &Document) -> bool {
     primitives.any(|primitive| primitive.attributes.contains_key("TANGENT"))
 }
 
-/// The tangents of a document beside those of another source.
-fn compared(
-    arguments: &RenderArguments,
-    document: &mut Document,
-    source: Source,
-) -> Result<Vec<Pair>, String> {
-    let mut other = self::document(arguments, Some(source))?;
-    pair_tangents(document, &mut other).map_err(|error| error.to_string())
-}
-
 fn options(arguments: &RenderArguments) -> RenderOptions {
     let [yaw, pitch, zoom] = arguments.camera;
+    let draws = |vector| arguments.lines.contains(&vector);
     RenderOptions {
         view: match arguments.view {
             View::Shaded => darboux_render::View::Shaded,
@@ -199,22 +240,23 @@ fn options(arguments: &RenderArguments) -> RenderOptions {
             View::Bitangent => darboux_render::View::Bitangent,
             View::Normal => darboux_render::View::Normal,
             View::Sign => darboux_render::View::Sign,
-            View::Heat => darboux_render::View::Heat,
-            View::Uv => darboux_render::View::Uv,
+            View::Angle => darboux_render::View::Angle,
         },
+        lines: Lines {
+            tangent: draws(Vector::Tangent),
+            bitangent: draws(Vector::Bitangent),
+            normal: draws(Vector::Normal),
+            length: arguments.length / 100.0,
+        },
+        seams: arguments.seams,
+        layout: arguments.layout.map(|layout| match layout {
+            Layout::Corner => darboux_render::Layout::Corner,
+            Layout::Alone => darboux_render::Layout::Alone,
+        }),
         size: arguments.size,
         camera: Camera { yaw, pitch, zoom },
         background: arguments.background,
         heat: HeatScale { ends: ENDS.map(|end| end as f32), ramp: RAMP, flip: FLIP, none: [0; 3] },
-    }
-}
-
-/// Draws the scale over the last rows of a picture, as heat maps have it, unless it would hide much.
-fn add_scale(pixels: &mut [[u8; 3]], [width, height]: [u32; 2]) {
-    let rows = heat_map::SCALE;
-    if height as usize >= 8 * rows {
-        let scale = heat_map::scale(width as usize);
-        pixels.rchunks_exact_mut(width as usize).take(rows).for_each(|row| row.copy_from_slice(&scale));
     }
 }
 

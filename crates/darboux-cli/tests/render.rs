@@ -3,6 +3,7 @@
 mod common;
 
 use std::fs;
+use std::path::Path;
 
 use serde_json::Value;
 
@@ -30,32 +31,122 @@ fn a_picture_is_written_and_not_replaced_unasked() {
     assert!(first.starts_with(b"\x89PNG"));
     assert!(draw(&["--view", "tangent"]).exits(1).stderr.contains("exists; use --force"));
     assert!(fs::read(&output).expect("a picture") == first);
-    draw(&["--view", "heat", "--tangents", "mikktspace", "--against", "lengyel", "--force"]).exits(0);
+    draw(&["--view", "angle", "--tangents", "mikktspace", "--against", "lengyel", "--force"]).exits(0);
     assert!(fs::read(&output).expect("a picture") != first);
     assert_eq!(names_in(folder.path()), ["picture.png"]);
 }
 
 #[test]
-fn the_heat_of_equal_sources_is_least_everywhere() {
+fn the_angle_of_equal_sources_is_least_everywhere() {
     if !has_adapter() {
         return;
     }
     let folder = tempfile::tempdir().expect("a folder");
     let (model, output) = (asset(MODEL), folder.path().join("heat.png"));
     // Black behind it, so that edges are darker, never lighter.
-    let all = ["--view", "heat", "--tangents", "lengyel", "--size", "80x60", "--background", "000000"];
+    let all = ["--view", "angle", "--tangents", "lengyel", "--size", "80x60", "--background", "000000"];
     let draw = |against: &str| {
         let last = ["--against", against, "--force", "--quiet"];
         darboux(&[&["render", text(&model), "-o", text(&output)], &all[..], &last].concat()).exits(0);
-        let image = fs::read(&output).expect("a picture");
-        let mut reader = png::Decoder::new(std::io::Cursor::new(image)).read_info().expect("a PNG");
-        let mut pixels = vec![0; 80 * 60 * 3];
-        reader.next_frame(&mut pixels).expect("pixels");
-        pixels.as_chunks::<3>().0.iter().map(|pixel| pixel[1]).max()
+        pixels_of(&output).iter().map(|pixel| pixel[1]).max()
     };
     // Green grows along the scale, from 1.
     assert_eq!(draw("lengyel"), Some(1));
     assert!(draw("mikktspace") > Some(60));
+}
+
+/// The colours of a PNG, row after row.
+fn pixels_of(path: &Path) -> Vec<[u8; 3]> {
+    let file = std::io::BufReader::new(fs::File::open(path).expect("a picture"));
+    let mut reader = png::Decoder::new(file).read_info().expect("a PNG");
+    let mut bytes = vec![0; reader.output_buffer_size().expect("a size")];
+    reader.next_frame(&mut bytes).expect("pixels");
+    bytes.as_chunks::<3>().0.to_vec()
+}
+
+/// Draws the sample, whose file has one tangent per vertex at a mirrored seam.
+fn sample(folder: &Path, size: &str, more: &[&str]) -> Vec<[u8; 3]> {
+    let (model, output) = (asset("made/shield.glb"), folder.join("a.png"));
+    let all = ["render", text(&model), "-o", text(&output), "--size", size, "--force", "--quiet"];
+    darboux(&[&all, more].concat()).exits(0);
+    pixels_of(&output)
+}
+
+/// How many pixels of some columns differ, in pictures of 240 columns.
+fn differing(a: &[[u8; 3]], b: &[[u8; 3]], columns: std::ops::Range<usize>) -> usize {
+    let is_in = |at: usize| columns.contains(&(at % 240));
+    a.iter().zip(b).enumerate().filter(|(at, (a, b))| is_in(*at) && a != b).count()
+}
+
+#[test]
+fn a_split_shows_two_sources_and_mistakes_on_the_right() {
+    if !has_adapter() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let draw = |more: &[&str]| {
+        sample(folder.path(), "240x180", &[&["--no-legend", "--camera", "0,0"], more].concat())
+    };
+    let [file, fresh] = ["file", "mikktspace"].map(|source| draw(&["--tangents", source]));
+    assert!(differing(&file, &fresh, 0..240) > 50);
+    let split = draw(&["--tangents", "file", "--against", "mikktspace", "--split", "50"]);
+    assert_eq!((differing(&split, &file, 0..120), differing(&split, &fresh, 120..240)), (0, 0));
+    for mistake in ["green", "w", "v"] {
+        let wrong = draw(&["--tangents", "mikktspace", "--mistakes", mistake]);
+        assert!(differing(&wrong, &fresh, 0..240) > 1000, "{mistake}");
+        let beside = draw(&["--tangents", "mikktspace", "--mistakes", mistake, "--split", "25"]);
+        assert_eq!((differing(&beside, &fresh, 0..60), differing(&beside, &wrong, 60..240)), (0, 0));
+    }
+    let derived = draw(&["--tangents", "derivatives"]);
+    assert!(differing(&derived, &fresh, 0..240) > 1000);
+}
+
+#[test]
+fn lines_seams_and_layouts_are_drawn_over_the_surface() {
+    if !has_adapter() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let draw = |more: &[&str]| {
+        sample(folder.path(), "240x180", &[&["--no-legend", "--view", "normal"], more].concat())
+    };
+    let plain = draw(&[]);
+    let counts = [
+        &["--lines", "tangent"][..],
+        &["--lines", "bitangent,normal"],
+        &["--seams", "--tangents", "mikktspace"],
+        &["--layout", "corner"],
+        &["--layout", "alone"],
+    ];
+    for more in counts {
+        assert!(differing(&draw(more), &plain, 0..240) > 100, "{more:?}");
+    }
+    let longer =
+        ["2", "8"].map(|length| differing(&draw(&["--lines", "normal", "--length", length]), &plain, 0..240));
+    assert!(longer[1] > longer[0] + 200, "{longer:?}");
+}
+
+#[test]
+fn legends_are_below_and_hide_nothing() {
+    if !has_adapter() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let view = ["--view", "angle", "--tangents", "file", "--against", "mikktspace"];
+    let with = sample(folder.path(), "480x240", &view);
+    let bare = sample(folder.path(), "480x240", &[&view[..], &["--no-legend"]].concat());
+    assert_eq!((with.len(), bare.len()), (480 * 240, 480 * 240));
+    // The scale's ends, and the red of signs that differ: the last rows have them, and otherwise the background.
+    let below = &with[480 * 203..];
+    let background = [0xec, 0xef, 0xf1];
+    for color in [[68, 1, 84], [253, 231, 37], [230, 40, 40], [0, 0, 0], background] {
+        assert!(below.contains(&color), "{color:?}");
+    }
+    assert!(bare[480 * 203..].iter().filter(|pixel| **pixel == [0, 0, 0]).count() == 0);
+    // Too small for it.
+    let [small, bare] =
+        [&[][..], &["--no-legend"]].map(|more| sample(folder.path(), "100x60", &[&view[..], more].concat()));
+    assert!(small == bare);
 }
 
 #[test]
@@ -101,8 +192,14 @@ fn bad_arguments_are_usage() {
         (&["--camera", "30,NaN"], "-90 to 90"),
         (&["--camera", "30,20,0"], "0.01 to 1000"),
         (&["--background", "+12345"], "six hexadecimal digits"),
-        (&["--tangents", "best"], "neither file nor a method"),
-        (&["--view", "heat"], "--against"),
+        (&["--tangents", "best"], "neither file, derivatives nor a method"),
+        (&["--view", "angle"], "--against"),
+        (&["--against", "lengyel"], "--against is for --view angle and for --split"),
+        (&["--split", "50"], "--split shows twice the same"),
+        (&["--split", "101"], "not a number from 0 to 100"),
+        (&["--length", "NaN"], "not a number from 0 to 100"),
+        (&["--lines", "tangent,up"], "possible values"),
+        (&["--mistakes", "u"], "possible values"),
         (&["--view", "sideways"], "possible values"),
     ];
     for (arguments, problem) in wrong {

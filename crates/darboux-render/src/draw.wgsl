@@ -14,6 +14,9 @@ struct Picture {
     ramp: array<vec4f, 9>,
     flip: vec4f,
     none: vec4f,
+    // Where w is 1, and -1.
+    plus: vec4f,
+    minus: vec4f,
     // -1 where w is flipped by mistake, and where green is.
     w_side: f32,
     green_side: f32,
@@ -114,8 +117,12 @@ fn shade(seen: Seen, @builtin(front_facing) is_front: bool) -> @location(0) vec4
         let side = select(-1.0, 1.0, is_front) * seen.orientation;
         return vec4f(lit(base.rgb, side * surface_normal(seen, texel), to_eye), coverage(base.a));
     }
-    return vec4f(frame_color(seen, 0.75 + 0.25 * facing), 1.0);
+    // Where triangles of a layout lie over each other, all are seen.
+    let alpha = select(1.0, LAYOUT_ALPHA, picture.is_flat != 0u);
+    return vec4f(frame_color(seen, 0.75 + 0.25 * facing), alpha);
 }
+
+const LAYOUT_ALPHA: f32 = 0.6;
 
 // The unit normal with what the normal map says, in the eye's directions.
 fn surface_normal(seen: Seen, texel: vec3f) -> vec3f {
@@ -181,7 +188,7 @@ fn frame_color(seen: Seen, facing: f32) -> vec3f {
             return direction_color(seen.normal);
         }
         case 4u: {
-            let sides = select(MINUS, PLUS, seen.sign > 0.0);
+            let sides = select(picture.minus.rgb, picture.plus.rgb, seen.sign > 0.0);
             return facing * select(vec3f(0.0, 0.0, 0.0), sides, has_tangent);
         }
         case 5u: {
@@ -192,10 +199,6 @@ fn frame_color(seen: Seen, facing: f32) -> vec3f {
         }
     }
 }
-
-// Where w is 1 and -1, as in the viewer.
-const PLUS: vec3f = vec3f(61.0, 139.0, 217.0) / 255.0;
-const MINUS: vec3f = vec3f(232.0, 135.0, 58.0) / 255.0;
 
 // Black where there is none.
 fn direction_color(v: vec3f) -> vec3f {

@@ -2,7 +2,7 @@
 
 use crate::RenderOptions;
 
-/// Where the UV layout is drawn: u to the right, v down.
+/// Where the UV layout is drawn: u to the right, v down. What lies under other triangles shows through.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {
     /// Over the lower right corner of the picture, in a square of half of its shorter side.

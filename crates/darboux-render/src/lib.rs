@@ -23,7 +23,7 @@ pub use error::RenderError;
 pub use heat::HeatScale;
 pub use layout::Layout;
 pub use model::Model;
-pub use strokes::{COLORS, Lines, SEAM_COLOR};
+pub use strokes::{LINE_COLORS, Lines, SEAM_COLOR};
 
 use camera::Sight;
 use layout::Inset;
@@ -45,6 +45,9 @@ pub enum View {
     /// The angle to the tangents that the model is compared with.
     Angle,
 }
+
+/// Where the sign w is 1, and where it is -1, in sRGB; the viewer's.
+pub const SIGN_COLORS: [[u8; 3]; 2] = [[61, 139, 217], [232, 135, 58]];
 
 /// Mistakes that circulate, made to see what they look like.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

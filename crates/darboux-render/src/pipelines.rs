@@ -2,8 +2,8 @@
 
 use darboux_gpu::Gpu;
 use wgpu::{
-    CompareFunction, PrimitiveTopology, RenderPipeline, TextureFormat, VertexAttribute, VertexBufferLayout,
-    VertexStepMode, vertex_attr_array,
+    BlendState, ColorTargetState, CompareFunction, PrimitiveTopology, RenderPipeline, TextureFormat,
+    VertexAttribute, VertexBufferLayout, VertexStepMode, vertex_attr_array,
 };
 
 use crate::View;
@@ -29,10 +29,10 @@ struct Plan<'a> {
     entries: [&'static str; 2],
     buffers: &'a [Option<VertexBufferLayout<'a>>],
     topology: PrimitiveTopology,
-    /// Whether what is nearer to the eye hides the rest.
+    /// Whether what is nearer to the eye hides the rest; else what is under it shows through, by alpha.
     has_depth: bool,
     /// Whether alpha covers a part of the samples.
-    is_translucent: bool,
+    is_covering: bool,
 }
 
 /// Draws triangles.
@@ -51,7 +51,7 @@ pub fn surface_pipeline(gpu: &Gpu, shape: Shape, view: View, format: TextureForm
         ],
         topology: PrimitiveTopology::TriangleList,
         has_depth: shape == Shape::Model,
-        is_translucent: view == View::Shaded,
+        is_covering: view == View::Shaded,
     };
     pipeline(gpu, &plan, format)
 }
@@ -65,7 +65,7 @@ pub fn line_pipeline(gpu: &Gpu, format: TextureFormat) -> RenderPipeline {
         buffers: &[layout(size_of::<Stroke>(), VertexStepMode::Instance, &of_stroke)],
         topology: PrimitiveTopology::TriangleStrip,
         has_depth: true,
-        is_translucent: false,
+        is_covering: false,
     };
     pipeline(gpu, &plan, format)
 }
@@ -82,6 +82,7 @@ fn pipeline(gpu: &Gpu, plan: &Plan<'_>, format: TextureFormat) -> RenderPipeline
     let source = wgpu::ShaderSource::Wgsl(plan.shader.into());
     let label = Some(plan.entries[0]);
     let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label, source });
+    let blend = (!plan.has_depth).then_some(BlendState::ALPHA_BLENDING);
     let compare = if plan.has_depth { CompareFunction::Less } else { CompareFunction::Always };
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label,
@@ -102,14 +103,14 @@ fn pipeline(gpu: &Gpu, plan: &Plan<'_>, format: TextureFormat) -> RenderPipeline
         }),
         multisample: wgpu::MultisampleState {
             count: SAMPLES,
-            alpha_to_coverage_enabled: plan.is_translucent,
+            alpha_to_coverage_enabled: plan.is_covering,
             ..Default::default()
         },
         fragment: Some(wgpu::FragmentState {
             module: &module,
             entry_point: Some(plan.entries[1]),
             compilation_options: Default::default(),
-            targets: &[Some(format.into())],
+            targets: &[Some(ColorTargetState { blend, ..format.into() })],
         }),
         multiview_mask: None,
         cache: None,

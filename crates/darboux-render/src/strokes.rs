@@ -24,7 +24,7 @@ pub struct Lines {
 }
 
 /// The colours of tangents, bitangents and normals as lines, in sRGB; the viewer's.
-pub const COLORS: [[u8; 3]; 3] = [[255, 77, 77], [77, 210, 77], [92, 140, 255]];
+pub const LINE_COLORS: [[u8; 3]; 3] = [[255, 77, 77], [77, 210, 77], [92, 140, 255]];
 
 /// The colour of mirrored seams, in sRGB.
 pub const SEAM_COLOR: [u8; 3] = [255, 77, 216];
@@ -61,7 +61,7 @@ pub fn strokes(
         for (at, vector) in vectors.into_iter().enumerate().filter(|&(at, _)| asked[at]) {
             let along = sight.turned(vector.map(f64::from));
             let to = [0, 1, 2].map(|i| from[i] + length * along[i]);
-            out.push(stroke([from, to], color(COLORS[at])));
+            out.push(stroke([from, to], color(LINE_COLORS[at])));
         }
     }
     let seams = if options.seams { seams(&part.corners) } else { Vec::new() };

@@ -6,7 +6,7 @@ use darboux_io::gltf::{Alpha, Look, TextureUse};
 use crate::camera::Sight;
 use crate::painter::{Shape, Show};
 use crate::strokes::direction_columns;
-use crate::{HeatScale, Side};
+use crate::{HeatScale, SIGN_COLORS, Side};
 
 /// Pixels along a picture's shorter side for one of a line's width, which is at least one.
 const PIXELS_PER_WIDTH: f32 = 500.0;
@@ -26,6 +26,7 @@ pub struct PictureUniforms {
     ramp: [[f32; 4]; 9],
     flip: [f32; 4],
     none: [f32; 4],
+    signs: [[f32; 4]; 2],
     w_side: f32,
     green_side: f32,
     is_v_flipped: u32,
@@ -84,6 +85,7 @@ impl PictureUniforms {
             ramp: ramp.map(color),
             flip: color(*flip),
             none: color(*none),
+            signs: SIGN_COLORS.map(color),
             w_side: flipped(side.mistakes.w),
             green_side: flipped(side.mistakes.green),
             is_v_flipped: side.mistakes.v.into(),

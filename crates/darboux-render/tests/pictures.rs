@@ -218,6 +218,11 @@ fn alone(view: View) -> RenderOptions {
     RenderOptions { layout: Some(Layout::Alone), ..common::options(view) }
 }
 
+/// A colour that covers three fifths of the background.
+fn through(color: [u8; 3]) -> [u8; 3] {
+    [0, 1, 2].map(|i| (0.6 * f64::from(color[i]) + 0.4 * f64::from(common::BACKGROUND[i])).round() as u8)
+}
+
 #[test]
 fn layouts_show_where_uvs_are_in_the_colours_of_the_surface() {
     if !has_adapter_or_says_so() {
@@ -235,11 +240,10 @@ fn layouts_show_where_uvs_are_in_the_colours_of_the_surface() {
         (View::Bitangent, [128, 255, 128]),
         (View::Normal, [128, 128, 255]),
     ] {
-        assert!(is_about(laid_out(view)[0], color), "{view:?}: {:?}", laid_out(view));
+        assert!(is_about(laid_out(view)[0], through(color)), "{view:?}: {:?}", laid_out(view));
     }
-    // Exactly, as there is no shape to be seen.
     for view in [View::Sign, View::Shaded] {
-        assert!(is_about(laid_out(view)[0], [61, 139, 217]), "{view:?}: {:?}", laid_out(view));
+        assert!(is_about(laid_out(view)[0], through([61, 139, 217])), "{view:?}: {:?}", laid_out(view));
     }
     let corner =
         RenderOptions { layout: Some(Layout::Corner), size: [200, 200], ..common::options(View::Normal) };
@@ -247,7 +251,7 @@ fn layouts_show_where_uvs_are_in_the_colours_of_the_surface() {
         .map(|options| common::drawn(&quad, &options).pixels);
     // The square is 76 pixels wide and 12 from the edges: UVs on its left, none on its right.
     let at = |x: usize, y: usize| [with[200 * y + x], without[200 * y + x]];
-    assert!(is_about(at(120, 150)[0], [128, 128, 255]));
+    assert!(is_about(at(120, 150)[0], through([128, 128, 255])));
     assert_eq!(at(180, 150)[0], common::BACKGROUND);
     assert!(at(108, 150)[0] == at(108, 150)[1] && at(190, 150)[0] == at(190, 150)[1]);
 }

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{BACKGROUND, Quad, document, has_adapter_or_says_so};
-use darboux_render::{COLORS, Lines, Mistakes, Model, RenderOptions, SEAM_COLOR, Side, View};
+use darboux_render::{LINE_COLORS, Lines, Mistakes, Model, RenderOptions, SEAM_COLOR, Side, View};
 
 /// Pixels across and down.
 const SIZE: usize = 64;
@@ -48,13 +48,13 @@ fn lines_lead_from_vertices_along_their_vectors() {
     let tangents = Lines { tangent: true, ..none };
     let bitangents = Lines { bitangent: true, ..none };
     // Vertices are at the columns 1, 32 and 63 and at the rows 1 and 63; the lines are 11 pixels long.
-    let [columns, rows] = seen(tangents, COLORS[0]).expect("tangents");
+    let [columns, rows] = seen(tangents, LINE_COLORS[0]).expect("tangents");
     assert!(columns[0] >= 1 && rows == [1, 62], "{columns:?} {rows:?}");
-    assert_eq!(seen(tangents, COLORS[1]), None);
+    assert_eq!(seen(tangents, LINE_COLORS[1]), None);
     // With this w they lead down.
     let crosses = |quad: &Quad, row: usize| {
         let pixels = common::drawn(quad, &RenderOptions { lines: bitangents, ..plain() }).pixels;
-        extent(&pixels[row * SIZE..][..SIZE], COLORS[1]).is_some()
+        extent(&pixels[row * SIZE..][..SIZE], LINE_COLORS[1]).is_some()
     };
     assert!(crosses(&quad, 8) && !crosses(&quad, 56));
     let up = Quad::default();
@@ -62,9 +62,9 @@ fn lines_lead_from_vertices_along_their_vectors() {
     // From the side: the surface is a line in the middle, and normals lead to its left.
     let mut side = RenderOptions { lines: Lines { normal: true, ..none }, ..common::options(View::Tangent) };
     side.camera.yaw = 90.0;
-    let [columns, _] = extent(&common::drawn(&quad, &side).pixels, COLORS[2]).expect("normals");
+    let [columns, _] = extent(&common::drawn(&quad, &side).pixels, LINE_COLORS[2]).expect("normals");
     assert!(columns[1] <= 33 && columns[1] - columns[0] > 4, "{columns:?}");
-    assert_eq!(seen(none, COLORS[0]), None);
+    assert_eq!(seen(none, LINE_COLORS[0]), None);
 }
 
 #[test]
@@ -77,7 +77,7 @@ fn bitangents_follow_a_wrong_w() {
     let has_lines = |w, row: usize| {
         let pixels =
             common::drawn_wrong(&Quad::default(), Mistakes { w, ..Mistakes::default() }, &options).pixels;
-        extent(&pixels[row * SIZE..][..SIZE], COLORS[1]).is_some()
+        extent(&pixels[row * SIZE..][..SIZE], LINE_COLORS[1]).is_some()
     };
     // From the lower vertices up, or from the upper ones down.
     assert!(has_lines(false, 56) && !has_lines(false, 8));

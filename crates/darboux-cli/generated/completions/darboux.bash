@@ -220,7 +220,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__render)
-            opts="-o -q -h --output --view --tangents --against --mesh --size --camera --background --force --allow-outside --json --quiet --help"
+            opts="-o -q -h --output --view --tangents --against --split --lines --length --seams --layout --mistakes --mesh --size --camera --background --no-legend --force --allow-outside --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -235,7 +235,7 @@ _darboux() {
                     return 0
                     ;;
                 --view)
-                    COMPREPLY=($(compgen -W "shaded tangent bitangent normal sign heat uv" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "shaded tangent bitangent normal sign angle" -- "${cur}"))
                     return 0
                     ;;
                 --tangents)
@@ -244,6 +244,26 @@ _darboux() {
                     ;;
                 --against)
                     COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --split)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --lines)
+                    COMPREPLY=($(compgen -W "tangent bitangent normal" -- "${cur}"))
+                    return 0
+                    ;;
+                --length)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --layout)
+                    COMPREPLY=($(compgen -W "corner alone" -- "${cur}"))
+                    return 0
+                    ;;
+                --mistakes)
+                    COMPREPLY=($(compgen -W "green w v" -- "${cur}"))
                     return 0
                     ;;
                 --mesh)

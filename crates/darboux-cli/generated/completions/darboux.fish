@@ -138,19 +138,30 @@ complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l json -d 'Wri
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -s q -l quiet -d 'Print errors only'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand render" -s o -l output -d 'The picture' -r -F
-complete -c darboux -n "__fish_darboux_using_subcommand render" -l view -d 'What is drawn' -r -f -a "shaded\t'The surface with its base colour and normal map, lit from above right'
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l view -d 'What the surface is painted with' -r -f -a "shaded\t'The surface with its base colour and normal map, lit from above right'
 tangent\t'Tangents as colours, 0.5 + 0.5 of each component in the scene'
 bitangent\t'Bitangents, likewise'
 normal\t'Normals of the mesh, likewise'
 sign\t'The sign w: blue 1, orange -1'
-heat\t'The angle between two sources, with the scale of compare\'s heat maps (0.01 to 180 degrees); red where signs differ'
-uv\t'The UV layout, v down, in the colours of tangents'"
-complete -c darboux -n "__fish_darboux_using_subcommand render" -l tangents -d 'Whose tangents: file, or a method, as `darboux methods` lists them' -r
-complete -c darboux -n "__fish_darboux_using_subcommand render" -l against -d 'For --view heat: the tangents that they are compared with' -r
+angle\t'The angle between --tangents and --against, from 0.01 to 180 degrees; red where signs differ'"
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l tangents -d 'Whose tangents: file, derivatives (what shaders do that have none), or a method, as `darboux methods` lists them' -r
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l against -d 'The other tangents: what --view angle compares with, and what --split shows on the right' -r
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l split -d 'Show --tangents left of so many percent of the width, and --against right of them; or the same there, with --mistakes' -r
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l lines -d 'Draw these vectors at the vertices' -r -f -a "tangent\t'Red'
+bitangent\t'Green'
+normal\t'Blue'"
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l length -d 'Length of lines, in percent of the model\'s radius' -r
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l layout -d 'Draw the UV layout in the surface\'s colours (signs where it is shaded), v down' -r -f -a "corner\t'Over the lower right corner'
+alone\t'In place of the model'"
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l mistakes -d 'Do this wrong; right of --split, or everywhere' -r -f -a "green\t'Flip the normal map\'s green channel'
+w\t'Flip the sign of tangents'
+v\t'Sample images at 1 - v'"
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l mesh -d 'Draw this mesh alone: its name, or else its index; several times for several' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l size -d 'Pixels across and down' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l camera -d 'Degrees around the model (0 is its front), degrees above the horizon, and how many times nearer than all of it in view' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l background -d 'The colour behind the model' -r
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l seams -d 'Draw the edges across which the sign changes: where a texture meets its mirror image'
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l no-legend -d 'Leave out what explains the colours, and the names of both sides'
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l force -d 'Replace a picture that exists'
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l allow-outside -d 'Allow buffers and images outside the model\'s folder'
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l json -d 'Write a report as JSON to standard output'

@@ -9,7 +9,8 @@ use super::{Method, Talk};
 pub(super) const ABOUT: &str = "\
 Draw a model or its tangents into a PNG, without a window.
 
-The views are those of `darboux view`. Node transforms count, mirrors included; skins, morph targets and instances do not, which is \
+The views are those of `darboux view`, by the same names: what the surface is painted with, vectors as lines, mirrored seams, the UV \
+layout, two sources side by side, and mistakes. Node transforms count, mirrors included; skins, morph targets and instances do not, which is \
 said of models that have them. Parts without a normal map are shaded with a pattern of domes, so that wrong tangents show.
 
 Drawing needs an adapter, as `darboux devices` lists them; software ones such as Mesa's lavapipe do.";
@@ -18,7 +19,10 @@ pub(super) const EXAMPLES: &str = "\
 Examples:
   darboux render model.glb -o model.png
   darboux render model.glb -o t.png --view tangent --tangents lengyel
-  darboux render model.glb -o heat.png --view heat --tangents file --against mikktspace
+  darboux render model.glb -o angle.png --view angle --tangents file --against mikktspace
+  darboux render model.glb -o lines.png --lines tangent,normal --seams --layout corner
+  darboux render model.glb -o split.png --tangents mikktspace --against derivatives --split 50
+  darboux render model.glb -o green.png --split 50 --mistakes green
   darboux render model.glb -o shield.png --mesh Shield
   darboux render model.glb -o back.png --camera 180,10,1.5 --size 1920x1080";
 
@@ -33,19 +37,43 @@ pub struct RenderArguments {
     #[arg(short, long, value_name = "PNG")]
     pub output: PathBuf,
 
-    /// What is drawn
+    /// What the surface is painted with
     #[arg(long, value_enum, value_name = "VIEW", default_value_t)]
     pub view: View,
 
-    /// Whose tangents: file, or a method, as `darboux methods` lists them
+    /// Whose tangents: file, derivatives (what shaders do that have none), or a method, as `darboux methods` lists them
     ///
     /// Without it those of the file, and MikkTSpace's where it has none.
     #[arg(long, value_name = "SOURCE", value_parser = source)]
     pub tangents: Option<Source>,
 
-    /// For --view heat: the tangents that they are compared with
-    #[arg(long, value_name = "SOURCE", value_parser = source, required_if_eq("view", "heat"))]
+    /// The other tangents: what --view angle compares with, and what --split shows on the right
+    #[arg(long, value_name = "SOURCE", value_parser = source, required_if_eq_any([("view", "angle"), ("view", "heat")]))]
     pub against: Option<Source>,
+
+    /// Show --tangents left of so many percent of the width, and --against right of them; or the same there, with --mistakes
+    #[arg(long, value_name = "PERCENT", value_parser = percent)]
+    pub split: Option<f64>,
+
+    /// Draw these vectors at the vertices
+    #[arg(long, value_enum, value_name = "VECTORS", value_delimiter = ',')]
+    pub lines: Vec<Vector>,
+
+    /// Length of lines, in percent of the model's radius
+    #[arg(long, value_name = "PERCENT", default_value = "2", value_parser = percent)]
+    pub length: f64,
+
+    /// Draw the edges across which the sign changes: where a texture meets its mirror image
+    #[arg(long)]
+    pub seams: bool,
+
+    /// Draw the UV layout in the surface's colours (signs where it is shaded), v down
+    #[arg(long, value_enum, value_name = "PLACE")]
+    pub layout: Option<Layout>,
+
+    /// Do this wrong; right of --split, or everywhere
+    #[arg(long, value_enum, value_name = "MISTAKES", value_delimiter = ',')]
+    pub mistakes: Vec<Mistake>,
 
     /// Draw this mesh alone: its name, or else its index; several times for several
     #[arg(long, value_name = "MESH", allow_hyphen_values = true)]
@@ -68,6 +96,10 @@ pub struct RenderArguments {
     /// The colour behind the model
     #[arg(long, value_name = "RRGGBB", default_value = "eceff1", value_parser = color)]
     pub background: [u8; 3],
+
+    /// Leave out what explains the colours, and the names of both sides
+    #[arg(long)]
+    pub no_legend: bool,
 
     /// Replace a picture that exists
     #[arg(long)]
@@ -95,11 +127,40 @@ pub enum View {
     Normal,
     /// The sign w: blue 1, orange -1
     Sign,
-    /// The angle between two sources, with the scale of compare's heat maps (0.01 to 180 degrees); red where signs differ
-    #[value(alias = "angle")]
-    Heat,
-    /// The UV layout, v down, in the colours of tangents
-    Uv,
+    /// The angle between --tangents and --against, from 0.01 to 180 degrees; red where signs differ
+    #[value(alias = "heat")]
+    Angle,
+}
+
+/// `--lines`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Vector {
+    /// Red
+    Tangent,
+    /// Green
+    Bitangent,
+    /// Blue
+    Normal,
+}
+
+/// `--layout`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Layout {
+    /// Over the lower right corner
+    Corner,
+    /// In place of the model
+    Alone,
+}
+
+/// `--mistakes`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Mistake {
+    /// Flip the normal map's green channel
+    Green,
+    /// Flip the sign of tangents
+    W,
+    /// Sample images at 1 - v
+    V,
 }
 
 /// `--tangents` and `--against`.
@@ -107,16 +168,37 @@ pub enum View {
 pub enum Source {
     /// What the file has.
     File,
+    /// What shaders derive.
+    Derivatives,
     /// What a method computes.
     Method(Method),
 }
 
-fn source(text: &str) -> Result<Source, String> {
-    if text == "file" {
-        return Ok(Source::File);
+impl Source {
+    /// As it is typed.
+    pub fn name(self) -> String {
+        match self {
+            Self::File => "file".to_owned(),
+            Self::Derivatives => "derivatives".to_owned(),
+            Self::Method(method) => {
+                method.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
+            }
+        }
     }
-    let unknown = |_| "neither file nor a method; `darboux methods` lists them".to_owned();
-    Method::from_str(text, false).map(Source::Method).map_err(unknown)
+}
+
+fn source(text: &str) -> Result<Source, String> {
+    let unknown = |_| "neither file, derivatives nor a method; `darboux methods` lists them".to_owned();
+    match text {
+        "file" => Ok(Source::File),
+        "derivatives" => Ok(Source::Derivatives),
+        method => Method::from_str(method, false).map(Source::Method).map_err(unknown),
+    }
+}
+
+fn percent(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number| (0.0..=100.0).contains(number));
+    number.ok_or_else(|| "not a number from 0 to 100".to_owned())
 }
 
 fn size(text: &str) -> Result<[u32; 2], String> {

@@ -11,7 +11,7 @@ use super::statistics::differences;
 const SIZE: usize = 1024;
 /// Rows of black, then rows of the scale, below it.
 const GAP: usize = 8;
-pub const SCALE: usize = 24;
+const SCALE: usize = 24;
 
 /// The scale's ends in degrees; it is logarithmic between them.
 pub const ENDS: [f64; 2] = [0.01, 180.0];
@@ -146,7 +146,7 @@ fn weights([p, q, r]: [[f64; 2]; 3], at: [f64; 2]) -> Option<[f64; 3]> {
 }
 
 /// Where an angle is on the scale, from 0 to 1.
-fn place(degrees: f64) -> f64 {
+pub fn place(degrees: f64) -> f64 {
     let [from, to] = ENDS;
     ((degrees.max(from) / from).ln() / (to / from).ln()).min(1.0)
 }
