@@ -2,7 +2,7 @@
 
 import { spawnSync } from 'node:child_process';
 import { copyFileSync, cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { dirname, join } from 'node:path';
+import { basename, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import zopfli from '@gfx/zopfli';
 import binaryen from 'binaryen';
@@ -16,6 +16,9 @@ const ENTRIES = ['darboux', 'tangents'];
 
 /** What users import beside, most of it over one of those. */
 const ADAPTERS = ['three', 'gltf-transform', 'mikktspace', 'webgpu'];
+
+/** What those import when it is asked for, CommonJS too. */
+const LATER = ['webgpu.tangents.ts'];
 
 /** What the compiler uses without being told. */
 const FEATURES = ['bulk-memory', 'bulk-memory-opt', 'nontrapping-float-to-int', 'sign-ext', 'mutable-globals', 'reference-types', 'multivalue', 'call-indirect-overlong'];
@@ -66,7 +69,9 @@ const shaders = {
   name: 'shaders',
   setup: (build) => {
     const folder = join(here, '../../crates/darboux-gpu/shaders');
-    build.onResolve({ filter: /^darboux-gpu\/kernels$/ }, () => ({ path: join(folder, 'kernels.json'), namespace: 'shaders' }));
+    const list = (path) => join(folder, `${basename(path)}.json`);
+    build.onResolve({ filter: /^darboux-gpu\/passes$/ }, ({ path }) => ({ path: list(path) }));
+    build.onResolve({ filter: /^darboux-gpu\/(kernels|mikktspace)$/ }, ({ path }) => ({ path: list(path), namespace: 'shaders' }));
     build.onLoad({ filter: /.*/, namespace: 'shaders' }, ({ path }) => {
       const kernels = Object.entries(JSON.parse(readFileSync(path, 'utf8')));
       const parts = [...new Set(kernels.flatMap(([, parts]) => parts))];
@@ -97,7 +102,7 @@ const common = {
   target: 'es2022',
   platform: 'neutral',
   plugins: [deflated, shaders],
-  external: ['*.scalar.js', 'three'],
+  external: ['*.scalar.js', './webgpu.tangents.js', 'three'],
   logLevel: 'warning',
 };
 
@@ -110,7 +115,7 @@ async function bundle(entry) {
 async function bundleAdapters() {
   const entryPoints = ADAPTERS.map((adapter) => `${adapter}.ts`);
   const plugins = (extension) => [entries(extension), shaders];
-  await build({ ...common, format: 'esm', entryPoints, plugins: plugins('.js') });
+  await build({ ...common, format: 'esm', entryPoints: [...entryPoints, ...LATER], plugins: plugins('.js') });
   await build({ ...common, format: 'cjs', entryPoints, plugins: plugins('.cjs'), outExtension: { '.js': '.cjs' } });
 }
 
@@ -121,9 +126,9 @@ for (const entry of ENTRIES) {
 }
 await bundleAdapters();
 run('tsc', '-p', 'lib', '--outDir', out);
-for (const inner of ['all', 'engine', 'mesh', ...ENTRIES.map((entry) => `${entry}.scalar`)]) rmSync(join(out, `${inner}.d.ts`));
+for (const inner of ['all', 'engine', 'mesh', 'webgpu.tangents', ...ENTRIES.map((entry) => `${entry}.scalar`)]) rmSync(join(out, `${inner}.d.ts`));
 for (const inner of ['gltf', 'gpu']) rmSync(join(out, inner), { recursive: true });
-for (const name of [...ENTRIES, ...ADAPTERS, 'plan', 'planner', 'topology', 'types']) {
+for (const name of [...ENTRIES, ...ADAPTERS, 'elsewhere', 'plan', 'planner', 'topology', 'types']) {
   const types = readFileSync(join(out, `${name}.d.ts`), 'utf8');
   writeFileSync(join(out, `${name}.d.cts`), types.replaceAll(/from '(.*)\.js'/g, "from '$1.cjs'"));
 }

@@ -21,6 +21,9 @@ export interface AllExports extends Exports {
   topology_list(list: number): number;
   topology_length(list: number): number;
   drop_topology(): void;
+  threshold_cosine(threshold: number): number;
+  welded(vertices: number): number;
+  complete_tangents(mode: number, threshold: number): number;
   generate_normals(shading: number, weight: number, crease: number, seams: number): number;
   given(tangents: number): number;
   others(tangents: number): number;

@@ -4,6 +4,7 @@ import { choices, engine, report, surface } from './all.js';
 import { checkIndices, checkOut, choice, degrees, floats, indexError, mesh, must, rows, whole, write, writeArrays } from './mesh.js';
 import type * as types from './types.js';
 
+export * as elsewhere from './elsewhere.js';
 export { Plan } from './plan.js';
 export { planTopology } from './topology.js';
 export type * from './types.js';

@@ -1,6 +1,36 @@
-// The shaders of crates/darboux-gpu that run here, by its list of files (shaders/kernels.json), as build.mjs embeds them.
+// What crates/darboux-gpu lists for other languages (shaders/*.json), as build.mjs embeds it: texts in place of files.
+
 declare module 'darboux-gpu/kernels' {
   type Kernel = 'adjacency' | 'average' | 'scan' | 'terms' | 'gather' | 'repair' | 'write';
   const kernels: Readonly<Record<Kernel, readonly string[]>>;
   export default kernels;
+}
+
+/** The kernels of the passes. */
+declare module 'darboux-gpu/mikktspace' {
+  const kernels: Readonly<Record<string, readonly string[]>>;
+  export default kernels;
+}
+
+declare module 'darboux-gpu/passes' {
+  /** What there is a thread or a number of words for. */
+  type Each = 'mesh' | 'vertex' | 'slot' | 'triangle' | 'corner';
+  interface Entry {
+    kernel: string;
+    entry: string;
+  }
+  /** With the names of its buffers by binding, and what runs over the list of what it was unsure of. */
+  interface Run extends Entry {
+    each: Each;
+    buffers: Readonly<Record<string, string>>;
+    unsure?: Run;
+  }
+  type Pass = { clear: string } | { scan: string; each: Each } | Run;
+
+  /** Words for each. */
+  const buffers: Readonly<Record<string, readonly [Each, number]>>;
+  const vertices: readonly Pass[];
+  const adjacency: readonly Pass[];
+  const triangles: readonly Pass[];
+  export { adjacency, buffers, triangles, vertices, type Each, type Entry, type Pass, type Run };
 }

@@ -160,3 +160,17 @@ export interface PlanTopology {
   /** Empty where there are split vertices. */
   sumOfVertex: Uint32Array<ArrayBuffer>;
 }
+
+/** What generateTangents of `darboux/webgpu` does. */
+export interface GpuTangentOptions extends MikkTSpaceOptions {
+  /** Receives the tangents, 16 bytes per corner from its start on; with the usage COPY_DST. After an error it may hold anything. */
+  buffer?: GPUBuffer;
+}
+
+/** What a run on WebGPU met. */
+export interface GpuTangents extends ReportedTangents {
+  /** Corners that the CPU did: rare cases, and what the device's floats leave open. */
+  cornersOfCpu: number;
+  /** Why the CPU did them all, if it did: faces that are not triangles; values that are not finite, huge, or zeros whose signs differ. */
+  leftToCpu: 'faces' | 'values' | null;
+}

@@ -1,17 +1,76 @@
-// `darboux/webgpu`: plans and the method 'average' on WebGPU.
+// `darboux/webgpu`: MikkTSpace, plans and the method 'average' on WebGPU.
 
-import shaders from 'darboux-gpu/kernels';
+import kernels from 'darboux-gpu/kernels';
+import { adjacency } from 'darboux-gpu/passes';
 import { checkRows, reach } from './gpu/check.js';
-import { buffer, module, pipeline, scanSteps, step, USAGE } from './gpu/kernels.js';
+import { ON_CPU } from './gpu/device.js';
+import { buffer, module, pipeline, step, USAGE, type Step } from './gpu/kernels.js';
+import { Program, type Named } from './gpu/program.js';
+import type { GpuTangentOptions, GpuTangents, Indices } from './types.js';
 
 export { GpuPlan, Planner, PlanOfBuffers } from './planner.js';
 export type { GpuAttribute, GpuMovingMesh } from './planner.js';
+export type * from './types.js';
 
 /**
- * The shaders as data, each of texts that are read one after the other, after the constants WORKGROUP, VALUES_PER_THREAD, BLOCK, MAX_GROUPS and
- * MAX_TURNS.
+ * The shaders of plans and of 'average' as data, each of texts that are read one after the other, after the constants WORKGROUP,
+ * VALUES_PER_THREAD, BLOCK, MAX_GROUPS and MAX_TURNS.
  */
-export { shaders };
+export const shaders: Readonly<Record<'adjacency' | 'average' | 'scan' | 'terms' | 'gather' | 'repair' | 'write', readonly string[]>> = kernels;
+
+/**
+ * A device of the adapter that the browser takes for the fastest, which binds as large buffers as that allows.
+ *
+ * @throws Error where there is no WebGPU, or no adapter.
+ */
+export async function openDevice(): Promise<GPUDevice> {
+  const gpu = globalThis.navigator?.gpu;
+  if (!gpu) throw new Error(`there is no WebGPU here: use a browser that has it, from https or localhost, or ${ON_CPU}`);
+  const adapter = await gpu.requestAdapter({ powerPreference: 'high-performance' });
+  if (!adapter) throw new Error(`no GPU adapter was found: install a driver, or ${ON_CPU}`);
+  const { maxBufferSize, maxStorageBufferBindingSize } = adapter.limits;
+  return adapter.requestDevice({ requiredLimits: { maxBufferSize, maxStorageBufferBindingSize } });
+}
+
+/**
+ * The tangent of every corner, as `generateTangents` of `darboux`, bit for bit: the device welds, finds neighbours and groups and evaluates; what is
+ * rare, and what the device's floats leave open, the CPU does.
+ *
+ * The shaders, and `darboux` with its WebAssembly, are loaded by the first call and compiled by the first call for a device.
+ *
+ * @param device As {@link openDevice} gives it, or one of yours: its limits decide how large meshes may be.
+ * @returns 4 per corner. Other parameters as there.
+ * @throws TypeError and RangeError as there; RangeError for a mesh past the device's limits or memory; Error where the device is lost or refuses.
+ */
+export function generateTangents(
+  device: GPUDevice,
+  positions: Float32Array,
+  normals: Float32Array,
+  uvs: Float32Array,
+  indices?: Indices | null,
+  options?: GpuTangentOptions & { returnReport?: false },
+): Promise<Float32Array<ArrayBuffer>>;
+/** As above, with the report of the run, and what the CPU did. */
+export function generateTangents(
+  device: GPUDevice,
+  positions: Float32Array,
+  normals: Float32Array,
+  uvs: Float32Array,
+  indices: Indices | null | undefined,
+  options: GpuTangentOptions & { returnReport: true },
+): Promise<GpuTangents>;
+export async function generateTangents(
+  device: GPUDevice,
+  positions: Float32Array,
+  normals: Float32Array,
+  uvs: Float32Array,
+  indices?: Indices | null,
+  options: GpuTangentOptions & { returnReport?: boolean } = {},
+): Promise<Float32Array<ArrayBuffer> | GpuTangents> {
+  const { generateTangents } = await import('./webgpu.tangents.js');
+  const made = await generateTangents(device, positions, normals, uvs, indices, options);
+  return options.returnReport ? made : made.tangents;
+}
 
 /** Vertices and indices on the GPU. Offsets and strides count bytes and are multiples of 4; buffers have the usage STORAGE. */
 export interface GpuMesh {
@@ -50,19 +109,12 @@ export interface GpuFrames {
  */
 export class Average {
   readonly #device: GPUDevice;
-  readonly #count: GPUComputePipeline;
-  readonly #scatter: GPUComputePipeline;
-  readonly #rank: GPUComputePipeline;
-  readonly #scan: { scan: GPUComputePipeline; addSums: GPUComputePipeline };
+  readonly #table: Program;
   readonly #gather: GPUComputePipeline;
 
   constructor(device: GPUDevice) {
-    const [tables, sums] = [module(device, shaders.adjacency), module(device, shaders.scan)];
     this.#device = device;
-    this.#count = pipeline(device, tables, 'count');
-    this.#scatter = pipeline(device, tables, 'scatter');
-    this.#rank = pipeline(device, tables, 'rank');
-    this.#scan = { scan: pipeline(device, sums, 'scan'), addSums: pipeline(device, sums, 'add_sums') };
+    this.#table = Program.now(device, shaders, adjacency);
     this.#gather = pipeline(device, module(device, shaders.average), 'gather');
   }
 
@@ -70,29 +122,21 @@ export class Average {
   ofMesh(mesh: GpuMesh, frames: GpuFrames): AverageOfMesh {
     check(mesh, frames);
     const device = this.#device;
-    const { vertexCount, indices, indexCount: corners } = mesh;
+    const { vertexCount, indices } = mesh;
     const words = describe(device, mesh, frames);
-    const [ends, counts] = [buffer(device, 'ends', vertexCount), buffer(device, 'counts', 3)];
-    const [cornerOfEntry, triangleOfEntry] = [buffer(device, 'corner_of_entry', corners), buffer(device, 'triangle_of_entry', corners)];
-    const filling = { 0: words, 1: indices, 2: ends, 3: cornerOfEntry };
-    const table = [
-      step(device, this.#count, { 0: words, 1: indices, 2: ends }, corners),
-      ...scanSteps(device, this.#scan, ends, vertexCount),
-      step(device, this.#scatter, filling, corners),
-      step(device, this.#rank, { ...filling, 4: triangleOfEntry }, corners),
-    ];
-    const gathering = { 0: words, 1: indices, 2: mesh.vertices, 3: frames.buffer, 4: counts, 5: ends, 6: triangleOfEntry };
-    return new AverageOfMesh(ends, counts, table, step(device, this.#gather, gathering, vertexCount));
+    const counts = buffer(device, 'counts', 3);
+    const named: Named = { mesh: words, vertex_of_corner: indices };
+    const table = this.#table.on(device, { vertices: vertexCount, triangles: mesh.indexCount / 3 }, named);
+    const [ends, entries] = [named.ends!, named.triangle_of_entry!];
+    const gathering = { 0: words, 1: indices, 2: mesh.vertices, 3: frames.buffer, 4: counts, 5: ends, 6: entries };
+    return new AverageOfMesh(counts, table, step(device, this.#gather, gathering, vertexCount));
   }
 }
 
-type Recorded = (encoder: GPUCommandEncoder) => void;
-
 /** {@link Average} of one mesh, to be recorded as often as its vertices change. */
 export class AverageOfMesh {
-  readonly #ends: GPUBuffer;
-  readonly #table: Recorded[];
-  readonly #frames: Recorded;
+  readonly #table: Step[];
+  readonly #frames: Step;
 
   /**
    * Three words to copy from: vertices without a direction; vertices of both UV orientations; vertices of more than 32,768 triangles, which
@@ -101,13 +145,12 @@ export class AverageOfMesh {
   readonly counts: GPUBuffer;
 
   /** @internal */
-  constructor(ends: GPUBuffer, counts: GPUBuffer, table: Recorded[], frames: Recorded) {
-    [this.#ends, this.counts, this.#table, this.#frames] = [ends, counts, table, frames];
+  constructor(counts: GPUBuffer, table: Step[], frames: Step) {
+    [this.counts, this.#table, this.#frames] = [counts, table, frames];
   }
 
   /** Records everything. Once at least, and after a change of indices. */
   record(encoder: GPUCommandEncoder): void {
-    encoder.clearBuffer(this.#ends);
     for (const record of this.#table) record(encoder);
     this.recordFrames(encoder);
   }

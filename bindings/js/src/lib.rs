@@ -5,6 +5,8 @@
 #![allow(unsafe_code, reason = "functions are exported under the names that JavaScript calls")]
 
 #[cfg(feature = "full")]
+mod elsewhere;
+#[cfg(feature = "full")]
 mod encode;
 #[cfg(feature = "full")]
 mod frames;

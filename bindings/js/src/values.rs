@@ -16,6 +16,8 @@ pub struct Values {
     pub codes: Vec<u8>,
     /// Results that are floats, 4 or 3 per corner.
     pub floats: Vec<f32>,
+    /// Of each vertex the first that equals it.
+    pub welded: Vec<u32>,
     pub split: VertexSplit,
     pub frames: Frames,
     /// Plans, and places where others may go.

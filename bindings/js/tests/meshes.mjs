@@ -30,3 +30,28 @@ export function grid(columns, rows) {
   const indices = Array.from({ length: columns * rows }, (_, at) => square(at)).flat();
   return [Float32Array.of(...positions, 0, 0, 0), Float32Array.of(...normals, 0, 0, 1), Float32Array.of(...uvs, 0, 0), Uint32Array.from(indices)];
 }
+
+/** A grid with UVs that mirror in stripes. */
+export function seams() {
+  const mesh = grid(60, 40);
+  mesh[2] = mesh[2].map((x, at) => (at % 2 ? x : Math.abs((8 * x) % 2 - 1)));
+  return mesh;
+}
+
+/** Random triangles between few places, some of them degenerate. */
+export function soup(triangles, seed) {
+  let state = seed;
+  const below = (n) => (state = (Math.imul(state, 1_664_525) + 1_013_904_223) >>> 0) % n;
+  const [places, values] = [triangles >> 1, [0, -0, 1, -1, 0.5, 3, 1e-3]];
+  const floats = (width) => Float32Array.from({ length: width * places }, () => values[(below(2 ** 31) >>> 8) % values.length]);
+  return [floats(3), floats(3), floats(2), Uint32Array.from({ length: 3 * triangles }, () => (below(2 ** 31) >>> 8) % places)];
+}
+
+/** A grid some of whose triangles have two equal corners, and some UVs without area. */
+export function degenerates() {
+  const mesh = grid(40, 30);
+  const [, , uvs, indices] = mesh;
+  for (let at = 0; at < indices.length; at += 3 * 37) indices[at + 1] = indices[at];
+  for (let at = 5; at < indices.length; at += 3 * 53) for (const corner of [at, at + 1]) uvs.set([0.5, 0.5], 2 * indices[corner]);
+  return mesh;
+}

@@ -5,6 +5,7 @@ import { tangents as transform } from 'darboux/gltf-transform';
 import * as mikktspace from 'darboux/mikktspace';
 import { generateTangents, ready, type MikkTSpaceOptions } from 'darboux/tangents';
 import { computeTangents } from 'darboux/three';
+import { generateTangents as onGpu, openDevice, shaders, type GpuTangents } from 'darboux/webgpu';
 import type { Document } from '@gltf-transform/core';
 import type { SphereGeometry } from 'three';
 import { computeMikkTSpaceTangents } from 'three/addons/utils/BufferGeometryUtils.js';
@@ -35,6 +36,16 @@ export async function adapters(document: Document, sphere: SphereGeometry): Prom
   await mikktspace.ready;
   computeMikkTSpaceTangents(sphere, mikktspace);
   return computeTangents(sphere, { uv: 'uv1', negateSign: false, method: 'angle-area' });
+}
+
+export async function tangentsOnGpu(buffer: GPUBuffer): Promise<number> {
+  const device = await openDevice();
+  const { cornersOfCpu }: GpuTangents = await onGpu(device, floats, floats, floats, null, { returnReport: true });
+  const tangents: Float32Array<ArrayBuffer> = await onGpu(device, floats, floats, floats, null, { mode: 'corrected', threshold: 60, buffer });
+  // @ts-expect-error: shaders have one method
+  await onGpu(device, floats, floats, floats, null, { method: 'lengyel' });
+  const texts: readonly string[] = shaders.scan;
+  return cornersOfCpu + tangents.length + texts.length;
 }
 
 export { diamond, largest, loaded, octahedral, sources, tangents };

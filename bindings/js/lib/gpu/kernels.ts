@@ -13,7 +13,7 @@ const MAX_TURNS = 2 ** 15;
 const SIZES = { WORKGROUP, VALUES_PER_THREAD, BLOCK, MAX_GROUPS, MAX_TURNS };
 
 /** GPUBufferUsage, which is there only where WebGPU is. */
-export const USAGE = { COPY_SRC: 4, COPY_DST: 8, UNIFORM: 64, STORAGE: 128, INDIRECT: 256 } as const;
+export const USAGE = { MAP_READ: 1, COPY_SRC: 4, COPY_DST: 8, UNIFORM: 64, STORAGE: 128, INDIRECT: 256 } as const;
 
 /** A shader of files that are read one after the other. */
 export function module(device: GPUDevice, files: readonly string[]): GPUShaderModule {

@@ -32,12 +32,14 @@ export function list(device: GPUDevice, label: string, room: number): List {
 /** Such a kernel with its buffers. */
 export interface RealStep {
   record: Step;
-  /** Records a copy of the number of items that it was unsure of. */
+  /** The items that it was unsure of. */
+  list: GPUBuffer;
+  /** Records a copy of their number. */
   count: List['count'];
 }
 
 export function realStep(device: GPUDevice, kernel: GPUComputePipeline, buffers: Buffers, items: number): RealStep {
   const unsure = list(device, 'unsure', items);
   const run = step(device, kernel, { ...buffers, [LIST]: unsure.items }, items);
-  return { record: (encoder) => [unsure.clear, run].forEach((step) => step(encoder)), count: unsure.count };
+  return { record: (encoder) => [unsure.clear, run].forEach((step) => step(encoder)), list: unsure.items, count: unsure.count };
 }

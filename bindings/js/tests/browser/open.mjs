@@ -2,6 +2,7 @@
 
 import { existsSync } from 'node:fs';
 import { basename } from 'node:path';
+import { fileURLToPath } from 'node:url';
 import { build } from 'esbuild';
 import { chromium } from 'playwright-core';
 
@@ -16,14 +17,24 @@ const executablePath = process.env.CHROMIUM ?? '/usr/bin/chromium';
 /** Why there can be no page, if so. Continuous integration has to have one. */
 export const skip = existsSync(executablePath) || process.env.CI !== undefined ? false : `there is no Chromium at ${executablePath}`;
 
+/** Modules of the tests' own, imported as 'text:NAME'. */
+const ofTexts = (texts) => ({
+  name: 'texts',
+  setup: (build) => {
+    build.onResolve({ filter: /^text:/ }, ({ path }) => ({ path: path.slice('text:'.length), namespace: 'text' }));
+    build.onLoad({ filter: /.*/, namespace: 'text' }, ({ path }) => ({ contents: texts[path], resolveDir: fileURLToPath(new URL('.', import.meta.url)) }));
+  },
+});
+
 /** Bundles a module, opens a page, and has the module there as `tested`. */
-export async function open(module) {
+export async function open(module, texts = {}) {
   const { outputFiles } = await build({
     entryPoints: [module],
     bundle: true,
     splitting: true,
     format: 'esm',
     external: ['node:*'],
+    plugins: [ofTexts(texts)],
     outdir: '/',
     write: false,
     logLevel: 'error',

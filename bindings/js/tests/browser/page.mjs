@@ -9,7 +9,8 @@ import { Average, Planner } from 'darboux/webgpu';
 import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { computeMikkTSpaceTangents } from 'three/addons/utils/BufferGeometryUtils.js';
-import { grid, mirrored } from '../meshes.mjs';
+import { grid, mirrored, seams } from '../meshes.mjs';
+import { gpu } from './gpu.mjs';
 
 export { generateTangents, ready } from 'darboux/tangents';
 export const { Plan } = darboux;
@@ -128,37 +129,6 @@ export function standardMaterial() {
   };
 }
 
-/** A device of WebGPU, its errors, and buffers of it; none where there is no adapter. */
-async function gpu() {
-  const adapter = await navigator.gpu?.requestAdapter();
-  if (!adapter) return null;
-  const device = await adapter.requestDevice();
-  const errors = [];
-  device.addEventListener('uncapturederror', ({ error }) => errors.push(error.message));
-  const { STORAGE, COPY_DST, COPY_SRC, MAP_READ } = GPUBufferUsage;
-  const filled = (array) => {
-    const buffer = device.createBuffer({ size: 4 * Math.ceil(array.byteLength / 4), usage: STORAGE | COPY_DST | COPY_SRC });
-    device.queue.writeBuffer(buffer, 0, array);
-    return buffer;
-  };
-  /** Records, and reads the buffers' words. */
-  const read = async (record, buffers) => {
-    const encoder = device.createCommandEncoder();
-    record(encoder);
-    const copies = buffers.map((buffer) => {
-      const copy = device.createBuffer({ size: buffer.size, usage: COPY_DST | MAP_READ });
-      encoder.copyBufferToBuffer(buffer, 0, copy, 0, buffer.size);
-      return copy;
-    });
-    device.queue.submit([encoder.finish()]);
-    return Promise.all(copies.map(async (copy) => {
-      await copy.mapAsync(GPUMapMode.READ);
-      return new Uint32Array(copy.getMappedRange().slice(0));
-    }));
-  };
-  return { device, errors, filled, read };
-}
-
 /** Tangents of a grid by WebGPU and by the CPU, per vertex, with one vertex more that nothing uses; none where there is no adapter. */
 export async function averages(indexFormat) {
   const found = await gpu();
@@ -228,12 +198,4 @@ export async function refusals() {
   return [said({ per: 'vertex' }), said({ positions: part(2) }), said({ tangents: part(8) }), said({}), found.errors];
 }
 
-const MESHES = {
-  waves: () => grid(60, 40),
-  /** With UVs that mirror in stripes. */
-  seams: () => {
-    const mesh = grid(60, 40);
-    mesh[2] = mesh[2].map((x, at) => (at % 2 ? x : Math.abs((8 * x) % 2 - 1)));
-    return mesh;
-  },
-};
+const MESHES = { waves: () => grid(60, 40), seams };
