@@ -4,9 +4,8 @@ use std::path::PathBuf;
 use std::sync::mpsc::Sender;
 
 use darboux::Cancel;
-use darboux_io::gltf::{
-    self, LoadOptions, NormalsOptions, Progress, SaveOptions, TangentEncoding, TangentsOptions,
-};
+use darboux_io::SaveOptions;
+use darboux_io::gltf::{self, LoadOptions, NormalsOptions, Progress, TangentEncoding, TangentsOptions};
 use pyo3::exceptions::{PyIndexError, PyOSError, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};

@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use darboux::{Mesh, Scratch, TangentOptions, Tangents, generate_tangents_into};
-use darboux_io::gltf::{Document, LoadOptions, SaveOptions, TangentsOptions, add_tangents};
+use darboux_io::SaveOptions;
+use darboux_io::gltf::{Document, LoadOptions, TangentsOptions, add_tangents};
 
 const RUNS: usize = 9;
 

@@ -35,7 +35,6 @@ pub use looks::{Alpha, Look, TextureUse, Wrap};
 pub use normals::{
     NormalsOptions, NormalsOutcome, NormalsSummary, PrimitiveNormals, WrittenNormals, add_normals,
 };
-pub use save::SaveOptions;
 pub use scene::PlacedMesh;
 pub use schema::{ComponentType, ElementType};
 pub use tangents::{

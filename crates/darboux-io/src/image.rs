@@ -14,9 +14,8 @@ use std::path::{Path, PathBuf};
 use png::{BitDepth, ColorType, Decoder, Encoder, Transformations};
 
 use crate::error::Fault;
-use crate::gltf::SaveOptions;
 use crate::staging::Staging;
-use crate::{Error, paths};
+use crate::{Error, SaveOptions, paths};
 use chunks::{Chunk, Chunks};
 
 /// A PNG of 8 or 16 bits per channel: grey with alpha, RGB or RGBA.

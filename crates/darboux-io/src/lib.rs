@@ -11,4 +11,4 @@ mod staging;
 
 pub use error::Error;
 pub use paths::{FileKind, readable};
-pub use staging::RunId;
+pub use staging::{RunId, SaveOptions};

@@ -25,6 +25,15 @@ struct Staged {
     replace: bool,
 }
 
+/// How a document or an image is written.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SaveOptions {
+    /// Replace an existing output; without, that is an error.
+    pub force: bool,
+    /// The run that this is a part of, if any.
+    pub run: Option<RunId>,
+}
+
 /// A run of many files. Those that it has not completed are named after it, so that what it left when it was killed is known for its.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct RunId(pub u64);

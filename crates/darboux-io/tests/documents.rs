@@ -4,10 +4,10 @@ use std::borrow::Cow;
 use std::fs;
 use std::path::Path;
 
-use darboux_io::Error;
 use darboux_io::gltf::{
-    ComponentType, Document, ElementType, Elements, IndexList, LoadOptions, NewAccessor, SaveOptions, Target,
+    ComponentType, Document, ElementType, Elements, IndexList, LoadOptions, NewAccessor, Target,
 };
+use darboux_io::{Error, SaveOptions};
 use serde_json::json;
 
 /// Odd but valid spelling, members that nothing here knows, and a buffer with one triangle: positions, then indices.

@@ -5,9 +5,9 @@ mod support;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use darboux_io::SaveOptions;
 use darboux_io::gltf::{
-    Document, LoadOptions, NormalsOptions, SaveOptions, TangentEncoding, TangentsOptions, add_normals,
-    add_tangents,
+    Document, LoadOptions, NormalsOptions, TangentEncoding, TangentsOptions, add_normals, add_tangents,
 };
 use serde_json::{Value, json};
 use support::{BOTH, Builder, butterfly, run, run_with};

@@ -4,8 +4,7 @@ use std::num::NonZero;
 use std::path::PathBuf;
 
 use clap::{ArgGroup, Args};
-use darboux_io::RunId;
-use darboux_io::gltf::SaveOptions;
+use darboux_io::{RunId, SaveOptions};
 
 use crate::journal::new_run;
 

@@ -13,17 +13,8 @@ use super::layout::{Home, Layout};
 use super::pieces::{self, Piece};
 use super::resources::{Located, Reference, encode_path};
 use crate::error::Fault;
-use crate::staging::{RunId, Staging};
-use crate::{Error, FileKind, paths};
-
-/// How a document is written.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct SaveOptions {
-    /// Replace an existing output; without, that is an error.
-    pub force: bool,
-    /// The run that this is a part of, if any.
-    pub run: Option<RunId>,
-}
+use crate::staging::Staging;
+use crate::{Error, FileKind, SaveOptions, paths};
 
 impl Document {
     /// The document as a GLB that holds all its buffers and images, but for remote and missing ones.
