@@ -8,7 +8,8 @@ use std::path::Path;
 
 use clap::ValueEnum;
 use darboux::TangentOptions;
-use darboux_io::gltf::{Document, Pair, Progress, SaveOptions, TangentsOptions, add_tangents, pair_tangents};
+use darboux_io::SaveOptions;
+use darboux_io::gltf::{Document, Pair, Progress, TangentsOptions, add_tangents, pair_tangents};
 use serde::Serialize;
 
 use crate::arguments::CompareArguments;
@@ -34,9 +35,34 @@ pub struct CompareReport {
     totals: Statistics,
     primitives: Vec<ComparedPrimitive>,
     worst: Vec<Place>,
+    verdict: Verdict,
     heat_map: Option<String>,
     within_tolerance: Option<bool>,
     warnings: Vec<String>,
+}
+
+/// What it comes to.
+#[derive(Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+enum Verdict {
+    /// Every corner has the same tangent and sign.
+    Identical,
+    /// But for rounding.
+    Close,
+    /// Anything else, or tangents in one of the two only.
+    Different,
+}
+
+impl Verdict {
+    fn new(totals: &Statistics, one_sided: bool) -> Self {
+        if one_sided || totals.different > 0 {
+            Self::Different
+        } else if totals.identical == totals.corners {
+            Self::Identical
+        } else {
+            Self::Close
+        }
+    }
 }
 
 /// Runs the command; gives its exit code.
@@ -124,6 +150,7 @@ fn compare(arguments: &CompareArguments, messages: &Messages) -> Result<CompareR
         method: arguments.method.and_then(|method| Some(method.to_possible_value()?.get_name().to_owned())),
         worst: statistics::worst(&pairs, arguments.worst),
         within_tolerance: arguments.tolerance.map(within),
+        verdict: Verdict::new(&totals, one_sided),
         totals,
         primitives,
         heat_map,

@@ -31,10 +31,22 @@ pub fn load(input: &Input, allow_outside: bool) -> Result<Document, String> {
 pub fn load_any(input: &Input, allow_outside: bool) -> Result<Document, String> {
     let options = LoadOptions { allow_outside };
     let document = match input {
+        Input::File(path) if path.is_file() && is_another_model(path) => {
+            return Err(format!(
+                "{input}: only glTF files are read here; export it as .glb from the program that made it (darboux view shows an OBJ as it is)"
+            ));
+        }
         Input::File(path) => Document::open(path, &options),
         Input::Stdin => Document::from_bytes(&input.to_string(), read_stdin()?, None, &options),
     };
     document.map_err(|error| error.to_string())
+}
+
+/// Whether a file's name is that of a model in another format.
+fn is_another_model(path: &Path) -> bool {
+    const OTHERS: [&str; 12] =
+        ["3ds", "abc", "blend", "dae", "fbx", "obj", "ply", "stl", "usd", "usda", "usdc", "usdz"];
+    path.extension().is_some_and(|extension| OTHERS.iter().any(|other| extension.eq_ignore_ascii_case(other)))
 }
 
 /// All of standard input.

@@ -15,7 +15,7 @@ use crate::jobs::{Job, Usage, word};
 use crate::messages::FileProgress;
 use crate::models::{load, save};
 use crate::normals;
-use crate::report::FileReport;
+use crate::report::{FileReport, Status};
 
 /// What the report says of a file.
 #[derive(Default, Serialize)]
@@ -108,14 +108,20 @@ impl Work for TangentsArguments {
     }
 
     fn total(files: &[FileReport<TangentsSummary>]) -> String {
-        let sum = |of: fn(&Totals) -> usize| {
-            files.iter().filter_map(|file| Some(of(&file.summary.now()?.tangents.totals))).sum::<usize>()
+        let sum = |of: fn(&Totals) -> usize,
+                   files: &mut dyn Iterator<Item = &FileReport<TangentsSummary>>| {
+            files.filter_map(|file| Some(of(&file.summary.now()?.tangents.totals))).sum::<usize>()
+        };
+        let (changed, same): (Vec<_>, Vec<_>) = files.iter().partition(|file| file.status == Status::Written);
+        let had = match sum(|totals| totals.written, &mut same.into_iter()) {
+            0 => String::new(),
+            had => format!(", {had} had the same before"),
         };
         format!(
-            "{} got tangents, {} kept, {} left alone",
-            counted(sum(|totals| totals.written), "primitive", "primitives"),
-            sum(|totals| totals.kept),
-            sum(|totals| totals.skipped),
+            "{} got tangents{had}, {} kept, {} left alone",
+            counted(sum(|totals| totals.written, &mut changed.into_iter()), "primitive", "primitives"),
+            sum(|totals| totals.kept, &mut files.iter()),
+            sum(|totals| totals.skipped, &mut files.iter()),
         )
     }
 }

@@ -193,6 +193,22 @@ fn missing_files_and_empty_folders_are_bad_input() {
 }
 
 #[test]
+fn another_format_is_called_so() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let model = folder.path().join("model.OBJ");
+    fs::write(&model, "v 0 0 0\n").expect("a file");
+    for command in ["tangents", "inspect", "normals"] {
+        let run = darboux(&[command, text(&model)]).exits(1);
+        assert!(
+            run.stderr.contains("model.OBJ: only glTF files are read here; export it as .glb"),
+            "{}",
+            run.stderr
+        );
+        assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
+    }
+}
+
+#[test]
 fn one_bad_file_does_not_stop_the_others() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let bad = folder.path().join("bad.glb");

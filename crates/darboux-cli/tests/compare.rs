@@ -39,6 +39,7 @@ fn a_file_is_identical_to_itself_and_to_its_method() {
         assert_eq!(totals["max"].as_f64(), Some(0.0));
         assert_eq!(totals["sign_flips"], 0);
         assert_eq!(report["worst"], Value::Array(Vec::new()));
+        assert_eq!((&report["verdict"], &totals["different"]), (&"identical".into(), &0.into()));
     }
 }
 
@@ -61,6 +62,7 @@ fn a_method_stands_for_the_file_that_it_would_write() {
     assert_eq!(bins.map(|bin| bin["corners"].as_u64().expect("a count")).sum::<u64>(), 3 * 7774);
     let worst = &files["worst"][0];
     assert_eq!(worst["angle"], totals["max"]);
+    assert_eq!(files["verdict"], "different");
 }
 
 #[test]
@@ -77,10 +79,15 @@ fn people_read_numbers_bars_and_places() {
         ", triangle ",
         ", corner ",
         ", at (",
+        "the tangents are not the same: 18,478 of 23,322 corners have others",
     ] {
         assert!(said.contains(part), "{part:?} is not in {said}");
     }
     assert_eq!(said.lines().filter(|line| line.contains(", triangle ")).count(), 2);
+    let itself = darboux(&["compare", text(&first), "--method", "mikktspace"]).exits(0).stdout;
+    assert!(
+        String::from_utf8_lossy(&itself).ends_with("the tangents are those of mikktspace, bit for bit\n")
+    );
 }
 
 #[test]

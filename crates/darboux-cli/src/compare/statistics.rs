@@ -6,6 +6,9 @@ use darboux::{CornerDifference, HISTOGRAM_ENDS, measure_tangents, triangle_area}
 use darboux_io::gltf::{Pair, PairedCorners, PrimitiveName};
 use serde::Serialize;
 
+/// Degrees up to which angles may be another order of sums, or fewer bits.
+pub const ROUNDING: f64 = 0.01;
+
 /// How two sets of tangents differ; angles in degrees.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Statistics {
@@ -15,6 +18,8 @@ pub struct Statistics {
     pub without_angle: usize,
     /// Corners without an angle that are not identical either.
     pub unknown: usize,
+    /// Corners further apart than [`ROUNDING`]: by the angle, the sign, or unknown.
+    pub different: usize,
     pub min: f64,
     pub median: f64,
     pub p95: f64,
@@ -36,13 +41,14 @@ impl Statistics {
     /// Of several primitives together.
     pub fn of<'a>(primitives: impl Iterator<Item = &'a PairedCorners>) -> Self {
         let (mut tangents, mut others) = (Vec::new(), Vec::new());
-        let (mut sum, mut area, mut unknown) = (0.0, 0.0, 0);
+        let (mut sum, mut area, mut unknown, mut different) = (0.0, 0.0, 0, 0);
         for corners in primitives {
             tangents.extend_from_slice(&corners.tangents[0]);
             others.extend_from_slice(&corners.tangents[1]);
             let (part, part_area) = area_weighted(corners);
             (sum, area) = (sum + part, area + part_area);
             unknown += differences(corners).filter(CornerDifference::is_unknown).count();
+            different += differences(corners).filter(is_more_than_rounding).count();
         }
         let found = measure_tangents(&tangents, &others).unwrap_or_default();
         let bins = HISTOGRAM_ENDS.into_iter().zip(found.histogram);
@@ -52,6 +58,7 @@ impl Statistics {
             sign_flips: found.sign_flips,
             without_angle: found.without_angle,
             unknown,
+            different,
             min: found.min,
             median: found.median,
             p95: found.p95,
@@ -72,6 +79,10 @@ impl Statistics {
 pub fn differences(corners: &PairedCorners) -> impl Iterator<Item = CornerDifference> {
     let [tangents, others] = &corners.tangents;
     tangents.iter().zip(others).map(|(a, b)| CornerDifference::between(*a, *b))
+}
+
+fn is_more_than_rounding(difference: &CornerDifference) -> bool {
+    difference.flips_sign || difference.is_unknown() || difference.angle > Some(ROUNDING)
 }
 
 /// The sum of the corners' angles times a third of their triangles' areas, and the sum of these areas.

@@ -4,9 +4,9 @@ use indicatif::HumanCount;
 
 use crate::batch::remarks;
 
-use super::CompareReport;
 use super::heat_map::{ENDS, TICKS};
-use super::statistics::{Place, Statistics};
+use super::statistics::{Place, ROUNDING, Statistics};
+use super::{CompareReport, Verdict};
 
 /// The longest bar of the histogram.
 const BAR: usize = 40;
@@ -40,7 +40,27 @@ pub fn described(report: &CompareReport) -> String {
              where UVs overlap, the worst\n"
         );
     }
-    text
+    text + "\n" + &verdict(report)
+}
+
+/// What it comes to, and what to do about it.
+fn verdict(report: &CompareReport) -> String {
+    let CompareReport { totals, first, method, .. } = report;
+    let whose = method.as_ref().map_or("the same".to_owned(), |method| format!("those of {method}"));
+    let advice = method.as_ref().map_or(String::new(), |method| {
+        format!("; darboux tangents {first} --method {method} --overwrite makes them so")
+    });
+    let [different, corners] = [totals.different, totals.corners].map(|count| HumanCount(count as u64));
+    match report.verdict {
+        Verdict::Identical => format!("the tangents are {whose}, bit for bit\n"),
+        Verdict::Close => format!("the tangents are {whose}, to {ROUNDING} degrees\n"),
+        Verdict::Different if totals.different == 0 => {
+            "the tangents are the same where both files have them\n".to_owned()
+        }
+        Verdict::Different => {
+            format!("the tangents are not {whose}: {different} of {corners} corners have others{advice}\n")
+        }
+    }
 }
 
 fn summed_up(statistics: &Statistics) -> String {
