@@ -25,7 +25,8 @@ usage: cargo xtask <task>
   validate      check the command's outputs for all models with independent tools (needs node and npm)
   bench [...]   time every engine on every mesh; see bench --help
   bench --gpu   time everything on every adapter: [--quick] [TRIANGLES ...]
-  gpu [...]     on a machine with a GPU: all its tests, report and times, recorded in benches/record/gpu; options as of bench --gpu
+  gpu [...]     on a machine with a GPU: its tests, report and times, recorded in benches/record/gpu: [pack] [--out FOLDER]
+                [devices] [tests] [command] [report] [times] [long] [options of bench --gpu]
   dist-c        make the folder for users of C and C++; its path is the last line (Linux: needs ld, objcopy, nm and ar)
   dist-js       make the folder of the npm package; its path is the last line (needs node, npm and rustup)
   dist-viewer   make the viewer's page, which darboux view serves; its folder is the last line (needs what dist-js needs)
@@ -43,7 +44,7 @@ fn main() -> ExitCode {
         ["validate"] => validate::all_models(validate::WithoutNpm::Fail),
         ["bench", "--gpu", ref options @ ..] => bench::bench_gpu(options),
         ["bench", ref options @ ..] => bench::bench(options),
-        ["gpu", ref options @ ..] => gpu::record(options),
+        ["gpu", ref words @ ..] => gpu::Wanted::new(words).and_then(|wanted| gpu::record(&wanted)),
         ["dist-c"] => dist_c::make(),
         ["dist-js"] => dist_js::make(),
         ["dist-viewer"] => dist_viewer::make(),

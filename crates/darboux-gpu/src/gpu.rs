@@ -101,11 +101,19 @@ impl Gpu {
         Self::of(&adapter).await
     }
 
-    /// All adapters, software ones included.
+    /// All adapters, software ones only where there are no others.
     ///
     /// Errors: there is none, or one gives no device.
     pub async fn open_all() -> Result<Vec<Self>, GpuError> {
-        let gpus = Self::list().await.into_iter().map(|(_, gpu)| gpu).collect::<Result<Vec<_>, _>>()?;
+        let mut adapters = instance().enumerate_adapters(BACKENDS).await;
+        let is_software = |adapter: &Adapter| adapter.get_info().device_type == DeviceType::Cpu;
+        if !adapters.iter().all(is_software) {
+            adapters.retain(|adapter| !is_software(adapter));
+        }
+        let mut gpus = Vec::new();
+        for adapter in &adapters {
+            gpus.push(Self::of(adapter).await?);
+        }
         if gpus.is_empty() { Err(GpuError::NoAdapter) } else { Ok(gpus) }
     }
 

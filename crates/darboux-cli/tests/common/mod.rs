@@ -51,14 +51,20 @@ pub fn darboux_without_adapters<A: AsRef<std::ffi::OsStr>>(arguments: &[A]) -> R
 
 /// Runs `darboux` with variables of the environment.
 pub fn darboux_with<A: AsRef<std::ffi::OsStr>>(variables: &[(&str, &str)], arguments: &[A]) -> Run {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_darboux"));
+    let mut command = program();
     command.envs(variables.iter().copied());
     run(command, arguments, b"")
 }
 
 /// Runs `darboux` with `stdin` on standard input.
 pub fn darboux_reading<A: AsRef<std::ffi::OsStr>>(arguments: &[A], stdin: &[u8]) -> Run {
-    run(Command::new(env!("CARGO_BIN_EXE_darboux")), arguments, stdin)
+    run(program(), arguments, stdin)
+}
+
+/// The command as it was built with this test, or where both were moved to.
+fn program() -> Command {
+    let moved = std::env::var_os("DARBOUX_PROGRAM");
+    Command::new(moved.unwrap_or_else(|| env!("CARGO_BIN_EXE_darboux").into()))
 }
 
 fn run<A: AsRef<std::ffi::OsStr>>(mut command: Command, arguments: &[A], stdin: &[u8]) -> Run {
