@@ -6,10 +6,11 @@ use wgpu::{
     ShaderModule, ShaderModuleDescriptor, ShaderSource,
 };
 
-/// Threads of a group.
-pub(crate) const WORKGROUP: u32 = if cfg!(small_limits) { 2 } else { 64 };
+/// Threads of a group. In the stress build as many as Mesa's software adapter runs side by side: with fewer, it runs lanes of no thread, too,
+/// which read zeros, and loops that wait for something else end after 65,535 turns.
+pub(crate) const WORKGROUP: u32 = if cfg!(small_limits) { 8 } else { 64 };
 /// Values that one thread of a prefix sum takes.
-pub(crate) const VALUES_PER_THREAD: u32 = 4;
+pub(crate) const VALUES_PER_THREAD: u32 = if cfg!(small_limits) { 2 } else { 4 };
 /// Values of a block of a prefix sum.
 pub(crate) const BLOCK: u32 = WORKGROUP * VALUES_PER_THREAD;
 /// Groups that an indirect dispatch asks for at most, in its one row.
