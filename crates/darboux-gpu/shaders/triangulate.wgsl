@@ -4,8 +4,6 @@
 @group(0) @binding(3) var<storage, read> welded: array<u32>;
 // NONE at degenerate triangles, which have no neighbours.
 @group(0) @binding(4) var<storage, read_write> welded_corners: array<u32>;
-// Vertices that the CPU has to decide.
-@group(0) @binding(5) var<storage, read_write> is_left: array<atomic<u32>>;
 
 fn position(vertex: u32) -> vec3u {
     let word = vertex * mesh.vertex_stride + mesh.position;
@@ -32,9 +30,6 @@ fn triangulate(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgr
         let b = position(own.y);
         let c = position(own.z);
         if are_equal(a, b) || are_equal(b, c) || are_equal(c, a) {
-            atomicStore(&is_left[corners.x], 1u);
-            atomicStore(&is_left[corners.y], 1u);
-            atomicStore(&is_left[corners.z], 1u);
             corners = vec3u(NONE);
         }
     }

@@ -149,7 +149,7 @@ const SET_ASIDE: &[Pass] = &[Pass::Run(run(
     &TRIANGULATE,
     "triangulate",
     Each::Triangle,
-    &[(0, "mesh"), (1, "indices"), (2, "vertices"), (3, "welded"), (4, "vertex_of_corner"), (5, "is_left")],
+    &[(0, "mesh"), (1, "indices"), (2, "vertices"), (3, "welded"), (4, "vertex_of_corner")],
 ))];
 
 /// The triangles at each vertex, ascending: counted, a prefix sum, scattered, ranked.

@@ -13,7 +13,7 @@ pub use super::fans::UNDECIDED;
 ///
 /// `mesh`: indexed triangles, finite. `welded`: the first vertex that equals each vertex, the signs of zeros included. `out`: the tangents
 /// of vertices whose triangles are one group and one subgroup; [`UNDECIDED`] signs at all corners of the others, among which are those of
-/// degenerate and of UV-degenerate triangles, and those without a usable tangent.
+/// UV-degenerate triangles and those without a usable tangent, and at the corners of degenerate triangles.
 /// Returns how many corners were decided here, too.
 pub fn complete(
     mesh: &Mesh<'_>,

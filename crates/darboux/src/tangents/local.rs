@@ -1,4 +1,5 @@
-//! The general path for part of a mesh: the vertices that whole fans leave undecided, with all triangles around them.
+//! The general path for part of a mesh: what whole fans leave undecided, which are vertices, with all triangles around them, or corners of
+//! degenerate triangles, with one triangle at each that they copy.
 
 use crate::cancel::Stop;
 use crate::{Frame, Mesh};
@@ -8,10 +9,10 @@ use super::fans::{Fans, UNDECIDED, triangle_count};
 use super::mikktspace::{HalfEdge, Part, Topology};
 use super::{Report, TangentOptions};
 
-/// The faces with an undecided vertex, in their order, as a mesh of their own.
+/// The faces with an undecided corner, in their order, as a mesh of their own.
 ///
-/// What decides about a vertex is there: a UV-degenerate triangle, whose group another vertex can decide, leaves all its vertices
-/// undecided.
+/// What decides about a corner is there: a UV-degenerate triangle, whose group another vertex can decide, leaves all its vertices
+/// undecided; where a degenerate triangle's corner copies a decided one, so does a face that has that.
 #[derive(Debug)]
 pub(crate) struct UndecidedPart {
     /// The corner of the whole mesh at each of the part's, and its vertex.
@@ -19,8 +20,8 @@ pub(crate) struct UndecidedPart {
     indices: Vec<u32>,
     /// The number of corners of each face.
     sizes: Vec<u32>,
-    /// Of each corner: its vertex is undecided.
-    counts: Vec<bool>,
+    /// Of each corner.
+    is_undecided: Vec<bool>,
     topology: Topology,
 }
 
@@ -41,15 +42,16 @@ impl UndecidedPart {
         let vertex = |&corner: &u32| mesh.vertex_of_corner(corner as usize) as u32;
         let indices: Vec<u32> = corners.iter().map(vertex).collect();
         let is_undecided = |&corner: &u32| tangents[corner as usize][3] == UNDECIDED;
-        let counts: Vec<bool> = corners.iter().map(is_undecided).collect();
+        let is_undecided: Vec<bool> = corners.iter().map(is_undecided).collect();
         let names = fans.names(mesh, &corners);
+        let counts = all_undecided(&names, &is_undecided);
         let last_stretches = stretches_within(&corners, &fans.last_stretches(mesh));
         let part = Part { names: &names, counts: &counts, last_stretches: &last_stretches };
         let topology = Topology::of_part(&mesh.with_other_faces(&indices, &sizes), &part, options);
-        Some(Self { corners, indices, sizes, counts, topology })
+        Some(Self { corners, indices, sizes, is_undecided, topology })
     }
 
-    /// Writes the tangents of the undecided vertices; `out` has those of all others. Returns the report of the part.
+    /// Writes the tangents of the undecided corners; `out` has those of all others. Returns the report of the part.
     pub fn decide(&self, mesh: &Mesh<'_>, stop: &Stop, out: &mut [[f32; 4]]) -> Report {
         let part = mesh.with_other_faces(&self.indices, &self.sizes);
         let (frames, report) = self.topology.frames_of_part(&part, self.known(out), stop);
@@ -84,21 +86,22 @@ impl UndecidedPart {
     /// What is known of the part's corners, of which nothing reads the bitangent and the magnitudes; what no group reaches has the
     /// default.
     fn known(&self, out: &[[f32; 4]]) -> Vec<Frame> {
-        let known = |(&corner, &counts): (&u32, &bool)| {
+        let known = |(&corner, &is_undecided): (&u32, &bool)| {
             let [x, y, z, sign] = out[corner as usize];
-            if counts { DEFAULT_FRAME } else { Frame { tangent: [x, y, z], sign, ..DEFAULT_FRAME } }
+            if is_undecided { DEFAULT_FRAME } else { Frame { tangent: [x, y, z], sign, ..DEFAULT_FRAME } }
         };
-        self.corners.iter().zip(&self.counts).map(known).collect()
+        self.corners.iter().zip(&self.is_undecided).map(known).collect()
     }
 
-    /// Calls `write` with the corners of undecided vertices.
+    /// Calls `write` with the undecided corners.
     fn write(&self, frames: &[Frame], mut write: impl FnMut(usize, Frame)) {
-        let all = self.corners.iter().zip(frames).zip(&self.counts);
-        all.filter(|(_, counts)| **counts).for_each(|((&corner, frame), _)| write(corner as usize, *frame));
+        let all = self.corners.iter().zip(frames).zip(&self.is_undecided);
+        let undecided = all.filter(|(_, is_undecided)| **is_undecided);
+        undecided.for_each(|((&corner, frame), _)| write(corner as usize, *frame));
     }
 }
 
-/// Decides the undecided vertices in `out`, which has the tangents of all others, and makes the report of the whole mesh.
+/// Decides the undecided corners in `out`, which has the tangents of all others, and makes the report of the whole mesh.
 pub(super) fn decide(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
@@ -123,6 +126,15 @@ pub(super) fn decide_frames(
     let part = UndecidedPart::new(mesh, options, fans, tangents);
     let report = part.map(|part| part.decide_frames(mesh, stop, tangents, out)).unwrap_or_default();
     Report { triangles: triangle_count(mesh), ..report }
+}
+
+/// Of each corner, whose vertex has a name: whether all of the vertex's are undecided.
+fn all_undecided(names: &[u32], is_undecided: &[bool]) -> Vec<bool> {
+    let mut of_name = vec![true; names.len()];
+    for (&name, is_undecided) in names.iter().zip(is_undecided) {
+        of_name[name as usize] &= is_undecided;
+    }
+    names.iter().map(|&name| of_name[name as usize]).collect()
 }
 
 /// Edges of the mesh as edges of the part that has these of its corners.

@@ -231,6 +231,7 @@ impl LastRun<'_> {
     }
 }
 
-fn are_degenerate([a, b, c]: [[f32; 3]; 3]) -> bool {
+/// True for triangles with two equal positions.
+pub(super) fn are_degenerate([a, b, c]: [[f32; 3]; 3]) -> bool {
     a == b || b == c || c == a
 }

@@ -5,14 +5,15 @@ use crate::tangents::Mode;
 use crate::weld::{Bounds, Point};
 
 use super::cut::UNCUT;
-use super::last_run::{LastRun, TailCells};
+use super::last_run::{LastRun, TailCells, are_degenerate};
 use super::{Fans, UNDECIDED, source};
 
 impl Fans {
     /// As after [`Fans::run`].
     ///
     /// `mesh`: of triangles, with indices. `welded`: the first vertex that equals each of its vertices. `out`: the tangents of decided vertices;
-    /// [`UNDECIDED`] signs at all corners of the others, among which are those of degenerate and of UV-degenerate triangles.
+    /// [`UNDECIDED`] signs at all corners of the others, among which are those of UV-degenerate triangles, and at the corners of degenerate
+    /// triangles.
     pub fn resume(&mut self, mesh: &Mesh<'_>, mode: Mode, welded: Vec<u32>, out: &mut [[f32; 4]]) {
         self.weld.take(welded);
         self.special.clear();
@@ -24,6 +25,36 @@ impl Fans {
         if mode != Mode::Corrected && mesh.corner_count() > 0 {
             self.leave_last_edges_of_all(mesh, out);
         }
+        self.add_sources(mesh, out);
+    }
+
+    /// Lists triangles with decided corners at those vertices where undecided corners of degenerate triangles copy them.
+    fn add_sources(&mut self, mesh: &Mesh<'_>, out: &[[f32; 4]]) {
+        let source = source(mesh, &self.weld, &UNCUT);
+        let corners = |triangle: u32| 3 * triangle..3 * triangle + 3;
+        let is_undecided = |corner: &u32| out[*corner as usize][3] == UNDECIDED;
+        let position = |vertex| source.position(vertex);
+        let is_degenerate = |triangle: &&u32| are_degenerate(source.triangle(**triangle).map(position));
+        let degenerate = self.special.undecided.iter().filter(is_degenerate);
+        let mut wanted = degenerate.flat_map(|&triangle| corners(triangle)).filter(is_undecided).peekable();
+        if wanted.peek().is_none() {
+            return;
+        }
+        let mut is_wanted = vec![false; self.weld.count];
+        wanted.for_each(|corner| is_wanted[source.vertex(corner) as usize] = true);
+        let mut next = self.special.undecided.iter().peekable();
+        let mut added = Vec::new();
+        for triangle in 0..source.count() as u32 {
+            let is_listed = next.next_if_eq(&&triangle).is_some();
+            for corner in corners(triangle).filter(|corner| !is_undecided(corner)) {
+                if std::mem::take(&mut is_wanted[source.vertex(corner) as usize]) && !is_listed {
+                    added.push(triangle);
+                }
+            }
+        }
+        self.special.undecided.append(&mut added);
+        self.special.undecided.sort_unstable();
+        self.special.undecided.dedup();
     }
 
     /// Positions are looked at vertex by vertex: by corners it would take as long as a run.
