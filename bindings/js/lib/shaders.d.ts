@@ -27,10 +27,12 @@ declare module 'darboux-gpu/passes' {
   }
   type Pass = { clear: string } | { scan: string; each: Each } | Run;
 
+  /** What every shader's text begins with: threads of a group, values of a prefix sum's thread and block, limits of dispatches and loops. */
+  const constants: Readonly<Record<'WORKGROUP' | 'VALUES_PER_THREAD' | 'BLOCK' | 'MAX_GROUPS' | 'MAX_TURNS', number>>;
   /** Words for each. */
   const buffers: Readonly<Record<string, readonly [Each, number]>>;
   const vertices: readonly Pass[];
   const adjacency: readonly Pass[];
   const triangles: readonly Pass[];
-  export { adjacency, buffers, triangles, vertices, type Each, type Entry, type Pass, type Run };
+  export { adjacency, buffers, constants, triangles, vertices, type Each, type Entry, type Pass, type Run };
 }

@@ -25,17 +25,19 @@ pub(crate) fn module(device: &Device, files: &[&str]) -> ShaderModule {
     device.create_shader_module(ShaderModuleDescriptor { label: Some("darboux"), source })
 }
 
+/// What every shader's text begins with.
+pub(crate) const CONSTANTS: [(&str, u32); 5] = [
+    ("WORKGROUP", WORKGROUP),
+    ("VALUES_PER_THREAD", VALUES_PER_THREAD),
+    ("BLOCK", BLOCK),
+    ("MAX_GROUPS", MAX_GROUPS),
+    ("MAX_TURNS", MAX_TURNS),
+];
+
 /// The text of such a shader.
 pub(crate) fn text(files: &[&str]) -> String {
-    let sizes = [
-        ("WORKGROUP", WORKGROUP),
-        ("VALUES_PER_THREAD", VALUES_PER_THREAD),
-        ("BLOCK", BLOCK),
-        ("MAX_GROUPS", MAX_GROUPS),
-        ("MAX_TURNS", MAX_TURNS),
-    ];
-    let sizes = sizes.map(|(name, value)| format!("const {name}: u32 = {value}u;\n")).concat();
-    [&sizes, &files.join("\n")].map(String::as_str).concat()
+    let constants = CONSTANTS.map(|(name, value)| format!("const {name}: u32 = {value}u;\n")).concat();
+    [&constants, &files.join("\n")].map(String::as_str).concat()
 }
 
 /// One entry point of a shader.

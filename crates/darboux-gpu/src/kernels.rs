@@ -1,11 +1,12 @@
 //! What packages of other languages read: `shaders/kernels.json` and `shaders/mikktspace.json` have the files of each kernel, to be read one
-//! after the other, after the constants of [`crate::kernel::text`]; `shaders/passes.json` has the lists of [`crate::passes`].
+//! after the other, after the constants; these, and the lists of [`crate::passes`], `shaders/passes.json` has.
 
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
 use crate::average::{self, SECOND_BUFFER, Search};
+use crate::kernel::CONSTANTS;
 use crate::passes::{BUFFERS, Each, Kernel, OF_ADJACENCY, OF_VERTICES, Pass, Run, of_triangles};
 use crate::plan::{GATHER, REPAIR, TERMS, WRITE};
 use crate::reals::{Arithmetic, files};
@@ -92,7 +93,9 @@ fn list_of_passes() -> String {
         BUFFERS.iter().map(|(name, each, words)| format!("    {name:?}: [{}, {words}]", word(*each)));
     let list = |passes: &[Pass]| passes.iter().map(|pass| format!("    {}", json(pass))).collect::<Vec<_>>();
     let (vertices, adjacency, triangles) = (list(OF_VERTICES), list(OF_ADJACENCY), list(&of_triangles()));
-    let mut text = format!("{{\n  \"buffers\": {{\n{}\n  }}", buffers.collect::<Vec<_>>().join(",\n"));
+    let constants = CONSTANTS.map(|(name, value)| format!("{name:?}: {value}")).join(", ");
+    let mut text = format!("{{\n  \"constants\": {{ {constants} }},\n");
+    write!(text, "  \"buffers\": {{\n{}\n  }}", buffers.collect::<Vec<_>>().join(",\n")).expect("room");
     for (name, passes) in [("vertices", vertices), ("adjacency", adjacency), ("triangles", triangles)] {
         write!(text, ",\n  {name:?}: [\n{}\n  ]", passes.join(",\n")).expect("room");
     }
@@ -130,6 +133,7 @@ fn word(each: Each) -> &'static str {
 
 /// With `WRITE_LISTS` in the environment the files are written.
 #[test]
+#[cfg_attr(small_limits, ignore = "other constants")]
 fn the_lists_for_other_languages_are_current() {
     let lists = [
         ("kernels.json", list_of_files(of_moving())),

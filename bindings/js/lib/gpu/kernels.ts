@@ -1,23 +1,15 @@
 // Compute pipelines, and how many groups of threads they need: the counterpart of crates/darboux-gpu/src/kernel.rs.
 
-/** Threads of a group. */
-const WORKGROUP = 64;
-const VALUES_PER_THREAD = 4;
-/** Values of a block of a prefix sum. */
-const BLOCK = WORKGROUP * VALUES_PER_THREAD;
-/** Groups that an indirect dispatch asks for at most, in its one row. */
-const MAX_GROUPS = 65_535;
-/** Turns that one thread's loops take at most: drivers end what runs too long. */
-const MAX_TURNS = 2 ** 15;
+import { constants } from 'darboux-gpu/passes';
 
-const SIZES = { WORKGROUP, VALUES_PER_THREAD, BLOCK, MAX_GROUPS, MAX_TURNS };
+const { WORKGROUP, VALUES_PER_THREAD, BLOCK } = constants;
 
 /** GPUBufferUsage, which is there only where WebGPU is. */
 export const USAGE = { MAP_READ: 1, COPY_SRC: 4, COPY_DST: 8, UNIFORM: 64, STORAGE: 128, INDIRECT: 256 } as const;
 
 /** A shader of files that are read one after the other. */
 export function module(device: GPUDevice, files: readonly string[]): GPUShaderModule {
-  const sizes = Object.entries(SIZES).map(([name, value]) => `const ${name}: u32 = ${value}u;\n`);
+  const sizes = Object.entries(constants).map(([name, value]) => `const ${name}: u32 = ${value}u;\n`);
   return device.createShaderModule({ label: 'darboux', code: [...sizes, files.join('\n')].join('') });
 }
 

@@ -69,15 +69,20 @@ export async function ofWords([words, indices], { faces, ...options }) {
   return { tangents: Array.from(new Uint32Array(tangents.buffer)), inTriangles: await compared([...floats, triangles(indices, faces)], options) };
 }
 
-/** Whether a buffer of the caller's has what is returned. */
-export async function intoBuffer(name) {
+/** Whether buffers of the caller's have what is returned, and nothing else. */
+export async function intoBuffers(names) {
   const { device, errors, filled, read } = await gpu();
-  const mesh = MESHES[name]();
-  const buffer = filled(new Float32Array(4 * mesh[3].length + 4).fill(7));
-  const tangents = await generateTangents(device, ...mesh, { buffer });
-  const [words] = await read(() => {}, [buffer]);
-  const [rest, written] = [words.slice(4 * mesh[3].length), words.slice(0, 4 * mesh[3].length)];
-  return { differing: differing(written, new Uint32Array(tangents.buffer)), rest: Array.from(new Float32Array(rest.buffer)), errors };
+  const found = [];
+  for (const name of names) {
+    const mesh = MESHES[name]();
+    const length = 4 * mesh[3].length;
+    const buffer = filled(new Float32Array(length + 4).fill(7));
+    const tangents = await generateTangents(device, ...mesh, { buffer });
+    const [words] = await read(() => {}, [buffer]);
+    const rest = Array.from(new Float32Array(words.slice(length).buffer));
+    found.push({ name, differing: differing(words.slice(0, length), new Uint32Array(tangents.buffer)), rest });
+  }
+  return { found, errors };
 }
 
 /** What it says of what does not fit. */
