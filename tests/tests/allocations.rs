@@ -3,7 +3,7 @@
 use std::alloc::System;
 
 use darboux::{
-    CornerTangents, Frame, Indices, Mesh, Method, Plan, Scratch, TangentOptions, Tangents,
+    CornerTangents, Faces, Frame, Indices, Mesh, Method, Plan, Scratch, TangentOptions, Tangents,
     generate_tangents_into, write_frames,
 };
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
@@ -64,7 +64,16 @@ fn none_for_a_plain_surface() {
     assert_eq!(allocations_of_plan(&mesh, Method::AngleArea), 0);
     let of = |list: &[[f32; 3]]| indices.iter().map(|&at| list[at as usize]).collect::<Vec<_>>();
     let soup_uvs: Vec<[f32; 2]> = indices.iter().map(|&at| uvs[at as usize]).collect();
-    let (positions, normals) = (of(&positions), of(&normals));
-    let mesh = Mesh::triangles(&positions, &normals, &soup_uvs, Indices::Unindexed).expect("a mesh");
+    let (soup_positions, soup_normals) = (of(&positions), of(&normals));
+    let mesh =
+        Mesh::triangles(&soup_positions, &soup_normals, &soup_uvs, Indices::Unindexed).expect("a mesh");
     assert_eq!(allocations(&mesh), 0);
+    assert_eq!(allocations_of_plan(&mesh, Method::MikkTSpace), 0);
+    // Two triangles of a square are corners 0, 1, 2 and 0, 2, 3.
+    let squares: Vec<u32> =
+        indices.as_chunks().0.iter().flat_map(|&[a, b, c, .., d]: &[_; 6]| [a, b, c, d]).collect();
+    let mesh =
+        Mesh::with_faces(&positions, &normals, &uvs, Indices::U32(&squares), Faces::Quads).expect("a mesh");
+    assert_eq!(allocations(&mesh), 0);
+    assert_eq!(allocations_of_plan(&mesh, Method::MikkTSpace), 0);
 }

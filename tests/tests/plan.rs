@@ -1,29 +1,46 @@
 //! Plans on meshes that move.
 
 use darboux::{Method, Mode, Plan, Scratch, TangentOptions, generate_tangents};
-use darboux_tests::{Case, FaceSizes, OwnedMesh, families};
+use darboux_tests::{Case, OwnedMesh, families};
 
-/// A plan of `base` on `moved`, once with triangles and once with faces that all happen to have three corners, which go through
-/// every stage.
-fn both(base: &OwnedMesh, moved: &OwnedMesh, mode: Mode) -> [Vec<[u32; 4]>; 2] {
-    let options = TangentOptions { mode, ..TangentOptions::default() };
-    let evaluate = |faces: FaceSizes| {
-        let [base, moved] = [base, moved].map(|mesh| OwnedMesh { faces: faces.clone(), ..mesh.clone() });
-        let plan = Plan::new(&base.view(), &options);
-        let tangents = plan.evaluate(&moved.view()).expect("the same mesh, moved");
-        let bits = |x: f32| if x.is_nan() { f32::NAN } else { x }.to_bits();
-        tangents.per_corner().iter().map(|tangent| tangent.map(bits)).collect()
-    };
-    [evaluate(FaceSizes::Triangles), evaluate(FaceSizes::Mixed(vec![3; base.corner_count() / 3]))]
+/// A plan of `base` on `moved`.
+fn planned(base: &OwnedMesh, moved: &OwnedMesh, options: &TangentOptions) -> Vec<[u32; 4]> {
+    let plan = Plan::new(&base.view(), options);
+    let tangents = plan.evaluate(&moved.view()).expect("the same mesh, moved");
+    let bits = |x: f32| if x.is_nan() { f32::NAN } else { x }.to_bits();
+    tangents.per_corner().iter().map(|tangent| tangent.map(bits)).collect()
+}
+
+/// With a last face that MikkTSpace does not define: such meshes go through every stage.
+fn with_pentagon(mesh: &OwnedMesh) -> OwnedMesh {
+    let mut faces = mesh.face_list();
+    faces.push(vec![0; 5]);
+    let mesh = if mesh.indices.is_some() { mesh.clone() } else { mesh.unindexed() };
+    mesh.with_face_list(&faces)
+}
+
+fn is_supported(size: u32) -> bool {
+    matches!(size, 3 | 4)
+}
+
+/// Seeds first..last of DARBOUX_SWEEP, or few.
+fn seeds() -> std::ops::Range<u64> {
+    let Ok(range) = std::env::var("DARBOUX_SWEEP") else { return 0..20_000 };
+    let (first, last) = range.split_once("..").expect("first..last");
+    first.parse().expect("a number")..last.parse().expect("a number")
 }
 
 #[test]
 fn every_stage_agrees_with_the_short_way() {
-    for seed in 0..20_000 {
-        let mesh = Case::from_seed(seed).mesh;
-        if mesh.faces == FaceSizes::Triangles && mesh.corner_count() > 0 {
+    for seed in seeds() {
+        let Case { mesh, threshold } = Case::from_seed(seed);
+        if mesh.corner_count() > 0 && mesh.face_sizes().into_iter().all(is_supported) {
             let mode = [Mode::Reference, Mode::Repaired, Mode::Corrected][seed as usize % 3];
-            let [short, long] = both(&mesh, &mesh.moved(seed as usize), mode);
+            let options = TangentOptions { mode, threshold, ..TangentOptions::default() };
+            let moved = mesh.moved(seed as usize);
+            let short = planned(&mesh, &moved, &options);
+            let mut long = planned(&with_pentagon(&mesh), &with_pentagon(&moved), &options);
+            long.truncate(short.len());
             assert_eq!(short, long, "seed {seed}");
         }
     }

@@ -63,7 +63,7 @@ fn for_each_layout(shape: &Shape<'_>, mut take: impl FnMut(&Mesh<'_>)) {
     }
 }
 
-/// Hashes of the tangents and reports in some runs.
+/// Hashes of the tangents and reports in some runs; plans give the same tangents.
 fn hash(shape: &Shape<'_>, runs: &[(Method, Mode)]) -> u64 {
     hash_with(Scratch::new(), shape, runs)
 }
@@ -78,6 +78,10 @@ fn hash_with(mut scratch: Scratch, shape: &Shape<'_>, runs: &[(Method, Mode)]) -
             let corners = tangents.corners.per_corner();
             corners.iter().for_each(|tangent| tangent.map(f32::to_bits).hash(&mut hasher));
             format!("{:?}", tangents.report).hash(&mut hasher);
+            if options == TangentOptions::default() {
+                let planned = Plan::new(mesh, &options).evaluate(mesh).expect("the same mesh");
+                assert!(planned.per_corner() == corners);
+            }
         }
     });
     hasher.finish()

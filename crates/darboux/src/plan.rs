@@ -7,8 +7,8 @@ use crate::{CornerTangents, Mesh, MeshError, Scratch, TangentOptions, Tangents, 
 
 /// The weld, groups and subgroups of one mesh, kept to evaluate tangents again after its vertices moved (morph targets, skinning).
 ///
-/// For MikkTSpace on triangles at 180 degrees it also keeps a copy of the mesh, 32 bytes per vertex and 4 per corner, for when what is decided
-/// fast needs every stage after all: vertices that were welded move apart, tangents collapse.
+/// For MikkTSpace on faces of 3 and 4 corners at 180 degrees it also keeps a copy of the mesh, 32 bytes per vertex and 4 per corner, for when
+/// what is decided fast needs every stage after all: vertices that were welded move apart, tangents collapse.
 /// Of the other methods only [`Method::AngleArea`](crate::Method::AngleArea) has groups to keep; the rest run afresh, but for the signs.
 #[derive(Debug)]
 pub struct Plan {
@@ -42,7 +42,7 @@ impl Plan {
     }
 
     /// As [`Plan::evaluate`], into `out`, whose memory is used again, as is that of `scratch`: repeated calls allocate nothing where
-    /// all vertices of an indexed triangle mesh are plain (no mirrored or degenerate triangles, no collapsed ones); those of
+    /// all vertices of a mesh of triangles and quads are plain (no mirrored or degenerate triangles, no collapsed ones); those of
     /// [`Method::AngleArea`](crate::Method::AngleArea) nothing for any mesh of triangles with packed arrays and 32-bit indices.
     pub fn evaluate_into(
         &self,

@@ -36,6 +36,7 @@ use super::mikktspace::HalfEdge;
 use super::threads::{self, parts, split};
 use super::width::Width;
 use super::windows::{self, Share, Window, overlap, shares};
+use block::Record;
 use cut::Cut;
 pub(super) use cut::triangle_count;
 use last_run::{LastRun, Lists, TailCells};
@@ -69,6 +70,8 @@ pub(crate) struct Fans {
     last_stretches: Vec<Vec<u32>>,
     /// Of each welded vertex, where whole frames are wanted.
     sums: Vec<Sums>,
+    /// Of each welded vertex, where a plan welds corners.
+    records: Vec<Record>,
 }
 
 impl Fans {

@@ -3,19 +3,18 @@
 use std::sync::OnceLock;
 
 use crate::cancel::Stop;
-use crate::math::cosine_of_degrees;
-use crate::{Faces, Frame, Mesh};
+use crate::{Faces, Frame, Indices, Mesh};
 
-use super::fans::{Fans, PlannedFans};
+use super::fans::{Fans, PlannedFans, triangle_count};
 use super::local::UndecidedPart;
 use super::mikktspace::{Topology, unknown};
 use super::width::Width;
-use super::{Method, Scratch, TangentOptions, Tangents, angle_area, generate_tangents, run};
+use super::{Method, Scratch, TangentOptions, Tangents, angle_area, generate_tangents, has_whole_fans, run};
 
 /// What is known beforehand.
 #[derive(Debug)]
 pub(crate) enum Planned {
-    /// MikkTSpace on triangles at 180 degrees: nearly all vertices are decided.
+    /// MikkTSpace on faces of 3 and 4 corners at 180 degrees: nearly all vertices are decided.
     Fans(Box<Decided>),
     /// MikkTSpace elsewhere.
     Stages(Box<Topology>),
@@ -49,9 +48,7 @@ impl Planned {
         let mut base = Tangents::default();
         base.corners.0.resize(mesh.corner_count(), [0.0; 4]);
         let (mut fans, width) = (Fans::default(), Width::widest(Default::default()));
-        let applies =
-            matches!(mesh.faces(), Faces::Triangles) && cosine_of_degrees(options.threshold) == -1.0;
-        if !applies || !fans.run(mesh, options.mode, width, stop, &mut base.corners.0) {
+        if !has_whole_fans(options) || !fans.run(mesh, options.mode, width, stop, &mut base.corners.0) {
             let Some(topology) = Topology::new(mesh, options, stop) else { return (Self::Nothing, base) };
             let (frames, report) = topology.frames(mesh, stop);
             write(&frames, &mut base.corners.0);
@@ -65,7 +62,7 @@ impl Planned {
         if let Some(part) = &undecided {
             base.report = part.decide(mesh, stop, &mut base.corners.0);
         }
-        base.report.triangles = mesh.face_count();
+        base.report.triangles = triangle_count(mesh);
         let mesh = MeshCopy::new(mesh);
         (Self::Fans(Box::new(Decided { fans, undecided, mesh, stages: OnceLock::new() })), base)
     }
@@ -137,29 +134,40 @@ fn take_signs(others: &[[f32; 4]], out: &mut [[f32; 4]]) {
     }
 }
 
-/// A mesh of triangles.
+/// A mesh of faces of 3 and 4 corners.
 #[derive(Debug)]
 struct MeshCopy {
     positions: Vec<[f32; 3]>,
     normals: Vec<[f32; 3]>,
     uvs: Vec<[f32; 2]>,
-    indices: Vec<u32>,
+    /// None where corners are vertices.
+    indices: Option<Vec<u32>>,
+    /// None where all faces are triangles.
+    sizes: Option<Vec<u32>>,
 }
 
 impl MeshCopy {
     fn new(mesh: &Mesh<'_>) -> Self {
         let vertices = 0..mesh.vertex_count();
         let corners = 0..mesh.corner_count();
+        let vertex = |corner| mesh.vertex_of_corner(corner) as u32;
         Self {
             positions: vertices.clone().map(|vertex| mesh.positions().get(vertex)).collect(),
             normals: vertices.clone().map(|vertex| mesh.normals().get(vertex)).collect(),
             uvs: vertices.map(|vertex| mesh.uvs().get(vertex)).collect(),
-            indices: corners.map(|corner| mesh.vertex_of_corner(corner) as u32).collect(),
+            indices: (!matches!(mesh.indices(), Indices::Unindexed)).then(|| corners.map(vertex).collect()),
+            sizes: match mesh.faces() {
+                Faces::Triangles => None,
+                Faces::Quads => Some(vec![4; mesh.face_count()]),
+                Faces::Mixed(sizes) => Some(sizes.to_vec()),
+            },
         }
     }
 
     fn view(&self) -> Mesh<'_> {
-        let mesh = Mesh::triangles(&self.positions, &self.normals, &self.uvs, &self.indices);
+        let indices = self.indices.as_ref().map_or(Indices::Unindexed, Indices::from);
+        let faces = self.sizes.as_deref().map_or(Faces::Triangles, Faces::Mixed);
+        let mesh = Mesh::with_faces(&self.positions, &self.normals, &self.uvs, indices, faces);
         mesh.expect("a copy of a mesh is one")
     }
 }

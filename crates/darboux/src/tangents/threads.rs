@@ -3,6 +3,7 @@
 #[cfg(feature = "parallel")]
 use std::cell::Cell;
 use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 #[cfg(feature = "parallel")]
 use crate::cancel::Heard;
@@ -112,6 +113,18 @@ pub(super) fn update<T: Send>(slice: &mut [T], with: impl Fn(usize, &mut T) + Sy
     run(&mut vec![(); threads], jobs, |(), (part, range)| {
         part.iter_mut().zip(range).for_each(|(element, at)| with(at, element));
     });
+}
+
+/// Whether all numbers below `count` are as wanted, by all threads; on one it allocates nothing.
+pub(super) fn all(count: usize, is_wanted: impl Fn(usize) -> bool + Sync) -> bool {
+    let threads = self::count(count);
+    let found = AtomicBool::new(true);
+    run(&mut vec![(); threads], split(0..count, threads, 1), |(), mut range| {
+        if !range.all(&is_wanted) {
+            found.store(false, Ordering::Relaxed);
+        }
+    });
+    found.into_inner()
 }
 
 /// A range in `count` parts, of sizes that differ by one at most times `unit`.

@@ -279,4 +279,4 @@ fn are_alike(a: f32, b: f32) -> bool {
 }
 
 /// Derivatives that are not in trouble have squares that are floats, so lengths up to 1.9e19.
-const LEAST_AREA: f32 = 1e-18;
+pub(super) const LEAST_AREA: f32 = 1e-18;

@@ -6,51 +6,98 @@ use crate::cancel::Stop;
 use super::super::threads::{self, parts};
 use super::super::width::Width;
 use super::super::windows::{Window, overlap, shares};
-use super::cut::{UNCUT, triangle_count};
+use super::block::Record;
+use super::corners::same;
+use super::cut::{Cut, LEAST_AREA, triangle_count};
 use super::last_run::TailCells;
-use super::source::Identity;
+use super::rows::record;
+use super::source::{Identity, Source};
 use super::stream::Stream;
-use super::weld::Weld;
 use super::workers::Worker;
-use super::{Fans, UNDECIDED, source, write_pending};
+use super::{Fans, UNDECIDED, shuffled, source, write_pending};
 
-/// What a run has found out about a mesh of triangles.
+/// What a run has found out about a mesh.
 #[derive(Debug)]
 pub(crate) struct PlannedFans {
-    weld: Weld,
+    welded: Welded,
+    cut: Cut,
+    /// How large a coordinate may become.
+    most: f32,
     windows: Vec<Window>,
     /// Of each welded vertex; [`UNDECIDED`] where other stages decide.
     signs: Vec<f32>,
 }
 
-impl PlannedFans {
-    /// Of the mesh that `fans` has just run on, with the tangents that it wrote.
-    pub fn new(mesh: &Mesh<'_>, fans: Fans, tangents: &[[f32; 4]]) -> Self {
-        let Fans { weld, windows, .. } = fans;
-        let source = source(mesh, &weld, &UNCUT);
-        let mut signs = vec![UNDECIDED; weld.count];
-        for (corner, tangent) in (0..).zip(tangents) {
-            signs[source.vertex(corner) as usize] = tangent[3];
+/// As [`Identity`], without values.
+#[derive(Debug)]
+enum Welded {
+    Own,
+    OfVertex(Vec<u32>),
+    OfCorner {
+        of: Vec<u32>,
+        /// The first corner of each welded vertex.
+        first: Vec<u32>,
+    },
+}
+
+impl Welded {
+    fn new(identity: Identity<'_>) -> Self {
+        match identity {
+            Identity::Own => Self::Own,
+            Identity::OfVertex(of) => Self::OfVertex(of.to_vec()),
+            Identity::OfCorner(of, records) => {
+                let mut first = Vec::with_capacity(records.len());
+                for (corner, &vertex) in (0..).zip(of) {
+                    // They are numbered as they are first met.
+                    if vertex as usize == first.len() {
+                        first.push(corner);
+                    }
+                }
+                Self::OfCorner { of: of.to_vec(), first }
+            }
         }
-        Self { weld, windows, signs }
     }
 
-    /// True when vertices that were welded are still one.
-    fn holds(&self, mesh: &Mesh<'_>) -> bool {
-        match self.weld.identity() {
-            Identity::Own => true,
-            Identity::OfVertex(of) => {
-                let values = |vertex: usize| (mesh.positions().get(vertex), mesh.normals().get(vertex));
-                of.iter().enumerate().all(|(vertex, &first)| values(vertex) == values(first as usize))
-            }
-            Identity::OfCorner(..) => false,
+    fn identity<'a>(&'a self, records: &'a [Record]) -> Identity<'a> {
+        match self {
+            Self::Own => Identity::Own,
+            Self::OfVertex(of) => Identity::OfVertex(of),
+            Self::OfCorner { of, .. } => Identity::OfCorner(of, records),
         }
     }
 }
 
+impl PlannedFans {
+    /// Of the mesh that `fans` has just run on, with the tangents that it wrote.
+    pub fn new(mesh: &Mesh<'_>, fans: Fans, tangents: &[[f32; 4]]) -> Self {
+        let Fans { weld, windows, cut, .. } = fans;
+        let source = source(mesh, &weld, &cut);
+        let mut signs = vec![UNDECIDED; weld.count];
+        for (corner, tangent) in (0..).zip(tangents) {
+            signs[source.vertex(corner) as usize] = tangent[3];
+        }
+        let (welded, most) = (Welded::new(source.identity), most(&source));
+        Self { welded, cut, most, windows, signs }
+    }
+}
+
+/// Below this no derivative of a quad's half, divided by its UV area, is infinite. Then the frames of both halves at a decided vertex are
+/// equal, part by part, and so is their average (see `cut`). Anything goes where there are no quads.
+///
+/// With coordinates up to P and U, components of derivatives are up to 8 P U, their squares add up to less than the largest float, and
+/// lengths over areas to less than 14 P U / 1e-18.
+fn most(source: &Source<'_>) -> f32 {
+    if !source.is_cut() {
+        return f32::INFINITY;
+    }
+    let uvs = (0..source.mesh.corner_count())
+        .flat_map(|corner| source.mesh.uvs().get(source.mesh.vertex_of_corner(corner)));
+    1e36 * LEAST_AREA / uvs.fold(0.0, |most: f32, x| most.max(x.abs()))
+}
+
 impl Fans {
     /// Writes the tangents of the decided vertices of a mesh whose vertices have moved since it was planned. False where the sums of
-    /// its triangles do not suffice: welded vertices have moved apart, tangents are unusable, the mesh has no indices.
+    /// its triangles do not suffice: welded vertices have moved apart, tangents are unusable, quads are too large.
     pub fn run_planned(
         &mut self,
         plan: &PlannedFans,
@@ -59,13 +106,44 @@ impl Fans {
         stop: &Stop,
         out: &mut [[f32; 4]],
     ) -> bool {
-        if !plan.holds(mesh) {
-            return false;
-        }
         let threads = threads::count(triangle_count(mesh));
         self.workers.resize_with(threads, Worker::default);
-        threads::on_pool(threads, || self.run_planned_on(plan, mesh, width, stop, out));
-        self.workers[..self.shares.len()].iter().all(|worker| worker.all_usable)
+        threads::on_pool(threads, || {
+            let holds = self.holds(plan, mesh);
+            if holds {
+                self.run_planned_on(plan, mesh, width, stop, out);
+            }
+            holds && self.workers.iter().all(|worker| worker.all_usable)
+        })
+    }
+
+    /// True when vertices that were welded are still one, and none is too far. Takes their values where they are welded by corners.
+    fn holds(&mut self, plan: &PlannedFans, mesh: &Mesh<'_>) -> bool {
+        let is_near = |position: [f32; 3]| position.iter().all(|x| x.abs() <= plan.most);
+        let are_near = || {
+            plan.most == f32::INFINITY
+                || threads::all(mesh.vertex_count(), |vertex| is_near(mesh.positions().get(vertex)))
+        };
+        match &plan.welded {
+            Welded::Own => are_near(),
+            Welded::OfVertex(of) => {
+                let is_first = |vertex: usize| {
+                    let first = of[vertex] as usize;
+                    first == vertex || same(&record(mesh, vertex), &record(mesh, first))
+                };
+                are_near() && threads::all(of.len(), is_first)
+            }
+            Welded::OfCorner { of, first } => {
+                let of_corner = |corner: usize| record(mesh, mesh.vertex_of_corner(corner));
+                self.records.resize(first.len(), Record::default());
+                threads::fill(&mut self.records, |vertex| of_corner(first[vertex] as usize));
+                let records = &self.records[..];
+                (plan.most == f32::INFINITY || records.iter().all(|&[x, y, z, ..]| is_near([x, y, z])))
+                    && threads::all(of.len(), |corner| {
+                        same(&of_corner(corner), &records[of[corner] as usize])
+                    })
+            }
+        }
     }
 
     fn run_planned_on(
@@ -76,21 +154,19 @@ impl Fans {
         stop: &Stop,
         out: &mut [[f32; 4]],
     ) {
-        let (windows, source) = (&plan.windows[..], source(mesh, &plan.weld, &UNCUT));
+        let source = Source { mesh, identity: plan.welded.identity(&self.records), cut: &plan.cut };
+        let (windows, count) = (&plan.windows[..], plan.signs.len());
         let stream =
             Stream { source, windows, tail: &TailCells::none(), signs: &plan.signs[..], width, stop };
         self.shares.clear();
-        self.shares.extend(shares(windows, plan.weld.count, self.workers.len()));
+        self.shares.extend(shares(windows, count, self.workers.len()));
         if overlap(&self.shares, windows) {
-            // Shares would overlap too much.
-            self.shares.clear();
-            self.shares.extend(shares(windows, plan.weld.count, 1));
+            shuffled::run(&stream, count, &mut self.workers, &mut self.terms, out);
+            return;
         }
-        // The others' memory is that of earlier meshes.
-        let workers = &mut self.workers[..self.shares.len()];
         let ranges = self.shares.iter().map(|share| source.corners_of(share.windows.clone()));
         let jobs = self.shares.iter().zip(parts(&mut *out, 0, ranges));
-        threads::run(workers, jobs, |worker, (share, out)| stream.run(share, worker, out));
-        write_pending(&source, &self.shares, workers, out);
+        threads::run(&mut self.workers, jobs, |worker, (share, out)| stream.run(share, worker, out));
+        write_pending(&source, &self.shares, &mut self.workers, out);
     }
 }

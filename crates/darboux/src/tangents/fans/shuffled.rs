@@ -8,8 +8,8 @@ use std::ops::Range;
 use super::super::threads::{self, parts, split};
 use super::super::windows::WINDOW;
 use super::cut::mark_doubtful;
-use super::steps::{Collect, Evaluate, Finish, Read};
-use super::stream::Stream;
+use super::steps::{Collect, CollectTerms, Evaluate, EvaluateTerms, Finish, FinishPlanned, Read};
+use super::stream::{Signs, Stream};
 use super::vertices::Vertex;
 use super::workers::Worker;
 
@@ -20,8 +20,8 @@ const WINDOWS_AT_ONCE: usize = if cfg!(small_limits) { 2 } else { 64 };
 pub(super) type Terms = [[f32; 4]; 3];
 
 /// Does what `Stream::run` does for one thread.
-pub(super) fn run(
-    stream: &Stream<'_>,
+pub(super) fn run<S: Signs>(
+    stream: &Stream<'_, S>,
     count: usize,
     workers: &mut [Worker],
     memory: &mut Vec<Terms>,
@@ -51,7 +51,12 @@ pub(super) fn run(
     (workers[0].vertices, workers[0].marks) = (vertices, marks);
 }
 
-fn read(stream: &Stream<'_>, workers: &mut [Worker], vertices: &mut [Vertex], marks: &mut [u32]) {
+fn read<S: Signs>(
+    stream: &Stream<'_, S>,
+    workers: &mut [Worker],
+    vertices: &mut [Vertex],
+    marks: &mut [u32],
+) {
     let ranges = split(0..vertices.len(), workers.len(), 1);
     let jobs = ranges.clone().zip(parts(vertices, 0, ranges.clone())).zip(parts(marks, 0, ranges));
     threads::run(workers, jobs, |worker, ((range, vertices), marks)| {
@@ -64,8 +69,8 @@ fn read(stream: &Stream<'_>, workers: &mut [Worker], vertices: &mut [Vertex], ma
 }
 
 /// Writes down what the triangles of `windows` add to their vertices.
-fn evaluate(
-    stream: &Stream<'_>,
+fn evaluate<S: Signs>(
+    stream: &Stream<'_, S>,
     windows: Range<usize>,
     workers: &mut [Worker],
     vertices: &[Vertex],
@@ -81,14 +86,18 @@ fn evaluate(
             let out;
             (out, terms) = std::mem::take(&mut terms).split_at_mut(range.len());
             let triangles = source.triangles(range, &mut worker.triangles);
-            stream.width.run(Evaluate { triangles, block: &mut worker.block, vertices, out });
+            let block = &mut worker.block;
+            match stream.signs.known() {
+                None => stream.width.run(Evaluate { triangles, block, vertices, out }),
+                Some(_) => stream.width.run(EvaluateTerms { triangles, block, vertices, out }),
+            }
         }
     });
 }
 
 /// Adds the terms to the vertices, in triangle order.
-fn collect(
-    stream: &Stream<'_>,
+fn collect<S: Signs>(
+    stream: &Stream<'_, S>,
     windows: Range<usize>,
     workers: &mut [Worker],
     terms: &[Terms],
@@ -105,22 +114,38 @@ fn collect(
             (terms, rest) = rest.split_at(range.len());
             let triangles = stream.source.triangles(range.clone(), &mut worker.triangles);
             let first = own.start as u32;
-            let (vertices, marks) = (&mut *vertices, &mut *marks);
-            stream.width.run(Collect { triangles, terms, first, block: &mut worker.block, vertices, marks });
-            mark_doubtful(&stream.source, range, own.start, marks);
+            let (vertices, marks, block) = (&mut *vertices, &mut *marks, &mut worker.block);
+            match stream.signs.known() {
+                None => {
+                    stream.width.run(Collect { triangles, terms, first, block, vertices, marks });
+                    mark_doubtful(&stream.source, range, own.start, marks);
+                }
+                Some(_) => stream.width.run(CollectTerms { triangles, terms, first, vertices }),
+            }
         }
     });
 }
 
-fn finish(stream: &Stream<'_>, workers: &mut [Worker], vertices: &mut [Vertex], marks: &[u32]) {
+fn finish<S: Signs>(stream: &Stream<'_, S>, workers: &mut [Worker], vertices: &mut [Vertex], marks: &[u32]) {
     let ranges = split(0..vertices.len(), workers.len(), 1);
-    let jobs = parts(vertices, 0, ranges.clone()).zip(ranges.map(|range| &marks[range]));
-    threads::run(workers, jobs, |worker, (vertices, marks)| {
-        stream.width.run(Finish { vertices, marks, unused: &mut worker.unused });
+    let jobs = parts(vertices, 0, ranges.clone()).zip(ranges);
+    threads::run(workers, jobs, |worker, (vertices, range)| match stream.signs.known() {
+        None => {
+            stream.width.run(Finish { vertices, marks: &marks[range], unused: &mut worker.unused });
+        }
+        Some(signs) => {
+            let (signs, all_usable) = (&signs[range], &mut worker.all_usable);
+            stream.width.run(FinishPlanned { vertices, signs, all_usable });
+        }
     });
 }
 
-fn write(stream: &Stream<'_>, workers: &mut [Worker], vertices: &[Vertex], out: &mut [[f32; 4]]) {
+fn write<S: Signs>(
+    stream: &Stream<'_, S>,
+    workers: &mut [Worker],
+    vertices: &[Vertex],
+    out: &mut [[f32; 4]],
+) {
     let ranges = split(0..stream.windows.len(), workers.len(), 1);
     let corners = ranges.clone().map(|windows| stream.source.corners_of(windows));
     threads::run(workers, ranges.zip(parts(out, 0, corners)), |worker, (windows, mut rest)| {

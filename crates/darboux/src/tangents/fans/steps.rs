@@ -113,6 +113,30 @@ impl Task for Evaluate<'_> {
     }
 }
 
+/// As [`Evaluate`], without marks.
+pub(super) struct EvaluateTerms<'a> {
+    pub triangles: &'a [[u32; 3]],
+    pub block: &'a mut Block,
+    pub vertices: &'a [Vertex],
+    pub out: &'a mut [[[f32; 4]; 3]],
+}
+
+impl Task for EvaluateTerms<'_> {
+    #[inline(always)]
+    fn run(self) {
+        for (triangles, out) in self.triangles.chunks(BLOCK).zip(self.out.chunks_mut(BLOCK)) {
+            self.block.set(triangles, 0);
+            gather(self.block, triangles.len(), self.vertices);
+            self.block.evaluate_terms();
+            for k in 0..3 {
+                for (out, term) in out.iter_mut().zip(&self.block.sum[k]) {
+                    out[k] = *term;
+                }
+            }
+        }
+    }
+}
+
 /// Adds what [`Evaluate`] wrote to those vertices that are in `vertices`.
 pub(super) struct Collect<'a> {
     pub triangles: &'a [[u32; 3]],
@@ -139,6 +163,30 @@ impl Task for Collect<'_> {
                 }
             }
             scatter(block, triangles.len(), first, vertices, marks);
+        }
+    }
+}
+
+/// Adds what [`EvaluateTerms`] wrote to those vertices that are in `vertices`.
+pub(super) struct CollectTerms<'a> {
+    pub triangles: &'a [[u32; 3]],
+    pub terms: &'a [[[f32; 4]; 3]],
+    /// The number of the first vertex.
+    pub first: u32,
+    pub vertices: &'a mut [Vertex],
+}
+
+impl Task for CollectTerms<'_> {
+    #[inline(always)]
+    fn run(self) {
+        for (triangle, terms) in self.triangles.iter().zip(self.terms) {
+            for k in 0..3 {
+                let at = triangle[k].wrapping_sub(self.first) as usize;
+                let Some(vertex) = self.vertices.get_mut(at) else { continue };
+                for lane in 0..4 {
+                    vertex.sum[lane] += terms[k][lane];
+                }
+            }
         }
     }
 }

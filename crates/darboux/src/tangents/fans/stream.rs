@@ -26,7 +26,7 @@ pub(super) struct Stream<'a, S = Unknown> {
 
 /// The signs of the vertices, where they are known: of those that are decided. Two types, so that a program without plans has no code
 /// of theirs.
-pub(super) trait Signs: Copy {
+pub(super) trait Signs: Copy + Sync {
     fn known(&self) -> Option<&[f32]>;
 }
 
