@@ -3,14 +3,14 @@
 use crate::Mesh;
 use crate::cancel::Stop;
 
-use super::super::threads::{self, parts};
-use super::super::width::Width;
-use super::super::windows::{Window, overlap, shares};
+use super::super::threads::{self, parts, split};
+use super::super::width::{Task, Width};
+use super::super::windows::{WINDOW, Window, overlap, shares};
 use super::block::Record;
 use super::corners::same;
 use super::cut::{Cut, LEAST_AREA, triangle_count};
 use super::last_run::TailCells;
-use super::rows::record;
+use super::rows::{Rows, record};
 use super::source::{Identity, Source};
 use super::stream::Stream;
 use super::workers::Worker;
@@ -56,6 +56,15 @@ impl Welded {
                 Self::OfCorner { of: of.to_vec(), first }
             }
         }
+    }
+
+    /// True when vertices that were welded are still one.
+    fn holds(&self, mesh: &Mesh<'_>) -> bool {
+        let Self::OfVertex(of) = self else { return true };
+        threads::all(of.len(), |vertex| {
+            let first = of[vertex] as usize;
+            first == vertex || same(&record(mesh, vertex), &record(mesh, first))
+        })
     }
 
     fn identity<'a>(&'a self, records: &'a [Record]) -> Identity<'a> {
@@ -109,7 +118,7 @@ impl Fans {
         let threads = threads::count(triangle_count(mesh));
         self.workers.resize_with(threads, Worker::default);
         threads::on_pool(threads, || {
-            let holds = self.holds(plan, mesh);
+            let holds = self.holds(plan, mesh, width);
             if holds {
                 self.run_planned_on(plan, mesh, width, stop, out);
             }
@@ -118,32 +127,39 @@ impl Fans {
     }
 
     /// True when vertices that were welded are still one, and none is too far. Takes their values where they are welded by corners.
-    fn holds(&mut self, plan: &PlannedFans, mesh: &Mesh<'_>) -> bool {
-        let is_near = |position: [f32; 3]| position.iter().all(|x| x.abs() <= plan.most);
-        let are_near = || {
-            plan.most == f32::INFINITY
-                || threads::all(mesh.vertex_count(), |vertex| is_near(mesh.positions().get(vertex)))
-        };
-        match &plan.welded {
-            Welded::Own => are_near(),
-            Welded::OfVertex(of) => {
-                let is_first = |vertex: usize| {
-                    let first = of[vertex] as usize;
-                    first == vertex || same(&record(mesh, vertex), &record(mesh, first))
-                };
-                are_near() && threads::all(of.len(), is_first)
-            }
-            Welded::OfCorner { of, first } => {
-                let of_corner = |corner: usize| record(mesh, mesh.vertex_of_corner(corner));
-                self.records.resize(first.len(), Record::default());
-                threads::fill(&mut self.records, |vertex| of_corner(first[vertex] as usize));
-                let records = &self.records[..];
-                (plan.most == f32::INFINITY || records.iter().all(|&[x, y, z, ..]| is_near([x, y, z])))
-                    && threads::all(of.len(), |corner| {
-                        same(&of_corner(corner), &records[of[corner] as usize])
-                    })
-            }
+    fn holds(&mut self, plan: &PlannedFans, mesh: &Mesh<'_>, width: Width) -> bool {
+        let is_near =
+            |[x, y, z]: [f32; 3]| x.abs() <= plan.most && y.abs() <= plan.most && z.abs() <= plan.most;
+        let anything_goes = plan.most == f32::INFINITY;
+        if let Welded::OfCorner { of, first } = &plan.welded {
+            self.records.resize(first.len(), Record::default());
+            let of_corner = |corner: u32| record(mesh, mesh.vertex_of_corner(corner as usize));
+            threads::fill(&mut self.records, |vertex| of_corner(first[vertex]));
+            let near = |at: usize| {
+                is_near({
+                    let [x, y, z, ..] = self.records[at];
+                    [x, y, z]
+                })
+            };
+            return (anything_goes || threads::all(first.len(), near)) && self.are_one(of, mesh, width);
         }
+        let near = |vertex| is_near(mesh.positions().get(vertex));
+        (anything_goes || threads::all(mesh.vertex_count(), near)) && plan.welded.holds(mesh)
+    }
+
+    /// True when the corners of each vertex still have its values.
+    fn are_one(&mut self, of: &[u32], mesh: &Mesh<'_>, width: Width) -> bool {
+        let records = &self.records[..];
+        let ranges = split(0..of.len(), self.workers.len(), 1);
+        threads::run(&mut self.workers, ranges, |worker, range| {
+            worker.difference = 0;
+            for start in range.clone().step_by(WINDOW) {
+                let corners = start..(start + WINDOW).min(range.end);
+                let rows = Rows::of_corners(mesh, corners.clone(), &mut worker.rows);
+                width.run(Compare { rows, of: &of[corners], records, difference: &mut worker.difference });
+            }
+        });
+        self.workers.iter().all(|worker| worker.difference == 0)
     }
 
     fn run_planned_on(
@@ -168,5 +184,27 @@ impl Fans {
         let jobs = self.shares.iter().zip(parts(&mut *out, 0, ranges));
         threads::run(&mut self.workers, jobs, |worker, (share, out)| stream.run(share, worker, out));
         write_pending(&source, &self.shares, &mut self.workers, out);
+    }
+}
+
+/// Collects the bits in which rows differ from their records.
+struct Compare<'a> {
+    rows: Rows<'a>,
+    of: &'a [u32],
+    records: &'a [Record],
+    difference: &'a mut u32,
+}
+
+impl Task for Compare<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let Rows { positions, normals, uvs } = self.rows;
+        let rows = positions.iter().zip(normals).zip(uvs);
+        for (((&[x, y, z], &[a, b, c]), &[u, v]), &vertex) in rows.zip(self.of) {
+            let (record, row) = (&self.records[vertex as usize], [x, y, z, a, b, c, u, v]);
+            for k in 0..8 {
+                *self.difference |= record[k].to_bits() ^ row[k].to_bits();
+            }
+        }
     }
 }

@@ -32,6 +32,8 @@ pub(super) struct Worker {
     pub span: Span,
     /// Its hashes that were met before.
     pub collisions: usize,
+    /// The bits in which its corners are not what they were welded to.
+    pub difference: u32,
     /// Its decided vertices have usable tangents.
     pub all_usable: bool,
     /// Its vertices that no triangle uses.
