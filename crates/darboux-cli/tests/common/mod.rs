@@ -62,7 +62,7 @@ pub fn darboux_reading<A: AsRef<std::ffi::OsStr>>(arguments: &[A], stdin: &[u8])
 }
 
 /// The command as it was built with this test, or where both were moved to.
-fn program() -> Command {
+pub fn program() -> Command {
     let moved = std::env::var_os("DARBOUX_PROGRAM");
     Command::new(moved.unwrap_or_else(|| env!("CARGO_BIN_EXE_darboux").into()))
 }
