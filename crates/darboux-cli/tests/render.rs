@@ -172,10 +172,6 @@ fn meshes_are_chosen_by_name_or_index() {
     let triangles = |meshes: &[&str]| draw(meshes).exits(0).json()["triangles"].as_u64();
     assert_eq!([triangles(&[]), triangles(&["sleeve", "1"])], [Some(32); 2]);
     assert_eq!([triangles(&["sleeve"]), triangles(&["other"]), triangles(&["0", "sleeve"])], [Some(16); 3]);
-    // What is not drawn is not spoken of.
-    let tells_of_skin =
-        |mesh: &str| draw(&[mesh]).exits(0).json()["warnings"].to_string().contains("without its skin");
-    assert_eq!([tells_of_skin("sleeve"), tells_of_skin("other")], [true, false]);
     for none in ["2", "-1", "Sleeve", ""] {
         let refused = draw(&[none]).exits(1).stderr;
         assert!(refused.contains("has no mesh") && refused.contains("sleeve, other"), "{none}: {refused}");

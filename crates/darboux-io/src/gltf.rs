@@ -35,7 +35,7 @@ pub use looks::{Alpha, Look, TextureUse, Wrap};
 pub use normals::{
     NormalsOptions, NormalsOutcome, NormalsSummary, PrimitiveNormals, WrittenNormals, add_normals,
 };
-pub use scene::PlacedMesh;
+pub use scene::{PlacedMesh, PlacedMeshes};
 pub use schema::{ComponentType, ElementType};
 pub use tangents::{
     Counts, Generate, Outcome, PrimitiveName, PrimitiveSummary, Progress, Summary, TangentEncoding,

@@ -10,6 +10,7 @@ mod layout;
 mod model;
 mod painter;
 mod pipelines;
+mod pose;
 mod seams;
 mod strokes;
 mod target;

@@ -1,14 +1,19 @@
 //! What is drawn of a document.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
 use darboux_io::Error;
-use darboux_io::gltf::{Document, Look, PlacedMesh, PrimitiveCorners, TextureUse};
+use darboux_io::gltf::{Document, Look, PlacedMesh, PlacedMeshes, PrimitiveCorners, TextureUse};
 
 use crate::camera::Bounds;
 use crate::painter::Shape;
+use crate::pose::{self, Vertices};
 use crate::{derivatives, heat};
+
+/// The columns of a matrix.
+type Matrix = [[f64; 4]; 4];
 
 /// A corner as the shader takes it.
 #[repr(C)]
@@ -24,10 +29,11 @@ pub struct Corner {
     pub degrees: f32,
 }
 
-/// The triangles of a primitive.
+/// The triangles of a primitive in a pose.
 pub struct Part {
     pub mesh: usize,
-    primitive: usize,
+    /// What tells it from all other parts: its mesh, primitive and pose.
+    name: [usize; 3],
     /// The index of its material.
     pub material: Option<usize>,
     pub corners: Vec<Corner>,
@@ -36,6 +42,8 @@ pub struct Part {
     left_out: usize,
     /// The UVs that its tangents follow, at every corner; empty where there are none.
     pub layout: Vec<[f32; 2]>,
+    /// From the mesh to the scene, wherever it is.
+    pub places: Arc<[Matrix]>,
 }
 
 /// What is drawn of a document.
@@ -43,38 +51,44 @@ pub struct Model<'a> {
     pub(crate) document: &'a Document,
     pub(crate) looks: Vec<Look>,
     pub(crate) parts: Vec<Part>,
-    /// The matrices of every mesh's nodes.
-    pub(crate) places: Vec<Vec<[[f64; 4]; 4]>>,
     /// Whether tangents are what shaders derive.
     pub(crate) is_derived: bool,
-    /// What every mesh is drawn without.
-    unposed: Vec<Option<&'static str>>,
 }
 
+/// A mesh in one pose, wherever it has that.
+struct Posed<'a> {
+    weights: Vec<f64>,
+    joints: Option<&'a [Matrix]>,
+    places: Arc<[Matrix]>,
+}
+
+/// Corners of meshes whose nodes pose them differently are kept for each: so many are some GB.
+const MOST_CORNERS: usize = 3 << 24;
+
 impl<'a> Model<'a> {
-    /// Reads the meshes of the scene with the tangents that the document has. Compressed documents are decompressed.
+    /// Reads the meshes of the scene in its pose, with the tangents that the document has. Compressed documents are decompressed.
     ///
-    /// Errors: broken data.
+    /// Errors: broken data; more poses of large meshes than can be kept.
     pub fn read(document: &'a mut Document) -> Result<Self, Error> {
         document.decompress()?;
         let document: &'a Document = document;
         let looks = document.looks()?;
-        let mut places = vec![Vec::new(); document.meshes().len()];
-        let mut unposed = vec![None; document.meshes().len()];
-        for placed in document.placed_meshes()? {
-            if let (Some(places), Some(unposed)) = (places.get_mut(placed.mesh), unposed.get_mut(placed.mesh))
-            {
-                places.push(placed.matrix);
-                *unposed = unposed.or(without(&placed));
-            }
-        }
+        let placed = document.placed_meshes()?;
+        let posed = posed_meshes(&placed, document.meshes().len());
         let mut parts = Vec::new();
+        let mut kept: usize = 0;
         for corners in document.corners()? {
-            if places.get(corners.name().mesh).is_some_and(|places| !places.is_empty()) {
-                parts.push(read_part(document, &looks, &corners)?);
+            let poses = posed.get(corners.name().mesh).map_or(&[][..], Vec::as_slice);
+            kept = kept.saturating_add(corners.len().saturating_mul(poses.len().saturating_sub(1)));
+            if kept > MOST_CORNERS {
+                let problem = "is posed in more ways than are drawn; render a part of the scene";
+                return Err(document.invalid(corners.name().path(), problem));
+            }
+            for (at, pose) in poses.iter().enumerate() {
+                parts.push(read_part(document, &looks, &corners, at, pose)?);
             }
         }
-        Ok(Self { document, looks, parts, places, is_derived: false, unposed })
+        Ok(Self { document, looks, parts, is_derived: false })
     }
 
     /// The model with the tangents that shaders derive from positions and UVs, in place of its own.
@@ -95,10 +109,9 @@ impl<'a> Model<'a> {
 
     /// The model with the angles to the tangents of another one of the same file, for [`View::Angle`](crate::View::Angle).
     pub fn compared_with(mut self, other: &Model<'_>) -> Self {
-        let others: HashMap<_, _> =
-            other.parts.iter().map(|part| ((part.mesh, part.primitive), part)).collect();
+        let others: HashMap<_, _> = other.parts.iter().map(|part| (part.name, part)).collect();
         for part in &mut self.parts {
-            let other = others.get(&(part.mesh, part.primitive)).filter(|other| part.is_comparable(other));
+            let other = others.get(&part.name).filter(|other| part.is_comparable(other));
             let Some(other) = other else { continue };
             let pairs = part.corners.as_chunks_mut::<3>().0.iter_mut().zip(other.corners.as_chunks::<3>().0);
             for (corners, others) in pairs {
@@ -117,27 +130,16 @@ impl<'a> Model<'a> {
 
     /// Triangles that views of the surface show, counted as often as nodes place them.
     pub fn triangle_count(&self) -> u64 {
-        let placed = |part: &Part| (part.corners.len() / 3) as u64 * self.places_of(part).len() as u64;
+        let placed = |part: &Part| (part.corners.len() / 3) as u64 * part.places.len() as u64;
         self.parts.iter().map(placed).fold(0, u64::saturating_add)
-    }
-
-    pub(crate) fn places_of(&self, part: &Part) -> &[[[f64; 4]; 4]] {
-        self.places.get(part.mesh).map_or(&[], Vec::as_slice)
     }
 
     /// What is not drawn of a shape, and should be.
     pub(crate) fn warnings(&self, shape: Shape) -> Vec<String> {
-        if shape == Shape::Layout {
-            return Vec::new();
-        }
         let left_out: usize = self.parts.iter().map(|part| part.left_out).sum();
-        let left_out = (left_out > 0)
+        let left_out = (left_out > 0 && shape == Shape::Model)
             .then(|| format!("{left_out} triangles have positions that are not finite, and are left out"));
-        let is_drawn = |mesh: usize| self.parts.iter().any(|part| part.mesh == mesh);
-        let unposed = self.unposed.iter().enumerate().filter(|&(mesh, _)| is_drawn(mesh));
-        let unposed =
-            unposed.filter_map(|(mesh, what)| Some(format!("meshes[{mesh}]: is drawn {}", (*what)?)));
-        left_out.into_iter().chain(unposed).collect()
+        left_out.into_iter().collect()
     }
 
     /// The box that holds all that is drawn; none without triangles.
@@ -150,9 +152,7 @@ impl<'a> Model<'a> {
             }
             let mut own = Box3::EMPTY;
             part.corners.iter().for_each(|corner| own.add(corner.position.map(f64::from)));
-            for (matrix, corner) in
-                self.places_of(part).iter().flat_map(|m| own.corners().map(move |c| (m, c)))
-            {
+            for (matrix, corner) in part.places.iter().flat_map(|m| own.corners().map(move |c| (m, c))) {
                 let [a, b, c, d] = matrix;
                 all.add([0, 1, 2].map(|i| a[i] * corner[0] + b[i] * corner[1] + c[i] * corner[2] + d[i]));
             }
@@ -173,20 +173,27 @@ impl Part {
     }
 }
 
-/// What of a mesh's pose is not drawn, in words.
-fn without(placed: &PlacedMesh) -> Option<&'static str> {
-    match placed {
-        PlacedMesh { is_skinned: true, .. } => {
-            Some("without its skin, as it was bound; `darboux view` shows its pose")
+/// The poses of every mesh, each with all its places.
+fn posed_meshes(placed: &PlacedMeshes, mesh_count: usize) -> Vec<Vec<Posed<'_>>> {
+    let mut at = HashMap::new();
+    let mut posed: Vec<Vec<(&PlacedMesh, Vec<Matrix>)>> = (0..mesh_count).map(|_| Vec::new()).collect();
+    for mesh in &placed.meshes {
+        let Some(poses) = posed.get_mut(mesh.mesh) else { continue };
+        let weights: Vec<u64> = mesh.weights.iter().map(|weight| weight.to_bits()).collect();
+        let pose = *at.entry((mesh.mesh, mesh.skin, weights)).or_insert(poses.len());
+        match poses.get_mut(pose) {
+            // Skins place meshes: the same skin again is at the same place.
+            Some(_) if mesh.skin.is_some() => {}
+            Some((_, places)) => places.extend(&mesh.matrices),
+            None => poses.push((mesh, mesh.matrices.clone())),
         }
-        PlacedMesh { is_morphed: true, .. } => {
-            Some("without its morph targets, as if none had a weight; `darboux view` shows its pose")
-        }
-        PlacedMesh { is_instanced: true, .. } => {
-            Some("once, at its node, and not where its instances are; `darboux view` shows them")
-        }
-        _ => None,
     }
+    let pose = |(mesh, places): (&PlacedMesh, Vec<Matrix>)| Posed {
+        weights: mesh.weights.clone(),
+        joints: mesh.skin.and_then(|skin| placed.skins.get(skin)).map(Vec::as_slice),
+        places: places.into(),
+    };
+    posed.into_iter().map(|poses| poses.into_iter().map(pose).collect()).collect()
 }
 
 /// Where a UV lies in the layout, whose v goes down.
@@ -194,8 +201,14 @@ pub fn on_layout([u, v]: [f32; 2]) -> [f32; 3] {
     [u, -v, 0.0]
 }
 
-/// Reads a primitive, leaving out triangles that have no place.
-fn read_part(document: &Document, looks: &[Look], corners: &PrimitiveCorners<'_>) -> Result<Part, Error> {
+/// Reads a primitive in the pose `at` of its mesh, leaving out triangles that have no place.
+fn read_part(
+    document: &Document,
+    looks: &[Look],
+    corners: &PrimitiveCorners<'_>,
+    at: usize,
+    pose: &Posed<'_>,
+) -> Result<Part, Error> {
     let none = Look::default();
     let look = match corners.material() {
         None => &none,
@@ -204,16 +217,14 @@ fn read_part(document: &Document, looks: &[Look], corners: &PrimitiveCorners<'_>
             document.invalid(corners.name().path(), problem)
         })?,
     };
-    let positions = corners.vectors::<3>("POSITION")?.unwrap_or_default();
-    let normals = corners.vectors::<3>("NORMAL")?.unwrap_or_default();
-    let tangents = corners.vectors::<4>("TANGENT")?.unwrap_or_default();
     let layout = corners.vectors::<2>(&set_name(look.tangent_uv_set))?.unwrap_or_default();
     let uvs = |texture: &Option<TextureUse>| -> Result<Vec<[f32; 2]>, Error> {
         let Some(texture) = texture else { return Ok(layout.clone()) };
         Ok(corners.vectors::<2>(&set_name(texture.uv_set))?.unwrap_or_default())
     };
     let uvs = [uvs(&look.base_texture)?, uvs(&look.normal_texture)?];
-    let at = |i: usize| Corner {
+    let (Vertices { positions, normals, tangents }, is_mirrored) = posed_vertices(corners, pose)?;
+    let corner = |i: usize| Corner {
         position: positions[i],
         normal: normals.get(i).copied().unwrap_or_default(),
         tangent: tangents.get(i).copied().unwrap_or_default(),
@@ -222,17 +233,37 @@ fn read_part(document: &Document, looks: &[Look], corners: &PrimitiveCorners<'_>
     };
     let is_finite = |triangle: &[[f32; 3]; 3]| triangle.as_flattened().iter().all(|x| x.is_finite());
     let triangles = positions.as_chunks::<3>().0.iter().enumerate();
-    let kept = triangles.filter(|(_, triangle)| is_finite(triangle)).map(|(triangle, _)| triangle);
-    let kept: Vec<usize> = kept.flat_map(|triangle| [0, 1, 2].map(|i| 3 * triangle + i)).collect();
+    let kept = triangles.filter(|(_, triangle)| is_finite(triangle)).map(|(triangle, _)| 3 * triangle);
+    let turned = |first: usize| match is_mirrored.get(first..first + 3) {
+        Some([true, true, true]) => [first, first + 2, first + 1],
+        _ => [first, first + 1, first + 2],
+    };
+    let kept: Vec<usize> = kept.flat_map(turned).collect();
     Ok(Part {
         mesh: corners.name().mesh,
-        primitive: corners.name().primitive,
+        name: [corners.name().mesh, corners.name().primitive, at],
         has_tangents: !tangents.is_empty(),
         material: corners.material(),
         left_out: positions.len() / 3 - kept.len() / 3,
-        corners: kept.iter().map(|&corner| at(corner)).collect(),
-        layout: kept.iter().filter_map(|&corner| layout.get(corner).copied()).collect(),
+        corners: kept.iter().map(|&i| corner(i)).collect(),
+        layout: kept.iter().filter_map(|&i| layout.get(i).copied()).collect(),
+        places: pose.places.clone(),
     })
+}
+
+/// The vertices of a primitive's corners in a pose; with a skin, which of them it mirrors.
+fn posed_vertices(corners: &PrimitiveCorners<'_>, pose: &Posed<'_>) -> Result<(Vertices, Vec<bool>), Error> {
+    let mut vertices = Vertices {
+        positions: corners.vectors("POSITION")?.unwrap_or_default(),
+        normals: corners.vectors("NORMAL")?.unwrap_or_default(),
+        tangents: corners.vectors("TANGENT")?.unwrap_or_default(),
+    };
+    pose::morph(corners, &pose.weights, &mut vertices)?;
+    let is_mirrored = match pose.joints {
+        Some(joints) => pose::skin(corners, joints, &mut vertices)?,
+        None => Vec::new(),
+    };
+    Ok((vertices, is_mirrored))
 }
 
 /// glTF's name of a UV set.

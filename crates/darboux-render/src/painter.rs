@@ -10,7 +10,7 @@ use wgpu::{
 };
 
 use crate::camera::Sight;
-use crate::model::{Corner, Model, Part, on_layout};
+use crate::model::{Corner, Part, on_layout};
 use crate::pipelines::{line_pipeline, surface_pipeline};
 use crate::strokes::{Stroke, strokes};
 use crate::target::Target;
@@ -209,7 +209,7 @@ impl Painter<'_> {
         SideOnGpu {
             columns,
             picture: self.group(&self.surfaces, 0, &[picture.as_entire_binding()]),
-            pieces: model.parts.iter().flat_map(|part| self.pieces(model, part)).collect(),
+            pieces: model.parts.iter().flat_map(|part| self.pieces(part)).collect(),
             materials,
             plain,
             strokes: self.strokes(side),
@@ -273,12 +273,12 @@ impl Painter<'_> {
         )
     }
 
-    fn pieces(&self, model: &Model<'_>, part: &Part) -> Vec<Piece> {
+    fn pieces(&self, part: &Part) -> Vec<Piece> {
         let is_layout = self.show.shape == Shape::Layout;
         let laid_out = if is_layout { laid_out(part) } else { Vec::new() };
         let corners = if is_layout { &laid_out } else { &part.corners };
-        let places: Vec<Place> = model
-            .places_of(part)
+        let places: Vec<Place> = part
+            .places
             .iter()
             // A layout shows a part once, with the directions of its first node.
             .take(if is_layout { 1 } else { usize::MAX })

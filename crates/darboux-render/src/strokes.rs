@@ -49,7 +49,7 @@ pub fn strokes(
     color: impl Fn([u8; 3]) -> [f32; 3],
 ) -> Vec<Stroke> {
     let Lines { tangent, bitangent, normal, length } = options.lines;
-    let places = side.model.places_of(part);
+    let places = &part.places;
     let asked = [tangent, bitangent, normal];
     let mut out = Vec::new();
     let roots = if asked.contains(&true) { vertices(&part.corners) } else { Vec::new() };
@@ -65,7 +65,7 @@ pub fn strokes(
         }
     }
     let seams = if options.seams { seams(&part.corners) } else { Vec::new() };
-    for matrix in places {
+    for matrix in places.iter() {
         let placed = seams.iter().map(|ends| ends.map(|end| sight.place(matrix, end)));
         out.extend(placed.map(|ends| stroke(ends, color(SEAM_COLOR))));
     }

@@ -156,30 +156,101 @@ fn textures_may_be_jpeg_and_others_are_said() {
     );
 }
 
+/// The quad with a skin whose joint 1, with all weight, is the node 1. Its joints and weights are its tangents: 1, 0, 0, 1.
+fn skinned(joint: &'static str) -> Quad {
+    Quad {
+        node: r#""skin":0,"children":[1],"translation":[7,8,9]"#,
+        nodes: joint,
+        attributes: r#","JOINTS_0":2,"WEIGHTS_0":2"#,
+        file: r#","skins":[{"joints":[0,1]}]"#,
+        ..Quad::default()
+    }
+}
+
 #[test]
-fn what_is_drawn_out_of_its_pose_is_said() {
+fn skins_move_vertices_and_their_frames() {
     if !has_adapter_or_says_so() {
         return;
     }
-    for (node, said) in [
-        (r#""skin":0"#, "meshes[0]: is drawn without its skin"),
-        (r#""weights":[0,0.5]"#, "meshes[0]: is drawn without its morph targets"),
-        (r#""extensions":{"EXT_mesh_gpu_instancing":{"attributes":{}}}"#, "meshes[0]: is drawn once"),
-    ] {
-        let quad = Quad { node, ..Quad::default() };
-        let warnings = common::drawn(&quad, &common::options(View::Shaded)).warnings;
-        assert!(matches!(&warnings[..], [one] if one.starts_with(said)), "{warnings:?}");
-        // A layout has no pose.
-        assert!(common::drawn(&quad, &alone(View::Tangent)).warnings.is_empty());
+    let turned = skinned(r#",{"rotation":[0,0,0.70710678,0.70710678]}"#);
+    for (view, color) in
+        [(View::Tangent, [128, 255, 128]), (View::Bitangent, [0, 128, 128]), (View::Normal, [128, 128, 255])]
+    {
+        for pixel in halves(&turned, view) {
+            assert!(is_about(pixel, color), "{view:?}: {pixel:?}");
+        }
     }
-    assert!(
-        common::drawn(
-            &Quad { node: r#""weights":[0,0]"#, ..Quad::default() },
-            &common::options(View::Shaded)
-        )
-        .warnings
-        .is_empty()
-    );
+    // Longer along x: two thirds of the rows are empty.
+    let wide = picture(&skinned(r#",{"scale":[3,1,1]}"#), &Quad::default(), View::Normal);
+    let rows = wide.chunks(SIZE).filter(|row| row[SIZE / 2] != common::BACKGROUND).count();
+    assert!((18..=22).contains(&rows), "{rows}");
+    // A joint that mirrors: lit from the same side as a node that does.
+    let up = |quad: Quad| halves(&Quad { texel: [128, 220, 200], ..quad }, View::Shaded);
+    let [joint, node] =
+        [up(skinned(r#",{"scale":[-1,1,1]}"#)), up(Quad { node: r#""scale":[-1,1,1]"#, ..Quad::default() })];
+    assert!((0..2).all(|half| is_about(joint[half], node[half])), "{joint:?} {node:?}");
+}
+
+#[test]
+fn morph_targets_move_vertices_and_their_frames() {
+    if !has_adapter_or_says_so() {
+        return;
+    }
+    // By the normals, half as far.
+    let morphed = Quad {
+        node: r#""weights":[0.5]"#,
+        primitive: r#","targets":[{"POSITION":1,"TANGENT":1}]"#,
+        ..Quad::default()
+    };
+    // The direction of (1, 0, 0.5).
+    for pixel in halves(&morphed, View::Tangent) {
+        assert!(is_about(pixel, [242, 128, 185]), "{pixel:?}");
+    }
+    let still = Quad { node: r#""weights":[0]"#, ..morphed };
+    assert!(halves(&still, View::Tangent).iter().all(|&pixel| is_about(pixel, [255, 128, 128])));
+}
+
+#[test]
+fn instances_are_where_they_are() {
+    if !has_adapter_or_says_so() {
+        return;
+    }
+    // One at each of the quad's corners.
+    let node = r#""extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0}}}"#;
+    let quad = Quad { half_size: 0.25, node, ..Quad::default() };
+    let mut document = document(&quad);
+    assert_eq!(Model::read(&mut document).expect("a model").triangle_count(), 48);
+    let pixels = picture(&quad, &quad, View::Normal);
+    assert!(pixels[3 * SIZE + 3] != common::BACKGROUND && pixels[60 * SIZE + 60] != common::BACKGROUND);
+}
+
+#[test]
+fn broken_poses_are_said() {
+    let cases = [
+        (Quad { node: r#""skin":1"#, ..Quad::default() }, "nodes[0]: skin 1 does not exist: there are 0"),
+        (skinned(",{}"), ""),
+        (
+            Quad { file: r#","skins":[{"joints":[0,4]}]"#, ..skinned(",{}") },
+            "skins[0].joints[1]: is not in the scene",
+        ),
+        (
+            Quad { file: r#","skins":[{"joints":[0,1],"inverseBindMatrices":2}]"#, ..skinned(",{}") },
+            "accessors[2].type: is VEC4; it must have 16 components",
+        ),
+        (
+            Quad {
+                node: r#""extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"SCALE":0,"ROTATION":3}}}"#,
+                ..Quad::default()
+            },
+            "accessors[3].type",
+        ),
+    ];
+    for (quad, said) in cases {
+        let mut document = document(&quad);
+        let error =
+            Model::read(&mut document).map(|_| ()).err().map(|error| error.to_string()).unwrap_or_default();
+        assert!(error.contains(said) && error.is_empty() == said.is_empty(), "{error} in place of {said}");
+    }
 }
 
 #[test]

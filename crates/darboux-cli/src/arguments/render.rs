@@ -10,8 +10,8 @@ pub(super) const ABOUT: &str = "\
 Draw a model or its tangents into a PNG, without a window.
 
 The views are those of `darboux view`, by the same names: what the surface is painted with, vectors as lines, mirrored seams, the UV \
-layout, two sources side by side, and mistakes. Node transforms count, mirrors included; skins, morph targets and instances do not, which is \
-said of models that have them. Parts without a normal map are shaded with a pattern of domes, so that wrong tangents show.
+layout, two sources side by side, and mistakes. The scene is drawn in its pose: nodes, mirrors included, skins, morph targets and instances; \
+animations rest. Parts without a normal map are shaded with a pattern of domes, so that wrong tangents show.
 
 Drawing needs an adapter, as `darboux devices` lists them; software ones such as Mesa's lavapipe do.";
 

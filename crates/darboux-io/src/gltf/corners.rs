@@ -2,6 +2,7 @@
 
 use darboux::MeshError;
 
+use super::schema::Attributes;
 use super::tangents::select::element_count;
 use super::tangents::topology::Topology;
 use super::tangents::{PrimitiveName, excess};
@@ -58,7 +59,23 @@ impl<'a> PrimitiveCorners<'a> {
     ///
     /// `semantic`: as the file names it, such as `TEXCOORD_0`. Errors: broken data; an index out of range.
     pub fn vectors<const N: usize>(&self, semantic: &str) -> Result<Option<Vec<[f32; N]>>, Error> {
-        let Some(&accessor) = self.primitive.attributes.get(semantic) else { return Ok(None) };
+        self.gathered(&self.primitive.attributes, semantic)
+    }
+
+    /// The offsets of an attribute by a morph target at every corner; none where the target does not move it.
+    ///
+    /// `target`: its index. `semantic`, errors: as of [`PrimitiveCorners::vectors`].
+    pub fn offsets(&self, target: usize, semantic: &str) -> Result<Option<Vec<[f32; 3]>>, Error> {
+        let target = self.primitive.targets.get(target);
+        target.map_or(Ok(None), |target| self.gathered(target, semantic))
+    }
+
+    fn gathered<const N: usize>(
+        &self,
+        attributes: &Attributes,
+        semantic: &str,
+    ) -> Result<Option<Vec<[f32; N]>>, Error> {
+        let Some(&accessor) = attributes.get(semantic) else { return Ok(None) };
         let vectors = self.document.vectors::<N>(accessor)?;
         let vertices = vectors.len();
         let at = |(at, &index): (usize, &u32)| {

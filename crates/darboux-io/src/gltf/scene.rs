@@ -1,35 +1,48 @@
-//! Where the meshes of the scene are.
+//! Where the meshes of the scene are, and their poses.
+
+use std::collections::HashMap;
 
 use serde::Deserialize;
-use serde::de::IgnoredAny;
 
 use super::Document;
 use super::object::read_from_objects;
+use super::schema::Attributes;
 use crate::Error;
 use crate::error::Fault;
 
-/// The columns of a matrix.
+/// The columns of a matrix for column vectors.
 type Matrix = [[f64; 4]; 4];
 
 const IDENTITY: Matrix =
     [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
+/// Small files can ask for any number: their nodes have the same instances again and again.
+const MOST_PLACES: usize = 1 << 20;
+
+/// What the scene shows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PlacedMeshes {
+    /// The meshes of all nodes.
+    pub meshes: Vec<PlacedMesh>,
+    /// Of every skin the matrices of its joints, from the mesh as it was bound to the scene; empty for skins that nothing has.
+    pub skins: Vec<Vec<[[f64; 4]; 4]>>,
+}
+
 /// A mesh where a node places it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PlacedMesh {
     /// The index of the mesh.
     pub mesh: usize,
-    /// From the mesh to the scene: the columns of a matrix for column vectors.
-    pub matrix: [[f64; 4]; 4],
-    /// Whether a skin moves its vertices, and not the matrix.
-    pub is_skinned: bool,
-    /// Whether weights of morph targets move its vertices.
-    pub is_morphed: bool,
-    /// Whether it is at several places seen from there, by `EXT_mesh_gpu_instancing`.
-    pub is_instanced: bool,
+    /// From the mesh to the scene: the columns of a matrix for every place, several with `EXT_mesh_gpu_instancing`. Skins place meshes
+    /// themselves, at one identity.
+    pub matrices: Vec<[[f64; 4]; 4]>,
+    /// The weights of morph targets; none where all are zero.
+    pub weights: Vec<f64>,
+    /// The index of the skin that moves its vertices.
+    pub skin: Option<usize>,
 }
 
-read_from_objects! { Scenes, Scene, Node, NodeExtensions, Weights }
+read_from_objects! { Scenes, Scene, Node, NodeExtensions, Instancing, Skin, Weights }
 
 #[derive(Deserialize)]
 #[serde(remote = "Self")]
@@ -42,6 +55,8 @@ struct Scenes {
     nodes: Vec<Node>,
     #[serde(default)]
     meshes: Vec<Weights>,
+    #[serde(default)]
+    skins: Vec<Skin>,
 }
 
 /// The weights of a mesh's morph targets, where its node has none.
@@ -82,7 +97,22 @@ struct Node {
 #[serde(remote = "Self")]
 struct NodeExtensions {
     #[serde(rename = "EXT_mesh_gpu_instancing")]
-    instancing: Option<IgnoredAny>,
+    instancing: Option<Instancing>,
+}
+
+/// Accessors of every instance's translation, rotation and scale.
+#[derive(Deserialize)]
+#[serde(remote = "Self")]
+struct Instancing {
+    #[serde(default)]
+    attributes: Attributes,
+}
+
+#[derive(Deserialize)]
+#[serde(remote = "Self", rename_all = "camelCase")]
+struct Skin {
+    joints: Vec<usize>,
+    inverse_bind_matrices: Option<usize>,
 }
 
 fn no_rotation() -> [f64; 4] {
@@ -94,63 +124,137 @@ fn no_scale() -> [f64; 3] {
 }
 
 impl Document {
-    /// The meshes of the scene that is shown first, with all their nodes say, as they were read.
+    /// The meshes of the scene that is shown first, in its pose, with all their nodes say; animations rest.
     ///
-    /// A document without scenes shows all nodes, one without nodes all meshes. Errors: nodes that are not there, or have several
-    /// parents.
-    pub fn placed_meshes(&self) -> Result<Vec<PlacedMesh>, Error> {
-        self.place_meshes().map_err(|fault| fault.in_file(self.name()))
-    }
-
-    fn place_meshes(&self) -> Result<Vec<PlacedMesh>, Fault> {
-        let Scenes { scene, scenes, nodes, meshes } = self.parsed()?;
-        if nodes.is_empty() {
-            return Ok((0..meshes.len()).map(|mesh| place(None, mesh, &meshes, IDENTITY)).collect());
+    /// A document without scenes shows all nodes, one without nodes all meshes. Compressed documents must be
+    /// [decompressed](Document::decompress) first. Errors: nodes, joints or matrices that are not there; nodes with several parents.
+    pub fn placed_meshes(&self) -> Result<PlacedMeshes, Error> {
+        let scenes: Scenes = self.parsed().map_err(|fault: Fault| fault.in_file(self.name()))?;
+        let nodes = placed_nodes(&scenes).map_err(|fault| fault.in_file(self.name()))?;
+        let mut placed = PlacedMeshes { meshes: Vec::new(), skins: vec![Vec::new(); scenes.skins.len()] };
+        if scenes.nodes.is_empty() {
+            let all = scenes.meshes.iter().enumerate();
+            placed.meshes.extend(all.map(|(mesh, own)| place(mesh, None, &own.weights, vec![IDENTITY])));
         }
-        let roots = match scenes.get(scene) {
-            Some(scene) => scene.nodes.clone(),
-            None if scenes.is_empty() => orphans(&nodes),
-            None => {
-                let problem = format!("scene {scene} does not exist: there are {}", scenes.len());
-                return Err(Fault::invalid("scene", format!("{problem}; export the file again")));
+        let mut places: usize = 0;
+        for &(index, matrix) in &nodes {
+            let Some(mesh) = self.place_node(&scenes, index, matrix)? else { continue };
+            places = places.saturating_add(mesh.matrices.len());
+            placed.meshes.push(mesh);
+            if places > MOST_PLACES {
+                let problem = format!("has meshes at more than {MOST_PLACES} places; remove instances");
+                return Err(self.invalid("scene", problem));
             }
-        };
-        let mut placed = Vec::new();
-        let mut is_placed = vec![false; nodes.len()];
-        let mut left: Vec<(usize, Matrix)> = roots.into_iter().rev().map(|root| (root, IDENTITY)).collect();
-        while let Some((index, parent)) = left.pop() {
-            let at = || format!("nodes[{index}]");
-            let (Some(node), Some(is_placed)) = (nodes.get(index), is_placed.get_mut(index)) else {
-                return Err(Fault::invalid(at(), "does not exist; export the file again"));
-            };
-            if std::mem::replace(is_placed, true) {
-                return Err(Fault::invalid(at(), "is in the scene twice; export the file again"));
+        }
+        for (index, joints) in placed.skins.iter_mut().enumerate() {
+            if placed.meshes.iter().any(|mesh| mesh.skin == Some(index)) {
+                *joints = self.joints(&scenes.skins[index], &format!("skins[{index}]"), &nodes)?;
             }
-            let matrix = product(parent, node.matrix());
-            if let Some(mesh) = node.mesh {
-                if mesh >= meshes.len() {
-                    let problem = format!("mesh {mesh} does not exist: there are {}", meshes.len());
-                    return Err(Fault::invalid(at(), format!("{problem}; export the file again")));
-                }
-                placed.push(place(Some(node), mesh, &meshes, matrix));
-            }
-            left.extend(node.children.iter().rev().map(|&child| (child, matrix)));
         }
         Ok(placed)
     }
+
+    /// The mesh of a node, if it has one, with what the node says of it.
+    fn place_node(&self, scenes: &Scenes, index: usize, matrix: Matrix) -> Result<Option<PlacedMesh>, Error> {
+        let node = &scenes.nodes[index];
+        let Some(mesh) = node.mesh else { return Ok(None) };
+        let at = format!("nodes[{index}]");
+        let missing = |what: &str, index: usize, count: usize| {
+            let problem = format!("{what} {index} does not exist: there are {count}; export the file again");
+            self.invalid(&at, problem)
+        };
+        let own = scenes.meshes.get(mesh).ok_or_else(|| missing("mesh", mesh, scenes.meshes.len()))?;
+        if let Some(skin) = node.skin.filter(|&skin| skin >= scenes.skins.len()) {
+            return Err(missing("skin", skin, scenes.skins.len()));
+        }
+        let matrices = match (node.skin, &node.extensions.instancing) {
+            (Some(_), _) => vec![IDENTITY],
+            (None, Some(instancing)) => {
+                self.instances(instancing, &at)?.into_iter().map(|own| product(matrix, own)).collect()
+            }
+            (None, None) => vec![matrix],
+        };
+        Ok(Some(place(mesh, node.skin, node.weights.as_ref().unwrap_or(&own.weights), matrices)))
+    }
+
+    /// The matrices of a skin's joints. `at`: its path. `nodes`: where the scene has nodes.
+    fn joints(&self, skin: &Skin, at: &str, nodes: &[(usize, Matrix)]) -> Result<Vec<Matrix>, Error> {
+        let nodes: HashMap<usize, Matrix> = nodes.iter().copied().collect();
+        let inverses = skin.inverse_bind_matrices.map(|accessor| self.vectors::<16>(accessor)).transpose()?;
+        let joint = |(place, joint): (usize, &usize)| {
+            let wrong = |problem: &str| self.invalid(format!("{at}.joints[{place}]"), problem);
+            let matrix =
+                nodes.get(joint).ok_or_else(|| wrong("is not in the scene; export the file again"))?;
+            let Some(inverses) = &inverses else { return Ok(*matrix) };
+            let inverse = inverses
+                .get(place)
+                .ok_or_else(|| wrong("has no inverse bind matrix; export the file again"))?;
+            Ok(product(*matrix, columns(inverse.map(f64::from))))
+        };
+        skin.joints.iter().enumerate().map(joint).collect()
+    }
+
+    /// Where instances are, seen from their node. `at`: its path.
+    fn instances(&self, instancing: &Instancing, at: &str) -> Result<Vec<Matrix>, Error> {
+        let accessor = |name: &str| instancing.attributes.get(name).copied();
+        let translations = accessor("TRANSLATION").map(|found| self.vectors::<3>(found)).transpose()?;
+        let rotations = accessor("ROTATION").map(|found| self.vectors::<4>(found)).transpose()?;
+        let scales = accessor("SCALE").map(|found| self.vectors::<3>(found)).transpose()?;
+        let lens = [
+            translations.as_ref().map(|t| t.len()),
+            rotations.as_ref().map(|r| r.len()),
+            scales.as_ref().map(|s| s.len()),
+        ];
+        // Without attributes that place them there is one, at the node.
+        let count = lens.into_iter().flatten().next().unwrap_or(1);
+        if lens.into_iter().flatten().any(|len| len != count) {
+            let problem = "its instances have different numbers of translations, rotations and scales";
+            return Err(self.invalid(at, format!("{problem}; export the file again")));
+        }
+        let instance = |index: usize| {
+            let translation = translations.as_ref().map_or([0.0; 3], |all| all[index].map(f64::from));
+            let rotation = rotations.as_ref().map_or(no_rotation(), |all| all[index].map(f64::from));
+            let scale = scales.as_ref().map_or(no_scale(), |all| all[index].map(f64::from));
+            transform(translation, rotation, scale)
+        };
+        Ok((0..count).map(instance).collect())
+    }
 }
 
-/// A mesh as its node has it, if it has one.
-fn place(node: Option<&Node>, mesh: usize, meshes: &[Weights], matrix: Matrix) -> PlacedMesh {
-    let of_mesh = meshes.get(mesh).map(|mesh| &mesh.weights);
-    let weights = node.and_then(|node| node.weights.as_ref()).or(of_mesh);
-    PlacedMesh {
-        mesh,
-        matrix,
-        is_skinned: node.is_some_and(|node| node.skin.is_some()),
-        is_morphed: weights.is_some_and(|weights| weights.iter().any(|&weight| weight != 0.0)),
-        is_instanced: node.is_some_and(|node| node.extensions.instancing.is_some()),
+/// The nodes of the scene that is shown first, parents before children, and where they are in it.
+fn placed_nodes(Scenes { scene, scenes, nodes, .. }: &Scenes) -> Result<Vec<(usize, Matrix)>, Fault> {
+    if nodes.is_empty() {
+        return Ok(Vec::new());
     }
+    let roots = match scenes.get(*scene) {
+        Some(scene) => scene.nodes.clone(),
+        None if scenes.is_empty() => orphans(nodes),
+        None => {
+            let problem = format!("scene {scene} does not exist: there are {}", scenes.len());
+            return Err(Fault::invalid("scene", format!("{problem}; export the file again")));
+        }
+    };
+    let mut placed = Vec::new();
+    let mut is_placed = vec![false; nodes.len()];
+    let mut left: Vec<(usize, Matrix)> = roots.into_iter().rev().map(|root| (root, IDENTITY)).collect();
+    while let Some((index, parent)) = left.pop() {
+        let at = || format!("nodes[{index}]");
+        let (Some(node), Some(is_placed)) = (nodes.get(index), is_placed.get_mut(index)) else {
+            return Err(Fault::invalid(at(), "does not exist; export the file again"));
+        };
+        if std::mem::replace(is_placed, true) {
+            return Err(Fault::invalid(at(), "is in the scene twice; export the file again"));
+        }
+        let matrix = product(parent, node.matrix());
+        placed.push((index, matrix));
+        left.extend(node.children.iter().rev().map(|&child| (child, matrix)));
+    }
+    Ok(placed)
+}
+
+fn place(mesh: usize, skin: Option<usize>, weights: &[f64], matrices: Vec<Matrix>) -> PlacedMesh {
+    let is_morphed = weights.iter().any(|&weight| weight != 0.0);
+    PlacedMesh { mesh, matrices, skin, weights: if is_morphed { weights.to_vec() } else { Vec::new() } }
 }
 
 /// The nodes that are no children.
@@ -165,21 +269,26 @@ fn orphans(nodes: &[Node]) -> Vec<usize> {
 }
 
 impl Node {
-    /// From the node to its parent: the matrix, or translation times rotation times scale.
+    /// From the node to its parent.
     fn matrix(&self) -> Matrix {
-        if let Some(matrix) = self.matrix {
-            return [0, 1, 2, 3].map(|column| [0, 1, 2, 3].map(|row| matrix[4 * column + row]));
-        }
-        let [x, y, z, w] = self.rotation;
-        let turned = [
-            [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)],
-            [2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)],
-            [2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y)],
-        ];
-        let [a, b, c] = [0, 1, 2].map(|i| turned[i].map(|part| part * self.scale[i]));
-        let column = |[x, y, z]: [f64; 3], w| [x, y, z, w];
-        [column(a, 0.0), column(b, 0.0), column(c, 0.0), column(self.translation, 1.0)]
+        self.matrix.map_or_else(|| transform(self.translation, self.rotation, self.scale), columns)
     }
+}
+
+fn columns(numbers: [f64; 16]) -> Matrix {
+    [0, 1, 2, 3].map(|column| [0, 1, 2, 3].map(|row| numbers[4 * column + row]))
+}
+
+/// Translation times rotation times scale.
+fn transform(translation: [f64; 3], [x, y, z, w]: [f64; 4], scale: [f64; 3]) -> Matrix {
+    let turned = [
+        [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)],
+        [2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)],
+        [2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y)],
+    ];
+    let [a, b, c] = [0, 1, 2].map(|i| turned[i].map(|part| part * scale[i]));
+    let column = |[x, y, z]: [f64; 3], w| [x, y, z, w];
+    [column(a, 0.0), column(b, 0.0), column(c, 0.0), column(translation, 1.0)]
 }
 
 fn product(a: Matrix, b: Matrix) -> Matrix {

@@ -23,8 +23,15 @@ pub struct Quad {
     pub w: [f32; 2],
     /// All of the normal map.
     pub texel: [u8; 3],
-    /// Members of the node.
+    /// Members of the node, which is node 0.
     pub node: &'static str,
+    /// Other nodes, each with a comma before it.
+    pub nodes: &'static str,
+    /// Other attributes, each with a comma before it. Accessors have positions, normals, tangents and UVs.
+    pub attributes: &'static str,
+    /// Other members of the primitive, and of the file, each with a comma before it.
+    pub primitive: &'static str,
+    pub file: &'static str,
     /// Other members of the material, each with a comma before it.
     pub material: &'static str,
     /// The file of the base colour's texture, in place of grey, and its media type.
@@ -42,6 +49,10 @@ impl Default for Quad {
             w: [1.0; 2],
             texel: [128, 128, 255],
             node: r#""translation":[5,0,0]"#,
+            nodes: "",
+            attributes: "",
+            primitive: "",
+            file: "",
             material: "",
             base: None,
         }
@@ -95,8 +106,8 @@ impl Quad {
             [accessor(0, "VEC3"), accessor(144, "VEC3"), accessor(288, "VEC4"), accessor(480, "VEC2")];
         let tangents = if self.has_tangents { r#","TANGENT":2"# } else { "" };
         let json = format!(
-            r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0,{node}}}],
-            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"NORMAL":1,"TEXCOORD_0":3{tangents}}},"material":0}}]}}],
+            r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0,{node}}}{nodes}]{file},
+            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"NORMAL":1,"TEXCOORD_0":3{tangents}{attributes}}},"material":0{primitive}}}]}}],
             "materials":[{{"normalTexture":{{"index":0}},"pbrMetallicRoughness":{{"baseColorFactor":{factor}{base_texture}}}{material}}}],
             "textures":[{{"source":0}},{{"source":1,"sampler":0}}],"samplers":[{{"magFilter":9728,"wrapS":33071,"wrapT":33071}}],
             "images":[{{"bufferView":1,"mimeType":"image/png"}},{{"bufferView":2,"mimeType":"{kind}"}}],
@@ -105,6 +116,10 @@ impl Quad {
             {{"buffer":0,"byteOffset":{base_at},"byteLength":{base_len}}}],
             "buffers":[{{"byteLength":{length}}}]}}"#,
             node = self.node,
+            nodes = self.nodes,
+            attributes = self.attributes,
+            primitive = self.primitive,
+            file = self.file,
             material = self.material,
             factor = if base.is_empty() { "[0.5,0.5,0.5,1]" } else { "[1,1,1,1]" },
             accessors = accessors.join(","),
