@@ -14,7 +14,7 @@ pub extern "C" fn plan_topology(mode: u32, threshold: f32, most: usize) -> i32 {
         let topology = match Topology::new(&mesh, &options(mode, threshold, 0), most) {
             Ok(topology) => topology,
             Err(Unplanned::TooManyMembers { members, .. }) => return members as i32,
-            Err(Unplanned::NotTriangles | Unplanned::OtherMethod) => return -1,
+            Err(Unplanned::HalvesDisagree { .. } | Unplanned::OtherMethod) => return -1,
         };
         let (of_vertices, split) = match topology.sum_of_vertex(&mesh) {
             Ok(of_vertices) => (of_vertices, 0),

@@ -104,11 +104,20 @@ pub enum GpuError {
         /// The largest number.
         limit: u32,
     },
-    /// A plan of faces other than triangles.
+    /// A check of a plan of faces other than triangles.
     #[error(
-        "a plan on a GPU is of triangles: plan the triangles that are drawn, or use the CPU's Plan, which takes faces as they are"
+        "a plan's check on a GPU is of triangles: which diagonals cut quads may change as they move; ask the CPU's Plan (count_regrouped)"
     )]
     NotTriangles,
+    /// A plan of quads whose halves disagree.
+    #[error(
+        "{corners} corners of quads have the average of two tangents, or the other half's as one is degenerate: plan the triangles that are \
+         drawn, or use the CPU's Plan"
+    )]
+    HalvesDisagree {
+        /// Their number.
+        corners: usize,
+    },
     /// A plan of another method.
     #[error("a plan on a GPU is of MikkTSpace: other methods have nothing to plan")]
     OtherMethod,
@@ -139,7 +148,7 @@ pub enum GpuError {
 impl From<Unplanned> for GpuError {
     fn from(why: Unplanned) -> Self {
         match why {
-            Unplanned::NotTriangles => Self::NotTriangles,
+            Unplanned::HalvesDisagree { corners } => Self::HalvesDisagree { corners },
             Unplanned::OtherMethod => Self::OtherMethod,
             Unplanned::TooManyMembers { members, limit } => Self::TooManyMembers { members, limit },
         }

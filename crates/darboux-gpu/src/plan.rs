@@ -83,6 +83,7 @@ pub struct Planner {
 pub struct Plan {
     planner: Planner,
     words: Words,
+    has_quads: bool,
     triangles: Buffer,
     representatives: Buffer,
     sums: Buffer,
@@ -189,8 +190,8 @@ impl Planner {
 
     /// Groups the triangles of `mesh` on the CPU and uploads what does not depend on where vertices are.
     ///
-    /// Errors: faces other than triangles, methods other than MikkTSpace, vertices of too many triangles, a buffer past a limit of the
-    /// device.
+    /// Quads are cut into triangles as they are on the mesh given. Errors: quads with corners that have the average of two tangents, or one
+    /// degenerate half; methods other than MikkTSpace; vertices of too many triangles; a buffer past a limit of the device.
     pub fn plan(&self, mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Plan, GpuError> {
         let topology = Topology::new(mesh, options, MAX_TURNS as usize)?;
         let of_corners = self.upload("sums of corners", &topology.sum_of_corner)?;
@@ -210,6 +211,7 @@ impl Planner {
                 half_threshold: ((1.0 + topology.threshold_cosine) / 2.0).sqrt().to_bits(),
                 ..Words::zeroed()
             },
+            has_quads: topology.has_quads,
             triangles: self.upload("triangles", &topology.triangles)?,
             representatives: self.upload("representatives", &topology.representatives)?,
             sums: self.upload("sums", &topology.sums)?,

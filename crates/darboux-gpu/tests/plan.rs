@@ -7,7 +7,7 @@ use common::{buffer, gpus, triangulated, words_of};
 use darboux::{Method, Mode, TangentOptions, generate_tangents, split_vertices};
 use darboux_gpu::stages::Arithmetic;
 use darboux_gpu::{Attribute, Gpu, GpuError, MovingMesh, Per, Planner, Precision};
-use darboux_tests::{Case, OwnedMesh, families};
+use darboux_tests::{Case, FaceSizes, OwnedMesh, families};
 use wgpu::BufferUsages;
 
 fn bits(tangent: [f32; 4]) -> [u32; 4] {
@@ -81,6 +81,40 @@ fn moved_meshes_have_the_core_s_bits() {
             println!("{arithmetic:?} on {}: {tally:?}", gpu.name);
         }
     }
+}
+
+#[test]
+fn moved_quads_have_the_core_s_bits() {
+    for gpu in gpus() {
+        for arithmetic in [Arithmetic::Exact, Arithmetic::Hostile] {
+            let planner = Planner::with_arithmetic(&gpu.device, arithmetic);
+            let mut tally = Tally::default();
+            let (mut planned, mut refused) = (0, 0);
+            for (seed, mesh) in quads().into_iter().enumerate() {
+                let mode = [Mode::Reference, Mode::Repaired][seed % 2];
+                let options = TangentOptions { mode, ..Default::default() };
+                match planner.plan(&mesh.view(), &options) {
+                    Err(GpuError::HalvesDisagree { corners: 1.. }) => refused += 1,
+                    plan => {
+                        plan.unwrap_or_else(|error| panic!("mesh {seed}: {error}"));
+                        let meshes = [&mesh, &mesh.moved(seed)];
+                        check(&planner, gpu, &format!("mesh {seed}"), meshes, mode, &mut tally);
+                        planned += 1;
+                    }
+                }
+            }
+            println!("{arithmetic:?} on {}: {tally:?}, {planned} planned, {refused} refused", gpu.name);
+            assert!(planned > 100 && refused > 100);
+        }
+    }
+}
+
+/// Quads, and faces of three, four and more corners.
+fn quads() -> Vec<OwnedMesh> {
+    let mut meshes = vec![families::grid(12, 9, true, false), families::grid(12, 9, true, true)];
+    meshes.extend((0..900).map(|seed| Case::from_seed(seed).mesh));
+    meshes.retain(|mesh| mesh.faces != FaceSizes::Triangles && mesh.corner_count() > 0);
+    meshes
 }
 
 /// A grid with an edge of mirrored UVs, and the same as it waves.
@@ -237,15 +271,16 @@ fn normals_are_nearly_the_core_s() {
 #[test]
 fn what_has_no_plan_is_said() {
     let quads = families::grid(3, 3, true, false);
+    // Two quads lose an edge that both have.
+    let mut halved = quads.clone();
+    let face = halved.face_list()[0].clone();
+    halved.positions[face[3] as usize] = halved.positions[face[2] as usize];
     let grid = families::grid(3, 3, false, true);
     for gpu in gpus() {
         let planner = Planner::new(&gpu.device, Precision::Exact);
         let plan = |mesh: &OwnedMesh, options| planner.plan(&mesh.view(), &options);
         let options = TangentOptions::default();
-        let of_quads = plan(&quads, options).err().map(|error| error.to_string());
-        assert!(
-            of_quads.is_some_and(|text| text.contains("plan the triangles that are drawn, or use the CPU's"))
-        );
+        assert_eq!(plan(&halved, options).err(), Some(GpuError::HalvesDisagree { corners: 2 }));
         let average = TangentOptions { method: Method::Average, ..options };
         assert_eq!(plan(&grid, average).err(), Some(GpuError::OtherMethod));
         let floats = buffer(gpu, &vec![0; 4 * grid.positions.len()], BufferUsages::STORAGE);
@@ -253,6 +288,9 @@ fn what_has_no_plan_is_said() {
         let [positions, normals, tangents] = [12, 12, 16].map(part);
         let moving =
             |vertex_count| MovingMesh { vertex_count, positions, normals, tangents, per: Per::Vertex };
+        let of_quads = plan(&quads, options).expect("a plan");
+        let check = of_quads.check_of_buffers(&moving(quads.positions.len() as u32));
+        assert_eq!(check.err(), Some(GpuError::NotTriangles));
         let of_seam = plan(&grid, options).expect("a plan").of_buffers(&moving(grid.positions.len() as u32));
         assert!(matches!(of_seam.err(), Some(GpuError::Unsplit { vertices: 1.. })));
         let whole = plan(&families::grid(3, 3, false, false), options).expect("a plan");

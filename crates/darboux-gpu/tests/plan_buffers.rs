@@ -6,7 +6,7 @@ use common::plans::record;
 use common::{UNTOUCHED, buffer, gpus, triangulated};
 use darboux::{Method, TangentOptions};
 use darboux_gpu::{Attribute, Gpu, MovingMesh, Per, Planner, Precision};
-use darboux_tests::{FaceSizes, OwnedMesh, families};
+use darboux_tests::{OwnedMesh, families};
 use wgpu::{Buffer, BufferUsages};
 
 const USAGE: BufferUsages = BufferUsages::STORAGE.union(BufferUsages::COPY_SRC);
@@ -68,8 +68,6 @@ fn faults_are_named() {
             Ok(_) => "none".to_owned(),
             Err(error) => error.to_string(),
         };
-        let quads = OwnedMesh { faces: FaceSizes::Quads, ..mesh.clone() };
-        assert!(fault(&quads, &options).starts_with("a plan on a GPU is of triangles"));
         let other = TangentOptions { method: Method::Average, ..options };
         assert!(fault(&mesh, &other).starts_with("a plan on a GPU is of MikkTSpace"));
         let plan = planner.plan(&mesh.view(), &options).unwrap_or_else(|error| panic!("{error}"));

@@ -18,8 +18,11 @@ pub struct PlanCheck {
 }
 
 impl Plan {
-    /// A check of the same buffers as those of [`Plan::of_buffers`], with its errors.
+    /// A check of the same buffers as those of [`Plan::of_buffers`], with its errors, and one for faces that are not triangles.
     pub fn check_of_buffers(&self, mesh: &MovingMesh<'_>) -> Result<PlanCheck, GpuError> {
+        if self.has_quads {
+            return Err(GpuError::NotTriangles);
+        }
         let (_, outputs) = self.sum_of_output[mesh.per as usize].clone()?;
         self.check(mesh, outputs)?;
         let (words, device) = (&self.words, &self.planner.device);

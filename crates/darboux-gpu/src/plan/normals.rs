@@ -67,8 +67,8 @@ impl Fans {
 }
 
 impl Plan {
-    /// Normals of the same buffers as those of [`Plan::of_buffers`], with its errors: smooth ones, weighted by angle, that vertices share
-    /// where the planned mesh had one position and one normal. They are rounded as the device likes.
+    /// Normals of the same buffers as those of [`Plan::of_buffers`], with its errors: smooth ones, of triangles and halves of quads, weighted by
+    /// angle, that vertices share where the planned mesh had one position and one normal. They are rounded as the device likes.
     pub fn normals_of_buffers(&self, mesh: &MovingMesh<'_>) -> Result<PlanNormals, GpuError> {
         let (_, outputs) = self.sum_of_output[mesh.per as usize].clone()?;
         self.check(mesh, outputs)?;

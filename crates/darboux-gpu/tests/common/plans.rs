@@ -1,13 +1,13 @@
 //! Plans run once.
 
 use darboux::{Mode, TangentOptions};
-use darboux_gpu::{Attribute, Gpu, MovingMesh, Per, Plan, Planner};
+use darboux_gpu::{Attribute, Gpu, GpuError, MovingMesh, Per, Plan, Planner};
 use darboux_tests::OwnedMesh;
 use wgpu::BufferUsages;
 
 use super::{UNTOUCHED, buffer, words_of};
 
-/// What a plan writes: four words per corner or vertex, its counts, and those of its check.
+/// What a plan writes: four words per corner or vertex, its counts, and those of its check, which is of triangles alone.
 #[derive(Debug, PartialEq)]
 pub struct Found {
     pub words: Vec<u32>,
@@ -38,13 +38,20 @@ pub fn run(planner: &Planner, gpu: &Gpu, [base, moved]: [&OwnedMesh; 2], mode: M
 
 pub fn record(gpu: &Gpu, plan: &Plan, moving: &MovingMesh<'_>) -> Found {
     let run = plan.of_buffers(moving).unwrap_or_else(|error| panic!("{error}"));
-    let check = plan.check_of_buffers(moving).unwrap_or_else(|error| panic!("{error}"));
-    let sources = [moving.tangents.buffer, run.counts(), check.counts()];
+    let check = match plan.check_of_buffers(moving) {
+        Err(GpuError::NotTriangles) => None,
+        check => Some(check.unwrap_or_else(|error| panic!("{error}"))),
+    };
+    let no_changes = buffer(gpu, &[UNTOUCHED; 5], BufferUsages::COPY_SRC);
+    let changes = check.as_ref().map_or(&no_changes, |check| check.counts());
+    let sources = [moving.tangents.buffer, run.counts(), changes];
     let reading = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
     let results = sources.map(|source| buffer(gpu, &vec![0; source.size() as usize / 4], reading));
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     run.record(&mut encoder);
-    check.record(&mut encoder);
+    if let Some(check) = &check {
+        check.record(&mut encoder);
+    }
     for (source, result) in sources.iter().zip(&results) {
         encoder.copy_buffer_to_buffer(source, 0, result, 0, None);
     }

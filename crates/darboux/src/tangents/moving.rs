@@ -4,7 +4,8 @@ use std::collections::HashMap;
 
 use crate::{CornerTangents, Faces, Mesh, Method, Mode, TangentOptions, generate_tangents};
 
-use super::stages::{CopiedFrom, NONE, Stages, Triangles};
+use super::derivatives::doubled_area;
+use super::stages::{Copied, CopiedFrom, NONE, Stages, Triangles};
 
 /// Vertices' numbers end below these bits; see darboux-gpu's shaders/plan/triangle.wgsl.
 const FIRST_MARK: u32 = 1 << 31;
@@ -15,8 +16,12 @@ pub const VERTEX: u32 = SECOND_MARK - 1;
 /// Why a mesh has no plan there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unplanned {
-    /// Faces other than triangles.
-    NotTriangles,
+    /// Corners of quads whose halves disagree about them: they have the average of two tangents, or, where one half is degenerate, that of
+    /// the corner that lies where they do.
+    HalvesDisagree {
+        /// Their number.
+        corners: usize,
+    },
     /// Another method than MikkTSpace.
     OtherMethod,
     /// More members of sums than fit.
@@ -52,24 +57,28 @@ pub struct Topology {
     pub base: CornerTangents,
     /// Unusable tangents are replaced.
     pub repairs: bool,
+    /// Which diagonals cut quads may depend on where they are.
+    pub has_quads: bool,
     pub threshold_cosine: f32,
 }
 
 impl Topology {
-    /// `most_members`: of one sum. Errors: faces that are not triangles, another method, too many members.
+    /// `most_members`: of one sum. Errors: another method, quads whose halves disagree, too many members.
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, most_members: usize) -> Result<Self, Unplanned> {
-        if !matches!(mesh.faces(), Faces::Triangles) {
-            return Err(Unplanned::NotTriangles);
-        }
         if options.method != Method::MikkTSpace {
             return Err(Unplanned::OtherMethod);
         }
         let limit = 8 * mesh.corner_count() + (1 << 20);
         let too_many = |members, limit| Unplanned::TooManyMembers { members, limit };
         let stages = Stages::new(mesh, options, limit).ok_or_else(|| too_many(limit + 1, limit))?;
+        match corners_of_both_halves(&stages) {
+            0 => {}
+            corners => return Err(Unplanned::HalvesDisagree { corners }),
+        }
         let base = generate_tangents(mesh, options).corners;
+        let repairs = options.mode != Mode::Reference;
         let mut sums = Sums::new(mesh, &stages);
-        let sum_of_corner = sums.of_corners(mesh, &stages, &base);
+        let sum_of_corner = sums.of_corners(mesh, &stages, &base, repairs);
         if let Some(members) = sums.largest().filter(|&members| members > most_members) {
             return Err(too_many(members, most_members));
         }
@@ -94,7 +103,8 @@ impl Topology {
             sums: [sums.ends, sums.vertices, sums.members].concat(),
             sum_of_corner,
             base,
-            repairs: options.mode != Mode::Reference,
+            repairs,
+            has_quads: !matches!(mesh.faces(), Faces::Triangles),
             threshold_cosine: stages.threshold_cosine,
         })
     }
@@ -122,6 +132,13 @@ impl Topology {
             vertices => Err(vertices),
         }
     }
+}
+
+/// Corners that have neither the tangent of one sum nor, at the same vertex, that of another corner.
+fn corners_of_both_halves(stages: &Stages) -> usize {
+    let is_average = |sums: &&[u32; 2]| sums[1] != NONE && sums[1] != sums[0];
+    let is_of_half = |copied: &&Copied| matches!(copied.from, CopiedFrom::Half(_));
+    stages.sums.of_corner.iter().filter(is_average).count() + stages.copies.iter().filter(is_of_half).count()
 }
 
 fn none(sum: Option<u32>) -> u32 {
@@ -160,11 +177,13 @@ fn sums_of_places(stages: &Stages, sum_of_corner: &[u32]) -> Vec<u32> {
 /// The words of triangle `t` of those that are not degenerate.
 fn triangle(mesh: &Mesh<'_>, stages: &Stages, t: usize) -> [u32; 5] {
     let good = &stages.triangulation.good;
-    let derivative = &stages.derivatives[t];
     let [mut a, mut b, mut c] = good.corners[t].map(|corner| vertex(mesh, corner));
-    let has_copies = [a, b, c] != good.vertices[t].map(|corner| vertex(mesh, corner));
-    a |= if derivative.preserves { 0 } else { FIRST_MARK };
-    b |= if derivative.any { FIRST_MARK } else { 0 };
+    let names = good.vertices[t].map(|corner| vertex(mesh, corner));
+    let has_copies = [a, b, c] != names;
+    // Its own orientation, whatever a quad's halves agree on.
+    let preserves = doubled_area(names.map(|name| mesh.uvs().get(name as usize))) > 0.0;
+    a |= if preserves { 0 } else { FIRST_MARK };
+    b |= if stages.derivatives[t].any { FIRST_MARK } else { 0 };
     c |= if has_copies { FIRST_MARK } else { 0 };
     let [d, e] = differences(mesh, good.vertices[t], 1);
     [a, b, c, d, e]
@@ -216,8 +235,15 @@ impl Sums {
         starts.zip(&self.ends).map(|(start, &end)| (end - start) as usize).max()
     }
 
-    /// The sum of every corner, with the sign that it has in `base`.
-    fn of_corners(&mut self, mesh: &Mesh<'_>, stages: &Stages, base: &CornerTangents) -> Vec<u32> {
+    /// The sum of every corner, with the sign that it has in `base`. Corners of faces that are neither triangles nor quads have none to take:
+    /// what they have is replaced, if `repairs`.
+    fn of_corners(
+        &mut self,
+        mesh: &Mesh<'_>,
+        stages: &Stages,
+        base: &CornerTangents,
+        repairs: bool,
+    ) -> Vec<u32> {
         let mut sums: Vec<u32> = stages.sums.of_corner.iter().map(|sums| sums[0]).collect();
         for copied in &stages.copies {
             if let CopiedFrom::Vertex(good) = copied.from {
@@ -225,8 +251,13 @@ impl Sums {
             }
         }
         let raw = |sum: u32| self.signs.get(sum as usize).copied().unwrap_or(DEFAULT_SIGN);
-        let is_forced: Vec<bool> =
+        let mut is_forced: Vec<bool> =
             sums.iter().zip(base.per_corner()).map(|(&sum, tangent)| raw(sum) != tangent[3]).collect();
+        stages
+            .triangulation
+            .unsupported_corners
+            .iter()
+            .for_each(|&corner| is_forced[corner as usize] |= repairs);
         // Where a face was given one sign, a corner has the tangent of another group at its vertex.
         let first =
             if is_forced.contains(&true) { self.first_of_sign(stages, &sums) } else { HashMap::new() };
