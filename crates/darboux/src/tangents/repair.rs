@@ -95,7 +95,8 @@ pub(super) fn u_direction_of(positions: [V3; 3], uvs: [[f32; 2]; 3]) -> D3 {
     let [t0, t1, t2] = uvs.map(|uv| uv.map(f64::from));
     let [dv1, dv2] = [t1[1] - t0[1], t2[1] - t0[1]];
     let area = (t1[0] - t0[0]) * dv2 - dv1 * (t2[0] - t0[0]);
-    [0, 1, 2].map(|i| (dv2 * (p1[i] - p0[i]) - dv1 * (p2[i] - p0[i])) * 1f64.copysign(area))
+    // NaN where the area is, as it is with an infinite u: the sign of a NaN is another on every processor.
+    [0, 1, 2].map(|i| (dv2 * (p1[i] - p0[i]) - dv1 * (p2[i] - p0[i])) * area.signum())
 }
 
 /// True for a finite tangent of unit length to 1e-3 that is not along the normal (|cos| < 0.999, if there is a normal).
