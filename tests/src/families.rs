@@ -14,9 +14,9 @@ pub fn grid(width: usize, height: usize, quads: bool, mirrored: bool) -> OwnedMe
         for x in 0..=width {
             let (fx, fy) = (x as f32 / width as f32, y as f32 / height as f32);
             let u = if mirrored { 0.5 - (fx - 0.5).abs() } else { fx };
-            let slope = 0.6 * (7.0 * fx).cos();
+            let slope = 0.6 * sin_cos(7.0 * fx).1;
             let normal = normalized([-slope, 0.0, 1.0]);
-            mesh.push(([fx, fy, slope.sin() / 7.0], normal, [u, fy]));
+            mesh.push(([fx, fy, sin_cos(slope).0 / 7.0], normal, [u, fy]));
         }
     }
     let at = |x: usize, y: usize| (y * (width + 1) + x) as u32;
@@ -35,7 +35,7 @@ pub fn sphere(rings: usize, segments: usize, quads: bool) -> OwnedMesh {
     for ring in 0..=rings {
         for segment in 0..=segments {
             let (v, u) = (ring as f32 / rings as f32, segment as f32 / segments as f32);
-            let ((z, r), (y, x)) = ((PI * v).sin_cos(), (TAU * u).sin_cos());
+            let ((z, r), (y, x)) = (sin_cos(PI * v), sin_cos(TAU * u));
             let normal = match ring {
                 0 => UP,
                 _ if ring == rings => [0.0, 0.0, -1.0],
@@ -65,7 +65,7 @@ pub fn fan(count: usize, polar: bool) -> OwnedMesh {
     mesh.push(([0.0; 3], UP, if polar { [0.5, 0.0] } else { [0.0; 2] }));
     for i in 0..=count {
         let turn = i as f32 / count as f32;
-        let (y, x) = if i == count { (0.0, 1.0) } else { (TAU * turn).sin_cos() };
+        let (y, x) = if i == count { (0.0, 1.0) } else { sin_cos(TAU * turn) };
         mesh.push(([x, y, 0.0], UP, if polar { [turn, 1.0] } else { [x, y] }));
     }
     let faces: Vec<Vec<u32>> = (1..=count as u32).map(|i| vec![0, i, i + 1]).collect();
@@ -90,7 +90,7 @@ pub fn moebius(count: usize, quads: bool) -> OwnedMesh {
     for i in 0..count {
         for side in [-0.4f32, 0.4] {
             let turn = TAU * i as f32 / count as f32;
-            let ((sin, cos), (lift, lean)) = (turn.sin_cos(), (0.5 * turn).sin_cos());
+            let ((sin, cos), (lift, lean)) = (sin_cos(turn), sin_cos(0.5 * turn));
             let radius = 1.0 + side * lean;
             let position = [radius * cos, radius * sin, side * lift];
             mesh.push((position, normalized([lift * cos, lift * sin, -lean]), [i as f32, side]));
@@ -155,6 +155,12 @@ fn push_quad(faces: &mut Vec<Vec<u32>>, [a, b, c, d]: [u32; 4], quads: bool) {
     } else {
         faces.extend([vec![a, b, c], vec![a, c, d]]);
     }
+}
+
+/// Sine and cosine, rounded from double precision: the same on every platform, whose own differ in the last bit.
+fn sin_cos(angle: f32) -> (f32, f32) {
+    let (sin, cos) = f64::from(angle).sin_cos();
+    (sin as f32, cos as f32)
 }
 
 fn normalized(v: [f32; 3]) -> [f32; 3] {
