@@ -7,7 +7,7 @@ use std::time::Instant;
 use crate::python::WithoutPython;
 use crate::run::{Outcome, program, root, run, shown, works};
 use crate::validate::WithoutNpm;
-use crate::{dist_js, dist_viewer, generated, graphics, layers, python, validate};
+use crate::{dist_js, dist_viewer, generated, layers, packages, python, validate};
 
 type Step = (&'static str, fn() -> Outcome);
 
@@ -18,7 +18,7 @@ const QUICK: &[Step] = &[
     ("layers", layers::check),
     ("generated files", generated::compare),
     ("models", || validate::all_models(without_npm())),
-    ("graphics", graphics::install),
+    ("packages", || packages::install(packages::FOR_TESTS)),
     ("tests", || test("cargo test --workspace")),
     ("python", || python::test(without_python())),
     ("npm package", || dist_js::test(without_npm())),
@@ -28,6 +28,7 @@ const QUICK: &[Step] = &[
 const LONG: &[Step] = &[
     ("acos", acos),
     ("small limits", small_limits),
+    ("Arm", arm),
     ("long tests", || test("cargo test --release --workspace -- --ignored --skip acos_exhaustive")),
     ("Python wheel", python::test_wheel),
     ("Blender", python::blender),
@@ -56,6 +57,21 @@ fn small_limits() -> Outcome {
     let line =
         "cargo test --release --package darboux-tests --package darboux-gpu --target-dir target/small-limits";
     run(program(line).env("RUSTFLAGS", "--cfg small_limits"))
+}
+
+/// The bits of x86-64 on 64-bit Arm, emulated, and mikktspace.c's there. That one is compiled without fused operations, which GCC puts
+/// into C on Arm unless told otherwise.
+pub fn arm() -> Outcome {
+    packages::install(packages::FOR_ARM)?;
+    run(&mut program("rustup target add aarch64-unknown-linux-gnu"))?;
+    let line = "cargo test --release --target aarch64-unknown-linux-gnu --package darboux-tests \
+                --test platforms --test corpus --test differential --test plan --test naive";
+    let variables = [
+        ("CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER", "aarch64-linux-gnu-gcc"),
+        ("CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUNNER", "qemu-aarch64 -L /usr/aarch64-linux-gnu"),
+        ("CFLAGS_aarch64_unknown_linux_gnu", "-ffp-contract=off"),
+    ];
+    run(program(line).envs(variables))
 }
 
 /// Runs the steps in turn, up to the first that fails.

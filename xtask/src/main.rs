@@ -7,8 +7,8 @@ mod dist_js;
 mod dist_viewer;
 mod generated;
 mod gpu;
-mod graphics;
 mod layers;
+mod packages;
 mod python;
 mod run;
 mod shaders;
@@ -31,7 +31,8 @@ usage: cargo xtask <task>
   dist-js       make the folder of the npm package; its path is the last line (needs node, npm and rustup)
   dist-viewer   make the viewer's page, which darboux view serves; its folder is the last line (needs what dist-js needs)
   dist-python   build the Python wheel; its folder is the last line (needs python3 with venv, and the network)
-  acos          compare acos with the platform's on every float of [-1, 1]";
+  acos          compare acos with the platform's on every float of [-1, 1]
+  arm           the tests of bits on 64-bit Arm, emulated (Debian: needs gcc and g++ for aarch64-linux-gnu, qemu-user; rustup)";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -50,6 +51,7 @@ fn main() -> ExitCode {
         ["dist-viewer"] => dist_viewer::make(),
         ["dist-python"] => python::dist(),
         ["acos"] => ci::acos(),
+        ["arm"] => ci::arm(),
         _ => {
             eprintln!("{USAGE}");
             return ExitCode::from(2);
