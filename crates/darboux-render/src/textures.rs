@@ -6,13 +6,16 @@ use std::io::Cursor;
 use darboux_gpu::Gpu;
 use darboux_io::gltf::{Document, TextureUse, Wrap};
 use image::imageops::{self, FilterType};
-use image::{ImageReader, RgbaImage};
+use image::{ImageFormat, ImageReader, RgbaImage};
 use wgpu::{
     AddressMode, FilterMode, MipmapFilterMode, Sampler, SamplerDescriptor, TextureFormat, TextureView,
 };
 
 /// The texels of all images together: 1 GiB with their smaller versions.
 const MOST_TEXELS: u64 = 200 << 20;
+
+/// What files in KTX 2 begin with.
+const KTX2: &[u8] = b"\xABKTX 20\xBB\r\n\x1A\n";
 
 /// What a texture's texels are.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -76,13 +79,19 @@ impl<'a> Textures<'a> {
 
     /// The error is a sentence.
     fn decode(&mut self, image: Option<usize>) -> Result<RgbaImage, String> {
-        let image = image
-            .ok_or("a texture has its image in an extension's format only; convert it to PNG or JPEG")?;
+        let image = image.ok_or("a texture has no image; export the file again")?;
         let bytes = self.document.image_bytes(image).map_err(|error| error.to_string())?;
         let told = |problem: String| format!("images[{image}] {problem}");
-        let limit = self.gpu.device.limits().max_texture_dimension_2d;
+        let is_ktx2 = bytes.starts_with(KTX2);
         let mut reader =
             ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|e| told(e.to_string()))?;
+        if is_ktx2 || reader.format() == Some(ImageFormat::Avif) {
+            let format = if is_ktx2 { "KTX 2" } else { "AVIF" };
+            return Err(told(format!(
+                "is {format}, for which there is no decoder here: convert it to PNG, JPEG or WebP"
+            )));
+        }
+        let limit = self.gpu.device.limits().max_texture_dimension_2d;
         let mut limits = image::Limits::default();
         (limits.max_image_width, limits.max_image_height) = (Some(limit), Some(limit));
         reader.limits(limits);

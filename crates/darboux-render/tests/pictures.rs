@@ -132,7 +132,7 @@ fn alpha_means_what_the_material_says() {
 }
 
 #[test]
-fn textures_may_be_jpeg_and_others_are_said() {
+fn textures_may_be_jpeg_or_webp_and_others_are_said() {
     if !has_adapter_or_says_so() {
         return;
     }
@@ -140,20 +140,34 @@ fn textures_may_be_jpeg_and_others_are_said() {
         true => Rgb([220, 30, 30]),
         false => Rgb([30, 30, 220]),
     }));
-    let base = |format, kind| Some((common::file_of(&texels, format), kind));
-    let shown = |base| halves(&Quad { base, ..Quad::default() }, View::Shaded);
-    let png = shown(base(ImageFormat::Png, "image/png"));
-    let jpeg = shown(base(ImageFormat::Jpeg, "image/jpeg"));
-    for (png, jpeg) in png.into_iter().zip(jpeg) {
-        assert!(is_like(png, jpeg), "{png:?} {jpeg:?}");
+    let quad = |format, kind, image_extension| {
+        let base = Some((common::file_of(&texels, format), kind));
+        Quad { base, image_extension, ..Quad::default() }
+    };
+    let png = halves(&quad(ImageFormat::Png, "image/png", ""), View::Shaded);
+    let others = [
+        quad(ImageFormat::Jpeg, "image/jpeg", ""),
+        quad(ImageFormat::WebP, "image/webp", "EXT_texture_webp"),
+        quad(ImageFormat::WebP, "image/webp", ""),
+    ];
+    for (at, other) in others.iter().enumerate() {
+        let shown = halves(other, View::Shaded);
+        assert!(is_like(png[0], shown[0]) && is_like(png[1], shown[1]), "{at}: {png:?} {shown:?}");
+        assert!(shown[0][0] > shown[0][2] + 60 && shown[1][2] > shown[1][0] + 60, "{at}: {shown:?}");
     }
-    assert!(jpeg[0][0] > jpeg[0][2] + 60 && jpeg[1][2] > jpeg[1][0] + 60, "{jpeg:?}");
-    let other = Quad { base: Some((b"GIF89a, or so".to_vec(), "image/gif")), ..Quad::default() };
-    let warnings = common::drawn(&other, &common::options(View::Shaded)).warnings;
-    assert!(
-        matches!(&warnings[..], [one] if one.contains("images[1]") && one.ends_with("drawn without it")),
-        "{warnings:?}"
-    );
+    let cases = [
+        (&b"GIF89a, or so"[..], "", "images[1] cannot be decoded"),
+        (b"\0\0\0\x20ftypavif\0\0\0\0avifmif1miafMA1B", "EXT_texture_avif", "images[1] is AVIF, for which"),
+        (b"\xABKTX 20\xBB\r\n\x1A\n", "KHR_texture_basisu", "images[1] is KTX 2, for which"),
+    ];
+    for (file, image_extension, said) in cases {
+        let quad = Quad { base: Some((file.to_vec(), "image/other")), image_extension, ..Quad::default() };
+        let warnings = common::drawn(&quad, &common::options(View::Shaded)).warnings;
+        assert!(
+            matches!(&warnings[..], [one] if one.starts_with(said) && one.ends_with("drawn without it")),
+            "{warnings:?}"
+        );
+    }
 }
 
 /// The quad with a skin whose joint 1, with all weight, is the node 1. Its joints and weights are its tangents: 1, 0, 0, 1.

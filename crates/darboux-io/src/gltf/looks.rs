@@ -58,7 +58,7 @@ pub enum Alpha {
 /// A texture where a material uses it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureUse {
-    /// The index of the image; none where it is only in a format of an extension.
+    /// The index of the image: glTF's own, or else that of an extension for WebP, AVIF or KTX 2; none where there is none of these.
     pub image: Option<usize>,
     /// n of `TEXCOORD_n`.
     pub uv_set: usize,
@@ -88,7 +88,7 @@ pub enum Wrap {
     Clamp,
 }
 
-read_from_objects! { Looks, Material, Metallic, Use, Texture, Sampler }
+read_from_objects! { Looks, Material, Metallic, Use, Texture, TextureExtensions, Source, Sampler }
 
 #[derive(Deserialize)]
 #[serde(remote = "Self")]
@@ -136,6 +136,35 @@ struct Use {
 struct Texture {
     sampler: Option<usize>,
     source: Option<usize>,
+    #[serde(default)]
+    extensions: TextureExtensions,
+}
+
+/// Where images of other formats are.
+#[derive(Default, Deserialize)]
+#[serde(remote = "Self")]
+struct TextureExtensions {
+    #[serde(rename = "EXT_texture_webp")]
+    webp: Option<Source>,
+    #[serde(rename = "EXT_texture_avif")]
+    avif: Option<Source>,
+    #[serde(rename = "KHR_texture_basisu")]
+    ktx2: Option<Source>,
+}
+
+#[derive(Deserialize)]
+#[serde(remote = "Self")]
+struct Source {
+    source: Option<usize>,
+}
+
+impl Texture {
+    /// The image that most programs can decode.
+    fn image(&self) -> Option<usize> {
+        let TextureExtensions { webp, avif, ktx2 } = &self.extensions;
+        let others = [webp, avif, ktx2].into_iter().flatten();
+        self.source.or_else(|| others.filter_map(|other| other.source).next())
+    }
 }
 
 #[derive(Default, Deserialize)]
@@ -196,12 +225,13 @@ impl Document {
             Some(index) => all.samplers.get(index).ok_or_else(|| missing("sampler", index))?,
             None => &none,
         };
-        if let Some(image) = texture.source.filter(|&image| image >= self.root.images.len()) {
+        let image = texture.image();
+        if let Some(image) = image.filter(|&image| image >= self.root.images.len()) {
             return Err(missing("image", image));
         }
         let transform = used.extensions.transform.as_ref();
         Ok(TextureUse {
-            image: texture.source,
+            image,
             uv_set: transform.and_then(|transform| transform.tex_coord).unwrap_or(used.tex_coord),
             wrap: [sampler.wrap_s, sampler.wrap_t].map(Wrap::from_code),
             is_nearest: sampler.mag_filter == Some(NEAREST),

@@ -36,6 +36,8 @@ pub struct Quad {
     pub material: &'static str,
     /// The file of the base colour's texture, in place of grey, and its media type.
     pub base: Option<(Vec<u8>, &'static str)>,
+    /// The extension in which the base colour's texture names its image; none where it does itself.
+    pub image_extension: &'static str,
 }
 
 impl Default for Quad {
@@ -55,6 +57,7 @@ impl Default for Quad {
             file: "",
             material: "",
             base: None,
+            image_extension: "",
         }
     }
 }
@@ -94,6 +97,10 @@ impl Quad {
         let base_at = bytes.len();
         bytes.extend(base);
         let base_texture = if base.is_empty() { "" } else { r#","baseColorTexture":{"index":1}"# };
+        let base_source = match self.image_extension {
+            "" => r#""source":1"#.to_owned(),
+            extension => format!(r#""extensions":{{"{extension}":{{"source":1}}}}"#),
+        };
         // A view of nothing is invalid.
         let base_len = base.len().max(1);
         bytes.resize((bytes.len() + 1).next_multiple_of(4), 0);
@@ -109,7 +116,7 @@ impl Quad {
             r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0,{node}}}{nodes}]{file},
             "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"NORMAL":1,"TEXCOORD_0":3{tangents}{attributes}}},"material":0{primitive}}}]}}],
             "materials":[{{"normalTexture":{{"index":0}},"pbrMetallicRoughness":{{"baseColorFactor":{factor}{base_texture}}}{material}}}],
-            "textures":[{{"source":0}},{{"source":1,"sampler":0}}],"samplers":[{{"magFilter":9728,"wrapS":33071,"wrapT":33071}}],
+            "textures":[{{"source":0}},{{{base_source},"sampler":0}}],"samplers":[{{"magFilter":9728,"wrapS":33071,"wrapT":33071}}],
             "images":[{{"bufferView":1,"mimeType":"image/png"}},{{"bufferView":2,"mimeType":"{kind}"}}],
             "accessors":[{accessors}],
             "bufferViews":[{{"buffer":0,"byteLength":{floats}}},{{"buffer":0,"byteOffset":{floats},"byteLength":{image}}},
