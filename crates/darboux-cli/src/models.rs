@@ -33,7 +33,7 @@ pub fn load_any(input: &Input, allow_outside: bool) -> Result<Document, String> 
     let document = match input {
         Input::File(path) if path.is_file() && is_another_model(path) => {
             return Err(format!(
-                "{input}: only glTF files are read here; export it as .glb from the program that made it (darboux view shows an OBJ as it is)"
+                "{input}: only glTF files are read here; export it as .glb from the program that made it (darboux view and darboux render show an OBJ as it is)"
             ));
         }
         Input::File(path) => Document::open(path, &options),

@@ -1,6 +1,7 @@
 //! `darboux render`.
 
 mod legend;
+mod obj;
 
 use std::path::Path;
 
@@ -89,9 +90,9 @@ fn refuse_useless(arguments: &RenderArguments) -> Result<(), String> {
 fn draw(arguments: &RenderArguments) -> Result<RenderReport, String> {
     let RenderArguments { model: path, output, view, size, .. } = arguments;
     check_output(output, arguments.force)?;
-    let (mut document, source) = document(arguments, arguments.tangents)?;
-    let other = arguments.against.map(|source| self::document(arguments, Some(source))).transpose()?;
-    let mut other = other.map(|(document, _)| document);
+    let Opened { mut document, source, warnings } = open(arguments, arguments.tangents)?;
+    let other = arguments.against.map(|source| open(arguments, Some(source))).transpose()?;
+    let mut other = other.map(|other| other.document);
     refuse_used(output, [&document, other.as_ref().unwrap_or(&document)])?;
     let name = document.name().to_owned();
     let model = model(arguments, &mut document, Some(source))?;
@@ -124,7 +125,11 @@ fn draw(arguments: &RenderArguments) -> Result<RenderReport, String> {
         size: *size,
         adapter: gpu.name.clone(),
         triangles: model.triangle_count(),
-        warnings: picture.warnings.into_iter().map(|warning| with_name(&name, warning)).collect(),
+        warnings: warnings
+            .into_iter()
+            .chain(picture.warnings)
+            .map(|warning| with_name(&name, warning))
+            .collect(),
     })
 }
 
@@ -173,10 +178,23 @@ fn check_output(path: &Path, force: bool) -> Result<(), String> {
     Ok(())
 }
 
-/// The model with the tangents of a source, and which that is. Triangles without normals get flat ones, as glTF asks of renderers.
-fn document(arguments: &RenderArguments, source: Option<Source>) -> Result<(Document, Source), String> {
+/// The model with tangents.
+struct Opened {
+    document: Document,
+    /// Whose tangents these are.
+    source: Source,
+    /// What is odd about the file: sentences.
+    warnings: Vec<String>,
+}
+
+/// Reads the model with the tangents of a source. Triangles without normals get flat ones, as glTF asks of renderers.
+fn open(arguments: &RenderArguments, source: Option<Source>) -> Result<Opened, String> {
     let sentence = |error: darboux_io::Error| error.to_string();
-    let mut document = load(&Input::File(arguments.model.clone()), arguments.allow_outside)?;
+    let is_obj = arguments.model.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj"));
+    let (mut document, warnings) = match is_obj {
+        true => obj::open(&arguments.model)?,
+        false => (load(&Input::File(arguments.model.clone()), arguments.allow_outside)?, Vec::new()),
+    };
     let flat = NormalOptions { shading: Shading::Flat, ..NormalOptions::default() };
     let flat = NormalsOptions { normals: flat, ..NormalsOptions::default() };
     add_normals(&mut document, &flat, &mut |_| {}).map_err(sentence)?;
@@ -188,7 +206,9 @@ fn document(arguments: &RenderArguments, source: Option<Source>) -> Result<(Docu
                 "{name}: has no tangents; name a method in place of file, or make some: darboux tangents {name}"
             ));
         }
-        Some(source @ (Source::File | Source::Derivatives)) => return Ok((document, source)),
+        Some(source @ (Source::File | Source::Derivatives)) => {
+            return Ok(Opened { document, source, warnings });
+        }
         Some(Source::Method(method)) => {
             let tangents = TangentOptions { method: method.into(), ..TangentOptions::default() };
             TangentsOptions { tangents, overwrite: true, ..TangentsOptions::default() }
@@ -196,7 +216,7 @@ fn document(arguments: &RenderArguments, source: Option<Source>) -> Result<(Docu
         None => TangentsOptions::default(),
     };
     add_tangents(&mut document, &tangents, &mut |_| {}).map_err(sentence)?;
-    Ok((document, source.unwrap_or(of_file)))
+    Ok(Opened { document, source: source.unwrap_or(of_file), warnings })
 }
 
 /// The meshes that names and indices mean. The error is a sentence.

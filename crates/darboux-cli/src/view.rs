@@ -1,7 +1,7 @@
 //! `darboux view`.
 
 mod model;
-mod obj;
+pub mod obj;
 mod page;
 mod server;
 

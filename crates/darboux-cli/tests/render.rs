@@ -178,6 +178,89 @@ fn meshes_are_chosen_by_name_or_index() {
     }
 }
 
+/// A PNG of one colour.
+fn png_of(color: [u8; 3]) -> Vec<u8> {
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, 4, 4);
+    encoder.set_color(png::ColorType::Rgb);
+    let mut writer = encoder.write_header().expect("a PNG");
+    writer.write_image_data(&color.repeat(16)).expect("pixels");
+    drop(writer);
+    file
+}
+
+const QUAD: &str = "mtllib quad.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n\
+usemtl plane\nf 1/1/1 2/2/1 3/3/1 4/4/1\n";
+
+#[test]
+fn an_obj_is_drawn_with_its_materials() {
+    if !has_adapter() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    fs::write(at("quad.obj"), QUAD).expect("a file");
+    // Leans up the image, towards the light.
+    fs::write(at("normal map.png"), png_of([128, 220, 200])).expect("a file");
+    fs::write(at("heights.png"), png_of([90; 3])).expect("a file");
+    let draw = |library: &str, more: &[&str]| {
+        fs::write(at("quad.mtl"), format!("newmtl plane\nKd 0.7 0.7 0.7\n{library}\n")).expect("a file");
+        let all = [
+            "render",
+            text(&at("quad.obj")),
+            "-o",
+            text(&at("a.png")),
+            "--size",
+            "32x32",
+            "--force",
+            "--json",
+        ]
+        .map(str::to_owned);
+        let all: Vec<&str> =
+            all.iter().map(String::as_str).chain(["--camera", "0,0"]).chain(more.iter().copied()).collect();
+        let report = darboux(&all).exits(0).json();
+        let middle = pixels_of(&at("a.png"))[16 * 32 + 16].map(u32::from).iter().sum::<u32>();
+        (middle, report["warnings"].to_string())
+    };
+    let (leaning, warnings) = draw("norm normal map.png", &[]);
+    assert_eq!(warnings, "[]");
+    for statement in
+        ["map_Bump normal map.png", "bump -bm 1 normal map.png", "map_bump heights.png\nnorm normal map.png"]
+    {
+        assert_eq!(draw(statement, &[]), (leaning, "[]".to_owned()), "{statement}");
+    }
+    assert!(draw("norm normal map.png", &["--mistakes", "green"]).0 + 60 < leaning);
+    let (_, warnings) = draw("map_Bump heights.png", &[]);
+    assert!(warnings.contains("the bump map of plane is grey, so it holds heights"), "{warnings}");
+    let (_, warnings) = draw("map_Kd lost.png", &[]);
+    assert!(warnings.contains("lost.png is not in the model's folder; drawn without it"), "{warnings}");
+    // Its tangents are along u, and v is up.
+    draw("", &["--view", "tangent", "--no-legend"]);
+    assert_eq!(pixels_of(&at("a.png"))[16 * 32 + 16], [255, 128, 128]);
+    draw("", &["--view", "bitangent", "--no-legend"]);
+    assert_eq!(pixels_of(&at("a.png"))[16 * 32 + 16], [128, 255, 128]);
+}
+
+#[test]
+fn bad_objs_are_sentences() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    let cases = [
+        ("", "has no faces as an OBJ has them"),
+        ("v 0 0 0\nf 1 2 3\n", "is no OBJ that can be read"),
+        ("v 0 0\nf 1 1 1\n", "is no OBJ that can be read"),
+        ("v 0 0 0\nf 1 a 1\n", "is no OBJ that can be read"),
+    ];
+    for (file, said) in cases {
+        fs::write(at("a.obj"), file).expect("a file");
+        let failed = darboux(&["render", text(&at("a.obj")), "-o", text(&at("a.png"))]).exits(1);
+        assert!(failed.stderr.contains(said) && failed.stderr.contains("a.obj"), "{file}: {}", failed.stderr);
+    }
+    let failed = darboux(&["render", text(&at("b.obj")), "-o", text(&at("a.png"))]).exits(1);
+    assert!(failed.stderr.contains("b.obj: cannot be read"), "{}", failed.stderr);
+    assert_eq!(names_in(folder.path()), ["a.obj"]);
+}
+
 #[test]
 fn bad_arguments_are_usage() {
     let wrong = [

@@ -25,6 +25,7 @@ pub use heat::HeatScale;
 pub use layout::Layout;
 pub use model::Model;
 pub use strokes::{LINE_COLORS, Lines, SEAM_COLOR};
+pub use textures::is_colored;
 
 use camera::Sight;
 use layout::Inset;

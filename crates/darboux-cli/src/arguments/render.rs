@@ -29,7 +29,7 @@ Examples:
 /// `darboux render`.
 #[derive(Debug, Args)]
 pub struct RenderArguments {
-    /// A model (.gltf, .glb, .vrm)
+    /// A model (.gltf, .glb, .vrm, .obj)
     #[arg(value_name = "MODEL")]
     pub model: PathBuf,
 

@@ -30,9 +30,7 @@ pub fn companions(path: &Path) -> Result<Vec<Companion>, String> {
     if !has_faces {
         return Err(format!("{shown}: has no faces as an OBJ has them; export it again"));
     }
-    let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
-    let folder = parent.unwrap_or(Path::new(".")).canonicalize();
-    let folder = folder.map_err(|error| format!("{shown}: its folder cannot be read: {error}"))?;
+    let folder = folder_of(path)?;
     let mut found = Vec::new();
     for library in libraries.into_iter().flat_map(|line| named(&folder, line)) {
         for texture in fs::read(&library.path).iter().flat_map(|text| textures(&folder, &library.name, text))
@@ -44,8 +42,15 @@ pub fn companions(path: &Path) -> Result<Vec<Companion>, String> {
     Ok(found)
 }
 
+/// The folder of a file. The error is a sentence.
+pub fn folder_of(path: &Path) -> Result<PathBuf, String> {
+    let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
+    let folder = parent.unwrap_or(Path::new(".")).canonicalize();
+    folder.map_err(|error| format!("{}: its folder cannot be read: {error}", path.display()))
+}
+
 /// The libraries of a line: one whose name may have spaces, or several.
-fn named(folder: &Path, line: &[u8]) -> Vec<Companion> {
+pub fn named(folder: &Path, line: &[u8]) -> Vec<Companion> {
     let words = || line.split(u8::is_ascii_whitespace).filter_map(|word| inside(folder, "", word));
     inside(folder, "", line).map_or_else(|| words().collect(), |library| vec![library])
 }
@@ -56,15 +61,20 @@ fn note(found: &mut Vec<Companion>, companion: Companion) {
     }
 }
 
-/// The textures of a material library. Options stand before a texture's name, which may have spaces: it is the longest end of the line that
-/// names a file.
+/// The textures of a material library.
 fn textures(folder: &Path, library: &str, text: &[u8]) -> Vec<Companion> {
-    let maps = statements(text).filter(|(word, line)| is_texture(word) && line.len() <= LONGEST_LINE);
-    let found = maps.filter_map(|(_, line)| {
-        let starts = line.iter().enumerate().filter(|&(at, _)| at == 0 || line[at - 1].is_ascii_whitespace());
-        starts.map(|(at, _)| &line[at..]).find_map(|end| inside(folder, library, end))
-    });
-    found.collect()
+    let maps = statements(text).filter(|(word, _)| is_texture(word));
+    maps.filter_map(|(_, line)| texture(folder, library, line)).collect()
+}
+
+/// The texture of a statement in a material library. Options stand before its name, which may have spaces: it is the longest end of the line
+/// that names a file.
+pub fn texture(folder: &Path, library: &str, line: &[u8]) -> Option<Companion> {
+    if line.len() > LONGEST_LINE {
+        return None;
+    }
+    let starts = line.iter().enumerate().filter(|&(at, _)| at == 0 || line[at - 1].is_ascii_whitespace());
+    starts.map(|(at, _)| &line[at..]).find_map(|end| inside(folder, library, end))
 }
 
 fn is_texture(word: &[u8]) -> bool {
