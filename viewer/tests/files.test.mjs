@@ -34,6 +34,9 @@ function inspected(path) {
   return JSON.parse(execFileSync(DARBOUX, ['inspect', '--json', path])).files[0].primitives[0];
 }
 
+/** A PNG of 2 x 2 grey texels. */
+const GREY = 'iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAAAAABX3VL4AAAADklEQVR4nGM4wcXAdQIABPIBpX867MIAAAAASUVORK5CYII=';
+
 test('a file by button', async () => {
   await viewer.give('files', [asset('NormalTangentTest/NormalTangentTest.glb')]);
   assert.equal(await viewer.text('name'), 'NormalTangentTest.glb');
@@ -126,6 +129,28 @@ test('an OBJ with materials and normal map looks the same when it is saved', asy
   writeFileSync(saved, (await viewer.download('#save-model')).bytes);
   await viewer.give('files', [saved]);
   assert.ok((await viewer.picture()).differs(before) < 0.01);
+});
+
+test('a coloured bump map of an OBJ is its normal map, and a grey one is said', async () => {
+  const path = join(folder, 'materials');
+  const library = (statement) => writeFileSync(join(path, 'quad.mtl'), `newmtl plane\nKd 1 1 1\n${statement}\n`);
+  const shown = async (statement) => {
+    library(statement);
+    await viewer.give('folder', path);
+    await viewer.slide('split', 100);
+    await viewer.choose('left', 'mikktspace');
+    return [await viewer.picture(), await viewer.text('status')];
+  };
+  writeFileSync(join(path, 'heights.png'), Buffer.from(GREY, 'base64'));
+  const [right, quiet] = await shown('norm normal.png');
+  for (const statement of ['map_Bump normal.png', 'bump -bm 0.5 normal.png', 'map_bump heights.png\nnorm normal.png']) {
+    const [same, status] = await shown(statement);
+    assert.ok(same.differs(right) < 0.002, statement);
+    assert.equal(status, quiet);
+  }
+  const [, status] = await shown('map_Bump heights.png');
+  assert.match(status, /the bump map of plane is grey, so it holds heights, which are not shown/);
+  assert.equal(await viewer.text('error'), '');
 });
 
 test('the report counts as the command does', { skip: !DARBOUX && 'DARBOUX names no command' }, async () => {

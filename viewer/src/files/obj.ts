@@ -5,6 +5,7 @@ import { MTLLoader } from 'three/addons/loaders/MTLLoader.js';
 import { OBJLoader } from 'three/addons/loaders/OBJLoader.js';
 
 import { counted } from '../page/words';
+import { isColored } from './image';
 import { located, type Bundle } from './bundle';
 
 /** What an OBJ shows. */
@@ -32,12 +33,15 @@ export async function openObj(name: string, bytes: Uint8Array<ArrayBuffer>, bund
   const scene = loader.parse(text);
   manager.itemEnd(name);
   await loaded;
+  const heights = new Set<string>();
+  const standardOf = (material: Material) => standard(material, () => heights.add(material.name));
   scene.traverse((object) => {
     if (!(object instanceof Mesh)) return;
-    object.material = Array.isArray(object.material) ? object.material.map(standard) : standard(object.material);
+    object.material = Array.isArray(object.material) ? object.material.map(standardOf) : standardOf(object.material);
   });
   const warnings = missing.map((library) => `${library} was not given, and its materials are missing`);
   if (lost) warnings.push(`${counted(lost, 'texture', 'textures')} missing or not decodable`);
+  for (const material of heights) warnings.push(`the bump map of ${material} is grey, so it holds heights, which are not shown; normal maps are coloured`);
   return { scene, warnings };
 }
 
@@ -75,12 +79,17 @@ function loadedOf(texture: Texture | null): Texture | null {
   return texture?.image ? texture : null;
 }
 
-/** The kind of material that has normal maps as glTF's. */
-function standard(material: Material): MeshStandardMaterial {
+/** The kind of material that has normal maps as glTF's. `tellOfHeights`: told of a bump map that is none. */
+function standard(material: Material, tellOfHeights: () => void): MeshStandardMaterial {
   const out = new MeshStandardMaterial({ name: material.name, side: material.side, roughness: 0.6 });
   if (!(material instanceof MeshPhongMaterial)) return out;
   out.color.copy(material.color);
   out.map = loadedOf(material.map);
   out.normalMap = loadedOf(material.normalMap);
+  const bump = loadedOf(material.bumpMap);
+  if (out.normalMap || !bump) return out;
+  // OBJ has a place for heights alone, and many programs write normal maps there.
+  if (isColored(bump.image as CanvasImageSource)) out.normalMap = bump;
+  else tellOfHeights();
   return out;
 }

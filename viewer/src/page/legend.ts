@@ -1,11 +1,12 @@
 // What the colours mean.
 
 import { COLORS, RAMP, SCALE } from '../scene/ink';
+import { SEAM_COLOR, VECTOR_COLORS } from '../scene/lines';
 import { element } from './elements';
-import type { Settings } from './settings';
+import { VECTORS, type Settings } from './settings';
 
 /** Explains the colours that are shown. */
-export function showLegend({ paint, layout }: Settings): void {
+export function showLegend({ paint, layout, vectors, seams }: Settings): void {
   const legend = element('legend');
   legend.replaceChildren();
   if (paint === 'angle') legend.append(scale(), key(COLORS.flipped, 'signs differ'), key(COLORS.none, 'no tangent'));
@@ -15,6 +16,8 @@ export function showLegend({ paint, layout }: Settings): void {
   if (['tangent', 'bitangent', 'normal'].includes(paint)) {
     legend.append(key('#ff8080', '+x'), key('#80ff80', '+y'), key('#8080ff', '+z'));
   }
+  for (const name of VECTORS) if (vectors[name]) legend.append(key(VECTOR_COLORS[name], name));
+  if (seams) legend.append(key(SEAM_COLOR, 'mirrored seam'));
 }
 
 /** The scale of angles. */

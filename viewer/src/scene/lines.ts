@@ -5,9 +5,9 @@ import { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments, Matri
 import type { VectorName } from '../page/settings';
 
 /** The colours of axes, as everywhere. */
-export const VECTOR_COLORS: Record<VectorName, number> = { tangent: 0xff4d4d, bitangent: 0x4dd24d, normal: 0x5c8cff };
+export const VECTOR_COLORS: Record<VectorName, string> = { tangent: '#ff4d4d', bitangent: '#4dd24d', normal: '#5c8cff' };
 
-export const SEAM_COLOR = 0xff4dd8;
+export const SEAM_COLOR = '#ff4dd8';
 
 /** More lines of a part than this show nothing more: every so-many-th vertex is drawn then. */
 const MOST_LINES = 50_000;
@@ -53,7 +53,7 @@ export function seamLines(ends: Float32Array, places: Matrix4[]): LineSegments {
   return segments(out, SEAM_COLOR);
 }
 
-function segments(ends: Float32Array, color: number): LineSegments {
+function segments(ends: Float32Array, color: string): LineSegments {
   const geometry = new BufferGeometry().setAttribute('position', new BufferAttribute(ends, 3));
   const lines = new LineSegments(geometry, new LineBasicMaterial({ color, toneMapped: false }));
   lines.frustumCulled = false;
