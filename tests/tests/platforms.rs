@@ -3,7 +3,6 @@
 //! Run this on another one to see whether the promise holds there. A change that is meant to change tangents records new ones.
 
 use darboux::{Frame, Method, Mode, TangentOptions, generate_frames, generate_tangents};
-use darboux_tests::corpus::corpus;
 use darboux_tests::{Case, METHODS, OwnedMesh, compare};
 
 /// FNV-1a of 64 bits, word by word.
@@ -24,14 +23,9 @@ impl Hash {
     }
 }
 
-/// The corpus, and meshes from seeds.
 fn meshes() -> Vec<(OwnedMesh, f32)> {
-    let collected = corpus().into_iter().map(|specimen| (specimen.mesh, specimen.thresholds[0]));
-    let made = (0..SEEDS).map(Case::from_seed).map(|case| (case.mesh, case.threshold));
-    collected.chain(made).collect()
+    (0..3000).map(Case::from_seed).map(|case| (case.mesh, case.threshold)).collect()
 }
-
-const SEEDS: u64 = 2000;
 
 fn hash(meshes: &[(OwnedMesh, f32)], take: impl Fn(&OwnedMesh, f32, &mut Hash)) -> u64 {
     let mut hash = Hash(0xcbf2_9ce4_8422_2325);
@@ -52,7 +46,7 @@ fn meshes_are_the_same() {
             position.into_iter().chain(normal).chain(uv).for_each(|float| hash.take_float(float));
         }
     });
-    assert_eq!(found, 0x16b6_af17_1196_abb6, "{found:#x}");
+    assert_eq!(found, 0xa051_d5c1_9e6c_d260, "{found:#x}");
 }
 
 #[test]
@@ -64,7 +58,7 @@ fn frames_of_mikktspace_are_the_same() {
             frames.corners.per_corner().iter().for_each(|frame| hash.take_frame(frame));
         })
     });
-    let recorded = [0x73e2_8dd8_6b3f_21d1, 0x8e53_584f_f8fd_298f, 0x0e8e_7488_df78_ab35];
+    let recorded = [0x628d_eff3_4eb8_6058, 0xdde4_0c5c_aa0e_fee8, 0x095b_00d9_e12a_6e3d];
     assert_eq!(found, recorded, "{found:#x?}");
 }
 
@@ -78,14 +72,14 @@ fn tangents_of_every_method_are_the_same() {
         })
     });
     let recorded = [
-        0x5d3f_bb2c_6987_8219,
-        0x23b7_226d_fcd6_7349,
-        0x4833_39c4_7845_139d,
-        0x4133_0975_ba8a_7183,
-        0x9e56_0a28_643f_6a4f,
-        0x81d6_b114_1250_c5f2,
-        0x7297_64bf_e0e0_be5b,
-        0xfdfb_d1d9_54fb_bd6e,
+        0xa8c0_af09_4510_12a9,
+        0xa229_a664_6a71_2657,
+        0x493d_b6fc_812e_e615,
+        0xc1f0_8455_cd76_897f,
+        0x5f2b_280c_f564_e206,
+        0x0e4d_c130_4346_876a,
+        0x6ef5_db72_d1f6_7928,
+        0x9aa6_bb5b_dbb5_aaba,
     ];
     assert_eq!(found, recorded, "{found:#x?}");
 }
