@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use darboux::{
     CornerTangents, Frame, Frames, Mode, Plan, TangentOptions, generate_frames, generate_tangents,
-    split_vertices,
+    split_vertices, stages,
 };
 
 use crate::{Case, OwnedMesh, engine};
@@ -26,6 +26,10 @@ pub fn all_modes(case: &Case) -> Result<(), String> {
         let tangents = generate_tangents(&mesh.view(), &options);
         if tangents.report != report {
             return Err(format!("{mode:?}: tangents report {:?}, frames {report:?}", tangents.report));
+        }
+        let general = stages::frames(&mesh.view(), &options).report;
+        if report != general {
+            return Err(format!("{mode:?}: report {report:?}, of all stages {general:?}"));
         }
         if !same_bits(&tangents.corners, &corners.tangents()) {
             return Err(format!("{mode:?}: tangents and frames differ"));

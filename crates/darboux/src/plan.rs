@@ -7,7 +7,7 @@ use crate::{CornerTangents, Mesh, MeshError, Scratch, TangentOptions, Tangents, 
 
 /// The weld, groups and subgroups of one mesh, kept to evaluate tangents again after its vertices moved (morph targets, skinning).
 ///
-/// For MikkTSpace on faces of 3 and 4 corners at 180 degrees it also keeps a copy of the mesh, 32 bytes per vertex and 4 per corner, for when
+/// For MikkTSpace on faces of 3 and 4 corners it also keeps a copy of the mesh, 32 bytes per vertex and 4 per corner, for when
 /// what is decided fast needs every stage after all: vertices that were welded move apart, tangents collapse.
 /// Of the other methods only [`Method::AngleArea`](crate::Method::AngleArea) has groups to keep; the rest run afresh, but for the signs.
 #[derive(Debug)]

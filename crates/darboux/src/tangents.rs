@@ -50,7 +50,7 @@ use crate::split::expect;
 use crate::{CornerFrames, CornerTangents, Mesh, MeshError};
 
 use accumulate::Memory;
-use fans::Fans;
+use fans::{Fans, LARGEST_COSINE};
 use frames::FrameMemory;
 pub use frames::{LentFrames, generate_frames, lend_frames, write_frames};
 pub use method::Method;
@@ -189,7 +189,7 @@ fn mikktspace_of_corners(
     scratch: &mut Scratch,
     out: &mut [[f32; 4]],
 ) -> Report {
-    if has_whole_fans(options) && scratch.fans.run(mesh, options.mode, width, stop, out) {
+    if has_whole_fans(options) && scratch.fans.run(mesh, options, width, stop, out) {
         if stop.is_asked() {
             Report::default()
         } else {
@@ -200,7 +200,7 @@ fn mikktspace_of_corners(
     }
 }
 
-/// Whether the fast path may apply: where no fan splits by its angles.
+/// Whether the fast path may apply: where not all fans may split by their angles.
 fn has_whole_fans(options: &TangentOptions) -> bool {
-    options.method == Method::MikkTSpace && cosine_of_degrees(options.threshold) == -1.0
+    options.method == Method::MikkTSpace && cosine_of_degrees(options.threshold) < LARGEST_COSINE
 }

@@ -6,6 +6,7 @@
 //! show that its triangles are one part: with certainty where there is one fan of edges, and else wrongly only if 64 bits agree by
 //! chance. No edge is looked up. What is not decided is left to the general path.
 
+mod again;
 mod block;
 mod corners;
 mod cut;
@@ -18,6 +19,7 @@ mod resumed;
 mod rows;
 mod shuffled;
 mod source;
+mod spread;
 mod steps;
 mod stream;
 mod vertices;
@@ -29,13 +31,14 @@ use std::ops::Range;
 
 use crate::Mesh;
 use crate::cancel::Stop;
+use crate::math::cosine_of_degrees;
 use crate::weld::Bounds;
 
-use super::Mode;
 use super::mikktspace::HalfEdge;
 use super::threads::{self, parts, split};
 use super::width::Width;
 use super::windows::{self, Share, Window, overlap, shares};
+use super::{Mode, TangentOptions};
 use block::Record;
 use cut::Cut;
 pub(super) use cut::triangle_count;
@@ -44,6 +47,8 @@ use names::Names;
 pub(crate) use planned::PlannedFans;
 use shuffled::Terms;
 use source::Source;
+pub(super) use spread::LARGEST_COSINE;
+use spread::Spread;
 use steps::{Extent, Special};
 use stream::{Stream, Unknown};
 pub use vertices::UNDECIDED;
@@ -70,6 +75,10 @@ pub(crate) struct Fans {
     last_stretches: Vec<Vec<u32>>,
     /// Of each welded vertex, where whole frames are wanted.
     sums: Vec<Sums>,
+    /// Of each welded vertex, where there is an angular threshold,
+    spreads: Vec<Spread>,
+    /// and whether it is exceeded.
+    are_apart: Vec<bool>,
     /// Of each welded vertex, where a plan welds corners.
     records: Vec<Record>,
 }
@@ -81,20 +90,20 @@ impl Fans {
     pub fn run(
         &mut self,
         mesh: &Mesh<'_>,
-        mode: Mode,
+        options: &TangentOptions,
         width: Width,
         stop: &Stop,
         out: &mut [[f32; 4]],
     ) -> bool {
         let threads = threads::count(triangle_count(mesh));
         self.workers.resize_with(threads, Worker::default);
-        threads::on_pool(threads, || self.run_on(mesh, mode, width, stop, out)).is_ok()
+        threads::on_pool(threads, || self.run_on(mesh, options, width, stop, out)).is_ok()
     }
 
     fn run_on(
         &mut self,
         mesh: &Mesh<'_>,
-        mode: Mode,
+        options: &TangentOptions,
         width: Width,
         stop: &Stop,
         out: &mut [[f32; 4]],
@@ -108,8 +117,12 @@ impl Fans {
         let tail = TailCells::first(&self.source(mesh), &self.weld.bounds, self.is_shuffled());
         self.add_and_write(mesh, &tail, width, stop, out);
         self.last_stretches.clear();
-        if mode != Mode::Corrected && !stop.is_asked() {
+        if options.mode != Mode::Corrected && !stop.is_asked() {
             self.leave_last_edges(mesh, tail, out);
+        }
+        let threshold_cosine = cosine_of_degrees(options.threshold);
+        if threshold_cosine > -1.0 && !stop.is_asked() {
+            self.leave_spread(mesh, threshold_cosine, width, stop, out);
         }
         Ok(())
     }

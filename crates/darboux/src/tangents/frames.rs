@@ -186,7 +186,7 @@ fn run_fans(mesh: &Mesh<'_>, options: &TangentOptions, stop: &Stop, scratch: &mu
     frames.clear();
     tangents.resize(mesh.corner_count(), [0.0; 4]);
     threads::on_pool(threads::count(triangle_count(mesh)), || {
-        fans.run(mesh, options.mode, width, stop, tangents).then(|| fans.add_frames(mesh, width, stop))
+        fans.run(mesh, options, width, stop, tangents).then(|| fans.add_frames(mesh, width, stop))
     })?;
     decided.clear();
     if stop.is_asked() {

@@ -14,7 +14,7 @@ use super::{Method, Scratch, TangentOptions, Tangents, angle_area, generate_tang
 /// What is known beforehand.
 #[derive(Debug)]
 pub(crate) enum Planned {
-    /// MikkTSpace on faces of 3 and 4 corners at 180 degrees: nearly all vertices are decided.
+    /// MikkTSpace on faces of 3 and 4 corners: nearly all vertices are decided.
     Fans(Box<Decided>),
     /// MikkTSpace elsewhere.
     Stages(Box<Topology>),
@@ -48,7 +48,7 @@ impl Planned {
         let mut base = Tangents::default();
         base.corners.0.resize(mesh.corner_count(), [0.0; 4]);
         let (mut fans, width) = (Fans::default(), Width::widest(Default::default()));
-        if !has_whole_fans(options) || !fans.run(mesh, options.mode, width, stop, &mut base.corners.0) {
+        if !has_whole_fans(options) || !fans.run(mesh, options, width, stop, &mut base.corners.0) {
             let Some(topology) = Topology::new(mesh, options, stop) else { return (Self::Nothing, base) };
             let (frames, report) = topology.frames(mesh, stop);
             write(&frames, &mut base.corners.0);

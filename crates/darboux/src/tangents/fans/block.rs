@@ -149,6 +149,23 @@ impl Block {
         self.bitangent_terms();
     }
 
+    /// From records to the directions of tangents and bitangents in the planes of the corners' vertices: six numbers in `sum` and
+    /// `magnitude_sum`. Anything where a triangle is not good.
+    #[inline(always)]
+    pub fn evaluate_directions(&mut self) {
+        self.unpack();
+        self.derivatives();
+        for k in 0..3 {
+            for i in 0..BLOCK {
+                let normal = self.normal(k, i);
+                let s = direction_in_plane(normal, [self.s[0][i], self.s[1][i], self.s[2][i]]);
+                let t = direction_in_plane(normal, [self.t[0][i], self.t[1][i], self.t[2][i]]);
+                self.sum[k][i] = [s[0], s[1], s[2], t[0]];
+                self.magnitude_sum[k][i] = [t[1], t[2]];
+            }
+        }
+    }
+
     #[inline(always)]
     fn unpack(&mut self) {
         for k in 0..3 {
