@@ -122,8 +122,10 @@ pub fn render(
         gpu.guarded(|| painter::paint(gpu, &show, &mut warnings))
     };
     let mut pixels = draw(if shows_model { Shape::Model } else { Shape::Layout }, options.size)?;
-    if let Some(inset) = Inset::of(options) {
-        inset.put(&draw(Shape::Layout, inset.size())?, &mut pixels);
+    match Inset::of(options).map(|inset| (draw(Shape::Layout, inset.size()), inset)) {
+        Some((Err(RenderError::Nothing), _)) => warnings.push("has no UVs that could be laid out".to_owned()),
+        Some((square, inset)) => inset.put(&square?, &mut pixels),
+        None => {}
     }
     Ok(Picture { size: options.size, pixels, warnings })
 }

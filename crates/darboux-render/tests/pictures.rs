@@ -342,6 +342,18 @@ fn layouts_show_where_uvs_are_in_the_colours_of_the_surface() {
 }
 
 #[test]
+fn a_model_without_uvs_has_no_layout_beside_it() {
+    if !has_adapter_or_says_so() {
+        return;
+    }
+    let options =
+        RenderOptions { layout: Some(Layout::Corner), size: [200, 200], ..common::options(View::Normal) };
+    let picture = common::drawn(&Quad { u_scale: f32::NAN, ..Quad::default() }, &options);
+    assert_eq!(picture.warnings, ["has no UVs that could be laid out"]);
+    assert!(is_about(picture.pixels[200 * 150 + 150], [128, 128, 255]));
+}
+
+#[test]
 fn what_cannot_be_drawn_is_said() {
     if !has_adapter_or_says_so() {
         return;
