@@ -4,7 +4,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use darboux::{
     Faces, Indices, Mesh, Method, Mode, Plan, Scratch, TangentOptions, Tangents, WidthLimit, generate_frames,
-    generate_tangents_into,
+    generate_tangents, generate_tangents_into,
 };
 
 /// A wavy grid of quads whose UVs are mirrored from one half to the other: vertices, and triangles in order.
@@ -79,8 +79,13 @@ fn hash_with(mut scratch: Scratch, shape: &Shape<'_>, runs: &[(Method, Mode)]) -
             corners.iter().for_each(|tangent| tangent.map(f32::to_bits).hash(&mut hasher));
             format!("{:?}", tangents.report).hash(&mut hasher);
             if options == TangentOptions::default() {
-                let planned = Plan::new(mesh, &options).evaluate(mesh).expect("the same mesh");
-                assert!(planned.per_corner() == corners);
+                let split = TangentOptions { threshold: 20.0, ..options };
+                let of_split = generate_tangents(mesh, &split).corners;
+                for (options, corners) in [(options, corners), (split, of_split.per_corner())] {
+                    let planned = Plan::new(mesh, &options).evaluate(mesh).expect("the same mesh");
+                    assert!(planned.per_corner() == corners);
+                }
+                of_split.per_corner().iter().for_each(|tangent| tangent.map(f32::to_bits).hash(&mut hasher));
             }
         }
     });
