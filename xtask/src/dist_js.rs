@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use wasmparser::{KnownCustom, Name, Parser, Payload};
+
 use crate::run::{Outcome, program, root, run, target_folder, to_stderr, works};
 use crate::validate::WithoutNpm;
 
@@ -19,8 +21,22 @@ const FORMS: &[(&str, &str)] = &[("simd", "-Ctarget-feature=+simd128"), ("scalar
 const SMALLER: &str = "-Cllvm-args=-inline-threshold=0 -Cllvm-args=-inlinehint-threshold=30 \
     -Cllvm-args=-unroll-runtime=false -Cllvm-args=-unroll-allow-partial=false";
 
-/// Modules, and their features of darboux-js.
-const MODULES: &[(&str, &str)] = &[("darboux", "full"), ("tangents", "")];
+/// Modules, their features of darboux-js, and how they are compiled.
+const MODULES: &[(&str, &str, Size)] = &[("darboux", "full", Size::AsItIs), ("tangents", "", Size::Small)];
+
+/// How a module is compiled.
+#[derive(Clone, Copy, PartialEq)]
+enum Size {
+    AsItIs,
+    /// For size, but for the tasks that are compiled per vector width: what takes the time.
+    Small,
+}
+
+/// An attribute of every function, taken from some of them again.
+const FOR_SIZE: &str = "-Cllvm-args=-force-attribute=optsize";
+
+/// What the names of the functions that run such tasks hold (see `tangents/width.rs` of the core), however the compiler mangles them.
+const TASK: &str = "5Width3run";
 
 /// Makes the folder and runs the tests of what is in it.
 pub fn test(without: WithoutNpm) -> Outcome {
@@ -49,9 +65,13 @@ pub fn make_folder() -> Result<PathBuf, String> {
     let (target, folder) = (target_folder()?, folder()?);
     let modules = target.join("dist-js/modules");
     fs::create_dir_all(&modules).map_err(|error| format!("{} cannot be made: {error}", modules.display()))?;
-    for (name, features) in MODULES {
+    for (name, features, size) in MODULES {
         for (form, flags) in FORMS {
-            compile(&target, features, flags, &modules.join(format!("{name}.{form}.wasm")))?;
+            let out = modules.join(format!("{name}.{form}.wasm"));
+            compile(&target, features, flags, &out)?;
+            if *size == Size::Small {
+                compile(&target, features, &format!("{flags} {FOR_SIZE}{}", but_for_tasks(&out)?), &out)?;
+            }
         }
     }
     let ours = root().join("bindings/js");
@@ -73,4 +93,36 @@ fn compile(target: &Path, features: &str, flags: &str, out: &Path) -> Outcome {
     fs::copy(&built, out)
         .map(|_| ())
         .map_err(|error| format!("{} cannot be copied: {error}", built.display()))
+}
+
+/// Flags that take [`FOR_SIZE`] from the tasks that a compiled module has.
+fn but_for_tasks(module: &Path) -> Result<String, String> {
+    let read = fs::read(module).map_err(|error| format!("{} cannot be read: {error}", module.display()))?;
+    let names = names(&read).map_err(|error| format!("{} has no names: {error}", module.display()))?;
+    let tasks: String = names
+        .into_iter()
+        .filter(|name| name.contains(TASK))
+        .map(|name| format!(" -Cllvm-args=-force-remove-attribute={name}:optsize"))
+        .collect();
+    if tasks.is_empty() {
+        return Err(format!("no function of {} is called as tasks are ({TASK})", module.display()));
+    }
+    Ok(tasks)
+}
+
+/// The functions of a module, as the compiler names them.
+fn names(module: &[u8]) -> wasmparser::Result<Vec<&str>> {
+    let mut names = Vec::new();
+    for payload in Parser::new(0).parse_all(module) {
+        let Payload::CustomSection(section) = payload? else { continue };
+        let KnownCustom::Name(parts) = section.as_known() else { continue };
+        for part in parts {
+            if let Name::Function(functions) = part? {
+                for function in functions {
+                    names.push(function?.name);
+                }
+            }
+        }
+    }
+    Ok(names)
 }

@@ -60,8 +60,9 @@ impl Width {
         }
     }
 
-    /// Runs a task.
+    /// Runs a task, as a function of its own: where all else is compiled for size, these are not.
     #[cfg(not(target_arch = "x86_64"))]
+    #[inline(never)]
     pub fn run(self, task: impl Task) {
         task.run();
     }
