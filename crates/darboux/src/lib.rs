@@ -28,6 +28,7 @@ mod cancel;
 mod convention;
 pub mod encode;
 mod frame;
+mod known;
 mod last_edges;
 mod math;
 mod measure;

@@ -11,9 +11,8 @@
 //! Source: mikktspace.c (M. S. Mikkelsen, 2011), `GenerateSharedVerticesIndexList`; there every final range is compared
 //! pairwise, here large ones go through a hash table.
 
-use std::collections::HashMap;
-
 use crate::Mesh;
+use crate::known::Known;
 use crate::math::{V3, equal, sub};
 
 pub(crate) const CELLS: usize = 2048;
@@ -218,19 +217,16 @@ impl Welder<'_, '_> {
     }
 
     fn weld_hashed(&mut self, points: &[Point]) {
-        let mut first = HashMap::with_capacity(points.len());
+        let mut first = Known::new();
         for point in points {
             let (position, normal, uv) = self.values(point.entry);
-            // Adding zero turns -0 into +0, so that bits are equal where floats are.
-            let key = (
-                position.map(|x| (x + 0.0).to_bits()),
-                normal.map(|x| (x + 0.0).to_bits()),
-                uv.map(|x| (x + 0.0).to_bits()),
-            );
-            let is_nan = position.iter().chain(&normal).chain(&uv).any(|x| x.is_nan());
-            if !is_nan {
+            let ([x, y, z], [a, b, c], [u, v]) = (position, normal, uv);
+            let values = [x, y, z, a, b, c, u, v];
+            if values.iter().all(|x| !x.is_nan()) {
                 let own = self.corners[point.entry as usize];
-                self.vertex_of_entry[point.entry as usize] = *first.entry(key).or_insert(own);
+                // Adding zero turns -0 into +0, so that bits are equal where floats are.
+                let key = values.map(|x| (x + 0.0).to_bits());
+                self.vertex_of_entry[point.entry as usize] = *first.first(&key, || own);
             }
         }
     }

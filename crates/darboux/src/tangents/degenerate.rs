@@ -2,9 +2,8 @@
 //!
 //! Source: mikktspace.c, `DegenEpilogue`; there the good corner is searched linearly for every degenerate one.
 
-use std::collections::HashMap;
-
 use crate::math::equal;
+use crate::topology::NONE;
 use crate::triangles::{Triangles, Triangulation};
 
 use super::evaluate::RawFrames;
@@ -43,9 +42,10 @@ pub fn copies(triangulation: &Triangulation) -> Vec<Copied> {
     let first_good = first_good_corners(good, degenerate);
     for t in (0..degenerate.len()).filter(|&t| !half_of_good_quad[t]) {
         for (&corner, vertex) in degenerate.corners[t].iter().zip(&degenerate.vertices[t]) {
-            copies.extend(
-                first_good.get(vertex).map(|&good| Copied { corner, from: CopiedFrom::Vertex(good) }),
-            );
+            let good = first_good[*vertex as usize];
+            if good != NONE {
+                copies.push(Copied { corner, from: CopiedFrom::Vertex(good) });
+            }
         }
     }
     for t in (0..degenerate.len()).filter(|&t| half_of_good_quad[t]) {
@@ -82,19 +82,17 @@ pub(crate) fn fill_degenerate(
 
 fn copy(raw: &mut RawFrames, source: u32, corner: u32) {
     raw.of_corner[corner as usize] = raw.of_corner[source as usize];
-    if let Some(&mean) = raw.mean_of_corner.get(&source) {
-        raw.mean_of_corner.insert(corner, mean);
-    }
+    raw.mean_of_corner[corner as usize] = raw.mean_of_corner[source as usize];
 }
 
-/// The first good corner at each welded vertex of the degenerate triangles.
-fn first_good_corners(good: &Triangles, degenerate: &Triangles) -> HashMap<u32, u32> {
-    let mut first: HashMap<u32, Option<u32>> =
-        degenerate.vertices.as_flattened().iter().map(|&vertex| (vertex, None)).collect();
-    for (vertex, &corner) in good.vertices.as_flattened().iter().zip(good.corners.as_flattened()) {
-        if let Some(free @ None) = first.get_mut(vertex) {
-            *free = Some(corner);
+/// The first good corner at each welded vertex, up to the last that degenerate triangles have, or [`NONE`].
+fn first_good_corners(good: &Triangles, degenerate: &Triangles) -> Vec<u32> {
+    let last = degenerate.vertices.as_flattened().iter().max();
+    let mut first = vec![NONE; last.map_or(0, |&last| last as usize + 1)];
+    for (&vertex, &corner) in good.vertices.as_flattened().iter().zip(good.corners.as_flattened()) {
+        if let Some(free @ &mut NONE) = first.get_mut(vertex as usize) {
+            *free = corner;
         }
     }
-    first.into_iter().filter_map(|(vertex, corner)| Some((vertex, corner?))).collect()
+    first
 }

@@ -5,12 +5,12 @@
 //! of the members left out.
 
 use std::cell::OnceCell;
-use std::collections::HashMap;
 use std::ops::Range;
 use std::rc::Rc;
 
 use crate::Frame;
 use crate::cancel::Stop;
+use crate::known::Known;
 use crate::math::{V3, add, angle, direction_in_plane, dot, equal, normalized_unless_zero, scale, sub};
 use crate::triangles::Triangles;
 
@@ -58,8 +58,8 @@ pub(crate) struct How<'a> {
 #[derive(Debug)]
 pub(crate) struct RawFrames {
     pub of_corner: Vec<Frame>,
-    /// For corners with an unusable tangent: the mean of their subgroup's tangents, where that has a direction.
-    pub mean_of_corner: HashMap<u32, V3>,
+    /// For corners with an unusable tangent: the mean of their subgroup's tangents, where that has a direction; zero elsewhere.
+    pub mean_of_corner: Vec<V3>,
 }
 
 /// Evaluates every group, in order, and writes the results to the groups' corners.
@@ -82,7 +82,7 @@ pub(crate) fn evaluate(
         tangents: Vec::new(),
         written: vec![false; shape.corner_count()],
         of_corner: known,
-        mean_of_corner: HashMap::new(),
+        mean_of_corner: vec![[0.0; 3]; shape.corner_count()],
     };
     let mut subgroups = Subgroups::new(how.threshold_cosine);
     let mut sorted = Vec::new();
@@ -118,7 +118,7 @@ struct Evaluator<'a> {
     /// Corners that a group has written.
     written: Vec<bool>,
     of_corner: Vec<Frame>,
-    mean_of_corner: HashMap<u32, V3>,
+    mean_of_corner: Vec<V3>,
 }
 
 /// One subgroup's frame, whom it leaves out, and the mean of its tangents for when the frame is unusable.
@@ -158,23 +158,25 @@ impl Evaluator<'_> {
         stop: &Stop,
     ) {
         self.running.find_stretches();
-        let mut of_members: HashMap<usize, Rc<Subgroup>> = HashMap::new();
-        let mut of_left_out: HashMap<Vec<Range<usize>>, Rc<Subgroup>> = HashMap::new();
-        let (mut left_out, mut bytes) = (Vec::new(), 0);
+        let mut of_members: Vec<Option<Rc<Subgroup>>> = vec![None; sorted.len()];
+        let mut of_left_out: Known<Rc<Subgroup>> = Known::new();
+        let (mut left_out, mut key, mut bytes) = (Vec::new(), Vec::new(), 0);
         for &member in members.iter().take_while(|_| !stop.is_asked()) {
             let at = subgroups.first_alike(sorted.partition_point(|&other| other < member));
-            if let Some(subgroup) = of_members.get(&at) {
+            if let Some(subgroup) = &of_members[at] {
                 self.write(member, subgroup);
                 continue;
             }
             subgroups.find_left_out(at, &mut left_out);
-            let known = of_left_out.get(&left_out);
-            let subgroup = known.map_or_else(|| Rc::new(self.subgroup(&left_out, sign)), Rc::clone);
+            key.clear();
+            key.extend(left_out.iter().flat_map(|gap| [gap.start as u32, gap.end as u32]));
+            let known = of_left_out.get(&key).map(|subgroup| Rc::clone(subgroup));
+            let subgroup = known.unwrap_or_else(|| Rc::new(self.subgroup(&left_out, sign)));
             self.write(member, &subgroup);
             bytes += size_of::<Subgroup>() + 2 * size_of_val(left_out.as_slice());
             if bytes <= REMEMBERED_BYTES {
-                of_left_out.insert(left_out.clone(), Rc::clone(&subgroup));
-                of_members.insert(at, subgroup);
+                of_left_out.first(&key, || Rc::clone(&subgroup));
+                of_members[at] = Some(subgroup);
             }
         }
     }
@@ -186,7 +188,7 @@ impl Evaluator<'_> {
         let again = std::mem::replace(&mut self.written[corner as usize], true);
         *slot = if again { average(slot, &subgroup.frame) } else { subgroup.frame };
         if again {
-            self.mean_of_corner.remove(&corner);
+            self.mean_of_corner[corner as usize] = [0.0; 3];
         }
         let normal = self.shape.normal(corner);
         if !is_usable(slot.tangent, normal) {
@@ -194,7 +196,7 @@ impl Evaluator<'_> {
                 || joined(self.tangents.len(), &subgroup.left_out).filter(|&at| self.running.adds(at));
             let tangents = || joined().map(|at| self.tangents[at]);
             if let Some(mean) = subgroup.mean.get_or_init(|| mean_in_plane(tangents(), normal)) {
-                self.mean_of_corner.insert(corner, *mean);
+                self.mean_of_corner[corner as usize] = *mean;
             }
         }
     }

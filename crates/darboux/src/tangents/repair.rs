@@ -3,11 +3,10 @@
 //! Everything here is computed in double precision with additions, products, quotients and square roots only: the same bits
 //! everywhere.
 
-use std::collections::{HashMap, HashSet};
-
 use crate::Mesh;
+use crate::known::Known;
 use crate::math::{V3, not_zero};
-use crate::triangles::Triangulation;
+use crate::triangles::{Places, Triangulation};
 
 use super::evaluate::RawFrames;
 
@@ -19,24 +18,28 @@ pub(super) type D3 = [f64; 3];
 /// the normal; without a normal by (1, 0, 0). The bitangent follows, the sign stays. Corners at one vertex whose raw tangents are equal get one
 /// replacement, the first's, so that a repair never adds a split.
 pub(crate) fn repair(mesh: &Mesh<'_>, triangulation: &Triangulation, raw: &mut RawFrames, needs: &[u32]) {
-    let places = places(triangulation, needs);
-    let mut site_of_vertex = HashMap::new();
-    let mut known = HashMap::new();
+    if needs.is_empty() {
+        return;
+    }
+    let places = Places::new(triangulation, mesh.corner_count());
+    let mut site_of_vertex = Known::new();
+    let mut known = Known::new();
     for &corner in needs {
-        let place = places.get(&corner);
+        let place = places.of(corner);
         let vertex = mesh.vertex_of_corner(corner as usize);
         let normal = direction(mesh.normals().get(vertex));
-        let site = *site_of_vertex.entry(vertex).or_insert(place.map_or(corner, |place| place.vertex));
+        let own = || place.as_ref().map_or(corner, |place| place.vertex);
+        let site = *site_of_vertex.first(&[vertex as u32], own);
         let frame = &mut raw.of_corner[corner as usize];
         let replacement = || {
             let Some(normal) = normal else { return [1.0, 0.0, 0.0] };
             // A corner of a quad may have its mean from another corner, with another normal.
-            let mean = raw.mean_of_corner.get(&corner).and_then(|mean| in_plane(mean.map(f64::from), normal));
-            let own = || place.and_then(|place| in_plane(u_direction(mesh, place.triangle), normal));
+            let mean = in_plane(raw.mean_of_corner[corner as usize].map(f64::from), normal);
+            let own = || place.as_ref().and_then(|place| in_plane(u_direction(mesh, place.triangle), normal));
             mean.or_else(own).unwrap_or_else(|| perpendicular(normal)).map(|x| x as f32)
         };
-        frame.tangent =
-            *known.entry((site, bits(frame.tangent), frame.sign > 0.0)).or_insert_with(replacement);
+        let [x, y, z] = bits(frame.tangent);
+        frame.tangent = *known.first(&[site, x, y, z, (frame.sign > 0.0).into()], replacement);
         frame.bitangent = bitangent(normal, frame.tangent, frame.sign);
         frame.magnitude =
             frame.magnitude.map(|magnitude| if magnitude.is_finite() { magnitude } else { 1.0 });
@@ -48,31 +51,6 @@ pub(super) fn bitangent(normal: Option<D3>, tangent: V3, sign: f32) -> V3 {
     let tangent = tangent.map(f64::from);
     let across = normal.and_then(|normal| unit(cross(normal, tangent)));
     across.unwrap_or_else(|| perpendicular(tangent)).map(|x| (f64::from(sign) * x) as f32)
-}
-
-/// Where a corner is: its welded vertex and the corners of its first triangle.
-struct Place {
-    vertex: u32,
-    triangle: [u32; 3],
-}
-
-/// The places of `corners`; none for corners of unsupported faces.
-fn places(triangulation: &Triangulation, corners: &[u32]) -> HashMap<u32, Place> {
-    let wanted: HashSet<u32> = corners.iter().copied().collect();
-    let mut places = HashMap::with_capacity(corners.len());
-    if corners.is_empty() {
-        return places;
-    }
-    for list in [&triangulation.good, &triangulation.degenerate] {
-        for (&triangle, vertices) in list.corners.iter().zip(&list.vertices) {
-            for (corner, &vertex) in triangle.iter().zip(vertices) {
-                if wanted.contains(corner) {
-                    places.entry(*corner).or_insert(Place { vertex, triangle });
-                }
-            }
-        }
-    }
-    places
 }
 
 /// Bits for comparing: every NaN is one.

@@ -1,8 +1,7 @@
 //! What a user must know of a run.
 
-use std::collections::{HashMap, HashSet};
-
 use crate::Mesh;
+use crate::known::Known;
 use crate::math::V3;
 
 use super::sides::Output;
@@ -50,23 +49,28 @@ pub(super) fn count_non_finite_corners(mesh: &Mesh<'_>) -> usize {
 
 /// Vertices with corners of different tangents, compared as bits. Costs time in the corners, however many vertices there are.
 pub(super) fn count_split_vertices<O: Output>(mesh: &Mesh<'_>, corners: &[O]) -> usize {
-    let mut split = HashSet::new();
+    let mut count = 0;
     let mut first = FirstCorners::new(mesh);
     for corner in 0..mesh.corner_count() {
         let vertex = mesh.vertex_of_corner(corner);
-        let held = first.of(vertex, corner);
-        let [ours, theirs] = [corner, held].map(|corner| corners[corner].tangent().map(f32::to_bits));
-        if ours != theirs {
-            split.insert(vertex);
+        let first = first.of(vertex, corner);
+        let [ours, theirs] = [corner as u32, *first]
+            .map(|corner| corners[(corner & !SPLIT) as usize].tangent().map(f32::to_bits));
+        if ours != theirs && *first & SPLIT == 0 {
+            *first |= SPLIT;
+            count += 1;
         }
     }
-    split.len()
+    count
 }
+
+/// Marks the first corner of a vertex that is split.
+const SPLIT: u32 = 1 << 31;
 
 /// The first corner of each vertex: a table, or a map where vertices by far outnumber corners.
 enum FirstCorners {
     Table(Vec<u32>),
-    Map(HashMap<usize, usize>),
+    Map(Known<u32>),
 }
 
 impl FirstCorners {
@@ -74,20 +78,20 @@ impl FirstCorners {
         if mesh.vertex_count() <= 4 * mesh.corner_count() {
             Self::Table(vec![u32::MAX; mesh.vertex_count()])
         } else {
-            Self::Map(HashMap::new())
+            Self::Map(Known::new())
         }
     }
 
     /// The first corner of `vertex`, which is `corner` when none was asked for before.
-    fn of(&mut self, vertex: usize, corner: usize) -> usize {
+    fn of(&mut self, vertex: usize, corner: usize) -> &mut u32 {
         match self {
             Self::Table(table) => {
                 if table[vertex] == u32::MAX {
                     table[vertex] = corner as u32;
                 }
-                table[vertex] as usize
+                &mut table[vertex]
             }
-            Self::Map(map) => *map.entry(vertex).or_insert(corner),
+            Self::Map(map) => map.first(&[vertex as u32], || corner as u32),
         }
     }
 }

@@ -3,10 +3,10 @@
 //! Signs mix on UV-degenerate faces, which have corners in groups of both orientations, and on degenerate ones, which copy corners
 //! from faces of both. Shaders interpolate the sign, so on such a face the bitangent turns over somewhere in the middle.
 
-use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
-use crate::triangles::Triangulation;
+use crate::known::Known;
+use crate::triangles::{Places, Triangulation};
 use crate::{Faces, Frame, Mesh};
 
 use super::derivatives::Derivative;
@@ -46,27 +46,32 @@ pub(crate) fn unify_signs(
     mixed: &[MixedFace],
     raw: &mut RawFrames,
 ) -> Vec<u32> {
-    let mut wrong: HashMap<u32, f32> = HashMap::new();
+    if mixed.is_empty() {
+        return Vec::new();
+    }
+    let mut wrong: Vec<(u32, f32)> = Vec::new();
     for (face, corners) in mixed {
         let sign = sign_of_face(triangulation, derivatives, copied, &raw.of_corner, *face, corners.clone());
         let corners = corners.clone().filter(|&corner| raw.of_corner[corner].sign != sign);
         wrong.extend(corners.map(|corner| (corner as u32, sign)));
     }
-    let vertex_of_wrong = vertices(triangulation, &wrong);
-    let sources = first_frames(mesh, triangulation, &raw.of_corner, &wrong, &vertex_of_wrong);
+    let places = Places::new(triangulation, mesh.corner_count());
+    let vertex = |corner: u32| places.of(corner).map_or(corner, |place| place.vertex);
+    let mut sources = Known::new();
+    wrong.iter().for_each(|&(corner, sign)| _ = sources.first(&key(vertex(corner), sign), || None));
+    find_first_frames(mesh, triangulation, &raw.of_corner, &mut sources);
     let mut needs = Vec::new();
-    for (&corner, &sign) in &wrong {
-        raw.mean_of_corner.remove(&corner);
+    for (corner, sign) in wrong {
+        raw.mean_of_corner[corner as usize] = [0.0; 3];
         let frame = &mut raw.of_corner[corner as usize];
-        match sources.get(&(vertex_of_wrong[&corner], sign > 0.0)) {
-            Some(source) => *frame = *source,
-            None => {
+        match sources.get(&key(vertex(corner), sign)) {
+            Some(Some(source)) => *frame = *source,
+            _ => {
                 frame.sign = sign;
                 needs.push(corner);
             }
         }
     }
-    needs.sort_unstable();
     needs
 }
 
@@ -89,41 +94,26 @@ fn sign_of_face(
     if balance >= 0.0 { 1.0 } else { -1.0 }
 }
 
-/// The welded vertices of the corners in `wrong`.
-fn vertices(triangulation: &Triangulation, wrong: &HashMap<u32, f32>) -> HashMap<u32, u32> {
-    let mut vertices = HashMap::with_capacity(wrong.len());
-    if wrong.is_empty() {
-        return vertices;
-    }
-    for list in [&triangulation.good, &triangulation.degenerate] {
-        let corners = list.corners.as_flattened().iter().zip(list.vertices.as_flattened());
-        vertices.extend(corners.filter(|(corner, _)| wrong.contains_key(corner)));
-    }
-    vertices
+/// What frames are looked for by: a welded vertex and a sign.
+fn key(vertex: u32, sign: f32) -> [u32; 2] {
+    [vertex, (sign > 0.0).into()]
 }
 
-/// The first usable frame of each wanted sign at each vertex where a corner of `wrong` wants one.
-fn first_frames(
+/// Finds the first usable frame of each vertex and sign that are asked for.
+fn find_first_frames(
     mesh: &Mesh<'_>,
     triangulation: &Triangulation,
     frames: &[Frame],
-    wrong: &HashMap<u32, f32>,
-    vertex_of_wrong: &HashMap<u32, u32>,
-) -> HashMap<(u32, bool), Frame> {
-    let wanted: HashSet<(u32, bool)> =
-        wrong.iter().map(|(corner, &sign)| (vertex_of_wrong[corner], sign > 0.0)).collect();
-    let mut found = HashMap::with_capacity(wanted.len());
-    if wanted.is_empty() {
-        return found;
-    }
+    sources: &mut Known<Option<Frame>>,
+) {
     let good = &triangulation.good;
     for (&corner, &vertex) in good.corners.as_flattened().iter().zip(good.vertices.as_flattened()) {
         let frame = frames[corner as usize];
-        let key = (vertex, frame.sign > 0.0);
         let normal = mesh.normals().get(mesh.vertex_of_corner(corner as usize));
-        if wanted.contains(&key) && !found.contains_key(&key) && is_usable(frame.tangent, normal) {
-            found.insert(key, frame);
+        if let Some(source @ None) = sources.get(&key(vertex, frame.sign))
+            && is_usable(frame.tangent, normal)
+        {
+            *source = Some(frame);
         }
     }
-    found
 }

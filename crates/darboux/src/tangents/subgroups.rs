@@ -6,9 +6,9 @@
 //!
 //! Source: mikktspace.c, `GenerateTSpaces`.
 
-use std::collections::HashMap;
 use std::ops::Range;
 
+use crate::known::Known;
 use crate::math::{V3, direction_in_plane, dot};
 use crate::triangles::Triangles;
 
@@ -85,14 +85,15 @@ impl Subgroups {
     /// Groups members of equal directions. Alone is a half of a quad whose other half is a member too, and who is NaN.
     fn find_alike(&mut self) {
         let count = self.any.len();
-        let mut first = HashMap::new();
+        let mut first = Known::new();
         self.first_alike.clear();
         for at in 0..count {
             let other_half = (at > 0 && self.face[at - 1] == self.face[at])
                 || (at + 1 < count && self.face[at + 1] == self.face[at]);
-            let directions = [&self.s, &self.t].map(|axes| direction(axes, at).map(f32::to_bits));
+            let [s, t] = [&self.s, &self.t].map(|axes| direction(axes, at).map(f32::to_bits));
             let alone = if other_half || !self.are_near(at, at) { at as u32 } else { u32::MAX };
-            self.first_alike.push(*first.entry((directions, self.any[at], alone)).or_insert(at as u32));
+            let key = [s[0], s[1], s[2], t[0], t[1], t[2], self.any[at].into(), alone];
+            self.first_alike.push(*first.first(&key, || at as u32));
         }
     }
 

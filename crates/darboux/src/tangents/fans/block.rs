@@ -5,9 +5,9 @@
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
 
-use std::hash::{BuildHasher, RandomState};
 use std::sync::OnceLock;
 
+use crate::known::chance;
 use crate::math::{V3, acos, add, direction_in_plane, dot, length, not_zero, scale, sub};
 
 /// Triangles per block.
@@ -429,7 +429,7 @@ fn edge(from: [f32; 2], to: [f32; 2]) -> u32 {
 pub(super) fn key() -> [u32; 2] {
     static KEY: OnceLock<[u32; 2]> = OnceLock::new();
     *KEY.get_or_init(|| {
-        let bits = RandomState::new().hash_one(0);
+        let bits = chance();
         [bits as u32, (bits >> 32) as u32]
     })
 }
