@@ -4,6 +4,8 @@
 //!
 //! Source: mikktspace.c, `BuildNeighborsFast` and `QuickSortEdges`.
 
+use crate::order::sort;
+
 /// Edges by the number `3 t + k` of the corner where they start, and the names of vertices, by which the reference orders them.
 pub(crate) trait Edges {
     /// The vertices of an edge.
@@ -58,7 +60,7 @@ pub(crate) fn last_stretches(
     let same = run.chunk_by(|&a, &b| sorted_ends(a) == sorted_ends(b));
     let mut stretches: Vec<Vec<u32>> = same.map(<[u32]>::to_vec).collect();
     // The reference forgets to sort the last stretch.
-    stretches.iter_mut().rev().skip(1).for_each(|stretch| stretch.sort_unstable());
+    stretches.iter_mut().rev().skip(1).for_each(|stretch| sort(stretch));
     stretches
 }
 

@@ -35,6 +35,7 @@ mod measure;
 mod mesh;
 mod normal_map;
 mod normals;
+mod order;
 mod plan;
 mod split;
 mod tangents;

@@ -6,6 +6,7 @@
 use std::collections::VecDeque;
 
 use crate::last_edges::{NamedTriangles, last_stretches};
+use crate::order::{first, pair, second, sort};
 use crate::triangles::Triangles;
 
 /// No neighbour.
@@ -21,13 +22,6 @@ pub(crate) enum EdgeOrder {
     Reference,
 }
 
-/// A half-edge: corner `k` of triangle `t` to the next corner, as `3 t + k`; in a run of edges with one lower vertex.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Edge {
-    upper: u32,
-    half_edge: u32,
-}
-
 /// The neighbour of every triangle across its edges 0-1, 1-2, 2-0, or [`NONE`].
 pub(crate) fn neighbours(triangles: &Triangles, order: EdgeOrder) -> Vec<[u32; 3]> {
     let mut neighbours = vec![[NONE; 3]; triangles.len()];
@@ -37,15 +31,15 @@ pub(crate) fn neighbours(triangles: &Triangles, order: EdgeOrder) -> Vec<[u32; 3
     let mut start = 0;
     for end in run_ends.into_iter().map(|end| end as usize) {
         let run = &mut edges[start..end];
-        run.sort_unstable();
-        for same in run.chunk_by(|a, b| a.upper == b.upper) {
-            match_edges(triangles, same.iter().map(|edge| edge.half_edge), &mut neighbours);
+        sort(run);
+        for same in run.chunk_by(|&a, &b| first(a) == first(b)) {
+            match_edges(triangles, same.iter().map(|&edge| second(edge)), &mut neighbours);
         }
         start = end;
     }
     let last_run = &edges[last_run_start..];
-    if order == EdgeOrder::Reference && order_shows(last_run.iter().map(|edge| edge.upper)) {
-        let (last, _) = ends(triangles, last_run[0].half_edge as usize);
+    if order == EdgeOrder::Reference && order_shows(last_run.iter().map(|&edge| first(edge))) {
+        let (last, _) = ends(triangles, second(last_run[0]) as usize);
         let mut list: Vec<u32> = (0..3 * triangles.len() as u32).collect();
         let stretches =
             last_stretches(&mut list, last, last_run.len(), &mut NamedTriangles(&triangles.vertices));
@@ -78,8 +72,9 @@ fn ends(triangles: &Triangles, half_edge: usize) -> (u32, u32) {
     (a.min(b), a.max(b))
 }
 
-/// All half-edges, sorted by their lower vertex and else in order, and where the run of each vertex ends.
-fn edges_by_lower_vertex(triangles: &Triangles) -> (Vec<Edge>, Vec<u32>) {
+/// All half-edges, sorted by their lower vertex and else in order, and where the run of each vertex ends. Each as a pair: the upper vertex;
+/// corner `k` of triangle `t`, from which it goes to the next corner, as `3 t + k`.
+fn edges_by_lower_vertex(triangles: &Triangles) -> (Vec<u64>, Vec<u32>) {
     let count = 3 * triangles.len();
     let vertices = triangles.vertices.as_flattened().iter().max().map_or(0, |&max| max as usize + 1);
     let mut next = vec![0u32; vertices + 1];
@@ -89,11 +84,11 @@ fn edges_by_lower_vertex(triangles: &Triangles) -> (Vec<Edge>, Vec<u32>) {
     for vertex in 0..vertices {
         next[vertex + 1] += next[vertex];
     }
-    let mut edges = vec![Edge { upper: 0, half_edge: 0 }; count];
+    let mut edges = vec![0; count];
     for half_edge in 0..count {
         let (lower, upper) = ends(triangles, half_edge);
         let slot = &mut next[lower as usize];
-        edges[*slot as usize] = Edge { upper, half_edge: half_edge as u32 };
+        edges[*slot as usize] = pair(upper, half_edge as u32);
         *slot += 1;
     }
     next.truncate(vertices);

@@ -14,6 +14,7 @@
 use crate::Mesh;
 use crate::known::Known;
 use crate::math::{V3, equal, sub};
+use crate::order::sort_by_key;
 
 pub(crate) const CELLS: usize = 2048;
 
@@ -97,7 +98,7 @@ impl ByCell {
         }
         self.points.clear();
         self.points.extend_from_slice(points);
-        self.points.sort_unstable_by_key(|point| (cells.at(point.position), point.entry));
+        sort_by_key(&mut self.points, |point| cells.at(point.position) as u64);
         self.ends.clear();
         for same in self.points.chunk_by(|a, b| cells.at(a.position) == cells.at(b.position)) {
             let start = self.ends.last().copied().unwrap_or(0);

@@ -3,6 +3,7 @@
 //! Source: mikktspace.c, `DegenEpilogue`; there the good corner is searched linearly for every degenerate one.
 
 use crate::math::equal;
+use crate::order::sort;
 use crate::topology::NONE;
 use crate::triangles::{Triangles, Triangulation};
 
@@ -75,7 +76,7 @@ pub(crate) fn fill_degenerate(
             copied.push(corner);
         }
     }
-    copied.sort_unstable();
+    sort(&mut copied);
     copied.dedup();
     copied
 }

@@ -12,6 +12,7 @@ use crate::Frame;
 use crate::cancel::Stop;
 use crate::known::Known;
 use crate::math::{V3, add, angle, direction_in_plane, dot, equal, normalized_unless_zero, scale, sub};
+use crate::order::sort;
 use crate::triangles::Triangles;
 
 use super::derivatives::Derivative;
@@ -93,7 +94,7 @@ pub(crate) fn evaluate(
         let members = groups.members(group);
         sorted.clear();
         sorted.extend_from_slice(members);
-        sorted.sort_unstable();
+        sort(&mut sorted);
         let sign = if groups.preserves(group) { 1.0 } else { -1.0 };
         evaluator.take_terms(&sorted, values.normal_of_group[group]);
         subgroups.set(triangles, &sorted, &membership.derivatives, membership.normal_of_group[group]);

@@ -31,6 +31,7 @@ use std::ops::Range;
 
 use crate::Mesh;
 use crate::cancel::Stop;
+use crate::known::Known;
 use crate::math::cosine_of_degrees;
 use crate::weld::Bounds;
 
@@ -226,14 +227,9 @@ impl Fans {
     /// The welded vertex at each of some corners, named by the first of these.
     pub fn names(&self, mesh: &Mesh<'_>, list: &[u32]) -> Vec<u32> {
         let source = self.source(mesh);
-        let mut corners: Vec<(u32, u32)> =
-            list.iter().map(|&corner| source.vertex(corner)).zip(0..).collect();
-        let mut names = vec![0; corners.len()];
-        corners.sort_unstable();
-        for same in corners.chunk_by(|a, b| a.0 == b.0) {
-            same.iter().for_each(|&(_, corner)| names[corner as usize] = same[0].1);
-        }
-        names
+        let mut first = Known::new();
+        let name = |(&corner, at): (&u32, u32)| *first.first(&[source.vertex(corner)], || at);
+        list.iter().zip(0..).map(name).collect()
     }
 }
 

@@ -4,6 +4,7 @@
 
 use crate::cancel::Stop;
 use crate::math::cosine_of_degrees;
+use crate::order::sort;
 use crate::topology::{EdgeOrder, NONE, match_again, neighbours};
 use crate::triangles::{Triangles, Triangulation, triangulate, triangulate_welded};
 use crate::{Frame, Mesh};
@@ -132,7 +133,7 @@ impl Topology {
             needs = unify_signs(mesh, &self.triangulation, &values.derivatives, &copied, &mixed, &mut raw);
         }
         needs.extend(self.unusable_corners(mesh, &raw));
-        needs.sort_unstable();
+        sort(&mut needs);
         needs.dedup();
         report.repaired_corners = needs.len();
         if self.mode != Mode::Reference {

@@ -1,6 +1,7 @@
 //! Opposite directions: which of many may have a dot product of -1 with a given one, without looking at all.
 
 use crate::math::{V3, dot, scale};
+use crate::order::{pair, second, sort};
 
 /// Two unit vectors, to 1e-6 in the square, whose rounded dot product is -1 or less have a sum shorter than this.
 ///
@@ -13,8 +14,8 @@ const CELLS_PER_UNIT: f32 = 256.0;
 /// Directions by the cells of a lattice.
 #[derive(Debug, Default)]
 pub(crate) struct Opposites {
-    /// Cell and place in the list, sorted; cells that follow each other along z do so here.
-    cells: Vec<(u64, u32)>,
+    /// Pairs of cell and place in the list, sorted; cells that follow each other along z do so here.
+    cells: Vec<u64>,
     /// Those of which their length says nothing: not of unit length and not short either.
     odd: Vec<u32>,
 }
@@ -45,12 +46,12 @@ impl Opposites {
         let mut opposites = Self::default();
         for (place, direction) in directions {
             match Length::of(direction) {
-                Length::Unit => opposites.cells.push((cell(direction.map(cell_of)), place)),
+                Length::Unit => opposites.cells.push(pair(cell(direction.map(cell_of)), place)),
                 Length::Short => {}
                 Length::Odd => opposites.odd.push(place),
             }
         }
-        opposites.cells.sort_unstable();
+        sort(&mut opposites.cells);
         opposites
     }
 
@@ -66,7 +67,7 @@ impl Opposites {
                     if count > limit {
                         return None;
                     }
-                    cells.iter().for_each(|&(_, place)| found(place));
+                    cells.iter().for_each(|&cell| found(second(cell)));
                 }
             }
         }
@@ -75,24 +76,24 @@ impl Opposites {
     }
 
     /// What lies in the cells within reach of `middle`.
-    fn cells_around(&self, middle: V3) -> impl Iterator<Item = &[(u64, u32)]> {
+    fn cells_around(&self, middle: V3) -> impl Iterator<Item = &[u64]> {
         let [[x0, x1], [y0, y1], [z0, z1]] = middle.map(|x| [cell_of(x - REACH), cell_of(x + REACH)]);
         let columns =
             (x0..=x1).flat_map(move |x| (y0..=y1).map(move |y| [cell([x, y, z0]), cell([x, y, z1])]));
         columns.map(|[first, last]| {
-            let from = &self.cells[self.cells.partition_point(|&(cell, _)| cell < first)..];
-            &from[..from.partition_point(|&(cell, _)| cell <= last)]
+            let from = &self.cells[self.cells.partition_point(|&cell| cell < pair(first, 0))..];
+            &from[..from.partition_point(|&cell| cell <= pair(last, u32::MAX))]
         })
     }
 }
 
 /// The cell along one axis, of a coordinate in [-2, 2].
-fn cell_of(x: f32) -> u64 {
-    ((x + 2.0) * CELLS_PER_UNIT) as u64
+fn cell_of(x: f32) -> u32 {
+    ((x + 2.0) * CELLS_PER_UNIT) as u32
 }
 
 /// One number per cell; 1024 cells along each axis.
-fn cell([x, y, z]: [u64; 3]) -> u64 {
+fn cell([x, y, z]: [u32; 3]) -> u32 {
     x << 20 | y << 10 | z
 }
 

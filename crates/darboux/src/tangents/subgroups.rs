@@ -10,6 +10,7 @@ use std::ops::Range;
 
 use crate::known::Known;
 use crate::math::{V3, direction_in_plane, dot};
+use crate::order::sort;
 use crate::triangles::Triangles;
 
 use super::derivatives::Derivative;
@@ -131,7 +132,7 @@ impl Subgroups {
         let limit = self.any.len() / 8;
         let found = of_s.near(direction(&self.s, at), limit, &mut test);
         let found = found.and_then(|()| of_t.near(direction(&self.t, at), limit, &mut test));
-        apart.sort_unstable();
+        sort(&mut apart);
         apart.dedup();
         self.apart = apart;
         found

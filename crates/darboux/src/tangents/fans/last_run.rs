@@ -5,6 +5,7 @@
 //! depends on the vertices' names, the corners that represent them (see `crate::weld`). Names near the end of the triangle list
 //! decide, and those are names of vertices that the last triangles use: only the cells of these are put into the reference's order.
 
+use crate::order::{first, pair, second, sort};
 use crate::topology::order_shows;
 use crate::weld::{Bounds, ByCell, CELLS, Cells, Point, for_each_final_range};
 
@@ -96,12 +97,13 @@ impl LastEdges {
     fn of(edges: &mut Vec<Edge>) -> Option<Self> {
         let name = edges.iter().map(|edge| edge.names[0]).max()?;
         edges.retain(|edge| edge.names[0] == name);
-        edges.sort_unstable_by_key(|edge| edge.names[1]);
-        if !order_shows(edges.iter().map(|edge| edge.names[1])) {
+        let mut uppers: Vec<u32> = edges.iter().map(|edge| edge.names[1]).collect();
+        sort(&mut uppers);
+        if !order_shows(uppers.into_iter()) {
             return None;
         }
         let mut vertices: Vec<u32> = edges.iter().flat_map(|edge| edge.ends).collect();
-        vertices.sort_unstable();
+        sort(&mut vertices);
         vertices.dedup();
         Some(Self { name, count: edges.len(), vertices })
     }
@@ -117,9 +119,9 @@ pub(super) struct Lists {
     points: Vec<Point>,
     by_cell: ByCell,
     /// Entries of vertices that are named after a corner of the tail, each with that name.
-    named: Vec<(u32, u32)>,
-    /// Entries of one range, by vertex.
-    of_range: Vec<(u32, u32)>,
+    named: Vec<u64>,
+    /// The vertices of one range's entries, and where these are in it.
+    of_range: Vec<u64>,
     edges: Vec<Edge>,
 }
 
@@ -157,7 +159,7 @@ impl LastRun<'_> {
     fn list_edges(&self, cells: &TailCells, lists: &mut Lists) {
         self.list_named(cells, lists);
         lists.edges.clear();
-        let triangles = lists.named.chunk_by(|a, b| a.0 / 3 == b.0 / 3);
+        let triangles = lists.named.chunk_by(|&a, &b| first(a) / 3 == first(b) / 3);
         lists.edges.extend(triangles.filter_map(|entries| self.highest_edge(entries)));
     }
 
@@ -191,26 +193,26 @@ impl LastRun<'_> {
         named.clear();
         for points in by_cell.each() {
             for_each_final_range(points, &is_wanted, &mut |points| {
-                let place = |(at, point): (u32, &Point)| (self.vertex(point.entry), at);
+                let place = |(at, point): (u32, &Point)| pair(self.vertex(point.entry), at);
                 of_range.clear();
                 of_range.extend((0..).zip(points).map(place));
                 // By vertex, in the range's order: the corner at the first entry of each vertex is its name.
-                of_range.sort_unstable();
-                for same in of_range.chunk_by(|a, b| a.0 == b.0) {
-                    let first = points[same[0].1 as usize].entry;
-                    if in_tail(first) {
-                        let name = self.source.corner(first);
-                        named.extend(same.iter().map(|&(_, at)| (points[at as usize].entry, name)));
+                sort(of_range);
+                let entry = |place: u64| points[second(place) as usize].entry;
+                for same in of_range.chunk_by(|&a, &b| first(a) == first(b)) {
+                    if in_tail(entry(same[0])) {
+                        let name = self.source.corner(entry(same[0]));
+                        named.extend(same.iter().map(|&place| pair(entry(place), name)));
                     }
                 }
             });
         }
-        named.sort_unstable();
+        sort(named);
     }
 
     /// The edge between the two higher vertices of a triangle, if two of its corners are named.
-    fn highest_edge(&self, entries: &[(u32, u32)]) -> Option<Edge> {
-        let named = |&(entry, name): &(u32, u32)| (name, self.vertex(entry));
+    fn highest_edge(&self, entries: &[u64]) -> Option<Edge> {
+        let named = |&entry: &u64| (second(entry), self.vertex(first(entry)));
         let (lower, upper) = match entries {
             [a, b] => sorted(named(a), named(b)),
             [a, b, c] => {
@@ -220,7 +222,7 @@ impl LastRun<'_> {
             }
             _ => return None,
         };
-        let triangle = self.source.triangle(entries[0].0 / 3);
+        let triangle = self.source.triangle(first(entries[0]) / 3);
         let edge = Edge { names: [lower.0, upper.0], ends: [lower.1, upper.1] };
         (!self.is_degenerate(triangle)).then_some(edge)
     }

@@ -4,6 +4,7 @@
 //! a name lies between the vertex's first and last corner, which nearly always suffices. Elsewhere the cell is cut again.
 
 use crate::last_edges::{Edges, last_stretches};
+use crate::order::sort;
 use crate::weld::{CELLS, Cells, Point, for_each_final_range};
 
 use super::last_run::{LastEdges, LastRun};
@@ -109,8 +110,8 @@ impl Names {
     }
 
     /// Names all vertices in the ranges of a cell's points that hold a wanted vertex; when it is asked for again, all of the cell.
-    fn name_cell(&mut self, run: &LastRun<'_>, cell: u16) {
-        let cell = usize::from(cell);
+    fn name_cell(&mut self, run: &LastRun<'_>, cell: u32) {
+        let cell = cell as usize;
         let start = if cell == 0 { 0 } else { self.ends[cell - 1] };
         let (vertices, bounds) = (&self.vertices, &mut self.bounds);
         let vertex = |point: &Point| vertices[point.entry as usize];
@@ -153,10 +154,10 @@ impl Edges for NamesIn<'_> {
             let [low, high] = names.bounds[vertex as usize];
             if low < high {
                 names.is_wanted[vertex as usize] = true;
-                cells.push(names.cell_of[vertex as usize]);
+                cells.push(u32::from(names.cell_of[vertex as usize]));
             }
         }
-        cells.sort_unstable();
+        sort(&mut cells);
         cells.dedup();
         cells.into_iter().for_each(|cell| names.name_cell(run, cell));
         vertices.iter().for_each(|&vertex| names.is_wanted[vertex as usize] = false);

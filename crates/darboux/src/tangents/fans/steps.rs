@@ -3,6 +3,7 @@
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
 
 use crate::math::{dot, normalized_unless_zero};
+use crate::order::{sort, sort_by_key};
 use crate::weld::Point;
 
 use super::super::width::Task;
@@ -332,8 +333,8 @@ impl Special {
 
     /// Puts everything in ascending order, and makes triangles and entries of corners, which cut faces were written as.
     pub fn settle(&mut self, source: &Source<'_>) {
-        self.undecided.sort_unstable();
-        self.in_tail.sort_unstable_by_key(|point| point.entry);
+        sort(&mut self.undecided);
+        sort_by_key(&mut self.in_tail, |point| point.entry.into());
         if source.is_cut() {
             let mut end = 0;
             self.undecided.retain_mut(|corner| {
@@ -350,7 +351,7 @@ impl Special {
                 self.in_tail[at] = points.next().expect("a triangle has the corner");
                 self.in_tail.extend(points);
             }
-            self.in_tail.sort_unstable_by_key(|point| point.entry);
+            sort_by_key(&mut self.in_tail, |point| point.entry.into());
         }
     }
 
@@ -367,7 +368,7 @@ impl Special {
             out[source.corner(entry) as usize][3] = UNDECIDED;
             self.undecided.push(source.face_of(entry / 3).start);
         }
-        self.undecided.sort_unstable();
+        sort(&mut self.undecided);
         self.undecided.dedup();
     }
 
