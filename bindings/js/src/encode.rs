@@ -15,7 +15,7 @@ pub extern "C" fn encode_tangents(form: u32) -> *const u8 {
             1 => tangents.flat_map(|t| encode::tangent_to_snorm10(t).to_le_bytes()).collect(),
             2 => tangents.flat_map(encode::tangent_to_snorm16).flat_map(i16::to_le_bytes).collect(),
             3 => tangents.flat_map(encode::tangent_to_octahedral).flat_map(i16::to_le_bytes).collect(),
-            _ => rows(room.normals())
+            _ => rows(room.vertices.normals())
                 .iter()
                 .zip(tangents)
                 .flat_map(|(&normal, t)| encode::tangent_to_diamond(normal, t).to_le_bytes())
@@ -38,7 +38,7 @@ pub extern "C" fn decode_tangents(form: u32) -> *const f32 {
                 .collect(),
             2 => chunks(words()).map(encode::tangent_from_snorm16).collect(),
             3 => chunks(words()).map(encode::tangent_from_octahedral).collect(),
-            _ => rows(room.normals())
+            _ => rows(room.vertices.normals())
                 .iter()
                 .zip(words())
                 .map(|(&normal, code)| encode::tangent_from_diamond(normal, code as u16))

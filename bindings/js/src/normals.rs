@@ -19,7 +19,8 @@ pub extern "C" fn generate_normals(shading: u32, weight: u32, crease: f32, seams
         seams: if seams == 0 { SmoothingSeams::Ignored } else { SmoothingSeams::Respected },
     };
     with(|room| {
-        let made = generate(room.positions(), room.surface.indices(), room.surface.faces(), &options);
+        let made =
+            generate(room.vertices.positions(), room.surface.indices(), room.surface.faces(), &options);
         let Ok(normals) = made else { return std::ptr::null() };
         room.values.floats = normals.corners.into_flattened();
         room.values.floats.as_ptr()

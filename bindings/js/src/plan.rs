@@ -4,8 +4,9 @@ use std::mem::take;
 
 use darboux::{Mesh, Plan};
 
-use crate::room::{Room, Surface, with};
+use crate::room::{Room, Surface, Vertices, with};
 use crate::tangents::options;
+use crate::values::Values;
 
 /// A plan and the surface that it was made for.
 pub struct Kept {
@@ -41,18 +42,23 @@ pub extern "C" fn plan_base(plan: usize) -> *const f32 {
 #[unsafe(no_mangle)]
 pub extern "C" fn evaluate_plan(plan: usize) -> *const f32 {
     with(|room| {
-        let (mut tangents, mut scratch) = (take(&mut room.tangents), take(&mut room.scratch));
-        moved(room, plan, |plan, mesh| plan.evaluate_into(mesh, &mut scratch, &mut tangents.corners));
-        (room.tangents, room.scratch) = (tangents, scratch);
-        room.tangents.corners.per_corner().as_ptr().cast()
+        let Room { vertices, tangents, scratch, values, .. } = room;
+        if let Some((plan, mesh)) = moved(vertices, values, plan) {
+            // The caller gives as many vertices as the plan's mesh has.
+            _ = plan.evaluate_into(&mesh, scratch, &mut tangents.corners);
+        }
+        tangents.corners.per_corner().as_ptr().cast()
     })
 }
 
 /// How many corners a fresh run would give another tangent than [`evaluate_plan`].
 #[unsafe(no_mangle)]
 pub extern "C" fn count_regrouped(plan: usize) -> u32 {
-    let count = |room: &mut Room| moved(room, plan, |plan, mesh| plan.count_regrouped(mesh).ok());
-    with(count).flatten().unwrap_or_default() as u32
+    with(|room| {
+        let (plan, mesh) = moved(&room.vertices, &room.values, plan)?;
+        plan.count_regrouped(&mesh).ok()
+    })
+    .unwrap_or_default() as u32
 }
 
 /// Frees a plan, whose number another may have then.
@@ -61,8 +67,8 @@ pub extern "C" fn drop_plan(plan: usize) {
     with(|room| room.values.plans[plan] = None);
 }
 
-/// Does something with a plan and its mesh, moved.
-fn moved<R>(room: &Room, plan: usize, use_it: impl FnOnce(&Plan, &Mesh<'_>) -> R) -> Option<R> {
-    let kept = room.values.plans[plan].as_ref()?;
-    Some(use_it(&kept.plan, &room.mesh_of(&kept.surface)?))
+/// A plan and its mesh, moved.
+fn moved<'a>(vertices: &'a Vertices, values: &'a Values, plan: usize) -> Option<(&'a Plan, Mesh<'a>)> {
+    let kept = values.plans[plan].as_ref()?;
+    Some((&kept.plan, vertices.mesh(&kept.surface)?))
 }

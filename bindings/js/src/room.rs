@@ -7,13 +7,19 @@ use darboux::{Faces, Indices, Mesh, Scratch, Strided, Tangents};
 /// What a call reads and what it writes. Memory is kept from call to call.
 #[derive(Default)]
 pub struct Room {
-    positions: Vec<f32>,
-    normals: Vec<f32>,
+    pub vertices: Vertices,
     pub surface: Surface,
     pub tangents: Tangents,
     pub scratch: Scratch,
     #[cfg(feature = "full")]
     pub values: crate::values::Values,
+}
+
+/// Places and normals of a mesh's vertices.
+#[derive(Default)]
+pub struct Vertices {
+    positions: Vec<f32>,
+    normals: Vec<f32>,
 }
 
 /// What a mesh has beside places and normals of its vertices.
@@ -29,14 +35,17 @@ thread_local! {
     static ROOM: RefCell<Room> = RefCell::default();
 }
 
+#[cfg(feature = "full")]
 impl Room {
     /// The mesh, if its structure is right.
     pub fn mesh(&self) -> Option<Mesh<'_>> {
-        self.mesh_of(&self.surface)
+        self.vertices.mesh(&self.surface)
     }
+}
 
-    /// As [`Room::mesh`], of another surface.
-    pub fn mesh_of<'a>(&'a self, surface: &'a Surface) -> Option<Mesh<'a>> {
+impl Vertices {
+    /// The mesh of a surface, if its structure is right.
+    pub fn mesh<'a>(&'a self, surface: &'a Surface) -> Option<Mesh<'a>> {
         let (positions, normals, uvs) = (self.positions(), rows(&self.normals), rows(&surface.uvs));
         Mesh::with_faces(positions, normals, uvs, surface.indices(), surface.faces()).ok()
     }
@@ -82,12 +91,12 @@ pub extern "C" fn begin() {
 
 #[unsafe(no_mangle)]
 pub extern "C" fn positions(vertices: usize) -> *mut f32 {
-    with(|room| sized(&mut room.positions, 3 * vertices))
+    with(|room| sized(&mut room.vertices.positions, 3 * vertices))
 }
 
 #[unsafe(no_mangle)]
 pub extern "C" fn normals(vertices: usize) -> *mut f32 {
-    with(|room| sized(&mut room.normals, 3 * vertices))
+    with(|room| sized(&mut room.vertices.normals, 3 * vertices))
 }
 
 #[unsafe(no_mangle)]

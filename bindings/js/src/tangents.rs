@@ -1,22 +1,19 @@
 //! Tangents of corners.
 
-use std::mem::take;
-
 use darboux::{Method, Mode, TangentOptions, generate_tangents_into};
 
-use crate::room;
+use crate::room::{Room, with};
 
 /// Computes the tangents of all corners: where they lie, or null where the mesh is not one. Choices come as their places in the
 /// lists of `lib`.
 #[unsafe(no_mangle)]
 pub extern "C" fn generate_tangents(mode: u32, threshold: f32, method: u32) -> *const f32 {
     let options = options(mode, threshold, method);
-    room::with(|room| {
-        let (mut tangents, mut scratch) = (take(&mut room.tangents), take(&mut room.scratch));
-        let Some(mesh) = room.mesh() else { return std::ptr::null() };
-        generate_tangents_into(&mesh, &options, &mut scratch, &mut tangents);
-        (room.tangents, room.scratch) = (tangents, scratch);
-        room.tangents.corners.per_corner().as_ptr().cast()
+    with(|room| {
+        let Room { vertices, surface, tangents, scratch, .. } = room;
+        let Some(mesh) = vertices.mesh(surface) else { return std::ptr::null() };
+        generate_tangents_into(&mesh, &options, scratch, tangents);
+        tangents.corners.per_corner().as_ptr().cast()
     })
 }
 
