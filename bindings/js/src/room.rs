@@ -32,7 +32,8 @@ pub struct Surface {
 }
 
 thread_local! {
-    static ROOM: RefCell<Room> = RefCell::default();
+    /// Made by the first call.
+    static ROOM: RefCell<Option<Room>> = const { RefCell::new(None) };
 }
 
 #[cfg(feature = "full")]
@@ -77,7 +78,7 @@ pub fn rows<const N: usize>(floats: &[f32]) -> &[[f32; N]] {
 
 /// Does something with the room.
 pub fn with<R>(use_it: impl FnOnce(&mut Room) -> R) -> R {
-    ROOM.with_borrow_mut(use_it)
+    ROOM.with_borrow_mut(|room| use_it(room.get_or_insert_default()))
 }
 
 /// Begins a mesh, without indices, of triangles.

@@ -3,8 +3,8 @@
 //! Lists here are short, nearly sorted, or of so many numbers that this is no slower than comparing; and it is a tenth of the code of the standard
 //! library's sort, of which every type of elements has its own copy.
 
-/// So few are sorted by insertion.
-const FEW: usize = if cfg!(small_limits) { 4 } else { 32 };
+/// So few are sorted by insertion, without other memory.
+pub(crate) const FEW: usize = if cfg!(small_limits) { 4 } else { 64 };
 
 /// Sorts numbers.
 pub(crate) fn sort<T: Copy + Into<u64>>(list: &mut [T]) {

@@ -51,7 +51,7 @@ pub(crate) fn neighbours(triangles: &Triangles, order: EdgeOrder) -> Vec<[u32; 3
 /// True when another order of the last run could change which edges are matched: it holds an edge twice, and something else.
 ///
 /// `uppers`: the upper vertices of its edges, ascending.
-pub(crate) fn order_shows(uppers: impl Iterator<Item = u32> + Clone) -> bool {
+pub(crate) fn order_shows<U: PartialEq>(uppers: impl Iterator<Item = U> + Clone) -> bool {
     let has_equals = uppers.clone().zip(uppers.clone().skip(1)).any(|(a, b)| a == b);
     has_equals && uppers.count() > 2
 }

@@ -14,7 +14,7 @@
 use crate::Mesh;
 use crate::known::Known;
 use crate::math::{V3, equal, sub};
-use crate::order::sort_by_key;
+use crate::order::{FEW, sort_by_key};
 
 pub(crate) const CELLS: usize = 2048;
 
@@ -87,12 +87,10 @@ pub(crate) struct ByCell {
     cells: Vec<u16>,
 }
 
-/// So few points are not worth a look at every cell.
-const FEW: usize = if cfg!(small_limits) { 16 } else { 256 };
-
 impl ByCell {
     /// Sorts points anew, whose entries ascend.
     pub fn sort(&mut self, cells: &Cells, points: &[Point]) {
+        // Few are not worth a look at every cell.
         if points.len() > FEW {
             return self.sort_by_counting(cells, points);
         }

@@ -154,17 +154,16 @@ impl Task for CutAll<'_> {
             if sizes.is_none_or(|sizes| sizes[face] == 4) {
                 let [a, b, c, d] = vertices(mesh, corner);
                 quads.take(corner, piece, [uv(a), uv(b), uv(c), uv(d)]);
-                if quads.count == LANES {
-                    quads.cut(mesh, first, pieces, doubtful);
-                }
                 (corner, piece) = (corner + 4, piece + 2);
             } else {
                 pieces[piece] = Piece::new(corner, 0);
                 (corner, piece) = (corner + 3, piece + 1);
             }
             face += 1;
+            if quads.count == LANES || piece == pieces.len() {
+                quads.cut(mesh, first, pieces, doubtful);
+            }
         }
-        quads.cut(mesh, first, pieces, doubtful);
     }
 }
 

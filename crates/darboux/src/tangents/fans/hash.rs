@@ -32,8 +32,10 @@ impl Task for Hash<'_> {
         let Rows { positions, normals, uvs } = self.rows;
         self.hashes.fill(0);
         self.span.take_positions(positions);
-        add_products::<3, { 3 * LANES }>(positions, OF_POSITION, self.hashes, &mut self.span.largest);
-        add_products::<3, { 3 * LANES }>(normals, OF_NORMAL, self.hashes, &mut self.span.largest);
+        // A loop, so that both have one copy of the code.
+        for (rows, factors) in [(positions, OF_POSITION), (normals, OF_NORMAL)] {
+            add_products::<3, { 3 * LANES }>(rows, factors, self.hashes, &mut self.span.largest);
+        }
         add_products::<2, { 2 * LANES }>(uvs, OF_UV, self.hashes, &mut self.span.largest);
         for hash in self.hashes {
             let mixed = (*hash ^ *hash >> 15).wrapping_mul(0x2c1b_3c6d);
@@ -57,13 +59,11 @@ fn add_products<const N: usize, const L: usize>(
     let mut products = [[0; L]; CHUNK];
     for (rows, sums) in rows.chunks(CHUNK * LANES).zip(sums.chunks_mut(CHUNK * LANES)) {
         let (whole, rest) = rows.as_flattened().as_chunks();
-        for (components, products) in whole.iter().zip(&mut products) {
+        let mut padded = [0.0; L];
+        padded[..rest.len()].copy_from_slice(rest);
+        let last = if rest.is_empty() { None } else { Some(&padded) };
+        for (components, products) in whole.iter().chain(last).zip(&mut products) {
             multiply(components, &factors, products, &mut sizes);
-        }
-        if !rest.is_empty() {
-            let mut padded = [0.0; L];
-            padded[..rest.len()].copy_from_slice(rest);
-            multiply(&padded, &factors, &mut products[whole.len()], &mut sizes);
         }
         // A loop of its own: mixed with the one above it would be taken apart lane by lane.
         for (sum, products) in sums.iter_mut().zip(products.as_flattened().as_chunks::<N>().0) {

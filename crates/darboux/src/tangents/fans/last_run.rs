@@ -93,13 +93,15 @@ pub(super) struct LastEdges {
 }
 
 impl LastEdges {
-    /// Of edges, those with the largest lower name among them.
-    fn of(edges: &mut Vec<Edge>) -> Option<Self> {
+    /// Of listed edges, those with the largest lower name among them.
+    fn of(lists: &mut Lists) -> Option<Self> {
+        let Lists { edges, uppers, .. } = lists;
         let name = edges.iter().map(|edge| edge.names[0]).max()?;
         edges.retain(|edge| edge.names[0] == name);
-        let mut uppers: Vec<u32> = edges.iter().map(|edge| edge.names[1]).collect();
-        sort(&mut uppers);
-        if !order_shows(uppers.into_iter()) {
+        uppers.clear();
+        uppers.extend(edges.iter().map(|edge| edge.names[1]));
+        sort(uppers);
+        if !order_shows(uppers.iter()) {
             return None;
         }
         let mut vertices: Vec<u32> = edges.iter().flat_map(|edge| edge.ends).collect();
@@ -123,6 +125,8 @@ pub(super) struct Lists {
     /// The vertices of one range's entries, and where these are in it.
     of_range: Vec<u64>,
     edges: Vec<Edge>,
+    /// The names of the last edges' upper vertices, ascending.
+    uppers: Vec<u32>,
 }
 
 /// A welded mesh.
@@ -152,7 +156,7 @@ impl LastRun<'_> {
             self.sort_points(&cells, lists);
             self.list_edges(&cells, lists);
         }
-        LastEdges::of(&mut lists.edges)
+        LastEdges::of(lists)
     }
 
     /// Lists edges, among them those with the largest lower vertex, if it is named after a corner of the tail.
