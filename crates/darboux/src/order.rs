@@ -8,14 +8,14 @@ pub(crate) const FEW: usize = if cfg!(small_limits) { 4 } else { 64 };
 
 /// Sorts numbers.
 pub(crate) fn sort<T: Copy + Into<u64>>(list: &mut [T]) {
-    sort_by_key(list, |&number| number.into());
+    sort_by_key(list, |&number| number.into(), &mut Vec::new());
 }
 
-/// Sorts a list by keys; elements with one key keep their order.
+/// Sorts a list by keys; elements with one key keep their order. `room`: memory for more than a few.
 #[inline(never)]
-pub(crate) fn sort_by_key<T: Copy>(list: &mut [T], key: impl Fn(&T) -> u64) {
+pub(crate) fn sort_by_key<T: Copy>(list: &mut [T], key: impl Fn(&T) -> u64, room: &mut Vec<T>) {
     if list.len() > FEW {
-        return sort_by_bytes(list, key);
+        return sort_by_bytes(list, key, room);
     }
     for end in 1..list.len() {
         let element = list[end];
@@ -29,13 +29,14 @@ pub(crate) fn sort_by_key<T: Copy>(list: &mut [T], key: impl Fn(&T) -> u64) {
 }
 
 /// By the lowest byte in which keys differ, then by the next, and so on.
-fn sort_by_bytes<T: Copy>(list: &mut [T], key: impl Fn(&T) -> u64) {
+fn sort_by_bytes<T: Copy>(list: &mut [T], key: impl Fn(&T) -> u64, sorted: &mut Vec<T>) {
     if list.is_sorted_by_key(&key) {
         return;
     }
     let first = key(&list[0]);
     let differing = list.iter().fold(0, |bits, element| bits | (key(element) ^ first));
-    let mut sorted = list.to_vec();
+    sorted.clear();
+    sorted.extend_from_slice(list);
     for shift in (0..u64::BITS).step_by(8).filter(|shift| differing >> shift & 0xff != 0) {
         let byte = |element: &T| (key(element) >> shift) as usize & 0xff;
         // Where the next element of each byte goes.
@@ -49,7 +50,7 @@ fn sort_by_bytes<T: Copy>(list: &mut [T], key: impl Fn(&T) -> u64) {
             sorted[*next] = *element;
             *next += 1;
         }
-        list.copy_from_slice(&sorted);
+        list.copy_from_slice(sorted);
     }
 }
 
@@ -83,7 +84,7 @@ mod tests {
             theirs.sort_unstable();
             assert_eq!(ours, theirs);
             let (mut ours, mut theirs) = (pairs.clone(), pairs);
-            sort_by_key(&mut ours, |&pair| second(pair).into());
+            sort_by_key(&mut ours, |&pair| second(pair).into(), &mut Vec::new());
             theirs.sort_by_key(|&pair| second(pair));
             assert_eq!(ours, theirs);
         }

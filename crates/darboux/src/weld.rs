@@ -96,7 +96,7 @@ impl ByCell {
         }
         self.points.clear();
         self.points.extend_from_slice(points);
-        sort_by_key(&mut self.points, |point| cells.at(point.position) as u64);
+        sort_by_key(&mut self.points, |point| cells.at(point.position) as u64, &mut Vec::new());
         self.ends.clear();
         for same in self.points.chunk_by(|a, b| cells.at(a.position) == cells.at(b.position)) {
             let start = self.ends.last().copied().unwrap_or(0);

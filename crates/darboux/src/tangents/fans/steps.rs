@@ -302,6 +302,8 @@ pub(crate) struct Special {
     pub undecided: Vec<u32>,
     /// Corners of vertices in the tail's cells; in the end entries.
     pub in_tail: Vec<Point>,
+    /// For sorting these.
+    room: Vec<Point>,
 }
 
 impl<const N: usize> Task for Write<'_, N> {
@@ -334,7 +336,7 @@ impl Special {
     /// Puts everything in ascending order, and makes triangles and entries of corners, which cut faces were written as.
     pub fn settle(&mut self, source: &Source<'_>) {
         sort(&mut self.undecided);
-        sort_by_key(&mut self.in_tail, |point| point.entry.into());
+        sort_by_key(&mut self.in_tail, |point| point.entry.into(), &mut self.room);
         if source.is_cut() {
             let mut end = 0;
             self.undecided.retain_mut(|corner| {
@@ -351,7 +353,7 @@ impl Special {
                 self.in_tail[at] = points.next().expect("a triangle has the corner");
                 self.in_tail.extend(points);
             }
-            sort_by_key(&mut self.in_tail, |point| point.entry.into());
+            sort_by_key(&mut self.in_tail, |point| point.entry.into(), &mut self.room);
         }
     }
 
