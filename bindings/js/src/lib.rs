@@ -12,8 +12,6 @@ mod encode;
 mod frames;
 #[cfg(feature = "full")]
 mod measure;
-#[cfg(target_family = "wasm")]
-mod memory;
 #[cfg(feature = "full")]
 mod normals;
 #[cfg(feature = "full")]
