@@ -14,11 +14,12 @@ use super::{Fans, source};
 
 /// What the comparison allows for rounding, as part of a dot product.
 ///
-/// With u = 2^-24: directions are of unit length to 5 u, a dot product of two is right to 3 u, the squared diagonal, at most 4, to 4 u of
-/// itself. That is 21 u; this is eight times as much. Directions whose squares underflow are in trouble, so undecided.
+/// With u = 2^-24: directions are of unit length to 5 u, a dot product of two is right to 3 u, the squared diagonal, at most 4, to 5 u of
+/// itself, and what is subtracted from 1 to 2 u. That is 25 u; this is nearly seven times as much. Directions whose squares underflow are in
+/// trouble, so undecided.
 const MARGIN: f32 = 1e-5;
 
-/// At thresholds of a larger cosine no vertex would be decided.
+/// At thresholds of a larger cosine hardly a vertex would be decided.
 pub(in crate::tangents) const LARGEST_COSINE: f32 = 1.0 - 2.0 * MARGIN;
 
 /// The box of tangents, then that of bitangents.
