@@ -1,6 +1,6 @@
 //! Where the meshes of the scene are, and their poses.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use serde::Deserialize;
 
@@ -146,10 +146,10 @@ impl Document {
                 return Err(self.invalid("scene", problem));
             }
         }
-        for (index, joints) in placed.skins.iter_mut().enumerate() {
-            if placed.meshes.iter().any(|mesh| mesh.skin == Some(index)) {
-                *joints = self.joints(&scenes.skins[index], &format!("skins[{index}]"), &nodes)?;
-            }
+        let nodes: HashMap<usize, Matrix> = nodes.into_iter().collect();
+        let used: BTreeSet<usize> = placed.meshes.iter().filter_map(|mesh| mesh.skin).collect();
+        for index in used {
+            placed.skins[index] = self.joints(&scenes.skins[index], &format!("skins[{index}]"), &nodes)?;
         }
         Ok(placed)
     }
@@ -177,9 +177,8 @@ impl Document {
         Ok(Some(place(mesh, node.skin, node.weights.as_ref().unwrap_or(&own.weights), matrices)))
     }
 
-    /// The matrices of a skin's joints. `at`: its path. `nodes`: where the scene has nodes.
-    fn joints(&self, skin: &Skin, at: &str, nodes: &[(usize, Matrix)]) -> Result<Vec<Matrix>, Error> {
-        let nodes: HashMap<usize, Matrix> = nodes.iter().copied().collect();
+    /// The matrices of a skin's joints. `at`: its path. `nodes`: where the scene has nodes, by index.
+    fn joints(&self, skin: &Skin, at: &str, nodes: &HashMap<usize, Matrix>) -> Result<Vec<Matrix>, Error> {
         let inverses = skin.inverse_bind_matrices.map(|accessor| self.vectors::<16>(accessor)).transpose()?;
         let joint = |(place, joint): (usize, &usize)| {
             let wrong = |problem: &str| self.invalid(format!("{at}.joints[{place}]"), problem);
