@@ -39,7 +39,7 @@ export async function openDevice(): Promise<GPUDevice> {
  * The shaders, and `darboux` with its WebAssembly, are loaded by the first call and compiled by the first call for a device.
  *
  * @param device As {@link openDevice} gives it, or one of yours: its limits decide how large meshes may be.
- * @returns 4 per corner. Other parameters as there.
+ * @returns 4 per corner. Other parameters as there; the arrays must stay as they are until then.
  * @throws TypeError and RangeError as there; RangeError for a mesh past the device's limits or memory; Error where the device is lost or refuses.
  */
 export function generateTangents(
