@@ -204,7 +204,7 @@ impl Evaluator<'_> {
 }
 
 /// The first `count` numbers but those of `left_out`, in order.
-fn joined(count: usize, left_out: &[Range<usize>]) -> impl Iterator<Item = usize> {
+pub(super) fn joined(count: usize, left_out: &[Range<usize>]) -> impl Iterator<Item = usize> {
     let starts = [0].into_iter().chain(left_out.iter().map(|gap| gap.end));
     let ends = left_out.iter().map(|gap| gap.start).chain([count]);
     starts.zip(ends).flat_map(|(start, end)| start..end)

@@ -51,7 +51,8 @@ impl Topology {
         stop.check().ok()?;
         let neighbours = neighbours(&triangulation.good, edge_order(options));
         stop.check().ok()?;
-        Some(Self::of(mesh, triangulation, &neighbours, |_| true, options))
+        let derivatives = agreed_derivatives(&triangulation.good, &Shape::welded(mesh));
+        Some(Self::of(mesh, triangulation, (&neighbours, derivatives), |_| true, options))
     }
 
     /// Of the vertices of `part` that count, where the order of vertices shows nowhere but in the last edges.
@@ -60,19 +61,21 @@ impl Topology {
         let good = &triangulation.good;
         let mut neighbours = neighbours(good, EdgeOrder::Complete);
         match_again(good, &numbered(good, part.last_stretches), &mut neighbours);
-        Self::of(mesh, triangulation, &neighbours, |vertex| part.counts[vertex as usize], options)
+        let derivatives = agreed_derivatives(good, &Shape::welded(mesh));
+        let counts = |vertex| part.counts[vertex as usize];
+        Self::of(mesh, triangulation, (&neighbours, derivatives), counts, options)
     }
 
-    fn of(
+    /// Groups triangles whose neighbours are found, and derivatives, quads agreed. `counts`: of the vertices that have groups.
+    pub fn of(
         mesh: &Mesh<'_>,
         triangulation: Triangulation,
-        neighbours: &[[u32; 3]],
+        (neighbours, mut derivatives): (&[[u32; 3]], Vec<Derivative>),
         counts: impl Fn(u32) -> bool,
         options: &TangentOptions,
     ) -> Self {
         let shape = Shape::welded(mesh);
         let good = &triangulation.good;
-        let mut derivatives = agreed_derivatives(good, &shape);
         let uv_degenerate = count_uv_degenerate(good, &shape, &derivatives);
         let mirrored_edges = count_mirrored_edges(neighbours, &derivatives);
         let groups = group(good, neighbours, counts, &mut derivatives);

@@ -6,9 +6,11 @@ use std::collections::HashMap;
 use crate::cancel::Stop;
 use crate::math::cosine_of_degrees;
 use crate::topology::neighbours;
+use crate::triangles::triangulate;
 use crate::{CornerFrames, Frames, Mesh, TangentOptions};
 
 use super::degenerate::copies;
+use super::evaluate::joined;
 use super::mikktspace::{Topology, agreed_derivatives, edge_order};
 use super::shape::Shape;
 use super::subgroups::Subgroups;
@@ -56,12 +58,15 @@ pub struct Sums {
 impl Stages {
     /// Runs every stage in its general form. `None` where the members of all sums would be more than `limit`.
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, limit: usize) -> Option<Self> {
-        let topology = Topology::new(mesh, options, &Stop::heard())?;
-        let good = &topology.triangulation.good;
+        let triangulation = triangulate(mesh);
+        let neighbours = neighbours(&triangulation.good, edge_order(options));
+        let derivatives = agreed_derivatives(&triangulation.good, &Shape::welded(mesh));
+        let known = (&neighbours[..], derivatives.clone());
+        let topology = Topology::of(mesh, triangulation, known, |_| true, options);
         let threshold_cosine = cosine_of_degrees(options.threshold);
         Some(Self {
-            neighbours: neighbours(good, edge_order(options)),
-            derivatives: agreed_derivatives(good, &Shape::welded(mesh)),
+            neighbours,
+            derivatives,
             preserves: topology.base.derivatives.iter().map(|derivative| derivative.preserves).collect(),
             sums: Sums::new(&topology, threshold_cosine, mesh.corner_count(), limit)?,
             copies: copies(&topology.triangulation),
@@ -100,9 +105,9 @@ impl Sums {
                     subgroups.find_left_out(subgroups.first_alike(at), &mut left_out);
                 }
                 let sum = *known.entry(left_out.clone()).or_insert_with(|| {
-                    let joins = |&at: &usize| !left_out.iter().any(|gap| gap.contains(&at));
                     let adds = |member: &u32| !base.derivatives[*member as usize / 3].any;
-                    out.members.extend((0..sorted.len()).filter(joins).map(|at| sorted[at]).filter(adds));
+                    let joined = joined(sorted.len(), &left_out).map(|at| sorted[at]);
+                    out.members.extend(joined.filter(adds));
                     out.ends.push(out.members.len() as u32);
                     out.vertices.push(vertex);
                     out.ends.len() as u32 - 1
