@@ -368,7 +368,10 @@ impl Special {
     pub fn leave(&mut self, source: &Source<'_>, entries: impl Iterator<Item = u32>, out: &mut [[f32; 4]]) {
         for entry in entries {
             out[source.corner(entry) as usize][3] = UNDECIDED;
-            self.undecided.push(source.face_of(entry / 3).start);
+            let face = source.face_of(entry / 3).start;
+            if self.undecided.last() != Some(&face) {
+                self.undecided.push(face);
+            }
         }
         sort(&mut self.undecided);
         self.undecided.dedup();
