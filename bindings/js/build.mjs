@@ -31,63 +31,9 @@ function run(program, ...words) {
 /** Functions of the standard library that end a call, and those that write what no one hears then. */
 const ENDS = /^_R.*(4core3fmt|9panicking\d|_fail$|_failed$|17rust_begin_unwind|15panic_with_hook|12handle_error|18handle_alloc_error|17capacity_overflow|8rust_oom)/;
 
-/** Where a module's data lies: the address of each segment, and the segment as part of the module. */
-function segments(bytes) {
-  let at = 8;
-  const byte = () => bytes[at++];
-  /** An LEB128 number; those here are not negative. */
-  function number() {
-    let value = 0;
-    for (let shift = 0; ; shift += 7) {
-      const next = byte();
-      value += (next & 0x7f) * 2 ** shift;
-      if (next < 0x80) return value;
-    }
-  }
-  while (at < bytes.length) {
-    const [section, length] = [byte(), number()];
-    if (section !== 11) {
-      at += length;
-      continue;
-    }
-    return Array.from({ length: number() }, () => {
-      // In the one memory, at a constant's place.
-      if (number() !== 0 || byte() !== 0x41) throw new Error('data lies elsewhere than expected');
-      const [address, end] = [number(), byte()];
-      if (end !== 0x0b) throw new Error('data lies elsewhere than expected');
-      const size = number();
-      at += size;
-      return { address, data: bytes.subarray(at - size, at) };
-    });
-  }
-  return [];
-}
-
-/** Zeroes the places in source files that panics would name: a path, its length, line and column, and the path itself. */
-function clearPlaces(bytes) {
-  const all = segments(bytes);
-  const text = (address, length) => {
-    const holder = all.find((one) => address >= one.address && address + length <= one.address + one.data.length);
-    return holder?.data.subarray(address - holder.address, address - holder.address + length);
-  };
-  const paths = [];
-  for (const { data } of all) {
-    const words = new DataView(data.buffer, data.byteOffset, data.length);
-    for (let at = 0; at + 16 <= data.length; at += 4) {
-      const path = text(words.getUint32(at, true), words.getUint32(at + 4, true));
-      if (!path || !/^[\x20-\x7e]+\.rs$/.test(Buffer.from(path).toString('latin1'))) continue;
-      data.fill(0, at, at + 16);
-      paths.push(path);
-    }
-  }
-  for (const path of paths) path.fill(0);
-}
-
 /** A module whose panics are traps, without their words. */
 function withoutWords(from, to) {
-  const bytes = readFileSync(from);
-  clearPlaces(bytes);
-  const module = binaryen.readBinary(bytes);
+  const module = binaryen.readBinary(readFileSync(from));
   for (let at = 0; at < module.getNumFunctions(); at++) {
     const place = module.getFunctionByIndex(at);
     if (ENDS.test(binaryen.getFunctionInfo(place).name)) binaryen.Function(place).body = module.unreachable();

@@ -1,5 +1,6 @@
 //! The folder that is published as the npm package darboux.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -70,7 +71,14 @@ pub fn make_folder() -> Result<PathBuf, String> {
             let out = modules.join(format!("{name}.{form}.wasm"));
             compile(&target, features, flags, &out)?;
             if *size == Size::Small {
-                compile(&target, features, &format!("{flags} {FOR_SIZE}{}", but_for_tasks(&out)?), &out)?;
+                let tasks = tasks_of(&out)?;
+                compile(&target, features, &format!("{flags} {FOR_SIZE}{}", but_for(&tasks)), &out)?;
+                if tasks_of(&out)? != tasks {
+                    return Err(format!(
+                        "{}: its tasks have new names, so that they are slow",
+                        out.display()
+                    ));
+                }
             }
         }
     }
@@ -95,19 +103,21 @@ fn compile(target: &Path, features: &str, flags: &str, out: &Path) -> Outcome {
         .map_err(|error| format!("{} cannot be copied: {error}", built.display()))
 }
 
-/// Flags that take [`FOR_SIZE`] from the tasks that a compiled module has.
-fn but_for_tasks(module: &Path) -> Result<String, String> {
+/// The names of the tasks that a compiled module has. Errors: there are none.
+fn tasks_of(module: &Path) -> Result<BTreeSet<String>, String> {
     let read = fs::read(module).map_err(|error| format!("{} cannot be read: {error}", module.display()))?;
     let names = names(&read).map_err(|error| format!("{} has no names: {error}", module.display()))?;
-    let tasks: String = names
-        .into_iter()
-        .filter(|name| name.contains(TASK))
-        .map(|name| format!(" -Cllvm-args=-force-remove-attribute={name}:optsize"))
-        .collect();
+    let tasks: BTreeSet<String> =
+        names.into_iter().filter(|name| name.contains(TASK)).map(str::to_owned).collect();
     if tasks.is_empty() {
         return Err(format!("no function of {} is called as tasks are ({TASK})", module.display()));
     }
     Ok(tasks)
+}
+
+/// Flags that take [`FOR_SIZE`] from tasks.
+fn but_for(tasks: &BTreeSet<String>) -> String {
+    tasks.iter().map(|name| format!(" -Cllvm-args=-force-remove-attribute={name}:optsize")).collect()
 }
 
 /// The functions of a module, as the compiler names them.

@@ -15,6 +15,7 @@ function programOf(device: GPUDevice): Promise<Program> {
   const known = programs.get(device);
   if (known) return known;
   const compiled = Program.soon(device, kernels, [...vertices, ...triangles]).catch((cause: Error) => {
+    programs.delete(device);
     throw new Error(`the GPU refused to work: ${cause.message}`, { cause });
   });
   programs.set(device, compiled);

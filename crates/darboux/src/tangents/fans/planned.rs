@@ -53,6 +53,7 @@ impl Welded {
                         first.push(corner);
                     }
                 }
+                debug_assert_eq!(first.len(), records.len());
                 Self::OfCorner { of: of.to_vec(), first }
             }
         }

@@ -54,7 +54,8 @@ impl OfVertex for Spread {
 impl Spread {
     /// True when all dot products are above a cosine.
     fn is_within(&self, cosine: f32) -> bool {
-        let sides: [f32; 6] = std::array::from_fn(|lane| self.high[lane] - self.low[lane]);
+        // Vertices without triangles have boxes of negative sides.
+        let sides: [f32; 6] = std::array::from_fn(|lane| (self.high[lane] - self.low[lane]).max(0.0));
         let least = |[x, y, z]: [f32; 3]| 1.0 - (x * x + y * y + z * z) / 2.0 - MARGIN;
         let [a, b, c, d, e, f] = sides;
         least([a, b, c]) > cosine && least([d, e, f]) > cosine
