@@ -68,6 +68,7 @@ pub fn make_folder() -> Result<PathBuf, String> {
     fs::create_dir_all(&modules).map_err(|error| format!("{} cannot be made: {error}", modules.display()))?;
     for (name, features, size) in MODULES {
         for (form, flags) in FORMS {
+            eprintln!("compiling {name} ({form}), a minute or more");
             let out = modules.join(format!("{name}.{form}.wasm"));
             compile(&target, features, flags, &out)?;
             if *size == Size::Small {
@@ -83,6 +84,7 @@ pub fn make_folder() -> Result<PathBuf, String> {
         }
     }
     let ours = root().join("bindings/js");
+    eprintln!("making the modules smaller, and bundling");
     run(to_stderr(program("npm ci --no-audit --no-fund").current_dir(&ours)))?;
     run(to_stderr(program("node build.mjs").args([&modules, &folder]).arg(VERSION).current_dir(&ours)))?;
     Ok(folder)

@@ -93,7 +93,7 @@ const COLUMNS: &[Column] = &[
     ("vertices", Kind::Number, |info| count(info.vertices)),
     ("triangles", Kind::Number, triangles),
     ("UV", Kind::Number, |info| info.uv_set.to_string()),
-    ("mirrored", Kind::Number, |info| count(info.mirrored_triangles)),
+    ("mirrored", Kind::Number, |info| count(info.counts.mirrored_edges)),
     ("degenerate", Kind::Number, degenerate),
     ("split", Kind::Number, |info| count(info.counts.split_vertices)),
     ("tangents", Kind::Short, |info| tangents(info).to_string()),

@@ -58,7 +58,9 @@ fn verdict(report: &CompareReport) -> String {
             "the tangents are the same where both files have them\n".to_owned()
         }
         Verdict::Different => {
-            format!("the tangents are not {whose}: {different} of {corners} corners have others{advice}\n")
+            format!(
+                "the tangents are not {whose}: {different} of {corners} corners have others, the rest to {ROUNDING} degrees{advice}\n"
+            )
         }
     }
 }
