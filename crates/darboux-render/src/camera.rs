@@ -1,5 +1,7 @@
 //! From the scene to the picture.
 
+use crate::algebra::Matrix;
+
 /// Degrees from the lower to the upper edge.
 const FIELD: f64 = 35.0;
 /// The part of the picture that stays empty around the model.
@@ -131,7 +133,7 @@ fn turned(turn: [V3; 3], v: V3) -> V3 {
 
 impl Sight {
     /// Where a mesh's point comes to in the eye's space; `matrix` goes from the mesh to the scene.
-    pub fn place(&self, [a, b, c, d]: &[[f64; 4]; 4], point: [f32; 3]) -> V3 {
+    pub fn place(&self, [a, b, c, d]: &Matrix, point: [f32; 3]) -> V3 {
         let [x, y, z] = point.map(f64::from);
         let in_scene = [0, 1, 2].map(|i| a[i] * x + b[i] * y + c[i] * z + d[i]);
         turned(self.turn, scaled(minus(in_scene, self.center), self.scale))
@@ -143,7 +145,7 @@ impl Sight {
     }
 
     /// The columns of the matrix from a mesh to the eye's space, where `matrix` goes from the mesh to the scene.
-    pub fn to_eye(&self, matrix: &[[f64; 4]; 4]) -> [[f32; 4]; 4] {
+    pub fn to_eye(&self, matrix: &Matrix) -> [[f32; 4]; 4] {
         let mut eye = matrix.map(|[x, y, z, w]| {
             let [x, y, z] = turned(self.turn, scaled([x, y, z], self.scale));
             [x, y, z, w]

@@ -3,6 +3,8 @@
 //!
 //! Source: C. Schueler, "Normal Mapping without Precomputed Tangents", 2013: the gradient of u in the plane of the interpolated normal.
 
+use crate::algebra::cross;
+
 type V3 = [f32; 3];
 
 /// The tangents of a triangle's corners, with glTF's signs; (0, 0, 0, 1) where the UVs have no extent.
@@ -21,10 +23,6 @@ pub fn tangents(positions: [V3; 3], normals: [V3; 3], uvs: [[f32; 2]; 3]) -> [[f
         let is_against_v = side * dot(cross(normal, [x, y, z]), along_v) <= 0.0;
         [x, y, z, if is_against_v { 1.0 } else { -1.0 }]
     })
-}
-
-fn cross(a: V3, b: V3) -> V3 {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 fn dot(a: V3, b: V3) -> f32 {

@@ -2,6 +2,7 @@
 //!
 //! A [`Model`] is read from a document that has its tangents; [`render`] draws one [`View`] of it, or of two side by side.
 
+mod algebra;
 mod camera;
 mod derivatives;
 mod error;
@@ -12,6 +13,7 @@ mod painter;
 mod pipelines;
 mod pose;
 mod seams;
+mod srgb;
 mod strokes;
 mod target;
 mod textures;
@@ -24,6 +26,7 @@ pub use error::RenderError;
 pub use heat::HeatScale;
 pub use layout::Layout;
 pub use model::Model;
+pub use srgb::linear_of_srgb;
 pub use strokes::{LINE_COLORS, Lines, SEAM_COLOR};
 pub use textures::is_colored;
 

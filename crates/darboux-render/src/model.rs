@@ -7,13 +7,11 @@ use bytemuck::{Pod, Zeroable};
 use darboux_io::Error;
 use darboux_io::gltf::{Document, Look, PlacedMesh, PlacedMeshes, PrimitiveCorners, TextureUse};
 
+use crate::algebra::Matrix;
 use crate::camera::Bounds;
 use crate::painter::Shape;
 use crate::pose::{self, Vertices};
 use crate::{derivatives, heat};
-
-/// The columns of a matrix.
-type Matrix = [[f64; 4]; 4];
 
 /// A corner as the shader takes it.
 #[repr(C)]

@@ -12,6 +12,7 @@ use wgpu::{
 use crate::camera::Sight;
 use crate::model::{Corner, Part, on_layout};
 use crate::pipelines::{line_pipeline, surface_pipeline};
+use crate::srgb::linear_of_srgb;
 use crate::strokes::{Stroke, strokes};
 use crate::target::Target;
 use crate::textures::{Kind, Textures, sampler};
@@ -150,9 +151,7 @@ fn color_in(color: [u8; 3], format: TextureFormat) -> [f64; 3] {
         let channel = f64::from(channel) / 255.0;
         match format {
             TextureFormat::Rgba8Unorm => channel,
-            // IEC 61966-2-1.
-            _ if channel <= 0.04045 => channel / 12.92,
-            _ => ((channel + 0.055) / 1.055).powf(2.4),
+            _ => linear_of_srgb(channel),
         }
     })
 }

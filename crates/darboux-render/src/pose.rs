@@ -4,9 +4,7 @@ use darboux::Transform;
 use darboux_io::Error;
 use darboux_io::gltf::PrimitiveCorners;
 
-use crate::strokes::direction_columns;
-
-type Matrix = [[f64; 4]; 4];
+use crate::algebra::{Matrix, direction_columns};
 
 /// What of a corner moves with a pose. Normals and tangents are empty where the primitive has none.
 pub struct Vertices {

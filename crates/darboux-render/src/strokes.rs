@@ -5,6 +5,7 @@ use std::collections::HashSet;
 use bytemuck::{Pod, Zeroable};
 use darboux::Transform;
 
+use crate::algebra::{Matrix, cross, direction_columns};
 use crate::camera::Sight;
 use crate::model::{Corner, Part};
 use crate::seams::seams;
@@ -87,7 +88,7 @@ fn vertices(corners: &[Corner]) -> Vec<&Corner> {
 
 /// The unit tangent, bitangent and normal in the scene; zero where there is none. As the surface is shaded: the tangent is not made
 /// perpendicular to the normal.
-fn vectors(matrix: &[[f64; 4]; 4], corner: &Corner, side: f32) -> [[f32; 3]; 3] {
+fn vectors(matrix: &Matrix, corner: &Corner, side: f32) -> [[f32; 3]; 3] {
     let columns = direction_columns(matrix);
     let transform = Transform::new(columns);
     let [x, y, z, w] = corner.tangent;
@@ -97,18 +98,7 @@ fn vectors(matrix: &[[f64; 4]; 4], corner: &Corner, side: f32) -> [[f32; 3]; 3] 
     [tangent, bitangent, unit(normal)]
 }
 
-/// Where a matrix takes the x, y and z directions. Only directions matter; so they fit 32 bits.
-pub fn direction_columns(matrix: &[[f64; 4]; 4]) -> [[f32; 3]; 3] {
-    let largest = matrix[..3].as_flattened().iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
-    let scale = if largest > 0.0 && largest.is_finite() { 1.0 / largest } else { 1.0 };
-    [0, 1, 2].map(|i| [0, 1, 2].map(|k| (matrix[i][k] * scale) as f32))
-}
-
 fn unit(v: [f32; 3]) -> [f32; 3] {
     let size = v.iter().map(|x| x * x).sum::<f32>().sqrt();
     if size > 0.0 && size.is_finite() { v.map(|x| x / size) } else { [0.0; 3] }
-}
-
-fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

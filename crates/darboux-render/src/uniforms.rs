@@ -3,16 +3,13 @@
 use bytemuck::{Pod, Zeroable};
 use darboux_io::gltf::{Alpha, Look, TextureUse};
 
+use crate::algebra::{IDENTITY, Matrix, direction_columns};
 use crate::camera::Sight;
 use crate::painter::{Shape, Show};
-use crate::strokes::direction_columns;
 use crate::{HeatScale, SIGN_COLORS, Side};
 
 /// Pixels along a picture's shorter side for one of a line's width, which is at least one.
 const PIXELS_PER_WIDTH: f32 = 500.0;
-
-const IDENTITY: [[f64; 4]; 4] =
-    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
 /// The uniforms of draw.wgsl's `Picture`.
 #[repr(C)]
@@ -130,7 +127,7 @@ impl MaterialUniforms {
 }
 
 impl Place {
-    pub fn of(matrix: &[[f64; 4]; 4], sight: &Sight, shape: Shape) -> Self {
+    pub fn of(matrix: &Matrix, sight: &Sight, shape: Shape) -> Self {
         Self {
             eye: sight.to_eye(if shape == Shape::Layout { &IDENTITY } else { matrix }),
             directions: direction_columns(matrix),

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use darboux_io::gltf::{Document, LoadOptions};
-use darboux_render::is_colored;
+use darboux_render::{is_colored, linear_of_srgb};
 use serde_json::{Value, json};
 use tobj::{LoadError, Material, Model};
 
@@ -121,13 +121,9 @@ struct Glb {
 
 impl Glb {
     fn add_material(&mut self, look: &Look) {
-        // IEC 61966-2-1. What is no number is as if it were not said.
-        let linear = |channel: f32| match channel {
-            _ if !channel.is_finite() => 1.0,
-            _ if channel <= 0.04045 => channel.max(0.0) / 12.92,
-            _ => ((channel.min(1.0) + 0.055) / 1.055).powf(2.4),
-        };
-        let [r, g, b] = look.color.map(linear);
+        // What is no number is as if it were not said.
+        let said = |channel: f32| if channel.is_finite() { f64::from(channel.clamp(0.0, 1.0)) } else { 1.0 };
+        let [r, g, b] = look.color.map(|channel| linear_of_srgb(said(channel)));
         let base = look.base.as_deref().and_then(|path| self.texture(path));
         let normal = look.normal.as_deref().or_else(|| self.normal_map_in_bump(look));
         let normal = normal.and_then(|path| self.texture(path));

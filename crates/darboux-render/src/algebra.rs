@@ -1,0 +1,18 @@
+//! Matrices and vectors.
+
+/// The columns of a matrix for column vectors.
+pub type Matrix = [[f64; 4]; 4];
+
+pub const IDENTITY: Matrix =
+    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+
+/// Where a matrix takes the x, y and z directions. Only directions matter; so they fit 32 bits.
+pub fn direction_columns(matrix: &Matrix) -> [[f32; 3]; 3] {
+    let largest = matrix[..3].as_flattened().iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    let scale = if largest > 0.0 && largest.is_finite() { 1.0 / largest } else { 1.0 };
+    [0, 1, 2].map(|i| [0, 1, 2].map(|k| (matrix[i][k] * scale) as f32))
+}
+
+pub fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
