@@ -165,6 +165,21 @@ impl<'a> Model<'a> {
 }
 
 impl Part {
+    /// Corners at places, with nothing else.
+    #[cfg(test)]
+    pub fn of(corners: Vec<Corner>, places: &[Matrix]) -> Self {
+        Self {
+            mesh: 0,
+            name: [0; 3],
+            material: None,
+            corners,
+            has_tangents: true,
+            left_out: 0,
+            layout: Vec::new(),
+            places: places.into(),
+        }
+    }
+
     /// Whether there are tangents on both sides, of the same corners.
     fn is_comparable(&self, other: &Part) -> bool {
         self.has_tangents && other.has_tangents && self.corners.len() == other.corners.len()

@@ -13,7 +13,7 @@ use crate::camera::Sight;
 use crate::model::{Corner, Part, on_layout};
 use crate::pipelines::{line_pipeline, surface_pipeline};
 use crate::srgb::linear_of_srgb;
-use crate::strokes::{Stroke, strokes};
+use crate::strokes::{MOST_STROKES, strokes};
 use crate::target::Target;
 use crate::textures::{Kind, Textures, sampler};
 use crate::uniforms::{MaterialUniforms, PictureUniforms, Place, StrokesUniforms};
@@ -197,7 +197,8 @@ impl Painter<'_> {
             looks.map(|(material, look)| is_used(material).then(|| self.material(look, &mut textures)));
         let materials = materials.collect();
         let plain = self.material(&Look::default(), &mut textures);
-        let told = model.warnings(self.show.shape).into_iter().chain(textures.warnings);
+        let (strokes, is_cut) = self.strokes(side);
+        let told = model.warnings(self.show.shape).into_iter().chain(textures.warnings).chain(is_cut);
         for warning in told {
             // Both sides of one file have the same to say.
             if !warnings.contains(&warning) {
@@ -211,25 +212,28 @@ impl Painter<'_> {
             pieces: model.parts.iter().flat_map(|part| self.pieces(part)).collect(),
             materials,
             plain,
-            strokes: self.strokes(side),
+            strokes,
         }
     }
 
-    /// The lines over a side; none where there are none.
-    fn strokes(&self, side: &Side<'_>) -> Option<Strokes> {
+    /// The lines over a side, none where there are none; and what to say where these are not all.
+    fn strokes(&self, side: &Side<'_>) -> (Option<Strokes>, Option<String>) {
         let Show { shape, size, sight, options, .. } = self.show;
         if *shape == Shape::Layout {
-            return None;
+            return (None, None);
         }
         let color = |color| color_in(color, self.format).map(|channel| channel as f32);
-        let parts = side.model.parts.iter();
-        let lines: Vec<Stroke> = parts.flat_map(|part| strokes(side, part, sight, options, color)).collect();
+        let (lines, are_all) = strokes(&side.model.parts, side.mistakes, sight, options, MOST_STROKES, color);
         let uniforms = self.uniform(&StrokesUniforms::of(sight, *size));
-        (!lines.is_empty()).then(|| Strokes {
+        let on_gpu = (!lines.is_empty()).then(|| Strokes {
             uniforms: self.group(&self.lines, 0, &[uniforms.as_entire_binding()]),
             lines: self.buffer(bytemuck::cast_slice(&lines), BufferUsages::VERTEX),
             count: lines.len() as u32,
-        })
+        });
+        let is_cut = (!are_all).then(|| {
+            format!("has more than {MOST_STROKES} lines and seams, of which only so many are drawn; render a part of the scene")
+        });
+        (on_gpu, is_cut)
     }
 
     fn uniform(&self, value: &impl Pod) -> Buffer {
