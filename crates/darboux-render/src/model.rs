@@ -1,16 +1,18 @@
 //! What is drawn of a document.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
 use darboux_io::Error;
-use darboux_io::gltf::{Document, Look, PlacedMesh, PlacedMeshes, PrimitiveCorners, TextureUse};
+use darboux_io::gltf::{
+    Document, Look, PlacedMesh, PlacedMeshes, PrimitiveCorners, PrimitiveName, TextureUse,
+};
 
 use crate::algebra::Matrix;
 use crate::camera::Bounds;
 use crate::painter::Shape;
-use crate::pose::{self, Vertices};
+use crate::pose::{self, MOST_SETS, Vertices};
 use crate::{derivatives, heat};
 
 /// A corner as the shader takes it.
@@ -60,7 +62,7 @@ struct Posed<'a> {
     places: Arc<[Matrix]>,
 }
 
-/// Corners of meshes whose nodes pose them differently are kept for each: so many are some GB.
+/// Corners of meshes whose nodes pose them differently are kept, and their vertices read, for each: so many are some GB.
 const MOST_CORNERS: usize = 3 << 24;
 
 impl<'a> Model<'a> {
@@ -77,11 +79,13 @@ impl<'a> Model<'a> {
         let mut kept: usize = 0;
         for corners in document.corners()? {
             let poses = posed.get(corners.name().mesh).map_or(&[][..], Vec::as_slice);
-            kept = kept.saturating_add(corners.len().saturating_mul(poses.len().saturating_sub(1)));
+            kept = kept
+                .saturating_add(elements(document, &corners).saturating_mul(poses.len().saturating_sub(1)));
             if kept > MOST_CORNERS {
                 let problem = "is posed in more ways than are drawn; render a part of the scene";
                 return Err(document.invalid(corners.name().path(), problem));
             }
+            check_influences(document, &corners, poses)?;
             for (at, pose) in poses.iter().enumerate() {
                 parts.push(read_part(document, &looks, &corners, at, pose)?);
             }
@@ -207,6 +211,32 @@ fn posed_meshes(placed: &PlacedMeshes, mesh_count: usize) -> Vec<Vec<Posed<'_>>>
         places: places.into(),
     };
     posed.into_iter().map(|poses| poses.into_iter().map(pose).collect()).collect()
+}
+
+/// The corners of a primitive, or its vertices where these are more: each pose reads all of them.
+fn elements(document: &Document, corners: &PrimitiveCorners<'_>) -> usize {
+    let PrimitiveName { mesh, primitive, .. } = corners.name();
+    let primitive = &document.meshes()[*mesh].primitives[*primitive];
+    let accessors = primitive.targets.iter().chain([&primitive.attributes]).flat_map(BTreeMap::values);
+    let counts = accessors.filter_map(|&accessor| Some(document.accessors().get(accessor)?.count));
+    counts.fold(corners.len(), usize::max)
+}
+
+/// Errors: a skin whose vertices have more influences than are kept.
+fn check_influences(
+    document: &Document,
+    corners: &PrimitiveCorners<'_>,
+    poses: &[Posed<'_>],
+) -> Result<(), Error> {
+    let PrimitiveName { mesh, primitive, .. } = corners.name();
+    let attributes = &document.meshes()[*mesh].primitives[*primitive].attributes;
+    let is_skinned = poses.iter().any(|pose| pose.joints.is_some());
+    if is_skinned && attributes.contains_key(&format!("JOINTS_{MOST_SETS}")) {
+        let most = 4 * MOST_SETS;
+        let problem = format!("has vertices with more than {most} joints; limit them where you export it");
+        return Err(document.invalid(corners.name().path(), problem));
+    }
+    Ok(())
 }
 
 /// Where a UV lies in the layout, whose v goes down.

@@ -31,30 +31,22 @@ fn move_by<const N: usize>(vectors: &mut [[f32; N]], offsets: &[[f32; 3]], weigh
     }
 }
 
+/// Four influences each; programs write one or two sets. All are kept while vertices are moved.
+pub const MOST_SETS: usize = 4;
+
 /// Moves vertices by a skin; says of each whether it is mirrored, which turns the winding of faces.
 ///
-/// `joints`: the matrices of the joints. Joints that do not exist move nothing. Errors: broken data.
+/// `joints`: the matrices of the joints. Joints that do not exist move nothing, as do sets past [`MOST_SETS`]. Errors: broken data.
 pub fn skin(
     corners: &PrimitiveCorners<'_>,
     joints: &[Matrix],
     vertices: &mut Vertices,
 ) -> Result<Vec<bool>, Error> {
-    let mut sums: Vec<(Matrix, f64)> = vec![Default::default(); vertices.positions.len()];
-    for set in 0.. {
-        let influence = |name: &str| corners.vectors::<4>(&format!("{name}_{set}"));
-        let (Some(places), Some(weights)) = (influence("JOINTS")?, influence("WEIGHTS")?) else { break };
-        for ((sum, places), weights) in sums.iter_mut().zip(places).zip(weights) {
-            for (place, weight) in places.into_iter().zip(weights.map(f64::from)) {
-                let Some(joint) = joints.get(place as usize).filter(|_| weight != 0.0) else { continue };
-                let parts = sum.0.as_flattened_mut().iter_mut().zip(joint.as_flattened());
-                parts.for_each(|(sum, part)| *sum += weight * part);
-                sum.1 += weight;
-            }
-        }
-    }
+    let sets = influences(corners)?;
     let Vertices { positions, normals, tangents } = vertices;
     let mut is_mirrored = vec![false; positions.len()];
-    for (at, (sum, weight)) in sums.into_iter().enumerate() {
+    for at in 0..positions.len() {
+        let (sum, weight) = sum_at(at, &sets, joints);
         // What nothing moves stays where it was bound.
         if weight == 0.0 {
             continue;
@@ -77,4 +69,32 @@ pub fn skin(
         }
     }
     Ok(is_mirrored)
+}
+
+/// The joints of every corner, as floats, and their weights: four of each.
+type Influences = (Vec<[f32; 4]>, Vec<[f32; 4]>);
+
+/// The sets of influences that the primitive has.
+fn influences(corners: &PrimitiveCorners<'_>) -> Result<Vec<Influences>, Error> {
+    let mut sets = Vec::new();
+    for set in 0..MOST_SETS {
+        let influence = |name: &str| corners.vectors::<4>(&format!("{name}_{set}"));
+        let (Some(places), Some(weights)) = (influence("JOINTS")?, influence("WEIGHTS")?) else { break };
+        sets.push((places, weights));
+    }
+    Ok(sets)
+}
+
+/// The sum of the matrices that move a corner, by weight, and that of the weights.
+fn sum_at(corner: usize, sets: &[Influences], joints: &[Matrix]) -> (Matrix, f64) {
+    let (mut sum, mut total) = (Matrix::default(), 0.0);
+    for (places, weights) in sets {
+        for (place, weight) in places[corner].into_iter().zip(weights[corner].map(f64::from)) {
+            let Some(joint) = joints.get(place as usize).filter(|_| weight != 0.0) else { continue };
+            let parts = sum.as_flattened_mut().iter_mut().zip(joint.as_flattened());
+            parts.for_each(|(sum, part)| *sum += weight * part);
+            total += weight;
+        }
+    }
+    (sum, total)
 }

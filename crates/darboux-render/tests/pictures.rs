@@ -3,6 +3,7 @@
 mod common;
 
 use common::{Quad, document, has_adapter_or_says_so};
+use darboux_io::gltf::{Document, LoadOptions};
 use darboux_render::{Layout, Mistakes, Model, RenderOptions, Side, View};
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage, Rgba, RgbaImage};
 
@@ -244,6 +245,13 @@ fn broken_poses_are_said() {
         (Quad { node: r#""skin":1"#, ..Quad::default() }, "nodes[0]: skin 1 does not exist: there are 0"),
         (skinned(",{}"), ""),
         (
+            Quad {
+                attributes: r#","JOINTS_0":2,"WEIGHTS_0":2,"JOINTS_4":2,"WEIGHTS_4":2"#,
+                ..skinned(",{}")
+            },
+            "meshes[0].primitives[0]: has vertices with more than 16 joints",
+        ),
+        (
             Quad { file: r#","skins":[{"joints":[0,4]}]"#, ..skinned(",{}") },
             "skins[0].joints[1]: is not in the scene",
         ),
@@ -265,6 +273,25 @@ fn broken_poses_are_said() {
             Model::read(&mut document).map(|_| ()).err().map(|error| error.to_string()).unwrap_or_default();
         assert!(error.contains(said) && error.is_empty() == said.is_empty(), "{error} in place of {said}");
     }
+}
+
+#[test]
+fn vertices_are_read_for_so_many_poses() {
+    // One triangle, whose vertices are zeros that the file does not store.
+    let read = |vertices: usize| {
+        let file = format!(
+            r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0,1,2]}}],
+            "nodes":[{{"mesh":0}},{{"mesh":0,"weights":[1]}},{{"mesh":0,"weights":[2]}}],
+            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":1}}]}}],
+            "accessors":[{{"componentType":5126,"count":{vertices},"type":"VEC3"}},{{"componentType":5125,"count":3,"type":"SCALAR"}}]}}"#
+        );
+        let document = Document::from_bytes("file", file.into_bytes(), None, &LoadOptions::default());
+        let triangles = Model::read(&mut document.expect("a document")).map(|model| model.triangle_count());
+        triangles.map_err(|error| error.to_string())
+    };
+    assert_eq!(read(3), Ok(3));
+    let error = read(30_000_000).expect_err("too many");
+    assert!(error.contains("is posed in more ways than are drawn"), "{error}");
 }
 
 #[test]
