@@ -8,8 +8,9 @@ use std::path::{Path, PathBuf};
 use darboux_io::gltf::{Document, LoadOptions};
 use darboux_render::{is_colored, linear_of_srgb};
 use serde_json::{Value, json};
-use tobj::{LoadError, Material, Model};
+use tobj::{LoadError, Material, Mesh, Model};
 
+use crate::batch::counted;
 use crate::view::obj::{folder_of, named, texture};
 
 /// Reads an OBJ; gives what is odd about it, too. v runs down then, as in glTF. The error is a sentence.
@@ -22,12 +23,14 @@ pub fn open(path: &Path) -> Result<(Document, Vec<String>), String> {
     let libraries = Libraries { folder, looks: RefCell::default(), warnings: RefCell::default() };
     // Comments and names may be in any encoding.
     let text = String::from_utf8_lossy(&bytes);
-    let loaded = tobj::load_obj_buf(&mut text.as_bytes(), &options, |line| Ok(libraries.read(line)));
+    let loaded = check_indices(&text)
+        .and_then(|()| tobj::load_obj_buf(&mut text.as_bytes(), &options, |line| Ok(libraries.read(line))));
     let broken = |error: LoadError| format!("{shown}: is no OBJ that can be read ({error}); export it again");
     let (models, _) = loaded.map_err(broken)?;
     let mut glb = Glb { warnings: libraries.warnings.take(), ..Glb::default() };
     libraries.looks.take().iter().for_each(|look| glb.add_material(look));
     models.iter().filter(|model| !model.mesh.indices.is_empty()).for_each(|model| glb.add_mesh(model));
+    glb.warnings.extend(partial(&models));
     if glb.meshes.is_empty() {
         return Err(format!("{shown}: has no faces as an OBJ has them; export it again"));
     }
@@ -36,6 +39,50 @@ pub fn open(path: &Path) -> Result<(Document, Vec<String>), String> {
         glb.into_bytes().ok_or_else(|| format!("{shown}: is too large; export it as .glb in parts"))?;
     let document = Document::from_bytes(&shown, bytes, None, &LoadOptions::default());
     Ok((document.map_err(|error| error.to_string())?, warnings))
+}
+
+/// The reader multiplies indices unchecked. Errors: one below 0 that leads before the first element, or one past all that a text of this
+/// length can have.
+fn check_indices(text: &str) -> Result<(), LoadError> {
+    const KINDS: [&str; 3] = ["v", "vt", "vn"];
+    let mut counts = [0; 3];
+    for line in text.lines() {
+        let mut words = line.split_whitespace();
+        let statement = words.next().unwrap_or_default();
+        if let Some(kind) = KINDS.iter().position(|kind| *kind == statement) {
+            counts[kind] += 1;
+        }
+        let corners = words.filter(|_| ["f", "l"].contains(&statement));
+        for (kind, index) in corners.flat_map(|corner| corner.split('/').take(3).enumerate()) {
+            let Ok(index) = index.parse::<isize>() else { continue };
+            let most = if index < 0 { counts[kind] } else { text.len() };
+            if index.unsigned_abs() > most {
+                let errors = [
+                    LoadError::FaceVertexOutOfBounds,
+                    LoadError::FaceTexCoordOutOfBounds,
+                    LoadError::FaceNormalOutOfBounds,
+                ];
+                return Err(errors[kind]);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What is left out because not all corners of a mesh have it: a sentence each.
+fn partial(models: &[Model]) -> impl Iterator<Item = String> {
+    let is_partial = |mesh: &Mesh, numbers: &[f32], each: usize| {
+        !numbers.is_empty() && numbers.len() / each < mesh.positions.len() / 3
+    };
+    let meshes = || models.iter().map(|model| &model.mesh);
+    let uvs = meshes().filter(|mesh| is_partial(mesh, &mesh.texcoords, 2)).count();
+    let normals = meshes().filter(|mesh| is_partial(mesh, &mesh.normals, 3)).count();
+    [(uvs, "UVs"), (normals, "normals")].into_iter().filter(|(meshes, _)| *meshes > 0).map(
+        |(meshes, what)| {
+            let meshes = counted(meshes, "mesh has", "meshes have");
+            format!("{meshes} {what} at some corners only; drawn without them")
+        },
+    )
 }
 
 /// A material, its textures by their paths.
@@ -68,15 +115,12 @@ impl Libraries {
             self.warn(format!("{line} is not in the model's folder, and its materials are missing"));
         }
         for library in libraries {
-            let text = fs::read(&library.path).unwrap_or_default();
-            match tobj::load_mtl_buf(&mut String::from_utf8_lossy(&text).as_bytes()) {
-                Ok((found, _)) => {
+            match read_library(&library.path) {
+                Ok(found) => {
                     self.looks.borrow_mut().extend(found.iter().map(|found| self.look(&library.name, found)));
                     materials.extend(found);
                 }
-                Err(error) => {
-                    self.warn(format!("{}: cannot be read ({error}); export it again", library.name))
-                }
+                Err(problem) => self.warn(format!("{}: {problem}", library.name)),
             }
         }
         let places = materials.iter().enumerate().map(|(at, found)| (found.name.clone(), at)).collect();
@@ -104,6 +148,24 @@ impl Libraries {
     fn warn(&self, sentence: String) {
         self.warnings.borrow_mut().push(sentence);
     }
+}
+
+/// The materials of a library. The error is a sentence without its subject.
+fn read_library(path: &Path) -> Result<Vec<Material>, String> {
+    let bytes =
+        fs::read(path).map_err(|error| format!("cannot be read: {error}; its materials are missing"))?;
+    let text = String::from_utf8_lossy(&bytes);
+    // The reader panics at colours with one or two numbers.
+    let is_whole = |line: &str| {
+        let mut words = line.split_whitespace();
+        !["Ka", "Kd", "Ks", "Ke"].contains(&words.next().unwrap_or_default()) || words.count() >= 3
+    };
+    let loaded = match text.lines().all(is_whole) {
+        true => tobj::load_mtl_buf(&mut text.as_bytes()),
+        false => Err(LoadError::ColorParseError),
+    };
+    let (materials, _) = loaded.map_err(|error| format!("cannot be read ({error}); export it again"))?;
+    Ok(materials)
 }
 
 /// A document as it grows.
@@ -245,4 +307,137 @@ fn glb_of(json: String, bytes: &[u8]) -> Option<Vec<u8>> {
     let word = u32::to_le_bytes;
     let head = [&b"glTF"[..], &word(2), &word(whole), &word(text), b"JSON"].concat();
     Some([&head, &json[..], &word(binary), b"BIN\0", bytes].concat())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const OBJ: &str = "mtllib a.mtl\no quad\nv 0 0 0\nv 1 0 0\nv 1 1 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n\
+        usemtl a\ng one\nf 1/1/1 2/2/1 -1/-1/-1\nf 1//1 2//1 3//1 1//1 2//1\nl 1 2\n";
+    const MTL: &str =
+        "newmtl a\nKd 0.5 0.5 0.5\nNs 10\nillum 2\nmap_Kd a.png\nbump -bm 1 a.png\nnewmtl b\nd 0.5\n";
+
+    /// What is put in place of a word: borders of numbers, what is missing, and what is no text.
+    const WORDS: [&[u8]; 22] = [
+        b"",
+        b" ",
+        b"\n",
+        b"/",
+        b"//",
+        b"1/2/3/4",
+        b"0",
+        b"-1",
+        b"-2/-3/-4",
+        b"1/-9/1",
+        b"1/1/-9",
+        b"99",
+        b"9223372036854775807",
+        b"1/9223372036854775807",
+        b"1/1/9223372036854775807",
+        b"-9223372036854775808",
+        b"1/1/-6148914691236517207",
+        b"18446744073709551616",
+        b"nan",
+        b"1e999",
+        b"\xFF\x00\xFE",
+        b"\\",
+    ];
+
+    /// The text with some words replaced, removed or repeated; `random`: numbers below its argument.
+    fn mutated(text: &str, random: &mut impl FnMut(usize) -> usize) -> Vec<u8> {
+        let mut words: Vec<Vec<u8>> = text.split_inclusive([' ', '\n']).map(|word| word.into()).collect();
+        for _ in 0..1 + random(3) {
+            let at = random(words.len());
+            let last = *words[at].last().expect("no word is empty");
+            words[at] = match random(8) {
+                0 => Vec::new(),
+                1 => words[at].repeat(1 + random(2000)),
+                2 => words[random(words.len())].clone(),
+                _ => WORDS[random(WORDS.len())].to_vec(),
+            };
+            words[at].push(last);
+        }
+        words.concat()
+    }
+
+    #[test]
+    fn odd_files_are_models_or_sentences() {
+        let folder = tempfile::tempdir().unwrap();
+        let [obj, mtl] = ["a.obj", "a.mtl"].map(|name| folder.path().join(name));
+        let mut state = 1u64;
+        let mut random = |below: usize| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 33) as usize % below
+        };
+        let [mut models, mut sentences] = [0; 2];
+        for case in 0..600 {
+            let [text, library] = match case % 2 {
+                0 => [mutated(OBJ, &mut random), MTL.into()],
+                _ => [OBJ.into(), mutated(MTL, &mut random)],
+            };
+            fs::write(&obj, text).unwrap();
+            fs::write(&mtl, library).unwrap();
+            match open(&obj) {
+                Ok((mut document, _)) => {
+                    darboux_render::Model::read(&mut document).unwrap();
+                    models += 1;
+                }
+                Err(sentence) => {
+                    assert!(sentence.contains("a.obj: ") && !sentence.contains('\n'), "{sentence}");
+                    sentences += 1;
+                }
+            }
+        }
+        assert!(models > 100 && sentences > 50, "{models} models, {sentences} sentences");
+    }
+
+    /// What is odd about an OBJ with a library.
+    fn warnings(obj: &str, library: &str) -> Vec<String> {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("a.mtl"), library).unwrap();
+        fs::write(folder.path().join("a.obj"), format!("mtllib a.mtl\n{obj}")).unwrap();
+        open(&folder.path().join("a.obj")).unwrap().1
+    }
+
+    #[test]
+    fn colours_of_one_number_are_said() {
+        let said = warnings("v 0 0 0\nf 1 1 1\n", "newmtl a\nKd 0.5\n");
+        assert!(said.len() == 1 && said[0].starts_with("a.mtl: cannot be read (color"), "{said:?}");
+    }
+
+    #[test]
+    fn attributes_of_some_corners_are_said() {
+        let elements = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvn 0 0 1\n";
+        let said = |faces: &str| warnings(&format!("{elements}{faces}"), "");
+        assert_eq!(said("f 1/1/1 2/1/1 3/1/1\n"), [""; 0]);
+        assert_eq!(said("f 1 2 3\n"), [""; 0]);
+        let [uvs, normals] =
+            ["UVs", "normals"].map(|what| format!("{what} at some corners only; drawn without them"));
+        assert_eq!(said("f 1/1/1 2//1 3/1/1\n"), [format!("1 mesh has {uvs}")]);
+        assert_eq!(
+            said("f 1/1/1 2 3/1/1\no b\nf 1/1/1 2/1 3/1/1\n"),
+            [format!("1 mesh has {uvs}"), format!("2 meshes have {normals}")]
+        );
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn unreadable_libraries_are_said() {
+        use std::os::unix::fs::PermissionsExt;
+
+        let folder = tempfile::tempdir().unwrap();
+        let [obj, mtl] = ["a.obj", "a.mtl"].map(|name| folder.path().join(name));
+        fs::write(&obj, "mtllib a.mtl\nv 0 0 0\nf 1 1 1\n").unwrap();
+        fs::write(&mtl, MTL).unwrap();
+        fs::set_permissions(&mtl, fs::Permissions::from_mode(0o000)).unwrap();
+        // Administrators can read everything.
+        let is_readable = fs::read(&mtl).is_ok();
+        let (_, said) = open(&obj).unwrap();
+        assert_eq!(
+            said.iter().any(|said| said.starts_with("a.mtl: cannot be read: ")),
+            !is_readable,
+            "{said:?}"
+        );
+    }
 }
