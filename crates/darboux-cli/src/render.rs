@@ -74,11 +74,17 @@ pub fn run(arguments: &RenderArguments) -> u8 {
     exit::DONE
 }
 
-/// Says which arguments would change nothing.
+/// Says which arguments would change nothing, or cannot be meant.
 fn refuse_useless(arguments: &RenderArguments) -> Result<(), String> {
-    let RenderArguments { view, against, split, mistakes, .. } = arguments;
+    let RenderArguments { view, against, split, mistakes, output, .. } = arguments;
+    if output.is_dir() {
+        return Err(format!("{} is a folder; name a file in it", output.display()));
+    }
     if against.is_some() && *view != View::Angle && split.is_none() {
         return Err("--against is for --view angle and for --split, and neither is there".to_owned());
+    }
+    if split.is_some() && *view == View::Angle {
+        return Err("--view angle is one picture of two sources; leave --split out".to_owned());
     }
     if split.is_some() && against.is_none() && mistakes.is_empty() {
         return Err("--split shows twice the same: give --against or --mistakes, too".to_owned());
@@ -203,7 +209,7 @@ fn open(arguments: &RenderArguments, source: Option<Source>) -> Result<Opened, S
         Some(Source::File) if of_file != Source::File => {
             let name = document.name();
             return Err(format!(
-                "{name}: has no tangents; name a method in place of file, or make some: darboux tangents {name}"
+                "{name}: has no tangents; name a method in place of file, as in --tangents mikktspace"
             ));
         }
         Some(source @ (Source::File | Source::Derivatives)) => {

@@ -275,6 +275,7 @@ fn bad_arguments_are_usage() {
         (&["--view", "angle"], "--against"),
         (&["--against", "lengyel"], "--against is for --view angle and for --split"),
         (&["--split", "50"], "--split shows twice the same"),
+        (&["--view", "angle", "--against", "lengyel", "--split", "50"], "leave --split out"),
         (&["--split", "101"], "not a number from 0 to 100"),
         (&["--length", "NaN"], "not a number from 0 to 100"),
         (&["--lines", "tangent,up"], "possible values"),
