@@ -1,7 +1,7 @@
 //! Plans on meshes that move.
 
 use darboux::{Method, Mode, Plan, Scratch, TangentOptions, generate_tangents};
-use darboux_tests::{Case, OwnedMesh, families};
+use darboux_tests::{Case, FaceSizes, OwnedMesh, families};
 
 /// A plan of `base` on `moved`.
 fn planned(base: &OwnedMesh, moved: &OwnedMesh, options: &TangentOptions) -> Vec<[u32; 4]> {
@@ -42,6 +42,26 @@ fn every_stage_agrees_with_the_short_way() {
             let mut long = planned(&with_pentagon(&mesh), &with_pentagon(&moved), &options);
             long.truncate(short.len());
             assert_eq!(short, long, "seed {seed}");
+        }
+    }
+}
+
+/// Faces are those of the base, whatever comes with the vertices.
+#[test]
+fn other_faces_change_nothing() {
+    let base = families::grid(3, 2, true, true);
+    let (view, corners) = (base.view(), base.corner_count());
+    let others = [
+        base.clone().with_face_list(&vec![vec![11, 5, 7]; corners / 3]),
+        base.clone().with_face_list(&[vec![11; 2], vec![0; corners - 2]]),
+    ];
+    for method in [Method::MikkTSpace, Method::AngleArea, Method::Lengyel] {
+        for base in [base.clone(), OwnedMesh { faces: FaceSizes::Triangles, ..base.clone() }] {
+            let options = TangentOptions { method, ..TangentOptions::default() };
+            let plan = Plan::new(&base.view(), &options);
+            for other in &others {
+                assert_eq!(plan.evaluate(&other.view()), plan.evaluate(&view), "{method:?}");
+            }
         }
     }
 }

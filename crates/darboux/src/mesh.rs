@@ -249,6 +249,14 @@ impl<'a> Mesh<'a> {
         }
     }
 
+    /// Other faces over the same vertices, with as many corners; indices are in range.
+    pub(crate) fn on_faces<'b>(&self, indices: Indices<'b>, faces: Faces<'b>) -> Mesh<'b>
+    where
+        'a: 'b,
+    {
+        Mesh { indices, faces, ..*self }
+    }
+
     fn check_faces(&self) -> Result<(), MeshError> {
         let corners = self.corner_count;
         let size = match self.faces {

@@ -3,11 +3,13 @@
 use crate::cancel::Stop;
 use crate::split::expect;
 use crate::tangents::Planned;
-use crate::{CornerTangents, Mesh, MeshError, Scratch, TangentOptions, Tangents, generate_tangents};
+use crate::{
+    CornerTangents, Faces, Indices, Mesh, MeshError, Scratch, TangentOptions, Tangents, generate_tangents,
+};
 
 /// The weld, groups and subgroups of one mesh, kept to evaluate tangents again after its vertices moved (morph targets, skinning).
 ///
-/// For MikkTSpace on faces of 3 and 4 corners it also keeps a copy of the mesh, 32 bytes per vertex and 4 per corner, for when
+/// For MikkTSpace on faces of 3 and 4 corners it also keeps a copy of all vertices, 32 bytes each, for when
 /// what is decided fast needs every stage after all: vertices that were welded move apart, tangents collapse.
 /// Of the other methods only [`Method::AngleArea`](crate::Method::AngleArea) has groups to keep; the rest run afresh, but for the signs.
 #[derive(Debug)]
@@ -15,14 +17,57 @@ pub struct Plan {
     planned: Planned,
     options: TangentOptions,
     vertex_count: usize,
+    faces: FaceList,
     base: Tangents,
+}
+
+/// The faces of a mesh.
+#[derive(Debug)]
+struct FaceList {
+    /// None where corners are vertices.
+    indices: Option<Vec<u32>>,
+    sizes: FaceSizes,
+}
+
+#[derive(Debug)]
+enum FaceSizes {
+    Three,
+    Four,
+    Mixed(Vec<u32>),
+}
+
+impl FaceList {
+    fn new(mesh: &Mesh<'_>) -> Self {
+        let indices = match mesh.indices() {
+            Indices::Unindexed => None,
+            Indices::U16(list) => Some(list.iter().map(|&vertex| u32::from(vertex)).collect()),
+            Indices::U32(list) => Some(list.to_vec()),
+        };
+        let sizes = match mesh.faces() {
+            Faces::Triangles => FaceSizes::Three,
+            Faces::Quads => FaceSizes::Four,
+            Faces::Mixed(sizes) => FaceSizes::Mixed(sizes.to_vec()),
+        };
+        Self { indices, sizes }
+    }
+
+    /// These faces over the vertices of a mesh.
+    fn over<'a>(&'a self, mesh: &Mesh<'a>) -> Mesh<'a> {
+        let faces = match &self.sizes {
+            FaceSizes::Three => Faces::Triangles,
+            FaceSizes::Four => Faces::Quads,
+            FaceSizes::Mixed(sizes) => Faces::Mixed(sizes),
+        };
+        mesh.on_faces(self.indices.as_ref().map_or(Indices::Unindexed, Indices::from), faces)
+    }
 }
 
 impl Plan {
     /// Computes the base's tangents and keeps its topology. One that was [cancelled](crate::Cancel::run) is not complete.
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions) -> Self {
         let (planned, base) = Planned::new(mesh, options);
-        Self { planned, options: *options, vertex_count: mesh.vertex_count(), base }
+        let faces = FaceList::new(mesh);
+        Self { planned, options: *options, vertex_count: mesh.vertex_count(), faces, base }
     }
 
     /// The base's own tangents, as [`crate::generate_tangents`] gives them.
@@ -32,7 +77,7 @@ impl Plan {
 
     /// Tangents of the moved mesh in the base's groups and subgroups; signs stay the base's.
     ///
-    /// `mesh`: same faces, indices and UVs as the base, other positions and normals. Vertices that were welded and moved apart keep
+    /// `mesh`: same faces, indices and UVs as the base, other positions and normals; faces and indices are taken from the base. Vertices that were welded and moved apart keep
     /// their common frame, but each triangle counts with the positions of its own vertices. Errors: another number of corners
     /// or vertices.
     pub fn evaluate(&self, mesh: &Mesh<'_>) -> Result<CornerTangents, MeshError> {
@@ -66,7 +111,7 @@ impl Plan {
         expect("corners", base.len(), mesh.corner_count())?;
         expect("corners", base.len(), corners.len())?;
         expect("vertices", self.vertex_count, mesh.vertex_count())?;
-        self.planned.evaluate(mesh, (&self.options, base), scratch, corners);
+        self.planned.evaluate(&self.faces.over(mesh), (&self.options, base), scratch, corners);
         Stop::heard().check()
     }
 

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use crate::cancel::Stop;
-use crate::{Faces, Frame, Indices, Mesh};
+use crate::{Frame, Mesh};
 
 use super::fans::{Fans, PlannedFans, triangle_count};
 use super::local::UndecidedPart;
@@ -24,12 +24,12 @@ pub(crate) enum Planned {
     Nothing,
 }
 
-/// Decided vertices, the stages for the others, and the mesh, for when vertices that were decided need the stages after all.
+/// Decided vertices, the stages for the others, and the vertices, for when vertices that were decided need the stages after all.
 #[derive(Debug)]
 pub(crate) struct Decided {
     fans: PlannedFans,
     undecided: Option<UndecidedPart>,
-    mesh: MeshCopy,
+    base: Vertices,
     stages: OnceLock<Topology>,
 }
 
@@ -63,8 +63,8 @@ impl Planned {
             base.report = part.decide(mesh, stop, &mut base.corners.0);
         }
         base.report.triangles = triangle_count(mesh);
-        let mesh = MeshCopy::new(mesh);
-        (Self::Fans(Box::new(Decided { fans, undecided, mesh, stages: OnceLock::new() })), base)
+        let vertices = Vertices::new(mesh);
+        (Self::Fans(Box::new(Decided { fans, undecided, base: vertices, stages: OnceLock::new() })), base)
     }
 
     /// Writes the tangents of the moved mesh with the signs of the base's. `base`: what it was planned with, and its tangents.
@@ -106,15 +106,15 @@ impl Decided {
             }
             return;
         }
-        let Some(stages) = self.stages(options, stop) else { return };
+        let Some(stages) = self.stages(mesh, options, stop) else { return };
         write(&stages.frames_of_moved(mesh, unknown(mesh), stop).0, out);
         take_signs(base, out);
     }
 
     /// The stages of the mesh that was planned, which are made when they are first asked for; nothing once it shall stop.
-    fn stages(&self, options: &TangentOptions, stop: &Stop) -> Option<&Topology> {
+    fn stages(&self, moved: &Mesh<'_>, options: &TangentOptions, stop: &Stop) -> Option<&Topology> {
         if self.stages.get().is_none() {
-            let made = Topology::new(&self.mesh.view(), options, stop)?;
+            let made = Topology::new(&self.base.of(moved), options, stop)?;
             // Another thread may have been quicker, with the same.
             _ = self.stages.set(made);
         }
@@ -134,39 +134,27 @@ fn take_signs(others: &[[f32; 4]], out: &mut [[f32; 4]]) {
     }
 }
 
-/// A mesh of faces of 3 and 4 corners.
+/// The vertices of a mesh.
 #[derive(Debug)]
-struct MeshCopy {
+struct Vertices {
     positions: Vec<[f32; 3]>,
     normals: Vec<[f32; 3]>,
     uvs: Vec<[f32; 2]>,
-    /// None where corners are vertices.
-    indices: Option<Vec<u32>>,
-    /// None where all faces are triangles.
-    sizes: Option<Vec<u32>>,
 }
 
-impl MeshCopy {
+impl Vertices {
     fn new(mesh: &Mesh<'_>) -> Self {
         let vertices = 0..mesh.vertex_count();
-        let corners = 0..mesh.corner_count();
-        let vertex = |corner| mesh.vertex_of_corner(corner) as u32;
         Self {
             positions: vertices.clone().map(|vertex| mesh.positions().get(vertex)).collect(),
             normals: vertices.clone().map(|vertex| mesh.normals().get(vertex)).collect(),
             uvs: vertices.map(|vertex| mesh.uvs().get(vertex)).collect(),
-            indices: (!matches!(mesh.indices(), Indices::Unindexed)).then(|| corners.map(vertex).collect()),
-            sizes: match mesh.faces() {
-                Faces::Triangles => None,
-                Faces::Quads => Some(vec![4; mesh.face_count()]),
-                Faces::Mixed(sizes) => Some(sizes.to_vec()),
-            },
         }
     }
 
-    fn view(&self) -> Mesh<'_> {
-        let indices = self.indices.as_ref().map_or(Indices::Unindexed, Indices::from);
-        let faces = self.sizes.as_deref().map_or(Faces::Triangles, Faces::Mixed);
+    /// These as another mesh has them, of the same faces.
+    fn of<'a>(&'a self, mesh: &Mesh<'a>) -> Mesh<'a> {
+        let (indices, faces) = (mesh.indices(), mesh.faces());
         let mesh = Mesh::with_faces(&self.positions, &self.normals, &self.uvs, indices, faces);
         mesh.expect("a copy of a mesh is one")
     }
