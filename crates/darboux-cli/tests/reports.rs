@@ -136,7 +136,7 @@ fn inspect_shows_a_line_per_primitive() {
         .map(|line| line.split_whitespace().collect())
         .collect();
     assert_eq!(rows.len(), 7);
-    assert_eq!(rows[1], ["0.1", "10", "8", "strip", "0", "4", "0", "2", "needed", "NORMAL", "POSITION"]);
+    assert_eq!(rows[1], ["0.1", "10", "8", "strip", "0", "1", "0", "2", "needed", "NORMAL", "POSITION"]);
     assert_eq!(rows[6][1], "fox1");
     assert!(table.contains("0.0: it has no NORMAL"), "{table}");
     let widest = table.lines().map(|line| line.chars().count()).max();
