@@ -8,7 +8,7 @@ use std::ops::Range;
 use super::super::threads::{self, parts, split};
 use super::super::windows::WINDOW;
 use super::cut::mark_doubtful;
-use super::steps::{Collect, CollectTerms, Evaluate, EvaluateTerms, Finish, FinishPlanned, Read};
+use super::steps::{Collect, CollectTerms, Evaluate, Finish, FinishPlanned, Read};
 use super::stream::{Signs, Stream};
 use super::vertices::Vertex;
 use super::workers::Worker;
@@ -88,8 +88,8 @@ fn evaluate<S: Signs>(
             let triangles = source.triangles(range, &mut worker.triangles);
             let block = &mut worker.block;
             match stream.signs.known() {
-                None => stream.width.run(Evaluate { triangles, block, vertices, out }),
-                Some(_) => stream.width.run(EvaluateTerms { triangles, block, vertices, out }),
+                None => stream.width.run(Evaluate::<true> { triangles, block, vertices, out }),
+                Some(_) => stream.width.run(Evaluate::<false> { triangles, block, vertices, out }),
             }
         }
     });

@@ -90,45 +90,25 @@ impl Task for AddTerms<'_> {
     }
 }
 
-/// Writes what each corner adds to its vertex, and its marks as bits.
-pub(super) struct Evaluate<'a> {
+/// Writes what each corner adds to its vertex, and with `MARKS` its marks as bits.
+pub(super) struct Evaluate<'a, const MARKS: bool> {
     pub triangles: &'a [[u32; 3]],
     pub block: &'a mut Block,
     pub vertices: &'a [Vertex],
     pub out: &'a mut [[[f32; 4]; 3]],
 }
 
-impl Task for Evaluate<'_> {
+impl<const MARKS: bool> Task for Evaluate<'_, MARKS> {
     #[inline(always)]
     fn run(self) {
         for (triangles, out) in self.triangles.chunks(BLOCK).zip(self.out.chunks_mut(BLOCK)) {
             self.block.set(triangles, 0);
             gather(self.block, triangles.len(), self.vertices);
-            self.block.evaluate(Fourth::Marks);
-            for k in 0..3 {
-                for (out, term) in out.iter_mut().zip(&self.block.sum[k]) {
-                    out[k] = *term;
-                }
+            if MARKS {
+                self.block.evaluate(Fourth::Marks);
+            } else {
+                self.block.evaluate_terms();
             }
-        }
-    }
-}
-
-/// As [`Evaluate`], without marks.
-pub(super) struct EvaluateTerms<'a> {
-    pub triangles: &'a [[u32; 3]],
-    pub block: &'a mut Block,
-    pub vertices: &'a [Vertex],
-    pub out: &'a mut [[[f32; 4]; 3]],
-}
-
-impl Task for EvaluateTerms<'_> {
-    #[inline(always)]
-    fn run(self) {
-        for (triangles, out) in self.triangles.chunks(BLOCK).zip(self.out.chunks_mut(BLOCK)) {
-            self.block.set(triangles, 0);
-            gather(self.block, triangles.len(), self.vertices);
-            self.block.evaluate_terms();
             for k in 0..3 {
                 for (out, term) in out.iter_mut().zip(&self.block.sum[k]) {
                     out[k] = *term;
@@ -168,7 +148,7 @@ impl Task for Collect<'_> {
     }
 }
 
-/// Adds what [`EvaluateTerms`] wrote to those vertices that are in `vertices`.
+/// As [`Collect`], of terms without marks.
 pub(super) struct CollectTerms<'a> {
     pub triangles: &'a [[u32; 3]],
     pub terms: &'a [[[f32; 4]; 3]],
