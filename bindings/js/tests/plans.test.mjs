@@ -24,7 +24,7 @@ const plan = () => {
 };
 
 test('10,000 plans that are disposed of leave no memory behind', () => {
-  for (let at = 0; at < 10; at++) plan().dispose();
+  plan().dispose();
   const before = memories[0].buffer.byteLength;
   for (let at = 0; at < 10_000; at++) plan().dispose();
   assert.equal(memories[0].buffer.byteLength, before);
