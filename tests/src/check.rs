@@ -2,9 +2,10 @@
 
 use std::collections::HashSet;
 
+use darboux::internal::stage_arrays;
 use darboux::{
     CornerTangents, Frame, Frames, Mode, Plan, TangentOptions, generate_frames, generate_tangents,
-    split_vertices, stages,
+    split_vertices,
 };
 
 use crate::{Case, OwnedMesh, engine};
@@ -27,7 +28,7 @@ pub fn all_modes(case: &Case) -> Result<(), String> {
         if tangents.report != report {
             return Err(format!("{mode:?}: tangents report {:?}, frames {report:?}", tangents.report));
         }
-        let general = stages::frames(&mesh.view(), &options).report;
+        let general = stage_arrays::frames(&mesh.view(), &options).report;
         if report != general {
             return Err(format!("{mode:?}: report {report:?}, of all stages {general:?}"));
         }

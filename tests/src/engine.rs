@@ -1,8 +1,9 @@
 //! Implementations under one roof: each takes a mesh, a threshold and a mode and gives one frame per corner.
 
+use darboux::internal::stage_arrays;
 use darboux::{
     Frame, Frames, Mesh, Mode, Scratch, TangentOptions, Tangents, WidthLimit, generate_frames,
-    generate_tangents_into, stages,
+    generate_tangents_into,
 };
 use mikktspace_sys::{MikkTSpaceInterface, gen_tang_space};
 
@@ -23,7 +24,7 @@ pub fn engines() -> Vec<Box<dyn Engine>> {
     vec![
         Box::new(Reference),
         Box::new(DARBOUX),
-        Box::new(Darboux("darboux stages", stages::frames)),
+        Box::new(Darboux("darboux stages", stage_arrays::frames)),
         Box::new(DarbouxTangents("darboux tangents, compiled width", WidthLimit::Compiled)),
         Box::new(DarbouxTangents("darboux tangents, at most 256 bits", WidthLimit::Bits256)),
         Box::new(DarbouxTangents("darboux tangents, at most 512 bits", WidthLimit::Bits512)),

@@ -11,6 +11,7 @@ pub mod families;
 pub mod generate;
 pub mod mesh;
 pub mod models;
+pub mod oracle;
 pub mod shrink;
 
 pub use check::{all_modes, check_frames, split_and_plan};

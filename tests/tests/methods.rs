@@ -1,19 +1,19 @@
 //! Every method but MikkTSpace against its brute force in double precision, and on odd meshes.
 
-use darboux::{Frame, Mesh, Method, Mode, Report, TangentOptions, generate_frames, generate_tangents, naive};
-use darboux_tests::{Case, METHODS, OwnedMesh, families};
+use darboux::{Frame, Mesh, Method, Mode, Report, TangentOptions, generate_frames, generate_tangents};
+use darboux_tests::{Case, METHODS, OwnedMesh, families, oracle};
 
 /// A method and its brute force.
 type Twin = (Method, fn(&darboux::Mesh<'_>) -> Vec<Option<Frame>>);
 
 const TWINS: [Twin; 7] = [
-    (Method::AngleArea, naive::angle_area),
-    (Method::Lengyel, naive::lengyel),
-    (Method::LengyelPerVertex, naive::lengyel_per_vertex),
-    (Method::Average, naive::average),
-    (Method::Area, naive::area),
-    (Method::Face, naive::face),
-    (Method::FromNormal, naive::from_normal),
+    (Method::AngleArea, oracle::angle_area),
+    (Method::Lengyel, oracle::lengyel),
+    (Method::LengyelPerVertex, oracle::lengyel_per_vertex),
+    (Method::Average, oracle::average),
+    (Method::Area, oracle::area),
+    (Method::Face, oracle::face),
+    (Method::FromNormal, oracle::from_normal),
 ];
 
 /// Rounding to f32 errs by 6e-8; a derivative is some ten roundings from its input, a sum over at most 16 triangles some 30 more, and

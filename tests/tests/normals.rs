@@ -2,9 +2,9 @@
 
 use darboux::{
     Faces, Indices, Mesh, MeshError, NormalOptions, NormalPlan, NormalWeight, Normals, Shading,
-    SmoothingSeams, generate_normals, naive, split_normals,
+    SmoothingSeams, generate_normals, split_normals,
 };
-use darboux_tests::{Case, FaceSizes, OwnedMesh, families};
+use darboux_tests::{Case, FaceSizes, OwnedMesh, families, oracle};
 
 const WEIGHTS: [NormalWeight; 3] = [NormalWeight::Angle, NormalWeight::Area, NormalWeight::AngleArea];
 
@@ -43,7 +43,7 @@ fn regular_meshes_agree_with_the_brute_force() {
         for mesh in meshes {
             for options in all_options() {
                 let found = run(&mesh, &options).corners;
-                let expected = naive::normals(&mesh.view(), &mesh.face_sizes(), &options);
+                let expected = oracle::normals(&mesh.view(), &mesh.face_sizes(), &options);
                 for (corner, (a, b)) in found.iter().zip(&expected).enumerate() {
                     let worst = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
                     assert!(worst <= TOLERANCE, "{options:?}, corner {corner}: {a:?} is not {b:?}");

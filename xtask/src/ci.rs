@@ -65,7 +65,7 @@ pub fn arm() -> Outcome {
     packages::install(packages::FOR_ARM)?;
     run(&mut program("rustup target add aarch64-unknown-linux-gnu"))?;
     let line = "cargo test --release --target aarch64-unknown-linux-gnu --package darboux-tests \
-                --test platforms --test corpus --test differential --test plan --test naive";
+                --test platforms --test corpus --test differential --test plan --test oracle";
     let variables = [
         ("CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER", "aarch64-linux-gnu-gcc"),
         ("CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUNNER", "qemu-aarch64 -L /usr/aarch64-linux-gnu"),

@@ -1,6 +1,6 @@
 //! Tangents that a GPU began, for `darboux/webgpu`.
 
-use darboux::elsewhere;
+use darboux::internal::gpu_resume;
 
 use crate::room::{sized, with};
 use crate::tangents::options;
@@ -8,7 +8,7 @@ use crate::tangents::options;
 /// The cosine that shaders compare with.
 #[unsafe(no_mangle)]
 pub extern "C" fn threshold_cosine(threshold: f32) -> f32 {
-    elsewhere::threshold_cosine(&options(0, threshold, 0))
+    gpu_resume::threshold_cosine(&options(0, threshold, 0))
 }
 
 /// Where the first vertex that equals each is written.
@@ -26,7 +26,7 @@ pub extern "C" fn complete_tangents(mode: u32, threshold: f32) -> i32 {
             (std::mem::take(&mut room.values.given), std::mem::take(&mut room.values.welded));
         let Some(mesh) = room.mesh() else { return -1 };
         let tangents = begun.as_chunks_mut().0;
-        let (report, corners) = elsewhere::complete(&mesh, &options(mode, threshold, 0), welded, tangents);
+        let (report, corners) = gpu_resume::complete(&mesh, &options(mode, threshold, 0), welded, tangents);
         (room.values.given, room.tangents.report) = (begun, report);
         corners as i32
     })

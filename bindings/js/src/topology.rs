@@ -1,6 +1,6 @@
 //! What of a mesh does not move, for `darboux/webgpu`.
 
-use darboux::moving::{Topology, Unplanned};
+use darboux::internal::gpu_plan::{Topology, Unplanned};
 
 use crate::room::with;
 use crate::tangents::options;

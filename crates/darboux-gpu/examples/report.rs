@@ -3,7 +3,7 @@
 //! Prints a table in Markdown: corners with the core's bits, the largest distance of a component in units in the last place, corners of another
 //! sign, corners in another group, and how many corners the CPU did.
 
-use darboux::stages::{NONE, Stages};
+use darboux::internal::stage_arrays::{NONE, Stages};
 use darboux::{Faces, Mode, TangentOptions, generate_tangents};
 use darboux_gpu::{Gpu, GpuError, MikkTSpace};
 use darboux_tests::{Case, OwnedMesh, corpus, families};

@@ -1,6 +1,6 @@
 //! What can be wrong with what a caller hands over.
 
-use darboux::moving::Unplanned;
+use darboux::internal::gpu_plan::Unplanned;
 
 /// Why something cannot run on a GPU. Degenerate or non-finite geometry is no error.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

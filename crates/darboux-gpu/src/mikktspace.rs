@@ -2,9 +2,8 @@
 
 use std::borrow::Cow;
 
-use darboux::{
-    CornerTangents, Faces, Indices, Mesh, Method, TangentOptions, Tangents, elsewhere, generate_tangents,
-};
+use darboux::internal::gpu_resume;
+use darboux::{CornerTangents, Faces, Indices, Mesh, Method, TangentOptions, Tangents, generate_tangents};
 use wgpu::{CommandEncoder, Device, Queue};
 
 use crate::buffers::largest_buffer;
@@ -120,7 +119,7 @@ impl MikkTSpace {
         };
         let indexed = Mesh::triangles(mesh.positions(), mesh.normals(), mesh.uvs(), Indices::U32(&indices));
         let indexed = indexed.expect("the same triangles");
-        let (report, corners_of_cpu) = elsewhere::complete(&indexed, options, welded, &mut tangents);
+        let (report, corners_of_cpu) = gpu_resume::complete(&indexed, options, welded, &mut tangents);
         let tangents = Tangents { corners: CornerTangents::from_per_corner(tangents), report };
         Ok(Generated { tangents, corners_of_cpu, left_to_cpu: None })
     }
@@ -131,7 +130,7 @@ impl MikkTSpace {
         let (device, queue) = (&self.device, &self.queue);
         guarded(device, || {
             let vertices = Vertices::new(device, &self.kernels, mesh)?;
-            let threshold_cosine = elsewhere::threshold_cosine(options);
+            let threshold_cosine = gpu_resume::threshold_cosine(options);
             let piece = Piece::new(device, &self.kernels, &vertices, &indices(mesh), &[], threshold_cosine)?;
             let record = |encoder: &mut CommandEncoder| {
                 vertices.record(encoder);
@@ -161,7 +160,7 @@ impl MikkTSpace {
         let device = &self.device;
         guarded(device, || {
             let vertices = Vertices::new(device, &self.kernels, mesh)?;
-            let threshold_cosine = elsewhere::threshold_cosine(options);
+            let threshold_cosine = gpu_resume::threshold_cosine(options);
             let piece = Piece::new(device, &self.kernels, &vertices, &indices(mesh), &[], threshold_cosine)?;
             Ok(Recorded { vertices, piece })
         })
@@ -175,7 +174,7 @@ impl MikkTSpace {
         options: &TangentOptions,
     ) -> Result<Option<Begun>, GpuError> {
         let corners = 3 * self.triangles_at_once()?;
-        let threshold_cosine = elsewhere::threshold_cosine(options);
+        let threshold_cosine = gpu_resume::threshold_cosine(options);
         let limit = largest_buffer(&self.device.limits());
         if Vertices::bytes(mesh.vertex_count()) > limit {
             self.run_cut(mesh, indices, corners, threshold_cosine)

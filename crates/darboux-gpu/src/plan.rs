@@ -4,7 +4,7 @@ mod check;
 mod normals;
 
 use bytemuck::Zeroable;
-use darboux::moving::{Topology, VERTEX};
+use darboux::internal::gpu_plan::{Topology, VERTEX};
 use darboux::{Mesh, TangentOptions};
 use wgpu::{Buffer, BufferUsages, CommandEncoder, ComputePipeline, Device};
 

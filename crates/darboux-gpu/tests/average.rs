@@ -7,9 +7,9 @@ use common::{
     APART, APART_STRIDE, ENGINE, ENGINE_FRAME, Found, GpuFrame, Packed, Place, UNTOUCHED, frames, gpus, pack,
     run, triangulated,
 };
-use darboux::{Method, Mode, TangentOptions, generate_frames, naive};
+use darboux::{Method, Mode, TangentOptions, generate_frames};
 use darboux_gpu::{FrameLayout, Search, VertexLayout};
-use darboux_tests::{Case, OwnedMesh, corpus, families};
+use darboux_tests::{Case, OwnedMesh, corpus, families, oracle};
 
 /// How vertices fared in a comparison.
 #[derive(Debug, Default)]
@@ -63,7 +63,7 @@ fn compare(name: &str, mesh: &OwnedMesh, found: &[GpuFrame], tally: &mut Tally) 
     let view = mesh.view();
     let options = TangentOptions { method: Method::Average, mode: Mode::Reference, ..Default::default() };
     let core = generate_frames(&view, &options);
-    let slow = (mesh.corner_count() < 3_000).then(|| naive::average(&view));
+    let slow = (mesh.corner_count() < 3_000).then(|| oracle::average(&view));
     for (v, frame) in found.iter().enumerate() {
         check_shape(name, v, frame, mesh.normals[v]);
     }

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use std::sync::Mutex;
 
 use common::{buffer, gpus, words_of};
-use darboux::stages::{NONE, Stages};
+use darboux::internal::stage_arrays::{NONE, Stages};
 use darboux::{Frame, Mode, TangentOptions, generate_frames};
 use darboux_gpu::Gpu;
 use darboux_gpu::stages::{Arithmetic, Evaluation, EvaluationKernels, Grouped};

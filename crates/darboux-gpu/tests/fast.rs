@@ -8,7 +8,7 @@ use common::bound::length;
 use common::plan_bound::bounds;
 use common::plans::run;
 use common::{gpus, triangulated};
-use darboux::stages::Stages;
+use darboux::internal::stage_arrays::Stages;
 use darboux::{Mode, TangentOptions};
 use darboux_gpu::{Gpu, Per, Planner, Precision};
 use darboux_tests::{Case, OwnedMesh, families, models};

@@ -5,7 +5,7 @@ mod common;
 use std::collections::HashMap;
 
 use common::{gpus, kernels, triangulated};
-use darboux::stages::{NONE, Stages, Triangulation};
+use darboux::internal::stage_arrays::{NONE, Stages, Triangulation};
 use darboux::{Mode, TangentOptions};
 use darboux_gpu::stages::Arrays;
 use darboux_tests::{Case, OwnedMesh, corpus, families};

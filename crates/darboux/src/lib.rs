@@ -27,22 +27,21 @@
 mod cancel;
 mod convention;
 pub mod encode;
+mod exec;
 mod frame;
-mod known;
-mod last_edges;
+#[doc(hidden)]
+pub mod internal;
 mod math;
 mod measure;
 mod mesh;
 mod normal_map;
 mod normals;
-mod order;
 mod plan;
 mod split;
 mod tangents;
 mod topology;
 mod transform;
-mod triangles;
-mod weld;
+mod util;
 
 pub use cancel::Cancel;
 pub use convention::{
@@ -62,11 +61,8 @@ pub use normals::{
 };
 pub use plan::Plan;
 pub use split::{Splitter, VertexSplit, split_vertices};
-pub use tangents::naive;
 pub use tangents::{
     Frames, LentFrames, Method, Mode, Report, Scratch, TangentOptions, Tangents, WidthLimit, generate_frames,
     generate_tangents, generate_tangents_into, lend_frames, on_this_thread, write_frames, write_tangents,
 };
-#[doc(hidden)]
-pub use tangents::{elsewhere, moving, stages};
 pub use transform::Transform;

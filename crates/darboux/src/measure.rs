@@ -1,9 +1,11 @@
 //! How far two sets of tangents are apart, and how well tangents follow the UVs.
 
+use crate::Faces;
+use crate::Mesh;
+use crate::MeshError;
 use crate::cancel::Stop;
 use crate::math::V3;
 use crate::split::expect;
-use crate::{Faces, Mesh, MeshError};
 
 type D3 = [f64; 3];
 

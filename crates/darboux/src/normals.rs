@@ -6,10 +6,16 @@
 
 use std::collections::HashMap;
 
+use crate::CornerTangents;
+use crate::Faces;
+use crate::Indices;
+use crate::Mesh;
+use crate::MeshError;
+use crate::Splitter;
+use crate::Strided;
 use crate::cancel::Stop;
 use crate::math::angle;
 use crate::split::expect;
-use crate::{CornerTangents, Faces, Indices, Mesh, MeshError, Splitter, Strided};
 
 type D3 = [f64; 3];
 

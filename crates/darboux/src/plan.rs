@@ -1,11 +1,17 @@
 //! Topology once, evaluate often.
 
+use crate::CornerTangents;
+use crate::Faces;
+use crate::Indices;
+use crate::Mesh;
+use crate::MeshError;
+use crate::Scratch;
+use crate::TangentOptions;
+use crate::Tangents;
 use crate::cancel::Stop;
+use crate::generate_tangents;
 use crate::split::expect;
 use crate::tangents::Planned;
-use crate::{
-    CornerTangents, Faces, Indices, Mesh, MeshError, Scratch, TangentOptions, Tangents, generate_tangents,
-};
 
 /// The weld, groups and subgroups of one mesh, kept to evaluate tangents again after its vertices moved (morph targets, skinning).
 ///

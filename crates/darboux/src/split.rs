@@ -2,7 +2,11 @@
 
 use std::collections::HashMap;
 
-use crate::{Convention, CornerTangentsRef, Indices, Mesh, MeshError};
+use crate::Convention;
+use crate::CornerTangentsRef;
+use crate::Indices;
+use crate::Mesh;
+use crate::MeshError;
 
 /// An indexed mesh's vertices after splitting. The old vertices come first, in their old places.
 #[derive(Clone, Debug, Default, PartialEq)]

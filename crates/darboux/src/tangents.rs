@@ -1,94 +1,39 @@
 //! Options to method: the entry points of tangent generation.
 
-mod accumulate;
-mod angle_area;
-mod area;
-mod average;
-mod degenerate;
-mod derivatives;
-#[doc(hidden)]
-pub mod elsewhere;
-mod evaluate;
+pub(crate) mod angle_area;
 mod face;
-mod fans;
-mod flat;
+pub(crate) mod fast;
 mod frames;
 mod from_normal;
-mod gather;
-mod group_sums;
-mod groups;
-mod lengyel;
-mod local;
 mod method;
+mod method_plan;
 pub(crate) mod mikktspace;
-#[doc(hidden)]
-pub mod moving;
-pub mod naive;
-mod opposites;
-mod orthogonal;
-mod planned;
+mod options;
+mod orthogonalize;
+mod output;
 mod repair;
 mod report;
-mod running;
-mod seams;
-mod shape;
-mod sides;
-mod signs;
-#[doc(hidden)]
-pub mod stages;
-mod subgroups;
-mod sums;
-mod terms;
-mod threads;
-mod vertex_block;
-mod width;
-mod windows;
+mod vertex_sums;
 
+use crate::CornerFrames;
+use crate::CornerTangents;
+use crate::Mesh;
+use crate::MeshError;
 use crate::cancel::Stop;
 use crate::math::cosine_of_degrees;
 use crate::split::expect;
-use crate::{CornerFrames, CornerTangents, Mesh, MeshError};
+use crate::tangents::mikktspace::submesh;
 
-use accumulate::Memory;
-use fans::{Fans, LARGEST_COSINE};
-use frames::FrameMemory;
-pub use frames::{LentFrames, generate_frames, lend_frames, write_frames};
-pub use method::Method;
-pub(crate) use planned::Planned;
-pub use report::Report;
-pub use threads::on_this_thread;
-use width::Width;
-pub use width::WidthLimit;
-
-/// How faithfully defects of the MikkTSpace reference are kept.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Mode {
-    /// Every bit of the reference, its defects included: zero-length tangents, tangents along the normal, NaN.
-    Reference,
-    /// Every bit of the reference where its result is usable, a unit tangent perpendicular to the normal elsewhere.
-    #[default]
-    Repaired,
-    /// As `Repaired`, with complete edge matching (the reference's issue 5) and one sign per face.
-    Corrected,
-}
-
-/// What [`generate_tangents`] and [`generate_frames`] do. The default is right for normal maps from today's bakers.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TangentOptions {
-    /// The method; MikkTSpace unless told otherwise.
-    pub method: Method,
-    /// How faithfully defects of the reference are kept.
-    pub mode: Mode,
-    /// Angular threshold in degrees: faces around a vertex share a tangent while their tangents and their bitangents differ by less.
-    /// Default 180, which is what bakers use. [`Method::MikkTSpace`] alone has it. Any value is accepted; its cosine counts.
-    pub threshold: f32,
-}
-
-impl Default for TangentOptions {
-    fn default() -> Self {
-        Self { method: Method::default(), mode: Mode::default(), threshold: 180.0 }
-    }
-}
+use crate::exec::simd::Width;
+pub use crate::exec::simd::WidthLimit;
+pub use crate::exec::threads::on_this_thread;
+use crate::tangents::fast::{Fans, LARGEST_COSINE};
+use crate::tangents::frames::FrameMemory;
+pub use crate::tangents::frames::{LentFrames, generate_frames, lend_frames, write_frames};
+pub(crate) use crate::tangents::method_plan::Planned;
+pub use crate::tangents::options::{Method, Mode, TangentOptions};
+pub use crate::tangents::report::Report;
+use crate::tangents::vertex_sums::scatter::Memory;
 
 /// Tangents of corners and the report of the run.
 #[derive(Clone, Debug, Default)]
@@ -193,7 +138,7 @@ fn mikktspace_of_corners(
         if stop.is_asked() {
             Report::default()
         } else {
-            local::decide(mesh, options, &scratch.fans, stop, out)
+            submesh::decide(mesh, options, &scratch.fans, stop, out)
         }
     } else {
         method::mikktspace(mesh, options, stop, out)

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use darboux::Mesh;
-use darboux::stages::NONE;
+use darboux::internal::stage_arrays::NONE;
 use wgpu::{Buffer, CommandEncoder};
 
 use super::{MovingMesh, Plan, Planner};

@@ -6,7 +6,7 @@
 //! A = C / sin w or sqrt(2 C), whichever is less, and 1e-6 for the arccosine. A sum of n terms w s is off by the sum of w D + A, and n u
 //! times the sum of w for the additions; its direction by twice that over its length, and 20 u.
 
-use darboux::stages::Stages;
+use darboux::internal::stage_arrays::Stages;
 use darboux_tests::OwnedMesh;
 
 use super::bound::{U, dot, length, sub};

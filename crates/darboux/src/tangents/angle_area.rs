@@ -5,25 +5,36 @@
 //! From there one step goes towards the least-squares fit, which takes into account that a triangle's inside is interpolated from three
 //! vertices. Thresholds do not apply, all edges are matched, and sums are in f64.
 
-use crate::math::V3;
-use crate::topology::{EdgeOrder, NONE, neighbours};
-use crate::triangles::{Triangles, Triangulation, triangulate};
-use crate::{Frame, Mesh, Mode};
+pub(crate) mod group_sums;
 
-use super::derivatives::{Derivative, agree_in_quads, count_uv_degenerate, derivatives, derivatives_into};
-use super::flat::Flat;
-use super::group_sums::{GroupFrame, GroupMemory, GroupSum, GroupedTriangles, add};
-use super::groups::{Groups, group};
-use super::mikktspace::count_mirrored_edges;
-use super::repair::{D3, direction, in_plane, length, mean_in_plane, perpendicular, u_direction_of, unit};
-use super::report::count_split_vertices;
-use super::seams::survey;
-use super::shape::Shape;
-use super::sides::{Output, across};
-use super::{Report, Tangents, threads};
+use crate::Frame;
+use crate::Mesh;
+use crate::Mode;
+use crate::math::V3;
+use crate::topology::neighbours::{EdgeOrder, NONE, neighbours};
+use crate::topology::triangulate::{Triangles, Triangulation, triangulate};
+
+use crate::exec::threads;
+use crate::tangents::Report;
+use crate::tangents::Tangents;
+use crate::tangents::angle_area::group_sums::{GroupFrame, GroupMemory, GroupSum, GroupedTriangles, add};
+use crate::tangents::mikktspace::count_mirrored_edges;
+use crate::tangents::mikktspace::derivatives::{
+    Derivative, agree_in_quads, count_uv_degenerate, derivatives, derivatives_into,
+};
+use crate::tangents::mikktspace::groups::{Groups, group};
+use crate::tangents::mikktspace::welded_mesh::Shape;
+use crate::tangents::output::Output;
+use crate::tangents::repair::{
+    D3, direction, in_plane, length, mean_in_plane, perpendicular, u_direction_of, unit,
+};
+use crate::tangents::report::count_split_vertices;
+use crate::tangents::vertex_sums::finish::across;
+use crate::tangents::vertex_sums::mesh_slices::Flat;
+use crate::tangents::vertex_sums::mirrored_edges::survey;
 
 /// The frame of every corner's group.
-pub(super) fn run<O: Output>(
+pub(crate) fn run<O: Output>(
     mesh: &Mesh<'_>,
     mode: Mode,
     memory: &mut GroupMemory,
@@ -73,7 +84,7 @@ pub(crate) struct Topology {
 
 impl Topology {
     /// Welds, finds neighbours and groups; leaves the derivatives in `memory`, and what is known of the report.
-    pub(super) fn new(mesh: &Mesh<'_>, memory: &mut GroupMemory) -> (Self, Report) {
+    pub(crate) fn new(mesh: &Mesh<'_>, memory: &mut GroupMemory) -> (Self, Report) {
         let (flat, shape) = (Flat::new(mesh), Shape::welded(mesh));
         let triangulation = triangulate(mesh);
         let good = &triangulation.good;
@@ -94,7 +105,7 @@ impl Topology {
     }
 
     /// The frames of a mesh whose vertices have moved since it was grouped.
-    pub(super) fn frames_of_moved<O: Output>(
+    pub(crate) fn frames_of_moved<O: Output>(
         &self,
         mesh: &Mesh<'_>,
         mode: Mode,

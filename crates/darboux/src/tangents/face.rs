@@ -3,16 +3,19 @@
 //! Both lie in the plane of a triangle, so its own normal is theirs, not that of its vertices. A quad has the mean derivatives over its
 //! UV area, which do not depend on the diagonal.
 
+use crate::Frame;
+use crate::Mesh;
+use crate::Mode;
 use crate::math::{V3, add, not_zero};
-use crate::{Frame, Mesh, Mode};
 
-use super::Report;
-use super::flat::Flat;
-use super::repair::{direction, in_plane, perpendicular, unit};
-use super::report::{are_finite, count_split_vertices};
-use super::seams::{count_mirrored_edges, survey, vertices_of_both};
-use super::sides::{Output, across, fill};
-use super::sums::{Derivatives, Orientation, is_degenerate};
+use crate::tangents::Report;
+use crate::tangents::output::{Output, fill};
+use crate::tangents::repair::{direction, in_plane, perpendicular, unit};
+use crate::tangents::report::{are_finite, count_split_vertices};
+use crate::tangents::vertex_sums::finish::across;
+use crate::tangents::vertex_sums::mesh_slices::Flat;
+use crate::tangents::vertex_sums::mirrored_edges::{count_mirrored_edges, survey, vertices_of_both};
+use crate::tangents::vertex_sums::weighting::{Derivatives, Orientation, is_degenerate};
 
 /// What the triangles of one face add up to.
 #[derive(Clone, Copy, Default)]
@@ -26,7 +29,7 @@ struct Face {
 }
 
 /// The frame of every face, at each of its corners.
-pub(super) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut [O]) -> Report {
+pub(crate) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut [O]) -> Report {
     let flat = Flat::new(mesh);
     let mut report = survey(mesh, &flat);
     let faces = add_up(&flat, &mut report);

@@ -1,18 +1,27 @@
 //! Whole frames: tangents first, then what goes with them, and last each corner's from these.
 
+use crate::CornerFrames;
+use crate::Frame;
+use crate::Mesh;
+use crate::MeshError;
 use crate::cancel::Stop;
 use crate::split::expect;
-use crate::{CornerFrames, Frame, Mesh, MeshError};
 
-use super::fans::{Fans, UNDECIDED, triangle_count};
-use super::sides::{Output, fill};
-use super::threads::{self, parts, split};
-use super::width::Width;
-use super::{Frames, Report, Scratch, TangentOptions, has_whole_fans, local, method};
+use crate::exec::simd::Width;
+use crate::exec::threads::{self, parts, split};
+use crate::tangents::Frames;
+use crate::tangents::Report;
+use crate::tangents::Scratch;
+use crate::tangents::TangentOptions;
+use crate::tangents::fast::{Fans, UNDECIDED, triangle_count};
+use crate::tangents::has_whole_fans;
+use crate::tangents::method;
+use crate::tangents::mikktspace::submesh;
+use crate::tangents::output::{Output, fill};
 
 /// The frames of a run, or what they are made of.
 #[derive(Debug, Default)]
-pub(super) struct FrameMemory {
+pub(crate) struct FrameMemory {
     /// Of each corner, for a run of whole fans.
     tangents: Vec<[f32; 4]>,
     /// The frames of the corners that are undecided in `tangents`, ascending.
@@ -192,5 +201,5 @@ fn run_fans(mesh: &Mesh<'_>, options: &TangentOptions, stop: &Stop, scratch: &mu
     if stop.is_asked() {
         return Some(Report::default());
     }
-    Some(local::decide_frames(mesh, options, fans, stop, tangents, decided))
+    Some(submesh::decide_frames(mesh, options, fans, stop, tangents, decided))
 }

@@ -3,18 +3,21 @@
 //! Source: T. Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017, listing 3. No continuous choice exists
 //! (the sphere cannot be combed): this one jumps where z changes its sign.
 
+use crate::Frame;
+use crate::Mesh;
+use crate::Mode;
 use crate::math::V3;
-use crate::{Frame, Mesh, Mode};
 
-use super::Report;
-use super::flat::Flat;
-use super::repair::{direction, perpendicular};
-use super::seams::survey;
-use super::sides::{Output, across, fill};
-use super::sums::is_degenerate;
+use crate::tangents::Report;
+use crate::tangents::output::{Output, fill};
+use crate::tangents::repair::{direction, perpendicular};
+use crate::tangents::vertex_sums::finish::across;
+use crate::tangents::vertex_sums::mesh_slices::Flat;
+use crate::tangents::vertex_sums::mirrored_edges::survey;
+use crate::tangents::vertex_sums::weighting::is_degenerate;
 
 /// The frame of every vertex, at each of its corners.
-pub(super) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut [O]) -> Report {
+pub(crate) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut [O]) -> Report {
     let flat = Flat::new(mesh);
     let mut report = survey(mesh, &flat);
     let frame = |&normal: &V3| match (direction(normal), mode) {

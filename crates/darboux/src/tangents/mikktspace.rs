@@ -2,21 +2,42 @@
 //!
 //! Every operation on floats is rounded to `f32` in the reference's order; see docs/algorithms/mikktspace.md for what "exact" means.
 
+pub(crate) mod antipodes;
+pub(crate) mod degenerate;
+pub(crate) mod derivatives;
+pub(crate) mod evaluate;
+pub(crate) mod groups;
+pub(crate) mod prefix_sums;
+pub(crate) mod raw_frames;
+pub(crate) mod repair_corners;
+pub(crate) mod signs;
+pub(crate) mod subgroups;
+pub(crate) mod submesh;
+pub(crate) mod welded_mesh;
+
+use crate::Frame;
+use crate::Mesh;
 use crate::cancel::Stop;
 use crate::math::cosine_of_degrees;
-use crate::order::sort;
-use crate::topology::{EdgeOrder, NONE, match_again, neighbours};
-use crate::triangles::{Triangles, Triangulation, triangulate, triangulate_welded};
-use crate::{Frame, Mesh};
+use crate::topology::neighbours::{EdgeOrder, NONE, match_again, neighbours};
+use crate::topology::triangulate::{Triangles, Triangulation, triangulate, triangulate_welded};
+use crate::util::radix_sort::sort;
 
-use super::degenerate::fill_degenerate;
-use super::derivatives::{Derivative, agree_in_quads, count_uv_degenerate, derivatives};
-use super::evaluate::{DEFAULT_FRAME, How, RawFrames, Values, evaluate};
-use super::groups::{Groups, group};
-use super::repair::{is_usable, repair};
-use super::shape::Shape;
-use super::signs::{mixed_faces, unify_signs};
-use super::{Mode, Report, TangentOptions, report};
+use crate::tangents::Mode;
+use crate::tangents::Report;
+use crate::tangents::TangentOptions;
+use crate::tangents::mikktspace::degenerate::fill_degenerate;
+use crate::tangents::mikktspace::derivatives::{
+    Derivative, agree_in_quads, count_uv_degenerate, derivatives,
+};
+use crate::tangents::mikktspace::evaluate::{How, Values, evaluate};
+use crate::tangents::mikktspace::groups::{Groups, group};
+use crate::tangents::mikktspace::raw_frames::{DEFAULT_FRAME, RawFrames};
+use crate::tangents::mikktspace::repair_corners::repair;
+use crate::tangents::mikktspace::signs::{mixed_faces, unify_signs};
+use crate::tangents::mikktspace::welded_mesh::Shape;
+use crate::tangents::repair::is_usable;
+use crate::tangents::report;
 
 /// What does not depend on where vertices are, once they are welded and grouped.
 #[derive(Debug)]
@@ -170,12 +191,12 @@ impl Topology {
 }
 
 /// How far `options` has edges put in order.
-pub(super) fn edge_order(options: &TangentOptions) -> EdgeOrder {
+pub(crate) fn edge_order(options: &TangentOptions) -> EdgeOrder {
     if options.mode == Mode::Corrected { EdgeOrder::Complete } else { EdgeOrder::Reference }
 }
 
 /// The derivatives of every triangle, with one orientation per quad.
-pub(super) fn agreed_derivatives(good: &Triangles, shape: &Shape<'_>) -> Vec<Derivative> {
+pub(crate) fn agreed_derivatives(good: &Triangles, shape: &Shape<'_>) -> Vec<Derivative> {
     let mut derivatives = derivatives(good, shape);
     agree_in_quads(good, shape, &mut derivatives);
     derivatives
@@ -195,7 +216,7 @@ fn numbered(good: &Triangles, stretches: &[Vec<HalfEdge>]) -> Vec<Vec<u32>> {
 }
 
 /// Edges between two triangles, neither UV-degenerate, of opposite orientation.
-pub(super) fn count_mirrored_edges(neighbours: &[[u32; 3]], derivatives: &[Derivative]) -> usize {
+pub(crate) fn count_mirrored_edges(neighbours: &[[u32; 3]], derivatives: &[Derivative]) -> usize {
     let mirrored = |t: usize, other: u32| {
         other != NONE && (t as u32) < other && {
             let (a, b) = (&derivatives[t], &derivatives[other as usize]);

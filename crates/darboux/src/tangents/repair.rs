@@ -3,72 +3,19 @@
 //! Everything here is computed in double precision with additions, products, quotients and square roots only: the same bits
 //! everywhere.
 
-use crate::Mesh;
-use crate::known::Known;
 use crate::math::{V3, not_zero};
-use crate::triangles::{Places, Triangulation};
 
-use super::evaluate::RawFrames;
-
-pub(super) type D3 = [f64; 3];
-
-/// Replaces what is unusable in `raw`, in place, at the corners of `needs`.
-///
-/// A tangent is replaced by the mean of its subgroup's; without one by its triangle's own dP/du; without that by a perpendicular of
-/// the normal; without a normal by (1, 0, 0). The bitangent follows, the sign stays. Corners at one vertex whose raw tangents are equal get one
-/// replacement, the first's, so that a repair never adds a split.
-pub(crate) fn repair(mesh: &Mesh<'_>, triangulation: &Triangulation, raw: &mut RawFrames, needs: &[u32]) {
-    if needs.is_empty() {
-        return;
-    }
-    let places = Places::new(triangulation, mesh.corner_count());
-    let mut site_of_vertex = Known::new();
-    let mut known = Known::new();
-    for &corner in needs {
-        let place = places.of(corner);
-        let vertex = mesh.vertex_of_corner(corner as usize);
-        let normal = direction(mesh.normals().get(vertex));
-        let own = || place.as_ref().map_or(corner, |place| place.vertex);
-        let site = *site_of_vertex.first(&[vertex as u32], own);
-        let frame = &mut raw.of_corner[corner as usize];
-        let replacement = || {
-            let Some(normal) = normal else { return [1.0, 0.0, 0.0] };
-            // A corner of a quad may have its mean from another corner, with another normal.
-            let mean = in_plane(raw.mean_of_corner[corner as usize].map(f64::from), normal);
-            let own = || place.as_ref().and_then(|place| in_plane(u_direction(mesh, place.triangle), normal));
-            mean.or_else(own).unwrap_or_else(|| perpendicular(normal)).map(|x| x as f32)
-        };
-        let [x, y, z] = bits(frame.tangent);
-        frame.tangent = *known.first(&[site, x, y, z, (frame.sign > 0.0).into()], replacement);
-        frame.bitangent = bitangent(normal, frame.tangent, frame.sign);
-        frame.magnitude =
-            frame.magnitude.map(|magnitude| if magnitude.is_finite() { magnitude } else { 1.0 });
-    }
-}
+pub(crate) type D3 = [f64; 3];
 
 /// sign * cross(normal, tangent), unit; without a normal, or where the tangent runs along it, a perpendicular of the tangent.
-pub(super) fn bitangent(normal: Option<D3>, tangent: V3, sign: f32) -> V3 {
+pub(crate) fn bitangent(normal: Option<D3>, tangent: V3, sign: f32) -> V3 {
     let tangent = tangent.map(f64::from);
     let across = normal.and_then(|normal| unit(cross(normal, tangent)));
     across.unwrap_or_else(|| perpendicular(tangent)).map(|x| (f64::from(sign) * x) as f32)
 }
 
-/// Bits for comparing: every NaN is one.
-fn bits(v: V3) -> [u32; 3] {
-    v.map(|x| if x.is_nan() { f32::NAN.to_bits() } else { x.to_bits() })
-}
-
-/// The direction of dP/du on a triangle, as long as it may be; zero or NaN where UVs or positions give none.
-fn u_direction(mesh: &Mesh<'_>, corners: [u32; 3]) -> D3 {
-    let vertices = corners.map(|corner| mesh.vertex_of_corner(corner as usize));
-    u_direction_of(
-        vertices.map(|vertex| mesh.positions().get(vertex)),
-        vertices.map(|vertex| mesh.uvs().get(vertex)),
-    )
-}
-
 /// As [`u_direction`], from a triangle's values.
-pub(super) fn u_direction_of(positions: [V3; 3], uvs: [[f32; 2]; 3]) -> D3 {
+pub(crate) fn u_direction_of(positions: [V3; 3], uvs: [[f32; 2]; 3]) -> D3 {
     let [p0, p1, p2] = positions.map(|position| position.map(f64::from));
     let [t0, t1, t2] = uvs.map(|uv| uv.map(f64::from));
     let [dv1, dv2] = [t1[1] - t0[1], t2[1] - t0[1]];
@@ -102,7 +49,7 @@ pub(crate) fn mean_in_plane(directions: impl Iterator<Item = V3>, normal: V3) ->
 }
 
 /// The unit vector along the part of `v` that is perpendicular to the unit `normal`; none where that part is rounding error.
-pub(super) fn in_plane(v: D3, normal: D3) -> Option<D3> {
+pub(crate) fn in_plane(v: D3, normal: D3) -> Option<D3> {
     let v = unit(v)?;
     let along = dot(v, normal);
     let rest = [0, 1, 2].map(|i| v[i] - along * normal[i]);
@@ -110,7 +57,7 @@ pub(super) fn in_plane(v: D3, normal: D3) -> Option<D3> {
 }
 
 /// A unit vector perpendicular to the unit `normal` (Duff et al. 2017, "Building an Orthonormal Basis, Revisited", listing 3).
-pub(super) fn perpendicular(normal: D3) -> D3 {
+pub(crate) fn perpendicular(normal: D3) -> D3 {
     let [x, y, z] = normal;
     let sign = 1f64.copysign(z);
     let a = -1.0 / (sign + z);
@@ -118,7 +65,7 @@ pub(super) fn perpendicular(normal: D3) -> D3 {
 }
 
 /// The direction of a normal, if it has one.
-pub(super) fn direction(normal: V3) -> Option<D3> {
+pub(crate) fn direction(normal: V3) -> Option<D3> {
     if is_not_zero(normal) { unit(normal.map(f64::from)) } else { None }
 }
 
@@ -126,20 +73,20 @@ fn is_not_zero(v: V3) -> bool {
     v.iter().any(|&x| not_zero(x))
 }
 
-pub(super) fn unit(v: D3) -> Option<D3> {
+pub(crate) fn unit(v: D3) -> Option<D3> {
     // Floats' squares neither overflow nor vanish in double precision.
     let length = length(v);
     (length > 0.0 && length.is_finite()).then(|| v.map(|x| x / length))
 }
 
-pub(super) fn dot(a: D3, b: D3) -> f64 {
+pub(crate) fn dot(a: D3, b: D3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-pub(super) fn cross(a: D3, b: D3) -> D3 {
+pub(crate) fn cross(a: D3, b: D3) -> D3 {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-pub(super) fn length(v: D3) -> f64 {
+pub(crate) fn length(v: D3) -> f64 {
     dot(v, v).sqrt()
 }

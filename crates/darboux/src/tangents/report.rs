@@ -1,10 +1,10 @@
 //! What a user must know of a run.
 
 use crate::Mesh;
-use crate::known::Known;
 use crate::math::V3;
+use crate::util::hash_map::Known;
 
-use super::sides::Output;
+use crate::tangents::output::Output;
 
 /// What was met on the way. Quads count as the two triangles that they are split into.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -35,11 +35,11 @@ pub struct Report {
 }
 
 /// Whether a triangle's positions and UVs are numbers to compute with.
-pub(super) fn are_finite(positions: [V3; 3], uvs: [[f32; 2]; 3]) -> bool {
+pub(crate) fn are_finite(positions: [V3; 3], uvs: [[f32; 2]; 3]) -> bool {
     positions.as_flattened().iter().chain(uvs.as_flattened()).all(|x| x.is_finite())
 }
 
-pub(super) fn count_non_finite_corners(mesh: &Mesh<'_>) -> usize {
+pub(crate) fn count_non_finite_corners(mesh: &Mesh<'_>) -> usize {
     let finite = |vertex| {
         let [positions, normals] = [mesh.positions().get(vertex), mesh.normals().get(vertex)];
         positions.iter().chain(&normals).chain(&mesh.uvs().get(vertex)).all(|x| x.is_finite())
@@ -48,7 +48,7 @@ pub(super) fn count_non_finite_corners(mesh: &Mesh<'_>) -> usize {
 }
 
 /// Vertices with corners of different tangents, compared as bits. Costs time in the corners, however many vertices there are.
-pub(super) fn count_split_vertices<O: Output>(mesh: &Mesh<'_>, corners: &[O]) -> usize {
+pub(crate) fn count_split_vertices<O: Output>(mesh: &Mesh<'_>, corners: &[O]) -> usize {
     let mut count = 0;
     let mut first = FirstCorners::new(mesh);
     for corner in 0..mesh.corner_count() {

@@ -1,0 +1,5 @@
+//! What other crates of this workspace need and users do not. No promise of stability.
+
+pub mod gpu_plan;
+pub mod gpu_resume;
+pub mod stage_arrays;

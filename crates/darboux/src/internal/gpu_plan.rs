@@ -1,0 +1,317 @@
+//! What of a mesh does not move, as the shaders of plans read it: for `darboux-gpu` and the npm package. Not part of the API.
+
+use std::collections::HashMap;
+
+use crate::CornerTangents;
+use crate::Faces;
+use crate::Mesh;
+use crate::Method;
+use crate::Mode;
+use crate::TangentOptions;
+use crate::generate_tangents;
+
+use crate::internal::stage_arrays::{Copied, CopiedFrom, NONE, Stages, Triangles};
+use crate::tangents::mikktspace::derivatives::doubled_area;
+
+/// Vertices' numbers end below these bits; see darboux-gpu's shaders/plan/triangle.wgsl.
+const FIRST_MARK: u32 = 1 << 31;
+const SECOND_MARK: u32 = 1 << 30;
+/// The bits of a vertex.
+pub const VERTEX: u32 = SECOND_MARK - 1;
+
+/// Why a mesh has no plan there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unplanned {
+    /// Corners of quads whose halves disagree about them: they have the average of two tangents, or, where one half is degenerate, that of
+    /// the corner that lies where they do.
+    HalvesDisagree {
+        /// Their number.
+        corners: usize,
+    },
+    /// Another method than MikkTSpace.
+    OtherMethod,
+    /// More members of sums than fit.
+    TooManyMembers {
+        /// At least so many.
+        members: usize,
+        /// The largest number.
+        limit: usize,
+    },
+}
+
+/// The arrays of a plan.
+#[derive(Debug, Default)]
+pub struct Topology {
+    /// Five words per triangle, degenerate ones last.
+    pub triangles: Vec<u32>,
+    /// Two words per triangle: the differences of u.
+    pub du: Vec<u32>,
+    pub triangle_count: u32,
+    pub degenerate_count: u32,
+    /// Of each vertex; none for those that nothing uses.
+    pub representatives: Vec<u32>,
+    /// Ends, vertices and members.
+    pub sums: Vec<u32>,
+    pub sum_count: u32,
+    /// Of the corners of the triangles that are not degenerate, marked where their group has several.
+    pub sum_of_place: Vec<u32>,
+    /// Two words per vertex, without -0.
+    pub uvs: Vec<u32>,
+    /// Of the corners of the mesh, with signs.
+    pub sum_of_corner: Vec<u32>,
+    /// The base's tangents.
+    pub base: CornerTangents,
+    /// Unusable tangents are replaced.
+    pub repairs: bool,
+    /// Which diagonals cut quads may depend on where they are.
+    pub has_quads: bool,
+    pub threshold_cosine: f32,
+}
+
+impl Topology {
+    /// `most_members`: of one sum. Errors: another method, quads whose halves disagree, too many members.
+    pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, most_members: usize) -> Result<Self, Unplanned> {
+        if options.method != Method::MikkTSpace {
+            return Err(Unplanned::OtherMethod);
+        }
+        let limit = 8 * mesh.corner_count() + (1 << 20);
+        let too_many = |members, limit| Unplanned::TooManyMembers { members, limit };
+        let stages = Stages::new(mesh, options, limit).ok_or_else(|| too_many(limit + 1, limit))?;
+        match corners_of_both_halves(&stages) {
+            0 => {}
+            corners => return Err(Unplanned::HalvesDisagree { corners }),
+        }
+        let base = generate_tangents(mesh, options).corners;
+        let repairs = options.mode != Mode::Reference;
+        let mut sums = Sums::new(mesh, &stages);
+        let sum_of_corner = sums.of_corners(mesh, &stages, &base, repairs);
+        if let Some(members) = sums.largest().filter(|&members| members > most_members) {
+            return Err(too_many(members, most_members));
+        }
+        let (good, degenerate) = (&stages.triangulation.good, &stages.triangulation.degenerate);
+        let mut triangles = Vec::new();
+        good.corners.iter().enumerate().for_each(|(t, _)| triangles.extend(triangle(mesh, &stages, t)));
+        degenerate.corners.iter().for_each(|corners| triangles.extend(degenerate_triangle(mesh, *corners)));
+        let list = |list: &Triangles, axis| -> Vec<u32> {
+            (0..list.face.len()).flat_map(|t| differences(mesh, list.vertices[t], axis)).collect()
+        };
+        Ok(Self {
+            triangle_count: good.face.len() as u32,
+            degenerate_count: degenerate.face.len() as u32,
+            du: [list(good, 0), list(degenerate, 0)].concat(),
+            triangles,
+            representatives: representatives(mesh, [good, degenerate]),
+            sum_of_place: sums_of_places(&stages, &sum_of_corner),
+            uvs: (0..mesh.vertex_count())
+                .flat_map(|v| mesh.uvs().get(v).map(|x| (x + 0.0).to_bits()))
+                .collect(),
+            sum_count: sums.ends.len() as u32,
+            sums: [sums.ends, sums.vertices, sums.members].concat(),
+            sum_of_corner,
+            base,
+            repairs,
+            has_quads: !matches!(mesh.faces(), Faces::Triangles),
+            threshold_cosine: stages.threshold_cosine,
+        })
+    }
+
+    /// The sum of each vertex: that of its first corner, [`NONE`] for those that nothing uses.
+    ///
+    /// Errors: corners of one vertex have different tangents; the number of such vertices.
+    pub fn sum_of_vertex(&self, mesh: &Mesh<'_>) -> Result<Vec<u32>, usize> {
+        let mut first = vec![NONE; mesh.vertex_count()];
+        let mut has_several = vec![false; mesh.vertex_count()];
+        let bits = |corner: usize| self.base.per_corner()[corner].map(f32::to_bits);
+        for corner in 0..mesh.corner_count() {
+            let vertex = mesh.vertex_of_corner(corner);
+            match first[vertex] {
+                NONE => first[vertex] = corner as u32,
+                other => has_several[vertex] |= bits(other as usize) != bits(corner),
+            }
+        }
+        match has_several.iter().filter(|&&several| several).count() {
+            0 => Ok(first
+                .iter()
+                .map(|&corner| self.sum_of_corner.get(corner as usize).copied())
+                .map(none)
+                .collect()),
+            vertices => Err(vertices),
+        }
+    }
+}
+
+/// Corners that have neither the tangent of one sum nor, at the same vertex, that of another corner.
+fn corners_of_both_halves(stages: &Stages) -> usize {
+    let is_average = |sums: &&[u32; 2]| sums[1] != NONE && sums[1] != sums[0];
+    let is_of_half = |copied: &&Copied| matches!(copied.from, CopiedFrom::Half(_));
+    stages.sums.of_corner.iter().filter(is_average).count() + stages.copies.iter().filter(is_of_half).count()
+}
+
+fn none(sum: Option<u32>) -> u32 {
+    sum.unwrap_or(NONE)
+}
+
+fn vertex(mesh: &Mesh<'_>, corner: u32) -> u32 {
+    mesh.vertex_of_corner(corner as usize) as u32
+}
+
+/// Which vertex stands for each: its own number but for copies.
+fn representatives(mesh: &Mesh<'_>, lists: [&Triangles; 2]) -> Vec<u32> {
+    let mut of_vertex = vec![NONE; mesh.vertex_count()];
+    for list in lists {
+        for (&corner, &of) in list.corners.as_flattened().iter().zip(list.vertices.as_flattened()) {
+            of_vertex[mesh.vertex_of_corner(corner as usize)] = vertex(mesh, of);
+        }
+    }
+    of_vertex
+}
+
+/// The sum of each corner of the triangles that are not degenerate, marked where members of its group have several.
+fn sums_of_places(stages: &Stages, sum_of_corner: &[u32]) -> Vec<u32> {
+    let corners = stages.triangulation.good.corners.as_flattened();
+    let sum_of_place = |place: &u32| sum_of_corner[corners[*place as usize] as usize] & !FIRST_MARK;
+    let mut sums: Vec<u32> = (0..corners.len() as u32).map(|place| sum_of_place(&place)).collect();
+    for group in 0..stages.groups.ends().len() {
+        let members = stages.groups.members(group);
+        if members.iter().any(|member| sum_of_place(member) != sum_of_place(&members[0])) {
+            members.iter().for_each(|&member| sums[member as usize] |= FIRST_MARK);
+        }
+    }
+    sums
+}
+
+/// The words of triangle `t` of those that are not degenerate.
+fn triangle(mesh: &Mesh<'_>, stages: &Stages, t: usize) -> [u32; 5] {
+    let good = &stages.triangulation.good;
+    let [mut a, mut b, mut c] = good.corners[t].map(|corner| vertex(mesh, corner));
+    let names = good.vertices[t].map(|corner| vertex(mesh, corner));
+    let has_copies = [a, b, c] != names;
+    // Its own orientation, whatever a quad's halves agree on.
+    let preserves = doubled_area(names.map(|name| mesh.uvs().get(name as usize))) > 0.0;
+    a |= if preserves { 0 } else { FIRST_MARK };
+    b |= if stages.derivatives[t].any { FIRST_MARK } else { 0 };
+    c |= if has_copies { FIRST_MARK } else { 0 };
+    let [d, e] = differences(mesh, good.vertices[t], 1);
+    [a, b, c, d, e]
+}
+
+fn degenerate_triangle(mesh: &Mesh<'_>, corners: [u32; 3]) -> [u32; 5] {
+    let [a, b, c] = corners.map(|corner| vertex(mesh, corner));
+    [a, b | FIRST_MARK | SECOND_MARK, c, 0, 0]
+}
+
+/// How much u or v differs along the two edges from the first corner.
+fn differences(mesh: &Mesh<'_>, vertices: [u32; 3], axis: usize) -> [u32; 2] {
+    let [a, b, c] = vertices.map(|corner| mesh.uvs().get(mesh.vertex_of_corner(corner as usize))[axis]);
+    [b - a, c - a].map(f32::to_bits)
+}
+
+/// Sums, and which corner has which.
+struct Sums {
+    ends: Vec<u32>,
+    /// The vertex whose normal it has.
+    vertices: Vec<u32>,
+    members: Vec<u32>,
+    /// The sign of each that has members.
+    signs: Vec<f32>,
+    /// Those without members, by vertex and whether they are to be replaced whatever they are.
+    empty: HashMap<(u32, bool), u32>,
+}
+
+/// The sign of what no group reaches.
+const DEFAULT_SIGN: f32 = -1.0;
+
+impl Sums {
+    fn new(mesh: &Mesh<'_>, stages: &Stages) -> Self {
+        let sums = &stages.sums;
+        let starts = [0].into_iter().chain(sums.ends.iter().copied());
+        let orientation = |start: u32| stages.preserves[sums.members[start as usize] as usize / 3];
+        let sign = |start: u32| if orientation(start) { 1.0 } else { -1.0 };
+        Self {
+            signs: starts.take(sums.ends.len()).map(sign).collect(),
+            ends: sums.ends.clone(),
+            vertices: sums.vertices.iter().map(|&corner| vertex(mesh, corner)).collect(),
+            members: sums.members.clone(),
+            empty: HashMap::new(),
+        }
+    }
+
+    fn largest(&self) -> Option<usize> {
+        let starts = [0].into_iter().chain(self.ends.iter().copied());
+        starts.zip(&self.ends).map(|(start, &end)| (end - start) as usize).max()
+    }
+
+    /// The sum of every corner, with the sign that it has in `base`. Corners of faces that are neither triangles nor quads have none to take:
+    /// what they have is replaced, if `repairs`.
+    fn of_corners(
+        &mut self,
+        mesh: &Mesh<'_>,
+        stages: &Stages,
+        base: &CornerTangents,
+        repairs: bool,
+    ) -> Vec<u32> {
+        let mut sums: Vec<u32> = stages.sums.of_corner.iter().map(|sums| sums[0]).collect();
+        for copied in &stages.copies {
+            if let CopiedFrom::Vertex(good) = copied.from {
+                sums[copied.corner as usize] = sums[good as usize];
+            }
+        }
+        let raw = |sum: u32| self.signs.get(sum as usize).copied().unwrap_or(DEFAULT_SIGN);
+        let mut is_forced: Vec<bool> =
+            sums.iter().zip(base.per_corner()).map(|(&sum, tangent)| raw(sum) != tangent[3]).collect();
+        stages
+            .triangulation
+            .unsupported_corners
+            .iter()
+            .for_each(|&corner| is_forced[corner as usize] |= repairs);
+        // Where a face was given one sign, a corner has the tangent of another group at its vertex.
+        let first =
+            if is_forced.contains(&true) { self.first_of_sign(stages, &sums) } else { HashMap::new() };
+        let names = names(stages, sums.len());
+        for (corner, sum) in sums.iter_mut().enumerate() {
+            let sign = base.per_corner()[corner][3];
+            if is_forced[corner] {
+                *sum = none(first.get(&(names[corner], sign > 0.0)).copied());
+            }
+            if *sum == NONE {
+                *sum = self.without_members(vertex(mesh, corner as u32), is_forced[corner]);
+            }
+            *sum |= if sign < 0.0 { FIRST_MARK } else { 0 };
+        }
+        sums
+    }
+
+    /// The first sum of each sign at each welded vertex.
+    fn first_of_sign(&self, stages: &Stages, sums: &[u32]) -> HashMap<(u32, bool), u32> {
+        let good = &stages.triangulation.good;
+        let mut first = HashMap::new();
+        for (&corner, &name) in good.corners.as_flattened().iter().zip(good.vertices.as_flattened()) {
+            let sum = sums[corner as usize];
+            if let Some(sign) = self.signs.get(sum as usize) {
+                first.entry((name, *sign > 0.0)).or_insert(sum);
+            }
+        }
+        first
+    }
+
+    fn without_members(&mut self, vertex: u32, is_forced: bool) -> u32 {
+        let next = self.ends.len() as u32;
+        let sum = *self.empty.entry((vertex, is_forced)).or_insert(next);
+        if sum == next {
+            self.ends.push(self.members.len() as u32);
+            self.vertices.push(vertex | if is_forced { FIRST_MARK } else { 0 });
+        }
+        sum
+    }
+}
+
+/// The welded vertex of every corner.
+fn names(stages: &Stages, corners: usize) -> Vec<u32> {
+    let mut names = vec![NONE; corners];
+    for list in [&stages.triangulation.good, &stages.triangulation.degenerate] {
+        for (&corner, &name) in list.corners.as_flattened().iter().zip(list.vertices.as_flattened()) {
+            names[corner as usize] = name;
+        }
+    }
+    names
+}

@@ -1,0 +1,169 @@
+//! What a plan keeps of a mesh, by method.
+
+use std::sync::OnceLock;
+
+use crate::Frame;
+use crate::Mesh;
+use crate::cancel::Stop;
+
+use crate::exec::simd::Width;
+use crate::tangents::Method;
+use crate::tangents::Scratch;
+use crate::tangents::TangentOptions;
+use crate::tangents::Tangents;
+use crate::tangents::angle_area;
+use crate::tangents::fast::{Fans, PlannedFans, triangle_count};
+use crate::tangents::generate_tangents;
+use crate::tangents::has_whole_fans;
+use crate::tangents::mikktspace::submesh::UndecidedPart;
+use crate::tangents::mikktspace::{Topology, unknown};
+use crate::tangents::run;
+
+/// What is known beforehand.
+#[derive(Debug)]
+pub(crate) enum Planned {
+    /// MikkTSpace on faces of 3 and 4 corners: nearly all vertices are decided.
+    Fans(Box<Decided>),
+    /// MikkTSpace elsewhere.
+    Stages(Box<Topology>),
+    /// Angle and area, on the same groups.
+    Groups(Box<angle_area::Topology>),
+    /// Other methods run afresh: they have no groups that were worth keeping.
+    Nothing,
+}
+
+/// Decided vertices, the stages for the others, and the vertices, for when vertices that were decided need the stages after all.
+#[derive(Debug)]
+pub(crate) struct Decided {
+    fans: PlannedFans,
+    undecided: Option<UndecidedPart>,
+    base: Vertices,
+    stages: OnceLock<Topology>,
+}
+
+impl Planned {
+    /// Runs on the base, and keeps what does not depend on where vertices are.
+    pub fn new(mesh: &Mesh<'_>, options: &TangentOptions) -> (Self, Tangents) {
+        let stop = &Stop::heard();
+        match options.method {
+            Method::MikkTSpace => {}
+            Method::AngleArea => {
+                let (topology, base) = angle_area::plan(mesh, options.mode);
+                return (Self::Groups(Box::new(topology)), base);
+            }
+            _ => return (Self::Nothing, generate_tangents(mesh, options)),
+        }
+        let mut base = Tangents::default();
+        base.corners.0.resize(mesh.corner_count(), [0.0; 4]);
+        let (mut fans, width) = (Fans::default(), Width::widest(Default::default()));
+        if !has_whole_fans(options) || !fans.run(mesh, options, width, stop, &mut base.corners.0) {
+            let Some(topology) = Topology::new(mesh, options, stop) else { return (Self::Nothing, base) };
+            let (frames, report) = topology.frames(mesh, stop);
+            write(&frames, &mut base.corners.0);
+            return (Self::Stages(Box::new(topology)), Tangents { report, ..base });
+        }
+        if stop.is_asked() {
+            return (Self::Nothing, base);
+        }
+        let undecided = UndecidedPart::new(mesh, options, &fans, &base.corners.0);
+        let fans = PlannedFans::new(mesh, fans, &base.corners.0);
+        if let Some(part) = &undecided {
+            base.report = part.decide(mesh, stop, &mut base.corners.0);
+        }
+        base.report.triangles = triangle_count(mesh);
+        let vertices = Vertices::new(mesh);
+        (Self::Fans(Box::new(Decided { fans, undecided, base: vertices, stages: OnceLock::new() })), base)
+    }
+
+    /// Writes the tangents of the moved mesh with the signs of the base's. `base`: what it was planned with, and its tangents.
+    pub fn evaluate(
+        &self,
+        mesh: &Mesh<'_>,
+        base: (&TangentOptions, &[[f32; 4]]),
+        scratch: &mut Scratch,
+        out: &mut [[f32; 4]],
+    ) {
+        let ((options, signs), stop) = (base, &Stop::heard());
+        match self {
+            Self::Fans(decided) => return decided.evaluate(mesh, base, stop, scratch, out),
+            Self::Stages(topology) => write(&topology.frames_of_moved(mesh, unknown(mesh), stop).0, out),
+            Self::Groups(topology) => {
+                topology.frames_of_moved(mesh, options.mode, &mut scratch.sums.of_groups, out);
+            }
+            Self::Nothing => {
+                run(mesh, options, stop, scratch, out);
+            }
+        }
+        take_signs(signs, out);
+    }
+}
+
+impl Decided {
+    fn evaluate(
+        &self,
+        mesh: &Mesh<'_>,
+        (options, base): (&TangentOptions, &[[f32; 4]]),
+        stop: &Stop,
+        scratch: &mut Scratch,
+        out: &mut [[f32; 4]],
+    ) {
+        let width = Width::widest(scratch.width_limit);
+        if scratch.fans.run_planned(&self.fans, mesh, width, stop, out) {
+            if let Some(part) = &self.undecided {
+                part.decide_moved(mesh, base, stop, out);
+            }
+            return;
+        }
+        let Some(stages) = self.stages(mesh, options, stop) else { return };
+        write(&stages.frames_of_moved(mesh, unknown(mesh), stop).0, out);
+        take_signs(base, out);
+    }
+
+    /// The stages of the mesh that was planned, which are made when they are first asked for; nothing once it shall stop.
+    fn stages(&self, moved: &Mesh<'_>, options: &TangentOptions, stop: &Stop) -> Option<&Topology> {
+        if self.stages.get().is_none() {
+            let made = Topology::new(&self.base.of(moved), options, stop)?;
+            // Another thread may have been quicker, with the same.
+            _ = self.stages.set(made);
+        }
+        self.stages.get()
+    }
+}
+
+fn write(frames: &[Frame], out: &mut [[f32; 4]]) {
+    for (tangent, frame) in out.iter_mut().zip(frames) {
+        *tangent = frame.tangent_and_sign();
+    }
+}
+
+fn take_signs(others: &[[f32; 4]], out: &mut [[f32; 4]]) {
+    for (tangent, other) in out.iter_mut().zip(others) {
+        tangent[3] = other[3];
+    }
+}
+
+/// The vertices of a mesh.
+#[derive(Debug)]
+struct Vertices {
+    positions: Vec<[f32; 3]>,
+    normals: Vec<[f32; 3]>,
+    uvs: Vec<[f32; 2]>,
+}
+
+impl Vertices {
+    fn new(mesh: &Mesh<'_>) -> Self {
+        let vertices = 0..mesh.vertex_count();
+        Self {
+            positions: vertices.clone().map(|vertex| mesh.positions().get(vertex)).collect(),
+            normals: vertices.clone().map(|vertex| mesh.normals().get(vertex)).collect(),
+            uvs: vertices.map(|vertex| mesh.uvs().get(vertex)).collect(),
+        }
+    }
+
+    /// These as another mesh has them, of the same faces.
+    fn of<'a>(&'a self, mesh: &Mesh<'a>) -> Mesh<'a> {
+        let (indices, faces) = (mesh.indices(), mesh.faces());
+        let mesh = Mesh::with_faces(&self.positions, &self.normals, &self.uvs, indices, faces);
+        mesh.expect("a copy of a mesh is one")
+    }
+}

@@ -1,0 +1,99 @@
+//! Degenerate triangles take the frames of their neighbours.
+//!
+//! Source: mikktspace.c, `DegenEpilogue`; there the good corner is searched linearly for every degenerate one.
+
+use crate::math::equal;
+use crate::topology::neighbours::NONE;
+use crate::topology::triangulate::{Triangles, Triangulation};
+use crate::util::radix_sort::sort;
+
+use crate::tangents::mikktspace::raw_frames::RawFrames;
+use crate::tangents::mikktspace::welded_mesh::Shape;
+
+/// A corner that only degenerate triangles have, and where its frame comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Copied {
+    /// The corner.
+    pub corner: u32,
+    /// Good corners.
+    pub from: CopiedFrom,
+}
+
+/// Which good corner is copied.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CopiedFrom {
+    /// The first one at the same welded vertex.
+    Vertex(u32),
+    /// Of the good half of the same quad: the first one with the same position, if there is one.
+    Half([u32; 3]),
+}
+
+/// What is copied where, in order.
+///
+/// A corner copies the first good corner at the same welded vertex, if there is one. The missing corner of a quad with one good
+/// half copies the first corner of that half that has the same position.
+pub fn copies(triangulation: &Triangulation) -> Vec<Copied> {
+    let Triangulation { good, degenerate, .. } = triangulation;
+    let mut copies = Vec::new();
+    if degenerate.len() == 0 {
+        return copies;
+    }
+    let half_of_good_quad: Vec<bool> =
+        degenerate.face.iter().map(|face| good.face.binary_search(face).is_ok()).collect();
+    let first_good = first_good_corners(good, degenerate);
+    for t in (0..degenerate.len()).filter(|&t| !half_of_good_quad[t]) {
+        for (&corner, vertex) in degenerate.corners[t].iter().zip(&degenerate.vertices[t]) {
+            let good = first_good[*vertex as usize];
+            if good != NONE {
+                copies.push(Copied { corner, from: CopiedFrom::Vertex(good) });
+            }
+        }
+    }
+    for t in (0..degenerate.len()).filter(|&t| half_of_good_quad[t]) {
+        let Ok(half) = good.face.binary_search(&degenerate.face[t]) else { continue };
+        let present = good.corners[half];
+        let missing = degenerate.corners[t].into_iter().filter(|corner| !present.contains(corner));
+        copies.extend(missing.map(|corner| Copied { corner, from: CopiedFrom::Half(present) }));
+    }
+    copies
+}
+
+/// Writes the corners that only degenerate triangles have, and returns them, ascending.
+pub(crate) fn fill_degenerate(
+    triangulation: &Triangulation,
+    shape: &Shape<'_>,
+    raw: &mut RawFrames,
+) -> Vec<u32> {
+    let mut copied = Vec::new();
+    for Copied { corner, from } in copies(triangulation) {
+        let at_same_place = |source: &u32| equal(shape.position(*source), shape.position(corner));
+        let source = match from {
+            CopiedFrom::Vertex(good) => Some(good),
+            CopiedFrom::Half(present) => present.into_iter().find(at_same_place),
+        };
+        if let Some(source) = source {
+            copy(raw, source, corner);
+            copied.push(corner);
+        }
+    }
+    sort(&mut copied);
+    copied.dedup();
+    copied
+}
+
+fn copy(raw: &mut RawFrames, source: u32, corner: u32) {
+    raw.of_corner[corner as usize] = raw.of_corner[source as usize];
+    raw.mean_of_corner[corner as usize] = raw.mean_of_corner[source as usize];
+}
+
+/// The first good corner at each welded vertex, up to the last that degenerate triangles have, or [`NONE`].
+fn first_good_corners(good: &Triangles, degenerate: &Triangles) -> Vec<u32> {
+    let last = degenerate.vertices.as_flattened().iter().max();
+    let mut first = vec![NONE; last.map_or(0, |&last| last as usize + 1)];
+    for (&vertex, &corner) in good.vertices.as_flattened().iter().zip(good.corners.as_flattened()) {
+        if let Some(free @ &mut NONE) = first.get_mut(vertex as usize) {
+            *free = corner;
+        }
+    }
+    first
+}

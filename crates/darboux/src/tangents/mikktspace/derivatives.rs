@@ -1,0 +1,91 @@
+//! The derivatives of position by UV on each triangle, and its UV orientation.
+//!
+//! Source: mikktspace.c, `InitTriInfo`, equations 18 and 19.
+
+use crate::math::{V3, add, length, not_zero, scale, sub};
+use crate::topology::triangulate::Triangles;
+
+use crate::exec::threads;
+use crate::tangents::mikktspace::welded_mesh::Shape;
+use crate::tangents::report::are_finite;
+
+/// One triangle's derivatives.
+#[derive(Clone, Copy, Debug)]
+pub struct Derivative {
+    /// The direction of dP/du, unit length but on UV-degenerate triangles.
+    pub s: V3,
+    /// The direction of dP/dv, likewise.
+    pub t: V3,
+    /// The lengths of dP/du and dP/dv.
+    pub magnitude: [f32; 2],
+    /// True when the UV map keeps the triangle's orientation.
+    pub preserves: bool,
+    /// "Group with any": UV-degenerate. The triangle joins any group and adds nothing to its tangent.
+    pub any: bool,
+}
+
+/// The derivatives of every triangle.
+pub(crate) fn derivatives(triangles: &Triangles, shape: &Shape<'_>) -> Vec<Derivative> {
+    threads::map(triangles.len(), |t| derivative(shape.positions(triangles, t), shape.uvs(triangles, t)))
+}
+
+/// As [`derivatives`], in the memory of others.
+pub(crate) fn derivatives_into(triangles: &Triangles, shape: &Shape<'_>, derivatives: &mut Vec<Derivative>) {
+    let none = Derivative { s: [0.0; 3], t: [0.0; 3], magnitude: [0.0; 2], preserves: false, any: true };
+    derivatives.resize(triangles.len(), none);
+    threads::fill(derivatives, |t| derivative(shape.positions(triangles, t), shape.uvs(triangles, t)));
+}
+
+fn derivative(positions: [V3; 3], uvs: [[f32; 2]; 3]) -> Derivative {
+    let [e1, e2] = [sub(positions[1], positions[0]), sub(positions[2], positions[0])];
+    let [du1, dv1] = [uvs[1][0] - uvs[0][0], uvs[1][1] - uvs[0][1]];
+    let [du2, dv2] = [uvs[2][0] - uvs[0][0], uvs[2][1] - uvs[0][1]];
+    let s = sub(scale(dv2, e1), scale(dv1, e2));
+    let t = add(scale(-du2, e1), scale(du1, e2));
+    let area = doubled_area(uvs);
+    let mut out = Derivative { s, t, magnitude: [0.0; 2], preserves: area > 0.0, any: true };
+    if not_zero(area) {
+        let sign = if out.preserves { 1.0 } else { -1.0 };
+        let (s_length, t_length) = (length(s), length(t));
+        out.s = if not_zero(s_length) { scale(sign / s_length, s) } else { s };
+        out.t = if not_zero(t_length) { scale(sign / t_length, t) } else { t };
+        out.magnitude = [s_length / area.abs(), t_length / area.abs()];
+        out.any = !out.magnitude.iter().all(|&magnitude| not_zero(magnitude));
+    }
+    out
+}
+
+/// The number of UV-degenerate triangles, of those whose values are finite.
+pub(crate) fn count_uv_degenerate(
+    triangles: &Triangles,
+    shape: &Shape<'_>,
+    derivatives: &[Derivative],
+) -> usize {
+    let finite = |t| are_finite(shape.positions(triangles, t), shape.uvs(triangles, t));
+    derivatives.iter().enumerate().filter(|(t, derivative)| derivative.any && finite(*t)).count()
+}
+
+/// Twice the signed area of a triangle in UV space.
+#[inline(always)]
+pub(crate) fn doubled_area(uvs: [[f32; 2]; 3]) -> f32 {
+    let [du1, dv1] = [uvs[1][0] - uvs[0][0], uvs[1][1] - uvs[0][1]];
+    let [du2, dv2] = [uvs[2][0] - uvs[0][0], uvs[2][1] - uvs[0][1]];
+    du1 * dv2 - dv1 * du2
+}
+
+/// Gives the halves of a quad one orientation: the first half's if the second is UV-degenerate or not larger in UV space.
+pub(crate) fn agree_in_quads(triangles: &Triangles, shape: &Shape<'_>, derivatives: &mut [Derivative]) {
+    let mut t = 0;
+    while t < triangles.len() {
+        if !triangles.is_pair(t) {
+            t += 1;
+            continue;
+        }
+        let area = |t| doubled_area(shape.uvs(triangles, t)).abs();
+        let first_decides = derivatives[t + 1].any || area(t) >= area(t + 1);
+        let preserves = derivatives[if first_decides { t } else { t + 1 }].preserves;
+        derivatives[t].preserves = preserves;
+        derivatives[t + 1].preserves = preserves;
+        t += 2;
+    }
+}

@@ -1,0 +1,22 @@
+//! Whole Gram and Schmidt: the bitangent made perpendicular as well.
+
+use crate::CornerFrames;
+use crate::Mesh;
+use crate::MeshError;
+use crate::split::expect;
+
+use crate::tangents::vertex_sums::finish::across;
+
+impl CornerFrames {
+    /// The same frames with the bitangent that shaders rebuild: sign * cross(normal, tangent), unit. The tangent stays.
+    ///
+    /// Without a normal it is a perpendicular of the tangent. Errors: frames of another number of corners.
+    pub fn orthogonalized(mut self, mesh: &Mesh<'_>) -> Result<Self, MeshError> {
+        expect("corners", mesh.corner_count(), self.0.len())?;
+        for (corner, frame) in self.0.iter_mut().enumerate() {
+            let normal = mesh.normals().get(mesh.vertex_of_corner(corner));
+            frame.bitangent = across(normal, frame.tangent, frame.sign);
+        }
+        Ok(self)
+    }
+}

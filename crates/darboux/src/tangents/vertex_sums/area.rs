@@ -1,0 +1,35 @@
+//! Unit tangents, bitangents and normals of the triangles around a vertex, weighted by the triangles' areas.
+//!
+//! The area vector cross(e1, e2) / 2 is normal and weight in one; summed over a fan it is the normal of G. Thürmer and C. A.
+//! Wüthrich's "area weighted" kind ("Computing Vertex Normals from Polygonal Facets", 1998, which argues for angles).
+
+use crate::math::{V3, length, scale};
+
+use crate::tangents::vertex_sums::weighting::{Derivatives, Sum, Weighting};
+
+/// The area weights of tangents and bitangents; the summed normal stands in where the mesh has none.
+pub(crate) struct Area;
+
+impl Weighting<3> for Area {
+    #[inline(always)]
+    fn term(derivatives: &Derivatives) -> Sum<3> {
+        let normal = derivatives.doubled_area_vector();
+        let weight = length(normal);
+        let ([s, t], magnitude) = derivatives.directions();
+        let ([s0, s1, s2], [t0, t1, t2]) = (scale(weight, s), scale(weight, t));
+        let [m0, m1] = [weight * magnitude[0], weight * magnitude[1]];
+        [[s0, s1, s2, weight], [t0, t1, t2, m0], [normal[0], normal[1], normal[2], m1]]
+    }
+
+    fn size(sum: &Sum<3>) -> f32 {
+        sum[0][3]
+    }
+
+    fn magnitude([[_, _, _, weight], [_, _, _, m0], [_, _, _, m1]]: &Sum<3>) -> [f32; 2] {
+        [m0 / weight, m1 / weight]
+    }
+
+    fn own_normal([_, _, [x, y, z, _]]: &Sum<3>) -> V3 {
+        [*x, *y, *z]
+    }
+}

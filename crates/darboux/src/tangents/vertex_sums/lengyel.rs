@@ -1,0 +1,48 @@
+//! Lengyel's sum: the derivatives of the triangles around a vertex, as long as they are.
+//!
+//! Source: E. Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001; "Foundations of Game Engine
+//! Development", vol. 2, 2019, section 7.5. The derivation is in docs/algorithms/methods.md.
+
+use crate::math::{length, scale};
+
+use crate::tangents::vertex_sums::weighting::{Derivatives, Sum, Weighting, size};
+
+/// Each triangle adds dP/du and dP/dv; triangles of the two UV orientations sum apart.
+pub(crate) struct Lengyel;
+
+impl Weighting<2> for Lengyel {
+    #[inline(always)]
+    fn term(derivatives: &Derivatives) -> Sum<2> {
+        let reciprocal = 1.0 / derivatives.area;
+        let (s, [t0, t1, t2]) = (scale(reciprocal, derivatives.s), scale(reciprocal, derivatives.t));
+        [[s[0], s[1], s[2], 1.0], [t0, t1, t2, size(s)]]
+    }
+
+    fn size(sum: &Sum<2>) -> f32 {
+        sum[1][3]
+    }
+
+    fn magnitude([[s0, s1, s2, count], [t0, t1, t2, _]]: &Sum<2>) -> [f32; 2] {
+        [[*s0, *s1, *s2], [*t0, *t1, *t2]].map(|sum| length(sum) / count)
+    }
+}
+
+/// As [`Lengyel`], but all triangles of a vertex share one sum, mirrored or not: what tutorials and three.js do.
+pub(crate) struct LengyelPerVertex;
+
+impl Weighting<2> for LengyelPerVertex {
+    const SPLITS: bool = false;
+
+    #[inline(always)]
+    fn term(derivatives: &Derivatives) -> Sum<2> {
+        Lengyel::term(derivatives)
+    }
+
+    fn size(sum: &Sum<2>) -> f32 {
+        Lengyel::size(sum)
+    }
+
+    fn magnitude(sum: &Sum<2>) -> [f32; 2] {
+        Lengyel::magnitude(sum)
+    }
+}

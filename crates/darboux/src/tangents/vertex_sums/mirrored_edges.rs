@@ -1,0 +1,93 @@
+//! Where triangles of opposite UV orientation meet, and what else a report counts on packed arrays.
+
+use crate::Mesh;
+
+use crate::exec::threads::{self, split};
+use crate::tangents::Report;
+use crate::tangents::report;
+use crate::tangents::vertex_sums::mesh_slices::Flat;
+use crate::tangents::vertex_sums::weighting::Orientation;
+
+/// The part of a report that does not depend on the method.
+pub(crate) fn survey(mesh: &Mesh<'_>, flat: &Flat<'_>) -> Report {
+    survey_where(mesh, flat, has_finite_vertices(flat))
+}
+
+/// As [`survey`]. `is_finite`: whether all values that corners have are known to be finite.
+pub(crate) fn survey_where(mesh: &Mesh<'_>, flat: &Flat<'_>, is_finite: bool) -> Report {
+    let is_supported = |face: &usize| matches!(flat.corners(*face).len(), 3 | 4);
+    let supported = if flat.is_triangles() {
+        flat.face_count()
+    } else {
+        (0..flat.face_count()).filter(is_supported).count()
+    };
+    Report {
+        triangles: flat.triangles().len(),
+        unsupported_faces: flat.face_count() - supported,
+        non_finite_corners: if is_finite { 0 } else { report::count_non_finite_corners(mesh) },
+        ..Report::default()
+    }
+}
+
+pub(crate) fn has_finite_vertices(flat: &Flat<'_>) -> bool {
+    all_finite(flat.positions.as_flattened())
+        && has_finite_normals(flat)
+        && all_finite(flat.uvs.as_flattened())
+}
+
+pub(crate) fn has_finite_normals(flat: &Flat<'_>) -> bool {
+    all_finite(flat.normals.as_flattened())
+}
+
+fn all_finite(values: &[f32]) -> bool {
+    let threads = threads::count(values.len() / 8);
+    let mut found = vec![true; threads];
+    threads::run(&mut found, split(0..values.len(), threads, 1), |finite, range| {
+        // The largest exponent, as integers: a loop that runs several lanes at a time.
+        let values = values[range].iter().map(|x| (x.to_bits() & 0x7fff_ffff) as i32);
+        *finite = f32::from_bits(values.fold(0, i32::max) as u32).is_finite();
+    });
+    found.into_iter().all(|finite| finite)
+}
+
+/// For each vertex, whether faces of both orientations meet there; none when the mesh has but one.
+pub(crate) fn vertices_of_both(flat: &Flat<'_>, orientation_of_face: &[Orientation]) -> Option<Vec<bool>> {
+    // All of them, as bits: a loop that runs many lanes at a time.
+    let found = orientation_of_face.iter().fold(0, |found, &orientation| found | 1u8 << orientation as u8);
+    if found & 3 != 3 {
+        return None;
+    }
+    let mut seen = vec![0u8; flat.positions.len()];
+    for (face, &orientation) in orientation_of_face.iter().enumerate() {
+        let mark = [1, 2, 0][orientation as usize];
+        flat.vertex_of_corner[flat.corners(face)].iter().for_each(|&v| seen[v as usize] |= mark);
+    }
+    Some(seen.into_iter().map(|seen| seen == 3).collect())
+}
+
+/// The number of edges between two triangles of opposite orientation. Edges are those of the given indices.
+pub(crate) fn count_mirrored_edges(
+    flat: &Flat<'_>,
+    orientation_of_face: &[Orientation],
+    of_both: &[bool],
+) -> usize {
+    let mut edges: Vec<([u32; 2], bool, Orientation)> = Vec::new();
+    for (t, triangle) in flat.triangles().iter().enumerate() {
+        let orientation = orientation_of_face[flat.face(t)];
+        for k in 0..3 {
+            let [a, b] = [triangle[k], triangle[(k + 1) % 3]];
+            if orientation != Orientation::None && of_both[a as usize] && of_both[b as usize] && a != b {
+                edges.push(([a.min(b), a.max(b)], a < b, orientation));
+            }
+        }
+    }
+    edges.sort_unstable_by_key(|&(ends, ..)| ends);
+    edges.chunk_by(|a, b| a.0 == b.0).map(count_mirrored_pairs).sum()
+}
+
+/// Pairs along one edge that run in opposite directions and have opposite orientations.
+fn count_mirrored_pairs(along: &[([u32; 2], bool, Orientation)]) -> usize {
+    let count = |up, orientation| along.iter().filter(|edge| edge.1 == up && edge.2 == orientation).count();
+    let (keeps, mirrors) = (Orientation::Keeps, Orientation::Mirrors);
+    count(true, keeps).min(count(false, mirrors)) + count(true, mirrors).min(count(false, keeps))
+}

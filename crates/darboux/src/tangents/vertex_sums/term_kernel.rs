@@ -1,0 +1,107 @@
+//! What a block of triangles adds to its vertices, lane by lane.
+//!
+//! Every quantity is an array with one entry per triangle, and what is computed one loop over them without branches, which compilers turn
+//! into vector code of whatever width the machine has. Each lane rounds as [`crate::tangents::vertex_sums::weighting::term`], its one source.
+
+#![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
+
+use crate::tangents::vertex_sums::mesh_slices::Slices;
+use crate::tangents::vertex_sums::weighting::{Derivatives, Orientation, Sum, Weighting, term_and_test};
+
+/// Triangles per block.
+pub(crate) const BLOCK: usize = if cfg!(small_limits) { 2 } else { 64 };
+
+pub(crate) type Lane<T> = [T; BLOCK];
+
+/// One block's arrays; reused from block to block.
+pub(crate) struct Block<const N: usize> {
+    positions: [[Lane<f32>; 3]; 3],
+    uvs: [[Lane<f32>; 2]; 3],
+    lanes: [[Lane<f32>; 4]; N],
+    /// Orientations as wide as the other lanes.
+    sides: Lane<u32>,
+    /// What each triangle adds, one row after the other,
+    rows: [Lane<[f32; 4]>; N],
+    /// and to which side, or that it adds nothing.
+    pub orientations: Lane<Orientation>,
+}
+
+impl<const N: usize> Block<N> {
+    pub fn new() -> Self {
+        Self {
+            positions: [[[0.0; BLOCK]; 3]; 3],
+            uvs: [[[0.0; BLOCK]; 2]; 3],
+            lanes: [[[0.0; BLOCK]; 4]; N],
+            sides: [0; BLOCK],
+            rows: [[[0.0; 4]; BLOCK]; N],
+            orientations: [Orientation::None; BLOCK],
+        }
+    }
+
+    /// What triangle `i` adds.
+    #[inline(always)]
+    pub fn term(&self, i: usize) -> Sum<N> {
+        let mut term = [[0.0; 4]; N];
+        for row in 0..N {
+            term[row] = self.rows[row][i];
+        }
+        term
+    }
+
+    /// Takes up to [`BLOCK`] triangles; the lanes beyond them keep what they had.
+    #[inline(always)]
+    pub fn set(&mut self, slices: &Slices<'_>, triangles: &[[u32; 3]]) {
+        for (i, &triangle) in triangles.iter().take(BLOCK).enumerate() {
+            let (positions, uvs) = slices.refer(triangle);
+            for k in 0..3 {
+                for axis in 0..3 {
+                    self.positions[k][axis][i] = positions[k][axis];
+                }
+                for axis in 0..2 {
+                    self.uvs[k][axis][i] = uvs[k][axis];
+                }
+            }
+        }
+    }
+
+    /// Computes the terms and orientations of what was [set](Block::set).
+    #[inline(always)]
+    pub fn evaluate<W: Weighting<N>>(&mut self) {
+        self.compute::<W>();
+        self.pack();
+    }
+}
+
+impl<const N: usize> Block<N> {
+    #[inline(always)]
+    fn compute<W: Weighting<N>>(&mut self) {
+        let Self { positions: p, uvs, .. } = self;
+        for i in 0..BLOCK {
+            let [a, b, c] = [0, 1, 2].map(|k| [p[k][0][i], p[k][1][i], p[k][2][i]]);
+            let [s, t, u] = [0, 1, 2].map(|k| [uvs[k][0][i], uvs[k][1][i]]);
+            let derivatives = Derivatives::new([&a, &b, &c], [&s, &t, &u]);
+            let (term, adds) = term_and_test::<N, W>(&derivatives);
+            for row in 0..N {
+                for lane in 0..4 {
+                    self.lanes[row][lane][i] = term[row][lane];
+                }
+            }
+            let side = if derivatives.area > 0.0 { 0 } else { 1 };
+            self.sides[i] = if adds { side } else { 2 };
+        }
+    }
+
+    #[inline(always)]
+    fn pack(&mut self) {
+        for row in 0..N {
+            let [a, b, c, d] = &self.lanes[row];
+            for i in 0..BLOCK {
+                self.rows[row][i] = [a[i], b[i], c[i], d[i]];
+            }
+        }
+        for i in 0..BLOCK {
+            let of_area = if self.sides[i] == 0 { Orientation::Keeps } else { Orientation::Mirrors };
+            self.orientations[i] = if self.sides[i] == 2 { Orientation::None } else { of_area };
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! The method of angle and area in f64 by brute force, over the groups of MikkTSpace's brute force.
+
+use darboux::{Frame, Mesh};
+
+use super::{
+    Corner, Group, Space, Triangle, Vec3, add, build_groups, cross, dot, find_neighbours, flatten,
+    force_quads_to_agree, is_degenerate, length, normalize, scale, sub, triangulate, weld,
+};
+
+/// As [`Method::AngleArea`](darboux::Method::AngleArea), without repairs: none at corners without a group.
+pub fn angle_area(mesh: &Mesh<'_>) -> Vec<Option<Frame>> {
+    let corners = weld(mesh);
+    let mut triangles = triangulate(mesh, &corners);
+    triangles.retain(|triangle| !is_degenerate(triangle, &corners));
+    force_quads_to_agree(&mut triangles, &corners);
+    find_neighbours(&mut triangles, &corners);
+    let groups = build_groups(&mut triangles, &corners);
+    let spaces: Vec<Space> = groups.iter().map(|group| average(group, &triangles, &corners)).collect();
+    let fitted: Vec<Space> = (0..groups.len())
+        .map(|number| fit(number, corners[groups[number].vertex].normal, &spaces, &triangles, &corners))
+        .collect();
+    let mut frames = vec![None; corners.len()];
+    for triangle in &triangles {
+        for (corner, group) in triangle.corners.into_iter().zip(triangle.groups) {
+            let keeps_orientation = triangle.space.keeps_orientation;
+            frames[corner] = group.map(|group| Space { keeps_orientation, ..fitted[group] }.to_frame());
+        }
+    }
+    frames
+}
+
+/// The sum over a group, weighted by angle and area.
+fn average(group: &Group, triangles: &[Triangle], corners: &[Corner]) -> Space {
+    let normal = normalize(corners[group.vertex].normal);
+    let (mut s, mut t, mut magnitude, mut weights) = ([0.0; 3], [0.0; 3], [0.0; 2], 0.0);
+    for triangle in group.members.iter().map(|&member| &triangles[member]).filter(|triangle| !triangle.any) {
+        let i =
+            triangle.vertices(corners).iter().position(|&v| v == group.vertex).expect("a member's vertex");
+        let [here, next, last] = [i, i + 1, i + 2].map(|j| corners[triangle.corners[j % 3]].position);
+        let [a, b] = [next, last].map(|end| normalize(flatten(sub(end, here), normal)));
+        let weight = dot(a, b).clamp(-1.0, 1.0).acos() * area(triangle, corners);
+        s = add(s, scale(weight, normalize(flatten(triangle.space.s, normal))));
+        t = add(t, scale(weight, normalize(flatten(triangle.space.t, normal))));
+        magnitude = [0, 1].map(|i| magnitude[i] + weight * triangle.space.magnitude[i]);
+        weights += weight;
+    }
+    let magnitude = magnitude.map(|sum| sum / weights);
+    Space { s: normalize(s), t: normalize(t), magnitude, keeps_orientation: false }
+}
+
+/// A quarter of a Jacobi step towards the least squares of (interpolated tangent - dP/du's direction) over the surface.
+fn fit(number: usize, normal: Vec3, spaces: &[Space], triangles: &[Triangle], corners: &[Corner]) -> Space {
+    let space = spaces[number];
+    let (mut residual, mut weight) = ([0.0; 3], 0.0);
+    for triangle in triangles.iter().filter(|triangle| triangle.groups.contains(&Some(number))) {
+        let [Some(a), Some(b), Some(c)] = triangle.groups else { continue };
+        if triangle.any {
+            continue;
+        }
+        let area = area(triangle, corners);
+        residual = add(residual, scale(area / 3.0, triangle.space.s));
+        for other in [a, b, c] {
+            let share = if other == number { area / 6.0 } else { area / 12.0 };
+            residual = sub(residual, scale(share, spaces[other].s));
+        }
+        weight += area / 6.0;
+    }
+    let moved = add(space.s, scale(0.25 / weight, residual));
+    Space { s: normalize(flatten(moved, normalize(normal))), ..space }
+}
+
+fn area(triangle: &Triangle, corners: &[Corner]) -> f64 {
+    let [a, b, c] = triangle.corners.map(|corner| corners[corner].position);
+    0.5 * length(cross(sub(b, a), sub(c, a)))
+}
