@@ -2,7 +2,7 @@
 
 use darboux_tests::{FaceSizes, OwnedMesh};
 
-use crate::engines::Tangent;
+use crate::run::Tangent;
 
 /// A mesh of triangles or of quads to read and a list to write: one tangent per corner.
 pub struct Callbacks<'a> {

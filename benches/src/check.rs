@@ -1,6 +1,7 @@
 //! Every engine's answer against the reference's, before anything is timed.
 
-use crate::engines::{Method, Tangent};
+use crate::engines::Method;
+use crate::run::Tangent;
 
 /// What an engine's answer is worth, as the table says it. Errors: it is not what the engine claims.
 pub fn verdict(method: Method, expected: &[Tangent], found: &[Tangent]) -> Result<String, String> {

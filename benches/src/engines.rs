@@ -13,9 +13,7 @@ use darboux_tests::{FaceSizes, OwnedMesh};
 use crate::callbacks::Callbacks;
 use crate::lengyel::lengyel;
 use crate::node;
-
-/// Tangent and sign.
-pub type Tangent = [f32; 4];
+use crate::run::{Run, Tangent, Time};
 
 /// What an engine claims to compute, and so what it is checked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,34 +44,6 @@ pub struct Engine {
 enum Start {
     Native(for<'a> fn(&'a OwnedMesh) -> Box<dyn Run + 'a>),
     Node,
-}
-
-/// An engine that holds a mesh and all that it keeps between calls.
-pub trait Run {
-    /// Computes the mesh's tangents `count` times. Errors: the engine has died.
-    fn run(&mut self, count: usize) -> Result<Time, String>;
-
-    /// The tangent of each corner as the last call left it.
-    fn tangents(&mut self) -> Result<Vec<Tangent>, String>;
-
-    /// How many tangents a call gives: one per corner or one per vertex.
-    fn output_len(&self) -> usize;
-}
-
-/// Nanoseconds of one or more calls.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Time {
-    /// On the clock.
-    pub wall: f64,
-    /// Of all of the process's threads; a one-threaded engine's is its thread's, as nothing else runs meanwhile.
-    pub cpu: f64,
-}
-
-impl Time {
-    /// The time of one of `count` equal parts.
-    pub fn divided_by(self, count: f64) -> Self {
-        Self { wall: self.wall / count, cpu: self.cpu / count }
-    }
 }
 
 /// The engine that every other is compared with.

@@ -3,7 +3,7 @@
 
 use darboux_tests::OwnedMesh;
 
-use crate::engines::Tangent;
+use crate::run::Tangent;
 
 /// One tangent per vertex of a triangle mesh: the triangles' derivatives of position by u and v, summed without weights,
 /// then made perpendicular to the normal.

@@ -12,6 +12,7 @@ mod meshes;
 mod node;
 mod record;
 mod rounds;
+mod run;
 mod table;
 
 use std::path::PathBuf;

@@ -8,7 +8,8 @@ use std::process::Command;
 
 use darboux_tests::OwnedMesh;
 
-use crate::engines::{Engine, Tangent};
+use crate::engines::Engine;
+use crate::run::Tangent;
 
 /// Bytes that one call of an engine needs, measured in a child process; none where the system cannot tell.
 pub fn of_a_child(engine: &str, mesh: &str, quick: bool, models: &Path) -> Option<f64> {

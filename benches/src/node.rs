@@ -8,7 +8,7 @@ use std::process::{ChildStdin, ChildStdout, Command, Stdio};
 use darboux_tests::OwnedMesh;
 use serde_json::Value;
 
-use crate::engines::{Run, Tangent, Time};
+use crate::run::{Run, Tangent, Time};
 
 /// A running node process that holds one mesh.
 pub struct Child {

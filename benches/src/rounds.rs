@@ -5,9 +5,10 @@ use std::path::Path;
 use darboux_tests::OwnedMesh;
 
 use crate::check::verdict;
-use crate::engines::{self, Engine, Method, Run, Tangent, Time};
+use crate::engines::{self, Engine, Method};
 use crate::memory;
 use crate::meshes::Named;
+use crate::run::{Run, Tangent, Time};
 
 /// What the measuring of one engine on one mesh gave.
 pub struct Row {

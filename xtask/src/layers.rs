@@ -1,68 +1,69 @@
-//! Who may import whom: ARCHITECTURE.md's table as data, checked against `cargo metadata`.
+//! `cargo xtask layers`: checks which packages import which, and that the files of a package import each other without cycles.
+//!
+//! Packages are compared with the table of ARCHITECTURE.md. Inside a package every file is a node, and a file that names an item of
+//! another file gives an edge; a strongly connected group of files is an error.
 
-use serde_json::Value;
+mod cycles;
+mod names;
+mod packages;
+mod rust_files;
+mod typescript;
 
-use crate::run::{Outcome, output_of, program, root};
+use std::path::PathBuf;
 
-/// Each package of ours and those of ours that it may import, tests and build scripts included.
-const MAY_IMPORT: &[(&str, &[&str])] = &[
-    ("darboux", &[]),
-    ("darboux-io", &["darboux"]),
-    ("darboux-gpu", &["darboux", "darboux-tests"]),
-    ("darboux-render", &["darboux", "darboux-io", "darboux-gpu"]),
-    ("darboux-cli", &["darboux", "darboux-io", "darboux-gpu", "darboux-render"]),
-    ("darboux-c", &["darboux", "darboux-tests"]),
-    ("darboux-mikktspace", &["darboux"]),
-    ("darboux-js", &["darboux"]),
-    ("darboux-viewer", &["darboux-io"]),
-    ("darboux-python", &["darboux", "darboux-io", "darboux-cli"]),
-    ("darboux-tests", &["darboux", "darboux-io", "darboux-cli"]),
-    ("darboux-shader-tests", &["darboux"]),
-    ("darboux-benches", &["darboux", "darboux-io", "darboux-tests"]),
-    ("darboux-fuzz", &["darboux", "darboux-c", "darboux-io", "darboux-tests"]),
-    ("xtask", &[]),
+use crate::run::{Outcome, root};
+use cycles::Graph;
+
+/// Folders whose TypeScript files are checked.
+const TYPESCRIPT: &[&str] = &["bindings/js/lib", "viewer/src"];
+
+/// Folders whose cycles are reported without failing the check, until they are cut.
+const CYCLES_ALLOWED: &[&str] = &[
+    "bindings/js/lib",
+    "bindings/js/src",
+    "crates/darboux-cli/src",
+    "crates/darboux-gpu/src",
+    "crates/darboux-io/src",
+    "crates/darboux-render/src",
+    "crates/darboux/src",
+    "tests/shaders/src",
+    "viewer/src",
 ];
 
-/// Errors: a package imports one that it may not, the core a third-party crate that is not optional, or a package has no row.
+/// Errors: a package imports one that it may not, or files of one package import each other in a cycle.
 pub fn check() -> Outcome {
-    let mut packages = packages_of("Cargo.toml")?;
-    if root().join("fuzz/Cargo.toml").exists() {
-        packages.extend(packages_of("fuzz/Cargo.toml")?);
+    let packages = packages::all()?;
+    packages::check(&packages)?;
+    let mut graphs = Vec::new();
+    for target in packages::targets(&packages) {
+        let folder = target.parent().map(PathBuf::from).unwrap_or_default();
+        let crate_files = rust_files::Crate::load(&target, &|path| std::fs::read_to_string(path).ok())?;
+        graphs.push((folder, crate_files.imports()));
     }
-    let faults: Vec<String> = packages.iter().flat_map(faults).collect();
-    if faults.is_empty() {
-        println!("{} packages import only what they may", packages.len());
-        Ok(())
-    } else {
-        Err(faults.join("; "))
+    for folder in TYPESCRIPT {
+        let folder = root().join(folder);
+        let graph = typescript::imports(&folder)?;
+        graphs.push((folder, graph));
     }
+    report(&graphs)
 }
 
-fn packages_of(manifest: &str) -> Result<Vec<Value>, String> {
-    let mut metadata = program("cargo metadata --format-version 1 --no-deps --manifest-path");
-    let text = output_of(metadata.arg(manifest))?;
-    let mut metadata: Value =
-        serde_json::from_slice(&text).map_err(|error| format!("cargo metadata: {error}"))?;
-    match metadata["packages"].take() {
-        Value::Array(packages) => Ok(packages),
-        _ => Err("cargo metadata lists no packages".into()),
+/// Prints every cycle. Errors: a cycle in a folder where none is allowed.
+fn report(graphs: &[(PathBuf, Graph)]) -> Outcome {
+    let mut forbidden = Vec::new();
+    for (folder, graph) in graphs {
+        let shown = folder.strip_prefix(root()).unwrap_or(folder).display().to_string();
+        let name = |file: &PathBuf| file.strip_prefix(folder).unwrap_or(file).display().to_string();
+        for chain in graph.cycles(&name) {
+            println!("{shown}: {chain}");
+            if !CYCLES_ALLOWED.contains(&shown.as_str()) && !forbidden.contains(&shown) {
+                forbidden.push(shown.clone());
+            }
+        }
     }
-}
-
-fn faults(package: &Value) -> Vec<String> {
-    let name = package["name"].as_str().unwrap_or_default();
-    let Some(&(_, allowed)) = MAY_IMPORT.iter().find(|row| row.0 == name) else {
-        return vec![format!("{name} has no row in xtask/src/layers.rs")];
-    };
-    let dependencies = package["dependencies"].as_array().map(Vec::as_slice).unwrap_or_default();
-    dependencies.iter().filter_map(|dependency| fault(name, allowed, dependency)).collect()
-}
-
-fn fault(name: &str, allowed: &[&str], dependency: &Value) -> Option<String> {
-    let import = dependency["name"].as_str().unwrap_or_default();
-    if MAY_IMPORT.iter().any(|row| row.0 == import) {
-        return (!allowed.contains(&import)).then(|| format!("{name} may not import {import}"));
+    if forbidden.is_empty() {
+        println!("{} crates and folders checked for import cycles", graphs.len());
+        return Ok(());
     }
-    let required = dependency["kind"].is_null() && dependency["optional"] == false;
-    (name == "darboux" && required).then(|| format!("the core may not require {import}"))
+    Err(format!("files import each other in cycles, printed above, in {}", forbidden.join(", ")))
 }

@@ -1,0 +1,84 @@
+//! Which package may import which: the table of ARCHITECTURE.md as data, compared with `cargo metadata`.
+
+use std::path::PathBuf;
+
+use serde_json::Value;
+
+use crate::run::{Outcome, output_of, program, root};
+
+/// Each package of this repository, and the packages of this repository that it may import, tests and build scripts included.
+const MAY_IMPORT: &[(&str, &[&str])] = &[
+    ("darboux", &[]),
+    ("darboux-io", &["darboux"]),
+    ("darboux-gpu", &["darboux", "darboux-tests"]),
+    ("darboux-render", &["darboux", "darboux-io", "darboux-gpu"]),
+    ("darboux-cli", &["darboux", "darboux-io", "darboux-gpu", "darboux-render"]),
+    ("darboux-c", &["darboux", "darboux-tests"]),
+    ("darboux-mikktspace", &["darboux"]),
+    ("darboux-js", &["darboux"]),
+    ("darboux-viewer", &["darboux-io"]),
+    ("darboux-python", &["darboux", "darboux-io", "darboux-cli"]),
+    ("darboux-tests", &["darboux", "darboux-io", "darboux-cli"]),
+    ("darboux-shader-tests", &["darboux"]),
+    ("darboux-benches", &["darboux", "darboux-io", "darboux-tests"]),
+    ("darboux-fuzz", &["darboux", "darboux-c", "darboux-io", "darboux-tests"]),
+    ("xtask", &[]),
+];
+
+/// The packages of the workspace and of `fuzz`, as `cargo metadata` describes them.
+pub fn all() -> Result<Vec<Value>, String> {
+    let mut packages = of_manifest("Cargo.toml")?;
+    if root().join("fuzz/Cargo.toml").exists() {
+        packages.extend(of_manifest("fuzz/Cargo.toml")?);
+    }
+    Ok(packages)
+}
+
+/// Errors: a package imports one that it may not, the core requires a third-party crate, or a package has no row in the table.
+pub fn check(packages: &[Value]) -> Outcome {
+    let faults: Vec<String> = packages.iter().flat_map(faults).collect();
+    if faults.is_empty() {
+        println!("{} packages import only what they may", packages.len());
+        Ok(())
+    } else {
+        Err(faults.join("; "))
+    }
+}
+
+/// The root files of all libraries, programs, examples, tests and build scripts.
+pub fn targets(packages: &[Value]) -> Vec<PathBuf> {
+    let targets = packages.iter().filter_map(|package| package["targets"].as_array()).flatten();
+    let mut paths: Vec<PathBuf> =
+        targets.filter_map(|target| target["src_path"].as_str()).map(PathBuf::from).collect();
+    paths.sort();
+    paths
+}
+
+fn of_manifest(manifest: &str) -> Result<Vec<Value>, String> {
+    let mut metadata = program("cargo metadata --format-version 1 --no-deps --manifest-path");
+    let text = output_of(metadata.arg(manifest))?;
+    let mut metadata: Value =
+        serde_json::from_slice(&text).map_err(|error| format!("cargo metadata: {error}"))?;
+    match metadata["packages"].take() {
+        Value::Array(packages) => Ok(packages),
+        _ => Err("cargo metadata lists no packages".into()),
+    }
+}
+
+fn faults(package: &Value) -> Vec<String> {
+    let name = package["name"].as_str().unwrap_or_default();
+    let Some(&(_, allowed)) = MAY_IMPORT.iter().find(|row| row.0 == name) else {
+        return vec![format!("{name} has no row in xtask/src/layers/packages.rs")];
+    };
+    let dependencies = package["dependencies"].as_array().map(Vec::as_slice).unwrap_or_default();
+    dependencies.iter().filter_map(|dependency| fault(name, allowed, dependency)).collect()
+}
+
+fn fault(name: &str, allowed: &[&str], dependency: &Value) -> Option<String> {
+    let import = dependency["name"].as_str().unwrap_or_default();
+    if MAY_IMPORT.iter().any(|row| row.0 == import) {
+        return (!allowed.contains(&import)).then(|| format!("{name} may not import {import}"));
+    }
+    let required = dependency["kind"].is_null() && dependency["optional"] == false;
+    (name == "darboux" && required).then(|| format!("the core may not require {import}"))
+}
