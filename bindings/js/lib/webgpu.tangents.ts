@@ -1,4 +1,4 @@
-// MikkTSpace on WebGPU, which `darboux/webgpu` loads when it is asked for: the counterpart of crates/darboux-gpu/src/mikktspace.rs.
+// MikkTSpace on WebGPU, which `darboux/webgpu` loads when it is asked for: the counterpart of crates/darboux-gpu/src/mikktspace/generate.rs.
 
 import kernels from 'darboux-gpu/mikktspace';
 import { triangles, vertices } from 'darboux-gpu/passes';

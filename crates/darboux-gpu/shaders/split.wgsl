@@ -2,7 +2,7 @@
 //
 // `claim` puts every corner into a hash table, as in weld.wgsl; the first corner of each vertex and tangent remains there. `find` looks it
 // up. The first tangent of a vertex keeps the vertex, further ones get new vertices in the order of their first corners: a prefix sum
-// (scan.wgsl) of `number_of_corner` counts them. `assign` writes.
+// (prefix_sum.wgsl) of `number_of_corner` counts them. `assign` writes.
 
 struct Split {
     corner_count: u32,

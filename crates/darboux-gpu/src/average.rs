@@ -2,9 +2,9 @@
 
 use wgpu::{Buffer, CommandEncoder, ComputePipeline, Device};
 
-use crate::adjacency::{Adjacency, AdjacencyKernels};
-use crate::buffers::{Description, check_size, describe};
-use crate::kernel::{MAX_TURNS, Step, buffer, module, pipeline};
+use crate::device::kernel::{MAX_TURNS, Step, buffer, module, pipeline};
+use crate::device::mesh_buffers::{Description, check_size, describe};
+use crate::mikktspace::adjacency::{Adjacency, AdjacencyKernels};
 use crate::{Destination, GpuError, MeshBuffers};
 
 /// How a vertex finds its triangles. Both give the same bits.
@@ -154,21 +154,21 @@ impl AverageOfMesh {
 /// The shader's `Sums`.
 const WORDS_OF_SUMS: u32 = 16;
 
-const IN_PLACE: &str = include_str!("../shaders/in_place.wgsl");
-pub(crate) const SECOND_BUFFER: &str = include_str!("../shaders/second_buffer.wgsl");
+const IN_PLACE: &str = include_str!("../shaders/average/write_in_place.wgsl");
+pub(crate) const SECOND_BUFFER: &str = include_str!("../shaders/average/write_to_buffer.wgsl");
 
 /// The files of a shader, by search and where frames go.
 pub(crate) fn files(search: Search, storage: &'static str) -> [&'static str; 7] {
     [
-        include_str!("../shaders/mesh.wgsl"),
-        include_str!("../shaders/device.wgsl"),
-        include_str!("../shaders/exact.wgsl"),
+        include_str!("../shaders/device/mesh.wgsl"),
+        include_str!("../shaders/precision/device_floats.wgsl"),
+        include_str!("../shaders/precision/correct_rounding.wgsl"),
         storage,
-        include_str!("../shaders/average.wgsl"),
-        include_str!("../shaders/frame.wgsl"),
+        include_str!("../shaders/average/sums.wgsl"),
+        include_str!("../shaders/average/frame.wgsl"),
         match search {
-            Search::BruteForce => include_str!("../shaders/brute_force.wgsl"),
-            Search::Adjacency => include_str!("../shaders/gather.wgsl"),
+            Search::BruteForce => include_str!("../shaders/average/brute_force.wgsl"),
+            Search::Adjacency => include_str!("../shaders/average/gather.wgsl"),
         },
     ]
 }
@@ -176,8 +176,8 @@ pub(crate) fn files(search: Search, storage: &'static str) -> [&'static str; 7] 
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::kernel::text;
-    use crate::scan::SCAN;
+    use crate::device::kernel::text;
+    use crate::device::prefix_sum::SCAN;
 
     #[test]
     fn shaders_are_valid_without_a_device() {
@@ -188,11 +188,11 @@ pub(crate) mod tests {
         validate(SCAN);
         validate(&[
             "fn zero() -> u32 { return 0u; }",
-            include_str!("../shaders/device.wgsl"),
-            include_str!("../shaders/exact.wgsl"),
-            include_str!("../shaders/whole.wgsl"),
-            include_str!("../shaders/soft.wgsl"),
-            include_str!("../shaders/arccosine.wgsl"),
+            include_str!("../shaders/precision/device_floats.wgsl"),
+            include_str!("../shaders/precision/correct_rounding.wgsl"),
+            include_str!("../shaders/precision/uint64.wgsl"),
+            include_str!("../shaders/precision/soft_float.wgsl"),
+            include_str!("../shaders/precision/arccosine.wgsl"),
         ]);
     }
 

@@ -27,40 +27,28 @@
 //! # }
 //! ```
 
-mod adjacency;
 mod average;
-mod buffers;
 mod device;
 mod error;
-mod evaluation;
-mod gpu;
-mod kernel;
-#[cfg(test)]
-mod kernels;
 mod mikktspace;
-#[cfg(test)]
-mod operations;
-mod passes;
-mod pieces;
 mod plan;
-mod program;
-mod reals;
-mod scan;
+#[cfg(test)]
+mod shader_tests;
 mod split;
 
 pub use average::{Average, AverageOfMesh, Search};
-pub use buffers::{Destination, FrameLayout, MeshBuffers, VertexLayout};
+pub use device::adapters::{AdapterKind, AdapterSummary, Gpu};
+pub use device::mesh_buffers::{Destination, FrameLayout, MeshBuffers, VertexLayout};
+pub use device::precision::Precision;
 pub use error::GpuError;
-pub use gpu::{AdapterKind, AdapterSummary, Gpu};
-pub use mikktspace::{Generated, Left, MikkTSpace};
+pub use mikktspace::generate::{Generated, Left, MikkTSpace};
 pub use plan::{Attribute, MovingMesh, Per, Plan, PlanCheck, PlanNormals, PlanOfBuffers, Planner};
-pub use reals::Precision;
 pub use split::Splitter;
 
 /// Single stages, for tests. Not part of the API.
 #[doc(hidden)]
 pub mod stages {
-    pub use crate::evaluation::{Evaluation, EvaluationKernels, Grouped};
-    pub use crate::mikktspace::{Arrays, Recorded};
-    pub use crate::reals::Arithmetic;
+    pub use crate::device::precision::Arithmetic;
+    pub use crate::mikktspace::generate::{Arrays, Recorded};
+    pub use crate::mikktspace::stages::{Evaluation, EvaluationKernels, Grouped};
 }

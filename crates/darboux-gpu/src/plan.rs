@@ -8,20 +8,24 @@ use darboux::internal::gpu_plan::{Topology, VERTEX};
 use darboux::{Mesh, TangentOptions};
 use wgpu::{Buffer, BufferUsages, CommandEncoder, ComputePipeline, Device};
 
-use crate::buffers::{check_elements, check_places, check_size};
-use crate::kernel::{MAX_TURNS, Step, buffer, filled, module, pipeline};
-use crate::reals::{Arithmetic, LIST, List, RealKernel, RealStep, files};
+use crate::device::kernel::{MAX_TURNS, Step, buffer, filled, module, pipeline};
+use crate::device::mesh_buffers::{check_elements, check_places, check_size};
+use crate::device::precision::{Arithmetic, LIST, List, RealKernel, RealStep, files};
 use crate::{GpuError, Precision};
 pub use check::PlanCheck;
 use normals::Fans;
 pub use normals::PlanNormals;
 
-const PLAN: &str = include_str!("../shaders/plan/plan.wgsl");
+const PLAN: &str = include_str!("../shaders/plan/uniforms.wgsl");
 const TRIANGLE: &str = include_str!("../shaders/plan/triangle.wgsl");
 const SUMS: &str = include_str!("../shaders/plan/sums.wgsl");
 /// The kernels' own files.
-pub(crate) const TERMS: &[&str] =
-    &[PLAN, TRIANGLE, include_str!("../shaders/wedge.wgsl"), include_str!("../shaders/plan/terms.wgsl")];
+pub(crate) const TERMS: &[&str] = &[
+    PLAN,
+    TRIANGLE,
+    include_str!("../shaders/mikktspace/corner_angle.wgsl"),
+    include_str!("../shaders/plan/terms.wgsl"),
+];
 pub(crate) const GATHER: &[&str] = &[PLAN, SUMS, include_str!("../shaders/plan/gather.wgsl")];
 pub(crate) const REPAIR: &[&str] = &[PLAN, TRIANGLE, SUMS, include_str!("../shaders/plan/repair.wgsl")];
 pub(crate) const CHECK_TRIANGLES: &[&str] = &[
@@ -37,7 +41,7 @@ pub(crate) const CHECK_VERTICES: &[&str] = &[
 ];
 pub(crate) const NORMALS: &[&str] = &[PLAN, TRIANGLE, include_str!("../shaders/plan/normals.wgsl")];
 pub(crate) const WRITE_NORMALS: &[&str] = &[PLAN, include_str!("../shaders/plan/write_normals.wgsl")];
-pub(crate) const WRITE: &[&str] = &[PLAN, include_str!("../shaders/plan/write.wgsl")];
+pub(crate) const WRITE: &[&str] = &[PLAN, include_str!("../shaders/plan/write_tangents.wgsl")];
 
 /// What plans need, compiled once for a device.
 ///

@@ -4,18 +4,18 @@ use bytemuck::cast_slice;
 use darboux::{CornerTangents, Mesh, VertexSplit, split_vertices};
 use wgpu::{Buffer, BufferUsages, CommandEncoder, ComputePipeline, Device, Queue};
 
-use crate::buffers::check_size;
-use crate::device::{guarded, submit};
-use crate::kernel::{Step, buffer, filled, module, pipeline};
-use crate::mikktspace::indices;
-use crate::pieces::upload;
-use crate::program::slot_count;
-use crate::scan::ScanKernels;
+use crate::device::kernel::{Step, buffer, filled, module, pipeline};
+use crate::device::mesh_buffers::check_size;
+use crate::device::prefix_sum::ScanKernels;
+use crate::device::readback::{guarded, submit};
+use crate::mikktspace::generate::indices;
+use crate::mikktspace::program::slot_count;
+use crate::mikktspace::tiles::upload;
 use crate::{Gpu, GpuError};
 
 /// The files of the shader.
 pub(crate) const SPLIT: &[&str] =
-    &[include_str!("../shaders/common.wgsl"), include_str!("../shaders/split.wgsl")];
+    &[include_str!("../shaders/mikktspace/common.wgsl"), include_str!("../shaders/split.wgsl")];
 
 /// `darboux::split_vertices`, compiled for a device.
 #[derive(Clone, Debug)]

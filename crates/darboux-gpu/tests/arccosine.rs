@@ -6,10 +6,10 @@ use common::gpus;
 use common::scalar::map;
 
 const FILES: &[&str] = &[
-    include_str!("../shaders/device.wgsl"),
-    include_str!("../shaders/exact.wgsl"),
-    include_str!("../shaders/whole.wgsl"),
-    include_str!("../shaders/arccosine.wgsl"),
+    include_str!("../shaders/precision/device_floats.wgsl"),
+    include_str!("../shaders/precision/correct_rounding.wgsl"),
+    include_str!("../shaders/precision/uint64.wgsl"),
+    include_str!("../shaders/precision/arccosine.wgsl"),
 ];
 /// Both ways, of which the first takes the second where it is not sure.
 const BODY: &str = "let x = bitcast<f32>(given[at]);

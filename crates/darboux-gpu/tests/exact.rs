@@ -6,10 +6,10 @@ use common::gpus;
 use common::scalar::map;
 
 const FILES: &[&str] = &[
-    include_str!("../shaders/device.wgsl"),
-    include_str!("../shaders/exact.wgsl"),
-    include_str!("../shaders/whole.wgsl"),
-    include_str!("../shaders/soft.wgsl"),
+    include_str!("../shaders/precision/device_floats.wgsl"),
+    include_str!("../shaders/precision/correct_rounding.wgsl"),
+    include_str!("../shaders/precision/uint64.wgsl"),
+    include_str!("../shaders/precision/soft_float.wgsl"),
 ];
 const STEPS: usize = 1_500_000;
 
@@ -100,7 +100,7 @@ fn check(name: &str, body: &str, exact: impl Fn(f32, f32) -> f32, is_defined: im
 }
 
 /// What devices compute, and what they may.
-const DEVICES: &[&str] = &[FILES[0], include_str!("../shaders/hostile.wgsl")];
+const DEVICES: &[&str] = &[FILES[0], include_str!("../shaders/precision/hostile_floats.wgsl")];
 
 /// Applies `call` to floats a and b, with `near` units to be off by.
 fn body(call: &str) -> String {

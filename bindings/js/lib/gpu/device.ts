@@ -1,4 +1,4 @@
-// What can go wrong on a device, as errors; reading back: the counterpart of crates/darboux-gpu/src/device.rs.
+// What can go wrong on a device, as errors; reading back: the counterpart of crates/darboux-gpu/src/device/readback.rs.
 
 import { USAGE } from './kernels.js';
 

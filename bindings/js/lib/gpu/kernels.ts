@@ -1,4 +1,4 @@
-// Compute pipelines, and how many groups of threads they need: the counterpart of crates/darboux-gpu/src/kernel.rs.
+// Compute pipelines, and how many groups of threads they need: the counterpart of crates/darboux-gpu/src/device/kernel.rs.
 
 import { constants } from 'darboux-gpu/passes';
 

@@ -1,4 +1,4 @@
-// Runs lists of passes, which crates/darboux-gpu writes (src/passes.rs): the counterpart of its src/program.rs.
+// Runs lists of passes, which crates/darboux-gpu writes (src/mikktspace/passes.rs): the counterpart of its src/mikktspace/program.rs.
 
 import { buffer, module, scanSteps, step, stepOverList, type Buffers, type Step } from './kernels.js';
 import { LIST, realStep } from './reals.js';

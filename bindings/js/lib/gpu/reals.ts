@@ -1,4 +1,4 @@
-// Kernels of exact arithmetic, which list what they are unsure of: the counterpart of crates/darboux-gpu/src/reals.rs, whose second kernels,
+// Kernels of exact arithmetic, which list what they are unsure of: the counterpart of crates/darboux-gpu/src/device/precision.rs, whose second kernels,
 // on whole numbers, take software adapters of browsers minutes to compile. Here the caller has the CPU.
 
 import { filled, step, USAGE, type Buffers, type Step } from './kernels.js';

@@ -4,9 +4,9 @@ use wgpu::{Buffer, CommandEncoder};
 
 use super::{MovingMesh, Plan};
 use crate::GpuError;
-use crate::buffers::check_size;
-use crate::kernel::buffer;
-use crate::reals::RealStep;
+use crate::device::kernel::buffer;
+use crate::device::mesh_buffers::check_size;
+use crate::device::precision::RealStep;
 
 /// Counts how far a moved mesh is from the one that a plan was made of.
 #[derive(Clone, Debug)]

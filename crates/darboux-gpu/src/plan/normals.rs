@@ -8,8 +8,8 @@ use wgpu::{Buffer, CommandEncoder};
 
 use super::{MovingMesh, Plan, Planner};
 use crate::GpuError;
-use crate::kernel::{MAX_TURNS, Step, buffer};
-use crate::reals::RealStep;
+use crate::device::kernel::{MAX_TURNS, Step, buffer};
+use crate::device::precision::RealStep;
 
 /// What normals need of a plan's mesh.
 #[derive(Clone, Debug)]

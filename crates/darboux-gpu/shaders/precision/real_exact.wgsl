@@ -1,4 +1,4 @@
-// Real numbers as the device's own floats, rounded as the CPU's; needs exact.wgsl, whole.wgsl, arccosine.wgsl. Stages are written in the functions
+// Real numbers as the device's own floats, rounded as the CPU's; needs correct_rounding.wgsl, uint64.wgsl, arccosine.wgsl. Stages are written in the functions
 // of these files alone, so that each is one text in all three arithmetics.
 //
 // Nothing is looked at operation by operation. Stages let vectors and sums be watched where they are small in number, such that no
@@ -10,7 +10,7 @@
 // - a sum of products can only vanish that should not where all of them are below 2^-102: so where it is zero, these are watched.
 // The sign of a zero never shows in sums of terms, which begin at +0; what is stored has none.
 //
-// What was unsure is done again with reals/soft.wgsl.
+// What was unsure is done again with real_soft.wgsl.
 
 alias Real = f32;
 

@@ -1,16 +1,16 @@
 //! What packages of other languages read: `shaders/kernels.json` and `shaders/mikktspace.json` have the files of each kernel, to be read one
-//! after the other, after the constants; these, and the lists of [`crate::passes`], `shaders/passes.json` has.
+//! after the other, after the constants; these, and the lists of [`crate::mikktspace::passes`], `shaders/passes.json` has.
 
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
 use crate::average::{self, SECOND_BUFFER, Search};
-use crate::kernel::CONSTANTS;
-use crate::passes::{BUFFERS, Each, Kernel, OF_ADJACENCY, OF_VERTICES, Pass, Run, of_triangles};
+use crate::device::kernel::CONSTANTS;
+use crate::device::precision::{Arithmetic, files};
+use crate::device::prefix_sum::SCAN;
+use crate::mikktspace::passes::{BUFFERS, Each, Kernel, OF_ADJACENCY, OF_VERTICES, Pass, Run, of_triangles};
 use crate::plan::{GATHER, REPAIR, TERMS, WRITE};
-use crate::reals::{Arithmetic, files};
-use crate::scan::SCAN;
 
 type Named = (&'static str, Vec<&'static str>);
 
@@ -62,7 +62,7 @@ fn of_passes(passes: &[Pass]) -> Vec<Named> {
 fn shaders() -> Vec<(String, String)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders");
     let mut found = Vec::new();
-    for below in ["", "items", "plan", "reals"] {
+    for below in ["", "average", "device", "mikktspace", "plan", "precision"] {
         for entry in fs::read_dir(folder.join(below)).expect("a folder of shaders") {
             let path = entry.expect("an entry").path();
             if path.extension().is_some_and(|extension| extension == "wgsl") {

@@ -1,8 +1,8 @@
 // Floats rounded as IEEE 754 asks, on devices that need not: WGSL lets a device contract products and sums, be off by units in quotients
 // and roots, take subnormal numbers for zero, and not care about infinities, NaN and the sign of zero.
 //
-// Whoever includes this has `fn zero() -> u32`, a zero that compilers do not know, and device.wgsl. Everything here is right for normal numbers
-// with normal results, and for zeros but for their signs; who calls it watches that there are no others (reals/exact.wgsl).
+// Whoever includes this has `fn zero() -> u32`, a zero that compilers do not know, and device_floats.wgsl. Everything here is right for normal numbers
+// with normal results, and for zeros but for their signs; who calls it watches that there are no others (real_exact.wgsl).
 
 const SIGN: u32 = 0x80000000u;
 const ONE: u32 = 0x3f800000u;

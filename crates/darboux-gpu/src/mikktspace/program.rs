@@ -1,15 +1,15 @@
-//! Runs lists of passes ([`crate::passes`]).
+//! Runs lists of passes ([`crate::mikktspace::passes`]).
 
 use std::collections::HashMap;
 
 use wgpu::{Buffer, CommandEncoder, ComputePipeline, Device, ShaderModule};
 
 use crate::GpuError;
-use crate::buffers::check_size;
-use crate::kernel::{Step, buffer, module, pipeline};
-use crate::passes::{BUFFERS, Each, Pass, Run};
-use crate::reals::{Arithmetic, RealKernel, RealStep};
-use crate::scan::ScanKernels;
+use crate::device::kernel::{Step, buffer, module, pipeline};
+use crate::device::mesh_buffers::check_size;
+use crate::device::precision::{Arithmetic, RealKernel, RealStep};
+use crate::device::prefix_sum::ScanKernels;
+use crate::mikktspace::passes::{BUFFERS, Each, Pass, Run};
 
 /// What passes run, compiled once.
 #[derive(Clone, Debug)]

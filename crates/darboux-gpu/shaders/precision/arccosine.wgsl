@@ -1,5 +1,5 @@
-// The arccosine in whole numbers of 64 bits, rounded to double precision and then to a float, as the CPU's; needs exact.wgsl and
-// whole.wgsl. For one float, 0x328885a3, the first rounding makes a half of what was above it.
+// The arccosine in whole numbers of 64 bits, rounded to double precision and then to a float, as the CPU's; needs correct_rounding.wgsl and
+// uint64.wgsl. For one float, 0x328885a3, the first rounding makes a half of what was above it.
 //
 // Pairs of floats have 48 bits: by the odds they would put some hundred of the floats of [-1, 1] on the wrong side of a half, and all
 // liberties of devices would have to be kept out of every operation. Whole numbers have none, and 60 good bits are enough for all.

@@ -1,4 +1,4 @@
-//! The passes of MikkTSpace as data: the one list for [`crate::program`] and for the packages of other languages, which read it from
+//! The passes of MikkTSpace as data: the one list for [`crate::mikktspace::program`] and for the packages of other languages, which read it from
 //! `shaders/passes.json` and the kernels' files from `shaders/mikktspace.json`.
 //!
 //! Who runs them brings the buffers `mesh` (the shaders' `Mesh`), `evaluation` (the words of the shaders' `Evaluation`), `vertices` (as
@@ -20,7 +20,7 @@ pub(crate) enum Each {
 #[derive(Debug)]
 pub(crate) struct Kernel {
     pub name: &'static str,
-    /// Of kernels of exact arithmetic their own ([`crate::reals::files`]).
+    /// Of kernels of exact arithmetic their own ([`crate::device::precision::files`]).
     pub files: &'static [&'static str],
 }
 
@@ -42,7 +42,7 @@ pub(crate) enum Pass {
     Scan(&'static str, Each),
     Run(Run),
     /// A kernel of exact arithmetic, which lists what it is unsure of; that is done again in whole numbers, or left to the CPU as the second
-    /// says. The list is bound at [`crate::reals::LIST`].
+    /// says. The list is bound at [`crate::device::precision::LIST`].
     Real(Run, Run),
 }
 
@@ -76,43 +76,56 @@ pub(crate) const BUFFERS: &[(&str, Each, u32)] = &[
     ("tangent_of_corner", Each::Corner, 4),
 ];
 
-const MESH: &str = include_str!("../shaders/mesh.wgsl");
-const WORDS: &str = include_str!("../shaders/words.wgsl");
-const COMMON: &str = include_str!("../shaders/common.wgsl");
-const AROUND: &str = include_str!("../shaders/around.wgsl");
-const WELDED: &str = include_str!("../shaders/welded.wgsl");
-const LEAVE: &str = include_str!("../shaders/leave.wgsl");
-const LISTED: &str = include_str!("../shaders/items/listed.wgsl");
+const MESH: &str = include_str!("../../shaders/device/mesh.wgsl");
+const WORDS: &str = include_str!("../../shaders/mikktspace/float_bits.wgsl");
+const COMMON: &str = include_str!("../../shaders/mikktspace/common.wgsl");
+const AROUND: &str = include_str!("../../shaders/mikktspace/adjacency_lookup.wgsl");
+const WELDED: &str = include_str!("../../shaders/mikktspace/welded_mesh.wgsl");
+const LEAVE: &str = include_str!("../../shaders/mikktspace/defer_to_cpu.wgsl");
+const LISTED: &str = include_str!("../../shaders/precision/dispatch_listed.wgsl");
 
-const WELD: Kernel =
-    Kernel { name: "weld", files: &[MESH, WORDS, COMMON, include_str!("../shaders/weld.wgsl")] };
+const WELD: Kernel = Kernel {
+    name: "weld",
+    files: &[MESH, WORDS, COMMON, include_str!("../../shaders/mikktspace/weld.wgsl")],
+};
 const TRIANGULATE: Kernel = Kernel {
     name: "triangulate",
-    files: &[MESH, WORDS, COMMON, include_str!("../shaders/triangulate.wgsl")],
+    files: &[MESH, WORDS, COMMON, include_str!("../../shaders/mikktspace/weld_corners.wgsl")],
 };
 const ADJACENCY: Kernel =
-    Kernel { name: "adjacency", files: &[MESH, include_str!("../shaders/adjacency.wgsl")] };
-const NEIGHBOURS: Kernel =
-    Kernel { name: "neighbours", files: &[MESH, COMMON, AROUND, include_str!("../shaders/neighbours.wgsl")] };
-const GROUPS: Kernel =
-    Kernel { name: "groups", files: &[MESH, COMMON, AROUND, include_str!("../shaders/groups.wgsl")] };
-const FINISH: Kernel =
-    Kernel { name: "finish", files: &[MESH, COMMON, AROUND, include_str!("../shaders/finish.wgsl")] };
+    Kernel { name: "adjacency", files: &[MESH, include_str!("../../shaders/mikktspace/adjacency.wgsl")] };
+const NEIGHBOURS: Kernel = Kernel {
+    name: "neighbours",
+    files: &[MESH, COMMON, AROUND, include_str!("../../shaders/mikktspace/neighbours.wgsl")],
+};
+const GROUPS: Kernel = Kernel {
+    name: "groups",
+    files: &[MESH, COMMON, AROUND, include_str!("../../shaders/mikktspace/groups.wgsl")],
+};
+const FINISH: Kernel = Kernel {
+    name: "finish",
+    files: &[MESH, COMMON, AROUND, include_str!("../../shaders/mikktspace/write_tangents.wgsl")],
+};
 pub(crate) const DERIVATIVES: Kernel = Kernel {
     name: "derivatives",
     files: &[
         MESH,
         WELDED,
-        include_str!("../shaders/derivative.wgsl"),
-        include_str!("../shaders/derivatives.wgsl"),
+        include_str!("../../shaders/mikktspace/derivative.wgsl"),
+        include_str!("../../shaders/mikktspace/derivatives.wgsl"),
     ],
 };
 pub(crate) const WEDGES: Kernel = Kernel {
     name: "wedges",
-    files: &[MESH, WELDED, include_str!("../shaders/wedge.wgsl"), include_str!("../shaders/wedges.wgsl")],
+    files: &[
+        MESH,
+        WELDED,
+        include_str!("../../shaders/mikktspace/corner_angle.wgsl"),
+        include_str!("../../shaders/mikktspace/corner_terms.wgsl"),
+    ],
 };
 pub(crate) const EVALUATE: Kernel =
-    Kernel { name: "evaluate", files: &[include_str!("../shaders/evaluate.wgsl")] };
+    Kernel { name: "evaluate", files: &[include_str!("../../shaders/mikktspace/evaluate.wgsl")] };
 const LEAVE_TRIANGLES: Kernel =
     Kernel { name: "leave_triangles", files: &[MESH, "const CORNERS_OF_ITEM: u32 = 3u;", LEAVE, LISTED] };
 const LEAVE_CORNERS: Kernel =

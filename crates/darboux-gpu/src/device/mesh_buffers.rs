@@ -4,7 +4,7 @@ use bytemuck::Zeroable;
 use wgpu::{Buffer, BufferUsages, Device, IndexFormat, Limits};
 
 use crate::GpuError;
-use crate::kernel::filled;
+use crate::device::kernel::filled;
 
 /// A triangle mesh in buffers of the caller's, all with `BufferUsages::STORAGE`.
 ///

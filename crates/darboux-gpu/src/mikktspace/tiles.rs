@@ -7,12 +7,12 @@ use darboux::Mesh;
 use wgpu::{Buffer, BufferUsages, CommandEncoder, Device};
 
 use crate::GpuError;
-use crate::buffers::{Description, check_size};
-use crate::evaluation::evaluation;
-use crate::kernel::{buffer, filled};
-use crate::passes::{OF_VERTICES, of_triangles};
-use crate::program::{Buffers, Program, Recording};
-use crate::reals::Arithmetic;
+use crate::device::kernel::{buffer, filled};
+use crate::device::mesh_buffers::{Description, check_size};
+use crate::device::precision::Arithmetic;
+use crate::mikktspace::passes::{OF_VERTICES, of_triangles};
+use crate::mikktspace::program::{Buffers, Program, Recording};
+use crate::mikktspace::stages::evaluation;
 
 /// All passes, compiled.
 #[derive(Clone, Debug)]
@@ -148,7 +148,7 @@ impl Cut {
 /// From half of the largest float on the reference does not weld positions.
 const LARGEST: f32 = 1e38;
 
-/// The first vertex that equals each vertex; none where only the reference's order decides. The twin of shaders/weld.wgsl for meshes whose
+/// The first vertex that equals each vertex; none where only the reference's order decides. The twin of shaders/mikktspace/weld.wgsl for meshes whose
 /// vertices no buffer holds.
 pub(crate) fn weld(mesh: &Mesh<'_>) -> Option<Vec<u32>> {
     let mut first_of_words = HashMap::new();
@@ -196,7 +196,7 @@ fn packed(mesh: &Mesh<'_>, vertex: usize) -> [f32; WORDS_OF_VERTEX] {
 mod tests {
     use super::*;
     use crate::average::tests::validate;
-    use crate::passes::Pass;
+    use crate::mikktspace::passes::Pass;
     use crate::split::SPLIT;
 
     #[test]

@@ -7,8 +7,9 @@ use wgpu::{
     InstanceDescriptor, Queue,
 };
 
-use crate::buffers::largest_buffer;
-use crate::{GpuError, device};
+use crate::GpuError;
+use crate::device::mesh_buffers::largest_buffer;
+use crate::device::readback;
 
 /// A device with all that its adapter allows.
 #[derive(Clone, Debug)]
@@ -135,7 +136,7 @@ impl Gpu {
     ///
     /// Errors: those of `work`; the device has no memory left, or refused something.
     pub fn guarded<T, E: From<GpuError>>(&self, work: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
-        device::guarded(&self.device, || Ok(work()))?
+        readback::guarded(&self.device, || Ok(work()))?
     }
 
     /// Submits what `record` records; gives what is in `buffer` then, which allows to be copied from. Errors: the device is lost.
@@ -144,7 +145,7 @@ impl Gpu {
         record: impl FnOnce(&mut CommandEncoder),
         buffer: &Buffer,
     ) -> Result<Vec<u8>, GpuError> {
-        let [copy] = device::submit(&self.device, &self.queue, record, [buffer]);
+        let [copy] = readback::submit(&self.device, &self.queue, record, [buffer]);
         copy.read(&self.device)
     }
 

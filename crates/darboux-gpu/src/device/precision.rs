@@ -2,7 +2,7 @@
 
 use wgpu::{Buffer, BufferDescriptor, BufferUsages, CommandEncoder, ComputePipeline, Device};
 
-use crate::kernel::{Step, filled, module, pipeline};
+use crate::device::kernel::{Step, filled, module, pipeline};
 
 /// How numbers are rounded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -39,20 +39,23 @@ pub enum Arithmetic {
     Fast,
 }
 
-const DEVICE: &str = include_str!("../shaders/device.wgsl");
-const HOSTILE: &str = include_str!("../shaders/hostile.wgsl");
+const DEVICE: &str = include_str!("../../shaders/precision/device_floats.wgsl");
+const HOSTILE: &str = include_str!("../../shaders/precision/hostile_floats.wgsl");
 const WHOLE: &[&str] = &[
-    include_str!("../shaders/exact.wgsl"),
-    include_str!("../shaders/whole.wgsl"),
-    include_str!("../shaders/arccosine.wgsl"),
+    include_str!("../../shaders/precision/correct_rounding.wgsl"),
+    include_str!("../../shaders/precision/uint64.wgsl"),
+    include_str!("../../shaders/precision/arccosine.wgsl"),
 ];
-const EXACT: &str = include_str!("../shaders/reals/exact.wgsl");
-const SOFT: &[&str] = &[include_str!("../shaders/soft.wgsl"), include_str!("../shaders/reals/soft.wgsl")];
-const FAST: &str = include_str!("../shaders/reals/fast.wgsl");
-const VECTORS: &str = include_str!("../shaders/vectors.wgsl");
-const ALL: &str = include_str!("../shaders/items/all.wgsl");
-const SURE: &str = include_str!("../shaders/items/sure.wgsl");
-const LISTED: &str = include_str!("../shaders/items/listed.wgsl");
+const EXACT: &str = include_str!("../../shaders/precision/real_exact.wgsl");
+const SOFT: &[&str] = &[
+    include_str!("../../shaders/precision/soft_float.wgsl"),
+    include_str!("../../shaders/precision/real_soft.wgsl"),
+];
+const FAST: &str = include_str!("../../shaders/precision/real_fast.wgsl");
+const VECTORS: &str = include_str!("../../shaders/precision/vectors.wgsl");
+const ALL: &str = include_str!("../../shaders/precision/dispatch_all.wgsl");
+const SURE: &str = include_str!("../../shaders/precision/dispatch_checked.wgsl");
+const LISTED: &str = include_str!("../../shaders/precision/dispatch_listed.wgsl");
 
 /// The whole text of a kernel: arithmetic, its own files, and what calls these. `second`: with what a first kernel has listed.
 pub(crate) fn files(arithmetic: Arithmetic, second: bool, own: &[&'static str]) -> Vec<&'static str> {
@@ -187,7 +190,7 @@ impl RealStep {
 mod tests {
     use super::*;
     use crate::average::tests::validate;
-    use crate::passes::{DERIVATIVES, EVALUATE, WEDGES};
+    use crate::mikktspace::passes::{DERIVATIVES, EVALUATE, WEDGES};
     use crate::plan::{
         CHECK_TRIANGLES, CHECK_VERTICES, GATHER, NORMALS, REPAIR, TERMS, WRITE, WRITE_NORMALS,
     };

@@ -1,6 +1,6 @@
 // The triangles at each vertex, ascending, vertex after vertex, and where each vertex's part ends: the core's `adjacency`, by threads.
 //
-// `count` counts the corners of each vertex, a prefix sum (scan.wgsl) makes starts of counts, and `scatter` moves these to the ends while it
+// `count` counts the corners of each vertex, a prefix sum (prefix_sum.wgsl) makes starts of counts, and `scatter` moves these to the ends while it
 // fills the parts in whatever order threads come. `rank` puts every entry where the smaller ones of its part leave it: the same
 // order on every run.
 

@@ -3,11 +3,11 @@
 use wgpu::{Buffer, BufferUsages, CommandEncoder, Device};
 
 use crate::GpuError;
-use crate::buffers::Description;
-use crate::kernel::{buffer, filled};
-use crate::passes::{OF_DERIVATIVES, OF_FRAMES};
-use crate::program::{Buffers, Program, Recording};
-use crate::reals::Arithmetic;
+use crate::device::kernel::{buffer, filled};
+use crate::device::mesh_buffers::Description;
+use crate::device::precision::Arithmetic;
+use crate::mikktspace::passes::{OF_DERIVATIVES, OF_FRAMES};
+use crate::mikktspace::program::{Buffers, Program, Recording};
 
 /// What evaluation needs, compiled once.
 #[derive(Clone, Debug)]

@@ -1,5 +1,5 @@
-// All of IEEE 754's sums, products, quotients and roots in whole numbers, on the words of floats: the path for what exact.wgsl is unsure
-// of. Subnormal numbers, infinities and the signs of zeros are right on every device; every NaN is `NAN`. Needs exact.wgsl and whole.wgsl.
+// All of IEEE 754's sums, products, quotients and roots in whole numbers, on the words of floats: the path for what correct_rounding.wgsl is unsure
+// of. Subnormal numbers, infinities and the signs of zeros are right on every device; every NaN is `NAN`. Needs correct_rounding.wgsl and uint64.wgsl.
 
 const INFINITY: u32 = 0x7f800000u;
 const NAN: u32 = 0x7fc00000u;

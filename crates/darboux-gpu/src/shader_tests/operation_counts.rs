@@ -6,8 +6,8 @@ use naga::{
     TypeInner, UnaryOperator,
 };
 
-use crate::kernel::text;
-use crate::reals::{Arithmetic, files};
+use crate::device::kernel::text;
+use crate::device::precision::{Arithmetic, files};
 
 /// Operations on single numbers.
 #[derive(Clone, Copy, Default)]
@@ -140,7 +140,7 @@ fn cost_of_item(arithmetic: Arithmetic, own: &[&'static str], turns: &dyn Fn(&st
 
 #[test]
 fn operations_are_as_many_as_the_notes_say() {
-    use crate::passes::{DERIVATIVES, EVALUATE, WEDGES};
+    use crate::mikktspace::passes::{DERIVATIVES, EVALUATE, WEDGES};
     use crate::plan::{GATHER, TERMS};
     // Of a large regular mesh: six triangles at a vertex.
     let of_vertex = |name: &str| if name == "run" { 6 } else { 3 };

@@ -2,10 +2,10 @@
 
 use wgpu::{Buffer, ComputePipeline, Device};
 
-use crate::kernel::{BLOCK, Step, VALUES_PER_THREAD, buffer, module, pipeline};
+use crate::device::kernel::{BLOCK, Step, VALUES_PER_THREAD, buffer, module, pipeline};
 
 /// The files of the shader.
-pub(crate) const SCAN: &[&str] = &[include_str!("../shaders/scan.wgsl")];
+pub(crate) const SCAN: &[&str] = &[include_str!("../../shaders/device/prefix_sum.wgsl")];
 
 /// What prefix sums need, compiled once.
 #[derive(Clone, Debug)]

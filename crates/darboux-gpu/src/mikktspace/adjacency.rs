@@ -3,10 +3,10 @@
 use wgpu::{Buffer, CommandEncoder, Device};
 
 use crate::GpuError;
-use crate::buffers::{Description, check_size};
-use crate::passes::OF_ADJACENCY;
-use crate::program::{Buffers, Program, Recording};
-use crate::reals::Arithmetic;
+use crate::device::mesh_buffers::{Description, check_size};
+use crate::device::precision::Arithmetic;
+use crate::mikktspace::passes::OF_ADJACENCY;
+use crate::mikktspace::program::{Buffers, Program, Recording};
 
 /// What [`Adjacency::new`] needs, compiled once.
 #[derive(Clone, Debug)]

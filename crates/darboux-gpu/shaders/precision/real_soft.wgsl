@@ -1,5 +1,5 @@
-// Real numbers as the words of floats, whose arithmetic is that of whole numbers: right for all floats on every device. Needs exact.wgsl,
-// whole.wgsl, soft.wgsl, arccosine.wgsl.
+// Real numbers as the words of floats, whose arithmetic is that of whole numbers: right for all floats on every device. Needs correct_rounding.wgsl,
+// uint64.wgsl, soft_float.wgsl, arccosine.wgsl.
 
 alias Real = u32;
 

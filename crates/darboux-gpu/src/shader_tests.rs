@@ -1,0 +1,4 @@
+//! Tests of shader texts, without a device.
+
+mod lists;
+mod operation_counts;
