@@ -1,7 +1,6 @@
 //! `darboux render`.
 
 mod legend;
-mod obj;
 
 use std::path::Path;
 
@@ -198,7 +197,10 @@ fn open(arguments: &RenderArguments, source: Option<Source>) -> Result<Opened, S
     let sentence = |error: darboux_io::Error| error.to_string();
     let is_obj = arguments.model.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj"));
     let (mut document, warnings) = match is_obj {
-        true => obj::open(&arguments.model)?,
+        true => {
+            let model = darboux_io::obj::read(&arguments.model).map_err(sentence)?;
+            (model.document, model.warnings)
+        }
         false => (load(&Input::File(arguments.model.clone()), arguments.allow_outside)?, Vec::new()),
     };
     let flat = NormalOptions { shading: Shading::Flat, ..NormalOptions::default() };

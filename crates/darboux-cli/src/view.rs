@@ -1,7 +1,6 @@
 //! `darboux view`.
 
 mod model;
-pub mod obj;
 mod page;
 mod server;
 

@@ -233,7 +233,10 @@ fn an_obj_is_drawn_with_its_materials() {
     let (_, warnings) = draw("map_Bump heights.png", &[]);
     assert!(warnings.contains("the bump map of plane is grey, so it holds heights"), "{warnings}");
     let (_, warnings) = draw("map_Kd lost.png", &[]);
-    assert!(warnings.contains("lost.png is not in the model's folder; drawn without it"), "{warnings}");
+    assert!(
+        warnings.contains("lost.png is not in the model's folder; the texture is left out"),
+        "{warnings}"
+    );
     // Its tangents are along u, and v is up.
     draw("", &["--view", "tangent", "--no-legend"]);
     assert_eq!(pixels_of(&at("a.png"))[16 * 32 + 16], [255, 128, 128]);
@@ -246,10 +249,10 @@ fn bad_objs_are_sentences() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = |name: &str| folder.path().join(name);
     let cases = [
-        ("", "has no faces as an OBJ has them"),
-        ("v 0 0 0\nf 1 2 3\n", "is no OBJ that can be read"),
-        ("v 0 0\nf 1 1 1\n", "is no OBJ that can be read"),
-        ("v 0 0 0\nf 1 a 1\n", "is no OBJ that can be read"),
+        ("", "has no faces"),
+        ("v 0 0 0\nf 1 2 3\n", "is not a valid OBJ"),
+        ("v 0 0\nf 1 1 1\n", "is not a valid OBJ"),
+        ("v 0 0 0\nf 1 a 1\n", "is not a valid OBJ"),
     ];
     for (file, said) in cases {
         fs::write(at("a.obj"), file).expect("a file");

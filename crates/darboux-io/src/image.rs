@@ -3,9 +3,15 @@
 mod channels;
 mod chunks;
 mod normal_map;
+#[cfg(feature = "textures")]
+mod rgba;
+mod srgb;
 
 pub use channels::{Channels, ChannelsError};
 pub use normal_map::{convert_normal_map, count_no_normals};
+#[cfg(feature = "textures")]
+pub use rgba::{DecodeError, DecodeLimits, RgbaImage};
+pub use srgb::linear_of_srgb;
 
 use std::fs;
 use std::io::{Cursor, Write};

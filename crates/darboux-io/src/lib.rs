@@ -6,6 +6,7 @@
 mod error;
 pub mod gltf;
 pub mod image;
+pub mod obj;
 mod paths;
 mod staging;
 

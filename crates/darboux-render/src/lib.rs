@@ -13,7 +13,6 @@ mod painter;
 mod pipelines;
 mod pose;
 mod seams;
-mod srgb;
 mod strokes;
 mod target;
 mod textures;
@@ -26,9 +25,7 @@ pub use error::RenderError;
 pub use heat::HeatScale;
 pub use layout::Layout;
 pub use model::Model;
-pub use srgb::linear_of_srgb;
 pub use strokes::{LINE_COLORS, Lines, SEAM_COLOR};
-pub use textures::is_colored;
 
 use camera::Sight;
 use layout::Inset;

@@ -3,6 +3,7 @@
 use bytemuck::Pod;
 use darboux_gpu::Gpu;
 use darboux_io::gltf::Look;
+use darboux_io::image::linear_of_srgb;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindingResource, Buffer, BufferUsages, CommandEncoder,
@@ -12,7 +13,6 @@ use wgpu::{
 use crate::camera::Sight;
 use crate::model::{Corner, Part, on_layout};
 use crate::pipelines::{line_pipeline, surface_pipeline};
-use crate::srgb::linear_of_srgb;
 use crate::strokes::{MOST_STROKES, strokes};
 use crate::target::Target;
 use crate::textures::{Kind, Textures, sampler};

@@ -137,22 +137,6 @@ impl<'a> Textures<'a> {
     }
 }
 
-/// Texels along a side that [`is_colored`] looks at.
-const SIDE: u32 = 32;
-
-/// How far the channels of a coloured image's texels are apart on average, of 255: normal maps are bluish, by more than 60.
-const APART: u64 = 24;
-
-/// Whether an image file has colours, as normal maps have and height maps do not; none where it cannot be decoded.
-pub fn is_colored(bytes: &[u8]) -> Option<bool> {
-    let reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format().ok()?;
-    let small = reader.decode().ok()?.thumbnail_exact(SIDE, SIDE).into_rgb8();
-    let apart =
-        |texel: &image::Rgb<u8>| texel.0.iter().max().zip(texel.0.iter().min()).map_or(0, |(a, b)| a - b);
-    let sum: u64 = small.pixels().map(|texel| u64::from(apart(texel))).sum();
-    Some(sum > APART * u64::from(SIDE * SIDE))
-}
-
 /// The sampler that a material asks for.
 pub fn sampler(gpu: &Gpu, used: Option<&TextureUse>) -> Sampler {
     let (wrap, is_nearest) = used.map_or(([Wrap::Repeat; 2], false), |used| (used.wrap, used.is_nearest));

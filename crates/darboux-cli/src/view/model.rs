@@ -4,9 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use darboux_io::gltf::{Document, LoadOptions, inspect};
+use darboux_io::obj::{Companion, companions};
 use darboux_io::readable;
-
-use super::obj::{Companion, companions};
 
 /// A model, read anew whenever the page asks for it.
 pub struct Model {
@@ -29,7 +28,7 @@ impl Model {
         let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
         let kind = match extension.to_str() {
             Some("gltf" | "glb" | "vrm") => Kind::Gltf,
-            Some("obj") => Kind::Obj(companions(path)?),
+            Some("obj") => Kind::Obj(companions(path).map_err(|error| error.to_string())?),
             _ => return Err(format!("{shown}: cannot be shown; give a .gltf, .glb, .vrm or .obj")),
         };
         let model = Self { path: path.to_owned(), kind, allow_outside };

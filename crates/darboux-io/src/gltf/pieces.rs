@@ -33,6 +33,13 @@ pub fn length(pieces: &[Piece<'_>]) -> usize {
     pieces.iter().map(|piece| piece.len()).sum()
 }
 
+/// All pieces as one buffer.
+pub fn joined(pieces: &[Piece<'_>]) -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(length(pieces));
+    pieces.iter().for_each(|piece| bytes.extend_from_slice(piece));
+    bytes
+}
+
 /// Writes all pieces.
 pub fn write(pieces: &[Piece<'_>], out: impl Write) -> io::Result<()> {
     // Small pieces are gathered; large ones pass the buffer by.

@@ -22,10 +22,7 @@ impl Document {
     /// Without edits, and with nothing to embed, a GLB is given back byte for byte. Errors: more than 4 GiB; files that cannot
     /// be read.
     pub fn to_glb(&self) -> Result<Vec<u8>, Error> {
-        let pieces = self.glb_pieces()?;
-        let mut bytes = Vec::with_capacity(pieces::length(&pieces));
-        pieces.iter().for_each(|piece| bytes.extend_from_slice(piece));
-        Ok(bytes)
+        Ok(pieces::joined(&self.glb_pieces()?))
     }
 
     /// Writes what [`Document::to_glb`] gives, without putting it together in memory.

@@ -1,0 +1,195 @@
+//! Decodes texture files (PNG, JPEG, WebP) to 8-bit RGBA texels. The first bytes of a file decide its format.
+
+use std::io::Cursor;
+
+use image_webp::WebPDecoder;
+use png::{ColorType, Transformations};
+use zune_core::bytestream::ZCursor;
+use zune_core::colorspace::ColorSpace;
+use zune_core::options::DecoderOptions;
+use zune_jpeg::JpegDecoder;
+
+use super::chunks::SIGNATURE as PNG;
+
+/// An image as 8-bit RGBA texels.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RgbaImage {
+    /// Texels per row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// The texels, row after row, the top row first.
+    pub texels: Vec<[u8; 4]>,
+}
+
+/// The largest image that is decoded.
+#[derive(Clone, Copy, Debug)]
+pub struct DecodeLimits {
+    /// The largest width and height.
+    pub side: u32,
+    /// The most texels.
+    pub texels: u64,
+}
+
+impl Default for DecodeLimits {
+    /// Sides of 16,384 and 2^27 texels, which are 512 MiB.
+    fn default() -> Self {
+        Self { side: 1 << 14, texels: 1 << 27 }
+    }
+}
+
+/// Why an image was not decoded: a clause whose subject is the image.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DecodeError {
+    /// The format is recognised, but there is no decoder for it.
+    #[error("is {0}, for which there is no decoder here; convert it to PNG, JPEG or WebP")]
+    NoDecoder(&'static str),
+    /// The format is not recognised.
+    #[error("is neither PNG nor JPEG nor WebP; convert it to one of them")]
+    UnknownFormat,
+    /// The image exceeds [`DecodeLimits`].
+    #[error("has {width} x {height} texels, more than the limit; make it smaller")]
+    TooLarge {
+        /// Texels per row.
+        width: usize,
+        /// Rows.
+        height: usize,
+    },
+    /// The content is damaged or of a kind that the decoder lacks.
+    #[error("cannot be decoded ({0}); save it again")]
+    Broken(String),
+}
+
+const JPEG: &[u8] = b"\xFF\xD8\xFF";
+const KTX2: &[u8] = b"\xABKTX 20\xBB\r\n\x1A\n";
+
+impl RgbaImage {
+    /// Decodes an image file. Grey becomes RGB; 16-bit channels are rounded to 8 bits; without alpha, texels are opaque.
+    pub fn decode(file: &[u8], limits: &DecodeLimits) -> Result<Self, DecodeError> {
+        let brand = file.get(8..12);
+        if file.starts_with(&PNG) {
+            decode_png(file, limits)
+        } else if file.starts_with(JPEG) {
+            decode_jpeg(file, limits)
+        } else if file.starts_with(b"RIFF") && brand == Some(b"WEBP") {
+            decode_webp(file, limits)
+        } else if file.starts_with(KTX2) {
+            Err(DecodeError::NoDecoder("KTX 2"))
+        } else if file.get(4..8) == Some(b"ftyp") && brand.is_some_and(|brand| brand.starts_with(b"avi")) {
+            Err(DecodeError::NoDecoder("AVIF"))
+        } else {
+            Err(DecodeError::UnknownFormat)
+        }
+    }
+
+    /// Whether the image has colours, as normal maps do and height maps do not: whether the channels of its texels differ by more than 24 of
+    /// 255 on average.
+    ///
+    /// The image is averaged down to 32 x 32 texels first, so that noise does not count.
+    pub fn is_colored(&self) -> bool {
+        const SIDE: usize = 32;
+        const DIFFERENCE: u64 = 24;
+        let range = |cell: usize, texels: u32| {
+            let first = cell * texels as usize / SIDE;
+            first..((cell + 1) * texels as usize / SIDE).max(first + 1)
+        };
+        let mean_difference = |x: usize, y: usize| {
+            let mut sums = [0u64; 3];
+            let mut count = 0;
+            for row in range(y, self.height) {
+                for texel in
+                    range(x, self.width).map(|column| self.texels[row * self.width as usize + column])
+                {
+                    sums.iter_mut().zip(texel).for_each(|(sum, channel)| *sum += u64::from(channel));
+                    count += 1;
+                }
+            }
+            let means = sums.map(|sum| sum / count);
+            means.iter().max().zip(means.iter().min()).map_or(0, |(max, min)| max - min)
+        };
+        let cells = (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y)));
+        let sum: u64 = cells.map(|(x, y)| mean_difference(x, y)).sum();
+        sum > DIFFERENCE * (SIDE * SIDE) as u64
+    }
+}
+
+fn broken(error: impl std::fmt::Display) -> DecodeError {
+    DecodeError::Broken(error.to_string())
+}
+
+/// Checks a size from a header; gives the number of texels.
+fn texel_count(width: usize, height: usize, limits: &DecodeLimits) -> Result<usize, DecodeError> {
+    let side = limits.side as usize;
+    match width.checked_mul(height) {
+        _ if width == 0 || height == 0 => Err(DecodeError::Broken("it has no texels".to_owned())),
+        Some(texels) if width <= side && height <= side && texels as u64 <= limits.texels => Ok(texels),
+        _ => Err(DecodeError::TooLarge { width, height }),
+    }
+}
+
+fn decode_png(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeError> {
+    let mut decoder = png::Decoder::new(Cursor::new(file));
+    decoder.set_transformations(Transformations::EXPAND);
+    decoder.set_ignore_text_chunk(true);
+    decoder.set_ignore_iccp_chunk(true);
+    let mut reader = decoder.read_info().map_err(broken)?;
+    let (width, height) = (reader.info().width, reader.info().height);
+    texel_count(width as usize, height as usize, limits)?;
+    let (color, depth) = reader.output_color_type();
+    let length = reader.output_buffer_size().ok_or_else(|| broken("it is too large"))?;
+    let mut bytes = vec![0; length];
+    reader.next_frame(&mut bytes).map_err(broken)?;
+    if depth == png::BitDepth::Sixteen {
+        bytes = bytes.as_chunks().0.iter().map(|&word| to_byte(u16::from_be_bytes(word))).collect();
+    }
+    let texels = match color {
+        ColorType::Grayscale => rgba(&bytes, |[l]| [l, l, l, 255]),
+        ColorType::GrayscaleAlpha => rgba(&bytes, |[l, a]| [l, l, l, a]),
+        ColorType::Rgb => rgba(&bytes, |[r, g, b]| [r, g, b, 255]),
+        ColorType::Rgba => rgba(&bytes, |texel| texel),
+        ColorType::Indexed => return Err(broken("its palette is missing")),
+    };
+    Ok(RgbaImage { width, height, texels })
+}
+
+fn decode_jpeg(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeError> {
+    let side = limits.side as usize;
+    let options = DecoderOptions::default().set_strict_mode(false).set_max_width(side).set_max_height(side);
+    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(file), options);
+    decoder.decode_headers().map_err(broken)?;
+    let (width, height) = decoder.dimensions().ok_or_else(|| broken("it has no size"))?;
+    texel_count(width, height, limits)?;
+    let is_grey = decoder.input_colorspace() == Some(ColorSpace::Luma);
+    let space = if is_grey { ColorSpace::Luma } else { ColorSpace::RGB };
+    decoder.set_options(options.jpeg_set_out_colorspace(space));
+    let bytes = decoder.decode().map_err(broken)?;
+    let texels = match is_grey {
+        true => rgba(&bytes, |[l]| [l, l, l, 255]),
+        false => rgba(&bytes, |[r, g, b]| [r, g, b, 255]),
+    };
+    Ok(RgbaImage { width: width as u32, height: height as u32, texels })
+}
+
+fn decode_webp(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeError> {
+    let mut decoder = WebPDecoder::new(Cursor::new(file)).map_err(broken)?;
+    let (width, height) = decoder.dimensions();
+    texel_count(width as usize, height as usize, limits)?;
+    let length = decoder.output_buffer_size().ok_or_else(|| broken("it is too large"))?;
+    let mut bytes = vec![0; length];
+    decoder.read_image(&mut bytes).map_err(broken)?;
+    let texels = match decoder.has_alpha() {
+        true => rgba(&bytes, |texel| texel),
+        false => rgba(&bytes, |[r, g, b]| [r, g, b, 255]),
+    };
+    Ok(RgbaImage { width, height, texels })
+}
+
+fn rgba<const N: usize>(channels: &[u8], texel: impl Fn([u8; N]) -> [u8; 4]) -> Vec<[u8; 4]> {
+    channels.as_chunks().0.iter().map(|&channels| texel(channels)).collect()
+}
+
+/// The nearest 8-bit value: `word` / 257, rounded.
+fn to_byte(word: u16) -> u8 {
+    ((u32::from(word) + 128) / 257) as u8
+}

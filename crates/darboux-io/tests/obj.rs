@@ -1,0 +1,145 @@
+//! OBJ files become documents: whole ones with their materials, odd ones with warnings, broken ones with an error.
+#![cfg(feature = "obj")]
+
+use std::fs;
+
+use darboux_io::gltf::inspect;
+use darboux_io::obj::read;
+
+const OBJ: &str = "mtllib a.mtl\no quad\nv 0 0 0\nv 1 0 0\nv 1 1 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n\
+    usemtl a\ng one\nf 1/1/1 2/2/1 -1/-1/-1\nf 1//1 2//1 3//1 1//1 2//1\nl 1 2\n";
+const MTL: &str =
+    "newmtl a\nKd 0.5 0.5 0.5\nNs 10\nillum 2\nmap_Kd a.png\nbump -bm 1 a.png\nnewmtl b\nd 0.5\n";
+
+/// Replacements of words: limits of numbers, missing parts, and bytes that are not text.
+const WORDS: [&[u8]; 22] = [
+    b"",
+    b" ",
+    b"\n",
+    b"/",
+    b"//",
+    b"1/2/3/4",
+    b"0",
+    b"-1",
+    b"-2/-3/-4",
+    b"1/-9/1",
+    b"1/1/-9",
+    b"99",
+    b"9223372036854775807",
+    b"1/9223372036854775807",
+    b"1/1/9223372036854775807",
+    b"-9223372036854775808",
+    b"1/1/-6148914691236517207",
+    b"18446744073709551616",
+    b"nan",
+    b"1e999",
+    b"\xFF\x00\xFE",
+    b"\\",
+];
+
+/// The text with some words replaced, removed or repeated. `random` gives numbers below its argument.
+fn mutated(text: &str, random: &mut impl FnMut(usize) -> usize) -> Vec<u8> {
+    let mut words: Vec<Vec<u8>> = text.split_inclusive([' ', '\n']).map(|word| word.into()).collect();
+    for _ in 0..1 + random(3) {
+        let at = random(words.len());
+        let last = *words[at].last().expect("no word is empty");
+        words[at] = match random(8) {
+            0 => Vec::new(),
+            1 => words[at].repeat(1 + random(2000)),
+            2 => words[random(words.len())].clone(),
+            _ => WORDS[random(WORDS.len())].to_vec(),
+        };
+        words[at].push(last);
+    }
+    words.concat()
+}
+
+#[test]
+fn mutated_files_give_models_or_errors() {
+    let folder = tempfile::tempdir().unwrap();
+    let [obj, mtl] = ["a.obj", "a.mtl"].map(|name| folder.path().join(name));
+    let mut state = 1u64;
+    let mut random = |below: usize| {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (state >> 33) as usize % below
+    };
+    let [mut models, mut errors] = [0; 2];
+    for case in 0..600 {
+        let [text, library] = match case % 2 {
+            0 => [mutated(OBJ, &mut random), MTL.into()],
+            _ => [OBJ.into(), mutated(MTL, &mut random)],
+        };
+        fs::write(&obj, text).unwrap();
+        fs::write(&mtl, library).unwrap();
+        match read(&obj) {
+            Ok(mut model) => {
+                inspect(&mut model.document).unwrap();
+                models += 1;
+            }
+            Err(error) => {
+                let sentence = error.to_string();
+                assert!(sentence.contains("a.obj: ") && !sentence.contains('\n'), "{sentence}");
+                errors += 1;
+            }
+        }
+    }
+    assert!(models > 100 && errors > 50, "{models} models, {errors} errors");
+}
+
+/// The warnings about an OBJ with a library.
+fn warnings(obj: &str, library: &str) -> Vec<String> {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("a.mtl"), library).unwrap();
+    fs::write(folder.path().join("a.obj"), format!("mtllib a.mtl\n{obj}")).unwrap();
+    read(&folder.path().join("a.obj")).unwrap().warnings
+}
+
+#[test]
+fn colours_of_one_number_are_a_warning() {
+    let warnings = warnings("v 0 0 0\nf 1 1 1\n", "newmtl a\nKd 0.5\n");
+    assert!(warnings.len() == 1 && warnings[0].starts_with("a.mtl: cannot be read (color"), "{warnings:?}");
+}
+
+#[test]
+fn attributes_of_some_corners_are_a_warning() {
+    let elements = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvn 0 0 1\n";
+    let warnings = |faces: &str| warnings(&format!("{elements}{faces}"), "");
+    assert_eq!(warnings("f 1/1/1 2/1/1 3/1/1\n"), [""; 0]);
+    assert_eq!(warnings("f 1 2 3\n"), [""; 0]);
+    let [uvs, normals] =
+        ["UVs", "normals"].map(|attribute| format!("{attribute} at some corners only; they are left out"));
+    assert_eq!(warnings("f 1/1/1 2//1 3/1/1\n"), [format!("1 mesh has {uvs}")]);
+    assert_eq!(
+        warnings("f 1/1/1 2 3/1/1\no b\nf 1/1/1 2/1 3/1/1\n"),
+        [format!("1 mesh has {uvs}"), format!("2 meshes have {normals}")]
+    );
+}
+
+#[test]
+#[cfg(unix)]
+fn unreadable_libraries_are_a_warning() {
+    use std::os::unix::fs::PermissionsExt;
+
+    let folder = tempfile::tempdir().unwrap();
+    let [obj, mtl] = ["a.obj", "a.mtl"].map(|name| folder.path().join(name));
+    fs::write(&obj, "mtllib a.mtl\nv 0 0 0\nf 1 1 1\n").unwrap();
+    fs::write(&mtl, MTL).unwrap();
+    fs::set_permissions(&mtl, fs::Permissions::from_mode(0o000)).unwrap();
+    // Administrators can read everything.
+    let is_readable = fs::read(&mtl).is_ok();
+    let warnings = read(&obj).unwrap().warnings;
+    let is_warning = warnings.iter().any(|warning| warning.starts_with("a.mtl: cannot be read: "));
+    assert_eq!(is_warning, !is_readable, "{warnings:?}");
+}
+
+/// The same library named again and again costs one reading.
+#[test]
+fn repeated_libraries_are_loaded_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let library = "newmtl a\nKd 1 0 0\nmap_Kd missing.png\n";
+    fs::write(folder.path().join("a.mtl"), library).unwrap();
+    let obj = format!("{}v 0 0 0\nusemtl a\nf 1 1 1\n", "mtllib a.mtl a.mtl\n".repeat(20));
+    fs::write(folder.path().join("a.obj"), obj).unwrap();
+    let model = read(&folder.path().join("a.obj")).unwrap();
+    assert_eq!((model.document.materials().len(), model.warnings.len()), (1, 1), "{:?}", model.warnings);
+}

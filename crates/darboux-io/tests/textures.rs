@@ -1,0 +1,72 @@
+//! Texture files decode to the texels that were encoded.
+#![cfg(feature = "textures")]
+
+use darboux_io::image::{DecodeError, DecodeLimits, RgbaImage};
+
+/// A PNG of 8 or 16 bits per channel.
+fn png(color: png::ColorType, depth: png::BitDepth, [width, height]: [u32; 2], data: &[u8]) -> Vec<u8> {
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, width, height);
+    encoder.set_color(color);
+    encoder.set_depth(depth);
+    if color == png::ColorType::Indexed {
+        encoder.set_palette(vec![1, 2, 3, 4, 5, 6]);
+        encoder.set_trns(vec![255, 7]);
+    }
+    encoder.write_header().unwrap().write_image_data(data).unwrap();
+    file
+}
+
+fn decoded(file: &[u8]) -> RgbaImage {
+    RgbaImage::decode(file, &DecodeLimits::default()).unwrap()
+}
+
+#[test]
+fn every_kind_of_png_becomes_rgba() {
+    use png::BitDepth::{Eight, One, Sixteen};
+    use png::ColorType::{Grayscale, GrayscaleAlpha, Indexed, Rgb, Rgba};
+
+    let cases: [(_, _, &[u8], [[u8; 4]; 2]); 6] = [
+        (Grayscale, Eight, &[9, 200], [[9, 9, 9, 255], [200, 200, 200, 255]]),
+        (Grayscale, One, &[0b0100_0000], [[0, 0, 0, 255], [255; 4]]),
+        (GrayscaleAlpha, Eight, &[9, 8, 200, 0], [[9, 9, 9, 8], [200, 200, 200, 0]]),
+        (Rgb, Sixteen, &[0, 127, 0, 129, 255, 255, 0, 0, 1, 0, 1, 128], [[0, 1, 255, 255], [0, 1, 1, 255]]),
+        (Rgba, Eight, &[1, 2, 3, 4, 5, 6, 7, 8], [[1, 2, 3, 4], [5, 6, 7, 8]]),
+        (Indexed, One, &[0b0100_0000], [[1, 2, 3, 255], [4, 5, 6, 7]]),
+    ];
+    for (color, depth, data, texels) in cases {
+        let image = decoded(&png(color, depth, [2, 1], data));
+        assert_eq!((image.width, image.height), (2, 1));
+        assert_eq!(image.texels, texels, "{color:?} {depth:?}");
+    }
+}
+
+#[test]
+fn images_above_the_limits_are_refused() {
+    let file = png(png::ColorType::Grayscale, png::BitDepth::Eight, [3, 2], &[0; 6]);
+    let decode = |side, texels| RgbaImage::decode(&file, &DecodeLimits { side, texels });
+    assert!(decode(3, 6).is_ok());
+    let too_large = Err(DecodeError::TooLarge { width: 3, height: 2 });
+    assert_eq!((decode(2, 6), decode(3, 5)), (too_large.clone(), too_large));
+}
+
+#[test]
+fn other_formats_are_named() {
+    let error = |file: &[u8]| RgbaImage::decode(file, &DecodeLimits::default()).unwrap_err();
+    assert_eq!(error(b"\xABKTX 20\xBB\r\n\x1A\n"), DecodeError::NoDecoder("KTX 2"));
+    assert_eq!(error(b"\0\0\0\x20ftypavif"), DecodeError::NoDecoder("AVIF"));
+    assert_eq!(error(b"junk"), DecodeError::UnknownFormat);
+    assert!(matches!(error(b"\x89PNG\r\n\x1a\nabc"), DecodeError::Broken(_)));
+    assert!(matches!(error(b"\xFF\xD8\xFF"), DecodeError::Broken(_)));
+    assert!(matches!(error(b"RIFF\0\0\0\0WEBPVP8 "), DecodeError::Broken(_)));
+}
+
+#[test]
+fn grey_images_are_not_coloured() {
+    let of = |texel: [u8; 3], size: [u32; 2]| {
+        let data = texel.repeat((size[0] * size[1]) as usize);
+        decoded(&png(png::ColorType::Rgb, png::BitDepth::Eight, size, &data)).is_colored()
+    };
+    assert!(of([128, 128, 255], [4, 4]) && of([128, 128, 255], [70, 33]));
+    assert!(!of([99, 99, 99], [4, 4]) && !of([90, 100, 110], [70, 33]));
+}
