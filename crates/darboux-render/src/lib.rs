@@ -8,6 +8,7 @@ mod derivatives;
 mod error;
 mod heat;
 mod layout;
+mod mipmaps;
 mod model;
 mod painter;
 mod pipelines;

@@ -1,21 +1,18 @@
 //! Images on the adapter.
 
 use std::collections::HashMap;
-use std::io::Cursor;
 
 use darboux_gpu::Gpu;
 use darboux_io::gltf::{Document, TextureUse, Wrap};
-use image::imageops::{self, FilterType};
-use image::{ImageFormat, ImageReader, RgbaImage};
+use darboux_io::image::{DecodeLimits, RgbaImage};
 use wgpu::{
     AddressMode, FilterMode, MipmapFilterMode, Sampler, SamplerDescriptor, TextureFormat, TextureView,
 };
 
+use crate::mipmaps::halved;
+
 /// The texels of all images together: 1 GiB with their smaller versions.
 const MOST_TEXELS: u64 = 200 << 20;
-
-/// What files in KTX 2 begin with.
-const KTX2: &[u8] = b"\xABKTX 20\xBB\r\n\x1A\n";
 
 /// What a texture's texels are.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -74,7 +71,7 @@ impl<'a> Textures<'a> {
 
     /// A texture that changes nothing.
     pub fn neutral(&self, kind: Kind) -> TextureView {
-        self.send(RgbaImage::from_pixel(1, 1, image::Rgba(kind.neutral())), kind)
+        self.send(RgbaImage { width: 1, height: 1, texels: vec![kind.neutral()] }, kind)
     }
 
     /// The error is a sentence.
@@ -82,30 +79,19 @@ impl<'a> Textures<'a> {
         let image = image.ok_or("a texture has no image; export the file again")?;
         let bytes = self.document.image_bytes(image).map_err(|error| error.to_string())?;
         let told = |problem: String| format!("images[{image}] {problem}");
-        let is_ktx2 = bytes.starts_with(KTX2);
-        let mut reader =
-            ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|e| told(e.to_string()))?;
-        if is_ktx2 || reader.format() == Some(ImageFormat::Avif) {
-            let format = if is_ktx2 { "KTX 2" } else { "AVIF" };
-            return Err(told(format!(
-                "is {format}, for which there is no decoder here: convert it to PNG, JPEG or WebP"
-            )));
-        }
-        let limit = self.gpu.device.limits().max_texture_dimension_2d;
-        let mut limits = image::Limits::default();
-        (limits.max_image_width, limits.max_image_height) = (Some(limit), Some(limit));
-        reader.limits(limits);
-        let decoded = reader.decode().map_err(|error| told(format!("cannot be decoded ({error})")))?;
-        self.texels += u64::from(decoded.width()) * u64::from(decoded.height());
+        let side = self.gpu.device.limits().max_texture_dimension_2d;
+        let limits = DecodeLimits { side, ..DecodeLimits::default() };
+        let decoded = RgbaImage::decode(&bytes, &limits).map_err(|error| told(error.to_string()))?;
+        self.texels += decoded.texels.len() as u64;
         if self.texels > MOST_TEXELS {
             return Err(told("and others are larger than 200 million texels together".to_owned()));
         }
-        Ok(decoded.into_rgba8())
+        Ok(decoded)
     }
 
     /// Sends an image and its smaller versions.
     fn send(&self, mut image: RgbaImage, kind: Kind) -> TextureView {
-        let (width, height) = image.dimensions();
+        let RgbaImage { width, height, .. } = image;
         let levels = width.max(height).ilog2() + 1;
         let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
         let texture = self.gpu.device.create_texture(&wgpu::TextureDescriptor {
@@ -120,18 +106,17 @@ impl<'a> Textures<'a> {
         });
         for level in 0..levels {
             if level > 0 {
-                let [width, height] = [image.width(), image.height()].map(|texels| (texels / 2).max(1));
-                image = imageops::resize(&image, width, height, FilterType::Triangle);
+                image = halved(&image);
             }
             let place = wgpu::TexelCopyTextureInfo { mip_level: level, ..texture.as_image_copy() };
-            let (width, height) = image.dimensions();
+            let RgbaImage { width, height, .. } = image;
             let layout = wgpu::TexelCopyBufferLayout {
                 offset: 0,
                 bytes_per_row: Some(4 * width),
                 rows_per_image: None,
             };
             let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
-            self.gpu.queue.write_texture(place, &image, layout, size);
+            self.gpu.queue.write_texture(place, image.texels.as_flattened(), layout, size);
         }
         texture.create_view(&Default::default())
     }

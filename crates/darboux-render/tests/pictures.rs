@@ -157,7 +157,7 @@ fn textures_may_be_jpeg_or_webp_and_others_are_said() {
         assert!(shown[0][0] > shown[0][2] + 60 && shown[1][2] > shown[1][0] + 60, "{at}: {shown:?}");
     }
     let cases = [
-        (&b"GIF89a, or so"[..], "", "images[1] cannot be decoded"),
+        (&b"GIF89a, or so"[..], "", "images[1] is neither PNG nor JPEG nor WebP"),
         (b"\0\0\0\x20ftypavif\0\0\0\0avifmif1miafMA1B", "EXT_texture_avif", "images[1] is AVIF, for which"),
         (b"\xABKTX 20\xBB\r\n\x1A\n", "KHR_texture_basisu", "images[1] is KTX 2, for which"),
     ];
