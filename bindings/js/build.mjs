@@ -1,7 +1,7 @@
 // `node build.mjs MODULES OUT VERSION`: makes the folder that is published in OUT, of the WebAssembly modules in MODULES.
 
 import { spawnSync } from 'node:child_process';
-import { copyFileSync, cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { copyFileSync, cpSync, mkdirSync, readdirSync, readFileSync, rmdirSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import zopfli from '@gfx/zopfli';
@@ -94,6 +94,12 @@ const entries = (extension) => ({
     })),
 });
 
+/** Chunks that are loaded on demand lie beside the entries, whatever file imports them. */
+const lazyChunks = {
+  name: 'lazy-chunks',
+  setup: (build) => build.onResolve({ filter: /\.scalar\.js$/ }, ({ path }) => ({ path: `./${basename(path)}`, external: true })),
+};
+
 const common = {
   absWorkingDir: join(here, 'lib'),
   outdir: out,
@@ -103,8 +109,8 @@ const common = {
   lineLimit: 400,
   target: 'es2022',
   platform: 'neutral',
-  plugins: [deflated, shaders],
-  external: ['*.scalar.js', './webgpu.tangents.js', 'three'],
+  plugins: [deflated, shaders, lazyChunks],
+  external: ['./webgpu.tangents.js', 'three'],
   logLevel: 'warning',
 };
 
@@ -121,6 +127,25 @@ async function bundleAdapters() {
   await build({ ...common, format: 'cjs', entryPoints, plugins: plugins('.cjs'), outExtension: { '.js': '.cjs' } });
 }
 
+/** Keeps the type declarations that the entries reach, for ES modules and for CommonJS, and deletes the others. */
+function keepTypes() {
+  const reached = new Set();
+  const visit = (path) => {
+    if (reached.has(path)) return;
+    reached.add(path);
+    const text = readFileSync(path, 'utf8');
+    for (const [, imported] of text.matchAll(/from '(\..*)\.js'/g)) visit(join(dirname(path), `${imported}.d.ts`));
+    writeFileSync(path.replace(/\.d\.ts$/, '.d.cts'), text.replaceAll(/from '(\..*)\.js'/g, "from '$1.cjs'"));
+  };
+  for (const entry of [...ENTRIES, ...ADAPTERS]) visit(join(out, `${entry}.d.ts`));
+  for (const path of readdirSync(out, { recursive: true }).map((name) => join(out, name))) {
+    if (path.endsWith('.d.ts') && !reached.has(path)) rmSync(path);
+  }
+  for (const folder of readdirSync(out, { withFileTypes: true })) {
+    if (folder.isDirectory() && !readdirSync(join(out, folder.name)).length) rmdirSync(join(out, folder.name));
+  }
+}
+
 rmSync(out, { recursive: true, force: true });
 for (const entry of ENTRIES) {
   for (const form of ['simd', 'scalar']) optimize(entry, form);
@@ -128,12 +153,7 @@ for (const entry of ENTRIES) {
 }
 await bundleAdapters();
 run('tsc', '-p', 'lib', '--outDir', out);
-for (const inner of ['all', 'engine', 'mesh', 'webgpu.tangents', ...ENTRIES.map((entry) => `${entry}.scalar`)]) rmSync(join(out, `${inner}.d.ts`));
-for (const inner of ['gltf', 'gpu']) rmSync(join(out, inner), { recursive: true });
-for (const name of [...ENTRIES, ...ADAPTERS, 'elsewhere', 'plan', 'planner', 'topology', 'types']) {
-  const types = readFileSync(join(out, `${name}.d.ts`), 'utf8');
-  writeFileSync(join(out, `${name}.d.cts`), types.replaceAll(/from '(.*)\.js'/g, "from '$1.cjs'"));
-}
+keepTypes();
 const manifest = JSON.parse(readFileSync(join(here, 'lib/package.json'), 'utf8'));
 writeFileSync(join(out, 'package.json'), JSON.stringify({ ...manifest, version }, null, 2) + '\n');
 copyFileSync(join(here, 'README.md'), join(out, 'README.md'));

@@ -1,7 +1,7 @@
 // The page: opens models, and shows them.
 
 import { App } from './page/app';
-import { showError } from './page/state';
+import { showError } from './page/status';
 
 try {
   new App().start();

@@ -1,12 +1,12 @@
 // `darboux`: everything.
 
-import { choices, engine, report, surface } from './all.js';
-import { checkIndices, checkOut, choice, degrees, floats, indexError, mesh, must, rows, whole, write, writeArrays } from './mesh.js';
+import { choices, engine, report, surface } from './core/full.js';
+import { checkIndices, checkOut, choice, degrees, floats, indexError, mesh, must, rows, whole, write, writeArrays } from './core/mesh.js';
 import type * as types from './types.js';
 
-export * as elsewhere from './elsewhere.js';
-export { Plan } from './plan.js';
-export { planTopology } from './topology.js';
+export * as gpuResume from './core/gpu-resume.js';
+export { Plan } from './core/plan.js';
+export { planTopology } from './core/gpu-plan.js';
 export type * from './types.js';
 
 // In the order of the codes that the WebAssembly side knows.
@@ -116,7 +116,7 @@ export function splitVertices(indices: types.Indices, tangents: Float32Array, ve
     throw new RangeError(`vertexCount is ${vertexCount}; it must be the number of vertices`);
   }
   return engine.call((exports) => {
-    writeArrays(exports, [[tangents, exports.given(corners)]], [[indices, exports.indices(corners)]]);
+    writeArrays(exports, [[tangents, exports.given_tangents(corners)]], [[indices, exports.indices(corners)]]);
     const count = exports.split_vertices(vertexCount);
     if (count < 0) throw indexError({ indices, vertices: vertexCount });
     const integers = (place: number, length: number) => new Uint32Array(exports.memory.buffer, place >>> 0, length).slice();
@@ -163,7 +163,7 @@ export function measureTangents(a: Float32Array, b: Float32Array): types.Tangent
   const [count, other] = [rows('a', a, 4), rows('b', b, 4)];
   if (count !== other) throw new RangeError(`b has ${other} tangents but a has ${count}; compare tangents of one mesh`);
   return engine.call((exports) => {
-    writeArrays(exports, [[a, exports.given(count)], [b, exports.others(count)]]);
+    writeArrays(exports, [[a, exports.given_tangents(count)], [b, exports.other_tangents(count)]]);
     const place = exports.measure_tangents() >>> 0;
     const read = (at: number, length: number) => Array.from(new Float64Array(exports.memory.buffer, place + 8 * at, length));
     const [corners, identical, signFlips, withoutAngle, mean, min, median, p95, max] = read(0, 9) as Nine;
@@ -193,7 +193,7 @@ export function encodeTangents<F extends types.TangentEncoding>(
   const basis = normalsOf(encoding, normals, count);
   const [Codes, width] = CODES[form]!;
   return engine.call((exports) => {
-    writeArrays(exports, [[tangents, exports.given(count)], ...(basis ? [[basis, exports.normals(count)] as const] : [])]);
+    writeArrays(exports, [[tangents, exports.given_tangents(count)], ...(basis ? [[basis, exports.normals(count)] as const] : [])]);
     const place = exports.encode_tangents(form) >>> 0;
     const bytes = exports.memory.buffer.slice(place, place + count * width * Codes.BYTES_PER_ELEMENT);
     return new Codes(bytes as ArrayBuffer) as types.TangentCodes[F];
@@ -212,7 +212,7 @@ export function decodeTangents<F extends types.TangentEncoding>(
   const count = whole('codes', codes, width);
   const basis = normalsOf(encoding, normals, count);
   return engine.call((exports) => {
-    const place = exports.codes(codes.byteLength);
+    const place = exports.encoded_bytes(codes.byteLength);
     if (basis) writeArrays(exports, [[basis, exports.normals(count)]]);
     const bytes = new Uint8Array(codes.buffer, codes.byteOffset, codes.byteLength);
     new Uint8Array(exports.memory.buffer, place >>> 0, bytes.length).set(bytes);

@@ -3,9 +3,9 @@
 import type { Accessor, Document, Transform } from '@gltf-transform/core';
 import { generateTangents, Plan, ready, splitVertices } from './darboux.js';
 import { disposeUnused, floats, gathered, indexArray } from './gltf/accessors.js';
-import { grouped, type Group, type Job, type Movement } from './gltf/group.js';
-import { select, TRIANGLES } from './gltf/select.js';
-import { choice } from './mesh.js';
+import { grouped, type Group, type Job, type Movement } from './gltf/groups.js';
+import { select, TRIANGLES } from './gltf/selection.js';
+import { choice } from './core/mesh.js';
 import type { TangentOptions, VertexSplit } from './types.js';
 
 /** What {@link tangents} does. */

@@ -1,7 +1,7 @@
 // `darboux/tangents`: MikkTSpace alone.
 
-import { load, type Exports } from './engine.js';
-import { checkOut, choice, degrees, floats, indexError, mesh, write } from './mesh.js';
+import { load, type Exports } from './core/wasm-module.js';
+import { checkOut, choice, degrees, floats, indexError, mesh, write } from './core/mesh.js';
 import type { Indices, MikkTSpaceOptions } from './types.js';
 import simd from './wasm/tangents.simd.wasm';
 

@@ -2,10 +2,10 @@
 
 import kernels from 'darboux-gpu/mikktspace';
 import { triangles, vertices } from 'darboux-gpu/passes';
-import { elsewhere, generateTangents as onCpu, ready } from './darboux.js';
+import { gpuResume, generateTangents as onCpu, ready } from './darboux.js';
 import { checkDevice, guarded, read, Room } from './gpu/device.js';
-import { filled, USAGE } from './gpu/kernels.js';
-import { checkSize, Program, type Named } from './gpu/program.js';
+import { filled, USAGE } from './gpu/pipelines.js';
+import { checkSize, Program, type Named } from './gpu/pass-program.js';
 import type { GpuTangentOptions, GpuTangents, Indices } from './types.js';
 
 /** What each device has compiled. */
@@ -34,7 +34,7 @@ export async function generateTangents(
   checkDevice(device);
   await ready;
   const { buffer } = options;
-  const given = elsewhere.begin(positions, normals, uvs, indices, options);
+  const given = gpuResume.begin(positions, normals, uvs, indices, options);
   if (buffer) checkBuffer(buffer, indices?.length ?? positions.length / 3);
   const left = (leftToCpu: GpuTangents['leftToCpu']): GpuTangents => {
     const made = onCpu(positions, normals, uvs, indices, { ...options, returnReport: true });
@@ -43,7 +43,7 @@ export async function generateTangents(
   const onGpu = async (mesh: Mesh): Promise<GpuTangents | null> => {
     const { refused, welded, tangents: begun } = await run(device, mesh, buffer);
     if (refused[0]) return null;
-    const { corners: cornersOfCpu, ...made } = elsewhere.complete(positions, normals, uvs, mesh.indices, options, welded, begun);
+    const { corners: cornersOfCpu, ...made } = gpuResume.complete(positions, normals, uvs, mesh.indices, options, welded, begun);
     return { ...made, cornersOfCpu, leftToCpu: null };
   };
   const made = given ? ((await onGpu({ ...given, positions, normals, uvs })) ?? left('values')) : left('faces');
@@ -58,7 +58,7 @@ function checkBuffer({ size, usage }: GPUBuffer, corners: number): void {
 }
 
 /** A mesh of triangles. */
-interface Mesh extends elsewhere.Begun {
+interface Mesh extends gpuResume.Begun {
   positions: Float32Array;
   normals: Float32Array;
   uvs: Float32Array;

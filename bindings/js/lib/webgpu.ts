@@ -2,14 +2,14 @@
 
 import kernels from 'darboux-gpu/kernels';
 import { adjacency } from 'darboux-gpu/passes';
-import { checkRows, reach } from './gpu/check.js';
+import { checkRows, reach } from './gpu/buffer-checks.js';
 import { ON_CPU } from './gpu/device.js';
-import { buffer, module, pipeline, step, USAGE, type Step } from './gpu/kernels.js';
-import { Program, type Named } from './gpu/program.js';
+import { buffer, module, pipeline, step, USAGE, type Step } from './gpu/pipelines.js';
+import { Program, type Named } from './gpu/pass-program.js';
 import type { GpuTangentOptions, GpuTangents, Indices } from './types.js';
 
-export { GpuPlan, Planner, PlanOfBuffers } from './planner.js';
-export type { GpuAttribute, GpuMovingMesh } from './planner.js';
+export { GpuPlan, Planner, PlanOfBuffers } from './gpu/planner.js';
+export type { GpuAttribute, GpuMovingMesh } from './gpu/planner.js';
 export type * from './types.js';
 
 /**

@@ -1,15 +1,26 @@
-//! The WebAssembly side of the npm package: the caller writes a mesh into memory that this side owns, calls, and reads what came out.
+//! The WebAssembly side of the npm package `darboux`.
 //!
-//! Numbers alone cross the border. What is wrong with a call the JavaScript side finds out and says (`lib/`).
+//! JavaScript writes a mesh into memory that this side owns, calls a function, and reads the result (see `arena`). Only numbers cross
+//! the border. The TypeScript side (`lib/`) checks arguments and words errors.
 
 #![allow(unsafe_code, reason = "functions are exported under the names that JavaScript calls")]
 
-#[cfg(feature = "full")]
-mod elsewhere;
+mod arena;
+mod inputs;
+mod mesh_arrays;
+mod options;
+mod tangents;
+
 #[cfg(feature = "full")]
 mod encode;
 #[cfg(feature = "full")]
+mod extras;
+#[cfg(feature = "full")]
 mod frames;
+#[cfg(feature = "full")]
+mod gpu_plan;
+#[cfg(feature = "full")]
+mod gpu_resume;
 #[cfg(feature = "full")]
 mod measure;
 #[cfg(feature = "full")]
@@ -18,11 +29,5 @@ mod normals;
 mod plan;
 #[cfg(feature = "full")]
 mod report;
-mod room;
 #[cfg(feature = "full")]
 mod split;
-mod tangents;
-#[cfg(feature = "full")]
-mod topology;
-#[cfg(feature = "full")]
-mod values;

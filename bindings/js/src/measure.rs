@@ -1,23 +1,26 @@
-//! How far tangents are apart.
+//! `measureTangents`: the angles between two sets of tangents.
 
 use darboux::measure_tangents as measure;
 
-use crate::room::{rows, with};
+use crate::arena::with_arena;
+use crate::mesh_arrays::rows;
 
-/// Compares the given tangents with the others, which are as many: where the numbers lie, in the order of `measureTangents` in
-/// `lib/darboux.ts`, and after them the worst corners, how many and then each with its angle.
+/// Compares the given tangents with the other tangents, of which there are as many. Returns the address of the numbers in the order in
+/// which `measureTangents` of `lib/darboux.ts` reads them; last the number of worst corners, and each of these with its angle.
 #[unsafe(no_mangle)]
 pub extern "C" fn measure_tangents() -> *const f64 {
-    with(|room| {
-        let values = &mut room.values;
-        let Ok(found) = measure(rows(&values.given), rows(&values.others)) else { return std::ptr::null() };
+    with_arena(|arena| {
+        let extras = &mut arena.extras;
+        let (given, other) = (rows(&extras.given_tangents), rows(&extras.other_tangents));
+        let Ok(found) = measure(given, other) else { return std::ptr::null() };
         let counts = [found.corners, found.identical, found.sign_flips, found.without_angle];
-        values.measures.clear();
-        values.measures.extend(counts.map(|count| count as f64));
-        values.measures.extend([found.mean, found.min, found.median, found.p95, found.max]);
-        values.measures.extend(found.histogram.map(|count| count as f64));
-        values.measures.push(found.worst.len() as f64);
-        values.measures.extend(found.worst.iter().flat_map(|&(corner, angle)| [corner as f64, angle]));
-        values.measures.as_ptr()
+        let numbers = &mut extras.numbers;
+        numbers.clear();
+        numbers.extend(counts.map(|count| count as f64));
+        numbers.extend([found.mean, found.min, found.median, found.p95, found.max]);
+        numbers.extend(found.histogram.map(|count| count as f64));
+        numbers.push(found.worst.len() as f64);
+        numbers.extend(found.worst.iter().flat_map(|&(corner, angle)| [corner as f64, angle]));
+        numbers.as_ptr()
     })
 }

@@ -1,11 +1,11 @@
-//! Normals of corners.
+//! `generateNormals`: one normal per corner.
 
 use darboux::{NormalOptions, NormalWeight, Shading, SmoothingSeams, generate_normals as generate};
 
-use crate::room::with;
+use crate::arena::with_arena;
 
-/// Computes the normals of all corners: where they lie, or null where the mesh is not one. Choices come as their places in the
-/// lists of `lib/darboux.ts`.
+/// Computes the normals of all corners and returns their address (three floats per corner), or null where an index is out of range.
+/// Options are positions in the lists of names in `lib/darboux.ts`.
 #[unsafe(no_mangle)]
 pub extern "C" fn generate_normals(shading: u32, weight: u32, crease: f32, seams: u32) -> *const f32 {
     let options = NormalOptions {
@@ -18,11 +18,11 @@ pub extern "C" fn generate_normals(shading: u32, weight: u32, crease: f32, seams
         crease,
         seams: if seams == 0 { SmoothingSeams::Ignored } else { SmoothingSeams::Respected },
     };
-    with(|room| {
-        let made =
-            generate(room.vertices.positions(), room.surface.indices(), room.surface.faces(), &options);
+    with_arena(|arena| {
+        let (positions, surface) = (arena.vertices.positions(), &arena.surface);
+        let made = generate(positions, surface.indices(), surface.faces(), &options);
         let Ok(normals) = made else { return std::ptr::null() };
-        room.values.floats = normals.corners.into_flattened();
-        room.values.floats.as_ptr()
+        arena.extras.floats = normals.corners.into_flattened();
+        arena.extras.floats.as_ptr()
     })
 }

@@ -1,74 +1,70 @@
-//! Topology once, evaluate often.
+//! `Plan`: groups a mesh once, and evaluates its tangents again whenever its vertices have moved.
 
 use std::mem::take;
 
 use darboux::{Mesh, Plan};
 
-use crate::room::{Room, Surface, Vertices, with};
-use crate::tangents::options;
-use crate::values::Values;
+use crate::arena::{Arena, with_arena};
+use crate::extras::{Extras, StoredPlan};
+use crate::mesh_arrays::Vertices;
+use crate::options::tangent_options;
 
-/// A plan and the surface that it was made for.
-pub struct Kept {
-    plan: Plan,
-    surface: Surface,
-}
-
-/// Makes a plan of the mesh, whose surface it takes: its number, or -1 where the mesh is not one. Choices come as those of
-/// `generate_tangents`.
+/// Plans the mesh in the arena and takes its surface arrays. Returns the plan's id, or -1 where an index is out of range. Options are
+/// those of `generate_tangents`.
 #[unsafe(no_mangle)]
 pub extern "C" fn make_plan(mode: u32, threshold: f32, method: u32) -> i32 {
-    with(|room| {
-        let Some(mesh) = room.mesh() else { return -1 };
-        let plan = Plan::new(&mesh, &options(mode, threshold, method));
-        room.tangents.report = plan.base().report;
-        let kept = Kept { plan, surface: take(&mut room.surface) };
-        let plans = &mut room.values.plans;
+    with_arena(|arena| {
+        let Some(mesh) = arena.mesh() else { return -1 };
+        let plan = Plan::new(&mesh, &tangent_options(mode, threshold, method));
+        arena.tangents.report = plan.base().report;
+        let stored = StoredPlan { plan, surface: take(&mut arena.surface) };
+        let plans = &mut arena.extras.plans;
         let free = plans.iter().position(Option::is_none).unwrap_or(plans.len());
         plans.resize_with(plans.len().max(free + 1), || None);
-        plans[free] = Some(kept);
+        plans[free] = Some(stored);
         free as i32
     })
 }
 
-/// Where the tangents of a plan's base lie.
+/// The address of the tangents of the mesh that was planned.
 #[unsafe(no_mangle)]
 pub extern "C" fn plan_base(plan: usize) -> *const f32 {
-    let base = |kept: &Kept| kept.plan.base().corners.per_corner().as_ptr().cast();
-    with(|room| room.values.plans[plan].as_ref().map_or(std::ptr::null(), base))
+    let base = |stored: &StoredPlan| stored.plan.base().corners.per_corner().as_ptr().cast();
+    with_arena(|arena| arena.extras.plans[plan].as_ref().map_or(std::ptr::null(), base))
 }
 
-/// Evaluates a plan with the positions and normals that have been written since: where the tangents lie.
+/// Evaluates a plan with the positions and normals in the arena, as many as the planned mesh has, and returns the address of the
+/// tangents.
 #[unsafe(no_mangle)]
 pub extern "C" fn evaluate_plan(plan: usize) -> *const f32 {
-    with(|room| {
-        let Room { vertices, tangents, scratch, values, .. } = room;
-        if let Some((plan, mesh)) = moved(vertices, values, plan) {
-            // The caller gives as many vertices as the plan's mesh has.
+    with_arena(|arena| {
+        let Arena { vertices, tangents, scratch, extras, .. } = arena;
+        if let Some((plan, mesh)) = moved_mesh(vertices, extras, plan) {
+            // The TypeScript side has checked the number of vertices.
             _ = plan.evaluate_into(&mesh, scratch, &mut tangents.corners);
         }
         tangents.corners.per_corner().as_ptr().cast()
     })
 }
 
-/// How many corners a fresh run would give another tangent than [`evaluate_plan`].
+/// The number of corners whose tangent a fresh run on the moved mesh would compute differently from [`evaluate_plan`].
 #[unsafe(no_mangle)]
 pub extern "C" fn count_regrouped(plan: usize) -> u32 {
-    with(|room| {
-        let (plan, mesh) = moved(&room.vertices, &room.values, plan)?;
+    with_arena(|arena| {
+        let (plan, mesh) = moved_mesh(&arena.vertices, &arena.extras, plan)?;
         plan.count_regrouped(&mesh).ok()
     })
     .unwrap_or_default() as u32
 }
 
-/// Frees a plan, whose number another may have then.
+/// Frees a plan. Its id may be used again.
 #[unsafe(no_mangle)]
-pub extern "C" fn drop_plan(plan: usize) {
-    with(|room| room.values.plans[plan] = None);
+pub extern "C" fn free_plan(plan: usize) {
+    with_arena(|arena| arena.extras.plans[plan] = None);
 }
 
-/// A plan and its mesh, moved.
-fn moved<'a>(vertices: &'a Vertices, values: &'a Values, plan: usize) -> Option<(&'a Plan, Mesh<'a>)> {
-    let kept = values.plans[plan].as_ref()?;
-    Some((&kept.plan, vertices.mesh(&kept.surface)?))
+/// A plan, and its mesh with the vertices in the arena.
+fn moved_mesh<'a>(vertices: &'a Vertices, extras: &'a Extras, plan: usize) -> Option<(&'a Plan, Mesh<'a>)> {
+    let stored = extras.plans[plan].as_ref()?;
+    Some((&stored.plan, vertices.mesh(&stored.surface)?))
 }

@@ -1,13 +1,13 @@
-//! What a run met.
+//! The report of a run: counts of what the mesh contains.
 
 use darboux::Report;
 
-use crate::room::with;
+use crate::arena::with_arena;
 
-/// The report of the last run: where its numbers lie, in the order of `report` in `lib/darboux.ts`.
+/// Returns the address of the last run's counts, in the order of `COUNTS` in `lib/core/full.ts`.
 #[unsafe(no_mangle)]
 pub extern "C" fn report() -> *const f64 {
-    with(|room| {
+    with_arena(|arena| {
         let Report {
             triangles,
             unsupported_faces,
@@ -20,7 +20,7 @@ pub extern "C" fn report() -> *const f64 {
             split_vertices,
             merged_vertices,
             ..
-        } = room.tangents.report;
+        } = arena.tangents.report;
         let counts = [
             triangles,
             unsupported_faces,
@@ -33,8 +33,8 @@ pub extern "C" fn report() -> *const f64 {
             split_vertices,
             merged_vertices,
         ];
-        room.values.measures.clear();
-        room.values.measures.extend(counts.map(|count| count as f64));
-        room.values.measures.as_ptr()
+        arena.extras.numbers.clear();
+        arena.extras.numbers.extend(counts.map(|count| count as f64));
+        arena.extras.numbers.as_ptr()
     })
 }

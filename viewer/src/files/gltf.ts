@@ -3,10 +3,10 @@
 import { LoadingManager, Mesh, type Object3D, type Texture } from 'three';
 import { type GLTF, GLTFLoader, type GLTFLoaderPlugin, type GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
 
-import { counted } from '../page/words';
-import { TANGENT_TARGETS } from '../scene/pose';
-import { call } from '../surface/thread';
-import type { Bundle } from './bundle';
+import { counted } from '../plural';
+import { TANGENT_TARGETS } from '../scene/morph-and-skin';
+import { call } from '../worker/client';
+import type { Bundle } from './file-bundle';
 
 /** What a .gltf or .glb shows, and all of it as one GLB. */
 export interface Gltf {

@@ -2,7 +2,7 @@
 
 import type { Object3D } from 'three';
 
-import type { Bundle } from './bundle';
+import type { Bundle } from './file-bundle';
 import { openGltf } from './gltf';
 import { openObj } from './obj';
 

@@ -4,9 +4,9 @@ import { LoadingManager, Mesh, MeshPhongMaterial, MeshStandardMaterial, type Mat
 import { MTLLoader } from 'three/addons/loaders/MTLLoader.js';
 import { OBJLoader } from 'three/addons/loaders/OBJLoader.js';
 
-import { counted } from '../page/words';
-import { isColored } from './image';
-import { located, type Bundle } from './bundle';
+import { counted } from '../plural';
+import { isColored } from './image-colours';
+import { located, type Bundle } from './file-bundle';
 
 /** What an OBJ shows. */
 export interface Obj {

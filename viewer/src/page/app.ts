@@ -3,24 +3,24 @@
 import { Matrix3, Vector3 } from 'three';
 
 import { openModel, type Model } from '../files/model';
-import { repairedGlb } from '../files/repaired';
-import { Marker } from '../scene/marker';
-import { partsOf, placesOf, squareOf, type Part } from '../scene/parts';
-import { Shown } from '../scene/shown';
-import { Stage } from '../scene/stage';
-import type { Arrangement } from '../surface/arrangement';
+import { repairedGlb } from '../files/export-glb';
+import { Marker } from '../scene/place-marker';
+import { partsOf, placesOf, squareOf, type Part } from '../scene/model-parts';
+import { Shown } from '../scene/model-view';
+import { Stage } from '../scene/viewport';
+import type { Arrangement } from '../surface/comparison';
 import { SOURCE_NAMES } from '../surface/sources';
-import { call } from '../surface/thread';
+import { call } from '../worker/client';
 import { connectControls, offerSources, settings } from './controls';
 import { element, numberOf } from './elements';
-import { connectKeys, connectLightDrag } from './keys';
+import { connectKeys, connectLightDrag } from './keyboard';
 import { showLegend } from './legend';
 import { connectOpening, type Find } from './opening';
-import { clearReport, showReport, type Found } from './report';
-import { nameLike, save } from './save';
-import { clearError, showDone, showError, showProgress } from './state';
+import { clearReport, showReport, type Found } from './report-list';
+import { nameLike, save } from './download';
+import { clearError, showDone, showError, showProgress } from './status';
 import { connectTheme } from './theme';
-import { counted } from './words';
+import { counted } from '../plural';
 
 /** How much of the model is in view where the report leads, as a part of its radius. */
 const CLOSE = 0.12;

@@ -2,7 +2,7 @@
 
 import { SOURCES, SOURCE_NAMES, type Source } from '../surface/sources';
 import { element, isOn, numberOf } from './elements';
-import { PAINTS, VECTORS, type Paint, type Settings } from './settings';
+import { PAINTS, VECTORS, type Paint, type Settings } from '../settings';
 
 const PAINT_NAMES: Record<Paint, string> = {
   shaded: 'Shaded',

@@ -1,9 +1,9 @@
 // What the colours mean.
 
-import { COLORS, RAMP, SCALE } from '../scene/ink';
-import { SEAM_COLOR, VECTOR_COLORS } from '../scene/lines';
+import { COLORS, RAMP, SCALE } from '../scene/frame-material';
+import { SEAM_COLOR, VECTOR_COLORS } from '../scene/frame-lines';
 import { element } from './elements';
-import { VECTORS, type Settings } from './settings';
+import { VECTORS, type Settings } from '../settings';
 
 /** Explains the colours that are shown. */
 export function showLegend({ paint, layout, vectors, seams }: Settings): void {

@@ -1,6 +1,6 @@
 // The ways in which a model gets into the page.
 
-import { fromDrop, fromList, type Bundle } from '../files/bundle';
+import { fromDrop, fromList, type Bundle } from '../files/file-bundle';
 import { element } from './elements';
 
 /** The model that is shown when nothing was asked for. */

@@ -2,7 +2,7 @@
 
 import { generateTangents } from 'darboux';
 
-import { derivativeTangents } from './derivatives';
+import { derivativeTangents } from './derivative-tangents';
 import { gathered, type Surface } from './surface';
 
 /** What a side of the picture can show. */

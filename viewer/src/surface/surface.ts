@@ -2,13 +2,21 @@
 
 import { generateNormals } from 'darboux';
 
-import type { Skin } from './pose';
-
 /** Vertices with 3, 3 and 4 floats each. */
 export interface Shape {
   positions: Float32Array;
   normals: Float32Array | null;
   tangents: Float32Array | null;
+}
+
+/** What moves vertices, in the file's numbering. */
+export interface Skin {
+  /** 4 per vertex. */
+  joints: Uint16Array;
+  /** 4 per vertex. */
+  weights: Float32Array;
+  /** 16 floats per joint, column after column: from the mesh to the scene. */
+  matrices: Float32Array;
 }
 
 /** A part's vertices as the file has them. Arrays have 3, 3, 2 and 4 floats per vertex. */

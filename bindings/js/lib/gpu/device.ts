@@ -1,6 +1,6 @@
 // What can go wrong on a device, as errors; reading back: the counterpart of crates/darboux-gpu/src/device/readback.rs.
 
-import { USAGE } from './kernels.js';
+import { USAGE } from './pipelines.js';
 
 /** What to do without a device. */
 export const ON_CPU = 'compute on the CPU (generateTangents of darboux)';

@@ -1,0 +1,27 @@
+//! Completes a run of MikkTSpace that a GPU started, for `darboux/webgpu`.
+
+use darboux::internal::gpu_resume;
+
+use crate::arena::with_arena;
+use crate::options::tangent_options;
+
+/// The cosine of an angular threshold, which the shaders compare with.
+#[unsafe(no_mangle)]
+pub extern "C" fn threshold_cosine(threshold: f32) -> f32 {
+    gpu_resume::threshold_cosine(&tangent_options(0, threshold, 0))
+}
+
+/// Computes the tangents that the GPU left open, in the array of given tangents, from `welded_vertices`. The mesh is indexed and of
+/// triangles. Returns the number of corners computed here, or -1 where an index is out of range.
+#[unsafe(no_mangle)]
+pub extern "C" fn complete_tangents(mode: u32, threshold: f32) -> i32 {
+    with_arena(|arena| {
+        let mut tangents = std::mem::take(&mut arena.extras.given_tangents);
+        let welded = std::mem::take(&mut arena.extras.welded_vertices);
+        let Some(mesh) = arena.mesh() else { return -1 };
+        let options = tangent_options(mode, threshold, 0);
+        let (report, corners) = gpu_resume::complete(&mesh, &options, welded, tangents.as_chunks_mut().0);
+        (arena.extras.given_tangents, arena.tangents.report) = (tangents, report);
+        corners as i32
+    })
+}

@@ -1,0 +1,111 @@
+// Frames as colours: on the surface, and laid out by the UVs.
+
+import { DoubleSide, ShaderMaterial, Matrix3, type Matrix4 } from 'three';
+
+import { PAINTS, type Paint } from '../settings';
+
+/** The scale of angles in degrees: logarithmic from its first to its last, with ticks. As the command's heat maps have it. */
+export const SCALE = { ends: [0.01, 180], ticks: [0.01, 0.1, 1, 10, 180] } as const;
+
+/** From least to greatest: nine colours of viridis (N. Smith and S. van der Walt, 2015, CC0), which grow lighter evenly. */
+export const RAMP = ['#440154', '#472c7a', '#3b518b', '#2c718e', '#21908d', '#27ad81', '#5cc863', '#aadc32', '#fde725'] as const;
+
+/** Colours of what has no place on a scale. */
+export const COLORS = { plus: '#3d8bd9', minus: '#e8873a', flipped: '#e62828', none: '#000000' } as const;
+
+const VERTEX = /* glsl */ `
+attribute vec4 frame;
+attribute vec2 chart;
+attribute float angle;
+varying vec3 vTangent;
+varying vec3 vNormal;
+varying float vSign;
+varying float vAngle;
+varying vec3 vEye;
+uniform mat3 place;
+// To the world's directions.
+flat varying mat3 vPlace;
+
+void main() {
+  vPlace = place;
+  vec4 local = vec4(position, 1.0);
+  #ifdef USE_INSTANCING
+    vPlace = place * mat3(instanceMatrix);
+    local = instanceMatrix * local;
+  #endif
+  vTangent = frame.xyz;
+  vNormal = normal;
+  vSign = frame.w;
+  vAngle = angle;
+  vec4 eye = modelViewMatrix * local;
+  vEye = eye.xyz;
+  gl_Position = projectionMatrix * eye;
+  #ifdef LAYOUT
+    gl_Position = projectionMatrix * viewMatrix * vec4(chart, 0.0, 1.0);
+  #endif
+}`;
+
+const color = (hex: string) => {
+  const parts = [1, 3, 5].map((at) => (parseInt(hex.slice(at, at + 2), 16) / 255).toFixed(4));
+  return `vec3(${parts.join(', ')})`;
+};
+
+const FRAGMENT = /* glsl */ `
+uniform int paint;
+flat varying mat3 vPlace;
+varying vec3 vTangent;
+varying vec3 vNormal;
+varying float vSign;
+varying float vAngle;
+varying vec3 vEye;
+
+const vec3 RAMP[${RAMP.length}] = vec3[${RAMP.length}](${RAMP.map(color).join(', ')});
+
+vec3 heat(float degrees) {
+  if (degrees < -0.5) return ${color(COLORS.none)};
+  // FLIPPED and NO_ANGLE lie beyond the angles that there are.
+  if (degrees > 180.5) return ${color(COLORS.flipped)};
+  float least = log(float(${SCALE.ends[0]}));
+  float most = log(float(${SCALE.ends[1]}.0));
+  float at = clamp((log(max(degrees, 1e-6)) - least) / (most - least), 0.0, 1.0) * float(${RAMP.length - 1});
+  int below = min(int(at), ${RAMP.length - 2});
+  return mix(RAMP[below], RAMP[below + 1], at - float(below));
+}
+
+vec3 direction(vec3 v) {
+  vec3 seen = vPlace * v;
+  float l = length(seen);
+  return l > 0.0 ? 0.5 + 0.5 * seen / l : vec3(0.0);
+}
+
+void main() {
+  vec3 color = vec3(0.6);
+  if (paint == 1) color = direction(vTangent);
+  if (paint == 2) color = direction(cross(vNormal, vTangent) * vSign);
+  if (paint == 3) color = direction(vNormal);
+  if (paint == 4) color = vSign > 0.0 ? ${color(COLORS.plus)} : vSign < 0.0 ? ${color(COLORS.minus)} : ${color(COLORS.none)};
+  if (paint == 5) color = heat(vAngle);
+  #ifdef LAYOUT
+    gl_FragColor = vec4(color, 0.6);
+  #else
+    // A little light from the eye, so that the shape is seen.
+    float facing = abs(dot(normalize(cross(dFdx(vEye), dFdy(vEye))), normalize(vEye)));
+    gl_FragColor = vec4(color * (0.75 + 0.25 * facing), 1.0);
+  #endif
+}`;
+
+/** What paints frames. `place`: the matrix of the part's node, whose directions are the world's. */
+export function inkOf(paint: Paint, place: Matrix4, isLayout: boolean): ShaderMaterial {
+  return new ShaderMaterial({
+    vertexShader: VERTEX,
+    fragmentShader: FRAGMENT,
+    defines: isLayout ? { LAYOUT: '' } : {},
+    uniforms: { paint: { value: PAINTS.indexOf(paint) }, place: { value: new Matrix3().setFromMatrix4(place) } },
+    side: DoubleSide,
+    transparent: isLayout,
+    depthTest: !isLayout,
+    polygonOffset: !isLayout,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1,
+  });
+}

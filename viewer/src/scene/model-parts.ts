@@ -1,0 +1,115 @@
+// The parts of a model: its meshes, one material each.
+
+import {
+  type BufferGeometry,
+  InstancedBufferAttribute,
+  InstancedMesh,
+  Matrix4,
+  Mesh,
+  MeshStandardMaterial,
+  type Object3D,
+  SkinnedMesh,
+} from 'three';
+
+import type { GivenSurface } from '../surface/surface';
+import { floatsOf, type Attribute } from './attribute-floats';
+import { shapeOf, skinOf } from './morph-and-skin';
+
+/** Where a part is: at its node's place, and there where its instances are, if it has some. Skins place meshes themselves. */
+export interface Copy {
+  place: Matrix4;
+  instances: InstancedBufferAttribute | null;
+}
+
+/** A mesh of the model, in the pose of its scene. */
+export interface Part {
+  name: string;
+  geometry: BufferGeometry;
+  material: MeshStandardMaterial;
+  /** Which UVs the normal map is laid by: the attribute's name. */
+  uvName: string;
+  copies: Copy[];
+  surface: GivenSurface;
+  /** Whether three.js turned the normal map's green channel because it found no tangents. */
+  isGreenTurned: boolean;
+}
+
+/** The parts of a model, those first that the scene has first. Errors: there is none. */
+export function partsOf(scene: Object3D, kind: 'gltf' | 'obj'): Part[] {
+  scene.updateMatrixWorld(true);
+  const parts: Part[] = [];
+  scene.traverse((object) => {
+    if (object instanceof Mesh && object.geometry.getAttribute('position')?.count) parts.push(...partsOfMesh(object, kind));
+  });
+  if (!parts.length) throw new Error('The model has no triangles to show.');
+  return parts;
+}
+
+function partsOfMesh(mesh: Mesh, kind: 'gltf' | 'obj'): Part[] {
+  const materials = [mesh.material].flat();
+  const geometry = mesh.geometry as BufferGeometry;
+  const count = geometry.index?.count ?? geometry.getAttribute('position').count;
+  const copies = copiesOf(mesh);
+  if (!copies.length) return [];
+  const ranges = materials.length > 1 ? geometry.groups : [{ start: 0, count, materialIndex: 0 }];
+  return ranges.map(({ start, count, materialIndex }, at) => {
+    const found = materials[materialIndex ?? 0];
+    const material = found instanceof MeshStandardMaterial ? found : new MeshStandardMaterial({ roughness: 0.6 });
+    const channel = material.normalMap?.channel ?? 0;
+    const uvName = channel ? `uv${channel}` : 'uv';
+    const surface = surfaceOf(mesh, uvName, start, count, kind === 'gltf');
+    const name = [mesh.name || 'mesh', ranges.length > 1 && (material.name || at + 1)].filter(Boolean).join(' / ');
+    const isGreenTurned = kind === 'gltf' && !surface.tangents;
+    return { name, geometry, material, uvName, copies, surface, isGreenTurned };
+  });
+}
+
+function surfaceOf(mesh: Mesh, uvName: string, start: number, count: number, vDown: boolean): GivenSurface {
+  const geometry = mesh.geometry as BufferGeometry;
+  const floats = (name: string, width: number) => {
+    const attribute = geometry.getAttribute(name) as Attribute | undefined;
+    return attribute ? floatsOf(attribute, width) : null;
+  };
+  const list = geometry.index;
+  const whole = count - (count % 3);
+  const indices = Uint32Array.from({ length: whole }, (_, corner) => (list ? list.getX(start + corner) : start + corner));
+  const vectors = { positions: floats('position', 3)!, normals: floats('normal', 3), tangents: floats('tangent', 4) };
+  return { ...vectors, uvs: floats(uvName, 2), indices, shape: shapeOf(mesh, vectors), skin: skinOf(mesh), vDown };
+}
+
+/** Instances that mirror are apart from others: three.js takes the sides of triangles from the place that they share. */
+function copiesOf(mesh: Mesh): Copy[] {
+  if (mesh instanceof SkinnedMesh) return [{ place: new Matrix4(), instances: null }];
+  if (!(mesh instanceof InstancedMesh)) return [{ place: mesh.matrixWorld, instances: null }];
+  const all = matricesOf(mesh.instanceMatrix);
+  return [new Matrix4(), new Matrix4().makeScale(-1, 1, 1)].flatMap((turn) => {
+    // A mirror is its own inverse.
+    const matrices = all.filter((matrix) => matrix.determinant() < 0 === turn.determinant() < 0).map((matrix) => matrix.clone().premultiply(turn));
+    if (!matrices.length) return [];
+    const instances = new InstancedBufferAttribute(new Float32Array(matrices.flatMap((matrix) => matrix.elements)), 16);
+    return [{ place: mesh.matrixWorld.clone().multiply(turn), instances }];
+  });
+}
+
+function matricesOf(instances: InstancedBufferAttribute): Matrix4[] {
+  return Array.from({ length: instances.count }, (_, at) => new Matrix4().fromArray(instances.array, at * 16));
+}
+
+/** Everywhere that a part is. */
+export function placesOf({ copies }: Part): Matrix4[] {
+  return copies.flatMap(({ place, instances }) => (instances ? matricesOf(instances).map((matrix) => matrix.premultiply(place)) : [place]));
+}
+
+/** The square that holds the UV square and all UVs: its left, its bottom and its side. */
+export function squareOf(parts: Part[]): [number, number, number] {
+  let [left, bottom, right, top] = [0, 0, 1, 1];
+  for (const { surface } of parts) {
+    const uvs = surface.uvs ?? [];
+    for (let at = 0; at < uvs.length; at += 2) {
+      const [x, y] = [uvs[at], surface.vDown ? 1 - uvs[at + 1] : uvs[at + 1]];
+      if (!Number.isFinite(x + y)) continue;
+      [left, right, bottom, top] = [Math.min(left, x), Math.max(right, x), Math.min(bottom, y), Math.max(top, y)];
+    }
+  }
+  return [left, bottom, Math.max(right - left, top - bottom)];
+}

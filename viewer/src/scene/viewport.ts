@@ -1,0 +1,194 @@
+// Where the model stands: camera, light, environment, and the picture, drawn once for each side of the slider.
+
+import {
+  type Box3,
+  type Camera,
+  Color,
+  DirectionalLight,
+  NeutralToneMapping,
+  type Object3D,
+  OrthographicCamera,
+  PerspectiveCamera,
+  PMREMGenerator,
+  Scene,
+  Sphere,
+  Spherical,
+  Vector3,
+  WebGLRenderer,
+} from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
+
+import { fly, type View } from './camera-flight';
+import type { Side } from './model-view';
+
+const FIELD = 35;
+
+/** The side of the UV layout's square, as a part of the picture's shorter side, and its distances from the picture's edges in pixels. */
+const INSET = 0.5;
+const MARGIN = 12;
+const BELOW = 36;
+
+export class Stage {
+  readonly camera = new PerspectiveCamera(FIELD, 1, 0.01, 100);
+  readonly controls: OrbitControls;
+  /** The place of the slider, from 0 to 1. */
+  split = 0.5;
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly light = new DirectionalLight(0xffffff, 2);
+  private readonly charts = new Scene();
+  private readonly chartCamera = new OrthographicCamera(0, 1, 1, 0, -1, 1);
+  private readonly sphere = new Sphere(new Vector3(), 1);
+  private sides: Side[] = [];
+  private hasLayout = false;
+  private wanted = 0;
+  private stopFlight = () => {};
+
+  /** Errors: the browser has no WebGL 2. */
+  constructor(private readonly canvas: HTMLCanvasElement) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: true });
+    this.renderer.toneMapping = NeutralToneMapping;
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.addEventListener('change', () => this.draw());
+    this.controls.addEventListener('start', () => this.stopFlight());
+    this.scene.add(this.light, this.light.target);
+    const generator = new PMREMGenerator(this.renderer);
+    this.scene.environment = generator.fromScene(new RoomEnvironment(), 0.04).texture;
+    generator.dispose();
+    new ResizeObserver(() => this.draw()).observe(canvas);
+  }
+
+  /** The radius of the model. */
+  get radius(): number {
+    return this.sphere.radius;
+  }
+
+  /** Shows two sides in place of those before. */
+  show(sides: Side[], hasLayout: boolean): void {
+    this.sides = sides;
+    this.hasLayout = hasLayout;
+    this.scene.add(...sides.map((side) => side.model));
+    this.charts.add(...sides.map((side) => side.layout));
+    this.draw();
+  }
+
+  /** Adds to what both sides show. */
+  add(object: Object3D): void {
+    this.scene.add(object);
+  }
+
+  /** Sets the colours behind the model and behind its layout. */
+  background(color: string, layout: string): void {
+    this.scene.background = new Color(color);
+    this.charts.background = new Color(layout);
+    this.draw();
+  }
+
+  /** Moves the light: degrees around the model, and above the horizon. */
+  lightFrom(around: number, above: number): void {
+    const [a, b] = [around, above].map((degrees) => (degrees * Math.PI) / 180);
+    const away = new Vector3(Math.sin(a) * Math.cos(b), Math.sin(b), Math.cos(a) * Math.cos(b));
+    this.light.position.copy(this.sphere.center).addScaledVector(away, 10 * this.sphere.radius);
+    this.light.target.position.copy(this.sphere.center);
+    this.draw();
+  }
+
+  /** Sets how bright the surroundings and the light are. */
+  brightness(surroundings: number, light: number): void {
+    this.scene.environmentIntensity = surroundings;
+    this.light.intensity = light;
+    this.draw();
+  }
+
+  /** Takes the size and the place of a model. */
+  measure(box: Box3): void {
+    box.getBoundingSphere(this.sphere);
+    if (!(this.sphere.radius > 0) || !Number.isFinite(this.sphere.radius)) this.sphere.set(new Vector3(), 1);
+  }
+
+  /** Takes the square that the UV layout is shown in. */
+  measureLayout(left: number, bottom: number, size: number): void {
+    const margin = 0.02 * size;
+    Object.assign(this.chartCamera, { left: left - margin, bottom: bottom - margin, right: left + size + margin, top: bottom + size + margin });
+    this.chartCamera.updateProjectionMatrix();
+  }
+
+  /** Looks at all of the model, from the front and a little from above. */
+  lookAtAll(): void {
+    this.look(this.sphere.center, this.sphere.radius, new Vector3(0.35, 0.3, 1));
+  }
+
+  /** Looks at a place from a direction, so that a radius around it is in view. */
+  look(at: Vector3, radius: number, from: Vector3, isFlight = false): void {
+    const distance = radius / Math.sin(((FIELD / 2) * Math.PI) / 180) / Math.min(1, this.camera.aspect);
+    this.camera.near = Math.min(this.sphere.radius, radius) / 100;
+    this.camera.far = this.sphere.radius * 20 + distance;
+    const to = { eye: at.clone().addScaledVector(from.clone().normalize(), distance), target: at.clone() };
+    const move = ({ eye, target }: View) => {
+      this.camera.position.copy(eye);
+      this.controls.target.copy(target);
+      this.controls.update();
+      this.draw();
+    };
+    this.stopFlight();
+    if (isFlight) this.stopFlight = fly({ eye: this.camera.position.clone(), target: this.controls.target.clone() }, to, move);
+    else move(to);
+  }
+
+  /** Turns around the model by degrees, and comes nearer by a factor. */
+  orbit(around: number, above: number, nearer = 1): void {
+    this.stopFlight();
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const { radius, phi, theta } = new Spherical().setFromVector3(offset);
+    const turned = new Spherical(radius / nearer, phi - (above * Math.PI) / 180, theta + (around * Math.PI) / 180).makeSafe();
+    this.camera.position.setFromSpherical(turned).add(this.controls.target);
+    this.controls.update();
+    this.draw();
+  }
+
+  /** Draws soon: once, however often it is called before. */
+  draw(): void {
+    this.wanted ||= requestAnimationFrame(() => this.drawNow());
+  }
+
+  /** The picture as a file. */
+  async picture(): Promise<Blob> {
+    // What was drawn is there until this task ends.
+    this.drawNow();
+    const blob = await new Promise<Blob | null>((resolve) => this.canvas.toBlob(resolve, 'image/png'));
+    if (!blob) throw new Error('The browser cannot make a picture of this size.');
+    return blob;
+  }
+
+  private drawNow(): void {
+    cancelAnimationFrame(this.wanted);
+    this.wanted = 0;
+    const { renderer, canvas, camera } = this;
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+    if (!width || !height) return;
+    renderer.setPixelRatio(devicePixelRatio);
+    renderer.setSize(width, height, false);
+    camera.aspect = width / height;
+    camera.updateProjectionMatrix();
+    this.drawSplit(0, 0, width, height, this.scene, camera);
+    if (!this.hasLayout) return;
+    const size = Math.round(INSET * Math.min(width, height));
+    this.drawSplit(width - size - MARGIN, BELOW, size, size, this.charts, this.chartCamera);
+  }
+
+  /** Draws a rectangle, on either side of the slider's place in it what that side shows. */
+  private drawSplit(left: number, bottom: number, width: number, height: number, scene: Scene, camera: Camera): void {
+    const { renderer } = this;
+    const middle = Math.round(width * this.split);
+    renderer.setViewport(left, bottom, width, height);
+    renderer.setScissorTest(true);
+    for (const [at, [from, to]] of [[0, middle], [middle, width]].entries()) {
+      if (from === to) continue;
+      this.sides.forEach((side, other) => (side.model.visible = side.layout.visible = at === other));
+      renderer.setScissor(left + from, bottom, to - from, height);
+      renderer.render(scene, camera);
+    }
+    renderer.setScissorTest(false);
+  }
+}
