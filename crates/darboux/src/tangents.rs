@@ -5,14 +5,17 @@ mod face;
 pub(crate) mod fast;
 mod frames;
 mod from_normal;
+mod mesh_slices;
 mod method;
 mod method_plan;
 pub(crate) mod mikktspace;
+mod mirrored_edges;
 mod options;
 mod orthogonalize;
 mod output;
 mod repair;
 mod report;
+pub(crate) mod submesh;
 mod vertex_sums;
 
 use crate::CornerFrames;
@@ -22,7 +25,6 @@ use crate::MeshError;
 use crate::cancel::Stop;
 use crate::math::cosine_of_degrees;
 use crate::split::expect;
-use crate::tangents::mikktspace::submesh;
 
 use crate::exec::simd::Width;
 pub use crate::exec::simd::WidthLimit;

@@ -7,7 +7,7 @@ use crate::cancel::Stop;
 use crate::math::cosine_of_degrees;
 
 use crate::tangents::fast::Fans;
-use crate::tangents::mikktspace::submesh;
+use crate::tangents::submesh;
 
 pub use crate::tangents::fast::UNDECIDED;
 

@@ -18,20 +18,20 @@ use crate::exec::threads;
 use crate::tangents::Report;
 use crate::tangents::Tangents;
 use crate::tangents::angle_area::group_sums::{GroupFrame, GroupMemory, GroupSum, GroupedTriangles, add};
+use crate::tangents::mesh_slices::Flat;
 use crate::tangents::mikktspace::count_mirrored_edges;
 use crate::tangents::mikktspace::derivatives::{
     Derivative, agree_in_quads, count_uv_degenerate, derivatives, derivatives_into,
 };
 use crate::tangents::mikktspace::groups::{Groups, group};
 use crate::tangents::mikktspace::welded_mesh::Shape;
+use crate::tangents::mirrored_edges::survey;
 use crate::tangents::output::Output;
 use crate::tangents::repair::{
     D3, direction, in_plane, length, mean_in_plane, perpendicular, u_direction_of, unit,
 };
 use crate::tangents::report::count_split_vertices;
 use crate::tangents::vertex_sums::finish::across;
-use crate::tangents::vertex_sums::mesh_slices::Flat;
-use crate::tangents::vertex_sums::mirrored_edges::survey;
 
 /// The frame of every corner's group.
 pub(crate) fn run<O: Output>(

@@ -9,12 +9,12 @@ use crate::Mode;
 use crate::math::{V3, add, not_zero};
 
 use crate::tangents::Report;
+use crate::tangents::mesh_slices::Flat;
+use crate::tangents::mirrored_edges::{count_mirrored_edges, survey, vertices_of_both};
 use crate::tangents::output::{Output, fill};
 use crate::tangents::repair::{direction, in_plane, perpendicular, unit};
 use crate::tangents::report::{are_finite, count_split_vertices};
 use crate::tangents::vertex_sums::finish::across;
-use crate::tangents::vertex_sums::mesh_slices::Flat;
-use crate::tangents::vertex_sums::mirrored_edges::{count_mirrored_edges, survey, vertices_of_both};
 use crate::tangents::vertex_sums::weighting::{Derivatives, Orientation, is_degenerate};
 
 /// What the triangles of one face add up to.

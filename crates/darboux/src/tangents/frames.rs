@@ -16,8 +16,8 @@ use crate::tangents::TangentOptions;
 use crate::tangents::fast::{Fans, UNDECIDED, triangle_count};
 use crate::tangents::has_whole_fans;
 use crate::tangents::method;
-use crate::tangents::mikktspace::submesh;
 use crate::tangents::output::{Output, fill};
+use crate::tangents::submesh;
 
 /// The frames of a run, or what they are made of.
 #[derive(Debug, Default)]

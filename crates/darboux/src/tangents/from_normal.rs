@@ -9,11 +9,11 @@ use crate::Mode;
 use crate::math::V3;
 
 use crate::tangents::Report;
+use crate::tangents::mesh_slices::Flat;
+use crate::tangents::mirrored_edges::survey;
 use crate::tangents::output::{Output, fill};
 use crate::tangents::repair::{direction, perpendicular};
 use crate::tangents::vertex_sums::finish::across;
-use crate::tangents::vertex_sums::mesh_slices::Flat;
-use crate::tangents::vertex_sums::mirrored_edges::survey;
 use crate::tangents::vertex_sums::weighting::is_degenerate;
 
 /// The frame of every vertex, at each of its corners.

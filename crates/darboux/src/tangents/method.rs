@@ -10,6 +10,7 @@ use crate::tangents::TangentOptions;
 use crate::tangents::angle_area;
 use crate::tangents::face;
 use crate::tangents::from_normal;
+use crate::tangents::mesh_slices::Flat;
 use crate::tangents::mikktspace;
 use crate::tangents::options::Method;
 use crate::tangents::output::{Output, fill};
@@ -18,7 +19,6 @@ use crate::tangents::vertex_sums::area::Area;
 use crate::tangents::vertex_sums::average::Average;
 use crate::tangents::vertex_sums::finish::finish;
 use crate::tangents::vertex_sums::lengyel::{Lengyel, LengyelPerVertex};
-use crate::tangents::vertex_sums::mesh_slices::Flat;
 use crate::tangents::vertex_sums::scatter::{Keeps, Memory, Sums, accumulate};
 use crate::tangents::vertex_sums::weighting::Weighting;
 

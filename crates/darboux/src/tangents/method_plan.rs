@@ -15,9 +15,9 @@ use crate::tangents::angle_area;
 use crate::tangents::fast::{Fans, PlannedFans, triangle_count};
 use crate::tangents::generate_tangents;
 use crate::tangents::has_whole_fans;
-use crate::tangents::mikktspace::submesh::UndecidedPart;
 use crate::tangents::mikktspace::{Topology, unknown};
 use crate::tangents::run;
+use crate::tangents::submesh::UndecidedPart;
 
 /// What is known beforehand.
 #[derive(Debug)]

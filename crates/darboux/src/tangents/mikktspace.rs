@@ -12,7 +12,6 @@ pub(crate) mod raw_frames;
 pub(crate) mod repair_corners;
 pub(crate) mod signs;
 pub(crate) mod subgroups;
-pub(crate) mod submesh;
 pub(crate) mod welded_mesh;
 
 use crate::Frame;

@@ -6,8 +6,6 @@ pub(crate) mod finish;
 mod frame_kernel;
 mod gather;
 pub(crate) mod lengyel;
-pub(crate) mod mesh_slices;
-pub(crate) mod mirrored_edges;
 pub(crate) mod scatter;
 mod term_kernel;
 pub(crate) mod weighting;

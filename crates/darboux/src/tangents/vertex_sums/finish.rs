@@ -12,16 +12,16 @@ use crate::math::{V3, dot, scale, sub};
 
 use crate::exec::simd::Width;
 use crate::exec::threads::{self, parts, split};
+use crate::tangents::mesh_slices::Flat;
+use crate::tangents::mirrored_edges::{
+    count_mirrored_edges, has_finite_normals, has_finite_vertices, survey_where, vertices_of_both,
+};
 use crate::tangents::output::{Output, fill};
 use crate::tangents::repair::{
     bitangent, direction, in_plane, mean_in_plane, perpendicular, u_direction_of, unit,
 };
 use crate::tangents::report::Report;
 use crate::tangents::vertex_sums::frame_kernel::VertexBlock;
-use crate::tangents::vertex_sums::mesh_slices::Flat;
-use crate::tangents::vertex_sums::mirrored_edges::{
-    count_mirrored_edges, has_finite_normals, has_finite_vertices, survey_where, vertices_of_both,
-};
 use crate::tangents::vertex_sums::scatter::Sums;
 use crate::tangents::vertex_sums::term_kernel::BLOCK;
 use crate::tangents::vertex_sums::weighting::{Orientation, Sum, Weighting, adds};

@@ -7,7 +7,7 @@
 
 use crate::exec::threads::{self, parts, split};
 use crate::exec::windows::WINDOW;
-use crate::tangents::vertex_sums::mesh_slices::Flat;
+use crate::tangents::mesh_slices::Flat;
 use crate::tangents::vertex_sums::scatter::{
     Count, Flaws, How, Sums, accumulate_into, bit, for_each_block, found,
 };

@@ -10,9 +10,9 @@ use crate::exec::simd::{Task, Width};
 use crate::exec::threads::{self, parts, split};
 use crate::exec::windows::{Share, Window, look_around, overlap, shares, triangles_of, windows_of};
 use crate::tangents::angle_area::group_sums::GroupMemory;
+use crate::tangents::mesh_slices::{Flat, Slices};
 use crate::tangents::report::are_finite;
 use crate::tangents::vertex_sums::gather::gather_all;
-use crate::tangents::vertex_sums::mesh_slices::{Flat, Slices};
 use crate::tangents::vertex_sums::term_kernel::{BLOCK, Block};
 use crate::tangents::vertex_sums::weighting::{
     Derivatives, Orientation, Sum, Weighting, is_degenerate, term,

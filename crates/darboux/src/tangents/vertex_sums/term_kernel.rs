@@ -5,7 +5,7 @@
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
 
-use crate::tangents::vertex_sums::mesh_slices::Slices;
+use crate::tangents::mesh_slices::Slices;
 use crate::tangents::vertex_sums::weighting::{Derivatives, Orientation, Sum, Weighting, term_and_test};
 
 /// Triangles per block.

@@ -4,7 +4,7 @@
 
 use crate::math::{V3, length, not_zero, scale, sub};
 
-use crate::tangents::vertex_sums::mesh_slices::Flat;
+use crate::tangents::mesh_slices::Flat;
 
 /// Rows of four lanes, so that a sum is `N` vector additions. Row 0 is a tangent and a weight, row 1 begins with a bitangent.
 pub(crate) type Sum<const N: usize> = [[f32; 4]; N];

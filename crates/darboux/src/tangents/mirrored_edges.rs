@@ -4,8 +4,8 @@ use crate::Mesh;
 
 use crate::exec::threads::{self, split};
 use crate::tangents::Report;
+use crate::tangents::mesh_slices::Flat;
 use crate::tangents::report;
-use crate::tangents::vertex_sums::mesh_slices::Flat;
 use crate::tangents::vertex_sums::weighting::Orientation;
 
 /// The part of a report that does not depend on the method.
