@@ -1,6 +1,6 @@
 //! `planTopology`: the arrays with which the shaders of `darboux/webgpu` evaluate tangents wherever the vertices are.
 
-use darboux::internal::gpu_plan::{Topology, Unplanned};
+use darboux::internal::gpu_plan::{PlanArrays, PlanRefusal};
 
 use crate::arena::with_arena;
 use crate::options::tangent_options;
@@ -11,18 +11,18 @@ use crate::options::tangent_options;
 pub extern "C" fn plan_topology(mode: u32, threshold: f32, max_members: usize) -> i32 {
     with_arena(|arena| {
         let Some(mesh) = arena.mesh() else { return -1 };
-        let topology = match Topology::new(&mesh, &tangent_options(mode, threshold, 0), max_members) {
+        let topology = match PlanArrays::new(&mesh, &tangent_options(mode, threshold, 0), max_members) {
             Ok(topology) => topology,
-            Err(Unplanned::TooManyMembers { members, .. }) => return members as i32,
-            Err(Unplanned::HalvesDisagree { .. } | Unplanned::OtherMethod) => return -1,
+            Err(PlanRefusal::TooManyMembers { members, .. }) => return members as i32,
+            Err(PlanRefusal::HalvesDisagree { .. } | PlanRefusal::OtherMethod) => return -1,
         };
         let (sum_of_vertex, split_vertices) = match topology.sum_of_vertex(&mesh) {
             Ok(sums) => (sums, 0),
             Err(vertices) => (Vec::new(), vertices as u32),
         };
-        let Topology { triangle_count, degenerate_count, sum_count, repairs, .. } = topology;
+        let PlanArrays { triangle_count, degenerate_count, sum_count, repairs, .. } = topology;
         let counts = vec![triangle_count, degenerate_count, sum_count, repairs.into(), split_vertices];
-        let Topology { triangles, representatives, sums, sum_of_corner, .. } = topology;
+        let PlanArrays { triangles, representatives, sums, sum_of_corner, .. } = topology;
         arena.extras.gpu_plan_arrays =
             vec![counts, triangles, representatives, sums, sum_of_corner, sum_of_vertex];
         0

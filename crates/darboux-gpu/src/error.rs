@@ -1,6 +1,6 @@
 //! What can be wrong with what a caller hands over.
 
-use darboux::internal::gpu_plan::Unplanned;
+use darboux::internal::gpu_plan::PlanRefusal;
 
 /// Why something cannot run on a GPU. Degenerate or non-finite geometry is no error.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -145,12 +145,12 @@ pub enum GpuError {
     },
 }
 
-impl From<Unplanned> for GpuError {
-    fn from(why: Unplanned) -> Self {
+impl From<PlanRefusal> for GpuError {
+    fn from(why: PlanRefusal) -> Self {
         match why {
-            Unplanned::HalvesDisagree { corners } => Self::HalvesDisagree { corners },
-            Unplanned::OtherMethod => Self::OtherMethod,
-            Unplanned::TooManyMembers { members, limit } => Self::TooManyMembers { members, limit },
+            PlanRefusal::HalvesDisagree { corners } => Self::HalvesDisagree { corners },
+            PlanRefusal::OtherMethod => Self::OtherMethod,
+            PlanRefusal::TooManyMembers { members, limit } => Self::TooManyMembers { members, limit },
         }
     }
 }

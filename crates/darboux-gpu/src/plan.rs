@@ -4,7 +4,7 @@ mod check;
 mod normals;
 
 use bytemuck::Zeroable;
-use darboux::internal::gpu_plan::{Topology, VERTEX};
+use darboux::internal::gpu_plan::{PlanArrays, VERTEX_MASK};
 use darboux::{Mesh, TangentOptions};
 use wgpu::{Buffer, BufferUsages, CommandEncoder, ComputePipeline, Device};
 
@@ -197,7 +197,7 @@ impl Planner {
     /// Quads are cut into triangles as they are on the mesh given. Errors: quads with corners that have the average of two tangents, or one
     /// degenerate half; methods other than MikkTSpace; vertices of too many triangles; a buffer past a limit of the device.
     pub fn plan(&self, mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Plan, GpuError> {
-        let topology = Topology::new(mesh, options, MAX_TURNS as usize)?;
+        let topology = PlanArrays::new(mesh, options, MAX_TURNS as usize)?;
         let of_corners = self.upload("sums of corners", &topology.sum_of_corner)?;
         let of_vertices = (topology.sum_of_vertex(mesh))
             .map_err(|vertices| GpuError::Unsplit { vertices })
@@ -230,7 +230,7 @@ impl Planner {
                 self.upload("differences", &topology.du)?,
                 self.upload("UVs", &topology.uvs)?,
             ],
-            fans: Fans::new(self, mesh, &topology.triangles, VERTEX)?,
+            fans: Fans::new(self, mesh, &topology.triangles, VERTEX_MASK)?,
             planner: self.clone(),
         })
     }

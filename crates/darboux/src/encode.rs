@@ -29,7 +29,3 @@ pub use snorm::{
     tangent_from_snorm8, tangent_from_snorm10, tangent_from_snorm16, tangent_to_snorm8, tangent_to_snorm10,
     tangent_to_snorm16,
 };
-
-fn sign(w: f32) -> f32 {
-    if w < 0.0 { -1.0 } else { 1.0 }
-}

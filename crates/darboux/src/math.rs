@@ -34,6 +34,12 @@ pub(crate) fn length(v: V3) -> f32 {
     dot(v, v).sqrt()
 }
 
+/// -1 for a value below zero, +1 for any other, -0 and NaN included.
+#[inline(always)]
+pub(crate) fn sign(x: f32) -> f32 {
+    if x < 0.0 { -1.0 } else { 1.0 }
+}
+
 /// MikkTSpace's "not zero": above the smallest normal float. NaN counts as zero.
 #[inline(always)]
 pub(crate) fn not_zero(x: f32) -> bool {

@@ -22,7 +22,7 @@ type D3 = [f64; 3];
 /// How normals are made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormalOptions {
-    /// Flat, or smooth.
+    /// MeshSlices, or smooth.
     pub shading: Shading,
     /// How much each face counts at a vertex, where shading is smooth.
     pub weight: NormalWeight,
@@ -43,11 +43,11 @@ impl Default for NormalOptions {
     }
 }
 
-/// Flat or smooth.
+/// MeshSlices or smooth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Shading {
     /// Every corner has its face's normal: what glTF asks of renderers where normals are absent (2.0, section 3.7.2.1).
-    Flat,
+    MeshSlices,
     /// Corners around a vertex share the weighted mean of their faces' normals, but for creases.
     #[default]
     Smooth,
@@ -139,7 +139,7 @@ impl NormalPlan {
         let (mesh, stop) = (bare_mesh(positions.into(), indices.into(), faces)?, Stop::heard());
         let vertex_of_corner = vertices_of_corners(&mesh, options.seams, &stop)?;
         let (fan_of_corner, creased_edges) = fans_of_corners(&mesh, &vertex_of_corner, options, &stop)?;
-        let is_flat = options.shading == Shading::Flat;
+        let is_flat = options.shading == Shading::MeshSlices;
         Ok(Self {
             vertex_count: mesh.vertex_count(),
             indices: (0..mesh.corner_count()).map(|corner| mesh.vertex_of_corner(corner) as u32).collect(),
@@ -250,12 +250,12 @@ struct Polygons {
 
 /// A sum of normals and of their weights.
 #[derive(Clone, Copy, Default)]
-struct Sum {
+struct WeightedNormal {
     normal: D3,
     weight: f64,
 }
 
-impl Sum {
+impl WeightedNormal {
     /// None where nothing was added, or what was added cancels but for rounding.
     fn direction(&self) -> Option<D3> {
         (length(self.normal) > 1e-6 * self.weight).then(|| unit(self.normal)).flatten()
@@ -296,9 +296,15 @@ impl Polygons {
     }
 
     /// For every group of corners the sum of their faces' normals; anything once it shall stop.
-    fn sums(&self, mesh: &Mesh<'_>, group_of_corner: &[u32], weight: NormalWeight, stop: &Stop) -> Vec<Sum> {
+    fn sums(
+        &self,
+        mesh: &Mesh<'_>,
+        group_of_corner: &[u32],
+        weight: NormalWeight,
+        stop: &Stop,
+    ) -> Vec<WeightedNormal> {
         let groups = group_of_corner.iter().max().map_or(0, |&last| last as usize + 1);
-        let mut sums = vec![Sum::default(); groups];
+        let mut sums = vec![WeightedNormal::default(); groups];
         for (corner, &group) in group_of_corner.iter().enumerate() {
             if stop.check_at(corner).is_err() {
                 break;
@@ -367,7 +373,7 @@ fn fans_of_corners(
 ) -> Result<(Vec<u32>, usize), MeshError> {
     match options.shading {
         Shading::Smooth if options.crease >= 180.0 => Ok((vertex_of_corner.to_vec(), 0)),
-        Shading::Flat => Ok((Polygons::new(mesh, stop)?.face_of_corner, 0)),
+        Shading::MeshSlices => Ok((Polygons::new(mesh, stop)?.face_of_corner, 0)),
         Shading::Smooth => fans(&Polygons::new(mesh, stop)?, vertex_of_corner, options.crease, stop),
     }
 }

@@ -7,6 +7,7 @@ mod frames;
 mod from_normal;
 mod mesh_slices;
 mod method;
+mod method_buffers;
 mod method_plan;
 pub(crate) mod mikktspace;
 mod mirrored_edges;
@@ -16,6 +17,7 @@ mod output;
 mod repair;
 mod report;
 pub(crate) mod submesh;
+mod uv_derivatives;
 mod vertex_sums;
 
 use crate::CornerFrames;
@@ -32,10 +34,10 @@ pub use crate::exec::threads::on_this_thread;
 use crate::tangents::fast::{Fans, LARGEST_COSINE};
 use crate::tangents::frames::FrameMemory;
 pub use crate::tangents::frames::{LentFrames, generate_frames, lend_frames, write_frames};
+use crate::tangents::method_buffers::MethodBuffers;
 pub(crate) use crate::tangents::method_plan::Planned;
 pub use crate::tangents::options::{Method, Mode, TangentOptions};
 pub use crate::tangents::report::Report;
-use crate::tangents::vertex_sums::scatter::Memory;
 
 /// Tangents of corners and the report of the run.
 #[derive(Clone, Debug, Default)]
@@ -59,7 +61,7 @@ pub struct Frames {
 #[derive(Debug, Default)]
 pub struct Scratch {
     fans: Fans,
-    sums: Memory,
+    sums: MethodBuffers,
     frames: FrameMemory,
     width_limit: WidthLimit,
 }

@@ -1,6 +1,8 @@
 //! Named conventions, each with its source. What a source leaves open is said with it.
 
-use super::{Axes, Axis, BitangentDirection, Convention, SignRule, TangentDirection, UvOrigin, Winding};
+use crate::convention::rules::{
+    Axes, Axis, BitangentDirection, Convention, SignRule, TangentDirection, UvOrigin, Winding,
+};
 
 const fn axes(right: Axis, up: Axis, front: Axis) -> Axes {
     match Axes::new(right, up, front) {

@@ -4,7 +4,9 @@ use std::error::Error;
 use std::fmt;
 use std::str::FromStr;
 
-use super::{Axes, Axis, BitangentDirection, Convention, SignRule, TangentDirection, UvOrigin, Winding};
+use crate::convention::rules::{
+    Axes, Axis, BitangentDirection, Convention, SignRule, TangentDirection, UvOrigin, Winding,
+};
 
 /// A text that is no convention.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -7,8 +7,7 @@
 //! Error: steps of h and k along x and y move the point of the octahedron by up to (h, k, h + k) / 2, across a radius of at least
 //! 1 / sqrt(3).
 
-use super::sign;
-use crate::math::{V3, dot, scale};
+use crate::math::{V3, dot, scale, sign};
 
 /// The grid that normals use in x and y.
 const NORMAL_GRID: f32 = 32767.0;

@@ -8,8 +8,7 @@
 //! Error: three components round by half a step, the last by up to a whole one, and the rotation's angle is twice the quaternion's:
 //! 2 sqrt(3/4 + 1) / 32767 radians.
 
-use super::sign;
-use crate::math::{V3, cross, unit_in_plane};
+use crate::math::{V3, cross, sign, unit_in_plane};
 
 const LARGEST: f32 = 32767.0;
 

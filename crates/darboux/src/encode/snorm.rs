@@ -3,7 +3,7 @@
 //! Rounding moves each of three components by up to half a step, so a direction turns by up to asin(sqrt(3) / (2 largest)), and the
 //! length is off by as much. Shaders make the vector unit where they need to.
 
-use super::sign;
+use crate::math::sign;
 
 /// Four bytes; directions turn by up to 0.40 degrees.
 pub fn tangent_to_snorm8([x, y, z, w]: [f32; 4]) -> [i8; 4] {

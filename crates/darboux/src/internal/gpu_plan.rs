@@ -10,18 +10,18 @@ use crate::Mode;
 use crate::TangentOptions;
 use crate::generate_tangents;
 
-use crate::internal::stage_arrays::{Copied, CopiedFrom, NONE, Stages, Triangles};
+use crate::internal::stage_arrays::{CopySource, CornerCopy, NONE, Stages, Triangles};
 use crate::tangents::mikktspace::derivatives::doubled_area;
 
 /// Vertices' numbers end below these bits; see darboux-gpu's shaders/plan/triangle.wgsl.
-const FIRST_MARK: u32 = 1 << 31;
-const SECOND_MARK: u32 = 1 << 30;
+const FIRST_FLAG: u32 = 1 << 31;
+const SECOND_FLAG: u32 = 1 << 30;
 /// The bits of a vertex.
-pub const VERTEX: u32 = SECOND_MARK - 1;
+pub const VERTEX_MASK: u32 = SECOND_FLAG - 1;
 
 /// Why a mesh has no plan there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Unplanned {
+pub enum PlanRefusal {
     /// Corners of quads whose halves disagree about them: they have the average of two tangents, or, where one half is degenerate, that of
     /// the corner that lies where they do.
     HalvesDisagree {
@@ -41,7 +41,7 @@ pub enum Unplanned {
 
 /// The arrays of a plan.
 #[derive(Debug, Default)]
-pub struct Topology {
+pub struct PlanArrays {
     /// Five words per triangle, degenerate ones last.
     pub triangles: Vec<u32>,
     /// Two words per triangle: the differences of u.
@@ -68,22 +68,22 @@ pub struct Topology {
     pub threshold_cosine: f32,
 }
 
-impl Topology {
+impl PlanArrays {
     /// `most_members`: of one sum. Errors: another method, quads whose halves disagree, too many members.
-    pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, most_members: usize) -> Result<Self, Unplanned> {
+    pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, most_members: usize) -> Result<Self, PlanRefusal> {
         if options.method != Method::MikkTSpace {
-            return Err(Unplanned::OtherMethod);
+            return Err(PlanRefusal::OtherMethod);
         }
         let limit = 8 * mesh.corner_count() + (1 << 20);
-        let too_many = |members, limit| Unplanned::TooManyMembers { members, limit };
+        let too_many = |members, limit| PlanRefusal::TooManyMembers { members, limit };
         let stages = Stages::new(mesh, options, limit).ok_or_else(|| too_many(limit + 1, limit))?;
         match corners_of_both_halves(&stages) {
             0 => {}
-            corners => return Err(Unplanned::HalvesDisagree { corners }),
+            corners => return Err(PlanRefusal::HalvesDisagree { corners }),
         }
         let base = generate_tangents(mesh, options).corners;
         let repairs = options.mode != Mode::Reference;
-        let mut sums = Sums::new(mesh, &stages);
+        let mut sums = PlanSums::new(mesh, &stages);
         let sum_of_corner = sums.of_corners(mesh, &stages, &base, repairs);
         if let Some(members) = sums.largest().filter(|&members| members > most_members) {
             return Err(too_many(members, most_members));
@@ -143,7 +143,7 @@ impl Topology {
 /// Corners that have neither the tangent of one sum nor, at the same vertex, that of another corner.
 fn corners_of_both_halves(stages: &Stages) -> usize {
     let is_average = |sums: &&[u32; 2]| sums[1] != NONE && sums[1] != sums[0];
-    let is_of_half = |copied: &&Copied| matches!(copied.from, CopiedFrom::Half(_));
+    let is_of_half = |copied: &&CornerCopy| matches!(copied.from, CopySource::Half(_));
     stages.sums.of_corner.iter().filter(is_average).count() + stages.copies.iter().filter(is_of_half).count()
 }
 
@@ -169,12 +169,12 @@ fn representatives(mesh: &Mesh<'_>, lists: [&Triangles; 2]) -> Vec<u32> {
 /// The sum of each corner of the triangles that are not degenerate, marked where members of its group have several.
 fn sums_of_places(stages: &Stages, sum_of_corner: &[u32]) -> Vec<u32> {
     let corners = stages.triangulation.good.corners.as_flattened();
-    let sum_of_place = |place: &u32| sum_of_corner[corners[*place as usize] as usize] & !FIRST_MARK;
+    let sum_of_place = |place: &u32| sum_of_corner[corners[*place as usize] as usize] & !FIRST_FLAG;
     let mut sums: Vec<u32> = (0..corners.len() as u32).map(|place| sum_of_place(&place)).collect();
     for group in 0..stages.groups.ends().len() {
         let members = stages.groups.members(group);
         if members.iter().any(|member| sum_of_place(member) != sum_of_place(&members[0])) {
-            members.iter().for_each(|&member| sums[member as usize] |= FIRST_MARK);
+            members.iter().for_each(|&member| sums[member as usize] |= FIRST_FLAG);
         }
     }
     sums
@@ -188,16 +188,16 @@ fn triangle(mesh: &Mesh<'_>, stages: &Stages, t: usize) -> [u32; 5] {
     let has_copies = [a, b, c] != names;
     // Its own orientation, whatever a quad's halves agree on.
     let preserves = doubled_area(names.map(|name| mesh.uvs().get(name as usize))) > 0.0;
-    a |= if preserves { 0 } else { FIRST_MARK };
-    b |= if stages.derivatives[t].any { FIRST_MARK } else { 0 };
-    c |= if has_copies { FIRST_MARK } else { 0 };
+    a |= if preserves { 0 } else { FIRST_FLAG };
+    b |= if stages.derivatives[t].any { FIRST_FLAG } else { 0 };
+    c |= if has_copies { FIRST_FLAG } else { 0 };
     let [d, e] = differences(mesh, good.vertices[t], 1);
     [a, b, c, d, e]
 }
 
 fn degenerate_triangle(mesh: &Mesh<'_>, corners: [u32; 3]) -> [u32; 5] {
     let [a, b, c] = corners.map(|corner| vertex(mesh, corner));
-    [a, b | FIRST_MARK | SECOND_MARK, c, 0, 0]
+    [a, b | FIRST_FLAG | SECOND_FLAG, c, 0, 0]
 }
 
 /// How much u or v differs along the two edges from the first corner.
@@ -206,8 +206,8 @@ fn differences(mesh: &Mesh<'_>, vertices: [u32; 3], axis: usize) -> [u32; 2] {
     [b - a, c - a].map(f32::to_bits)
 }
 
-/// Sums, and which corner has which.
-struct Sums {
+/// PlanSums, and which corner has which.
+struct PlanSums {
     ends: Vec<u32>,
     /// The vertex whose normal it has.
     vertices: Vec<u32>,
@@ -221,7 +221,7 @@ struct Sums {
 /// The sign of what no group reaches.
 const DEFAULT_SIGN: f32 = -1.0;
 
-impl Sums {
+impl PlanSums {
     fn new(mesh: &Mesh<'_>, stages: &Stages) -> Self {
         let sums = &stages.sums;
         let starts = [0].into_iter().chain(sums.ends.iter().copied());
@@ -252,7 +252,7 @@ impl Sums {
     ) -> Vec<u32> {
         let mut sums: Vec<u32> = stages.sums.of_corner.iter().map(|sums| sums[0]).collect();
         for copied in &stages.copies {
-            if let CopiedFrom::Vertex(good) = copied.from {
+            if let CopySource::Vertex(good) = copied.from {
                 sums[copied.corner as usize] = sums[good as usize];
             }
         }
@@ -276,7 +276,7 @@ impl Sums {
             if *sum == NONE {
                 *sum = self.without_members(vertex(mesh, corner as u32), is_forced[corner]);
             }
-            *sum |= if sign < 0.0 { FIRST_MARK } else { 0 };
+            *sum |= if sign < 0.0 { FIRST_FLAG } else { 0 };
         }
         sums
     }
@@ -299,7 +299,7 @@ impl Sums {
         let sum = *self.empty.entry((vertex, is_forced)).or_insert(next);
         if sum == next {
             self.ends.push(self.members.len() as u32);
-            self.vertices.push(vertex | if is_forced { FIRST_MARK } else { 0 });
+            self.vertices.push(vertex | if is_forced { FIRST_FLAG } else { 0 });
         }
         sum
     }

@@ -13,16 +13,17 @@ use crate::topology::neighbours::neighbours;
 use crate::topology::triangulate::triangulate;
 
 use crate::tangents::mikktspace::degenerate::copies;
+use crate::tangents::mikktspace::derivatives::agreed_derivatives;
 use crate::tangents::mikktspace::evaluate::joined;
-use crate::tangents::mikktspace::subgroups::Subgroups;
-use crate::tangents::mikktspace::welded_mesh::Shape;
-use crate::tangents::mikktspace::{Topology, agreed_derivatives, edge_order};
+use crate::tangents::mikktspace::subgroups::SubgroupFinder;
+use crate::tangents::mikktspace::welded_mesh::WeldedMesh;
+use crate::tangents::mikktspace::{GroupedMesh, edge_order};
 
-pub use crate::tangents::mikktspace::degenerate::{Copied, CopiedFrom};
+pub use crate::tangents::mikktspace::degenerate::{CopySource, CornerCopy};
 pub use crate::tangents::mikktspace::derivatives::Derivative;
 pub use crate::tangents::mikktspace::groups::Groups;
-pub use crate::topology::neighbours::NONE;
-pub use crate::topology::triangulate::{Triangles, Triangulation};
+pub use crate::topology::triangles::NONE;
+pub use crate::topology::triangles::{Triangles, Triangulation};
 
 /// The arrays of all stages of one run.
 #[derive(Clone, Debug)]
@@ -38,16 +39,16 @@ pub struct Stages {
     /// The groups, in the order of their seeds.
     pub groups: Groups,
     /// Over which members each corner sums.
-    pub sums: Sums,
+    pub sums: SubgroupSums,
     /// What fills the corners that only degenerate triangles have.
-    pub copies: Vec<Copied>,
+    pub copies: Vec<CornerCopy>,
     /// The cosine above which members join.
     pub threshold_cosine: f32,
 }
 
-/// Subgroups: the sums that a run makes, group after group.
+/// SubgroupFinder: the sums that a run makes, group after group.
 #[derive(Clone, Debug, Default)]
-pub struct Sums {
+pub struct SubgroupSums {
     /// Corners `k` of triangles `t` as `3 t + k`, ascending in each sum, without the UV-degenerate ones, which add nothing.
     pub members: Vec<u32>,
     /// Where the members of each sum end.
@@ -63,15 +64,15 @@ impl Stages {
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, limit: usize) -> Option<Self> {
         let triangulation = triangulate(mesh);
         let neighbours = neighbours(&triangulation.good, edge_order(options));
-        let derivatives = agreed_derivatives(&triangulation.good, &Shape::welded(mesh));
+        let derivatives = agreed_derivatives(&triangulation.good, &WeldedMesh::welded(mesh));
         let known = (&neighbours[..], derivatives.clone());
-        let topology = Topology::of(mesh, triangulation, known, |_| true, options);
+        let topology = GroupedMesh::of(mesh, triangulation, known, |_| true, options);
         let threshold_cosine = cosine_of_degrees(options.threshold);
         Some(Self {
             neighbours,
             derivatives,
             preserves: topology.base.derivatives.iter().map(|derivative| derivative.preserves).collect(),
-            sums: Sums::new(&topology, threshold_cosine, mesh.corner_count(), limit)?,
+            sums: SubgroupSums::new(&topology, threshold_cosine, mesh.corner_count(), limit)?,
             copies: copies(&topology.triangulation),
             threshold_cosine,
             groups: topology.groups,
@@ -83,16 +84,16 @@ impl Stages {
 /// As [`crate::generate_frames`], by all stages in their general form.
 pub fn frames(mesh: &Mesh<'_>, options: &TangentOptions) -> Frames {
     let stop = &Stop::heard();
-    let Some(topology) = Topology::new(mesh, options, stop) else { return Frames::default() };
+    let Some(topology) = GroupedMesh::new(mesh, options, stop) else { return Frames::default() };
     let (corners, report) = topology.frames(mesh, stop);
     Frames { corners: CornerFrames(corners), report }
 }
 
-impl Sums {
-    fn new(topology: &Topology, threshold_cosine: f32, corners: usize, limit: usize) -> Option<Self> {
+impl SubgroupSums {
+    fn new(topology: &GroupedMesh, threshold_cosine: f32, corners: usize, limit: usize) -> Option<Self> {
         let (good, groups, base) = (&topology.triangulation.good, &topology.groups, &topology.base);
         let mut out = Self { of_corner: vec![[NONE; 2]; corners], ..Self::default() };
-        let mut subgroups = Subgroups::new(threshold_cosine);
+        let mut subgroups = SubgroupFinder::new(threshold_cosine);
         for group in 0..groups.len() {
             let members = groups.members(group);
             let vertex = good.vertices.as_flattened()[members[0] as usize];

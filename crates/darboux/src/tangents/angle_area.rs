@@ -11,33 +11,33 @@ use crate::Frame;
 use crate::Mesh;
 use crate::Mode;
 use crate::math::V3;
-use crate::topology::neighbours::{EdgeOrder, NONE, neighbours};
-use crate::topology::triangulate::{Triangles, Triangulation, triangulate};
+use crate::topology::neighbours::{EdgeOrder, neighbours};
+use crate::topology::triangles::{NONE, Triangles, Triangulation};
+use crate::topology::triangulate::triangulate;
 
 use crate::exec::threads;
 use crate::tangents::Report;
-use crate::tangents::Tangents;
-use crate::tangents::angle_area::group_sums::{GroupFrame, GroupMemory, GroupSum, GroupedTriangles, add};
-use crate::tangents::mesh_slices::Flat;
-use crate::tangents::mikktspace::count_mirrored_edges;
+use crate::tangents::angle_area::group_sums::{GroupBuffers, GroupFrame, GroupSum, GroupedTriangles, add};
+use crate::tangents::mesh_slices::MeshSlices;
+use crate::tangents::mikktspace::derivatives::count_mirrored_edges;
 use crate::tangents::mikktspace::derivatives::{
     Derivative, agree_in_quads, count_uv_degenerate, derivatives, derivatives_into,
 };
 use crate::tangents::mikktspace::groups::{Groups, group};
-use crate::tangents::mikktspace::welded_mesh::Shape;
+use crate::tangents::mikktspace::welded_mesh::WeldedMesh;
 use crate::tangents::mirrored_edges::survey;
 use crate::tangents::output::Output;
+use crate::tangents::repair::across;
 use crate::tangents::repair::{
     D3, direction, in_plane, length, mean_in_plane, perpendicular, u_direction_of, unit,
 };
 use crate::tangents::report::count_split_vertices;
-use crate::tangents::vertex_sums::finish::across;
 
 /// The frame of every corner's group.
 pub(crate) fn run<O: Output>(
     mesh: &Mesh<'_>,
     mode: Mode,
-    memory: &mut GroupMemory,
+    memory: &mut GroupBuffers,
     corners: &mut [O],
 ) -> Report {
     on_pool(mesh, || topology_and_report(mesh, mode, memory, corners).1)
@@ -49,43 +49,41 @@ fn on_pool<R: Send>(mesh: &Mesh<'_>, work: impl FnOnce() -> R + Send) -> R {
 }
 
 /// What does not depend on where vertices are, and the tangents where they are now.
-pub(crate) fn plan(mesh: &Mesh<'_>, mode: Mode) -> (Topology, Tangents) {
-    let mut base = Tangents::default();
-    base.corners.0.resize(mesh.corner_count(), Output::NONE);
-    let memory = &mut GroupMemory::default();
-    let corners = &mut base.corners.0;
-    let (topology, report) = on_pool(mesh, || topology_and_report(mesh, mode, memory, corners));
-    (topology, Tangents { report, ..base })
+pub(crate) fn plan(mesh: &Mesh<'_>, mode: Mode) -> (AngleAreaPlan, Vec<[f32; 4]>, Report) {
+    let mut corners = vec![Output::EMPTY; mesh.corner_count()];
+    let buffers = &mut GroupBuffers::default();
+    let (plan, report) = on_pool(mesh, || topology_and_report(mesh, mode, buffers, &mut corners));
+    (plan, corners, report)
 }
 
 fn topology_and_report<O: Output>(
     mesh: &Mesh<'_>,
     mode: Mode,
-    memory: &mut GroupMemory,
+    memory: &mut GroupBuffers,
     corners: &mut [O],
-) -> (Topology, Report) {
-    let (topology, mut report) = Topology::new(mesh, memory);
-    let flat = Flat::new(mesh);
-    report.repaired_corners = topology.frames(&flat, &Shape::welded(mesh), mode, memory, corners);
+) -> (AngleAreaPlan, Report) {
+    let (topology, mut report) = AngleAreaPlan::new(mesh, memory);
+    let flat = MeshSlices::new(mesh);
+    report.repaired_corners = topology.frames(&flat, &WeldedMesh::welded(mesh), mode, memory, corners);
     report.split_vertices = count_split_vertices(mesh, corners);
     (topology, report)
 }
 
 /// What does not depend on where vertices are, once they are welded and grouped.
 #[derive(Debug)]
-pub(crate) struct Topology {
+pub(crate) struct AngleAreaPlan {
     triangulation: Triangulation,
     groups: Groups,
-    places: Places,
+    places: CornerGroups,
     /// Of good triangles: those that add nothing, wherever they are.
     is_left_out: Vec<bool>,
     orientation_of_face: Vec<Option<bool>>,
 }
 
-impl Topology {
+impl AngleAreaPlan {
     /// Welds, finds neighbours and groups; leaves the derivatives in `memory`, and what is known of the report.
-    pub(crate) fn new(mesh: &Mesh<'_>, memory: &mut GroupMemory) -> (Self, Report) {
-        let (flat, shape) = (Flat::new(mesh), Shape::welded(mesh));
+    pub(crate) fn new(mesh: &Mesh<'_>, memory: &mut GroupBuffers) -> (Self, Report) {
+        let (flat, shape) = (MeshSlices::new(mesh), WeldedMesh::welded(mesh));
         let triangulation = triangulate(mesh);
         let good = &triangulation.good;
         let mut derivatives = derivatives(good, &shape);
@@ -98,7 +96,7 @@ impl Topology {
         report.mirrored_edges = count_mirrored_edges(&neighbours, &derivatives);
         let orientation_of_face = orientation_of_faces(&flat, good, &derivatives);
         let groups = group(good, &neighbours, |_| true, &mut derivatives);
-        let places = Places::new(&flat, &triangulation, &groups);
+        let places = CornerGroups::new(&flat, &triangulation, &groups);
         let is_left_out = derivatives.iter().map(|derivative| derivative.any).collect();
         memory.derivatives = derivatives;
         (Self { triangulation, groups, places, is_left_out, orientation_of_face }, report)
@@ -109,27 +107,27 @@ impl Topology {
         &self,
         mesh: &Mesh<'_>,
         mode: Mode,
-        memory: &mut GroupMemory,
+        memory: &mut GroupBuffers,
         corners: &mut [O],
     ) {
-        let shape = Shape::moved(mesh);
+        let shape = WeldedMesh::moved(mesh);
         on_pool(mesh, || {
             derivatives_into(&self.triangulation.good, &shape, &mut memory.derivatives);
             threads::update(&mut memory.derivatives, |t, derivative| {
                 leave_out_unless_finite(derivative);
                 derivative.any |= self.is_left_out[t];
             });
-            self.frames(&Flat::new(mesh), &shape, mode, memory, corners);
+            self.frames(&MeshSlices::new(mesh), &shape, mode, memory, corners);
         });
     }
 
     /// Gives every corner a frame, by the derivatives in `memory`; says how many have a repair.
     fn frames<O: Output>(
         &self,
-        flat: &Flat<'_>,
-        shape: &Shape<'_>,
+        flat: &MeshSlices<'_>,
+        shape: &WeldedMesh<'_>,
         mode: Mode,
-        memory: &mut GroupMemory,
+        memory: &mut GroupBuffers,
         corners: &mut [O],
     ) -> usize {
         let triangles = &self.triangulation.good;
@@ -142,16 +140,16 @@ impl Topology {
         let normal = |group| direction(self.normal_of_vertex(group, shape)).unwrap_or_default();
         memory.normals.resize(self.groups.len(), [0.0; 3]);
         threads::fill(&mut memory.normals, normal);
-        grouped.add_up(O::IS_WHOLE, memory);
+        grouped.add_up(O::IS_FULL, memory);
         let mut frames = std::mem::take(&mut memory.frames);
-        frames.resize(self.groups.len(), GroupFrame { frame: Frame::NONE, repaired: true });
+        frames.resize(self.groups.len(), GroupFrame { frame: Frame::EMPTY, repaired: true });
         let known = &*memory;
-        threads::fill(&mut frames, |group| self.frame(group, O::IS_WHOLE, shape, known));
+        threads::fill(&mut frames, |group| self.frame(group, O::IS_FULL, shape, known));
         grouped.fit(&frames, memory);
         let known = &*memory;
         threads::update(&mut frames, |group, frame| {
             fit(frame, known.normals[group], known.residuals[group]);
-            if O::IS_WHOLE && frame.frame.bitangent == Frame::NONE.bitangent {
+            if O::IS_FULL && frame.frame.bitangent == Frame::EMPTY.bitangent {
                 let Frame { tangent, sign, .. } = frame.frame;
                 frame.frame.bitangent = across(self.normal_of_vertex(group, shape), tangent, sign);
             }
@@ -162,12 +160,18 @@ impl Topology {
         repaired
     }
 
-    fn normal_of_vertex(&self, group: usize, shape: &Shape<'_>) -> V3 {
+    fn normal_of_vertex(&self, group: usize, shape: &WeldedMesh<'_>) -> V3 {
         let first = self.groups.members(group)[0] as usize;
         shape.normal(self.triangulation.good.vertices.as_flattened()[first])
     }
 
-    fn frame(&self, group: usize, is_whole: bool, shape: &Shape<'_>, memory: &GroupMemory) -> GroupFrame {
+    fn frame(
+        &self,
+        group: usize,
+        is_whole: bool,
+        shape: &WeldedMesh<'_>,
+        memory: &GroupBuffers,
+    ) -> GroupFrame {
         let GroupSum { s, t, magnitude, weight } = memory.sums[group];
         let normal = unless_zero(memory.normals[group]);
         let sign = if self.groups.preserves(group) { 1.0 } else { -1.0 };
@@ -175,18 +179,18 @@ impl Topology {
         let found = (length(s) > 1e-6 * weight).then(|| flat_direction_of(s, normal)).flatten();
         let mean = || self.mean(group, shape, &memory.derivatives);
         let tangent = found.map_or_else(mean, |s| s.map(|x| x as f32));
-        let mut frame = Frame { tangent, sign, ..Frame::NONE };
+        let mut frame = Frame { tangent, sign, ..Frame::EMPTY };
         if is_whole {
             let bitangent = flat_direction_of(t, normal).map(|t| t.map(|x| x as f32));
             // Without a direction it is made from the tangent, once that is fitted.
-            frame.bitangent = bitangent.unwrap_or(Frame::NONE.bitangent);
+            frame.bitangent = bitangent.unwrap_or(Frame::EMPTY.bitangent);
             frame.magnitude = magnitude.map(|sum| if weight > 0.0 { (sum / weight) as f32 } else { 1.0 });
         }
         GroupFrame { frame, repaired: found.is_none() }
     }
 
     /// The repair of a group: the mean of its tangents, all weighted alike; the first triangle's own; a perpendicular.
-    fn mean(&self, group: usize, shape: &Shape<'_>, derivatives: &[Derivative]) -> V3 {
+    fn mean(&self, group: usize, shape: &WeldedMesh<'_>, derivatives: &[Derivative]) -> V3 {
         let normal = self.normal_of_vertex(group, shape);
         let Some(unit_normal) = direction(normal) else { return [1.0, 0.0, 0.0] };
         let members = self.groups.members(group);
@@ -228,7 +232,11 @@ fn leave_out_unless_finite(derivative: &mut Derivative) {
 }
 
 /// The orientation of every face that has one, from its triangles that add something.
-fn orientation_of_faces(flat: &Flat<'_>, good: &Triangles, derivatives: &[Derivative]) -> Vec<Option<bool>> {
+fn orientation_of_faces(
+    flat: &MeshSlices<'_>,
+    good: &Triangles,
+    derivatives: &[Derivative],
+) -> Vec<Option<bool>> {
     let mut preserves = vec![None; flat.face_count()];
     for (&face, derivative) in good.face.iter().zip(derivatives) {
         if !derivative.any {
@@ -240,7 +248,7 @@ fn orientation_of_faces(flat: &Flat<'_>, good: &Triangles, derivatives: &[Deriva
 
 /// Where corners are: their group and their welded vertex, and the groups of each vertex.
 #[derive(Debug)]
-struct Places {
+struct CornerGroups {
     group_of_corner: Vec<u32>,
     /// None for corners of unsupported faces.
     vertex_of_corner: Vec<u32>,
@@ -248,8 +256,8 @@ struct Places {
     first_group: Vec<[u32; 2]>,
 }
 
-impl Places {
-    fn new(flat: &Flat<'_>, triangulation: &Triangulation, groups: &Groups) -> Self {
+impl CornerGroups {
+    fn new(flat: &MeshSlices<'_>, triangulation: &Triangulation, groups: &Groups) -> Self {
         let count = flat.vertex_of_corner.len();
         let mut places = Self {
             group_of_corner: vec![NONE; count],
@@ -288,8 +296,8 @@ impl Places {
 /// Gives every corner its group's frame of its face's orientation. A face without one takes the orientation that more of its corners have
 /// groups of, +1 on a tie; a corner without a group, a frame from its normal, one per vertex and sign. Returns how many corners have a repair.
 fn to_corners<O: Output>(
-    flat: &Flat<'_>,
-    places: &Places,
+    flat: &MeshSlices<'_>,
+    places: &CornerGroups,
     (groups, frames): (&Groups, &[GroupFrame]),
     preserves: &[Option<bool>],
     mode: Mode,
@@ -311,7 +319,7 @@ fn to_corners<O: Output>(
             repaired_corners += usize::from(repaired);
             let left_out = repaired && mode == Mode::Reference;
             corners[corner] =
-                O::from_frame(&if left_out { Frame { sign: frame.sign, ..Frame::NONE } } else { frame });
+                O::from_frame(&if left_out { Frame { sign: frame.sign, ..Frame::EMPTY } } else { frame });
         }
     }
     repaired_corners

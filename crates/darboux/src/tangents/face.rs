@@ -9,13 +9,13 @@ use crate::Mode;
 use crate::math::{V3, add, not_zero};
 
 use crate::tangents::Report;
-use crate::tangents::mesh_slices::Flat;
+use crate::tangents::mesh_slices::MeshSlices;
 use crate::tangents::mirrored_edges::{count_mirrored_edges, survey, vertices_of_both};
 use crate::tangents::output::{Output, fill};
+use crate::tangents::repair::across;
 use crate::tangents::repair::{direction, in_plane, perpendicular, unit};
 use crate::tangents::report::{are_finite, count_split_vertices};
-use crate::tangents::vertex_sums::finish::across;
-use crate::tangents::vertex_sums::weighting::{Derivatives, Orientation, is_degenerate};
+use crate::tangents::uv_derivatives::{Orientation, ScaledDerivatives, is_degenerate};
 
 /// What the triangles of one face add up to.
 #[derive(Clone, Copy, Default)]
@@ -30,7 +30,7 @@ struct Face {
 
 /// The frame of every face, at each of its corners.
 pub(crate) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut [O]) -> Report {
-    let flat = Flat::new(mesh);
+    let flat = MeshSlices::new(mesh);
     let mut report = survey(mesh, &flat);
     let faces = add_up(&flat, &mut report);
     let mut orientations = Vec::with_capacity(faces.len());
@@ -44,7 +44,7 @@ pub(crate) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut [O]) -> 
         let (own, corners) = (frame.map(|frame| O::from_frame(&frame)), &mut corners[range]);
         match (own, mode) {
             (Some(own), _) => corners.fill(own),
-            (None, Mode::Reference) => corners.fill(O::NONE),
+            (None, Mode::Reference) => corners.fill(O::EMPTY),
             (None, _) => fill(corners, vertices.iter().map(replacement)),
         }
     }
@@ -55,12 +55,12 @@ pub(crate) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut [O]) -> 
     report
 }
 
-fn add_up(flat: &Flat<'_>, report: &mut Report) -> Vec<Face> {
+fn add_up(flat: &MeshSlices<'_>, report: &mut Report) -> Vec<Face> {
     let mut faces = vec![Face::default(); flat.face_count()];
     let slices = flat.slices();
     for (t, &triangle) in slices.triangles.iter().enumerate() {
         let (positions, uvs) = slices.refer(triangle);
-        let derivatives = Derivatives::new(positions, uvs);
+        let derivatives = ScaledDerivatives::new(positions, uvs);
         if is_degenerate(flat.values(t).0) {
             report.degenerate_triangles += 1;
         } else if !derivatives.has_direction()

@@ -33,7 +33,7 @@ use crate::Mesh;
 use crate::cancel::Stop;
 use crate::math::cosine_of_degrees;
 use crate::topology::weld::Bounds;
-use crate::util::hash_map::Known;
+use crate::util::hash_map::InsertionMap;
 
 use crate::exec::simd::Width;
 use crate::exec::threads::{self, parts, split};
@@ -57,7 +57,7 @@ use crate::tangents::fast::streamed::{Stream, Unknown};
 use crate::tangents::fast::vertex_names::Names;
 use crate::tangents::fast::weld_vertices::{Refused, Weld};
 use crate::tangents::fast::worker::Worker;
-use crate::tangents::mikktspace::HalfEdge;
+use crate::topology::edge_sort::TriangleEdge;
 
 /// The memory of a run, kept from mesh to mesh.
 #[derive(Debug, Default)]
@@ -74,7 +74,7 @@ pub(crate) struct Fans {
     lists: Lists,
     names: Names,
     /// The last edges in the reference's stretches, as the entries where they start, where their order shows.
-    last_stretches: Vec<Vec<u32>>,
+    tail_runs: Vec<Vec<u32>>,
     /// Of each welded vertex, where whole frames are wanted.
     sums: Vec<Sums>,
     /// Of each welded vertex, where there is an angular threshold,
@@ -118,7 +118,7 @@ impl Fans {
         self.find_windows(mesh, width);
         let tail = TailCells::first(&self.source(mesh), &self.weld.bounds, self.is_shuffled());
         self.add_and_write(mesh, &tail, width, stop, out);
-        self.last_stretches.clear();
+        self.tail_runs.clear();
         if options.mode != Mode::Corrected && !stop.is_asked() {
             self.leave_last_edges(mesh, tail, out);
         }
@@ -142,10 +142,10 @@ impl Fans {
 
     /// The last edges, where the order in which the reference leaves them shows: stretches of edges that are matched with each other
     /// only.
-    pub fn last_stretches(&self, mesh: &Mesh<'_>) -> Vec<Vec<HalfEdge>> {
+    pub fn tail_runs(&self, mesh: &Mesh<'_>) -> Vec<Vec<TriangleEdge>> {
         let source = self.source(mesh);
         let edge = |&entry: &u32| (source.corners(entry / 3), entry % 3);
-        self.last_stretches.iter().map(|stretch| stretch.iter().map(edge).collect()).collect()
+        self.tail_runs.iter().map(|stretch| stretch.iter().map(edge).collect()).collect()
     }
 
     /// Finds which vertices each window uses.
@@ -210,7 +210,7 @@ impl Fans {
         };
         if let Some(last) = last {
             let (names, suspects) = (&mut self.names, &self.special.undecided);
-            self.last_stretches = names.last_stretches(&run, &last, self.weld.count, suspects);
+            self.tail_runs = names.tail_runs(&run, &last, self.weld.count, suspects);
             self.special.leave(&run.source, names.entries_of(&last.vertices), out);
         }
     }
@@ -228,7 +228,7 @@ impl Fans {
     /// The welded vertex at each of some corners, named by the first of these.
     pub fn names(&self, mesh: &Mesh<'_>, list: &[u32]) -> Vec<u32> {
         let source = self.source(mesh);
-        let mut first = Known::new();
+        let mut first = InsertionMap::new();
         let name = |(&corner, at): (&u32, u32)| *first.first(&[source.vertex(corner)], || at);
         list.iter().zip(0..).map(name).collect()
     }

@@ -32,7 +32,7 @@ pub(crate) struct FrameMemory {
 
 /// Computes the whole frame of every corner: tangent, bitangent, magnitudes, sign.
 pub fn generate_frames(mesh: &Mesh<'_>, options: &TangentOptions) -> Frames {
-    let mut corners = vec![Frame::NONE; mesh.corner_count()];
+    let mut corners = vec![Frame::EMPTY; mesh.corner_count()];
     let report = run(mesh, options, &Stop::heard(), &mut Scratch::new(), &mut corners);
     Frames { corners: CornerFrames(corners), report }
 }
@@ -64,7 +64,7 @@ pub fn lend_frames<'a>(
         report
     } else {
         let mut frames = std::mem::take(&mut scratch.frames.frames);
-        frames.resize(mesh.corner_count(), Frame::NONE);
+        frames.resize(mesh.corner_count(), Frame::EMPTY);
         scratch.frames.tangents.clear();
         let width = Width::widest(scratch.width_limit);
         let report = method::run(mesh, options, &stop, width, &mut scratch.sums, &mut frames);

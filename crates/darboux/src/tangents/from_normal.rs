@@ -9,22 +9,22 @@ use crate::Mode;
 use crate::math::V3;
 
 use crate::tangents::Report;
-use crate::tangents::mesh_slices::Flat;
+use crate::tangents::mesh_slices::MeshSlices;
 use crate::tangents::mirrored_edges::survey;
 use crate::tangents::output::{Output, fill};
+use crate::tangents::repair::across;
 use crate::tangents::repair::{direction, perpendicular};
-use crate::tangents::vertex_sums::finish::across;
-use crate::tangents::vertex_sums::weighting::is_degenerate;
+use crate::tangents::uv_derivatives::is_degenerate;
 
 /// The frame of every vertex, at each of its corners.
 pub(crate) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut [O]) -> Report {
-    let flat = Flat::new(mesh);
+    let flat = MeshSlices::new(mesh);
     let mut report = survey(mesh, &flat);
     let frame = |&normal: &V3| match (direction(normal), mode) {
-        (None, Mode::Reference) => O::NONE,
+        (None, Mode::Reference) => O::EMPTY,
         (unit, _) => {
             let tangent = unit.map_or([1.0, 0.0, 0.0], perpendicular).map(|x| x as f32);
-            let bitangent = if O::IS_WHOLE { across(normal, tangent, 1.0) } else { [0.0; 3] };
+            let bitangent = if O::IS_FULL { across(normal, tangent, 1.0) } else { [0.0; 3] };
             O::from_frame(&Frame { tangent, bitangent, magnitude: [1.0; 2], sign: 1.0 })
         }
     };

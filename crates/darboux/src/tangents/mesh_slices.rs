@@ -12,7 +12,7 @@ use crate::topology::triangulate::split_quad;
 
 /// A mesh read as packed arrays. Nothing is copied where the caller's arrays are packed and mostly used, indices 32-bit and faces
 /// triangles. Vertices may be numbered other than in the mesh, corners and faces are not.
-pub(crate) struct Flat<'a> {
+pub(crate) struct MeshSlices<'a> {
     pub positions: Cow<'a, [V3]>,
     pub normals: Cow<'a, [V3]>,
     pub uvs: Cow<'a, [[f32; 2]]>,
@@ -23,13 +23,13 @@ pub(crate) struct Flat<'a> {
 
 /// The vertices of triangles, and positions and UVs of vertices.
 #[derive(Clone, Copy)]
-pub(crate) struct Slices<'a> {
+pub(crate) struct TriangleSlices<'a> {
     pub triangles: &'a [[u32; 3]],
     positions: &'a [V3],
     uvs: &'a [[f32; 2]],
 }
 
-impl<'a> Slices<'a> {
+impl<'a> TriangleSlices<'a> {
     /// Positions and UVs of a triangle, where they are: copies would go through memory once more.
     #[inline(always)]
     pub fn refer(&self, triangle: [u32; 3]) -> ([&'a V3; 3], [&'a [f32; 2]; 3]) {
@@ -48,7 +48,7 @@ struct SplitFaces {
     ends: Vec<u32>,
 }
 
-impl<'a> Flat<'a> {
+impl<'a> MeshSlices<'a> {
     pub fn new(mesh: &Mesh<'a>) -> Self {
         let (vertex_of_corner, used) = used_vertices(mesh);
         let sizes = match mesh.faces() {
@@ -105,10 +105,10 @@ impl<'a> Flat<'a> {
     }
 
     /// The arrays that inner loops read.
-    pub fn slices(&self) -> Slices<'_> {
+    pub fn slices(&self) -> TriangleSlices<'_> {
         // Of one length, so that an index is checked once.
         let (positions, uvs) = (&self.positions[..], &self.uvs[..self.positions.len()]);
-        Slices { triangles: self.triangles(), positions, uvs }
+        TriangleSlices { triangles: self.triangles(), positions, uvs }
     }
 
     /// Positions and UVs of triangle `t`.

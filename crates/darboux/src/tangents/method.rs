@@ -10,16 +10,18 @@ use crate::tangents::TangentOptions;
 use crate::tangents::angle_area;
 use crate::tangents::face;
 use crate::tangents::from_normal;
-use crate::tangents::mesh_slices::Flat;
+use crate::tangents::mesh_slices::MeshSlices;
+use crate::tangents::method_buffers::{MethodBuffers, SumBuffers};
 use crate::tangents::mikktspace;
 use crate::tangents::options::Method;
 use crate::tangents::output::{Output, fill};
 use crate::tangents::report::Report;
+use crate::tangents::vertex_sums::accumulate::accumulate;
 use crate::tangents::vertex_sums::area::Area;
 use crate::tangents::vertex_sums::average::Average;
 use crate::tangents::vertex_sums::finish::finish;
 use crate::tangents::vertex_sums::lengyel::{Lengyel, LengyelPerVertex};
-use crate::tangents::vertex_sums::scatter::{Keeps, Memory, Sums, accumulate};
+use crate::tangents::vertex_sums::side_sums::SideSums;
 use crate::tangents::vertex_sums::weighting::Weighting;
 
 /// Runs the method of `options`. `corners`: receives one output per corner.
@@ -28,7 +30,7 @@ pub(crate) fn run<O: Output>(
     options: &TangentOptions,
     stop: &Stop,
     width: Width,
-    memory: &mut Memory,
+    memory: &mut MethodBuffers,
     corners: &mut [O],
 ) -> Report {
     let mode = options.mode;
@@ -61,25 +63,25 @@ pub(crate) fn mikktspace<O: Output>(
     stop: &Stop,
     corners: &mut [O],
 ) -> Report {
-    let Some(topology) = mikktspace::Topology::new(mesh, options, stop) else { return Report::default() };
+    let Some(topology) = mikktspace::GroupedMesh::new(mesh, options, stop) else { return Report::default() };
     let (frames, report) = topology.frames(mesh, stop);
     fill(corners, frames.iter().map(O::from_frame));
     report
 }
 
-/// Sums as `add_up` does, and makes corners of the sums.
+/// SideSums as `add_up` does, and makes corners of the sums.
 fn summed<const N: usize, W: Weighting<N>, O: Output>(
     mesh: &Mesh<'_>,
     (mode, width): (Mode, Width),
-    add_up: fn(&Flat<'_>, Width, &mut Sums<N>),
-    memory: &mut Memory,
+    add_up: fn(&MeshSlices<'_>, Width, &mut SideSums<N>),
+    memory: &mut MethodBuffers,
     corners: &mut [O],
 ) -> Report
 where
-    Memory: Keeps<N>,
+    MethodBuffers: SumBuffers<N>,
 {
-    let flat = Flat::new(mesh);
-    let (mut sums, mut frames) = (Sums::new(&flat, memory), O::kept(&mut memory.tangents_of_side));
+    let flat = MeshSlices::new(mesh);
+    let (mut sums, mut frames) = (SideSums::new(&flat, memory), O::kept(&mut memory.tangents_of_side));
     let report = threads::on_pool(threads::count(flat.triangles().len()), || {
         add_up(&flat, width, &mut sums);
         finish::<N, W, O>(mesh, &flat, &mut sums, (mode, width), &mut frames, corners)

@@ -2,6 +2,7 @@
 
 use std::sync::OnceLock;
 
+use crate::CornerTangents;
 use crate::Frame;
 use crate::Mesh;
 use crate::cancel::Stop;
@@ -15,9 +16,9 @@ use crate::tangents::angle_area;
 use crate::tangents::fast::{Fans, PlannedFans, triangle_count};
 use crate::tangents::generate_tangents;
 use crate::tangents::has_whole_fans;
-use crate::tangents::mikktspace::{Topology, unknown};
+use crate::tangents::mikktspace::{GroupedMesh, unknown};
 use crate::tangents::run;
-use crate::tangents::submesh::UndecidedPart;
+use crate::tangents::submesh::UndecidedFaces;
 
 /// What is known beforehand.
 #[derive(Debug)]
@@ -25,9 +26,9 @@ pub(crate) enum Planned {
     /// MikkTSpace on faces of 3 and 4 corners: nearly all vertices are decided.
     Fans(Box<Decided>),
     /// MikkTSpace elsewhere.
-    Stages(Box<Topology>),
+    Stages(Box<GroupedMesh>),
     /// Angle and area, on the same groups.
-    Groups(Box<angle_area::Topology>),
+    Groups(Box<angle_area::AngleAreaPlan>),
     /// Other methods run afresh: they have no groups that were worth keeping.
     Nothing,
 }
@@ -36,9 +37,9 @@ pub(crate) enum Planned {
 #[derive(Debug)]
 pub(crate) struct Decided {
     fans: PlannedFans,
-    undecided: Option<UndecidedPart>,
+    undecided: Option<UndecidedFaces>,
     base: Vertices,
-    stages: OnceLock<Topology>,
+    stages: OnceLock<GroupedMesh>,
 }
 
 impl Planned {
@@ -48,8 +49,9 @@ impl Planned {
         match options.method {
             Method::MikkTSpace => {}
             Method::AngleArea => {
-                let (topology, base) = angle_area::plan(mesh, options.mode);
-                return (Self::Groups(Box::new(topology)), base);
+                let (plan, tangents, report) = angle_area::plan(mesh, options.mode);
+                let corners = CornerTangents(tangents);
+                return (Self::Groups(Box::new(plan)), Tangents { corners, report });
             }
             _ => return (Self::Nothing, generate_tangents(mesh, options)),
         }
@@ -57,7 +59,7 @@ impl Planned {
         base.corners.0.resize(mesh.corner_count(), [0.0; 4]);
         let (mut fans, width) = (Fans::default(), Width::widest(Default::default()));
         if !has_whole_fans(options) || !fans.run(mesh, options, width, stop, &mut base.corners.0) {
-            let Some(topology) = Topology::new(mesh, options, stop) else { return (Self::Nothing, base) };
+            let Some(topology) = GroupedMesh::new(mesh, options, stop) else { return (Self::Nothing, base) };
             let (frames, report) = topology.frames(mesh, stop);
             write(&frames, &mut base.corners.0);
             return (Self::Stages(Box::new(topology)), Tangents { report, ..base });
@@ -65,7 +67,7 @@ impl Planned {
         if stop.is_asked() {
             return (Self::Nothing, base);
         }
-        let undecided = UndecidedPart::new(mesh, options, &fans, &base.corners.0);
+        let undecided = UndecidedFaces::new(mesh, options, &fans, &base.corners.0);
         let fans = PlannedFans::new(mesh, fans, &base.corners.0);
         if let Some(part) = &undecided {
             base.report = part.decide(mesh, stop, &mut base.corners.0);
@@ -87,8 +89,8 @@ impl Planned {
         match self {
             Self::Fans(decided) => return decided.evaluate(mesh, base, stop, scratch, out),
             Self::Stages(topology) => write(&topology.frames_of_moved(mesh, unknown(mesh), stop).0, out),
-            Self::Groups(topology) => {
-                topology.frames_of_moved(mesh, options.mode, &mut scratch.sums.of_groups, out);
+            Self::Groups(plan) => {
+                plan.frames_of_moved(mesh, options.mode, &mut scratch.sums.of_groups, out);
             }
             Self::Nothing => {
                 run(mesh, options, stop, scratch, out);
@@ -120,9 +122,9 @@ impl Decided {
     }
 
     /// The stages of the mesh that was planned, which are made when they are first asked for; nothing once it shall stop.
-    fn stages(&self, moved: &Mesh<'_>, options: &TangentOptions, stop: &Stop) -> Option<&Topology> {
+    fn stages(&self, moved: &Mesh<'_>, options: &TangentOptions, stop: &Stop) -> Option<&GroupedMesh> {
         if self.stages.get().is_none() {
-            let made = Topology::new(&self.base.of(moved), options, stop)?;
+            let made = GroupedMesh::new(&self.base.of(moved), options, stop)?;
             // Another thread may have been quicker, with the same.
             _ = self.stages.set(made);
         }

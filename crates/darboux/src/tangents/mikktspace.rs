@@ -18,8 +18,10 @@ use crate::Frame;
 use crate::Mesh;
 use crate::cancel::Stop;
 use crate::math::cosine_of_degrees;
-use crate::topology::neighbours::{EdgeOrder, NONE, match_again, neighbours};
-use crate::topology::triangulate::{Triangles, Triangulation, triangulate, triangulate_welded};
+use crate::topology::edge_sort::TriangleEdge;
+use crate::topology::neighbours::{EdgeOrder, match_again, neighbours};
+use crate::topology::triangles::{Triangles, Triangulation};
+use crate::topology::triangulate::{triangulate, triangulate_welded};
 use crate::util::radix_sort::sort;
 
 use crate::tangents::Mode;
@@ -27,61 +29,58 @@ use crate::tangents::Report;
 use crate::tangents::TangentOptions;
 use crate::tangents::mikktspace::degenerate::fill_degenerate;
 use crate::tangents::mikktspace::derivatives::{
-    Derivative, agree_in_quads, count_uv_degenerate, derivatives,
+    Derivative, agreed_derivatives, count_mirrored_edges, count_uv_degenerate, derivatives,
 };
-use crate::tangents::mikktspace::evaluate::{How, Values, evaluate};
+use crate::tangents::mikktspace::evaluate::{EvaluateOptions, GroupInputs, evaluate};
 use crate::tangents::mikktspace::groups::{Groups, group};
 use crate::tangents::mikktspace::raw_frames::{DEFAULT_FRAME, RawFrames};
 use crate::tangents::mikktspace::repair_corners::repair;
 use crate::tangents::mikktspace::signs::{mixed_faces, unify_signs};
-use crate::tangents::mikktspace::welded_mesh::Shape;
+use crate::tangents::mikktspace::welded_mesh::WeldedMesh;
 use crate::tangents::repair::is_usable;
 use crate::tangents::report;
 
 /// What does not depend on where vertices are, once they are welded and grouped.
 #[derive(Debug)]
-pub(crate) struct Topology {
+pub(crate) struct GroupedMesh {
     pub triangulation: Triangulation,
     pub groups: Groups,
     /// The derivatives and normals of the mesh that was grouped.
-    pub base: Values,
+    pub base: GroupInputs,
     uv_degenerate: usize,
     mirrored_edges: usize,
     threshold_cosine: f32,
     mode: Mode,
 }
 
-/// Part of a mesh: some faces, as a mesh of their own, of which some vertices count.
-pub(crate) struct Part<'a> {
+/// SubmeshWeld of a mesh: some faces, as a mesh of their own, of which some vertices count.
+pub(crate) struct SubmeshWeld<'a> {
     /// The welded vertex of each corner, named by its first corner here.
     pub names: &'a [u32],
     /// Of each corner: its vertex counts, and all faces around it are here. Other corners stay as they were.
     pub counts: &'a [bool],
     /// Stretches of edges that are matched with each other only.
-    pub last_stretches: &'a [Vec<HalfEdge>],
+    pub tail_runs: &'a [Vec<TriangleEdge>],
 }
 
-/// An edge of a triangle: the triangle's corners, and the place among these where the edge starts.
-pub(crate) type HalfEdge = ([u32; 3], u32);
-
-impl Topology {
+impl GroupedMesh {
     /// Welds, finds neighbours and groups; nothing once it shall stop.
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, stop: &Stop) -> Option<Self> {
         let triangulation = triangulate(mesh);
         stop.check().ok()?;
         let neighbours = neighbours(&triangulation.good, edge_order(options));
         stop.check().ok()?;
-        let derivatives = agreed_derivatives(&triangulation.good, &Shape::welded(mesh));
+        let derivatives = agreed_derivatives(&triangulation.good, &WeldedMesh::welded(mesh));
         Some(Self::of(mesh, triangulation, (&neighbours, derivatives), |_| true, options))
     }
 
     /// Of the vertices of `part` that count, where the order of vertices shows nowhere but in the last edges.
-    pub fn of_part(mesh: &Mesh<'_>, part: &Part<'_>, options: &TangentOptions) -> Self {
+    pub fn of_part(mesh: &Mesh<'_>, part: &SubmeshWeld<'_>, options: &TangentOptions) -> Self {
         let triangulation = triangulate_welded(mesh, part.names);
         let good = &triangulation.good;
         let mut neighbours = neighbours(good, EdgeOrder::Complete);
-        match_again(good, &numbered(good, part.last_stretches), &mut neighbours);
-        let derivatives = agreed_derivatives(good, &Shape::welded(mesh));
+        match_again(good, &numbered(good, part.tail_runs), &mut neighbours);
+        let derivatives = agreed_derivatives(good, &WeldedMesh::welded(mesh));
         let counts = |vertex| part.counts[vertex as usize];
         Self::of(mesh, triangulation, (&neighbours, derivatives), counts, options)
     }
@@ -94,12 +93,12 @@ impl Topology {
         counts: impl Fn(u32) -> bool,
         options: &TangentOptions,
     ) -> Self {
-        let shape = Shape::welded(mesh);
+        let shape = WeldedMesh::welded(mesh);
         let good = &triangulation.good;
         let uv_degenerate = count_uv_degenerate(good, &shape, &derivatives);
         let mirrored_edges = count_mirrored_edges(neighbours, &derivatives);
         let groups = group(good, neighbours, counts, &mut derivatives);
-        let base = Values::new(good, &groups, derivatives, &shape);
+        let base = GroupInputs::new(good, &groups, derivatives, &shape);
         let threshold_cosine = cosine_of_degrees(options.threshold);
         Self {
             triangulation,
@@ -117,32 +116,32 @@ impl Topology {
         self.frames_of_part(mesh, unknown(mesh), stop)
     }
 
-    /// As [`Topology::frames`], where corners of no group keep what they have in `known`.
+    /// As [`GroupedMesh::frames`], where corners of no group keep what they have in `known`.
     pub fn frames_of_part(&self, mesh: &Mesh<'_>, known: Vec<Frame>, stop: &Stop) -> (Vec<Frame>, Report) {
-        self.finish(mesh, &self.base, &Shape::welded(mesh), known, stop)
+        self.finish(mesh, &self.base, &WeldedMesh::welded(mesh), known, stop)
     }
 
-    /// As [`Topology::frames_of_part`] for a mesh whose vertices have moved since.
+    /// As [`GroupedMesh::frames_of_part`] for a mesh whose vertices have moved since.
     pub fn frames_of_moved(&self, mesh: &Mesh<'_>, known: Vec<Frame>, stop: &Stop) -> (Vec<Frame>, Report) {
-        let shape = Shape::moved(mesh);
+        let shape = WeldedMesh::moved(mesh);
         let good = &self.triangulation.good;
         let mut moved = derivatives(good, &shape);
         for (moved, base) in moved.iter_mut().zip(&self.base.derivatives) {
             (moved.preserves, moved.any) = (base.preserves, base.any);
         }
-        self.finish(mesh, &Values::new(good, &self.groups, moved, &shape), &shape, known, stop)
+        self.finish(mesh, &GroupInputs::new(good, &self.groups, moved, &shape), &shape, known, stop)
     }
 
     fn finish(
         &self,
         mesh: &Mesh<'_>,
-        values: &Values,
-        shape: &Shape<'_>,
+        values: &GroupInputs,
+        shape: &WeldedMesh<'_>,
         known: Vec<Frame>,
         stop: &Stop,
     ) -> (Vec<Frame>, Report) {
         let good = &self.triangulation.good;
-        let how = How { threshold_cosine: self.threshold_cosine, stop };
+        let how = EvaluateOptions { threshold_cosine: self.threshold_cosine, stop };
         let mut raw = evaluate(good, &self.groups, &how, (&self.base, values), shape, known);
         if stop.is_asked() {
             return (raw.of_corner, Report::default());
@@ -189,16 +188,9 @@ impl Topology {
     }
 }
 
-/// How far `options` has edges put in order.
+/// EvaluateOptions far `options` has edges put in order.
 pub(crate) fn edge_order(options: &TangentOptions) -> EdgeOrder {
     if options.mode == Mode::Corrected { EdgeOrder::Complete } else { EdgeOrder::Reference }
-}
-
-/// The derivatives of every triangle, with one orientation per quad.
-pub(crate) fn agreed_derivatives(good: &Triangles, shape: &Shape<'_>) -> Vec<Derivative> {
-    let mut derivatives = derivatives(good, shape);
-    agree_in_quads(good, shape, &mut derivatives);
-    derivatives
 }
 
 /// What corners have before anything is known.
@@ -207,22 +199,9 @@ pub(crate) fn unknown(mesh: &Mesh<'_>) -> Vec<Frame> {
 }
 
 /// Numbers half-edges of triangles that are not degenerate. Their corners ascend.
-fn numbered(good: &Triangles, stretches: &[Vec<HalfEdge>]) -> Vec<Vec<u32>> {
-    let number = |(corners, start): &HalfEdge| {
+fn numbered(good: &Triangles, stretches: &[Vec<TriangleEdge>]) -> Vec<Vec<u32>> {
+    let number = |(corners, start): &TriangleEdge| {
         3 * good.corners.partition_point(|other| other < corners) as u32 + start
     };
     stretches.iter().map(|stretch| stretch.iter().map(number).collect()).collect()
-}
-
-/// Edges between two triangles, neither UV-degenerate, of opposite orientation.
-pub(crate) fn count_mirrored_edges(neighbours: &[[u32; 3]], derivatives: &[Derivative]) -> usize {
-    let mirrored = |t: usize, other: u32| {
-        other != NONE && (t as u32) < other && {
-            let (a, b) = (&derivatives[t], &derivatives[other as usize]);
-            !a.any && !b.any && a.preserves != b.preserves
-        }
-    };
-    let of_triangle =
-        |(t, around): (usize, &[u32; 3])| around.iter().filter(|&&other| mirrored(t, other)).count();
-    neighbours.iter().enumerate().map(of_triangle).sum()
 }

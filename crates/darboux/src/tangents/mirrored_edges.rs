@@ -4,17 +4,17 @@ use crate::Mesh;
 
 use crate::exec::threads::{self, split};
 use crate::tangents::Report;
-use crate::tangents::mesh_slices::Flat;
+use crate::tangents::mesh_slices::MeshSlices;
 use crate::tangents::report;
-use crate::tangents::vertex_sums::weighting::Orientation;
+use crate::tangents::uv_derivatives::Orientation;
 
 /// The part of a report that does not depend on the method.
-pub(crate) fn survey(mesh: &Mesh<'_>, flat: &Flat<'_>) -> Report {
+pub(crate) fn survey(mesh: &Mesh<'_>, flat: &MeshSlices<'_>) -> Report {
     survey_where(mesh, flat, has_finite_vertices(flat))
 }
 
 /// As [`survey`]. `is_finite`: whether all values that corners have are known to be finite.
-pub(crate) fn survey_where(mesh: &Mesh<'_>, flat: &Flat<'_>, is_finite: bool) -> Report {
+pub(crate) fn survey_where(mesh: &Mesh<'_>, flat: &MeshSlices<'_>, is_finite: bool) -> Report {
     let is_supported = |face: &usize| matches!(flat.corners(*face).len(), 3 | 4);
     let supported = if flat.is_triangles() {
         flat.face_count()
@@ -29,13 +29,13 @@ pub(crate) fn survey_where(mesh: &Mesh<'_>, flat: &Flat<'_>, is_finite: bool) ->
     }
 }
 
-pub(crate) fn has_finite_vertices(flat: &Flat<'_>) -> bool {
+pub(crate) fn has_finite_vertices(flat: &MeshSlices<'_>) -> bool {
     all_finite(flat.positions.as_flattened())
         && has_finite_normals(flat)
         && all_finite(flat.uvs.as_flattened())
 }
 
-pub(crate) fn has_finite_normals(flat: &Flat<'_>) -> bool {
+pub(crate) fn has_finite_normals(flat: &MeshSlices<'_>) -> bool {
     all_finite(flat.normals.as_flattened())
 }
 
@@ -51,7 +51,10 @@ fn all_finite(values: &[f32]) -> bool {
 }
 
 /// For each vertex, whether faces of both orientations meet there; none when the mesh has but one.
-pub(crate) fn vertices_of_both(flat: &Flat<'_>, orientation_of_face: &[Orientation]) -> Option<Vec<bool>> {
+pub(crate) fn vertices_of_both(
+    flat: &MeshSlices<'_>,
+    orientation_of_face: &[Orientation],
+) -> Option<Vec<bool>> {
     // All of them, as bits: a loop that runs many lanes at a time.
     let found = orientation_of_face.iter().fold(0, |found, &orientation| found | 1u8 << orientation as u8);
     if found & 3 != 3 {
@@ -67,7 +70,7 @@ pub(crate) fn vertices_of_both(flat: &Flat<'_>, orientation_of_face: &[Orientati
 
 /// The number of edges between two triangles of opposite orientation. Edges are those of the given indices.
 pub(crate) fn count_mirrored_edges(
-    flat: &Flat<'_>,
+    flat: &MeshSlices<'_>,
     orientation_of_face: &[Orientation],
     of_both: &[bool],
 ) -> usize {
@@ -88,6 +91,6 @@ pub(crate) fn count_mirrored_edges(
 /// Pairs along one edge that run in opposite directions and have opposite orientations.
 fn count_mirrored_pairs(along: &[([u32; 2], bool, Orientation)]) -> usize {
     let count = |up, orientation| along.iter().filter(|edge| edge.1 == up && edge.2 == orientation).count();
-    let (keeps, mirrors) = (Orientation::Keeps, Orientation::Mirrors);
+    let (keeps, mirrors) = (Orientation::Preserves, Orientation::Mirrors);
     count(true, keeps).min(count(false, mirrors)) + count(true, mirrors).min(count(false, keeps))
 }

@@ -5,7 +5,7 @@ use crate::Mesh;
 use crate::MeshError;
 use crate::split::expect;
 
-use crate::tangents::vertex_sums::finish::across;
+use crate::tangents::repair::across;
 
 impl CornerFrames {
     /// The same frames with the bitangent that shaders rebuild: sign * cross(normal, tangent), unit. The tangent stays.

@@ -8,10 +8,10 @@ pub(crate) type TangentsOfSides = [Vec<[f32; 4]>; 2];
 /// What corners are given: whole frames, or tangents alone.
 pub(crate) trait Output: Copy + Send + Sync {
     /// What nobody reads, or nothing reached.
-    const NONE: Self;
+    const EMPTY: Self;
 
     /// Whether bitangents and magnitudes are wanted.
-    const IS_WHOLE: bool;
+    const IS_FULL: bool;
 
     fn from_frame(frame: &Frame) -> Self;
 
@@ -31,15 +31,15 @@ pub(crate) trait Output: Copy + Send + Sync {
 }
 
 impl Output for Frame {
-    const NONE: Self = Frame { tangent: [0.0; 3], bitangent: [0.0; 3], magnitude: [0.0; 2], sign: 1.0 };
-    const IS_WHOLE: bool = true;
+    const EMPTY: Self = Frame { tangent: [0.0; 3], bitangent: [0.0; 3], magnitude: [0.0; 2], sign: 1.0 };
+    const IS_FULL: bool = true;
 
     fn from_frame(frame: &Frame) -> Self {
         *frame
     }
 
     fn from_tangent([x, y, z, sign]: [f32; 4]) -> Self {
-        Self { tangent: [x, y, z], sign, ..Self::NONE }
+        Self { tangent: [x, y, z], sign, ..Self::EMPTY }
     }
 
     fn tangent(&self) -> [f32; 4] {
@@ -48,8 +48,8 @@ impl Output for Frame {
 }
 
 impl Output for [f32; 4] {
-    const NONE: Self = [0.0, 0.0, 0.0, 1.0];
-    const IS_WHOLE: bool = false;
+    const EMPTY: Self = [0.0, 0.0, 0.0, 1.0];
+    const IS_FULL: bool = false;
 
     #[inline]
     fn from_frame(frame: &Frame) -> Self {

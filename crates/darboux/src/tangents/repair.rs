@@ -14,6 +14,11 @@ pub(crate) fn bitangent(normal: Option<D3>, tangent: V3, sign: f32) -> V3 {
     across.unwrap_or_else(|| perpendicular(tangent)).map(|x| (f64::from(sign) * x) as f32)
 }
 
+/// As [`bitangent`], from a normal in `f32`, which may be zero.
+pub(crate) fn across(normal: V3, tangent: V3, sign: f32) -> V3 {
+    bitangent(direction(normal), tangent, sign)
+}
+
 /// As [`u_direction`], from a triangle's values.
 pub(crate) fn u_direction_of(positions: [V3; 3], uvs: [[f32; 2]; 3]) -> D3 {
     let [p0, p1, p2] = positions.map(|position| position.map(f64::from));

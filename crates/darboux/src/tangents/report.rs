@@ -2,7 +2,7 @@
 
 use crate::Mesh;
 use crate::math::V3;
-use crate::util::hash_map::Known;
+use crate::util::hash_map::InsertionMap;
 
 use crate::tangents::output::Output;
 
@@ -70,7 +70,7 @@ const SPLIT: u32 = 1 << 31;
 /// The first corner of each vertex: a table, or a map where vertices by far outnumber corners.
 enum FirstCorners {
     Table(Vec<u32>),
-    Map(Known<u32>),
+    Map(InsertionMap<u32>),
 }
 
 impl FirstCorners {
@@ -78,7 +78,7 @@ impl FirstCorners {
         if mesh.vertex_count() <= 4 * mesh.corner_count() {
             Self::Table(vec![u32::MAX; mesh.vertex_count()])
         } else {
-            Self::Map(Known::new())
+            Self::Map(InsertionMap::new())
         }
     }
 

@@ -9,14 +9,15 @@ use crate::tangents::Report;
 use crate::tangents::TangentOptions;
 use crate::tangents::fast::{Fans, UNDECIDED, triangle_count};
 use crate::tangents::mikktspace::raw_frames::DEFAULT_FRAME;
-use crate::tangents::mikktspace::{HalfEdge, Part, Topology};
+use crate::tangents::mikktspace::{GroupedMesh, SubmeshWeld};
+use crate::topology::edge_sort::TriangleEdge;
 
 /// The faces with an undecided corner, in their order, as a mesh of their own.
 ///
 /// What decides about a corner is there: a UV-degenerate triangle, whose group another vertex can decide, leaves all its vertices
 /// undecided; where a degenerate triangle's corner copies a decided one, so does a face that has that.
 #[derive(Debug)]
-pub(crate) struct UndecidedPart {
+pub(crate) struct UndecidedFaces {
     /// The corner of the whole mesh at each of the part's, and its vertex.
     corners: Vec<u32>,
     indices: Vec<u32>,
@@ -24,10 +25,10 @@ pub(crate) struct UndecidedPart {
     sizes: Vec<u32>,
     /// Of each corner.
     is_undecided: Vec<bool>,
-    topology: Topology,
+    topology: GroupedMesh,
 }
 
-impl UndecidedPart {
+impl UndecidedFaces {
     /// Of the mesh that `fans` has just run on, with the tangents that it wrote; none where all vertices are decided.
     pub fn new(
         mesh: &Mesh<'_>,
@@ -47,9 +48,9 @@ impl UndecidedPart {
         let is_undecided: Vec<bool> = corners.iter().map(is_undecided).collect();
         let names = fans.names(mesh, &corners);
         let counts = all_undecided(&names, &is_undecided);
-        let last_stretches = stretches_within(&corners, &fans.last_stretches(mesh));
-        let part = Part { names: &names, counts: &counts, last_stretches: &last_stretches };
-        let topology = Topology::of_part(&mesh.with_other_faces(&indices, &sizes), &part, options);
+        let tail_runs = stretches_within(&corners, &fans.tail_runs(mesh));
+        let part = SubmeshWeld { names: &names, counts: &counts, tail_runs: &tail_runs };
+        let topology = GroupedMesh::of_part(&mesh.with_other_faces(&indices, &sizes), &part, options);
         Some(Self { corners, indices, sizes, is_undecided, topology })
     }
 
@@ -61,7 +62,7 @@ impl UndecidedPart {
         report
     }
 
-    /// As [`UndecidedPart::decide`], whole frames with their corners, ascending. `tangents`: those of all others.
+    /// As [`UndecidedFaces::decide`], whole frames with their corners, ascending. `tangents`: those of all others.
     fn decide_frames(
         &self,
         mesh: &Mesh<'_>,
@@ -75,7 +76,7 @@ impl UndecidedPart {
         report
     }
 
-    /// As [`UndecidedPart::decide`] for a mesh whose vertices have moved since, with the signs of `base`.
+    /// As [`UndecidedFaces::decide`] for a mesh whose vertices have moved since, with the signs of `base`.
     pub fn decide_moved(&self, mesh: &Mesh<'_>, base: &[[f32; 4]], stop: &Stop, out: &mut [[f32; 4]]) {
         let part = mesh.with_other_faces(&self.indices, &self.sizes);
         let (frames, _) = self.topology.frames_of_moved(&part, self.known(out), stop);
@@ -111,7 +112,7 @@ pub(crate) fn decide(
     stop: &Stop,
     out: &mut [[f32; 4]],
 ) -> Report {
-    let part = UndecidedPart::new(mesh, options, fans, out);
+    let part = UndecidedFaces::new(mesh, options, fans, out);
     let report = part.map(|part| part.decide(mesh, stop, out)).unwrap_or_default();
     Report { triangles: triangle_count(mesh), ..report }
 }
@@ -125,7 +126,7 @@ pub(crate) fn decide_frames(
     tangents: &[[f32; 4]],
     out: &mut Vec<(u32, Frame)>,
 ) -> Report {
-    let part = UndecidedPart::new(mesh, options, fans, tangents);
+    let part = UndecidedFaces::new(mesh, options, fans, tangents);
     let report = part.map(|part| part.decide_frames(mesh, stop, tangents, out)).unwrap_or_default();
     Report { triangles: triangle_count(mesh), ..report }
 }
@@ -140,8 +141,8 @@ fn all_undecided(names: &[u32], is_undecided: &[bool]) -> Vec<bool> {
 }
 
 /// Edges of the mesh as edges of the part that has these of its corners.
-fn stretches_within(corners: &[u32], stretches: &[Vec<HalfEdge>]) -> Vec<Vec<HalfEdge>> {
+fn stretches_within(corners: &[u32], stretches: &[Vec<TriangleEdge>]) -> Vec<Vec<TriangleEdge>> {
     let within = |corner: u32| corners.partition_point(|&other| other < corner) as u32;
-    let edge = |&(triangle, start): &HalfEdge| (triangle.map(within), start);
+    let edge = |&(triangle, start): &TriangleEdge| (triangle.map(within), start);
     stretches.iter().map(|stretch| stretch.iter().map(edge).collect()).collect()
 }

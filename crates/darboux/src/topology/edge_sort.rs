@@ -6,6 +6,9 @@
 
 use crate::util::radix_sort::sort;
 
+/// An edge of a triangle: the triangle's corners, and the place among these where the edge starts.
+pub(crate) type TriangleEdge = ([u32; 3], u32);
+
 /// Edges by the number `3 t + k` of the corner where they start, and the names of vertices, by which the reference orders them.
 pub(crate) trait Edges {
     /// The vertices of an edge.
@@ -45,12 +48,7 @@ impl Edges for NamedTriangles<'_> {
 ///
 /// `list`: all edges, ascending; it is put into another order. `last`: the largest name of a lower vertex, which `count` edges have.
 /// Edges between the same two vertices can lie in several stretches; then matches are missed (the reference's issue 5).
-pub(crate) fn last_stretches(
-    list: &mut [u32],
-    last: u32,
-    count: usize,
-    edges: &mut impl Edges,
-) -> Vec<Vec<u32>> {
+pub(crate) fn tail_runs(list: &mut [u32], last: u32, count: usize, edges: &mut impl Edges) -> Vec<Vec<u32>> {
     sort_last(list, last, edges);
     let run = &list[list.len() - count..];
     let sorted_ends = |edge: u32| {

@@ -5,12 +5,9 @@
 
 use std::collections::VecDeque;
 
-use crate::topology::edge_sort::{NamedTriangles, last_stretches};
-use crate::topology::triangulate::Triangles;
+use crate::topology::edge_sort::{NamedTriangles, tail_runs};
+use crate::topology::triangles::{NONE, Triangles};
 use crate::util::radix_sort::{first, pair, second, sort};
-
-/// No neighbour.
-pub const NONE: u32 = u32::MAX;
 
 /// How far edges are put in order before they are matched.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,11 +35,10 @@ pub(crate) fn neighbours(triangles: &Triangles, order: EdgeOrder) -> Vec<[u32; 3
         start = end;
     }
     let last_run = &edges[last_run_start..];
-    if order == EdgeOrder::Reference && order_shows(last_run.iter().map(|&edge| first(edge))) {
+    if order == EdgeOrder::Reference && tail_order_matters(last_run.iter().map(|&edge| first(edge))) {
         let (last, _) = ends(triangles, second(last_run[0]) as usize);
         let mut list: Vec<u32> = (0..3 * triangles.len() as u32).collect();
-        let stretches =
-            last_stretches(&mut list, last, last_run.len(), &mut NamedTriangles(&triangles.vertices));
+        let stretches = tail_runs(&mut list, last, last_run.len(), &mut NamedTriangles(&triangles.vertices));
         match_again(triangles, &stretches, &mut neighbours);
     }
     neighbours
@@ -51,7 +47,7 @@ pub(crate) fn neighbours(triangles: &Triangles, order: EdgeOrder) -> Vec<[u32; 3
 /// True when another order of the last run could change which edges are matched: it holds an edge twice, and something else.
 ///
 /// `uppers`: the upper vertices of its edges, ascending.
-pub(crate) fn order_shows<U: PartialEq>(uppers: impl Iterator<Item = U> + Clone) -> bool {
+pub(crate) fn tail_order_matters<U: PartialEq>(uppers: impl Iterator<Item = U> + Clone) -> bool {
     let has_equals = uppers.clone().zip(uppers.clone().skip(1)).any(|(a, b)| a == b);
     has_equals && uppers.count() > 2
 }

@@ -3,54 +3,8 @@
 use crate::Faces;
 use crate::Mesh;
 use crate::math::{V3, dot, equal, sub};
-use crate::topology::neighbours::NONE;
+use crate::topology::triangles::{Triangles, Triangulation};
 use crate::topology::weld::weld;
-
-/// Triangles as parallel arrays.
-#[derive(Clone, Debug, Default)]
-pub struct Triangles {
-    /// The corner of the mesh at each of the three corners.
-    pub corners: Vec<[u32; 3]>,
-    /// The welded vertex there, named by the corner that represents it.
-    pub vertices: Vec<[u32; 3]>,
-    /// The face that the triangle is, or is half of.
-    pub face: Vec<u32>,
-}
-
-impl Triangles {
-    pub(crate) fn len(&self) -> usize {
-        self.face.len()
-    }
-
-    /// True when triangles `t` and `t + 1` are the halves of one quad.
-    pub fn is_pair(&self, t: usize) -> bool {
-        t + 1 < self.len() && self.face[t] == self.face[t + 1]
-    }
-
-    fn push(&mut self, corners: [u32; 3], face: usize) {
-        self.corners.push(corners);
-        self.face.push(face as u32);
-    }
-
-    fn push_welded(&mut self, corners: [u32; 3], vertices: [u32; 3], face: u32) {
-        self.corners.push(corners);
-        self.vertices.push(vertices);
-        self.face.push(face);
-    }
-}
-
-/// The triangles of a mesh, welded.
-#[derive(Clone, Debug, Default)]
-pub struct Triangulation {
-    /// Triangles with three distinct positions.
-    pub good: Triangles,
-    /// Triangles with two equal positions.
-    pub degenerate: Triangles,
-    /// The number of faces of other than 3 or 4 corners.
-    pub unsupported_faces: usize,
-    /// These corners.
-    pub unsupported_corners: Vec<u32>,
-}
 
 /// Splits faces into triangles, welds their corners and sets degenerate triangles aside; both lists keep the faces' order.
 pub(crate) fn triangulate(mesh: &Mesh<'_>) -> Triangulation {
@@ -69,45 +23,6 @@ pub(crate) fn triangulate_welded(mesh: &Mesh<'_>, vertex_of_corner: &[u32]) -> T
         all.corners.as_flattened().iter().map(|&corner| vertex_of_corner[corner as usize]).collect();
     out.set_aside_degenerate(mesh, &all, &vertices);
     out
-}
-
-/// Where a corner is: its welded vertex, and the corners of its first triangle.
-pub(crate) struct Place {
-    pub vertex: u32,
-    pub triangle: [u32; 3],
-}
-
-/// The places of corners.
-pub(crate) struct Places<'a> {
-    triangulation: &'a Triangulation,
-    /// The first entry that each corner has in both lists together, or [`NONE`].
-    entry_of_corner: Vec<u32>,
-}
-
-impl<'a> Places<'a> {
-    /// Of the corners of a mesh that has so many.
-    pub fn new(triangulation: &'a Triangulation, corner_count: usize) -> Self {
-        let Triangulation { good, degenerate, .. } = triangulation;
-        let mut entry_of_corner = vec![NONE; corner_count];
-        let all = good.corners.as_flattened().iter().chain(degenerate.corners.as_flattened());
-        for (&corner, entry) in all.zip(0..) {
-            let first = &mut entry_of_corner[corner as usize];
-            *first = entry.min(*first);
-        }
-        Self { triangulation, entry_of_corner }
-    }
-
-    /// None for corners of unsupported faces.
-    pub fn of(&self, corner: u32) -> Option<Place> {
-        let entry = self.entry_of_corner[corner as usize] as usize;
-        let Triangulation { good, degenerate, .. } = self.triangulation;
-        let (list, entry) = match entry.checked_sub(3 * good.len()) {
-            None => (good, entry),
-            Some(entry) => (degenerate, entry),
-        };
-        let vertex = *list.vertices.as_flattened().get(entry)?;
-        Some(Place { vertex, triangle: list.corners[entry / 3] })
-    }
 }
 
 impl Triangulation {

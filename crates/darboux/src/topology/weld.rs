@@ -13,7 +13,7 @@
 
 use crate::Mesh;
 use crate::math::{V3, equal, sub};
-use crate::util::hash_map::Known;
+use crate::util::hash_map::InsertionMap;
 use crate::util::radix_sort::{FEW, sort_by_key};
 
 pub(crate) const CELLS: usize = 2048;
@@ -45,13 +45,13 @@ pub(crate) struct Point {
 }
 
 /// All corners sorted into cells along the longest axis, in list order within a cell.
-fn points_by_cell(mesh: &Mesh<'_>, corners: &[u32]) -> ByCell {
+fn points_by_cell(mesh: &Mesh<'_>, corners: &[u32]) -> CellBuckets {
     let position = |corner: u32| mesh.positions().get(mesh.vertex_of_corner(corner as usize));
     // The reference seeds the box with its corner id 0, whether or not that is in the list, and leaves out the list's first.
     let cells = Cells::of(&Bounds::of(position(0), corners[1..].iter().map(|&corner| position(corner))));
     let point = |(entry, &corner)| Point { position: position(corner), entry };
     let points: Vec<Point> = (0..).zip(corners).map(point).collect();
-    let mut by_cell = ByCell::default();
+    let mut by_cell = CellBuckets::default();
     by_cell.sort(&cells, &points);
     by_cell
 }
@@ -80,14 +80,14 @@ impl Cells {
 
 /// Points sorted into cells, in their order within a cell.
 #[derive(Debug, Default)]
-pub(crate) struct ByCell {
+pub(crate) struct CellBuckets {
     points: Vec<Point>,
     /// Where each cell ends; empty cells may be left out.
     ends: Vec<u32>,
     cells: Vec<u16>,
 }
 
-impl ByCell {
+impl CellBuckets {
     /// Sorts points anew, whose entries ascend.
     pub fn sort(&mut self, cells: &Cells, points: &[Point]) {
         // Few are not worth a look at every cell.
@@ -216,7 +216,7 @@ impl Welder<'_, '_> {
     }
 
     fn weld_hashed(&mut self, points: &[Point]) {
-        let mut first = Known::new();
+        let mut first = InsertionMap::new();
         for point in points {
             let (position, normal, uv) = self.values(point.entry);
             let ([x, y, z], [a, b, c], [u, v]) = (position, normal, uv);

@@ -4,12 +4,12 @@ use std::hash::{BuildHasher, RandomState};
 
 /// Values by key. Values lie in the order in which their keys came.
 #[derive(Debug)]
-pub(crate) struct Known<T> {
+pub(crate) struct InsertionMap<T> {
     numbers: Numbers,
     values: Vec<T>,
 }
 
-impl<T> Known<T> {
+impl<T> InsertionMap<T> {
     pub fn new() -> Self {
         Self { numbers: Numbers::new(), values: Vec::new() }
     }
@@ -109,7 +109,7 @@ mod tests {
 
     #[test]
     fn the_first_value_of_a_key_stays() {
-        let (mut known, mut all) = (Known::new(), Vec::<(Vec<u32>, u32)>::new());
+        let (mut known, mut all) = (InsertionMap::new(), Vec::<(Vec<u32>, u32)>::new());
         for at in 0..2000u32 {
             let word = at.wrapping_mul(2_654_435_761) >> 27;
             let key = vec![word; word as usize % 5];

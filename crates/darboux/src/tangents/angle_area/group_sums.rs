@@ -2,13 +2,12 @@
 
 use crate::Frame;
 use crate::math::{V3, angle};
-use crate::topology::neighbours::NONE;
-use crate::topology::triangulate::Triangles;
+use crate::topology::triangles::{NONE, Triangles};
 
 use crate::exec::threads;
 use crate::tangents::mikktspace::derivatives::Derivative;
 use crate::tangents::mikktspace::groups::Groups;
-use crate::tangents::mikktspace::welded_mesh::Shape;
+use crate::tangents::mikktspace::welded_mesh::WeldedMesh;
 use crate::tangents::repair::{D3, cross, dot, length};
 
 /// What is summed over a group.
@@ -30,7 +29,7 @@ pub(crate) struct GroupFrame {
 
 /// What runs keep from one to the next: 140 bytes per triangle (for whole frames 212) and 170 per group.
 #[derive(Debug, Default)]
-pub(crate) struct GroupMemory {
+pub(crate) struct GroupBuffers {
     pub derivatives: Vec<Derivative>,
     /// Of each group: its unit normal, or zero; its sum; what is left to the fit, and its weight.
     pub normals: Vec<D3>,
@@ -47,7 +46,7 @@ pub(crate) struct GroupMemory {
 /// What is summed, and where to.
 pub(crate) struct GroupedTriangles<'a> {
     pub triangles: &'a Triangles,
-    pub shape: &'a Shape<'a>,
+    pub shape: &'a WeldedMesh<'a>,
     pub groups: &'a Groups,
     pub group_of_corner: &'a [u32],
 }
@@ -56,8 +55,8 @@ impl GroupedTriangles<'_> {
     /// Sums over every group; `memory` has the derivatives and the groups' normals. With bitangents and magnitudes, if `is_whole`.
     ///
     /// First what every triangle adds at its corners, then what groups gather: both by all threads, in the same order on any number.
-    pub fn add_up(&self, is_whole: bool, memory: &mut GroupMemory) {
-        let GroupMemory { derivatives, normals, sums, areas, terms, t_terms, .. } = memory;
+    pub fn add_up(&self, is_whole: bool, memory: &mut GroupBuffers) {
+        let GroupBuffers { derivatives, normals, sums, areas, terms, t_terms, .. } = memory;
         let (derivatives, normals) = (&derivatives[..], &normals[..]);
         areas.resize(derivatives.len(), 0.0);
         threads::fill(areas, |t| if derivatives[t].any { 0.0 } else { self.doubled_area(t) });
@@ -130,8 +129,8 @@ impl GroupedTriangles<'_> {
     ///
     /// With linear weights w_i over a triangle of area A, integral w_i w_j = A/12, or A/6 for i = j, and integral w_i = A/3; so the
     /// residual of corner i is A/3 s - A/12 (t_i + t_0 + t_1 + t_2), and its step (Jacobi's) is that over the sum of A/6.
-    pub fn fit(&self, frames: &[GroupFrame], memory: &mut GroupMemory) {
-        let GroupMemory { derivatives, normals, areas, residuals, .. } = memory;
+    pub fn fit(&self, frames: &[GroupFrame], memory: &mut GroupBuffers) {
+        let GroupBuffers { derivatives, normals, areas, residuals, .. } = memory;
         residuals.clear();
         residuals.resize(normals.len(), ([0.0; 3], 0.0));
         for (t, (derivative, doubled)) in derivatives.iter().zip(areas).enumerate() {

@@ -5,8 +5,8 @@
 //! depends on the vertices' names, the corners that represent them (see `crate::topology::weld`). Names near the end of the triangle list
 //! decide, and those are names of vertices that the last triangles use: only the cells of these are put into the reference's order.
 
-use crate::topology::neighbours::order_shows;
-use crate::topology::weld::{Bounds, ByCell, CELLS, Cells, Point, for_each_final_range};
+use crate::topology::neighbours::tail_order_matters;
+use crate::topology::weld::{Bounds, CELLS, CellBuckets, Cells, Point, for_each_final_range};
 use crate::util::radix_sort::{first, pair, second, sort};
 
 use crate::tangents::fast::input::{Source, TriangleBuffer};
@@ -101,7 +101,7 @@ impl LastEdges {
         uppers.clear();
         uppers.extend(edges.iter().map(|edge| edge.names[1]));
         sort(uppers);
-        if !order_shows(uppers.iter()) {
+        if !tail_order_matters(uppers.iter()) {
             return None;
         }
         let mut vertices: Vec<u32> = edges.iter().flat_map(|edge| edge.ends).collect();
@@ -119,7 +119,7 @@ fn sorted<T: PartialOrd>(a: T, b: T) -> (T, T) {
 #[derive(Debug, Default)]
 pub(crate) struct Lists {
     points: Vec<Point>,
-    by_cell: ByCell,
+    by_cell: CellBuckets,
     /// Entries of vertices that are named after a corner of the tail, each with that name.
     named: Vec<u64>,
     /// The vertices of one range's entries, and where these are in it.

@@ -279,5 +279,5 @@ fn are_alike(a: f32, b: f32) -> bool {
     (a > LEAST_AREA) & (b > LEAST_AREA) | (a < -LEAST_AREA) & (b < -LEAST_AREA)
 }
 
-/// Derivatives that are not in trouble have squares that are floats, so lengths up to 1.9e19.
+/// ScaledDerivatives that are not in trouble have squares that are floats, so lengths up to 1.9e19.
 pub(crate) const LEAST_AREA: f32 = 1e-18;

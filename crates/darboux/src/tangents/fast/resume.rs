@@ -23,7 +23,7 @@ impl Fans {
         let triangles = (0..).zip(out.as_chunks().0);
         let undecided = triangles.filter(|(_, corners)| is_undecided(corners)).map(|(triangle, _)| triangle);
         self.special.undecided.extend(undecided);
-        self.last_stretches.clear();
+        self.tail_runs.clear();
         if mode != Mode::Corrected && mesh.corner_count() > 0 {
             self.leave_last_edges_of_all(mesh, out);
         }
@@ -77,7 +77,7 @@ impl Fans {
             in_tail.map(|(entry, vertex)| Point { position: position(vertex), entry }).collect();
         if let Some(last) = run.find(tail, Some(&points), &mut self.lists) {
             let suspects = &self.special.undecided;
-            self.last_stretches = self.names.last_stretches(&run, &last, self.weld.count, suspects);
+            self.tail_runs = self.names.tail_runs(&run, &last, self.weld.count, suspects);
             self.special.leave(&run.source, self.names.entries_of(&last.vertices), out);
         }
     }

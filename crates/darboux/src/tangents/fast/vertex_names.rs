@@ -3,7 +3,7 @@
 //! A vertex is named after one of its corners: the first when the reference has cut the points of its cell down to one range. So
 //! a name lies between the vertex's first and last corner, which nearly always suffices. Elsewhere the cell is cut again.
 
-use crate::topology::edge_sort::{Edges, last_stretches};
+use crate::topology::edge_sort::{Edges, tail_runs};
 use crate::topology::weld::{CELLS, Cells, Point, for_each_final_range};
 use crate::util::radix_sort::sort;
 
@@ -30,7 +30,7 @@ pub(crate) struct Names {
 impl Names {
     /// The last edges in the reference's stretches (see `crate::topology::edge_sort`), as the entries where they start. `count` is that of
     /// welded vertices; `suspects` holds the first triangles of all faces that could be degenerate, ascending.
-    pub fn last_stretches(
+    pub fn tail_runs(
         &mut self,
         run: &LastRun<'_>,
         last: &LastEdges,
@@ -41,7 +41,7 @@ impl Names {
         self.sort_into_cells(run);
         self.list_edges(run, suspects);
         let mut edges = std::mem::take(&mut self.edges);
-        let stretches = last_stretches(&mut edges, last.name, last.count, &mut NamesIn { run, names: self });
+        let stretches = tail_runs(&mut edges, last.name, last.count, &mut NamesIn { run, names: self });
         self.edges = edges;
         stretches
     }

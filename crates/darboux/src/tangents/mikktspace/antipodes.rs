@@ -13,7 +13,7 @@ const CELLS_PER_UNIT: f32 = 256.0;
 
 /// Directions by the cells of a lattice.
 #[derive(Debug, Default)]
-pub(crate) struct Opposites {
+pub(crate) struct AntipodeGrid {
     /// Pairs of cell and place in the list, sorted; cells that follow each other along z do so here.
     cells: Vec<u64>,
     /// Those of which their length says nothing: not of unit length and not short either.
@@ -40,7 +40,7 @@ impl Length {
     }
 }
 
-impl Opposites {
+impl AntipodeGrid {
     /// Takes directions with their places in a list.
     pub fn new(directions: impl Iterator<Item = (u32, V3)>) -> Self {
         let mut opposites = Self::default();
@@ -110,7 +110,7 @@ mod tests {
         };
         let special = [[0.0; 3], [f32::NAN; 3], [-1.1, 0.0, 0.0], [0.5, 0.0, 0.0]];
         let directions: Vec<V3> = (0..4000).map(wheel).chain(special).collect();
-        let opposites = Opposites::new((0..).zip(directions.iter().copied()));
+        let opposites = AntipodeGrid::new((0..).zip(directions.iter().copied()));
         let (mut apart, mut candidates) = (0, 0);
         for &direction in &directions[..4000] {
             let mut found = Vec::new();

@@ -3,25 +3,24 @@
 //! Source: mikktspace.c, `DegenEpilogue`; there the good corner is searched linearly for every degenerate one.
 
 use crate::math::equal;
-use crate::topology::neighbours::NONE;
-use crate::topology::triangulate::{Triangles, Triangulation};
+use crate::topology::triangles::{NONE, Triangles, Triangulation};
 use crate::util::radix_sort::sort;
 
 use crate::tangents::mikktspace::raw_frames::RawFrames;
-use crate::tangents::mikktspace::welded_mesh::Shape;
+use crate::tangents::mikktspace::welded_mesh::WeldedMesh;
 
 /// A corner that only degenerate triangles have, and where its frame comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Copied {
+pub struct CornerCopy {
     /// The corner.
     pub corner: u32,
     /// Good corners.
-    pub from: CopiedFrom,
+    pub from: CopySource,
 }
 
 /// Which good corner is copied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CopiedFrom {
+pub enum CopySource {
     /// The first one at the same welded vertex.
     Vertex(u32),
     /// Of the good half of the same quad: the first one with the same position, if there is one.
@@ -32,7 +31,7 @@ pub enum CopiedFrom {
 ///
 /// A corner copies the first good corner at the same welded vertex, if there is one. The missing corner of a quad with one good
 /// half copies the first corner of that half that has the same position.
-pub fn copies(triangulation: &Triangulation) -> Vec<Copied> {
+pub fn copies(triangulation: &Triangulation) -> Vec<CornerCopy> {
     let Triangulation { good, degenerate, .. } = triangulation;
     let mut copies = Vec::new();
     if degenerate.len() == 0 {
@@ -45,7 +44,7 @@ pub fn copies(triangulation: &Triangulation) -> Vec<Copied> {
         for (&corner, vertex) in degenerate.corners[t].iter().zip(&degenerate.vertices[t]) {
             let good = first_good[*vertex as usize];
             if good != NONE {
-                copies.push(Copied { corner, from: CopiedFrom::Vertex(good) });
+                copies.push(CornerCopy { corner, from: CopySource::Vertex(good) });
             }
         }
     }
@@ -53,7 +52,7 @@ pub fn copies(triangulation: &Triangulation) -> Vec<Copied> {
         let Ok(half) = good.face.binary_search(&degenerate.face[t]) else { continue };
         let present = good.corners[half];
         let missing = degenerate.corners[t].into_iter().filter(|corner| !present.contains(corner));
-        copies.extend(missing.map(|corner| Copied { corner, from: CopiedFrom::Half(present) }));
+        copies.extend(missing.map(|corner| CornerCopy { corner, from: CopySource::Half(present) }));
     }
     copies
 }
@@ -61,15 +60,15 @@ pub fn copies(triangulation: &Triangulation) -> Vec<Copied> {
 /// Writes the corners that only degenerate triangles have, and returns them, ascending.
 pub(crate) fn fill_degenerate(
     triangulation: &Triangulation,
-    shape: &Shape<'_>,
+    shape: &WeldedMesh<'_>,
     raw: &mut RawFrames,
 ) -> Vec<u32> {
     let mut copied = Vec::new();
-    for Copied { corner, from } in copies(triangulation) {
+    for CornerCopy { corner, from } in copies(triangulation) {
         let at_same_place = |source: &u32| equal(shape.position(*source), shape.position(corner));
         let source = match from {
-            CopiedFrom::Vertex(good) => Some(good),
-            CopiedFrom::Half(present) => present.into_iter().find(at_same_place),
+            CopySource::Vertex(good) => Some(good),
+            CopySource::Half(present) => present.into_iter().find(at_same_place),
         };
         if let Some(source) = source {
             copy(raw, source, corner);

@@ -3,10 +3,10 @@
 //! Source: mikktspace.c, `InitTriInfo`, equations 18 and 19.
 
 use crate::math::{V3, add, length, not_zero, scale, sub};
-use crate::topology::triangulate::Triangles;
+use crate::topology::triangles::{NONE, Triangles};
 
 use crate::exec::threads;
-use crate::tangents::mikktspace::welded_mesh::Shape;
+use crate::tangents::mikktspace::welded_mesh::WeldedMesh;
 use crate::tangents::report::are_finite;
 
 /// One triangle's derivatives.
@@ -25,12 +25,16 @@ pub struct Derivative {
 }
 
 /// The derivatives of every triangle.
-pub(crate) fn derivatives(triangles: &Triangles, shape: &Shape<'_>) -> Vec<Derivative> {
+pub(crate) fn derivatives(triangles: &Triangles, shape: &WeldedMesh<'_>) -> Vec<Derivative> {
     threads::map(triangles.len(), |t| derivative(shape.positions(triangles, t), shape.uvs(triangles, t)))
 }
 
 /// As [`derivatives`], in the memory of others.
-pub(crate) fn derivatives_into(triangles: &Triangles, shape: &Shape<'_>, derivatives: &mut Vec<Derivative>) {
+pub(crate) fn derivatives_into(
+    triangles: &Triangles,
+    shape: &WeldedMesh<'_>,
+    derivatives: &mut Vec<Derivative>,
+) {
     let none = Derivative { s: [0.0; 3], t: [0.0; 3], magnitude: [0.0; 2], preserves: false, any: true };
     derivatives.resize(triangles.len(), none);
     threads::fill(derivatives, |t| derivative(shape.positions(triangles, t), shape.uvs(triangles, t)));
@@ -58,7 +62,7 @@ fn derivative(positions: [V3; 3], uvs: [[f32; 2]; 3]) -> Derivative {
 /// The number of UV-degenerate triangles, of those whose values are finite.
 pub(crate) fn count_uv_degenerate(
     triangles: &Triangles,
-    shape: &Shape<'_>,
+    shape: &WeldedMesh<'_>,
     derivatives: &[Derivative],
 ) -> usize {
     let finite = |t| are_finite(shape.positions(triangles, t), shape.uvs(triangles, t));
@@ -74,7 +78,7 @@ pub(crate) fn doubled_area(uvs: [[f32; 2]; 3]) -> f32 {
 }
 
 /// Gives the halves of a quad one orientation: the first half's if the second is UV-degenerate or not larger in UV space.
-pub(crate) fn agree_in_quads(triangles: &Triangles, shape: &Shape<'_>, derivatives: &mut [Derivative]) {
+pub(crate) fn agree_in_quads(triangles: &Triangles, shape: &WeldedMesh<'_>, derivatives: &mut [Derivative]) {
     let mut t = 0;
     while t < triangles.len() {
         if !triangles.is_pair(t) {
@@ -88,4 +92,24 @@ pub(crate) fn agree_in_quads(triangles: &Triangles, shape: &Shape<'_>, derivativ
         derivatives[t + 1].preserves = preserves;
         t += 2;
     }
+}
+
+/// The derivatives of every triangle, with one orientation per quad.
+pub(crate) fn agreed_derivatives(good: &Triangles, shape: &WeldedMesh<'_>) -> Vec<Derivative> {
+    let mut derivatives = derivatives(good, shape);
+    agree_in_quads(good, shape, &mut derivatives);
+    derivatives
+}
+
+/// Edges between two triangles, neither UV-degenerate, of opposite orientation.
+pub(crate) fn count_mirrored_edges(neighbours: &[[u32; 3]], derivatives: &[Derivative]) -> usize {
+    let mirrored = |t: usize, other: u32| {
+        other != NONE && (t as u32) < other && {
+            let (a, b) = (&derivatives[t], &derivatives[other as usize]);
+            !a.any && !b.any && a.preserves != b.preserves
+        }
+    };
+    let of_triangle =
+        |(t, around): (usize, &[u32; 3])| around.iter().filter(|&&other| mirrored(t, other)).count();
+    neighbours.iter().enumerate().map(of_triangle).sum()
 }

@@ -11,16 +11,16 @@ use std::rc::Rc;
 use crate::Frame;
 use crate::cancel::Stop;
 use crate::math::{V3, add, angle, direction_in_plane, dot, equal, normalized_unless_zero, scale, sub};
-use crate::topology::triangulate::Triangles;
-use crate::util::hash_map::Known;
+use crate::topology::triangles::Triangles;
+use crate::util::hash_map::InsertionMap;
 use crate::util::radix_sort::sort;
 
 use crate::tangents::mikktspace::derivatives::Derivative;
 use crate::tangents::mikktspace::groups::Groups;
-use crate::tangents::mikktspace::prefix_sums::{Lanes, Running};
+use crate::tangents::mikktspace::prefix_sums::{PrefixSums, TermLanes};
 use crate::tangents::mikktspace::raw_frames::RawFrames;
-use crate::tangents::mikktspace::subgroups::Subgroups;
-use crate::tangents::mikktspace::welded_mesh::Shape;
+use crate::tangents::mikktspace::subgroups::SubgroupFinder;
+use crate::tangents::mikktspace::welded_mesh::WeldedMesh;
 use crate::tangents::repair::{is_usable, mean_in_plane};
 
 /// At most this many bytes of subgroups are remembered per group, to find those that several members share.
@@ -28,17 +28,17 @@ const REMEMBERED_BYTES: usize = 1 << 24;
 
 /// What depends on the positions and normals that groups are evaluated on.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Values {
+pub(crate) struct GroupInputs {
     pub derivatives: Vec<Derivative>,
     pub normal_of_group: Vec<V3>,
 }
 
-impl Values {
+impl GroupInputs {
     pub fn new(
         triangles: &Triangles,
         groups: &Groups,
         derivatives: Vec<Derivative>,
-        shape: &Shape<'_>,
+        shape: &WeldedMesh<'_>,
     ) -> Self {
         let vertices = triangles.vertices.as_flattened();
         let normal = |group| shape.normal(vertices[groups.members(group)[0] as usize]);
@@ -46,8 +46,8 @@ impl Values {
     }
 }
 
-/// How groups are evaluated. Each member of a group that the threshold splits may look at all others, so a stop is heard between them.
-pub(crate) struct How<'a> {
+/// EvaluateOptions groups are evaluated. Each member of a group that the threshold splits may look at all others, so a stop is heard between them.
+pub(crate) struct EvaluateOptions<'a> {
     pub threshold_cosine: f32,
     pub stop: &'a Stop,
 }
@@ -59,22 +59,22 @@ pub(crate) struct How<'a> {
 pub(crate) fn evaluate(
     triangles: &Triangles,
     groups: &Groups,
-    how: &How<'_>,
-    (membership, values): (&Values, &Values),
-    shape: &Shape<'_>,
+    how: &EvaluateOptions<'_>,
+    (membership, values): (&GroupInputs, &GroupInputs),
+    shape: &WeldedMesh<'_>,
     known: Vec<Frame>,
 ) -> RawFrames {
     let mut evaluator = Evaluator {
         triangles,
         values,
         shape,
-        running: Running::default(),
+        running: PrefixSums::default(),
         tangents: Vec::new(),
         written: vec![false; shape.corner_count()],
         of_corner: known,
         mean_of_corner: vec![[0.0; 3]; shape.corner_count()],
     };
-    let mut subgroups = Subgroups::new(how.threshold_cosine);
+    let mut subgroups = SubgroupFinder::new(how.threshold_cosine);
     let mut sorted = Vec::new();
     for group in 0..groups.len() {
         if how.stop.is_asked() {
@@ -99,10 +99,10 @@ pub(crate) fn evaluate(
 
 struct Evaluator<'a> {
     triangles: &'a Triangles,
-    values: &'a Values,
-    shape: &'a Shape<'a>,
+    values: &'a GroupInputs,
+    shape: &'a WeldedMesh<'a>,
     /// What each member of the current group adds; nothing where it is UV-degenerate.
-    running: Running,
+    running: PrefixSums,
     /// The triangles' own tangents, which count for a repair.
     tangents: Vec<V3>,
     /// Corners that a group has written.
@@ -143,13 +143,13 @@ impl Evaluator<'_> {
         &mut self,
         members: &[u32],
         sorted: &[u32],
-        subgroups: &mut Subgroups,
+        subgroups: &mut SubgroupFinder,
         sign: f32,
         stop: &Stop,
     ) {
         self.running.find_stretches();
         let mut of_members: Vec<Option<Rc<Subgroup>>> = vec![None; sorted.len()];
-        let mut of_left_out: Known<Rc<Subgroup>> = Known::new();
+        let mut of_left_out: InsertionMap<Rc<Subgroup>> = InsertionMap::new();
         let (mut left_out, mut key, mut bytes) = (Vec::new(), Vec::new(), 0);
         for &member in members.iter().take_while(|_| !stop.is_asked()) {
             let at = subgroups.first_alike(sorted.partition_point(|&other| other < member));
@@ -202,8 +202,8 @@ pub(crate) fn joined(count: usize, left_out: &[Range<usize>]) -> impl Iterator<I
 /// What corner `k` of a triangle adds to the sums at its vertex: its derivatives in the plane of the vertex, times the angle of the
 /// corner there.
 ///
-/// Lanes: s and the angle; t and a zero; the magnitudes and two zeros. So a sum is three additions of four numbers.
-fn term(derivative: &Derivative, positions: [V3; 3], k: usize, normal: V3) -> Lanes {
+/// TermLanes: s and the angle; t and a zero; the magnitudes and two zeros. So a sum is three additions of four numbers.
+fn term(derivative: &Derivative, positions: [V3; 3], k: usize, normal: V3) -> TermLanes {
     let [before, here, after] = [(k + 2) % 3, k, (k + 1) % 3].map(|k| positions[k]);
     let to_before = direction_in_plane(normal, sub(before, here));
     let to_after = direction_in_plane(normal, sub(after, here));
@@ -211,11 +211,11 @@ fn term(derivative: &Derivative, positions: [V3; 3], k: usize, normal: V3) -> La
     let [s0, s1, s2] = scale(weight, direction_in_plane(normal, derivative.s));
     let [t0, t1, t2] = scale(weight, direction_in_plane(normal, derivative.t));
     let [m0, m1] = derivative.magnitude.map(|magnitude| weight * magnitude);
-    Lanes([s0, s1, s2, weight, t0, t1, t2, 0.0, m0, m1, 0.0, 0.0])
+    TermLanes([s0, s1, s2, weight, t0, t1, t2, 0.0, m0, m1, 0.0, 0.0])
 }
 
 /// The frame that a sum of terms makes.
-fn frame(sum: &Lanes, sign: f32) -> Frame {
+fn frame(sum: &TermLanes, sign: f32) -> Frame {
     let [s0, s1, s2, weight, t0, t1, t2, _, m0, m1, _, _] = sum.0;
     let magnitude = if weight > 0.0 { [m0 / weight, m1 / weight] } else { [m0, m1] };
     let (tangent, bitangent) = (normalized_unless_zero([s0, s1, s2]), normalized_unless_zero([t0, t1, t2]));

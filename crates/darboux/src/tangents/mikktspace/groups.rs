@@ -2,8 +2,7 @@
 //!
 //! Source: mikktspace.c, `Build4RuleGroups`.
 
-use crate::topology::neighbours::NONE;
-use crate::topology::triangulate::Triangles;
+use crate::topology::triangles::{NONE, Triangles};
 
 use crate::tangents::mikktspace::derivatives::Derivative;
 

@@ -14,7 +14,7 @@ pub(crate) const LANES: usize = 12;
 
 /// What one member adds, or a sum of these.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Lanes(pub [f32; LANES]);
+pub(crate) struct TermLanes(pub [f32; LANES]);
 
 /// The shortest stretches have this many terms,
 const SHORTEST: usize = 8;
@@ -23,22 +23,22 @@ const RADIX: usize = 4;
 
 /// A list of terms, their running sums, and what stretches of it can be skipped.
 #[derive(Debug, Default)]
-pub(crate) struct Running {
+pub(crate) struct PrefixSums {
     /// None where a member adds nothing, not even a zero.
-    terms: Vec<Option<Lanes>>,
+    terms: Vec<Option<TermLanes>>,
     /// `sums[n]` is the sum of the first `n` terms.
-    sums: Vec<Lanes>,
+    sums: Vec<TermLanes>,
     /// By length, then by place.
-    stretches: Vec<Vec<Stretch>>,
+    stretches: Vec<Vec<SkipBlock>>,
 }
 
-impl Running {
+impl PrefixSums {
     /// Takes the terms in their order.
-    pub fn set(&mut self, terms: impl Iterator<Item = Option<Lanes>>) {
+    pub fn set(&mut self, terms: impl Iterator<Item = Option<TermLanes>>) {
         self.terms.clear();
         self.sums.clear();
         self.stretches.clear();
-        let mut sum = Lanes::default();
+        let mut sum = TermLanes::default();
         self.sums.push(sum);
         for term in terms {
             sum.add(&term);
@@ -54,18 +54,18 @@ impl Running {
 
     /// Prepares many sums of the same list.
     pub fn find_stretches(&mut self) {
-        let shortest = |(place, terms): (usize, &[Option<Lanes>])| {
-            Stretch::new(&self.sums[place * SHORTEST..=(place + 1) * SHORTEST], terms)
+        let shortest = |(place, terms): (usize, &[Option<TermLanes>])| {
+            SkipBlock::new(&self.sums[place * SHORTEST..=(place + 1) * SHORTEST], terms)
         };
         let mut stretches: Vec<_> = self.terms.chunks_exact(SHORTEST).enumerate().map(shortest).collect();
         while !stretches.is_empty() {
-            let longer = stretches.chunks_exact(RADIX).map(Stretch::joined).collect();
+            let longer = stretches.chunks_exact(RADIX).map(SkipBlock::joined).collect();
             self.stretches.push(std::mem::replace(&mut stretches, longer));
         }
     }
 
     /// The sum of all terms but those in `left_out`, in order and disjoint.
-    pub fn sum_without(&self, left_out: &[Range<usize>]) -> Lanes {
+    pub fn sum_without(&self, left_out: &[Range<usize>]) -> TermLanes {
         let Some(first) = left_out.first() else { return self.sums[self.terms.len()] };
         let mut sum = self.sums[first.start];
         let ends = left_out.iter().skip(1).map(|next| next.start).chain([self.terms.len()]);
@@ -75,7 +75,7 @@ impl Running {
         sum
     }
 
-    fn add_stretch(&self, sum: &mut Lanes, range: Range<usize>) {
+    fn add_stretch(&self, sum: &mut TermLanes, range: Range<usize>) {
         let mut at = range.start;
         while at < range.end {
             let end = self.skip(sum, at, range.end);
@@ -89,7 +89,7 @@ impl Running {
     }
 
     /// Adds the longest stretch from `at` on that can be added in one step and ends by `limit`; returns where it ends.
-    fn skip(&self, sum: &mut Lanes, at: usize, limit: usize) -> usize {
+    fn skip(&self, sum: &mut TermLanes, at: usize, limit: usize) -> usize {
         let (mut end, mut length) = (at, SHORTEST);
         if !at.is_multiple_of(length) || at + length > limit {
             return end;
@@ -109,9 +109,9 @@ impl Running {
     }
 }
 
-impl Lanes {
+impl TermLanes {
     #[inline]
-    fn add(&mut self, term: &Option<Lanes>) {
+    fn add(&mut self, term: &Option<TermLanes>) {
         if let Some(term) = term {
             for (sum, term) in self.0.iter_mut().zip(&term.0) {
                 *sum += term;
@@ -121,13 +121,13 @@ impl Lanes {
 
     /// By how many units in the last place this is above `other`, where sign and exponent are the same.
     #[inline]
-    fn units_from(&self, other: &Lanes) -> [i32; LANES] {
+    fn units_from(&self, other: &TermLanes) -> [i32; LANES] {
         std::array::from_fn(|lane| self.0[lane].to_bits().wrapping_sub(other.0[lane].to_bits()).cast_signed())
     }
 
     #[inline]
-    fn plus_units(&self, units: &[i32; LANES]) -> Lanes {
-        Lanes(std::array::from_fn(|lane| {
+    fn plus_units(&self, units: &[i32; LANES]) -> TermLanes {
+        TermLanes(std::array::from_fn(|lane| {
             f32::from_bits(self.0[lane].to_bits().wrapping_add(units[lane].cast_unsigned()))
         }))
     }
@@ -135,22 +135,22 @@ impl Lanes {
 
 /// How many units a sum may be from the running sum at the start of a stretch, to be as many from it all along.
 #[derive(Clone, Copy, Debug)]
-struct Stretch {
+struct SkipBlock {
     below: [i32; LANES],
     above: [i32; LANES],
     /// 1 where the number has to be even.
     even: [i32; LANES],
 }
 
-impl Stretch {
-    fn new(sums: &[Lanes], terms: &[Option<Lanes>]) -> Self {
+impl SkipBlock {
+    fn new(sums: &[TermLanes], terms: &[Option<TermLanes>]) -> Self {
         let mut stretch = Self { below: [0; LANES], above: [0; LANES], even: [0; LANES] };
         for lane in 0..LANES {
             let steps = sums
                 .windows(2)
                 .zip(terms)
                 .filter_map(|(sums, term)| term.map(|term| [sums[0].0[lane], term.0[lane], sums[1].0[lane]]));
-            let bits = |sum: &Lanes| sum.0[lane].to_bits();
+            let bits = |sum: &TermLanes| sum.0[lane].to_bits();
             let (least, most) = (sums.iter().map(bits).min(), sums.iter().map(bits).max());
             let (Some(least), Some(most)) = (least, most) else { continue };
             if least >> 23 != most >> 23 || !f32::from_bits(least).is_normal() {
@@ -165,7 +165,7 @@ impl Stretch {
         stretch
     }
 
-    fn joined(parts: &[Stretch]) -> Self {
+    fn joined(parts: &[SkipBlock]) -> Self {
         let mut all = parts[0];
         for part in &parts[1..] {
             for lane in 0..LANES {
@@ -210,22 +210,22 @@ mod tests {
         (*state >> (32 - bits)) as f32 / (1u32 << (bits - 1)) as f32 - 1.0
     }
 
-    /// Lanes with sums that grow, wander about zero, or are mostly halfway between two floats.
-    fn terms(state: &mut u32, count: usize) -> Vec<Option<Lanes>> {
+    /// TermLanes with sums that grow, wander about zero, or are mostly halfway between two floats.
+    fn terms(state: &mut u32, count: usize) -> Vec<Option<TermLanes>> {
         let lane = |state: &mut u32, lane: usize| match lane % 4 {
             0 => 1.0 + 0.1 * number(state, 23),
             1 => number(state, 24),
             2 => number(state, 5) + 1.0 + f32::EPSILON * number(state, 3),
             _ => 0.0,
         };
-        let term = |at: usize| (at % 7 != 3).then(|| Lanes(std::array::from_fn(|n| lane(state, n))));
+        let term = |at: usize| (at % 7 != 3).then(|| TermLanes(std::array::from_fn(|n| lane(state, n))));
         (0..count).map(term).collect()
     }
 
     #[test]
     fn sums_are_those_of_adding_one_by_one() {
         let mut state = 1;
-        let mut running = Running::default();
+        let mut running = PrefixSums::default();
         for count in [1, 8, 31, 300, 3000] {
             let terms = terms(&mut state, count);
             running.set(terms.iter().copied());
@@ -235,7 +235,7 @@ mod tests {
                 let gaps = [start..start + 1, start + 2..start + 4];
                 let left_out: Vec<_> = gaps.into_iter().filter(|gap| gap.end <= count).collect();
                 let joins = |at: &usize| left_out.iter().all(|gap| !gap.contains(at));
-                let mut expected = Lanes::default();
+                let mut expected = TermLanes::default();
                 (0..count).filter(joins).for_each(|at| expected.add(&terms[at]));
                 let found = running.sum_without(&left_out);
                 assert_eq!(found.0.map(f32::to_bits), expected.0.map(f32::to_bits), "{count}, {left_out:?}");
@@ -245,8 +245,8 @@ mod tests {
 
     #[test]
     fn stretches_are_skipped() {
-        let mut running = Running::default();
-        running.set((0..4096).map(|at| Some(Lanes([1.0 + 0.01 * (at as f32).sin(); LANES]))));
+        let mut running = PrefixSums::default();
+        running.set((0..4096).map(|at| Some(TermLanes([1.0 + 0.01 * (at as f32).sin(); LANES]))));
         running.find_stretches();
         let mut sum = running.sums[2560].plus_units(&[16; LANES]);
         assert_eq!(running.skip(&mut sum, 2560, 4096), 3072);

@@ -2,8 +2,9 @@
 
 use crate::Mesh;
 use crate::math::V3;
-use crate::topology::triangulate::{Places, Triangulation};
-use crate::util::hash_map::Known;
+use crate::topology::corner_lookup::CornerLookup;
+use crate::topology::triangles::Triangulation;
+use crate::util::hash_map::InsertionMap;
 
 use crate::tangents::mikktspace::raw_frames::RawFrames;
 use crate::tangents::repair::{D3, bitangent, direction, in_plane, perpendicular, u_direction_of};
@@ -17,9 +18,9 @@ pub(crate) fn repair(mesh: &Mesh<'_>, triangulation: &Triangulation, raw: &mut R
     if needs.is_empty() {
         return;
     }
-    let places = Places::new(triangulation, mesh.corner_count());
-    let mut site_of_vertex = Known::new();
-    let mut known = Known::new();
+    let places = CornerLookup::new(triangulation, mesh.corner_count());
+    let mut site_of_vertex = InsertionMap::new();
+    let mut known = InsertionMap::new();
     for &corner in needs {
         let place = places.of(corner);
         let vertex = mesh.vertex_of_corner(corner as usize);

@@ -8,18 +8,19 @@ use std::ops::Range;
 use crate::Faces;
 use crate::Frame;
 use crate::Mesh;
-use crate::topology::triangulate::{Places, Triangulation};
-use crate::util::hash_map::Known;
+use crate::topology::corner_lookup::CornerLookup;
+use crate::topology::triangles::Triangulation;
+use crate::util::hash_map::InsertionMap;
 
 use crate::tangents::mikktspace::derivatives::Derivative;
 use crate::tangents::mikktspace::raw_frames::RawFrames;
 use crate::tangents::repair::is_usable;
 
 /// A face with both signs: its number and its corners.
-pub(crate) type MixedFace = (u32, Range<usize>);
+pub(crate) type MixedSignFace = (u32, Range<usize>);
 
 /// The supported faces whose corners carry both signs.
-pub(crate) fn mixed_faces(mesh: &Mesh<'_>, frames: &[Frame]) -> Vec<MixedFace> {
+pub(crate) fn mixed_faces(mesh: &Mesh<'_>, frames: &[Frame]) -> Vec<MixedSignFace> {
     let mut mixed = Vec::new();
     let mut end = 0;
     for face in 0..mesh.face_count() {
@@ -45,7 +46,7 @@ pub(crate) fn unify_signs(
     triangulation: &Triangulation,
     derivatives: &[Derivative],
     copied: &[u32],
-    mixed: &[MixedFace],
+    mixed: &[MixedSignFace],
     raw: &mut RawFrames,
 ) -> Vec<u32> {
     if mixed.is_empty() {
@@ -57,9 +58,9 @@ pub(crate) fn unify_signs(
         let corners = corners.clone().filter(|&corner| raw.of_corner[corner].sign != sign);
         wrong.extend(corners.map(|corner| (corner as u32, sign)));
     }
-    let places = Places::new(triangulation, mesh.corner_count());
+    let places = CornerLookup::new(triangulation, mesh.corner_count());
     let vertex = |corner: u32| places.of(corner).map_or(corner, |place| place.vertex);
-    let mut sources = Known::new();
+    let mut sources = InsertionMap::new();
     wrong.iter().for_each(|&(corner, sign)| _ = sources.first(&key(vertex(corner), sign), || None));
     find_first_frames(mesh, triangulation, &raw.of_corner, &mut sources);
     let mut needs = Vec::new();
@@ -106,7 +107,7 @@ fn find_first_frames(
     mesh: &Mesh<'_>,
     triangulation: &Triangulation,
     frames: &[Frame],
-    sources: &mut Known<Option<Frame>>,
+    sources: &mut InsertionMap<Option<Frame>>,
 ) {
     let good = &triangulation.good;
     for (&corner, &vertex) in good.corners.as_flattened().iter().zip(good.vertices.as_flattened()) {

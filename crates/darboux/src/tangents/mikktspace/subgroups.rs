@@ -1,4 +1,4 @@
-//! Subgroups: which members of a group share a tangent under the angular threshold.
+//! SubgroupFinder: which members of a group share a tangent under the angular threshold.
 //!
 //! Two members join when either is UV-degenerate, both are halves of one quad, or their tangents and their bitangents, in the
 //! plane of the vertex, are both nearer than the threshold. A member's subgroup is all that it joins. At 180 degrees directions have
@@ -9,11 +9,11 @@
 use std::ops::Range;
 
 use crate::math::{V3, direction_in_plane, dot};
-use crate::topology::triangulate::Triangles;
-use crate::util::hash_map::Known;
+use crate::topology::triangles::Triangles;
+use crate::util::hash_map::InsertionMap;
 use crate::util::radix_sort::sort;
 
-use crate::tangents::mikktspace::antipodes::Opposites;
+use crate::tangents::mikktspace::antipodes::AntipodeGrid;
 use crate::tangents::mikktspace::derivatives::Derivative;
 
 /// Groups up to this size are compared pairwise without looking at their mean first.
@@ -21,21 +21,21 @@ const SMALL_GROUP: usize = 8;
 
 /// The directions of one group's members; reused from group to group.
 #[derive(Debug, Default)]
-pub(crate) struct Subgroups {
+pub(crate) struct SubgroupFinder {
     threshold_cosine: f32,
     s: [Vec<f32>; 3],
     t: [Vec<f32>; 3],
     any: Vec<bool>,
     face: Vec<u32>,
     /// At 180 degrees, in a large group: of the tangents and of the bitangents.
-    opposites: Option<[Opposites; 2]>,
+    opposites: Option<[AntipodeGrid; 2]>,
     /// With `opposites`: the first member of which all members joined are the same.
     first_alike: Vec<u32>,
     row: Vec<bool>,
     apart: Vec<u32>,
 }
 
-impl Subgroups {
+impl SubgroupFinder {
     pub fn new(threshold_cosine: f32) -> Self {
         Self { threshold_cosine, ..Self::default() }
     }
@@ -71,7 +71,7 @@ impl Subgroups {
         }
         self.opposites = Some([&self.s, &self.t].map(|axes| {
             let of_all = (0..count).filter(|&at| !self.any[at]).map(|at| (at as u32, direction(axes, at)));
-            Opposites::new(of_all)
+            AntipodeGrid::new(of_all)
         }));
         self.find_alike();
         let mut left_out = Vec::new();
@@ -86,7 +86,7 @@ impl Subgroups {
     /// Groups members of equal directions. Alone is a half of a quad whose other half is a member too, and who is NaN.
     fn find_alike(&mut self) {
         let count = self.any.len();
-        let mut first = Known::new();
+        let mut first = InsertionMap::new();
         self.first_alike.clear();
         for at in 0..count {
             let other_half = (at > 0 && self.face[at - 1] == self.face[at])

@@ -2,17 +2,17 @@
 
 use crate::Mesh;
 use crate::math::{V3, equal};
-use crate::topology::triangulate::Triangles;
+use crate::topology::triangles::Triangles;
 
 /// A mesh read through its welded vertices: every corner has the values of the corner that represents it.
 #[derive(Clone, Copy)]
-pub(crate) struct Shape<'a> {
+pub(crate) struct WeldedMesh<'a> {
     mesh: &'a Mesh<'a>,
     /// Vertices may have moved apart since they were welded.
     moved: bool,
 }
 
-impl<'a> Shape<'a> {
+impl<'a> WeldedMesh<'a> {
     /// The mesh that was welded.
     pub fn welded(mesh: &'a Mesh<'a>) -> Self {
         Self { mesh, moved: false }

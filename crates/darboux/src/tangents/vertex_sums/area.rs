@@ -5,14 +5,15 @@
 
 use crate::math::{V3, length, scale};
 
-use crate::tangents::vertex_sums::weighting::{Derivatives, Sum, Weighting};
+use crate::tangents::uv_derivatives::ScaledDerivatives;
+use crate::tangents::vertex_sums::weighting::{SumRows, Weighting};
 
 /// The area weights of tangents and bitangents; the summed normal stands in where the mesh has none.
 pub(crate) struct Area;
 
 impl Weighting<3> for Area {
     #[inline(always)]
-    fn term(derivatives: &Derivatives) -> Sum<3> {
+    fn term(derivatives: &ScaledDerivatives) -> SumRows<3> {
         let normal = derivatives.doubled_area_vector();
         let weight = length(normal);
         let ([s, t], magnitude) = derivatives.directions();
@@ -21,15 +22,15 @@ impl Weighting<3> for Area {
         [[s0, s1, s2, weight], [t0, t1, t2, m0], [normal[0], normal[1], normal[2], m1]]
     }
 
-    fn size(sum: &Sum<3>) -> f32 {
+    fn size(sum: &SumRows<3>) -> f32 {
         sum[0][3]
     }
 
-    fn magnitude([[_, _, _, weight], [_, _, _, m0], [_, _, _, m1]]: &Sum<3>) -> [f32; 2] {
+    fn magnitude([[_, _, _, weight], [_, _, _, m0], [_, _, _, m1]]: &SumRows<3>) -> [f32; 2] {
         [m0 / weight, m1 / weight]
     }
 
-    fn own_normal([_, _, [x, y, z, _]]: &Sum<3>) -> V3 {
+    fn own_normal([_, _, [x, y, z, _]]: &SumRows<3>) -> V3 {
         [*x, *y, *z]
     }
 }

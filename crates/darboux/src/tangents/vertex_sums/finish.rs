@@ -8,23 +8,27 @@ use std::collections::HashMap;
 use crate::Frame;
 use crate::Mesh;
 use crate::Mode;
-use crate::math::{V3, dot, scale, sub};
+use crate::math::V3;
 
 use crate::exec::simd::Width;
 use crate::exec::threads::{self, parts, split};
-use crate::tangents::mesh_slices::Flat;
+use crate::tangents::mesh_slices::MeshSlices;
 use crate::tangents::mirrored_edges::{
     count_mirrored_edges, has_finite_normals, has_finite_vertices, survey_where, vertices_of_both,
 };
 use crate::tangents::output::{Output, fill};
 use crate::tangents::repair::{
-    bitangent, direction, in_plane, mean_in_plane, perpendicular, u_direction_of, unit,
+    across, direction, in_plane, mean_in_plane, perpendicular, u_direction_of, unit,
 };
 use crate::tangents::report::Report;
-use crate::tangents::vertex_sums::frame_kernel::VertexBlock;
-use crate::tangents::vertex_sums::scatter::Sums;
-use crate::tangents::vertex_sums::term_kernel::BLOCK;
-use crate::tangents::vertex_sums::weighting::{Orientation, Sum, Weighting, adds};
+use crate::tangents::uv_derivatives::Orientation;
+use crate::tangents::vertex_sums::frame_kernel::FrameBlock;
+use crate::tangents::vertex_sums::frame_math::{
+    cancels, direction_across, precise_direction_across, sign_of, sure_tangent,
+};
+use crate::tangents::vertex_sums::side_sums::SideSums;
+use crate::tangents::vertex_sums::term_kernel::TERM_BLOCK;
+use crate::tangents::vertex_sums::weighting::{SumRows, Weighting, adds};
 
 /// A vertex and which of its sides: 0 keeps the UV orientation, 1 mirrors it.
 type Side = (u32, usize);
@@ -32,8 +36,8 @@ type Side = (u32, usize);
 /// Makes frames of sums, repairs those without a direction, and gives every corner its side's.
 pub(crate) fn finish<const N: usize, W: Weighting<N>, O: Output>(
     mesh: &Mesh<'_>,
-    flat: &Flat<'_>,
-    sums: &mut Sums<N>,
+    flat: &MeshSlices<'_>,
+    sums: &mut SideSums<N>,
     (mode, width): (Mode, Width),
     frames: &mut [Vec<O>; 2],
     corners: &mut [O],
@@ -75,7 +79,7 @@ fn count(of_vertex: &[bool]) -> usize {
 
 /// The corners that have one of `sides`.
 fn count_corners<const N: usize, W: Weighting<N>>(
-    flat: &Flat<'_>,
+    flat: &MeshSlices<'_>,
     orientation_of_face: &[Orientation],
     sides: &[Side],
 ) -> usize {
@@ -100,7 +104,7 @@ fn has_both_signs<O: Output>(frames: &[O]) -> bool {
     frames.iter().any(|frame| frame.tangent()[3] != frames[0].tangent()[3])
 }
 
-fn count_mixed_faces<O: Output>(flat: &Flat<'_>, corners: &[O]) -> usize {
+fn count_mixed_faces<O: Output>(flat: &MeshSlices<'_>, corners: &[O]) -> usize {
     let is_mixed = |face: &usize| {
         let corners = &corners[flat.corners(*face)];
         matches!(corners.len(), 3 | 4)
@@ -111,20 +115,20 @@ fn count_mixed_faces<O: Output>(flat: &Flat<'_>, corners: &[O]) -> usize {
 
 /// Writes the frame of every side; returns the sides that have triangles but no direction.
 fn frames_of_sides<const N: usize, W: Weighting<N>, O: Output>(
-    flat: &Flat<'_>,
+    flat: &MeshSlices<'_>,
     width: Width,
-    sums: &Sums<N>,
+    sums: &SideSums<N>,
     frames: &mut [Vec<O>; 2],
 ) -> Vec<Side> {
     let threads = threads::count(flat.triangles().len());
     let mut missing = vec![Vec::new(); threads];
     for (side, frames) in frames.iter_mut().enumerate() {
         let sums = &sums.of_side[side];
-        frames.resize(sums.len(), O::NONE);
+        frames.resize(sums.len(), O::EMPTY);
         let ranges = split(0..sums.len(), threads, 1);
         let jobs = ranges.clone().zip(parts(frames, 0, ranges));
         threads::run(&mut missing, jobs, |missing, (range, frames)| {
-            let place = Place { first: range.start, side, width };
+            let place = SideRange { first: range.start, side, width };
             frames_of_side::<N, W, O>(&sums[range.clone()], &flat.normals[range], place, frames, missing);
         });
     }
@@ -132,24 +136,24 @@ fn frames_of_sides<const N: usize, W: Weighting<N>, O: Output>(
 }
 
 /// Where consecutive sums are, and how wide vectors may be.
-struct Place {
+struct SideRange {
     first: usize,
     side: usize,
     width: Width,
 }
 
 fn frames_of_side<const N: usize, W: Weighting<N>, O: Output>(
-    sums: &[Sum<N>],
+    sums: &[SumRows<N>],
     normals: &[V3],
-    Place { first, side, width }: Place,
+    SideRange { first, side, width }: SideRange,
     frames: &mut [O],
     missing: &mut Vec<Side>,
 ) {
     let sign = if side == 0 { 1.0 } else { -1.0 };
-    let mut block = VertexBlock::new();
-    let blocks = sums.chunks(BLOCK).zip(normals.chunks(BLOCK)).zip(frames.chunks_mut(BLOCK));
-    for (first, ((sums, normals), frames)) in (first..).step_by(BLOCK).zip(blocks) {
-        if !O::IS_WHOLE {
+    let mut block = FrameBlock::new();
+    let blocks = sums.chunks(TERM_BLOCK).zip(normals.chunks(TERM_BLOCK)).zip(frames.chunks_mut(TERM_BLOCK));
+    for (first, ((sums, normals), frames)) in (first..).step_by(TERM_BLOCK).zip(blocks) {
+        if !O::IS_FULL {
             block.set::<N, W>(sums, normals);
             block.evaluate::<N, W>(sign, width);
             if block.are_sure(sums.len()) {
@@ -159,24 +163,28 @@ fn frames_of_side<const N: usize, W: Weighting<N>, O: Output>(
         }
         for ((v, (sum, normal)), out) in (first as u32..).zip(sums.iter().zip(normals)).zip(frames) {
             *out = if !is_used(sum) {
-                O::NONE
+                O::EMPTY
             } else if let Some(frame) = frame::<N, W, O>(sum, normal, sign) {
                 O::from_frame(&frame)
             } else {
                 missing.push((v, side));
-                O::from_frame(&Frame { sign, ..Frame::NONE })
+                O::from_frame(&Frame { sign, ..Frame::EMPTY })
             };
         }
     }
 }
 
-fn is_used<const N: usize>(sum: &Sum<N>) -> bool {
+fn is_used<const N: usize>(sum: &SumRows<N>) -> bool {
     sum[0][3] > 0.0
 }
 
 /// The frame that a sum makes, if its tangent has a direction in the plane of the normal.
 #[inline(always)]
-fn frame<const N: usize, W: Weighting<N>, O: Output>(sum: &Sum<N>, normal: &V3, sign: f32) -> Option<Frame> {
+fn frame<const N: usize, W: Weighting<N>, O: Output>(
+    sum: &SumRows<N>,
+    normal: &V3,
+    sign: f32,
+) -> Option<Frame> {
     let ([s0, s1, s2, _], [t0, t1, t2, _]) = (sum[0], sum[1]);
     let (s, t) = ([s0, s1, s2], [t0, t1, t2]);
     let (mut normal, size) = (*normal, W::size(sum));
@@ -189,76 +197,18 @@ fn frame<const N: usize, W: Weighting<N>, O: Output>(sum: &Sum<N>, normal: &V3, 
         tangent = precise_direction_across(s, normal)?;
     }
     let sign = if W::SPLITS { sign } else { sign_of(normal, tangent, t) };
-    if !O::IS_WHOLE {
-        return Some(Frame { tangent, sign, ..Frame::NONE });
+    if !O::IS_FULL {
+        return Some(Frame { tangent, sign, ..Frame::EMPTY });
     }
     let bitangent = direction_across(t, normal).unwrap_or_else(|| across(normal, tangent, sign));
     Some(Frame { tangent, bitangent, magnitude: W::magnitude(sum), sign })
 }
 
-/// The direction of a sum of tangents in the plane of the normal, and whether it is that: nearly always, as normals are nearly unit vectors.
-///
-/// `size`: what the lengths of the added tangents come to.
-#[inline(always)]
-pub(crate) fn sure_tangent(s: V3, normal: V3, size: f32) -> (V3, bool) {
-    let (direction, is_sure) = sure_direction_across(s, normal);
-    (direction, is_sure & !cancels(s, size))
-}
-
-/// What is left of tangents that cancel is rounding.
-#[inline(always)]
-fn cancels(s: V3, size: f32) -> bool {
-    let least = 1e-5 * size;
-    dot(s, s) < least * least
-}
-
-/// The sign for which sign * cross(normal, tangent) is on the bitangent's side; +1 where it is on neither.
-#[inline(always)]
-pub(crate) fn sign_of(normal: V3, tangent: V3, bitangent: V3) -> f32 {
-    let ([a, b, c], [x, y, z]) = (normal, tangent);
-    let across = [b * z - c * y, c * x - a * z, a * y - b * x];
-    if dot(across, bitangent) < 0.0 { -1.0 } else { 1.0 }
-}
-
-/// The direction of `v` in the plane of `normal`; without a normal the direction of `v`.
-#[inline(always)]
-fn direction_across(v: V3, normal: V3) -> Option<V3> {
-    let (direction, is_sure) = sure_direction_across(v, normal);
-    if is_sure { Some(direction) } else { precise_direction_across(v, normal) }
-}
-
-/// The direction of `v` in the plane of `normal`, and whether it is that. No branches.
-#[inline(always)]
-fn sure_direction_across(v: V3, normal: V3) -> (V3, bool) {
-    let square = dot(normal, normal);
-    let is_about_unit = (0.25..4.0).contains(&square);
-    let rest = sub(v, scale(dot(normal, v) * (1.0 / square), normal));
-    let size = dot(rest, rest);
-    // Far from overflow, and with enough left of `v` to be sure of the angle. NaN is not.
-    let is_clear = (size > 1e-2 * dot(v, v)) & (size > 1e-24) & (size < 1e24);
-    (scale(1.0 / size.sqrt(), rest), is_about_unit & is_clear)
-}
-
-#[cold]
-fn precise_direction_across(v: V3, normal: V3) -> Option<V3> {
-    let v = v.map(f64::from);
-    let found = match direction(normal) {
-        Some(normal) => in_plane(v, normal),
-        None => unit(v),
-    };
-    found.map(|v| v.map(|x| x as f32))
-}
-
-/// sign * cross(normal, tangent), unit; without a normal, or where the tangent runs along it, a perpendicular of the tangent.
-pub(crate) fn across(normal: V3, tangent: V3, sign: f32) -> V3 {
-    bitangent(direction(normal), tangent, sign)
-}
-
 /// Gives every face without an orientation the one that more of its corners have triangles of, +1 on a tie, and adds the sides
 /// that no triangle adds to, but a corner has, to `missing`.
 fn decide_faces<const N: usize, W: Weighting<N>>(
-    flat: &Flat<'_>,
-    sums: &mut Sums<N>,
+    flat: &MeshSlices<'_>,
+    sums: &mut SideSums<N>,
     missing: &mut Vec<Side>,
 ) {
     if sums.flaws.are_none() && flat.is_triangles() {
@@ -281,7 +231,7 @@ fn decide_faces<const N: usize, W: Weighting<N>>(
         missing.extend(vertices.iter().filter(|&&v| !used(v, side)).map(|&v| (v, side)));
         if orientation == Orientation::None {
             sums.orientation_of_face[face] =
-                if side == 0 { Orientation::Keeps } else { Orientation::Mirrors };
+                if side == 0 { Orientation::Preserves } else { Orientation::Mirrors };
         }
     }
 }
@@ -289,8 +239,8 @@ fn decide_faces<const N: usize, W: Weighting<N>>(
 /// Gives the sides of `missing`, which is sorted, what [`crate::tangents::repair`] gives corners: the mean of their triangles' tangents, all
 /// weighted alike; their first triangle's own dP/du; a perpendicular of the normal; (1, 0, 0).
 fn replace<const N: usize, W: Weighting<N>, O: Output>(
-    flat: &Flat<'_>,
-    sums: &Sums<N>,
+    flat: &MeshSlices<'_>,
+    sums: &SideSums<N>,
     missing: &[Side],
     frames: &mut [Vec<O>; 2],
 ) {
@@ -311,7 +261,7 @@ fn replace<const N: usize, W: Weighting<N>, O: Output>(
 }
 
 fn replacement<const N: usize, W: Weighting<N>>(
-    flat: &Flat<'_>,
+    flat: &MeshSlices<'_>,
     orientation_of_face: &[Orientation],
     around: &[u32],
     normal: V3,
@@ -332,7 +282,7 @@ fn replacement<const N: usize, W: Weighting<N>>(
 }
 
 /// The triangles around each vertex of `sides`.
-fn triangles_around(flat: &Flat<'_>, sides: &[Side]) -> HashMap<u32, Vec<u32>> {
+fn triangles_around(flat: &MeshSlices<'_>, sides: &[Side]) -> HashMap<u32, Vec<u32>> {
     let mut around: HashMap<u32, Vec<u32>> = sides.iter().map(|&(v, _)| (v, Vec::new())).collect();
     let mut wanted = vec![false; flat.positions.len()];
     sides.iter().for_each(|&(v, _)| wanted[v as usize] = true);
@@ -348,7 +298,7 @@ fn triangles_around(flat: &Flat<'_>, sides: &[Side]) -> HashMap<u32, Vec<u32>> {
 }
 
 fn to_corners<const N: usize, W: Weighting<N>, O: Output>(
-    flat: &Flat<'_>,
+    flat: &MeshSlices<'_>,
     orientation_of_face: &[Orientation],
     frames: &[Vec<O>; 2],
     corners: &mut [O],

@@ -7,40 +7,40 @@ use std::marker::PhantomData;
 use crate::math::V3;
 
 use crate::exec::simd::{Task, Width};
-use crate::tangents::vertex_sums::finish::{sign_of, sure_tangent};
-use crate::tangents::vertex_sums::term_kernel::{BLOCK, Lane};
-use crate::tangents::vertex_sums::weighting::{Sum, Weighting};
+use crate::tangents::vertex_sums::frame_math::{sign_of, sure_tangent};
+use crate::tangents::vertex_sums::term_kernel::{TERM_BLOCK, TermLane};
+use crate::tangents::vertex_sums::weighting::{SumRows, Weighting};
 
 /// One block's arrays; reused from block to block.
-pub(crate) struct VertexBlock {
-    normals: [Lane<f32>; 3],
+pub(crate) struct FrameBlock {
+    normals: [TermLane<f32>; 3],
     /// The sums of tangents and of bitangents.
-    sums: [[Lane<f32>; 3]; 2],
+    sums: [[TermLane<f32>; 3]; 2],
     /// [`Weighting::size`].
-    sizes: Lane<f32>,
-    lanes: [Lane<f32>; 4],
+    sizes: TermLane<f32>,
+    lanes: [TermLane<f32>; 4],
     /// Tangents xyz and signs w,
-    pub tangents: Lane<[f32; 4]>,
+    pub tangents: TermLane<[f32; 4]>,
     /// and 1 where they are sure, else 0.
-    pub sure: Lane<u32>,
+    pub sure: TermLane<u32>,
 }
 
-impl VertexBlock {
+impl FrameBlock {
     pub fn new() -> Self {
         Self {
-            normals: [[0.0; BLOCK]; 3],
-            sums: [[[0.0; BLOCK]; 3]; 2],
-            sizes: [0.0; BLOCK],
-            lanes: [[0.0; BLOCK]; 4],
-            tangents: [[0.0; 4]; BLOCK],
-            sure: [0; BLOCK],
+            normals: [[0.0; TERM_BLOCK]; 3],
+            sums: [[[0.0; TERM_BLOCK]; 3]; 2],
+            sizes: [0.0; TERM_BLOCK],
+            lanes: [[0.0; TERM_BLOCK]; 4],
+            tangents: [[0.0; 4]; TERM_BLOCK],
+            sure: [0; TERM_BLOCK],
         }
     }
 
-    /// Takes up to [`BLOCK`] vertices; the lanes beyond them keep what they had.
+    /// Takes up to [`TERM_BLOCK`] vertices; the lanes beyond them keep what they had.
     #[inline(always)]
-    pub fn set<const N: usize, W: Weighting<N>>(&mut self, sums: &[Sum<N>], normals: &[V3]) {
-        let count = sums.len().min(normals.len()).min(BLOCK);
+    pub fn set<const N: usize, W: Weighting<N>>(&mut self, sums: &[SumRows<N>], normals: &[V3]) {
+        let count = sums.len().min(normals.len()).min(TERM_BLOCK);
         let (sums, normals) = (&sums[..count], &normals[..count]);
         for i in 0..count {
             let (sum, normal) = (&sums[i], &normals[i]);
@@ -58,15 +58,15 @@ impl VertexBlock {
         self.sure[..count].iter().fold(1, |all, sure| all & sure) == 1
     }
 
-    /// Computes the tangents of what was [set](VertexBlock::set). `sign`: that of all; of sums that do not split, their own.
+    /// Computes the tangents of what was [set](FrameBlock::set). `sign`: that of all; of sums that do not split, their own.
     pub fn evaluate<const N: usize, W: Weighting<N>>(&mut self, sign: f32, width: Width) {
-        width.run(Evaluate::<N, W>(self, sign, PhantomData));
+        width.run(FrameTask::<N, W>(self, sign, PhantomData));
     }
 }
 
-struct Evaluate<'a, const N: usize, W>(&'a mut VertexBlock, f32, PhantomData<W>);
+struct FrameTask<'a, const N: usize, W>(&'a mut FrameBlock, f32, PhantomData<W>);
 
-impl<const N: usize, W: Weighting<N>> Task for Evaluate<'_, N, W> {
+impl<const N: usize, W: Weighting<N>> Task for FrameTask<'_, N, W> {
     #[inline(always)]
     fn run(self) {
         self.0.compute::<N, W>(self.1);
@@ -74,11 +74,11 @@ impl<const N: usize, W: Weighting<N>> Task for Evaluate<'_, N, W> {
     }
 }
 
-impl VertexBlock {
+impl FrameBlock {
     #[inline(always)]
     fn compute<const N: usize, W: Weighting<N>>(&mut self, sign: f32) {
-        for i in 0..BLOCK {
-            let lane = |lanes: &[Lane<f32>; 3]| [lanes[0][i], lanes[1][i], lanes[2][i]];
+        for i in 0..TERM_BLOCK {
+            let lane = |lanes: &[TermLane<f32>; 3]| [lanes[0][i], lanes[1][i], lanes[2][i]];
             let normal = lane(&self.normals);
             let (tangent, is_sure) = sure_tangent(lane(&self.sums[0]), normal, self.sizes[i]);
             let own_sign = if W::SPLITS { sign } else { sign_of(normal, tangent, lane(&self.sums[1])) };
@@ -93,7 +93,7 @@ impl VertexBlock {
     #[inline(always)]
     fn pack(&mut self) {
         let [x, y, z, w] = &self.lanes;
-        for i in 0..BLOCK {
+        for i in 0..TERM_BLOCK {
             self.tangents[i] = [x[i], y[i], z[i], w[i]];
         }
     }

@@ -1,4 +1,4 @@
-//! Sums gathered per vertex, by all threads, where the triangles around a vertex lie all over the list: no thread could add them without
+//! SideSums gathered per vertex, by all threads, where the triangles around a vertex lie all over the list: no thread could add them without
 //! walking through all of it.
 //!
 //! First what every triangle adds, then each vertex reads the terms of the triangles around it and writes once, the form that parallel
@@ -7,15 +7,21 @@
 
 use crate::exec::threads::{self, parts, split};
 use crate::exec::windows::WINDOW;
-use crate::tangents::mesh_slices::Flat;
-use crate::tangents::vertex_sums::scatter::{
-    Count, Flaws, How, Sums, accumulate_into, bit, for_each_block, found,
+use crate::tangents::mesh_slices::MeshSlices;
+use crate::tangents::uv_derivatives::Orientation;
+use crate::tangents::vertex_sums::blocks::{
+    BlockOptions, OrientationRecorder, accumulate_into, bit, for_each_block, found,
 };
-use crate::tangents::vertex_sums::term_kernel::Block;
-use crate::tangents::vertex_sums::weighting::{Orientation, Sum, Weighting};
+use crate::tangents::vertex_sums::side_sums::{SideSums, SkippedTriangles};
+use crate::tangents::vertex_sums::term_kernel::TermBlock;
+use crate::tangents::vertex_sums::weighting::{SumRows, Weighting};
 
 /// What [`crate::tangents::vertex_sums::scatter::accumulate`] does, vertex by vertex.
-pub(crate) fn gather_all<const N: usize, W: Weighting<N>>(flat: &Flat<'_>, how: How<'_>, sums: &mut Sums<N>) {
+pub(crate) fn gather_all<const N: usize, W: Weighting<N>>(
+    flat: &MeshSlices<'_>,
+    how: BlockOptions<'_>,
+    sums: &mut SideSums<N>,
+) {
     let (terms, uses_mirrors) = terms::<N, W>(flat, how, sums);
     let (triangle_of_entry, ends) = adjacency(flat);
     gather((&terms, uses_mirrors), (&triangle_of_entry, &ends), sums);
@@ -23,27 +29,27 @@ pub(crate) fn gather_all<const N: usize, W: Weighting<N>>(flat: &Flat<'_>, how: 
 
 /// What each triangle adds, and whether to the sums of mirrored triangles; and whether any does. Also counts the triangles.
 fn terms<const N: usize, W: Weighting<N>>(
-    flat: &Flat<'_>,
-    how: How<'_>,
-    sums: &mut Sums<N>,
-) -> (Vec<(Sum<N>, bool)>, bool) {
+    flat: &MeshSlices<'_>,
+    how: BlockOptions<'_>,
+    sums: &mut SideSums<N>,
+) -> (Vec<(SumRows<N>, bool)>, bool) {
     let count = flat.triangles().len();
     let mut terms = vec![([[0.0; 4]; N], false); count];
     let threads = threads::count(count);
     let ranges = split(0..count, threads, WINDOW);
     let orientations = parts(&mut sums.orientation_of_face, 0, ranges.clone());
     let jobs = ranges.clone().zip(parts(&mut terms, 0, ranges)).zip(orientations);
-    let mut of_threads = vec![(Flaws::default(), 0); threads];
+    let mut of_threads = vec![(SkippedTriangles::default(), 0); threads];
     threads::run(&mut of_threads, jobs, |(flaws, all_found), ((range, terms), orientations)| {
         let start = range.start;
-        let mut count = Count::new(start, orientations);
+        let mut count = OrientationRecorder::new(start, orientations);
         for_each_block::<N, W>(
             flat,
             how,
             range,
             &mut count,
             #[inline(always)]
-            |first: usize, triangles: &[[u32; 3]], block: &Block<N>| {
+            |first: usize, triangles: &[[u32; 3]], block: &TermBlock<N>| {
                 let orientations = &block.orientations[..triangles.len()];
                 *all_found |= found(orientations);
                 for (i, (slot, &orientation)) in
@@ -63,7 +69,7 @@ fn terms<const N: usize, W: Weighting<N>>(
 }
 
 /// The triangles at each vertex, ascending, vertex after vertex, and where each vertex's part ends.
-fn adjacency(flat: &Flat<'_>) -> (Vec<u32>, Vec<u32>) {
+fn adjacency(flat: &MeshSlices<'_>) -> (Vec<u32>, Vec<u32>) {
     let vertices = flat.triangles().as_flattened();
     let mut ends = vec![0u32; flat.positions.len()];
     for &v in vertices {
@@ -87,9 +93,9 @@ fn adjacency(flat: &Flat<'_>) -> (Vec<u32>, Vec<u32>) {
 ///
 /// `triangle_of_entry`, `ends`: the triangles at each vertex, vertex after vertex, and where each vertex's part ends.
 fn gather<const N: usize>(
-    (terms, uses_mirrors): (&[(Sum<N>, bool)], bool),
+    (terms, uses_mirrors): (&[(SumRows<N>, bool)], bool),
     (triangle_of_entry, ends): (&[u32], &[u32]),
-    sums: &mut Sums<N>,
+    sums: &mut SideSums<N>,
 ) {
     let [keeps, mirrors] = &mut sums.of_side;
     keeps.fill([[0.0; 4]; N]);

@@ -5,24 +5,25 @@
 
 use crate::math::{length, scale};
 
-use crate::tangents::vertex_sums::weighting::{Derivatives, Sum, Weighting, size};
+use crate::tangents::uv_derivatives::{ScaledDerivatives, size};
+use crate::tangents::vertex_sums::weighting::{SumRows, Weighting};
 
 /// Each triangle adds dP/du and dP/dv; triangles of the two UV orientations sum apart.
 pub(crate) struct Lengyel;
 
 impl Weighting<2> for Lengyel {
     #[inline(always)]
-    fn term(derivatives: &Derivatives) -> Sum<2> {
+    fn term(derivatives: &ScaledDerivatives) -> SumRows<2> {
         let reciprocal = 1.0 / derivatives.area;
         let (s, [t0, t1, t2]) = (scale(reciprocal, derivatives.s), scale(reciprocal, derivatives.t));
         [[s[0], s[1], s[2], 1.0], [t0, t1, t2, size(s)]]
     }
 
-    fn size(sum: &Sum<2>) -> f32 {
+    fn size(sum: &SumRows<2>) -> f32 {
         sum[1][3]
     }
 
-    fn magnitude([[s0, s1, s2, count], [t0, t1, t2, _]]: &Sum<2>) -> [f32; 2] {
+    fn magnitude([[s0, s1, s2, count], [t0, t1, t2, _]]: &SumRows<2>) -> [f32; 2] {
         [[*s0, *s1, *s2], [*t0, *t1, *t2]].map(|sum| length(sum) / count)
     }
 }
@@ -34,15 +35,15 @@ impl Weighting<2> for LengyelPerVertex {
     const SPLITS: bool = false;
 
     #[inline(always)]
-    fn term(derivatives: &Derivatives) -> Sum<2> {
+    fn term(derivatives: &ScaledDerivatives) -> SumRows<2> {
         Lengyel::term(derivatives)
     }
 
-    fn size(sum: &Sum<2>) -> f32 {
+    fn size(sum: &SumRows<2>) -> f32 {
         Lengyel::size(sum)
     }
 
-    fn magnitude(sum: &Sum<2>) -> [f32; 2] {
+    fn magnitude(sum: &SumRows<2>) -> [f32; 2] {
         Lengyel::magnitude(sum)
     }
 }

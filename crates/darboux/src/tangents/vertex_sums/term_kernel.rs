@@ -5,42 +5,43 @@
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
 
-use crate::tangents::mesh_slices::Slices;
-use crate::tangents::vertex_sums::weighting::{Derivatives, Orientation, Sum, Weighting, term_and_test};
+use crate::tangents::mesh_slices::TriangleSlices;
+use crate::tangents::uv_derivatives::{Orientation, ScaledDerivatives};
+use crate::tangents::vertex_sums::weighting::{SumRows, Weighting, term_and_test};
 
 /// Triangles per block.
-pub(crate) const BLOCK: usize = if cfg!(small_limits) { 2 } else { 64 };
+pub(crate) const TERM_BLOCK: usize = if cfg!(small_limits) { 2 } else { 64 };
 
-pub(crate) type Lane<T> = [T; BLOCK];
+pub(crate) type TermLane<T> = [T; TERM_BLOCK];
 
 /// One block's arrays; reused from block to block.
-pub(crate) struct Block<const N: usize> {
-    positions: [[Lane<f32>; 3]; 3],
-    uvs: [[Lane<f32>; 2]; 3],
-    lanes: [[Lane<f32>; 4]; N],
+pub(crate) struct TermBlock<const N: usize> {
+    positions: [[TermLane<f32>; 3]; 3],
+    uvs: [[TermLane<f32>; 2]; 3],
+    lanes: [[TermLane<f32>; 4]; N],
     /// Orientations as wide as the other lanes.
-    sides: Lane<u32>,
+    sides: TermLane<u32>,
     /// What each triangle adds, one row after the other,
-    rows: [Lane<[f32; 4]>; N],
+    rows: [TermLane<[f32; 4]>; N],
     /// and to which side, or that it adds nothing.
-    pub orientations: Lane<Orientation>,
+    pub orientations: TermLane<Orientation>,
 }
 
-impl<const N: usize> Block<N> {
+impl<const N: usize> TermBlock<N> {
     pub fn new() -> Self {
         Self {
-            positions: [[[0.0; BLOCK]; 3]; 3],
-            uvs: [[[0.0; BLOCK]; 2]; 3],
-            lanes: [[[0.0; BLOCK]; 4]; N],
-            sides: [0; BLOCK],
-            rows: [[[0.0; 4]; BLOCK]; N],
-            orientations: [Orientation::None; BLOCK],
+            positions: [[[0.0; TERM_BLOCK]; 3]; 3],
+            uvs: [[[0.0; TERM_BLOCK]; 2]; 3],
+            lanes: [[[0.0; TERM_BLOCK]; 4]; N],
+            sides: [0; TERM_BLOCK],
+            rows: [[[0.0; 4]; TERM_BLOCK]; N],
+            orientations: [Orientation::None; TERM_BLOCK],
         }
     }
 
     /// What triangle `i` adds.
     #[inline(always)]
-    pub fn term(&self, i: usize) -> Sum<N> {
+    pub fn term(&self, i: usize) -> SumRows<N> {
         let mut term = [[0.0; 4]; N];
         for row in 0..N {
             term[row] = self.rows[row][i];
@@ -48,10 +49,10 @@ impl<const N: usize> Block<N> {
         term
     }
 
-    /// Takes up to [`BLOCK`] triangles; the lanes beyond them keep what they had.
+    /// Takes up to [`TERM_BLOCK`] triangles; the lanes beyond them keep what they had.
     #[inline(always)]
-    pub fn set(&mut self, slices: &Slices<'_>, triangles: &[[u32; 3]]) {
-        for (i, &triangle) in triangles.iter().take(BLOCK).enumerate() {
+    pub fn set(&mut self, slices: &TriangleSlices<'_>, triangles: &[[u32; 3]]) {
+        for (i, &triangle) in triangles.iter().take(TERM_BLOCK).enumerate() {
             let (positions, uvs) = slices.refer(triangle);
             for k in 0..3 {
                 for axis in 0..3 {
@@ -64,7 +65,7 @@ impl<const N: usize> Block<N> {
         }
     }
 
-    /// Computes the terms and orientations of what was [set](Block::set).
+    /// Computes the terms and orientations of what was [set](TermBlock::set).
     #[inline(always)]
     pub fn evaluate<W: Weighting<N>>(&mut self) {
         self.compute::<W>();
@@ -72,14 +73,14 @@ impl<const N: usize> Block<N> {
     }
 }
 
-impl<const N: usize> Block<N> {
+impl<const N: usize> TermBlock<N> {
     #[inline(always)]
     fn compute<W: Weighting<N>>(&mut self) {
         let Self { positions: p, uvs, .. } = self;
-        for i in 0..BLOCK {
+        for i in 0..TERM_BLOCK {
             let [a, b, c] = [0, 1, 2].map(|k| [p[k][0][i], p[k][1][i], p[k][2][i]]);
             let [s, t, u] = [0, 1, 2].map(|k| [uvs[k][0][i], uvs[k][1][i]]);
-            let derivatives = Derivatives::new([&a, &b, &c], [&s, &t, &u]);
+            let derivatives = ScaledDerivatives::new([&a, &b, &c], [&s, &t, &u]);
             let (term, adds) = term_and_test::<N, W>(&derivatives);
             for row in 0..N {
                 for lane in 0..4 {
@@ -95,12 +96,12 @@ impl<const N: usize> Block<N> {
     fn pack(&mut self) {
         for row in 0..N {
             let [a, b, c, d] = &self.lanes[row];
-            for i in 0..BLOCK {
+            for i in 0..TERM_BLOCK {
                 self.rows[row][i] = [a[i], b[i], c[i], d[i]];
             }
         }
-        for i in 0..BLOCK {
-            let of_area = if self.sides[i] == 0 { Orientation::Keeps } else { Orientation::Mirrors };
+        for i in 0..TERM_BLOCK {
+            let of_area = if self.sides[i] == 0 { Orientation::Preserves } else { Orientation::Mirrors };
             self.orientations[i] = if self.sides[i] == 2 { Orientation::None } else { of_area };
         }
     }

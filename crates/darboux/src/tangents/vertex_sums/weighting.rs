@@ -2,12 +2,13 @@
 //!
 //! What a triangle adds is a method's business ([`Weighting`]); how it is added is in accumulate.rs, what becomes of the sums in sides.rs.
 
-use crate::math::{V3, length, not_zero, scale, sub};
+use crate::math::V3;
 
-use crate::tangents::mesh_slices::Flat;
+use crate::tangents::mesh_slices::MeshSlices;
+use crate::tangents::uv_derivatives::{ScaledDerivatives, size};
 
 /// Rows of four lanes, so that a sum is `N` vector additions. Row 0 is a tangent and a weight, row 1 begins with a bitangent.
-pub(crate) type Sum<const N: usize> = [[f32; 4]; N];
+pub(crate) type SumRows<const N: usize> = [[f32; 4]; N];
 
 /// A method that sums what each triangle adds to all of its vertices alike.
 pub(crate) trait Weighting<const N: usize> {
@@ -15,105 +16,25 @@ pub(crate) trait Weighting<const N: usize> {
     const SPLITS: bool = true;
 
     /// What a triangle adds. One without a weight above zero, or with a lane that is not finite, adds nothing.
-    fn term(derivatives: &Derivatives) -> Sum<N>;
+    fn term(derivatives: &ScaledDerivatives) -> SumRows<N>;
 
     /// What the lengths of the added tangents come to, to a factor of two: a sum that is much shorter cancelled.
-    fn size(sum: &Sum<N>) -> f32;
+    fn size(sum: &SumRows<N>) -> f32;
 
     /// The lengths of dP/du and dP/dv that a sum stands for.
-    fn magnitude(sum: &Sum<N>) -> [f32; 2];
+    fn magnitude(sum: &SumRows<N>) -> [f32; 2];
 
     /// A normal to use where the mesh has none, as long as it may be.
-    fn own_normal(_sum: &Sum<N>) -> V3 {
+    fn own_normal(_sum: &SumRows<N>) -> V3 {
         [0.0; 3]
-    }
-}
-
-/// A triangle's edges and the derivatives of position by UV, before the division by `area`.
-///
-/// With E = [e1 e2] and the UV edges as columns of U, the derivatives are the columns of E U^-1 (E. Lengyel, "Foundations of
-/// Game Engine Development", vol. 2, 7.5; M. Mikkelsen 2008, equations 18 and 19).
-#[derive(Clone, Copy)]
-pub(crate) struct Derivatives {
-    /// From the first corner to the second and to the third, and between these.
-    pub edges: [V3; 3],
-    /// dP/du and dP/dv, times `area`.
-    pub s: V3,
-    pub t: V3,
-    /// Twice the signed area in UV space: the determinant of U.
-    pub area: f32,
-}
-
-impl Derivatives {
-    #[inline(always)]
-    pub fn new([a, b, c]: [&V3; 3], uvs: [&[f32; 2]; 3]) -> Self {
-        let [e1, e2, e3] = [sub(*b, *a), sub(*c, *a), sub(*c, *b)];
-        let [du1, dv1] = [uvs[1][0] - uvs[0][0], uvs[1][1] - uvs[0][1]];
-        let [du2, dv2] = [uvs[2][0] - uvs[0][0], uvs[2][1] - uvs[0][1]];
-        Self {
-            edges: [e1, e2, e3],
-            s: sub(scale(dv2, e1), scale(dv1, e2)),
-            t: sub(scale(du1, e2), scale(du2, e1)),
-            area: du1 * dv2 - dv1 * du2,
-        }
-    }
-
-    /// True where neither derivative is zero and the triangle is not degenerate. No branches: it nearly always is.
-    #[inline(always)]
-    pub fn has_direction(&self) -> bool {
-        let [a, b, c] = self.edges;
-        let has_corners = (size(a) > 0.0) & (size(b) > 0.0) & (size(c) > 0.0);
-        not_zero(self.area) & (size(self.s) > 0.0) & (size(self.t) > 0.0) & has_corners
-    }
-
-    /// The unit directions of dP/du and dP/dv, and their lengths.
-    #[inline(always)]
-    pub fn directions(&self) -> ([V3; 2], [f32; 2]) {
-        let (s_length, t_length) = (length(self.s), length(self.t));
-        let (sign, area) = (1f32.copysign(self.area), self.area.abs());
-        let directions = [scale(sign / s_length, self.s), scale(sign / t_length, self.t)];
-        (directions, [s_length / area, t_length / area])
-    }
-
-    /// Twice the triangle's area times its normal.
-    #[inline(always)]
-    pub fn doubled_area_vector(&self) -> V3 {
-        let [a, b, _] = self.edges;
-        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    }
-}
-
-/// The sum of the absolute coordinates: the cheapest norm.
-#[inline(always)]
-pub(crate) fn size([x, y, z]: V3) -> f32 {
-    x.abs() + y.abs() + z.abs()
-}
-
-/// True for two equal positions.
-#[inline(always)]
-pub(crate) fn is_degenerate([a, b, c]: [V3; 3]) -> bool {
-    a == b || b == c || a == c
-}
-
-/// What the UV map does with a face's orientation.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Orientation {
-    Keeps = 0,
-    Mirrors = 1,
-    /// No UV area, no area, values that are not finite, or a face of other than 3 or 4 corners.
-    #[default]
-    None = 2,
-}
-
-impl Orientation {
-    pub fn of(area: f32) -> Self {
-        if area > 0.0 { Self::Keeps } else { Self::Mirrors }
     }
 }
 
 /// What a triangle adds, and whether it adds it. No branches.
 #[inline(always)]
-pub(crate) fn term_and_test<const N: usize, W: Weighting<N>>(derivatives: &Derivatives) -> (Sum<N>, bool) {
+pub(crate) fn term_and_test<const N: usize, W: Weighting<N>>(
+    derivatives: &ScaledDerivatives,
+) -> (SumRows<N>, bool) {
     let term = W::term(derivatives);
     // One test for all lanes: sizes do not cancel, so their sum is finite only where all are.
     let mut sizes = 0.0;
@@ -126,14 +47,14 @@ pub(crate) fn term_and_test<const N: usize, W: Weighting<N>>(derivatives: &Deriv
 
 /// What a triangle adds; none when it adds nothing.
 #[inline(always)]
-pub(crate) fn term<const N: usize, W: Weighting<N>>(derivatives: &Derivatives) -> Option<Sum<N>> {
+pub(crate) fn term<const N: usize, W: Weighting<N>>(derivatives: &ScaledDerivatives) -> Option<SumRows<N>> {
     let (term, adds) = term_and_test::<N, W>(derivatives);
     adds.then_some(term)
 }
 
 /// True for a triangle that adds something.
-pub(crate) fn adds<const N: usize, W: Weighting<N>>(flat: &Flat<'_>, t: usize) -> bool {
+pub(crate) fn adds<const N: usize, W: Weighting<N>>(flat: &MeshSlices<'_>, t: usize) -> bool {
     let slices = flat.slices();
     let (positions, uvs) = slices.refer(slices.triangles[t]);
-    term::<N, W>(&Derivatives::new(positions, uvs)).is_some()
+    term::<N, W>(&ScaledDerivatives::new(positions, uvs)).is_some()
 }

@@ -1,0 +1,32 @@
+//! Buffers of all methods but the fast path, reused from run to run.
+
+use crate::tangents::angle_area::group_sums::GroupBuffers;
+use crate::tangents::uv_derivatives::Orientation;
+use crate::tangents::vertex_sums::weighting::SumRows;
+
+/// What a run leaves behind for the next one.
+#[derive(Debug, Default)]
+pub(crate) struct MethodBuffers {
+    of_two_rows: [Vec<SumRows<2>>; 2],
+    of_three_rows: [Vec<SumRows<3>>; 2],
+    pub orientation_of_face: Vec<Orientation>,
+    pub tangents_of_side: [Vec<[f32; 4]>; 2],
+    pub of_groups: GroupBuffers,
+}
+
+/// Where sums of `N` rows are kept.
+pub(crate) trait SumBuffers<const N: usize> {
+    fn of_side(&mut self) -> &mut [Vec<SumRows<N>>; 2];
+}
+
+impl SumBuffers<2> for MethodBuffers {
+    fn of_side(&mut self) -> &mut [Vec<SumRows<2>>; 2] {
+        &mut self.of_two_rows
+    }
+}
+
+impl SumBuffers<3> for MethodBuffers {
+    fn of_side(&mut self) -> &mut [Vec<SumRows<3>>; 2] {
+        &mut self.of_three_rows
+    }
+}

@@ -1,0 +1,42 @@
+//! Lookup table from a corner to its welded vertex and its first triangle.
+
+use crate::topology::triangles::{NONE, Triangulation};
+
+/// Where a corner is: its welded vertex, and the corners of its first triangle.
+pub(crate) struct CornerOrigin {
+    pub vertex: u32,
+    pub triangle: [u32; 3],
+}
+
+/// The places of corners.
+pub(crate) struct CornerLookup<'a> {
+    triangulation: &'a Triangulation,
+    /// The first entry that each corner has in both lists together, or [`NONE`].
+    entry_of_corner: Vec<u32>,
+}
+
+impl<'a> CornerLookup<'a> {
+    /// Of the corners of a mesh that has so many.
+    pub fn new(triangulation: &'a Triangulation, corner_count: usize) -> Self {
+        let Triangulation { good, degenerate, .. } = triangulation;
+        let mut entry_of_corner = vec![NONE; corner_count];
+        let all = good.corners.as_flattened().iter().chain(degenerate.corners.as_flattened());
+        for (&corner, entry) in all.zip(0..) {
+            let first = &mut entry_of_corner[corner as usize];
+            *first = entry.min(*first);
+        }
+        Self { triangulation, entry_of_corner }
+    }
+
+    /// None for corners of unsupported faces.
+    pub fn of(&self, corner: u32) -> Option<CornerOrigin> {
+        let entry = self.entry_of_corner[corner as usize] as usize;
+        let Triangulation { good, degenerate, .. } = self.triangulation;
+        let (list, entry) = match entry.checked_sub(3 * good.len()) {
+            None => (good, entry),
+            Some(entry) => (degenerate, entry),
+        };
+        let vertex = *list.vertices.as_flattened().get(entry)?;
+        Some(CornerOrigin { vertex, triangle: list.corners[entry / 3] })
+    }
+}
