@@ -22,7 +22,7 @@ type D3 = [f64; 3];
 /// How normals are made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormalOptions {
-    /// MeshSlices, or smooth.
+    /// Flat, or smooth.
     pub shading: Shading,
     /// How much each face counts at a vertex, where shading is smooth.
     pub weight: NormalWeight,
@@ -43,11 +43,11 @@ impl Default for NormalOptions {
     }
 }
 
-/// MeshSlices or smooth.
+/// Flat or smooth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Shading {
     /// Every corner has its face's normal: what glTF asks of renderers where normals are absent (2.0, section 3.7.2.1).
-    MeshSlices,
+    Flat,
     /// Corners around a vertex share the weighted mean of their faces' normals, but for creases.
     #[default]
     Smooth,
@@ -139,7 +139,7 @@ impl NormalPlan {
         let (mesh, stop) = (bare_mesh(positions.into(), indices.into(), faces)?, Stop::heard());
         let vertex_of_corner = vertices_of_corners(&mesh, options.seams, &stop)?;
         let (fan_of_corner, creased_edges) = fans_of_corners(&mesh, &vertex_of_corner, options, &stop)?;
-        let is_flat = options.shading == Shading::MeshSlices;
+        let is_flat = options.shading == Shading::Flat;
         Ok(Self {
             vertex_count: mesh.vertex_count(),
             indices: (0..mesh.corner_count()).map(|corner| mesh.vertex_of_corner(corner) as u32).collect(),
@@ -373,7 +373,7 @@ fn fans_of_corners(
 ) -> Result<(Vec<u32>, usize), MeshError> {
     match options.shading {
         Shading::Smooth if options.crease >= 180.0 => Ok((vertex_of_corner.to_vec(), 0)),
-        Shading::MeshSlices => Ok((Polygons::new(mesh, stop)?.face_of_corner, 0)),
+        Shading::Flat => Ok((Polygons::new(mesh, stop)?.face_of_corner, 0)),
         Shading::Smooth => fans(&Polygons::new(mesh, stop)?, vertex_of_corner, options.crease, stop),
     }
 }
