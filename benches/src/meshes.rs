@@ -33,7 +33,7 @@ impl Named {
 
 type Maker = fn(Size) -> OwnedMesh;
 
-/// The made meshes, in the table's order. The last three take the reference time quadratic in their size.
+/// The generated meshes, in the table's order. The reference takes quadratic time on the last four.
 const MAKERS: &[(&str, Maker)] = &[
     ("grid", |size| grid(size.side(1000), size.side(500))),
     ("quads", |size| quads(grid(size.side(1000), size.side(500)))),
@@ -42,6 +42,7 @@ const MAKERS: &[(&str, Maker)] = &[
     ("charts", |size| charts(size.count(20_000))),
     ("small", |_| grid(50, 50)),
     ("fan", |size| families::fan(size.count(20_000), false)),
+    ("polar-fan", |size| families::fan(size.count(20_000), true)),
     ("lone-degenerates", |size| {
         let side = size.side(200);
         families::with_lone_degenerates(families::grid(side, side, false, false), size.count(20_000))

@@ -1,4 +1,4 @@
-//! What must hold before a change lands.
+//! `cargo xtask ci`: the checks that must pass before a change lands, each with its time.
 
 use std::io::{BufRead, BufReader, Read};
 use std::process::{Command, Stdio};
@@ -20,6 +20,7 @@ const QUICK: &[Step] = &[
     ("models", || validate::all_models(without_npm())),
     ("packages", || packages::install(packages::FOR_TESTS)),
     ("tests", || test("cargo test --workspace")),
+    ("small limits", small_limits),
     ("python", || python::test(without_python())),
     ("npm package", || dist_js::test(without_npm())),
     ("viewer", || dist_viewer::test(without_npm())),
@@ -27,7 +28,7 @@ const QUICK: &[Step] = &[
 
 const LONG: &[Step] = &[
     ("acos", acos),
-    ("small limits", small_limits),
+    ("small limits, all tests", all_with_small_limits),
     ("Arm", arm),
     ("long tests", || test("cargo test --release --workspace -- --ignored --skip acos_exhaustive")),
     ("Python wheel", python::test_wheel),
@@ -36,31 +37,40 @@ const LONG: &[Step] = &[
     ("fuzzing", fuzz),
 ];
 
-/// `cargo xtask ci`.
+/// `cargo xtask ci`: the steps of every landing.
 pub fn quick() -> Outcome {
-    in_turn(QUICK)
+    run_steps(QUICK)
 }
 
-/// `cargo xtask ci --full`.
+/// `cargo xtask ci --full`: the long steps, then those of every landing.
 pub fn full() -> Outcome {
-    in_turn(LONG)?;
-    in_turn(QUICK)
+    run_steps(LONG)?;
+    run_steps(QUICK)
 }
 
-/// Our acos against the platform's on every float of [-1, 1].
+/// Compares the core's acos with the platform's on every float of [-1, 1].
 pub fn acos() -> Outcome {
     run(&mut program("cargo test --release --package darboux -- --ignored acos_exhaustive --nocapture"))
 }
 
-/// The tests against the reference and on GPUs with tables, blocks and groups of two, so that every rare path runs.
+/// Compiles hash tables, blocks and windows with a size of two, and starts threads for every mesh, so that rare paths run in small tests.
+const SMALL_LIMITS: [(&str, &str); 2] = [("RUSTFLAGS", "--cfg small_limits"), ("RAYON_NUM_THREADS", "3")];
+
+/// The comparisons with mikktspace.c with [`SMALL_LIMITS`]. The folder of its own keeps the other builds' cache valid.
 fn small_limits() -> Outcome {
-    let line =
-        "cargo test --release --package darboux-tests --package darboux-gpu --target-dir target/small-limits";
-    run(program(line).env("RUSTFLAGS", "--cfg small_limits"))
+    let line = "cargo test --package darboux-tests --target-dir target/small-limits \
+                --test differential --test corpus --test pathological --test plan --test callers_arrays";
+    run(program(line).envs(SMALL_LIMITS))
 }
 
-/// The bits of x86-64 on 64-bit Arm, emulated, and mikktspace.c's there. That one is compiled without fused operations, which GCC puts
-/// into C on Arm unless told otherwise.
+/// All tests of the core and of the GPU with [`SMALL_LIMITS`].
+fn all_with_small_limits() -> Outcome {
+    let line =
+        "cargo test --release --package darboux-tests --package darboux-gpu --target-dir target/small-limits";
+    run(program(line).envs(SMALL_LIMITS))
+}
+
+/// The tests of bits, on emulated 64-bit Arm. mikktspace.c is compiled without fused operations, which GCC uses on Arm by default.
 pub fn arm() -> Outcome {
     packages::install(packages::FOR_ARM)?;
     run(&mut program("rustup target add aarch64-unknown-linux-gnu"))?;
@@ -74,8 +84,8 @@ pub fn arm() -> Outcome {
     run(program(line).envs(variables))
 }
 
-/// Runs the steps in turn, up to the first that fails.
-fn in_turn(steps: &[Step]) -> Outcome {
+/// Runs the steps in order and stops at the first that fails.
+fn run_steps(steps: &[Step]) -> Outcome {
     for (name, step) in steps {
         println!("--- {name}");
         let start = Instant::now();
@@ -85,17 +95,17 @@ fn in_turn(steps: &[Step]) -> Outcome {
     Ok(())
 }
 
-/// CI must validate; a person without npm may go on without.
+/// In CI npm is required; elsewhere steps that need it are skipped.
 fn without_npm() -> WithoutNpm {
     if std::env::var_os("CI").is_some() { WithoutNpm::Fail } else { WithoutNpm::Skip }
 }
 
-/// As [`without_npm`], for Python.
+/// Like [`without_npm`], for Python.
 fn without_python() -> WithoutPython {
     if std::env::var_os("CI").is_some() { WithoutPython::Fail } else { WithoutPython::Skip }
 }
 
-/// Runs `cargo test`, passes on what it prints, and adds up its counts.
+/// Runs `cargo test`, prints its output, and adds up the counts of all test programs.
 fn test(line: &str) -> Outcome {
     let mut command = program(line);
     let mut child = command
@@ -106,7 +116,7 @@ fn test(line: &str) -> Outcome {
     if let Some(output) = child.stdout.take() {
         counts.read(output);
     }
-    let status = child.wait().map_err(|error| format!("{} cannot be awaited: {error}", shown(&command)))?;
+    let status = child.wait().map_err(|error| format!("{} gave no exit status: {error}", shown(&command)))?;
     println!(
         "{} tests passed, {} failed, {} ignored, {} skipped",
         counts.passed, counts.failed, counts.ignored, counts.skipped
@@ -136,13 +146,13 @@ impl Counts {
     }
 }
 
-/// The number that stands before `word` in `text`, 0 without one.
+/// The number before the first `word` in `text`; 0 if there is none.
 fn number_before(text: &str, word: &str) -> usize {
     let before = text.split(word).next().unwrap_or_default();
     before.rsplit(' ').next().and_then(|number| number.parse().ok()).unwrap_or(0)
 }
 
-/// One minute of each fuzz target.
+/// Runs each fuzz target for one minute.
 fn fuzz() -> Outcome {
     if !works(&mut program("cargo +nightly fuzz --version")) {
         run(&mut program("rustup toolchain install nightly --profile minimal"))?;
@@ -159,7 +169,7 @@ fn fuzz() -> Outcome {
 fn fuzz_target(name: &str) -> Command {
     let mut command = program("cargo +nightly fuzz run");
     command.args([name, "--", "-max_total_time=60", "-rss_limit_mb=2048"]);
-    // The C++ under the meshopt crate has two globals of one name in different files.
+    // The C++ code of the meshopt crate defines one global in two files.
     command.env("ASAN_OPTIONS", "detect_odr_violation=0");
     command
 }

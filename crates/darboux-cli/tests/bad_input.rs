@@ -4,7 +4,6 @@ mod common;
 
 use std::fs;
 use std::path::Path;
-use std::time::{Duration, Instant};
 
 use common::{asset, darboux, darboux_reading, darboux_with_little_memory, names_in, text};
 use serde_json::{Value, json};
@@ -152,7 +151,6 @@ fn every_broken_file_gets_one_sentence_and_no_output() {
     for (name, bytes, part) in broken() {
         let path = folder.path().join(name);
         fs::write(&path, &bytes).expect("a file");
-        let start = Instant::now();
         for arguments in [&["tangents", text(&path), "--out-dir", text(&out)][..], &["inspect", text(&path)]]
         {
             let run = darboux_with_little_memory(arguments).exits(1);
@@ -162,7 +160,6 @@ fn every_broken_file_gets_one_sentence_and_no_output() {
             assert!(sentence.starts_with(text(&path)), "{name}: {sentence}");
             assert!(sentence.contains(part), "{name}: {sentence} does not say {part}");
         }
-        assert!(start.elapsed() < Duration::from_secs(10), "{name} took {:?}", start.elapsed());
         assert!(!out.exists(), "{name} left something in {:?}", names_in(&out));
         assert_eq!(fs::read(&path).expect("the input"), bytes, "{name} was touched");
     }
