@@ -7,7 +7,7 @@ use std::path::Path;
 use darboux::Convention;
 use darboux_io::FileKind;
 use darboux_io::gltf::{ConversionSummary, Document, LoadOptions, Progress, convert_vertices};
-use darboux_io::image::{Image, convert_normal_map, count_no_normals};
+use darboux_io::image::{PngImage, convert_normal_map, count_no_normals};
 use serde::Serialize;
 
 use crate::arguments::{ConvertArguments, Files, Talk};
@@ -79,8 +79,8 @@ impl Work for ConvertArguments {
         match &job.input {
             Input::Stdin => {
                 let (name, bytes) = (job.input.to_string(), read_stdin()?);
-                if Image::is_png(&bytes) {
-                    return self.image(Image::from_bytes(&name, bytes).map_err(sentence)?, &job.output);
+                if PngImage::is_png(&bytes) {
+                    return self.image(PngImage::from_bytes(&name, bytes).map_err(sentence)?, &job.output);
                 }
                 let options = LoadOptions { allow_outside: self.files.allow_outside };
                 self.model(
@@ -90,7 +90,7 @@ impl Work for ConvertArguments {
                 )
             }
             Input::File(path) if is_png(path) || starts_as_png(path) => {
-                self.image(Image::open(path).map_err(sentence)?, &job.output)
+                self.image(PngImage::open(path).map_err(sentence)?, &job.output)
             }
             Input::File(path) if FileKind::of(path) == Some(FileKind::OtherImage) => Err(format!(
                 "{}: only PNG files are converted, which keep every texel; save it as one",
@@ -116,7 +116,7 @@ impl Work for ConvertArguments {
 }
 
 impl ConvertArguments {
-    fn image(&self, mut image: Image, output: &Output) -> Result<Made<ConvertSummary>, String> {
+    fn image(&self, mut image: PngImage, output: &Output) -> Result<Made<ConvertSummary>, String> {
         let sentence = |error: darboux_io::Error| error.to_string();
         let conversion = self.from.convention.to(self.to.convention);
         let target = self.to_layout.unwrap_or(self.layout);
@@ -141,7 +141,7 @@ impl ConvertArguments {
     }
 
     /// What is odd about an image before it is converted.
-    fn warning(&self, image: &Image) -> Option<String> {
+    fn warning(&self, image: &PngImage) -> Option<String> {
         let [width, height] = image.size();
         let (texels, odd) =
             (f64::from(width) * f64::from(height), count_no_normals(image, self.layout) as f64);
@@ -152,7 +152,7 @@ impl ConvertArguments {
         })
     }
 
-    fn save_image(&self, image: &Image, output: &Output) -> Result<(Status, Vec<String>), String> {
+    fn save_image(&self, image: &PngImage, output: &Output) -> Result<(Status, Vec<String>), String> {
         let sentence = |error: darboux_io::Error| error.to_string();
         let status = if image.is_changed() { Status::Written } else { Status::Copied };
         match output {
@@ -208,7 +208,7 @@ impl ConvertArguments {
 /// Whether a file that can be read begins as a PNG does.
 fn starts_as_png(path: &Path) -> bool {
     let mut first = [0; 8];
-    File::open(path).and_then(|mut file| file.read_exact(&mut first)).is_ok() && Image::is_png(&first)
+    File::open(path).and_then(|mut file| file.read_exact(&mut first)).is_ok() && PngImage::is_png(&first)
 }
 
 fn told_of_image(image: &ImageSummary) -> String {

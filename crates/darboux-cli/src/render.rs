@@ -9,7 +9,7 @@ use darboux::{NormalOptions, Shading, TangentOptions};
 use darboux_gpu::{Gpu, GpuError};
 use darboux_io::SaveOptions;
 use darboux_io::gltf::{Document, NormalsOptions, TangentsOptions, add_normals, add_tangents};
-use darboux_io::image::Image;
+use darboux_io::image::PngImage;
 use darboux_render::{Camera, HeatScale, Lines, Mistakes, Model, Picture, RenderError, RenderOptions, Side};
 use serde::Serialize;
 
@@ -115,7 +115,7 @@ fn draw(arguments: &RenderArguments) -> Result<RenderReport, String> {
         RenderError::Nothing | RenderError::TooMany { .. } => format!("{name}: {error}"),
         error => error.to_string(),
     })?;
-    let image = Image::from_rgb(&output.display().to_string(), *size, &picture.pixels)
+    let image = PngImage::from_rgb(&output.display().to_string(), *size, &picture.pixels)
         .map_err(|error| error.to_string())?;
     let _guard = interrupt::writing();
     let written = image

@@ -82,13 +82,13 @@ fn prefix(at: &str) -> String {
 /// A fault whose file is not known where it is found; [`Fault::in_file`] makes it an [`Error`].
 #[derive(Debug)]
 pub(crate) struct Fault {
-    kind: Kind,
+    kind: FaultKind,
     at: String,
     problem: String,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Kind {
+enum FaultKind {
     Invalid,
     Unsupported,
     Resource,
@@ -97,17 +97,17 @@ enum Kind {
 impl Fault {
     /// The format is broken at the JSON path `at` (empty: the whole file).
     pub fn invalid(at: impl Into<String>, problem: impl Into<String>) -> Self {
-        Self { kind: Kind::Invalid, at: at.into(), problem: problem.into() }
+        Self { kind: FaultKind::Invalid, at: at.into(), problem: problem.into() }
     }
 
     /// The format is right at `at`, but cannot be processed faithfully.
     pub fn unsupported(at: impl Into<String>, problem: impl Into<String>) -> Self {
-        Self { kind: Kind::Unsupported, at: at.into(), problem: problem.into() }
+        Self { kind: FaultKind::Unsupported, at: at.into(), problem: problem.into() }
     }
 
     /// The resource that is named at `at` cannot be used.
     pub fn resource(at: impl Into<String>, problem: impl Into<String>) -> Self {
-        Self { kind: Kind::Resource, at: at.into(), problem: problem.into() }
+        Self { kind: FaultKind::Resource, at: at.into(), problem: problem.into() }
     }
 
     /// The error that names `file`.
@@ -115,9 +115,9 @@ impl Fault {
         let Self { kind, at, problem } = self;
         let file = file.to_owned();
         match kind {
-            Kind::Invalid => Error::Invalid { file, at, problem },
-            Kind::Unsupported => Error::Unsupported { file, at, problem },
-            Kind::Resource => Error::Resource { file, at, problem },
+            FaultKind::Invalid => Error::Invalid { file, at, problem },
+            FaultKind::Unsupported => Error::Unsupported { file, at, problem },
+            FaultKind::Resource => Error::Resource { file, at, problem },
         }
     }
 }

@@ -1,44 +1,47 @@
 //! glTF 2.0 and GLB: a document that is read, edited in place and written back with everything else untouched.
 
-mod accessor;
-mod append;
+mod accessors;
 mod compare;
 mod compression;
 pub(crate) mod container;
 mod convert;
-mod corners;
 mod document;
+mod elements;
 mod file_bytes;
 mod inspect;
-mod json;
-mod layout;
-mod looks;
+mod json_text;
+mod materials;
 mod normals;
-mod object;
-pub(crate) mod pieces;
+mod objects_only;
+mod output_layout;
+mod primitives;
+mod progress;
 mod references;
 mod resources;
 mod save;
 mod scene;
 pub mod schema;
+pub(crate) mod segments;
+mod stored_elements;
 mod tangents;
-mod values;
-mod waste;
+mod unused_data;
 
-pub use accessor::{Elements, NewAccessor, Target};
 pub use compare::{Pair, PairedCorners, Unpaired, pair_tangents};
 pub use convert::{ConversionSummary, convert_vertices};
-pub use corners::PrimitiveCorners;
 pub use document::{Document, LoadOptions};
+pub use elements::{Elements, NewAccessor, Target};
 pub use inspect::{PrimitiveInfo, inspect};
-pub use looks::{Alpha, Look, TextureUse, Wrap};
+pub use materials::{Alpha, Appearance, TextureUse, Wrap};
 pub use normals::{
     NormalsOptions, NormalsOutcome, NormalsSummary, PrimitiveNormals, WrittenNormals, add_normals,
 };
+pub use primitives::corners::PrimitiveCorners;
+pub use primitives::name::PrimitiveName;
+pub use progress::Progress;
 pub use scene::{PlacedMesh, PlacedMeshes};
 pub use schema::{ComponentType, ElementType};
+pub use stored_elements::IndexList;
 pub use tangents::{
-    Counts, Generate, Outcome, PrimitiveName, PrimitiveSummary, Progress, Summary, TangentEncoding,
-    TangentsOptions, Totals, Written, add_tangents, add_tangents_with,
+    Counts, Generate, Outcome, PrimitiveSummary, Summary, TangentEncoding, TangentsOptions, Totals, Written,
+    add_tangents, add_tangents_with,
 };
-pub use values::IndexList;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use bytemuck::{Pod, Zeroable};
 use darboux_io::Error;
 use darboux_io::gltf::{
-    Document, Look, PlacedMesh, PlacedMeshes, PrimitiveCorners, PrimitiveName, TextureUse,
+    Appearance, Document, PlacedMesh, PlacedMeshes, PrimitiveCorners, PrimitiveName, TextureUse,
 };
 
 use crate::algebra::Matrix;
@@ -49,7 +49,7 @@ pub struct Part {
 /// What is drawn of a document.
 pub struct Model<'a> {
     pub(crate) document: &'a Document,
-    pub(crate) looks: Vec<Look>,
+    pub(crate) appearances: Vec<Appearance>,
     pub(crate) parts: Vec<Part>,
     /// Whether tangents are what shaders derive.
     pub(crate) is_derived: bool,
@@ -72,7 +72,7 @@ impl<'a> Model<'a> {
     pub fn read(document: &'a mut Document) -> Result<Self, Error> {
         document.decompress()?;
         let document: &'a Document = document;
-        let looks = document.looks()?;
+        let appearances = document.appearances()?;
         let placed = document.placed_meshes()?;
         let posed = posed_meshes(&placed, document.meshes().len());
         let mut parts = Vec::new();
@@ -87,10 +87,10 @@ impl<'a> Model<'a> {
             }
             check_influences(document, &corners, poses)?;
             for (at, pose) in poses.iter().enumerate() {
-                parts.push(read_part(document, &looks, &corners, at, pose)?);
+                parts.push(read_part(document, &appearances, &corners, at, pose)?);
             }
         }
-        Ok(Self { document, looks, parts, is_derived: false })
+        Ok(Self { document, appearances, parts, is_derived: false })
     }
 
     /// The model with the tangents that shaders derive from positions and UVs, in place of its own.
@@ -247,25 +247,25 @@ pub fn on_layout([u, v]: [f32; 2]) -> [f32; 3] {
 /// Reads a primitive in the pose `at` of its mesh, leaving out triangles that have no place.
 fn read_part(
     document: &Document,
-    looks: &[Look],
+    appearances: &[Appearance],
     corners: &PrimitiveCorners<'_>,
     at: usize,
     pose: &Posed<'_>,
 ) -> Result<Part, Error> {
-    let none = Look::default();
-    let look = match corners.material() {
+    let none = Appearance::default();
+    let appearance = match corners.material() {
         None => &none,
-        Some(material) => looks.get(material).ok_or_else(|| {
+        Some(material) => appearances.get(material).ok_or_else(|| {
             let problem = format!("its material {material} does not exist; export the file again");
             document.invalid(corners.name().path(), problem)
         })?,
     };
-    let layout = corners.vectors::<2>(&set_name(look.tangent_uv_set))?.unwrap_or_default();
+    let layout = corners.vectors::<2>(&set_name(appearance.tangent_uv_set))?.unwrap_or_default();
     let uvs = |texture: &Option<TextureUse>| -> Result<Vec<[f32; 2]>, Error> {
         let Some(texture) = texture else { return Ok(layout.clone()) };
         Ok(corners.vectors::<2>(&set_name(texture.uv_set))?.unwrap_or_default())
     };
-    let uvs = [uvs(&look.base_texture)?, uvs(&look.normal_texture)?];
+    let uvs = [uvs(&appearance.base_texture)?, uvs(&appearance.normal_texture)?];
     let (Vertices { positions, normals, tangents }, is_mirrored) = posed_vertices(corners, pose)?;
     let corner = |i: usize| Corner {
         position: positions[i],

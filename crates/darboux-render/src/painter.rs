@@ -2,7 +2,7 @@
 
 use bytemuck::Pod;
 use darboux_gpu::Gpu;
-use darboux_io::gltf::Look;
+use darboux_io::gltf::Appearance;
 use darboux_io::image::linear_of_srgb;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{
@@ -192,11 +192,12 @@ impl Painter<'_> {
             let mut parts = model.parts.iter();
             self.show.view() == View::Shaded && parts.any(|part| part.material == Some(material))
         };
-        let looks = model.looks.iter().enumerate();
-        let materials =
-            looks.map(|(material, look)| is_used(material).then(|| self.material(look, &mut textures)));
+        let appearances = model.appearances.iter().enumerate();
+        let materials = appearances.map(|(material, appearance)| {
+            is_used(material).then(|| self.material(appearance, &mut textures))
+        });
         let materials = materials.collect();
-        let plain = self.material(&Look::default(), &mut textures);
+        let plain = self.material(&Appearance::default(), &mut textures);
         let (strokes, is_cut) = self.strokes(side);
         let told = model.warnings(self.show.shape).into_iter().chain(textures.warnings).chain(is_cut);
         for warning in told {
@@ -255,10 +256,11 @@ impl Painter<'_> {
         })
     }
 
-    fn material(&self, look: &Look, textures: &mut Textures<'_>) -> BindGroup {
-        let [base, normal] = [(&look.base_texture, Kind::Color), (&look.normal_texture, Kind::Normal)]
-            .map(|(used, kind)| (textures.view(used.as_ref(), kind), sampler(self.gpu, used.as_ref())));
-        let uniforms = MaterialUniforms::of(look, normal.0.is_some());
+    fn material(&self, appearance: &Appearance, textures: &mut Textures<'_>) -> BindGroup {
+        let [base, normal] =
+            [(&appearance.base_texture, Kind::Color), (&appearance.normal_texture, Kind::Normal)]
+                .map(|(used, kind)| (textures.view(used.as_ref(), kind), sampler(self.gpu, used.as_ref())));
+        let uniforms = MaterialUniforms::of(appearance, normal.0.is_some());
         let [base_view, normal_view] = [
             base.0.unwrap_or_else(|| textures.neutral(Kind::Color)),
             normal.0.unwrap_or_else(|| textures.neutral(Kind::Normal)),

@@ -1,7 +1,7 @@
 //! What the shaders are told, as they take it.
 
 use bytemuck::{Pod, Zeroable};
-use darboux_io::gltf::{Alpha, Look, TextureUse};
+use darboux_io::gltf::{Alpha, Appearance, TextureUse};
 
 use crate::algebra::{IDENTITY, Matrix, direction_columns};
 use crate::camera::Sight;
@@ -106,16 +106,16 @@ impl StrokesUniforms {
 }
 
 impl MaterialUniforms {
-    pub fn of(look: &Look, has_normal_map: bool) -> Self {
-        let (base_axes, base_origin) = axes(look.base_texture.as_ref());
-        let (normal_axes, normal_origin) = axes(look.normal_texture.as_ref());
+    pub fn of(appearance: &Appearance, has_normal_map: bool) -> Self {
+        let (base_axes, base_origin) = axes(appearance.base_texture.as_ref());
+        let (normal_axes, normal_origin) = axes(appearance.normal_texture.as_ref());
         Self {
-            base_color: look.base_color,
+            base_color: appearance.base_color,
             base_axes,
             normal_axes,
             origins: [base_origin, normal_origin],
-            normal_scale: look.normal_scale,
-            alpha_cutoff: match look.alpha {
+            normal_scale: appearance.normal_scale,
+            alpha_cutoff: match appearance.alpha {
                 Alpha::Opaque => -1.0,
                 Alpha::Mask(cutoff) => cutoff.clamp(0.0, 1.0),
                 Alpha::Blend => 2.0,

@@ -3,7 +3,7 @@
 use darboux::CornerDifference;
 use darboux_io::Error;
 use darboux_io::gltf::PairedCorners;
-use darboux_io::image::Image;
+use darboux_io::image::PngImage;
 
 use super::statistics::differences;
 
@@ -104,13 +104,13 @@ impl HeatMap {
     }
 
     /// The picture, the scale below it.
-    pub fn image(&self, name: &str) -> Result<Image, Error> {
+    pub fn image(&self, name: &str) -> Result<PngImage, Error> {
         let mut texels: Vec<[u8; 3]> =
             self.worst.iter().map(|worst| worst.map_or(BACKGROUND, colour)).collect();
         texels.resize(SIZE * (SIZE + GAP), [0; 3]);
         let row = scale(SIZE);
         (0..SCALE).for_each(|_| texels.extend_from_slice(&row));
-        Image::from_rgb(name, [SIZE as u32, (SIZE + GAP + SCALE) as u32], &texels)
+        PngImage::from_rgb(name, [SIZE as u32, (SIZE + GAP + SCALE) as u32], &texels)
     }
 }
 

@@ -1,10 +1,11 @@
 //! The tangents of two documents of one model, corner by corner.
 
-use super::corners::{PrimitiveCorners, triangle_count};
+use super::primitives::corners::{PrimitiveCorners, triangle_count};
+use super::primitives::limits;
+use super::primitives::triangles::{TriangleMode, mode_name};
+use super::tangents::TangentsOptions;
 use super::tangents::select::{Candidate, select};
-use super::tangents::topology::{Topology, mode_name};
-use super::tangents::{PrimitiveName, TangentsOptions, excess};
-use super::{Document, schema};
+use super::{Document, PrimitiveName, schema};
 use crate::Error;
 
 /// A primitive of both documents.
@@ -46,7 +47,7 @@ pub fn pair_tangents(a: &mut Document, b: &mut Document) -> Result<Vec<Pair>, Er
         if document.is_compressed() {
             document.decompress()?;
         }
-        excess::check_triangles(document, triangle_counts(document))?;
+        limits::check_triangles(document, triangle_counts(document))?;
     }
     let shape = |document: &Document| -> Vec<usize> {
         document.meshes().iter().map(|mesh| mesh.primitives.len()).collect()
@@ -98,7 +99,7 @@ fn pair(a: &Document, b: &Document, candidate: &Candidate) -> Result<Pair, Error
 /// Why there is nothing to compare, if there is nothing.
 fn unpaired([a, b]: [&Document; 2], [first, second]: [&schema::Primitive; 2]) -> Option<Unpaired> {
     let reason = match (has_tangents(first), has_tangents(second)) {
-        (true, true) if Topology::from_mode(first.mode).is_some() => return None,
+        (true, true) if TriangleMode::from_mode(first.mode).is_some() => return None,
         (true, true) => {
             let mode = mode_name(first.mode).unwrap_or("unknown");
             format!("its mode is {mode}; only triangles are compared")

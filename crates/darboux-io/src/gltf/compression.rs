@@ -13,7 +13,7 @@ use serde_json::Value;
 use serde_json::value::RawValue;
 
 use super::document::Document;
-use super::json::{member, set_member};
+use super::json_text::{member, set_member};
 use super::schema::{Accessor, ComponentType};
 use crate::Error;
 use crate::error::Fault;

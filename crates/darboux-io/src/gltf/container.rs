@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::pieces::{self, Piece};
+use super::segments::{self, Segment};
 use crate::error::Fault;
 
 const MAGIC: &[u8] = b"glTF";
@@ -98,26 +98,26 @@ fn word(file: &[u8], at: usize) -> Option<u32> {
 /// Error: more than the 4 GiB that a GLB can hold.
 pub fn glb<'a>(
     json: String,
-    bin: Option<Vec<Piece<'a>>>,
+    bin: Option<Vec<Segment<'a>>>,
     other_chunks: Vec<(u32, &'a [u8])>,
-) -> Result<Vec<Piece<'a>>, Fault> {
-    let mut chunks = vec![(JSON, vec![Piece::Owned(json.into_bytes())], b' ')];
-    chunks.extend(bin.map(|pieces| (BIN, pieces, 0)));
-    chunks.extend(other_chunks.into_iter().map(|(kind, chunk)| (kind, vec![Piece::Borrowed(chunk)], 0)));
-    let padded = |pieces: &[Piece<'_>]| pieces::length(pieces).next_multiple_of(4);
-    let length = 12 + chunks.iter().map(|(_, pieces, _)| 8 + padded(pieces)).sum::<usize>();
+) -> Result<Vec<Segment<'a>>, Fault> {
+    let mut chunks = vec![(JSON, vec![Segment::Owned(json.into_bytes())], b' ')];
+    chunks.extend(bin.map(|segments| (BIN, segments, 0)));
+    chunks.extend(other_chunks.into_iter().map(|(kind, chunk)| (kind, vec![Segment::Borrowed(chunk)], 0)));
+    let padded = |segments: &[Segment<'_>]| segments::length(segments).next_multiple_of(4);
+    let length = 12 + chunks.iter().map(|(_, segments, _)| 8 + padded(segments)).sum::<usize>();
     let too_large =
         || Fault::unsupported("", format!("{length} bytes are too many for a GLB; write a .gltf"));
     let total = u32::try_from(length).map_err(|_| too_large())?;
 
-    let mut out = vec![Piece::Owned([MAGIC, &2u32.to_le_bytes(), &total.to_le_bytes()].concat())];
-    for (kind, pieces, padding) in chunks {
-        let length = pieces::length(&pieces);
+    let mut out = vec![Segment::Owned([MAGIC, &2u32.to_le_bytes(), &total.to_le_bytes()].concat())];
+    for (kind, segments, padding) in chunks {
+        let length = segments::length(&segments);
         let padding = vec![padding; length.next_multiple_of(4) - length];
         let header = (length + padding.len()) as u64 | u64::from(kind) << 32;
-        out.push(Piece::Owned(header.to_le_bytes().to_vec()));
-        out.extend(pieces);
-        out.push(Piece::Owned(padding));
+        out.push(Segment::Owned(header.to_le_bytes().to_vec()));
+        out.extend(segments);
+        out.push(Segment::Owned(padding));
     }
     Ok(out)
 }

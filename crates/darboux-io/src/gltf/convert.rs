@@ -5,48 +5,25 @@
 //! In between, and after the second, the file says one thing and means another; `asset.extras.darboux_convention` says what.
 
 mod attributes;
+mod axes;
+mod convention_note;
 mod faces;
 mod scene;
-mod surroundings;
-mod turn;
+mod summary;
+
+pub use summary::ConversionSummary;
 
 use darboux::Convention;
-use serde::Serialize;
 
 use super::Document;
-use super::tangents::share::Canonical;
-use super::tangents::{Progress, excess};
+use super::Progress;
+use super::primitives::canonical::CanonicalAccessors;
+use super::primitives::limits;
 use crate::Error;
-use attributes::Attributes;
-use faces::Faces;
-use scene::Scene;
-use turn::Turn;
-
-/// What [`convert_vertices`] did to a document: only what it did, not what other documents would have had changed.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
-#[non_exhaustive]
-pub struct ConversionSummary {
-    /// Primitives that changed.
-    pub primitives: usize,
-    /// Whether vectors, or nodes, got other axes.
-    pub axes_changed: bool,
-    /// Whether v runs the other way.
-    pub uvs_flipped: bool,
-    /// Whether fronts are wound the other way.
-    pub faces_reversed: bool,
-    /// Whether tangents point the other way, or their signs changed.
-    pub tangents_changed: bool,
-    /// What a user should look at, one sentence each. Reports have them beside this.
-    #[serde(skip)]
-    pub warnings: Vec<String>,
-}
-
-impl ConversionSummary {
-    /// Whether anything changed.
-    pub fn has_changes(&self) -> bool {
-        self.primitives > 0 || self.axes_changed
-    }
-}
+use attributes::AttributeConverter;
+use axes::AxisChange;
+use faces::FaceReverser;
+use scene::SceneConverter;
 
 /// Converts the vertex data of every primitive: positions, normals, tangents, UVs, morph targets, the winding of triangles; and where
 /// the axes differ, the transforms of nodes, skins, instances and animations, in documents without meshes too.
@@ -62,33 +39,34 @@ pub fn convert_vertices(
     document.check_convention(from)?;
     let mut summary = ConversionSummary::default();
     if from != to {
-        summary.warnings = surroundings::warnings(document, from, to);
+        summary.warnings = convention_note::warnings(document, from, to);
         if document.is_compressed() {
             document.decompress()?;
         }
-        let accessors = Canonical::new(document);
+        let accessors = CanonicalAccessors::new(document);
         convert_primitives(document, &accessors, (from, to), &mut summary, progress)?;
         if from.axes != to.axes {
-            summary.axes_changed |= Scene::new(&accessors, Turn::new(from, to)).convert(document)?;
+            summary.axes_changed |=
+                SceneConverter::new(&accessors, AxisChange::new(from, to)).convert(document)?;
         }
     }
     // What nothing changes in is as well in the other convention; where it never said so, there is nothing to say now.
     if summary.has_changes() || document.has_note() {
         document.set_convention(to)?;
     }
-    summary.warnings.extend(document.waste_warning());
+    summary.warnings.extend(document.unused_data_warning());
     Ok(summary)
 }
 
 fn convert_primitives(
     document: &mut Document,
-    accessors: &Canonical,
+    accessors: &CanonicalAccessors,
     (from, to): (Convention, Convention),
     summary: &mut ConversionSummary,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<(), Error> {
-    let mut attributes = Attributes::new(accessors, from, to);
-    let mut faces = Faces::new(accessors, from, to);
+    let mut attributes = AttributeConverter::new(accessors, from, to);
+    let mut faces = FaceReverser::new(accessors, from, to);
     let counts = document.meshes().iter().map(|mesh| mesh.primitives.len());
     let places = counts.enumerate().flat_map(|(mesh, count)| (0..count).map(move |place| (mesh, place)));
     let places: Vec<(usize, usize)> = places.collect();
@@ -97,7 +75,7 @@ fn convert_primitives(
         let faces_changed = faces.convert(document, mesh, place)?;
         summary.faces_reversed |= faces_changed;
         summary.primitives += usize::from(attributes_changed || faces_changed);
-        excess::check_output(document)?;
+        limits::check_output(document)?;
         progress(Progress { done: done + 1, total: places.len() });
     }
     attributes.sum_up(summary);

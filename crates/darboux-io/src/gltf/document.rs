@@ -10,11 +10,11 @@ use serde::de::DeserializeOwned;
 use serde_json::value::RawValue;
 use serde_json::{Map, Value};
 
-use super::accessor::{Elements, NewAccessor, Target, accessor_json};
 use super::container::Container;
+use super::elements::{Elements, NewAccessor, Target};
 use super::file_bytes::FileBytes;
-use super::json;
-use super::resources::{File, Reference, Resources, decode_data_uri};
+use super::json_text;
+use super::resources::{ResourceFile, Resources, UriTarget, decode_data_uri};
 use super::schema::{self, ComponentType, Probe, Root};
 use crate::error::Fault;
 use crate::{Error, paths};
@@ -41,7 +41,7 @@ pub struct Document {
     text: String,
     pub(super) root: Root,
     pub(super) resources: Resources,
-    pub(super) stores: Vec<Store>,
+    pub(super) buffer_sources: Vec<BufferSource>,
     pub(super) edits: Edits,
     /// How many of the new bytes came out of compressed meshes.
     pub(super) decompressed_bytes: usize,
@@ -52,11 +52,11 @@ pub struct Document {
 
 /// Where the bytes of a buffer are.
 #[derive(Debug)]
-pub(super) enum Store {
+pub(super) enum BufferSource {
     /// In the GLB's binary chunk.
     Chunk,
     /// In a file.
-    File(Arc<File>),
+    File(Arc<ResourceFile>),
     /// In a `data:` URI, decoded.
     Data(Vec<u8>),
     /// Decompressed into a buffer that had no bytes.
@@ -82,7 +82,7 @@ pub(super) struct Edits {
     /// Accessors that primitives named before they were edited.
     pub once_named: BTreeSet<usize>,
     /// Whether it was said that data without a use stays.
-    pub is_waste_told: bool,
+    pub is_unused_data_reported: bool,
     pub new_views: Vec<NewView>,
     /// The length of all new views.
     pub new_byte_count: usize,
@@ -143,7 +143,7 @@ impl Document {
         }
         let root = parse_root(&text)?;
         let chunk = container.bin.clone().map(|range| &file[range]);
-        let stores = root
+        let buffer_sources = root
             .buffers
             .iter()
             .enumerate()
@@ -158,7 +158,7 @@ impl Document {
             text,
             root,
             resources,
-            stores,
+            buffer_sources,
             edits: Edits::default(),
             decompressed_bytes: 0,
             backed_count: OnceLock::new(),
@@ -199,7 +199,7 @@ impl Document {
         let like = new.like.and_then(|index| self.root.accessors.get(index)).cloned();
         let bounds = new.bounds.then(|| new.elements.bounds()).flatten();
         let stored = self.store(new);
-        self.edits.new_accessors.push(accessor_json(&stored, bounds, like.as_ref()));
+        self.edits.new_accessors.push(stored.to_json(bounds, like.as_ref()));
         if let Some(backed) = self.backed_count.get_mut() {
             *backed = (*backed).max(stored.count);
         }
@@ -341,12 +341,12 @@ impl Document {
 
     /// The size of what was read, decompressed.
     pub(super) fn stored_bytes(&self) -> usize {
-        let stores = self.stores.iter().map(|store| match store {
-            Store::Chunk | Store::Absent(_) => 0,
-            Store::File(file) => file.bytes.len(),
-            Store::Data(bytes) | Store::Decoded(bytes) => bytes.len(),
+        let buffer_sources = self.buffer_sources.iter().map(|store| match store {
+            BufferSource::Chunk | BufferSource::Absent(_) => 0,
+            BufferSource::File(file) => file.bytes.len(),
+            BufferSource::Data(bytes) | BufferSource::Decoded(bytes) => bytes.len(),
         });
-        self.file.len().max(self.text.len()) + stores.sum::<usize>() + self.decompressed_bytes
+        self.file.len().max(self.text.len()) + buffer_sources.sum::<usize>() + self.decompressed_bytes
     }
 
     /// Whether there are edits.
@@ -418,15 +418,16 @@ impl Document {
 
     /// The bytes of a buffer. `at` is the JSON path that refers to it.
     pub(super) fn buffer(&self, index: usize, at: &str) -> Result<&[u8], Fault> {
-        let (Some(buffer), Some(store)) = (self.root.buffers.get(index), self.stores.get(index)) else {
+        let (Some(buffer), Some(store)) = (self.root.buffers.get(index), self.buffer_sources.get(index))
+        else {
             let problem = format!("buffer {index} does not exist: there are {}", self.root.buffers.len());
             return Err(Fault::invalid(at, format!("{problem}; export the file again")));
         };
         let bytes = match store {
-            Store::Chunk => &self.file[self.container.bin.clone().unwrap_or_default()],
-            Store::File(file) => &file.bytes,
-            Store::Data(bytes) | Store::Decoded(bytes) => bytes,
-            Store::Absent(why) => return Err(Fault::resource(format!("buffers[{index}]"), *why)),
+            BufferSource::Chunk => &self.file[self.container.bin.clone().unwrap_or_default()],
+            BufferSource::File(file) => &file.bytes,
+            BufferSource::Data(bytes) | BufferSource::Decoded(bytes) => bytes,
+            BufferSource::Absent(why) => return Err(Fault::resource(format!("buffers[{index}]"), *why)),
         };
         // Longer sources are legal: the GLB's chunk is padded.
         Ok(&bytes[..buffer.byte_length.min(bytes.len())])
@@ -482,26 +483,28 @@ fn load_buffer(
     buffer: &schema::Buffer,
     chunk: Option<&[u8]>,
     resources: &mut Resources,
-) -> Result<Store, Fault> {
+) -> Result<BufferSource, Fault> {
     let at = || format!("buffers[{index}].uri");
     let store = match buffer.uri.as_deref().map(|uri| resources.resolve(uri)) {
-        None if index == 0 && chunk.is_some() => Store::Chunk,
-        None => return Ok(Store::Absent("has no bytes; export the file again")),
-        Some(Ok(Reference::Remote)) => {
-            return Ok(Store::Absent("is on another machine; download it and refer to the file"));
+        None if index == 0 && chunk.is_some() => BufferSource::Chunk,
+        None => return Ok(BufferSource::Absent("has no bytes; export the file again")),
+        Some(Ok(UriTarget::Remote)) => {
+            return Ok(BufferSource::Absent("is on another machine; download it and refer to the file"));
         }
-        Some(Ok(Reference::Data(data))) => {
-            Store::Data(decode_data_uri(data).map_err(|problem| Fault::invalid(at(), problem))?)
+        Some(Ok(UriTarget::Data(data))) => {
+            BufferSource::Data(decode_data_uri(data).map_err(|problem| Fault::invalid(at(), problem))?)
         }
-        Some(Ok(Reference::File(located))) => {
+        Some(Ok(UriTarget::File(located))) => {
             let file = resources.read(&located);
-            Store::File(file.map_err(|error| Fault::resource(at(), format!("cannot be read: {error}")))?)
+            BufferSource::File(
+                file.map_err(|error| Fault::resource(at(), format!("cannot be read: {error}")))?,
+            )
         }
         Some(Err(problem)) => return Err(Fault::resource(at(), problem)),
     };
     let found = match &store {
-        Store::File(file) => file.bytes.len(),
-        Store::Data(bytes) => bytes.len(),
+        BufferSource::File(file) => file.bytes.len(),
+        BufferSource::Data(bytes) => bytes.len(),
         _ => chunk.unwrap_or_default().len(),
     };
     if buffer.byte_length > found {
@@ -541,7 +544,7 @@ fn edited_primitive(text: &str, edit: impl FnOnce(&mut Map<String, Value>)) -> s
     const UNDERSTOOD: [&str; 5] = ["attributes", "indices", "material", "mode", "targets"];
     let mut before = Map::new();
     for key in UNDERSTOOD {
-        if let Some(value) = json::member(text, key)? {
+        if let Some(value) = json_text::member(text, key)? {
             before.insert(key.to_owned(), serde_json::from_str(value)?);
         }
     }
@@ -549,10 +552,10 @@ fn edited_primitive(text: &str, edit: impl FnOnce(&mut Map<String, Value>)) -> s
     edit(&mut after);
     let mut text = text.to_owned();
     for key in before.keys().filter(|key| !after.contains_key(*key)) {
-        text = json::set_member(&text, key, None)?;
+        text = json_text::set_member(&text, key, None)?;
     }
     for (key, value) in after.iter().filter(|&(key, value)| before.get(key) != Some(value)) {
-        text = json::set_member(&text, key, Some(&value.to_string()))?;
+        text = json_text::set_member(&text, key, Some(&value.to_string()))?;
     }
     Ok(text)
 }

@@ -3,13 +3,14 @@
 use darboux::{Convention, CornerTangents, Scratch};
 use serde::Serialize;
 
-use super::Document;
+use super::primitives::canonical::CanonicalAccessors;
+use super::primitives::limits;
+use super::primitives::triangles::{TriangleMode, mode_name};
 use super::tangents::compute::{self, Generate, Vertices};
-use super::tangents::excess;
+use super::tangents::groups;
 use super::tangents::select::{Candidate, Verdict};
-use super::tangents::share::{self, Canonical};
-use super::tangents::topology::{Topology, mode_name};
-use super::tangents::{Counts, PrimitiveName, TangentsOptions, select_readable};
+use super::tangents::{Counts, TangentsOptions, select_readable};
+use super::{Document, PrimitiveName};
 use crate::Error;
 
 /// What [`inspect`] finds out about a primitive.
@@ -50,8 +51,8 @@ pub struct PrimitiveInfo {
 pub fn inspect(document: &mut Document) -> Result<Vec<PrimitiveInfo>, Error> {
     let options = TangentsOptions { overwrite: true, ..TangentsOptions::default() };
     let selection = select_readable(document, &options)?;
-    let groups = share::group(&Canonical::new(document), selection.chosen());
-    excess::check_corners(document, &groups)?;
+    let groups = groups::group(&CanonicalAccessors::new(document), selection.chosen());
+    limits::check_triangles(document, groups::triangle_counts(&groups))?;
     let mut scratch = Scratch::new();
     let mut infos: Vec<_> =
         selection.candidates.iter().map(|candidate| describe(document, candidate)).collect();
@@ -61,8 +62,8 @@ pub fn inspect(document: &mut Document) -> Result<Vec<PrimitiveInfo>, Error> {
         for job in &group.jobs {
             let at = infos[job.first].name.path();
             let on_cpu = (&mut compute::on_cpu as &mut Generate<'_>, &mut scratch);
-            let surface = compute::surface(document, &at, &mut vertices, job, false, &options, on_cpu)?;
-            found.push((surface.report.into(), mirrored_triangles(&surface.tangents)));
+            let result = compute::compute_job(document, &at, &mut vertices, job, false, &options, on_cpu)?;
+            found.push((result.report.into(), mirrored_triangles(&result.tangents)));
         }
         for member in &group.members {
             let info = &mut infos[member.candidate];
@@ -80,7 +81,7 @@ fn describe(document: &Document, candidate: &Candidate) -> PrimitiveInfo {
     let vertices = primitive.attributes.get("POSITION").map_or(0, |&accessor| count(accessor));
     let corners = primitive.indices.map_or(vertices, count);
     let triangles =
-        Topology::from_mode(primitive.mode).map_or(0, |topology| topology.triangle_count(corners));
+        TriangleMode::from_mode(primitive.mode).map_or(0, |topology| topology.triangle_count(corners));
     let ineligible = match &candidate.verdict {
         Verdict::Chosen(_) => None,
         Verdict::Kept(reason) | Verdict::Skipped(reason) => Some(reason.clone()),

@@ -105,13 +105,13 @@ pub fn quoted(text: &str) -> String {
 }
 
 /// A member of an object: where its key and value are.
-struct Member<'a> {
+struct ObjectMember<'a> {
     key_text: &'a str,
     key: Range<usize>,
     value: Range<usize>,
 }
 
-impl Member<'_> {
+impl ObjectMember<'_> {
     fn is(&self, key: &str) -> bool {
         let inner = &self.key_text[1..self.key_text.len() - 1];
         if inner.contains('\\') {
@@ -122,17 +122,17 @@ impl Member<'_> {
     }
 }
 
-fn members(object: &str) -> serde_json::Result<Vec<Member<'_>>> {
+fn members(object: &str) -> serde_json::Result<Vec<ObjectMember<'_>>> {
     let mut parser = serde_json::Deserializer::from_str(object);
-    let members = parser.deserialize_map(Members(object))?;
+    let members = parser.deserialize_map(MembersVisitor(object))?;
     parser.end()?;
     Ok(members)
 }
 
-struct Members<'a>(&'a str);
+struct MembersVisitor<'a>(&'a str);
 
-impl<'de> Visitor<'de> for Members<'de> {
-    type Value = Vec<Member<'de>>;
+impl<'de> Visitor<'de> for MembersVisitor<'de> {
+    type Value = Vec<ObjectMember<'de>>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("an object")
@@ -143,7 +143,7 @@ impl<'de> Visitor<'de> for Members<'de> {
         while let Some((key, value)) = map.next_entry::<&RawValue, &RawValue>()? {
             let key_text = key.get();
             let (key, value) = (range_in(self.0, key_text), range_in(self.0, value.get()));
-            members.push(Member { key_text, key, value });
+            members.push(ObjectMember { key_text, key, value });
         }
         Ok(members)
     }
@@ -156,7 +156,7 @@ pub fn range_in(text: &str, part: &str) -> Range<usize> {
 }
 
 /// What to cut to remove a member with one of its commas.
-fn removal(members: &[Member<'_>], at: usize) -> Range<usize> {
+fn removal(members: &[ObjectMember<'_>], at: usize) -> Range<usize> {
     match (at.checked_sub(1), members.get(at + 1)) {
         (_, Some(next)) => members[at].key.start..next.key.start,
         (Some(previous), None) => members[previous].value.end..members[at].value.end,

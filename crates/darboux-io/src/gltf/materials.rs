@@ -6,8 +6,8 @@ use std::fs;
 use serde::Deserialize;
 
 use super::Document;
-use super::object::read_from_objects;
-use super::resources::{Reference, decode_data_uri};
+use super::objects_only::read_from_objects;
+use super::resources::{UriTarget, decode_data_uri};
 use super::schema::{Image, TextureInfoExtensions};
 use super::tangents::uv::{UvChoice, UvTransform};
 use crate::Error;
@@ -16,7 +16,7 @@ use crate::error::Fault;
 /// How a material looks.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Look {
+pub struct Appearance {
     /// Linear red, green, blue, and alpha.
     pub base_color: [f32; 4],
     /// Its texture, in sRGB.
@@ -31,7 +31,7 @@ pub struct Look {
     pub tangent_uv_set: usize,
 }
 
-impl Default for Look {
+impl Default for Appearance {
     fn default() -> Self {
         Self {
             base_color: [1.0; 4],
@@ -88,13 +88,13 @@ pub enum Wrap {
     Clamp,
 }
 
-read_from_objects! { Looks, Material, Metallic, Use, Texture, TextureExtensions, Source, Sampler }
+read_from_objects! { StoredMaterials, StoredMaterial, Metallic, StoredTextureUse, Texture, TextureExtensions, ImageSource, Sampler }
 
 #[derive(Deserialize)]
 #[serde(remote = "Self")]
-struct Looks {
+struct StoredMaterials {
     #[serde(default)]
-    materials: Vec<Material>,
+    materials: Vec<StoredMaterial>,
     #[serde(default)]
     textures: Vec<Texture>,
     #[serde(default)]
@@ -103,10 +103,10 @@ struct Looks {
 
 #[derive(Deserialize)]
 #[serde(remote = "Self", rename_all = "camelCase")]
-struct Material {
+struct StoredMaterial {
     #[serde(default)]
     pbr_metallic_roughness: Metallic,
-    normal_texture: Option<Use>,
+    normal_texture: Option<StoredTextureUse>,
     alpha_mode: Option<String>,
     #[serde(default = "half")]
     alpha_cutoff: f32,
@@ -116,12 +116,12 @@ struct Material {
 #[serde(remote = "Self", rename_all = "camelCase")]
 struct Metallic {
     base_color_factor: Option<[f32; 4]>,
-    base_color_texture: Option<Use>,
+    base_color_texture: Option<StoredTextureUse>,
 }
 
 #[derive(Deserialize)]
 #[serde(remote = "Self", rename_all = "camelCase")]
-struct Use {
+struct StoredTextureUse {
     index: usize,
     #[serde(default)]
     tex_coord: usize,
@@ -145,16 +145,16 @@ struct Texture {
 #[serde(remote = "Self")]
 struct TextureExtensions {
     #[serde(rename = "EXT_texture_webp")]
-    webp: Option<Source>,
+    webp: Option<ImageSource>,
     #[serde(rename = "EXT_texture_avif")]
-    avif: Option<Source>,
+    avif: Option<ImageSource>,
     #[serde(rename = "KHR_texture_basisu")]
-    ktx2: Option<Source>,
+    ktx2: Option<ImageSource>,
 }
 
 #[derive(Deserialize)]
 #[serde(remote = "Self")]
-struct Source {
+struct ImageSource {
     source: Option<usize>,
 }
 
@@ -185,23 +185,28 @@ fn one() -> f32 {
 
 impl Document {
     /// How every material looks. Errors: textures, samplers or images that do not exist.
-    pub fn looks(&self) -> Result<Vec<Look>, Error> {
-        let looks = || -> Result<Vec<Look>, Fault> {
-            let all: Looks = self.parsed()?;
-            let look = |(index, material)| self.look(&all, index, material);
-            all.materials.iter().enumerate().map(look).collect()
+    pub fn appearances(&self) -> Result<Vec<Appearance>, Error> {
+        let appearances = || -> Result<Vec<Appearance>, Fault> {
+            let all: StoredMaterials = self.parsed()?;
+            let appearance = |(index, material)| self.appearance(&all, index, material);
+            all.materials.iter().enumerate().map(appearance).collect()
         };
-        looks().map_err(|fault| fault.in_file(self.name()))
+        appearances().map_err(|fault| fault.in_file(self.name()))
     }
 
-    fn look(&self, all: &Looks, index: usize, material: &Material) -> Result<Look, Fault> {
+    fn appearance(
+        &self,
+        all: &StoredMaterials,
+        index: usize,
+        material: &StoredMaterial,
+    ) -> Result<Appearance, Fault> {
         let at = format!("materials[{index}]");
-        let texture = |used: &Option<Use>, member: &str| {
+        let texture = |used: &Option<StoredTextureUse>, member: &str| {
             used.as_ref().map(|used| self.texture_use(all, used, &format!("{at}.{member}"))).transpose()
         };
         let metallic = &material.pbr_metallic_roughness;
         let choice = self.materials().get(index).and_then(|material| UvChoice::of(material, index));
-        Ok(Look {
+        Ok(Appearance {
             base_color: metallic.base_color_factor.unwrap_or([1.0; 4]),
             base_texture: texture(&metallic.base_color_texture, "pbrMetallicRoughness.baseColorTexture")?,
             normal_texture: texture(&material.normal_texture, "normalTexture")?,
@@ -215,7 +220,12 @@ impl Document {
         })
     }
 
-    fn texture_use(&self, all: &Looks, used: &Use, at: &str) -> Result<TextureUse, Fault> {
+    fn texture_use(
+        &self,
+        all: &StoredMaterials,
+        used: &StoredTextureUse,
+        at: &str,
+    ) -> Result<TextureUse, Fault> {
         let missing = |what: &str, index: usize| {
             Fault::invalid(at, format!("{what} {index} does not exist; export the file again"))
         };
@@ -255,13 +265,13 @@ impl Document {
             None => return Err(Fault::invalid(at, "does not exist; export the file again")),
         };
         match self.resources.resolve(uri) {
-            Ok(Reference::Data(data)) => {
+            Ok(UriTarget::Data(data)) => {
                 decode_data_uri(data).map(Cow::Owned).map_err(|problem| Fault::invalid(at, problem))
             }
-            Ok(Reference::Remote) => {
+            Ok(UriTarget::Remote) => {
                 Err(Fault::resource(at, "is on another machine; download it and refer to the file"))
             }
-            Ok(Reference::File(located)) => fs::read(&located.path)
+            Ok(UriTarget::File(located)) => fs::read(&located.path)
                 .map(Cow::Owned)
                 .map_err(|error| Fault::resource(at, format!("cannot be read: {error}"))),
             Err(problem) => Err(Fault::resource(at, problem)),

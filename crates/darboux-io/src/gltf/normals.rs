@@ -1,32 +1,23 @@
 //! Normals into a document: chosen, computed mesh by mesh, split, morphed and written, with everything else left as it is.
 
+mod compute;
+mod options;
 mod select;
-mod shade;
 mod summary;
 mod write;
 
+pub use options::NormalsOptions;
 pub use summary::{NormalsOutcome, NormalsSummary, PrimitiveNormals, WrittenNormals};
 
 use std::collections::BTreeMap;
 
-use darboux::NormalOptions;
-
 use super::Document;
-use super::tangents::Progress;
-use super::tangents::excess;
-use super::tangents::share::Canonical;
+use super::Progress;
+use super::primitives::canonical::CanonicalAccessors;
+use super::primitives::limits;
 use crate::Error;
+use compute::ShadedPrimitive;
 use select::{Selection, select};
-use shade::Part;
-
-/// What [`add_normals`] does. The default gives smooth normals to the triangle primitives that have none.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct NormalsOptions {
-    /// How normals are made.
-    pub normals: NormalOptions,
-    /// Replace normals that exist.
-    pub overwrite: bool,
-}
 
 /// Gives every triangle primitive its normals. Primitives of one mesh are shaded as one surface.
 ///
@@ -38,10 +29,10 @@ pub fn add_normals(
     progress: &mut dyn FnMut(Progress),
 ) -> Result<NormalsSummary, Error> {
     let selection = select_readable(document, options)?;
-    let accessors = Canonical::new(document);
-    excess::check_triangles(document, selection.chosen().map(|(_, chosen)| chosen.triangle_count()))?;
-    let parts = shade::shade(document, &accessors, &selection, &options.normals, progress)?;
-    let mut parts_of_position: BTreeMap<usize, Vec<&Part>> = BTreeMap::new();
+    let accessors = CanonicalAccessors::new(document);
+    limits::check_triangles(document, selection.chosen().map(|(_, chosen)| chosen.triangle_count()))?;
+    let parts = compute::shade(document, &accessors, &selection, &options.normals, progress)?;
+    let mut parts_of_position: BTreeMap<usize, Vec<&ShadedPrimitive>> = BTreeMap::new();
     for part in &parts {
         parts_of_position.entry(part.position).or_default().push(part);
     }
@@ -50,7 +41,7 @@ pub fn add_normals(
     for (position, parts) in parts_of_position {
         written.extend(write::write(document, &accessors, position, &parts, &mut summary.warnings)?);
     }
-    summary.warnings.extend(document.waste_warning());
+    summary.warnings.extend(document.unused_data_warning());
     selection.candidates.into_iter().enumerate().for_each(|(place, candidate)| {
         summary
             .push(candidate.name, candidate.verdict.outcome(|| written.remove(&place).unwrap_or_default()));

@@ -10,7 +10,7 @@ macro_rules! read_from_objects {
     ($($name:ident),* $(,)?) => {$(
         impl<'de> serde::Deserialize<'de> for $name {
             fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                $name::deserialize($crate::gltf::object::ObjectOnly(deserializer))
+                $name::deserialize($crate::gltf::objects_only::ObjectOnly(deserializer))
             }
         }
     )*};

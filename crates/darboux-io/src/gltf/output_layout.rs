@@ -1,6 +1,6 @@
 //! What is written: where the bytes of every buffer go, and the JSON that says so.
 //!
-//! A *home* is a place for bytes: the binary chunk of a GLB, or a new file beside a `.gltf`. A GLB has one home, into which all
+//! A *binary* is a place for bytes: the binary chunk of a GLB, or a new file beside a `.gltf`. A GLB has one binary, into which all
 //! buffers move; a `.gltf` has one for each buffer that was in memory only. Buffer views follow their buffers.
 
 use std::collections::{BTreeMap, HashMap};
@@ -8,26 +8,26 @@ use std::path::PathBuf;
 
 use serde_json::value::RawValue;
 
-use super::accessor::Target;
-use super::document::{Document, NewView, Store};
+use super::document::{BufferSource, Document, NewView};
+use super::elements::Target;
 use super::file_bytes::FileBytes;
-use super::json::{edit_array, keys, member, quoted, set_member};
-use super::pieces::Piece;
-use super::resources::{Reference, encode_data_uri, image_type};
+use super::json_text::{edit_array, keys, member, quoted, set_member};
+use super::resources::{UriTarget, encode_data_uri, image_type};
 use super::schema::Buffer;
-use super::waste::Waste;
+use super::segments::Segment;
+use super::unused_data::UnusedData;
 use crate::error::Fault;
 
 /// Bytes to be written as one.
 #[derive(Debug, Default)]
-pub struct Home<'a> {
-    pub pieces: Vec<Piece<'a>>,
+pub struct BinaryOutput<'a> {
+    pub segments: Vec<Segment<'a>>,
     length: usize,
 }
 
-impl<'a> Home<'a> {
+impl<'a> BinaryOutput<'a> {
     /// Appends bytes at the next multiple of four; gives their offset.
-    fn push(&mut self, bytes: Piece<'a>) -> usize {
+    fn push(&mut self, bytes: Segment<'a>) -> usize {
         let offset = self.align();
         self.append(bytes);
         offset
@@ -36,45 +36,45 @@ impl<'a> Home<'a> {
     /// Appends the parts of one buffer, the first at the next multiple of four; gives its offset.
     fn push_parts(&mut self, parts: &[&'a [u8]]) -> usize {
         let offset = self.align();
-        parts.iter().for_each(|part| self.append(Piece::Borrowed(part)));
+        parts.iter().for_each(|part| self.append(Segment::Borrowed(part)));
         offset
     }
 
     /// Pads to a multiple of four; gives the length.
     fn align(&mut self) -> usize {
         let padding = self.length.next_multiple_of(4) - self.length;
-        self.append(Piece::Borrowed(&[0; 4][..padding]));
+        self.append(Segment::Borrowed(&[0; 4][..padding]));
         self.length
     }
 
-    fn append(&mut self, bytes: Piece<'a>) {
+    fn append(&mut self, bytes: Segment<'a>) {
         self.length += bytes.len();
-        self.pieces.push(bytes);
+        self.segments.push(bytes);
     }
 }
 
 /// A buffer of the output.
 #[derive(Debug)]
-struct Slot {
+struct OutputBuffer {
     /// The buffer whose JSON it keeps.
     source: Option<usize>,
-    content: Content,
+    content: BufferContent,
 }
 
 #[derive(Debug)]
-enum Content {
+enum BufferContent {
     /// As before.
     Kept,
-    /// A home.
-    Home(usize),
+    /// A binary.
+    Binary(usize),
     /// A `data:` URI.
-    Embedded,
+    DataUri,
 }
 
 /// A place in the output's buffers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Place {
-    slot: usize,
+struct BufferPlace {
+    output_buffer: usize,
     offset: usize,
 }
 
@@ -88,128 +88,136 @@ struct EmbeddedImage {
 
 /// Where everything goes.
 #[derive(Debug)]
-pub struct Layout<'a> {
+pub struct OutputLayout<'a> {
     document: &'a Document,
-    pub homes: Vec<Home<'a>>,
-    slots: Vec<Slot>,
+    pub binaries: Vec<BinaryOutput<'a>>,
+    output_buffers: Vec<OutputBuffer>,
     /// By buffer of the input.
-    places: Vec<Place>,
+    places: Vec<BufferPlace>,
     /// What the output does without.
-    pub waste: Waste,
+    pub unused_data: UnusedData,
     /// The buffer view JSON of new data and of images.
     new_views: Vec<String>,
     images: Vec<EmbeddedImage>,
 }
 
-impl<'a> Layout<'a> {
-    /// Everything in one GLB: buffers of one home, images in buffer views.
+impl<'a> OutputLayout<'a> {
+    /// Everything in one GLB: buffers of one binary, images in buffer views.
     ///
     /// Buffers with extras or extensions of their own, beyond the first, become `data:` URIs so that these survive. Buffers
-    /// without bytes in reach stay as they are, behind the home.
+    /// without bytes in reach stay as they are, behind the binary.
     pub fn glb(document: &'a Document) -> Result<Self, Fault> {
         let mut layout = Self::empty(document)?;
         let texts = document.buffer_texts().map_err(broken)?;
-        let mut home = Home::default();
+        let mut binary = BinaryOutput::default();
         let mut source = None;
         let mut aside = Vec::new();
-        let mut merged: HashMap<(&PathBuf, usize), Place> = HashMap::new();
+        let mut merged: HashMap<(&PathBuf, usize), BufferPlace> = HashMap::new();
         for (i, buffer) in document.root.buffers.iter().enumerate() {
-            if let Store::Absent(_) = document.stores[i] {
-                if !layout.waste.has_buffer(i) {
-                    aside.push(Slot { source: Some(i), content: Content::Kept });
+            if let BufferSource::Absent(_) = document.buffer_sources[i] {
+                if !layout.unused_data.has_buffer(i) {
+                    aside.push(OutputBuffer { source: Some(i), content: BufferContent::Kept });
                 }
                 continue;
             }
             let bytes = document.buffer(i, "buffers")?;
-            let kept = layout.waste.kept(i, bytes);
+            let kept = layout.unused_data.kept(i, bytes);
             let is_mergeable = source.is_none() || kept.is_empty() || is_plain(&texts[i]).map_err(broken)?;
             if !is_mergeable {
-                aside.push(Slot { source: Some(i), content: Content::Embedded });
+                aside.push(OutputBuffer { source: Some(i), content: BufferContent::DataUri });
                 continue;
             }
             source.get_or_insert(i);
-            let mut push = || Place { slot: 0, offset: home.push_parts(&kept) };
-            layout.places[i] = match &document.stores[i] {
-                Store::File(file) if kept == [bytes] => {
+            let mut push = || BufferPlace { output_buffer: 0, offset: binary.push_parts(&kept) };
+            layout.places[i] = match &document.buffer_sources[i] {
+                BufferSource::File(file) if kept == [bytes] => {
                     *merged.entry((&file.located.path, buffer.byte_length)).or_insert_with(push)
                 }
                 _ => push(),
             };
         }
-        layout.push_new_views(&mut home, 0);
-        layout.push_images(&mut home)?;
-        if source.is_some() || home.length > 0 {
-            layout.slots.push(Slot { source, content: Content::Home(0) });
-            layout.homes.push(home);
+        layout.push_new_views(&mut binary, 0);
+        layout.push_images(&mut binary)?;
+        if source.is_some() || binary.length > 0 {
+            layout.output_buffers.push(OutputBuffer { source, content: BufferContent::Binary(0) });
+            layout.binaries.push(binary);
         }
-        for slot in aside {
-            let place = Place { slot: layout.slots.len(), offset: 0 };
-            layout.places[slot.source.unwrap_or_default()] = place;
-            layout.slots.push(slot);
+        for output_buffer in aside {
+            let place = BufferPlace { output_buffer: layout.output_buffers.len(), offset: 0 };
+            layout.places[output_buffer.source.unwrap_or_default()] = place;
+            layout.output_buffers.push(output_buffer);
         }
         Ok(layout)
     }
 
-    /// Buffers as they are; those that were only in memory, or in files of ours, get homes, and new bytes follow the first of these.
+    /// Buffers as they are; those that were only in memory, or in files of ours, get binaries, and new bytes follow the first of these.
     pub fn gltf(document: &'a Document) -> Result<Self, Fault> {
         let mut layout = Self::empty(document)?;
-        for (i, store) in document.stores.iter().enumerate().filter(|(i, _)| !layout.waste.has_buffer(*i)) {
-            let has_home =
-                matches!(store, Store::Chunk | Store::Decoded(_)) || document.replaced_file(i).is_some();
-            let content = if has_home { Content::Home(layout.homes.len()) } else { Content::Kept };
+        for (i, store) in
+            document.buffer_sources.iter().enumerate().filter(|(i, _)| !layout.unused_data.has_buffer(*i))
+        {
+            let has_home = matches!(store, BufferSource::Chunk | BufferSource::Decoded(_))
+                || document.replaced_file(i).is_some();
+            let content =
+                if has_home { BufferContent::Binary(layout.binaries.len()) } else { BufferContent::Kept };
             if has_home {
-                let mut home = Home::default();
-                home.push_parts(&layout.waste.kept(i, document.buffer(i, "buffers")?));
-                layout.homes.push(home);
+                let mut binary = BinaryOutput::default();
+                binary.push_parts(&layout.unused_data.kept(i, document.buffer(i, "buffers")?));
+                layout.binaries.push(binary);
             }
-            layout.places[i] = Place { slot: layout.slots.len(), offset: 0 };
-            layout.slots.push(Slot { source: Some(i), content });
+            layout.places[i] = BufferPlace { output_buffer: layout.output_buffers.len(), offset: 0 };
+            layout.output_buffers.push(OutputBuffer { source: Some(i), content });
         }
         if document.edits.new_views.is_empty() {
             return Ok(layout);
         }
-        let first = layout.slots.iter().position(|slot| matches!(slot.content, Content::Home(_)));
-        let slot = first.unwrap_or_else(|| {
-            layout.slots.push(Slot { source: None, content: Content::Home(layout.homes.len()) });
-            layout.homes.push(Home::default());
-            layout.slots.len() - 1
+        let first = layout
+            .output_buffers
+            .iter()
+            .position(|output_buffer| matches!(output_buffer.content, BufferContent::Binary(_)));
+        let output_buffer = first.unwrap_or_else(|| {
+            layout
+                .output_buffers
+                .push(OutputBuffer { source: None, content: BufferContent::Binary(layout.binaries.len()) });
+            layout.binaries.push(BinaryOutput::default());
+            layout.output_buffers.len() - 1
         });
-        let mut home = std::mem::take(&mut layout.homes[0]);
-        layout.push_new_views(&mut home, slot);
-        layout.homes[0] = home;
+        let mut binary = std::mem::take(&mut layout.binaries[0]);
+        layout.push_new_views(&mut binary, output_buffer);
+        layout.binaries[0] = binary;
         Ok(layout)
     }
 
     fn empty(document: &'a Document) -> Result<Self, Fault> {
-        let waste = Waste::of(document).map_err(broken)?;
-        let places = vec![Place { slot: 0, offset: 0 }; document.root.buffers.len()];
-        let (homes, slots, new_views, images) = Default::default();
-        Ok(Self { document, homes, slots, places, waste, new_views, images })
+        let unused_data = UnusedData::of(document).map_err(broken)?;
+        let places = vec![BufferPlace { output_buffer: 0, offset: 0 }; document.root.buffers.len()];
+        let (binaries, output_buffers, new_views, images) = Default::default();
+        Ok(Self { document, binaries, output_buffers, places, unused_data, new_views, images })
     }
 
-    fn push_new_views(&mut self, home: &mut Home<'a>, slot: usize) {
+    fn push_new_views(&mut self, binary: &mut BinaryOutput<'a>, output_buffer: usize) {
         for (place, NewView { bytes, stride, target }) in self.document.edits.new_views.iter().enumerate() {
-            if self.waste.has_new_view(self.document, place) {
+            if self.unused_data.has_new_view(self.document, place) {
                 self.new_views.push("null".to_owned());
                 continue;
             }
-            let (offset, length) = (home.push(Piece::Borrowed(bytes)), bytes.len());
+            let (offset, length) = (binary.push(Segment::Borrowed(bytes)), bytes.len());
             let stride = stride.map(|stride| format!(",\"byteStride\":{stride}")).unwrap_or_default();
             let target = target.and_then(Target::code);
             let target = target.map(|code| format!(",\"target\":{code}")).unwrap_or_default();
             self.new_views.push(format!(
-                "{{\"buffer\":{slot},\"byteOffset\":{offset},\"byteLength\":{length}{stride}{target}}}"
+                "{{\"buffer\":{output_buffer},\"byteOffset\":{offset},\"byteLength\":{length}{stride}{target}}}"
             ));
         }
     }
 
-    /// Moves images from files into the home. Images that are missing, remote or of unknown type stay where they are.
-    fn push_images(&mut self, home: &mut Home<'a>) -> Result<(), Fault> {
+    /// Moves images from files into the binary. Images that are missing, remote or of unknown type stay where they are.
+    fn push_images(&mut self, binary: &mut BinaryOutput<'a>) -> Result<(), Fault> {
         let document = self.document;
         let mut known: HashMap<PathBuf, Option<(usize, &str)>> = HashMap::new();
         for (index, image) in document.root.images.iter().enumerate() {
             let reference = image.uri.as_deref().map(|uri| document.resources.resolve(uri));
-            let Some(Ok(Reference::File(located))) = reference else { continue };
+            let Some(Ok(UriTarget::File(located))) = reference else { continue };
             let stored = match known.get(&located.path) {
                 Some(stored) => *stored,
                 None => {
@@ -218,7 +226,7 @@ impl<'a> Layout<'a> {
                     })?;
                     let stored = image_type(&bytes).map(|kind| {
                         let length = bytes.len();
-                        let offset = home.push(Piece::File(bytes));
+                        let offset = binary.push(Segment::File(bytes));
                         self.new_views.push(format!(
                             "{{\"buffer\":0,\"byteOffset\":{offset},\"byteLength\":{length}}}"
                         ));
@@ -236,9 +244,9 @@ impl<'a> Layout<'a> {
         Ok(())
     }
 
-    /// The JSON. `home_uris`: the URI of each home, none in a GLB. `renamed`: new URIs of files that are copied under another
+    /// The JSON. `binary_uris`: the URI of each binary, none in a GLB. `renamed`: new URIs of files that are copied under another
     /// name, by where they are.
-    pub fn json(&self, home_uris: &[String], renamed: &HashMap<PathBuf, String>) -> Result<String, Fault> {
+    pub fn json(&self, binary_uris: &[String], renamed: &HashMap<PathBuf, String>) -> Result<String, Fault> {
         let edits = &self.document.edits;
         let mut root = self.document.text().to_owned();
         let mut set =
@@ -258,21 +266,22 @@ impl<'a> Layout<'a> {
             }
             set("accessors", &|accessors| edit_array(accessors, &edits.accessors, &edits.new_accessors))?;
             set("bufferViews", &|views| self.views(views))?;
-            set("buffers", &|buffers| self.buffers(buffers, home_uris, renamed))?;
+            set("buffers", &|buffers| self.buffers(buffers, binary_uris, renamed))?;
             set("images", &|images| self.images(images, renamed))?;
             for key in ["extensionsUsed", "extensionsRequired"] {
                 set(key, &|names| self.extensions(names))?;
             }
             Ok(())
         })()
-        .and_then(|()| self.waste.cleared(root))
+        .and_then(|()| self.unused_data.cleared(root))
         .map_err(broken)
     }
 
     fn views(&self, views: &str) -> serde_json::Result<String> {
         let mut edited = self.document.edits.views.clone();
-        let unmoved =
-            |(i, place): (usize, &Place)| *place == Place { slot: i, offset: 0 } && !self.waste.has_holes(i);
+        let unmoved = |(i, place): (usize, &BufferPlace)| {
+            *place == BufferPlace { output_buffer: i, offset: 0 } && !self.unused_data.has_unused_ranges(i)
+        };
         if !self.places.iter().enumerate().all(unmoved) {
             let old: Vec<&RawValue> = serde_json::from_str(views)?;
             for (i, old) in old.iter().enumerate() {
@@ -306,14 +315,19 @@ impl<'a> Layout<'a> {
     fn moved(&self, range: &str) -> serde_json::Result<String> {
         let number = |key| Ok(member(range, key)?.and_then(|text| text.parse::<usize>().ok()));
         let Some(buffer) = number("buffer")? else { return Ok(range.to_owned()) };
-        let Some(&Place { slot, offset }) = self.places.get(buffer) else { return Ok(range.to_owned()) };
+        let Some(&BufferPlace { output_buffer, offset }) = self.places.get(buffer) else {
+            return Ok(range.to_owned());
+        };
         let start = number("byteOffset")?.unwrap_or(0);
-        let is_rewritten = self.slots.get(slot).is_some_and(|slot| matches!(slot.content, Content::Home(_)));
-        let moved_start = if is_rewritten { self.waste.moved(buffer, start) } else { start };
+        let is_rewritten = self
+            .output_buffers
+            .get(output_buffer)
+            .is_some_and(|output_buffer| matches!(output_buffer.content, BufferContent::Binary(_)));
+        let moved_start = if is_rewritten { self.unused_data.moved(buffer, start) } else { start };
         let moved_start = moved_start.saturating_add(offset);
         let mut moved = range.to_owned();
-        if slot != buffer {
-            moved = set_member(&moved, "buffer", Some(&slot.to_string()))?;
+        if output_buffer != buffer {
+            moved = set_member(&moved, "buffer", Some(&output_buffer.to_string()))?;
         }
         if moved_start != start {
             moved = set_member(&moved, "byteOffset", Some(&moved_start.to_string()))?;
@@ -324,16 +338,21 @@ impl<'a> Layout<'a> {
     fn buffers(
         &self,
         buffers: &str,
-        home_uris: &[String],
+        binary_uris: &[String],
         renamed: &HashMap<PathBuf, String>,
     ) -> serde_json::Result<String> {
         let old: Vec<&RawValue> = serde_json::from_str(buffers)?;
         let texts = self.document.buffer_texts()?;
-        let mut written = Vec::with_capacity(self.slots.len());
-        for slot in &self.slots {
-            written.push(self.buffer(slot, &texts, home_uris, renamed)?);
+        let mut written = Vec::with_capacity(self.output_buffers.len());
+        for output_buffer in &self.output_buffers {
+            written.push(self.buffer(output_buffer, &texts, binary_uris, renamed)?);
         }
-        let in_place = self.slots.iter().take(old.len()).enumerate().all(|(i, slot)| slot.source == Some(i));
+        let in_place = self
+            .output_buffers
+            .iter()
+            .take(old.len())
+            .enumerate()
+            .all(|(i, output_buffer)| output_buffer.source == Some(i));
         if !in_place || written.len() < old.len() {
             return Ok(format!("[{}]", written.join(",")));
         }
@@ -344,31 +363,32 @@ impl<'a> Layout<'a> {
 
     fn buffer(
         &self,
-        slot: &Slot,
+        output_buffer: &OutputBuffer,
         texts: &[String],
-        home_uris: &[String],
+        binary_uris: &[String],
         renamed: &HashMap<PathBuf, String>,
     ) -> serde_json::Result<String> {
         let ours = format!("{{\"name\":{}}}", Buffer::OUR_NAME);
-        let new = if home_uris.is_empty() { "{}" } else { &ours };
-        let text = slot.source.map_or(new, |source| texts[source].as_str());
-        match (&slot.content, slot.source) {
-            (Content::Home(home), _) => {
-                let length = self.homes[*home].length;
-                let before = slot.source.map(|source| self.document.root.buffers[source].byte_length);
+        let new = if binary_uris.is_empty() { "{}" } else { &ours };
+        let text = output_buffer.source.map_or(new, |source| texts[source].as_str());
+        match (&output_buffer.content, output_buffer.source) {
+            (BufferContent::Binary(binary), _) => {
+                let length = self.binaries[*binary].length;
+                let before =
+                    output_buffer.source.map(|source| self.document.root.buffers[source].byte_length);
                 let text = if before == Some(length) {
                     text.to_owned()
                 } else {
                     set_member(text, "byteLength", Some(&length.to_string()))?
                 };
-                set_member(&text, "uri", home_uris.get(*home).map(|uri| quoted(uri)).as_deref())
+                set_member(&text, "uri", binary_uris.get(*binary).map(|uri| quoted(uri)).as_deref())
             }
-            (Content::Embedded, Some(source)) => {
+            (BufferContent::DataUri, Some(source)) => {
                 let bytes = self.document.buffer(source, "").unwrap_or_default();
                 set_member(text, "uri", Some(&quoted(&encode_data_uri(bytes))))
             }
-            (_, source) => match source.map(|source| &self.document.stores[source]) {
-                Some(Store::File(file)) => match renamed.get(&file.located.path) {
+            (_, source) => match source.map(|source| &self.document.buffer_sources[source]) {
+                Some(BufferSource::File(file)) => match renamed.get(&file.located.path) {
                     Some(uri) => set_member(text, "uri", Some(&quoted(uri))),
                     None => Ok(text.to_owned()),
                 },
@@ -390,7 +410,7 @@ impl<'a> Layout<'a> {
         }
         for (i, image) in self.document.root.images.iter().enumerate().filter(|_| !renamed.is_empty()) {
             let reference = image.uri.as_deref().map(|uri| self.document.resources.resolve(uri));
-            let Some(Ok(Reference::File(located))) = reference else { continue };
+            let Some(Ok(UriTarget::File(located))) = reference else { continue };
             if let Some(uri) = renamed.get(&located.path) {
                 edited.insert(i, set_member(old[i].get(), "uri", Some(&quoted(uri)))?);
             }

@@ -8,11 +8,11 @@ use std::ops::Range;
 use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde_json::value::RawValue;
 
-use super::json::range_in;
+use super::json_text::range_in;
 
 /// What a number names, and who names it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ReferenceKind {
     /// An accessor.
     Accessor,
     /// A buffer view, named by an accessor.
@@ -23,8 +23,8 @@ pub enum Kind {
 
 /// A number that names something.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Reference {
-    pub kind: Kind,
+pub struct IndexReference {
+    pub kind: ReferenceKind,
     pub number: usize,
     /// Where it stands in the text.
     pub range: Range<usize>,
@@ -36,37 +36,37 @@ type Path = &'static [&'static str];
 const ANY: &str = "*";
 
 /// glTF 2.0, and the extensions whose references are known.
-const PATHS: &[(Kind, Path)] = &[
-    (Kind::Accessor, &["meshes", ANY, "primitives", ANY, "attributes", ANY]),
-    (Kind::Accessor, &["meshes", ANY, "primitives", ANY, "indices"]),
-    (Kind::Accessor, &["meshes", ANY, "primitives", ANY, "targets", ANY, ANY]),
+const PATHS: &[(ReferenceKind, Path)] = &[
+    (ReferenceKind::Accessor, &["meshes", ANY, "primitives", ANY, "attributes", ANY]),
+    (ReferenceKind::Accessor, &["meshes", ANY, "primitives", ANY, "indices"]),
+    (ReferenceKind::Accessor, &["meshes", ANY, "primitives", ANY, "targets", ANY, ANY]),
     (
-        Kind::Accessor,
+        ReferenceKind::Accessor,
         &["meshes", ANY, "primitives", ANY, "extensions", "CESIUM_primitive_outline", "indices"],
     ),
-    (Kind::Accessor, &["skins", ANY, "inverseBindMatrices"]),
-    (Kind::Accessor, &["animations", ANY, "samplers", ANY, "input"]),
-    (Kind::Accessor, &["animations", ANY, "samplers", ANY, "output"]),
-    (Kind::Accessor, &["nodes", ANY, "extensions", "EXT_mesh_gpu_instancing", "attributes", ANY]),
-    (Kind::ViewOfAccessor, &["accessors", ANY, "bufferView"]),
-    (Kind::ViewOfAccessor, &["accessors", ANY, "sparse", "indices", "bufferView"]),
-    (Kind::ViewOfAccessor, &["accessors", ANY, "sparse", "values", "bufferView"]),
-    (Kind::View, &["images", ANY, "bufferView"]),
+    (ReferenceKind::Accessor, &["skins", ANY, "inverseBindMatrices"]),
+    (ReferenceKind::Accessor, &["animations", ANY, "samplers", ANY, "input"]),
+    (ReferenceKind::Accessor, &["animations", ANY, "samplers", ANY, "output"]),
+    (ReferenceKind::Accessor, &["nodes", ANY, "extensions", "EXT_mesh_gpu_instancing", "attributes", ANY]),
+    (ReferenceKind::ViewOfAccessor, &["accessors", ANY, "bufferView"]),
+    (ReferenceKind::ViewOfAccessor, &["accessors", ANY, "sparse", "indices", "bufferView"]),
+    (ReferenceKind::ViewOfAccessor, &["accessors", ANY, "sparse", "values", "bufferView"]),
+    (ReferenceKind::View, &["images", ANY, "bufferView"]),
     (
-        Kind::View,
+        ReferenceKind::View,
         &["meshes", ANY, "primitives", ANY, "extensions", "KHR_draco_mesh_compression", "bufferView"],
     ),
-    (Kind::View, &["extensions", "KHR_audio_emitter", "audio", ANY, "bufferView"]),
+    (ReferenceKind::View, &["extensions", "KHR_audio_emitter", "audio", ANY, "bufferView"]),
     (
-        Kind::View,
+        ReferenceKind::View,
         &["extensions", "EXT_structural_metadata", "propertyTables", ANY, "properties", ANY, "values"],
     ),
     (
-        Kind::View,
+        ReferenceKind::View,
         &["extensions", "EXT_structural_metadata", "propertyTables", ANY, "properties", ANY, "arrayOffsets"],
     ),
     (
-        Kind::View,
+        ReferenceKind::View,
         &["extensions", "EXT_structural_metadata", "propertyTables", ANY, "properties", ANY, "stringOffsets"],
     ),
 ];
@@ -111,7 +111,7 @@ const KNOWN: &[&str] = &[
 const KNOWN_FAMILIES: &[&str] = &["KHR_materials_", "EXT_materials_", "ADOBE_materials_", "VRMC_materials_"];
 
 /// Every reference in `json`, in the order of the text. None: one of them is no number.
-pub fn references(json: &str) -> Option<Vec<Reference>> {
+pub fn references(json: &str) -> Option<Vec<IndexReference>> {
     let mut found = Vec::new();
     let walk = Walk { json, paths: PATHS.to_vec(), found: &mut found };
     walk.deserialize(&mut serde_json::Deserializer::from_str(json)).ok()?;
@@ -167,14 +167,14 @@ fn string_length(text: &str) -> usize {
 struct Walk<'t, 'f> {
     json: &'t str,
     /// What is left of the paths that lead here.
-    paths: Vec<(Kind, Path)>,
-    found: &'f mut Vec<Reference>,
+    paths: Vec<(ReferenceKind, Path)>,
+    found: &'f mut Vec<IndexReference>,
 }
 
 impl<'t> Walk<'t, '_> {
     /// The paths that go on at `key`; none for those that do not.
-    fn step(&self, key: &str) -> Vec<(Kind, Path)> {
-        let goes_on = |&(kind, path): &(Kind, Path)| match path.split_first() {
+    fn step(&self, key: &str) -> Vec<(ReferenceKind, Path)> {
+        let goes_on = |&(kind, path): &(ReferenceKind, Path)| match path.split_first() {
             Some((first, rest)) if *first == ANY || *first == key => Some((kind, rest)),
             _ => None,
         };
@@ -198,7 +198,7 @@ impl<'t> DeserializeSeed<'t> for Walk<'t, '_> {
         };
         let raw = <&RawValue as serde::Deserialize>::deserialize(deserializer)?.get();
         let number = raw.parse().map_err(|_| serde::de::Error::custom("not a number"))?;
-        self.found.push(Reference { kind, number, range: range_in(self.json, raw) });
+        self.found.push(IndexReference { kind, number, range: range_in(self.json, raw) });
         Ok(())
     }
 }
@@ -236,12 +236,12 @@ mod tests {
         for reference in &found {
             assert_eq!(json[reference.range.clone()], reference.number.to_string());
         }
-        let of = |kind: Kind| {
+        let of = |kind: ReferenceKind| {
             let of_kind = found.iter().filter(|reference| reference.kind == kind);
             of_kind.map(|reference| reference.number).collect::<Vec<_>>()
         };
-        assert_eq!(of(Kind::Accessor), [12, 0, 7, 2]);
-        assert_eq!((of(Kind::ViewOfAccessor), of(Kind::View)), (vec![3], vec![4]));
+        assert_eq!(of(ReferenceKind::Accessor), [12, 0, 7, 2]);
+        assert_eq!((of(ReferenceKind::ViewOfAccessor), of(ReferenceKind::View)), (vec![3], vec![4]));
         assert_eq!(references(r#"{"skins": [{"inverseBindMatrices": -1}]}"#), None);
         assert_eq!(references(r#"{"skins": 5}"#), None);
     }

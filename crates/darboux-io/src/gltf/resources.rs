@@ -20,18 +20,18 @@ use super::file_bytes::FileBytes;
 
 /// What a URI refers to.
 #[derive(Debug)]
-pub enum Reference<'a> {
+pub enum UriTarget<'a> {
     /// A `data:` URI: what follows the colon.
     Data(&'a str),
     /// `http:` or `https:`.
     Remote,
     /// A file.
-    File(Located),
+    File(LocatedFile),
 }
 
 /// A file that may be read.
 #[derive(Clone, Debug)]
-pub struct Located {
+pub struct LocatedFile {
     /// Where it is, links resolved.
     pub path: PathBuf,
     /// Where it is relative to the document's folder, or just its name when it lies outside.
@@ -42,9 +42,9 @@ pub struct Located {
 
 /// A file that was read.
 #[derive(Debug)]
-pub struct File {
+pub struct ResourceFile {
     /// Where it is.
-    pub located: Located,
+    pub located: LocatedFile,
     /// Its content.
     pub bytes: FileBytes,
 }
@@ -54,7 +54,7 @@ pub struct File {
 pub struct Resources {
     base: Option<PathBuf>,
     allow_outside: bool,
-    read: HashMap<PathBuf, Arc<File>>,
+    read: HashMap<PathBuf, Arc<ResourceFile>>,
 }
 
 impl Resources {
@@ -70,18 +70,18 @@ impl Resources {
     }
 
     /// What `uri` refers to; for files, they exist and may be read. The error is a clause that says why not.
-    pub fn resolve<'a>(&self, uri: &'a str) -> Result<Reference<'a>, String> {
+    pub fn resolve<'a>(&self, uri: &'a str) -> Result<UriTarget<'a>, String> {
         match scheme(uri) {
-            Some(name) if name.eq_ignore_ascii_case("data") => Ok(Reference::Data(&uri[5..])),
+            Some(name) if name.eq_ignore_ascii_case("data") => Ok(UriTarget::Data(&uri[5..])),
             Some(name) if name.eq_ignore_ascii_case("http") || name.eq_ignore_ascii_case("https") => {
-                Ok(Reference::Remote)
+                Ok(UriTarget::Remote)
             }
             Some(name) => Err(format!("uses the scheme {name:?}; use a relative path")),
-            None => self.locate(uri).map(Reference::File),
+            None => self.locate(uri).map(UriTarget::File),
         }
     }
 
-    fn locate(&self, uri: &str) -> Result<Located, String> {
+    fn locate(&self, uri: &str) -> Result<LocatedFile, String> {
         let shown = shortened(uri);
         let base = self.base.as_ref().ok_or_else(|| {
             format!("refers to the file {shown}, but input without a folder has none; give a .glb or a path")
@@ -105,16 +105,16 @@ impl Resources {
         let name = || path.file_name().map(PathBuf::from).unwrap_or_default();
         let is_outside = inside.is_none();
         let relative = inside.unwrap_or_else(name);
-        Ok(Located { path, relative, is_outside })
+        Ok(LocatedFile { path, relative, is_outside })
     }
 
     /// Reads a file, once however often it is asked for.
-    pub fn read(&mut self, located: &Located) -> io::Result<Arc<File>> {
+    pub fn read(&mut self, located: &LocatedFile) -> io::Result<Arc<ResourceFile>> {
         if let Some(file) = self.read.get(&located.path) {
             return Ok(Arc::clone(file));
         }
         let bytes = FileBytes::open(&located.path)?;
-        let file = Arc::new(File { located: located.clone(), bytes });
+        let file = Arc::new(ResourceFile { located: located.clone(), bytes });
         self.read.insert(located.path.clone(), Arc::clone(&file));
         Ok(file)
     }

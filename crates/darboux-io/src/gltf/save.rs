@@ -7,11 +7,11 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 use super::container::glb;
-use super::document::{Document, Store};
+use super::document::{BufferSource, Document};
 use super::file_bytes::FileBytes;
-use super::layout::{Home, Layout};
-use super::pieces::{self, Piece};
-use super::resources::{Located, Reference, encode_path};
+use super::output_layout::{BinaryOutput, OutputLayout};
+use super::resources::{LocatedFile, UriTarget, encode_path};
+use super::segments::{self, Segment};
 use crate::error::Fault;
 use crate::staging::Staging;
 use crate::{Error, FileKind, SaveOptions, paths};
@@ -22,14 +22,14 @@ impl Document {
     /// Without edits, and with nothing to embed, a GLB is given back byte for byte. Errors: more than 4 GiB; files that cannot
     /// be read.
     pub fn to_glb(&self) -> Result<Vec<u8>, Error> {
-        Ok(pieces::joined(&self.glb_pieces()?))
+        Ok(segments::joined(&self.glb_pieces()?))
     }
 
     /// Writes what [`Document::to_glb`] gives, without putting it together in memory.
     ///
     /// Errors: as [`Document::to_glb`], before anything is written; [`Error::Write`] about `name`, where `out` refuses.
     pub fn write_glb(&self, name: &Path, out: impl Write) -> Result<(), Error> {
-        pieces::write(&self.glb_pieces()?, out)
+        segments::write(&self.glb_pieces()?, out)
             .map_err(|source| Error::Write { file: name.to_owned(), source })
     }
 
@@ -63,9 +63,9 @@ impl Document {
 
     /// The file of a buffer that an earlier run made for new data: edited, the document gets another in its place. The file itself
     /// stays: other models, wherever they are, can use it.
-    pub(super) fn replaced_file(&self, buffer: usize) -> Option<&Located> {
-        match (self.root.buffers.get(buffer), self.stores.get(buffer)) {
-            (Some(buffer), Some(Store::File(file))) if buffer.is_ours() && self.is_changed() => {
+    pub(super) fn replaced_file(&self, buffer: usize) -> Option<&LocatedFile> {
+        match (self.root.buffers.get(buffer), self.buffer_sources.get(buffer)) {
+            (Some(buffer), Some(BufferSource::File(file))) if buffer.is_ours() && self.is_changed() => {
                 Some(&file.located)
             }
             _ => None,
@@ -94,27 +94,27 @@ impl Document {
 
     fn write(&self, target: &Path, is_glb: bool, options: &SaveOptions) -> Result<Vec<PathBuf>, Error> {
         let mut staging = Staging::of_run(options.run);
-        let pieces = if is_glb { self.glb_pieces()? } else { self.stage_gltf(target, &mut staging)? };
-        staging.stage(target, options.force, |file| pieces::write(&pieces, file))?;
+        let segments = if is_glb { self.glb_pieces()? } else { self.stage_gltf(target, &mut staging)? };
+        staging.stage(target, options.force, |file| segments::write(&segments, file))?;
         staging.commit()
     }
 
-    fn glb_pieces(&self) -> Result<Vec<Piece<'_>>, Error> {
+    fn glb_pieces(&self) -> Result<Vec<Segment<'_>>, Error> {
         if self.container.is_glb && !self.is_changed() && self.files().is_empty() {
-            return Ok(vec![Piece::Borrowed(&self.file)]);
+            return Ok(vec![Segment::Borrowed(&self.file)]);
         }
         let chunks =
             self.container.other_chunks.iter().map(|(kind, range)| (*kind, &self.file[range.clone()]));
-        let pieces = || {
-            let mut layout = Layout::glb(self)?;
+        let segments = || {
+            let mut layout = OutputLayout::glb(self)?;
             let json = layout.json(&[], &HashMap::new())?;
-            glb(json, layout.homes.pop().map(|home| home.pieces), chunks.collect())
+            glb(json, layout.binaries.pop().map(|binary| binary.segments), chunks.collect())
         };
-        pieces().map_err(|fault| fault.in_file(self.name()))
+        segments().map_err(|fault| fault.in_file(self.name()))
     }
 
     /// Stages what a `.gltf` needs beside it; gives its text.
-    fn stage_gltf(&self, target: &Path, staging: &mut Staging) -> Result<Vec<Piece<'_>>, Error> {
+    fn stage_gltf(&self, target: &Path, staging: &mut Staging) -> Result<Vec<Segment<'_>>, Error> {
         if !self.container.other_chunks.is_empty() {
             let problem = "has chunks of unknown type, which a .gltf cannot hold; write a .glb";
             return Err(Fault::unsupported("", problem).in_file(self.name()));
@@ -122,8 +122,8 @@ impl Document {
         let folder = target.parent().unwrap_or(Path::new(""));
         let mut names = Names { folder, taken: HashSet::from([target.to_owned()]) };
         let in_file = |fault: Fault| fault.in_file(self.name());
-        let layout = Layout::gltf(self).map_err(in_file)?;
-        let kept = |buffer| !layout.waste.has_buffer(buffer) && self.replaced_file(buffer).is_none();
+        let layout = OutputLayout::gltf(self).map_err(in_file)?;
+        let kept = |buffer| !layout.unused_data.has_buffer(buffer) && self.replaced_file(buffer).is_none();
         let renamed = self.stage_files(&self.files_of(kept), &mut names, staging)?;
         if !self.container.is_glb && !self.is_changed() && renamed.is_empty() {
             return Ok(self
@@ -131,23 +131,23 @@ impl Document {
                 .mark()
                 .into_iter()
                 .chain([self.text().as_bytes()])
-                .map(Piece::Borrowed)
+                .map(Segment::Borrowed)
                 .collect());
         }
         let name = Path::new(target.file_stem().unwrap_or(OsStr::new("buffer"))).with_added_extension("bin");
         let mut uris = Vec::new();
-        for home in &layout.homes {
-            let relative = stage_home(home, &name, &mut names, staging)?;
+        for binary in &layout.binaries {
+            let relative = stage_binary(binary, &name, &mut names, staging)?;
             uris.push(encode_path(&relative));
         }
-        Ok(vec![Piece::Owned(layout.json(&uris, &renamed).map_err(in_file)?.into_bytes())])
+        Ok(vec![Segment::Owned(layout.json(&uris, &renamed).map_err(in_file)?.into_bytes())])
     }
 
     /// Stages copies of files that the document refers to, unless it stays in its folder; gives those whose name had to
     /// change, with their new URI.
     fn stage_files(
         &self,
-        files: &[Located],
+        files: &[LocatedFile],
         names: &mut Names,
         staging: &mut Staging,
     ) -> Result<HashMap<PathBuf, String>, Error> {
@@ -181,19 +181,19 @@ impl Document {
     }
 
     /// The files that the document refers to, each once.
-    fn files(&self) -> Vec<Located> {
+    fn files(&self) -> Vec<LocatedFile> {
         self.files_of(|_| true)
     }
 
     /// As [`Document::files`], of some buffers and all images.
-    fn files_of(&self, is_wanted: impl Fn(usize) -> bool) -> Vec<Located> {
-        let buffers = self.stores.iter().enumerate().filter_map(|(buffer, store)| match store {
-            Store::File(file) if is_wanted(buffer) => Some(file.located.clone()),
+    fn files_of(&self, is_wanted: impl Fn(usize) -> bool) -> Vec<LocatedFile> {
+        let buffers = self.buffer_sources.iter().enumerate().filter_map(|(buffer, store)| match store {
+            BufferSource::File(file) if is_wanted(buffer) => Some(file.located.clone()),
             _ => None,
         });
         let uris = self.root.images.iter().filter_map(|image| image.uri.as_deref());
         let images = uris.filter_map(|uri| match self.resources.resolve(uri) {
-            Ok(Reference::File(located)) => Some(located),
+            Ok(UriTarget::File(located)) => Some(located),
             _ => None,
         });
         let mut seen = HashSet::new();
@@ -213,18 +213,19 @@ fn is_glb(path: &Path) -> Result<bool, Error> {
     }
 }
 
-fn stage_home(
-    home: &Home<'_>,
+fn stage_binary(
+    binary: &BinaryOutput<'_>,
     name: &Path,
     names: &mut Names,
     staging: &mut Staging,
 ) -> Result<PathBuf, Error> {
     let folder = names.folder;
     let chosen = names
-        .choose(name, |existing| holds(existing, home))
+        .choose(name, |existing| holds(existing, binary))
         .map_err(|source| Error::Read { file: folder.join(name), source })?;
     if !chosen.exists {
-        staging.stage(&folder.join(&chosen.relative), false, |file| pieces::write(&home.pieces, file))?;
+        staging
+            .stage(&folder.join(&chosen.relative), false, |file| segments::write(&binary.segments, file))?;
     }
     Ok(chosen.relative)
 }
@@ -278,14 +279,14 @@ fn same_files(a: &Path, b: &Path) -> io::Result<bool> {
     }
 }
 
-/// Whether a file holds just the bytes of `home`.
-fn holds(file: &Path, home: &Home<'_>) -> io::Result<bool> {
-    if fs::metadata(file)?.len() != pieces::length(&home.pieces) as u64 {
+/// Whether a file holds just the bytes of `binary`.
+fn holds(file: &Path, binary: &BinaryOutput<'_>) -> io::Result<bool> {
+    if fs::metadata(file)?.len() != segments::length(&binary.segments) as u64 {
         return Ok(false);
     }
     let bytes = FileBytes::open(file)?;
     let mut rest = &*bytes;
-    Ok(home.pieces.iter().all(|piece| {
+    Ok(binary.segments.iter().all(|piece| {
         let (start, after) = rest.split_at(piece.len().min(rest.len()));
         rest = after;
         *start == **piece

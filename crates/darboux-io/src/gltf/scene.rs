@@ -5,7 +5,7 @@ use std::collections::{BTreeSet, HashMap};
 use serde::Deserialize;
 
 use super::Document;
-use super::object::read_from_objects;
+use super::objects_only::read_from_objects;
 use super::schema::Attributes;
 use crate::Error;
 use crate::error::Fault;

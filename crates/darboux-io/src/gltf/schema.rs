@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use serde_json::value::RawValue;
 
-use super::object::read_from_objects;
+use super::objects_only::read_from_objects;
 
 read_from_objects! {
     Root, Asset, Probe, Mesh, Primitive, PrimitiveExtensions, Variants, VariantMapping, Draco, Material,

@@ -7,7 +7,7 @@ use super::file_bytes::FileBytes;
 
 /// Some bytes of an output.
 #[derive(Debug)]
-pub enum Piece<'a> {
+pub enum Segment<'a> {
     /// Of the document.
     Borrowed(&'a [u8]),
     /// Made for the output.
@@ -16,7 +16,7 @@ pub enum Piece<'a> {
     File(FileBytes),
 }
 
-impl Deref for Piece<'_> {
+impl Deref for Segment<'_> {
     type Target = [u8];
 
     fn deref(&self) -> &[u8] {
@@ -29,21 +29,21 @@ impl Deref for Piece<'_> {
 }
 
 /// The number of bytes.
-pub fn length(pieces: &[Piece<'_>]) -> usize {
-    pieces.iter().map(|piece| piece.len()).sum()
+pub fn length(segments: &[Segment<'_>]) -> usize {
+    segments.iter().map(|piece| piece.len()).sum()
 }
 
-/// All pieces as one buffer.
-pub fn joined(pieces: &[Piece<'_>]) -> Vec<u8> {
-    let mut bytes = Vec::with_capacity(length(pieces));
-    pieces.iter().for_each(|piece| bytes.extend_from_slice(piece));
+/// All segments as one buffer.
+pub fn joined(segments: &[Segment<'_>]) -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(length(segments));
+    segments.iter().for_each(|piece| bytes.extend_from_slice(piece));
     bytes
 }
 
-/// Writes all pieces.
-pub fn write(pieces: &[Piece<'_>], out: impl Write) -> io::Result<()> {
-    // Small pieces are gathered; large ones pass the buffer by.
+/// Writes all segments.
+pub fn write(segments: &[Segment<'_>], out: impl Write) -> io::Result<()> {
+    // Small segments are gathered; large ones pass the buffer by.
     let mut out = io::BufWriter::with_capacity(1 << 16, out);
-    pieces.iter().try_for_each(|piece| out.write_all(piece))?;
+    segments.iter().try_for_each(|piece| out.write_all(piece))?;
     out.flush()
 }

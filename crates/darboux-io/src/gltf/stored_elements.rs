@@ -9,16 +9,16 @@ use super::ComponentType;
 
 /// The elements of an accessor as they lie in the file, every number about them checked.
 #[derive(Debug)]
-pub(super) struct Stored<'a> {
+pub(super) struct StoredElements<'a> {
     /// From the first byte of the first element to the last of the last.
     pub bytes: Cow<'a, [u8]>,
     /// Bytes per element.
     pub size: usize,
-    /// Bytes from one element to the next, at least [`Stored::size`].
+    /// Bytes from one element to the next, at least [`StoredElements::size`].
     pub stride: usize,
 }
 
-impl<'a> Stored<'a> {
+impl<'a> StoredElements<'a> {
     /// The elements one after the other.
     pub fn packed(self) -> Cow<'a, [u8]> {
         let Self { bytes, size, stride } = self;
@@ -52,7 +52,7 @@ impl<'a> Stored<'a> {
 
 /// Elements of `N` components as floats; normalised integers as fractions (glTF 2.0, 3.11).
 pub(super) fn vectors<const N: usize>(
-    stored: Stored<'_>,
+    stored: StoredElements<'_>,
     kind: ComponentType,
     normalized: bool,
 ) -> Cow<'_, [[f32; N]]> {
@@ -87,7 +87,7 @@ pub enum IndexList<'a> {
 
 impl<'a> IndexList<'a> {
     /// The values of unsigned integers; none for other types.
-    pub(super) fn new(stored: Stored<'a>, kind: ComponentType) -> Option<Self> {
+    pub(super) fn new(stored: StoredElements<'a>, kind: ComponentType) -> Option<Self> {
         let flat = |list: Vec<[u16; 1]>| Self::U16(list.into_flattened().into());
         match kind {
             ComponentType::U8 => Some(flat(stored.decoded(|b| u16::from(u8::from_le_bytes(b))))),

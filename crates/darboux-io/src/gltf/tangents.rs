@@ -2,60 +2,35 @@
 
 pub(super) mod compute;
 mod encoding;
-pub(super) mod excess;
-pub(super) mod foreign;
+pub(super) mod groups;
 mod morph;
+mod options;
 pub(super) mod select;
-pub(super) mod share;
 mod split;
 mod summary;
-pub(super) mod topology;
 pub(super) mod uv;
 mod write;
 
 pub use compute::Generate;
 pub use encoding::TangentEncoding;
-pub use summary::{Counts, Outcome, PrimitiveName, PrimitiveSummary, Summary, Totals, Written};
+pub use options::TangentsOptions;
+pub use summary::{Counts, Outcome, PrimitiveSummary, Summary, Totals, Written};
 
 use std::collections::{HashMap, HashSet};
 
-use darboux::{Mode, Report, Scratch, TangentOptions};
+use darboux::{Mode, Report, Scratch};
 
-use super::append::{is_sparse, push_vectors};
-use super::{Document, ElementType};
+use super::primitives::append::{is_sparse, push_vectors};
+use super::primitives::canonical::CanonicalAccessors;
+use super::primitives::{foreign_extensions, limits};
+use super::{Document, ElementType, Progress};
 use crate::Error;
-use compute::{Surface, Vertices};
+use compute::{JobResult, Vertices};
+use groups::{Group, Job};
 use morph::{Misfits, Morph, Movement, Offsets};
 use select::{Selection, Verdict};
-use share::{Canonical, Group, Job};
 use split::Split;
-use write::{Results, Writer};
-
-/// What [`add_tangents`] does. The default is right for today's renderers: every triangle primitive that has no tangents yet.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct TangentsOptions {
-    /// How tangents are computed.
-    pub tangents: TangentOptions,
-    /// How tangents are stored.
-    pub encoding: TangentEncoding,
-    /// Replace tangents that exist.
-    pub overwrite: bool,
-    /// Only primitives whose material uses tangents.
-    pub only_needed: bool,
-    /// Refuse documents with non-finite vertex data or corners that have no usable tangent.
-    pub strict: bool,
-    /// Transform the UVs by `KHR_texture_transform` first. The specification takes them as stored.
-    pub apply_texture_transform: bool,
-}
-
-/// How far [`add_tangents`] is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Progress {
-    /// Triangles computed.
-    pub done: usize,
-    /// Triangles to compute.
-    pub total: usize,
-}
+use write::{GroupAccessors, TangentWriter};
 
 /// Gives every triangle primitive that has positions, normals and UVs its tangents.
 ///
@@ -79,10 +54,10 @@ pub fn add_tangents_with(
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Summary, Error> {
     let selection = select_readable(document, options)?;
-    let accessors = Canonical::new(document);
-    let groups = share::group(&accessors, selection.chosen());
-    excess::check_corners(document, &groups)?;
-    let total = groups.iter().flat_map(|group| &group.jobs).map(|job| job.triangle_count).sum();
+    let accessors = CanonicalAccessors::new(document);
+    let groups = groups::group(&accessors, selection.chosen());
+    limits::check_triangles(document, groups::triangle_counts(&groups))?;
+    let total = groups::triangle_counts(&groups).sum();
     let at = Progress { done: 0, total };
     let (scratch, summary) = (Scratch::new(), Summary::default());
     let mut run = Run { selection, accessors, options, generate, progress, at, scratch, summary };
@@ -91,7 +66,7 @@ pub fn add_tangents_with(
         let field = run.field(document, group)?;
         written.extend(run.write(document, group, field)?);
     }
-    run.summary.warnings.extend(document.waste_warning());
+    run.summary.warnings.extend(document.unused_data_warning());
     Ok(run.summarize(written))
 }
 
@@ -109,7 +84,7 @@ pub(super) fn select_readable(
 }
 
 /// The tangents of a group, to be written: nothing here is of the document.
-struct Field {
+struct GroupTangents {
     reports: Vec<Report>,
     split: Split,
     /// The index list of each job; none where the old one serves.
@@ -120,7 +95,7 @@ struct Field {
 /// One run of [`add_tangents`].
 struct Run<'a, 'g> {
     selection: Selection,
-    accessors: Canonical,
+    accessors: CanonicalAccessors,
     options: &'a TangentsOptions,
     generate: &'a mut Generate<'g>,
     progress: &'a mut dyn FnMut(Progress),
@@ -130,15 +105,15 @@ struct Run<'a, 'g> {
 }
 
 impl Run<'_, '_> {
-    fn field(&mut self, document: &Document, group: &Group) -> Result<Field, Error> {
+    fn field(&mut self, document: &Document, group: &Group) -> Result<GroupTangents, Error> {
         let mut vertices = Vertices::read(document, group)?;
         let morphs = morph::morphs(document, &self.accessors, group, &self.selection, self.options);
-        let surfaces = self.compute(document, group, &mut vertices, &morphs)?;
-        let mut split = self.split(document, group, &mut vertices, &surfaces)?;
-        let offsets = self.morph(document, group, &mut vertices, morphs, &surfaces, &split)?;
-        let lists = split.take_lists(group, &surfaces);
-        let reports = surfaces.iter().map(|surface| surface.report).collect();
-        Ok(Field { reports, split, lists, offsets })
+        let results = self.compute(document, group, &mut vertices, &morphs)?;
+        let mut split = self.split(document, group, &mut vertices, &results)?;
+        let offsets = self.morph(document, group, &mut vertices, morphs, &results, &split)?;
+        let lists = split.take_lists(group, &results);
+        let reports = results.iter().map(|result| result.report).collect();
+        Ok(GroupTangents { reports, split, lists, offsets })
     }
 
     /// The JSON path of the first primitive with `job`.
@@ -152,27 +127,27 @@ impl Run<'_, '_> {
         group: &Group,
         vertices: &mut Vertices<'_>,
         morphs: &[Morph],
-    ) -> Result<Vec<Surface<'a>>, Error> {
+    ) -> Result<Vec<JobResult<'a>>, Error> {
         let moved: HashSet<_> = morphs.iter().flat_map(|morph| &morph.jobs).copied().collect();
-        let mut surfaces = Vec::with_capacity(group.jobs.len());
+        let mut results = Vec::with_capacity(group.jobs.len());
         for (index, job) in group.jobs.iter().enumerate() {
             let (at, moves) = (self.path(job), moved.contains(&index));
             let compute = (&mut *self.generate, &mut self.scratch);
-            let surface = compute::surface(document, &at, vertices, job, moves, self.options, compute)?;
-            self.warn_unusable(job, &surface);
-            self.warn_merged(job, &surface);
+            let result = compute::compute_job(document, &at, vertices, job, moves, self.options, compute)?;
+            self.warn_unusable(job, &result);
+            self.warn_merged(job, &result);
             self.at.done += job.triangle_count;
             (self.progress)(self.at);
-            surfaces.push(surface);
+            results.push(result);
         }
         if self.at.done == self.at.total {
             self.scratch = Scratch::new();
         }
-        Ok(surfaces)
+        Ok(results)
     }
 
-    fn warn_unusable(&mut self, job: &Job, surface: &Surface<'_>) {
-        let unusable = surface.report.repaired_corners;
+    fn warn_unusable(&mut self, job: &Job, result: &JobResult<'_>) {
+        let unusable = result.report.repaired_corners;
         if self.options.tangents.mode == Mode::Reference && unusable > 0 {
             let name = &self.selection.candidates[job.first].name;
             self.summary.warnings.push(format!(
@@ -181,8 +156,8 @@ impl Run<'_, '_> {
         }
     }
 
-    fn warn_merged(&mut self, job: &Job, surface: &Surface<'_>) {
-        let merged = surface.report.merged_vertices;
+    fn warn_merged(&mut self, job: &Job, result: &JobResult<'_>) {
+        let merged = result.report.merged_vertices;
         if merged > 0 {
             let name = &self.selection.candidates[job.first].name;
             self.summary.warnings.push(format!(
@@ -197,9 +172,9 @@ impl Run<'_, '_> {
         document: &Document,
         group: &Group,
         vertices: &mut Vertices<'_>,
-        surfaces: &[Surface<'_>],
+        results: &[JobResult<'_>],
     ) -> Result<Split, Error> {
-        let split = split::split(document, &self.path(&group.jobs[0]), group, vertices, surfaces)?;
+        let split = split::split(document, &self.path(&group.jobs[0]), group, vertices, results)?;
         let totals = &mut self.summary.totals;
         totals.triangles += group.jobs.iter().map(|job| job.triangle_count).sum::<usize>();
         totals.vertices_before += split.old_vertex_count();
@@ -213,14 +188,14 @@ impl Run<'_, '_> {
         group: &Group,
         vertices: &mut Vertices<'_>,
         morphs: Vec<Morph>,
-        surfaces: &[Surface<'_>],
+        results: &[JobResult<'_>],
         split: &Split,
     ) -> Result<Vec<(Morph, Offsets)>, Error> {
         let mut offsets = Vec::with_capacity(morphs.len());
         for morph in morphs {
-            let moved = morph::offsets(document, &morph, group, vertices, surfaces, split, self.options)?;
+            let moved = morph::offsets(document, &morph, group, vertices, results, split, self.options)?;
             offsets.push((morph, moved));
-            excess::check_more_output(
+            limits::check_more_output(
                 document,
                 offsets.len() * split.vertex_count() * size_of::<[f32; 3]>(),
             )?;
@@ -233,14 +208,14 @@ impl Run<'_, '_> {
         &mut self,
         document: &mut Document,
         group: &Group,
-        field: Field,
+        field: GroupTangents,
     ) -> Result<Vec<(usize, Written)>, Error> {
-        let Field { reports, split, lists, offsets } = field;
+        let GroupTangents { reports, split, lists, offsets } = field;
         let first = &self.selection.candidates[group.members[0].candidate].name;
         let old =
             document.meshes()[first.mesh].primitives[first.primitive].attributes.get("TANGENT").copied();
         let tangents = write::push_tangents(document, old, self.options.encoding, &split.tangents);
-        excess::check_output(document)?;
+        limits::check_output(document)?;
         let mut offset_accessors = HashMap::new();
         let mut misfits: HashMap<(Movement, usize), Misfits> = HashMap::new();
         for (Morph { movement, old, jobs, .. }, moved) in offsets {
@@ -249,13 +224,13 @@ impl Run<'_, '_> {
             offset_accessors.insert(movement, accessor);
             misfits.extend(jobs.into_iter().map(|job| (movement, job)).zip(moved.misfits));
         }
-        let results = Results { split: &split, lists, tangents, offsets: offset_accessors };
-        let mut writer = Writer::new(&self.accessors, self.options, group, results);
+        let results = GroupAccessors { split: &split, lists, tangents, offsets: offset_accessors };
+        let mut writer = TangentWriter::new(&self.accessors, self.options, group, results);
         let mut written = Vec::with_capacity(group.members.len());
         for member in &group.members {
             let candidate = &self.selection.candidates[member.candidate];
             if split.is_needed() {
-                self.summary.warnings.extend(foreign::warning(document, &candidate.name));
+                self.summary.warnings.extend(foreign_extensions::warning(document, &candidate.name));
             }
             let morphed = writer.write(document, member, candidate)?;
             let misfits = morphed.iter().filter_map(|&movement| misfits.get(&(movement, member.job)));

@@ -6,59 +6,59 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use super::document::Document;
-use super::json::{edit_array, member, set_member, without_elements};
-use super::references::{Kind, Reference, references, unknown_extension};
+use super::json_text::{edit_array, member, set_member, without_elements};
+use super::references::{IndexReference, ReferenceKind, references, unknown_extension};
 use super::schema::{BufferView, Meshopt};
 
 /// What an output can do without.
 #[derive(Debug, Default)]
-pub struct Waste {
+pub struct UnusedData {
     /// New ones follow those of the input.
     accessors: BTreeSet<usize>,
     views: BTreeSet<usize>,
     buffers: BTreeSet<usize>,
     /// Of each buffer, ascending.
-    holes: Vec<Vec<Hole>>,
+    unused_ranges: Vec<Vec<UnusedRange>>,
 }
 
-/// An unused range of a buffer, a multiple of [`GRAIN`] long.
+/// An unused range of a buffer, a multiple of [`ALIGNMENT`] long.
 #[derive(Clone, Debug)]
-struct Hole {
+struct UnusedRange {
     range: Range<usize>,
-    /// The length of all holes up to the end of this one.
+    /// The length of all unused_ranges up to the end of this one.
     total: usize,
 }
 
 /// Bytes move by multiples of this, so that what was aligned stays so.
-const GRAIN: usize = 16;
+const ALIGNMENT: usize = 16;
 
-impl Waste {
+impl UnusedData {
     /// What `document` can do without; nothing where that is not certain.
     pub fn of(document: &Document) -> serde_json::Result<Self> {
         let found = if document.is_changed() { Self::find(document)? } else { None };
         Ok(found.filter(|_| unknown_extension(document.text()).is_none()).unwrap_or_default())
     }
 
-    /// As [`Waste::of`], whatever extensions there are. None: some references cannot be read.
+    /// As [`UnusedData::of`], whatever extensions there are. None: some references cannot be read.
     fn find(document: &Document) -> serde_json::Result<Option<Self>> {
         let (before, after) = (references(document.text()), references(&edited(document)?));
         let (Some(before), Some(after)) = (before, after) else { return Ok(None) };
-        let accessors = dead_accessors(document, &before, &after);
-        let views = dead_views(document, &accessors, &before, &after);
+        let accessors = unused_accessors(document, &before, &after);
+        let views = unused_views(document, &accessors, &before, &after);
         let stored: Vec<BufferView> = match member(document.text(), "bufferViews")? {
             Some(views) => serde_json::from_str(views)?,
             None => Vec::new(),
         };
-        let mut waste = Self { accessors, views, buffers: BTreeSet::new(), holes: Vec::new() };
-        let uses = uses(document, &stored, &waste.views);
+        let mut unused_data = Self { accessors, views, buffers: BTreeSet::new(), unused_ranges: Vec::new() };
+        let uses = uses(document, &stored, &unused_data.views);
         for (buffer, uses) in uses.into_iter().enumerate() {
             let length = document.root.buffers[buffer].byte_length;
             if uses.live.is_empty() && !uses.dead.is_empty() {
-                waste.buffers.insert(buffer);
+                unused_data.buffers.insert(buffer);
             }
-            waste.holes.push(uses.holes(length));
+            unused_data.unused_ranges.push(uses.unused_ranges(length));
         }
-        Ok(Some(waste))
+        Ok(Some(unused_data))
     }
 
     /// Whether a buffer of the input goes.
@@ -72,8 +72,8 @@ impl Waste {
     }
 
     /// Whether parts of a buffer go.
-    pub fn has_holes(&self, buffer: usize) -> bool {
-        self.holes.get(buffer).is_some_and(|holes| !holes.is_empty())
+    pub fn has_unused_ranges(&self, buffer: usize) -> bool {
+        self.unused_ranges.get(buffer).is_some_and(|unused_ranges| !unused_ranges.is_empty())
     }
 
     /// The parts of the content of a buffer that stay.
@@ -81,17 +81,17 @@ impl Waste {
         if self.has_buffer(buffer) {
             return Vec::new();
         }
-        let holes = self.holes.get(buffer).into_iter().flatten().map(|hole| &hole.range);
-        let ends = holes.clone().map(|hole| hole.start).chain([bytes.len()]);
-        let starts = [0].into_iter().chain(holes.map(|hole| hole.end));
+        let unused_ranges = self.unused_ranges.get(buffer).into_iter().flatten().map(|unused| &unused.range);
+        let ends = unused_ranges.clone().map(|unused| unused.start).chain([bytes.len()]);
+        let starts = [0].into_iter().chain(unused_ranges.map(|unused| unused.end));
         starts.zip(ends).map(|(start, end)| &bytes[start..end]).filter(|part| !part.is_empty()).collect()
     }
 
-    /// Where a byte of a buffer is without the holes before it.
+    /// Where a byte of a buffer is without the unused_ranges before it.
     pub fn moved(&self, buffer: usize, offset: usize) -> usize {
-        let holes = self.holes.get(buffer).map_or(&[][..], Vec::as_slice);
-        let before = holes.partition_point(|hole| hole.range.end <= offset);
-        offset - before.checked_sub(1).map_or(0, |last| holes[last].total)
+        let unused_ranges = self.unused_ranges.get(buffer).map_or(&[][..], Vec::as_slice);
+        let before = unused_ranges.partition_point(|unused| unused.range.end <= offset);
+        offset - before.checked_sub(1).map_or(0, |last| unused_ranges[last].total)
     }
 
     /// The root object without what goes, with the numbers of what stays.
@@ -111,14 +111,14 @@ impl Waste {
         Ok(cleared)
     }
 
-    fn renumbered(&self, root: &str, mut references: Vec<Reference>) -> String {
+    fn renumbered(&self, root: &str, mut references: Vec<IndexReference>) -> String {
         references.sort_by_key(|reference| reference.range.start);
         let [accessors, views] =
             [&self.accessors, &self.views].map(|dead| Vec::from_iter(dead.iter().copied()));
         let mut out = String::with_capacity(root.len());
         let mut copied = 0;
-        for Reference { kind, number, range } in references {
-            let dead = if kind == Kind::Accessor { &accessors } else { &views };
+        for IndexReference { kind, number, range } in references {
+            let dead = if kind == ReferenceKind::Accessor { &accessors } else { &views };
             out.push_str(&root[copied..range.start]);
             out.push_str(&(number - dead.partition_point(|&dead| dead < number)).to_string());
             copied = range.end;
@@ -130,12 +130,13 @@ impl Waste {
 
 impl Document {
     /// Why what edits leave without a use stays in the file, if it does, in a sentence; once.
-    pub(super) fn waste_warning(&mut self) -> Option<String> {
-        let extension = unknown_extension(self.text()).filter(|_| !self.edits.is_waste_told)?;
-        let waste = Waste::find(self).ok().flatten()?;
-        let has_holes = (0..waste.holes.len()).any(|buffer| waste.has_holes(buffer));
-        let is_there = has_holes || !waste.accessors.is_empty();
-        self.edits.is_waste_told = is_there;
+    pub(super) fn unused_data_warning(&mut self) -> Option<String> {
+        let extension = unknown_extension(self.text()).filter(|_| !self.edits.is_unused_data_reported)?;
+        let unused_data = UnusedData::find(self).ok().flatten()?;
+        let has_unused_ranges =
+            (0..unused_data.unused_ranges.len()).any(|buffer| unused_data.has_unused_ranges(buffer));
+        let is_there = has_unused_ranges || !unused_data.accessors.is_empty();
+        self.edits.is_unused_data_reported = is_there;
         is_there.then(|| {
             format!(
                 "data that is no longer used stays in the file: {extension} may refer to it by its number"
@@ -163,7 +164,7 @@ fn edited(document: &Document) -> serde_json::Result<String> {
     set_member(&root, "accessors", Some(&accessors).filter(|text| *text != "[]").map(String::as_str))
 }
 
-fn numbers(references: &[Reference], kinds: &[Kind]) -> BTreeSet<usize> {
+fn numbers(references: &[IndexReference], kinds: &[ReferenceKind]) -> BTreeSet<usize> {
     references
         .iter()
         .filter(|reference| kinds.contains(&reference.kind))
@@ -171,23 +172,27 @@ fn numbers(references: &[Reference], kinds: &[Kind]) -> BTreeSet<usize> {
         .collect()
 }
 
-fn dead_accessors(document: &Document, before: &[Reference], after: &[Reference]) -> BTreeSet<usize> {
-    let mut used = numbers(before, &[Kind::Accessor]);
+fn unused_accessors(
+    document: &Document,
+    before: &[IndexReference],
+    after: &[IndexReference],
+) -> BTreeSet<usize> {
+    let mut used = numbers(before, &[ReferenceKind::Accessor]);
     used.extend(&document.edits.once_named);
     used.retain(|&number| number < document.root.accessors.len());
-    &used - &numbers(after, &[Kind::Accessor])
+    &used - &numbers(after, &[ReferenceKind::Accessor])
 }
 
-fn dead_views(
+fn unused_views(
     document: &Document,
-    dead_accessors: &BTreeSet<usize>,
-    before: &[Reference],
-    after: &[Reference],
+    unused_accessors: &BTreeSet<usize>,
+    before: &[IndexReference],
+    after: &[IndexReference],
 ) -> BTreeSet<usize> {
-    let mut used = numbers(before, &[Kind::View, Kind::ViewOfAccessor]);
-    let mut live = numbers(after, &[Kind::View]);
+    let mut used = numbers(before, &[ReferenceKind::View, ReferenceKind::ViewOfAccessor]);
+    let mut live = numbers(after, &[ReferenceKind::View]);
     for (number, accessor) in document.root.accessors.iter().enumerate() {
-        let views = if dead_accessors.contains(&number) { &mut used } else { &mut live };
+        let views = if unused_accessors.contains(&number) { &mut used } else { &mut live };
         views.extend(accessor.buffer_view);
         let sparse = accessor.sparse.iter();
         views.extend(sparse.flat_map(|sparse| [sparse.indices.buffer_view, sparse.values.buffer_view]));
@@ -198,14 +203,14 @@ fn dead_views(
 
 /// The ranges of a buffer that buffer views name.
 #[derive(Clone, Default)]
-struct Uses {
+struct BufferUses {
     live: Vec<Range<usize>>,
     dead: Vec<Range<usize>>,
 }
 
 /// How each buffer of the input is used. `stored`: the buffer views as the file has them; `dead`: those that go.
-fn uses(document: &Document, stored: &[BufferView], dead: &BTreeSet<usize>) -> Vec<Uses> {
-    let mut uses = vec![Uses::default(); document.root.buffers.len()];
+fn uses(document: &Document, stored: &[BufferView], dead: &BTreeSet<usize>) -> Vec<BufferUses> {
+    let mut uses = vec![BufferUses::default(); document.root.buffers.len()];
     for (number, (old, new)) in stored.iter().zip(&document.root.buffer_views).enumerate() {
         let is_dead = dead.contains(&number);
         let mut note = |buffer: usize, offset: usize, length: usize, is_dead: bool| {
@@ -222,35 +227,36 @@ fn uses(document: &Document, stored: &[BufferView], dead: &BTreeSet<usize>) -> V
     uses
 }
 
-impl Uses {
+impl BufferUses {
     /// What the dead ranges cover and the live ones do not, below `length`, in whole grains.
-    fn holes(self, length: usize) -> Vec<Hole> {
-        let live = merged(self.live);
-        let (mut holes, mut total) = (Vec::new(), 0);
-        for dead in merged(self.dead) {
+    fn unused_ranges(self, length: usize) -> Vec<UnusedRange> {
+        let live = merged_ranges(self.live);
+        let (mut unused_ranges, mut total) = (Vec::new(), 0);
+        for dead in merged_ranges(self.dead) {
             let first = live.partition_point(|live| live.end <= dead.start);
             let within = live[first..].iter().take_while(|live| live.start < dead.end);
             let starts = [dead.start].into_iter().chain(within.clone().map(|live| live.end));
             let ends = within.map(|live| live.start).chain([dead.end]);
             for (start, end) in starts.zip(ends) {
-                let whole = end.min(length).saturating_sub(start) / GRAIN * GRAIN;
+                let whole = end.min(length).saturating_sub(start) / ALIGNMENT * ALIGNMENT;
                 total += whole;
-                holes.extend((whole > 0).then_some(Hole { range: start..start + whole, total }));
+                unused_ranges
+                    .extend((whole > 0).then_some(UnusedRange { range: start..start + whole, total }));
             }
         }
-        holes
+        unused_ranges
     }
 }
 
 /// Ranges joined where they touch, ascending.
-fn merged(mut ranges: Vec<Range<usize>>) -> Vec<Range<usize>> {
+fn merged_ranges(mut ranges: Vec<Range<usize>>) -> Vec<Range<usize>> {
     ranges.sort_unstable_by_key(|range| range.start);
-    let mut merged: Vec<Range<usize>> = Vec::new();
+    let mut merged_ranges: Vec<Range<usize>> = Vec::new();
     for range in ranges {
-        match merged.last_mut() {
+        match merged_ranges.last_mut() {
             Some(last) if range.start <= last.end => last.end = last.end.max(range.end),
-            _ => merged.push(range),
+            _ => merged_ranges.push(range),
         }
     }
-    merged
+    merged_ranges
 }

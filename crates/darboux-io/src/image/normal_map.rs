@@ -2,7 +2,8 @@
 
 use darboux::{Channel, Conversion, TexelLayout, repack_texels};
 
-use super::{Channels, Image, Texels};
+use super::channels::Channels;
+use super::png_image::{PngImage, Texels};
 use crate::Error;
 use crate::error::Fault;
 
@@ -12,7 +13,7 @@ use crate::error::Fault;
 /// Channels that hold nothing of the vector keep their content. Where `to` has a z that `from` has not, it is rebuilt. The image gets
 /// an alpha channel, or loses grey, where `to` needs that. Errors: an image without the channels `from`.
 pub fn convert_normal_map(
-    image: &mut Image,
+    image: &mut PngImage,
     conversion: &Conversion,
     from: Channels,
     to: Channels,
@@ -41,7 +42,7 @@ pub fn convert_normal_map(
 /// How many texels hold no normal in these channels ([`TexelLayout::holds_normal`]): nearly none of a normal map, most of a photograph.
 ///
 /// All of them where the image does not have the channels.
-pub fn count_no_normals(image: &Image, channels: Channels) -> usize {
+pub fn count_no_normals(image: &PngImage, channels: Channels) -> usize {
     let places = channels.places(image.color);
     match (&image.texels, places) {
         (_, None) => image.width as usize * image.height as usize,

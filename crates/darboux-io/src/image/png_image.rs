@@ -1,44 +1,32 @@
 //! Normal maps in PNG files: texels change, every other chunk stays as it is.
 
-mod channels;
-mod chunks;
-mod normal_map;
-#[cfg(feature = "textures")]
-mod rgba;
-mod srgb;
-
-pub use channels::{Channels, ChannelsError};
-pub use normal_map::{convert_normal_map, count_no_normals};
-#[cfg(feature = "textures")]
-pub use rgba::{DecodeError, DecodeLimits, RgbaImage};
-pub use srgb::linear_of_srgb;
-
 use std::fs;
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
 
 use png::{BitDepth, ColorType, Decoder, Encoder, Transformations};
 
+use super::channels;
+use super::chunks::{self, Chunk, Chunks};
 use crate::error::Fault;
 use crate::staging::Staging;
 use crate::{Error, SaveOptions, paths};
-use chunks::{Chunk, Chunks};
 
 /// A PNG of 8 or 16 bits per channel: grey with alpha, RGB or RGBA.
 #[derive(Debug)]
-pub struct Image {
+pub struct PngImage {
     name: String,
     file: Vec<u8>,
-    width: u32,
-    height: u32,
-    color: ColorType,
-    texels: Texels,
-    is_changed: bool,
+    pub(super) width: u32,
+    pub(super) height: u32,
+    pub(super) color: ColorType,
+    pub(super) texels: Texels,
+    pub(super) is_changed: bool,
 }
 
 /// The channels of all texels, row after row.
 #[derive(Clone, Debug, PartialEq, Eq)]
-enum Texels {
+pub(super) enum Texels {
     Bytes(Vec<u8>),
     Words(Vec<u16>),
 }
@@ -52,7 +40,7 @@ const OF_TEXELS: [&[u8; 4]; 3] = [b"tRNS", b"bKGD", b"sBIT"];
 /// Chunks that are for colours, or for greys, alone: palettes and profiles (PNG specification, third edition, 11.2.2 and 11.3.2.3).
 const OF_COLOURS: [&[u8; 4]; 4] = [b"PLTE", b"sPLT", b"hIST", b"iCCP"];
 
-impl Image {
+impl PngImage {
     /// Reads a PNG. Errors: a file that cannot be read; anything but a whole PNG of a supported kind.
     pub fn open(path: &Path) -> Result<Self, Error> {
         let file = paths::readable(path)?;
@@ -60,7 +48,7 @@ impl Image {
         Self::from_bytes(&path.display().to_string(), bytes)
     }
 
-    /// Reads a PNG from memory; `name` stands for the file in messages. Errors: as [`Image::open`].
+    /// Reads a PNG from memory; `name` stands for the file in messages. Errors: as [`PngImage::open`].
     pub fn from_bytes(name: &str, bytes: Vec<u8>) -> Result<Self, Error> {
         Self::decode(name, bytes).map_err(|fault| fault.in_file(name))
     }

@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 use tobj::Model;
 
-use super::libraries::Material;
+use super::libraries::LibraryMaterial;
 use crate::error::Fault;
-use crate::gltf::{ComponentType, ElementType, container, pieces};
+use crate::gltf::{ComponentType, ElementType, container, segments};
 use crate::image::{DecodeLimits, RgbaImage, linear_of_srgb};
 
 /// The lists of a glTF document while they grow, and its binary chunk.
@@ -28,7 +28,7 @@ pub struct DocumentBuilder {
 
 impl DocumentBuilder {
     /// Adds a material and embeds its textures. Channels that are not finite count as 1.
-    pub fn add_material(&mut self, material: &Material) {
+    pub fn add_material(&mut self, material: &LibraryMaterial) {
         let finite =
             |channel: f32| if channel.is_finite() { f64::from(channel.clamp(0.0, 1.0)) } else { 1.0 };
         let [r, g, b] = material.color.map(|channel| linear_of_srgb(finite(channel)));
@@ -47,7 +47,7 @@ impl DocumentBuilder {
     }
 
     /// The bump map of a material, unless its texels are grey, as those of height maps are.
-    fn normal_map_in_bump<'a>(&mut self, material: &'a Material) -> Option<&'a Path> {
+    fn normal_map_in_bump<'a>(&mut self, material: &'a LibraryMaterial) -> Option<&'a Path> {
         let path = material.bump_texture.as_deref()?;
         let image =
             fs::read(path).ok().and_then(|file| RgbaImage::decode(&file, &DecodeLimits::default()).ok());
@@ -151,8 +151,8 @@ impl DocumentBuilder {
                 document[name] = list.into();
             }
         }
-        let chunk = vec![pieces::Piece::Borrowed(&self.bytes)];
+        let chunk = vec![segments::Segment::Borrowed(&self.bytes)];
         let glb = container::glb(document.to_string(), Some(chunk), Vec::new())?;
-        Ok(pieces::joined(&glb))
+        Ok(segments::joined(&glb))
     }
 }

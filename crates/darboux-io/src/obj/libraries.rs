@@ -1,4 +1,4 @@
-//! Material libraries (MTL): their materials, with the textures located in the model's folder.
+//! LibraryMaterial libraries (MTL): their materials, with the textures located in the model's folder.
 
 use std::cell::RefCell;
 use std::collections::{HashMap, HashSet};
@@ -10,7 +10,7 @@ use tobj::LoadError;
 use super::companions::{libraries_of, texture};
 
 /// A material of a library.
-pub struct Material {
+pub struct LibraryMaterial {
     pub name: String,
     /// The statement `Kd`, in sRGB.
     pub color: [f32; 3],
@@ -27,7 +27,7 @@ pub struct MaterialLibraries {
     folder: PathBuf,
     loaded: RefCell<HashSet<PathBuf>>,
     /// All materials in the order of loading, which is the order of the parser's material indices.
-    materials: RefCell<Vec<Material>>,
+    materials: RefCell<Vec<LibraryMaterial>>,
     warnings: RefCell<Vec<String>>,
 }
 
@@ -43,7 +43,7 @@ impl MaterialLibraries {
     }
 
     /// All materials, and one sentence for each library or texture that is missing.
-    pub fn into_parts(self) -> (Vec<Material>, Vec<String>) {
+    pub fn into_parts(self) -> (Vec<LibraryMaterial>, Vec<String>) {
         (self.materials.into_inner(), self.warnings.into_inner())
     }
 
@@ -72,7 +72,7 @@ impl MaterialLibraries {
         (materials, indices)
     }
 
-    fn locate(&self, library: &str, material: &tobj::Material) -> Material {
+    fn locate(&self, library: &str, material: &tobj::Material) -> LibraryMaterial {
         let located = |line: Option<&String>| {
             let line = line?;
             let file = texture(&self.folder, library, line.as_bytes());
@@ -81,7 +81,7 @@ impl MaterialLibraries {
             }
             Some(file?.path)
         };
-        Material {
+        LibraryMaterial {
             name: material.name.clone(),
             color: material.diffuse.unwrap_or([1.0; 3]),
             color_texture: located(material.diffuse_texture.as_ref()),

@@ -10,9 +10,9 @@ use serde_json::value::RawValue;
 
 use super::{Budget, without_extension};
 use crate::error::Fault;
-use crate::gltf::accessor::{Elements, Target};
 use crate::gltf::document::Document;
-use crate::gltf::json::{member, set_member};
+use crate::gltf::elements::{Elements, Target};
+use crate::gltf::json_text::{member, set_member};
 use crate::gltf::schema::{Accessor, ComponentType, Draco, ElementType, Primitive};
 
 const NAME: &str = "KHR_draco_mesh_compression";

@@ -13,8 +13,8 @@ use serde_json::value::RawValue;
 
 use super::{Budget, without_extension};
 use crate::error::Fault;
-use crate::gltf::document::{Document, Store};
-use crate::gltf::json::{member, set_member};
+use crate::gltf::document::{BufferSource, Document};
+use crate::gltf::json_text::{member, set_member};
 use crate::gltf::schema::{BufferView, Meshopt};
 
 const NAMES: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
@@ -32,7 +32,8 @@ impl Document {
         let mut decoded: BTreeMap<usize, Vec<(usize, Vec<u8>)>> = BTreeMap::new();
         for (i, view) in self.root.buffer_views.iter().enumerate() {
             let Some(compressed) = &view.extensions.meshopt else { continue };
-            let has_fallback = !matches!(self.stores.get(view.buffer), Some(Store::Absent(_)) | None);
+            let has_fallback =
+                !matches!(self.buffer_sources.get(view.buffer), Some(BufferSource::Absent(_)) | None);
             if !has_fallback {
                 let at = format!("bufferViews[{i}].extensions");
                 let bytes = self.decode_view(view, compressed, budget, &at)?;
@@ -40,8 +41,8 @@ impl Document {
                 decoded.entry(view.buffer).or_default().push((view.byte_offset, bytes));
             }
         }
-        for (buffer, pieces) in decoded {
-            self.fill_buffer(buffer, &pieces, budget)?;
+        for (buffer, segments) in decoded {
+            self.fill_buffer(buffer, &segments, budget)?;
         }
         self.remove_meshopt().map_err(|error| Fault::invalid("bufferViews", error.to_string()))?;
         Ok(views)
@@ -81,29 +82,29 @@ impl Document {
     fn fill_buffer(
         &mut self,
         buffer: usize,
-        pieces: &[(usize, Vec<u8>)],
+        segments: &[(usize, Vec<u8>)],
         budget: &mut Budget,
     ) -> Result<(), Fault> {
         let at = format!("buffers[{buffer}]");
         let invalid = |problem: &str| Fault::invalid(&at, format!("{problem}; compress the file again"));
         let declared = self.root.buffers.get(buffer).map(|buffer| buffer.byte_length);
-        let ends = pieces.iter().map(|(offset, bytes)| offset.saturating_add(bytes.len()));
+        let ends = segments.iter().map(|(offset, bytes)| offset.saturating_add(bytes.len()));
         let length = ends.max().unwrap_or(0);
         if declared.is_none_or(|declared| length > declared) {
             return Err(invalid("is shorter than the buffer views in it, or does not exist"));
         }
-        // Zeros between the pieces need no backing in the file, so that they must be few.
-        let backed: usize = pieces.iter().map(|(_, bytes)| bytes.len()).sum();
+        // Zeros between the segments need no backing in the file, so that they must be few.
+        let backed: usize = segments.iter().map(|(_, bytes)| bytes.len()).sum();
         if length > backed.saturating_mul(2).saturating_add(1 << 16) {
             return Err(invalid("has more space between the buffer views in it than they need themselves"));
         }
         budget.spend(length, &at)?;
         let mut content = vec![0; length];
-        for (offset, bytes) in pieces {
+        for (offset, bytes) in segments {
             content[*offset..offset + bytes.len()].copy_from_slice(bytes);
         }
         self.root.buffers[buffer].byte_length = length;
-        self.stores[buffer] = Store::Decoded(content);
+        self.buffer_sources[buffer] = BufferSource::Decoded(content);
         Ok(())
     }
 
@@ -122,7 +123,7 @@ impl Document {
         let mut edited_buffers = BTreeMap::new();
         for (i, buffer) in buffers.iter().enumerate() {
             let mut text = without_meshopt(buffer.get())?;
-            if let Store::Decoded(bytes) = &self.stores[i] {
+            if let BufferSource::Decoded(bytes) = &self.buffer_sources[i] {
                 text = set_member(&text, "byteLength", Some(&bytes.len().to_string()))?;
             }
             if text != buffer.get() {

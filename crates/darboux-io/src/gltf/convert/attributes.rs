@@ -5,29 +5,29 @@ use std::collections::HashMap;
 use darboux::{Convention, Conversion};
 use serde_json::Value;
 
-use super::ConversionSummary;
+use super::summary::ConversionSummary;
 use crate::Error;
-use crate::gltf::append::{is_sparse, set_attributes};
+use crate::gltf::primitives::append::{is_sparse, set_attributes};
+use crate::gltf::primitives::canonical::CanonicalAccessors;
 use crate::gltf::schema;
-use crate::gltf::tangents::share::Canonical;
 use crate::gltf::{ComponentType, Document, ElementType, Elements, NewAccessor, Target};
 
 /// Converts attributes.
-pub struct Attributes<'a> {
-    accessors: &'a Canonical,
+pub struct AttributeConverter<'a> {
+    accessors: &'a CanonicalAccessors,
     conversion: Conversion,
     /// The kinds that change.
-    changed: Vec<Kind>,
+    changed: Vec<AttributeKind>,
     turns: bool,
     /// Whether tangents change otherwise than by their axes.
     changes_tangents: bool,
     /// New accessors, by the old one and what it holds.
-    made: HashMap<(usize, Kind), usize>,
+    made: HashMap<(usize, AttributeKind), usize>,
 }
 
 /// What an attribute holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-enum Kind {
+enum AttributeKind {
     Position,
     Normal,
     Tangent,
@@ -36,7 +36,7 @@ enum Kind {
     UvOffset,
 }
 
-impl Kind {
+impl AttributeKind {
     /// None for what no convention changes.
     fn of(semantic: &str, is_offset: bool) -> Option<Self> {
         match (semantic, is_offset) {
@@ -51,20 +51,20 @@ impl Kind {
     }
 }
 
-impl<'a> Attributes<'a> {
-    pub fn new(accessors: &'a Canonical, from: Convention, to: Convention) -> Self {
+impl<'a> AttributeConverter<'a> {
+    pub fn new(accessors: &'a CanonicalAccessors, from: Convention, to: Convention) -> Self {
         let conversion = from.to(to);
         let turns = from.axes != to.axes;
         let mut changed = Vec::new();
         if turns {
-            changed.extend([Kind::Position, Kind::Normal]);
+            changed.extend([AttributeKind::Position, AttributeKind::Normal]);
         }
         let changes_tangents = conversion.inverts_red() || conversion.tangent([0.0, 0.0, 0.0, 1.0])[3] < 0.0;
         if turns || changes_tangents {
-            changed.extend([Kind::Tangent, Kind::TangentOffset]);
+            changed.extend([AttributeKind::Tangent, AttributeKind::TangentOffset]);
         }
         if from.uv_origin != to.uv_origin {
-            changed.extend([Kind::Uv, Kind::UvOffset]);
+            changed.extend([AttributeKind::Uv, AttributeKind::UvOffset]);
         }
         Self { accessors, conversion, changed, turns, changes_tangents, made: HashMap::new() }
     }
@@ -94,8 +94,8 @@ impl<'a> Attributes<'a> {
     pub fn sum_up(&self, summary: &mut ConversionSummary) {
         for (_, kind) in self.made.keys() {
             let (is_uv, is_tangent) = (
-                matches!(kind, Kind::Uv | Kind::UvOffset),
-                matches!(kind, Kind::Tangent | Kind::TangentOffset),
+                matches!(kind, AttributeKind::Uv | AttributeKind::UvOffset),
+                matches!(kind, AttributeKind::Tangent | AttributeKind::TangentOffset),
             );
             summary.uvs_flipped |= is_uv;
             summary.axes_changed |= self.turns && !is_uv;
@@ -112,7 +112,7 @@ impl<'a> Attributes<'a> {
     ) -> Result<schema::Attributes, Error> {
         let mut new = schema::Attributes::new();
         for (semantic, &accessor) in old {
-            let kind = Kind::of(semantic, is_offset).filter(|kind| self.changed.contains(kind));
+            let kind = AttributeKind::of(semantic, is_offset).filter(|kind| self.changed.contains(kind));
             if let Some(kind) = kind {
                 new.insert(semantic.clone(), self.accessor(document, accessor, kind)?);
             }
@@ -120,28 +120,34 @@ impl<'a> Attributes<'a> {
         Ok(new)
     }
 
-    fn accessor(&mut self, document: &mut Document, old: usize, kind: Kind) -> Result<usize, Error> {
+    fn accessor(&mut self, document: &mut Document, old: usize, kind: AttributeKind) -> Result<usize, Error> {
         let key = (self.accessors.of(old), kind);
         if let Some(&made) = self.made.get(&key) {
             return Ok(made);
         }
         let Self { conversion, .. } = self;
         let elements = match kind {
-            Kind::Position | Kind::Normal => {
+            AttributeKind::Position | AttributeKind::Normal => {
                 floats(ElementType::Vec3, document.read_vectors(old)?, |vector| conversion.vector(vector))
             }
-            Kind::Tangent => {
+            AttributeKind::Tangent => {
                 floats(ElementType::Vec4, document.read_vectors(old)?, |tangent| conversion.tangent(tangent))
             }
-            Kind::TangentOffset => floats(ElementType::Vec3, document.read_vectors(old)?, |[x, y, z]| {
-                let [x, y, z, _] = conversion.tangent([x, y, z, 0.0]);
-                [x, y, z]
-            }),
-            Kind::Uv => floats(ElementType::Vec2, document.read_vectors(old)?, |uv| conversion.uv(uv)),
+            AttributeKind::TangentOffset => {
+                floats(ElementType::Vec3, document.read_vectors(old)?, |[x, y, z]| {
+                    let [x, y, z, _] = conversion.tangent([x, y, z, 0.0]);
+                    [x, y, z]
+                })
+            }
+            AttributeKind::Uv => {
+                floats(ElementType::Vec2, document.read_vectors(old)?, |uv| conversion.uv(uv))
+            }
             // v becomes 1 - v: what is added to v is taken from 1 - v.
-            Kind::UvOffset => floats(ElementType::Vec2, document.read_vectors(old)?, |[u, v]| [u, -v]),
+            AttributeKind::UvOffset => {
+                floats(ElementType::Vec2, document.read_vectors(old)?, |[u, v]| [u, -v])
+            }
         };
-        let (bounds, sparse) = (kind == Kind::Position, is_sparse(document, old));
+        let (bounds, sparse) = (kind == AttributeKind::Position, is_sparse(document, old));
         let elements = if sparse { without_negative_zeros(elements) } else { elements };
         let new = NewAccessor { elements, target: Target::Vertices, bounds, sparse, like: Some(old) };
         let made = document.push_accessor(new);

@@ -6,7 +6,7 @@ use darboux::Convention;
 
 /// Per new axis the old axis and the sign; whether the hand changes.
 #[derive(Clone, Copy, Debug)]
-pub struct Turn {
+pub struct AxisChange {
     axes: [(usize, f64); 3],
     changes_hand: bool,
 }
@@ -17,7 +17,7 @@ pub trait Number: Copy + From<f32> + Mul<Output = Self> + Add<Output = Self> {}
 impl Number for f32 {}
 impl Number for f64 {}
 
-impl Turn {
+impl AxisChange {
     pub fn new(from: Convention, to: Convention) -> Self {
         // Where the numbers of the axes go says everything.
         let axes =
@@ -81,7 +81,7 @@ mod tests {
             [0, 1, 2].map(|i| v[i] + 2.0 * outer[i])
         };
         for (name, to) in Convention::PRESETS {
-            let turn = Turn::new(Convention::GLTF, to);
+            let turn = AxisChange::new(Convention::GLTF, to);
             let moved = product(turn.matrix(matrix), turn.vector(point));
             assert_eq!(moved, turn.vector(product(matrix, point)), "{name}");
             let rotation = [0.0, 0.0, half, half];

@@ -8,7 +8,7 @@ use serde::de::IgnoredAny;
 
 use crate::Error;
 use crate::gltf::Document;
-use crate::gltf::json::{keys, member, quoted, set_member};
+use crate::gltf::json_text::{keys, member, quoted, set_member};
 use crate::gltf::schema::Material;
 
 /// The member of `asset.extras` that names a convention.
@@ -87,9 +87,9 @@ impl Document {
 
 /// The parts of a file that other axes leave behind.
 #[derive(Deserialize)]
-struct Scene {
+struct SceneParts {
     #[serde(default)]
-    nodes: Vec<Node>,
+    nodes: Vec<NodeParts>,
     #[serde(default)]
     extensions: BTreeMap<String, IgnoredAny>,
     #[serde(default, rename = "extensionsUsed")]
@@ -97,7 +97,7 @@ struct Scene {
 }
 
 #[derive(Deserialize)]
-struct Node {
+struct NodeParts {
     camera: Option<IgnoredAny>,
     #[serde(default)]
     extensions: BTreeMap<String, IgnoredAny>,
@@ -117,9 +117,10 @@ const WITHOUT_VECTORS: [&str; 9] = [
 ];
 
 /// What a document's other axes leave behind.
-fn left_behind(scene: &Scene) -> Vec<String> {
+fn left_behind(scene: &SceneParts) -> Vec<String> {
     let mut warnings = Vec::new();
-    let looks = |node: &Node| node.camera.is_some() || node.extensions.contains_key("KHR_lights_punctual");
+    let looks =
+        |node: &NodeParts| node.camera.is_some() || node.extensions.contains_key("KHR_lights_punctual");
     if scene.nodes.iter().any(looks) {
         warnings.push("cameras and lights still look along -z of their nodes".to_owned());
     }
@@ -152,7 +153,7 @@ pub fn warnings(document: &Document, from: Convention, to: Convention) -> Vec<St
         }
     }
     // A file whose scene cannot be read is refused where it is converted.
-    let Ok(scene) = serde_json::from_str::<Scene>(document.text()) else { return warnings };
+    let Ok(scene) = serde_json::from_str::<SceneParts>(document.text()) else { return warnings };
     if from.uv_origin != to.uv_origin
         && scene.extensions_used.iter().any(|name| name == "KHR_texture_transform")
     {

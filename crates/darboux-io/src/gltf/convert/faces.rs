@@ -5,31 +5,31 @@ use std::collections::HashMap;
 use darboux::{Convention, Conversion};
 
 use crate::Error;
-use crate::gltf::append::index_elements;
-use crate::gltf::tangents::excess;
-use crate::gltf::tangents::select::element_count;
-use crate::gltf::tangents::share::Canonical;
-use crate::gltf::tangents::topology::Topology;
+use crate::gltf::primitives::append::index_elements;
+use crate::gltf::primitives::canonical::CanonicalAccessors;
+use crate::gltf::primitives::element_count;
+use crate::gltf::primitives::limits;
+use crate::gltf::primitives::triangles::TriangleMode;
 use crate::gltf::{Document, NewAccessor, Target};
 
 /// Reverses faces.
-pub struct Faces<'a> {
-    accessors: &'a Canonical,
+pub struct FaceReverser<'a> {
+    accessors: &'a CanonicalAccessors,
     conversion: Conversion,
     reverses: bool,
     /// New indices, by the old accessor or the number of vertices, and the topology.
-    made: HashMap<(Source, Topology), usize>,
+    made: HashMap<(CornerSource, TriangleMode), usize>,
 }
 
 /// Where corners come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-enum Source {
+enum CornerSource {
     Indices(usize),
     Vertices(usize),
 }
 
-impl<'a> Faces<'a> {
-    pub fn new(accessors: &'a Canonical, from: Convention, to: Convention) -> Self {
+impl<'a> FaceReverser<'a> {
+    pub fn new(accessors: &'a CanonicalAccessors, from: Convention, to: Convention) -> Self {
         let reverses = from.winding != to.winding;
         Self { accessors, conversion: from.to(to), reverses, made: HashMap::new() }
     }
@@ -37,12 +37,12 @@ impl<'a> Faces<'a> {
     /// Reverses the triangles of a primitive; says whether there are any to reverse. Strips and fans become lists.
     pub fn convert(&mut self, document: &mut Document, mesh: usize, place: usize) -> Result<bool, Error> {
         let primitive = &document.meshes()[mesh].primitives[place];
-        let Some(topology) = Topology::from_mode(primitive.mode).filter(|_| self.reverses) else {
+        let Some(topology) = TriangleMode::from_mode(primitive.mode).filter(|_| self.reverses) else {
             return Ok(false);
         };
         let source = match (primitive.indices, primitive.attributes.get("POSITION")) {
-            (Some(accessor), _) => Source::Indices(self.accessors.of(accessor)),
-            (None, Some(&position)) => Source::Vertices(element_count(document, position)?),
+            (Some(accessor), _) => CornerSource::Indices(self.accessors.of(accessor)),
+            (None, Some(&position)) => CornerSource::Vertices(element_count(document, position)?),
             (None, None) => return Ok(false),
         };
         let indices = match self.made.get(&(source, topology)) {
@@ -55,19 +55,24 @@ impl<'a> Faces<'a> {
         };
         document.edit_primitive(mesh, place, |json| {
             json.insert("indices".to_owned(), indices.into());
-            if topology != Topology::Triangles {
+            if topology != TriangleMode::Triangles {
                 json.insert("mode".to_owned(), 4.into());
             }
         })?;
         Ok(true)
     }
 
-    fn reversed(&self, document: &mut Document, source: Source, topology: Topology) -> Result<usize, Error> {
+    fn reversed(
+        &self,
+        document: &mut Document,
+        source: CornerSource,
+        topology: TriangleMode,
+    ) -> Result<usize, Error> {
         let (old, count) = match source {
-            Source::Indices(accessor) => (Some(accessor), element_count(document, accessor)?),
-            Source::Vertices(count) => (None, count),
+            CornerSource::Indices(accessor) => (Some(accessor), element_count(document, accessor)?),
+            CornerSource::Vertices(count) => (None, count),
         };
-        excess::check_triangles(document, [topology.triangle_count(count)].into_iter())?;
+        limits::check_triangles(document, [topology.triangle_count(count)].into_iter())?;
         let mut corners = match old {
             Some(accessor) => document.read_indices(accessor)?,
             None => (0..count as u32).collect(),

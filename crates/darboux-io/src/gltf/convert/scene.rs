@@ -7,32 +7,32 @@ use serde::de::DeserializeOwned;
 use serde_json::value::RawValue;
 
 use super::attributes::floats;
-use super::turn::Turn;
+use super::axes::AxisChange;
 use crate::Error;
 use crate::error::Fault;
-use crate::gltf::json::{edit_array, member, set_member};
-use crate::gltf::tangents::excess;
-use crate::gltf::tangents::share::Canonical;
+use crate::gltf::json_text::{edit_array, member, set_member};
+use crate::gltf::primitives::canonical::CanonicalAccessors;
+use crate::gltf::primitives::limits;
 use crate::gltf::{Document, ElementType, NewAccessor, Target};
 
 /// Turns everything that places meshes.
-pub struct Scene<'a> {
-    accessors: &'a Canonical,
-    turn: Turn,
+pub struct SceneConverter<'a> {
+    accessors: &'a CanonicalAccessors,
+    turn: AxisChange,
     /// New accessors, by the old one and what it holds.
-    made: HashMap<(usize, Kind), usize>,
+    made: HashMap<(usize, TransformKind), usize>,
 }
 
 /// What an accessor holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-enum Kind {
+enum TransformKind {
     Translation,
     Rotation,
     Scale,
     Matrix,
 }
 
-impl Kind {
+impl TransformKind {
     fn of(name: &str) -> Option<Self> {
         match name {
             "translation" | "TRANSLATION" => Some(Self::Translation),
@@ -43,8 +43,8 @@ impl Kind {
     }
 }
 
-impl<'a> Scene<'a> {
-    pub fn new(accessors: &'a Canonical, turn: Turn) -> Self {
+impl<'a> SceneConverter<'a> {
+    pub fn new(accessors: &'a CanonicalAccessors, turn: AxisChange) -> Self {
         Self { accessors, turn, made: HashMap::new() }
     }
 
@@ -100,7 +100,7 @@ impl<'a> Scene<'a> {
         let known: BTreeMap<String, usize> = parsed(document, &at, attributes)?;
         let mut new = attributes.to_owned();
         for (name, accessor) in known {
-            if let Some(kind) = Kind::of(&name) {
+            if let Some(kind) = TransformKind::of(&name) {
                 let accessor = self.accessor(document, accessor, kind)?;
                 new = edited(document, &at, set_member(&new, &name, Some(&accessor.to_string())))?;
             }
@@ -113,7 +113,7 @@ impl<'a> Scene<'a> {
         let at = format!("{at}.{KEY}");
         let Some(accessor) = member(text, KEY).ok().flatten() else { return Ok(text.to_owned()) };
         let old = parsed(document, &at, accessor)?;
-        let new = self.accessor(document, old, Kind::Matrix)?;
+        let new = self.accessor(document, old, TransformKind::Matrix)?;
         edited(document, &at, set_member(text, KEY, Some(&new.to_string())))
     }
 
@@ -121,7 +121,7 @@ impl<'a> Scene<'a> {
         let animation: Animation = parsed(document, at, text)?;
         let array = member(text, "samplers").ok().flatten().unwrap_or("[]");
         let samplers: Vec<Box<RawValue>> = parsed(document, at, array)?;
-        let mut kinds: BTreeMap<usize, Option<Kind>> = BTreeMap::new();
+        let mut kinds: BTreeMap<usize, Option<TransformKind>> = BTreeMap::new();
         for (index, Channel { sampler, target }) in animation.channels.iter().enumerate() {
             let at = format!("{at}.channels[{index}]");
             let unsupported = |problem: &str| Err(Fault::unsupported(&at, problem).in_file(document.name()));
@@ -132,7 +132,7 @@ impl<'a> Scene<'a> {
                 let problem = format!("sampler {sampler} does not exist: there are {}", samplers.len());
                 return Err(document.invalid(at, format!("{problem}; export the file again")));
             }
-            let kind = Kind::of(&target.path);
+            let kind = TransformKind::of(&target.path);
             if kinds.insert(*sampler, kind).is_some_and(|other| other != kind) {
                 return unsupported(
                     "shares its sampler with a channel of another kind; export the file again",
@@ -143,7 +143,7 @@ impl<'a> Scene<'a> {
         for (index, kind) in kinds {
             let (Some(sampler), Some(kind)) = (samplers.get(index), kind) else { continue };
             let at = format!("{at}.samplers[{index}]");
-            let Sampler { output } = parsed(document, &at, sampler.get())?;
+            let AnimationSampler { output } = parsed(document, &at, sampler.get())?;
             let output = self.accessor(document, output, kind)?.to_string();
             new.insert(index, edited(document, &at, set_member(sampler.get(), "output", Some(&output)))?);
         }
@@ -151,26 +151,30 @@ impl<'a> Scene<'a> {
         edited(document, at, set_member(text, "samplers", Some(&array)))
     }
 
-    fn accessor(&mut self, document: &mut Document, old: usize, kind: Kind) -> Result<usize, Error> {
+    fn accessor(&mut self, document: &mut Document, old: usize, kind: TransformKind) -> Result<usize, Error> {
         let key = (self.accessors.of(old), kind);
         if let Some(&made) = self.made.get(&key) {
             return Ok(made);
         }
         let turn = self.turn;
         let elements = match kind {
-            Kind::Translation => {
+            TransformKind::Translation => {
                 floats(ElementType::Vec3, document.read_vectors(old)?, |v| turn.vector::<f32>(v))
             }
-            Kind::Rotation => {
+            TransformKind::Rotation => {
                 floats(ElementType::Vec4, document.read_vectors(old)?, |q| turn.rotation::<f32>(q))
             }
-            Kind::Scale => floats(ElementType::Vec3, document.read_vectors(old)?, |s| turn.scale::<f32>(s)),
-            Kind::Matrix => floats(ElementType::Mat4, document.read_vectors(old)?, |m| turn.matrix::<f32>(m)),
+            TransformKind::Scale => {
+                floats(ElementType::Vec3, document.read_vectors(old)?, |s| turn.scale::<f32>(s))
+            }
+            TransformKind::Matrix => {
+                floats(ElementType::Mat4, document.read_vectors(old)?, |m| turn.matrix::<f32>(m))
+            }
         };
         let (target, like) = (Target::Other, Some(old));
         let made =
             document.push_accessor(NewAccessor { elements, target, bounds: false, sparse: false, like });
-        excess::check_output(document)?;
+        limits::check_output(document)?;
         self.made.insert(key, made);
         Ok(made)
     }
@@ -194,7 +198,7 @@ struct ChannelTarget {
 }
 
 #[derive(Deserialize)]
-struct Sampler {
+struct AnimationSampler {
     output: usize,
 }
 

@@ -9,14 +9,14 @@ use darboux::{
 
 use super::select::{Chosen, Selection};
 use crate::Error;
+use crate::gltf::primitives::canonical::CanonicalAccessors;
+use crate::gltf::primitives::limits;
 use crate::gltf::schema::Attributes;
-use crate::gltf::tangents::share::Canonical;
-use crate::gltf::tangents::{Progress, excess};
-use crate::gltf::{Document, PrimitiveName};
+use crate::gltf::{Document, PrimitiveName, Progress};
 
 /// A primitive that gets normals.
 #[derive(Debug)]
-pub struct Part {
+pub struct ShadedPrimitive {
     /// Its place in the selection.
     pub candidate: usize,
     pub name: PrimitiveName,
@@ -30,14 +30,14 @@ pub struct Part {
     /// One per corner.
     pub normals: Vec<[f32; 3]>,
     /// One per morph target.
-    pub moves: Vec<Option<Move>>,
+    pub moves: Vec<Option<MovedNormals>>,
     /// Of the whole mesh.
     pub report: NormalReport,
 }
 
 /// What a morph target does to normals.
 #[derive(Debug)]
-pub struct Move {
+pub struct MovedNormals {
     /// The accessor of position offsets: the first that reads them.
     pub accessor: usize,
     /// The accessor of normal offsets that the target has, if any.
@@ -54,11 +54,11 @@ const MOVED_LIMIT: usize = 4;
 /// Errors: indices out of range, offsets of another number than positions, accessors that cannot be read.
 pub fn shade(
     document: &Document,
-    accessors: &Canonical,
+    accessors: &CanonicalAccessors,
     selection: &Selection,
     options: &NormalOptions,
     progress: &mut dyn FnMut(Progress),
-) -> Result<Vec<Part>, Error> {
+) -> Result<Vec<ShadedPrimitive>, Error> {
     let mut reader = Reader { document, last: None };
     let mut parts = Vec::new();
     for (candidate, chosen) in selection.chosen() {
@@ -67,7 +67,7 @@ pub fn shade(
     }
     let moved =
         parts.iter().map(|part| part.moves.len().saturating_mul(part.corners.len() / 3) / MOVED_LIMIT);
-    excess::check_triangles(document, moved)?;
+    limits::check_triangles(document, moved)?;
     let total = parts.iter().map(|part| part.corners.len() / 3).sum();
     let mut at = Progress { done: 0, total };
     for mesh in parts.chunk_by_mut(|a, b| a.name.mesh == b.name.mesh) {
@@ -80,11 +80,11 @@ pub fn shade(
 
 fn part(
     document: &Document,
-    accessors: &Canonical,
+    accessors: &CanonicalAccessors,
     candidate: usize,
     name: PrimitiveName,
     chosen: Chosen,
-) -> Result<Part, Error> {
+) -> Result<ShadedPrimitive, Error> {
     let mut corners = match chosen.indices {
         Some(accessor) => document.read_indices(accessor)?,
         None => (0..chosen.index_count as u32).collect(),
@@ -94,10 +94,10 @@ fn part(
     let targets = &document.meshes()[name.mesh].primitives[name.primitive].targets;
     let moved = |target: &Attributes| {
         let accessor = accessors.of(*target.get("POSITION")?);
-        Some(Move { accessor, old: target.get("NORMAL").copied(), offsets: Vec::new() })
+        Some(MovedNormals { accessor, old: target.get("NORMAL").copied(), offsets: Vec::new() })
     };
     let moves = targets.iter().map(moved);
-    Ok(Part {
+    Ok(ShadedPrimitive {
         candidate,
         position: accessors.of(chosen.position),
         moves: moves.collect(),
@@ -125,7 +125,12 @@ impl Reader<'_> {
     }
 
     /// The vectors at the corners of `part`. Errors: an index out of range.
-    fn at_corners(&mut self, part: &Part, accessor: usize, out: &mut Vec<[f32; 3]>) -> Result<(), Error> {
+    fn at_corners(
+        &mut self,
+        part: &ShadedPrimitive,
+        accessor: usize,
+        out: &mut Vec<[f32; 3]>,
+    ) -> Result<(), Error> {
         let vectors = self.vectors(accessor)?;
         let vertices = vectors.len();
         let found = part.corners.iter().map(|&index| vectors.get(index as usize).copied());
@@ -143,7 +148,11 @@ impl Reader<'_> {
 }
 
 /// Sets the normals and moves of the parts of one mesh.
-fn shade_mesh(reader: &mut Reader<'_>, parts: &mut [Part], options: &NormalOptions) -> Result<(), Error> {
+fn shade_mesh(
+    reader: &mut Reader<'_>,
+    parts: &mut [ShadedPrimitive],
+    options: &NormalOptions,
+) -> Result<(), Error> {
     let mut positions = Vec::new();
     for part in parts.iter() {
         reader.at_corners(part, part.position, &mut positions)?;
@@ -163,7 +172,7 @@ fn shade_mesh(reader: &mut Reader<'_>, parts: &mut [Part], options: &NormalOptio
 }
 
 /// The vertex of every corner, counted from zero: one for all at a position, or one for each of the index lists.
-fn welded(parts: &[Part], positions: &[[f32; 3]], seams: SmoothingSeams) -> Vec<u32> {
+fn welded(parts: &[ShadedPrimitive], positions: &[[f32; 3]], seams: SmoothingSeams) -> Vec<u32> {
     let mut welded = Vec::with_capacity(positions.len());
     // Each vertex of an accessor is looked up once, however many corners it has.
     let mut known: HashMap<usize, Vec<Option<u32>>> = HashMap::new();
@@ -197,7 +206,7 @@ fn next(count: &mut u32) -> u32 {
 /// Evaluates every morph target in the fans of the mesh at rest.
 fn move_mesh(
     reader: &mut Reader<'_>,
-    parts: &mut [Part],
+    parts: &mut [ShadedPrimitive],
     positions: &[[f32; 3]],
     fan_of_corner: &[u32],
     options: &NormalOptions,
@@ -205,8 +214,9 @@ fn move_mesh(
     let in_fans = NormalOptions { crease: 180.0, ..*options };
     let targets = parts.iter().map(|part| part.moves.len()).max().unwrap_or(0);
     for target in 0..targets {
-        let accessor =
-            |part: &Part| part.moves.get(target).and_then(Option::as_ref).map(|moved| moved.accessor);
+        let accessor = |part: &ShadedPrimitive| {
+            part.moves.get(target).and_then(Option::as_ref).map(|moved| moved.accessor)
+        };
         let mut moved = Vec::with_capacity(positions.len());
         for part in parts.iter() {
             let first = moved.len();
@@ -238,7 +248,7 @@ fn move_mesh(
 /// Normals of corners that lie at `positions`; smooth ones are those of their vertices.
 fn normals(
     document: &Document,
-    parts: &[Part],
+    parts: &[ShadedPrimitive],
     positions: &[[f32; 3]],
     vertex_of_corner: &[u32],
     options: &NormalOptions,

@@ -1,10 +1,11 @@
 //! Which primitives get normals, and why the others do not.
 
-use super::{NormalsOptions, NormalsOutcome, WrittenNormals};
+use super::options::NormalsOptions;
+use super::summary::{NormalsOutcome, WrittenNormals};
 use crate::Error;
+use crate::gltf::primitives::element_count;
+use crate::gltf::primitives::triangles::{TriangleMode, mode_name};
 use crate::gltf::schema::Primitive;
-use crate::gltf::tangents::select::element_count;
-use crate::gltf::tangents::topology::{Topology, mode_name};
 use crate::gltf::{Document, PrimitiveName};
 
 /// Every primitive of a document, in its order, with what is to be done.
@@ -35,7 +36,7 @@ pub enum Verdict {
 pub struct Chosen {
     pub position: usize,
     pub indices: Option<usize>,
-    pub topology: Topology,
+    pub topology: TriangleMode,
     pub index_count: usize,
 }
 
@@ -90,7 +91,7 @@ fn judge(
         let problem = format!("{} is no mode; use 0 to 6", primitive.mode);
         return Err(document.invalid(format!("{}.mode", name.path()), problem));
     };
-    let Some(topology) = Topology::from_mode(primitive.mode) else {
+    let Some(topology) = TriangleMode::from_mode(primitive.mode) else {
         return Ok(Verdict::Skipped(format!("its mode is {mode}; only triangles get normals")));
     };
     if primitive.attributes.contains_key("NORMAL") && !options.overwrite {

@@ -5,22 +5,22 @@ use std::collections::{BTreeMap, HashMap};
 use darboux::{NormalSplit, split_normals};
 use serde_json::Value;
 
-use super::WrittenNormals;
-use super::shade::{Move, Part};
+use super::compute::{MovedNormals, ShadedPrimitive};
+use super::summary::WrittenNormals;
 use crate::Error;
-use crate::gltf::append::{Appended, index_elements, push_vectors, set_attributes};
+use crate::gltf::primitives::append::{Appended, index_elements, push_vectors, set_attributes};
+use crate::gltf::primitives::canonical::CanonicalAccessors;
+use crate::gltf::primitives::triangles::TriangleMode;
+use crate::gltf::primitives::{foreign_extensions, limits};
 use crate::gltf::schema::{Attributes, Primitive};
-use crate::gltf::tangents::share::Canonical;
-use crate::gltf::tangents::topology::Topology;
-use crate::gltf::tangents::{excess, foreign};
 use crate::gltf::{Document, ElementType, NewAccessor, Target};
 
 /// Writes the normals of `parts`, all of them over the accessor `position`. Returns what was written for each candidate.
 pub fn write(
     document: &mut Document,
-    accessors: &Canonical,
+    accessors: &CanonicalAccessors,
     position: usize,
-    parts: &[&Part],
+    parts: &[&ShadedPrimitive],
     warnings: &mut Vec<String>,
 ) -> Result<Vec<(usize, WrittenNormals)>, Error> {
     let split = split(document, position, parts)?;
@@ -30,9 +30,9 @@ pub fn write(
         document.meshes()[part.name.mesh].primitives[part.name.primitive].attributes.get("NORMAL").copied()
     });
     let normals = push_vectors(document, old, ElementType::Vec3, &split.normal_of_vertex, false);
-    excess::check_output(document)?;
+    limits::check_output(document)?;
     let appended = Appended::new(accessors, copies, old_count);
-    let mut writer = Writer {
+    let mut writer = NormalWriter {
         accessors,
         split: &split,
         normals,
@@ -48,7 +48,7 @@ pub fn write(
     let mut first = 0;
     for part in parts {
         if writer.appended.is_needed() {
-            warnings.extend(foreign::warning(document, &part.name));
+            warnings.extend(foreign_extensions::warning(document, &part.name));
         }
         let corners = &split.indices[first..first + part.corners.len()];
         first += part.corners.len();
@@ -57,7 +57,7 @@ pub fn write(
     Ok(written)
 }
 
-fn split(document: &Document, position: usize, parts: &[&Part]) -> Result<NormalSplit, Error> {
+fn split(document: &Document, position: usize, parts: &[&ShadedPrimitive]) -> Result<NormalSplit, Error> {
     let corners: Vec<u32> = parts.iter().flat_map(|part| &part.corners).copied().collect();
     let normals: Vec<[f32; 3]> = parts.iter().flat_map(|part| &part.normals).copied().collect();
     let vertices = document.accessors()[position].count;
@@ -68,8 +68,8 @@ fn split(document: &Document, position: usize, parts: &[&Part]) -> Result<Normal
     split_normals(vertices, &corners, &normals).map_err(|error| document.mesh_error(at, error))
 }
 
-struct Writer<'a> {
-    accessors: &'a Canonical,
+struct NormalWriter<'a> {
+    accessors: &'a CanonicalAccessors,
     split: &'a NormalSplit,
     /// The accessor of the normals.
     normals: usize,
@@ -86,10 +86,11 @@ struct Writer<'a> {
     indices: Vec<(Option<usize>, &'a [u32], usize)>,
 }
 
-impl<'a> Writer<'a> {
+impl<'a> NormalWriter<'a> {
     /// Writes the normal offsets of every morph target, one accessor of position offsets after the other.
-    fn push_offsets(&mut self, document: &mut Document, parts: &[&Part]) -> Result<(), Error> {
-        let mut moves_of_accessor: BTreeMap<usize, Vec<(&Part, usize, &Move)>> = BTreeMap::new();
+    fn push_offsets(&mut self, document: &mut Document, parts: &[&ShadedPrimitive]) -> Result<(), Error> {
+        let mut moves_of_accessor: BTreeMap<usize, Vec<(&ShadedPrimitive, usize, &MovedNormals)>> =
+            BTreeMap::new();
         let mut first = 0;
         for part in parts {
             for moved in part.moves.iter().flatten() {
@@ -111,7 +112,7 @@ impl<'a> Writer<'a> {
                 *self.conflicting.entry(part.candidate).or_default() += conflicts(vertices, moved, &offsets);
             }
             self.offsets.insert(accessor, push_vectors(document, old, ElementType::Vec3, &offsets, true));
-            excess::check_output(document)?;
+            limits::check_output(document)?;
         }
         Ok(())
     }
@@ -119,7 +120,7 @@ impl<'a> Writer<'a> {
     fn write(
         &mut self,
         document: &mut Document,
-        part: &Part,
+        part: &ShadedPrimitive,
         corners: &'a [u32],
     ) -> Result<WrittenNormals, Error> {
         let name = &part.name;
@@ -148,7 +149,7 @@ impl<'a> Writer<'a> {
             }
             if let Some(indices) = indices {
                 json.insert("indices".to_owned(), indices.into());
-                if part.chosen.topology != Topology::Triangles {
+                if part.chosen.topology != TriangleMode::Triangles {
                     json.insert("mode".to_owned(), 4.into());
                 }
             }
@@ -170,7 +171,7 @@ impl<'a> Writer<'a> {
         })
     }
 
-    fn written(&self, part: &Part, before: &Primitive, keeps_tangents: bool) -> WrittenNormals {
+    fn written(&self, part: &ShadedPrimitive, before: &Primitive, keeps_tangents: bool) -> WrittenNormals {
         WrittenNormals {
             replaced: before.attributes.contains_key("NORMAL"),
             tangents_removed: !keeps_tangents && before.attributes.contains_key("TANGENT"),
@@ -224,7 +225,12 @@ impl<'a> Writer<'a> {
     }
 
     /// The accessor of new indices; none where the old ones, or their absence, serve.
-    fn indices(&mut self, document: &mut Document, part: &Part, corners: &'a [u32]) -> Option<usize> {
+    fn indices(
+        &mut self,
+        document: &mut Document,
+        part: &ShadedPrimitive,
+        corners: &'a [u32],
+    ) -> Option<usize> {
         let old = part.chosen.indices;
         if !self.appended.is_needed() || (old.is_some() && part.corners == corners) {
             return None;
@@ -243,7 +249,7 @@ impl<'a> Writer<'a> {
 }
 
 /// How many corners have another offset than their vertices.
-fn conflicts(vertices: &[u32], moved: &Move, offsets: &[[f32; 3]]) -> usize {
+fn conflicts(vertices: &[u32], moved: &MovedNormals, offsets: &[[f32; 3]]) -> usize {
     let mut own = moved.offsets.iter().peekable();
     let corners = vertices.iter().enumerate().filter(|&(corner, &vertex)| {
         let own = own.next_if(|(moves, _)| *moves == corner).map_or([0.0; 3], |(_, offset)| *offset);

@@ -4,16 +4,16 @@ use std::collections::HashMap;
 
 use serde_json::Value;
 
-use super::schema::Attributes;
-use super::tangents::excess;
-use super::tangents::share::Canonical;
-use super::{ComponentType, Document, ElementType, Elements, NewAccessor, Target};
+use super::canonical::CanonicalAccessors;
+use super::limits;
 use crate::Error;
+use crate::gltf::schema::Attributes;
+use crate::gltf::{ComponentType, Document, ElementType, Elements, NewAccessor, Target};
 
 /// Attributes with the appended vertices, each made when it is asked for first.
 #[derive(Debug)]
 pub struct Appended<'a> {
-    accessors: &'a Canonical,
+    accessors: &'a CanonicalAccessors,
     copies: &'a [u32],
     old_count: usize,
     /// By the old accessor and whether there are bounds.
@@ -22,7 +22,7 @@ pub struct Appended<'a> {
 
 impl<'a> Appended<'a> {
     /// `copies`: the old vertex that each appended one copies, below `old_count`.
-    pub fn new(accessors: &'a Canonical, copies: &'a [u32], old_count: usize) -> Self {
+    pub fn new(accessors: &'a CanonicalAccessors, copies: &'a [u32], old_count: usize) -> Self {
         Self { accessors, copies, old_count, made: HashMap::new() }
     }
 
@@ -60,7 +60,7 @@ impl<'a> Appended<'a> {
         let sparse = is_sparse(document, old);
         let new = NewAccessor { elements, target: Target::Vertices, bounds, sparse, like: Some(old) };
         let made = document.push_accessor(new);
-        excess::check_output(document)?;
+        limits::check_output(document)?;
         self.made.insert(key, made);
         Ok(made)
     }

@@ -2,12 +2,12 @@
 
 use darboux::MeshError;
 
-use super::schema::Attributes;
-use super::tangents::select::element_count;
-use super::tangents::topology::Topology;
-use super::tangents::{PrimitiveName, excess};
-use super::{Document, schema};
+use super::name::PrimitiveName;
+use super::triangles::TriangleMode;
+use super::{element_count, limits};
 use crate::Error;
+use crate::gltf::Document;
+use crate::gltf::schema::{self, Attributes};
 
 /// The corners of all whole triangles of a primitive, three each, in the order of the file; strips and fans cut up.
 #[derive(Debug)]
@@ -20,12 +20,12 @@ pub struct PrimitiveCorners<'a> {
 
 impl<'a> PrimitiveCorners<'a> {
     /// The corners; none of points and lines. Errors: broken indices.
-    pub(super) fn find(
+    pub(in crate::gltf) fn find(
         document: &'a Document,
         name: &PrimitiveName,
         primitive: &'a schema::Primitive,
     ) -> Result<Option<Self>, Error> {
-        let Some(topology) = Topology::from_mode(primitive.mode) else { return Ok(None) };
+        let Some(topology) = TriangleMode::from_mode(primitive.mode) else { return Ok(None) };
         let mut indices = match (primitive.indices, primitive.attributes.get("POSITION")) {
             (Some(accessor), _) => document.read_indices(accessor)?,
             (None, Some(&position)) => (0..element_count(document, position)? as u32).collect(),
@@ -95,7 +95,7 @@ impl Document {
     /// Errors: broken indices; more corners than a file of this size can mean.
     pub fn corners(&self) -> Result<Vec<PrimitiveCorners<'_>>, Error> {
         let primitives = || self.meshes().iter().flat_map(|mesh| &mesh.primitives);
-        excess::check_triangles(self, primitives().filter_map(|primitive| triangle_count(self, primitive)))?;
+        limits::check_triangles(self, primitives().filter_map(|primitive| triangle_count(self, primitive)))?;
         let mut found = Vec::new();
         for (index, mesh) in self.meshes().iter().enumerate() {
             for (place, primitive) in mesh.primitives.iter().enumerate() {
@@ -108,8 +108,8 @@ impl Document {
 }
 
 /// The triangles of a primitive, as its accessors claim them; none of points and lines.
-pub(super) fn triangle_count(document: &Document, primitive: &schema::Primitive) -> Option<usize> {
+pub fn triangle_count(document: &Document, primitive: &schema::Primitive) -> Option<usize> {
     let source = primitive.indices.or_else(|| primitive.attributes.get("POSITION").copied());
     let count = source.and_then(|accessor| document.accessors().get(accessor)).map_or(0, |found| found.count);
-    Topology::from_mode(primitive.mode).map(|topology| topology.triangle_count(count))
+    TriangleMode::from_mode(primitive.mode).map(|topology| topology.triangle_count(count))
 }

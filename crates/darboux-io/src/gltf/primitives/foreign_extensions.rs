@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::PrimitiveName;
+use super::name::PrimitiveName;
 use crate::gltf::Document;
 
 #[derive(Deserialize)]

@@ -1,6 +1,5 @@
 //! Small files that ask for much: accessors over the same bytes, again and again.
 
-use super::share::Group;
 use crate::Error;
 use crate::gltf::Document;
 
@@ -12,11 +11,6 @@ const ALWAYS_ALLOWED: usize = 1 << 20;
 
 fn limit(document: &Document) -> usize {
     document.stored_bytes().saturating_mul(MOST_PER_BYTE).saturating_add(ALWAYS_ALLOWED)
-}
-
-/// Errors: more corners to compute than the document has room for.
-pub fn check_corners(document: &Document, groups: &[Group]) -> Result<(), Error> {
-    check_triangles(document, groups.iter().flat_map(|group| &group.jobs).map(|job| job.triangle_count))
 }
 
 /// Errors: more corners in all these triangles than the document has room for.

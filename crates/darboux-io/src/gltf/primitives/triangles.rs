@@ -2,7 +2,7 @@
 
 /// How corners make triangles (glTF 2.0, 3.7.2.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Topology {
+pub enum TriangleMode {
     /// Three corners each.
     Triangles,
     /// Every corner with the two after it; every other triangle is turned round.
@@ -11,7 +11,7 @@ pub enum Topology {
     Fan,
 }
 
-impl Topology {
+impl TriangleMode {
     /// The topology with glTF's number, if it makes triangles.
     pub fn from_mode(mode: u32) -> Option<Self> {
         match mode {
@@ -60,21 +60,21 @@ pub fn mode_name(mode: u32) -> Option<&'static str> {
 
 #[cfg(test)]
 mod tests {
-    use super::Topology;
+    use super::TriangleMode;
 
     #[test]
     fn strips_and_fans_wind_as_the_specification_says() {
         let list = vec![10, 11, 12, 13, 14];
-        assert_eq!(Topology::Strip.corners(list.clone()), [10, 11, 12, 11, 13, 12, 12, 13, 14]);
-        assert_eq!(Topology::Fan.corners(list), [11, 12, 10, 12, 13, 10, 13, 14, 10]);
+        assert_eq!(TriangleMode::Strip.corners(list.clone()), [10, 11, 12, 11, 13, 12, 12, 13, 14]);
+        assert_eq!(TriangleMode::Fan.corners(list), [11, 12, 10, 12, 13, 10, 13, 14, 10]);
     }
 
     #[test]
     fn too_few_indices_make_nothing() {
-        assert_eq!(Topology::Triangles.whole(5), 3);
-        assert!(Topology::Strip.corners(vec![0, 1]).is_empty());
-        assert!(Topology::Fan.corners(vec![0, 1]).is_empty());
-        for topology in [Topology::Triangles, Topology::Strip, Topology::Fan] {
+        assert_eq!(TriangleMode::Triangles.whole(5), 3);
+        assert!(TriangleMode::Strip.corners(vec![0, 1]).is_empty());
+        assert!(TriangleMode::Fan.corners(vec![0, 1]).is_empty());
+        for topology in [TriangleMode::Triangles, TriangleMode::Strip, TriangleMode::Fan] {
             assert_eq!(topology.triangle_count(2), 0);
         }
     }

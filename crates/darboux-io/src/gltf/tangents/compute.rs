@@ -7,10 +7,11 @@ use darboux::{
     CornerTangents, Mesh, Plan, Report, Scratch, TangentOptions, Tangents, generate_tangents_into,
 };
 
-use super::share::{Group, Job};
-use super::topology::Topology;
-use super::{TangentEncoding, TangentsOptions};
+use super::encoding::TangentEncoding;
+use super::groups::{Group, Job};
+use super::options::TangentsOptions;
 use crate::Error;
+use crate::gltf::primitives::triangles::TriangleMode;
 use crate::gltf::{Document, IndexList};
 
 /// One vector per vertex.
@@ -72,7 +73,7 @@ impl<'a> Vertices<'a> {
 
 /// The result of one job.
 #[derive(Debug)]
-pub struct Surface<'a> {
+pub struct JobResult<'a> {
     /// The vertices of all whole triangles, three each.
     pub corners: IndexList<'a>,
     /// Indices after the last whole triangle.
@@ -102,7 +103,7 @@ pub fn on_cpu(
 /// Computes a job. `at` is the JSON path of a primitive that it belongs to; with `morphs` it is kept ready for morph targets.
 ///
 /// Errors: indices out of range, attributes of different lengths; with [`TangentsOptions::strict`], unusable data.
-pub fn surface<'a>(
+pub fn compute_job<'a>(
     document: &'a Document,
     at: &str,
     vertices: &mut Vertices<'_>,
@@ -110,11 +111,11 @@ pub fn surface<'a>(
     morphs: bool,
     options: &TangentsOptions,
     (generate, scratch): (&mut Generate<'_>, &mut Scratch),
-) -> Result<Surface<'a>, Error> {
+) -> Result<JobResult<'a>, Error> {
     let mut corners = indices(document, job, vertices.positions.len())?;
     let rest = corners.split_off(job.topology.whole(corners.len()));
     let corners = match job.topology {
-        Topology::Triangles => corners,
+        TriangleMode::Triangles => corners,
         other => IndexList::U32(other.corners(corners.widened()).into()),
     };
     let mesh = vertices.mesh(document, at, job, &corners)?;
@@ -135,7 +136,7 @@ pub fn surface<'a>(
     if options.encoding != TangentEncoding::F32x4 {
         tangents = tangents.map(|tangent| options.encoding.rounded(tangent));
     }
-    Ok(Surface { corners, rest, tangents, report, plan })
+    Ok(JobResult { corners, rest, tangents, report, plan })
 }
 
 fn indices<'a>(document: &'a Document, job: &Job, vertex_count: usize) -> Result<IndexList<'a>, Error> {

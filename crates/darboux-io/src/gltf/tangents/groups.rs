@@ -3,10 +3,9 @@
 use std::collections::HashMap;
 
 use super::select::Chosen;
-use super::topology::Topology;
 use super::uv::UvTransform;
-use crate::gltf::Document;
-use crate::gltf::schema::Accessor;
+use crate::gltf::primitives::canonical::CanonicalAccessors;
+use crate::gltf::primitives::triangles::TriangleMode;
 
 /// Primitives over the same positions, normals and UVs: they are split jointly and share one `TANGENT` accessor.
 ///
@@ -20,14 +19,14 @@ pub struct Group {
     /// The different things to compute.
     pub jobs: Vec<Job>,
     /// The primitives, in the order of the file.
-    pub members: Vec<Member>,
+    pub members: Vec<GroupMember>,
 }
 
 /// Tangents to compute: the same for all primitives with these indices.
 #[derive(Debug)]
 pub struct Job {
     pub indices: Option<usize>,
-    pub topology: Topology,
+    pub topology: TriangleMode,
     pub transform: Option<UvTransform>,
     pub triangle_count: usize,
     /// The place in the selection of the first primitive with it.
@@ -36,7 +35,7 @@ pub struct Job {
 
 /// A primitive of a group.
 #[derive(Debug)]
-pub struct Member {
+pub struct GroupMember {
     /// Its place in the selection.
     pub candidate: usize,
     /// Its place in [`Group::jobs`].
@@ -44,7 +43,10 @@ pub struct Member {
 }
 
 /// Sorts primitives into groups, in the order in which each group is met first.
-pub fn group<'a>(accessors: &Canonical, chosen: impl Iterator<Item = (usize, &'a Chosen)>) -> Vec<Group> {
+pub fn group<'a>(
+    accessors: &CanonicalAccessors,
+    chosen: impl Iterator<Item = (usize, &'a Chosen)>,
+) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     let mut group_of = HashMap::new();
     let mut job_of = HashMap::new();
@@ -64,36 +66,12 @@ pub fn group<'a>(accessors: &Canonical, chosen: impl Iterator<Item = (usize, &'a
             jobs.push(Job { indices, topology, transform, triangle_count, first: candidate });
             jobs.len() - 1
         });
-        groups[place].members.push(Member { candidate, job });
+        groups[place].members.push(GroupMember { candidate, job });
     }
     groups
 }
 
-/// One accessor for all that read the same bytes in the same way: some exporters write an accessor per primitive.
-#[derive(Debug)]
-pub struct Canonical(Vec<usize>);
-
-impl Canonical {
-    /// Compares all accessors of a document.
-    pub fn new(document: &Document) -> Self {
-        let mut first = HashMap::new();
-        let accessors = document.accessors().iter().enumerate();
-        Self(accessors.map(|(index, accessor)| *first.entry(reading(accessor)).or_insert(index)).collect())
-    }
-
-    /// The first accessor that reads what `accessor` reads. Accessors that do not exist are their own.
-    pub fn of(&self, accessor: usize) -> usize {
-        self.0.get(accessor).copied().unwrap_or(accessor)
-    }
-}
-
-/// All that decides what an accessor reads.
-fn reading(accessor: &Accessor) -> impl Eq + std::hash::Hash {
-    let sparse = accessor.sparse.as_deref().map(|sparse| {
-        let (indices, values) = (&sparse.indices, &sparse.values);
-        let places = (indices.buffer_view, indices.byte_offset, indices.component_type.code());
-        (sparse.count, places, values.buffer_view, values.byte_offset)
-    });
-    let element = (accessor.element_type.name(), accessor.component_type.code(), accessor.normalized);
-    (accessor.buffer_view, accessor.byte_offset, accessor.count, element, sparse)
+/// The number of triangles of every job.
+pub fn triangle_counts(groups: &[Group]) -> impl Iterator<Item = usize> {
+    groups.iter().flat_map(|group| &group.jobs).map(|job| job.triangle_count)
 }

@@ -3,13 +3,14 @@
 use std::collections::HashMap;
 use std::ops::Add;
 
-use super::TangentsOptions;
-use super::compute::{Surface, Vertices};
+use super::compute::{JobResult, Vertices};
+use super::groups::Group;
+use super::options::TangentsOptions;
 use super::select::Selection;
-use super::share::{Canonical, Group};
 use super::split::Split;
 use crate::Error;
 use crate::gltf::Document;
+use crate::gltf::primitives::canonical::CanonicalAccessors;
 use crate::gltf::schema::Attributes;
 
 /// What moves vertices: accessors of position and of normal offsets.
@@ -28,7 +29,11 @@ impl Movement {
     /// What moves vertices in `target`, if tangent offsets are to be written for it.
     ///
     /// Offsets that exist stay unless they are to be replaced; targets that move neither positions nor normals need none.
-    pub fn of(accessors: &Canonical, target: &Attributes, options: &TangentsOptions) -> Option<Self> {
+    pub fn of(
+        accessors: &CanonicalAccessors,
+        target: &Attributes,
+        options: &TangentsOptions,
+    ) -> Option<Self> {
         let offsets = |semantic| target.get(semantic).map(|&accessor| accessors.of(accessor));
         let (position, normal) = (offsets("POSITION"), offsets("NORMAL"));
         let wanted = options.overwrite || !target.contains_key("TANGENT");
@@ -51,7 +56,7 @@ pub struct Morph {
 /// The different movements of a group, in the order in which each is met first.
 pub fn morphs(
     document: &Document,
-    accessors: &Canonical,
+    accessors: &CanonicalAccessors,
     group: &Group,
     selection: &Selection,
     options: &TangentsOptions,
@@ -111,7 +116,7 @@ pub fn offsets(
     morph: &Morph,
     group: &Group,
     vertices: &mut Vertices<'_>,
-    surfaces: &[Surface<'_>],
+    results: &[JobResult<'_>],
     split: &Split,
     options: &TangentsOptions,
 ) -> Result<Offsets, Error> {
@@ -120,17 +125,17 @@ pub fn offsets(
     let positions = moved(&vertices.positions, position)?;
     let normals = moved(&vertices.normals, normal)?;
     let base = vertices.replace(positions.into(), normals.into());
-    let mut field = Field::new(split.vertex_count());
+    let mut field = OffsetField::new(split.vertex_count());
     let mut misfits = Vec::with_capacity(morph.jobs.len());
     for &job in &morph.jobs {
-        let surface = &surfaces[job];
-        let mesh = vertices.mesh(document, &morph.at, &group.jobs[job], &surface.corners)?;
-        let plan = surface.plan.as_ref().expect("jobs that move are computed with one");
+        let result = &results[job];
+        let mesh = vertices.mesh(document, &morph.at, &group.jobs[job], &result.corners)?;
+        let plan = result.plan.as_ref().expect("jobs that move are computed with one");
         let in_document = |error| document.mesh_error(&morph.at, error);
         let evaluated = plan.evaluate(&mesh).map_err(in_document)?;
         let regrouped = plan.count_regrouped(&mesh).map_err(in_document)?;
-        let tangents = evaluated.per_corner().iter().zip(surface.tangents.per_corner());
-        let corners = split.vertices(job, surface).zip(tangents);
+        let tangents = evaluated.per_corner().iter().zip(result.tangents.per_corner());
+        let corners = split.vertices(job, result).zip(tangents);
         let conflicting = corners.filter(|&(vertex, (moved, base))| !field.hold(vertex, moved, base)).count();
         misfits.push(Misfits { regrouped, conflicting });
     }
@@ -162,12 +167,12 @@ fn moved(
 }
 
 /// One offset per vertex; the first corner that asks decides.
-struct Field {
+struct OffsetField {
     offsets: Vec<[f32; 3]>,
     held: Vec<bool>,
 }
 
-impl Field {
+impl OffsetField {
     fn new(vertex_count: usize) -> Self {
         Self { offsets: vec![[0.0; 3]; vertex_count], held: vec![false; vertex_count] }
     }

@@ -4,15 +4,14 @@ use std::collections::BTreeSet;
 
 use darboux::Method;
 
-use super::topology::{Topology, mode_name};
+use super::options::TangentsOptions;
+use super::summary::NO_NORMAL;
 use super::uv::{UvChoice, UvTransform, needs_tangents, turns_tangents};
-use super::{PrimitiveName, TangentsOptions};
 use crate::Error;
-use crate::gltf::Document;
+use crate::gltf::primitives::element_count;
+use crate::gltf::primitives::triangles::{TriangleMode, mode_name};
 use crate::gltf::schema::{Material, Primitive};
-
-/// Why a primitive without normals is left alone.
-pub const NO_NORMAL: &str = "it has no NORMAL, which tangents need";
+use crate::gltf::{Document, PrimitiveName};
 
 /// Every primitive of a document, in its order, with what is to be done.
 #[derive(Debug)]
@@ -49,7 +48,7 @@ pub struct Chosen {
     /// None where the method needs none, and there are none.
     pub uv: Option<usize>,
     pub indices: Option<usize>,
-    pub topology: Topology,
+    pub topology: TriangleMode,
     pub transform: Option<UvTransform>,
     pub index_count: usize,
     pub replaces: bool,
@@ -154,7 +153,7 @@ fn judge(
         let problem = format!("{} is no mode; use 0 to 6", primitive.mode);
         return Err(document.invalid(format!("{}.mode", name.path()), problem));
     };
-    let Some(topology) = Topology::from_mode(primitive.mode) else {
+    let Some(topology) = TriangleMode::from_mode(primitive.mode) else {
         return Ok(Verdict::Skipped(format!("its mode is {mode}; only triangles have tangents")));
     };
     let replaces = attribute("TANGENT").is_some();
@@ -199,16 +198,6 @@ fn missing_uv(primitive: &Primitive, uv: &UvChoice) -> String {
     }
 }
 
-/// The number of elements of an accessor that something refers to.
-pub fn element_count(document: &Document, accessor: usize) -> Result<usize, Error> {
-    match document.accessors().get(accessor) {
-        Some(accessor) => Ok(accessor.count),
-        None => {
-            Err(document.invalid(format!("accessors[{accessor}]"), "does not exist; export the file again"))
-        }
-    }
-}
-
 /// What a user should look at. What concerns a material is said once, not for each of its primitives.
 #[derive(Default)]
 struct Warnings {
@@ -240,7 +229,7 @@ impl Warnings {
 
     fn incomplete(&mut self, name: &PrimitiveName, chosen: &Chosen) {
         let over = chosen.index_count % 3;
-        if chosen.topology == Topology::Triangles && over != 0 {
+        if chosen.topology == TriangleMode::Triangles && over != 0 {
             self.sentences.push(format!(
                 "{name}: its last {over} of {} corners make no triangle; they stay, without tangents of their own",
                 chosen.index_count

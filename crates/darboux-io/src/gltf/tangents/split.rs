@@ -4,8 +4,8 @@ use std::mem;
 
 use darboux::{Convention, Splitter};
 
-use super::compute::{Surface, Vertices};
-use super::share::{Group, Job};
+use super::compute::{JobResult, Vertices};
+use super::groups::{Group, Job};
 use crate::Error;
 use crate::gltf::Document;
 
@@ -20,7 +20,7 @@ pub struct Split {
     corners: Vec<Option<Vec<u32>>>,
 }
 
-/// Splits the surfaces of `group`, one per job, jointly.
+/// Splits the results of `group`, one per job, jointly.
 ///
 /// Errors: more vertices than 32-bit indices can tell apart. `at` is the JSON path of the group's first primitive.
 pub fn split(
@@ -28,17 +28,17 @@ pub fn split(
     at: &str,
     group: &Group,
     vertices: &mut Vertices<'_>,
-    surfaces: &[Surface<'_>],
+    results: &[JobResult<'_>],
 ) -> Result<Split, Error> {
-    let corner_count: usize = surfaces.iter().map(|surface| surface.corners.len()).sum();
+    let corner_count: usize = results.iter().map(|result| result.corners.len()).sum();
     if vertices.positions.len().saturating_add(corner_count) >= u32::MAX as usize {
         return Err(document.invalid(at, "has too many vertices for 32-bit indices; divide the mesh"));
     }
     let mut splitter = Splitter::new(vertices.positions.len());
-    let mut corners = Vec::with_capacity(surfaces.len());
-    for (job, surface) in group.jobs.iter().zip(surfaces) {
-        let mesh = vertices.mesh(document, at, job, &surface.corners)?;
-        let added = splitter.add_changes(&mesh, &surface.tangents);
+    let mut corners = Vec::with_capacity(results.len());
+    for (job, result) in group.jobs.iter().zip(results) {
+        let mesh = vertices.mesh(document, at, job, &result.corners)?;
+        let added = splitter.add_changes(&mesh, &result.tangents);
         corners.push(added.map_err(|error| document.mesh_error(at, error))?);
     }
     let (tangents, mut copies) = splitter.finish_in(Convention::GLTF.generated(), Convention::GLTF);
@@ -58,13 +58,13 @@ impl Split {
     }
 
     /// The index list of each job; none where the old one serves.
-    pub fn take_lists(&mut self, group: &Group, surfaces: &[Surface<'_>]) -> Vec<Option<Vec<u32>>> {
+    pub fn take_lists(&mut self, group: &Group, results: &[JobResult<'_>]) -> Vec<Option<Vec<u32>>> {
         let is_needed = self.is_needed();
         let unindexed = |job: &Job| is_needed && job.indices.is_none();
-        let jobs = group.jobs.iter().zip(surfaces).zip(mem::take(&mut self.corners));
-        jobs.map(|((job, surface), corners)| {
-            let mut list = corners.or_else(|| unindexed(job).then(|| surface.corners.iter().collect()))?;
-            list.extend(&surface.rest);
+        let jobs = group.jobs.iter().zip(results).zip(mem::take(&mut self.corners));
+        jobs.map(|((job, result), corners)| {
+            let mut list = corners.or_else(|| unindexed(job).then(|| result.corners.iter().collect()))?;
+            list.extend(&result.rest);
             Some(list)
         })
         .collect()
@@ -74,11 +74,11 @@ impl Split {
     pub fn vertices<'a>(
         &'a self,
         job: usize,
-        surface: &'a Surface<'_>,
+        result: &'a JobResult<'_>,
     ) -> Box<dyn Iterator<Item = u32> + 'a> {
         match &self.corners[job] {
             Some(corners) => Box::new(corners.iter().copied()),
-            None => surface.corners.iter(),
+            None => result.corners.iter(),
         }
     }
 

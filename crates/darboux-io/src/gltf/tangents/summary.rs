@@ -1,11 +1,12 @@
 //! What was done: per primitive, in the order of the file, and in total.
 
-use std::fmt;
-
 use darboux::Report;
 use serde::Serialize;
 
-use super::select::NO_NORMAL;
+use crate::gltf::PrimitiveName;
+
+/// Why a primitive without normals is left alone.
+pub(super) const NO_NORMAL: &str = "it has no NORMAL, which tangents need";
 
 /// What [`add_tangents`](super::add_tangents) did to a document.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -43,34 +44,6 @@ pub struct PrimitiveSummary {
     /// What was done.
     #[serde(flatten)]
     pub outcome: Outcome,
-}
-
-/// A primitive, as messages and reports name it: `meshes[2].primitives[0] "Body"`.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct PrimitiveName {
-    /// The index of the mesh.
-    pub mesh: usize,
-    /// The name of the mesh, where it has one.
-    pub mesh_name: Option<String>,
-    /// The index of the primitive in the mesh.
-    pub primitive: usize,
-}
-
-impl PrimitiveName {
-    /// The JSON path: `meshes[2].primitives[0]`.
-    pub fn path(&self) -> String {
-        format!("meshes[{}].primitives[{}]", self.mesh, self.primitive)
-    }
-}
-
-impl fmt::Display for PrimitiveName {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.path())?;
-        match &self.mesh_name {
-            Some(name) => write!(f, " {name:?}"),
-            None => Ok(()),
-        }
-    }
 }
 
 /// What was done to a primitive, and why.

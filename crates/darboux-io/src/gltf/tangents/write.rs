@@ -4,14 +4,16 @@ use std::collections::HashMap;
 
 use serde_json::Value;
 
+use super::encoding::TangentEncoding;
+use super::groups::{Group, GroupMember};
 use super::morph::Movement;
+use super::options::TangentsOptions;
 use super::select::Candidate;
-use super::share::{Canonical, Group, Member};
 use super::split::Split;
-use super::topology::Topology;
-use super::{TangentEncoding, TangentsOptions};
 use crate::Error;
-use crate::gltf::append::{Appended, index_elements, set_attributes};
+use crate::gltf::primitives::append::{Appended, index_elements, set_attributes};
+use crate::gltf::primitives::canonical::CanonicalAccessors;
+use crate::gltf::primitives::triangles::TriangleMode;
 use crate::gltf::schema::Attributes;
 use crate::gltf::{Document, NewAccessor, Target};
 
@@ -30,7 +32,7 @@ pub fn push_tangents(
 
 /// What the primitives of a group refer to.
 #[derive(Debug)]
-pub struct Results<'a> {
+pub struct GroupAccessors<'a> {
     pub split: &'a Split,
     /// The index list of each job; none where the old one serves.
     pub lists: Vec<Option<Vec<u32>>>,
@@ -42,23 +44,23 @@ pub struct Results<'a> {
 
 /// Writes the members of one group. What they share is written when the first of them needs it.
 #[derive(Debug)]
-pub struct Writer<'a> {
-    accessors: &'a Canonical,
+pub struct TangentWriter<'a> {
+    accessors: &'a CanonicalAccessors,
     options: &'a TangentsOptions,
     group: &'a Group,
-    results: Results<'a>,
+    results: GroupAccessors<'a>,
     appended: Appended<'a>,
     /// New indices, by job.
     indices: HashMap<usize, usize>,
 }
 
-impl<'a> Writer<'a> {
+impl<'a> TangentWriter<'a> {
     /// A writer that has written nothing yet.
     pub fn new(
-        accessors: &'a Canonical,
+        accessors: &'a CanonicalAccessors,
         options: &'a TangentsOptions,
         group: &'a Group,
-        results: Results<'a>,
+        results: GroupAccessors<'a>,
     ) -> Self {
         let appended = Appended::new(accessors, &results.split.copies, results.split.old_vertex_count());
         Self { accessors, options, group, results, appended, indices: HashMap::new() }
@@ -70,7 +72,7 @@ impl<'a> Writer<'a> {
     pub fn write(
         &mut self,
         document: &mut Document,
-        member: &Member,
+        member: &GroupMember,
         candidate: &Candidate,
     ) -> Result<Vec<Movement>, Error> {
         let name = &candidate.name;
@@ -96,7 +98,7 @@ impl<'a> Writer<'a> {
             }
             if let Some(indices) = indices {
                 json.insert("indices".to_owned(), indices.into());
-                if self.group.jobs[member.job].topology != Topology::Triangles {
+                if self.group.jobs[member.job].topology != TriangleMode::Triangles {
                     json.insert("mode".to_owned(), 4.into());
                 }
             }

@@ -1,0 +1,151 @@
+//! Elements of accessors as bytes, and new accessors made of them.
+
+use std::fmt::Write as _;
+
+use serde_json::Value;
+
+use super::json_text;
+use super::schema::{Accessor, ComponentType, ElementType, Sparse};
+
+/// The elements of an accessor as stored, one after the other; sparse elements are in place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Elements {
+    /// `count` elements of [`Elements::element_size`] bytes, little-endian.
+    pub bytes: Vec<u8>,
+    /// The number of elements.
+    pub count: usize,
+    /// The type of each component.
+    pub component_type: ComponentType,
+    /// The components of each element.
+    pub element_type: ElementType,
+    /// Whether integers stand for [0, 1] or [-1, 1].
+    pub normalized: bool,
+}
+
+impl Elements {
+    /// Bytes per element; matrices keep the padding of their columns.
+    pub fn element_size(&self) -> usize {
+        self.element_type.size(self.component_type)
+    }
+
+    /// The places of the elements that are not zero, if storing only those takes fewer bytes.
+    pub(super) fn worth_storing(&self) -> Option<Vec<u32>> {
+        let size = self.element_size();
+        let elements = self.bytes.chunks_exact(size).enumerate();
+        let places = elements.filter(|(_, element)| element.iter().any(|&byte| byte != 0));
+        let places: Vec<_> = places.map(|(place, _)| u32::try_from(place)).collect::<Result<_, _>>().ok()?;
+        (places.len() * (4 + size) < self.bytes.len()).then_some(places)
+    }
+
+    /// The least and the greatest finite value of every component; none where a component has no finite value.
+    pub(super) fn bounds(&self) -> Option<Bounds> {
+        let (columns, rows) = self.element_type.shape();
+        let (size, column_size) = (self.component_type.size(), self.element_size() / columns);
+        let mut bounds = vec![(f64::INFINITY, f64::NEG_INFINITY); columns * rows];
+        for element in self.bytes.chunks_exact(self.element_size()) {
+            let columns = element.chunks_exact(column_size);
+            let components = columns.flat_map(|column| column.chunks_exact(size).take(rows));
+            for (bound, bytes) in bounds.iter_mut().zip(components) {
+                let value = self.component_type.value(bytes);
+                if value.is_finite() {
+                    *bound = (bound.0.min(value), bound.1.max(value));
+                }
+            }
+        }
+        let known = bounds.iter().all(|(min, max)| min <= max);
+        known.then(|| bounds.into_iter().unzip())
+    }
+}
+
+impl ComponentType {
+    /// The number that `bytes` store, not normalised.
+    fn value(self, bytes: &[u8]) -> f64 {
+        let word = bytes.iter().rev().fold(0u32, |word, &byte| word << 8 | u32::from(byte));
+        match self {
+            Self::U8 | Self::U16 | Self::U32 => f64::from(word),
+            Self::I8 => f64::from(word as u8 as i8),
+            Self::I16 => f64::from(word as u16 as i16),
+            Self::F32 => f64::from(f32::from_bits(word)),
+        }
+    }
+}
+
+/// The least and the greatest value of every component.
+pub(super) type Bounds = (Vec<f64>, Vec<f64>);
+
+/// An accessor to append, with its bytes. The layout is that of [`Elements`]; alignment is the document's matter.
+#[derive(Clone, Debug)]
+pub struct NewAccessor {
+    /// The elements.
+    pub elements: Elements,
+    /// What the elements are for: vertex attributes or indices.
+    pub target: Target,
+    /// Whether `min` and `max` are written, as they must be for positions. Non-finite values are left out of them.
+    pub bounds: bool,
+    /// Whether only the elements that are not zero may be stored, where that takes fewer bytes.
+    pub sparse: bool,
+    /// An accessor whose name, extras and extensions are copied.
+    pub like: Option<usize>,
+}
+
+/// What a buffer view is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// Vertex attributes and morph targets: elements start at multiples of four bytes.
+    Vertices,
+    /// Indices: tightly packed.
+    Indices,
+    /// Keyframes, matrices, whatever is not of primitives: tightly packed.
+    Other,
+}
+
+impl Target {
+    /// glTF's number, where it has one.
+    pub(super) fn code(self) -> Option<u32> {
+        match self {
+            Self::Vertices => Some(34962),
+            Self::Indices => Some(34963),
+            Self::Other => None,
+        }
+    }
+
+    /// Bytes from one element of `size` bytes to the next.
+    pub(super) fn stride(self, size: usize) -> usize {
+        match self {
+            Self::Vertices => size.next_multiple_of(4),
+            Self::Indices | Self::Other => size,
+        }
+    }
+}
+
+impl Accessor {
+    /// The JSON of a new accessor with some `bounds`, described `like` another.
+    pub(super) fn to_json(&self, bounds: Option<Bounds>, like: Option<&Accessor>) -> String {
+        let mut text = "{".to_owned();
+        if let Some(view) = self.buffer_view {
+            let _ = write!(text, "\"bufferView\":{view},");
+        }
+        let _ = write!(text, "\"componentType\":{}", self.component_type.code());
+        if self.normalized {
+            text.push_str(",\"normalized\":true");
+        }
+        let _ = write!(text, ",\"count\":{},\"type\":\"{}\"", self.count, self.element_type.name());
+        if let Some((min, max)) = bounds {
+            let (min, max) = (Value::from(min), Value::from(max));
+            let _ = write!(text, ",\"min\":{min},\"max\":{max}");
+        }
+        if let Some(Sparse { count, indices, values }) = self.sparse.as_deref() {
+            let (kind, indices, values) =
+                (indices.component_type.code(), indices.buffer_view, values.buffer_view);
+            let indices = format!("{{\"bufferView\":{indices},\"componentType\":{kind}}}");
+            let values = format!("{{\"bufferView\":{values}}}");
+            let _ =
+                write!(text, ",\"sparse\":{{\"count\":{count},\"indices\":{indices},\"values\":{values}}}");
+        }
+        for (key, value) in like.map(Accessor::descriptions).into_iter().flatten() {
+            let _ = write!(text, ",{}:{value}", json_text::quoted(key));
+        }
+        text.push('}');
+        text
+    }
+}

@@ -1,0 +1,16 @@
+//! Images: normal maps in PNG files, converted with every other chunk kept, and textures decoded to RGBA.
+
+mod channels;
+mod chunks;
+mod normal_map;
+mod png_image;
+#[cfg(feature = "textures")]
+mod rgba;
+mod srgb;
+
+pub use channels::{Channels, ChannelsError};
+pub use normal_map::{convert_normal_map, count_no_normals};
+pub use png_image::PngImage;
+#[cfg(feature = "textures")]
+pub use rgba::{DecodeError, DecodeLimits, RgbaImage};
+pub use srgb::linear_of_srgb;
