@@ -52,3 +52,8 @@ pub mod stages {
     pub use crate::mikktspace::generate::{Arrays, Recorded};
     pub use crate::mikktspace::stages::{Evaluation, EvaluationKernels, Grouped};
 }
+
+/// The example of docs/gpu.md compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/gpu.md")]
+struct GpuPage;
