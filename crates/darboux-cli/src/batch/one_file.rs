@@ -1,103 +1,106 @@
-//! The work on one file, up to its report.
+//! Processes one file and returns its report; a panic fails this file alone.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use super::{Made, Work, size_of};
-use crate::arguments::Files;
-use crate::jobs::{Input, Job, Output};
-use crate::journal::{Origin, Record};
-use crate::messages::{FileProgress, Messages};
-use crate::report::{FileReport, Status, Told};
+use super::command::{FileCommand, ProcessedFile};
+use super::journal::{Origin, Record};
+use super::plan::{Job, Output};
+use super::report::{FileReport, Status, SummarySource};
+use crate::inputs::Input;
+use crate::options::files::FileOptions;
+use crate::terminal::{FileProgress, Messages};
 
-/// What a journal knows of an output.
+/// The journal's folder and its record of one output.
 #[derive(Clone, Copy)]
-pub struct Known<'a> {
-    /// The journal's folder.
+pub struct JournalEntry<'a> {
     pub folder: &'a Path,
+    /// `None` for an output that the journal does not list.
     pub record: Option<&'a Record>,
 }
 
-/// A file that is done, or that failed.
-pub struct Done<S> {
+/// The report of a file, and the record to add to the journal.
+pub struct FinishedFile<S> {
     pub report: FileReport<S>,
-    /// What is new to the journal, if there is one.
+    /// `None` without a journal and for files that did not change.
     pub record: Option<Record>,
 }
 
-/// Works on a file; a panic fails this file alone. `known`: none where no journal is kept.
-pub fn work<W: Work>(
+/// Processes a file. `entry` is `None` for runs without a journal.
+pub fn process_file<W: FileCommand>(
     command: &W,
     job: &Job,
-    known: Option<Known<'_>>,
+    entry: Option<JournalEntry<'_>>,
     messages: &Messages,
-) -> Done<W::Summary> {
-    let progress = messages.file(&job.input.to_string(), size_of(&job.input));
-    let done = caught(&job.input, || match (known, &job.input, &job.output) {
-        (Some(known), Input::File(input), Output::File(output)) => {
-            resumed(command, job, known, (input, output), &progress)
+) -> FinishedFile<W::Summary> {
+    let progress = messages.file(&job.input.to_string(), job.input.byte_length());
+    let finished = catch_panic(&job.input, || match (entry, &job.input, &job.output) {
+        (Some(entry), Input::File(input), Output::File(output)) => {
+            resume(command, job, entry, (input, output), &progress)
         }
         _ => refuse_existing(&job.output, command.files())
             .and_then(|()| command.process(job, &progress))
-            .map(|made| Done { report: told(job, made), record: None }),
+            .map(|processed| FinishedFile { report: report_of(job, processed), record: None }),
     });
-    done.unwrap_or_else(|sentence| Done {
+    finished.unwrap_or_else(|sentence| FinishedFile {
         report: FileReport::failed(job.input.to_string(), sentence),
         record: None,
     })
 }
 
-/// What `work` gives, or one sentence for its panic. Nothing that it changed is looked at afterwards but whole files.
-fn caught<T>(input: &Input, work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
+/// Returns the result of `work`, or one sentence for its panic. `work` shares no state with later files except complete files on disk.
+fn catch_panic<T>(input: &Input, work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
-        let told =
+        let text =
             panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
-        let reason = told.and_then(|told| told.lines().next()).unwrap_or("no reason given");
-        Err(format!("{input}: the work on it broke off: {reason}; this is a defect of darboux"))
+        let reason = text.and_then(|text| text.lines().next()).unwrap_or("unknown reason");
+        Err(format!(
+            "{input}: darboux failed on this file: {reason}; this is a defect of darboux, please report it"
+        ))
     })
 }
 
-/// Works on a file unless its output is up to date.
-fn resumed<W: Work>(
+/// Processes a file unless its output is up to date.
+fn resume<W: FileCommand>(
     command: &W,
     job: &Job,
-    Known { folder, record }: Known<'_>,
+    JournalEntry { folder, record }: JournalEntry<'_>,
     (input, output): (&Path, &Path),
     progress: &FileProgress<'_>,
-) -> Result<Done<W::Summary>, String> {
-    // Before the work: an input that changes meanwhile has another content next time.
-    let origin = Origin::new(W::COMMAND, command.options(), input, command.files().allow_outside)?;
-    if let Some(record) = record.filter(|record| record.is_of(&origin, folder)) {
+) -> Result<FinishedFile<W::Summary>, String> {
+    // Hash the input first: if it changes during the work, the next run sees another hash.
+    let origin = Origin::new(W::NAME, command.options(), input, command.files().allow_outside)?;
+    if let Some(record) = record.filter(|record| record.is_up_to_date(&origin, folder)) {
         let report = FileReport {
             input: job.input.to_string(),
             output: Some(job.output.to_string()),
             status: Status::UpToDate,
             error: None,
             files_written: Vec::new(),
-            summary: Told::Before(record.summary.clone()),
+            summary: SummarySource::Journal(record.summary.clone()),
         };
-        return Ok(Done { report, record: None });
+        return Ok(FinishedFile { report, record: None });
     }
-    let made = command.process(job, progress)?;
-    let record = Record::new(folder, output, origin, &made.files_written, &made.summary)?;
-    Ok(Done { report: told(job, made), record })
+    let processed = command.process(job, progress)?;
+    let record = Record::new(folder, output, origin, &processed.files_written, &processed.summary)?;
+    Ok(FinishedFile { report: report_of(job, processed), record })
 }
 
-fn told<S>(job: &Job, made: Made<S>) -> FileReport<S> {
+fn report_of<S>(job: &Job, processed: ProcessedFile<S>) -> FileReport<S> {
     FileReport {
         input: job.input.to_string(),
         output: Some(job.output.to_string()),
-        status: made.status,
+        status: processed.status,
         error: None,
-        files_written: made.files_written,
-        summary: Told::Now(made.summary),
+        files_written: processed.files_written,
+        summary: SummarySource::ThisRun(processed.summary),
     }
 }
 
-/// Says before any work that an output is in the way.
-fn refuse_existing(output: &Output, files: &Files) -> Result<(), String> {
+/// Refuses an output that exists, before any work.
+fn refuse_existing(output: &Output, files: &FileOptions) -> Result<(), String> {
     match output {
-        Output::File(path) if path.exists() && !files.replace() => {
+        Output::File(path) if path.exists() && !files.may_replace() => {
             Err(format!("{output}: exists; use --force to replace it, or name another output"))
         }
         _ => Ok(()),
@@ -109,10 +112,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_panic_is_one_sentence() {
-        let sentence = "a.glb: the work on it broke off: burnt; this is a defect of darboux";
+    fn a_panic_becomes_one_sentence() {
+        let sentence =
+            "a.glb: darboux failed on this file: first line; this is a defect of darboux, please report it";
         let input = Input::File("a.glb".into());
-        assert_eq!(caught::<()>(&input, || panic!("burnt\nto the ground")), Err(sentence.into()));
-        assert_eq!(caught(&input, || Ok(3)), Ok(3));
+        assert_eq!(catch_panic::<()>(&input, || panic!("first line\nsecond line")), Err(sentence.into()));
+        assert_eq!(catch_panic(&input, || Ok(3)), Ok(3));
     }
 }

@@ -1,0 +1,56 @@
+//! The interface of the subcommands that write one output file for each input file.
+
+use serde::Serialize;
+
+use super::plan::Job;
+use super::report::{FileReport, Status};
+use crate::inputs::UsageError;
+use crate::options::files::FileOptions;
+use crate::options::messages::MessageOptions;
+use crate::terminal::FileProgress;
+
+/// A subcommand that processes files one by one.
+pub trait FileCommand: Sync {
+    /// The part of a file's report that only this command has.
+    type Summary: Default + Send + Serialize;
+
+    /// The name of the subcommand.
+    const NAME: &'static str;
+    /// Whether the command accepts images as well as models.
+    const IMAGES: bool;
+
+    /// The suffix of output names: model.glb becomes model.SUFFIX.glb.
+    fn suffix(&self) -> &str;
+
+    /// The input and output arguments.
+    fn files(&self) -> &FileOptions;
+
+    /// The arguments about messages.
+    fn messages(&self) -> &MessageOptions;
+
+    /// Refuses arguments that contradict each other.
+    fn check(&self) -> Result<(), UsageError>;
+
+    /// The options that affect outputs, as text; the journal compares these texts.
+    fn options(&self) -> String;
+
+    /// Reads, changes and writes a file. Errors are one sentence each.
+    fn process(&self, job: &Job, progress: &FileProgress<'_>)
+    -> Result<ProcessedFile<Self::Summary>, String>;
+
+    /// What was done to each part of a file, one line each.
+    fn lines(summary: &Self::Summary) -> Vec<String>;
+
+    /// The warnings of a file, one sentence each.
+    fn warnings(summary: &Self::Summary) -> &[String];
+
+    /// The totals of a run in words.
+    fn total(files: &[FileReport<Self::Summary>]) -> String;
+}
+
+/// The result of processing one file.
+pub struct ProcessedFile<S> {
+    pub status: Status,
+    pub files_written: Vec<String>,
+    pub summary: S,
+}

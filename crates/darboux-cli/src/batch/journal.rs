@@ -1,0 +1,219 @@
+//! The journal of `--resume`: a file in the output folder with one line of JSON per run and one per finished output.
+//!
+//! An output is up to date if its input's content, the options and the version are those of its record, and every file that was written
+//! with it still has the recorded hash. A broken line, as a killed process may leave it, is ignored: its file is processed again. Temporary
+//! files carry the identifier of their run, so that those of killed runs are recognised and removed; no other file is removed. All paths
+//! are relative to the folder, so that the folder can be moved. An output outside the folder (behind a link) is not recorded and is
+//! processed again each time.
+
+use std::collections::{HashMap, HashSet};
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+
+use darboux_io::RunId;
+use darboux_io::gltf::{Document, LoadOptions};
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+use walkdir::WalkDir;
+
+use crate::json::VERSION;
+use crate::paths::canonical;
+
+const NAME: &str = "darboux-journal.jsonl";
+
+/// The journal of an output folder. While it is open no other process can open it.
+pub struct Journal {
+    folder: PathBuf,
+    file: File,
+    /// All runs that ever started in this folder, this one included.
+    runs: HashSet<RunId>,
+    records: HashMap<String, Record>,
+}
+
+/// The record of an output.
+#[derive(Clone, Serialize, Deserialize)]
+pub struct Record {
+    /// The path relative to the folder.
+    output: String,
+    #[serde(flatten)]
+    origin: Origin,
+    /// The relative paths of all files written, and the BLAKE3 hashes of their contents.
+    files: Vec<(String, String)>,
+    /// The command's part of the report.
+    pub summary: Map<String, Value>,
+}
+
+/// The line that marks the start of a run.
+#[derive(Serialize, Deserialize)]
+struct RunStart {
+    run: String,
+}
+
+/// Everything that an output depends on.
+#[derive(Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Origin {
+    command: String,
+    version: String,
+    options: String,
+    /// The BLAKE3 hash of the input and of all files that it refers to.
+    content: String,
+}
+
+impl Origin {
+    /// The current origin of an output of `input`. Errors: a file cannot be read.
+    pub fn new(command: &str, options: String, input: &Path, allow_outside: bool) -> Result<Self, String> {
+        let content = content_of(input, allow_outside)
+            .map_err(|(file, error)| format!("{}: cannot be read: {error}", file.display()))?;
+        Ok(Self { command: command.into(), version: VERSION.into(), options, content })
+    }
+}
+
+/// Hashes the hashes of a model and of all files that it refers to, or the file alone if it is no readable model.
+fn content_of(input: &Path, allow_outside: bool) -> Result<String, (PathBuf, io::Error)> {
+    let document = Document::open(input, &LoadOptions { allow_outside });
+    let files = document.map_or_else(|_| vec![input.to_owned()], |document| document.source_files());
+    let mut all = blake3::Hasher::new();
+    for file in files {
+        let hash = hash_of(&file).map_err(|error| (file, error))?;
+        all.update(hash.as_bytes());
+    }
+    Ok(all.finalize().to_hex().to_string())
+}
+
+fn hash_of(file: &Path) -> io::Result<blake3::Hash> {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update_reader(File::open(file)?)?;
+    Ok(hasher.finalize())
+}
+
+impl Record {
+    /// The record of an output with all files written for it; `None` if one of them is outside `folder`. Errors: a written file cannot be
+    /// read again.
+    pub fn new(
+        folder: &Path,
+        output: &Path,
+        origin: Origin,
+        written: &[String],
+        summary: &impl Serialize,
+    ) -> Result<Option<Self>, String> {
+        let names = written.iter().map(|path| relative_to(folder, Path::new(path)));
+        let (Some(output), Some(names)) = (relative_to(folder, output), names.collect::<Option<Vec<_>>>())
+        else {
+            return Ok(None);
+        };
+        let hashed = |(name, path): (String, &String)| {
+            let hash =
+                hash_of(Path::new(path)).map_err(|error| format!("{path}: cannot be read again: {error}"))?;
+            Ok((name, hash.to_hex().to_string()))
+        };
+        let files = names.into_iter().zip(written).map(hashed).collect::<Result<_, String>>()?;
+        let summary = match serde_json::to_value(summary) {
+            Ok(Value::Object(summary)) => summary,
+            _ => Map::new(),
+        };
+        Ok(Some(Self { output, origin, files, summary }))
+    }
+
+    /// Whether the origin is the recorded one and every written file still has its recorded content.
+    pub fn is_up_to_date(&self, origin: &Origin, folder: &Path) -> bool {
+        let is_unchanged = |(path, hash): &(String, String)| {
+            let is_inside = Path::new(path).is_relative();
+            is_inside && hash_of(&folder.join(path)).is_ok_and(|found| found.to_hex().as_str() == hash)
+        };
+        self.origin == *origin && self.files.iter().all(is_unchanged)
+    }
+}
+
+/// The path relative to the folder, with `/` on every system; `None` for a path outside the folder.
+fn relative_to(folder: &Path, path: &Path) -> Option<String> {
+    let path = canonical(path);
+    let relative = path.strip_prefix(canonical(folder)).ok()?;
+    let names: Vec<_> = relative.iter().map(|name| name.to_string_lossy()).collect();
+    Some(names.join("/"))
+}
+
+impl Journal {
+    /// Opens the journal of a folder, removes temporary files of killed runs, and records the start of `run`. A missing folder is created.
+    ///
+    /// Errors: another process has the journal open; it cannot be read or written.
+    pub fn open(folder: &Path, run: RunId) -> Result<Self, String> {
+        let path = folder.join(NAME);
+        let failed = |error: io::Error| format!("{}: cannot be opened: {error}", path.display());
+        fs::create_dir_all(folder).map_err(failed)?;
+        let mut file = OpenOptions::new().read(true).append(true).create(true).open(&path).map_err(failed)?;
+        // A file system without locks gives no protection against a second run.
+        if let Err(TryLockError::WouldBlock) = file.try_lock() {
+            return Err(format!(
+                "{}: another run is writing there; wait until it ends, or use another folder",
+                folder.display()
+            ));
+        }
+        let mut bytes = Vec::new();
+        file.read_to_end(&mut bytes).map_err(failed)?;
+        if bytes.last().is_some_and(|&last| last != b'\n') {
+            file.write_all(b"\n").map_err(failed)?;
+        }
+        let mut journal =
+            Self { folder: folder.to_owned(), file, runs: HashSet::new(), records: HashMap::new() };
+        bytes.split(|&byte| byte == b'\n').for_each(|line| journal.read(line));
+        journal.remove_temporary_files()?;
+        journal.runs.insert(run);
+        journal.append(&RunStart { run: run.to_string() })?;
+        Ok(journal)
+    }
+
+    /// Parses a line; a broken line is ignored.
+    fn read(&mut self, line: &[u8]) {
+        if let Ok(record) = serde_json::from_slice::<Record>(line) {
+            self.records.insert(record.output.clone(), record);
+        } else if let Some(run) =
+            serde_json::from_slice(line).ok().and_then(|RunStart { run }| run.parse().ok())
+        {
+            self.runs.insert(run);
+        }
+    }
+
+    /// Removes the temporary files of this run and of earlier ones. No worker may be running.
+    pub fn remove_temporary_files(&self) -> Result<(), String> {
+        let is_temporary = |path: &Path| RunId::that_left(path).is_some_and(|run| self.runs.contains(&run));
+        for entry in WalkDir::new(&self.folder).into_iter().filter_map(Result::ok) {
+            if entry.file_type().is_file() && is_temporary(entry.path()) {
+                let removed = fs::remove_file(entry.path());
+                removed.map_err(|error| format!("{}: cannot be removed: {error}", entry.path().display()))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The folder of outputs.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Lets other processes open the journal.
+    pub fn unlock(&self) -> Result<(), String> {
+        self.file.unlock().map_err(|error| format!("{}: cannot be unlocked: {error}", self.folder.display()))
+    }
+
+    /// Finds the record of an output.
+    pub fn find(&self, output: &Path) -> Option<&Record> {
+        self.records.get(&relative_to(&self.folder, output)?)
+    }
+
+    /// Adds a record.
+    pub fn add(&self, record: &Record) -> Result<(), String> {
+        self.append(record)
+    }
+
+    /// Writes one line.
+    fn append(&self, value: &impl Serialize) -> Result<(), String> {
+        let line = serde_json::to_vec(value).map_err(io::Error::from);
+        let written = line.and_then(|mut line| {
+            line.push(b'\n');
+            (&self.file).write_all(&line)
+        });
+        let path = self.folder.join(NAME);
+        written.map_err(|error| format!("{}: cannot be written: {error}", path.display()))
+    }
+}

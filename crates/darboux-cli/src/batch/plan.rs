@@ -1,0 +1,170 @@
+//! Decides which output file each input gets, and refuses contradictory arguments before any work is done.
+
+use std::collections::HashMap;
+use std::ffi::OsStr;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use crate::inputs::{FoundInputs, Input, UsageError, check_stdin};
+use crate::options::files::FileOptions;
+use crate::paths::{canonical, is_model, is_png, refuse_missing_folder};
+
+/// Where a file is written to.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Output {
+    Stdout,
+    File(PathBuf),
+}
+
+impl fmt::Display for Output {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Output::Stdout => f.write_str("<stdout>"),
+            Output::File(path) => path.display().fmt(f),
+        }
+    }
+}
+
+/// One input and its output.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Job {
+    pub input: Input,
+    pub output: Output,
+}
+
+/// What a command writes.
+#[derive(Clone, Copy, Debug)]
+pub struct OutputRules<'a> {
+    /// The suffix of output names: model.glb becomes model.SUFFIX.glb.
+    pub suffix: &'a str,
+    /// Whether a JSON report goes to standard output.
+    pub json: bool,
+    /// Whether the command writes images as well as models.
+    pub images: bool,
+}
+
+impl OutputRules<'_> {
+    fn accepts(self, path: &Path) -> bool {
+        is_model(path) || (self.images && is_png(path))
+    }
+}
+
+/// Returns the jobs of a command in the order of the inputs, each input once.
+///
+/// Errors: an output that does not fit the inputs, two inputs with one output, an output that is an input, a file and a report that both go
+/// to standard output.
+pub fn plan_jobs(
+    options: &FileOptions,
+    rules: OutputRules<'_>,
+    found: &FoundInputs,
+) -> Result<Vec<Job>, UsageError> {
+    check_usage(options, rules)?;
+    let mut jobs = Vec::new();
+    let mut input_of_output: HashMap<PathBuf, &Input> = HashMap::new();
+    for (input, folder) in &found.files {
+        let output = output_of(options, rules, input, folder.as_deref());
+        if let Output::File(path) = &output {
+            match input_of_output.insert(canonical(path), input) {
+                Some(other) if other == input => continue,
+                Some(other) => {
+                    return Err(UsageError(format!(
+                        "{other} and {input} would both be written to {output}; give them different folders"
+                    )));
+                }
+                None => {}
+            }
+        }
+        jobs.push(Job { input: input.clone(), output });
+    }
+    if !options.in_place {
+        refuse_replaced_inputs(&jobs, &input_of_output)?;
+    }
+    Ok(jobs)
+}
+
+fn check_usage(options: &FileOptions, rules: OutputRules<'_>) -> Result<(), UsageError> {
+    let usage = |message: &str| Err(UsageError(message.into()));
+    check_stdin(&options.inputs)?;
+    let stdin = options.inputs[0] == Path::new("-");
+    if stdin && (options.in_place || options.out_dir.is_some()) {
+        return usage("standard input has no name and no folder; use -o FILE");
+    }
+    if let Some(file) = options.out_dir.as_ref().filter(|path| path.exists() && !path.is_dir()) {
+        return Err(UsageError(format!(
+            "{} is not a folder; name a folder, or use -o FILE for a single output",
+            file.display()
+        )));
+    }
+    let Some(output) = &options.output else {
+        return match rules.json && stdin {
+            true => usage("the file and the report cannot both go to standard output; use -o FILE"),
+            false => Ok(()),
+        };
+    };
+    if options.inputs.len() > 1 {
+        return usage("-o takes a single input; use --out-dir for several");
+    }
+    if options.inputs[0].is_dir() {
+        return usage("-o takes a single file, but the input is a folder; use --out-dir");
+    }
+    if output == Path::new("-") {
+        return match rules.json {
+            true => usage("the file and the report cannot both go to standard output; use -o FILE"),
+            false => Ok(()),
+        };
+    }
+    if output.is_dir() {
+        return Err(UsageError(format!("{} is a folder; use --out-dir", output.display())));
+    }
+    if !rules.accepts(output) {
+        let extensions = if rules.images { ".glb, .vrm, .gltf or .png" } else { ".glb, .vrm or .gltf" };
+        return Err(UsageError(format!("{} must end in {extensions}", output.display())));
+    }
+    refuse_missing_folder(output).map_err(UsageError)
+}
+
+fn output_of(options: &FileOptions, rules: OutputRules<'_>, input: &Input, folder: Option<&Path>) -> Output {
+    let path = match (&options.output, input) {
+        (Some(output), _) if output != Path::new("-") => return Output::File(output.clone()),
+        (Some(_), _) | (None, Input::Stdin) => return Output::Stdout,
+        (None, Input::File(path)) => path,
+    };
+    Output::File(match &options.out_dir {
+        Some(out_dir) => {
+            let name = || Path::new(path.file_name().unwrap_or_default());
+            let below = folder.and_then(|folder| path.strip_prefix(folder).ok());
+            let output = out_dir.join(below.unwrap_or_else(name));
+            if rules.accepts(&output) { output } else { output.with_extension("glb") }
+        }
+        None if options.in_place => path.clone(),
+        None => {
+            let extension = if rules.accepts(path) { path.extension() } else { None };
+            let extension = extension.unwrap_or(OsStr::new("glb"));
+            let mut name = path.file_stem().unwrap_or_default().to_os_string();
+            name.push(format!(".{}.", rules.suffix));
+            name.push(extension);
+            path.with_file_name(name)
+        }
+    })
+}
+
+fn refuse_replaced_inputs(
+    jobs: &[Job],
+    input_of_output: &HashMap<PathBuf, &Input>,
+) -> Result<(), UsageError> {
+    for job in jobs {
+        let Input::File(path) = &job.input else { continue };
+        if let Some(&writer) = input_of_output.get(&canonical(path)) {
+            let output = if *writer == job.input {
+                "its own output".into()
+            } else {
+                format!("the output of {writer}")
+            };
+            return Err(UsageError(format!(
+                "{} would be replaced by {output}; name another output, or use --in-place to replace inputs",
+                path.display()
+            )));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,177 @@
+//! `darboux compare`: compares the tangents of two files, or of a file and a method, corner by corner.
+
+pub mod arguments;
+mod heat_map;
+mod report;
+mod statistics;
+mod text;
+
+use std::path::Path;
+
+use clap::ValueEnum;
+use darboux::TangentOptions;
+use darboux_io::SaveOptions;
+use darboux_io::gltf::{Document, Pair, Progress, TangentsOptions, add_tangents, pair_tangents};
+
+use crate::documents::{load, refuse_used};
+use crate::inputs::Input;
+use crate::json::{VERSION, to_json};
+use crate::paths::{is_png, refuse_missing_folder};
+use crate::terminal::{FileProgress, Messages, write_stdout};
+use crate::{exit, interrupt};
+use arguments::CompareArguments;
+use heat_map::HeatMap;
+use report::{CompareReport, Verdict};
+use statistics::{ComparedPrimitive, Statistics};
+
+/// Runs the command; gives its exit code.
+pub fn run(arguments: &CompareArguments) -> u8 {
+    let messages = Messages::new(arguments.messages.quiet);
+    let inputs = [Some(&arguments.first), arguments.second.as_ref()];
+    if inputs.into_iter().flatten().any(|path| path == Path::new("-")) {
+        messages.error("standard input cannot be compared; save it to a file");
+        return exit::USAGE;
+    }
+    if let Err(sentence) = arguments.heat_map.as_deref().map_or(Ok(()), refuse_missing_folder) {
+        messages.error(&sentence);
+        return exit::USAGE;
+    }
+    interrupt::wait_for_writes();
+    let report = match compare(arguments, &messages) {
+        Ok(report) => report,
+        Err(sentence) => {
+            messages.end_progress();
+            messages.error(&sentence);
+            return exit::FAILED;
+        }
+    };
+    messages.end_progress();
+    report.warnings.iter().for_each(|warning| messages.warn(warning));
+    let text = match (arguments.messages.json, arguments.messages.quiet) {
+        (true, _) => to_json(&report).map_err(std::io::Error::from),
+        (false, true) => Ok(Vec::new()),
+        (false, false) => Ok(text::described(&report).into_bytes()),
+    };
+    if let Err(error) = text.and_then(|text| write_stdout(&text)) {
+        messages.error(&format!("the comparison cannot be written: {error}"));
+        return exit::FAILED;
+    }
+    if report.within_tolerance == Some(false) { exit::DIFFERENT } else { exit::DONE }
+}
+
+/// Reads both, compares, draws. Errors are one sentence each.
+fn compare(arguments: &CompareArguments, messages: &Messages) -> Result<CompareReport, String> {
+    if let Some(path) = arguments.heat_map.as_ref().filter(|path| path.exists() && !arguments.force) {
+        return Err(format!("{}: exists; use --force to replace it, or name another file", path.display()));
+    }
+    if let Some(path) = arguments.heat_map.as_ref().filter(|path| !is_png(path)) {
+        return Err(format!("{}: the heat map is a PNG; name it .png", path.display()));
+    }
+    let other = arguments.second.as_ref().unwrap_or(&arguments.first);
+    let inputs = [&arguments.first, other].map(|path| Input::File(path.clone()));
+    messages.start(inputs.iter().map(Input::byte_length).sum());
+    let begun = |input: &Input| messages.file(&input.to_string(), input.byte_length());
+    let progress = begun(&inputs[0]);
+    let mut first = load(&inputs[0], arguments.allow_outside)?;
+    drop(progress);
+    let progress = begun(&inputs[1]);
+    let mut second = load(&inputs[1], arguments.allow_outside)?;
+    if let Some(path) = &arguments.heat_map {
+        refuse_used(path, [&first, &second])?;
+    }
+    if let Some(method) = arguments.method {
+        give_tangents(&mut second, method.into(), &progress)?;
+    }
+    drop(progress);
+    let told = |document: &Document| -> Vec<String> {
+        document.warnings().iter().map(|warning| format!("{}: {warning}", document.name())).collect()
+    };
+    let mut warnings = told(&first);
+    warnings.extend(arguments.second.iter().flat_map(|_| told(&second)));
+    let pairs = pair_tangents(&mut first, &mut second).map_err(|error| error.to_string())?;
+    warnings.extend(moved(&pairs));
+    let primitives: Vec<ComparedPrimitive> = pairs.iter().map(ComparedPrimitive::new).collect();
+    if primitives.iter().all(|primitive| primitive.statistics.is_none()) {
+        return Err(nothing_to_compare([&first, &second]));
+    }
+    let totals = Statistics::of(pairs.iter().filter_map(|pair| pair.corners.as_ref().ok()));
+    let heat_map = match &arguments.heat_map {
+        Some(path) => Some(draw(&pairs, path, arguments.force, &mut warnings)?),
+        None => None,
+    };
+    let one_sided = pairs.iter().any(|pair| matches!(&pair.corners, Err(unpaired) if unpaired.is_one_sided));
+    let within = |degrees: f64| totals.is_within(degrees) && !one_sided;
+    Ok(CompareReport {
+        command: "compare",
+        version: VERSION,
+        first: first.name().to_owned(),
+        second: arguments.second.as_ref().map(|_| second.name().to_owned()),
+        method: arguments.method.and_then(|method| Some(method.to_possible_value()?.get_name().to_owned())),
+        worst: statistics::worst(&pairs, arguments.worst),
+        within_tolerance: arguments.tolerance.map(within),
+        verdict: Verdict::new(&totals, one_sided),
+        totals,
+        primitives,
+        heat_map,
+        warnings,
+    })
+}
+
+/// Says which file has no tangents, or that no primitive has them in both.
+fn nothing_to_compare(documents: [&Document; 2]) -> String {
+    let has_tangents = |document: &Document| {
+        let mut primitives = document.meshes().iter().flat_map(|mesh| &mesh.primitives);
+        primitives.any(|primitive| primitive.attributes.contains_key("TANGENT"))
+    };
+    match documents.into_iter().find(|document| !has_tangents(document)) {
+        Some(document) => {
+            let name = document.name();
+            format!("{name}: has no tangents to compare; make some: darboux tangents {name}")
+        }
+        None => {
+            let [first, second] = documents.map(Document::name);
+            format!("{first}: no triangles have tangents both here and in {second}")
+        }
+    }
+}
+
+/// Replaces all tangents by those of a method.
+fn give_tangents(
+    document: &mut Document,
+    method: darboux::Method,
+    progress: &FileProgress<'_>,
+) -> Result<(), String> {
+    let tangents = TangentOptions { method, ..TangentOptions::default() };
+    let options = TangentsOptions { tangents, overwrite: true, ..TangentsOptions::default() };
+    let mut on_progress = |Progress { done, total }: Progress| progress.set(done, total);
+    add_tangents(document, &options, &mut on_progress).map(drop).map_err(|error| error.to_string())
+}
+
+/// A warning for each primitive whose corners are elsewhere in the second file.
+fn moved(pairs: &[Pair]) -> impl Iterator<Item = String> {
+    let moved = pairs.iter().filter_map(|pair| {
+        let moved = pair.corners.as_ref().ok()?.moved;
+        (moved > 0).then_some((&pair.name, moved))
+    });
+    moved.map(|(name, moved)| {
+        format!("{name}: {moved} corners are elsewhere in the second file; is it the same model, in the same order?")
+    })
+}
+
+fn draw(pairs: &[Pair], path: &Path, force: bool, warnings: &mut Vec<String>) -> Result<String, String> {
+    let mut map = HeatMap::new();
+    for corners in pairs.iter().filter_map(|pair| pair.corners.as_ref().ok()) {
+        map.draw(corners);
+    }
+    if map.too_large() > 0 {
+        warnings.push(format!(
+            "{}: of {} triangles only the corners are drawn: their UVs span more than the map, or there are too many",
+            path.display(),
+            map.too_large()
+        ));
+    }
+    let _guard = interrupt::writing();
+    let image = map.image(&path.display().to_string()).map_err(|error| error.to_string())?;
+    let written = image.save(path, &SaveOptions { force, run: None }).map_err(|error| error.to_string())?;
+    Ok(written.display().to_string())
+}

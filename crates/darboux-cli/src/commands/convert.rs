@@ -1,0 +1,253 @@
+//! `darboux convert`: converts normal maps and models between conventions.
+
+pub mod arguments;
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use darboux::Convention;
+use darboux_io::FileKind;
+use darboux_io::gltf::{ConversionSummary, Document, LoadOptions, Progress, convert_vertices};
+use darboux_io::image::{PngImage, convert_normal_map, count_no_normals};
+use serde::Serialize;
+
+use crate::batch::command::{FileCommand, ProcessedFile};
+use crate::batch::plan::{Job, Output};
+use crate::batch::report::{FileReport, Status};
+use crate::documents::{load_any, read_stdin, save};
+use crate::inputs::{Input, UsageError};
+use crate::interrupt;
+use crate::options::files::FileOptions;
+use crate::options::messages::MessageOptions;
+use crate::paths::is_png;
+use crate::terminal::{FileProgress, write_stdout};
+use crate::text::counted;
+use arguments::ConvertArguments;
+
+/// The report of a file, which is an image or a model.
+#[derive(Default, Serialize)]
+pub struct ConvertSummary {
+    image: Option<ImageSummary>,
+    model: Option<ConversionSummary>,
+    warnings: Vec<String>,
+}
+
+/// The report of an image.
+#[derive(Serialize)]
+struct ImageSummary {
+    width: u32,
+    height: u32,
+    bits: u32,
+    /// The channels of the output.
+    channels: &'static str,
+    red_inverted: bool,
+    green_inverted: bool,
+    /// Whether the vector was moved to other channels.
+    moved: bool,
+}
+
+impl FileCommand for ConvertArguments {
+    type Summary = ConvertSummary;
+
+    const NAME: &'static str = "convert";
+    const IMAGES: bool = true;
+
+    fn suffix(&self) -> &str {
+        // Only the name of a preset becomes part of a file name.
+        if self.to.convention.names().any(|name| name == self.to.name) { &self.to.name } else { "converted" }
+    }
+
+    fn files(&self) -> &FileOptions {
+        &self.files
+    }
+
+    fn messages(&self) -> &MessageOptions {
+        &self.messages
+    }
+
+    fn check(&self) -> Result<(), UsageError> {
+        match self.files.inputs.iter().find(|input| input.is_dir()) {
+            Some(folder) => Err(UsageError(format!(
+                "{} is a folder, and not every image in it is a normal map; name the files",
+                folder.display()
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    fn options(&self) -> String {
+        let Self { from, to, layout, to_layout, raw, .. } = self;
+        format!("{:?}", (&from.name, &to.name, layout, to_layout, raw))
+    }
+
+    fn process(
+        &self,
+        job: &Job,
+        progress: &FileProgress<'_>,
+    ) -> Result<ProcessedFile<ConvertSummary>, String> {
+        let sentence = |error: darboux_io::Error| error.to_string();
+        match &job.input {
+            Input::Stdin => {
+                let (name, bytes) = (job.input.to_string(), read_stdin()?);
+                if PngImage::is_png(&bytes) {
+                    return self.image(PngImage::from_bytes(&name, bytes).map_err(sentence)?, &job.output);
+                }
+                let options = LoadOptions { allow_outside: self.files.allow_outside };
+                self.model(
+                    Document::from_bytes(&name, bytes, None, &options).map_err(sentence)?,
+                    job,
+                    progress,
+                )
+            }
+            Input::File(path) if is_png(path) || starts_as_png(path) => {
+                self.image(PngImage::open(path).map_err(sentence)?, &job.output)
+            }
+            Input::File(path) if FileKind::of(path) == Some(FileKind::OtherImage) => Err(format!(
+                "{}: only PNG files are converted, which keep every texel; save it as one",
+                path.display()
+            )),
+            Input::File(_) => self.model(load_any(&job.input, self.files.allow_outside)?, job, progress),
+        }
+    }
+
+    fn lines(summary: &ConvertSummary) -> Vec<String> {
+        let image = summary.image.iter().map(describe_image);
+        image.chain(summary.model.iter().map(describe_model)).collect()
+    }
+
+    fn warnings(summary: &ConvertSummary) -> &[String] {
+        &summary.warnings
+    }
+
+    fn total(files: &[FileReport<ConvertSummary>]) -> String {
+        let changed = files.iter().filter(|file| file.status == Status::Written).count();
+        format!("{} changed", counted(changed, "file", "files"))
+    }
+}
+
+impl ConvertArguments {
+    fn image(&self, mut image: PngImage, output: &Output) -> Result<ProcessedFile<ConvertSummary>, String> {
+        let sentence = |error: darboux_io::Error| error.to_string();
+        let conversion = self.from.convention.to(self.to.convention);
+        let target = self.to_layout.unwrap_or(self.layout);
+        let warnings = self.warning(&image).into_iter().collect();
+        convert_normal_map(&mut image, &conversion, self.layout, target).map_err(sentence)?;
+        let (status, files_written) = self.save_image(&image, output)?;
+        let [width, height] = image.size();
+        let summary = ImageSummary {
+            width,
+            height,
+            bits: image.bits(),
+            channels: image.channels(),
+            red_inverted: conversion.inverts_red(),
+            green_inverted: conversion.inverts_green(),
+            moved: target != self.layout,
+        };
+        Ok(ProcessedFile {
+            status,
+            files_written,
+            summary: ConvertSummary { image: Some(summary), warnings, ..Default::default() },
+        })
+    }
+
+    /// Warns about an image that does not look like a normal map.
+    fn warning(&self, image: &PngImage) -> Option<String> {
+        let [width, height] = image.size();
+        let (texels, odd) =
+            (f64::from(width) * f64::from(height), count_no_normals(image, self.layout) as f64);
+        (odd > 0.5 * texels).then(|| {
+            let percent = (100.0 * odd / texels).round();
+            let layout = self.layout;
+            format!("this does not look like a normal map: {percent} % of its texels hold no unit vector in {layout}")
+        })
+    }
+
+    fn save_image(&self, image: &PngImage, output: &Output) -> Result<(Status, Vec<String>), String> {
+        let sentence = |error: darboux_io::Error| error.to_string();
+        let status = if image.is_changed() { Status::Written } else { Status::Copied };
+        match output {
+            Output::Stdout => {
+                let bytes = image.to_bytes().map_err(sentence)?;
+                write_stdout(&bytes).map_err(|error| format!("{output}: cannot be written: {error}"))?;
+                Ok((status, Vec::new()))
+            }
+            Output::File(path) if !is_png(path) => {
+                Err(format!("{output}: the input is an image; name it .png"))
+            }
+            Output::File(_) if self.files.in_place && !image.is_changed() => {
+                Ok((Status::Untouched, Vec::new()))
+            }
+            Output::File(path) => {
+                let _guard = interrupt::writing();
+                let written = image.save(path, &self.files.save_options()).map_err(sentence)?;
+                Ok((status, vec![written.display().to_string()]))
+            }
+        }
+    }
+
+    fn model(
+        &self,
+        mut document: Document,
+        job: &Job,
+        progress: &FileProgress<'_>,
+    ) -> Result<ProcessedFile<ConvertSummary>, String> {
+        let (from, to) = (&self.from, &self.to);
+        if to.convention != Convention::GLTF && !self.raw {
+            return Err(format!(
+                "{}: a glTF file must be in glTF's convention; convert --to gltf, or use --raw if a program copies its numbers as they are",
+                job.input
+            ));
+        }
+        let mut warnings = document.warnings().to_vec();
+        let mut on_progress = |Progress { done, total }: Progress| progress.set(done, total);
+        let mut summary = convert_vertices(&mut document, from.convention, to.convention, &mut on_progress)
+            .map_err(|error| error.to_string())?;
+        warnings.append(&mut summary.warnings);
+        if document.convention().map_err(|error| error.to_string())? != Convention::GLTF {
+            warnings.push(format!(
+                "the output holds the numbers of {}: no viewer of glTF shows it right",
+                to.name
+            ));
+        }
+        let (status, files_written) = save(&document, &job.output, &self.files, document.is_changed())?;
+        let summary = ConvertSummary { model: Some(summary), warnings, ..ConvertSummary::default() };
+        Ok(ProcessedFile { status, files_written, summary })
+    }
+}
+
+/// Whether the file starts with the PNG signature.
+fn starts_as_png(path: &Path) -> bool {
+    let mut first = [0; 8];
+    File::open(path).and_then(|mut file| file.read_exact(&mut first)).is_ok() && PngImage::is_png(&first)
+}
+
+fn describe_image(image: &ImageSummary) -> String {
+    let ImageSummary { width, height, bits, channels, .. } = image;
+    let done = [
+        (image.red_inverted, "red inverted"),
+        (image.green_inverted, "green inverted"),
+        (image.moved, "channels moved"),
+    ];
+    format!("{width} x {height}, {bits} bits, {channels}: {}", list_changes(done))
+}
+
+fn describe_model(model: &ConversionSummary) -> String {
+    let done = [
+        (model.axes_changed, "other axes"),
+        (model.uvs_flipped, "v turned round"),
+        (model.faces_reversed, "triangles reversed"),
+        (model.tangents_changed, "tangents or their signs changed"),
+    ];
+    format!("{} changed: {}", counted(model.primitives, "primitive", "primitives"), list_changes(done))
+}
+
+/// Lists what was done.
+fn list_changes<const N: usize>(done: [(bool, &str); N]) -> String {
+    let done: Vec<&str> = done.into_iter().filter(|done| done.0).map(|done| done.1).collect();
+    if done.is_empty() {
+        "nothing in it differs between these conventions".to_owned()
+    } else {
+        done.join(", ")
+    }
+}

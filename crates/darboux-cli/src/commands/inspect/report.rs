@@ -1,0 +1,21 @@
+//! The JSON report of `darboux inspect`. json.md documents its fields.
+
+use darboux_io::gltf::PrimitiveInfo;
+use serde::Serialize;
+
+/// The report of a run.
+#[derive(Serialize)]
+pub struct InspectReport {
+    pub command: &'static str,
+    pub version: &'static str,
+    pub files: Vec<InspectedFile>,
+}
+
+/// The primitives of one file, or the error that prevented reading it.
+#[derive(Clone, Serialize)]
+pub struct InspectedFile {
+    pub input: String,
+    pub error: Option<String>,
+    pub warnings: Vec<String>,
+    pub primitives: Vec<PrimitiveInfo>,
+}

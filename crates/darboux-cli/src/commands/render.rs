@@ -1,0 +1,7 @@
+//! `darboux render`: draws a model or its tangents into a PNG.
+
+pub mod arguments;
+mod draw;
+mod legend;
+
+pub use draw::run;

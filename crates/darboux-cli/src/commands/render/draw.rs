@@ -1,0 +1,311 @@
+//! `darboux render`: draws a model or its tangents into a PNG.
+
+use std::path::Path;
+
+use clap::ValueEnum;
+use darboux::{NormalOptions, Shading, TangentOptions};
+use darboux_gpu::{Gpu, GpuError};
+use darboux_io::SaveOptions;
+use darboux_io::gltf::{Document, NormalsOptions, TangentsOptions, add_normals, add_tangents};
+use darboux_io::image::PngImage;
+use darboux_render::{Camera, HeatScale, Lines, Mistakes, Model, Picture, RenderError, RenderOptions, Side};
+use serde::Serialize;
+
+use super::arguments::{
+    LayoutPlacement, MistakeChoice, RenderArguments, TangentSource, VectorLines, ViewChoice,
+};
+use super::legend::Legend;
+use crate::documents::{load, refuse_used};
+use crate::heat_scale::{ENDS, FLIP, RAMP};
+use crate::inputs::Input;
+use crate::json::{VERSION, to_json};
+use crate::options::method::MethodName;
+use crate::paths::{is_png, refuse_missing_folder};
+use crate::terminal::{Messages, write_stdout};
+use crate::text::counted;
+use crate::{exit, interrupt};
+
+/// What `darboux render --json` prints.
+#[derive(Serialize)]
+struct RenderReport {
+    command: &'static str,
+    version: &'static str,
+    input: String,
+    output: String,
+    view: String,
+    size: [u32; 2],
+    adapter: String,
+    triangles: u64,
+    warnings: Vec<String>,
+}
+
+/// Runs the command; gives its exit code.
+pub fn run(arguments: &RenderArguments) -> u8 {
+    let messages = Messages::new(arguments.messages.quiet);
+    if arguments.model == Path::new("-") {
+        messages.error("a model on standard input cannot be drawn; save it to a file");
+        return exit::USAGE;
+    }
+    let refused = refuse_missing_folder(&arguments.output).and_then(|()| refuse_useless(arguments));
+    if let Err(sentence) = refused {
+        messages.error(&sentence);
+        return exit::USAGE;
+    }
+    interrupt::wait_for_writes();
+    let report = match draw(arguments) {
+        Ok(report) => report,
+        Err(sentence) => {
+            messages.error(&sentence);
+            return exit::FAILED;
+        }
+    };
+    report.warnings.iter().for_each(|warning| messages.warn(warning));
+    let RenderReport { output, view, size: [width, height], triangles, adapter, .. } = &report;
+    let triangles = counted(*triangles as usize, "triangle", "triangles");
+    messages.say(&format!("{output}: {view}, {width} x {height}, {triangles}, drawn by {adapter}"));
+    let told = match arguments.messages.json {
+        true => to_json(&report).map_err(std::io::Error::from).and_then(|text| write_stdout(&text)),
+        false => Ok(()),
+    };
+    if let Err(error) = told {
+        messages.error(&format!("the report cannot be written: {error}"));
+        return exit::FAILED;
+    }
+    exit::DONE
+}
+
+/// Says which arguments would change nothing, or cannot be meant.
+fn refuse_useless(arguments: &RenderArguments) -> Result<(), String> {
+    let RenderArguments { view, against, split, mistakes, output, .. } = arguments;
+    if output.is_dir() {
+        return Err(format!("{} is a folder; name a file in it", output.display()));
+    }
+    if against.is_some() && *view != ViewChoice::Angle && split.is_none() {
+        return Err("--against is for --view angle and for --split, and neither is there".to_owned());
+    }
+    if split.is_some() && *view == ViewChoice::Angle {
+        return Err("--view angle is one picture of two sources; leave --split out".to_owned());
+    }
+    if split.is_some() && against.is_none() && mistakes.is_empty() {
+        return Err("--split shows twice the same: give --against or --mistakes, too".to_owned());
+    }
+    Ok(())
+}
+
+/// Reads, draws, writes. Errors are one sentence each.
+fn draw(arguments: &RenderArguments) -> Result<RenderReport, String> {
+    let RenderArguments { model: path, output, view, size, .. } = arguments;
+    check_output(output, arguments.force)?;
+    let LoadedModel { mut document, source, warnings } = open(arguments, arguments.tangents)?;
+    let other = arguments.against.map(|source| open(arguments, Some(source))).transpose()?;
+    let mut other = other.map(|other| other.document);
+    refuse_used(output, [&document, other.as_ref().unwrap_or(&document)])?;
+    let name = document.name().to_owned();
+    let model = model(arguments, &mut document, Some(source))?;
+    let other = other.as_mut().map(|document| self::model(arguments, document, arguments.against));
+    let (model, other) = match other.transpose()? {
+        Some(other) => {
+            let model = model.compared_with(&other);
+            let other = other.compared_with(&model);
+            (model, Some(other))
+        }
+        None => (model, None),
+    };
+    let gpu = pollster::block_on(Gpu::open()).map_err(no_adapter)?;
+    let picture = picture(arguments, source, &gpu, &model, other.as_ref()).map_err(|error| match error {
+        RenderError::Nothing | RenderError::TooMany { .. } => format!("{name}: {error}"),
+        error => error.to_string(),
+    })?;
+    let image = PngImage::from_rgb(&output.display().to_string(), *size, &picture.pixels)
+        .map_err(|error| error.to_string())?;
+    let _guard = interrupt::writing();
+    let written = image
+        .save(output, &SaveOptions { force: arguments.force, run: None })
+        .map_err(|error| error.to_string())?;
+    Ok(RenderReport {
+        command: "render",
+        version: VERSION,
+        input: path.display().to_string(),
+        output: written.display().to_string(),
+        view: view.to_possible_value().map(|view| view.get_name().to_owned()).unwrap_or_default(),
+        size: *size,
+        adapter: gpu.name.clone(),
+        triangles: model.triangle_count(),
+        warnings: warnings
+            .into_iter()
+            .chain(picture.warnings)
+            .map(|warning| with_name(&name, warning))
+            .collect(),
+    })
+}
+
+/// What is drawn of a document with the tangents of a source.
+fn model<'a>(
+    arguments: &RenderArguments,
+    document: &'a mut Document,
+    source: Option<TangentSource>,
+) -> Result<Model<'a>, String> {
+    let meshes = chosen(document, &arguments.mesh)?;
+    let model = Model::read(document).map_err(|error| error.to_string())?;
+    let model = if arguments.mesh.is_empty() { model } else { model.only(&meshes) };
+    Ok(if source == Some(TangentSource::Derivatives) { model.derived() } else { model })
+}
+
+/// Draws the model, and what explains it.
+fn picture(
+    arguments: &RenderArguments,
+    source: TangentSource,
+    gpu: &Gpu,
+    model: &Model<'_>,
+    other: Option<&Model<'_>>,
+) -> Result<Picture, RenderError> {
+    let options = options(arguments);
+    let legend = Legend::of(arguments, source, &options);
+    let has = |mistake| arguments.mistakes.contains(&mistake);
+    let mistakes =
+        Mistakes { green: has(MistakeChoice::Green), w: has(MistakeChoice::W), v: has(MistakeChoice::V) };
+    let right = arguments.split.map(|part| {
+        let side = Side { model: other.unwrap_or(model), mistakes };
+        (side, part / 100.0)
+    });
+    let mistakes = if right.is_some() { Mistakes::default() } else { mistakes };
+    let mut picture = darboux_render::render(gpu, Side { model, mistakes }, right, &legend.above(&options))?;
+    legend.add(&mut picture);
+    Ok(picture)
+}
+
+/// Says what is wrong with the output before any work.
+fn check_output(path: &Path, force: bool) -> Result<(), String> {
+    if path.exists() && !force {
+        return Err(format!("{}: exists; use --force to replace it, or name another file", path.display()));
+    }
+    if !is_png(path) {
+        return Err(format!("{}: the picture is a PNG; name it .png", path.display()));
+    }
+    Ok(())
+}
+
+/// The model with tangents.
+struct LoadedModel {
+    document: Document,
+    /// Whose tangents these are.
+    source: TangentSource,
+    /// What is odd about the file: sentences.
+    warnings: Vec<String>,
+}
+
+/// Reads the model with the tangents of a source. Triangles without normals get flat ones, as glTF asks of renderers.
+fn open(arguments: &RenderArguments, source: Option<TangentSource>) -> Result<LoadedModel, String> {
+    let sentence = |error: darboux_io::Error| error.to_string();
+    let is_obj = arguments.model.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj"));
+    let (mut document, warnings) = match is_obj {
+        true => {
+            let model = darboux_io::obj::read(&arguments.model).map_err(sentence)?;
+            (model.document, model.warnings)
+        }
+        false => (load(&Input::File(arguments.model.clone()), arguments.allow_outside)?, Vec::new()),
+    };
+    let flat = NormalOptions { shading: Shading::Flat, ..NormalOptions::default() };
+    let flat = NormalsOptions { normals: flat, ..NormalsOptions::default() };
+    add_normals(&mut document, &flat, &mut |_| {}).map_err(sentence)?;
+    let of_file = if has_tangents(&document) {
+        TangentSource::File
+    } else {
+        TangentSource::Method(MethodName::default())
+    };
+    let tangents = match source {
+        Some(TangentSource::File) if of_file != TangentSource::File => {
+            let name = document.name();
+            return Err(format!(
+                "{name}: has no tangents; name a method in place of file, as in --tangents mikktspace"
+            ));
+        }
+        Some(source @ (TangentSource::File | TangentSource::Derivatives)) => {
+            return Ok(LoadedModel { document, source, warnings });
+        }
+        Some(TangentSource::Method(method)) => {
+            let tangents = TangentOptions { method: method.into(), ..TangentOptions::default() };
+            TangentsOptions { tangents, overwrite: true, ..TangentsOptions::default() }
+        }
+        None => TangentsOptions::default(),
+    };
+    add_tangents(&mut document, &tangents, &mut |_| {}).map_err(sentence)?;
+    Ok(LoadedModel { document, source: source.unwrap_or(of_file), warnings })
+}
+
+/// The meshes that names and indices mean. The error is a sentence.
+fn chosen(document: &Document, words: &[String]) -> Result<Vec<usize>, String> {
+    let meshes = document.meshes();
+    let mut chosen = Vec::new();
+    for word in words {
+        let named = meshes.iter().enumerate().filter(|(_, mesh)| mesh.name.as_ref() == Some(word));
+        let before = chosen.len();
+        chosen.extend(named.map(|(index, _)| index));
+        if chosen.len() == before {
+            let index = word.parse().ok().filter(|&index: &usize| index < meshes.len());
+            chosen.push(index.ok_or_else(|| no_mesh(document, word))?);
+        }
+    }
+    Ok(chosen)
+}
+
+/// More names than this help nobody.
+const MOST_NAMES: usize = 8;
+
+fn no_mesh(document: &Document, word: &str) -> String {
+    let names: Vec<&str> =
+        document.meshes().iter().filter_map(|mesh| mesh.name.as_deref()).take(MOST_NAMES).collect();
+    let names = if names.is_empty() { String::new() } else { format!(", such as {}", names.join(", ")) };
+    let count = counted(document.meshes().len(), "mesh", "meshes");
+    format!("{}: has no mesh {word}; name one of its {count}{names}, or an index from 0", document.name())
+}
+
+fn has_tangents(document: &Document) -> bool {
+    let mut primitives = document.meshes().iter().flat_map(|mesh| &mesh.primitives);
+    primitives.any(|primitive| primitive.attributes.contains_key("TANGENT"))
+}
+
+fn options(arguments: &RenderArguments) -> RenderOptions {
+    let [yaw, pitch, zoom] = arguments.camera;
+    let draws = |vector| arguments.lines.contains(&vector);
+    RenderOptions {
+        view: match arguments.view {
+            ViewChoice::Shaded => darboux_render::View::Shaded,
+            ViewChoice::Tangent => darboux_render::View::Tangent,
+            ViewChoice::Bitangent => darboux_render::View::Bitangent,
+            ViewChoice::Normal => darboux_render::View::Normal,
+            ViewChoice::Sign => darboux_render::View::Sign,
+            ViewChoice::Angle => darboux_render::View::Angle,
+        },
+        lines: Lines {
+            tangent: draws(VectorLines::Tangent),
+            bitangent: draws(VectorLines::Bitangent),
+            normal: draws(VectorLines::Normal),
+            length: arguments.length / 100.0,
+        },
+        seams: arguments.seams,
+        layout: arguments.layout.map(|layout| match layout {
+            LayoutPlacement::Corner => darboux_render::Layout::Corner,
+            LayoutPlacement::Alone => darboux_render::Layout::Alone,
+        }),
+        size: arguments.size,
+        camera: Camera { yaw, pitch, zoom },
+        background: arguments.background,
+        heat: HeatScale { ends: ENDS.map(|end| end as f32), ramp: RAMP, flip: FLIP, none: [0; 3] },
+    }
+}
+
+/// Warnings name their file.
+fn with_name(name: &str, warning: String) -> String {
+    if warning.starts_with(name) { warning } else { format!("{name}: {warning}") }
+}
+
+fn no_adapter(error: GpuError) -> String {
+    match error {
+        GpuError::NoAdapter => {
+            "no adapter was found to draw with: install a Vulkan, Metal or Direct3D 12 driver; Mesa's lavapipe draws without a GPU"
+                .to_owned()
+        }
+        error => error.to_string(),
+    }
+}

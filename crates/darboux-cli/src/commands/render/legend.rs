@@ -1,0 +1,207 @@
+//! What explains the colours of a picture, below it, and the names of its sides.
+
+use std::convert::Infallible;
+
+use clap::ValueEnum;
+use darboux_render::{LINE_COLORS, Picture, RenderOptions, SEAM_COLOR, SIGN_COLORS, View};
+use embedded_graphics::mono_font::iso_8859_1::FONT_6X13;
+use embedded_graphics::mono_font::{MonoFont, MonoTextStyle};
+use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
+use embedded_graphics::prelude::{Dimensions, DrawTarget, Point, Size};
+use embedded_graphics::primitives::Rectangle;
+use embedded_graphics::text::{Baseline, Text};
+use embedded_graphics::{Drawable, Pixel};
+
+use super::arguments::{MistakeChoice, RenderArguments, TangentSource};
+use crate::heat_scale::{row, scale_position};
+
+const FONT: &MonoFont<'_> = &FONT_6X13;
+const LETTER: u32 = FONT.character_size.width;
+const LINE: u32 = FONT.character_size.height;
+
+/// Pixels around and between things.
+const GAP: u32 = 8;
+/// Rows of the scale's colours, and the side of a colour's square.
+const BAR: u32 = 10;
+/// A narrower scale has no room for its labels.
+const NARROWEST_SCALE: u32 = 150;
+/// Pictures that are not so many times as high have none.
+const LEAST_PART: u32 = 6;
+/// The scale's labels, in degrees, as the viewer has them.
+const LABELS: [f64; 5] = [0.01, 0.1, 1.0, 10.0, 180.0];
+
+/// A colour, and what it means.
+type Key = ([u8; 3], &'static str);
+
+/// The rows below a picture that explain it.
+pub struct Legend {
+    keys: Vec<Key>,
+    has_scale: bool,
+    /// Left and right of a part of the width.
+    names: Option<([String; 2], f64)>,
+    /// None where there is nothing to explain, or no room.
+    rows: u32,
+    ink: Rgb888,
+    paper: [u8; 3],
+}
+
+impl Legend {
+    /// What there is to explain. `source`: whose tangents are drawn, on the left.
+    pub fn of(arguments: &RenderArguments, source: TangentSource, options: &RenderOptions) -> Self {
+        let mut keys = colors_of(options);
+        let lines = &options.lines;
+        let vectors = [(lines.tangent, "tangent"), (lines.bitangent, "bitangent"), (lines.normal, "normal")];
+        let drawn = vectors.into_iter().zip(LINE_COLORS).filter(|((is_drawn, _), _)| *is_drawn);
+        keys.extend(drawn.map(|((_, name), color)| (color, name)));
+        keys.extend(options.seams.then_some((SEAM_COLOR, "mirrored seam")));
+        let has_scale = options.view == View::Angle;
+        let [width, height] = options.size;
+        let needed = if has_scale { BAR + LINE + 2 * GAP } else { LINE + GAP };
+        let needed = if keys.is_empty() { 0 } else { needed };
+        let has_room =
+            !arguments.no_legend && height >= LEAST_PART * needed && width >= NARROWEST_SCALE + 2 * GAP;
+        let light: u32 = options.background.iter().map(|&channel| u32::from(channel)).sum();
+        Self {
+            keys,
+            has_scale,
+            names: names_of(arguments, source).filter(|_| has_room),
+            rows: if has_room { needed } else { 0 },
+            ink: if light > 3 * 128 { Rgb888::BLACK } else { Rgb888::WHITE },
+            paper: options.background,
+        }
+    }
+
+    /// The options of the picture that is above it.
+    pub fn above(&self, options: &RenderOptions) -> RenderOptions {
+        let [width, height] = options.size;
+        RenderOptions { size: [width, height - self.rows], ..options.clone() }
+    }
+
+    /// Adds itself to the picture.
+    pub fn add(&self, picture: &mut Picture) {
+        let [width, height] = picture.size;
+        picture.size = [width, height + self.rows];
+        picture.pixels.resize((width * (height + self.rows)) as usize, self.paper);
+        let mut canvas = Canvas { width, pixels: &mut picture.pixels };
+        if let Some(([left, right], part)) = &self.names {
+            let middle = (f64::from(width) * part).round() as u32;
+            canvas.fill([middle, 0], [1, height], [self.ink.r(), self.ink.g(), self.ink.b()]);
+            let from = middle.saturating_sub(GAP + LETTER * left.chars().count() as u32);
+            self.write(&mut canvas, left, [from, GAP]);
+            self.write(&mut canvas, right, [middle + GAP, GAP]);
+        }
+        if self.rows == 0 {
+            return;
+        }
+        let top = height + GAP / 2;
+        let mut keys = self.keys.as_slice();
+        let mut left = GAP;
+        if self.has_scale {
+            let mut room = width.saturating_sub(2 * GAP + widths(keys));
+            if room < NARROWEST_SCALE {
+                (keys, room) = (&[], width - 2 * GAP);
+            }
+            self.scale(&mut canvas, [left, height + GAP], room);
+            left += room + 2 * GAP;
+        }
+        for &(color, meaning) in keys {
+            let [square, text] = [[left, top + (LINE - BAR) / 2], [left + BAR + GAP / 2, top]];
+            canvas.fill(square, [BAR, BAR], color);
+            self.write(&mut canvas, meaning, text);
+            left += key_width(meaning);
+        }
+    }
+
+    /// Draws the scale of angles with its labels.
+    fn scale(&self, canvas: &mut Canvas<'_>, [left, top]: [u32; 2], width: u32) {
+        for (column, color) in (left..).zip(row(width as usize)) {
+            canvas.fill([column, top], [1, BAR], color);
+        }
+        for degrees in LABELS {
+            let label = format!("{degrees}°");
+            let half = LETTER * label.chars().count() as u32 / 2;
+            let at = (scale_position(degrees) * f64::from(width)) as u32;
+            let from = left + at.max(half).min(width - half) - half;
+            self.write(canvas, &label, [from, top + BAR + 2]);
+        }
+    }
+
+    fn write(&self, canvas: &mut Canvas<'_>, text: &str, [left, top]: [u32; 2]) {
+        let style = MonoTextStyle::new(FONT, self.ink);
+        let at = Point::new(left as i32, top as i32);
+        let Ok(_) = Text::with_baseline(text, at, style, Baseline::Top).draw(canvas);
+    }
+}
+
+/// What the colours of a view mean.
+fn colors_of(options: &RenderOptions) -> Vec<Key> {
+    match options.view {
+        View::Angle => vec![(options.heat.flip, "signs differ"), (options.heat.none, "no tangent")],
+        View::Tangent | View::Bitangent | View::Normal => {
+            vec![([255, 128, 128], "+x"), ([128, 255, 128], "+y"), ([128, 128, 255], "+z")]
+        }
+        View::Shaded if options.layout.is_none() => Vec::new(),
+        View::Sign | View::Shaded => vec![(SIGN_COLORS[0], "w = 1"), (SIGN_COLORS[1], "w = -1")],
+    }
+}
+
+/// What is left and right of `--split`.
+fn names_of(arguments: &RenderArguments, source: TangentSource) -> Option<([String; 2], f64)> {
+    let flipped =
+        |mistake: &MistakeChoice| Some(format!("{} flipped", mistake.to_possible_value()?.get_name()));
+    let against = arguments.against.map(|source| source.name());
+    let right: Vec<String> =
+        against.into_iter().chain(arguments.mistakes.iter().filter_map(flipped)).collect();
+    Some(([source.name(), right.join(", ")], arguments.split? / 100.0))
+}
+
+fn key_width(meaning: &str) -> u32 {
+    BAR + GAP / 2 + LETTER * meaning.len() as u32 + 2 * GAP
+}
+
+fn widths(keys: &[Key]) -> u32 {
+    keys.iter().map(|(_, meaning)| key_width(meaning)).sum()
+}
+
+/// Pixels to draw on.
+struct Canvas<'a> {
+    width: u32,
+    pixels: &'a mut [[u8; 3]],
+}
+
+impl Canvas<'_> {
+    fn fill(&mut self, [left, top]: [u32; 2], [width, height]: [u32; 2], color: [u8; 3]) {
+        for row in top..top + height {
+            (left..left + width).for_each(|column| self.put(column, row, color));
+        }
+    }
+
+    /// What lies outside is left out.
+    fn put(&mut self, column: u32, row: u32, color: [u8; 3]) {
+        let at = row as usize * self.width as usize + column as usize;
+        if let Some(pixel) = self.pixels.get_mut(at).filter(|_| column < self.width) {
+            *pixel = color;
+        }
+    }
+}
+
+impl Dimensions for Canvas<'_> {
+    fn bounding_box(&self) -> Rectangle {
+        let rows = self.pixels.len() / (self.width as usize).max(1);
+        Rectangle::new(Point::zero(), Size::new(self.width, rows as u32))
+    }
+}
+
+impl DrawTarget for Canvas<'_> {
+    type Color = Rgb888;
+    type Error = Infallible;
+
+    fn draw_iter<I: IntoIterator<Item = Pixel<Rgb888>>>(&mut self, pixels: I) -> Result<(), Infallible> {
+        for Pixel(Point { x, y }, color) in pixels {
+            if let (Ok(column), Ok(row)) = (u32::try_from(x), u32::try_from(y)) {
+                self.put(column, row, [color.r(), color.g(), color.b()]);
+            }
+        }
+        Ok(())
+    }
+}

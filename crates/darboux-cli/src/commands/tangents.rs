@@ -1,0 +1,194 @@
+//! `darboux tangents`: adds tangents to a file, and normals first where asked to.
+
+pub mod arguments;
+mod device;
+pub mod summary;
+
+use darboux::{Mesh, Scratch, TangentOptions, Tangents};
+use darboux_io::gltf::{
+    NormalsOptions, Outcome, Progress, TangentsOptions, Totals, Written, add_normals, add_tangents_with,
+};
+use indicatif::HumanCount;
+
+use crate::batch::command::{FileCommand, ProcessedFile};
+use crate::batch::plan::Job;
+use crate::batch::report::{FileReport, Status};
+use crate::commands::normals::describe_normals;
+use crate::documents::{load, save};
+use crate::inputs::{UsageError, output_suffix};
+use crate::options::files::FileOptions;
+use crate::options::messages::MessageOptions;
+use crate::options::method::MethodName;
+use crate::terminal::FileProgress;
+use crate::text::{counted, nonzero_counts};
+use arguments::{Device, TangentsArguments};
+use device::TangentDevice;
+use summary::{DeviceReport, TangentsSummary};
+
+impl FileCommand for TangentsArguments {
+    type Summary = TangentsSummary;
+
+    const NAME: &'static str = "tangents";
+    const IMAGES: bool = false;
+
+    fn suffix(&self) -> &str {
+        output_suffix::TANGENTS
+    }
+
+    fn files(&self) -> &FileOptions {
+        &self.files
+    }
+
+    fn messages(&self) -> &MessageOptions {
+        &self.messages
+    }
+
+    fn check(&self) -> Result<(), UsageError> {
+        if self.method != MethodName::MikkTSpace && self.threshold != TangentOptions::default().threshold {
+            return Err(UsageError(
+                "--threshold belongs to --method mikktspace; leave one of them out".into(),
+            ));
+        }
+        if self.method != MethodName::MikkTSpace && self.device == Device::Gpu {
+            return Err(UsageError(
+                "--device gpu belongs to --method mikktspace; leave one of them out".into(),
+            ));
+        }
+        Ok(())
+    }
+
+    fn options(&self) -> String {
+        format!("{:?} after {:?}", options(self), self.normals.options())
+    }
+
+    fn process(
+        &self,
+        job: &Job,
+        progress: &FileProgress<'_>,
+    ) -> Result<ProcessedFile<TangentsSummary>, String> {
+        let sentence = |error: darboux_io::Error| error.to_string();
+        let mut device = TangentDevice::new(self.device)?;
+        let mut document = load(&job.input, self.files.allow_outside)?;
+        let mut warnings = document.warnings().to_vec();
+        let mut normals = None;
+        if let Some(options) = self.normals.options() {
+            let options = NormalsOptions { normals: options, overwrite: self.overwrite };
+            let made = add_normals(&mut document, &options, &mut |_| {}).map_err(sentence)?;
+            warnings.extend(made.warnings);
+            normals = Some(made.primitives);
+        }
+        let mut on_progress = |Progress { done, total }: Progress| progress.set(done, total);
+        let mut generate =
+            |mesh: &Mesh<'_>, options: &TangentOptions, scratch: &mut Scratch, out: &mut Tangents| {
+                device.generate(mesh, options, scratch, out)
+            };
+        let made = add_tangents_with(&mut document, &options(self), &mut generate, &mut on_progress);
+        let mut tangents = made.map_err(sentence)?;
+        tangents.warnings.splice(0..0, warnings);
+        tangents.warnings.extend(advice(tangents.totals.without_normals));
+        tangents.warnings.extend(device.warning());
+        let changed = document.is_changed() && (normals.is_some() || tangents.totals.written > 0);
+        let device_report = Some(device.report(3 * tangents.totals.triangles));
+        let (status, files_written) = save(&document, &job.output, &self.files, changed)?;
+        let summary = TangentsSummary { normals, device: device_report, tangents };
+        Ok(ProcessedFile { status, files_written, summary })
+    }
+
+    fn lines(summary: &TangentsSummary) -> Vec<String> {
+        let mut lines = describe_normals(summary.normals.as_deref().unwrap_or_default());
+        for primitive in &summary.tangents.primitives {
+            let what = match &primitive.outcome {
+                Outcome::Written(written) => describe(written),
+                Outcome::Kept { reason } => format!("kept: {reason}; --overwrite replaces them"),
+                Outcome::Skipped { reason } => format!("skipped: {reason}"),
+                _ => continue,
+            };
+            lines.push(format!("{}: {what}", primitive.name));
+        }
+        lines.extend(summary.device.as_ref().and_then(DeviceReport::line));
+        lines
+    }
+
+    fn warnings(summary: &TangentsSummary) -> &[String] {
+        &summary.tangents.warnings
+    }
+
+    fn total(files: &[FileReport<TangentsSummary>]) -> String {
+        let sum = |of: fn(&Totals) -> usize,
+                   files: &mut dyn Iterator<Item = &FileReport<TangentsSummary>>| {
+            files.filter_map(|file| Some(of(&file.summary.this_run()?.tangents.totals))).sum::<usize>()
+        };
+        let (changed, same): (Vec<_>, Vec<_>) = files.iter().partition(|file| file.status == Status::Written);
+        let had = match sum(|totals| totals.written, &mut same.into_iter()) {
+            0 => String::new(),
+            had => format!(", {had} unchanged"),
+        };
+        format!(
+            "{} got tangents{had}, {} kept, {} skipped",
+            counted(sum(|totals| totals.written, &mut changed.into_iter()), "primitive", "primitives"),
+            sum(|totals| totals.kept, &mut files.iter()),
+            sum(|totals| totals.skipped, &mut files.iter()),
+        )
+    }
+}
+
+/// Suggests --normals for primitives without normals.
+fn advice(without_normals: usize) -> Option<String> {
+    (without_normals > 0).then(|| {
+        let subject = counted(without_normals, "primitive has", "primitives have");
+        format!("{subject} no normals, which tangents need; --normals smooth generates them")
+    })
+}
+
+fn options(arguments: &TangentsArguments) -> TangentsOptions {
+    TangentsOptions {
+        tangents: TangentOptions {
+            method: arguments.method.into(),
+            mode: arguments.mode.into(),
+            threshold: arguments.threshold,
+        },
+        encoding: arguments.encoding,
+        overwrite: arguments.overwrite,
+        only_needed: arguments.only_needed,
+        strict: arguments.strict,
+        apply_texture_transform: arguments.apply_texture_transform,
+    }
+}
+
+/// Describes the tangents of a primitive; counts of zero are omitted.
+fn describe(written: &Written) -> String {
+    let Written { counts, vertices_before, vertices_after, .. } = written;
+    let mut text = match written.uv_set {
+        Some(set) => format!("TEXCOORD_{set} ({})", written.uv_reason),
+        None => format!("no UVs ({})", written.uv_reason),
+    };
+    text += &format!(
+        ", {}, {}",
+        counted(counts.triangles, "triangle", "triangles"),
+        counted(*vertices_before, "vertex", "vertices")
+    );
+    if vertices_after != vertices_before {
+        text += &format!(" became {}", HumanCount(*vertices_after as u64));
+    }
+    text + &nonzero_counts([
+        (counts.split_vertices, "vertex split", "vertices split"),
+        (counts.mirrored_edges, "mirrored edge", "mirrored edges"),
+        (counts.degenerate_triangles, "degenerate triangle", "degenerate triangles"),
+        (counts.uv_degenerate_triangles, "UV-degenerate triangle", "UV-degenerate triangles"),
+        (counts.non_finite_corners, "non-finite corner", "non-finite corners"),
+        (counts.repaired_corners, "unusable corner", "unusable corners"),
+        (counts.merged_vertices, "mirrored seam vertex not split", "mirrored seam vertices not split"),
+        (counts.mixed_sign_triangles, "triangle with both signs", "triangles with both signs"),
+        (written.morph_targets, "morph target", "morph targets"),
+        (
+            written.regrouped_corners,
+            "morphed corner grouped as the base is",
+            "morphed corners grouped as the base is",
+        ),
+        (
+            written.conflicting_corners,
+            "morphed corner unlike its vertex",
+            "morphed corners unlike their vertices",
+        ),
+    ])
+}

@@ -1,0 +1,100 @@
+//! Reads and writes glTF documents. Errors are one sentence each.
+
+use std::io::{self, ErrorKind, Read};
+use std::path::Path;
+
+use darboux::Convention;
+use darboux_io::Error;
+use darboux_io::gltf::{Document, LoadOptions};
+
+use crate::batch::plan::Output;
+use crate::batch::report::Status;
+use crate::inputs::Input;
+use crate::interrupt;
+use crate::options::files::FileOptions;
+
+/// Reads a document and refuses one whose vertices are not in glTF's convention.
+pub fn load(input: &Input, allow_outside: bool) -> Result<Document, String> {
+    let document = load_any(input, allow_outside)?;
+    let convention = document.convention().map_err(|error| error.to_string())?;
+    if convention == Convention::GLTF {
+        return Ok(document);
+    }
+    let others: Vec<&str> = convention.names().skip(1).collect();
+    let others =
+        if others.is_empty() { String::new() } else { format!(" (that of {}, too)", others.join(" and ")) };
+    Err(format!(
+        "{input}: its vertices are in the convention {convention}{others}; first run darboux convert --from {convention} --to gltf {input}"
+    ))
+}
+
+/// Reads a document in any convention. Standard input has no folder, so its buffers must be embedded.
+pub fn load_any(input: &Input, allow_outside: bool) -> Result<Document, String> {
+    let options = LoadOptions { allow_outside };
+    let document = match input {
+        Input::File(path) if path.is_file() && is_other_format(path) => {
+            return Err(format!(
+                "{input}: only glTF files are read here; export it as .glb from the program that made it (darboux view and darboux render show an OBJ as it is)"
+            ));
+        }
+        Input::File(path) => Document::open(path, &options),
+        Input::Stdin => Document::from_bytes(&input.to_string(), read_stdin()?, None, &options),
+    };
+    document.map_err(|error| error.to_string())
+}
+
+/// Whether the extension is that of a model format other than glTF.
+fn is_other_format(path: &Path) -> bool {
+    const OTHERS: [&str; 12] =
+        ["3ds", "abc", "blend", "dae", "fbx", "obj", "ply", "stl", "usd", "usda", "usdc", "usdz"];
+    path.extension().is_some_and(|extension| OTHERS.iter().any(|other| extension.eq_ignore_ascii_case(other)))
+}
+
+/// Reads all of standard input.
+pub fn read_stdin() -> Result<Vec<u8>, String> {
+    let mut bytes = Vec::new();
+    let read = io::stdin().lock().read_to_end(&mut bytes);
+    read.map(|_| bytes).map_err(|error| format!("{}: cannot be read: {error}", Input::Stdin))
+}
+
+/// Writes a document and returns its status and the files written. `changed`: whether the command changed the document.
+pub fn save(
+    document: &Document,
+    output: &Output,
+    files: &FileOptions,
+    changed: bool,
+) -> Result<(Status, Vec<String>), String> {
+    let sentence = |error: Error| error.to_string();
+    let status = if changed { Status::Written } else { Status::Copied };
+    let path = match output {
+        Output::Stdout => {
+            return match document.write_glb(Path::new(&output.to_string()), io::stdout().lock()) {
+                // A closed pipe is no error: its reader has read enough.
+                Err(Error::Write { source, .. }) if source.kind() == ErrorKind::BrokenPipe => {
+                    Ok((status, Vec::new()))
+                }
+                written => written.map(|()| (status, Vec::new())).map_err(sentence),
+            };
+        }
+        Output::File(path) => path,
+    };
+    let _guard = interrupt::writing();
+    let written = match files.in_place {
+        true => document.save_in_place(),
+        false => document.save(path, &files.save_options()),
+    };
+    let written: Vec<String> =
+        written.map_err(sentence)?.iter().map(|path| path.display().to_string()).collect();
+    let untouched = files.in_place && written.is_empty();
+    Ok((if untouched { Status::Untouched } else { status }, written))
+}
+
+/// Refuses to write a picture over a file that the inputs use.
+pub fn refuse_used(path: &Path, documents: [&Document; 2]) -> Result<(), String> {
+    match documents.into_iter().find(|document| document.uses_file(path)) {
+        Some(document) => {
+            Err(format!("{}: is a file that {} uses; name another file", path.display(), document.name()))
+        }
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,73 @@
+//! Opens the fastest adapter once per process and computes MikkTSpace tangents on it.
+
+use std::sync::atomic::AtomicBool;
+use std::sync::{Mutex, OnceLock, PoisonError};
+
+use darboux::{Mesh, TangentOptions, Tangents};
+use darboux_gpu::{AdapterKind, Generated, Gpu, MikkTSpace};
+
+use super::adapter::Adapter;
+
+/// Why no adapter is listed.
+pub const NO_ADAPTERS: &str = "no GPU adapter was found";
+
+/// The fastest adapter, with its compute pipelines compiled.
+pub struct OpenGpu {
+    pub name: String,
+    /// True until the warning that this adapter is software was printed; false for hardware.
+    pub is_software_unreported: AtomicBool,
+    /// Locked for each mesh: several meshes at once may need more memory than the adapter has.
+    pipelines: Mutex<MikkTSpace>,
+}
+
+/// Opens the fastest adapter; later calls return the same one. Errors: no adapter exists, or the adapter cannot be used.
+pub fn open() -> Result<&'static OpenGpu, String> {
+    static OPENED: OnceLock<Result<OpenGpu, String>> = OnceLock::new();
+    let open = || {
+        let gpu = pollster::block_on(Gpu::open())?;
+        let pipelines = Mutex::new(MikkTSpace::new(&gpu)?);
+        let is_software_unreported = AtomicBool::new(gpu.kind() == AdapterKind::Software);
+        Ok(OpenGpu { name: gpu.name, is_software_unreported, pipelines })
+    };
+    let opened = OPENED.get_or_init(|| open().map_err(|error: darboux_gpu::GpuError| error.to_string()));
+    opened.as_ref().map_err(Clone::clone)
+}
+
+impl OpenGpu {
+    /// A GPU whose device was lost; `None` without an adapter.
+    #[cfg(test)]
+    pub fn lost() -> Option<Self> {
+        let gpu = pollster::block_on(Gpu::open()).ok()?;
+        let pipelines = Mutex::new(MikkTSpace::new(&gpu).ok()?);
+        gpu.device.destroy();
+        Some(Self { name: gpu.name, is_software_unreported: AtomicBool::new(false), pipelines })
+    }
+
+    /// Computes the tangents of a mesh and returns the number of corners that the CPU computed. Errors: the adapter fails.
+    pub fn generate(
+        &self,
+        mesh: &Mesh<'_>,
+        options: &TangentOptions,
+        out: &mut Tangents,
+    ) -> Result<usize, String> {
+        let pipelines = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
+        let generated = pipelines.generate_tangents(mesh, options).map_err(|error| error.to_string())?;
+        let Generated { tangents, corners_of_cpu, .. } = generated;
+        *out = tangents;
+        Ok(corners_of_cpu)
+    }
+}
+
+/// Lists all adapters; each is opened to find out whether it can be used.
+pub fn adapters() -> Vec<Adapter> {
+    let describe = |(summary, gpu): (darboux_gpu::AdapterSummary, Result<Gpu, _>)| Adapter {
+        triangle_limit: MikkTSpace::triangle_limit(&summary),
+        problem: gpu.and_then(|gpu| MikkTSpace::new(&gpu)).err().map(|error| error.to_string()),
+        kind: summary.kind.to_string(),
+        name: summary.name,
+        backend: summary.backend,
+        driver: summary.driver,
+        largest_binding: summary.largest_binding,
+    };
+    pollster::block_on(Gpu::list()).into_iter().map(describe).collect()
+}

@@ -1,0 +1,139 @@
+//! Turns the input arguments (files, folders, `-`) into the list of files that a command reads.
+
+use std::ffi::OsStr;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use walkdir::{DirEntry, WalkDir};
+
+use crate::paths::{canonical, is_model};
+
+/// Where a file is read from.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Input {
+    Stdin,
+    File(PathBuf),
+}
+
+impl fmt::Display for Input {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Input::Stdin => f.write_str("<stdin>"),
+            Input::File(path) => path.display().fmt(f),
+        }
+    }
+}
+
+impl Input {
+    /// The size of the file in bytes, 0 where it is unknown.
+    pub fn byte_length(&self) -> u64 {
+        match self {
+            Input::File(path) => Path::metadata(path).map_or(0, |metadata| metadata.len()),
+            Input::Stdin => 0,
+        }
+    }
+}
+
+/// Wrong usage, in one sentence.
+#[derive(Debug, PartialEq, Eq)]
+pub struct UsageError(pub String);
+
+/// The suffixes of output names, by command. Those of `convert` are conventions.
+pub mod output_suffix {
+    pub const TANGENTS: &str = "tangents";
+    pub const NORMALS: &str = "normals";
+    pub const ALL: [&str; 2] = [TANGENTS, NORMALS];
+}
+
+/// Which models a folder search returns.
+#[derive(Clone, Copy)]
+pub enum SearchMode<'a> {
+    /// All models.
+    All,
+    /// All models except those named like an output and those below the output folder.
+    SkipOutputs {
+        /// The output folder.
+        out_dir: Option<&'a Path>,
+    },
+}
+
+/// The result of a search.
+#[derive(Debug, Default)]
+pub struct FoundInputs {
+    /// Each file, and the folder argument that it was found in, if any.
+    pub files: Vec<(Input, Option<PathBuf>)>,
+    /// Paths that cannot be searched or hold no model, each with the reason.
+    pub failed: Vec<(PathBuf, String)>,
+    /// The number of earlier outputs that were skipped.
+    pub skipped: usize,
+}
+
+/// Refuses standard input together with other inputs.
+pub fn check_stdin(inputs: &[PathBuf]) -> Result<(), UsageError> {
+    if inputs.len() > 1 && inputs.iter().any(|path| path == Path::new("-")) {
+        return Err(UsageError("- (standard input) must be the only input".into()));
+    }
+    Ok(())
+}
+
+/// Searches the input arguments for models; folders are searched recursively, in the order of names.
+///
+/// A path that is no folder counts as a file even if it does not exist: reading it reports the error.
+pub fn find_inputs(inputs: &[PathBuf], mode: SearchMode) -> FoundInputs {
+    let mut found = FoundInputs::default();
+    for path in inputs {
+        if path == Path::new("-") {
+            found.files.push((Input::Stdin, None));
+        } else if path.is_dir() {
+            found.search(path, mode);
+        } else if path.metadata().is_ok_and(|metadata| !metadata.is_file()) {
+            let reason = "is not a regular file; save its content to a file, or pipe it to -";
+            found.failed.push((path.clone(), reason.into()));
+        } else {
+            found.files.push((Input::File(path.clone()), None));
+        }
+    }
+    found
+}
+
+impl FoundInputs {
+    fn search(&mut self, folder: &Path, mode: SearchMode) {
+        let before = (self.files.len(), self.skipped, self.failed.len());
+        let out_dir = match mode {
+            SearchMode::SkipOutputs { out_dir: Some(out_dir) } => Some(canonical(out_dir)),
+            _ => None,
+        };
+        let is_entered = |entry: &DirEntry| {
+            entry.depth() == 0 || !entry.file_type().is_dir() || Some(canonical(entry.path())) != out_dir
+        };
+        for entry in WalkDir::new(folder).sort_by_file_name().into_iter().filter_entry(is_entered) {
+            match entry {
+                Ok(entry) if !entry.file_type().is_file() || !is_model(entry.path()) => {}
+                Ok(entry)
+                    if matches!(mode, SearchMode::SkipOutputs { .. }) && has_output_name(entry.path()) =>
+                {
+                    self.skipped += 1
+                }
+                Ok(entry) => self.files.push((Input::File(entry.into_path()), Some(folder.to_path_buf()))),
+                Err(error) => {
+                    let path = error.path().unwrap_or(folder).to_path_buf();
+                    self.failed.push((path, format!("cannot be searched: {}", reason_of(error))));
+                }
+            }
+        }
+        if before == (self.files.len(), self.skipped, self.failed.len()) {
+            self.failed
+                .push((folder.to_path_buf(), "the folder contains no model (.gltf, .glb, .vrm)".into()));
+        }
+    }
+}
+
+fn reason_of(error: walkdir::Error) -> String {
+    error.into_io_error().map_or("the folder contains itself".into(), |error| error.to_string())
+}
+
+/// Whether the file is named like an output for which no name was given, such as model.tangents.glb.
+fn has_output_name(path: &Path) -> bool {
+    let stem = Path::new(path.file_stem().unwrap_or_default());
+    output_suffix::ALL.iter().any(|suffix| stem.extension() == Some(OsStr::new(suffix)))
+}

@@ -1,0 +1,62 @@
+//! How normals are generated: flat, smooth or creased.
+
+use darboux::{NormalOptions, Shading};
+
+use super::angle::degrees;
+
+/// Flat, smooth or creased.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ShadingChoice {
+    Flat,
+    Smooth,
+    Crease(f32),
+}
+
+impl ShadingChoice {
+    /// The options of the core.
+    pub fn options(self) -> NormalOptions {
+        let smooth = NormalOptions::default();
+        match self {
+            Self::Flat => NormalOptions { shading: Shading::Flat, ..smooth },
+            Self::Smooth => smooth,
+            Self::Crease(crease) => NormalOptions { crease, ..smooth },
+        }
+    }
+}
+
+/// The normals that tangents are computed with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NormalsChoice {
+    Keep,
+    Make(ShadingChoice),
+}
+
+impl NormalsChoice {
+    /// The options of the core, unless normals stay as they are.
+    pub fn options(self) -> Option<NormalOptions> {
+        match self {
+            Self::Keep => None,
+            Self::Make(shading) => Some(shading.options()),
+        }
+    }
+}
+
+/// Parses a shading.
+pub fn shading(text: &str) -> Result<ShadingChoice, String> {
+    match (text, text.strip_prefix("crease=").map(degrees::<f32>)) {
+        ("flat", _) => Ok(ShadingChoice::Flat),
+        ("smooth", _) => Ok(ShadingChoice::Smooth),
+        (_, Some(Ok(degrees))) => Ok(ShadingChoice::Crease(degrees)),
+        (_, Some(Err(_))) => Err("a crease has 0 to 180 degrees, as in crease=30".into()),
+        _ => Err("choose flat, smooth or crease=DEG".into()),
+    }
+}
+
+/// A shading, or "keep".
+pub fn normals_choice(text: &str) -> Result<NormalsChoice, String> {
+    if text == "keep" {
+        return Ok(NormalsChoice::Keep);
+    }
+    let made = shading(text).map(NormalsChoice::Make);
+    made.map_err(|problem| problem.replace("choose flat", "choose keep, flat"))
+}
