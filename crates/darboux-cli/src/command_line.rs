@@ -4,11 +4,16 @@ use clap::{Parser, Subcommand};
 
 use crate::commands::compare::arguments::{self as compare, CompareArguments};
 use crate::commands::convert::arguments::{self as convert, ConvertArguments};
+#[cfg(feature = "gpu")]
 use crate::commands::devices::arguments::{self as devices, DevicesArguments};
 use crate::commands::inspect::arguments::{self as inspect, InspectArguments};
+#[cfg(not(all(feature = "gpu", feature = "view")))]
+use crate::commands::missing::MissingArguments;
 use crate::commands::normals::arguments::{self as normals, NormalsArguments};
+#[cfg(feature = "gpu")]
 use crate::commands::render::arguments::{self as render, RenderArguments};
 use crate::commands::tangents::arguments::{self as tangents, TangentsArguments};
+#[cfg(feature = "view")]
 use crate::commands::view::arguments::{self as view, ViewArguments};
 
 /// Tangents for normal-mapped glTF models: MikkTSpace bit for bit, seams split
@@ -54,14 +59,26 @@ pub enum Command {
     #[command(long_about = inspect::ABOUT, after_long_help = inspect::EXAMPLES)]
     Inspect(InspectArguments),
     /// Draw a model or its tangents into a PNG
+    #[cfg(feature = "gpu")]
     #[command(long_about = render::ABOUT, after_long_help = render::EXAMPLES)]
     Render(RenderArguments),
     /// Show a model in the browser, with its tangents
+    #[cfg(feature = "view")]
     #[command(long_about = view::ABOUT, after_long_help = view::EXAMPLES)]
     View(ViewArguments),
     /// Say which method of computing tangents is for what
     Methods,
     /// List the adapters that can compute tangents
+    #[cfg(feature = "gpu")]
     #[command(long_about = devices::ABOUT)]
     Devices(DevicesArguments),
+    #[cfg(not(feature = "gpu"))]
+    #[command(hide = true)]
+    Render(MissingArguments),
+    #[cfg(not(feature = "view"))]
+    #[command(hide = true)]
+    View(MissingArguments),
+    #[cfg(not(feature = "gpu"))]
+    #[command(hide = true)]
+    Devices(MissingArguments),
 }

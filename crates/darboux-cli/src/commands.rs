@@ -2,11 +2,15 @@
 
 pub mod compare;
 pub mod convert;
+#[cfg(feature = "gpu")]
 pub mod devices;
 pub mod inspect;
 pub mod methods;
+#[cfg(not(all(feature = "gpu", feature = "view")))]
+pub mod missing;
 pub mod normals;
 #[cfg(feature = "gpu")]
 pub mod render;
 pub mod tangents;
+#[cfg(feature = "view")]
 pub mod view;

@@ -1,13 +1,13 @@
-//! The GPU of `tangents --device gpu` and `devices`, and its stand-in for builds without GPU support.
-
-pub mod adapter;
+//! The GPU of `tangents --device gpu` and `devices`, and its stand-in for builds without the feature `gpu`.
 
 #[cfg(not(feature = "gpu"))]
 mod absent;
 #[cfg(feature = "gpu")]
+pub mod adapter;
+#[cfg(feature = "gpu")]
 mod present;
 
 #[cfg(not(feature = "gpu"))]
-pub use absent::{NO_ADAPTERS, OpenGpu, adapters, open};
+pub use absent::{OpenGpu, open};
 #[cfg(feature = "gpu")]
-pub use present::{NO_ADAPTERS, OpenGpu, adapters, open};
+pub use present::{OpenGpu, adapters, open};

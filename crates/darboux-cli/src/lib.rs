@@ -38,10 +38,19 @@ where
             Command::Convert(arguments) => batch::run(arguments),
             Command::Compare(arguments) => commands::compare::run(arguments),
             Command::Inspect(arguments) => commands::inspect::run(arguments),
-            Command::Render(arguments) => commands::render::run(arguments),
-            Command::View(arguments) => commands::view::run(arguments),
             Command::Methods => commands::methods::run(),
+            #[cfg(feature = "gpu")]
+            Command::Render(arguments) => commands::render::run(arguments),
+            #[cfg(feature = "view")]
+            Command::View(arguments) => commands::view::run(arguments),
+            #[cfg(feature = "gpu")]
             Command::Devices(arguments) => commands::devices::run(arguments),
+            #[cfg(not(feature = "gpu"))]
+            Command::Render(_) => commands::missing::run("render", "full"),
+            #[cfg(not(feature = "view"))]
+            Command::View(_) => commands::missing::run("view", "full"),
+            #[cfg(not(feature = "gpu"))]
+            Command::Devices(_) => commands::missing::run("devices", "full"),
         },
         Err(help_or_error) => {
             let _closed_is_no_fault = help_or_error.print();

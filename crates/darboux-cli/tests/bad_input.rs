@@ -272,7 +272,7 @@ fn pipes_with_names_and_folders_are_no_files() {
     assert!(run.stderr.contains("not a regular file"), "{}", run.stderr);
     let run = darboux_reading(&["inspect", "/dev/stdin"], b"glTF").exits(1);
     assert!(
-        run.stderr.contains("/dev/stdin: is not a regular file; ") && run.stderr.contains(" as -"),
+        run.stderr.contains("/dev/stdin: is not a regular file; ") && run.stderr.contains(" to -"),
         "{}",
         run.stderr
     );
@@ -319,7 +319,7 @@ fn named_outputs_go_into_folders_that_exist() {
     ] {
         let run = darboux(arguments).exits(2);
         assert!(
-            run.stderr.contains(&format!("there is no folder {}; ", missing.display())),
+            run.stderr.contains(&format!("the folder {} does not exist; ", missing.display())),
             "{}",
             run.stderr
         );

@@ -22,7 +22,7 @@ fn a_model_without_normals_gets_them_and_then_tangents() {
     let fox = folder.path().join("Fox.glb");
     let run = darboux(&["normals", text(&fox)]).exits(0);
     assert!(
-        run.stderr.contains("meshes[0].primitives[0] \"fox1\": normals made, 576 triangles"),
+        run.stderr.contains("meshes[0].primitives[0] \"fox1\": normals generated, 576 triangles"),
         "{}",
         run.stderr
     );
@@ -64,7 +64,7 @@ fn new_normals_take_old_tangents_with_them() {
     darboux(&["normals", text(&plane), "-o", text(&out)]).exits(0);
     assert!(has(&primitive(&out), "TANGENT"), "normals that exist stay, and their tangents with them");
     let run = darboux(&["normals", text(&plane), "-o", text(&out), "--overwrite", "--force"]).exits(0);
-    assert!(run.stderr.contains(", tangents taken out"), "{}", run.stderr);
+    assert!(run.stderr.contains(", tangents removed"), "{}", run.stderr);
     assert!(
         run.stderr.contains("warning: ") && run.stderr.contains("run darboux tangents"),
         "{}",

@@ -34,7 +34,7 @@ fn a_folder_does_not_take_up_its_own_outputs() {
     let names = names_in(folder.path());
     let run = darboux(&["tangents", text(folder.path()), "--force", "--json"]).exits(0);
     assert_eq!(run.json()["totals"]["files"], 1);
-    assert!(run.stderr.contains("1 file left out"), "{}", run.stderr);
+    assert!(run.stderr.contains("1 file skipped"), "{}", run.stderr);
     assert_eq!(names_in(folder.path()), names);
 }
 
@@ -129,7 +129,7 @@ fn nothing_to_do_is_a_copy_and_a_success() {
     let run = darboux(&["tangents", text(&fox), "-o", text(&copy)]).exits(0);
     assert!(fs::read(&fox).ok() == fs::read(&copy).ok());
     assert!(
-        run.stderr.contains("meshes[0].primitives[0] \"fox1\": left alone: it has no NORMAL"),
+        run.stderr.contains("meshes[0].primitives[0] \"fox1\": skipped: it has no NORMAL"),
         "{}",
         run.stderr
     );
@@ -232,6 +232,6 @@ fn a_second_run_in_place_changes_nothing() {
     let first = state();
     let again = run();
     assert!(again.contains("shield.glb: nothing changes, left as it was\n"));
-    assert!(again.contains("0 primitives got tangents, 1 had the same before, 0 kept"), "{again}");
+    assert!(again.contains("0 primitives got tangents, 1 unchanged, 0 kept"), "{again}");
     assert!(state() == first);
 }

@@ -108,8 +108,8 @@ fn people_read_what_was_done_to_each_primitive() {
     for part in [
         "strips-fans-lines-points.tangents.gltf",
         "meshes[0].primitives[1]: TEXCOORD_0 (normalTexture of materials[0]), 8 triangles, 10 vertices became 12",
-        "meshes[0].primitives[3]: left alone: its mode is LINE_STRIP",
-        "3 primitives got tangents, 0 kept, 3 left alone in 1 file",
+        "meshes[0].primitives[3]: skipped: its mode is LINE_STRIP",
+        "3 primitives got tangents, 0 kept, 3 skipped in 1 file",
     ] {
         assert!(run.stderr.contains(part), "{part:?} is not in {}", run.stderr);
     }

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::exit;
 use crate::gpu::adapter::Adapter;
-use crate::gpu::{NO_ADAPTERS, adapters};
+use crate::gpu::adapters;
 use crate::json::{VERSION, to_json};
 use crate::terminal::{Messages, write_stdout};
 use arguments::DevicesArguments;
@@ -39,7 +39,7 @@ pub fn run(arguments: &DevicesArguments) -> u8 {
 
 fn describe(adapters: &[Adapter]) -> String {
     if adapters.is_empty() {
-        return format!("{}; tangents are computed on the CPU\n", NO_ADAPTERS);
+        return "no GPU adapter was found; tangents are computed on the CPU\n".to_owned();
     }
     adapters.iter().fold(String::new(), |mut text, adapter| {
         let Adapter { name, kind, backend, driver, largest_binding, triangle_limit, problem } = adapter;

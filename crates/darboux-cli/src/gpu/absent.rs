@@ -1,34 +1,26 @@
-//! The stand-in for builds without the feature `gpu`: no adapter exists.
+//! The stand-in for builds without the feature `gpu`: opening a GPU fails.
 
 use std::sync::atomic::AtomicBool;
 
 use darboux::{Mesh, TangentOptions, Tangents};
 
-use super::adapter::Adapter;
+use crate::commands::missing::missing_feature;
 
-/// Why no adapter is listed.
-pub const NO_ADAPTERS: &str = "this darboux was built without GPUs";
-
-/// A GPU, which no value of this type can represent.
+/// A GPU; no value of this type exists.
 pub struct OpenGpu {
     pub name: String,
     pub is_software_unreported: AtomicBool,
     never: std::convert::Infallible,
 }
 
-/// Always fails.
+/// Fails with the command line that installs GPU support.
 pub fn open() -> Result<&'static OpenGpu, String> {
-    Err(format!("{NO_ADAPTERS}: leave --device gpu out, or build with the feature gpu"))
+    Err(missing_feature("--device gpu", "full"))
 }
 
 impl OpenGpu {
-    /// Never called.
+    /// Cannot be called.
     pub fn generate(&self, _: &Mesh<'_>, _: &TangentOptions, _: &mut Tangents) -> Result<usize, String> {
         match self.never {}
     }
-}
-
-/// Returns an empty list.
-pub fn adapters() -> Vec<Adapter> {
-    Vec::new()
 }

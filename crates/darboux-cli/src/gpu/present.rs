@@ -8,9 +8,6 @@ use darboux_gpu::{AdapterKind, Generated, Gpu, MikkTSpace};
 
 use super::adapter::Adapter;
 
-/// Why no adapter is listed.
-pub const NO_ADAPTERS: &str = "no GPU adapter was found";
-
 /// The fastest adapter, with its compute pipelines compiled.
 pub struct OpenGpu {
     pub name: String,
