@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::api;
 use crate::run::{Outcome, files_below, program, root, run};
 use crate::shaders;
 
@@ -14,6 +15,7 @@ const PLACES: &[&str] = &[
     "bindings/c/include/darboux.h",
     "shaders/glsl",
     "shaders/hlsl",
+    "docs/api",
 ];
 
 /// Packages, and their examples that write them below the folder that they are given.
@@ -47,6 +49,7 @@ pub fn compare() -> Outcome {
 
 fn generate(into: &Path) -> Outcome {
     shaders::write(into)?;
+    api::write(into)?;
     WRITERS.iter().try_for_each(|(package, example)| {
         run(program("cargo run --quiet").args(["--package", package, "--example", example, "--"]).arg(into))
     })

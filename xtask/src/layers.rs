@@ -4,14 +4,14 @@
 //! another file gives an edge; a strongly connected group of files is an error.
 
 mod cycles;
-mod names;
 mod packages;
-mod rust_files;
+mod rust_imports;
 mod typescript;
 
 use std::path::PathBuf;
 
 use crate::run::{Outcome, root};
+use crate::rust_code::Crate;
 use cycles::Graph;
 
 /// Folders whose TypeScript files are checked.
@@ -36,8 +36,8 @@ pub fn check() -> Outcome {
     let mut graphs = Vec::new();
     for target in packages::targets(&packages) {
         let folder = target.parent().map(PathBuf::from).unwrap_or_default();
-        let crate_files = rust_files::Crate::load(&target, &|path| std::fs::read_to_string(path).ok())?;
-        graphs.push((folder, crate_files.imports()));
+        let read = Crate::load(&target, &|path| std::fs::read_to_string(path).ok())?;
+        graphs.push((folder, rust_imports::imports(&read)));
     }
     for folder in TYPESCRIPT {
         let folder = root().join(folder);

@@ -1,5 +1,6 @@
 //! `cargo xtask <task>`: everything a person or CI runs.
 
+mod api;
 mod bench;
 mod ci;
 mod dist_c;
@@ -11,6 +12,7 @@ mod layers;
 mod packages;
 mod python;
 mod run;
+mod rust_code;
 mod shaders;
 mod validate;
 
@@ -35,6 +37,9 @@ usage: cargo xtask <task>
   arm           the tests of bits on 64-bit Arm, emulated (Debian: needs gcc and g++ for aarch64-linux-gnu, qemu-user; rustup)";
 
 fn main() -> ExitCode {
+    if let Some(folder) = std::env::var_os(api::EXPAND_INTO) {
+        return api::wrap_compiler(&folder);
+    }
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let result = match arguments[..] {

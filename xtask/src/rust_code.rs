@@ -1,36 +1,46 @@
-//! The modules of one crate, and which file's items each file uses.
+//! The modules of one crate and the files that define its items.
 //!
-//! A path is followed through modules, imports, re-exports and globs to the file that defines its item: `use super::X` imports from the
-//! sibling that defines `X` if the parent only re-exports it. `mod child;` is no import, and code under `#[cfg(test)]` is ignored.
+//! A path is followed through modules, imports, re-exports and globs to the module that defines its item: `use super::X` leads to the
+//! sibling that defines `X` if the parent only re-exports it. Code under `#[cfg(test)]` is ignored.
+
+pub mod names;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path as FilePath, PathBuf};
 
 use quote::ToTokens;
-use syn::{Attribute, Expr, ForeignItem, Item, Lit, Meta};
+use syn::{Attribute, Expr, ForeignItem, Item, Lit, Meta, Visibility};
 
-use super::cycles::Graph;
-use super::names::{Names, Path};
+use names::{Names, Path};
 
 /// Gives a file's text, if there is such a file.
-type ReadFile<'a> = &'a dyn Fn(&FilePath) -> Option<String>;
+pub type ReadFile<'a> = &'a dyn Fn(&FilePath) -> Option<String>;
 
 /// The modules of a crate; the first is its root.
 #[derive(Default)]
 pub struct Crate {
-    modules: Vec<Module>,
+    /// A module refers to others by index.
+    pub modules: Vec<Module>,
 }
 
+/// A module, inline or in a file of its own.
 #[derive(Default)]
-struct Module {
-    file: PathBuf,
-    /// Where the files of its child modules lie.
+pub struct Module {
+    /// The file that holds its items.
+    pub file: PathBuf,
+    /// The folder of its child modules' files.
     folder: PathBuf,
     parent: Option<usize>,
-    children: BTreeMap<String, usize>,
-    /// The names of its items.
-    items: BTreeSet<String>,
-    names: Names,
+    /// Child modules by name.
+    pub children: BTreeMap<String, usize>,
+    /// Whether it is declared `pub` and not `#[doc(hidden)]`.
+    pub is_public: bool,
+    /// Its items without child modules.
+    pub items: Vec<Item>,
+    /// The names that its items define.
+    defined: BTreeSet<String>,
+    /// The names that its items use.
+    pub names: Names,
 }
 
 impl Crate {
@@ -77,11 +87,14 @@ impl Crate {
                         }
                         None => self.load_child(&name, &module.attrs, index, read)?,
                     };
+                    let is_public = matches!(module.vis, Visibility::Public(_)) && !is_hidden(&module.attrs);
+                    self.modules[child].is_public = is_public;
                     self.modules[index].children.insert(name, child);
                 }
                 item => {
-                    self.modules[index].items.extend(defined_names(&item));
+                    self.modules[index].defined.extend(defined_names(&item));
                     item.to_tokens(&mut code);
+                    self.modules[index].items.push(item);
                 }
             }
         }
@@ -110,28 +123,18 @@ impl Crate {
         self.load_file(file, folder, Some(parent), read)
     }
 
-    /// Which file imports which names from which.
-    pub fn imports(&self) -> Graph {
-        let mut graph = Graph::default();
-        for (index, module) in self.modules.iter().enumerate() {
-            let imported = module.names.imports.iter().map(|(_, path)| path);
-            let globs = module.names.globs.iter();
-            for path in imported.chain(globs).chain(&module.names.paths) {
-                if let Some((definer, name)) = self.item(index, path, &mut BTreeSet::new()) {
-                    graph.add(&module.file, &self.modules[definer].file, &name);
-                }
-            }
-            for name in &module.names.macros {
-                if let Some(definer) = self.macro_definer(index, name) {
-                    graph.add(&module.file, &self.modules[definer].file, &format!("{name}!"));
-                }
-            }
-        }
-        graph
+    /// The module that defines the item that a path leads to, and the item's name. A path is relative to the module `from`.
+    pub fn item(&self, from: usize, path: &[String]) -> Option<(usize, String)> {
+        self.find_item(from, path, &mut BTreeSet::new())
     }
 
-    /// The module that defines the item that a path leads to, and the item's name. `visited` holds the places where a search is under way.
-    fn item(
+    /// The module that a path leads to.
+    pub fn module_at(&self, from: usize, path: &[String]) -> Option<usize> {
+        self.find_module(from, path, &mut BTreeSet::new())
+    }
+
+    /// [`Crate::item`]. `visited` holds the places where a search is under way.
+    fn find_item(
         &self,
         from: usize,
         path: &[String],
@@ -178,13 +181,13 @@ impl Crate {
         let module = &self.modules[of];
         let imported = || {
             let mut paths = module.names.imports.iter().filter(|(import, _)| import == name);
-            paths.find_map(|(_, path)| self.module_at(of, path, visited))
+            paths.find_map(|(_, path)| self.find_module(of, path, visited))
         };
         module.children.get(name).copied().or_else(imported)
     }
 
-    /// The module that a path leads to.
-    fn module_at(
+    /// [`Crate::module_at`].
+    fn find_module(
         &self,
         from: usize,
         path: &[String],
@@ -207,13 +210,13 @@ impl Crate {
         visited: &mut BTreeSet<(usize, Path)>,
     ) -> Option<(usize, String)> {
         let module = &self.modules[of];
-        if module.items.contains(name) {
+        if module.defined.contains(name) {
             return Some((of, name.to_owned()));
         }
         let mut imports = module.names.imports.iter().filter(|(import, _)| import == name);
-        imports.find_map(|(_, path)| self.item(of, path, visited)).or_else(|| {
+        imports.find_map(|(_, path)| self.find_item(of, path, visited)).or_else(|| {
             module.names.globs.iter().find_map(|path| {
-                let from = self.module_at(of, path, &mut BTreeSet::new())?;
+                let from = self.module_at(of, path)?;
                 let first_visit = visited.insert((from, vec!["*".to_owned(), name.to_owned()]));
                 first_visit.then(|| self.item_in(from, name, visited)).flatten()
             })
@@ -221,14 +224,15 @@ impl Crate {
     }
 
     /// The module whose `macro_rules!` a name before `!` means: an import, or the nearest module around it.
-    fn macro_definer(&self, from: usize, name: &str) -> Option<usize> {
+    pub fn macro_definer(&self, from: usize, name: &str) -> Option<usize> {
         let imported = self.item_in(from, name, &mut BTreeSet::new()).map(|(definer, _)| definer);
         let around = std::iter::successors(Some(from), |&module| self.modules[module].parent);
-        imported.or_else(|| around.into_iter().find(|&module| self.modules[module].items.contains(name)))
+        imported.or_else(|| around.into_iter().find(|&module| self.modules[module].defined.contains(name)))
     }
 }
 
-fn unraw(ident: &proc_macro2::Ident) -> String {
+/// A name without `r#`.
+pub fn unraw(ident: &proc_macro2::Ident) -> String {
     ident.to_string().trim_start_matches("r#").to_owned()
 }
 
@@ -257,7 +261,8 @@ fn defined_names(item: &Item) -> Vec<String> {
     vec![unraw(ident)]
 }
 
-fn attributes(item: &Item) -> &[Attribute] {
+/// The attributes of an item.
+pub fn attributes(item: &Item) -> &[Attribute] {
     match item {
         Item::Const(item) => &item.attrs,
         Item::Enum(item) => &item.attrs,
@@ -286,6 +291,14 @@ fn is_test(attributes: &[Attribute]) -> bool {
     })
 }
 
+/// True for `#[doc(hidden)]`.
+pub fn is_hidden(attributes: &[Attribute]) -> bool {
+    attributes.iter().any(|attribute| match &attribute.meta {
+        Meta::List(list) => list.path.is_ident("doc") && list.tokens.to_string() == "hidden",
+        _ => false,
+    })
+}
+
 /// The text of `#[path = "text"]`.
 fn path_attribute(attributes: &[Attribute]) -> Option<String> {
     attributes.iter().find_map(|attribute| match &attribute.meta {
@@ -298,80 +311,4 @@ fn path_attribute(attributes: &[Attribute]) -> Option<String> {
         },
         _ => None,
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The cycles of a crate whose files are given by path and text.
-    fn cycles(files: &[(&str, &str)]) -> Vec<String> {
-        let read = |path: &FilePath| {
-            let found = files.iter().find(|(name, _)| FilePath::new(name) == path);
-            found.map(|(_, text)| (*text).to_owned())
-        };
-        let graph = Crate::load(FilePath::new(files[0].0), &read).expect("files that parse").imports();
-        graph.cycles(&|file| file.display().to_string())
-    }
-
-    #[test]
-    fn two_files_that_use_each_other_are_a_cycle() {
-        let found = cycles(&[
-            ("lib.rs", "mod a; mod b;"),
-            ("a.rs", "use crate::b::B; pub struct A(B);"),
-            ("b.rs", "pub struct B; impl B { fn f() { let _ = vec![crate::a::A::new()]; } }"),
-        ]);
-        assert_eq!(found, ["a.rs -> b.rs (B) -> a.rs (A)"]);
-    }
-
-    #[test]
-    fn a_reexport_leads_to_the_file_that_defines_the_item() {
-        let found = cycles(&[
-            ("lib.rs", "mod group;"),
-            ("group.rs", "mod a; mod b; pub use a::A; pub use b::*;"),
-            ("group/a.rs", "use super::B; pub struct A(B);"),
-            ("group/b.rs", "use super::A; pub struct B;"),
-        ]);
-        assert_eq!(found, ["group/a.rs -> group/b.rs (B) -> group/a.rs (A)"]);
-        let one_way = cycles(&[
-            ("lib.rs", "mod group;"),
-            ("group/mod.rs", "mod a; mod b; pub use {a::A, b::B};"),
-            ("group/a.rs", "use super::B; pub struct A(B);"),
-            ("group/b.rs", "pub struct B;"),
-        ]);
-        assert!(one_way.is_empty(), "{one_way:?}");
-    }
-
-    #[test]
-    fn a_child_that_needs_its_parent_is_a_cycle_only_if_the_parent_needs_it() {
-        let child = ("a.rs", "use super::LIMIT; pub fn f() -> u32 { LIMIT }");
-        assert!(cycles(&[("lib.rs", "mod a; const LIMIT: u32 = 1;"), child]).is_empty());
-        let found = cycles(&[("lib.rs", "mod a; const LIMIT: u32 = 1; fn g() { a::f(); }"), child]);
-        assert_eq!(found, ["a.rs -> lib.rs (LIMIT) -> a.rs (f)"]);
-    }
-
-    #[test]
-    fn tests_may_use_everything() {
-        let found = cycles(&[
-            ("lib.rs", "mod a; pub fn f() { a::g(); }"),
-            ("a.rs", "pub fn g() {} #[cfg(test)] mod tests { use crate::f; }"),
-        ]);
-        assert!(found.is_empty(), "{found:?}");
-    }
-
-    #[test]
-    fn macros_and_globs_are_followed() {
-        let found = cycles(&[
-            ("lib.rs", "#[macro_use] mod a; mod b; pub use a::*;"),
-            ("a.rs", "macro_rules! sum { () => { 0 } } pub(crate) use sum; pub use super::b::*;"),
-            ("b.rs", "use super::*; fn f() { sum!(); }"),
-        ]);
-        assert!(found.is_empty(), "{found:?}");
-        let found = cycles(&[
-            ("lib.rs", "mod a; mod b;"),
-            ("a.rs", "macro_rules! sum { () => { 0 } } pub(crate) use sum; fn g() { crate::b::f(); }"),
-            ("b.rs", "use super::a::*; pub fn f() { sum!(); }"),
-        ]);
-        assert_eq!(found, ["a.rs -> b.rs (f) -> a.rs (sum!)"]);
-    }
 }
