@@ -66,6 +66,9 @@ const deflated = {
 /** Modules that have been deflated, by path: both forms of an entry have the same. */
 const smallest = {};
 
+/** A WGSL file without its comment lines. */
+const withoutComments = (text) => text.replace(/^\s*\/\/.*\n/gm, '');
+
 /** The shaders of crates/darboux-gpu, each file once, put together as its list says. Parts that are no files stand for themselves. */
 const shaders = {
   name: 'shaders',
@@ -77,7 +80,7 @@ const shaders = {
     build.onLoad({ filter: /.*/, namespace: 'shaders' }, ({ path }) => {
       const kernels = Object.entries(JSON.parse(readFileSync(path, 'utf8')));
       const parts = [...new Set(kernels.flatMap(([, parts]) => parts))];
-      const texts = parts.map((part) => (part.endsWith('.wgsl') ? readFileSync(join(folder, part), 'utf8') : part));
+      const texts = parts.map((part) => (part.endsWith('.wgsl') ? withoutComments(readFileSync(join(folder, part), 'utf8')) : part));
       const lists = kernels.map(([name, list]) => `${name}: [${list.map((part) => `t[${parts.indexOf(part)}]`)}]`);
       return { contents: `const t = ${JSON.stringify(texts)};\nexport default { ${lists} };` };
     });

@@ -84,7 +84,7 @@ async function run(device: GPUDevice, mesh: Mesh, buffer: GPUBuffer | undefined)
       const encoder = device.createCommandEncoder();
       for (const step of steps) step(encoder);
       if (buffer) encoder.copyBufferToBuffer(named.tangent_of_corner!, 0, buffer, 0, 16 * corners);
-      const copies = [named.refused!, named.welded!, named.tangent_of_corner!].map((source) => room.copy(encoder, source));
+      const copies = [named.failure_count!, named.welded_vertex!, named.tangent_of_corner!].map((source) => room.copy(encoder, source));
       device.queue.submit([encoder.finish()]);
       return copies;
     });

@@ -14,7 +14,7 @@ export type * from './types.js';
 
 /**
  * The shaders of plans and of 'average' as data, each of texts that are read one after the other, after the constants WORKGROUP,
- * VALUES_PER_THREAD, BLOCK, MAX_GROUPS and MAX_TURNS.
+ * VALUES_PER_THREAD, BLOCK, MAX_GROUPS and MAX_ITERATIONS.
  */
 export const shaders: Readonly<Record<'adjacency' | 'average' | 'scan' | 'terms' | 'gather' | 'repair' | 'write', readonly string[]>> = kernels;
 

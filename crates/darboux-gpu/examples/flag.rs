@@ -8,7 +8,7 @@
 mod picture;
 
 use darboux::{Mesh, MeshError, TangentOptions, VertexSplit, generate_tangents, split_vertices};
-use darboux_gpu::{Attribute, Gpu, MovingMesh, Per, Planner, Precision};
+use darboux_gpu::{Attribute, Gpu, MovingMesh, Planner, Precision, TangentsPer};
 use picture::{HEIGHT, Painter, WIDTH};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{Buffer, BufferUsages};
@@ -51,7 +51,7 @@ pub fn paint(gpu: &Gpu) -> Result<Vec<u8>, Box<dyn std::error::Error>> {
                 positions: part(0),
                 normals: part(12),
                 tangents: part(32),
-                per: Per::Vertex,
+                per: TangentsPer::Vertex,
             };
             plan.normals_of_buffers(&moving)?.record(&mut encoder);
             if row == 0 {

@@ -79,8 +79,8 @@ impl Row {
             self.worst_ulp = distances.fold(self.worst_ulp, u64::max);
         }
         self.corners += mesh.corner_count();
-        self.of_cpu += made.corners_of_cpu;
-        if made.left_to_cpu.is_none() {
+        self.of_cpu += made.cpu_corners;
+        if made.cpu_fallback.is_none() {
             self.groups += other_groups(kernels, mesh)?;
         }
         Ok(())
@@ -96,7 +96,7 @@ fn ordered(x: f32) -> i64 {
 /// Corners that are not in the core's group, at vertices without UV-degenerate triangles.
 fn other_groups(kernels: &MikkTSpace, mesh: &OwnedMesh) -> Result<usize, GpuError> {
     let options = TangentOptions { mode: Mode::Corrected, ..Default::default() };
-    let found = kernels.arrays(&mesh.view(), &options)?;
+    let found = kernels.stage_arrays(&mesh.view(), &options)?;
     let core = Stages::new(&mesh.view(), &options, usize::MAX).expect("no limit");
     let faces = &core.triangulation.good.face;
     let mut seeds = vec![NONE; mesh.corner_count()];
@@ -105,12 +105,13 @@ fn other_groups(kernels: &MikkTSpace, mesh: &OwnedMesh) -> Result<usize, GpuErro
         let seed = corners.clone().min().unwrap_or(NONE);
         corners.for_each(|corner| seeds[corner as usize] = seed);
     }
-    let mut is_any = vec![false; found.welded.len()];
-    for (corner, &vertex) in found.welded_corners.iter().enumerate().filter(|(_, vertex)| **vertex != NONE) {
-        is_any[vertex as usize] |= found.marks[corner / 3] & 2 != 0;
+    let mut is_any = vec![false; found.welded_vertex.len()];
+    for (corner, &vertex) in found.vertex_of_corner.iter().enumerate().filter(|(_, vertex)| **vertex != NONE)
+    {
+        is_any[vertex as usize] |= found.triangle_flags[corner / 3] & 2 != 0;
     }
     let compared = (0..seeds.len()).filter(|&corner| {
-        let vertex = found.welded_corners[corner];
+        let vertex = found.vertex_of_corner[corner];
         vertex != NONE && !is_any[vertex as usize]
     });
     Ok(compared.filter(|&corner| found.seed_of_corner[corner] != seeds[corner]).count())

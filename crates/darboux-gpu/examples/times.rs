@@ -12,7 +12,7 @@ use clock::{Clock, Times};
 use darboux::{Method, Scratch, TangentOptions, generate_tangents};
 use darboux_gpu::{
     AdapterKind, Attribute, Average, Destination, FrameLayout, Gpu, GpuError, MeshBuffers, MikkTSpace,
-    MovingMesh, Per, Planner, Precision, Search, VertexLayout,
+    MovingMesh, Planner, Precision, Search, TangentsPer, VertexLayout,
 };
 use darboux_tests::{OwnedMesh, families};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
@@ -155,7 +155,7 @@ impl Bench<'_> {
             positions: part(0),
             normals: part(20),
             tangents: part(32),
-            per: Per::Vertex,
+            per: TangentsPer::Vertex,
         };
         let [vertices, triangles] = [uploaded.vertex_count, uploaded.triangle_count].map(u64::from);
         // Positions, normals, tangents; triangles, members, ends, vertices of sums and sums of vertices.
@@ -193,7 +193,7 @@ impl Bench<'_> {
         let [vertices, triangles] = [uploaded.vertex_count, uploaded.triangle_count].map(u64::from);
         let options = TangentOptions::default();
         let mikktspace = MikkTSpace::new(self.gpu)?;
-        let recorded = mikktspace.recorded(&mesh.view(), &options)?;
+        let recorded = mikktspace.recording(&mesh.view(), &options)?;
         // Vertices, indices; a tangent per corner.
         let bytes = 32 * vertices + 12 * triangles + 48 * triangles;
         let times = self.clock.time(|encoder| recorded.record(encoder));

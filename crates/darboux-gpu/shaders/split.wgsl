@@ -1,8 +1,11 @@
-// Corner tangents to vertices: the twin of the core's split.rs. Corners of one vertex and one tangent, compared as words, are one.
+// Splits vertices so that every vertex has one tangent. As in the core's split.rs: corners of one vertex whose tangents have the same bits
+// share a vertex.
 //
-// `claim` puts every corner into a hash table, as in weld.wgsl; the first corner of each vertex and tangent remains there. `find` looks it
-// up. The first tangent of a vertex keeps the vertex, further ones get new vertices in the order of their first corners: a prefix sum
-// (prefix_sum.wgsl) of `number_of_corner` counts them. `assign` writes.
+//     claim    inserts every corner into a hash table, as weld.wgsl does; a slot keeps the first corner of each vertex and tangent
+//     find     looks up that first corner, and marks corners that need a new vertex
+//     (a prefix sum of the marks numbers the new vertices, in the order of their first corners)
+//     keep     writes the old vertices; the first tangent of a vertex keeps its old vertex
+//     assign   writes the vertex of every corner, and the tangents
 
 struct Split {
     corner_count: u32,
@@ -11,15 +14,15 @@ struct Split {
 
 @group(0) @binding(0) var<uniform> split: Split;
 @group(0) @binding(1) var<storage, read> old_vertex_of_corner: array<u32>;
-// Four words each.
+// Four words per corner.
 @group(0) @binding(2) var<storage, read> tangent_of_corner: array<u32>;
-// A slot holds a corner and one.
-@group(0) @binding(3) var<storage, read_write> slots: array<atomic<u32>>;
-// The complement of the first corner of each old vertex; 0 where no corner has it.
+// A slot holds a corner index plus one.
+@group(0) @binding(3) var<storage, read_write> hash_slots: array<atomic<u32>>;
+// The bitwise complement of the first corner of each old vertex; 0 for unused vertices.
 @group(0) @binding(4) var<storage, read_write> first_of_vertex: array<atomic<u32>>;
-// The first corner of the same vertex and tangent.
+// The first corner with the same vertex and tangent.
 @group(0) @binding(5) var<storage, read_write> first_of_corner: array<u32>;
-// 1 for corners that ask for a new vertex, then how many before do; and a 0 behind the last.
+// 1 for corners that need a new vertex; then the number of such corners before each corner. The last element is the total.
 @group(0) @binding(6) var<storage, read_write> number_of_corner: array<u32>;
 @group(0) @binding(7) var<storage, read_write> counts: Counts;
 @group(0) @binding(8) var<storage, read_write> vertex_of_corner: array<u32>;
@@ -29,7 +32,7 @@ struct Split {
 const ONE: u32 = 0x3f800000u;
 const NO_CORNER: u32 = 0u;
 
-fn thread_number(thread: vec3u, groups: vec3u) -> u32 {
+fn thread_index(thread: vec3u, groups: vec3u) -> u32 {
     return thread.x + thread.y * groups.x * WORKGROUP;
 }
 
@@ -52,41 +55,41 @@ fn is_same(a: u32, b: u32) -> bool {
 
 @compute @workgroup_size(WORKGROUP)
 fn claim(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    let corner = thread_number(thread, groups);
+    let corner = thread_index(thread, groups);
     if corner >= split.corner_count {
         return;
     }
     let vertex = old_vertex_of_corner[corner];
     atomicMax(&first_of_vertex[vertex], ~corner);
-    let mask = arrayLength(&slots) - 1u;
+    let mask = arrayLength(&hash_slots) - 1u;
     var at = hash(vertex, tangent(corner)) & mask;
-    for (var turn = 0u; turn < MAX_TURNS; turn++) {
-        let held = atomicLoad(&slots[at]);
+    for (var probe = 0u; probe < MAX_ITERATIONS; probe++) {
+        let held = atomicLoad(&hash_slots[at]);
         if held == NO_CORNER {
-            if atomicCompareExchangeWeak(&slots[at], NO_CORNER, corner + 1u).exchanged {
+            if atomicCompareExchangeWeak(&hash_slots[at], NO_CORNER, corner + 1u).exchanged {
                 return;
             }
         } else if is_same(corner, held - 1u) {
-            atomicMin(&slots[at], corner + 1u);
+            atomicMin(&hash_slots[at], corner + 1u);
             return;
         } else {
             at = (at + 1u) & mask;
         }
     }
-    atomicAdd(&counts.refused, 1u);
+    atomicAdd(&counts.failure_count, 1u);
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn find(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    let corner = thread_number(thread, groups);
+    let corner = thread_index(thread, groups);
     if corner >= split.corner_count {
         return;
     }
     let vertex = old_vertex_of_corner[corner];
-    let mask = arrayLength(&slots) - 1u;
+    let mask = arrayLength(&hash_slots) - 1u;
     var at = hash(vertex, tangent(corner)) & mask;
-    for (var turn = 0u; turn < MAX_TURNS; turn++) {
-        let held = atomicLoad(&slots[at]);
+    for (var probe = 0u; probe < MAX_ITERATIONS; probe++) {
+        let held = atomicLoad(&hash_slots[at]);
         if held == NO_CORNER {
             return;
         }
@@ -106,10 +109,10 @@ fn store_tangent(vertex: u32, tangent: vec4u) {
     }
 }
 
-// Every old vertex, used or not.
+// Initialises every old vertex, including unused ones.
 @compute @workgroup_size(WORKGROUP)
 fn keep(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    let vertex = thread_number(thread, groups);
+    let vertex = thread_index(thread, groups);
     if vertex < split.vertex_count {
         source_of_vertex[vertex] = vertex;
         store_tangent(vertex, vec4u(ONE, 0u, 0u, ONE));
@@ -118,7 +121,7 @@ fn keep(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) g
 
 @compute @workgroup_size(WORKGROUP)
 fn assign(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    let corner = thread_number(thread, groups);
+    let corner = thread_index(thread, groups);
     if corner >= split.corner_count {
         return;
     }

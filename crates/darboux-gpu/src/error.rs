@@ -1,153 +1,153 @@
-//! What can be wrong with what a caller hands over.
+//! The errors of this crate: missing adapters, limits of devices, and wrong descriptions of buffers.
 
 use darboux::internal::gpu_plan::PlanRefusal;
 
-/// Why something cannot run on a GPU. Degenerate or non-finite geometry is no error.
+/// Why a computation cannot run on a GPU. Degenerate and non-finite geometry is not an error.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GpuError {
-    /// No adapter.
+    /// There is no adapter.
     #[error("no GPU adapter was found: install a Vulkan, Metal or Direct3D 12 driver, or compute on the CPU")]
     NoAdapter,
-    /// An adapter without a device.
-    #[error("the adapter {adapter:?} gives no device: {reason}")]
+    /// The adapter cannot create a device.
+    #[error(
+        "the adapter {adapter:?} cannot create a device ({reason}): update its driver, or compute on the CPU"
+    )]
     NoDevice {
-        /// Its name.
+        /// The name of the adapter.
         adapter: String,
-        /// What the adapter says.
+        /// The message of the adapter.
         reason: String,
     },
-    /// The device has stopped: its driver was reset, or it was taken away.
+    /// The device is lost: its driver was reset, or the GPU was removed.
     #[error("the GPU was lost: its driver was reset or it was removed; run again, or compute on the CPU")]
     Lost,
-    /// The device has no memory left.
-    #[error("the GPU has not enough memory for this mesh: compute it on the CPU")]
+    /// The device is out of memory.
+    #[error("the GPU does not have enough memory for this mesh: compute on the CPU")]
     OutOfMemory,
-    /// The device refused something.
-    #[error("the GPU refused to work: {reason}")]
+    /// The device reported an error.
+    #[error("the GPU reported an error ({reason}): update its driver, or compute on the CPU")]
     Refused {
-        /// What it says.
+        /// The message of the device.
         reason: String,
     },
-    /// A mesh and what was computed from another.
+    /// Arguments that do not fit the mesh.
     #[error(transparent)]
     Mesh(#[from] darboux::MeshError),
-    /// A stride or offset that is not whole words.
-    #[error("{bytes} bytes, the stride or offset of the {what}, are not a multiple of 4")]
+    /// A stride or offset is not a multiple of 4.
+    #[error("the stride or offset of the {what} is {bytes} bytes: use a multiple of 4")]
     Unaligned {
-        /// Of what.
+        /// The attribute.
         what: &'static str,
-        /// Its value.
+        /// The stride or offset.
         bytes: u32,
     },
-    /// Two things of one vertex in one place, or one that reaches into the next vertex.
+    /// A written attribute overlaps another attribute of its vertex, or the next vertex.
     #[error(
-        "the {what} at byte {offset} of every {stride} would overwrite something else: give it a place of its own"
+        "the {what} at byte {offset} of every {stride} overlap another attribute or the next element: use another offset or a larger stride"
     )]
     Overlap {
-        /// What would be written.
+        /// The written attribute.
         what: &'static str,
         /// Its offset.
         offset: u32,
         /// The stride of its buffer.
         stride: u32,
     },
-    /// A buffer that ends too early.
-    #[error("the {what} need a buffer of {needed} bytes, this one has {found}")]
+    /// A buffer is too small.
+    #[error("the {what} need a buffer of {needed} bytes, but this one has {found}")]
     PastBuffer {
-        /// Which ones.
+        /// The contents of the buffer.
         what: &'static str,
-        /// The bytes that they reach.
+        /// The required byte length.
         needed: u64,
-        /// The bytes of the buffer.
+        /// The byte length of the buffer.
         found: u64,
     },
-    /// A buffer past a limit of the device.
-    #[error(
-        "the buffer of {what} has {bytes} bytes, the device binds {limit} at most: cut the mesh into pieces"
-    )]
+    /// A buffer is larger than the device can bind.
+    #[error("the buffer of {what} has {bytes} bytes, but the device binds at most {limit}: split the mesh")]
     PastLimit {
-        /// Which one.
+        /// The contents of the buffer.
         what: &'static str,
-        /// Its size.
+        /// The byte length of the buffer.
         bytes: u64,
-        /// The device's limit.
+        /// The limit of the device.
         limit: u64,
     },
-    /// A buffer that shaders may not use.
-    #[error("the buffer of {what} was made without BufferUsages::STORAGE")]
+    /// A buffer lacks the usage `STORAGE`.
+    #[error("the buffer of {what} was created without BufferUsages::STORAGE: add that usage")]
     NotStorage {
-        /// Which one.
+        /// The contents of the buffer.
         what: &'static str,
     },
-    /// A buffer that would be read and written at once.
-    #[error("the buffer of {what} is also that of {other}: {cure}")]
+    /// One buffer has two uses that exclude each other.
+    #[error("the {what} and the {other} are in one buffer: {remedy}")]
     SharedBuffer {
-        /// One use.
+        /// The contents of one use.
         what: &'static str,
-        /// The other.
+        /// The contents of the other use.
         other: &'static str,
         /// What to do.
-        cure: &'static str,
+        remedy: &'static str,
     },
-    /// Indices that are not whole triangles.
-    #[error("{indices} indices are not whole triangles")]
+    /// The number of indices is not a multiple of 3.
+    #[error("{indices} indices are not a multiple of 3: pass three per triangle")]
     PartialTriangle {
-        /// Their number.
+        /// The number of indices.
         indices: u32,
     },
-    /// More than the shaders count to.
-    #[error("{corners} corners are more than the {limit} that fit: cut the mesh into pieces")]
+    /// There are too many corners.
+    #[error("{corners} corners are more than the limit of {limit}: split the mesh")]
     TooManyCorners {
-        /// The corners given.
+        /// The number of corners.
         corners: u32,
-        /// The largest number.
+        /// The limit.
         limit: u32,
     },
-    /// A check of a plan of faces other than triangles.
+    /// A check of a plan whose mesh has faces other than triangles.
     #[error(
-        "a plan's check on a GPU is of triangles: which diagonals cut quads may change as they move; ask the CPU's Plan (count_regrouped)"
+        "a plan of quads cannot be checked on a GPU, because the diagonals of quads may change as they move: use count_regrouped of darboux::Plan"
     )]
     NotTriangles,
-    /// A plan of quads whose halves disagree.
+    /// A plan of quads whose two triangles have different tangents at one corner.
     #[error(
-        "{corners} corners of quads have the average of two tangents, or the other half's as one is degenerate: plan the triangles that are \
-         drawn, or use the CPU's Plan"
+        "{corners} corners of quads average the tangents of two triangles, or take the tangent of the other triangle because one is \
+         degenerate: plan the triangles that are drawn, or use darboux::Plan"
     )]
     HalvesDisagree {
-        /// Their number.
+        /// The number of such corners.
         corners: usize,
     },
-    /// A plan of another method.
-    #[error("a plan on a GPU is of MikkTSpace: other methods have nothing to plan")]
+    /// The method of a plan is not MikkTSpace.
+    #[error("a plan on a GPU computes MikkTSpace: choose that method, or generate the tangents anew")]
     OtherMethod,
-    /// Vertices whose corners have several tangents, where each vertex is to have one.
+    /// Tangents per vertex were requested, but the corners of some vertices have different tangents.
     #[error("{vertices} vertices have several tangents: split them first (split_vertices)")]
     Unsplit {
-        /// Their number.
+        /// The number of such vertices.
         vertices: usize,
     },
-    /// More members of sums than a thread or a buffer takes.
-    #[error("{members} triangles or more to add up are more than the {limit} that fit: use the CPU's Plan")]
+    /// A sum has more terms than one thread or one buffer can hold.
+    #[error("a sum of at least {members} triangles is above the limit of {limit}: use darboux::Plan")]
     TooManyMembers {
-        /// At least so many.
+        /// A lower bound of the number of terms.
         members: usize,
-        /// The largest number.
+        /// The limit.
         limit: usize,
     },
-    /// Buffers that are of another mesh than a plan.
-    #[error("the plan is of {expected} vertices, these buffers of {found}")]
+    /// The buffers have another number of vertices than the plan.
+    #[error("the plan has {expected} vertices, but these buffers have {found}: plan this mesh")]
     OtherMesh {
-        /// The plan's.
+        /// The number of vertices of the plan.
         expected: u32,
-        /// The buffers'.
+        /// The number of vertices of the buffers.
         found: u32,
     },
 }
 
 impl From<PlanRefusal> for GpuError {
-    fn from(why: PlanRefusal) -> Self {
-        match why {
+    fn from(reason: PlanRefusal) -> Self {
+        match reason {
             PlanRefusal::HalvesDisagree { corners } => Self::HalvesDisagree { corners },
             PlanRefusal::OtherMethod => Self::OtherMethod,
             PlanRefusal::TooManyMembers { members, limit } => Self::TooManyMembers { members, limit },

@@ -1,11 +1,15 @@
-//! Tangent frames on the GPU, for meshes that are there already: in the caller's own buffers, recorded into the caller's own command
-//! encoder, without reading back.
+//! Tangent frames on the GPU, with wgpu.
+//!
+//! - [`Average`] writes frames into the caller's vertex buffers, recorded into the caller's command encoder, without reading back.
+//! - [`Planner`] prepares a mesh once; its [`Plan`] then computes MikkTSpace tangents every frame for vertices that move on the GPU.
+//! - [`MikkTSpace`] computes the tangents of a mesh in CPU memory, with the bits of `darboux::generate_tangents`.
+//! - [`Splitter`] turns tangents per corner into an indexed mesh with tangents per vertex.
 //!
 //! ```no_run
 //! use darboux_gpu::{Average, Destination, FrameLayout, Gpu, GpuError, MeshBuffers, Search, VertexLayout};
 //!
 //! # async fn tangents(vertices: &wgpu::Buffer, indices: &wgpu::Buffer) -> Result<(), GpuError> {
-//! // Or a device and queue that are there already.
+//! // Or use the device and queue of your own program.
 //! let Gpu { device, queue, .. } = Gpu::open().await?;
 //! // A vertex of 14 floats: position, UV, normal, tangent, bitangent.
 //! let mesh = MeshBuffers {
@@ -41,16 +45,20 @@ pub use device::adapters::{AdapterKind, AdapterSummary, Gpu};
 pub use device::mesh_buffers::{Destination, FrameLayout, MeshBuffers, VertexLayout};
 pub use device::precision::Precision;
 pub use error::GpuError;
-pub use mikktspace::generate::{Generated, Left, MikkTSpace};
-pub use plan::{Attribute, MovingMesh, Per, Plan, PlanCheck, PlanNormals, PlanOfBuffers, Planner};
+pub use mikktspace::generate::{CpuFallback, GpuTangents, MikkTSpace};
+pub use plan::bound_plan::PlanOfBuffers;
+pub use plan::check::PlanCheck;
+pub use plan::moving_mesh::{Attribute, MovingMesh, TangentsPer};
+pub use plan::normals::PlanNormals;
+pub use plan::planner::{Plan, Planner};
 pub use split::Splitter;
 
 /// Single stages, for tests. Not part of the API.
 #[doc(hidden)]
-pub mod stages {
+pub mod internal {
     pub use crate::device::precision::Arithmetic;
-    pub use crate::mikktspace::generate::{Arrays, Recorded};
-    pub use crate::mikktspace::stages::{Evaluation, EvaluationKernels, Grouped};
+    pub use crate::mikktspace::generate::{StageArrays, StageRecording};
+    pub use crate::mikktspace::stages::{Evaluation, EvaluationKernels, GroupedMesh};
 }
 
 /// The example of docs/gpu.md compiles.

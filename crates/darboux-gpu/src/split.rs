@@ -1,20 +1,21 @@
-//! Corner tangents to an indexed mesh, on the GPU.
+//! Turns tangents per corner into an indexed mesh with tangents per vertex, as `darboux::split_vertices` does, on the GPU.
+//!
+//! The head of `shaders/split.wgsl` has the algorithm: a hash table finds equal corners, a prefix sum numbers the new vertices.
 
 use bytemuck::cast_slice;
 use darboux::{CornerTangents, Mesh, VertexSplit, split_vertices};
 use wgpu::{Buffer, BufferUsages, CommandEncoder, ComputePipeline, Device, Queue};
 
-use crate::device::kernel::{Step, buffer, filled, module, pipeline};
-use crate::device::mesh_buffers::check_size;
-use crate::device::prefix_sum::ScanKernels;
-use crate::device::readback::{guarded, submit};
-use crate::mikktspace::generate::indices;
+use crate::device::adapters::Gpu;
+use crate::device::buffers::{buffer_with_contents, check_size, corner_indices, storage_buffer, upload};
+use crate::device::kernel::{Dispatch, compute_pipeline, shader_module};
+use crate::device::prefix_sum::PrefixSumKernels;
+use crate::device::readback::{submit, with_error_scopes};
+use crate::error::GpuError;
 use crate::mikktspace::program::slot_count;
-use crate::mikktspace::tiles::upload;
-use crate::{Gpu, GpuError};
 
 /// The files of the shader.
-pub(crate) const SPLIT: &[&str] =
+pub(crate) const SPLIT_FILES: &[&str] =
     &[include_str!("../shaders/mikktspace/common.wgsl"), include_str!("../shaders/split.wgsl")];
 
 /// `darboux::split_vertices`, compiled for a device.
@@ -24,75 +25,77 @@ pub struct Splitter {
     queue: Queue,
     claim: ComputePipeline,
     find: ComputePipeline,
-    scan: ScanKernels,
+    prefix_sum: PrefixSumKernels,
     keep: ComputePipeline,
     assign: ComputePipeline,
 }
 
-/// Corners on the device, and which of them ask for a new vertex.
-struct Corners {
-    words: Buffer,
+/// The buffers per corner.
+struct CornerBuffers {
+    uniform: Buffer,
     indices: Buffer,
     tangents: Buffer,
-    slots: Buffer,
+    hash_slots: Buffer,
     first_of_vertex: Buffer,
     first_of_corner: Buffer,
-    /// With the number of new vertices behind the last.
+    /// The number of new vertices before each corner, and in the last element their total.
     number_of_corner: Buffer,
-    refused: Buffer,
+    failure_count: Buffer,
 }
 
 impl Splitter {
-    /// Compiles the shaders. Errors: the device refuses them.
+    /// Compiles the shaders. Errors: the device rejects them.
     pub fn new(gpu: &Gpu) -> Result<Self, GpuError> {
         let Gpu { device, queue, .. } = gpu;
-        guarded(device, || {
-            let split = module(device, SPLIT);
-            let compile = |entry_point| pipeline(device, &split, entry_point);
+        with_error_scopes(device, || {
+            let module = shader_module(device, SPLIT_FILES);
+            let compile = |entry_point| compute_pipeline(device, &module, entry_point);
             Ok(Self {
                 device: device.clone(),
                 queue: queue.clone(),
                 claim: compile("claim"),
                 find: compile("find"),
-                scan: ScanKernels::new(device),
+                prefix_sum: PrefixSumKernels::new(device),
                 keep: compile("keep"),
                 assign: compile("assign"),
             })
         })
     }
 
-    /// Splits the vertices whose corners need different tangents: the arrays of `darboux::split_vertices`. Waits for the device.
+    /// Splits the vertices whose corners have different tangents. Returns the arrays of `darboux::split_vertices`. Blocks until the device has
+    /// finished.
     ///
-    /// Errors: tangents of another number of corners; a buffer is past a limit of the device, or all are past its memory; it is lost.
+    /// Errors: the tangents are of another number of corners; a buffer is past a limit of the device; the device is out of memory or lost.
     pub fn split_vertices(&self, mesh: &Mesh<'_>, corners: &CornerTangents) -> Result<VertexSplit, GpuError> {
         if corners.len() != mesh.corner_count() || corners.is_empty() {
             return Ok(split_vertices(mesh, corners)?);
         }
-        match guarded(&self.device, || self.run(mesh, corners))? {
+        match with_error_scopes(&self.device, || self.run(mesh, corners))? {
             Some(split) => Ok(split),
             None => Ok(split_vertices(mesh, corners)?),
         }
     }
 
-    /// None where the hash table is crowded: the CPU's has no such limit.
+    /// None if a probe sequence of the hash table was too long; the CPU has no such limit.
     fn run(&self, mesh: &Mesh<'_>, tangents: &CornerTangents) -> Result<Option<VertexSplit>, GpuError> {
         let (device, queue) = (&self.device, &self.queue);
         let (vertex_count, corner_count) = (mesh.vertex_count() as u32, mesh.corner_count() as u32);
-        let corners = Corners::new(device, mesh, tangents)?;
-        let first = self.find_firsts(&corners, corner_count);
-        let record = |encoder: &mut CommandEncoder| first.iter().for_each(|step| step.record(encoder));
-        let [refused, numbers] = submit(device, queue, record, [&corners.refused, &corners.number_of_corner]);
+        let corners = CornerBuffers::new(device, mesh, tangents)?;
+        let dispatches = self.number_new_vertices(&corners, corner_count);
+        let record = |encoder: &mut CommandEncoder| dispatches.iter().for_each(|d| d.record(encoder));
+        let sources = [&corners.failure_count, &corners.number_of_corner];
+        let [failures, numbers] = submit(device, queue, record, sources);
         let new_vertices = numbers.read::<u32>(device)?[corner_count as usize];
-        if refused.read::<u32>(device)? != [0] {
+        if failures.read::<u32>(device)? != [0] {
             return Ok(None);
         }
-        let all = vertex_count + new_vertices;
-        check_size(device, "the tangents of split vertices", 16 * u64::from(all))?;
+        let split_count = vertex_count + new_vertices;
+        check_size(device, "the tangents of split vertices", 16 * u64::from(split_count))?;
         let [indices, sources, tangents] =
-            [("indices", corner_count), ("sources", all), ("tangents", 4 * all)]
-                .map(|(label, words)| buffer(device, label, words));
-        let of_vertices = [(0, &corners.words), (9, &sources), (10, &tangents)];
-        let of_corners = [
+            [("indices", corner_count), ("sources", split_count), ("tangents", 4 * split_count)]
+                .map(|(label, words)| storage_buffer(device, label, words));
+        let vertex_buffers = [(0, &corners.uniform), (9, &sources), (10, &tangents)];
+        let corner_buffers = [
             (1, &corners.indices),
             (2, &corners.tangents),
             (4, &corners.first_of_vertex),
@@ -100,11 +103,12 @@ impl Splitter {
             (6, &corners.number_of_corner),
             (8, &indices),
         ];
-        let steps = [
-            Step::new(device, &self.keep, &of_vertices, vertex_count),
-            Step::new(device, &self.assign, &[&of_vertices[..], &of_corners].concat(), corner_count),
+        let all_buffers = [&vertex_buffers[..], &corner_buffers].concat();
+        let dispatches = [
+            Dispatch::new(device, &self.keep, &vertex_buffers, vertex_count),
+            Dispatch::new(device, &self.assign, &all_buffers, corner_count),
         ];
-        let record = |encoder: &mut CommandEncoder| steps.iter().for_each(|step| step.record(encoder));
+        let record = |encoder: &mut CommandEncoder| dispatches.iter().for_each(|d| d.record(encoder));
         let [indices, sources, tangents] = submit(device, queue, record, [&indices, &sources, &tangents]);
         Ok(Some(VertexSplit {
             tangent_of_vertex: tangents.read(device)?,
@@ -113,47 +117,47 @@ impl Splitter {
         }))
     }
 
-    /// Steps that find the first corner of each vertex and tangent, and number those that ask for new vertices.
-    fn find_firsts(&self, corners: &Corners, count: u32) -> Vec<Step> {
+    /// Finds the first corner of each vertex and tangent, and numbers the corners that need new vertices.
+    fn number_new_vertices(&self, corners: &CornerBuffers, count: u32) -> Vec<Dispatch> {
         let device = &self.device;
-        let both = [
-            (0, &corners.words),
+        let shared = [
+            (0, &corners.uniform),
             (1, &corners.indices),
             (2, &corners.tangents),
-            (3, &corners.slots),
+            (3, &corners.hash_slots),
             (4, &corners.first_of_vertex),
         ];
-        let claiming = [&both[..], &[(7, &corners.refused)]].concat();
-        let finding = [&both[..], &[(5, &corners.first_of_corner), (6, &corners.number_of_corner)]].concat();
-        let mut steps = vec![
-            Step::new(device, &self.claim, &claiming, count),
-            Step::new(device, &self.find, &finding, count),
+        let claim = [&shared[..], &[(7, &corners.failure_count)]].concat();
+        let find = [&shared[..], &[(5, &corners.first_of_corner), (6, &corners.number_of_corner)]].concat();
+        let mut dispatches = vec![
+            Dispatch::new(device, &self.claim, &claim, count),
+            Dispatch::new(device, &self.find, &find, count),
         ];
-        steps.extend(self.scan.steps(device, &corners.number_of_corner, count + 1));
-        steps
+        dispatches.extend(self.prefix_sum.dispatches(device, &corners.number_of_corner, count + 1));
+        dispatches
     }
 }
 
-impl Corners {
-    /// Uploads them. Errors: the device binds no buffer of that size.
+impl CornerBuffers {
+    /// Uploads the corners. Errors: a buffer is larger than the device can bind.
     fn new(device: &Device, mesh: &Mesh<'_>, tangents: &CornerTangents) -> Result<Self, GpuError> {
         let (vertex_count, corner_count) = (mesh.vertex_count() as u32, mesh.corner_count() as u32);
         let slot_count = slot_count(corner_count);
         check_size(device, "the tangents", 16 * u64::from(corner_count))?;
         check_size(device, "the hash table of corners", 4 * u64::from(slot_count))?;
         check_size(device, "the first corners of vertices", 4 * u64::from(vertex_count))?;
-        let words =
-            filled(device, "split", cast_slice(&[corner_count, vertex_count, 0, 0]), BufferUsages::UNIFORM);
-        // Fresh buffers hold zeros: no corner, no vertex.
+        let words = [corner_count, vertex_count, 0, 0];
+        let uniform = buffer_with_contents(device, "split", cast_slice(&words), BufferUsages::UNIFORM);
+        // New buffers are filled with zeros, which means an empty slot and no corner.
         Ok(Self {
-            words,
-            indices: upload(device, "old indices", cast_slice(&indices(mesh))),
+            uniform,
+            indices: upload(device, "old indices", cast_slice(&corner_indices(mesh))),
             tangents: upload(device, "tangents of corners", cast_slice(tangents.per_corner())),
-            slots: buffer(device, "slots", slot_count),
-            first_of_vertex: buffer(device, "first_of_vertex", vertex_count),
-            first_of_corner: buffer(device, "first_of_corner", corner_count),
-            number_of_corner: buffer(device, "number_of_corner", corner_count + 1),
-            refused: buffer(device, "refused", 1),
+            hash_slots: storage_buffer(device, "hash_slots", slot_count),
+            first_of_vertex: storage_buffer(device, "first_of_vertex", vertex_count),
+            first_of_corner: storage_buffer(device, "first_of_corner", corner_count),
+            number_of_corner: storage_buffer(device, "number_of_corner", corner_count + 1),
+            failure_count: storage_buffer(device, "failure_count", 1),
         })
     }
 }

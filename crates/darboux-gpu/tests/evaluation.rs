@@ -9,7 +9,7 @@ use common::{buffer, gpus, words_of};
 use darboux::internal::stage_arrays::{NONE, Stages};
 use darboux::{Frame, Mode, TangentOptions, generate_frames};
 use darboux_gpu::Gpu;
-use darboux_gpu::stages::{Arithmetic, Evaluation, EvaluationKernels, Grouped};
+use darboux_gpu::internal::{Arithmetic, Evaluation, EvaluationKernels, GroupedMesh};
 use darboux_tests::{Case, OwnedMesh, corpus, families};
 use wgpu::BufferUsages;
 
@@ -17,8 +17,8 @@ use wgpu::BufferUsages;
 #[derive(Default)]
 struct Batch {
     vertices: Vec<u32>,
-    welded_corners: Vec<u32>,
-    marks: Vec<u32>,
+    vertex_of_corner: Vec<u32>,
+    triangle_flags: Vec<u32>,
     seed_of_corner: Vec<u32>,
     /// Eight words per triangle, and its orientation where quads have no say.
     derivatives: Vec<([u32; 8], u32)>,
@@ -28,7 +28,7 @@ struct Batch {
     names: Vec<(usize, String)>,
 }
 
-const ALL: &[Arithmetic] = &[Arithmetic::Exact, Arithmetic::Hostile, Arithmetic::Soft];
+const ALL: &[Arithmetic] = &[Arithmetic::Exact, Arithmetic::HostileDevice, Arithmetic::SoftFloat];
 
 /// Members of all sums of one mesh.
 const LIMIT: usize = 1 << 22;
@@ -65,12 +65,12 @@ impl Batch {
                 self.vertices.len() as u32 / 8 - 1
             })
         };
-        self.welded_corners.extend(good.vertices.as_flattened().iter().map(|&corner| vertex(corner)));
+        self.vertex_of_corner.extend(good.vertices.as_flattened().iter().map(|&corner| vertex(corner)));
         for (t, derivative) in stages.derivatives.iter().enumerate() {
             let second = t > 0 && good.face[t - 1] == good.face[t];
             let first = good.face.get(t + 1) == Some(&good.face[t]);
-            let marks = u32::from(stages.preserves[t]) | u32::from(derivative.any) << 1;
-            self.marks.push(marks | u32::from(second) << 3);
+            let triangle_flags = u32::from(stages.preserves[t]) | u32::from(derivative.any) << 1;
+            self.triangle_flags.push(triangle_flags | u32::from(second) << 3);
             // Of UV-degenerate triangles nothing reads the derivatives.
             let values = words(derivative.s, derivative.t, derivative.magnitude).map(without_sign_of_zero);
             let sides = if first || second { NONE } else { u32::from(derivative.preserves) };
@@ -100,13 +100,13 @@ impl Batch {
     }
 
     fn triangles(&self) -> usize {
-        self.marks.len()
+        self.triangle_flags.len()
     }
 
     /// The triangles at each vertex, and where they end.
     fn adjacency(&self) -> [Vec<u32>; 2] {
         let mut of_vertex = vec![Vec::new(); self.vertices.len() / 8];
-        for (corner, &vertex) in self.welded_corners.iter().enumerate() {
+        for (corner, &vertex) in self.vertex_of_corner.iter().enumerate() {
             of_vertex[vertex as usize].push(corner as u32 / 3);
         }
         let ends = of_vertex.iter().scan(0, |end, list| {
@@ -132,9 +132,9 @@ impl Batch {
         let name = |triangle| format!("{}, triangle {triangle}, {arithmetic:?}", self.name(triangle));
         for (t, (expected, sides)) in self.derivatives.iter().enumerate() {
             if *sides != NONE {
-                assert_eq!(found.marks[t] & 1, *sides, "{}: orientation", name(t));
+                assert_eq!(found.triangle_flags[t] & 1, *sides, "{}: orientation", name(t));
             }
-            assert_eq!(found.marks[t] & 2, self.marks[t] & 2, "{}: any", name(t));
+            assert_eq!(found.triangle_flags[t] & 2, self.triangle_flags[t] & 2, "{}: any", name(t));
             // Nothing depends on the signs of their zeros.
             let derivatives = canonical(&found.derivatives, t).map(without_sign_of_zero);
             assert_eq!(derivatives, *expected, "{}: derivatives", name(t));
@@ -155,50 +155,49 @@ impl Batch {
             found.counts
         );
         let all = [self.triangles(), self.triangles(), 3 * self.triangles()].map(|count| count as u32);
-        assert!(arithmetic != Arithmetic::Soft || found.counts == all);
+        assert!(arithmetic != Arithmetic::SoftFloat || found.counts == all);
     }
 
     fn run(&self, gpu: &Gpu, arithmetic: Arithmetic, threshold: f32) -> Found {
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
-        let [vertices, welded_corners, marks, own_marks, seed_of_corner] = [
+        let [vertices, vertex_of_corner, triangle_flags, own_flags, seed_of_corner] = [
             &self.vertices,
-            &self.welded_corners,
-            &self.marks,
-            &vec![0; self.marks.len()],
+            &self.vertex_of_corner,
+            &self.triangle_flags,
+            &vec![0; self.triangle_flags.len()],
             &self.seed_of_corner,
         ]
         .map(|words| buffer(gpu, words, usage));
-        let [triangle_of_entry, ends] = self.adjacency().map(|words| buffer(gpu, &words, usage));
-        let grouped = Grouped {
+        let [adjacent_triangles, ends] = self.adjacency().map(|words| buffer(gpu, &words, usage));
+        let grouped = GroupedMesh {
             vertices: &vertices,
-            welded_corners: &welded_corners,
-            ends: &ends,
-            triangle_of_entry: &triangle_of_entry,
-            marks: &own_marks,
+            vertex_of_corner: &vertex_of_corner,
+            adjacency_ends: &ends,
+            adjacent_triangles: &adjacent_triangles,
+            triangle_flags: &own_flags,
             seed_of_corner: &seed_of_corner,
         };
         let sizes = [self.vertices.len() as u32 / 8, self.triangles() as u32];
         let cosine = ((threshold * std::f32::consts::PI / 180.0) as f64).cos() as f32;
-        let evaluation =
-            Evaluation::of_packed(&gpu.device, &kernels(gpu, arithmetic), sizes, cosine, &grouped)
-                .unwrap_or_else(|error| panic!("{error}"));
+        let evaluation = Evaluation::new(&gpu.device, &kernels(gpu, arithmetic), sizes, cosine, &grouped)
+            .unwrap_or_else(|error| panic!("{error}"));
         let read = |buffer_: &wgpu::Buffer| {
             let words = vec![0; buffer_.size() as usize / 4];
             buffer(gpu, &words, BufferUsages::MAP_READ | BufferUsages::COPY_DST)
         };
-        let sources = [&own_marks, &evaluation.derivatives, &evaluation.frames, &evaluation.counts];
+        let sources = [&own_flags, &evaluation.derivatives, &evaluation.frames, &evaluation.counts];
         let results = sources.map(read);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         evaluation.record_derivatives(&mut encoder);
-        encoder.copy_buffer_to_buffer(&own_marks, 0, &results[0], 0, None);
-        encoder.copy_buffer_to_buffer(&marks, 0, &own_marks, 0, None);
+        encoder.copy_buffer_to_buffer(&own_flags, 0, &results[0], 0, None);
+        encoder.copy_buffer_to_buffer(&triangle_flags, 0, &own_flags, 0, None);
         evaluation.record_frames(&mut encoder);
         for (source, result) in sources.iter().zip(&results).skip(1) {
             encoder.copy_buffer_to_buffer(source, 0, result, 0, None);
         }
         gpu.queue.submit([encoder.finish()]);
-        let [marks, derivatives, frames, counts] = results.map(|result| words_of(gpu, &result));
-        Found { marks, derivatives, frames, counts: [counts[0], counts[1], counts[2]] }
+        let [triangle_flags, derivatives, frames, counts] = results.map(|result| words_of(gpu, &result));
+        Found { triangle_flags, derivatives, frames, counts: [counts[0], counts[1], counts[2]] }
     }
 }
 
@@ -216,7 +215,7 @@ fn kernels(gpu: &Gpu, arithmetic: Arithmetic) -> EvaluationKernels {
 }
 
 struct Found {
-    marks: Vec<u32>,
+    triangle_flags: Vec<u32>,
     derivatives: Vec<u32>,
     frames: Vec<u32>,
     counts: [u32; 3],
@@ -249,7 +248,7 @@ fn the_corpus_is_as_in_the_core() {
 
 #[test]
 fn random_meshes_are_as_in_the_core() {
-    const EXACT: &[Arithmetic] = &[Arithmetic::Exact, Arithmetic::Hostile];
+    const EXACT: &[Arithmetic] = &[Arithmetic::Exact, Arithmetic::HostileDevice];
     for (threshold, count, arithmetics) in
         [(180.0, 3_000, EXACT), (180.0, 300, ALL), (90.0, 500, EXACT), (30.0, 500, EXACT)]
     {

@@ -10,7 +10,7 @@ use common::plans::run;
 use common::{gpus, triangulated};
 use darboux::internal::stage_arrays::Stages;
 use darboux::{Mode, TangentOptions};
-use darboux_gpu::{Gpu, Per, Planner, Precision};
+use darboux_gpu::{Gpu, Planner, Precision, TangentsPer};
 use darboux_tests::{Case, OwnedMesh, families, models};
 
 /// How tangents fared: those compared, the largest error in radians, and in parts of its bound.
@@ -27,7 +27,7 @@ fn check(planner: &Planner, gpu: &Gpu, name: &str, mesh: &OwnedMesh, tally: &mut
     let options = TangentOptions { mode: Mode::Reference, ..Default::default() };
     let stages = Stages::new(&mesh.view(), &options, 1 << 22).expect("small groups");
     let bounds = bounds(&stages, mesh);
-    let found = run(planner, gpu, [mesh, mesh], Mode::Reference, Per::Corner);
+    let found = run(planner, gpu, [mesh, mesh], Mode::Reference, TangentsPer::Corner);
     let expected = darboux::generate_tangents(&mesh.view(), &options).corners;
     for (corner, found) in found.words.as_chunks::<4>().0.iter().enumerate() {
         let (found, expected) = (found.map(f32::from_bits), expected.per_corner()[corner]);

@@ -58,7 +58,7 @@ fn has_the_bits_of_the_core(kernels: &MikkTSpace, name: &str, mesh: &OwnedMesh) 
     };
     assert!(bits(&made.tangents) == bits(&expected), "{name}");
     assert_eq!(made.tangents.report, expected.report, "{name}");
-    made.corners_of_cpu
+    made.cpu_corners
 }
 
 #[test]
@@ -130,7 +130,7 @@ fn a_table_past_a_binding_is_named() {
         let frames = Destination::Buffer { buffer: &frames, stride: APART_STRIDE, layout: APART };
         let refused = Average::new(&gpu.device, Search::Adjacency).of_mesh(&mesh, &frames).err();
         let bytes = 4 * 2_046;
-        let what = "the triangles of vertices";
+        let what = "the triangles at each vertex";
         assert_eq!(refused, Some(GpuError::PastLimit { what, bytes, limit: LITTLE }));
     }
 }
@@ -172,7 +172,7 @@ fn software() -> Option<&'static Gpu> {
 fn run_in_little_memory() {
     let gpu = software().expect("as in the process before");
     // In one piece, in the stress build too.
-    let kernels = MikkTSpace::new(gpu).expect("valid shaders").in_pieces_of(1 << 28);
+    let kernels = MikkTSpace::new(gpu).expect("valid shaders").with_tile_size(1 << 28);
     let status = std::fs::read_to_string("/proc/self/status").expect("Linux");
     let size = status.lines().find_map(|line| line.strip_prefix("VmSize:")?.trim().strip_suffix(" kB"));
     let size: u64 = size.and_then(|size| size.trim().parse().ok()).expect("a size");
@@ -195,7 +195,7 @@ fn a_device_lost_in_the_middle_is_an_error_or_too_late() {
     let expected = generate_tangents(&mesh.view(), &options);
     for milliseconds in [0, 10, 100] {
         for gpu in devices(InstanceDescriptor::new_without_display_handle(), |limits| limits) {
-            let kernels = MikkTSpace::new(&gpu).expect("valid shaders").in_pieces_of(2_000);
+            let kernels = MikkTSpace::new(&gpu).expect("valid shaders").with_tile_size(2_000);
             let device = gpu.device.clone();
             let end = std::thread::spawn(move || {
                 std::thread::sleep(std::time::Duration::from_millis(milliseconds));

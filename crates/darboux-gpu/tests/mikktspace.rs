@@ -4,8 +4,8 @@ mod common;
 
 use common::{gpus, kernels, triangulated};
 use darboux::{Mode, TangentOptions, Tangents, generate_tangents};
-use darboux_gpu::stages::Arithmetic;
-use darboux_gpu::{Generated, Gpu, GpuError, Left, MikkTSpace, Splitter};
+use darboux_gpu::internal::Arithmetic;
+use darboux_gpu::{CpuFallback, Gpu, GpuError, GpuTangents, MikkTSpace, Splitter};
 use darboux_tests::{Case, OwnedMesh, corpus, families};
 
 /// How corners fared.
@@ -29,13 +29,13 @@ fn check_with(kernels: &[MikkTSpace], name: &str, mesh: &OwnedMesh, threshold: f
             let options = TangentOptions { mode, threshold, ..Default::default() };
             let expected = generate_tangents(&view, &options);
             let found = kernels.generate_tangents(&view, &options);
-            let Generated { tangents, corners_of_cpu, left_to_cpu } =
+            let GpuTangents { tangents, cpu_corners, cpu_fallback } =
                 found.unwrap_or_else(|error| panic!("{name}: {error}"));
             same(&format!("{name}, {mode:?}, {threshold} degrees on {}", gpu.name), &tangents, &expected);
             tally.corners += mesh.corner_count();
-            tally.of_cpu += corners_of_cpu;
+            tally.of_cpu += cpu_corners;
             tally.meshes += 1;
-            tally.whole_on_cpu += usize::from(left_to_cpu.is_some());
+            tally.whole_on_cpu += usize::from(cpu_fallback.is_some());
         }
     }
 }
@@ -109,15 +109,15 @@ fn what_the_cpu_does_is_said() {
     endless.positions[3][1] = f32::INFINITY;
     for kernels in kernels() {
         let run = |mesh: &OwnedMesh| kernels.generate_tangents(&mesh.view(), &Default::default()).unwrap();
-        assert_eq!(run(&grid).left_to_cpu, None);
-        assert_eq!((run(&quads).left_to_cpu, run(&quads).corners_of_cpu), (Some(Left::Faces), 64));
-        assert_eq!((run(&endless).left_to_cpu, run(&endless).corners_of_cpu), (Some(Left::Values), 96));
+        assert_eq!(run(&grid).cpu_fallback, None);
+        assert_eq!((run(&quads).cpu_fallback, run(&quads).cpu_corners), (Some(CpuFallback::Faces), 64));
+        assert_eq!((run(&endless).cpu_fallback, run(&endless).cpu_corners), (Some(CpuFallback::Values), 96));
     }
 }
 
 #[test]
 fn meshes_in_pieces_have_the_bits_of_the_core() {
-    let pieces: Vec<_> = kernels().iter().map(|kernels| kernels.clone().in_pieces_of(300)).collect();
+    let pieces: Vec<_> = kernels().iter().map(|kernels| kernels.clone().with_tile_size(300)).collect();
     let mut tally = Tally::default();
     for (name, mesh) in [
         ("grid", families::grid(37, 23, false, true)),
@@ -133,7 +133,7 @@ fn meshes_in_pieces_have_the_bits_of_the_core() {
 
 #[test]
 fn whole_numbers_have_the_bits_of_the_core() {
-    let soft = |gpu| MikkTSpace::with_arithmetic(gpu, Arithmetic::Soft).expect("valid shaders");
+    let soft = |gpu| MikkTSpace::with_arithmetic(gpu, Arithmetic::SoftFloat).expect("valid shaders");
     let soft: Vec<_> = gpus().iter().map(soft).collect();
     let mut tally = Tally::default();
     check_with(&soft, "sphere", &families::sphere(20, 31, false), 180.0, &mut tally);
@@ -147,7 +147,7 @@ fn whole_numbers_have_the_bits_of_the_core() {
 /// As the packages of other languages run it.
 #[test]
 fn what_floats_are_unsure_of_is_left_to_the_cpu() {
-    let leaving = |gpu| MikkTSpace::with_arithmetic(gpu, Arithmetic::Leaving).expect("valid shaders");
+    let leaving = |gpu| MikkTSpace::with_arithmetic(gpu, Arithmetic::CpuFallback).expect("valid shaders");
     let leaving: Vec<_> = gpus().iter().map(leaving).collect();
     let sphere = families::sphere(20, 31, false);
     let mut tiny = sphere.clone();
@@ -176,8 +176,8 @@ fn meshes_past_a_binding_have_the_bits_of_the_core() {
         let made = kernels.generate_tangents(&mesh.view(), &options);
         let made = made.unwrap_or_else(|error| panic!("{}: {error}", gpu.name));
         same(&gpu.name, &made.tangents, &expected);
-        println!("{}: {} of {} corners on the CPU", gpu.name, made.corners_of_cpu, mesh.corner_count());
-        assert!(made.corners_of_cpu * 100 < mesh.corner_count());
+        println!("{}: {} of {} corners on the CPU", gpu.name, made.cpu_corners, mesh.corner_count());
+        assert!(made.cpu_corners * 100 < mesh.corner_count());
     }
 }
 

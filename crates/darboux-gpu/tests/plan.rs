@@ -5,8 +5,8 @@ mod common;
 use common::plans::{Found, run};
 use common::{buffer, gpus, triangulated, words_of};
 use darboux::{Method, Mode, TangentOptions, generate_tangents, split_vertices};
-use darboux_gpu::stages::Arithmetic;
-use darboux_gpu::{Attribute, Gpu, GpuError, MovingMesh, Per, Planner, Precision};
+use darboux_gpu::internal::Arithmetic;
+use darboux_gpu::{Attribute, Gpu, GpuError, MovingMesh, Planner, Precision, TangentsPer};
 use darboux_tests::{Case, FaceSizes, OwnedMesh, families};
 use wgpu::BufferUsages;
 
@@ -31,7 +31,7 @@ struct Tally {
 
 fn check(planner: &Planner, gpu: &Gpu, name: &str, meshes: [&OwnedMesh; 2], mode: Mode, tally: &mut Tally) {
     let [base, moved] = meshes;
-    let Found { words, counts, .. } = run(planner, gpu, meshes, mode, Per::Corner);
+    let Found { words, counts, .. } = run(planner, gpu, meshes, mode, TangentsPer::Corner);
     let expected = on_cpu(base, moved, mode);
     let raw = on_cpu(base, moved, Mode::Reference);
     for (corner, found) in words.as_chunks().0.iter().enumerate() {
@@ -65,8 +65,11 @@ fn check_replaced(name: &str, corner: usize, [x, y, z, _]: [f32; 4], [base, move
 #[test]
 fn moved_meshes_have_the_core_s_bits() {
     for gpu in gpus() {
-        let arithmetics =
-            [(Arithmetic::Exact, 0..900), (Arithmetic::Hostile, 0..900), (Arithmetic::Soft, 0..100)];
+        let arithmetics = [
+            (Arithmetic::Exact, 0..900),
+            (Arithmetic::HostileDevice, 0..900),
+            (Arithmetic::SoftFloat, 0..100),
+        ];
         for (arithmetic, seeds) in arithmetics {
             let planner = Planner::with_arithmetic(&gpu.device, arithmetic);
             let mut tally = Tally::default();
@@ -86,7 +89,7 @@ fn moved_meshes_have_the_core_s_bits() {
 #[test]
 fn moved_quads_have_the_core_s_bits() {
     for gpu in gpus() {
-        for arithmetic in [Arithmetic::Exact, Arithmetic::Hostile] {
+        for arithmetic in [Arithmetic::Exact, Arithmetic::HostileDevice] {
             let planner = Planner::with_arithmetic(&gpu.device, arithmetic);
             let mut tally = Tally::default();
             let (mut planned, mut refused) = (0, 0);
@@ -143,7 +146,7 @@ fn a_waving_surface_has_the_bits_of_a_fresh_run() {
         let planner = Planner::new(&gpu.device, Precision::Exact);
         for mirrored in [false, true] {
             let [base, waving] = &waving(mirrored);
-            let found = run(&planner, gpu, [base, waving], Mode::Repaired, Per::Vertex);
+            let found = run(&planner, gpu, [base, waving], Mode::Repaired, TangentsPer::Vertex);
             assert_eq!((found.counts, found.changes), ([0; 3], [0; 5]));
             let fresh = generate_tangents(&waving.view(), &Default::default()).corners;
             for (corner, tangent) in fresh.per_corner().iter().enumerate() {
@@ -171,7 +174,7 @@ fn a_check_that_finds_nothing_means_a_fresh_run() {
             }
             let plan = darboux::Plan::new(&base.view(), &options);
             let differing = plan.count_regrouped(&moved.view()).expect("the same mesh, moved");
-            let found = run(&planner, gpu, [&base, &moved], Mode::Corrected, Per::Corner);
+            let found = run(&planner, gpu, [&base, &moved], Mode::Corrected, TangentsPer::Corner);
             if found.changes == [0; 5] {
                 assert_eq!(differing, 0, "seed {seed}");
                 unchanged += 1;
@@ -204,7 +207,7 @@ fn changes_are_counted() {
     for gpu in gpus() {
         let planner = Planner::new(&gpu.device, Precision::Exact);
         let changes = |base: &OwnedMesh, moved: &OwnedMesh| {
-            run(&planner, gpu, [base, moved], Mode::Repaired, Per::Corner).changes
+            run(&planner, gpu, [base, moved], Mode::Repaired, TangentsPer::Corner).changes
         };
         assert_eq!(changes(&base, &base), [0; 5]);
         assert_eq!(changes(&doubled, &parted)[2], 1);
@@ -246,7 +249,7 @@ fn normals_are_nearly_the_core_s() {
                 positions: part(12, 0),
                 normals: part(12, 3 * count),
                 tangents: part(16, 6 * count),
-                per: Per::Vertex,
+                per: TangentsPer::Vertex,
             };
             let normals = plan.normals_of_buffers(&moving).unwrap_or_else(|error| panic!("{error}"));
             let read = buffer(gpu, &vec![0; 10 * count], BufferUsages::MAP_READ | BufferUsages::COPY_DST);
@@ -286,8 +289,13 @@ fn what_has_no_plan_is_said() {
         let floats = buffer(gpu, &vec![0; 4 * grid.positions.len()], BufferUsages::STORAGE);
         let part = |stride| Attribute { buffer: &floats, stride, offset: 0 };
         let [positions, normals, tangents] = [12, 12, 16].map(part);
-        let moving =
-            |vertex_count| MovingMesh { vertex_count, positions, normals, tangents, per: Per::Vertex };
+        let moving = |vertex_count| MovingMesh {
+            vertex_count,
+            positions,
+            normals,
+            tangents,
+            per: TangentsPer::Vertex,
+        };
         let of_quads = plan(&quads, options).expect("a plan");
         let check = of_quads.check_of_buffers(&moving(quads.positions.len() as u32));
         assert_eq!(check.err(), Some(GpuError::NotTriangles));

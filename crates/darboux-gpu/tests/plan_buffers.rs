@@ -5,7 +5,7 @@ mod common;
 use common::plans::record;
 use common::{UNTOUCHED, buffer, gpus, triangulated};
 use darboux::{Method, TangentOptions};
-use darboux_gpu::{Attribute, Gpu, MovingMesh, Per, Planner, Precision};
+use darboux_gpu::{Attribute, Gpu, MovingMesh, Planner, Precision, TangentsPer};
 use darboux_tests::{OwnedMesh, families};
 use wgpu::{Buffer, BufferUsages};
 
@@ -44,7 +44,7 @@ fn any_layout_of_whole_words_gives_the_same_bits() {
                     positions: part(places[0]),
                     normals: part(places[1]),
                     tangents: part(places[2]),
-                    per: Per::Vertex,
+                    per: TangentsPer::Vertex,
                 };
                 let words = record(gpu, &plan, &moving).words;
                 let tangents: Vec<Vec<u32>> =
@@ -69,7 +69,7 @@ fn faults_are_named() {
             Err(error) => error.to_string(),
         };
         let other = TangentOptions { method: Method::Average, ..options };
-        assert!(fault(&mesh, &other).starts_with("a plan on a GPU is of MikkTSpace"));
+        assert!(fault(&mesh, &other).starts_with("a plan on a GPU computes MikkTSpace"));
         let plan = planner.plan(&mesh.view(), &options).unwrap_or_else(|error| panic!("{error}"));
         let count = mesh.positions.len() as u32;
         let all = interleaved(gpu, &mesh, 10, [0, 3]);
@@ -80,30 +80,33 @@ fn faults_are_named() {
             positions: part(0),
             normals: part(12),
             tangents: Attribute { buffer: &all, stride: 16, offset: 0 },
-            per: Per::Corner,
+            per: TangentsPer::Corner,
         };
         let fault = |moving| match plan.of_buffers(&moving) {
             Ok(_) => "none".to_owned(),
             Err(error) => error.to_string(),
         };
         // The vertices at the mirrored edge are not split.
-        let per_vertex = MovingMesh { per: Per::Vertex, tangents: part(24), ..plain };
+        let per_vertex = MovingMesh { per: TangentsPer::Vertex, tangents: part(24), ..plain };
         assert_eq!(fault(per_vertex), "4 vertices have several tangents: split them first (split_vertices)");
         let of_other = MovingMesh { vertex_count: count + 1, ..plain };
-        assert_eq!(fault(of_other), "the plan is of 20 vertices, these buffers of 21");
-        let short = "the tangents need a buffer of 1152 bytes, this one has 880";
+        assert_eq!(fault(of_other), "the plan has 20 vertices, but these buffers have 21: plan this mesh");
+        let short = "the tangents need a buffer of 1152 bytes, but this one has 880";
         assert_eq!(fault(plain), short);
         let tangents = buffer(gpu, &[0; 288], USAGE);
         let tangents = Attribute { buffer: &tangents, stride: 16, offset: 0 };
         assert_eq!(fault(MovingMesh { tangents, ..plain }), "none");
         let odd = Attribute { offset: 2, ..plain.normals };
         let odd = fault(MovingMesh { tangents, normals: odd, ..plain });
-        assert_eq!(odd, "2 bytes, the stride or offset of the normals, are not a multiple of 4");
+        assert_eq!(odd, "the stride or offset of the normals is 2 bytes: use a multiple of 4");
         let closed = Attribute { buffer: &closed, ..plain.positions };
         let closed = fault(MovingMesh { tangents, positions: closed, ..plain });
-        assert_eq!(closed, "the buffer of positions was made without BufferUsages::STORAGE");
+        assert_eq!(
+            closed,
+            "the buffer of positions was created without BufferUsages::STORAGE: add that usage"
+        );
         let narrow = fault(MovingMesh { tangents: Attribute { stride: 12, ..tangents }, ..plain });
-        assert!(narrow.starts_with("the tangents at byte 0 of every 12 would overwrite"), "{narrow}");
+        assert!(narrow.starts_with("the tangents at byte 0 of every 12 overlap"), "{narrow}");
     }
 }
 
@@ -122,7 +125,7 @@ fn tangents_over_positions_are_refused() {
                 positions: part(0),
                 normals: part(12),
                 tangents: part(offset),
-                per: Per::Vertex,
+                per: TangentsPer::Vertex,
             };
             assert_eq!(plan.of_buffers(&moving).is_ok(), is_right, "tangents at {offset}");
         }

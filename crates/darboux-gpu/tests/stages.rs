@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use common::{gpus, kernels, triangulated};
 use darboux::internal::stage_arrays::{NONE, Stages, Triangulation};
 use darboux::{Mode, TangentOptions};
-use darboux_gpu::stages::Arrays;
+use darboux_gpu::internal::StageArrays;
 use darboux_tests::{Case, OwnedMesh, corpus, families};
 
 /// How many meshes, triangles and groups were compared, and how many meshes have values that only the core welds.
@@ -29,9 +29,9 @@ fn check(name: &str, mesh: &OwnedMesh, tally: &mut Tally) {
     let options = TangentOptions { mode: Mode::Corrected, ..Default::default() };
     let core = Stages::new(&view, &options, usize::MAX).expect("no limit");
     for kernels in kernels() {
-        let found = kernels.arrays(&view, &options).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let found = kernels.stage_arrays(&view, &options).unwrap_or_else(|error| panic!("{name}: {error}"));
         tally.meshes += 1;
-        if found.refused > 0 {
+        if found.failure_count > 0 {
             tally.refused += 1;
             continue;
         }
@@ -44,17 +44,17 @@ fn check(name: &str, mesh: &OwnedMesh, tally: &mut Tally) {
 
 /// The names that the core gives to the corners' vertices, and those given here, lead to the same first corners; the vertex that represents
 /// others is the first of them.
-fn check_weld(name: &str, mesh: &OwnedMesh, core: &Triangulation, found: &Arrays) {
+fn check_weld(name: &str, mesh: &OwnedMesh, core: &Triangulation, found: &StageArrays) {
     let mut core_names = vec![NONE; mesh.corner_count()];
     for list in [&core.good, &core.degenerate] {
         for (&corner, &vertex) in list.corners.as_flattened().iter().zip(list.vertices.as_flattened()) {
             core_names[corner as usize] = vertex;
         }
     }
-    let names = (0..mesh.corner_count()).map(|corner| found.welded[mesh.vertex_of_corner(corner)]);
+    let names = (0..mesh.corner_count()).map(|corner| found.welded_vertex[mesh.vertex_of_corner(corner)]);
     assert_eq!(firsts(names), firsts(core_names.into_iter()), "{name}: weld");
     let mut first = HashMap::new();
-    for (v, &welded) in (0u32..).zip(&found.welded) {
+    for (v, &welded) in (0u32..).zip(&found.welded_vertex) {
         let (position, normal, uv) = mesh.vertex(v as usize);
         let key: Vec<u32> = position.iter().chain(&normal).chain(&uv).map(|x| (x + 0.0).to_bits()).collect();
         assert_eq!(welded, *first.entry(key).or_insert(v), "{name}: vertex {v}");
@@ -68,7 +68,7 @@ fn firsts(names: impl Iterator<Item = u32>) -> Vec<usize> {
 }
 
 /// Degenerate triangles, neighbours, orientations.
-fn check_triangles(name: &str, core: &Stages, found: &Arrays) {
+fn check_triangles(name: &str, core: &Stages, found: &StageArrays) {
     let good = &core.triangulation.good;
     let mut neighbours = vec![NONE; found.neighbours.len()];
     for (t, around) in good.face.iter().zip(&core.neighbours) {
@@ -79,22 +79,22 @@ fn check_triangles(name: &str, core: &Stages, found: &Arrays) {
     assert_eq!(found.neighbours, neighbours, "{name}: neighbours");
     for t in &core.triangulation.degenerate.face {
         let corners = 3 * *t as usize..3 * *t as usize + 3;
-        assert_eq!(found.welded_corners[corners], [NONE; 3], "{name}: triangle {t} is degenerate");
+        assert_eq!(found.vertex_of_corner[corners], [NONE; 3], "{name}: triangle {t} is degenerate");
     }
     for (&t, derivative) in good.face.iter().zip(&core.derivatives) {
         let marks = u32::from(derivative.preserves) | u32::from(derivative.any) << 1;
-        assert_eq!(found.marks[t as usize], marks, "{name}: triangle {t}");
-        assert_ne!(found.welded_corners[3 * t as usize], NONE, "{name}: triangle {t} is not degenerate");
+        assert_eq!(found.triangle_flags[t as usize], marks, "{name}: triangle {t}");
+        assert_ne!(found.vertex_of_corner[3 * t as usize], NONE, "{name}: triangle {t} is not degenerate");
     }
 }
 
 /// Groups at vertices without UV-degenerate triangles, of which each has a seed and no other corner has it.
-fn check_groups(name: &str, core: &Stages, found: &Arrays, tally: &mut Tally) {
+fn check_groups(name: &str, core: &Stages, found: &StageArrays, tally: &mut Tally) {
     let good = &core.triangulation.good;
     let place = |member: u32| 3 * good.face[member as usize / 3] + member % 3;
-    let mut is_any = vec![false; found.welded.len()];
-    let corners = (0..).zip(&found.welded_corners).filter(|(_, vertex)| **vertex != NONE);
-    for (_, &vertex) in corners.filter(|(corner, _)| found.marks[corner / 3] & 2 != 0) {
+    let mut is_any = vec![false; found.welded_vertex.len()];
+    let corners = (0..).zip(&found.vertex_of_corner).filter(|(_, vertex)| **vertex != NONE);
+    for (_, &vertex) in corners.filter(|(corner, _)| found.triangle_flags[corner / 3] & 2 != 0) {
         is_any[vertex as usize] = true;
     }
     let mut expected = vec![NONE; found.seed_of_corner.len()];
@@ -102,12 +102,12 @@ fn check_groups(name: &str, core: &Stages, found: &Arrays, tally: &mut Tally) {
         let members = core.groups.members(group);
         let seed = members.iter().map(|&member| place(member)).min().expect("not empty");
         members.iter().for_each(|&member| expected[place(member) as usize] = seed);
-        let left_out = is_any[found.welded_corners[seed as usize] as usize];
+        let left_out = is_any[found.vertex_of_corner[seed as usize] as usize];
         tally.groups_left_out += usize::from(left_out);
         tally.groups += usize::from(!left_out);
     }
     for (corner, &seed) in found.seed_of_corner.iter().enumerate() {
-        let vertex = found.welded_corners[corner];
+        let vertex = found.vertex_of_corner[corner];
         if vertex != NONE && !is_any[vertex as usize] {
             assert_eq!(seed, expected[corner], "{name}: group of corner {corner}");
         }

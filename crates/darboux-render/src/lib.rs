@@ -120,7 +120,7 @@ pub fn render(
     let mut draw = |shape: Shape, size: [u32; 2]| {
         let bounds = left.model.bounds(shape).ok_or(RenderError::Nothing)?;
         let show = Show { left, right, shape, size, sight: sight(options, shape, bounds, size), options };
-        gpu.guarded(|| painter::paint(gpu, &show, &mut warnings))
+        gpu.with_error_scopes(|| painter::paint(gpu, &show, &mut warnings))
     };
     let mut pixels = draw(if shows_model { Shape::Model } else { Shape::Layout }, options.size)?;
     match Inset::of(options).map(|inset| (draw(Shape::Layout, inset.size()), inset)) {

@@ -2,7 +2,7 @@
 
 import { buffer, module, scanSteps, step, stepOverList, type Buffers, type Step } from './pipelines.js';
 import { LIST, realStep } from './unsure-items.js';
-import { buffers, type Each, type Entry, type Pass, type Run } from 'darboux-gpu/passes';
+import { buffers, type Domain, type Entry, type Pass, type Run } from 'darboux-gpu/passes';
 
 /** How many there are. */
 export interface Sizes {
@@ -73,7 +73,7 @@ export class Program {
         const cleared = make(pass.clear);
         return [(encoder) => encoder.clearBuffer(cleared)];
       }
-      const threads = count(sizes, pass.each);
+      const threads = count(sizes, pass.domain);
       if ('scan' in pass) return scanSteps(device, { scan: pipeline(SCAN[0]), addSums: pipeline(SCAN[1]) }, make(pass.scan), threads);
       if (!pass.unsure) return [step(device, pipeline(pass), bound(pass), threads)];
       const { record, list } = realStep(device, pipeline(pass), bound(pass), threads);
@@ -83,8 +83,8 @@ export class Program {
 }
 
 function made(device: GPUDevice, sizes: Sizes, name: string): GPUBuffer {
-  const [each, words] = buffers[name]!;
-  const length = words * count(sizes, each);
+  const [domain, words] = buffers[name]!;
+  const length = words * count(sizes, domain);
   checkSize(device, name, 4 * length);
   return buffer(device, name, length);
 }
@@ -96,8 +96,8 @@ export function checkSize({ limits }: GPUDevice, what: string, bytes: number): v
   throw new RangeError(`the buffer of ${what} has ${bytes} bytes, the device binds ${limit} at most; ask for one with larger limits, or compute on the CPU`);
 }
 
-function count({ vertices, triangles }: Sizes, each: Each): number {
-  switch (each) {
+function count({ vertices, triangles }: Sizes, domain: Domain): number {
+  switch (domain) {
     case 'mesh': return 1;
     case 'vertex': return vertices;
     case 'slot': return 2 ** (32 - Math.clz32(2 * vertices - 1));

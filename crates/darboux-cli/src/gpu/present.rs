@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 use darboux::{Mesh, TangentOptions, Tangents};
-use darboux_gpu::{AdapterKind, Generated, Gpu, MikkTSpace};
+use darboux_gpu::{AdapterKind, Gpu, GpuTangents, MikkTSpace};
 
 use super::adapter::Adapter;
 
@@ -49,9 +49,9 @@ impl OpenGpu {
     ) -> Result<usize, String> {
         let pipelines = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
         let generated = pipelines.generate_tangents(mesh, options).map_err(|error| error.to_string())?;
-        let Generated { tangents, corners_of_cpu, .. } = generated;
+        let GpuTangents { tangents, cpu_corners, .. } = generated;
         *out = tangents;
-        Ok(corners_of_cpu)
+        Ok(cpu_corners)
     }
 }
 

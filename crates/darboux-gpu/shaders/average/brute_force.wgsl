@@ -1,11 +1,11 @@
-// Every vertex looks at all triangles, a piece of the list after the other.
+// Every vertex tests all triangles. One dispatch handles one range of triangles and adds to the sums that the buffer holds.
 
 @group(0) @binding(5) var<storage, read_write> sums_of_vertex: array<Sums>;
 
-// Here `mesh` has the triangles of one piece, at most MAX_TURNS.
+// `mesh` describes the triangles of one range, at most MAX_ITERATIONS.
 @compute @workgroup_size(WORKGROUP)
 fn brute_force(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    let vertex = number_of_thread(thread, groups);
+    let vertex = thread_index(thread, groups);
     if vertex >= mesh.vertex_count {
         return;
     }
@@ -13,7 +13,7 @@ fn brute_force(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgr
     for (var t = 0u; t < mesh.triangle_count; t++) {
         let triangle = vertices_of_triangle(t);
         if any(triangle == vec3u(vertex)) {
-            add(&sums, triangle);
+            add_triangle(&sums, triangle);
         }
     }
     sums_of_vertex[vertex] = sums;
@@ -21,7 +21,7 @@ fn brute_force(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgr
 
 @compute @workgroup_size(WORKGROUP)
 fn store_frames(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    let vertex = number_of_thread(thread, groups);
+    let vertex = thread_index(thread, groups);
     if vertex < mesh.vertex_count {
         store_frame(vertex, sums_of_vertex[vertex]);
     }

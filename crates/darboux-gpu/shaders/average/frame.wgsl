@@ -1,18 +1,18 @@
-// From sums to a vertex's frame.
+// Computes and writes the frame of a vertex from its sums.
 
-// A direction; zero where there is none.
+// The unit vector along `v`; zero if `v` is zero or not finite.
 fn unit(v: vec3f) -> vec3f {
     let largest = max(max(abs(v.x), abs(v.y)), abs(v.z));
     let bits = bitcast<vec3u>(v);
     if !(is_finite(bits.x) && is_finite(bits.y) && is_finite(bits.z) && not_zero(largest)) {
         return vec3f();
     }
-    // Squares of what is at most 1, with a 1 among them, neither overflow nor vanish.
+    // The largest component is 1 now, so the squares neither overflow nor underflow.
     let scaled = v / largest;
     return scaled / sqrt(dot(scaled, scaled));
 }
 
-// The direction of `v` in the plane of `normal`, without a normal that of `v`; zero where there is none.
+// The unit vector along the part of `v` perpendicular to `normal`; without a normal, along `v`; zero if there is none.
 fn direction_across(v: vec3f, normal: vec3f) -> vec3f {
     let square = dot(normal, normal);
     if square >= 0.25 && square < 4.0 {
@@ -25,7 +25,7 @@ fn direction_across(v: vec3f, normal: vec3f) -> vec3f {
     let n = unit(normal);
     let direction = unit(v);
     let once = direction - dot(n, direction) * n;
-    // What one step leaves along the normal is an error of rounding, as large as the rest may be.
+    // Project twice: the rounding error along the normal after one projection may be as large as the result.
     let rest = once - dot(n, once) * n;
     return select(vec3f(), unit(rest), dot(rest, rest) > 1e-12);
 }
@@ -45,23 +45,23 @@ fn store_vector(word: u32, v: vec3f) {
     store(word + 2u, v.z);
 }
 
-// Of the two orientations the one with more triangles has the vertex.
+// The orientation with more triangles determines the frame.
 fn store_frame(vertex: u32, sums: Sums) {
-    let mirrors = sums.mirrors.count > sums.keeps.count;
-    var sum = sums.keeps;
-    if mirrors {
-        sum = sums.mirrors;
+    let mirrored = sums.mirrored.count > sums.unmirrored.count;
+    var sum = sums.unmirrored;
+    if mirrored {
+        sum = sums.mirrored;
     }
-    let sign = select(1.0, -1.0, mirrors);
+    let sign = select(1.0, -1.0, mirrored);
     let normal = bitcast<vec3f>(load_normal(vertex));
     var tangent = direction_across(sum.tangent, normal);
-    // What is left of tangents that cancel is rounding.
-    let least = 1e-5 * sum.count;
-    if dot(sum.tangent, sum.tangent) < least * least || all(tangent == vec3f()) {
+    // If the tangents cancel out, only rounding error is left.
+    let shortest = 1e-5 * sum.count;
+    if dot(sum.tangent, sum.tangent) < shortest * shortest || all(tangent == vec3f()) {
         tangent = perpendicular(normal);
         atomicAdd(&counts.without_direction, 1u);
     }
-    if sums.keeps.count > 0.0 && sums.mirrors.count > 0.0 {
+    if sums.unmirrored.count > 0.0 && sums.mirrored.count > 0.0 {
         atomicAdd(&counts.of_both_orientations, 1u);
     }
     let start = vertex * mesh.frame_stride;
@@ -78,7 +78,7 @@ fn store_frame(vertex: u32, sums: Sums) {
     }
 }
 
-// The direction of cross(normal, tangent); without a normal a perpendicular of the tangent.
+// The unit vector along cross(normal, tangent); without a normal, a vector perpendicular to the tangent.
 fn bitangent_across(normal: vec3f, tangent: vec3f) -> vec3f {
     let across = unit(cross(unit(normal), tangent));
     return select(across, perpendicular(tangent), all(across == vec3f()));

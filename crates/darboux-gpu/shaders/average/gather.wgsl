@@ -1,25 +1,25 @@
-// Every vertex looks at its own triangles.
+// Every vertex adds up its own triangles, which it finds in the adjacency table.
 
-@group(0) @binding(5) var<storage, read> ends: array<u32>;
-@group(0) @binding(6) var<storage, read> triangle_of_entry: array<u32>;
+@group(0) @binding(5) var<storage, read> adjacency_ends: array<u32>;
+@group(0) @binding(6) var<storage, read> adjacent_triangles: array<u32>;
 
 @compute @workgroup_size(WORKGROUP)
 fn gather(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    let vertex = number_of_thread(thread, groups);
+    let vertex = thread_index(thread, groups);
     if vertex >= mesh.vertex_count {
         return;
     }
     var start = 0u;
     if vertex > 0u {
-        start = ends[vertex - 1u];
+        start = adjacency_ends[vertex - 1u];
     }
-    let end = ends[vertex];
+    let end = adjacency_ends[vertex];
     var sums: Sums;
-    if end - start > MAX_TURNS {
+    if end - start > MAX_ITERATIONS {
         atomicAdd(&counts.past_limit, 1u);
     } else {
         for (var entry = start; entry < end; entry++) {
-            add(&sums, vertices_of_triangle(triangle_of_entry[entry]));
+            add_triangle(&sums, vertices_of_triangle(adjacent_triangles[entry]));
         }
     }
     store_frame(vertex, sums);

@@ -1,5 +1,5 @@
-// The mean of the adjacent triangles' unit tangents and bitangents, per vertex and UV orientation: the twin of the core's
-// tangents/average.rs, sums.rs and sides.rs. Terms are added in the order of triangles, as there.
+// Per vertex and UV orientation, the sum of the unit tangents and bitangents of the adjacent triangles. The same computation as the core's
+// tangents/vertex_sums: terms are added in the order of triangles.
 
 struct Counts {
     without_direction: atomic<u32>,
@@ -11,7 +11,7 @@ struct Counts {
 
 const MIN_POSITIVE: f32 = 1.17549435e-38;
 
-// Integers, as compilers may take floats for finite.
+// Tests the bits, because compilers may assume that floats are finite.
 fn is_finite(word: u32) -> bool {
     return (word & 0x7f800000u) != 0x7f800000u;
 }
@@ -41,11 +41,11 @@ fn load_vertex(vertex: u32) -> Vertex {
     return Vertex(bitcast<vec3f>(position), bitcast<vec2f>(uv), is_finite);
 }
 
-const KEEPS: u32 = 0u;
-const MIRRORS: u32 = 1u;
-const ADDS_NOTHING: u32 = 2u;
+const UNMIRRORED: u32 = 0u;
+const MIRRORED: u32 = 1u;
+const NO_TERM: u32 = 2u;
 
-// What a triangle adds, and to which side of its vertices.
+// The term of a triangle, and the orientation whose sum it belongs to.
 struct Term {
     tangent: vec3f,
     bitangent: vec3f,
@@ -56,10 +56,10 @@ fn size(v: vec3f) -> f32 {
     return abs(v.x) + abs(v.y) + abs(v.z);
 }
 
-// The directions of dP/du and dP/dv (E. Lengyel, "Foundations of Game Engine Development", vol. 2, 7.5). A triangle without them, or
-// with an index that is out of range, adds nothing.
+// The directions of dP/du and dP/dv (E. Lengyel, "Foundations of Game Engine Development", vol. 2, 7.5). A triangle without these
+// directions, or with an index out of range, has no term.
 fn term_of_triangle(triangle: vec3u) -> Term {
-    let nothing = Term(vec3f(), vec3f(), ADDS_NOTHING);
+    let nothing = Term(vec3f(), vec3f(), NO_TERM);
     if any(triangle >= vec3u(mesh.vertex_count)) {
         return nothing;
     }
@@ -73,7 +73,7 @@ fn term_of_triangle(triangle: vec3u) -> Term {
     let d2 = c.uv - a.uv;
     let s = d2.y * e1 - d1.y * e2;
     let t = d1.x * e2 - d2.x * e1;
-    // Exactly none where UVs are in one line.
+    // Products are rounded separately, so that the area is exactly 0 if the UVs are collinear.
     let area = rounded(d1.x * d2.y) - rounded(d1.y * d2.x);
     let s_length = sqrt(dot(s, s));
     let t_length = sqrt(dot(t, t));
@@ -86,7 +86,7 @@ fn term_of_triangle(triangle: vec3u) -> Term {
         return nothing;
     }
     let sign = select(-1.0, 1.0, area > 0.0);
-    return Term((sign / s_length) * s, (sign / t_length) * t, select(MIRRORS, KEEPS, area > 0.0));
+    return Term((sign / s_length) * s, (sign / t_length) * t, select(MIRRORED, UNMIRRORED, area > 0.0));
 }
 
 struct Sum {
@@ -96,19 +96,19 @@ struct Sum {
 }
 
 struct Sums {
-    keeps: Sum,
-    mirrors: Sum,
+    unmirrored: Sum,
+    mirrored: Sum,
 }
 
-fn plus(sum: Sum, term: Term) -> Sum {
+fn add_term(sum: Sum, term: Term) -> Sum {
     return Sum(sum.tangent + term.tangent, sum.bitangent + term.bitangent, sum.count + 1.0);
 }
 
-fn add(sums: ptr<function, Sums>, triangle: vec3u) {
+fn add_triangle(sums: ptr<function, Sums>, triangle: vec3u) {
     let term = term_of_triangle(triangle);
-    if term.side == KEEPS {
-        (*sums).keeps = plus((*sums).keeps, term);
-    } else if term.side == MIRRORS {
-        (*sums).mirrors = plus((*sums).mirrors, term);
+    if term.side == UNMIRRORED {
+        (*sums).unmirrored = add_term((*sums).unmirrored, term);
+    } else if term.side == MIRRORED {
+        (*sums).mirrored = add_term((*sums).mirrored, term);
     }
 }

@@ -1,4 +1,4 @@
-// Frames go back into the vertices. Words that are written are read by nobody.
+// Writes frames into the vertices themselves. No thread reads the words that any thread writes.
 
 @group(0) @binding(2) var<storage, read_write> vertices: array<u32>;
 

@@ -1,4 +1,4 @@
-// Frames go to a buffer of their own.
+// Writes frames into a separate buffer.
 
 @group(0) @binding(2) var<storage, read> vertices: array<u32>;
 @group(0) @binding(3) var<storage, read_write> frames: array<u32>;

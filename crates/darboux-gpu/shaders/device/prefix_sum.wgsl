@@ -1,6 +1,8 @@
-// The sums of all values before each, block by block (W. D. Hillis and G. L. Steele, "Data Parallel Algorithms", CACM 29(12), 1986).
+// Exclusive prefix sum in place (W. D. Hillis and G. L. Steele, "Data Parallel Algorithms", CACM 29(12), 1986).
 //
-// `scan` does it within blocks and writes the sum of each; once these are scanned the same way, `add_sums` adds them.
+//     scan       one workgroup per block: prefix sums within the block, and the sum of the block
+//     (the sums of the blocks are scanned in the same way)
+//     add_sums   adds to every value the sum of all blocks before its own
 
 @group(0) @binding(0) var<storage, read_write> values: array<u32>;
 @group(0) @binding(1) var<storage, read_write> sum_of_block: array<u32>;

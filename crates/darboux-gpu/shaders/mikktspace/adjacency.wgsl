@@ -1,57 +1,58 @@
-// The triangles at each vertex, ascending, vertex after vertex, and where each vertex's part ends: the core's `adjacency`, by threads.
+// The triangles at each vertex, ascending, as one array with the end of each vertex's range.
 //
-// `count` counts the corners of each vertex, a prefix sum (prefix_sum.wgsl) makes starts of counts, and `scatter` moves these to the ends while it
-// fills the parts in whatever order threads come. `rank` puts every entry where the smaller ones of its part leave it: the same
-// order on every run.
+//     count     counts the corners of each vertex
+//     (a prefix sum turns the counts into the starts of ranges)
+//     scatter   writes corners into the ranges, in an order that depends on timing; the starts become ends
+//     rank      sorts each range: the position of a corner is the number of smaller corners in its range
 
-@group(0) @binding(2) var<storage, read_write> ends: array<atomic<u32>>;
-@group(0) @binding(3) var<storage, read_write> corner_of_entry: array<u32>;
-@group(0) @binding(4) var<storage, read_write> triangle_of_entry: array<u32>;
+@group(0) @binding(2) var<storage, read_write> adjacency_ends: array<atomic<u32>>;
+@group(0) @binding(3) var<storage, read_write> adjacent_corners: array<u32>;
+@group(0) @binding(4) var<storage, read_write> adjacent_triangles: array<u32>;
 
 @compute @workgroup_size(WORKGROUP)
 fn count(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    let corner = number_of_thread(thread, groups);
+    let corner = thread_index(thread, groups);
     if corner >= 3u * mesh.triangle_count {
         return;
     }
     let vertex = vertex_of_corner(corner);
     if vertex < mesh.vertex_count {
-        atomicAdd(&ends[vertex], 1u);
+        atomicAdd(&adjacency_ends[vertex], 1u);
     }
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn scatter(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    let corner = number_of_thread(thread, groups);
+    let corner = thread_index(thread, groups);
     if corner >= 3u * mesh.triangle_count {
         return;
     }
     let vertex = vertex_of_corner(corner);
     if vertex < mesh.vertex_count {
-        corner_of_entry[atomicAdd(&ends[vertex], 1u)] = corner;
+        adjacent_corners[atomicAdd(&adjacency_ends[vertex], 1u)] = corner;
     }
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn rank(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    let entry = number_of_thread(thread, groups);
-    // Indices that are out of range leave the last entries unused.
-    if entry >= atomicLoad(&ends[mesh.vertex_count - 1u]) {
+    let entry = thread_index(thread, groups);
+    // Corners with an index out of range are not listed, so the last entries are unused.
+    if entry >= atomicLoad(&adjacency_ends[mesh.vertex_count - 1u]) {
         return;
     }
-    let corner = corner_of_entry[entry];
+    let corner = adjacent_corners[entry];
     let vertex = vertex_of_corner(corner);
     var start = 0u;
     if vertex > 0u {
-        start = atomicLoad(&ends[vertex - 1u]);
+        start = atomicLoad(&adjacency_ends[vertex - 1u]);
     }
-    let end = atomicLoad(&ends[vertex]);
-    if end - start > MAX_TURNS {
+    let end = atomicLoad(&adjacency_ends[vertex]);
+    if end - start > MAX_ITERATIONS {
         return;
     }
     var place = start;
     for (var other = start; other < end; other++) {
-        place += u32(corner_of_entry[other] < corner);
+        place += u32(adjacent_corners[other] < corner);
     }
-    triangle_of_entry[place] = corner / 3u;
+    adjacent_triangles[place] = corner / 3u;
 }

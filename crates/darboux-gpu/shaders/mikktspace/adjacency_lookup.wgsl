@@ -1,14 +1,14 @@
-// The triangles around welded vertices. Here `indices` are the welded vertices of corners, NONE at degenerate triangles.
+// Reads the adjacency table. In these kernels `indices` are the welded vertices of corners, NONE at degenerate triangles.
 
-@group(0) @binding(2) var<storage, read> ends: array<u32>;
+@group(0) @binding(2) var<storage, read> adjacency_ends: array<u32>;
 
-// The entries of a vertex in the table of triangles.
-fn entries(vertex: u32) -> vec2u {
+// The range of a vertex in `adjacent_triangles`.
+fn adjacency_range(vertex: u32) -> vec2u {
     var start = 0u;
     if vertex > 0u {
-        start = ends[vertex - 1u];
+        start = adjacency_ends[vertex - 1u];
     }
-    return vec2u(start, ends[vertex]);
+    return vec2u(start, adjacency_ends[vertex]);
 }
 
 // The corner of a triangle at a vertex.

@@ -1,9 +1,9 @@
-// What the stages of a run have in common.
+// Shared by the kernels of MikkTSpace and split.wgsl.
 
 struct Counts {
-    // Vertices that only the core's own order can weld: values too large or not finite, equal ones with other signs of zeros; and
-    // those that found no slot of the hash table in time.
-    refused: atomic<u32>,
+    // The number of vertices that only the CPU can weld: values that are too large or not finite, or zeros of different signs in equal
+    // vertices. Also counts probe sequences of a hash table that were too long.
+    failure_count: atomic<u32>,
 }
 
 // No vertex, triangle or corner.

@@ -1,17 +1,18 @@
-// Welding: vertices of equal position, normal and UV, as floats, become the one of them with the lowest number. The twin of the core's
-// tangents/fans/weld.rs.
+// Welds vertices: for each vertex, finds the first vertex with an equal position, normal and UV, compared as floats.
 //
-// `weld` puts every vertex into a hash table with open addresses. A slot is claimed by one atomic exchange and never given up, so equal
-// vertices meet in one slot, whatever order threads come in, and leave there the lowest of their numbers. `look_up` reads it.
+//     weld      inserts every vertex into a hash table with open addressing; a slot keeps the minimum of the equal vertices in it
+//     look_up   reads the slot of every vertex
+//
+// A slot is claimed by an atomic compare-exchange and never released. So all equal vertices find the same slot in any order of threads.
 
 @group(0) @binding(2) var<storage, read> vertices: array<u32>;
-@group(0) @binding(3) var<storage, read_write> slots: array<atomic<u32>>;
-@group(0) @binding(4) var<storage, read_write> welded: array<u32>;
+@group(0) @binding(3) var<storage, read_write> hash_slots: array<atomic<u32>>;
+@group(0) @binding(4) var<storage, read_write> welded_vertex: array<u32>;
 @group(0) @binding(5) var<storage, read_write> counts: Counts;
 
-// A slot holds a vertex and one.
+// A slot holds a vertex index plus one.
 const EMPTY: u32 = 0u;
-// 1e38: the reference does not weld positions from half of the largest float on.
+// 1e38: the reference does not weld positions above half of the largest float.
 const LARGEST: u32 = 0x7e967699u;
 
 struct Record {
@@ -36,7 +37,7 @@ fn is_same(a: Record, b: Record) -> bool {
     return all(a.position == b.position) && all(a.normal == b.normal) && all(a.uv == b.uv);
 }
 
-// Without the signs of zeros.
+// The vertex with every -0 replaced by +0.
 fn comparable(record: Record) -> Record {
     let p = record.position;
     let n = record.normal;
@@ -56,7 +57,7 @@ fn largest(record: Record) -> u32 {
     return max(max(max(both.x, both.y), both.z), max(t.x, t.y));
 }
 
-// Short fractions have their bits at the top: shifts bring them down.
+// Simple fractions have zeros in their low bits: the shifts mix the high bits into them.
 fn hash(record: Record) -> u32 {
     let p = (record.position ^ (record.position >> vec3u(15u))) * vec3u(0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du);
     let n = (record.normal ^ (record.normal >> vec3u(15u))) * vec3u(0x27d4eb2fu, 0x165667b1u, 0xd35a2d97u);
@@ -68,56 +69,56 @@ fn hash(record: Record) -> u32 {
 
 @compute @workgroup_size(WORKGROUP)
 fn weld(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    let vertex = number_of_thread(thread, groups);
+    let vertex = thread_index(thread, groups);
     if vertex >= mesh.vertex_count {
         return;
     }
     let record = comparable(load(vertex));
     if largest(record) > LARGEST {
-        atomicAdd(&counts.refused, 1u);
+        atomicAdd(&counts.failure_count, 1u);
         return;
     }
-    let mask = arrayLength(&slots) - 1u;
+    let mask = arrayLength(&hash_slots) - 1u;
     var at = hash(record) & mask;
-    for (var turn = 0u; turn < MAX_TURNS; turn++) {
-        let held = atomicLoad(&slots[at]);
+    for (var probe = 0u; probe < MAX_ITERATIONS; probe++) {
+        let held = atomicLoad(&hash_slots[at]);
         if held == EMPTY {
-            if atomicCompareExchangeWeak(&slots[at], EMPTY, vertex + 1u).exchanged {
+            if atomicCompareExchangeWeak(&hash_slots[at], EMPTY, vertex + 1u).exchanged {
                 return;
             }
-            // Another vertex has it now, or the exchange failed for nothing: look again.
+            // Another thread claimed the slot, or the exchange failed spuriously: read the slot again.
         } else if is_same(record, comparable(load(held - 1u))) {
-            atomicMin(&slots[at], vertex + 1u);
+            atomicMin(&hash_slots[at], vertex + 1u);
             return;
         } else {
             at = (at + 1u) & mask;
         }
     }
-    atomicAdd(&counts.refused, 1u);
+    atomicAdd(&counts.failure_count, 1u);
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn look_up(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    let vertex = number_of_thread(thread, groups);
+    let vertex = thread_index(thread, groups);
     if vertex >= mesh.vertex_count {
         return;
     }
     let own = load(vertex);
     let record = comparable(own);
-    let mask = arrayLength(&slots) - 1u;
+    let mask = arrayLength(&hash_slots) - 1u;
     var at = hash(record) & mask;
-    welded[vertex] = vertex;
-    for (var turn = 0u; turn < MAX_TURNS; turn++) {
-        let held = atomicLoad(&slots[at]);
-        // Vertices that were refused are in no slot.
+    welded_vertex[vertex] = vertex;
+    for (var probe = 0u; probe < MAX_ITERATIONS; probe++) {
+        let held = atomicLoad(&hash_slots[at]);
+        // This vertex could not be inserted.
         if held == EMPTY {
             return;
         }
         let first = load(held - 1u);
         if is_same(record, comparable(first)) {
-            welded[vertex] = held - 1u;
+            welded_vertex[vertex] = held - 1u;
             if !is_same(own, first) {
-                atomicAdd(&counts.refused, 1u);
+                atomicAdd(&counts.failure_count, 1u);
             }
             return;
         }

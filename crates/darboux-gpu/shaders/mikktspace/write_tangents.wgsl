@@ -1,12 +1,12 @@
-// From the frames of corners to tangents, without those of vertices that the core has to decide.
+// Writes the tangents of corners, and defers the vertices whose tangents the CPU has to compute.
 
 @group(0) @binding(4) var<storage, read> vertices: array<u32>;
-// Eight words each: tangent, bitangent, magnitudes.
+// Eight words per corner: tangent, bitangent, magnitudes.
 @group(0) @binding(3) var<storage, read> frame_of_corner: array<u32>;
-@group(0) @binding(5) var<storage, read> triangle_of_entry: array<u32>;
-@group(0) @binding(6) var<storage, read> marks: array<u32>;
-@group(0) @binding(7) var<storage, read_write> is_left: array<atomic<u32>>;
-// Tangent and sign; the sign is 0 where the core decides.
+@group(0) @binding(5) var<storage, read> adjacent_triangles: array<u32>;
+@group(0) @binding(6) var<storage, read> triangle_flags: array<u32>;
+@group(0) @binding(7) var<storage, read_write> is_deferred: array<atomic<u32>>;
+// Four words per corner: tangent and sign. The sign is 0 for deferred corners.
 @group(0) @binding(8) var<storage, read_write> tangent_of_corner: array<u32>;
 
 const EXPONENT: u32 = 0x7f800000u;
@@ -21,7 +21,7 @@ fn normal(vertex: u32) -> vec3f {
     return bitcast<vec3f>(vec3u(vertices[word], vertices[word + 1u], vertices[word + 2u]));
 }
 
-// True for tangents that the core takes for usable, whatever the rounding here; where it is near, false. Normals are finite.
+// True only if the core finds the tangent usable, whatever the rounding here. False if that is uncertain. Normals are finite.
 fn is_surely_usable(tangent: vec3u, normal: vec3f) -> bool {
     if any((tangent & vec3u(EXPONENT)) == vec3u(EXPONENT)) {
         return false;
@@ -39,36 +39,36 @@ fn is_surely_usable(tangent: vec3u, normal: vec3f) -> bool {
     return of_normal > 1e-18 && of_normal < 1e18 && along * along < 0.99 * of_normal;
 }
 
-// Leaves vertices whose corners have several tangents, or one that may have to be repaired.
+// Defers vertices whose corners have different tangents, or a tangent that may have to be repaired.
 @compute @workgroup_size(WORKGROUP)
 fn check_frames(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    let corner = number_of_thread(thread, groups);
+    let corner = thread_index(thread, groups);
     if corner >= 3u * mesh.triangle_count {
         return;
     }
     let vertex = vertex_of_corner(corner);
-    if vertex == NONE || atomicLoad(&is_left[vertex]) != 0u {
+    if vertex == NONE || atomicLoad(&is_deferred[vertex]) != 0u {
         return;
     }
-    let first = corner_at(triangle_of_entry[entries(vertex).x], vertex);
+    let first = corner_at(adjacent_triangles[adjacency_range(vertex).x], vertex);
     let own = tangent(corner);
     if any(own != tangent(first)) || !is_surely_usable(own, normal(vertex)) {
-        atomicStore(&is_left[vertex], 1u);
+        atomicStore(&is_deferred[vertex], 1u);
     }
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn store_tangents(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    let corner = number_of_thread(thread, groups);
+    let corner = thread_index(thread, groups);
     if corner >= 3u * mesh.triangle_count {
         return;
     }
     let vertex = vertex_of_corner(corner);
     var own = vec3u(0u);
     var sign = 0u;
-    if vertex != NONE && atomicLoad(&is_left[vertex]) == 0u {
+    if vertex != NONE && atomicLoad(&is_deferred[vertex]) == 0u {
         own = tangent(corner);
-        sign = bitcast<u32>(select(-1.0, 1.0, (marks[corner / 3u] & 1u) != 0u));
+        sign = bitcast<u32>(select(-1.0, 1.0, (triangle_flags[corner / 3u] & 1u) != 0u));
     }
     tangent_of_corner[4u * corner] = own.x;
     tangent_of_corner[4u * corner + 1u] = own.y;

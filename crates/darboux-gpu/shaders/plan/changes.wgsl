@@ -1,11 +1,11 @@
-// What a check counts.
+// The counts of a check. See `PlanCheck::counts`.
 
 struct Changes {
     collapsed: atomic<u32>,
-    opened: atomic<u32>,
-    parted: atomic<u32>,
-    met: atomic<u32>,
-    turned: atomic<u32>,
+    expanded: atomic<u32>,
+    separated: atomic<u32>,
+    merged: atomic<u32>,
+    rotated: atomic<u32>,
 }
 
 @group(0) @binding(8) var<storage, read_write> changes: Changes;

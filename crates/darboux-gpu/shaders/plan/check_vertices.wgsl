@@ -1,17 +1,17 @@
-// Whether copies of a vertex still are where it is, and no other vertex is there now: all find their places in a hash table. One thread per
+// Checks whether welded vertices are still equal, and whether other vertices have become equal, which a hash table finds. One thread per
 // vertex.
 
 @group(0) @binding(1) var<storage, read> positions: array<u32>;
 @group(0) @binding(2) var<storage, read> normals: array<u32>;
-// The vertex that stands for each vertex; NONE for those that nothing uses.
+// The vertex that each vertex was welded with; NONE for unused vertices.
 @group(0) @binding(4) var<storage, read> representatives: array<u32>;
-// Two words each, no -0 among them.
+// Two words per vertex, without -0.
 @group(0) @binding(5) var<storage, read> uvs: array<u32>;
-// A power of two of places, each with a vertex and 1 or with 0.
-@group(0) @binding(6) var<storage, read_write> table: array<atomic<u32>>;
+// A power of two of slots. A slot holds a vertex index plus one, or 0.
+@group(0) @binding(6) var<storage, read_write> hash_slots: array<atomic<u32>>;
 
 const WORDS: u32 = 8u;
-// Beyond this the core does not weld, with room for rounding; as a word.
+// The bits of a bound, with a margin, above which the core does not weld.
 const LARGE: u32 = 0x7e000000u;
 
 struct Vertex {
@@ -42,7 +42,7 @@ fn load(v: u32) -> Vertex {
     return vertex;
 }
 
-fn are_one(a: Vertex, b: Vertex) -> bool {
+fn are_equal_vertices(a: Vertex, b: Vertex) -> bool {
     var same = true;
     for (var word = 0u; word < WORDS; word++) {
         same = same && a.words[word] == b.words[word];
@@ -50,7 +50,7 @@ fn are_one(a: Vertex, b: Vertex) -> bool {
     return same;
 }
 
-// The finalizer of MurmurHash3 (A. Appleby), word by word.
+// The finaliser of MurmurHash3 (A. Appleby), word by word.
 fn hash(vertex: Vertex) -> u32 {
     var mixed = 0u;
     for (var word = 0u; word < WORDS; word++) {
@@ -61,17 +61,17 @@ fn hash(vertex: Vertex) -> u32 {
     return mixed;
 }
 
-// Finds a place for a vertex; false where one that equals it has one already.
-fn is_new(v: u32, vertex: Vertex) -> bool {
-    let last = arrayLength(&table) - 1u;
+// Inserts a vertex. Returns false if an equal vertex is in the table, or if the probe sequence is too long.
+fn insert(v: u32, vertex: Vertex) -> bool {
+    let last = arrayLength(&hash_slots) - 1u;
     var place = hash(vertex) & last;
-    for (var turn = 0u; turn < MAX_TURNS; turn++) {
-        let found = atomicCompareExchangeWeak(&table[place], 0u, v + 1u);
+    for (var probe = 0u; probe < MAX_ITERATIONS; probe++) {
+        let found = atomicCompareExchangeWeak(&hash_slots[place], 0u, v + 1u);
         if found.exchanged {
             return true;
         }
         if found.old_value != 0u {
-            if are_one(vertex, load(found.old_value - 1u)) {
+            if are_equal_vertices(vertex, load(found.old_value - 1u)) {
                 return false;
             }
             place = (place + 1u) & last;
@@ -86,9 +86,9 @@ fn run(v: u32) {
         return;
     }
     let vertex = load(v);
-    if !vertex.is_small || (representative != v && !are_one(vertex, load(representative))) {
-        atomicAdd(&changes.parted, 1u);
-    } else if representative == v && !is_new(v, vertex) {
-        atomicAdd(&changes.met, 1u);
+    if !vertex.is_small || (representative != v && !are_equal_vertices(vertex, load(representative))) {
+        atomicAdd(&changes.separated, 1u);
+    } else if representative == v && !insert(v, vertex) {
+        atomicAdd(&changes.merged, 1u);
     }
 }

@@ -1,8 +1,8 @@
-// The tangent of every sum: its members' terms in the order of triangles. One thread per sum.
+// The tangent of every sum: adds the terms of its members in the order of triangles, and normalises. One thread per sum.
 
 @group(0) @binding(2) var<storage, read> normals: array<u32>;
 @group(0) @binding(3) var<storage, read> term_of_corner: array<u32>;
-// Four words each, of which the last is not used.
+// Four words per sum, of which the last is unused.
 @group(0) @binding(6) var<storage, read_write> tangent_of_sum: array<u32>;
 @group(0) @binding(7) var<storage, read_write> unusable: Unusable;
 
@@ -20,22 +20,22 @@ fn item_count() -> u32 {
 
 fn is_finite(v: V3) -> bool {
     let infinity = 0x7f800000u;
-    let x = (word_of(v.x) & infinity) != infinity;
-    let y = (word_of(v.y) & infinity) != infinity;
-    return x && y && (word_of(v.z) & infinity) != infinity;
+    let x = (bits_of(v.x) & infinity) != infinity;
+    let y = (bits_of(v.y) & infinity) != infinity;
+    return x && y && (bits_of(v.z) & infinity) != infinity;
 }
 
-fn estimates(v: V3) -> vec3f {
-    return vec3f(estimate_of(v.x), estimate_of(v.y), estimate_of(v.z));
+fn approximate(v: V3) -> vec3f {
+    return vec3f(float_of(v.x), float_of(v.y), float_of(v.z));
 }
 
-// True for a tangent that the core finds usable; false where it does not, and for few where it does.
+// True only if the core finds the tangent usable, whatever the rounding here. False if that is uncertain.
 fn is_surely_usable(tangent: V3, normal: V3) -> bool {
     if !is_finite(tangent) || !is_finite(normal) {
         return false;
     }
-    let t = estimates(tangent);
-    let n = estimates(normal);
+    let t = approximate(tangent);
+    let n = approximate(normal);
     let squared = dot(t, t);
     let has_unit_length = squared > 0.9985 && squared < 1.0015;
     let has_normal = not_zero(normal.x) || not_zero(normal.y) || not_zero(normal.z);
@@ -57,21 +57,21 @@ fn run(sum: u32) {
             real(term_of_corner[word + 1u]),
             real(term_of_corner[word + 2u]),
         );
-        watch_wide(term.x);
-        watch_wide(term.y);
-        watch_wide(term.z);
-        total = added(total, term);
+        check_wide_range(term.x);
+        check_wide_range(term.y);
+        check_wide_range(term.z);
+        total = add3(total, term);
     }
-    // What no group reaches has a tangent of its own.
+    // A sum without members has the reference's default tangent.
     var tangent = V3(real(ONE), real(0u), real(0u));
     if start < end {
-        watch_vector(total);
+        check_range3(total);
         tangent = direction(total);
     }
-    tangent_of_sum[4u * sum] = stored(tangent.x);
-    tangent_of_sum[4u * sum + 1u] = stored(tangent.y);
-    tangent_of_sum[4u * sum + 2u] = stored(tangent.z);
-    if plan.repairs == 0u || is_left() {
+    tangent_of_sum[4u * sum] = canonical_bits(tangent.x);
+    tangent_of_sum[4u * sum + 1u] = canonical_bits(tangent.y);
+    tangent_of_sum[4u * sum + 2u] = canonical_bits(tangent.z);
+    if plan.repairs == 0u || is_postponed() {
         return;
     }
     let word = (vertex & ~IS_FORCED) * plan.normal_stride + plan.normal;

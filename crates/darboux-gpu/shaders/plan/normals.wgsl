@@ -1,17 +1,16 @@
-// Smooth normals from positions: the mean of the triangles' around a vertex, weighted by their angles there (G. Thürmer and C. A. Wüthrich,
-// "Computing Vertex Normals from Polygonal Facets", 1998). One thread per normal; vertices share those that were one on the mesh
-// that was planned.
+// Smooth normals: the mean of the normals of adjacent triangles, weighted by their angles (G. Thürmer and C. A. Wüthrich, "Computing Vertex
+// Normals from Polygonal Facets", 1998). One thread per normal group: the vertices that shared a position and a normal in the planned mesh.
 
-// The number of normals, where the members of each end, and the members: corners k of triangles t as 3 t + k.
-@group(0) @binding(5) var<storage, read> fans: array<u32>;
-// Four words each.
-@group(0) @binding(6) var<storage, read_write> normal_of_fan: array<u32>;
+// The number of groups; the end of each group's range of members; the members, which are corners 3 t + k of triangles t.
+@group(0) @binding(5) var<storage, read> normal_groups: array<u32>;
+// Four words per group, of which the last is unused.
+@group(0) @binding(6) var<storage, read_write> normal_of_group: array<u32>;
 
 fn item_count() -> u32 {
-    return fans[0];
+    return normal_groups[0];
 }
 
-// A direction; zero where there is none.
+// The unit vector along `v`; zero if `v` is zero or not finite.
 fn unit(v: vec3f) -> vec3f {
     let largest = max(max(abs(v.x), abs(v.y)), abs(v.z));
     if (bitcast<u32>(largest) & 0x7f800000u) == 0x7f800000u || !not_zero(largest) {
@@ -21,15 +20,15 @@ fn unit(v: vec3f) -> vec3f {
     return scaled / sqrt(dot(scaled, scaled));
 }
 
-fn run(fan: u32) {
-    let members = 1u + fans[0];
+fn run(group: u32) {
+    let members = 1u + normal_groups[0];
     var start = 0u;
-    if fan > 0u {
-        start = fans[fan];
+    if group > 0u {
+        start = normal_groups[group];
     }
     var total = vec3f();
-    for (var place = start; place < fans[fan + 1u]; place++) {
-        let corner = fans[members + place];
+    for (var place = start; place < normal_groups[group + 1u]; place++) {
+        let corner = normal_groups[members + place];
         let vertices = load_triangle(corner / 3u).vertices;
         let k = corner % 3u;
         let here = load_position(vertices[k]);
@@ -41,7 +40,7 @@ fn run(fan: u32) {
     if all(normal == vec3f()) {
         normal = vec3f(0.0, 0.0, 1.0);
     }
-    normal_of_fan[4u * fan] = word_of(normal.x);
-    normal_of_fan[4u * fan + 1u] = word_of(normal.y);
-    normal_of_fan[4u * fan + 2u] = word_of(normal.z);
+    normal_of_group[4u * group] = bits_of(normal.x);
+    normal_of_group[4u * group + 1u] = bits_of(normal.y);
+    normal_of_group[4u * group + 2u] = bits_of(normal.z);
 }

@@ -1,14 +1,14 @@
-// What takes the place of unusable tangents: nearly what the core's tangents/repair.rs finds in double precision. One thread per tangent.
+// Replaces unusable tangents, as the core's tangents/repair.rs does in double precision. One thread per listed tangent.
 
 @group(0) @binding(6) var<storage, read_write> tangent_of_sum: array<u32>;
-@group(0) @binding(8) var<storage, read_write> repaired: atomic<u32>;
+@group(0) @binding(8) var<storage, read_write> repair_count: atomic<u32>;
 
 fn all_finite(v: vec3f) -> bool {
     let words = bitcast<vec3u>(v) & vec3u(0x7f800000u);
     return all(words != vec3u(0x7f800000u));
 }
 
-// A direction; zero where there is none. Its largest component is made 1 first, so that no square overflows or vanishes.
+// The unit vector along `v`; zero if `v` is zero or not finite. Scaling its largest component to 1 keeps the squares in range.
 fn unit(v: vec3f) -> vec3f {
     let largest = max(max(abs(v.x), abs(v.y)), abs(v.z));
     if !all_finite(v) || !not_zero(largest) {
@@ -18,7 +18,7 @@ fn unit(v: vec3f) -> vec3f {
     return scaled / sqrt(dot(scaled, scaled));
 }
 
-// The direction of `v` in the plane of the unit `normal`; zero where rounding error is all that is left.
+// The unit vector along the part of `v` perpendicular to the unit vector `normal`; zero if only rounding error is left.
 fn across(normal: vec3f, v: vec3f) -> vec3f {
     let direction = unit(v);
     let once = direction - dot(normal, direction) * normal;
@@ -26,7 +26,7 @@ fn across(normal: vec3f, v: vec3f) -> vec3f {
     return select(vec3f(), unit(rest), dot(rest, rest) > 1e-12);
 }
 
-// T. Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017, listing 3.
+// A unit vector perpendicular to the unit vector `n`. T. Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017, listing 3.
 fn perpendicular(n: vec3f) -> vec3f {
     let sign = select(1.0, -1.0, n.z < 0.0);
     let a = -1.0 / (sign + n.z);
@@ -38,7 +38,7 @@ fn is_usable(tangent: vec3f, normal: vec3f) -> bool {
     return all_finite(tangent) && abs(sqrt(squared) - 1.0) < 1e-3 && abs(dot(unit(tangent), normal)) < 0.999;
 }
 
-// The mean of the members' directions, each with the same weight.
+// The unweighted mean of the directions of the members.
 fn mean(sum: u32, normal: vec3f) -> vec3f {
     var total = vec3f();
     var count = 0.0;
@@ -48,7 +48,7 @@ fn mean(sum: u32, normal: vec3f) -> vec3f {
         let e1 = load_position(triangle.vertices.y) - a;
         let e2 = load_position(triangle.vertices.z) - a;
         let s = triangle.dv.y * e1 - triangle.dv.x * e2;
-        let direction = across(normal, select(s, -s, (triangle.marks.x & MIRRORS) != 0u));
+        let direction = across(normal, select(s, -s, (triangle.flags.x & MIRRORS) != 0u));
         total += direction;
         count += dot(direction, direction);
     }
@@ -63,7 +63,7 @@ fn run(sum: u32) {
     if (vertex & IS_FORCED) == 0u && is_usable(bitcast<vec3f>(old), normal) {
         return;
     }
-    atomicAdd(&repaired, 1u);
+    atomicAdd(&repair_count, 1u);
     var tangent = vec3f(1.0, 0.0, 0.0);
     if any(normal != vec3f()) {
         tangent = mean(sum, normal);

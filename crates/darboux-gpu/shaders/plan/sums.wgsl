@@ -1,9 +1,9 @@
-// A plan's sums in one list: where the members of each end, the vertex whose normal it has (with a mark), and the members, which are corners k
-// of triangles t as 3 t + k.
+// The sums of a plan, one per tangent, in one array: the end of each sum's range of members; the vertex whose normal it uses, with the flag
+// IS_FORCED; the members, which are corners 3 t + k of triangles t.
 
 @group(0) @binding(5) var<storage, read> sums: array<u32>;
 
-// Nothing usable is to be had: a vertex without members whose tangent is to be replaced.
+// The sum has no members, and its tangent is to be replaced.
 const IS_FORCED: u32 = 0x80000000u;
 
 fn start_of_sum(sum: u32) -> u32 {

@@ -1,31 +1,31 @@
-// A mesh whose vertices move and whose topology stays: positions and normals in buffers of others, read word by word.
+// The uniform of a plan. Positions and normals are read word by word from the caller's buffers.
 
 struct Plan {
     vertex_count: u32,
-    // Those that degenerate triangles come after.
+    // Without degenerate triangles, which come after the others.
     triangle_count: u32,
     degenerate_count: u32,
     sum_count: u32,
     output_count: u32,
-    // Words.
+    // Offsets and strides, in words.
     position: u32,
     position_stride: u32,
     normal: u32,
     normal_stride: u32,
     tangent: u32,
     tangent_stride: u32,
-    // 1 where unusable tangents are replaced.
+    // 1 if unusable tangents are replaced.
     repairs: u32,
-    // sqrt((1 + c) / 2) of the threshold's cosine c, as a word: directions nearer than this to one direction are near each other.
+    // The bits of the cosine of half the angular threshold. Two directions within half the threshold of a third are within the threshold.
     half_threshold: u32,
-    // 0, which compilers do not know.
-    zero: u32,
+    // 0, but unknown to the compiler.
+    opaque_zero: u32,
 }
 
 @group(0) @binding(0) var<uniform> plan: Plan;
 
-fn zero() -> u32 {
-    return plan.zero;
+fn opaque_zero() -> u32 {
+    return plan.opaque_zero;
 }
 
 const NONE: u32 = 0xffffffffu;

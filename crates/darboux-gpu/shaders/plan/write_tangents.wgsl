@@ -1,6 +1,6 @@
-// The tangents of sums go to the vertices or corners that have them. One thread per vertex or corner.
+// Copies the tangent of each sum to its vertices or corners. One thread per vertex or corner.
 
-// The sum, and in the highest bit the sign; NONE for vertices that nothing uses.
+// The sum, with the sign of w in the highest bit; NONE for unused vertices.
 @group(0) @binding(1) var<storage, read> sum_of_output: array<u32>;
 @group(0) @binding(2) var<storage, read> tangent_of_sum: array<u32>;
 @group(0) @binding(3) var<storage, read_write> tangents: array<u32>;

@@ -1,4 +1,4 @@
-// What a device computes.
+// The float operations of the device. hostile_floats.wgsl replaces them in tests.
 
 fn device_product(a: f32, b: f32) -> f32 {
     return a * b;

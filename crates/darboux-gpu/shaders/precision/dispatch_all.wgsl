@@ -1,6 +1,6 @@
-// Every item in turn, with whatever precision.
+// Entry point that runs every item.
 
-fn is_left() -> bool {
+fn is_postponed() -> bool {
     return false;
 }
 

@@ -1,7 +1,7 @@
-// Every item in turn; those that arithmetic is unsure of are listed, for the same work on words.
+// Entry point that runs every item, and appends the items that arithmetic is unsure of to a work list for the second pass.
 
 struct Unsure {
-    // Groups of threads for the list, as an indirect dispatch takes them.
+    // The workgroups for the listed items: the arguments of an indirect dispatch.
     groups: atomic<u32>,
     rows: u32,
     layers: u32,
@@ -11,7 +11,7 @@ struct Unsure {
 
 @group(0) @binding(9) var<storage, read_write> unsure: Unsure;
 
-fn is_left() -> bool {
+fn is_postponed() -> bool {
     return is_unsure() || ALL_UNSURE;
 }
 
@@ -22,11 +22,11 @@ fn every_item(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgro
         return;
     }
     run(item);
-    if is_left() {
-        let place = atomicAdd(&unsure.count, 1u);
-        if place % WORKGROUP == 0u && place / WORKGROUP < MAX_GROUPS {
+    if is_postponed() {
+        let index = atomicAdd(&unsure.count, 1u);
+        if index % WORKGROUP == 0u && index / WORKGROUP < MAX_GROUPS {
             atomicAdd(&unsure.groups, 1u);
         }
-        unsure.items[place] = item;
+        unsure.items[index] = item;
     }
 }

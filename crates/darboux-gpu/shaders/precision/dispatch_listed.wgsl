@@ -1,4 +1,4 @@
-// The items that are listed.
+// Entry point that runs the items of a work list.
 
 struct List {
     groups: u32,
@@ -10,13 +10,13 @@ struct List {
 
 @group(0) @binding(9) var<storage, read> list: List;
 
-fn is_left() -> bool {
+fn is_postponed() -> bool {
     return false;
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn every_item(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    for (var place = thread.x; place < list.count; place += groups.x * WORKGROUP) {
-        run(list.items[place]);
+    for (var index = thread.x; index < list.count; index += groups.x * WORKGROUP) {
+        run(list.items[index]);
     }
 }

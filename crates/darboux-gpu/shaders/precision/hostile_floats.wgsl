@@ -1,34 +1,34 @@
-// What a device computes that takes all liberties of WGSL but contraction: subnormal numbers are zeros, zeros have any sign, what is not finite
-// is anything, reciprocals are off by units. For tests, on devices that take none.
+// Simulates a device that rounds as badly as WGSL permits, except for fused operations: subnormal numbers are flushed to zero, zeros have
+// random signs, values that are not finite are replaced, reciprocals are wrong by up to 4 ulp. For tests, instead of device_floats.wgsl.
 
-fn is_tiny(a: f32) -> bool {
+fn is_subnormal_or_zero(a: f32) -> bool {
     return (bitcast<u32>(a) & 0x7f800000u) == 0u;
 }
 
-// As random as it needs to be.
+// A hash of the operands.
 fn noise(a: f32, b: f32) -> u32 {
     let mixed = (bitcast<u32>(a) ^ (bitcast<u32>(b) * 0x9e3779b9u)) * 0x85ebca6bu;
     return mixed ^ (mixed >> 15u);
 }
 
-fn taken(a: f32) -> f32 {
-    return select(a, 0.0, is_tiny(a));
+fn flush_operand(a: f32) -> f32 {
+    return select(a, 0.0, is_subnormal_or_zero(a));
 }
 
-fn given_back(result: f32, noise: u32) -> f32 {
+fn perturb_result(result: f32, noise: u32) -> f32 {
     let word = bitcast<u32>(result);
-    if is_tiny(result) {
+    if is_subnormal_or_zero(result) {
         return bitcast<f32>(noise & 0x80000000u);
     }
     return select(result, 0.75, (word & 0x7f800000u) == 0x7f800000u);
 }
 
 fn device_product(a: f32, b: f32) -> f32 {
-    return given_back(taken(a) * taken(b), noise(a, b));
+    return perturb_result(flush_operand(a) * flush_operand(b), noise(a, b));
 }
 
 fn device_sum(a: f32, b: f32) -> f32 {
-    return given_back(taken(a) + taken(b), noise(a, b));
+    return perturb_result(flush_operand(a) + flush_operand(b), noise(a, b));
 }
 
 fn device_reciprocal(a: f32) -> f32 {

@@ -1,118 +1,119 @@
-// Real numbers as the device's own floats, rounded as the CPU's; needs correct_rounding.wgsl, uint64.wgsl, arccosine.wgsl. Stages are written in the functions
-// of these files alone, so that each is one text in all three arithmetics.
+// `Real` as a float of the device, with corrected rounding. Kernels use only the functions that real_exact.wgsl, real_soft.wgsl and
+// real_fast.wgsl define, so one kernel source serves all three arithmetics. Requires correct_rounding.wgsl, uint64.wgsl, arccosine.wgsl.
 //
-// Nothing is looked at operation by operation. Stages let vectors and sums be watched where they are small in number, such that no
-// operation between can have met or made a number that is subnormal, infinite or NaN: with what is not zero in [2^-62, 2^40],
-// - products and squares are at least 2^-124, and lengths, their reciprocals and quotients far from both ends;
-// - normals are to be in [2^-62, 8], so that what lies in their planes is below 2^50, and unit vectors there, times an angle, are above
-//   2^-124: vectors that follow from what was watched are only watched from below;
-// - a difference is a multiple of the last unit of what it is of, so at least 2^-86;
-// - a sum of products can only vanish that should not where all of them are below 2^-102: so where it is zero, these are watched.
-// The sign of a zero never shows in sums of terms, which begin at +0; what is stored has none.
+// Corrected rounding is proven for normal numbers. Instead of testing every operation, kernels call the functions `check_*` for a few
+// values, from which it follows that no operation between them had a subnormal, infinite or NaN operand or result. With all non-zero
+// values in [2^-62, 2^40]:
+// - Products and squares are at least 2^-124. Lengths, their reciprocals and quotients are far from both limits.
+// - Normals are in [2^-62, 8]. So vectors projected into their planes are below 2^50, and need only a lower bound. Unit vectors in those
+//   planes, times an angle, are above 2^-124.
+// - A difference is a multiple of the last unit of its operands, so it is zero or at least 2^-86.
+// - A sum of products can vanish by underflow only if all products are below 2^-102. So if the sum is zero, the products are checked.
+// Signs of zeros do not matter: sums of terms begin at +0, and results are stored without them.
 //
-// What was unsure is done again with real_soft.wgsl.
+// Items that fail a check are computed again with real_soft.wgsl.
 
 alias Real = f32;
 
-// The least and the largest that were watched, as words times two, less one where zeros do not count.
-var<private> least: u32 = 0xffffffffu;
+// The smallest and largest checked values, as bits shifted left to drop the sign. Minima are decreased by 1, so that zero wraps around.
+var<private> smallest: u32 = 0xffffffffu;
 var<private> largest: u32 = 0u;
-var<private> largest_of_short: u32 = 0u;
-var<private> least_of_wide: u32 = 0xffffffffu;
-var<private> largest_of_wide: u32 = 0u;
-var<private> is_lost: bool = false;
+var<private> largest_normal: u32 = 0u;
+var<private> smallest_wide: u32 = 0xffffffffu;
+var<private> largest_wide: u32 = 0u;
+var<private> is_marked_unsure: bool = false;
 
 fn is_unsure() -> bool {
-    let is_small = least < (65u << 24u) - 1u || least_of_wide < (25u << 24u) - 1u;
-    let is_large = largest > (167u << 24u) || largest_of_short > (130u << 24u);
-    return is_lost || is_small || is_large || largest_of_wide > (229u << 24u);
+    let is_small = smallest < (65u << 24u) - 1u || smallest_wide < (25u << 24u) - 1u;
+    let is_large = largest > (167u << 24u) || largest_normal > (130u << 24u);
+    return is_marked_unsure || is_small || is_large || largest_wide > (229u << 24u);
 }
 
-// In [2^-62, 2^40], or zero.
-fn watch(a: Real) {
+// The value must be in [2^-62, 2^40], or zero.
+fn check_range(a: Real) {
     let word = bitcast<u32>(a) << 1u;
-    least = min(least, word - 1u);
+    smallest = min(smallest, word - 1u);
     largest = max(largest, word);
 }
 
-// At least 2^-62, or zero.
-fn watch_from_below(a: Real) {
-    least = min(least, (bitcast<u32>(a) << 1u) - 1u);
+// The value must be at least 2^-62, or zero.
+fn check_not_tiny(a: Real) {
+    smallest = min(smallest, (bitcast<u32>(a) << 1u) - 1u);
 }
 
-// In [2^-62, 8], or zero.
-fn watch_short(a: Real) {
+// The value must be in [2^-62, 8], or zero.
+fn check_normal_range(a: Real) {
     let word = bitcast<u32>(a) << 1u;
-    least = min(least, word - 1u);
-    largest_of_short = max(largest_of_short, word);
+    smallest = min(smallest, word - 1u);
+    largest_normal = max(largest_normal, word);
 }
 
-// In [2^-102, 2^102], or zero.
-fn watch_wide(a: Real) {
+// The value must be in [2^-102, 2^102], or zero.
+fn check_wide_range(a: Real) {
     let word = bitcast<u32>(a) << 1u;
-    least_of_wide = min(least_of_wide, word - 1u);
-    largest_of_wide = max(largest_of_wide, word);
+    smallest_wide = min(smallest_wide, word - 1u);
+    largest_wide = max(largest_wide, word);
 }
 
-// Of products that are `total` together, zero where they cancel.
-fn watch_cancelling(total: Real, products: vec3<Real>) {
+// `total`, the sum of the products, must not be zero by underflow.
+fn check_cancellation(total: Real, products: vec3<Real>) {
     if is_zero(bitcast<u32>(total)) {
-        watch_wide(products.x);
-        watch_wide(products.y);
-        watch_wide(products.z);
+        check_wide_range(products.x);
+        check_wide_range(products.y);
+        check_wide_range(products.z);
     }
 }
 
-// Whether a vector that was watched from below, the sum of whose squares this is, counts as more than zero.
+// Whether a vector that passed `check_not_tiny3` is not zero. `squares`: the sum of its squares.
 fn has_direction(v: vec3<Real>, squares: Real) -> bool {
     return !is_zero(bitcast<u32>(squares));
 }
 
-fn give_up() {
-    is_lost = true;
+fn mark_unsure() {
+    is_marked_unsure = true;
 }
 
 fn real(word: u32) -> Real {
     return bitcast<f32>(word);
 }
 
-fn word_of(a: Real) -> u32 {
+fn bits_of(a: Real) -> u32 {
     return bitcast<u32>(a);
 }
 
-// The word that is kept of a result: where arithmetic is sure, no zero of the core's has a sign.
-fn stored(a: Real) -> u32 {
+// The bits of a result as they are stored. Where this arithmetic is sure, the core's zeros are positive.
+fn canonical_bits(a: Real) -> u32 {
     let word = bitcast<u32>(a);
     return select(word, 0u, is_zero(word));
 }
 
-// For estimates, whose errors the caller allows for.
-fn estimate_of(a: Real) -> f32 {
+// An approximation whose error the caller has to allow for.
+fn float_of(a: Real) -> f32 {
     return a;
 }
 
-fn plus(a: Real, b: Real) -> Real {
+fn add(a: Real, b: Real) -> Real {
     return sum(a, b);
 }
 
-fn minus(a: Real, b: Real) -> Real {
+fn subtract(a: Real, b: Real) -> Real {
     return difference(a, b);
 }
 
-fn times(a: Real, b: Real) -> Real {
+fn multiply(a: Real, b: Real) -> Real {
     return product(a, b);
 }
 
-fn over(a: Real, b: Real) -> Real {
+fn divide(a: Real, b: Real) -> Real {
     return quotient(a, b);
 }
 
-// And one over the root.
-fn root_and_inverse_of(a: Real) -> vec2<Real> {
+// The square root and its reciprocal.
+fn sqrt_and_inverse(a: Real) -> vec2<Real> {
     return root_and_reciprocal(a);
 }
 
-fn inverse_root_of(a: Real) -> Real {
+fn inverse_sqrt(a: Real) -> Real {
     return reciprocal_root(a);
 }
 
@@ -120,6 +121,6 @@ fn is_above(a: Real, b: Real) -> bool {
     return a > b;
 }
 
-fn arccosine_of(a: Real) -> Real {
+fn acos_of(a: Real) -> Real {
     return arccosine(a);
 }

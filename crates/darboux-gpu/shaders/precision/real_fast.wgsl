@@ -1,69 +1,69 @@
-// Real numbers as the device's own floats, as it rounds them.
+// `Real` as a float of the device, with the device's rounding. See real_exact.wgsl.
 
 alias Real = f32;
 
 const SIGN: u32 = 0x80000000u;
 const ONE: u32 = 0x3f800000u;
 
-// Nothing to watch here.
+// Nothing is checked.
 fn is_unsure() -> bool {
     return false;
 }
 
-fn watch(a: Real) {}
+fn check_range(a: Real) {}
 
-fn watch_wide(a: Real) {}
+fn check_wide_range(a: Real) {}
 
-fn watch_from_below(a: Real) {}
+fn check_not_tiny(a: Real) {}
 
-fn watch_short(a: Real) {}
+fn check_normal_range(a: Real) {}
 
-fn watch_cancelling(total: Real, products: vec3<Real>) {}
+fn check_cancellation(total: Real, products: vec3<Real>) {}
 
 fn has_direction(v: vec3<Real>, squares: Real) -> bool {
     return not_zero(v.x) || not_zero(v.y) || not_zero(v.z);
 }
 
-fn give_up() {}
+fn mark_unsure() {}
 
 fn real(word: u32) -> Real {
     return bitcast<f32>(word);
 }
 
-fn word_of(a: Real) -> u32 {
+fn bits_of(a: Real) -> u32 {
     return bitcast<u32>(a);
 }
 
-fn stored(a: Real) -> u32 {
+fn canonical_bits(a: Real) -> u32 {
     return bitcast<u32>(a);
 }
 
-fn estimate_of(a: Real) -> f32 {
+fn float_of(a: Real) -> f32 {
     return a;
 }
 
-fn plus(a: Real, b: Real) -> Real {
+fn add(a: Real, b: Real) -> Real {
     return a + b;
 }
 
-fn minus(a: Real, b: Real) -> Real {
+fn subtract(a: Real, b: Real) -> Real {
     return a - b;
 }
 
-fn times(a: Real, b: Real) -> Real {
+fn multiply(a: Real, b: Real) -> Real {
     return a * b;
 }
 
-fn over(a: Real, b: Real) -> Real {
+fn divide(a: Real, b: Real) -> Real {
     return a / b;
 }
 
-// And one over the root.
-fn root_and_inverse_of(a: Real) -> vec2<Real> {
+// The square root and its reciprocal.
+fn sqrt_and_inverse(a: Real) -> vec2<Real> {
     return vec2<Real>(sqrt(a), inverseSqrt(a));
 }
 
-fn inverse_root_of(a: Real) -> Real {
+fn inverse_sqrt(a: Real) -> Real {
     return inverseSqrt(a);
 }
 
@@ -75,9 +75,9 @@ fn is_above(a: Real, b: Real) -> bool {
     return a > b;
 }
 
-// M. Abramowitz and I. A. Stegun, "Handbook of Mathematical Functions", 4.4.46: off by 2e-8 besides rounding. WGSL's own is off by thousands
-// of units on some devices.
-fn arccosine_of(a: Real) -> Real {
+// M. Abramowitz and I. A. Stegun, "Handbook of Mathematical Functions", 4.4.46: an error of 2e-8, plus rounding. The built-in `acos` is wrong
+// by thousands of ulp on some devices.
+fn acos_of(a: Real) -> Real {
     let x = abs(a);
     var p = -0.0012624911;
     p = p * x + 0.0066700901;

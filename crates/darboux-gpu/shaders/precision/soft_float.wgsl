@@ -1,58 +1,58 @@
-// All of IEEE 754's sums, products, quotients and roots in whole numbers, on the words of floats: the path for what correct_rounding.wgsl is unsure
-// of. Subnormal numbers, infinities and the signs of zeros are right on every device; every NaN is `NAN`. Needs correct_rounding.wgsl and uint64.wgsl.
+// IEEE 754 addition, multiplication, division and square root in integers, on the bits of floats. Subnormal numbers, infinities and the signs
+// of zeros are correct on every device; every NaN is `NAN`. Requires correct_rounding.wgsl and uint64.wgsl.
 
 const INFINITY: u32 = 0x7f800000u;
 const NAN: u32 = 0x7fc00000u;
 
-// significand 2^(exponent - 150), the significand in [2^23, 2^24).
-struct Parts {
+// The value significand 2^(exponent - 150), with the significand in [2^23, 2^24).
+struct Decomposed {
     significand: u32,
     exponent: i32,
 }
 
-// Of a finite number that is not zero.
-fn parts_of(word: u32) -> Parts {
+// Decomposes a finite number that is not zero.
+fn decompose(word: u32) -> Decomposed {
     let exponent = exponent_of(word);
     let fraction = word & 0x7fffffu;
     if exponent > 0 {
-        return Parts(fraction | HIDDEN, exponent);
+        return Decomposed(fraction | HIDDEN, exponent);
     }
     let shift = countLeadingZeros(fraction) - 8u;
-    return Parts(fraction << shift, 1 - i32(shift));
+    return Decomposed(fraction << shift, 1 - i32(shift));
 }
 
 fn is_infinite(word: u32) -> bool {
     return (word & ~SIGN) == INFINITY;
 }
 
-// As `shifted_right`; what falls off leaves a mark in the last bit.
-fn shifted_right_with_mark(a: vec2u, n: u32) -> vec2u {
+// Shifts right; the last bit becomes 1 if any bit that was shifted out is 1 (sticky bit).
+fn shift_right_sticky(a: vec2u, n: u32) -> vec2u {
     if n > 63u {
         return vec2u(0u, 1u);
     }
-    let b = shifted_right(a, n);
-    let lost = any(shifted_left_far(b, n) != a);
+    let b = shift_right(a, n);
+    let lost = any(shift_left_far(b, n) != a);
     return vec2u(b.x, b.y | u32(lost));
 }
 
-// `n` below 64.
-fn shifted_left_far(a: vec2u, n: u32) -> vec2u {
+// n < 64.
+fn shift_left_far(a: vec2u, n: u32) -> vec2u {
     if n < 32u {
-        return shifted_left(a, n);
+        return shift_left(a, n);
     }
     return vec2u(a.y << (n - 32u), 0u);
 }
 
-// The float nearest to a 2^(exponent - 190), the even one of two; `a` is not zero.
-fn soft_round(sign: u32, a: vec2u, exponent: i32) -> u32 {
+// Rounds a 2^(exponent - 190) to the nearest float, ties to even. `a` is not zero.
+fn round_to_float(sign: u32, a: vec2u, exponent: i32) -> u32 {
     let zeros = select(countLeadingZeros(a.x), 32u + countLeadingZeros(a.y), a.x == 0u);
-    var significand = shifted_left_far(a, zeros);
+    var significand = shift_left_far(a, zeros);
     var power = exponent - i32(zeros);
     if power >= 255 {
         return sign | INFINITY;
     }
     if power <= 0 {
-        significand = shifted_right_with_mark(significand, u32(1 - power));
+        significand = shift_right_sticky(significand, u32(1 - power));
         power = 1;
     }
     let word = (u32(power - 1) << 23u) + (significand.x >> 8u);
@@ -72,9 +72,9 @@ fn soft_product(a: u32, b: u32) -> u32 {
     if is_zero(a) || is_zero(b) {
         return sign;
     }
-    let x = parts_of(a);
-    let y = parts_of(b);
-    return soft_round(sign, whole_product(x.significand, y.significand), x.exponent + y.exponent - 110);
+    let x = decompose(a);
+    let y = decompose(b);
+    return round_to_float(sign, product_u32(x.significand, y.significand), x.exponent + y.exponent - 110);
 }
 
 fn soft_quotient(a: u32, b: u32) -> u32 {
@@ -88,8 +88,8 @@ fn soft_quotient(a: u32, b: u32) -> u32 {
     if is_zero(a) || is_infinite(b) {
         return sign;
     }
-    let x = parts_of(a);
-    let y = parts_of(b);
+    let x = decompose(a);
+    let y = decompose(b);
     var quotient = x.significand / y.significand;
     var rest = x.significand % y.significand;
     for (var digit = 0; digit < 4; digit++) {
@@ -98,7 +98,7 @@ fn soft_quotient(a: u32, b: u32) -> u32 {
         rest = rest % y.significand;
     }
     let marked = (quotient << 1u) | u32(rest != 0u);
-    return soft_round(sign, vec2u(0u, marked), x.exponent - y.exponent + 161);
+    return round_to_float(sign, vec2u(0u, marked), x.exponent - y.exponent + 161);
 }
 
 fn soft_root(a: u32) -> u32 {
@@ -108,11 +108,11 @@ fn soft_root(a: u32) -> u32 {
     if is_nan(a) || (a & SIGN) != 0u {
         return NAN;
     }
-    let x = parts_of(a);
+    let x = decompose(a);
     let is_even = (x.exponent & 1) == 0;
     let square = i32(x.significand << select(23u, 24u, is_even));
     let estimate = 8388608.0 * sqrt(bitcast<f32>((x.significand & 0x7fffffu) | select(ONE, 0x40000000u, is_even)));
-    let root = whole_root(square, i32(estimate), 0.5 / estimate);
+    let root = integer_sqrt(square, i32(estimate), 0.5 / estimate);
     let significand = u32(root.x + i32(root.y > root.x));
     return (u32((x.exponent + 127) >> 1u) << 23u) + significand - HIDDEN;
 }
@@ -132,12 +132,12 @@ fn soft_sum(a: u32, b: u32) -> u32 {
     }
     let a_is_larger = (a & ~SIGN) >= (b & ~SIGN);
     let larger = select(b, a, a_is_larger);
-    let x = parts_of(larger);
-    let y = parts_of(select(a, b, a_is_larger));
+    let x = decompose(larger);
+    let y = decompose(select(a, b, a_is_larger));
     let u = vec2u(x.significand << 7u, 0u);
-    // What falls off is below 2^-15 of a unit: too little to decide.
-    let v = shifted_right(vec2u(y.significand << 7u, 0u), u32(x.exponent - y.exponent));
+    // The bits that are shifted out are below 2^-15 ulp and cannot change the rounding.
+    let v = shift_right(vec2u(y.significand << 7u, 0u), u32(x.exponent - y.exponent));
     let has_one_sign = ((a ^ b) & SIGN) == 0u;
     let total = select(difference64(u, v), sum64(u, v), has_one_sign);
-    return soft_round(larger & SIGN, total, x.exponent + 1);
+    return round_to_float(larger & SIGN, total, x.exponent + 1);
 }

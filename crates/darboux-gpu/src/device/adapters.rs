@@ -1,4 +1,4 @@
-//! Adapters and their devices, for callers that have none.
+//! Lists the GPU adapters of this machine and opens devices, for callers that have no wgpu device of their own.
 
 use std::fmt;
 
@@ -7,14 +7,14 @@ use wgpu::{
     InstanceDescriptor, Queue,
 };
 
-use crate::GpuError;
-use crate::device::mesh_buffers::largest_buffer;
+use crate::device::buffers::largest_buffer;
 use crate::device::readback;
+use crate::error::GpuError;
 
-/// A device with all that its adapter allows.
+/// A device that was opened with all limits of its adapter.
 #[derive(Clone, Debug)]
 pub struct Gpu {
-    /// The adapter, in words.
+    /// The name of the adapter.
     pub name: String,
     /// The device.
     pub device: Device,
@@ -22,33 +22,33 @@ pub struct Gpu {
     pub queue: Queue,
 }
 
-/// What an adapter says of itself.
+/// The properties that an adapter reports.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AdapterSummary {
     /// Its name.
     pub name: String,
-    /// What it is.
+    /// Its kind.
     pub kind: AdapterKind,
-    /// The interface that it is reached by: Vulkan, Metal, Dx12.
+    /// The graphics API: Vulkan, Metal or Dx12.
     pub backend: String,
-    /// Its driver and that driver's version.
+    /// The name and version of its driver.
     pub driver: String,
-    /// The bytes that shaders can reach of one buffer.
+    /// The byte length of the largest buffer that a shader can bind.
     pub largest_binding: u64,
 }
 
-/// What an adapter is.
+/// The kind of an adapter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AdapterKind {
-    /// A GPU with memory of its own.
+    /// A GPU with its own memory.
     Discrete,
-    /// A GPU that shares the CPU's memory.
+    /// A GPU that shares the memory of the CPU.
     Integrated,
-    /// A part of a GPU, or one behind a virtual machine.
+    /// A virtual GPU, or a part of a GPU.
     Virtual,
-    /// A CPU that runs shaders: for tests.
+    /// A software implementation that runs shaders on the CPU.
     Software,
-    /// It does not say.
+    /// The adapter does not report its kind.
     Unknown,
 }
 
@@ -90,9 +90,9 @@ impl AdapterSummary {
 }
 
 impl Gpu {
-    /// The adapter that wgpu takes for the fastest.
+    /// Opens the adapter that wgpu prefers for high performance.
     ///
-    /// Errors: there is none, or it gives no device.
+    /// Errors: there is no adapter, or it cannot create a device.
     pub async fn open() -> Result<Self, GpuError> {
         let options = wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::HighPerformance,
@@ -102,9 +102,9 @@ impl Gpu {
         Self::of(&adapter).await
     }
 
-    /// All adapters, software ones only where there are no others.
+    /// Opens all hardware adapters, or all software adapters if there is no hardware adapter.
     ///
-    /// Errors: there is none, or one gives no device.
+    /// Errors: there is no adapter, or one cannot create a device.
     pub async fn open_all() -> Result<Vec<Self>, GpuError> {
         let mut adapters = instance().enumerate_adapters(BACKENDS).await;
         let is_software = |adapter: &Adapter| adapter.get_info().device_type == DeviceType::Cpu;
@@ -118,7 +118,7 @@ impl Gpu {
         if gpus.is_empty() { Err(GpuError::NoAdapter) } else { Ok(gpus) }
     }
 
-    /// All adapters, software ones included, each with its device or why it gives none.
+    /// Lists all adapters, including software ones, each with its device or the reason why it cannot create one.
     pub async fn list() -> Vec<(AdapterSummary, Result<Self, GpuError>)> {
         let mut found = Vec::new();
         for adapter in instance().enumerate_adapters(BACKENDS).await {
@@ -127,19 +127,24 @@ impl Gpu {
         found
     }
 
-    /// What its adapter is.
+    /// The kind of its adapter.
     pub fn kind(&self) -> AdapterKind {
         self.device.adapter_info().device_type.into()
     }
 
-    /// Runs `work`, whose calls of the device would panic where the device refuses.
+    /// Runs `work` inside error scopes. Without them, wgpu panics when the device reports an error.
     ///
-    /// Errors: those of `work`; the device has no memory left, or refused something.
-    pub fn guarded<T, E: From<GpuError>>(&self, work: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
-        readback::guarded(&self.device, || Ok(work()))?
+    /// Errors: those of `work`; the device is out of memory, or reported another error.
+    pub fn with_error_scopes<T, E: From<GpuError>>(
+        &self,
+        work: impl FnOnce() -> Result<T, E>,
+    ) -> Result<T, E> {
+        readback::with_error_scopes(&self.device, || Ok(work()))?
     }
 
-    /// Submits what `record` records; gives what is in `buffer` then, which allows to be copied from. Errors: the device is lost.
+    /// Submits the commands of `record` and then returns the bytes of `buffer`, which has `BufferUsages::COPY_SRC`.
+    ///
+    /// Errors: the device is lost.
     pub fn read(
         &self,
         record: impl FnOnce(&mut CommandEncoder),
@@ -152,7 +157,7 @@ impl Gpu {
     async fn of(adapter: &Adapter) -> Result<Self, GpuError> {
         let name = adapter.get_info().name;
         let descriptor = DeviceDescriptor {
-            required_features: adapter.features() & CLOCK,
+            required_features: adapter.features() & TIMESTAMPS,
             required_limits: adapter.limits(),
             ..Default::default()
         };
@@ -163,10 +168,10 @@ impl Gpu {
     }
 }
 
-/// What measuring needs.
-const CLOCK: Features = Features::TIMESTAMP_QUERY.union(Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
+/// The features for measuring times on the device.
+const TIMESTAMPS: Features = Features::TIMESTAMP_QUERY.union(Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
 
-/// Without OpenGL, whose compute shaders are few and old.
+/// All but OpenGL, which lacks what the compute shaders need.
 const BACKENDS: Backends = Backends::PRIMARY;
 
 fn instance() -> Instance {

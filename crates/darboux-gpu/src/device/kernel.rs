@@ -1,47 +1,47 @@
-//! Compute pipelines, and how many groups of threads they need.
+//! Compute pipelines from WGSL files, and dispatches of them with their bind groups.
 
 use wgpu::{
-    BindGroup, BindGroupDescriptor, BindGroupEntry, BindingResource, Buffer, BufferBinding, BufferDescriptor,
-    BufferSize, BufferUsages, CommandEncoder, ComputePipeline, ComputePipelineDescriptor, Device,
-    ShaderModule, ShaderModuleDescriptor, ShaderSource,
+    BindGroup, BindGroupDescriptor, BindGroupEntry, BindingResource, Buffer, BufferBinding, BufferSize,
+    CommandEncoder, ComputePipeline, ComputePipelineDescriptor, Device, ShaderModule, ShaderModuleDescriptor,
+    ShaderSource,
 };
 
-/// Threads of a group. In the stress build as many as Mesa's software adapter runs side by side: with fewer, it runs lanes of no thread, too,
-/// which read zeros, and loops that wait for something else end after 65,535 turns.
+/// Threads per workgroup. The stress build uses the SIMD width of Mesa's software adapter: with a smaller workgroup, that adapter also runs
+/// the unused lanes, which read zeros, and a loop that waits for another value in them ends only after 65,535 iterations.
 pub(crate) const WORKGROUP: u32 = if cfg!(small_limits) { 8 } else { 64 };
-/// Values that one thread of a prefix sum takes.
+/// Values that one thread of a prefix sum adds up.
 pub(crate) const VALUES_PER_THREAD: u32 = if cfg!(small_limits) { 2 } else { 4 };
-/// Values of a block of a prefix sum.
+/// Values per block of a prefix sum.
 pub(crate) const BLOCK: u32 = WORKGROUP * VALUES_PER_THREAD;
-/// Groups that an indirect dispatch asks for at most, in its one row.
+/// The most workgroups of an indirect dispatch, which has one dimension.
 const MAX_GROUPS: u32 = 65_535;
-/// Turns that one thread's loops take at most: drivers end what runs too long, and Mesa's software adapter quietly leaves all loops
-/// of a thread after 65,535 turns in sum.
-pub(crate) const MAX_TURNS: u32 = 1 << 15;
+/// The most loop iterations of one thread. Drivers kill kernels that run too long, and Mesa's software adapter silently leaves all loops of a
+/// thread after 65,535 iterations in total.
+pub(crate) const MAX_ITERATIONS: u32 = 1 << 15;
 
-/// A shader of files that are read one after the other.
-pub(crate) fn module(device: &Device, files: &[&str]) -> ShaderModule {
-    let source = ShaderSource::Wgsl(text(files).into());
-    device.create_shader_module(ShaderModuleDescriptor { label: Some("darboux"), source })
-}
-
-/// What every shader's text begins with.
+/// The constants that every shader's source begins with.
 pub(crate) const CONSTANTS: [(&str, u32); 5] = [
     ("WORKGROUP", WORKGROUP),
     ("VALUES_PER_THREAD", VALUES_PER_THREAD),
     ("BLOCK", BLOCK),
     ("MAX_GROUPS", MAX_GROUPS),
-    ("MAX_TURNS", MAX_TURNS),
+    ("MAX_ITERATIONS", MAX_ITERATIONS),
 ];
 
-/// The text of such a shader.
-pub(crate) fn text(files: &[&str]) -> String {
+/// The source of a shader: the constants, then the files concatenated.
+pub(crate) fn shader_source(files: &[&str]) -> String {
     let constants = CONSTANTS.map(|(name, value)| format!("const {name}: u32 = {value}u;\n")).concat();
     [&constants, &files.join("\n")].map(String::as_str).concat()
 }
 
-/// One entry point of a shader.
-pub(crate) fn pipeline(device: &Device, module: &ShaderModule, entry_point: &str) -> ComputePipeline {
+/// Compiles the concatenated files.
+pub(crate) fn shader_module(device: &Device, files: &[&str]) -> ShaderModule {
+    let source = ShaderSource::Wgsl(shader_source(files).into());
+    device.create_shader_module(ShaderModuleDescriptor { label: Some("darboux"), source })
+}
+
+/// The pipeline of one entry point.
+pub(crate) fn compute_pipeline(device: &Device, module: &ShaderModule, entry_point: &str) -> ComputePipeline {
     device.create_compute_pipeline(&ComputePipelineDescriptor {
         label: Some(entry_point),
         layout: None,
@@ -52,23 +52,23 @@ pub(crate) fn pipeline(device: &Device, module: &ShaderModule, entry_point: &str
     })
 }
 
-/// A pipeline with its buffers, and how many threads it runs.
+/// A pipeline with its bind group and its number of threads.
 #[derive(Clone, Debug)]
-pub(crate) struct Step {
+pub(crate) struct Dispatch {
     pipeline: ComputePipeline,
-    buffers: BindGroup,
-    threads: Threads,
+    bind_group: BindGroup,
+    workgroups: Workgroups,
 }
 
 #[derive(Clone, Debug)]
-enum Threads {
-    Groups([u32; 2]),
-    /// As many as the buffer's first words say.
+enum Workgroups {
+    Direct([u32; 2]),
+    /// The first three words of the buffer are the number of workgroups.
     Indirect(Buffer),
 }
 
-impl Step {
-    /// `buffers`: by binding; `threads`: at least this many run, the shader turns others away.
+impl Dispatch {
+    /// `buffers`: buffer of each binding. At least `threads` threads run; the shader returns early in the surplus ones.
     pub fn new(
         device: &Device,
         pipeline: &ComputePipeline,
@@ -78,38 +78,38 @@ impl Step {
         let limit = device.limits().max_compute_workgroups_per_dimension;
         Self {
             pipeline: pipeline.clone(),
-            buffers: bind(device, pipeline, buffers),
-            threads: Threads::Groups(groups(threads, limit)),
+            bind_group: bind_group(device, pipeline, buffers),
+            workgroups: Workgroups::Direct(workgroup_grid(threads, limit)),
         }
     }
 
-    /// Over a list whose length the device knows.
+    /// A dispatch over a work list whose length only the device knows.
     pub fn indirect(
         device: &Device,
         pipeline: &ComputePipeline,
         buffers: &[(u32, &Buffer)],
-        list: &Buffer,
+        work_list: &Buffer,
     ) -> Self {
         Self {
             pipeline: pipeline.clone(),
-            buffers: bind(device, pipeline, buffers),
-            threads: Threads::Indirect(list.clone()),
+            bind_group: bind_group(device, pipeline, buffers),
+            workgroups: Workgroups::Indirect(work_list.clone()),
         }
     }
 
-    /// Records the step as a pass of its own, which waits for those before it.
+    /// Records a compute pass with this one dispatch. It sees what earlier passes wrote.
     pub fn record(&self, encoder: &mut CommandEncoder) {
         let mut pass = encoder.begin_compute_pass(&Default::default());
         pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, &self.buffers, &[]);
-        match &self.threads {
-            Threads::Groups([row, rows]) => pass.dispatch_workgroups(*row, *rows, 1),
-            Threads::Indirect(list) => pass.dispatch_workgroups_indirect(list, 0),
+        pass.set_bind_group(0, &self.bind_group, &[]);
+        match &self.workgroups {
+            Workgroups::Direct([columns, rows]) => pass.dispatch_workgroups(*columns, *rows, 1),
+            Workgroups::Indirect(work_list) => pass.dispatch_workgroups_indirect(work_list, 0),
         }
     }
 }
 
-fn bind(device: &Device, pipeline: &ComputePipeline, buffers: &[(u32, &Buffer)]) -> BindGroup {
+fn bind_group(device: &Device, pipeline: &ComputePipeline, buffers: &[(u32, &Buffer)]) -> BindGroup {
     let entries: Vec<_> = buffers
         .iter()
         .map(|&(binding, buffer)| BindGroupEntry { binding, resource: whole_words(buffer) })
@@ -118,39 +118,16 @@ fn bind(device: &Device, pipeline: &ComputePipeline, buffers: &[(u32, &Buffer)])
     device.create_bind_group(&BindGroupDescriptor { label: None, layout: &layout, entries: &entries })
 }
 
-/// A buffer without the bytes after its last whole word, which cannot be bound.
+/// The binding of a buffer without the bytes after its last whole word, because wgpu binds only multiples of 4 bytes.
 fn whole_words(buffer: &Buffer) -> BindingResource<'_> {
     BindingResource::Buffer(BufferBinding { buffer, offset: 0, size: BufferSize::new(buffer.size() & !3) })
 }
 
-/// Groups for at least `threads` threads, in rows of at most `limit`.
-fn groups(threads: u32, limit: u32) -> [u32; 2] {
+/// Columns and rows of workgroups for at least `threads` threads, with at most `limit` columns.
+fn workgroup_grid(threads: u32, limit: u32) -> [u32; 2] {
     let groups = threads.div_ceil(WORKGROUP);
-    let row = groups.clamp(1, limit);
-    [row, groups.div_ceil(row)]
-}
-
-/// A buffer of words that shaders fill.
-pub(crate) fn buffer(device: &Device, label: &str, words: u32) -> Buffer {
-    device.create_buffer(&BufferDescriptor {
-        label: Some(label),
-        size: 4 * u64::from(words),
-        usage: BufferUsages::STORAGE | BufferUsages::COPY_DST | BufferUsages::COPY_SRC,
-        mapped_at_creation: false,
-    })
-}
-
-/// A buffer with these words.
-pub(crate) fn filled(device: &Device, label: &str, contents: &[u8], usage: BufferUsages) -> Buffer {
-    let size = contents.len() as u64;
-    let descriptor = BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: true };
-    let buffer = device.create_buffer(&descriptor);
-    // Where there is nothing to write to, the device has said why.
-    if let Ok(mut words) = buffer.get_mapped_range_mut(..) {
-        words.slice(..).copy_from_slice(contents);
-    }
-    buffer.unmap();
-    buffer
+    let columns = groups.clamp(1, limit);
+    [columns, groups.div_ceil(columns)]
 }
 
 #[cfg(test)]
@@ -158,12 +135,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn groups_go_on_in_a_second_dimension() {
-        assert_eq!(groups(0, 65_535), [1, 0]);
-        assert_eq!(groups(1, 65_535), [1, 1]);
-        assert_eq!(groups(WORKGROUP * 65_535, 65_535), [65_535, 1]);
-        assert_eq!(groups(WORKGROUP * 65_535 + 1, 65_535), [65_535, 2]);
-        let [row, rows] = groups(u32::MAX, 65_535);
-        assert!(u64::from(row) * u64::from(rows) * u64::from(WORKGROUP) >= u64::from(u32::MAX));
+    fn workgroups_continue_in_a_second_dimension() {
+        assert_eq!(workgroup_grid(0, 65_535), [1, 0]);
+        assert_eq!(workgroup_grid(1, 65_535), [1, 1]);
+        assert_eq!(workgroup_grid(WORKGROUP * 65_535, 65_535), [65_535, 1]);
+        assert_eq!(workgroup_grid(WORKGROUP * 65_535 + 1, 65_535), [65_535, 2]);
+        let [columns, rows] = workgroup_grid(u32::MAX, 65_535);
+        assert!(u64::from(columns) * u64::from(rows) * u64::from(WORKGROUP) >= u64::from(u32::MAX));
     }
 }

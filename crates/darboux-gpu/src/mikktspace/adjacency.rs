@@ -1,53 +1,55 @@
-//! The triangles at each vertex, found by counting, a prefix sum and scattering.
+//! Lists the triangles at each vertex with a counting sort: count the corners of each vertex, take prefix sums, scatter the triangles.
 
 use wgpu::{Buffer, CommandEncoder, Device};
 
-use crate::GpuError;
-use crate::device::mesh_buffers::{Description, check_size};
+use crate::device::buffers::check_size;
+use crate::device::mesh_buffers::MeshUniform;
 use crate::device::precision::Arithmetic;
-use crate::mikktspace::passes::OF_ADJACENCY;
-use crate::mikktspace::program::{Buffers, Program, Recording};
+use crate::error::GpuError;
+use crate::mikktspace::passes::ADJACENCY_PASSES;
+use crate::mikktspace::program::{BoundProgram, NamedBuffers, Program};
 
-/// What [`Adjacency::new`] needs, compiled once.
+/// The compiled kernels of [`Adjacency`].
 #[derive(Clone, Debug)]
 pub(crate) struct AdjacencyKernels(Program);
 
-/// The adjacency of one mesh, and what makes it.
+/// The adjacency of one mesh, with the commands that compute it.
 #[derive(Clone, Debug)]
 pub(crate) struct Adjacency {
-    /// Where the part of each vertex ends.
+    /// For each vertex, the end of its range in `triangles`. The range begins where that of the vertex before ends.
     pub ends: Buffer,
-    /// The triangles, part after part, ascending in each.
-    pub triangle_of_entry: Buffer,
-    recording: Recording,
+    /// The triangles at each vertex, ascending.
+    pub triangles: Buffer,
+    program: BoundProgram,
 }
 
 impl AdjacencyKernels {
     pub fn new(device: &Device) -> Self {
-        // It has no floats.
-        Self(Program::new(device, Arithmetic::Fast, OF_ADJACENCY))
+        // These kernels compute no floats, so any arithmetic will do.
+        Self(Program::new(device, Arithmetic::Fast, ADJACENCY_PASSES))
     }
 }
 
 impl Adjacency {
-    /// `description` and `indices`: the mesh, as the shaders read it. Errors: the device binds no buffer of that size.
+    /// `uniform`: `mesh`, uploaded. Errors: a buffer is larger than the device can bind.
     pub fn new(
         device: &Device,
         kernels: &AdjacencyKernels,
-        mesh: &Description,
-        description: &Buffer,
+        mesh: &MeshUniform,
+        uniform: &Buffer,
         indices: &Buffer,
     ) -> Result<Self, GpuError> {
         let sizes = [mesh.vertex_count, mesh.triangle_count];
-        check_size(device, "the triangles of vertices", 12 * u64::from(mesh.triangle_count))?;
-        check_size(device, "the ends of vertices", 4 * u64::from(mesh.vertex_count))?;
-        let mut buffers = Buffers::given([("mesh", description), ("vertex_of_corner", indices)]);
-        let recording = kernels.0.on(device, sizes, &mut buffers)?;
-        let [ends, triangle_of_entry] = ["ends", "triangle_of_entry"].map(|name| buffers.of(name).clone());
-        Ok(Self { ends, triangle_of_entry, recording })
+        check_size(device, "the triangles at each vertex", 12 * u64::from(mesh.triangle_count))?;
+        check_size(device, "the ranges of triangles at each vertex", 4 * u64::from(mesh.vertex_count))?;
+        let mut buffers = NamedBuffers::new([("mesh", uniform), ("vertex_of_corner", indices)]);
+        let program = kernels.0.bind(device, sizes, &mut buffers)?;
+        let [ends, triangles] =
+            ["adjacency_ends", "adjacent_triangles"].map(|name| buffers.get(name).clone());
+        Ok(Self { ends, triangles, program })
     }
 
     pub fn record(&self, encoder: &mut CommandEncoder) {
-        self.recording.record(encoder);
+        self.program.record(encoder);
     }
 }

@@ -1,318 +1,324 @@
-//! MikkTSpace on the GPU, bit for bit: what is plain there, what is rare on the CPU.
-
-use std::borrow::Cow;
+//! Computes the MikkTSpace tangents of a mesh in CPU memory, with the bits of `darboux::generate_tangents`.
+//!
+//! ```text
+//! GPU:   weld vertices, find neighbours, derivatives, groups and frames; write a tangent per corner
+//! GPU:   defer every vertex whose result depends on the order of triangles, has several tangents, or lies in several tiles
+//! CPU:   compute the deferred vertices (darboux::internal::gpu_resume), and the report
+//! ```
+//!
+//! What is common runs on the GPU; what is rare, and hard to parallelise with the same bits, runs on the CPU.
 
 use darboux::internal::gpu_resume;
 use darboux::{CornerTangents, Faces, Indices, Mesh, Method, TangentOptions, Tangents, generate_tangents};
 use wgpu::{CommandEncoder, Device, Queue};
 
-use crate::device::mesh_buffers::largest_buffer;
+use crate::device::adapters::{AdapterSummary, Gpu};
+use crate::device::buffers::{corner_indices, largest_buffer};
 use crate::device::precision::Arithmetic;
-use crate::device::readback::{guarded, submit};
-use crate::mikktspace::tiles::{BYTES_OF_TRIANGLE, Cut, Kernels, Piece, Vertices, in_several, weld};
-use crate::{AdapterSummary, Gpu, GpuError};
+use crate::device::readback::{submit, with_error_scopes};
+use crate::error::GpuError;
+use crate::mikktspace::tiles::{
+    BYTES_PER_TRIANGLE, Programs, Submesh, Tile, UploadedVertices, shared_between_tiles, weld_on_cpu,
+};
 
 /// MikkTSpace, compiled for a device.
 #[derive(Clone, Debug)]
 pub struct MikkTSpace {
     device: Device,
     queue: Queue,
-    kernels: Kernels,
-    /// Triangles of a piece at most, whatever the device holds.
-    piece: u32,
+    programs: Programs,
+    /// The most triangles per tile, whatever the device can bind.
+    tile_size: u32,
 }
 
-/// No mesh has more triangles; the stress build cuts most.
-const PIECE: u32 = if cfg!(small_limits) { 200 } else { (1 << 30) / 3 };
+/// No mesh has more triangles. The stress build uses small tiles, so that most meshes have several.
+const MAX_TILE_SIZE: u32 = if cfg!(small_limits) { 200 } else { (1 << 30) / 3 };
 
-/// What [`MikkTSpace::generate_tangents`] gives.
+/// The result of [`MikkTSpace::generate_tangents`].
 #[derive(Clone, Debug)]
-pub struct Generated {
-    /// The tangents of `darboux::generate_tangents`, and its report.
+pub struct GpuTangents {
+    /// The tangents and the report of `darboux::generate_tangents`.
     pub tangents: Tangents,
-    /// How many corners the CPU did.
-    pub corners_of_cpu: usize,
-    /// Why the CPU did them all, if it did.
-    pub left_to_cpu: Option<Left>,
+    /// The number of corners that the CPU computed.
+    pub cpu_corners: usize,
+    /// The reason why the CPU computed the whole mesh, if it did.
+    pub cpu_fallback: Option<CpuFallback>,
 }
 
-/// Why a whole mesh is left to the CPU.
+/// Why the CPU computed a whole mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Left {
-    /// A method other than MikkTSpace.
+pub enum CpuFallback {
+    /// The method is not MikkTSpace.
     Method,
-    /// Faces that are not triangles.
+    /// The mesh has faces that are not triangles.
     Faces,
-    /// Values that are not finite or larger than 1e38, or equal vertices whose zeros differ in sign: only the CPU welds them in the order
-    /// of the reference.
+    /// The mesh has values that are not finite or larger than 1e38, or equal vertices whose zeros have different signs. The reference welds
+    /// those in an order that only the CPU reproduces.
     Values,
 }
 
-impl std::fmt::Display for Left {
+impl std::fmt::Display for CpuFallback {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
-            Self::Method => "the method runs on the CPU only",
-            Self::Faces => "faces that are not triangles are done on the CPU",
+            Self::Method => "only MikkTSpace runs on the GPU",
+            Self::Faces => "only meshes of triangles run on the GPU",
             Self::Values => {
-                "its vertices hold NaN, infinity, huge numbers, or equal positions whose zeros differ in sign"
+                "the vertices have NaN, infinite or huge values, or equal positions whose zeros have different signs"
             }
         })
     }
 }
 
 impl MikkTSpace {
-    /// Compiles the shaders. Errors: the device refuses them.
+    /// Compiles the shaders. Errors: the device rejects them.
     pub fn new(gpu: &Gpu) -> Result<Self, GpuError> {
         Self::with_arithmetic(gpu, Arithmetic::Exact)
     }
 
-    /// The most triangles that an adapter does at once, by its largest binding; larger meshes are cut into pieces.
+    /// The most triangles per tile on an adapter, which follows from its largest binding. Larger meshes run in several tiles.
     pub fn triangle_limit(adapter: &AdapterSummary) -> u64 {
-        adapter.largest_binding / BYTES_OF_TRIANGLE
+        adapter.largest_binding / BYTES_PER_TRIANGLE
     }
 
-    /// The same in pieces of so many triangles at most, for tests.
+    /// The same with at most `triangles` triangles per tile, for tests.
     #[doc(hidden)]
-    pub fn in_pieces_of(self, triangles: u32) -> Self {
-        Self { piece: triangles, ..self }
+    pub fn with_tile_size(self, triangles: u32) -> Self {
+        Self { tile_size: triangles, ..self }
     }
 
-    /// As [`MikkTSpace::new`], in another arithmetic.
+    /// As [`MikkTSpace::new`], with another arithmetic, for tests.
     #[doc(hidden)]
     pub fn with_arithmetic(gpu: &Gpu, arithmetic: Arithmetic) -> Result<Self, GpuError> {
         let Gpu { device, queue, .. } = gpu;
-        guarded(device, || {
+        with_error_scopes(device, || {
             Ok(Self {
                 device: device.clone(),
                 queue: queue.clone(),
-                kernels: Kernels::new(device, arithmetic),
-                piece: PIECE,
+                programs: Programs::new(device, arithmetic),
+                tile_size: MAX_TILE_SIZE,
             })
         })
     }
 
-    /// Computes the tangent of every corner: the bits of `darboux::generate_tangents`.
+    /// Computes the tangent of every corner, with the bits of `darboux::generate_tangents`.
     ///
-    /// Vertices that the order of triangles decides, that have several tangents or an unusable one, or lie in several pieces of a mesh that is
-    /// too large for the device, are left to the CPU. Waits for the device. Errors: the mesh is past the device's memory; the device is
-    /// lost, or binds no buffer that a triangle fits in.
+    /// The CPU computes vertices whose result depends on the order of triangles, vertices with several tangents or an unusable one, and
+    /// vertices on the border between tiles. Blocks until the device has finished.
+    ///
+    /// Errors: the device is out of memory or lost, or its largest buffer is smaller than a triangle.
     pub fn generate_tangents(
         &self,
         mesh: &Mesh<'_>,
         options: &TangentOptions,
-    ) -> Result<Generated, GpuError> {
+    ) -> Result<GpuTangents, GpuError> {
         if options.method != Method::MikkTSpace {
-            return Ok(Generated::left(mesh, options, Left::Method));
+            return Ok(GpuTangents::from_cpu(mesh, options, CpuFallback::Method));
         }
         if !matches!(mesh.faces(), Faces::Triangles) {
-            return Ok(Generated::left(mesh, options, Left::Faces));
+            return Ok(GpuTangents::from_cpu(mesh, options, CpuFallback::Faces));
         }
         if mesh.face_count() == 0 {
             let tangents = generate_tangents(mesh, options);
-            return Ok(Generated { tangents, corners_of_cpu: 0, left_to_cpu: None });
+            return Ok(GpuTangents { tangents, cpu_corners: 0, cpu_fallback: None });
         }
-        let indices = indices(mesh);
-        let begun = guarded(&self.device, || self.run(mesh, &indices, options))?;
-        let Some(Begun { welded, mut tangents }) = begun else {
-            return Ok(Generated::left(mesh, options, Left::Values));
+        let indices = corner_indices(mesh);
+        let partial = with_error_scopes(&self.device, || self.run(mesh, &indices, options))?;
+        let Some(PartialTangents { welded_vertex, mut tangents }) = partial else {
+            return Ok(GpuTangents::from_cpu(mesh, options, CpuFallback::Values));
         };
         let indexed = Mesh::triangles(mesh.positions(), mesh.normals(), mesh.uvs(), Indices::U32(&indices));
         let indexed = indexed.expect("the same triangles");
-        let (report, corners_of_cpu) = gpu_resume::complete(&indexed, options, welded, &mut tangents);
+        let (report, cpu_corners) = gpu_resume::complete(&indexed, options, welded_vertex, &mut tangents);
         let tangents = Tangents { corners: CornerTangents::from_per_corner(tangents), report };
-        Ok(Generated { tangents, corners_of_cpu, left_to_cpu: None })
+        Ok(GpuTangents { tangents, cpu_corners, cpu_fallback: None })
     }
 
-    /// The arrays between the stages of a mesh of triangles, for tests. Errors as for [`MikkTSpace::generate_tangents`].
+    /// The arrays between the stages for a mesh of one tile, for tests. Errors as for [`MikkTSpace::generate_tangents`].
     #[doc(hidden)]
-    pub fn arrays(&self, mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Arrays, GpuError> {
+    pub fn stage_arrays(&self, mesh: &Mesh<'_>, options: &TangentOptions) -> Result<StageArrays, GpuError> {
         let (device, queue) = (&self.device, &self.queue);
-        guarded(device, || {
-            let vertices = Vertices::new(device, &self.kernels, mesh)?;
-            let threshold_cosine = gpu_resume::threshold_cosine(options);
-            let piece = Piece::new(device, &self.kernels, &vertices, &indices(mesh), &[], threshold_cosine)?;
+        with_error_scopes(device, || {
+            let StageRecording { vertices, tile } = self.single_tile(mesh, options)?;
             let record = |encoder: &mut CommandEncoder| {
                 vertices.record(encoder);
-                piece.record(encoder);
+                tile.record(encoder);
             };
-            let [refused, welded] = ["refused", "welded"].map(|name| vertices.buffers.of(name));
-            let [corners, neighbours, marks, seeds] =
-                ["vertex_of_corner", "neighbours", "marks", "seed_of_corner"]
-                    .map(|name| piece.buffers.of(name));
-            let wanted = [refused, welded, corners, neighbours, marks, seeds];
-            let [refused, welded, corners, neighbours, marks, seeds] =
-                submit(device, queue, record, wanted).map(|copy| copy.read::<u32>(device));
-            Ok(Arrays {
-                refused: refused?[0],
-                welded: welded?,
-                welded_corners: corners?,
+            let [failures, welded] =
+                ["failure_count", "welded_vertex"].map(|name| vertices.buffers.get(name));
+            let [corners, neighbours, flags, seeds] =
+                ["vertex_of_corner", "neighbours", "triangle_flags", "seed_of_corner"]
+                    .map(|name| tile.buffers.get(name));
+            let sources = [failures, welded, corners, neighbours, flags, seeds];
+            let [failures, welded, corners, neighbours, flags, seeds] =
+                submit(device, queue, record, sources).map(|copy| copy.read::<u32>(device));
+            Ok(StageArrays {
+                failure_count: failures?[0],
+                welded_vertex: welded?,
+                vertex_of_corner: corners?,
                 neighbours: neighbours?,
-                marks: marks?,
+                triangle_flags: flags?,
                 seed_of_corner: seeds?,
             })
         })
     }
 
-    /// What the device does for a mesh of one piece, to be measured. Errors as for [`MikkTSpace::generate_tangents`].
+    /// The commands for a mesh of one tile, for benchmarks. Errors as for [`MikkTSpace::generate_tangents`].
     #[doc(hidden)]
-    pub fn recorded(&self, mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Recorded, GpuError> {
-        let device = &self.device;
-        guarded(device, || {
-            let vertices = Vertices::new(device, &self.kernels, mesh)?;
-            let threshold_cosine = gpu_resume::threshold_cosine(options);
-            let piece = Piece::new(device, &self.kernels, &vertices, &indices(mesh), &[], threshold_cosine)?;
-            Ok(Recorded { vertices, piece })
-        })
+    pub fn recording(&self, mesh: &Mesh<'_>, options: &TangentOptions) -> Result<StageRecording, GpuError> {
+        with_error_scopes(&self.device, || self.single_tile(mesh, options))
     }
 
-    /// Everything up to what the CPU does; none where only the CPU can weld.
+    fn single_tile(&self, mesh: &Mesh<'_>, options: &TangentOptions) -> Result<StageRecording, GpuError> {
+        let (device, programs) = (&self.device, &self.programs);
+        let vertices = UploadedVertices::new(device, programs, mesh)?;
+        let threshold_cosine = gpu_resume::threshold_cosine(options);
+        let tile = Tile::new(device, programs, &vertices, &corner_indices(mesh), &[], threshold_cosine)?;
+        Ok(StageRecording { vertices, tile })
+    }
+
+    /// Runs everything on the GPU. Returns none for values that only the CPU can weld.
     fn run(
         &self,
         mesh: &Mesh<'_>,
         indices: &[u32],
         options: &TangentOptions,
-    ) -> Result<Option<Begun>, GpuError> {
-        let corners = 3 * self.triangles_at_once()?;
+    ) -> Result<Option<PartialTangents>, GpuError> {
+        let tile_corners = 3 * self.triangles_per_tile()?;
         let threshold_cosine = gpu_resume::threshold_cosine(options);
         let limit = largest_buffer(&self.device.limits());
-        if Vertices::bytes(mesh.vertex_count()) > limit {
-            self.run_cut(mesh, indices, corners, threshold_cosine)
+        if UploadedVertices::byte_length(mesh.vertex_count()) > limit {
+            self.run_submeshes(mesh, indices, tile_corners, threshold_cosine)
         } else {
-            self.run_together(mesh, indices, corners, threshold_cosine)
+            self.run_tiles(mesh, indices, tile_corners, threshold_cosine)
         }
     }
 
-    /// The triangles of a piece. Errors: not even one fits.
-    fn triangles_at_once(&self) -> Result<usize, GpuError> {
+    /// Errors: not even one triangle fits.
+    fn triangles_per_tile(&self) -> Result<usize, GpuError> {
         let limit = largest_buffer(&self.device.limits());
-        match (limit / BYTES_OF_TRIANGLE).min(self.piece.into()) {
-            0 => Err(GpuError::PastLimit { what: "a triangle", bytes: BYTES_OF_TRIANGLE, limit }),
+        match (limit / BYTES_PER_TRIANGLE).min(self.tile_size.into()) {
+            0 => Err(GpuError::PastLimit { what: "a triangle", bytes: BYTES_PER_TRIANGLE, limit }),
             triangles => Ok(triangles as usize),
         }
     }
 
-    /// All vertices on the device, the triangles in pieces of so many corners.
-    fn run_together(
+    /// Uploads all vertices at once, and then the triangles tile by tile.
+    fn run_tiles(
         &self,
         mesh: &Mesh<'_>,
         indices: &[u32],
-        corners: usize,
+        tile_corners: usize,
         threshold_cosine: f32,
-    ) -> Result<Option<Begun>, GpuError> {
+    ) -> Result<Option<PartialTangents>, GpuError> {
         let (device, queue) = (&self.device, &self.queue);
-        let vertices = Vertices::new(device, &self.kernels, mesh)?;
-        let wanted = ["refused", "welded"].map(|name| vertices.buffers.of(name));
-        let [refused, welded] = submit(device, queue, |encoder| vertices.record(encoder), wanted);
-        if refused.read::<u32>(device)? != [0] {
+        let vertices = UploadedVertices::new(device, &self.programs, mesh)?;
+        let sources = ["failure_count", "welded_vertex"].map(|name| vertices.buffers.get(name));
+        let [failures, welded] = submit(device, queue, |encoder| vertices.record(encoder), sources);
+        if failures.read::<u32>(device)? != [0] {
             return Ok(None);
         }
-        let welded = welded.read(device)?;
-        let is_left = left(indices, &welded, corners);
+        let welded_vertex = welded.read(device)?;
+        let is_shared = shared_vertices(indices, &welded_vertex, tile_corners);
         let mut tangents = Vec::with_capacity(indices.len());
-        for indices in indices.chunks(corners) {
-            let piece = Piece::new(device, &self.kernels, &vertices, indices, &is_left, threshold_cosine)?;
-            let wanted = [piece.buffers.of("tangent_of_corner")];
-            let [of_piece] = submit(device, queue, |encoder| piece.record(encoder), wanted);
-            tangents.extend(of_piece.read::<[f32; 4]>(device)?);
+        for indices in indices.chunks(tile_corners) {
+            let tile = Tile::new(device, &self.programs, &vertices, indices, &is_shared, threshold_cosine)?;
+            let sources = [tile.buffers.get("tangent_of_corner")];
+            let [of_tile] = submit(device, queue, |encoder| tile.record(encoder), sources);
+            tangents.extend(of_tile.read::<[f32; 4]>(device)?);
         }
-        Ok(Some(Begun { welded, tangents }))
+        Ok(Some(PartialTangents { welded_vertex, tangents }))
     }
 
-    /// As [`MikkTSpace::run_together`], each piece with its own vertices.
-    fn run_cut(
+    /// As [`MikkTSpace::run_tiles`] for meshes whose vertices are too large for a buffer: each tile uploads the vertices that it uses.
+    fn run_submeshes(
         &self,
         mesh: &Mesh<'_>,
         indices: &[u32],
-        corners: usize,
+        tile_corners: usize,
         threshold_cosine: f32,
-    ) -> Result<Option<Begun>, GpuError> {
+    ) -> Result<Option<PartialTangents>, GpuError> {
         let (device, queue) = (&self.device, &self.queue);
-        let Some(welded) = weld(mesh) else { return Ok(None) };
-        let is_left = left(indices, &welded, corners);
+        let Some(welded_vertex) = weld_on_cpu(mesh) else { return Ok(None) };
+        let is_shared = shared_vertices(indices, &welded_vertex, tile_corners);
         let mut tangents = Vec::with_capacity(indices.len());
-        for indices in indices.chunks(corners) {
-            let cut = Cut::new(indices);
-            let vertices = Vertices::of_cut(device, &self.kernels, mesh, &cut)?;
-            let is_left = |&vertex: &u32| is_left.get(welded[vertex as usize] as usize).copied();
-            let is_left: Vec<u32> = cut.vertices.iter().filter_map(is_left).collect();
-            let piece =
-                Piece::new(device, &self.kernels, &vertices, &cut.indices, &is_left, threshold_cosine)?;
+        for indices in indices.chunks(tile_corners) {
+            let submesh = Submesh::new(indices);
+            let vertices = UploadedVertices::of_submesh(device, &self.programs, mesh, &submesh)?;
+            let is_shared = |&vertex: &u32| is_shared.get(welded_vertex[vertex as usize] as usize).copied();
+            let is_shared: Vec<u32> = submesh.vertices.iter().filter_map(is_shared).collect();
+            let tile =
+                Tile::new(device, &self.programs, &vertices, &submesh.indices, &is_shared, threshold_cosine)?;
             let record = |encoder: &mut CommandEncoder| {
                 vertices.record(encoder);
-                piece.record(encoder);
+                tile.record(encoder);
             };
-            let wanted = [vertices.buffers.of("refused"), piece.buffers.of("tangent_of_corner")];
-            let [refused, of_piece] = submit(device, queue, record, wanted);
-            if refused.read::<u32>(device)? != [0] {
+            let sources = [vertices.buffers.get("failure_count"), tile.buffers.get("tangent_of_corner")];
+            let [failures, of_tile] = submit(device, queue, record, sources);
+            if failures.read::<u32>(device)? != [0] {
                 return Ok(None);
             }
-            tangents.extend(of_piece.read::<[f32; 4]>(device)?);
+            tangents.extend(of_tile.read::<[f32; 4]>(device)?);
         }
-        Ok(Some(Begun { welded, tangents }))
+        Ok(Some(PartialTangents { welded_vertex, tangents }))
     }
 }
 
-/// Of every vertex: 1 where several pieces of so many corners have it; nothing where there is one piece.
-fn left(indices: &[u32], welded: &[u32], corners: usize) -> Vec<u32> {
-    if indices.len() > corners { in_several(indices, welded, corners) } else { Vec::new() }
+/// For each vertex, 1 if it lies in several tiles. Empty if there is only one tile.
+fn shared_vertices(indices: &[u32], welded_vertex: &[u32], tile_corners: usize) -> Vec<u32> {
+    if indices.len() > tile_corners {
+        shared_between_tiles(indices, welded_vertex, tile_corners)
+    } else {
+        Vec::new()
+    }
 }
 
-impl Generated {
-    fn left(mesh: &Mesh<'_>, options: &TangentOptions, why: Left) -> Self {
+impl GpuTangents {
+    fn from_cpu(mesh: &Mesh<'_>, options: &TangentOptions, fallback: CpuFallback) -> Self {
         Self {
             tangents: generate_tangents(mesh, options),
-            corners_of_cpu: mesh.corner_count(),
-            left_to_cpu: Some(why),
+            cpu_corners: mesh.corner_count(),
+            cpu_fallback: Some(fallback),
         }
     }
 }
 
-/// The stages of one mesh.
+/// The commands of all stages for a mesh of one tile.
 #[doc(hidden)]
-pub struct Recorded {
-    vertices: Vertices,
-    piece: Piece,
+pub struct StageRecording {
+    vertices: UploadedVertices,
+    tile: Tile,
 }
 
-impl Recorded {
+impl StageRecording {
     /// Records all stages.
     pub fn record(&self, encoder: &mut CommandEncoder) {
         self.vertices.record(encoder);
-        self.piece.record(encoder);
+        self.tile.record(encoder);
     }
 }
 
-/// What stages leave behind.
+/// The arrays between the stages. `u32::MAX` stands for none.
 #[doc(hidden)]
 #[derive(Clone, Debug)]
-pub struct Arrays {
-    /// Vertices that cannot be welded there; with any, the rest says nothing.
-    pub refused: u32,
-    /// Of every vertex.
-    pub welded: Vec<u32>,
-    /// Of every corner; all ones at degenerate triangles, in all that follows too.
-    pub welded_corners: Vec<u32>,
-    /// Of every triangle across its edges 0-1, 1-2, 2-0; all ones without one.
+pub struct StageArrays {
+    /// The number of vertices that cannot be welded on the GPU. If it is not 0, the other arrays are unspecified.
+    pub failure_count: u32,
+    /// For each vertex, the first vertex that equals it.
+    pub welded_vertex: Vec<u32>,
+    /// For each corner, its welded vertex; none at degenerate triangles.
+    pub vertex_of_corner: Vec<u32>,
+    /// For each triangle, its neighbours across the edges 0-1, 1-2 and 2-0.
     pub neighbours: Vec<u32>,
-    /// Of every triangle: 1 where it keeps its orientation, 2 where it is UV-degenerate.
-    pub marks: Vec<u32>,
-    /// The first corner of each corner's group; all ones without one.
+    /// For each triangle: 1 if the UV map keeps its orientation, 2 if it is UV-degenerate.
+    pub triangle_flags: Vec<u32>,
+    /// For each corner, the first corner of its group.
     pub seed_of_corner: Vec<u32>,
 }
 
-/// What comes back from the device.
-struct Begun {
-    welded: Vec<u32>,
-    /// Signs are zero where the CPU has to decide.
+/// The results of the GPU.
+struct PartialTangents {
+    welded_vertex: Vec<u32>,
+    /// For each corner. The sign is zero if the GPU has deferred the corner to the CPU.
     tangents: Vec<[f32; 4]>,
-}
-
-/// The vertex of every corner.
-pub(crate) fn indices<'a>(mesh: &Mesh<'a>) -> Cow<'a, [u32]> {
-    match mesh.indices() {
-        Indices::Unindexed => (0..mesh.corner_count() as u32).collect(),
-        Indices::U16(list) => list.iter().map(|&index| index.into()).collect(),
-        Indices::U32(list) => list.into(),
-    }
 }

@@ -1,26 +1,28 @@
-//! The passes of MikkTSpace as data: the one list for [`crate::mikktspace::program`] and for the packages of other languages, which read it from
-//! `shaders/passes.json` and the kernels' files from `shaders/mikktspace.json`.
+//! The passes of MikkTSpace as data: kernels, their buffers by binding, and the number of threads.
 //!
-//! Who runs them brings the buffers `mesh` (the shaders' `Mesh`), `evaluation` (the words of the shaders' `Evaluation`), `vertices` (as
-//! `mesh` describes them) and `indices` (three per triangle). All others are in [`BUFFERS`].
+//! [`crate::mikktspace::program`] runs these lists. The npm package runs the same lists: it reads them from `shaders/passes.json`, and the
+//! files of the kernels from `shaders/mikktspace.json`, which a test writes.
+//!
+//! The caller provides the buffers `mesh` (the uniform `Mesh`), `evaluation` (the uniform `Evaluation`), `vertices` (as `mesh` describes
+//! them) and `indices` (three per triangle). All others are in [`BUFFERS`].
 
-/// What there is a thread or a number of words for.
+/// The element that there is one thread or a number of words for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Each {
-    /// There is one.
+pub(crate) enum Domain {
+    /// One per mesh.
     Mesh,
     Vertex,
-    /// Of the hash table of vertices: a power of two, at least twice their number.
+    /// A slot of the hash table of vertices: a power of two, at least twice their number.
     Slot,
     Triangle,
     Corner,
 }
 
-/// A shader: files that are read one after the other.
+/// The files of a shader, which are concatenated.
 #[derive(Debug)]
 pub(crate) struct Kernel {
     pub name: &'static str,
-    /// Of kernels of exact arithmetic their own ([`crate::device::precision::files`]).
+    /// For kernels of exact arithmetic, their own files; see [`crate::device::precision::kernel_files`].
     pub files: &'static [&'static str],
 }
 
@@ -29,251 +31,264 @@ pub(crate) struct Kernel {
 pub(crate) struct Run {
     pub kernel: &'static Kernel,
     pub entry: &'static str,
-    pub each: Each,
+    pub domain: Domain,
     pub buffers: &'static [(u32, &'static str)],
 }
 
-/// What happens before the next may begin.
+/// One step. Every step sees what the steps before it wrote.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Pass {
-    /// Makes a buffer's words zeros.
+    /// Fills a buffer with zeros.
     Clear(&'static str),
-    /// Makes every value the sum of those before it; of each there is one.
-    Scan(&'static str, Each),
+    /// Replaces every value by the sum of the values before it. The buffer has one value per element of the domain.
+    Scan(&'static str, Domain),
     Run(Run),
-    /// A kernel of exact arithmetic, which lists what it is unsure of; that is done again in whole numbers, or left to the CPU as the second
-    /// says. The list is bound at [`crate::device::precision::LIST`].
-    Real(Run, Run),
+    /// A kernel of exact arithmetic, which lists the items that it is unsure of. Either the same kernel computes these again with integers,
+    /// or the second kernel defers them to the CPU. The list has the binding [`crate::device::precision::WORK_LIST_BINDING`].
+    RunExact(Run, Run),
 }
 
-/// Buffers that passes make: words for each.
-pub(crate) const BUFFERS: &[(&str, Each, u32)] = &[
-    // Vertices that only the CPU can weld.
-    ("refused", Each::Mesh, 1),
-    ("slots", Each::Slot, 1),
-    // The first vertex that equals each.
-    ("welded", Each::Vertex, 1),
-    // 1 where the CPU has to decide. Passes add to them.
-    ("is_left", Each::Vertex, 1),
-    // Welded; all ones at degenerate triangles.
-    ("vertex_of_corner", Each::Corner, 1),
-    // Where the triangles of each vertex end in the next two.
-    ("ends", Each::Vertex, 1),
-    ("corner_of_entry", Each::Corner, 1),
-    ("triangle_of_entry", Each::Corner, 1),
-    // Across the edges 0-1, 1-2, 2-0; all ones without one.
-    ("neighbours", Each::Corner, 1),
-    // dP/du, dP/dv, their lengths.
-    ("derivatives", Each::Triangle, 8),
-    // 1 where a triangle keeps its orientation, 2 where it is UV-degenerate.
-    ("marks", Each::Triangle, 1),
-    // The first corner of each corner's group; all ones without one.
-    ("seed_of_corner", Each::Corner, 1),
-    ("wedges", Each::Corner, 8),
-    // Tangent, bitangent, magnitudes.
-    ("frames", Each::Corner, 8),
-    // Tangent and sign; signs of zero where the CPU has to decide.
-    ("tangent_of_corner", Each::Corner, 4),
+/// The buffers that a program creates: name, domain and words per element. `u32::MAX` stands for none.
+pub(crate) const BUFFERS: &[(&str, Domain, u32)] = &[
+    // The number of vertices that only the CPU can weld.
+    ("failure_count", Domain::Mesh, 1),
+    ("hash_slots", Domain::Slot, 1),
+    // The first vertex that equals each vertex.
+    ("welded_vertex", Domain::Vertex, 1),
+    // 1 for vertices that the CPU has to compute. Several passes set it.
+    ("is_deferred", Domain::Vertex, 1),
+    // The welded vertex of each corner; none at degenerate triangles.
+    ("vertex_of_corner", Domain::Corner, 1),
+    // The end of each vertex's range in the next two.
+    ("adjacency_ends", Domain::Vertex, 1),
+    ("adjacent_corners", Domain::Corner, 1),
+    ("adjacent_triangles", Domain::Corner, 1),
+    // The triangles across the edges 0-1, 1-2, 2-0.
+    ("neighbours", Domain::Corner, 1),
+    // dP/du, dP/dv and their lengths.
+    ("derivatives", Domain::Triangle, 8),
+    // 1 if the UV map keeps the orientation of the triangle, 2 if the triangle is UV-degenerate.
+    ("triangle_flags", Domain::Triangle, 1),
+    // The first corner of each corner's group.
+    ("seed_of_corner", Domain::Corner, 1),
+    // What each corner adds to the sums of its vertex.
+    ("corner_terms", Domain::Corner, 8),
+    // Tangent, bitangent and magnitudes.
+    ("frames", Domain::Corner, 8),
+    // Tangent and sign. The sign is zero for deferred corners.
+    ("tangent_of_corner", Domain::Corner, 4),
 ];
 
 const MESH: &str = include_str!("../../shaders/device/mesh.wgsl");
-const WORDS: &str = include_str!("../../shaders/mikktspace/float_bits.wgsl");
+const FLOAT_BITS: &str = include_str!("../../shaders/mikktspace/float_bits.wgsl");
 const COMMON: &str = include_str!("../../shaders/mikktspace/common.wgsl");
-const AROUND: &str = include_str!("../../shaders/mikktspace/adjacency_lookup.wgsl");
-const WELDED: &str = include_str!("../../shaders/mikktspace/welded_mesh.wgsl");
-const LEAVE: &str = include_str!("../../shaders/mikktspace/defer_to_cpu.wgsl");
-const LISTED: &str = include_str!("../../shaders/precision/dispatch_listed.wgsl");
+const ADJACENCY_LOOKUP: &str = include_str!("../../shaders/mikktspace/adjacency_lookup.wgsl");
+const WELDED_MESH: &str = include_str!("../../shaders/mikktspace/welded_mesh.wgsl");
+const DEFER_TO_CPU: &str = include_str!("../../shaders/mikktspace/defer_to_cpu.wgsl");
+const DISPATCH_LISTED: &str = include_str!("../../shaders/precision/dispatch_listed.wgsl");
 
 const WELD: Kernel = Kernel {
     name: "weld",
-    files: &[MESH, WORDS, COMMON, include_str!("../../shaders/mikktspace/weld.wgsl")],
+    files: &[MESH, FLOAT_BITS, COMMON, include_str!("../../shaders/mikktspace/weld.wgsl")],
 };
-const TRIANGULATE: Kernel = Kernel {
-    name: "triangulate",
-    files: &[MESH, WORDS, COMMON, include_str!("../../shaders/mikktspace/weld_corners.wgsl")],
+const WELD_CORNERS: Kernel = Kernel {
+    name: "weld_corners",
+    files: &[MESH, FLOAT_BITS, COMMON, include_str!("../../shaders/mikktspace/weld_corners.wgsl")],
 };
 const ADJACENCY: Kernel =
     Kernel { name: "adjacency", files: &[MESH, include_str!("../../shaders/mikktspace/adjacency.wgsl")] };
 const NEIGHBOURS: Kernel = Kernel {
     name: "neighbours",
-    files: &[MESH, COMMON, AROUND, include_str!("../../shaders/mikktspace/neighbours.wgsl")],
+    files: &[MESH, COMMON, ADJACENCY_LOOKUP, include_str!("../../shaders/mikktspace/neighbours.wgsl")],
 };
 const GROUPS: Kernel = Kernel {
     name: "groups",
-    files: &[MESH, COMMON, AROUND, include_str!("../../shaders/mikktspace/groups.wgsl")],
+    files: &[MESH, COMMON, ADJACENCY_LOOKUP, include_str!("../../shaders/mikktspace/groups.wgsl")],
 };
-const FINISH: Kernel = Kernel {
-    name: "finish",
-    files: &[MESH, COMMON, AROUND, include_str!("../../shaders/mikktspace/write_tangents.wgsl")],
+const WRITE_TANGENTS: Kernel = Kernel {
+    name: "write_tangents",
+    files: &[MESH, COMMON, ADJACENCY_LOOKUP, include_str!("../../shaders/mikktspace/write_tangents.wgsl")],
 };
 pub(crate) const DERIVATIVES: Kernel = Kernel {
     name: "derivatives",
     files: &[
         MESH,
-        WELDED,
+        WELDED_MESH,
         include_str!("../../shaders/mikktspace/derivative.wgsl"),
         include_str!("../../shaders/mikktspace/derivatives.wgsl"),
     ],
 };
-pub(crate) const WEDGES: Kernel = Kernel {
-    name: "wedges",
+pub(crate) const CORNER_TERMS: Kernel = Kernel {
+    name: "corner_terms",
     files: &[
         MESH,
-        WELDED,
+        WELDED_MESH,
         include_str!("../../shaders/mikktspace/corner_angle.wgsl"),
         include_str!("../../shaders/mikktspace/corner_terms.wgsl"),
     ],
 };
 pub(crate) const EVALUATE: Kernel =
     Kernel { name: "evaluate", files: &[include_str!("../../shaders/mikktspace/evaluate.wgsl")] };
-const LEAVE_TRIANGLES: Kernel =
-    Kernel { name: "leave_triangles", files: &[MESH, "const CORNERS_OF_ITEM: u32 = 3u;", LEAVE, LISTED] };
-const LEAVE_CORNERS: Kernel =
-    Kernel { name: "leave_corners", files: &[MESH, "const CORNERS_OF_ITEM: u32 = 1u;", LEAVE, LISTED] };
+const DEFER_TRIANGLES: Kernel = Kernel {
+    name: "defer_triangles",
+    files: &[MESH, "const CORNERS_PER_ITEM: u32 = 3u;", DEFER_TO_CPU, DISPATCH_LISTED],
+};
+const DEFER_CORNERS: Kernel = Kernel {
+    name: "defer_corners",
+    files: &[MESH, "const CORNERS_PER_ITEM: u32 = 1u;", DEFER_TO_CPU, DISPATCH_LISTED],
+};
 
 const fn run(
     kernel: &'static Kernel,
     entry: &'static str,
-    each: Each,
+    domain: Domain,
     buffers: &'static [(u32, &'static str)],
 ) -> Run {
-    Run { kernel, entry, each, buffers }
+    Run { kernel, entry, domain, buffers }
 }
 
-/// Which vertices are one. `mesh` need not know of triangles.
-pub(crate) const OF_VERTICES: &[Pass] = &[
-    Pass::Clear("refused"),
-    Pass::Clear("slots"),
+/// Welds the vertices. The uniform `mesh` may have no triangles.
+pub(crate) const VERTEX_PASSES: &[Pass] = &[
+    Pass::Clear("failure_count"),
+    Pass::Clear("hash_slots"),
     Pass::Run(run(
         &WELD,
         "weld",
-        Each::Vertex,
-        &[(0, "mesh"), (2, "vertices"), (3, "slots"), (5, "refused")],
+        Domain::Vertex,
+        &[(0, "mesh"), (2, "vertices"), (3, "hash_slots"), (5, "failure_count")],
     )),
     Pass::Run(run(
         &WELD,
         "look_up",
-        Each::Vertex,
-        &[(0, "mesh"), (2, "vertices"), (3, "slots"), (4, "welded"), (5, "refused")],
+        Domain::Vertex,
+        &[(0, "mesh"), (2, "vertices"), (3, "hash_slots"), (4, "welded_vertex"), (5, "failure_count")],
     )),
 ];
 
-const SET_ASIDE: &[Pass] = &[Pass::Run(run(
-    &TRIANGULATE,
-    "triangulate",
-    Each::Triangle,
-    &[(0, "mesh"), (1, "indices"), (2, "vertices"), (3, "welded"), (4, "vertex_of_corner")],
+/// The welded vertices of corners, and which triangles are degenerate.
+const CORNER_PASSES: &[Pass] = &[Pass::Run(run(
+    &WELD_CORNERS,
+    "weld_corners",
+    Domain::Triangle,
+    &[(0, "mesh"), (1, "indices"), (2, "vertices"), (3, "welded_vertex"), (4, "vertex_of_corner")],
 ))];
 
-/// The triangles at each vertex, ascending: counted, a prefix sum, scattered, ranked.
-pub(crate) const OF_ADJACENCY: &[Pass] = &[
-    Pass::Clear("ends"),
-    Pass::Run(run(&ADJACENCY, "count", Each::Corner, &[(0, "mesh"), (1, "vertex_of_corner"), (2, "ends")])),
-    Pass::Scan("ends", Each::Vertex),
+/// The triangles at each vertex, ascending: a counting sort, and then a sort of each range by rank.
+pub(crate) const ADJACENCY_PASSES: &[Pass] = &[
+    Pass::Clear("adjacency_ends"),
+    Pass::Run(run(
+        &ADJACENCY,
+        "count",
+        Domain::Corner,
+        &[(0, "mesh"), (1, "vertex_of_corner"), (2, "adjacency_ends")],
+    )),
+    Pass::Scan("adjacency_ends", Domain::Vertex),
     Pass::Run(run(
         &ADJACENCY,
         "scatter",
-        Each::Corner,
-        &[(0, "mesh"), (1, "vertex_of_corner"), (2, "ends"), (3, "corner_of_entry")],
+        Domain::Corner,
+        &[(0, "mesh"), (1, "vertex_of_corner"), (2, "adjacency_ends"), (3, "adjacent_corners")],
     )),
     Pass::Run(run(
         &ADJACENCY,
         "rank",
-        Each::Corner,
+        Domain::Corner,
         &[
             (0, "mesh"),
             (1, "vertex_of_corner"),
-            (2, "ends"),
-            (3, "corner_of_entry"),
-            (4, "triangle_of_entry"),
+            (2, "adjacency_ends"),
+            (3, "adjacent_corners"),
+            (4, "adjacent_triangles"),
         ],
     )),
 ];
 
-const OF_EDGES: &[Pass] = &[Pass::Run(run(
+/// The neighbours of every triangle.
+const NEIGHBOUR_PASSES: &[Pass] = &[Pass::Run(run(
     &NEIGHBOURS,
     "find_neighbours",
-    Each::Corner,
+    Domain::Corner,
     &[
         (0, "mesh"),
         (1, "vertex_of_corner"),
-        (2, "ends"),
-        (3, "triangle_of_entry"),
+        (2, "adjacency_ends"),
+        (3, "adjacent_triangles"),
         (4, "neighbours"),
-        (5, "is_left"),
+        (5, "is_deferred"),
     ],
 ))];
 
-/// The buffers of both kernels that leave what is listed.
-const LEAVING: &[(u32, &str)] = &[(0, "mesh"), (1, "vertex_of_corner"), (2, "is_left")];
-const UNSURE_TRIANGLES: Run = run(&LEAVE_TRIANGLES, "every_item", Each::Triangle, LEAVING);
-const UNSURE_CORNERS: Run = run(&LEAVE_CORNERS, "every_item", Each::Corner, LEAVING);
+/// The buffers of both kernels that defer listed items to the CPU.
+const DEFER_BUFFERS: &[(u32, &str)] = &[(0, "mesh"), (1, "vertex_of_corner"), (2, "is_deferred")];
+const UNSURE_TRIANGLES: Run = run(&DEFER_TRIANGLES, "every_item", Domain::Triangle, DEFER_BUFFERS);
+const UNSURE_CORNERS: Run = run(&DEFER_CORNERS, "every_item", Domain::Corner, DEFER_BUFFERS);
 
-/// The derivatives of every triangle, and its marks.
-pub(crate) const OF_DERIVATIVES: &[Pass] = &[Pass::Real(
+/// The derivatives and the flags of every triangle.
+pub(crate) const DERIVATIVE_PASSES: &[Pass] = &[Pass::RunExact(
     run(
         &DERIVATIVES,
         "every_item",
-        Each::Triangle,
-        &[(0, "mesh"), (1, "vertex_of_corner"), (2, "vertices"), (3, "derivatives"), (4, "marks")],
+        Domain::Triangle,
+        &[(0, "mesh"), (1, "vertex_of_corner"), (2, "vertices"), (3, "derivatives"), (4, "triangle_flags")],
     ),
     UNSURE_TRIANGLES,
 )];
 
-const OF_GROUPS: &[Pass] = &[
+/// The groups of corners that share a tangent.
+const GROUP_PASSES: &[Pass] = &[
     Pass::Run(run(
         &GROUPS,
-        "leave_vertices",
-        Each::Corner,
-        &[(0, "mesh"), (1, "vertex_of_corner"), (3, "marks"), (6, "is_left")],
+        "defer_vertices",
+        Domain::Corner,
+        &[(0, "mesh"), (1, "vertex_of_corner"), (3, "triangle_flags"), (6, "is_deferred")],
     )),
     Pass::Run(run(
         &GROUPS,
         "find_groups",
-        Each::Corner,
+        Domain::Corner,
         &[
             (0, "mesh"),
             (1, "vertex_of_corner"),
-            (2, "ends"),
-            (3, "marks"),
+            (2, "adjacency_ends"),
+            (3, "triangle_flags"),
             (4, "neighbours"),
             (5, "seed_of_corner"),
-            (6, "is_left"),
+            (6, "is_deferred"),
         ],
     )),
 ];
 
 /// The frame of every corner.
-pub(crate) const OF_FRAMES: &[Pass] = &[
-    Pass::Real(
+pub(crate) const FRAME_PASSES: &[Pass] = &[
+    Pass::RunExact(
         run(
-            &WEDGES,
+            &CORNER_TERMS,
             "every_item",
-            Each::Triangle,
+            Domain::Triangle,
             &[
                 (0, "mesh"),
                 (1, "vertex_of_corner"),
                 (2, "vertices"),
                 (3, "derivatives"),
-                (4, "marks"),
-                (5, "wedges"),
+                (4, "triangle_flags"),
+                (5, "corner_terms"),
             ],
         ),
         UNSURE_TRIANGLES,
     ),
-    Pass::Real(
+    Pass::RunExact(
         run(
             &EVALUATE,
             "every_item",
-            Each::Corner,
+            Domain::Corner,
             &[
                 (0, "evaluation"),
-                (1, "triangle_of_entry"),
-                (2, "ends"),
+                (1, "adjacent_triangles"),
+                (2, "adjacency_ends"),
                 (3, "vertex_of_corner"),
                 (4, "seed_of_corner"),
                 (5, "derivatives"),
-                (6, "wedges"),
+                (6, "corner_terms"),
                 (7, "frames"),
             ],
         ),
@@ -281,37 +296,47 @@ pub(crate) const OF_FRAMES: &[Pass] = &[
     ),
 ];
 
-const OF_TANGENTS: &[Pass] = &[
+/// The tangents of corners, without those of deferred vertices.
+const TANGENT_PASSES: &[Pass] = &[
     Pass::Run(run(
-        &FINISH,
+        &WRITE_TANGENTS,
         "check_frames",
-        Each::Corner,
+        Domain::Corner,
         &[
             (0, "mesh"),
             (1, "vertex_of_corner"),
-            (2, "ends"),
+            (2, "adjacency_ends"),
             (3, "frames"),
             (4, "vertices"),
-            (5, "triangle_of_entry"),
-            (7, "is_left"),
+            (5, "adjacent_triangles"),
+            (7, "is_deferred"),
         ],
     )),
     Pass::Run(run(
-        &FINISH,
+        &WRITE_TANGENTS,
         "store_tangents",
-        Each::Corner,
+        Domain::Corner,
         &[
             (0, "mesh"),
             (1, "vertex_of_corner"),
             (3, "frames"),
-            (6, "marks"),
-            (7, "is_left"),
+            (6, "triangle_flags"),
+            (7, "is_deferred"),
             (8, "tangent_of_corner"),
         ],
     )),
 ];
 
-/// From welded vertices to the tangents of corners.
-pub(crate) fn of_triangles() -> Vec<Pass> {
-    [SET_ASIDE, OF_ADJACENCY, OF_EDGES, OF_DERIVATIVES, OF_GROUPS, OF_FRAMES, OF_TANGENTS].concat()
+/// All passes from welded vertices to the tangents of corners.
+pub(crate) fn triangle_passes() -> Vec<Pass> {
+    [
+        CORNER_PASSES,
+        ADJACENCY_PASSES,
+        NEIGHBOUR_PASSES,
+        DERIVATIVE_PASSES,
+        GROUP_PASSES,
+        FRAME_PASSES,
+        TANGENT_PASSES,
+    ]
+    .concat()
 }

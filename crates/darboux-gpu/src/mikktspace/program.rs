@@ -1,185 +1,197 @@
-//! Runs lists of passes ([`crate::mikktspace::passes`]).
+//! Compiles a list of [passes](crate::mikktspace::passes), creates its buffers, and records it.
 
 use std::collections::HashMap;
 
 use wgpu::{Buffer, CommandEncoder, ComputePipeline, Device, ShaderModule};
 
-use crate::GpuError;
-use crate::device::kernel::{Step, buffer, module, pipeline};
-use crate::device::mesh_buffers::check_size;
-use crate::device::precision::{Arithmetic, RealKernel, RealStep};
-use crate::device::prefix_sum::ScanKernels;
-use crate::mikktspace::passes::{BUFFERS, Each, Pass, Run};
+use crate::device::buffers::{check_size, storage_buffer};
+use crate::device::kernel::{Dispatch, compute_pipeline, shader_module};
+use crate::device::precision::{Arithmetic, PrecisionDispatch, PrecisionKernel};
+use crate::device::prefix_sum::PrefixSumKernels;
+use crate::error::GpuError;
+use crate::mikktspace::passes::{BUFFERS, Domain, Pass, Run};
 
-/// What passes run, compiled once.
+/// The compiled pipelines of a list of passes.
 #[derive(Clone, Debug)]
 pub(crate) struct Program {
     passes: Vec<Pass>,
-    entries: HashMap<(&'static str, &'static str), ComputePipeline>,
-    reals: HashMap<&'static str, RealKernel>,
-    scan: Option<ScanKernels>,
-    leaves: bool,
+    /// By the names of kernel and entry point.
+    pipelines: HashMap<(&'static str, &'static str), ComputePipeline>,
+    /// By the name of the kernel.
+    precision_kernels: HashMap<&'static str, PrecisionKernel>,
+    prefix_sum: Option<PrefixSumKernels>,
+    /// Whether items that exact arithmetic is unsure of are deferred to the CPU.
+    defers: bool,
 }
 
 impl Program {
     pub fn new(device: &Device, arithmetic: Arithmetic, passes: &[Pass]) -> Self {
         let mut modules = HashMap::new();
-        let mut made = Self {
+        let mut program = Self {
             passes: passes.to_vec(),
-            entries: HashMap::new(),
-            reals: HashMap::new(),
-            scan: None,
-            leaves: arithmetic == Arithmetic::Leaving,
+            pipelines: HashMap::new(),
+            precision_kernels: HashMap::new(),
+            prefix_sum: None,
+            defers: arithmetic == Arithmetic::CpuFallback,
         };
         for pass in passes {
             match pass {
                 Pass::Clear(_) => {}
-                Pass::Scan(..) => made.scan = Some(ScanKernels::new(device)),
-                Pass::Run(run) => made.compile(device, &mut modules, run),
-                Pass::Real(first, leaving) => {
-                    let (own, leaving) = (first.kernel.files, leaving.kernel.files);
+                Pass::Scan(..) => program.prefix_sum = Some(PrefixSumKernels::new(device)),
+                Pass::Run(run) => program.compile(device, &mut modules, run),
+                Pass::RunExact(first, deferring) => {
+                    let (own, deferring) = (first.kernel.files, deferring.kernel.files);
                     let kernel = match arithmetic {
-                        Arithmetic::Leaving => RealKernel::with_second(device, own, leaving),
-                        _ => RealKernel::new(device, arithmetic, own),
+                        Arithmetic::CpuFallback => PrecisionKernel::with_second(device, own, deferring),
+                        _ => PrecisionKernel::new(device, arithmetic, own),
                     };
-                    made.reals.insert(first.kernel.name, kernel);
+                    program.precision_kernels.insert(first.kernel.name, kernel);
                 }
             }
         }
-        made
+        program
     }
 
     fn compile(&mut self, device: &Device, modules: &mut HashMap<&str, ShaderModule>, run: &Run) {
-        let of_kernel = modules.entry(run.kernel.name).or_insert_with(|| module(device, run.kernel.files));
-        self.entries.insert((run.kernel.name, run.entry), pipeline(device, of_kernel, run.entry));
+        let module =
+            modules.entry(run.kernel.name).or_insert_with(|| shader_module(device, run.kernel.files));
+        self.pipelines.insert((run.kernel.name, run.entry), compute_pipeline(device, module, run.entry));
     }
 
-    /// Makes the buffers that `buffers` lacks, and what recording needs. Errors: the device binds no buffer of that size.
-    pub fn on(
+    /// Creates the buffers that `buffers` lacks, and binds them. Errors: a buffer is larger than the device can bind.
+    pub fn bind(
         &self,
         device: &Device,
         [vertices, triangles]: [u32; 2],
-        buffers: &mut Buffers,
-    ) -> Result<Recording, GpuError> {
-        let sizes = Sizes { vertices, triangles };
-        let mut steps = Vec::new();
+        buffers: &mut NamedBuffers,
+    ) -> Result<BoundProgram, GpuError> {
+        let sizes = MeshSizes { vertices, triangles };
+        let mut bound = Vec::new();
         for pass in &self.passes {
             match *pass {
                 Pass::Clear(name) => {
-                    buffers.make(device, sizes, &[(0, name)])?;
-                    steps.push(Recorded::Clear(buffers.of(name).clone()));
+                    buffers.create(device, sizes, &[(0, name)])?;
+                    bound.push(BoundPass::Clear(buffers.get(name).clone()));
                 }
-                Pass::Scan(name, each) => {
-                    let (values, count) = (buffers.of(name), sizes.count(each));
-                    let scans = self.scan.iter().flat_map(|scan| scan.steps(device, values, count));
-                    steps.extend(scans.map(Recorded::Step));
+                Pass::Scan(name, domain) => {
+                    let (values, count) = (buffers.get(name), sizes.count(domain));
+                    let dispatches = self.prefix_sum.iter().flat_map(|k| k.dispatches(device, values, count));
+                    bound.extend(dispatches.map(BoundPass::Dispatch));
                 }
                 Pass::Run(run) => {
-                    buffers.make(device, sizes, run.buffers)?;
-                    let bound = buffers.bound(run.buffers);
-                    let pipeline = &self.entries[&(run.kernel.name, run.entry)];
-                    steps.push(Recorded::Step(Step::new(device, pipeline, &bound, sizes.count(run.each))));
+                    buffers.create(device, sizes, run.buffers)?;
+                    let bindings = buffers.bindings(run.buffers);
+                    let pipeline = &self.pipelines[&(run.kernel.name, run.entry)];
+                    let dispatch = Dispatch::new(device, pipeline, &bindings, sizes.count(run.domain));
+                    bound.push(BoundPass::Dispatch(dispatch));
                 }
-                Pass::Real(first, leaving) => {
-                    let second = if self.leaves { leaving } else { first };
-                    buffers.make(device, sizes, &[first.buffers, second.buffers].concat())?;
-                    let [bound, of_second] = [first, second].map(|run| buffers.bound(run.buffers));
-                    let kernel = &self.reals[first.kernel.name];
-                    let items = sizes.count(first.each);
-                    let step = RealStep::with_second(device, kernel, &bound, &of_second, items);
-                    steps.push(Recorded::Real(step));
+                Pass::RunExact(first, deferring) => {
+                    let second = if self.defers { deferring } else { first };
+                    buffers.create(device, sizes, &[first.buffers, second.buffers].concat())?;
+                    let [bindings, second_bindings] =
+                        [first, second].map(|run| buffers.bindings(run.buffers));
+                    let kernel = &self.precision_kernels[first.kernel.name];
+                    let items = sizes.count(first.domain);
+                    let dispatch =
+                        PrecisionDispatch::with_second(device, kernel, &bindings, &second_bindings, items);
+                    bound.push(BoundPass::Precision(dispatch));
                 }
             }
         }
-        Ok(Recording(steps))
+        Ok(BoundProgram(bound))
     }
 }
 
 #[derive(Clone, Copy)]
-struct Sizes {
+struct MeshSizes {
     vertices: u32,
     triangles: u32,
 }
 
-impl Sizes {
-    fn count(self, each: Each) -> u32 {
-        match each {
-            Each::Mesh => 1,
-            Each::Vertex => self.vertices,
-            Each::Slot => slot_count(self.vertices),
-            Each::Triangle => self.triangles,
-            Each::Corner => 3 * self.triangles,
+impl MeshSizes {
+    fn count(self, domain: Domain) -> u32 {
+        match domain {
+            Domain::Mesh => 1,
+            Domain::Vertex => self.vertices,
+            Domain::Slot => slot_count(self.vertices),
+            Domain::Triangle => self.triangles,
+            Domain::Corner => 3 * self.triangles,
         }
     }
 }
 
-/// The slots of a hash table: a power of two, at least twice what it holds, so that the way to a slot is short; in the stress build hardly
-/// more.
-pub(crate) fn slot_count(held: u32) -> u32 {
-    let least = if cfg!(small_limits) { held + 1 } else { 2 * held };
+/// The number of slots of a hash table: a power of two, at least twice the number of entries, so that probe sequences are short. The stress
+/// build fills its tables nearly completely.
+pub(crate) fn slot_count(entries: u32) -> u32 {
+    let least = if cfg!(small_limits) { entries + 1 } else { 2 * entries };
     least.next_power_of_two()
 }
 
-/// Buffers by the names that passes know them by.
+/// Buffers by the names that passes use for them.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Buffers(HashMap<&'static str, Buffer>);
+pub(crate) struct NamedBuffers(HashMap<&'static str, Buffer>);
 
-impl Buffers {
-    /// Those that the caller brings.
-    pub fn given<const N: usize>(buffers: [(&'static str, &Buffer); N]) -> Self {
+impl NamedBuffers {
+    /// The buffers that the caller provides.
+    pub fn new<const N: usize>(buffers: [(&'static str, &Buffer); N]) -> Self {
         Self(buffers.map(|(name, buffer)| (name, buffer.clone())).into())
     }
 
-    /// One that passes have been put on.
-    pub fn of(&self, name: &str) -> &Buffer {
+    /// A buffer that the caller has provided or a program has created.
+    pub fn get(&self, name: &str) -> &Buffer {
         &self.0[name]
     }
 
-    /// Makes those that are not there. Errors: the device binds no buffer of that size.
-    fn make(&mut self, device: &Device, sizes: Sizes, names: &[(u32, &'static str)]) -> Result<(), GpuError> {
+    /// Creates the missing ones of `names`. Errors: a buffer is larger than the device can bind.
+    fn create(
+        &mut self,
+        device: &Device,
+        sizes: MeshSizes,
+        names: &[(u32, &'static str)],
+    ) -> Result<(), GpuError> {
         for &(_, name) in names {
             if !self.0.contains_key(name) {
-                let (_, each, words) =
-                    BUFFERS.iter().find(|(known, ..)| *known == name).expect("in the list");
-                let count = sizes.count(*each);
+                let entry = BUFFERS.iter().find(|(listed, ..)| *listed == name);
+                let (_, domain, words) = entry.expect("a buffer of the list");
+                let count = sizes.count(*domain);
                 check_size(device, name, 4 * u64::from(*words) * u64::from(count))?;
-                self.0.insert(name, buffer(device, name, words * count));
+                self.0.insert(name, storage_buffer(device, name, words * count));
             }
         }
         Ok(())
     }
 
-    fn bound(&self, names: &[(u32, &'static str)]) -> Vec<(u32, &Buffer)> {
-        names.iter().map(|&(binding, name)| (binding, self.of(name))).collect()
+    fn bindings(&self, names: &[(u32, &'static str)]) -> Vec<(u32, &Buffer)> {
+        names.iter().map(|&(binding, name)| (binding, self.get(name))).collect()
     }
 }
 
 /// Passes with their buffers.
 #[derive(Clone, Debug)]
-pub(crate) struct Recording(Vec<Recorded>);
+pub(crate) struct BoundProgram(Vec<BoundPass>);
 
 #[derive(Clone, Debug)]
-enum Recorded {
+enum BoundPass {
     Clear(Buffer),
-    Step(Step),
-    Real(RealStep),
+    Dispatch(Dispatch),
+    Precision(PrecisionDispatch),
 }
 
-impl Recording {
+impl BoundProgram {
     pub fn record(&self, encoder: &mut CommandEncoder) {
-        for recorded in &self.0 {
-            match recorded {
-                Recorded::Clear(buffer) => encoder.clear_buffer(buffer, 0, None),
-                Recorded::Step(step) => step.record(encoder),
-                Recorded::Real(step) => step.record(encoder),
+        for pass in &self.0 {
+            match pass {
+                BoundPass::Clear(buffer) => encoder.clear_buffer(buffer, 0, None),
+                BoundPass::Dispatch(dispatch) => dispatch.record(encoder),
+                BoundPass::Precision(dispatch) => dispatch.record(encoder),
             }
         }
     }
 
-    /// Kernels of exact arithmetic, in turn.
-    pub fn reals(&self) -> impl Iterator<Item = &RealStep> {
-        self.0.iter().filter_map(|recorded| match recorded {
-            Recorded::Real(step) => Some(step),
+    /// The dispatches of exact arithmetic, in order.
+    pub fn precision_dispatches(&self) -> impl Iterator<Item = &PrecisionDispatch> {
+        self.0.iter().filter_map(|pass| match pass {
+            BoundPass::Precision(dispatch) => Some(dispatch),
             _ => None,
         })
     }

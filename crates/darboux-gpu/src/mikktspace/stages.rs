@@ -1,15 +1,16 @@
-//! Derivatives, and from groups to frames: twins of the core's stages of these names, on topology that a test brings.
+//! Runs the stages `derivatives` and `frames` alone, from welded vertices and groups that a test provides.
 
-use wgpu::{Buffer, BufferUsages, CommandEncoder, Device};
+use wgpu::{Buffer, CommandEncoder, Device};
 
-use crate::GpuError;
-use crate::device::kernel::{buffer, filled};
-use crate::device::mesh_buffers::Description;
+use crate::device::buffers::storage_buffer;
+use crate::device::mesh_buffers::MeshUniform;
 use crate::device::precision::Arithmetic;
-use crate::mikktspace::passes::{OF_DERIVATIVES, OF_FRAMES};
-use crate::mikktspace::program::{Buffers, Program, Recording};
+use crate::error::GpuError;
+use crate::mikktspace::passes::{DERIVATIVE_PASSES, FRAME_PASSES};
+use crate::mikktspace::program::{BoundProgram, NamedBuffers, Program};
+use crate::mikktspace::tiles::evaluation_uniform;
 
-/// What evaluation needs, compiled once.
+/// The compiled kernels of [`Evaluation`].
 #[derive(Clone, Debug)]
 pub struct EvaluationKernels {
     derivatives: Program,
@@ -20,89 +21,84 @@ impl EvaluationKernels {
     /// Compiles the shaders.
     pub fn new(device: &Device, arithmetic: Arithmetic) -> Self {
         let [derivatives, frames] =
-            [OF_DERIVATIVES, OF_FRAMES].map(|passes| Program::new(device, arithmetic, passes));
+            [DERIVATIVE_PASSES, FRAME_PASSES].map(|passes| Program::new(device, arithmetic, passes));
         Self { derivatives, frames }
     }
 }
 
-/// A mesh whose topology is on the device.
+/// The input buffers. `u32::MAX` stands for none.
 #[derive(Clone, Copy, Debug)]
-pub struct Grouped<'a> {
-    /// Positions, normals and UVs.
+pub struct GroupedMesh<'a> {
+    /// Tightly packed vertices of position, normal and UV.
     pub vertices: &'a Buffer,
-    /// The welded vertex of every corner; none (all ones) at degenerate triangles.
-    pub welded_corners: &'a Buffer,
-    /// Where the triangles of each welded vertex end in the next.
-    pub ends: &'a Buffer,
+    /// For each corner, its welded vertex; none at degenerate triangles.
+    pub vertex_of_corner: &'a Buffer,
+    /// For each welded vertex, the end of its range in `adjacent_triangles`.
+    pub adjacency_ends: &'a Buffer,
     /// The triangles at each welded vertex, ascending.
-    pub triangle_of_entry: &'a Buffer,
-    /// Per triangle what [`Evaluation::record_derivatives`] writes: 1 where it keeps its orientation, 2 where it is UV-degenerate.
-    /// For the frames besides: 8 where the triangle before is the other half of its quad.
-    pub marks: &'a Buffer,
-    /// A corner that every corner of the same group names, and no other; all ones for corners of no group.
+    pub adjacent_triangles: &'a Buffer,
+    /// For each triangle, the flags that [`Evaluation::record_derivatives`] writes: 1 if the UV map keeps its orientation, 2 if it is
+    /// UV-degenerate. For the frames, the test adds 8 if the triangle before is the other half of the same quad.
+    pub triangle_flags: &'a Buffer,
+    /// For each corner, a corner that stands for its group; none for corners without a group.
     pub seed_of_corner: &'a Buffer,
 }
 
-/// The kernels on one mesh.
+/// The two stages on one mesh.
 #[derive(Clone, Debug)]
 pub struct Evaluation {
-    /// Eight words per triangle: dP/du, dP/dv, their lengths.
+    /// Eight words per triangle: dP/du, dP/dv and their lengths.
     pub derivatives: Buffer,
-    /// Eight words per corner: tangent, bitangent, magnitudes. Corners of no group keep what they have.
+    /// Eight words per corner: tangent, bitangent and magnitudes. Corners without a group are not written.
     pub frames: Buffer,
-    /// Triangles, triangles and corners that were done in whole numbers: by derivatives, wedges and evaluation.
+    /// The number of items that integer arithmetic computed: triangles of derivatives, triangles of corner terms, corners.
     pub counts: Buffer,
-    of_derivatives: Recording,
-    of_frames: Recording,
+    derivative_program: BoundProgram,
+    frame_program: BoundProgram,
 }
 
 impl Evaluation {
-    /// Of positions, normals and UVs in this order without gaps. Errors: the device binds no buffer of that size.
-    pub fn of_packed(
+    /// `sizes`: the number of vertices and of triangles. Errors: a buffer is larger than the device can bind.
+    pub fn new(
         device: &Device,
         kernels: &EvaluationKernels,
         sizes: [u32; 2],
         threshold_cosine: f32,
-        mesh: &Grouped<'_>,
+        mesh: &GroupedMesh<'_>,
     ) -> Result<Self, GpuError> {
         let [vertices, triangles] = sizes;
-        let mut buffers = Buffers::given([
-            ("mesh", &Description::packed(vertices, triangles).uniform(device)),
-            ("evaluation", &evaluation(device, 3 * triangles, threshold_cosine)),
+        let mut buffers = NamedBuffers::new([
+            ("mesh", &MeshUniform::packed(vertices, triangles).upload(device)),
+            ("evaluation", &evaluation_uniform(device, 3 * triangles, threshold_cosine)),
             ("vertices", mesh.vertices),
-            ("vertex_of_corner", mesh.welded_corners),
-            ("ends", mesh.ends),
-            ("triangle_of_entry", mesh.triangle_of_entry),
-            ("marks", mesh.marks),
+            ("vertex_of_corner", mesh.vertex_of_corner),
+            ("adjacency_ends", mesh.adjacency_ends),
+            ("adjacent_triangles", mesh.adjacent_triangles),
+            ("triangle_flags", mesh.triangle_flags),
             ("seed_of_corner", mesh.seed_of_corner),
         ]);
-        let of_derivatives = kernels.derivatives.on(device, sizes, &mut buffers)?;
-        let of_frames = kernels.frames.on(device, sizes, &mut buffers)?;
-        let [derivatives, frames] = ["derivatives", "frames"].map(|name| buffers.of(name).clone());
-        Ok(Self { derivatives, frames, counts: buffer(device, "counts", 3), of_derivatives, of_frames })
+        let derivative_program = kernels.derivatives.bind(device, sizes, &mut buffers)?;
+        let frame_program = kernels.frames.bind(device, sizes, &mut buffers)?;
+        let [derivatives, frames] = ["derivatives", "frames"].map(|name| buffers.get(name).clone());
+        let counts = storage_buffer(device, "counts", 3);
+        Ok(Self { derivatives, frames, counts, derivative_program, frame_program })
     }
 
-    /// Records the derivatives and their marks.
+    /// Records the stage that writes the derivatives and the flags of triangles.
     pub fn record_derivatives(&self, encoder: &mut CommandEncoder) {
-        self.record(&self.of_derivatives, 0, encoder);
+        self.record(&self.derivative_program, 0, encoder);
     }
 
-    /// Records the frames, once there are groups.
+    /// Records the stage that writes the frames of corners.
     pub fn record_frames(&self, encoder: &mut CommandEncoder) {
-        self.record(&self.of_frames, 4, encoder);
+        self.record(&self.frame_program, 4, encoder);
     }
 
-    /// `offset`: of the first count.
-    fn record(&self, recording: &Recording, offset: u64, encoder: &mut CommandEncoder) {
-        recording.record(encoder);
-        for (step, offset) in recording.reals().zip((offset..).step_by(4)) {
-            step.record_count(encoder, &self.counts, offset);
+    /// `offset`: the byte offset of the program's first count.
+    fn record(&self, program: &BoundProgram, offset: u64, encoder: &mut CommandEncoder) {
+        program.record(encoder);
+        for (dispatch, offset) in program.precision_dispatches().zip((offset..).step_by(4)) {
+            dispatch.record_count(encoder, &self.counts, offset);
         }
     }
-}
-
-/// The shaders' `Evaluation`.
-pub(crate) fn evaluation(device: &Device, corners: u32, threshold_cosine: f32) -> Buffer {
-    let words = [corners, threshold_cosine.to_bits(), 0, 0];
-    filled(device, "evaluation", bytemuck::cast_slice(&words), BufferUsages::UNIFORM)
 }

@@ -1,69 +1,82 @@
-//! Whether a plan still says what a fresh run would.
+//! Counts what has changed in a moved mesh so that its plan may no longer have the tangents of a fresh run.
 
 use wgpu::{Buffer, CommandEncoder};
 
-use super::{MovingMesh, Plan};
-use crate::GpuError;
-use crate::device::kernel::buffer;
-use crate::device::mesh_buffers::check_size;
-use crate::device::precision::RealStep;
+use crate::device::buffers::{check_size, storage_buffer};
+use crate::device::precision::PrecisionDispatch;
+use crate::error::GpuError;
+use crate::plan::moving_mesh::MovingMesh;
+use crate::plan::planner::Plan;
 
-/// Counts how far a moved mesh is from the one that a plan was made of.
+/// A check of a moved mesh against its plan.
 #[derive(Clone, Debug)]
 pub struct PlanCheck {
-    table: Buffer,
-    triangles: RealStep,
-    vertices: RealStep,
+    hash_slots: Buffer,
+    triangles: PrecisionDispatch,
+    vertices: PrecisionDispatch,
     counts: Buffer,
 }
 
 impl Plan {
-    /// A check of the same buffers as those of [`Plan::of_buffers`], with its errors, and one for faces that are not triangles.
+    /// A check of the buffers that were given to [`Plan::of_buffers`]. Errors: those of that function; the mesh has faces other than
+    /// triangles.
     pub fn check_of_buffers(&self, mesh: &MovingMesh<'_>) -> Result<PlanCheck, GpuError> {
         if self.has_quads {
             return Err(GpuError::NotTriangles);
         }
-        let (_, outputs) = self.sum_of_output[mesh.per as usize].clone()?;
-        self.check(mesh, outputs)?;
-        let (words, device) = (&self.words, &self.planner.device);
-        // At most half full.
-        let places = (2 * words.vertex_count.max(1)).next_power_of_two();
-        check_size(device, "places of vertices", 4 * u64::from(places))?;
-        let (table, counts) = (buffer(device, "table", places), buffer(device, "changes", 5));
-        let plan = &self.uniform(mesh, outputs);
-        let of_mesh = [(0, plan), (1, mesh.positions.buffer), (2, mesh.normals.buffer)];
-        let of_all = [(4, &self.representatives), (8, &counts)];
-        let [sums, differences, uvs] = &self.of_check;
-        let of_triangles = [(3, &self.triangles), (5, &self.tangents), (6, sums), (7, differences)];
-        let of_vertices = [(5, uvs), (6, &table)];
-        let step = |kernel, others: &[(u32, &Buffer)], items| {
-            RealStep::new(device, kernel, &[&of_mesh[..], &of_all, others].concat(), items)
+        let uniform = &self.layout(mesh)?.uniform;
+        let (sizes, device) = (&self.uniform, &self.planner.device);
+        // At most half of the slots are used.
+        let slot_count = (2 * sizes.vertex_count.max(1)).next_power_of_two();
+        check_size(device, "hash table of vertices", 4 * u64::from(slot_count))?;
+        let hash_slots = storage_buffer(device, "hash_slots", slot_count);
+        let counts = storage_buffer(device, "changes", 5);
+        let shared = [
+            (0, uniform),
+            (1, mesh.positions.buffer),
+            (2, mesh.normals.buffer),
+            (4, &self.representatives),
+            (8, &counts),
+        ];
+        let triangle_buffers = [
+            (3, &self.triangles),
+            (5, &self.tangents),
+            (6, &self.check.sum_of_corner),
+            (7, &self.check.u_differences),
+        ];
+        let vertex_buffers = [(5, &self.check.uvs), (6, &hash_slots)];
+        let dispatch = |kernel, others: &[(u32, &Buffer)], items| {
+            PrecisionDispatch::new(device, kernel, &[&shared[..], others].concat(), items)
         };
-        let count = words.triangle_count + words.degenerate_count;
+        let triangle_count = sizes.triangle_count + sizes.degenerate_count;
         Ok(PlanCheck {
-            triangles: step(&self.planner.check_triangles, &of_triangles, count),
-            vertices: step(&self.planner.check_vertices, &of_vertices, words.vertex_count),
-            table,
+            triangles: dispatch(&self.planner.check_triangles, &triangle_buffers, triangle_count),
+            vertices: dispatch(&self.planner.check_vertices, &vertex_buffers, sizes.vertex_count),
+            hash_slots,
             counts,
         })
     }
 }
 
 impl PlanCheck {
-    /// Records the check, after [`PlanOfBuffers::record`](super::PlanOfBuffers::record) of the same buffers.
+    /// Records the check. Record [`PlanOfBuffers::record`](super::bound_plan::PlanOfBuffers::record) of the same buffers before.
     pub fn record(&self, encoder: &mut CommandEncoder) {
         encoder.clear_buffer(&self.counts, 0, None);
-        encoder.clear_buffer(&self.table, 0, None);
+        encoder.clear_buffer(&self.hash_slots, 0, None);
         self.triangles.record(encoder);
         self.vertices.record(encoder);
     }
 
-    /// Five words to copy from, of which none is too small:
-    /// triangles that have collapsed and that have opened, vertices that left those they were welded with and that met others, triangles
-    /// whose directions at a corner turned so far from the tangent there that they may not share it any more.
+    /// A buffer of five counts, with `BufferUsages::COPY_SRC`. They may be too large, but never too small:
     ///
-    /// Where all are 0, a fresh run in [`Mode::Corrected`](darboux::Mode::Corrected) finds the tangents of the plan. In the other modes
-    /// so does a run that does not meet the reference's defect in the order of its last edges, which depends on where vertices are.
+    /// 0. triangles that have become degenerate,
+    /// 1. triangles that were degenerate and are no longer,
+    /// 2. vertices that no longer equal the vertex they were welded with,
+    /// 3. vertices that have become equal to another vertex,
+    /// 4. triangles whose tangent or bitangent direction at a corner is so far from the corner's tangent that they may no longer share it.
+    ///
+    /// If all counts are 0, a fresh run in [`Mode::Corrected`](darboux::Mode::Corrected) gives the tangents of the plan. In the other modes
+    /// it does so too, unless the reference's unsorted last edges change its result, which depends on the positions.
     pub fn counts(&self) -> &Buffer {
         &self.counts
     }

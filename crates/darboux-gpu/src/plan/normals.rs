@@ -1,98 +1,54 @@
-//! Normals of vertices that moved.
+//! Computes smooth normals of a planned mesh whose vertices have moved.
 
-use std::collections::HashMap;
+use wgpu::CommandEncoder;
 
-use darboux::Mesh;
-use darboux::internal::stage_arrays::NONE;
-use wgpu::{Buffer, CommandEncoder};
+use crate::device::buffers::storage_buffer;
+use crate::device::kernel::Dispatch;
+use crate::device::precision::PrecisionDispatch;
+use crate::error::GpuError;
+use crate::plan::moving_mesh::MovingMesh;
+use crate::plan::planner::{Layout, Plan};
 
-use super::{MovingMesh, Plan, Planner};
-use crate::GpuError;
-use crate::device::kernel::{MAX_TURNS, Step, buffer};
-use crate::device::precision::RealStep;
-
-/// What normals need of a plan's mesh.
-#[derive(Clone, Debug)]
-pub(crate) struct Fans {
-    count: u32,
-    words: Buffer,
-    of_vertex: Buffer,
-}
-
-/// Writes the normals of moved vertices before their tangents are computed.
+/// Writes the normals of moved vertices, before their tangents are computed.
 #[derive(Clone, Debug)]
 pub struct PlanNormals {
-    sums: RealStep,
-    write: Step,
-}
-
-impl Fans {
-    /// Vertices with one position and one normal share the next, too. `triangles`: five words each, of which the first three hold the
-    /// vertices of corners in `mask`.
-    pub fn new(planner: &Planner, mesh: &Mesh<'_>, triangles: &[u32], mask: u32) -> Result<Self, GpuError> {
-        let mut names = HashMap::new();
-        let mut of_vertex = vec![NONE; mesh.vertex_count()];
-        let mut members: Vec<Vec<u32>> = Vec::new();
-        for (t, triangle) in triangles.as_chunks::<5>().0.iter().enumerate() {
-            for (k, corner) in triangle[..3].iter().enumerate() {
-                let vertex = (corner & mask) as usize;
-                // Adding zero turns -0 into +0.
-                let bits = |v: [f32; 3]| v.map(|x| (x + 0.0).to_bits());
-                let key = (bits(mesh.positions().get(vertex)), bits(mesh.normals().get(vertex)));
-                let fan = *names.entry(key).or_insert(members.len());
-                if fan == members.len() {
-                    members.push(Vec::new());
-                }
-                of_vertex[vertex] = fan as u32;
-                members[fan].push((3 * t + k) as u32);
-            }
-        }
-        let largest = members.iter().map(Vec::len).max().unwrap_or(0);
-        if largest > MAX_TURNS as usize {
-            return Err(GpuError::TooManyMembers { members: largest, limit: MAX_TURNS as usize });
-        }
-        let count = members.len() as u32;
-        let ends = members.iter().scan(0, |end, fan| {
-            *end += fan.len() as u32;
-            Some(*end)
-        });
-        let words: Vec<u32> =
-            [count].into_iter().chain(ends).chain(members.iter().flatten().copied()).collect();
-        Ok(Self {
-            count,
-            words: planner.upload("fans", &words)?,
-            of_vertex: planner.upload("fans of vertices", &of_vertex)?,
-        })
-    }
+    sums: PrecisionDispatch,
+    write: Dispatch,
 }
 
 impl Plan {
-    /// Normals of the same buffers as those of [`Plan::of_buffers`], with its errors: smooth ones, of triangles and halves of quads, weighted by
-    /// angle, that vertices share where the planned mesh had one position and one normal. They are rounded as the device likes.
+    /// Smooth normals in the buffers that were given to [`Plan::of_buffers`], with its errors.
+    ///
+    /// A normal is the mean of the normals of adjacent triangles, weighted by their angles. Vertices share a normal if they had one position
+    /// and one normal in the planned mesh. The rounding is the device's.
     pub fn normals_of_buffers(&self, mesh: &MovingMesh<'_>) -> Result<PlanNormals, GpuError> {
-        let (_, outputs) = self.sum_of_output[mesh.per as usize].clone()?;
-        self.check(mesh, outputs)?;
-        let (device, fans) = (&self.planner.device, &self.fans);
-        let found = buffer(device, "normals", (4 * fans.count).max(1));
-        let plan = &self.uniform(mesh, outputs);
-        let to_sums = [
-            (0, plan),
+        let Layout { uniform, .. } = &self.layout(mesh)?;
+        let device = &self.planner.device;
+        let group_count = self.normals.group_count;
+        let normal_of_group = storage_buffer(device, "normals", (4 * group_count).max(1));
+        let sum_buffers = [
+            (0, uniform),
             (1, mesh.positions.buffer),
             (3, &self.triangles),
             (4, &self.representatives),
-            (5, &fans.words),
-            (6, &found),
+            (5, &self.normals.groups),
+            (6, &normal_of_group),
         ];
-        let to_write = [(0, plan), (1, &fans.of_vertex), (2, &found), (3, mesh.normals.buffer)];
+        let write_buffers = [
+            (0, uniform),
+            (1, &self.normals.group_of_vertex),
+            (2, &normal_of_group),
+            (3, mesh.normals.buffer),
+        ];
         Ok(PlanNormals {
-            sums: RealStep::new(device, &self.planner.normals, &to_sums, fans.count),
-            write: Step::new(device, &self.planner.write_normals, &to_write, mesh.vertex_count),
+            sums: PrecisionDispatch::new(device, &self.planner.normals, &sum_buffers, group_count),
+            write: Dispatch::new(device, &self.planner.write_normals, &write_buffers, mesh.vertex_count),
         })
     }
 }
 
 impl PlanNormals {
-    /// Records the normals, before [`PlanOfBuffers::record`](super::PlanOfBuffers::record) of the same buffers.
+    /// Records the normals. Record [`PlanOfBuffers::record`](super::bound_plan::PlanOfBuffers::record) of the same buffers afterwards.
     pub fn record(&self, encoder: &mut CommandEncoder) {
         self.sums.record(encoder);
         self.write.record(encoder);

@@ -1,55 +1,60 @@
-//! What packages of other languages read: `shaders/kernels.json` and `shaders/mikktspace.json` have the files of each kernel, to be read one
-//! after the other, after the constants; these, and the lists of [`crate::mikktspace::passes`], `shaders/passes.json` has.
+//! Writes and compares the lists from which the npm package runs the same kernels.
+//!
+//! - `shaders/kernels.json` has the files of the kernels of plans and of the method `Average`, in the order of concatenation.
+//! - `shaders/mikktspace.json` has those of MikkTSpace.
+//! - `shaders/passes.json` has the constants that every shader begins with, and the lists of [`crate::mikktspace::passes`].
 
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-use crate::average::{self, SECOND_BUFFER, Search};
+use crate::average::{self, Search, WRITE_TO_BUFFER};
 use crate::device::kernel::CONSTANTS;
-use crate::device::precision::{Arithmetic, files};
-use crate::device::prefix_sum::SCAN;
-use crate::mikktspace::passes::{BUFFERS, Each, Kernel, OF_ADJACENCY, OF_VERTICES, Pass, Run, of_triangles};
-use crate::plan::{GATHER, REPAIR, TERMS, WRITE};
+use crate::device::precision::{Arithmetic, PassOrder, kernel_files};
+use crate::device::prefix_sum::PREFIX_SUM_FILES;
+use crate::mikktspace::passes::{
+    ADJACENCY_PASSES, BUFFERS, Domain, Kernel, Pass, Run, VERTEX_PASSES, triangle_passes,
+};
+use crate::plan::shaders::{GATHER, REPAIR, TERMS, WRITE_TANGENTS};
 
-type Named = (&'static str, Vec<&'static str>);
+/// The name of a kernel, and the contents of its files.
+type KernelSource = (&'static str, Vec<&'static str>);
 
-/// Of kernels of exact arithmetic the first, which lists what it leaves.
+/// The first pass of a kernel of exact arithmetic.
 fn exact(own: &[&'static str]) -> Vec<&'static str> {
-    files(Arithmetic::Exact, false, own)
+    kernel_files(Arithmetic::Exact, PassOrder::First, own)
 }
 
-/// For meshes that move, and the method 'average'.
-fn of_moving() -> Vec<Named> {
-    let mut all = of_passes(OF_ADJACENCY);
+fn plan_and_average_kernels() -> Vec<KernelSource> {
+    let mut all = kernels_of(ADJACENCY_PASSES);
     all.extend([
-        ("average", average::files(Search::Adjacency, SECOND_BUFFER).to_vec()),
-        ("scan", SCAN.to_vec()),
+        ("average", average::shader_files(Search::Adjacency, WRITE_TO_BUFFER).to_vec()),
+        ("scan", PREFIX_SUM_FILES.to_vec()),
         ("terms", exact(TERMS)),
         ("gather", exact(GATHER)),
-        ("repair", files(Arithmetic::Fast, true, REPAIR)),
-        ("write", WRITE.to_vec()),
+        ("repair", kernel_files(Arithmetic::Fast, PassOrder::Second, REPAIR)),
+        ("write", WRITE_TANGENTS.to_vec()),
     ]);
     all
 }
 
-fn of_mikktspace() -> Vec<Named> {
-    let mut all = of_passes(&[OF_VERTICES, &of_triangles()].concat());
-    all.push(("scan", SCAN.to_vec()));
+fn mikktspace_kernels() -> Vec<KernelSource> {
+    let mut all = kernels_of(&[VERTEX_PASSES, &triangle_passes()].concat());
+    all.push(("scan", PREFIX_SUM_FILES.to_vec()));
     all
 }
 
-/// Each kernel once.
-fn of_passes(passes: &[Pass]) -> Vec<Named> {
+/// The kernels of the passes, each once.
+fn kernels_of(passes: &[Pass]) -> Vec<KernelSource> {
     let plain = |kernel: &Kernel| (kernel.name, kernel.files.to_vec());
     let kernels = passes.iter().flat_map(|pass| match pass {
         Pass::Clear(_) | Pass::Scan(..) => vec![],
         Pass::Run(run) => vec![plain(run.kernel)],
-        Pass::Real(first, second) => {
+        Pass::RunExact(first, second) => {
             vec![(first.kernel.name, exact(first.kernel.files)), plain(second.kernel)]
         }
     });
-    let mut found: Vec<Named> = Vec::new();
+    let mut found: Vec<KernelSource> = Vec::new();
     for kernel in kernels {
         if found.iter().all(|(name, _)| *name != kernel.0) {
             found.push(kernel);
@@ -58,12 +63,12 @@ fn of_passes(passes: &[Pass]) -> Vec<Named> {
     found
 }
 
-/// Names and texts of all shader files.
-fn shaders() -> Vec<(String, String)> {
+/// The names and contents of all shader files.
+fn shader_files() -> Vec<(String, String)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders");
     let mut found = Vec::new();
-    for below in ["", "average", "device", "mikktspace", "plan", "precision"] {
-        for entry in fs::read_dir(folder.join(below)).expect("a folder of shaders") {
+    for subfolder in ["", "average", "device", "mikktspace", "plan", "precision"] {
+        for entry in fs::read_dir(folder.join(subfolder)).expect("a folder of shaders") {
             let path = entry.expect("an entry").path();
             if path.extension().is_some_and(|extension| extension == "wgsl") {
                 let name = path.strip_prefix(&folder).expect("a path below").to_string_lossy().into_owned();
@@ -74,9 +79,9 @@ fn shaders() -> Vec<(String, String)> {
     found
 }
 
-/// Parts that are no files stand for themselves.
-fn list_of_files(kernels: Vec<Named>) -> String {
-    let shaders = shaders();
+/// A part that is not a file is written as text.
+fn list_of_files(kernels: Vec<KernelSource>) -> String {
+    let shaders = shader_files();
     let name = |part: &&'static str| {
         let file = shaders.iter().find(|(_, text)| text == part);
         format!("{:?}", file.map_or(*part, |(name, _)| name))
@@ -90,14 +95,15 @@ fn list_of_files(kernels: Vec<Named>) -> String {
 
 fn list_of_passes() -> String {
     let buffers =
-        BUFFERS.iter().map(|(name, each, words)| format!("    {name:?}: [{}, {words}]", word(*each)));
+        BUFFERS.iter().map(|(name, domain, words)| format!("    {name:?}: [{}, {words}]", word(*domain)));
     let list = |passes: &[Pass]| passes.iter().map(|pass| format!("    {}", json(pass))).collect::<Vec<_>>();
-    let (vertices, adjacency, triangles) = (list(OF_VERTICES), list(OF_ADJACENCY), list(&of_triangles()));
+    let (vertices, adjacency, triangles) =
+        (list(VERTEX_PASSES), list(ADJACENCY_PASSES), list(&triangle_passes()));
     let constants = CONSTANTS.map(|(name, value)| format!("{name:?}: {value}")).join(", ");
     let mut text = format!("{{\n  \"constants\": {{ {constants} }},\n");
-    write!(text, "  \"buffers\": {{\n{}\n  }}", buffers.collect::<Vec<_>>().join(",\n")).expect("room");
+    write!(text, "  \"buffers\": {{\n{}\n  }}", buffers.collect::<Vec<_>>().join(",\n")).expect("a string");
     for (name, passes) in [("vertices", vertices), ("adjacency", adjacency), ("triangles", triangles)] {
-        write!(text, ",\n  {name:?}: [\n{}\n  ]", passes.join(",\n")).expect("room");
+        write!(text, ",\n  {name:?}: [\n{}\n  ]", passes.join(",\n")).expect("a string");
     }
     text + "\n}\n"
 }
@@ -105,39 +111,41 @@ fn list_of_passes() -> String {
 fn json(pass: &Pass) -> String {
     match pass {
         Pass::Clear(name) => format!("{{ \"clear\": {name:?} }}"),
-        Pass::Scan(name, each) => format!("{{ \"scan\": {name:?}, \"each\": {} }}", word(*each)),
+        Pass::Scan(name, domain) => format!("{{ \"scan\": {name:?}, \"domain\": {} }}", word(*domain)),
         Pass::Run(run) => format!("{{ {} }}", entry(run)),
-        Pass::Real(first, second) => format!("{{ {}, \"unsure\": {{ {} }} }}", entry(first), entry(second)),
+        Pass::RunExact(first, second) => {
+            format!("{{ {}, \"unsure\": {{ {} }} }}", entry(first), entry(second))
+        }
     }
 }
 
 fn entry(run: &Run) -> String {
     let buffers: Vec<_> =
         run.buffers.iter().map(|(binding, name)| format!("\"{binding}\": {name:?}")).collect();
-    let (kernel, entry, each) = (run.kernel.name, run.entry, word(run.each));
+    let (kernel, entry, domain) = (run.kernel.name, run.entry, word(run.domain));
     format!(
-        "\"kernel\": {kernel:?}, \"entry\": {entry:?}, \"each\": {each}, \"buffers\": {{ {} }}",
+        "\"kernel\": {kernel:?}, \"entry\": {entry:?}, \"domain\": {domain}, \"buffers\": {{ {} }}",
         buffers.join(", ")
     )
 }
 
-fn word(each: Each) -> &'static str {
-    match each {
-        Each::Mesh => "\"mesh\"",
-        Each::Vertex => "\"vertex\"",
-        Each::Slot => "\"slot\"",
-        Each::Triangle => "\"triangle\"",
-        Each::Corner => "\"corner\"",
+fn word(domain: Domain) -> &'static str {
+    match domain {
+        Domain::Mesh => "\"mesh\"",
+        Domain::Vertex => "\"vertex\"",
+        Domain::Slot => "\"slot\"",
+        Domain::Triangle => "\"triangle\"",
+        Domain::Corner => "\"corner\"",
     }
 }
 
-/// With `WRITE_LISTS` in the environment the files are written.
+/// Set the environment variable `WRITE_LISTS` to write the files.
 #[test]
-#[cfg_attr(small_limits, ignore = "other constants")]
+#[cfg_attr(small_limits, ignore = "the stress build has other constants")]
 fn the_lists_for_other_languages_are_current() {
     let lists = [
-        ("kernels.json", list_of_files(of_moving())),
-        ("mikktspace.json", list_of_files(of_mikktspace())),
+        ("kernels.json", list_of_files(plan_and_average_kernels())),
+        ("mikktspace.json", list_of_files(mikktspace_kernels())),
         ("passes.json", list_of_passes()),
     ];
     for (name, expected) in lists {

@@ -1,4 +1,4 @@
-//! How many operations kernels take, counted from their shaders: what can be said of speed without a GPU.
+//! Counts the operations of each kernel from its parsed source. These counts are an estimate of speed that needs no GPU.
 
 use naga::valid::{FunctionInfo, ModuleInfo};
 use naga::{
@@ -6,17 +6,17 @@ use naga::{
     TypeInner, UnaryOperator,
 };
 
-use crate::device::kernel::text;
-use crate::device::precision::{Arithmetic, files};
+use crate::device::kernel::shader_source;
+use crate::device::precision::{Arithmetic, PassOrder, kernel_files};
 
 /// Operations on single numbers.
 #[derive(Clone, Copy, Default)]
 struct Cost {
-    /// All but those below.
+    /// All but the slow ones.
     simple: usize,
-    /// Sums and products of floats among them, which GPUs have more units for.
+    /// The float additions and multiplications among them, for which GPUs have the most units.
     of_floats: usize,
-    /// Quotients and roots of floats, and of whole numbers: ten times a simple one, or more.
+    /// Divisions and square roots of floats, divisions of integers: each takes at least as long as ten simple ones.
     slow: usize,
 }
 
@@ -29,8 +29,8 @@ impl Cost {
         }
     }
 
-    fn times(self, turns: usize) -> Self {
-        Self { simple: self.simple * turns, of_floats: self.of_floats * turns, slow: self.slow * turns }
+    fn times(self, count: usize) -> Self {
+        Self { simple: self.simple * count, of_floats: self.of_floats * count, slow: self.slow * count }
     }
 
     fn max(self, other: Self) -> Self {
@@ -38,21 +38,21 @@ impl Cost {
     }
 }
 
-/// A shader, and how often each of its loops turns.
+/// A shader, with the number of iterations of the loops of each function.
 struct Counter<'a> {
     module: Module,
     info: ModuleInfo,
-    turns: &'a dyn Fn(&str) -> usize,
+    iterations: &'a dyn Fn(&str) -> usize,
 }
 
 impl Counter<'_> {
     fn function(&self, function: &Function, info: &FunctionInfo) -> Cost {
         let name = function.name.as_deref().unwrap_or_default();
-        self.block(&function.body, function, info, (self.turns)(name))
+        self.block(&function.body, function, info, (self.iterations)(name))
     }
 
-    fn block(&self, block: &Block, function: &Function, info: &FunctionInfo, turns: usize) -> Cost {
-        let inner = |block: &Block| self.block(block, function, info, turns);
+    fn block(&self, block: &Block, function: &Function, info: &FunctionInfo, iterations: usize) -> Cost {
+        let inner = |block: &Block| self.block(block, function, info, iterations);
         let statement = |statement: &Statement| match statement {
             Statement::Emit(range) => {
                 let costs = range.clone().map(|handle| self.expression(handle, function, info));
@@ -60,10 +60,10 @@ impl Counter<'_> {
             }
             Statement::Block(block) => inner(block),
             Statement::If { accept, reject, .. } => inner(accept).max(inner(reject)),
-            Statement::Loop { body, continuing, .. } => inner(body).plus(inner(continuing)).times(turns),
+            Statement::Loop { body, continuing, .. } => inner(body).plus(inner(continuing)).times(iterations),
             Statement::Call { function, .. } => {
                 let (called, info) = (&self.module.functions[*function], &self.info[*function]);
-                // What is called once in hundreds of times, and never for vertices without copies.
+                // The first is called once in hundreds of times, the second only for vertices with copies.
                 let is_rare = matches!(called.name.as_deref(), Some("long_arccosine" | "position_of_copy"));
                 if is_rare { Cost::default() } else { self.function(called, info) }
             }
@@ -71,7 +71,7 @@ impl Counter<'_> {
         };
         let mut total = Cost::default();
         for (at, found) in block.iter().enumerate() {
-            // What returns early does not do the rest.
+            // The rest of the block runs only if the early return is not taken.
             if let Statement::If { accept, reject, .. } = found
                 && accept.last().is_some_and(|last| matches!(last, Statement::Return { .. }))
             {
@@ -97,7 +97,7 @@ impl Counter<'_> {
                 return Cost { simple: 5, of_floats: 5, slow: 0 };
             }
             Expression::As { convert: None, .. } => return Cost::default(),
-            // A sign of an operand.
+            // GPUs negate operands for free.
             Expression::Unary { op: UnaryOperator::Negate, .. } if kind == ScalarKind::Float => {
                 return Cost::default();
             }
@@ -108,7 +108,7 @@ impl Counter<'_> {
             | Expression::As { .. } => false,
             _ => return Cost::default(),
         };
-        // Combining conditions costs what they cost.
+        // One instruction combines two conditions.
         let simple = if kind == ScalarKind::Bool && components == 1 { 1 } else { components };
         let is_sum_or_product = matches!(
             function.expressions[handle],
@@ -126,13 +126,13 @@ impl Counter<'_> {
     }
 }
 
-/// The cost of one item of a kernel. `turns`: of the loops of each function.
-fn cost_of_item(arithmetic: Arithmetic, own: &[&'static str], turns: &dyn Fn(&str) -> usize) -> Cost {
-    let text = text(&files(arithmetic, false, own));
-    let module = naga::front::wgsl::parse_str(&text).expect("a valid shader");
+/// The cost of one item of a kernel. `iterations`: of the loops of each function.
+fn cost_of_item(arithmetic: Arithmetic, own: &[&'static str], iterations: &dyn Fn(&str) -> usize) -> Cost {
+    let source = shader_source(&kernel_files(arithmetic, PassOrder::First, own));
+    let module = naga::front::wgsl::parse_str(&source).expect("a valid shader");
     let mut validator = naga::valid::Validator::new(Default::default(), naga::valid::Capabilities::empty());
     let info = validator.validate(&module).expect("a valid shader");
-    let counter = Counter { module, info, turns };
+    let counter = Counter { module, info, iterations };
     let run = counter.module.functions.iter().find(|(_, function)| function.name.as_deref() == Some("run"));
     let (handle, function) = run.expect("a kernel's function");
     counter.function(function, &counter.info[handle])
@@ -140,14 +140,14 @@ fn cost_of_item(arithmetic: Arithmetic, own: &[&'static str], turns: &dyn Fn(&st
 
 #[test]
 fn operations_are_as_many_as_the_notes_say() {
-    use crate::mikktspace::passes::{DERIVATIVES, EVALUATE, WEDGES};
-    use crate::plan::{GATHER, TERMS};
-    // Of a large regular mesh: six triangles at a vertex.
+    use crate::mikktspace::passes::{CORNER_TERMS, DERIVATIVES, EVALUATE};
+    use crate::plan::shaders::{GATHER, TERMS};
+    // A large regular mesh has six triangles at a vertex.
     let of_vertex = |name: &str| if name == "run" { 6 } else { 3 };
     let of_triangle = |_: &str| 3;
     let costs = |arithmetic| {
-        let of_triangles =
-            [TERMS, DERIVATIVES.files, WEDGES.files].map(|own| cost_of_item(arithmetic, own, &of_triangle));
+        let of_triangles = [TERMS, DERIVATIVES.files, CORNER_TERMS.files]
+            .map(|own| cost_of_item(arithmetic, own, &of_triangle));
         let of_vertices = [GATHER, EVALUATE.files].map(|own| cost_of_item(arithmetic, own, &of_vertex));
         let all = [&of_triangles[..], &of_vertices].concat();
         all.iter().map(|cost| (cost.simple, cost.of_floats, cost.slow)).collect()

@@ -1,7 +1,7 @@
 //! Plans run once.
 
 use darboux::{Mode, TangentOptions};
-use darboux_gpu::{Attribute, Gpu, GpuError, MovingMesh, Per, Plan, Planner};
+use darboux_gpu::{Attribute, Gpu, GpuError, MovingMesh, Plan, Planner, TangentsPer};
 use darboux_tests::OwnedMesh;
 use wgpu::BufferUsages;
 
@@ -16,14 +16,20 @@ pub struct Found {
 }
 
 /// Runs a plan of `base` on `moved`, in buffers of their own.
-pub fn run(planner: &Planner, gpu: &Gpu, [base, moved]: [&OwnedMesh; 2], mode: Mode, per: Per) -> Found {
+pub fn run(
+    planner: &Planner,
+    gpu: &Gpu,
+    [base, moved]: [&OwnedMesh; 2],
+    mode: Mode,
+    per: TangentsPer,
+) -> Found {
     let options = TangentOptions { mode, ..Default::default() };
     let plan = planner.plan(&base.view(), &options).unwrap_or_else(|error| panic!("{error}"));
     let words = |values: &[[f32; 3]]| values.as_flattened().iter().map(|x| x.to_bits()).collect::<Vec<_>>();
     let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
     let [positions, normals] =
         [&moved.positions, &moved.normals].map(|list| buffer(gpu, &words(list), usage));
-    let outputs = if per == Per::Corner { base.corner_count() } else { base.positions.len() };
+    let outputs = if per == TangentsPer::Corner { base.corner_count() } else { base.positions.len() };
     let tangents = buffer(gpu, &vec![UNTOUCHED; 4 * outputs], usage);
     let floats = |buffer, stride| Attribute { buffer, stride, offset: 0 };
     let moving = MovingMesh {

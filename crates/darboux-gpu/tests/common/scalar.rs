@@ -10,7 +10,7 @@ const PRELUDE: &str = "
 @group(0) @binding(0) var<storage, read> given: array<u32>;
 @group(0) @binding(1) var<storage, read_write> got: array<u32>;
 
-fn zero() -> u32 {
+fn opaque_zero() -> u32 {
     return given[arrayLength(&given) - 1u];
 }
 
