@@ -5,9 +5,8 @@ use std::path::Path;
 use std::time::Instant;
 
 use cpu_time::ProcessTime;
-use darboux::{
-    Mode, Scratch, TangentOptions, Tangents, WidthLimit, generate_tangents, generate_tangents_into,
-};
+use darboux::internal::width_limit::{self, WidthLimit};
+use darboux::{Context, Mode, TangentOptions, generate_tangents, write_tangents};
 use darboux_tests::{FaceSizes, OwnedMesh};
 
 use crate::callbacks::Callbacks;
@@ -93,12 +92,12 @@ fn ours() -> Vec<Engine> {
             let view = mesh.view();
             per_corner(mesh, move |out| *out = generate_tangents(&view, &EXACT).corners.into_per_corner())
         }),
-        native("darboux-kept", version, Method::MikkTSpace, |mesh| kept(mesh, Scratch::new())),
+        native("darboux-kept", version, Method::MikkTSpace, |mesh| kept(mesh, Context::new())),
         native("darboux-kept-256", version, Method::MikkTSpace, |mesh| {
-            kept(mesh, Scratch::with_width_limit(WidthLimit::Bits256))
+            kept(mesh, width_limit::context(WidthLimit::Bits256))
         }),
         native("darboux-kept-128", version, Method::MikkTSpace, |mesh| {
-            kept(mesh, Scratch::with_width_limit(WidthLimit::Compiled))
+            kept(mesh, width_limit::context(WidthLimit::Compiled))
         }),
         Engine { threads, ..native("darboux-threads", version, Method::MikkTSpace, kept_by_threads) },
     ]
@@ -114,11 +113,12 @@ const EXACT: TangentOptions =
     TangentOptions { method: darboux::Method::MikkTSpace, mode: Mode::Reference, threshold: 180.0 };
 
 /// Darboux with memory kept between calls.
-fn kept(mesh: &OwnedMesh, mut scratch: Scratch) -> Box<dyn Run + '_> {
+fn kept(mesh: &OwnedMesh, mut context: Context) -> Box<dyn Run + '_> {
     let view = mesh.view();
-    let call = move |out: &mut Tangents| generate_tangents_into(&view, &EXACT, &mut scratch, out);
-    let output = Tangents::default();
-    Box::new(Native { mesh, per_vertex: false, output, read: |out| out.corners.per_corner(), call })
+    per_corner(mesh, move |out| {
+        out.resize(view.corner_count(), [0.0; 4]);
+        _ = write_tangents(&view, &EXACT, &mut context, out).expect("one tangent per corner");
+    })
 }
 
 /// As [`kept`], on all threads of the machine.
@@ -126,12 +126,13 @@ fn kept_by_threads(mesh: &OwnedMesh) -> Box<dyn Run + '_> {
     let view = mesh.view();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(available_threads()).build();
     let pool = pool.expect("a thread pool starts");
-    let mut scratch = Scratch::new();
-    let call = move |out: &mut Tangents| {
-        pool.install(|| generate_tangents_into(&view, &EXACT, &mut scratch, out));
-    };
-    let output = Tangents::default();
-    Box::new(Native { mesh, per_vertex: false, output, read: |out| out.corners.per_corner(), call })
+    let mut context = Context::new();
+    per_corner(mesh, move |out| {
+        out.resize(view.corner_count(), [0.0; 4]);
+        pool.install(|| {
+            _ = write_tangents(&view, &EXACT, &mut context, out).expect("one tangent per corner")
+        });
+    })
 }
 
 impl Engine {

@@ -1,10 +1,8 @@
 //! Implementations under one roof: each takes a mesh, a threshold and a mode and gives one frame per corner.
 
 use darboux::internal::stage_arrays;
-use darboux::{
-    Frame, Frames, Mesh, Mode, Scratch, TangentOptions, Tangents, WidthLimit, generate_frames,
-    generate_tangents_into,
-};
+use darboux::internal::width_limit::{self, WidthLimit};
+use darboux::{Frame, Frames, Mesh, Mode, TangentOptions, generate_frames, generate_tangents_with};
 use mikktspace_sys::{MikkTSpaceInterface, gen_tang_space};
 
 use crate::OwnedMesh;
@@ -73,14 +71,9 @@ impl Engine for DarbouxTangents {
 
     fn run(&self, mesh: &OwnedMesh, threshold: f32, mode: Mode) -> Option<Vec<Option<Frame>>> {
         let mut frames = DARBOUX.run(mesh, threshold, mode)?;
-        let mut tangents = Tangents::default();
-        let mut scratch = Scratch::with_width_limit(self.1);
-        generate_tangents_into(
-            &mesh.view(),
-            &TangentOptions { mode, threshold, ..TangentOptions::default() },
-            &mut scratch,
-            &mut tangents,
-        );
+        let options = TangentOptions { mode, threshold, ..TangentOptions::default() };
+        let context = &mut width_limit::context(self.1);
+        let tangents = generate_tangents_with(&mesh.view(), &options, context).ok()?;
         for (frame, [x, y, z, sign]) in frames.iter_mut().zip(tangents.corners.into_per_corner()) {
             if let Some(frame) = frame {
                 (frame.tangent, frame.sign) = ([x, y, z], sign);

@@ -1,10 +1,9 @@
-//! Repeated calls with one scratch allocate nothing.
+//! Repeated calls with one context allocate nothing.
 
 use std::alloc::System;
 
 use darboux::{
-    CornerTangents, Faces, Frame, Indices, Mesh, Method, Plan, Scratch, TangentOptions, Tangents,
-    generate_tangents_into, write_frames,
+    Context, Faces, Frame, Indices, Mesh, Method, Plan, TangentOptions, write_frames, write_tangents,
 };
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 
@@ -24,20 +23,23 @@ fn allocations_of(mut call: impl FnMut()) -> usize {
 }
 
 fn allocations(mesh: &Mesh<'_>) -> usize {
-    let (mut scratch, mut tangents) = (Scratch::new(), Tangents::default());
-    allocations_of(|| generate_tangents_into(mesh, &TangentOptions::default(), &mut scratch, &mut tangents))
+    let (mut context, mut tangents) = (Context::new(), vec![[0.0; 4]; mesh.corner_count()]);
+    let options = TangentOptions::default();
+    allocations_of(|| {
+        _ = write_tangents(mesh, &options, &mut context, &mut tangents).expect("as many tangents")
+    })
 }
 
 fn allocations_of_frames(mesh: &Mesh<'_>) -> usize {
-    let (mut scratch, mut frames) = (Scratch::new(), vec![Frame::default(); mesh.corner_count()]);
+    let (mut context, mut frames) = (Context::new(), vec![Frame::default(); mesh.corner_count()]);
     let options = TangentOptions::default();
-    allocations_of(|| _ = write_frames(mesh, &options, &mut scratch, &mut frames).expect("as many frames"))
+    allocations_of(|| _ = write_frames(mesh, &options, &mut context, &mut frames).expect("as many frames"))
 }
 
 fn allocations_of_plan(mesh: &Mesh<'_>, method: Method) -> usize {
     let plan = Plan::new(mesh, &TangentOptions { method, ..TangentOptions::default() });
-    let (mut scratch, mut tangents) = (Scratch::new(), CornerTangents::default());
-    allocations_of(|| plan.evaluate_into(mesh, &mut scratch, &mut tangents).expect("the same mesh"))
+    let (mut context, mut tangents) = (Context::new(), vec![[0.0; 4]; mesh.corner_count()]);
+    allocations_of(|| plan.write_tangents(mesh, &mut context, &mut tangents).expect("the same mesh"))
 }
 
 /// One test alone: others would be counted with it.

@@ -1,7 +1,7 @@
 //! Arrays of the caller's: the same results as in the library's own, and none for an array that does not fit.
 
 use darboux::{
-    CornerTangentsRef, Frame, MeshError, Method, Mode, Plan, Scratch, TangentOptions, generate_frames,
+    Context, CornerTangentsRef, Frame, MeshError, Method, Mode, Plan, TangentOptions, generate_frames,
     generate_tangents, lend_frames, split_vertices, write_frames, write_tangents,
 };
 use darboux_tests::{OwnedMesh, families};
@@ -19,27 +19,27 @@ fn meshes() -> [OwnedMesh; 3] {
 #[test]
 fn have_the_same_tangents_and_splits() {
     for (mesh, method) in meshes().iter().flat_map(|mesh| METHODS.map(|method| (mesh, method))) {
-        let (view, mut scratch) = (mesh.view(), Scratch::new());
+        let (view, mut context) = (mesh.view(), Context::new());
         let options = TangentOptions { method, mode: Mode::Reference, ..TangentOptions::default() };
         let own = generate_tangents(&view, &options);
         let mut corners = vec![[f32::NAN; 4]; mesh.corner_count()];
-        let report = write_tangents(&view, &options, &mut scratch, &mut corners).unwrap();
+        let report = write_tangents(&view, &options, &mut context, &mut corners).unwrap();
         assert_eq!((report, &corners[..]), (own.report, own.corners.per_corner()), "{method:?}");
 
         let of_array = split_vertices(&view, CornerTangentsRef::from_per_corner(&corners)).unwrap();
         assert_eq!(of_array, split_vertices(&view, &own.corners).unwrap(), "{method:?}");
 
         corners.fill([f32::NAN; 4]);
-        Plan::new(&view, &options).write_tangents(&view, &mut scratch, &mut corners).unwrap();
+        Plan::new(&view, &options).write_tangents(&view, &mut context, &mut corners).unwrap();
         assert_eq!(corners, own.corners.per_corner(), "{method:?}");
     }
 }
 
-/// On one thread and on several, with a scratch that has had larger and smaller meshes, of every method.
+/// On one thread and on several, with a context that has had larger and smaller meshes, of every method.
 #[test]
 fn have_the_same_frames() {
     let large = families::grid(97, 97, false, true);
-    let mut scratch = Scratch::new();
+    let mut context = Context::new();
     for mesh in meshes().iter().chain([&large, &families::fan(9, false)]) {
         for (method, threshold) in
             METHODS.map(|method| (method, 180.0)).into_iter().chain([(METHODS[0], 60.0)])
@@ -48,10 +48,10 @@ fn have_the_same_frames() {
             let (view, count) = (mesh.view(), mesh.corner_count());
             let own = generate_frames(&view, &options);
             let mut frames = vec![Frame::default(); count];
-            let report = write_frames(&view, &options, &mut scratch, &mut frames).unwrap();
+            let report = write_frames(&view, &options, &mut context, &mut frames).unwrap();
             assert_eq!((report, &frames[..]), (own.report, own.corners.per_corner()), "{method:?}");
 
-            let lent = lend_frames(&view, &options, &mut scratch).unwrap();
+            let lent = lend_frames(&view, &options, &mut context).unwrap();
             assert_eq!((lent.report(), lent.len()), (own.report, count));
             for (first, size) in [(0, count), (1, 7), (count - 1, 4), (count, 1), (count + 9, 1)] {
                 let (mut part, there) = (vec![Frame::default(); size], size.min(count.saturating_sub(first)));
@@ -77,18 +77,18 @@ fn have_the_same_frames() {
 #[test]
 fn of_another_length_are_left_alone() {
     let [mesh, ..] = meshes();
-    let (view, mut scratch) = (mesh.view(), Scratch::new());
+    let (view, mut context) = (mesh.view(), Context::new());
     let mut corners = vec![[7.0; 4]; mesh.corner_count() - 1];
     let options = TangentOptions::default();
     for result in [
-        write_tangents(&view, &options, &mut scratch, &mut corners).map(drop),
-        Plan::new(&view, &options).write_tangents(&view, &mut scratch, &mut corners),
+        write_tangents(&view, &options, &mut context, &mut corners).map(drop),
+        Plan::new(&view, &options).write_tangents(&view, &mut context, &mut corners),
         split_vertices(&view, CornerTangentsRef::from_per_corner(&corners)).map(drop),
     ] {
         assert!(matches!(result, Err(MeshError::OtherMesh { what: "corners", .. })), "{result:?}");
     }
     assert!(corners.iter().all(|corner| *corner == [7.0; 4]));
     let mut frames = vec![Frame::default(); mesh.corner_count() + 1];
-    let result = write_frames(&view, &options, &mut scratch, &mut frames);
+    let result = write_frames(&view, &options, &mut context, &mut frames);
     assert!(matches!(result, Err(MeshError::OtherMesh { what: "corners", .. })), "{result:?}");
 }

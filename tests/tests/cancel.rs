@@ -3,9 +3,9 @@
 use std::time::Duration;
 
 use darboux::{
-    Cancel, CornerTangents, Frame, Mesh, MeshError, NormalOptions, NormalPlan, Plan, Scratch, TangentOptions,
-    generate_frames, generate_normals, generate_tangents, lend_frames, measure_tangents, measure_uv_fidelity,
-    write_frames, write_tangents,
+    Cancel, Context, Frame, Mesh, MeshError, NormalOptions, NormalPlan, Plan, Splitter, TangentOptions,
+    generate_frames_with, generate_normals_with, generate_tangents_with, lend_frames, measure_tangents_with,
+    measure_uv_fidelity_with, split_normals_with, split_vertices_with, write_frames, write_tangents,
 };
 use darboux_tests::{OwnedMesh, families};
 
@@ -18,11 +18,12 @@ fn endless() -> OwnedMesh {
     families::fan(1 << 18, true)
 }
 
-/// Runs work and asks it to stop soon after.
-fn stopped<R: Send>(work: impl FnOnce() -> R + Send) -> Result<R, MeshError> {
-    let cancel = &Cancel::new();
+/// Starts work and cancels it soon after.
+fn cancelled<R: Send>(work: impl FnOnce(&mut Context) -> Result<R, MeshError> + Send) -> Option<MeshError> {
+    let cancel = Cancel::new();
+    let mut context = Context::new().with_cancel(&cancel);
     std::thread::scope(|scope| {
-        let run = scope.spawn(|| cancel.run(work));
+        let run = scope.spawn(move || work(&mut context).err());
         std::thread::sleep(Duration::from_millis(200));
         cancel.cancel();
         run.join().expect("no panic")
@@ -32,42 +33,61 @@ fn stopped<R: Send>(work: impl FnOnce() -> R + Send) -> Result<R, MeshError> {
 #[test]
 fn ends_long_runs_of_every_kind() {
     let (mesh, options) = (&endless(), &options(90.0));
-    let count = mesh.corner_count();
-    let mut tangents = vec![[0.0; 4]; count];
-    let mut frames = vec![Frame::default(); count];
-    let written = stopped(|| write_tangents(&mesh.view(), options, &mut Scratch::new(), &mut tangents));
-    assert_eq!(written.map(drop), Err(MeshError::Cancelled));
-    let written = stopped(|| write_frames(&mesh.view(), options, &mut Scratch::new(), &mut frames));
-    assert_eq!(written.map(drop), Err(MeshError::Cancelled));
-    assert_eq!(stopped(|| generate_tangents(&mesh.view(), options)).map(drop), Err(MeshError::Cancelled));
-    assert_eq!(stopped(|| generate_frames(&mesh.view(), options)).map(drop), Err(MeshError::Cancelled));
-    assert_eq!(stopped(|| Plan::new(&mesh.view(), options)).map(drop), Err(MeshError::Cancelled));
+    let view = &mesh.view();
+    let mut tangents = vec![[0.0; 4]; mesh.corner_count()];
+    let mut frames = vec![Frame::default(); mesh.corner_count()];
+    let expected = Some(MeshError::Cancelled);
+    assert_eq!(cancelled(|context| write_tangents(view, options, context, &mut tangents)), expected);
+    assert_eq!(cancelled(|context| write_frames(view, options, context, &mut frames)), expected);
+    assert_eq!(cancelled(|context| generate_tangents_with(view, options, context)), expected);
+    assert_eq!(cancelled(|context| generate_frames_with(view, options, context)), expected);
+    assert_eq!(cancelled(|context| Plan::new_with(view, options, context)), expected);
 }
 
-/// What every function that can say so says where it was asked to stop before it began. Where it was not: nothing.
-fn said(cancel: &Cancel, mesh: &Mesh<'_>, plan: &Plan, normals: &NormalPlan) -> Vec<Result<(), MeshError>> {
-    let (options, mut said) = (&options(180.0), Vec::new());
+/// A token is heard where the caller's closure hands the work to the threads of a pool.
+#[test]
+fn ends_work_that_moves_to_a_pool() {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("a thread pool");
+    let (mesh, options) = (&endless(), &options(90.0));
+    let run = |context: &mut Context| pool.install(|| generate_tangents_with(&mesh.view(), options, context));
+    assert_eq!(cancelled(run), Some(MeshError::Cancelled));
+}
+
+/// The result of every function that takes a context.
+fn results(
+    context: &mut Context,
+    mesh: &Mesh<'_>,
+    plan: &Plan,
+    normals: &NormalPlan,
+) -> Vec<Result<(), MeshError>> {
+    let (options, mut results) = (&options(180.0), Vec::new());
     let tangents = plan.base().corners.per_corner();
-    let mut scratch = Scratch::new();
     let (mut corners, mut frames) = (tangents.to_vec(), vec![Frame::default(); mesh.corner_count()]);
-    _ = cancel.run(|| {
-        said.push(write_tangents(mesh, options, &mut scratch, &mut corners).map(drop));
-        said.push(write_frames(mesh, options, &mut scratch, &mut frames).map(drop));
-        said.push(lend_frames(mesh, options, &mut scratch).map(drop));
-        said.push(plan.evaluate_into(mesh, &mut scratch, &mut CornerTangents::default()));
-        said.push(plan.count_regrouped(mesh).map(drop));
-        let normal_options = &NormalOptions { crease: 30.0, ..NormalOptions::default() };
-        let made = generate_normals(mesh.positions(), mesh.indices(), mesh.faces(), normal_options);
-        said.push(made.map(drop));
-        said.push(normals.evaluate(mesh.positions()).map(drop));
-        said.push(measure_tangents(tangents, tangents).map(drop));
-        said.push(measure_uv_fidelity(mesh, tangents).map(drop));
-    });
-    said
+    results.push(write_tangents(mesh, options, context, &mut corners).map(drop));
+    results.push(write_frames(mesh, options, context, &mut frames).map(drop));
+    results.push(lend_frames(mesh, options, context).map(drop));
+    results.push(generate_tangents_with(mesh, options, context).map(drop));
+    results.push(generate_frames_with(mesh, options, context).map(drop));
+    results.push(Plan::new_with(mesh, options, context).map(drop));
+    results.push(plan.write_tangents(mesh, context, &mut corners));
+    results.push(plan.evaluate_with(mesh, context).map(drop));
+    results.push(plan.count_regrouped_with(mesh, context).map(drop));
+    let creased = &NormalOptions { crease: 30.0, ..NormalOptions::default() };
+    let (positions, indices, faces) = (mesh.positions(), mesh.indices(), mesh.faces());
+    results.push(generate_normals_with(positions, indices, faces, creased, context).map(drop));
+    results.push(NormalPlan::new_with(positions, indices, faces, creased, context).map(drop));
+    results.push(normals.evaluate_with(positions, context).map(drop));
+    results.push(measure_tangents_with(tangents, tangents, context).map(drop));
+    results.push(measure_uv_fidelity_with(mesh, tangents, context).map(drop));
+    results.push(split_vertices_with(mesh, &plan.base().corners, context).map(drop));
+    results.push(Splitter::new_with(mesh.vertex_count(), context).add(mesh, &plan.base().corners).map(drop));
+    let zeros = vec![[0.0; 3]; mesh.corner_count()];
+    results.push(split_normals_with(mesh.vertex_count(), indices, &zeros, context).map(drop));
+    results
 }
 
 #[test]
-fn every_function_says_that_it_was_stopped() {
+fn every_function_returns_that_it_was_cancelled() {
     for (mesh, threads) in
         [(families::grid(4, 3, true, true), 1), (families::grid(160, 150, false, false), 3)]
     {
@@ -79,20 +99,22 @@ fn every_function_says_that_it_was_stopped() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
         pool.install(|| {
             let cancel = Cancel::new();
-            assert!(said(&cancel, &mesh, &plan, &normals).iter().all(Result::is_ok));
+            let mut context = Context::new().with_cancel(&cancel);
+            assert!(results(&mut context, &mesh, &plan, &normals).iter().all(Result::is_ok));
             cancel.cancel();
-            let said_then = said(&cancel, &mesh, &plan, &normals);
-            assert!(said_then.iter().all(|said| *said == Err(MeshError::Cancelled)), "{said_then:?}");
-            assert_eq!(said_then.len(), 9);
-            // What comes after a run does not hear it.
-            assert!(said(&Cancel::new(), &mesh, &plan, &normals).iter().all(Result::is_ok));
-            assert!(plan.evaluate(&mesh).is_ok());
+            let after = results(&mut context, &mesh, &plan, &normals);
+            assert!(after.iter().all(|result| *result == Err(MeshError::Cancelled)), "{after:?}");
+            assert_eq!(after.len(), 17);
+            // Other contexts are not concerned, and this one is usable again without the token.
+            assert!(results(&mut Context::new(), &mesh, &plan, &normals).iter().all(Result::is_ok));
+            context.set_cancel(None);
+            assert!(results(&mut context, &mesh, &plan, &normals).iter().all(Result::is_ok));
         });
     }
 }
 
 #[test]
-fn a_stopped_run_leaves_scratch_and_plan_whole() {
+fn a_cancelled_run_leaves_context_and_plan_usable() {
     let [mesh, moved] = [1.0, 1.5].map(|scale| {
         let mut mesh = families::grid(40, 30, false, true);
         mesh.positions.iter_mut().for_each(|position| position[2] *= scale);
@@ -100,14 +122,13 @@ fn a_stopped_run_leaves_scratch_and_plan_whole() {
     });
     let (view, moved, options) = (mesh.view(), moved.view(), options(180.0));
     let (plan, fresh) = (Plan::new(&view, &options), Plan::new(&view, &options));
-    let (mut scratch, mut corners) = (Scratch::new(), vec![[0.0; 4]; mesh.corner_count()]);
+    let mut corners = vec![[0.0; 4]; mesh.corner_count()];
     let cancel = Cancel::new();
     cancel.cancel();
-    let stopped = cancel.run(|| {
-        _ = write_tangents(&view, &options, &mut scratch, &mut corners);
-        _ = plan.evaluate(&moved);
-    });
-    assert_eq!(stopped, Err(MeshError::Cancelled));
-    plan.write_tangents(&moved, &mut scratch, &mut corners).unwrap();
+    let mut context = Context::new().with_cancel(&cancel);
+    assert!(write_tangents(&view, &options, &mut context, &mut corners).is_err());
+    assert!(plan.evaluate_with(&moved, &mut context).is_err());
+    context.set_cancel(None);
+    plan.write_tangents(&moved, &mut context, &mut corners).unwrap();
     assert_eq!(&corners, fresh.evaluate(&moved).unwrap().per_corner());
 }

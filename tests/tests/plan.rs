@@ -1,6 +1,6 @@
 //! Plans on meshes that move.
 
-use darboux::{Method, Mode, Plan, Scratch, TangentOptions, generate_tangents};
+use darboux::{Context, Method, Mode, Plan, TangentOptions, generate_tangents};
 use darboux_tests::{Case, FaceSizes, OwnedMesh, families};
 
 /// A plan of `base` on `moved`.
@@ -83,9 +83,9 @@ fn a_waving_surface_keeps_its_groups() {
             position[2] += 0.05 * (3.0 * position[0]).sin() * (2.0 * position[1]).cos();
         }
         let plan = Plan::new(&base.view(), &options);
-        let (mut scratch, mut tangents) = (Scratch::new(), Default::default());
+        let mut context = Context::new();
         for mesh in [&waving, &base, &waving] {
-            plan.evaluate_into(&mesh.view(), &mut scratch, &mut tangents).expect("the same mesh, moved");
+            let tangents = plan.evaluate_with(&mesh.view(), &mut context).expect("the same mesh, moved");
             let fresh = generate_tangents(&mesh.view(), &options).corners;
             assert_eq!(tangents.per_corner(), fresh.per_corner());
             assert_eq!(plan.count_regrouped(&mesh.view()), Ok(0));

@@ -2,9 +2,10 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
+use darboux::internal::width_limit::{self, WidthLimit};
 use darboux::{
-    Faces, Indices, Mesh, Method, Mode, Plan, Scratch, TangentOptions, Tangents, WidthLimit, generate_frames,
-    generate_tangents, generate_tangents_into,
+    Context, Faces, Indices, Mesh, Method, Mode, Plan, TangentOptions, generate_frames, generate_tangents,
+    generate_tangents_with,
 };
 
 /// A wavy grid of quads whose UVs are mirrored from one half to the other: vertices, and triangles in order.
@@ -65,16 +66,15 @@ fn for_each_layout(shape: &Shape<'_>, mut take: impl FnMut(&Mesh<'_>)) {
 
 /// Hashes of the tangents and reports in some runs; plans give the same tangents.
 fn hash(shape: &Shape<'_>, runs: &[(Method, Mode)]) -> u64 {
-    hash_with(Scratch::new(), shape, runs)
+    hash_with(Context::new(), shape, runs)
 }
 
-fn hash_with(mut scratch: Scratch, shape: &Shape<'_>, runs: &[(Method, Mode)]) -> u64 {
+fn hash_with(mut context: Context, shape: &Shape<'_>, runs: &[(Method, Mode)]) -> u64 {
     let mut hasher = DefaultHasher::new();
-    let mut tangents = Tangents::default();
     for_each_layout(shape, |mesh| {
         for &(method, mode) in runs {
             let options = TangentOptions { method, mode, ..TangentOptions::default() };
-            generate_tangents_into(mesh, &options, &mut scratch, &mut tangents);
+            let tangents = generate_tangents_with(mesh, &options, &mut context).expect("not cancelled");
             let corners = tangents.corners.per_corner();
             corners.iter().for_each(|tangent| tangent.map(f32::to_bits).hash(&mut hasher));
             format!("{:?}", tangents.report).hash(&mut hasher);
@@ -164,12 +164,11 @@ fn plans_after_larger_meshes() {
     let small = Mesh::triangles(&small.0, &small.1, &small.2, Indices::U32(shuffled.as_flattened())).unwrap();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(4).build().expect("a thread pool");
     pool.install(|| {
-        let (options, mut scratch) = (TangentOptions::default(), Scratch::new());
-        let mut tangents = Tangents::default();
-        generate_tangents_into(&large, &options, &mut scratch, &mut tangents);
+        let (options, mut context) = (TangentOptions::default(), Context::new());
+        _ = generate_tangents_with(&large, &options, &mut context).expect("not cancelled");
         let plan = Plan::new(&small, &options);
         let mut corners = vec![[0.0; 4]; small.corner_count()];
-        plan.write_tangents(&small, &mut scratch, &mut corners).expect("the same mesh");
+        plan.write_tangents(&small, &mut context, &mut corners).expect("the same mesh");
         assert_eq!(corners, plan.base().corners.per_corner());
     });
 }
@@ -228,7 +227,7 @@ fn every_width() {
     (0..40).for_each(|at| vertices[at * 71][3..6].fill([0.0, 1e-12][at % 2]));
     (0..40).for_each(|at| triangles[at * 97][1] = triangles[at * 97][0]);
     let shape = Shape { vertices: &vertices, corners: triangles.as_flattened(), faces: Faces::Triangles };
-    let hash = |width| hash_with(Scratch::with_width_limit(width), &shape, &SUMS);
+    let hash = |width| hash_with(width_limit::context(width), &shape, &SUMS);
     let compiled = hash(WidthLimit::Compiled);
     assert_eq!([WidthLimit::Bits256, WidthLimit::Bits512].map(hash), [compiled; 2]);
 }

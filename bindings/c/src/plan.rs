@@ -1,6 +1,6 @@
 //! Topology once, evaluate often.
 
-use darboux::{Plan, on_this_thread};
+use darboux::{Context, Plan};
 
 use crate::mesh::{self, darboux_mesh};
 use crate::pointers::{Output, Receiver, hand_out, held, take_back};
@@ -28,7 +28,10 @@ pub unsafe extern "C" fn darboux_plan_create(
     let make = || {
         // SAFETY: every pointer is as the documentation above says.
         let (mesh, (options, scratch)) = unsafe { (mesh::view(mesh)?, self::options(options)?) };
-        let plan = scratch::run(scratch.as_deref(), mesh.corner_count(), || Plan::new(&mesh, &options));
+        let context = &mut Context::new();
+        let plan = scratch::run(scratch.as_deref(), mesh.corner_count(), context, |context| {
+            Plan::new_with(&mesh, &options, context)
+        })?;
         Ok(darboux_plan { plan })
     };
     // SAFETY: `plan` is null or may be written.
@@ -108,7 +111,8 @@ pub unsafe extern "C" fn darboux_plan_count_regrouped(
         // SAFETY: every pointer is as the documentation above says.
         let (plan, mesh, out) =
             unsafe { (held("plan", plan)?, mesh::view(mesh)?, Output::new("count", count.cast(), 1, 0)?) };
-        out.copy(&[on_this_thread(|| plan.plan.count_regrouped(&mesh))?]);
+        let context = &mut Context::new().with_max_threads(1);
+        out.copy(&[plan.plan.count_regrouped_with(&mesh, context)?]);
         Ok(())
     })
 }

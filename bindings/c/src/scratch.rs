@@ -2,7 +2,7 @@
 
 use std::thread::{Builder, JoinHandle, available_parallelism};
 
-use darboux::{MeshError, Scratch, on_this_thread};
+use darboux::{Context, MeshError};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::pointers::{self, Output};
@@ -19,7 +19,7 @@ pub struct darboux_scratch {
 
 #[derive(Default)]
 pub(crate) struct Memory {
-    pub scratch: Scratch,
+    pub context: Context,
     /// Results on their way to arrays that the core cannot write.
     tangents: Vec<[f32; 4]>,
 }
@@ -72,14 +72,21 @@ impl Drop for Threads {
 }
 
 /// Does a call's work on the threads of its scratch, if so many corners are worth it; else on the calling thread.
-pub(crate) fn run<R: Send>(
+pub(crate) fn run<'a, R: Send>(
     scratch: Option<&darboux_scratch>,
     corners: usize,
-    work: impl FnOnce() -> R + Send,
+    context: &'a mut Context,
+    work: impl FnOnce(&'a mut Context) -> R + Send,
 ) -> R {
     match scratch.and_then(|scratch| scratch.threads.as_ref()) {
-        Some(threads) if corners >= FEWEST_CORNERS => threads.install(work),
-        _ => on_this_thread(work),
+        Some(threads) if corners >= FEWEST_CORNERS => {
+            context.set_max_threads(usize::MAX);
+            threads.install(|| work(context))
+        }
+        _ => {
+            context.set_max_threads(1);
+            work(context)
+        }
     }
 }
 
@@ -87,10 +94,12 @@ pub(crate) fn run<R: Send>(
 pub(crate) fn fill<R: Send>(
     scratch: Option<&mut darboux_scratch>,
     out: Output<[f32; 4]>,
-    work: impl FnOnce(&mut Scratch, &mut [[f32; 4]]) -> Result<R, MeshError> + Send,
+    work: impl FnOnce(&mut Context, &mut [[f32; 4]]) -> Result<R, MeshError> + Send,
 ) -> Result<R, Error> {
-    let filled = lend(scratch, |kept, Memory { scratch, tangents }| {
-        out.fill(tangents, |corners| run(Some(kept), corners.len(), || work(scratch, corners)))
+    let filled = lend(scratch, |kept, Memory { context, tangents }| {
+        out.fill(tangents, |corners| {
+            run(Some(kept), corners.len(), context, |context| work(context, corners))
+        })
     });
     Ok(filled?)
 }

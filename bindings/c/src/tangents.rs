@@ -180,8 +180,9 @@ pub unsafe extern "C" fn darboux_generate_frames(
         };
         let report_of_run = scratch::lend(scratch, |kept, memory| {
             let corners = mesh.corner_count();
-            let frames =
-                scratch::run(Some(kept), corners, || lend_frames(&mesh, &options, &mut memory.scratch))?;
+            let frames = scratch::run(Some(kept), corners, &mut memory.context, |context| {
+                lend_frames(&mesh, &options, context)
+            })?;
             write(&frames, &out);
             Ok::<_, Error>(frames.report())
         })?;

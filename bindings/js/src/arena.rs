@@ -11,7 +11,7 @@
 
 use std::cell::RefCell;
 
-use darboux::{Scratch, Tangents};
+use darboux::{Context, Report};
 
 use crate::mesh_arrays::{Surface, Vertices};
 
@@ -20,8 +20,9 @@ use crate::mesh_arrays::{Surface, Vertices};
 pub struct Arena {
     pub vertices: Vertices,
     pub surface: Surface,
-    pub tangents: Tangents,
-    pub scratch: Scratch,
+    pub tangents: Vec<[f32; 4]>,
+    pub report: Report,
+    pub context: Context,
     #[cfg(feature = "full")]
     pub extras: crate::extras::Extras,
 }

@@ -19,7 +19,7 @@ pub extern "C" fn generate_frames(mode: u32, threshold: f32, method: u32) -> *co
             bitangents: frames.iter().map(|frame| frame.bitangent).collect(),
             magnitudes: frames.iter().map(|frame| frame.magnitude).collect(),
         };
-        arena.tangents.report = made.report;
+        arena.report = made.report;
         arena.extras.frames.tangents.as_ptr().cast()
     })
 }

@@ -21,7 +21,7 @@ pub extern "C" fn complete_tangents(mode: u32, threshold: f32) -> i32 {
         let Some(mesh) = arena.mesh() else { return -1 };
         let options = tangent_options(mode, threshold, 0);
         let (report, corners) = gpu_resume::complete(&mesh, &options, welded, tangents.as_chunks_mut().0);
-        (arena.extras.given_tangents, arena.tangents.report) = (tangents, report);
+        (arena.extras.given_tangents, arena.report) = (tangents, report);
         corners as i32
     })
 }

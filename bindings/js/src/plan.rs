@@ -16,7 +16,7 @@ pub extern "C" fn make_plan(mode: u32, threshold: f32, method: u32) -> i32 {
     with_arena(|arena| {
         let Some(mesh) = arena.mesh() else { return -1 };
         let plan = Plan::new(&mesh, &tangent_options(mode, threshold, method));
-        arena.tangents.report = plan.base().report;
+        arena.report = plan.base().report;
         let stored = StoredPlan { plan, surface: take(&mut arena.surface) };
         let plans = &mut arena.extras.plans;
         let free = plans.iter().position(Option::is_none).unwrap_or(plans.len());
@@ -38,12 +38,13 @@ pub extern "C" fn plan_base(plan: usize) -> *const f32 {
 #[unsafe(no_mangle)]
 pub extern "C" fn evaluate_plan(plan: usize) -> *const f32 {
     with_arena(|arena| {
-        let Arena { vertices, tangents, scratch, extras, .. } = arena;
+        let Arena { vertices, tangents, context, extras, .. } = arena;
         if let Some((plan, mesh)) = moved_mesh(vertices, extras, plan) {
             // The TypeScript side has checked the number of vertices.
-            _ = plan.evaluate_into(&mesh, scratch, &mut tangents.corners);
+            tangents.resize(mesh.corner_count(), [0.0; 4]);
+            _ = plan.write_tangents(&mesh, context, tangents);
         }
-        tangents.corners.per_corner().as_ptr().cast()
+        tangents.as_ptr().cast()
     })
 }
 

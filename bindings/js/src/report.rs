@@ -20,7 +20,7 @@ pub extern "C" fn report() -> *const f64 {
             split_vertices,
             merged_vertices,
             ..
-        } = arena.tangents.report;
+        } = arena.report;
         let counts = [
             triangles,
             unsupported_faces,

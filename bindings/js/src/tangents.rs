@@ -1,6 +1,6 @@
 //! `generateTangents`: one tangent per corner.
 
-use darboux::generate_tangents_into;
+use darboux::write_tangents;
 
 use crate::arena::{Arena, with_arena};
 use crate::options::tangent_options;
@@ -10,9 +10,11 @@ use crate::options::tangent_options;
 pub extern "C" fn generate_tangents(mode: u32, threshold: f32, method: u32) -> *const f32 {
     let options = tangent_options(mode, threshold, method);
     with_arena(|arena| {
-        let Arena { vertices, surface, tangents, scratch, .. } = arena;
+        let Arena { vertices, surface, tangents, report, context, .. } = arena;
         let Some(mesh) = vertices.mesh(surface) else { return std::ptr::null() };
-        generate_tangents_into(&mesh, &options, scratch, tangents);
-        tangents.corners.per_corner().as_ptr().cast()
+        tangents.resize(mesh.corner_count(), [0.0; 4]);
+        let Ok(counts) = write_tangents(&mesh, &options, context, tangents) else { return std::ptr::null() };
+        *report = counts;
+        tangents.as_ptr().cast()
     })
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::mpsc::Sender;
 
-use darboux::Cancel;
+use darboux::{Cancel, Context};
 use darboux_io::SaveOptions;
 use darboux_io::gltf::{self, LoadOptions, NormalsOptions, Progress, TangentEncoding, TangentsOptions};
 use pyo3::exceptions::{PyIndexError, PyOSError, PyRuntimeError, PyTypeError, PyValueError};
@@ -14,7 +14,6 @@ use serde::Serialize;
 use crate::arrays::rows_array;
 use crate::choices::{choice, tangent_options};
 use crate::convention::convention;
-use crate::mesh::value_error;
 use crate::normals::normal_options;
 use crate::numbers::{degrees, place};
 use crate::threads::attended;
@@ -255,7 +254,9 @@ impl Document {
             strict,
             apply_texture_transform,
         };
-        self.edit(py, progress, |document, report| gltf::add_tangents(document, &options, report))
+        self.edit(py, progress, |document, context, report| {
+            gltf::add_tangents_with(document, &options, context, &mut gltf::on_cpu, report)
+        })
     }
 
     /// Give every triangle primitive its normals; primitives of one mesh are shaded as one surface.
@@ -291,7 +292,9 @@ impl Document {
     ) -> PyResult<Bound<'py, PyAny>> {
         let normals = normal_options(shading, weight, crease, seams)?;
         let options = NormalsOptions { normals, overwrite };
-        self.edit(py, progress, |document, report| gltf::add_normals(document, &options, report))
+        self.edit(py, progress, |document, context, report| {
+            gltf::add_normals_with(document, &options, context, report)
+        })
     }
 
     /// Convert the vertex data of every primitive from one convention to another.
@@ -320,7 +323,9 @@ impl Document {
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (source, target) = (convention("source", source)?, convention("target", target)?);
-        self.edit(py, progress, |document, report| gltf::convert_vertices(document, source, target, report))
+        self.edit(py, progress, |document, _, report| {
+            gltf::convert_vertices(document, source, target, report)
+        })
     }
 }
 
@@ -354,27 +359,32 @@ impl Document {
         &mut self,
         py: Python<'py>,
         progress: Option<&Bound<'py, PyAny>>,
-        edit: impl FnOnce(&mut gltf::Document, &mut dyn FnMut(Progress)) -> Result<S, darboux_io::Error> + Send,
+        edit: impl FnOnce(
+            &mut gltf::Document,
+            &mut Context,
+            &mut dyn FnMut(Progress),
+        ) -> Result<S, darboux_io::Error>
+        + Send,
     ) -> PyResult<Bound<'py, PyAny>> {
         if let Some(progress) = progress.filter(|progress| !progress.is_callable()) {
             let kind = progress.get_type().name()?;
             return Err(PyTypeError::new_err(format!("progress must be callable, not {kind}")));
         }
         self.whole()?;
-        // The core stops within a primitive and darboux-io goes on with what is there, so only an edit's end makes the document good again.
+        // An edit that was cancelled or failed leaves some primitives changed, and others not.
         self.is_half_done = true;
         let (document, cancel) = (&mut self.document, &Cancel::new());
         let work = move |sender: &Sender<Progress>| {
             // The listener stays until the sender is gone.
             let mut report = |progress| _ = sender.send(progress);
-            cancel.run(|| edit(document, &mut report))
+            edit(document, &mut Context::new().with_cancel(cancel), &mut report)
         };
         let receive = |Progress { done, total }| match progress {
             Some(progress) => progress.call1((done, total)).map(drop),
             None => Ok(()),
         };
         let edited = attended(py, 0, work, receive, || cancel.cancel())?;
-        let summary = edited.map_err(value_error)?.map_err(file_error)?;
+        let summary = edited.map_err(file_error)?;
         self.is_half_done = false;
         python_of(py, &summary)
     }

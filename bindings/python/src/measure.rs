@@ -1,12 +1,12 @@
 //! How far tangents are apart, and how well they follow the UVs.
 
-use darboux::{Mesh, Strided};
+use darboux::{Context, Mesh, Strided};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 
 use crate::arrays::Rows;
-use crate::mesh::{FaceSizes, IndexArray, value_error};
+use crate::mesh::{FaceSizes, IndexArray};
 use crate::results::named;
 use crate::threads::cancellable;
 
@@ -34,8 +34,9 @@ pub fn measure_tangents<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let (a, b) = (Rows::new("a", "C", a)?, Rows::new("b", "C", b)?);
     let (a, b) = (a.packed()?, b.packed()?);
-    let found = cancellable(py, None, (a.len(), false), || darboux::measure_tangents(&a, &b))?
-        .map_err(value_error)?;
+    let found = cancellable(py, None, (a.len(), false), &mut Context::new(), |context| {
+        darboux::measure_tangents_with(&a, &b, context)
+    })?;
     let fields = (
         found.corners,
         found.identical,
@@ -89,11 +90,10 @@ pub fn measure_uv_fidelity<'py>(
     let tangents = tangents.packed()?;
     let (positions, uvs, list) = (positions.view()?, uvs.view()?, indices.view()?);
     let faces = FaceSizes::new(faces, &indices, positions.len())?;
-    let found = cancellable(py, None, (tangents.len(), false), || {
+    let found = cancellable(py, None, (tangents.len(), false), &mut Context::new(), |context| {
         let unread = Strided::repeated(&[0.0; 3], positions.len());
         let mesh = Mesh::with_faces(positions, unread, uvs, list, faces.view())?;
-        darboux::measure_uv_fidelity(&mesh, &tangents)
+        darboux::measure_uv_fidelity_with(&mesh, &tangents, context)
     })?;
-    let found = found.map_err(value_error)?;
     named(py, "UvFidelity", (found.mean, found.root_mean_square, found.area, found.left_out))
 }

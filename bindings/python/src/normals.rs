@@ -1,12 +1,12 @@
 //! Normals of corners.
 
-use darboux::{NormalOptions, NormalWeight, Shading, SmoothingSeams};
+use darboux::{Context, NormalOptions, NormalWeight, Shading, SmoothingSeams};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arrays::{Rows, rows_array};
 use crate::choices::choice;
-use crate::mesh::{FaceSizes, IndexArray, value_error};
+use crate::mesh::{FaceSizes, IndexArray};
 use crate::numbers::degrees;
 use crate::results::named;
 use crate::threads::cancellable;
@@ -86,9 +86,10 @@ pub fn generate_normals<'py>(
     let (positions, list) = (positions.view()?, indices.view()?);
     let faces = FaceSizes::new(faces, &indices, positions.len())?;
     let size = (indices.len().unwrap_or(positions.len()), false);
-    let made =
-        cancellable(py, None, size, || darboux::generate_normals(positions, list, faces.view(), &options))?;
-    let darboux::Normals { corners, report } = made.map_err(value_error)?;
+    let generate = |context: &mut Context| {
+        darboux::generate_normals_with(positions, list, faces.view(), &options, context)
+    };
+    let darboux::Normals { corners, report } = cancellable(py, None, size, &mut Context::new(), generate)?;
     let normals = rows_array(py, corners)?.into_any();
     if !return_report {
         return Ok(normals);

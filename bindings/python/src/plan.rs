@@ -2,7 +2,7 @@
 
 use std::sync::Mutex;
 
-use darboux::{Indices, Mesh, Scratch};
+use darboux::{Context, Indices, Mesh};
 use pyo3::prelude::*;
 
 use crate::arrays::{Rows, rows_array};
@@ -30,7 +30,7 @@ pub struct Plan {
     faces: FaceSizes,
     is_slow: bool,
     /// Memory that evaluations keep from one to the next. Two at once do not share it.
-    scratch: Mutex<Scratch>,
+    context: Mutex<Context>,
 }
 
 /// The vertices of a mesh that moved.
@@ -80,10 +80,12 @@ impl Plan {
         let arrays = MeshArrays::new(positions, normals, uvs, indices, faces)?;
         let mesh = arrays.view()?;
         let size = (mesh.corner_count(), is_slow(&options));
-        let plan = cancellable(py, threads, size, || darboux::Plan::new(&mesh, &options))?;
+        let plan = cancellable(py, threads, size, &mut Context::new(), |context| {
+            darboux::Plan::new_with(&mesh, &options, context)
+        })?;
         let (uvs, indices) = (arrays.uvs.packed()?.into_owned(), owned(mesh.indices()));
         let is_slow = is_slow(&options);
-        Ok(Self { plan, uvs, indices, faces: arrays.faces, is_slow, scratch: Mutex::default() })
+        Ok(Self { plan, uvs, indices, faces: arrays.faces, is_slow, context: Mutex::default() })
     }
 
     /// The tangents of the mesh that the plan was made of: a new (C, 4) float32 array, as generate_tangents gives it.
@@ -129,13 +131,9 @@ impl Plan {
         let mesh = self.moved(&moved)?;
         let size = (self.corner_count(), self.is_slow);
         let filled = Target::new(py, out, self.corner_count())?.fill(py, |out| {
-            let write = || {
-                let (mut own, kept) = (Scratch::new(), self.scratch.try_lock());
-                let mut kept = kept.ok();
-                let scratch = kept.as_deref_mut().unwrap_or(&mut own);
-                self.plan.write_tangents(&mesh, scratch, out)
-            };
-            cancellable(py, threads, size, write)?.map_err(value_error)
+            let (mut own, mut kept) = (Context::new(), self.context.try_lock().ok());
+            let context = kept.as_deref_mut().unwrap_or(&mut own);
+            cancellable(py, threads, size, context, |context| self.plan.write_tangents(&mesh, context, out))
         });
         filled.map(|(tangents, ())| tangents)
     }
@@ -149,8 +147,8 @@ impl Plan {
     ) -> PyResult<usize> {
         let moved = Moved::new(positions, normals)?;
         let mesh = self.moved(&moved)?;
-        let count =
-            cancellable(py, None, (self.corner_count(), self.is_slow), || self.plan.count_regrouped(&mesh))?;
-        count.map_err(value_error)
+        let size = (self.corner_count(), self.is_slow);
+        let count = |context: &mut Context| self.plan.count_regrouped_with(&mesh, context);
+        cancellable(py, None, size, &mut Context::new(), count)
     }
 }

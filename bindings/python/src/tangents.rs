@@ -2,13 +2,13 @@
 
 use std::sync::Mutex;
 
-use darboux::{Mesh, Scratch, TangentOptions, lend_frames};
+use darboux::{Context, Mesh, TangentOptions, lend_frames};
 use numpy::prelude::*;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::choices::{is_slow, tangent_options};
-use crate::mesh::{MeshArrays, value_error};
+use crate::mesh::MeshArrays;
 use crate::numbers::{Threads, degrees};
 use crate::out::{Target, fresh};
 use crate::results::{self, named};
@@ -90,15 +90,13 @@ pub fn generate_tangents<'py>(
     } else {
         let (corners, keeps) = (mesh.corner_count(), out.is_some());
         Target::new(py, out, corners)?.fill(py, |out| {
-            let write = || {
-                let mut scratch = if keeps { take_scratch() } else { Scratch::new() };
-                let report = darboux::write_tangents(&mesh, &options, &mut scratch, out);
-                if keeps {
-                    keep_scratch(scratch);
-                }
-                report
-            };
-            cancellable(py, threads, (corners, is_slow(&options)), write)?.map_err(value_error)
+            let mut context = if keeps { take_context() } else { Context::new() };
+            let write = |context: &mut Context| darboux::write_tangents(&mesh, &options, context, out);
+            let report = cancellable(py, threads, (corners, is_slow(&options)), &mut context, write);
+            if keeps {
+                keep_context(context);
+            }
+            report
         })?
     };
     if return_report {
@@ -110,15 +108,15 @@ pub fn generate_tangents<'py>(
 
 /// What calls with `out` keep from one to the next: who gives an array again and again wants nothing allocated. Two at once do not
 /// share it.
-static KEPT: Mutex<Option<Scratch>> = Mutex::new(None);
+static KEPT: Mutex<Option<Context>> = Mutex::new(None);
 
-fn take_scratch() -> Scratch {
+fn take_context() -> Context {
     KEPT.try_lock().ok().and_then(|mut kept| kept.take()).unwrap_or_default()
 }
 
-fn keep_scratch(scratch: Scratch) {
+fn keep_context(context: Context) {
     if let Ok(mut kept) = KEPT.try_lock() {
-        *kept = Some(scratch);
+        *kept = Some(context);
     }
 }
 
@@ -138,13 +136,12 @@ fn frames<'py>(
         let tangents = tangents.as_slice_mut()?.as_chunks_mut().0;
         let bitangents = bitangents.as_slice_mut()?.as_chunks_mut().0;
         let magnitudes = magnitudes.as_slice_mut()?.as_chunks_mut().0;
-        let write = || {
-            let mut scratch = Scratch::new();
-            let frames = lend_frames(mesh, options, &mut scratch)?;
+        let write = |context: &mut Context| {
+            let frames = lend_frames(mesh, options, context)?;
             frames.write_apart(tangents, bitangents, magnitudes)?;
             Ok(frames.report())
         };
-        cancellable(py, threads, (corners, is_slow(options)), write)?.map_err(value_error)?
+        cancellable(py, threads, (corners, is_slow(options)), &mut Context::new(), write)?
     };
     Ok((named(py, "Frames", (tangents, bitangents, magnitudes))?, report))
 }

@@ -8,7 +8,7 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use darboux::Cancel;
+use darboux::{Cancel, Context, MeshError};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -59,21 +59,25 @@ fn pool(threads: usize) -> PyResult<Arc<ThreadPool>> {
     Ok(pool)
 }
 
-/// Does `work` over so many corners without the GIL, and takes Ctrl-C meanwhile, which stops the core. `is_slow`: it may take its size
-/// squared.
+/// Does `work` over so many corners without the GIL, with `context`. Ctrl-C cancels it. `is_slow`: it may take time in the square of
+/// its size.
 pub fn cancellable<R: Send>(
     py: Python<'_>,
     threads: Option<Threads>,
     (corners, is_slow): (usize, bool),
-    work: impl FnOnce() -> R + Send,
+    context: &mut Context,
+    work: impl FnOnce(&mut Context) -> Result<R, MeshError> + Send,
 ) -> PyResult<R> {
     if corners < FEWEST_CORNERS && !is_slow {
-        return Ok(py.detach(|| darboux::on_this_thread(work)));
+        context.set_cancel(None);
+        context.set_max_threads(1);
+        return py.detach(|| work(context)).map_err(value_error);
     }
     let cancel = Cancel::new();
-    let done =
-        attended(py, Threads::or_all(threads), |_| cancel.run(work), |(): ()| Ok(()), || cancel.cancel())?;
-    done.map_err(value_error)
+    context.set_cancel(Some(&cancel));
+    context.set_max_threads(usize::MAX);
+    let work = |_: &Sender<()>| work(context);
+    attended(py, Threads::or_all(threads), work, |()| Ok(()), || cancel.cancel())?.map_err(value_error)
 }
 
 /// How often Python is asked for Ctrl-C while work goes on elsewhere.

@@ -34,6 +34,7 @@ pub use inspect::{PrimitiveInfo, inspect};
 pub use materials::{Alpha, Appearance, TextureUse, Wrap};
 pub use normals::{
     NormalsOptions, NormalsOutcome, NormalsSummary, PrimitiveNormals, WrittenNormals, add_normals,
+    add_normals_with,
 };
 pub use primitives::corners::PrimitiveCorners;
 pub use primitives::name::PrimitiveName;
@@ -43,5 +44,5 @@ pub use schema::{ComponentType, ElementType};
 pub use stored_elements::IndexList;
 pub use tangents::{
     Counts, Generate, Outcome, PrimitiveSummary, Summary, TangentEncoding, TangentsOptions, Totals, Written,
-    add_tangents, add_tangents_with,
+    add_tangents, add_tangents_with, on_cpu,
 };

@@ -3,3 +3,4 @@
 pub mod gpu_plan;
 pub mod gpu_resume;
 pub mod stage_arrays;
+pub mod width_limit;

@@ -25,6 +25,7 @@
 )]
 
 mod cancel;
+mod context;
 mod convention;
 pub mod encode;
 mod exec;
@@ -44,25 +45,27 @@ mod transform;
 mod util;
 
 pub use cancel::Cancel;
+pub use context::Context;
 pub use convention::{
     Axes, Axis, BitangentDirection, Convention, ConventionError, Conversion, Handedness, SignRule,
     TangentDirection, UvOrigin, Winding,
 };
 pub use frame::{CornerFrames, CornerTangents, CornerTangentsRef, Frame};
 pub use measure::{
-    CornerDifference, HISTOGRAM_ENDS, TangentDifference, UvFidelity, measure_tangents, measure_uv_fidelity,
-    triangle_area,
+    CornerDifference, HISTOGRAM_ENDS, TangentDifference, UvFidelity, measure_tangents, measure_tangents_with,
+    measure_uv_fidelity, measure_uv_fidelity_with, triangle_area,
 };
 pub use mesh::{Faces, Indices, Mesh, MeshError, Strided};
 pub use normal_map::{Channel, TexelLayout, repack_texels};
 pub use normals::{
     NormalOptions, NormalPlan, NormalReport, NormalSplit, NormalWeight, Normals, Shading, SmoothingSeams,
-    generate_normals, split_normals,
+    generate_normals, generate_normals_with, split_normals, split_normals_with,
 };
 pub use plan::Plan;
-pub use split::{Splitter, VertexSplit, split_vertices};
+pub use split::{Splitter, VertexSplit, split_vertices, split_vertices_with};
 pub use tangents::{
-    Frames, LentFrames, Method, Mode, Report, Scratch, TangentOptions, Tangents, WidthLimit, generate_frames,
-    generate_tangents, generate_tangents_into, lend_frames, on_this_thread, write_frames, write_tangents,
+    Frames, LentFrames, Method, Mode, Report, TangentOptions, Tangents, generate_frames,
+    generate_frames_with, generate_tangents, generate_tangents_with, lend_frames, write_frames,
+    write_tangents,
 };
 pub use transform::Transform;

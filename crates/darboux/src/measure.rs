@@ -1,9 +1,9 @@
 //! How far two sets of tangents are apart, and how well tangents follow the UVs.
 
+use crate::Context;
 use crate::Faces;
 use crate::Mesh;
 use crate::MeshError;
-use crate::cancel::Stop;
 use crate::math::V3;
 use crate::split::expect;
 
@@ -76,12 +76,21 @@ impl CornerDifference {
 /// `a`, `b`: one tangent per corner ([`CornerTangents::per_corner`](crate::CornerTangents::per_corner)) of the same mesh, in the same
 /// convention. Errors: another number of corners.
 pub fn measure_tangents(a: &[[f32; 4]], b: &[[f32; 4]]) -> Result<TangentDifference, MeshError> {
+    measure_tangents_with(a, b, &Context::new())
+}
+
+/// As [`measure_tangents`], with a context. Further error: the context's token was cancelled.
+pub fn measure_tangents_with(
+    a: &[[f32; 4]],
+    b: &[[f32; 4]],
+    context: &Context,
+) -> Result<TangentDifference, MeshError> {
     expect("corners", a.len(), b.len())?;
-    let stop = Stop::heard();
+    let limits = context.limits();
     let mut out = TangentDifference { corners: a.len(), ..TangentDifference::default() };
     let mut angles = Vec::with_capacity(a.len());
     for (corner, (a, b)) in a.iter().zip(b).enumerate() {
-        stop.check_at(corner)?;
+        limits.check_at(corner)?;
         let difference = CornerDifference::between(*a, *b);
         out.identical += usize::from(difference.is_identical);
         out.sign_flips += usize::from(difference.flips_sign);
@@ -127,13 +136,22 @@ pub struct UvFidelity {
 /// Each triangle is sampled at the centres of 16 equal parts. There the three corners' tangents are interpolated linearly and compared,
 /// as directions in space, with the triangle's dP/du. A part of the angle is not the tangents' fault: they are perpendicular to
 /// smoothed normals, dP/du lies in the face. `tangents`: one per corner. Quads count as the halves of diagonal 0-2. Errors: tangents of another number
-/// of corners; a run that was [cancelled](crate::Cancel::run).
+/// of corners.
 pub fn measure_uv_fidelity(mesh: &Mesh<'_>, tangents: &[[f32; 4]]) -> Result<UvFidelity, MeshError> {
+    measure_uv_fidelity_with(mesh, tangents, &Context::new())
+}
+
+/// As [`measure_uv_fidelity`], with a context. Further error: the context's token was cancelled.
+pub fn measure_uv_fidelity_with(
+    mesh: &Mesh<'_>,
+    tangents: &[[f32; 4]],
+    context: &Context,
+) -> Result<UvFidelity, MeshError> {
     expect("corners", mesh.corner_count(), tangents.len())?;
-    let (mut out, stop) = (UvFidelity::default(), Stop::heard());
+    let (mut out, limits) = (UvFidelity::default(), context.limits());
     let (mut sum, mut squares) = (0.0, 0.0);
     for (number, triangle) in triangles(mesh).enumerate() {
-        stop.check_at(number)?;
+        limits.check_at(number)?;
         let Some((u_direction, area)) = u_direction_and_area(mesh, triangle) else {
             out.left_out += 1;
             continue;

@@ -6,6 +6,7 @@
 
 use std::collections::HashMap;
 
+use crate::Context;
 use crate::CornerTangents;
 use crate::Faces;
 use crate::Indices;
@@ -13,7 +14,7 @@ use crate::Mesh;
 use crate::MeshError;
 use crate::Splitter;
 use crate::Strided;
-use crate::cancel::Stop;
+use crate::exec::limits::RunLimits;
 use crate::math::angle;
 use crate::split::expect;
 
@@ -102,15 +103,26 @@ pub struct NormalReport {
 ///
 /// `positions`: V by 3, any values; `indices`: one per corner; `faces`: how corners make faces, of any size from 3 on (smaller ones are
 /// degenerate). Faces wind counter-clockwise seen from where their normal points. Errors: an index out of range, corners that do not
-/// make whole faces, too many corners, a run that was [cancelled](crate::Cancel::run).
+/// make whole faces, too many corners.
 pub fn generate_normals<'a>(
     positions: impl Into<Strided<'a, 3>>,
     indices: impl Into<Indices<'a>>,
     faces: Faces<'a>,
     options: &NormalOptions,
 ) -> Result<Normals, MeshError> {
+    generate_normals_with(positions, indices, faces, options, &Context::new())
+}
+
+/// As [`generate_normals`], with a context. Further error: the context's token was cancelled.
+pub fn generate_normals_with<'a>(
+    positions: impl Into<Strided<'a, 3>>,
+    indices: impl Into<Indices<'a>>,
+    faces: Faces<'a>,
+    options: &NormalOptions,
+    context: &Context,
+) -> Result<Normals, MeshError> {
     let positions = positions.into();
-    NormalPlan::new(positions, indices, faces, options)?.evaluate(positions)
+    NormalPlan::new_with(positions, indices, faces, options, context)?.evaluate_with(positions, context)
 }
 
 /// The smoothed vertices and creases of one mesh, kept to compute its normals again after its vertices moved (morph targets, skinning).
@@ -136,9 +148,20 @@ impl NormalPlan {
         faces: Faces<'a>,
         options: &NormalOptions,
     ) -> Result<Self, MeshError> {
-        let (mesh, stop) = (bare_mesh(positions.into(), indices.into(), faces)?, Stop::heard());
-        let vertex_of_corner = vertices_of_corners(&mesh, options.seams, &stop)?;
-        let (fan_of_corner, creased_edges) = fans_of_corners(&mesh, &vertex_of_corner, options, &stop)?;
+        Self::new_with(positions, indices, faces, options, &Context::new())
+    }
+
+    /// As [`NormalPlan::new`], with a context. Further error: the context's token was cancelled.
+    pub fn new_with<'a>(
+        positions: impl Into<Strided<'a, 3>>,
+        indices: impl Into<Indices<'a>>,
+        faces: Faces<'a>,
+        options: &NormalOptions,
+        context: &Context,
+    ) -> Result<Self, MeshError> {
+        let (mesh, limits) = (bare_mesh(positions.into(), indices.into(), faces)?, context.limits());
+        let vertex_of_corner = vertices_of_corners(&mesh, options.seams, limits)?;
+        let (fan_of_corner, creased_edges) = fans_of_corners(&mesh, &vertex_of_corner, options, limits)?;
         let is_flat = options.shading == Shading::Flat;
         Ok(Self {
             vertex_count: mesh.vertex_count(),
@@ -160,13 +183,22 @@ impl NormalPlan {
     ///
     /// `positions`: as many as before. Errors: another number.
     pub fn evaluate<'a>(&self, positions: impl Into<Strided<'a, 3>>) -> Result<Normals, MeshError> {
+        self.evaluate_with(positions, &Context::new())
+    }
+
+    /// As [`NormalPlan::evaluate`], with a context. Further error: the context's token was cancelled.
+    pub fn evaluate_with<'a>(
+        &self,
+        positions: impl Into<Strided<'a, 3>>,
+        context: &Context,
+    ) -> Result<Normals, MeshError> {
         let positions = positions.into();
         expect("vertices", self.vertex_count, positions.len())?;
         let faces = self.sizes.as_deref().map_or(Faces::Triangles, Faces::Mixed);
         let mesh = bare_mesh(positions, Indices::U32(&self.indices), faces)?;
-        let stop = Stop::heard();
-        let polygons = Polygons::new(&mesh, &stop)?;
-        let fans = polygons.sums(&mesh, &self.fan_of_corner, self.weight, &stop);
+        let limits = context.limits();
+        let polygons = Polygons::new(&mesh, limits)?;
+        let fans = polygons.sums(&mesh, &self.fan_of_corner, self.weight, limits);
         let mut repaired_corners = 0;
         let mut vertices = None;
         let normal = |corner: usize| {
@@ -174,13 +206,13 @@ impl NormalPlan {
             repaired_corners += usize::from(found.is_none());
             let own = || polygons.normal_of_face[polygons.face_of_corner[corner] as usize];
             let of_vertex = || {
-                let sums = || polygons.sums(&mesh, &self.vertex_of_corner, self.weight, &stop);
+                let sums = || polygons.sums(&mesh, &self.vertex_of_corner, self.weight, limits);
                 vertices.get_or_insert_with(sums)[self.vertex_of_corner[corner] as usize].direction()
             };
             found.or_else(own).or_else(of_vertex).unwrap_or([0.0, 0.0, 1.0]).map(|x| x as f32)
         };
         let corners = (0..mesh.corner_count()).map(normal).collect();
-        stop.check()?;
+        limits.check()?;
         let report = NormalReport {
             faces: mesh.face_count(),
             degenerate_faces: polygons.normal_of_face.iter().filter(|normal| normal.is_none()).count(),
@@ -211,10 +243,20 @@ pub fn split_normals<'a>(
     indices: impl Into<Indices<'a>>,
     corners: &[[f32; 3]],
 ) -> Result<NormalSplit, MeshError> {
+    split_normals_with(vertex_count, indices, corners, &Context::new())
+}
+
+/// As [`split_normals`], with a context. Further error: the context's token was cancelled.
+pub fn split_normals_with<'a>(
+    vertex_count: usize,
+    indices: impl Into<Indices<'a>>,
+    corners: &[[f32; 3]],
+    context: &Context,
+) -> Result<NormalSplit, MeshError> {
     let size = [corners.len() as u32];
     let positions = Strided::repeated(&[0.0; 3], vertex_count);
     let mesh = bare_mesh(positions, indices.into(), Faces::Mixed(&size))?;
-    let mut splitter = Splitter::new(vertex_count);
+    let mut splitter = Splitter::new_with(vertex_count, context);
     // As tangents of sign zero, which no unused vertex has.
     let tangents = CornerTangents(corners.iter().map(|&[x, y, z]| [x, y, z, 0.0]).collect());
     let indices = splitter.add(&mesh, &tangents)?;
@@ -263,7 +305,7 @@ impl WeightedNormal {
 }
 
 impl Polygons {
-    fn new(mesh: &Mesh<'_>, stop: &Stop) -> Result<Self, MeshError> {
+    fn new(mesh: &Mesh<'_>, limits: RunLimits<'_>) -> Result<Self, MeshError> {
         let mut polygons = Self {
             face_of_corner: Vec::with_capacity(mesh.corner_count()),
             ends: Vec::with_capacity(mesh.face_count()),
@@ -271,7 +313,7 @@ impl Polygons {
             area_of_face: Vec::with_capacity(mesh.face_count()),
         };
         for face in 0..mesh.face_count() {
-            stop.check_at(face)?;
+            limits.check_at(face)?;
             let start = polygons.face_of_corner.len();
             let size = match mesh.faces() {
                 Faces::Triangles => 3,
@@ -295,18 +337,18 @@ impl Polygons {
         [size - 1, 1].map(|step| start + (corner - start + step) % size)
     }
 
-    /// For every group of corners the sum of their faces' normals; anything once it shall stop.
+    /// For every group of corners the sum of their faces' normals; unspecified after cancellation.
     fn sums(
         &self,
         mesh: &Mesh<'_>,
         group_of_corner: &[u32],
         weight: NormalWeight,
-        stop: &Stop,
+        limits: RunLimits<'_>,
     ) -> Vec<WeightedNormal> {
         let groups = group_of_corner.iter().max().map_or(0, |&last| last as usize + 1);
         let mut sums = vec![WeightedNormal::default(); groups];
         for (corner, &group) in group_of_corner.iter().enumerate() {
-            if stop.check_at(corner).is_err() {
+            if limits.check_at(corner).is_err() {
                 break;
             }
             let face = self.face_of_corner[corner] as usize;
@@ -346,14 +388,18 @@ fn area_vector(mesh: &Mesh<'_>, corners: std::ops::Range<usize>) -> D3 {
 }
 
 /// The smoothed vertex of every corner: the first of the mesh's vertices at its position, or its own.
-fn vertices_of_corners(mesh: &Mesh<'_>, seams: SmoothingSeams, stop: &Stop) -> Result<Vec<u32>, MeshError> {
+fn vertices_of_corners(
+    mesh: &Mesh<'_>,
+    seams: SmoothingSeams,
+    limits: RunLimits<'_>,
+) -> Result<Vec<u32>, MeshError> {
     let corners = 0..mesh.corner_count();
     if seams == SmoothingSeams::Respected {
         return Ok(corners.map(|corner| mesh.vertex_of_corner(corner) as u32).collect());
     }
     let mut first = HashMap::new();
     let vertex = |corner: usize| {
-        stop.check_at(corner)?;
+        limits.check_at(corner)?;
         let vertex = mesh.vertex_of_corner(corner);
         let position = mesh.positions().get(vertex);
         // Adding zero turns -0 into +0. NaN is nobody's equal.
@@ -369,12 +415,12 @@ fn fans_of_corners(
     mesh: &Mesh<'_>,
     vertex_of_corner: &[u32],
     options: &NormalOptions,
-    stop: &Stop,
+    limits: RunLimits<'_>,
 ) -> Result<(Vec<u32>, usize), MeshError> {
     match options.shading {
         Shading::Smooth if options.crease >= 180.0 => Ok((vertex_of_corner.to_vec(), 0)),
-        Shading::Flat => Ok((Polygons::new(mesh, stop)?.face_of_corner, 0)),
-        Shading::Smooth => fans(&Polygons::new(mesh, stop)?, vertex_of_corner, options.crease, stop),
+        Shading::Flat => Ok((Polygons::new(mesh, limits)?.face_of_corner, 0)),
+        Shading::Smooth => fans(&Polygons::new(mesh, limits)?, vertex_of_corner, options.crease, limits),
     }
 }
 
@@ -386,7 +432,7 @@ fn fans(
     polygons: &Polygons,
     vertex_of_corner: &[u32],
     crease: f32,
-    stop: &Stop,
+    limits: RunLimits<'_>,
 ) -> Result<(Vec<u32>, usize), MeshError> {
     let mut creased_edges = 0;
     let least_cosine = f64::from(crease.max(0.0)).to_radians().cos();
@@ -399,7 +445,7 @@ fn fans(
     edges.sort_unstable();
     let mut fan_of_corner: Vec<u32> = (0..vertex_of_corner.len() as u32).collect();
     for (at, [(ends, a), (others, b)]) in edges.array_windows().enumerate() {
-        stop.check_at(at)?;
+        limits.check_at(at)?;
         if ends != others {
             continue;
         }

@@ -1,15 +1,14 @@
 //! Topology once, evaluate often.
 
+use crate::Context;
 use crate::CornerTangents;
 use crate::Faces;
 use crate::Indices;
 use crate::Mesh;
 use crate::MeshError;
-use crate::Scratch;
 use crate::TangentOptions;
 use crate::Tangents;
-use crate::cancel::Stop;
-use crate::generate_tangents;
+use crate::generate_tangents_with;
 use crate::split::expect;
 use crate::tangents::Planned;
 
@@ -69,9 +68,20 @@ impl FaceList {
 }
 
 impl Plan {
-    /// Computes the base's tangents and keeps its topology. One that was [cancelled](crate::Cancel::run) is not complete.
+    /// Computes the base's tangents and keeps its topology.
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions) -> Self {
-        let (planned, base) = Planned::new(mesh, options);
+        Self::make(mesh, options, &Context::new())
+    }
+
+    /// As [`Plan::new`], with the token and the thread limit of a context. Errors: the token was cancelled.
+    pub fn new_with(mesh: &Mesh<'_>, options: &TangentOptions, context: &Context) -> Result<Self, MeshError> {
+        let plan = Self::make(mesh, options, context);
+        context.limits().check().map(|()| plan)
+    }
+
+    /// The plan is not usable after cancellation.
+    fn make(mesh: &Mesh<'_>, options: &TangentOptions, context: &Context) -> Self {
+        let (planned, base) = Planned::new(mesh, options, context.limits());
         let faces = FaceList::new(mesh);
         Self { planned, options: *options, vertex_count: mesh.vertex_count(), faces, base }
     }
@@ -81,51 +91,52 @@ impl Plan {
         &self.base
     }
 
-    /// Tangents of the moved mesh in the base's groups and subgroups; signs stay the base's.
+    /// Computes the tangents of the moved mesh in the base's groups and subgroups; signs stay the base's.
     ///
-    /// `mesh`: same faces, indices and UVs as the base, other positions and normals; faces and indices are taken from the base. Vertices that were welded and moved apart keep
-    /// their common frame, but each triangle counts with the positions of its own vertices. Errors: another number of corners
-    /// or vertices.
+    /// `mesh`: the base's UVs, other positions and normals; faces and indices are taken from the base. Vertices that were welded and
+    /// moved apart keep their common frame, but each triangle counts with the positions of its own vertices.
+    /// Errors: another number of corners or vertices.
     pub fn evaluate(&self, mesh: &Mesh<'_>) -> Result<CornerTangents, MeshError> {
-        let mut out = CornerTangents::default();
-        self.evaluate_into(mesh, &mut Scratch::new(), &mut out)?;
-        Ok(out)
+        self.evaluate_with(mesh, &mut Context::new())
     }
 
-    /// As [`Plan::evaluate`], into `out`, whose memory is used again, as is that of `scratch`: repeated calls allocate nothing where
-    /// all vertices of a mesh of triangles and quads are plain (no mirrored or degenerate triangles, no collapsed ones); those of
-    /// [`Method::AngleArea`](crate::Method::AngleArea) nothing for any mesh of triangles with packed arrays and 32-bit indices.
-    pub fn evaluate_into(
-        &self,
-        mesh: &Mesh<'_>,
-        scratch: &mut Scratch,
-        out: &mut CornerTangents,
-    ) -> Result<(), MeshError> {
-        out.0.resize(self.base.corners.len(), [0.0; 4]);
-        self.write_tangents(mesh, scratch, &mut out.0)
+    /// As [`Plan::evaluate`], with a context. Further error: the context's token was cancelled.
+    pub fn evaluate_with(&self, mesh: &Mesh<'_>, context: &mut Context) -> Result<CornerTangents, MeshError> {
+        let mut corners = vec![[0.0; 4]; self.base.corners.len()];
+        self.write_tangents(mesh, context, &mut corners)?;
+        Ok(CornerTangents(corners))
     }
 
-    /// As [`Plan::evaluate_into`], into an array of the caller's: one tangent per corner. Errors: also an array of another length, and a run
-    /// that was [cancelled](crate::Cancel::run).
+    /// As [`Plan::evaluate_with`], into the caller's array.
+    ///
+    /// Repeated calls on one thread allocate nothing where all vertices of a mesh of triangles and quads are plain (no mirrored or
+    /// degenerate triangles, no collapsed ones); those of [`Method::AngleArea`](crate::Method::AngleArea) nothing for any mesh of
+    /// triangles with packed arrays and 32-bit indices.
+    /// `corners`: receives one tangent per corner; unspecified after cancellation. Further error: an array of another length.
     pub fn write_tangents(
         &self,
         mesh: &Mesh<'_>,
-        scratch: &mut Scratch,
+        context: &mut Context,
         corners: &mut [[f32; 4]],
     ) -> Result<(), MeshError> {
         let base = &self.base.corners.0;
         expect("corners", base.len(), mesh.corner_count())?;
         expect("corners", base.len(), corners.len())?;
         expect("vertices", self.vertex_count, mesh.vertex_count())?;
-        self.planned.evaluate(&self.faces.over(mesh), (&self.options, base), scratch, corners);
-        Stop::heard().check()
+        let (limits, memory) = context.limits_and_memory();
+        self.planned.evaluate(&self.faces.over(mesh), (&self.options, base), limits, memory, corners);
+        limits.check()
     }
 
-    /// How many corners a fresh run on the moved mesh would give another tangent (other bits) than [`Plan::evaluate`].
+    /// Counts the corners to which a fresh run on the moved mesh would give another tangent (other bits) than [`Plan::evaluate`].
     pub fn count_regrouped(&self, mesh: &Mesh<'_>) -> Result<usize, MeshError> {
-        let planned = self.evaluate(mesh)?;
-        let fresh = generate_tangents(mesh, &self.options).corners;
-        Stop::heard().check()?;
+        self.count_regrouped_with(mesh, &mut Context::new())
+    }
+
+    /// As [`Plan::count_regrouped`], with a context. Further error: the context's token was cancelled.
+    pub fn count_regrouped_with(&self, mesh: &Mesh<'_>, context: &mut Context) -> Result<usize, MeshError> {
+        let planned = self.evaluate_with(mesh, context)?;
+        let fresh = generate_tangents_with(mesh, &self.options, context)?.corners;
         let pairs = planned.per_corner().iter().zip(fresh.per_corner());
         Ok(pairs.filter(|(planned, fresh)| planned.map(f32::to_bits) != fresh.map(f32::to_bits)).count())
     }

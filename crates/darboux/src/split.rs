@@ -2,11 +2,13 @@
 
 use std::collections::HashMap;
 
+use crate::Context;
 use crate::Convention;
 use crate::CornerTangentsRef;
 use crate::Indices;
 use crate::Mesh;
 use crate::MeshError;
+use crate::cancel::Cancel;
 
 /// An indexed mesh's vertices after splitting. The old vertices come first, in their old places.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -29,7 +31,16 @@ pub fn split_vertices<'a>(
     mesh: &Mesh<'_>,
     corners: impl Into<CornerTangentsRef<'a>>,
 ) -> Result<VertexSplit, MeshError> {
-    let mut splitter = Splitter::new(mesh.vertex_count());
+    split_vertices_with(mesh, corners, &Context::new())
+}
+
+/// As [`split_vertices`], with a context. Further error: the context's token was cancelled.
+pub fn split_vertices_with<'a>(
+    mesh: &Mesh<'_>,
+    corners: impl Into<CornerTangentsRef<'a>>,
+    context: &Context,
+) -> Result<VertexSplit, MeshError> {
+    let mut splitter = Splitter::new_with(mesh.vertex_count(), context);
     let indices = splitter.add(mesh, corners)?;
     let (tangent_of_vertex, source_of_vertex) = splitter.finish();
     Ok(VertexSplit { tangent_of_vertex, indices, source_of_vertex })
@@ -47,6 +58,7 @@ pub struct Splitter {
     /// Vertices at the ends of long lists, by source and tangent: a fan of a million tangents must not be walked again and again.
     far: HashMap<(u32, [u32; 4]), u32>,
     old_count: usize,
+    cancel: Option<Cancel>,
 }
 
 /// In place of a next vertex: no corner uses this one yet.
@@ -54,13 +66,22 @@ const UNUSED: u32 = u32::MAX;
 /// In place of a next vertex: this is the last.
 const LAST: u32 = u32::MAX - 1;
 
+/// Corners between two cancellation checks.
+const CHUNK: usize = 1 << 12;
+
 /// Vertices that are looked at one by one before the map of far ones is asked.
 const NEAR: usize = if cfg!(small_limits) { 2 } else { 16 };
 
 impl Splitter {
     /// Starts with `vertex_count` old vertices.
     pub fn new(vertex_count: usize) -> Self {
+        Self::new_with(vertex_count, &Context::new())
+    }
+
+    /// As [`Splitter::new`], with a context, whose token cancels [`Splitter::add`] and [`Splitter::add_changes`].
+    pub fn new_with(vertex_count: usize, context: &Context) -> Self {
         Self {
+            cancel: context.limits().cancel.cloned(),
             tangent_of_vertex: vec![[1.0, 0.0, 0.0, 1.0]; vertex_count],
             source_of_vertex: (0..vertex_count as u32).collect(),
             next_of_vertex: vec![UNUSED; vertex_count],
@@ -90,21 +111,53 @@ impl Splitter {
         let CornerTangentsRef(tangents) = corners.into();
         expect("corners", mesh.corner_count(), tangents.len())?;
         expect("vertices", self.old_count, mesh.vertex_count())?;
-        Ok(match mesh.indices() {
+        match mesh.indices() {
             Indices::Unindexed => self.changes(0..tangents.len() as u32, tangents),
             Indices::U16(list) => self.changes(list.iter().map(|&index| index.into()), tangents),
             Indices::U32(list) => self.changes(list.iter().copied(), tangents),
-        })
+        }
     }
 
     /// The vertices of corners, from the old ones; none where they are the same.
-    fn changes(&mut self, old: impl Iterator<Item = u32> + Clone, tangents: &[[f32; 4]]) -> Option<Vec<u32>> {
-        let mut corners = old.clone().zip(tangents);
-        let first = corners.position(|(old, &tangent)| !self.takes(old, tangent))?;
+    fn changes(
+        &mut self,
+        old: impl Iterator<Item = u32> + Clone,
+        tangents: &[[f32; 4]],
+    ) -> Result<Option<Vec<u32>>, MeshError> {
+        let Some(first) = self.first_change(old.clone(), tangents)? else { return Ok(None) };
         let mut vertices = Vec::with_capacity(tangents.len());
         vertices.extend(old.clone().take(first));
-        vertices.extend(old.zip(tangents).skip(first).map(|(old, &tangent)| self.vertex(old, tangent)));
-        Some(vertices)
+        let mut corners = old.zip(tangents).skip(first);
+        for _ in (first..tangents.len()).step_by(CHUNK) {
+            self.check()?;
+            vertices.extend(corners.by_ref().take(CHUNK).map(|(old, &tangent)| self.vertex(old, tangent)));
+        }
+        Ok(Some(vertices))
+    }
+
+    /// The first corner that needs another vertex than its old one.
+    fn first_change(
+        &mut self,
+        old: impl Iterator<Item = u32>,
+        tangents: &[[f32; 4]],
+    ) -> Result<Option<usize>, MeshError> {
+        let mut corners = old.zip(tangents);
+        for start in (0..tangents.len()).step_by(CHUNK) {
+            self.check()?;
+            let mut chunk = corners.by_ref().take(CHUNK);
+            if let Some(at) = chunk.position(|(old, &tangent)| !self.takes(old, tangent)) {
+                return Ok(Some(start + at));
+            }
+        }
+        Ok(None)
+    }
+
+    fn check(&self) -> Result<(), MeshError> {
+        if self.cancel.as_ref().is_some_and(Cancel::is_cancelled) {
+            Err(MeshError::Cancelled)
+        } else {
+            Ok(())
+        }
     }
 
     /// The vertex for `old` with `tangent`: the old one if it can have it, else an appended one.

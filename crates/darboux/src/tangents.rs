@@ -5,6 +5,7 @@ mod face;
 pub(crate) mod fast;
 mod frames;
 mod from_normal;
+pub(crate) mod memory;
 mod mesh_slices;
 mod method;
 mod method_buffers;
@@ -20,132 +21,122 @@ pub(crate) mod submesh;
 mod uv_derivatives;
 mod vertex_sums;
 
+use crate::Context;
 use crate::CornerFrames;
 use crate::CornerTangents;
 use crate::Mesh;
 use crate::MeshError;
-use crate::cancel::Stop;
+use crate::exec::limits::RunLimits;
 use crate::math::cosine_of_degrees;
 use crate::split::expect;
 
-use crate::exec::simd::Width;
-pub use crate::exec::simd::WidthLimit;
-pub use crate::exec::threads::on_this_thread;
-use crate::tangents::fast::{Fans, LARGEST_COSINE};
-use crate::tangents::frames::FrameMemory;
-pub use crate::tangents::frames::{LentFrames, generate_frames, lend_frames, write_frames};
-use crate::tangents::method_buffers::MethodBuffers;
+use crate::tangents::fast::LARGEST_COSINE;
+pub use crate::tangents::frames::{
+    LentFrames, generate_frames, generate_frames_with, lend_frames, write_frames,
+};
+use crate::tangents::memory::TangentMemory;
 pub(crate) use crate::tangents::method_plan::Planned;
 pub use crate::tangents::options::{Method, Mode, TangentOptions};
 pub use crate::tangents::report::Report;
 
-/// Tangents of corners and the report of the run.
+/// The tangents of corners and the report of the run.
 #[derive(Clone, Debug, Default)]
 pub struct Tangents {
     /// One tangent per corner.
     pub corners: CornerTangents,
-    /// What was met on the way.
+    /// Counts of what the run met.
     pub report: Report,
 }
 
-/// Frames of corners and the report of the run.
+/// The frames of corners and the report of the run.
 #[derive(Clone, Debug, Default)]
 pub struct Frames {
     /// One frame per corner.
     pub corners: CornerFrames,
-    /// What was met on the way.
+    /// Counts of what the run met.
     pub report: Report,
-}
-
-/// Memory that runs of [`generate_tangents_into`] keep from one to the next.
-#[derive(Debug, Default)]
-pub struct Scratch {
-    fans: Fans,
-    sums: MethodBuffers,
-    frames: FrameMemory,
-    width_limit: WidthLimit,
-}
-
-impl Scratch {
-    /// An empty one; it grows to what the largest mesh needs.
-    pub fn new() -> Self {
-        Self::default()
-    }
-
-    /// One whose runs use no wider vector instructions than `limit`. The width never shows in a result: this is for comparing.
-    pub fn with_width_limit(limit: WidthLimit) -> Self {
-        Self { width_limit: limit, ..Self::default() }
-    }
 }
 
 /// Computes the tangent of every corner.
 pub fn generate_tangents(mesh: &Mesh<'_>, options: &TangentOptions) -> Tangents {
-    let mut out = Tangents::default();
-    generate_tangents_into(mesh, options, &mut Scratch::new(), &mut out);
-    out
+    let mut context = Context::new();
+    let (limits, memory) = context.limits_and_memory();
+    generate(mesh, options, limits, memory)
 }
 
-/// As [`generate_tangents`], into `out`, whose memory is used again, as is that of `scratch`: repeated calls of MikkTSpace on one thread
-/// allocate only what vertices of the general path need (UV-degenerate, split or mirrored fans; degenerate triangles). Memory stays as large as the
-/// largest mesh and method needed it.
-pub fn generate_tangents_into(
+/// As [`generate_tangents`], with a context. Errors: the context's token was cancelled.
+pub fn generate_tangents_with(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
-    scratch: &mut Scratch,
-    out: &mut Tangents,
-) {
-    out.corners.0.resize(mesh.corner_count(), [0.0; 4]);
-    out.report = run(mesh, options, &Stop::heard(), scratch, &mut out.corners.0);
+    context: &mut Context,
+) -> Result<Tangents, MeshError> {
+    let (limits, memory) = context.limits_and_memory();
+    let tangents = generate(mesh, options, limits, memory);
+    limits.check().map(|()| tangents)
 }
 
-/// As [`generate_tangents_into`], into an array of the caller's, for bindings and buffers that are not a `Vec`.
+/// As [`generate_tangents_with`], into the caller's array.
 ///
-/// `corners`: receives one tangent per corner, in corner order, which is not vertex order. Errors: an array of another length; a run that
-/// was [cancelled](crate::Cancel::run), which leaves anything in `corners`.
+/// Repeated calls of MikkTSpace on one thread allocate only what vertices of the general path need (UV-degenerate, split or mirrored
+/// fans; degenerate triangles).
+/// `corners`: receives one tangent per corner, in corner order, which is not vertex order; unspecified after cancellation.
+/// Errors: an array of another length; the context's token was cancelled.
 pub fn write_tangents(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
-    scratch: &mut Scratch,
+    context: &mut Context,
     corners: &mut [[f32; 4]],
 ) -> Result<Report, MeshError> {
     expect("corners", mesh.corner_count(), corners.len())?;
-    let stop = Stop::heard();
-    let report = run(mesh, options, &stop, scratch, corners);
-    stop.check().map(|()| report)
+    let (limits, memory) = context.limits_and_memory();
+    let report = run(mesh, options, limits, memory, corners);
+    limits.check().map(|()| report)
 }
 
-/// Asks for the method where the caller is, so that a program whose method is constant carries no other.
+/// The tangents are unspecified after cancellation.
+#[inline(always)]
+fn generate(
+    mesh: &Mesh<'_>,
+    options: &TangentOptions,
+    limits: RunLimits<'_>,
+    memory: &mut TangentMemory,
+) -> Tangents {
+    let mut tangents = Tangents::default();
+    tangents.corners.0.resize(mesh.corner_count(), [0.0; 4]);
+    tangents.report = run(mesh, options, limits, memory, &mut tangents.corners.0);
+    tangents
+}
+
+/// Chooses the method in the caller's code, so that a program whose method is constant links no other.
 #[inline(always)]
 fn run(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
-    stop: &Stop,
-    scratch: &mut Scratch,
+    limits: RunLimits<'_>,
+    memory: &mut TangentMemory,
     out: &mut [[f32; 4]],
 ) -> Report {
-    let width = Width::widest(scratch.width_limit);
     if options.method != Method::MikkTSpace {
-        return method::run(mesh, options, stop, width, &mut scratch.sums, out);
+        return method::run(mesh, options, limits, &mut memory.sums, out);
     }
-    mikktspace_of_corners(mesh, options, stop, width, scratch, out)
+    mikktspace_of_corners(mesh, options, limits, memory, out)
 }
 
 fn mikktspace_of_corners(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
-    stop: &Stop,
-    width: Width,
-    scratch: &mut Scratch,
+    limits: RunLimits<'_>,
+    memory: &mut TangentMemory,
     out: &mut [[f32; 4]],
 ) -> Report {
-    if has_whole_fans(options) && scratch.fans.run(mesh, options, width, stop, out) {
-        if stop.is_asked() {
+    if has_whole_fans(options) && memory.fans.run(mesh, options, limits, out) {
+        if limits.is_cancelled() {
             Report::default()
         } else {
-            submesh::decide(mesh, options, &scratch.fans, stop, out)
+            submesh::decide(mesh, options, &memory.fans, limits, out)
         }
     } else {
-        method::mikktspace(mesh, options, stop, out)
+        method::mikktspace(mesh, options, limits, out)
     }
 }
 

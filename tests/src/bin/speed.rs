@@ -8,7 +8,9 @@ use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 
-use darboux::{Scratch, TangentOptions, Tangents, generate_tangents, generate_tangents_into, split_vertices};
+use darboux::{
+    Context, CornerTangentsRef, TangentOptions, generate_tangents, split_vertices, write_tangents,
+};
 use darboux_tests::{OwnedMesh, families};
 
 /// Quads along an edge.
@@ -37,11 +39,14 @@ fn write(folder: &Path, mesh: &OwnedMesh) {
 
 fn times(mesh: &OwnedMesh, triangles: usize) -> String {
     let (view, options) = (mesh.view(), TangentOptions::default());
-    let (mut scratch, mut kept) = (Scratch::new(), Tangents::default());
+    let (mut context, mut kept) = (Context::new(), vec![[0.0; 4]; mesh.corner_count()]);
     let calls = (100_000 / triangles).clamp(1, 1000);
     let fresh = least(calls, || drop(black_box(generate_tangents(&view, &options))));
-    let into = least(calls, || generate_tangents_into(&view, &options, &mut scratch, &mut kept));
-    let split = least(calls, || drop(black_box(split_vertices(&view, &kept.corners))));
+    let into = least(calls, || {
+        _ = write_tangents(&view, &options, &mut context, &mut kept).expect("one tangent per corner");
+    });
+    let split =
+        least(calls, || drop(black_box(split_vertices(&view, CornerTangentsRef::from_per_corner(&kept)))));
     format!("{{\"fresh\": {fresh}, \"into\": {into}, \"split\": {split}}}")
 }
 

@@ -14,7 +14,7 @@ mod corners;
 use std::ffi::c_int;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use darboux::{Mode, Scratch, TangentOptions, generate_tangents, lend_frames};
+use darboux::{Mode, TangentOptions, generate_tangents, lend_frames};
 
 use callbacks::{Caller, Context};
 use corners::Corners;
@@ -40,8 +40,8 @@ fn run(caller: &Caller, threshold: f32) -> Option<()> {
     let options = TangentOptions { mode: Mode::Reference, threshold, ..TangentOptions::default() };
     let mesh = corners.mesh()?;
     if caller.wants_frames() {
-        let mut scratch = Scratch::new();
-        let frames = contained(|| lend_frames(&mesh, &options, &mut scratch).ok())?;
+        let mut memory = darboux::Context::new();
+        let frames = contained(|| lend_frames(&mesh, &options, &mut memory).ok())?;
         let read = |first, out: &mut [_]| {
             contained(|| {
                 frames.write(first, out);

@@ -6,7 +6,7 @@ use std::process::Command;
 use std::ptr::null_mut;
 use std::time::Instant;
 
-use darboux::{Scratch, TangentOptions, Tangents, generate_tangents_into, on_this_thread, split_vertices};
+use darboux::{Context, CornerTangentsRef, TangentOptions, split_vertices, write_tangents};
 use darboux_c::*;
 use darboux_tests::{OwnedMesh, families};
 
@@ -71,11 +71,10 @@ fn speed_over_rust() {
     ];
     for (name, mesh, rounds) in meshes {
         let (view, c_view, count) = (mesh.view(), packed(&mesh), mesh.corner_count());
-        let (mut scratch, mut tangents) = (Scratch::new(), Tangents::default());
+        let (mut context, mut tangents) = (Context::new().with_max_threads(1), vec![[0.0; 4]; count]);
         let rust = least(rounds, || {
-            on_this_thread(|| {
-                generate_tangents_into(&view, &TangentOptions::default(), &mut scratch, &mut tangents)
-            })
+            _ = write_tangents(&view, &TangentOptions::default(), &mut context, &mut tangents)
+                .expect("one tangent per corner");
         });
         let mut options = default_options();
         // SAFETY: the scratch may be written.
@@ -88,7 +87,9 @@ fn speed_over_rust() {
             };
             assert_eq!(status, darboux_status::Ok);
         });
-        let rust_split = least(rounds.min(200), || _ = black_box(split_vertices(&view, &tangents.corners)));
+        let rust_split = least(rounds.min(200), || {
+            _ = black_box(split_vertices(&view, CornerTangentsRef::from_per_corner(&tangents)))
+        });
         let c_split = least(rounds.min(200), || {
             let mut split = null_mut();
             // SAFETY: all pointers are to arrays of the lengths given; the split is freed.

@@ -4,7 +4,7 @@ pub mod arguments;
 mod device;
 pub mod summary;
 
-use darboux::{Mesh, Scratch, TangentOptions, Tangents};
+use darboux::{Context, Mesh, TangentOptions};
 use darboux_io::gltf::{
     NormalsOptions, Outcome, Progress, TangentsOptions, Totals, Written, add_normals, add_tangents_with,
 };
@@ -78,11 +78,11 @@ impl FileCommand for TangentsArguments {
             normals = Some(made.primitives);
         }
         let mut on_progress = |Progress { done, total }: Progress| progress.set(done, total);
-        let mut generate =
-            |mesh: &Mesh<'_>, options: &TangentOptions, scratch: &mut Scratch, out: &mut Tangents| {
-                device.generate(mesh, options, scratch, out)
-            };
-        let made = add_tangents_with(&mut document, &options(self), &mut generate, &mut on_progress);
+        let mut generate = |mesh: &Mesh<'_>, options: &TangentOptions, context: &mut Context| {
+            device.generate(mesh, options, context)
+        };
+        let context = &mut Context::new();
+        let made = add_tangents_with(&mut document, &options(self), context, &mut generate, &mut on_progress);
         let mut tangents = made.map_err(sentence)?;
         tangents.warnings.splice(0..0, warnings);
         tangents.warnings.extend(advice(tangents.totals.without_normals));

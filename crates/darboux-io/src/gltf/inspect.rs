@@ -1,6 +1,6 @@
 //! What a document holds, per primitive, without changing it.
 
-use darboux::{Convention, CornerTangents, Scratch};
+use darboux::{Context, Convention, CornerTangents};
 use serde::Serialize;
 
 use super::primitives::canonical::CanonicalAccessors;
@@ -53,7 +53,7 @@ pub fn inspect(document: &mut Document) -> Result<Vec<PrimitiveInfo>, Error> {
     let selection = select_readable(document, &options)?;
     let groups = groups::group(&CanonicalAccessors::new(document), selection.chosen());
     limits::check_triangles(document, groups::triangle_counts(&groups))?;
-    let mut scratch = Scratch::new();
+    let mut context = Context::new();
     let mut infos: Vec<_> =
         selection.candidates.iter().map(|candidate| describe(document, candidate)).collect();
     for group in &groups {
@@ -61,7 +61,7 @@ pub fn inspect(document: &mut Document) -> Result<Vec<PrimitiveInfo>, Error> {
         let mut found = Vec::with_capacity(group.jobs.len());
         for job in &group.jobs {
             let at = infos[job.first].name.path();
-            let on_cpu = (&mut compute::on_cpu as &mut Generate<'_>, &mut scratch);
+            let on_cpu = (&mut compute::on_cpu as &mut Generate<'_>, &mut context);
             let result = compute::compute_job(document, &at, &mut vertices, job, false, &options, on_cpu)?;
             found.push((result.report.into(), mirrored_triangles(&result.tangents)));
         }

@@ -11,6 +11,8 @@ pub use summary::{NormalsOutcome, NormalsSummary, PrimitiveNormals, WrittenNorma
 
 use std::collections::BTreeMap;
 
+use darboux::Context;
+
 use super::Document;
 use super::Progress;
 use super::primitives::canonical::CanonicalAccessors;
@@ -28,10 +30,20 @@ pub fn add_normals(
     options: &NormalsOptions,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<NormalsSummary, Error> {
+    add_normals_with(document, options, &Context::new(), progress)
+}
+
+/// As [`add_normals`], with a context. Further error: the context's token was cancelled.
+pub fn add_normals_with(
+    document: &mut Document,
+    options: &NormalsOptions,
+    context: &Context,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<NormalsSummary, Error> {
     let selection = select_readable(document, options)?;
     let accessors = CanonicalAccessors::new(document);
     limits::check_triangles(document, selection.chosen().map(|(_, chosen)| chosen.triangle_count()))?;
-    let parts = compute::shade(document, &accessors, &selection, &options.normals, progress)?;
+    let parts = compute::shade(document, &accessors, &selection, (&options.normals, context), progress)?;
     let mut parts_of_position: BTreeMap<usize, Vec<&ShadedPrimitive>> = BTreeMap::new();
     for part in &parts {
         parts_of_position.entry(part.position).or_default().push(part);

@@ -11,14 +11,14 @@ mod summary;
 pub(super) mod uv;
 mod write;
 
-pub use compute::Generate;
+pub use compute::{Generate, on_cpu};
 pub use encoding::TangentEncoding;
 pub use options::TangentsOptions;
 pub use summary::{Counts, Outcome, PrimitiveSummary, Summary, Totals, Written};
 
 use std::collections::{HashMap, HashSet};
 
-use darboux::{Mode, Report, Scratch};
+use darboux::{Context, Mode, Report};
 
 use super::primitives::append::{is_sparse, push_vectors};
 use super::primitives::canonical::CanonicalAccessors;
@@ -41,15 +41,17 @@ pub fn add_tangents(
     options: &TangentsOptions,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Summary, Error> {
-    add_tangents_with(document, options, &mut compute::on_cpu, progress)
+    add_tangents_with(document, options, &mut Context::new(), &mut compute::on_cpu, progress)
 }
 
-/// As [`add_tangents`], with tangents that `generate` computes, as on a GPU; what morph targets move is computed here.
+/// As [`add_tangents`], with a context, and with tangents that `generate` computes, for example on a GPU. Tangents of morph targets are
+/// computed here.
 ///
-/// Further errors: those of `generate`.
+/// Further errors: those of `generate`; the context's token was cancelled.
 pub fn add_tangents_with(
     document: &mut Document,
     options: &TangentsOptions,
+    context: &mut Context,
     generate: &mut Generate<'_>,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Summary, Error> {
@@ -59,8 +61,8 @@ pub fn add_tangents_with(
     limits::check_triangles(document, groups::triangle_counts(&groups))?;
     let total = groups::triangle_counts(&groups).sum();
     let at = Progress { done: 0, total };
-    let (scratch, summary) = (Scratch::new(), Summary::default());
-    let mut run = Run { selection, accessors, options, generate, progress, at, scratch, summary };
+    let summary = Summary::default();
+    let mut run = Run { selection, accessors, options, generate, progress, at, context, summary };
     let mut written = HashMap::new();
     for group in &groups {
         let field = run.field(document, group)?;
@@ -100,7 +102,7 @@ struct Run<'a, 'g> {
     generate: &'a mut Generate<'g>,
     progress: &'a mut dyn FnMut(Progress),
     at: Progress,
-    scratch: Scratch,
+    context: &'a mut Context,
     summary: Summary,
 }
 
@@ -132,7 +134,7 @@ impl Run<'_, '_> {
         let mut results = Vec::with_capacity(group.jobs.len());
         for (index, job) in group.jobs.iter().enumerate() {
             let (at, moves) = (self.path(job), moved.contains(&index));
-            let compute = (&mut *self.generate, &mut self.scratch);
+            let compute = (&mut *self.generate, &mut *self.context);
             let result = compute::compute_job(document, &at, vertices, job, moves, self.options, compute)?;
             self.warn_unusable(job, &result);
             self.warn_merged(job, &result);
@@ -141,7 +143,7 @@ impl Run<'_, '_> {
             results.push(result);
         }
         if self.at.done == self.at.total {
-            self.scratch = Scratch::new();
+            self.context.free_memory();
         }
         Ok(results)
     }
@@ -183,7 +185,7 @@ impl Run<'_, '_> {
     }
 
     fn morph(
-        &self,
+        &mut self,
         document: &Document,
         group: &Group,
         vertices: &mut Vertices<'_>,
@@ -193,7 +195,9 @@ impl Run<'_, '_> {
     ) -> Result<Vec<(Morph, Offsets)>, Error> {
         let mut offsets = Vec::with_capacity(morphs.len());
         for morph in morphs {
-            let moved = morph::offsets(document, &morph, group, vertices, results, split, self.options)?;
+            let computed = (results, split);
+            let moved =
+                morph::offsets(document, &morph, group, vertices, computed, self.options, self.context)?;
             offsets.push((morph, moved));
             limits::check_more_output(
                 document,

@@ -1,57 +1,9 @@
 //! Work split among threads: every job has its own memory, and its own part of what is written.
 
-#[cfg(feature = "parallel")]
-use std::cell::Cell;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-#[cfg(feature = "parallel")]
-use crate::cancel::Heard;
-
-/// Meshes of fewer triangles are not worth waking another thread.
-const LEAST_PER_THREAD: usize = if cfg!(small_limits) { 1 } else { 1 << 13 };
-
-/// How many threads a mesh gets: those of the current thread pool, or one without the feature `parallel`.
-pub(crate) fn count(triangles: usize) -> usize {
-    // Asking how many there are starts them.
-    let most = triangles / LEAST_PER_THREAD;
-    if most > 1 { available().min(most) } else { 1 }
-}
-
-#[cfg(feature = "parallel")]
-fn available() -> usize {
-    if IS_ALONE.get() { 1 } else { rayon::current_num_threads() }
-}
-
-#[cfg(feature = "parallel")]
-thread_local! {
-    /// Within [`on_this_thread`].
-    static IS_ALONE: Cell<bool> = const { Cell::new(false) };
-}
-
-/// Does work on the calling thread alone, whatever the thread pool: for callers who have not asked for threads. Without it, the first
-/// call outside of any pool starts the threads of the global one.
-pub fn on_this_thread<R>(work: impl FnOnce() -> R) -> R {
-    #[cfg(feature = "parallel")]
-    let _until_the_end = Alone(IS_ALONE.replace(true));
-    work()
-}
-
-/// Restores what was, after a panic as well.
-#[cfg(feature = "parallel")]
-struct Alone(bool);
-
-#[cfg(feature = "parallel")]
-impl Drop for Alone {
-    fn drop(&mut self) {
-        IS_ALONE.set(self.0);
-    }
-}
-
-#[cfg(not(feature = "parallel"))]
-fn available() -> usize {
-    1
-}
+use crate::exec::limits::RunLimits;
 
 /// Does work for a mesh on a thread of the pool, whose others are then quick to join in: all are woken only once.
 #[cfg(feature = "parallel")]
@@ -72,7 +24,6 @@ pub(crate) fn run<W: Send, P: Send>(
 ) {
     #[cfg(feature = "parallel")]
     if workers.len() > 1 {
-        let _until_the_end = Heard::nothing();
         rayon::in_place_scope(|scope| {
             for (worker, part) in workers.iter_mut().zip(parts) {
                 let job = &job;
@@ -87,8 +38,8 @@ pub(crate) fn run<W: Send, P: Send>(
 }
 
 /// The values of `of` at 0 to `count`, in their order, found by all threads.
-pub(crate) fn map<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    let threads = crate::exec::threads::count(count);
+pub(crate) fn map<T: Send>(limits: RunLimits<'_>, count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let threads = limits.thread_count(count);
     let mut found: Vec<Vec<T>> = (0..threads).map(|_| Vec::new()).collect();
     run(&mut found, split(0..count, threads, 1), |found, range| *found = range.map(&of).collect());
     found
@@ -101,13 +52,13 @@ pub(crate) fn map<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<
 }
 
 /// Sets every element to the value of `of` at its place, by all threads; on one it allocates nothing.
-pub(crate) fn fill<T: Send>(slice: &mut [T], of: impl Fn(usize) -> T + Sync) {
-    update(slice, |at, element| *element = of(at));
+pub(crate) fn fill<T: Send>(limits: RunLimits<'_>, slice: &mut [T], of: impl Fn(usize) -> T + Sync) {
+    update(limits, slice, |at, element| *element = of(at));
 }
 
 /// Calls `with` with every element and its place, by all threads; on one it allocates nothing.
-pub(crate) fn update<T: Send>(slice: &mut [T], with: impl Fn(usize, &mut T) + Sync) {
-    let threads = crate::exec::threads::count(slice.len());
+pub(crate) fn update<T: Send>(limits: RunLimits<'_>, slice: &mut [T], with: impl Fn(usize, &mut T) + Sync) {
+    let threads = limits.thread_count(slice.len());
     let ranges = split(0..slice.len(), threads, 1);
     let jobs = parts(slice, 0, ranges.clone()).zip(ranges);
     run(&mut vec![(); threads], jobs, |(), (part, range)| {
@@ -116,8 +67,8 @@ pub(crate) fn update<T: Send>(slice: &mut [T], with: impl Fn(usize, &mut T) + Sy
 }
 
 /// Whether all numbers below `count` are as wanted, by all threads; on one it allocates nothing.
-pub(crate) fn all(count: usize, is_wanted: impl Fn(usize) -> bool + Sync) -> bool {
-    let threads = crate::exec::threads::count(count);
+pub(crate) fn all(limits: RunLimits<'_>, count: usize, is_wanted: impl Fn(usize) -> bool + Sync) -> bool {
+    let threads = limits.thread_count(count);
     let found = AtomicBool::new(true);
     run(&mut vec![(); threads], split(0..count, threads, 1), |(), mut range| {
         if !range.all(&is_wanted) {

@@ -3,7 +3,7 @@
 use crate::Mesh;
 use crate::Report;
 use crate::TangentOptions;
-use crate::cancel::Stop;
+use crate::exec::limits::RunLimits;
 use crate::math::cosine_of_degrees;
 
 use crate::tangents::fast::Fans;
@@ -27,7 +27,7 @@ pub fn complete(
     fans.resume(mesh, options.mode, welded, out);
     let corners = fans.undecided(mesh).flatten().map(|corner| out[corner as usize]);
     let left = corners.filter(|corner| corner[3] == UNDECIDED).count();
-    (submesh::decide(mesh, options, &fans, &Stop::heard(), out), left)
+    (submesh::decide(mesh, options, &fans, RunLimits::default(), out), left)
 }
 
 /// The cosine above which directions are nearer than the threshold.

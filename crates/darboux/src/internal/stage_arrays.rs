@@ -7,7 +7,7 @@ use crate::CornerFrames;
 use crate::Frames;
 use crate::Mesh;
 use crate::TangentOptions;
-use crate::cancel::Stop;
+use crate::exec::limits::RunLimits;
 use crate::math::cosine_of_degrees;
 use crate::topology::neighbours::neighbours;
 use crate::topology::triangulate::triangulate;
@@ -64,7 +64,8 @@ impl Stages {
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, limit: usize) -> Option<Self> {
         let triangulation = triangulate(mesh);
         let neighbours = neighbours(&triangulation.good, edge_order(options));
-        let derivatives = agreed_derivatives(&triangulation.good, &WeldedMesh::welded(mesh));
+        let derivatives =
+            agreed_derivatives(&triangulation.good, &WeldedMesh::welded(mesh), RunLimits::default());
         let known = (&neighbours[..], derivatives.clone());
         let topology = GroupedMesh::of(mesh, triangulation, known, |_| true, options);
         let threshold_cosine = cosine_of_degrees(options.threshold);
@@ -83,9 +84,9 @@ impl Stages {
 
 /// As [`crate::generate_frames`], by all stages in their general form.
 pub fn frames(mesh: &Mesh<'_>, options: &TangentOptions) -> Frames {
-    let stop = &Stop::heard();
-    let Some(topology) = GroupedMesh::new(mesh, options, stop) else { return Frames::default() };
-    let (corners, report) = topology.frames(mesh, stop);
+    let limits = RunLimits::default();
+    let Some(topology) = GroupedMesh::new(mesh, options, limits) else { return Frames::default() };
+    let (corners, report) = topology.frames(mesh, limits);
     Frames { corners: CornerFrames(corners), report }
 }
 

@@ -15,6 +15,7 @@ use crate::topology::neighbours::{EdgeOrder, neighbours};
 use crate::topology::triangles::{NONE, Triangles, Triangulation};
 use crate::topology::triangulate::triangulate;
 
+use crate::exec::limits::RunLimits;
 use crate::exec::threads;
 use crate::tangents::Report;
 use crate::tangents::angle_area::group_sums::{GroupBuffers, GroupFrame, GroupSum, GroupedTriangles, add};
@@ -37,34 +38,42 @@ use crate::tangents::report::count_split_vertices;
 pub(crate) fn run<O: Output>(
     mesh: &Mesh<'_>,
     mode: Mode,
+    limits: RunLimits<'_>,
     memory: &mut GroupBuffers,
     corners: &mut [O],
 ) -> Report {
-    on_pool(mesh, || topology_and_report(mesh, mode, memory, corners).1)
+    on_pool(mesh, limits, || topology_and_report(mesh, mode, limits, memory, corners).1)
 }
 
 /// Enters the thread pool once for all stages.
-fn on_pool<R: Send>(mesh: &Mesh<'_>, work: impl FnOnce() -> R + Send) -> R {
-    threads::on_pool(threads::count(mesh.face_count()), work)
+fn on_pool<R: Send>(mesh: &Mesh<'_>, limits: RunLimits<'_>, work: impl FnOnce() -> R + Send) -> R {
+    threads::on_pool(limits.thread_count(mesh.face_count()), work)
 }
 
 /// What does not depend on where vertices are, and the tangents where they are now.
-pub(crate) fn plan(mesh: &Mesh<'_>, mode: Mode) -> (AngleAreaPlan, Vec<[f32; 4]>, Report) {
+pub(crate) fn plan(
+    mesh: &Mesh<'_>,
+    mode: Mode,
+    limits: RunLimits<'_>,
+) -> (AngleAreaPlan, Vec<[f32; 4]>, Report) {
     let mut corners = vec![Output::EMPTY; mesh.corner_count()];
     let buffers = &mut GroupBuffers::default();
-    let (plan, report) = on_pool(mesh, || topology_and_report(mesh, mode, buffers, &mut corners));
+    let (plan, report) =
+        on_pool(mesh, limits, || topology_and_report(mesh, mode, limits, buffers, &mut corners));
     (plan, corners, report)
 }
 
 fn topology_and_report<O: Output>(
     mesh: &Mesh<'_>,
     mode: Mode,
+    limits: RunLimits<'_>,
     memory: &mut GroupBuffers,
     corners: &mut [O],
 ) -> (AngleAreaPlan, Report) {
-    let (topology, mut report) = AngleAreaPlan::new(mesh, memory);
+    let (topology, mut report) = AngleAreaPlan::new(mesh, limits, memory);
     let flat = MeshSlices::new(mesh);
-    report.repaired_corners = topology.frames(&flat, &WeldedMesh::welded(mesh), mode, memory, corners);
+    report.repaired_corners =
+        topology.frames(&flat, &WeldedMesh::welded(mesh), mode, limits, memory, corners);
     report.split_vertices = count_split_vertices(mesh, corners);
     (topology, report)
 }
@@ -82,15 +91,15 @@ pub(crate) struct AngleAreaPlan {
 
 impl AngleAreaPlan {
     /// Welds, finds neighbours and groups; leaves the derivatives in `memory`, and what is known of the report.
-    pub(crate) fn new(mesh: &Mesh<'_>, memory: &mut GroupBuffers) -> (Self, Report) {
+    pub(crate) fn new(mesh: &Mesh<'_>, limits: RunLimits<'_>, memory: &mut GroupBuffers) -> (Self, Report) {
         let (flat, shape) = (MeshSlices::new(mesh), WeldedMesh::welded(mesh));
         let triangulation = triangulate(mesh);
         let good = &triangulation.good;
-        let mut derivatives = derivatives(good, &shape);
+        let mut derivatives = derivatives(good, &shape, limits);
         derivatives.iter_mut().for_each(leave_out_unless_finite);
         agree_in_quads(good, &shape, &mut derivatives);
         let neighbours = neighbours(good, EdgeOrder::Complete);
-        let mut report = survey(mesh, &flat);
+        let mut report = survey(mesh, &flat, limits);
         report.degenerate_triangles = triangulation.degenerate.len();
         report.uv_degenerate_triangles = count_uv_degenerate(good, &shape, &derivatives);
         report.mirrored_edges = count_mirrored_edges(&neighbours, &derivatives);
@@ -107,17 +116,18 @@ impl AngleAreaPlan {
         &self,
         mesh: &Mesh<'_>,
         mode: Mode,
+        limits: RunLimits<'_>,
         memory: &mut GroupBuffers,
         corners: &mut [O],
     ) {
         let shape = WeldedMesh::moved(mesh);
-        on_pool(mesh, || {
-            derivatives_into(&self.triangulation.good, &shape, &mut memory.derivatives);
-            threads::update(&mut memory.derivatives, |t, derivative| {
+        on_pool(mesh, limits, || {
+            derivatives_into(&self.triangulation.good, &shape, limits, &mut memory.derivatives);
+            threads::update(limits, &mut memory.derivatives, |t, derivative| {
                 leave_out_unless_finite(derivative);
                 derivative.any |= self.is_left_out[t];
             });
-            self.frames(&MeshSlices::new(mesh), &shape, mode, memory, corners);
+            self.frames(&MeshSlices::new(mesh), &shape, mode, limits, memory, corners);
         });
     }
 
@@ -127,6 +137,7 @@ impl AngleAreaPlan {
         flat: &MeshSlices<'_>,
         shape: &WeldedMesh<'_>,
         mode: Mode,
+        limits: RunLimits<'_>,
         memory: &mut GroupBuffers,
         corners: &mut [O],
     ) -> usize {
@@ -139,15 +150,15 @@ impl AngleAreaPlan {
         };
         let normal = |group| direction(self.normal_of_vertex(group, shape)).unwrap_or_default();
         memory.normals.resize(self.groups.len(), [0.0; 3]);
-        threads::fill(&mut memory.normals, normal);
-        grouped.add_up(O::IS_FULL, memory);
+        threads::fill(limits, &mut memory.normals, normal);
+        grouped.add_up(O::IS_FULL, limits, memory);
         let mut frames = std::mem::take(&mut memory.frames);
         frames.resize(self.groups.len(), GroupFrame { frame: Frame::EMPTY, repaired: true });
         let known = &*memory;
-        threads::fill(&mut frames, |group| self.frame(group, O::IS_FULL, shape, known));
+        threads::fill(limits, &mut frames, |group| self.frame(group, O::IS_FULL, shape, known));
         grouped.fit(&frames, memory);
         let known = &*memory;
-        threads::update(&mut frames, |group, frame| {
+        threads::update(limits, &mut frames, |group, frame| {
             fit(frame, known.normals[group], known.residuals[group]);
             if O::IS_FULL && frame.frame.bitangent == Frame::EMPTY.bitangent {
                 let Frame { tangent, sign, .. } = frame.frame;

@@ -8,6 +8,7 @@ use crate::Mesh;
 use crate::Mode;
 use crate::math::{V3, add, not_zero};
 
+use crate::exec::limits::RunLimits;
 use crate::tangents::Report;
 use crate::tangents::mesh_slices::MeshSlices;
 use crate::tangents::mirrored_edges::{count_mirrored_edges, survey, vertices_of_both};
@@ -29,9 +30,14 @@ struct Face {
 }
 
 /// The frame of every face, at each of its corners.
-pub(crate) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut [O]) -> Report {
+pub(crate) fn run<O: Output>(
+    mesh: &Mesh<'_>,
+    mode: Mode,
+    limits: RunLimits<'_>,
+    corners: &mut [O],
+) -> Report {
     let flat = MeshSlices::new(mesh);
-    let mut report = survey(mesh, &flat);
+    let mut report = survey(mesh, &flat, limits);
     let faces = add_up(&flat, &mut report);
     let mut orientations = Vec::with_capacity(faces.len());
     for (number, face) in faces.iter().enumerate() {

@@ -30,11 +30,11 @@ mod worker;
 use std::ops::Range;
 
 use crate::Mesh;
-use crate::cancel::Stop;
 use crate::math::cosine_of_degrees;
 use crate::topology::weld::Bounds;
 use crate::util::hash_map::InsertionMap;
 
+use crate::exec::limits::RunLimits;
 use crate::exec::simd::Width;
 use crate::exec::threads::{self, parts, split};
 use crate::exec::windows::{self, Share, Window, overlap, shares};
@@ -88,43 +88,41 @@ pub(crate) struct Fans {
 impl Fans {
     /// Writes the tangents of all faces, and lists those with undecided vertices. False where this path does not apply: faces of
     /// other than 3 or 4 corners, values whose weld only the reference's order decides.
-    /// Anything once it shall stop.
+    /// `out` is unspecified after cancellation.
     pub fn run(
         &mut self,
         mesh: &Mesh<'_>,
         options: &TangentOptions,
-        width: Width,
-        stop: &Stop,
+        limits: RunLimits<'_>,
         out: &mut [[f32; 4]],
     ) -> bool {
-        let threads = threads::count(triangle_count(mesh));
+        let threads = limits.thread_count(triangle_count(mesh));
         self.workers.resize_with(threads, Worker::default);
-        threads::on_pool(threads, || self.run_on(mesh, options, width, stop, out)).is_ok()
+        threads::on_pool(threads, || self.run_on(mesh, options, limits, out)).is_ok()
     }
 
     fn run_on(
         &mut self,
         mesh: &Mesh<'_>,
         options: &TangentOptions,
-        width: Width,
-        stop: &Stop,
+        limits: RunLimits<'_>,
         out: &mut [[f32; 4]],
     ) -> Result<(), Refused> {
-        self.cut.cut(mesh, width, &mut self.workers)?;
-        self.weld.weld(mesh, width, &mut self.workers)?;
-        if stop.is_asked() {
+        self.cut.cut(mesh, limits.width, &mut self.workers)?;
+        self.weld.weld(mesh, limits.width, &mut self.workers)?;
+        if limits.is_cancelled() {
             return Ok(());
         }
-        self.find_windows(mesh, width);
+        self.find_windows(mesh, limits.width);
         let tail = TailCells::first(&self.source(mesh), &self.weld.bounds, self.is_shuffled());
-        self.add_and_write(mesh, &tail, width, stop, out);
+        self.add_and_write(mesh, &tail, limits, out);
         self.tail_runs.clear();
-        if options.mode != Mode::Corrected && !stop.is_asked() {
+        if options.mode != Mode::Corrected && !limits.is_cancelled() {
             self.leave_last_edges(mesh, tail, out);
         }
         let threshold_cosine = cosine_of_degrees(options.threshold);
-        if threshold_cosine > -1.0 && !stop.is_asked() {
-            self.leave_spread(mesh, threshold_cosine, width, stop, out);
+        if threshold_cosine > -1.0 && !limits.is_cancelled() {
+            self.leave_spread(mesh, threshold_cosine, limits, out);
         }
         Ok(())
     }
@@ -174,8 +172,7 @@ impl Fans {
         &mut self,
         mesh: &Mesh<'_>,
         tail: &TailCells,
-        width: Width,
-        stop: &Stop,
+        limits: RunLimits<'_>,
         out: &mut [[f32; 4]],
     ) {
         self.special.clear();
@@ -183,7 +180,7 @@ impl Fans {
         self.shares.extend(shares(&self.windows, self.weld.count, self.workers.len()));
         let shares = &self.shares;
         let (source, windows) = (source(mesh, &self.weld, &self.cut), &self.windows[..]);
-        let stream = Stream { source, windows, tail, signs: Unknown, width, stop };
+        let stream = Stream { source, windows, tail, signs: Unknown, limits };
         if overlap(shares, &self.windows) {
             scattered::run(&stream, self.weld.count, &mut self.workers, &mut self.terms, out);
         } else {

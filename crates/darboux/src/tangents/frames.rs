@@ -1,91 +1,94 @@
 //! Whole frames: tangents first, then what goes with them, and last each corner's from these.
 
+use crate::Context;
 use crate::CornerFrames;
 use crate::Frame;
 use crate::Mesh;
 use crate::MeshError;
-use crate::cancel::Stop;
 use crate::split::expect;
 
-use crate::exec::simd::Width;
+use crate::exec::limits::RunLimits;
 use crate::exec::threads::{self, parts, split};
 use crate::tangents::Frames;
 use crate::tangents::Report;
-use crate::tangents::Scratch;
 use crate::tangents::TangentOptions;
 use crate::tangents::fast::{Fans, UNDECIDED, triangle_count};
 use crate::tangents::has_whole_fans;
+use crate::tangents::memory::{FrameMemory, TangentMemory};
 use crate::tangents::method;
 use crate::tangents::output::{Output, fill};
 use crate::tangents::submesh;
 
-/// The frames of a run, or what they are made of.
-#[derive(Debug, Default)]
-pub(crate) struct FrameMemory {
-    /// Of each corner, for a run of whole fans.
-    tangents: Vec<[f32; 4]>,
-    /// The frames of the corners that are undecided in `tangents`, ascending.
-    decided: Vec<(u32, Frame)>,
-    /// Of each corner, for other runs.
-    frames: Vec<Frame>,
+/// Computes the frame of every corner: tangent, bitangent, magnitudes, sign.
+pub fn generate_frames(mesh: &Mesh<'_>, options: &TangentOptions) -> Frames {
+    generate(mesh, options, &mut Context::new())
 }
 
-/// Computes the whole frame of every corner: tangent, bitangent, magnitudes, sign.
-pub fn generate_frames(mesh: &Mesh<'_>, options: &TangentOptions) -> Frames {
+/// As [`generate_frames`], with a context. Errors: the context's token was cancelled.
+pub fn generate_frames_with(
+    mesh: &Mesh<'_>,
+    options: &TangentOptions,
+    context: &mut Context,
+) -> Result<Frames, MeshError> {
+    let frames = generate(mesh, options, context);
+    context.limits().check().map(|()| frames)
+}
+
+/// The frames are unspecified after cancellation.
+fn generate(mesh: &Mesh<'_>, options: &TangentOptions, context: &mut Context) -> Frames {
     let mut corners = vec![Frame::EMPTY; mesh.corner_count()];
-    let report = run(mesh, options, &Stop::heard(), &mut Scratch::new(), &mut corners);
+    let (limits, memory) = context.limits_and_memory();
+    let report = run(mesh, options, limits, memory, &mut corners);
     Frames { corners: CornerFrames(corners), report }
 }
 
-/// As [`generate_frames`], into an array of the caller's, with the memory of earlier runs.
+/// As [`generate_frames_with`], into the caller's array.
 ///
-/// `corners`: receives one frame per corner, in corner order, which is not vertex order. Errors: an array of another length; a run that
-/// was [cancelled](crate::Cancel::run), which leaves anything in `corners`.
+/// `corners`: receives one frame per corner, in corner order, which is not vertex order; unspecified after cancellation.
+/// Errors: an array of another length; the context's token was cancelled.
 pub fn write_frames(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
-    scratch: &mut Scratch,
+    context: &mut Context,
     corners: &mut [Frame],
 ) -> Result<Report, MeshError> {
     expect("corners", mesh.corner_count(), corners.len())?;
-    let stop = Stop::heard();
-    let report = run(mesh, options, &stop, scratch, corners);
-    stop.check().map(|()| report)
+    let (limits, memory) = context.limits_and_memory();
+    let report = run(mesh, options, limits, memory, corners);
+    limits.check().map(|()| report)
 }
 
-/// As [`write_frames`], left in the scratch for arrays of any other form: frames are made from what is smaller, as they are read.
+/// As [`write_frames`], for output arrays of any other layout: the frames stay in the context, in a smaller form, until they are read.
 pub fn lend_frames<'a>(
     mesh: &'a Mesh<'a>,
     options: &TangentOptions,
-    scratch: &'a mut Scratch,
+    context: &'a mut Context,
 ) -> Result<LentFrames<'a>, MeshError> {
-    let stop = Stop::heard();
-    let report = if let Some(report) = run_fans(mesh, options, &stop, scratch) {
+    let (limits, memory) = context.limits_and_memory();
+    let report = if let Some(report) = run_fans(mesh, options, limits, memory) {
         report
     } else {
-        let mut frames = std::mem::take(&mut scratch.frames.frames);
+        let frames = &mut memory.frames.frames;
         frames.resize(mesh.corner_count(), Frame::EMPTY);
-        scratch.frames.tangents.clear();
-        let width = Width::widest(scratch.width_limit);
-        let report = method::run(mesh, options, &stop, width, &mut scratch.sums, &mut frames);
-        scratch.frames.frames = frames;
-        report
+        memory.frames.tangents.clear();
+        method::run(mesh, options, limits, &mut memory.sums, frames)
     };
-    stop.check()?;
-    Ok(LentFrames { mesh, fans: &scratch.fans, memory: &scratch.frames, report })
+    limits.check()?;
+    Ok(LentFrames { mesh, fans: &memory.fans, memory: &memory.frames, limits, report })
 }
 
-/// Frames of corners, one per corner, in corner order, which lie in a [`Scratch`]. Not in vertex order.
+/// Frames of corners in the memory of a [`Context`], one per corner, in corner order. Not in vertex order.
 #[derive(Clone, Copy, Debug)]
 pub struct LentFrames<'a> {
     mesh: &'a Mesh<'a>,
     fans: &'a Fans,
     memory: &'a FrameMemory,
+    limits: RunLimits<'a>,
     report: Report,
 }
 
 impl LentFrames<'_> {
-    /// What was met on the way.
+    /// Counts of what the run met.
     pub fn report(&self) -> Report {
         self.report
     }
@@ -123,7 +126,7 @@ impl LentFrames<'_> {
         }
     }
 
-    /// Writes all of them, the parts apart: tangents with their signs, bitangents, magnitudes. Errors: an array of another length than one
+    /// Writes all frames into three arrays: tangents with their signs, bitangents, magnitudes. Errors: an array of another length than one
     /// per corner.
     pub fn write_apart(
         &self,
@@ -134,7 +137,7 @@ impl LentFrames<'_> {
         for len in [tangents.len(), bitangents.len(), magnitudes.len()] {
             expect("corners", self.len(), len)?;
         }
-        let threads = threads::count(triangle_count(self.mesh));
+        let threads = self.limits.thread_count(triangle_count(self.mesh));
         let ranges = split(0..self.len(), threads, 1);
         let (tangents, bitangents) =
             (parts(tangents, 0, ranges.clone()), parts(bitangents, 0, ranges.clone()));
@@ -159,25 +162,24 @@ impl LentFrames<'_> {
     }
 }
 
-/// Frames that are made at once, on their way into arrays of other forms.
+/// Frames per block of [`LentFrames::write_apart`].
 const BLOCK: usize = 64;
 
 fn run(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
-    stop: &Stop,
-    scratch: &mut Scratch,
+    limits: RunLimits<'_>,
+    memory: &mut TangentMemory,
     out: &mut [Frame],
 ) -> Report {
-    let Some(report) = run_fans(mesh, options, stop, scratch) else {
-        let width = Width::widest(scratch.width_limit);
-        return method::run(mesh, options, stop, width, &mut scratch.sums, out);
+    let Some(report) = run_fans(mesh, options, limits, memory) else {
+        return method::run(mesh, options, limits, &mut memory.sums, out);
     };
-    if stop.is_asked() {
+    if limits.is_cancelled() {
         return report;
     }
-    let frames = LentFrames { mesh, fans: &scratch.fans, memory: &scratch.frames, report };
-    let threads = threads::count(triangle_count(mesh));
+    let frames = LentFrames { mesh, fans: &memory.fans, memory: &memory.frames, limits, report };
+    let threads = limits.thread_count(triangle_count(mesh));
     let ranges = split(0..out.len(), threads, 1);
     threads::run(&mut vec![(); threads], ranges.clone().zip(parts(out, 0, ranges)), |(), (range, out)| {
         frames.write(range.start, out);
@@ -185,21 +187,25 @@ fn run(
     report
 }
 
-/// Leaves the frames of a mesh that whole fans suffice for in the scratch; else nothing.
-fn run_fans(mesh: &Mesh<'_>, options: &TangentOptions, stop: &Stop, scratch: &mut Scratch) -> Option<Report> {
+/// Leaves the frames in `memory` where the fast path applies; else returns `None`.
+fn run_fans(
+    mesh: &Mesh<'_>,
+    options: &TangentOptions,
+    limits: RunLimits<'_>,
+    memory: &mut TangentMemory,
+) -> Option<Report> {
     if !has_whole_fans(options) {
         return None;
     }
-    let width = Width::widest(scratch.width_limit);
-    let Scratch { fans, frames: FrameMemory { tangents, decided, frames }, .. } = scratch;
+    let TangentMemory { fans, frames: FrameMemory { tangents, decided, frames }, .. } = memory;
     frames.clear();
     tangents.resize(mesh.corner_count(), [0.0; 4]);
-    threads::on_pool(threads::count(triangle_count(mesh)), || {
-        fans.run(mesh, options, width, stop, tangents).then(|| fans.add_frames(mesh, width, stop))
+    threads::on_pool(limits.thread_count(triangle_count(mesh)), || {
+        fans.run(mesh, options, limits, tangents).then(|| fans.add_frames(mesh, limits))
     })?;
     decided.clear();
-    if stop.is_asked() {
+    if limits.is_cancelled() {
         return Some(Report::default());
     }
-    Some(submesh::decide_frames(mesh, options, fans, stop, tangents, decided))
+    Some(submesh::decide_frames(mesh, options, fans, limits, tangents, decided))
 }

@@ -8,6 +8,7 @@ use crate::Mesh;
 use crate::Mode;
 use crate::math::V3;
 
+use crate::exec::limits::RunLimits;
 use crate::tangents::Report;
 use crate::tangents::mesh_slices::MeshSlices;
 use crate::tangents::mirrored_edges::survey;
@@ -17,9 +18,14 @@ use crate::tangents::repair::{direction, perpendicular};
 use crate::tangents::uv_derivatives::is_degenerate;
 
 /// The frame of every vertex, at each of its corners.
-pub(crate) fn run<O: Output>(mesh: &Mesh<'_>, mode: Mode, corners: &mut [O]) -> Report {
+pub(crate) fn run<O: Output>(
+    mesh: &Mesh<'_>,
+    mode: Mode,
+    limits: RunLimits<'_>,
+    corners: &mut [O],
+) -> Report {
     let flat = MeshSlices::new(mesh);
-    let mut report = survey(mesh, &flat);
+    let mut report = survey(mesh, &flat, limits);
     let frame = |&normal: &V3| match (direction(normal), mode) {
         (None, Mode::Reference) => O::EMPTY,
         (unit, _) => {

@@ -2,9 +2,8 @@
 
 use crate::Mesh;
 use crate::Mode;
-use crate::cancel::Stop;
 
-use crate::exec::simd::Width;
+use crate::exec::limits::RunLimits;
 use crate::exec::threads;
 use crate::tangents::TangentOptions;
 use crate::tangents::angle_area;
@@ -28,31 +27,30 @@ use crate::tangents::vertex_sums::weighting::Weighting;
 pub(crate) fn run<O: Output>(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
-    stop: &Stop,
-    width: Width,
+    limits: RunLimits<'_>,
     memory: &mut MethodBuffers,
     corners: &mut [O],
 ) -> Report {
     let mode = options.mode;
     match options.method {
-        Method::MikkTSpace => mikktspace(mesh, options, stop, corners),
-        Method::AngleArea => angle_area::run(mesh, mode, &mut memory.of_groups, corners),
+        Method::MikkTSpace => mikktspace(mesh, options, limits, corners),
+        Method::AngleArea => angle_area::run(mesh, mode, limits, &mut memory.of_groups, corners),
         Method::Lengyel => {
-            summed::<2, Lengyel, O>(mesh, (mode, width), accumulate::<2, Lengyel>, memory, corners)
+            summed::<2, Lengyel, O>(mesh, (mode, limits), accumulate::<2, Lengyel>, memory, corners)
         }
         Method::LengyelPerVertex => summed::<2, LengyelPerVertex, O>(
             mesh,
-            (mode, width),
+            (mode, limits),
             accumulate::<2, LengyelPerVertex>,
             memory,
             corners,
         ),
         Method::Average => {
-            summed::<3, Average, O>(mesh, (mode, width), accumulate::<3, Average>, memory, corners)
+            summed::<3, Average, O>(mesh, (mode, limits), accumulate::<3, Average>, memory, corners)
         }
-        Method::Area => summed::<3, Area, O>(mesh, (mode, width), accumulate::<3, Area>, memory, corners),
-        Method::Face => face::run(mesh, mode, corners),
-        Method::FromNormal => from_normal::run(mesh, mode, corners),
+        Method::Area => summed::<3, Area, O>(mesh, (mode, limits), accumulate::<3, Area>, memory, corners),
+        Method::Face => face::run(mesh, mode, limits, corners),
+        Method::FromNormal => from_normal::run(mesh, mode, limits, corners),
     }
 }
 
@@ -60,11 +58,13 @@ pub(crate) fn run<O: Output>(
 pub(crate) fn mikktspace<O: Output>(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
-    stop: &Stop,
+    limits: RunLimits<'_>,
     corners: &mut [O],
 ) -> Report {
-    let Some(topology) = mikktspace::GroupedMesh::new(mesh, options, stop) else { return Report::default() };
-    let (frames, report) = topology.frames(mesh, stop);
+    let Some(topology) = mikktspace::GroupedMesh::new(mesh, options, limits) else {
+        return Report::default();
+    };
+    let (frames, report) = topology.frames(mesh, limits);
     fill(corners, frames.iter().map(O::from_frame));
     report
 }
@@ -72,8 +72,8 @@ pub(crate) fn mikktspace<O: Output>(
 /// SideSums as `add_up` does, and makes corners of the sums.
 fn summed<const N: usize, W: Weighting<N>, O: Output>(
     mesh: &Mesh<'_>,
-    (mode, width): (Mode, Width),
-    add_up: fn(&MeshSlices<'_>, Width, &mut SideSums<N>),
+    (mode, limits): (Mode, RunLimits<'_>),
+    add_up: fn(&MeshSlices<'_>, RunLimits<'_>, &mut SideSums<N>),
     memory: &mut MethodBuffers,
     corners: &mut [O],
 ) -> Report
@@ -82,9 +82,9 @@ where
 {
     let flat = MeshSlices::new(mesh);
     let (mut sums, mut frames) = (SideSums::new(&flat, memory), O::kept(&mut memory.tangents_of_side));
-    let report = threads::on_pool(threads::count(flat.triangles().len()), || {
-        add_up(&flat, width, &mut sums);
-        finish::<N, W, O>(mesh, &flat, &mut sums, (mode, width), &mut frames, corners)
+    let report = threads::on_pool(limits.thread_count(flat.triangles().len()), || {
+        add_up(&flat, limits, &mut sums);
+        finish::<N, W, O>(mesh, &flat, &mut sums, (mode, limits), &mut frames, corners)
     });
     sums.keep(memory);
     O::keep(frames, &mut memory.tangents_of_side);

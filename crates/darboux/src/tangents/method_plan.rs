@@ -5,20 +5,18 @@ use std::sync::OnceLock;
 use crate::CornerTangents;
 use crate::Frame;
 use crate::Mesh;
-use crate::cancel::Stop;
 
-use crate::exec::simd::Width;
+use crate::exec::limits::RunLimits;
 use crate::tangents::Method;
-use crate::tangents::Scratch;
 use crate::tangents::TangentOptions;
 use crate::tangents::Tangents;
 use crate::tangents::angle_area;
 use crate::tangents::fast::{Fans, PlannedFans, triangle_count};
-use crate::tangents::generate_tangents;
 use crate::tangents::has_whole_fans;
+use crate::tangents::memory::TangentMemory;
 use crate::tangents::mikktspace::{GroupedMesh, unknown};
-use crate::tangents::run;
 use crate::tangents::submesh::UndecidedFaces;
+use crate::tangents::{generate, run};
 
 /// What is known beforehand.
 #[derive(Debug)]
@@ -44,33 +42,34 @@ pub(crate) struct Decided {
 
 impl Planned {
     /// Runs on the base, and keeps what does not depend on where vertices are.
-    pub fn new(mesh: &Mesh<'_>, options: &TangentOptions) -> (Self, Tangents) {
-        let stop = &Stop::heard();
+    pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, limits: RunLimits<'_>) -> (Self, Tangents) {
         match options.method {
             Method::MikkTSpace => {}
             Method::AngleArea => {
-                let (plan, tangents, report) = angle_area::plan(mesh, options.mode);
+                let (plan, tangents, report) = angle_area::plan(mesh, options.mode, limits);
                 let corners = CornerTangents(tangents);
                 return (Self::Groups(Box::new(plan)), Tangents { corners, report });
             }
-            _ => return (Self::Nothing, generate_tangents(mesh, options)),
+            _ => return (Self::Nothing, generate(mesh, options, limits, &mut TangentMemory::default())),
         }
         let mut base = Tangents::default();
         base.corners.0.resize(mesh.corner_count(), [0.0; 4]);
-        let (mut fans, width) = (Fans::default(), Width::widest(Default::default()));
-        if !has_whole_fans(options) || !fans.run(mesh, options, width, stop, &mut base.corners.0) {
-            let Some(topology) = GroupedMesh::new(mesh, options, stop) else { return (Self::Nothing, base) };
-            let (frames, report) = topology.frames(mesh, stop);
+        let mut fans = Fans::default();
+        if !has_whole_fans(options) || !fans.run(mesh, options, limits, &mut base.corners.0) {
+            let Some(topology) = GroupedMesh::new(mesh, options, limits) else {
+                return (Self::Nothing, base);
+            };
+            let (frames, report) = topology.frames(mesh, limits);
             write(&frames, &mut base.corners.0);
             return (Self::Stages(Box::new(topology)), Tangents { report, ..base });
         }
-        if stop.is_asked() {
+        if limits.is_cancelled() {
             return (Self::Nothing, base);
         }
-        let undecided = UndecidedFaces::new(mesh, options, &fans, &base.corners.0);
+        let undecided = UndecidedFaces::new(mesh, options, &fans, limits, &base.corners.0);
         let fans = PlannedFans::new(mesh, fans, &base.corners.0);
         if let Some(part) = &undecided {
-            base.report = part.decide(mesh, stop, &mut base.corners.0);
+            base.report = part.decide(mesh, limits, &mut base.corners.0);
         }
         base.report.triangles = triangle_count(mesh);
         let vertices = Vertices::new(mesh);
@@ -82,18 +81,19 @@ impl Planned {
         &self,
         mesh: &Mesh<'_>,
         base: (&TangentOptions, &[[f32; 4]]),
-        scratch: &mut Scratch,
+        limits: RunLimits<'_>,
+        memory: &mut TangentMemory,
         out: &mut [[f32; 4]],
     ) {
-        let ((options, signs), stop) = (base, &Stop::heard());
+        let (options, signs) = base;
         match self {
-            Self::Fans(decided) => return decided.evaluate(mesh, base, stop, scratch, out),
-            Self::Stages(topology) => write(&topology.frames_of_moved(mesh, unknown(mesh), stop).0, out),
+            Self::Fans(decided) => return decided.evaluate(mesh, base, limits, memory, out),
+            Self::Stages(topology) => write(&topology.frames_of_moved(mesh, unknown(mesh), limits).0, out),
             Self::Groups(plan) => {
-                plan.frames_of_moved(mesh, options.mode, &mut scratch.sums.of_groups, out);
+                plan.frames_of_moved(mesh, options.mode, limits, &mut memory.sums.of_groups, out);
             }
             Self::Nothing => {
-                run(mesh, options, stop, scratch, out);
+                run(mesh, options, limits, memory, out);
             }
         }
         take_signs(signs, out);
@@ -105,26 +105,30 @@ impl Decided {
         &self,
         mesh: &Mesh<'_>,
         (options, base): (&TangentOptions, &[[f32; 4]]),
-        stop: &Stop,
-        scratch: &mut Scratch,
+        limits: RunLimits<'_>,
+        memory: &mut TangentMemory,
         out: &mut [[f32; 4]],
     ) {
-        let width = Width::widest(scratch.width_limit);
-        if scratch.fans.run_planned(&self.fans, mesh, width, stop, out) {
+        if memory.fans.run_planned(&self.fans, mesh, limits, out) {
             if let Some(part) = &self.undecided {
-                part.decide_moved(mesh, base, stop, out);
+                part.decide_moved(mesh, base, limits, out);
             }
             return;
         }
-        let Some(stages) = self.stages(mesh, options, stop) else { return };
-        write(&stages.frames_of_moved(mesh, unknown(mesh), stop).0, out);
+        let Some(stages) = self.stages(mesh, options, limits) else { return };
+        write(&stages.frames_of_moved(mesh, unknown(mesh), limits).0, out);
         take_signs(base, out);
     }
 
-    /// The stages of the mesh that was planned, which are made when they are first asked for; nothing once it shall stop.
-    fn stages(&self, moved: &Mesh<'_>, options: &TangentOptions, stop: &Stop) -> Option<&GroupedMesh> {
+    /// The stages of the mesh that was planned, which are made when they are first asked for; `None` after cancellation.
+    fn stages(
+        &self,
+        moved: &Mesh<'_>,
+        options: &TangentOptions,
+        limits: RunLimits<'_>,
+    ) -> Option<&GroupedMesh> {
         if self.stages.get().is_none() {
-            let made = GroupedMesh::new(&self.base.of(moved), options, stop)?;
+            let made = GroupedMesh::new(&self.base.of(moved), options, limits)?;
             // Another thread may have been quicker, with the same.
             _ = self.stages.set(made);
         }

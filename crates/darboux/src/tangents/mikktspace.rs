@@ -16,7 +16,7 @@ pub(crate) mod welded_mesh;
 
 use crate::Frame;
 use crate::Mesh;
-use crate::cancel::Stop;
+use crate::exec::limits::RunLimits;
 use crate::math::cosine_of_degrees;
 use crate::topology::edge_sort::TriangleEdge;
 use crate::topology::neighbours::{EdgeOrder, match_again, neighbours};
@@ -64,23 +64,28 @@ pub(crate) struct SubmeshWeld<'a> {
 }
 
 impl GroupedMesh {
-    /// Welds, finds neighbours and groups; nothing once it shall stop.
-    pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, stop: &Stop) -> Option<Self> {
+    /// Welds, finds neighbours and groups. `None` after cancellation.
+    pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, limits: RunLimits<'_>) -> Option<Self> {
         let triangulation = triangulate(mesh);
-        stop.check().ok()?;
+        limits.check().ok()?;
         let neighbours = neighbours(&triangulation.good, edge_order(options));
-        stop.check().ok()?;
-        let derivatives = agreed_derivatives(&triangulation.good, &WeldedMesh::welded(mesh));
+        limits.check().ok()?;
+        let derivatives = agreed_derivatives(&triangulation.good, &WeldedMesh::welded(mesh), limits);
         Some(Self::of(mesh, triangulation, (&neighbours, derivatives), |_| true, options))
     }
 
     /// Of the vertices of `part` that count, where the order of vertices shows nowhere but in the last edges.
-    pub fn of_part(mesh: &Mesh<'_>, part: &SubmeshWeld<'_>, options: &TangentOptions) -> Self {
+    pub fn of_part(
+        mesh: &Mesh<'_>,
+        part: &SubmeshWeld<'_>,
+        options: &TangentOptions,
+        limits: RunLimits<'_>,
+    ) -> Self {
         let triangulation = triangulate_welded(mesh, part.names);
         let good = &triangulation.good;
         let mut neighbours = neighbours(good, EdgeOrder::Complete);
         match_again(good, &numbered(good, part.tail_runs), &mut neighbours);
-        let derivatives = agreed_derivatives(good, &WeldedMesh::welded(mesh));
+        let derivatives = agreed_derivatives(good, &WeldedMesh::welded(mesh), limits);
         let counts = |vertex| part.counts[vertex as usize];
         Self::of(mesh, triangulation, (&neighbours, derivatives), counts, options)
     }
@@ -112,24 +117,34 @@ impl GroupedMesh {
     }
 
     /// The frames of the mesh that was welded and grouped.
-    pub fn frames(&self, mesh: &Mesh<'_>, stop: &Stop) -> (Vec<Frame>, Report) {
-        self.frames_of_part(mesh, unknown(mesh), stop)
+    pub fn frames(&self, mesh: &Mesh<'_>, limits: RunLimits<'_>) -> (Vec<Frame>, Report) {
+        self.frames_of_part(mesh, unknown(mesh), limits)
     }
 
     /// As [`GroupedMesh::frames`], where corners of no group keep what they have in `known`.
-    pub fn frames_of_part(&self, mesh: &Mesh<'_>, known: Vec<Frame>, stop: &Stop) -> (Vec<Frame>, Report) {
-        self.finish(mesh, &self.base, &WeldedMesh::welded(mesh), known, stop)
+    pub fn frames_of_part(
+        &self,
+        mesh: &Mesh<'_>,
+        known: Vec<Frame>,
+        limits: RunLimits<'_>,
+    ) -> (Vec<Frame>, Report) {
+        self.finish(mesh, &self.base, &WeldedMesh::welded(mesh), known, limits)
     }
 
     /// As [`GroupedMesh::frames_of_part`] for a mesh whose vertices have moved since.
-    pub fn frames_of_moved(&self, mesh: &Mesh<'_>, known: Vec<Frame>, stop: &Stop) -> (Vec<Frame>, Report) {
+    pub fn frames_of_moved(
+        &self,
+        mesh: &Mesh<'_>,
+        known: Vec<Frame>,
+        limits: RunLimits<'_>,
+    ) -> (Vec<Frame>, Report) {
         let shape = WeldedMesh::moved(mesh);
         let good = &self.triangulation.good;
-        let mut moved = derivatives(good, &shape);
+        let mut moved = derivatives(good, &shape, limits);
         for (moved, base) in moved.iter_mut().zip(&self.base.derivatives) {
             (moved.preserves, moved.any) = (base.preserves, base.any);
         }
-        self.finish(mesh, &GroupInputs::new(good, &self.groups, moved, &shape), &shape, known, stop)
+        self.finish(mesh, &GroupInputs::new(good, &self.groups, moved, &shape), &shape, known, limits)
     }
 
     fn finish(
@@ -138,12 +153,12 @@ impl GroupedMesh {
         values: &GroupInputs,
         shape: &WeldedMesh<'_>,
         known: Vec<Frame>,
-        stop: &Stop,
+        limits: RunLimits<'_>,
     ) -> (Vec<Frame>, Report) {
         let good = &self.triangulation.good;
-        let how = EvaluateOptions { threshold_cosine: self.threshold_cosine, stop };
+        let how = EvaluateOptions { threshold_cosine: self.threshold_cosine, limits };
         let mut raw = evaluate(good, &self.groups, &how, (&self.base, values), shape, known);
-        if stop.is_asked() {
+        if limits.is_cancelled() {
             return (raw.of_corner, Report::default());
         }
         let copied = fill_degenerate(&self.triangulation, shape, &mut raw);

@@ -2,6 +2,7 @@
 
 use crate::Mesh;
 
+use crate::exec::limits::RunLimits;
 use crate::exec::threads::{self, split};
 use crate::tangents::Report;
 use crate::tangents::mesh_slices::MeshSlices;
@@ -9,8 +10,8 @@ use crate::tangents::report;
 use crate::tangents::uv_derivatives::Orientation;
 
 /// The part of a report that does not depend on the method.
-pub(crate) fn survey(mesh: &Mesh<'_>, flat: &MeshSlices<'_>) -> Report {
-    survey_where(mesh, flat, has_finite_vertices(flat))
+pub(crate) fn survey(mesh: &Mesh<'_>, flat: &MeshSlices<'_>, limits: RunLimits<'_>) -> Report {
+    survey_where(mesh, flat, has_finite_vertices(flat, limits))
 }
 
 /// As [`survey`]. `is_finite`: whether all values that corners have are known to be finite.
@@ -29,18 +30,18 @@ pub(crate) fn survey_where(mesh: &Mesh<'_>, flat: &MeshSlices<'_>, is_finite: bo
     }
 }
 
-pub(crate) fn has_finite_vertices(flat: &MeshSlices<'_>) -> bool {
-    all_finite(flat.positions.as_flattened())
-        && has_finite_normals(flat)
-        && all_finite(flat.uvs.as_flattened())
+pub(crate) fn has_finite_vertices(flat: &MeshSlices<'_>, limits: RunLimits<'_>) -> bool {
+    all_finite(flat.positions.as_flattened(), limits)
+        && has_finite_normals(flat, limits)
+        && all_finite(flat.uvs.as_flattened(), limits)
 }
 
-pub(crate) fn has_finite_normals(flat: &MeshSlices<'_>) -> bool {
-    all_finite(flat.normals.as_flattened())
+pub(crate) fn has_finite_normals(flat: &MeshSlices<'_>, limits: RunLimits<'_>) -> bool {
+    all_finite(flat.normals.as_flattened(), limits)
 }
 
-fn all_finite(values: &[f32]) -> bool {
-    let threads = threads::count(values.len() / 8);
+fn all_finite(values: &[f32], limits: RunLimits<'_>) -> bool {
+    let threads = limits.thread_count(values.len() / 8);
     let mut found = vec![true; threads];
     threads::run(&mut found, split(0..values.len(), threads, 1), |finite, range| {
         // The largest exponent, as integers: a loop that runs several lanes at a time.

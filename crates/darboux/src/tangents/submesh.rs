@@ -3,7 +3,7 @@
 
 use crate::Frame;
 use crate::Mesh;
-use crate::cancel::Stop;
+use crate::exec::limits::RunLimits;
 
 use crate::tangents::Report;
 use crate::tangents::TangentOptions;
@@ -34,6 +34,7 @@ impl UndecidedFaces {
         mesh: &Mesh<'_>,
         options: &TangentOptions,
         fans: &Fans,
+        limits: RunLimits<'_>,
         tangents: &[[f32; 4]],
     ) -> Option<Self> {
         let faces = fans.undecided(mesh);
@@ -50,14 +51,14 @@ impl UndecidedFaces {
         let counts = all_undecided(&names, &is_undecided);
         let tail_runs = stretches_within(&corners, &fans.tail_runs(mesh));
         let part = SubmeshWeld { names: &names, counts: &counts, tail_runs: &tail_runs };
-        let topology = GroupedMesh::of_part(&mesh.with_other_faces(&indices, &sizes), &part, options);
+        let topology = GroupedMesh::of_part(&mesh.with_other_faces(&indices, &sizes), &part, options, limits);
         Some(Self { corners, indices, sizes, is_undecided, topology })
     }
 
     /// Writes the tangents of the undecided corners; `out` has those of all others. Returns the report of the part.
-    pub fn decide(&self, mesh: &Mesh<'_>, stop: &Stop, out: &mut [[f32; 4]]) -> Report {
+    pub fn decide(&self, mesh: &Mesh<'_>, limits: RunLimits<'_>, out: &mut [[f32; 4]]) -> Report {
         let part = mesh.with_other_faces(&self.indices, &self.sizes);
-        let (frames, report) = self.topology.frames_of_part(&part, self.known(out), stop);
+        let (frames, report) = self.topology.frames_of_part(&part, self.known(out), limits);
         self.write(&frames, |corner, frame| out[corner] = frame.tangent_and_sign());
         report
     }
@@ -66,20 +67,26 @@ impl UndecidedFaces {
     fn decide_frames(
         &self,
         mesh: &Mesh<'_>,
-        stop: &Stop,
+        limits: RunLimits<'_>,
         tangents: &[[f32; 4]],
         out: &mut Vec<(u32, Frame)>,
     ) -> Report {
         let part = mesh.with_other_faces(&self.indices, &self.sizes);
-        let (frames, report) = self.topology.frames_of_part(&part, self.known(tangents), stop);
+        let (frames, report) = self.topology.frames_of_part(&part, self.known(tangents), limits);
         self.write(&frames, |corner, frame| out.push((corner as u32, frame)));
         report
     }
 
     /// As [`UndecidedFaces::decide`] for a mesh whose vertices have moved since, with the signs of `base`.
-    pub fn decide_moved(&self, mesh: &Mesh<'_>, base: &[[f32; 4]], stop: &Stop, out: &mut [[f32; 4]]) {
+    pub fn decide_moved(
+        &self,
+        mesh: &Mesh<'_>,
+        base: &[[f32; 4]],
+        limits: RunLimits<'_>,
+        out: &mut [[f32; 4]],
+    ) {
         let part = mesh.with_other_faces(&self.indices, &self.sizes);
-        let (frames, _) = self.topology.frames_of_moved(&part, self.known(out), stop);
+        let (frames, _) = self.topology.frames_of_moved(&part, self.known(out), limits);
         self.write(&frames, |corner, frame| out[corner] = frame.tangent_and_sign());
         for corner in self.corners.iter().map(|&corner| corner as usize) {
             out[corner][3] = base[corner][3];
@@ -109,11 +116,11 @@ pub(crate) fn decide(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
     fans: &Fans,
-    stop: &Stop,
+    limits: RunLimits<'_>,
     out: &mut [[f32; 4]],
 ) -> Report {
-    let part = UndecidedFaces::new(mesh, options, fans, out);
-    let report = part.map(|part| part.decide(mesh, stop, out)).unwrap_or_default();
+    let part = UndecidedFaces::new(mesh, options, fans, limits, out);
+    let report = part.map(|part| part.decide(mesh, limits, out)).unwrap_or_default();
     Report { triangles: triangle_count(mesh), ..report }
 }
 
@@ -122,12 +129,12 @@ pub(crate) fn decide_frames(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
     fans: &Fans,
-    stop: &Stop,
+    limits: RunLimits<'_>,
     tangents: &[[f32; 4]],
     out: &mut Vec<(u32, Frame)>,
 ) -> Report {
-    let part = UndecidedFaces::new(mesh, options, fans, tangents);
-    let report = part.map(|part| part.decide_frames(mesh, stop, tangents, out)).unwrap_or_default();
+    let part = UndecidedFaces::new(mesh, options, fans, limits, tangents);
+    let report = part.map(|part| part.decide_frames(mesh, limits, tangents, out)).unwrap_or_default();
     Report { triangles: triangle_count(mesh), ..report }
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::Ordering;
 
-use darboux::{Mesh, Scratch, TangentOptions, Tangents, generate_tangents_into};
+use darboux::{Context, Mesh, TangentOptions, Tangents, generate_tangents_with};
 
 use super::arguments::Device;
 use super::summary::DeviceReport;
@@ -33,22 +33,20 @@ impl TangentDevice {
         Ok(Self { device, opened, least_for_gpu: least_for_gpu()?, corners_of_gpu: 0, fault: None })
     }
 
-    /// As [`generate_tangents_into`]. Errors: what stops the GPU, where that is asked for; else the CPU does the work.
+    /// As [`generate_tangents_with`]. Errors: what stops the GPU, where that is asked for; else the CPU does the work.
     pub fn generate(
         &mut self,
         mesh: &Mesh<'_>,
         options: &TangentOptions,
-        scratch: &mut Scratch,
-        out: &mut Tangents,
-    ) -> Result<(), String> {
+        context: &mut Context,
+    ) -> Result<Tangents, String> {
         if self.wants_gpu(mesh, options) {
-            match self.generate_on_gpu(mesh, options, out) {
+            match self.generate_on_gpu(mesh, options) {
                 Err(why) if self.device == Device::Auto => self.fault = Some(why),
                 done => return done,
             }
         }
-        generate_tangents_into(mesh, options, scratch, out);
-        Ok(())
+        generate_tangents_with(mesh, options, context).map_err(|error| error.to_string())
     }
 
     fn wants_gpu(&self, mesh: &Mesh<'_>, options: &TangentOptions) -> bool {
@@ -61,15 +59,11 @@ impl TangentDevice {
         }
     }
 
-    fn generate_on_gpu(
-        &mut self,
-        mesh: &Mesh<'_>,
-        options: &TangentOptions,
-        out: &mut Tangents,
-    ) -> Result<(), String> {
+    fn generate_on_gpu(&mut self, mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Tangents, String> {
         let opened = self.opened.get_or_insert_with(gpu::open).as_ref().map_err(Clone::clone)?;
-        self.corners_of_gpu += mesh.corner_count() - opened.generate(mesh, options, out)?;
-        Ok(())
+        let mut tangents = Tangents::default();
+        self.corners_of_gpu += mesh.corner_count() - opened.generate(mesh, options, &mut tangents)?;
+        Ok(tangents)
     }
 
     /// What a user should know of it, in a sentence: why the CPU did the GPU's work; that the GPU is software, once for all files.
@@ -127,10 +121,7 @@ mod tests {
         let uvs = positions.map(|[x, y, _]| [x, y]);
         let mesh = Mesh::triangles(&positions, &[[0.0, 0.0, 1.0]; 3], &uvs, &[0u32, 1, 2]).expect("a mesh");
         let options = TangentOptions::default();
-        let run = |device: &mut TangentDevice| {
-            let mut out = Tangents::default();
-            device.generate(&mesh, &options, &mut Scratch::default(), &mut out).map(|()| out)
-        };
+        let run = |device: &mut TangentDevice| device.generate(&mesh, &options, &mut Context::new());
         let mut auto = tangent_device(Device::Auto, opened);
         let made = run(&mut auto).expect("tangents of the CPU");
         assert_eq!(made.corners.per_corner(), [[1.0, 0.0, 0.0, 1.0]; 3]);

@@ -4,7 +4,8 @@ use std::collections::HashMap;
 use std::hash::Hash;
 
 use darboux::{
-    Faces, Indices, MeshError, NormalOptions, NormalReport, Shading, SmoothingSeams, generate_normals,
+    Context, Faces, Indices, MeshError, NormalOptions, NormalReport, Shading, SmoothingSeams,
+    generate_normals_with,
 };
 
 use super::select::{Chosen, Selection};
@@ -56,7 +57,7 @@ pub fn shade(
     document: &Document,
     accessors: &CanonicalAccessors,
     selection: &Selection,
-    options: &NormalOptions,
+    (options, context): (&NormalOptions, &Context),
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Vec<ShadedPrimitive>, Error> {
     let mut reader = Reader { document, last: None };
@@ -71,7 +72,7 @@ pub fn shade(
     let total = parts.iter().map(|part| part.corners.len() / 3).sum();
     let mut at = Progress { done: 0, total };
     for mesh in parts.chunk_by_mut(|a, b| a.name.mesh == b.name.mesh) {
-        shade_mesh(&mut reader, mesh, options)?;
+        shade_mesh(&mut reader, mesh, (options, context))?;
         at.done += mesh.iter().map(|part| part.corners.len() / 3).sum::<usize>();
         progress(at);
     }
@@ -151,14 +152,15 @@ impl Reader<'_> {
 fn shade_mesh(
     reader: &mut Reader<'_>,
     parts: &mut [ShadedPrimitive],
-    options: &NormalOptions,
+    (options, context): (&NormalOptions, &Context),
 ) -> Result<(), Error> {
     let mut positions = Vec::new();
     for part in parts.iter() {
         reader.at_corners(part, part.position, &mut positions)?;
     }
     let vertex_of_corner = welded(parts, &positions, options.seams);
-    let (normals, report) = normals(reader.document, parts, &positions, &vertex_of_corner, options)?;
+    let (normals, report) =
+        normals(reader.document, parts, &positions, &vertex_of_corner, (options, context))?;
     let mut rest = normals.as_slice();
     for part in parts.iter_mut() {
         let (own, others) = rest.split_at(part.corners.len());
@@ -168,7 +170,7 @@ fn shade_mesh(
         return Ok(());
     }
     let fans = normals.iter().zip(&vertex_of_corner).map(|(normal, vertex)| (*vertex, bits(*normal)));
-    move_mesh(reader, parts, &positions, &numbered(fans), options)
+    move_mesh(reader, parts, &positions, &numbered(fans), (options, context))
 }
 
 /// The vertex of every corner, counted from zero: one for all at a position, or one for each of the index lists.
@@ -209,7 +211,7 @@ fn move_mesh(
     parts: &mut [ShadedPrimitive],
     positions: &[[f32; 3]],
     fan_of_corner: &[u32],
-    options: &NormalOptions,
+    (options, context): (&NormalOptions, &Context),
 ) -> Result<(), Error> {
     let in_fans = NormalOptions { crease: 180.0, ..*options };
     let targets = parts.iter().map(|part| part.moves.len()).max().unwrap_or(0);
@@ -228,7 +230,7 @@ fn move_mesh(
         for (moved, position) in moved.iter_mut().zip(positions) {
             *moved = std::array::from_fn(|i| position[i] + moved[i]);
         }
-        let (normals, _) = normals(reader.document, parts, &moved, fan_of_corner, &in_fans)?;
+        let (normals, _) = normals(reader.document, parts, &moved, fan_of_corner, (&in_fans, context))?;
         let mut rest = normals.as_slice();
         for part in parts.iter_mut() {
             let (own, others) = rest.split_at(part.corners.len());
@@ -251,10 +253,12 @@ fn normals(
     parts: &[ShadedPrimitive],
     positions: &[[f32; 3]],
     vertex_of_corner: &[u32],
-    options: &NormalOptions,
+    (options, context): (&NormalOptions, &Context),
 ) -> Result<(Vec<[f32; 3]>, NormalReport), Error> {
     let generated = match options.shading {
-        Shading::Flat => generate_normals(positions, Indices::Unindexed, Faces::Triangles, options),
+        Shading::Flat => {
+            generate_normals_with(positions, Indices::Unindexed, Faces::Triangles, options, context)
+        }
         Shading::Smooth => {
             let count = vertex_of_corner.iter().max().map_or(0, |&last| last as usize + 1);
             let mut of_vertex = vec![[0.0; 3]; count];
@@ -263,7 +267,8 @@ fn normals(
             }
             // Which corners are one vertex is decided here, across primitives.
             let options = NormalOptions { seams: SmoothingSeams::Respected, ..*options };
-            generate_normals(&of_vertex, Indices::U32(vertex_of_corner), Faces::Triangles, &options)
+            let indices = Indices::U32(vertex_of_corner);
+            generate_normals_with(&of_vertex, indices, Faces::Triangles, &options, context)
         }
     };
     let path = parts.first().map_or_else(String::new, |part| part.name.path());

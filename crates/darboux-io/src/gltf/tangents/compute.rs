@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::mem;
 
 use darboux::{
-    CornerTangents, Mesh, Plan, Report, Scratch, TangentOptions, Tangents, generate_tangents_into,
+    Context, CornerTangents, Mesh, Plan, Report, TangentOptions, Tangents, generate_tangents_with,
 };
 
 use super::encoding::TangentEncoding;
@@ -85,19 +85,12 @@ pub struct JobResult<'a> {
     pub plan: Option<Plan>,
 }
 
-/// What computes the tangents of a mesh without morph targets, as [`darboux::generate_tangents_into`] does; a failure is one sentence.
-pub type Generate<'a> =
-    dyn FnMut(&Mesh<'_>, &TangentOptions, &mut Scratch, &mut Tangents) -> Result<(), String> + 'a;
+/// What computes the tangents of a mesh without morph targets, as [`darboux::generate_tangents_with`] does; a failure is one sentence.
+pub type Generate<'a> = dyn FnMut(&Mesh<'_>, &TangentOptions, &mut Context) -> Result<Tangents, String> + 'a;
 
 /// [`Generate`] on the CPU.
-pub fn on_cpu(
-    mesh: &Mesh<'_>,
-    options: &TangentOptions,
-    scratch: &mut Scratch,
-    out: &mut Tangents,
-) -> Result<(), String> {
-    generate_tangents_into(mesh, options, scratch, out);
-    Ok(())
+pub fn on_cpu(mesh: &Mesh<'_>, options: &TangentOptions, context: &mut Context) -> Result<Tangents, String> {
+    generate_tangents_with(mesh, options, context).map_err(|error| error.to_string())
 }
 
 /// Computes a job. `at` is the JSON path of a primitive that it belongs to; with `morphs` it is kept ready for morph targets.
@@ -110,7 +103,7 @@ pub fn compute_job<'a>(
     job: &Job,
     morphs: bool,
     options: &TangentsOptions,
-    (generate, scratch): (&mut Generate<'_>, &mut Scratch),
+    (generate, context): (&mut Generate<'_>, &mut Context),
 ) -> Result<JobResult<'a>, Error> {
     let mut corners = indices(document, job, vertices.positions.len())?;
     let rest = corners.split_off(job.topology.whole(corners.len()));
@@ -120,13 +113,12 @@ pub fn compute_job<'a>(
     };
     let mesh = vertices.mesh(document, at, job, &corners)?;
     let (tangents, plan) = if morphs {
-        let plan = Plan::new(&mesh, &options.tangents);
+        let plan = Plan::new_with(&mesh, &options.tangents, context)
+            .map_err(|error| document.mesh_error(at, error))?;
         (plan.base().clone(), Some(plan))
     } else {
-        let mut tangents = Tangents::default();
-        generate(&mesh, &options.tangents, scratch, &mut tangents)
-            .map_err(|sentence| document.invalid(at, sentence))?;
-        (tangents, None)
+        let tangents = generate(&mesh, &options.tangents, context);
+        (tangents.map_err(|sentence| document.invalid(at, sentence))?, None)
     };
     if options.strict {
         refuse_unusable(document, at, &tangents.report)?;

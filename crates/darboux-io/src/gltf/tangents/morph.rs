@@ -3,6 +3,8 @@
 use std::collections::HashMap;
 use std::ops::Add;
 
+use darboux::Context;
+
 use super::compute::{JobResult, Vertices};
 use super::groups::Group;
 use super::options::TangentsOptions;
@@ -116,9 +118,9 @@ pub fn offsets(
     morph: &Morph,
     group: &Group,
     vertices: &mut Vertices<'_>,
-    results: &[JobResult<'_>],
-    split: &Split,
+    (results, split): (&[JobResult<'_>], &Split),
     options: &TangentsOptions,
+    context: &mut Context,
 ) -> Result<Offsets, Error> {
     let Movement { position, normal } = morph.movement;
     let moved = |base: &[_], by| moved(document, &morph.at, base, by, options.strict);
@@ -132,8 +134,8 @@ pub fn offsets(
         let mesh = vertices.mesh(document, &morph.at, &group.jobs[job], &result.corners)?;
         let plan = result.plan.as_ref().expect("jobs that move are computed with one");
         let in_document = |error| document.mesh_error(&morph.at, error);
-        let evaluated = plan.evaluate(&mesh).map_err(in_document)?;
-        let regrouped = plan.count_regrouped(&mesh).map_err(in_document)?;
+        let evaluated = plan.evaluate_with(&mesh, context).map_err(in_document)?;
+        let regrouped = plan.count_regrouped_with(&mesh, context).map_err(in_document)?;
         let tangents = evaluated.per_corner().iter().zip(result.tangents.per_corner());
         let corners = split.vertices(job, result).zip(tangents);
         let conflicting = corners.filter(|&(vertex, (moved, base))| !field.hold(vertex, moved, base)).count();

@@ -4,6 +4,7 @@ use crate::Frame;
 use crate::math::{V3, angle};
 use crate::topology::triangles::{NONE, Triangles};
 
+use crate::exec::limits::RunLimits;
 use crate::exec::threads;
 use crate::tangents::mikktspace::derivatives::Derivative;
 use crate::tangents::mikktspace::groups::Groups;
@@ -55,19 +56,19 @@ impl GroupedTriangles<'_> {
     /// Sums over every group; `memory` has the derivatives and the groups' normals. With bitangents and magnitudes, if `is_whole`.
     ///
     /// First what every triangle adds at its corners, then what groups gather: both by all threads, in the same order on any number.
-    pub fn add_up(&self, is_whole: bool, memory: &mut GroupBuffers) {
+    pub fn add_up(&self, is_whole: bool, limits: RunLimits<'_>, memory: &mut GroupBuffers) {
         let GroupBuffers { derivatives, normals, sums, areas, terms, t_terms, .. } = memory;
         let (derivatives, normals) = (&derivatives[..], &normals[..]);
         areas.resize(derivatives.len(), 0.0);
-        threads::fill(areas, |t| if derivatives[t].any { 0.0 } else { self.doubled_area(t) });
+        threads::fill(limits, areas, |t| if derivatives[t].any { 0.0 } else { self.doubled_area(t) });
         terms.resize(derivatives.len(), [[0.0; 4]; 3]);
-        threads::fill(terms, |t| self.terms(t, &derivatives[t], normals, areas[t]));
+        threads::fill(limits, terms, |t| self.terms(t, &derivatives[t], normals, areas[t]));
         t_terms.resize(if is_whole { derivatives.len() } else { 0 }, [[0.0; 3]; 3]);
-        threads::fill(t_terms, |t| {
+        threads::fill(limits, t_terms, |t| {
             self.corner_normals(t, normals).map(|n| direction_in_plane(derivatives[t].t, n))
         });
         sums.resize(normals.len(), GroupSum::default());
-        threads::fill(sums, |group| self.gathered(group, derivatives, terms, t_terms));
+        threads::fill(limits, sums, |group| self.gathered(group, derivatives, terms, t_terms));
     }
 
     fn doubled_area(&self, t: usize) -> f64 {

@@ -5,9 +5,8 @@
 //! order of triangles does not matter.
 
 use crate::Mesh;
-use crate::cancel::Stop;
 
-use crate::exec::simd::Width;
+use crate::exec::limits::RunLimits;
 use crate::tangents::fast::Fans;
 use crate::tangents::fast::kernel::Block;
 use crate::tangents::fast::second_pass::OfVertex;
@@ -69,12 +68,11 @@ impl Fans {
         &mut self,
         mesh: &Mesh<'_>,
         threshold_cosine: f32,
-        width: Width,
-        stop: &Stop,
+        limits: RunLimits<'_>,
         out: &mut [[f32; 4]],
     ) {
         let mut spreads = std::mem::take(&mut self.spreads);
-        self.add_again(mesh, width, stop, &mut spreads);
+        self.add_again(mesh, limits, &mut spreads);
         self.are_apart.clear();
         self.are_apart.extend(spreads.iter().map(|spread| !spread.is_within(threshold_cosine)));
         self.spreads = spreads;

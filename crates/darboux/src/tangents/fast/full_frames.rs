@@ -4,9 +4,9 @@
 
 use crate::Frame;
 use crate::Mesh;
-use crate::cancel::Stop;
 use crate::math::normalized_unless_zero;
 
+use crate::exec::limits::RunLimits;
 use crate::exec::simd::{Task, Width};
 use crate::tangents::fast::Fans;
 use crate::tangents::fast::kernel::{BLOCK, Block};
@@ -21,9 +21,9 @@ pub(crate) struct Sums {
 
 impl Fans {
     /// Adds up the bitangents and magnitudes of all vertices of the mesh that this has just run on.
-    pub fn add_frames(&mut self, mesh: &Mesh<'_>, width: Width, stop: &Stop) {
+    pub fn add_frames(&mut self, mesh: &Mesh<'_>, limits: RunLimits<'_>) {
         let mut sums = std::mem::take(&mut self.sums);
-        self.add_again(mesh, width, stop, &mut sums);
+        self.add_again(mesh, limits, &mut sums);
         self.sums = sums;
     }
 

@@ -1,8 +1,8 @@
 //! A run whose vertices are welded and decided beforehand: sums alone are left.
 
 use crate::Mesh;
-use crate::cancel::Stop;
 
+use crate::exec::limits::RunLimits;
 use crate::exec::simd::{Task, Width};
 use crate::exec::threads::{self, parts, split};
 use crate::exec::windows::{WINDOW, Window, overlap, shares};
@@ -64,9 +64,9 @@ impl Welded {
     }
 
     /// True when vertices that were welded are still one.
-    fn holds(&self, mesh: &Mesh<'_>) -> bool {
+    fn holds(&self, mesh: &Mesh<'_>, limits: RunLimits<'_>) -> bool {
         let Self::OfVertex(of) = self else { return true };
-        threads::all(of.len(), |vertex| {
+        threads::all(limits, of.len(), |vertex| {
             let first = of[vertex] as usize;
             first == vertex || same(&record(mesh, vertex), &record(mesh, first))
         })
@@ -116,40 +116,40 @@ impl Fans {
         &mut self,
         plan: &PlannedFans,
         mesh: &Mesh<'_>,
-        width: Width,
-        stop: &Stop,
+        limits: RunLimits<'_>,
         out: &mut [[f32; 4]],
     ) -> bool {
-        let threads = threads::count(triangle_count(mesh));
+        let threads = limits.thread_count(triangle_count(mesh));
         self.workers.resize_with(threads, Worker::default);
         threads::on_pool(threads, || {
-            let holds = self.holds(plan, mesh, width);
+            let holds = self.holds(plan, mesh, limits);
             if holds {
-                self.run_planned_on(plan, mesh, width, stop, out);
+                self.run_planned_on(plan, mesh, limits, out);
             }
             holds && self.workers.iter().all(|worker| worker.all_usable)
         })
     }
 
     /// True when vertices that were welded are still one, and none is too far. Takes their values where they are welded by corners.
-    fn holds(&mut self, plan: &PlannedFans, mesh: &Mesh<'_>, width: Width) -> bool {
+    fn holds(&mut self, plan: &PlannedFans, mesh: &Mesh<'_>, limits: RunLimits<'_>) -> bool {
         let is_near =
             |[x, y, z]: [f32; 3]| x.abs() <= plan.most && y.abs() <= plan.most && z.abs() <= plan.most;
         let anything_goes = plan.most == f32::INFINITY;
         if let Welded::OfCorner { of, first } = &plan.welded {
             self.records.resize(first.len(), Record::default());
             let of_corner = |corner: u32| record(mesh, mesh.vertex_of_corner(corner as usize));
-            threads::fill(&mut self.records, |vertex| of_corner(first[vertex]));
+            threads::fill(limits, &mut self.records, |vertex| of_corner(first[vertex]));
             let near = |at: usize| {
                 is_near({
                     let [x, y, z, ..] = self.records[at];
                     [x, y, z]
                 })
             };
-            return (anything_goes || threads::all(first.len(), near)) && self.are_one(of, mesh, width);
+            return (anything_goes || threads::all(limits, first.len(), near))
+                && self.are_one(of, mesh, limits.width);
         }
         let near = |vertex| is_near(mesh.positions().get(vertex));
-        (anything_goes || threads::all(mesh.vertex_count(), near)) && plan.welded.holds(mesh)
+        (anything_goes || threads::all(limits, mesh.vertex_count(), near)) && plan.welded.holds(mesh, limits)
     }
 
     /// True when the corners of each vertex still have its values.
@@ -171,14 +171,12 @@ impl Fans {
         &mut self,
         plan: &PlannedFans,
         mesh: &Mesh<'_>,
-        width: Width,
-        stop: &Stop,
+        limits: RunLimits<'_>,
         out: &mut [[f32; 4]],
     ) {
         let source = Source { mesh, identity: plan.welded.identity(&self.records), cut: &plan.cut };
         let (windows, count) = (&plan.windows[..], plan.signs.len());
-        let stream =
-            Stream { source, windows, tail: &TailCells::none(), signs: &plan.signs[..], width, stop };
+        let stream = Stream { source, windows, tail: &TailCells::none(), signs: &plan.signs[..], limits };
         self.shares.clear();
         self.shares.extend(shares(windows, count, self.workers.len()));
         if overlap(&self.shares, windows) {

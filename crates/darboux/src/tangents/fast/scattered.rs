@@ -63,7 +63,7 @@ fn read<S: Signs>(
         let stretches = range.step_by(WINDOW).zip(vertices.chunks_mut(WINDOW)).zip(marks.chunks_mut(WINDOW));
         for ((first, vertices), marks) in stretches {
             let rows = stream.source.rows(first..first + vertices.len(), &mut worker.rows);
-            stream.width.run(Read { rows, tail: stream.tail, vertices, marks });
+            stream.limits.width.run(Read { rows, tail: stream.tail, vertices, marks });
         }
     });
 }
@@ -88,8 +88,8 @@ fn evaluate<S: Signs>(
             let triangles = source.triangles(range, &mut worker.triangles);
             let block = &mut worker.block;
             match stream.signs.known() {
-                None => stream.width.run(Evaluate::<true> { triangles, block, vertices, out }),
-                Some(_) => stream.width.run(Evaluate::<false> { triangles, block, vertices, out }),
+                None => stream.limits.width.run(Evaluate::<true> { triangles, block, vertices, out }),
+                Some(_) => stream.limits.width.run(Evaluate::<false> { triangles, block, vertices, out }),
             }
         }
     });
@@ -117,10 +117,10 @@ fn collect<S: Signs>(
             let (vertices, marks, block) = (&mut *vertices, &mut *marks, &mut worker.block);
             match stream.signs.known() {
                 None => {
-                    stream.width.run(Collect { triangles, terms, first, block, vertices, marks });
+                    stream.limits.width.run(Collect { triangles, terms, first, block, vertices, marks });
                     mark_doubtful(&stream.source, range, own.start, marks);
                 }
-                Some(_) => stream.width.run(CollectTerms { triangles, terms, first, vertices }),
+                Some(_) => stream.limits.width.run(CollectTerms { triangles, terms, first, vertices }),
             }
         }
     });
@@ -131,11 +131,11 @@ fn finish<S: Signs>(stream: &Stream<'_, S>, workers: &mut [Worker], vertices: &m
     let jobs = parts(vertices, 0, ranges.clone()).zip(ranges);
     threads::run(workers, jobs, |worker, (vertices, range)| match stream.signs.known() {
         None => {
-            stream.width.run(Finish { vertices, marks: &marks[range], unused: &mut worker.unused });
+            stream.limits.width.run(Finish { vertices, marks: &marks[range], unused: &mut worker.unused });
         }
         Some(signs) => {
             let (signs, all_usable) = (&signs[range], &mut worker.all_usable);
-            stream.width.run(FinishPlanned { vertices, signs, all_usable });
+            stream.limits.width.run(FinishPlanned { vertices, signs, all_usable });
         }
     });
 }

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use crate::Mesh;
-use crate::cancel::Stop;
 
+use crate::exec::limits::RunLimits;
 use crate::exec::simd::{Task, Width};
 use crate::exec::threads::{self, parts};
 use crate::exec::windows::{Share, overlap};
@@ -31,8 +31,7 @@ impl Fans {
     pub(crate) fn add_again<V: OfVertex>(
         &mut self,
         mesh: &Mesh<'_>,
-        width: Width,
-        stop: &Stop,
+        limits: RunLimits<'_>,
         out: &mut Vec<V>,
     ) {
         out.clear();
@@ -47,12 +46,12 @@ impl Fans {
         let source = source(mesh, &self.weld, &self.cut);
         threads::run(&mut self.workers, jobs, |worker, (share, of_vertices)| {
             let Worker { block, vertices, triangles: buffer, first, .. } = worker;
-            for at in (share.windows.start..share.until).take_while(|_| !stop.is_asked()) {
+            for at in (share.windows.start..share.until).take_while(|_| !limits.is_cancelled()) {
                 let triangles = source.triangles(source.window(at), buffer);
                 let (first, own, of_vertices) = (*first as u32, share.vertices.clone(), &mut *of_vertices);
-                width.run(Add { triangles, first, block, vertices, own, of_vertices });
+                limits.width.run(Add { triangles, first, block, vertices, own, of_vertices });
             }
-            V::finish(width, of_vertices);
+            V::finish(limits.width, of_vertices);
         });
     }
 }

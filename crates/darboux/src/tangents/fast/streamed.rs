@@ -2,9 +2,7 @@
 
 use std::ops::Range;
 
-use crate::cancel::Stop;
-
-use crate::exec::simd::Width;
+use crate::exec::limits::RunLimits;
 use crate::exec::windows::{Share, WINDOW, Window};
 use crate::tangents::fast::accumulator::Vertex;
 use crate::tangents::fast::edge_tail::TailCells;
@@ -20,8 +18,7 @@ pub(crate) struct Stream<'a, S = Unknown> {
     pub windows: &'a [Window],
     pub tail: &'a TailCells,
     pub signs: S,
-    pub width: Width,
-    pub stop: &'a Stop,
+    pub limits: RunLimits<'a>,
 }
 
 /// The signs of the vertices, where they are known: of those that are decided. Two types, so that a program without plans has no code
@@ -56,7 +53,7 @@ impl<S: Signs> Stream<'_, S> {
         let (mut finished, mut written) = (share.vertices.start.max(worker.first), first_window);
         worker.unused.unseen = finished - share.vertices.start;
         for at in first_window..share.until {
-            if self.stop.is_asked() {
+            if self.limits.is_cancelled() {
                 break;
             }
             self.read(worker, self.windows[at].end as usize);
@@ -103,7 +100,7 @@ impl<S: Signs> Stream<'_, S> {
             start = range.end;
             worker.read = start - worker.first;
             let rows = self.source.rows(range, &mut worker.rows);
-            self.width.run(Read { rows, tail: self.tail, vertices, marks });
+            self.limits.width.run(Read { rows, tail: self.tail, vertices, marks });
         }
     }
 
@@ -115,10 +112,10 @@ impl<S: Signs> Stream<'_, S> {
         let first_vertex = *first as u32;
         match self.signs.known() {
             None => {
-                self.width.run(Add { triangles, first: first_vertex, block, vertices, marks });
+                self.limits.width.run(Add { triangles, first: first_vertex, block, vertices, marks });
                 mark_doubtful(&self.source, range, *first, marks);
             }
-            Some(_) => self.width.run(AddTerms { triangles, first: first_vertex, block, vertices }),
+            Some(_) => self.limits.width.run(AddTerms { triangles, first: first_vertex, block, vertices }),
         }
     }
 
@@ -131,10 +128,10 @@ impl<S: Signs> Stream<'_, S> {
         let place = range.start - worker.first..range.end - worker.first;
         let (vertices, marks) = (&mut worker.vertices[place.clone()], &worker.marks[place]);
         match self.signs.known() {
-            None => self.width.run(Finish { vertices, marks, unused: &mut worker.unused }),
+            None => self.limits.width.run(Finish { vertices, marks, unused: &mut worker.unused }),
             Some(signs) => {
                 let signs = &signs[range];
-                self.width.run(FinishPlanned { vertices, signs, all_usable: &mut worker.all_usable });
+                self.limits.width.run(FinishPlanned { vertices, signs, all_usable: &mut worker.all_usable });
             }
         }
     }
@@ -167,6 +164,6 @@ impl<S: Signs> Stream<'_, S> {
     ) {
         let (faces, out) = (corners.as_chunks::<N>().0, out.as_chunks_mut().0);
         let first = first_corner / N;
-        self.width.run(Write { faces, first, vertices, first_vertex, out, special });
+        self.limits.width.run(Write { faces, first, vertices, first_vertex, out, special });
     }
 }

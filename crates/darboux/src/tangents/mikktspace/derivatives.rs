@@ -5,6 +5,7 @@
 use crate::math::{V3, add, length, not_zero, scale, sub};
 use crate::topology::triangles::{NONE, Triangles};
 
+use crate::exec::limits::RunLimits;
 use crate::exec::threads;
 use crate::tangents::mikktspace::welded_mesh::WeldedMesh;
 use crate::tangents::report::are_finite;
@@ -25,19 +26,28 @@ pub struct Derivative {
 }
 
 /// The derivatives of every triangle.
-pub(crate) fn derivatives(triangles: &Triangles, shape: &WeldedMesh<'_>) -> Vec<Derivative> {
-    threads::map(triangles.len(), |t| derivative(shape.positions(triangles, t), shape.uvs(triangles, t)))
+pub(crate) fn derivatives(
+    triangles: &Triangles,
+    shape: &WeldedMesh<'_>,
+    limits: RunLimits<'_>,
+) -> Vec<Derivative> {
+    threads::map(limits, triangles.len(), |t| {
+        derivative(shape.positions(triangles, t), shape.uvs(triangles, t))
+    })
 }
 
 /// As [`derivatives`], in the memory of others.
 pub(crate) fn derivatives_into(
     triangles: &Triangles,
     shape: &WeldedMesh<'_>,
+    limits: RunLimits<'_>,
     derivatives: &mut Vec<Derivative>,
 ) {
     let none = Derivative { s: [0.0; 3], t: [0.0; 3], magnitude: [0.0; 2], preserves: false, any: true };
     derivatives.resize(triangles.len(), none);
-    threads::fill(derivatives, |t| derivative(shape.positions(triangles, t), shape.uvs(triangles, t)));
+    threads::fill(limits, derivatives, |t| {
+        derivative(shape.positions(triangles, t), shape.uvs(triangles, t))
+    });
 }
 
 fn derivative(positions: [V3; 3], uvs: [[f32; 2]; 3]) -> Derivative {
@@ -95,8 +105,12 @@ pub(crate) fn agree_in_quads(triangles: &Triangles, shape: &WeldedMesh<'_>, deri
 }
 
 /// The derivatives of every triangle, with one orientation per quad.
-pub(crate) fn agreed_derivatives(good: &Triangles, shape: &WeldedMesh<'_>) -> Vec<Derivative> {
-    let mut derivatives = derivatives(good, shape);
+pub(crate) fn agreed_derivatives(
+    good: &Triangles,
+    shape: &WeldedMesh<'_>,
+    limits: RunLimits<'_>,
+) -> Vec<Derivative> {
+    let mut derivatives = derivatives(good, shape, limits);
     agree_in_quads(good, shape, &mut derivatives);
     derivatives
 }

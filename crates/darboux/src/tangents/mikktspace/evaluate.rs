@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use crate::Frame;
-use crate::cancel::Stop;
+use crate::exec::limits::RunLimits;
 use crate::math::{V3, add, angle, direction_in_plane, dot, equal, normalized_unless_zero, scale, sub};
 use crate::topology::triangles::Triangles;
 use crate::util::hash_map::InsertionMap;
@@ -46,10 +46,10 @@ impl GroupInputs {
     }
 }
 
-/// EvaluateOptions groups are evaluated. Each member of a group that the threshold splits may look at all others, so a stop is heard between them.
+/// Options of [`evaluate`]. Each member of a group that the threshold splits may look at all others, so cancellation is checked between them.
 pub(crate) struct EvaluateOptions<'a> {
     pub threshold_cosine: f32,
-    pub stop: &'a Stop,
+    pub limits: RunLimits<'a>,
 }
 
 /// Evaluates every group, in order, and writes the results to the groups' corners.
@@ -77,7 +77,7 @@ pub(crate) fn evaluate(
     let mut subgroups = SubgroupFinder::new(how.threshold_cosine);
     let mut sorted = Vec::new();
     for group in 0..groups.len() {
-        if how.stop.is_asked() {
+        if how.limits.is_cancelled() {
             break;
         }
         let members = groups.members(group);
@@ -91,7 +91,7 @@ pub(crate) fn evaluate(
             let subgroup = evaluator.subgroup(&[], sign);
             members.iter().for_each(|&member| evaluator.write(member, &subgroup));
         } else {
-            evaluator.write_split_group(members, &sorted, &mut subgroups, sign, how.stop);
+            evaluator.write_split_group(members, &sorted, &mut subgroups, sign, how.limits);
         }
     }
     RawFrames { of_corner: evaluator.of_corner, mean_of_corner: evaluator.mean_of_corner }
@@ -145,13 +145,13 @@ impl Evaluator<'_> {
         sorted: &[u32],
         subgroups: &mut SubgroupFinder,
         sign: f32,
-        stop: &Stop,
+        limits: RunLimits<'_>,
     ) {
         self.running.find_stretches();
         let mut of_members: Vec<Option<Rc<Subgroup>>> = vec![None; sorted.len()];
         let mut of_left_out: InsertionMap<Rc<Subgroup>> = InsertionMap::new();
         let (mut left_out, mut key, mut bytes) = (Vec::new(), Vec::new(), 0);
-        for &member in members.iter().take_while(|_| !stop.is_asked()) {
+        for &member in members.iter().take_while(|_| !limits.is_cancelled()) {
             let at = subgroups.first_alike(sorted.partition_point(|&other| other < member));
             if let Some(subgroup) = &of_members[at] {
                 self.write(member, subgroup);

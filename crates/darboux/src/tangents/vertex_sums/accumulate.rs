@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::exec::simd::Width;
+use crate::exec::limits::RunLimits;
 use crate::exec::threads::{self, parts, split};
 use crate::tangents::mesh_slices::MeshSlices;
 use crate::tangents::uv_derivatives::{Orientation, ScaledDerivatives};
@@ -14,12 +14,12 @@ use crate::tangents::vertex_sums::weighting::{Weighting, term};
 /// Adds what all triangles add.
 pub(crate) fn accumulate<const N: usize, W: Weighting<N>>(
     flat: &MeshSlices<'_>,
-    width: Width,
+    limits: RunLimits<'_>,
     sums: &mut SideSums<N>,
 ) {
-    let agreed = (!flat.is_triangles()).then(|| agreed_orientations::<N, W>(flat));
-    let how = (agreed.as_deref(), width);
-    match thread_ranges(flat) {
+    let agreed = (!flat.is_triangles()).then(|| agreed_orientations::<N, W>(flat, limits));
+    let how = (agreed.as_deref(), limits);
+    match thread_ranges(flat, limits) {
         Some(list) => scatter_all::<N, W>(flat, how, &list, sums),
         None => gather_all::<N, W>(flat, how, sums),
     }
@@ -30,9 +30,12 @@ pub(crate) fn accumulate<const N: usize, W: Weighting<N>>(
 
 /// One orientation for each face: of the halves of a quad that add something the one with the larger UV area decides, the first
 /// on a tie.
-fn agreed_orientations<const N: usize, W: Weighting<N>>(flat: &MeshSlices<'_>) -> Vec<Orientation> {
+fn agreed_orientations<const N: usize, W: Weighting<N>>(
+    flat: &MeshSlices<'_>,
+    limits: RunLimits<'_>,
+) -> Vec<Orientation> {
     let mut agreed = vec![Orientation::None; flat.face_count()];
-    let threads = threads::count(flat.triangles().len());
+    let threads = limits.thread_count(flat.triangles().len());
     let ranges = split(0..agreed.len(), threads, 1);
     let jobs = ranges.clone().zip(parts(&mut agreed, 0, ranges));
     threads::run(&mut vec![(); threads], jobs, |(), (faces, agreed)| agree_in::<N, W>(flat, faces, agreed));

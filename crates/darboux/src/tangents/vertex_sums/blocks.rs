@@ -3,7 +3,8 @@
 use std::marker::PhantomData;
 use std::ops::Range;
 
-use crate::exec::simd::{Task, Width};
+use crate::exec::limits::RunLimits;
+use crate::exec::simd::Task;
 use crate::tangents::mesh_slices::{MeshSlices, TriangleSlices};
 use crate::tangents::uv_derivatives::Orientation;
 use crate::tangents::vertex_sums::side_sums::SkippedTriangles;
@@ -58,18 +59,18 @@ pub(crate) fn bit(orientation: Orientation) -> u8 {
 }
 
 /// The orientations of faces, where these are not all triangles, and how wide vectors may be.
-pub(crate) type BlockOptions<'a> = (Option<&'a [Orientation]>, Width);
+pub(crate) type BlockOptions<'a> = (Option<&'a [Orientation]>, RunLimits<'a>);
 
 /// Calls `add` with every block of a range: the number of its first triangle, the triangles, and what they add. `add` must be
 /// `#[inline(always)]` to be compiled for wide vectors as well, and own its slices, which would be loaded from memory each time.
 pub(crate) fn for_each_block<const N: usize, W: Weighting<N>>(
     flat: &MeshSlices<'_>,
-    (agreed, width): BlockOptions<'_>,
+    (agreed, limits): BlockOptions<'_>,
     range: Range<usize>,
     count: &mut OrientationRecorder<'_>,
     add: impl FnMut(usize, &[[u32; 3]], &TermBlock<N>),
 ) {
-    width.run(ForEachBlock::<N, W, _> { flat, agreed, range, count, add, weighting: PhantomData });
+    limits.width.run(ForEachBlock::<N, W, _> { flat, agreed, range, count, add, weighting: PhantomData });
 }
 
 struct ForEachBlock<'a, 'b, const N: usize, W, F> {

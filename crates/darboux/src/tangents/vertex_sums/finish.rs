@@ -10,6 +10,7 @@ use crate::Mesh;
 use crate::Mode;
 use crate::math::V3;
 
+use crate::exec::limits::RunLimits;
 use crate::exec::simd::Width;
 use crate::exec::threads::{self, parts, split};
 use crate::tangents::mesh_slices::MeshSlices;
@@ -38,13 +39,14 @@ pub(crate) fn finish<const N: usize, W: Weighting<N>, O: Output>(
     mesh: &Mesh<'_>,
     flat: &MeshSlices<'_>,
     sums: &mut SideSums<N>,
-    (mode, width): (Mode, Width),
+    (mode, limits): (Mode, RunLimits<'_>),
     frames: &mut [Vec<O>; 2],
     corners: &mut [O],
 ) -> Report {
     // A triangle with a position or a UV that is not finite is flawed.
     let adds_all = flat.is_triangles() && sums.flaws.are_none();
-    let is_finite = if adds_all { has_finite_normals(flat) } else { has_finite_vertices(flat) };
+    let is_finite =
+        if adds_all { has_finite_normals(flat, limits) } else { has_finite_vertices(flat, limits) };
     let mut report = survey_where(mesh, flat, is_finite);
     report.degenerate_triangles = sums.flaws.degenerate;
     report.uv_degenerate_triangles = sums.flaws.uv_degenerate;
@@ -53,7 +55,7 @@ pub(crate) fn finish<const N: usize, W: Weighting<N>, O: Output>(
         report.mirrored_edges = count_mirrored_edges(flat, &sums.orientation_of_face, of_both);
         report.merged_vertices = if W::SPLITS { 0 } else { count(of_both) };
     }
-    let mut missing = frames_of_sides::<N, W, O>(flat, width, sums, frames);
+    let mut missing = frames_of_sides::<N, W, O>(flat, limits, sums, frames);
     decide_faces::<N, W>(flat, sums, &mut missing);
     missing.sort_unstable();
     missing.dedup();
@@ -61,7 +63,7 @@ pub(crate) fn finish<const N: usize, W: Weighting<N>, O: Output>(
         replace::<N, W, O>(flat, sums, &missing, frames);
     }
     report.repaired_corners = count_corners::<N, W>(flat, &sums.orientation_of_face, &missing);
-    to_corners::<N, W, O>(flat, &sums.orientation_of_face, frames, corners);
+    to_corners::<N, W, O>(flat, limits, &sums.orientation_of_face, frames, corners);
     if W::SPLITS {
         if !adds_all {
             of_both = vertices_of_both(flat, &sums.orientation_of_face);
@@ -116,11 +118,11 @@ fn count_mixed_faces<O: Output>(flat: &MeshSlices<'_>, corners: &[O]) -> usize {
 /// Writes the frame of every side; returns the sides that have triangles but no direction.
 fn frames_of_sides<const N: usize, W: Weighting<N>, O: Output>(
     flat: &MeshSlices<'_>,
-    width: Width,
+    limits: RunLimits<'_>,
     sums: &SideSums<N>,
     frames: &mut [Vec<O>; 2],
 ) -> Vec<Side> {
-    let threads = threads::count(flat.triangles().len());
+    let threads = limits.thread_count(flat.triangles().len());
     let mut missing = vec![Vec::new(); threads];
     for (side, frames) in frames.iter_mut().enumerate() {
         let sums = &sums.of_side[side];
@@ -128,7 +130,7 @@ fn frames_of_sides<const N: usize, W: Weighting<N>, O: Output>(
         let ranges = split(0..sums.len(), threads, 1);
         let jobs = ranges.clone().zip(parts(frames, 0, ranges));
         threads::run(&mut missing, jobs, |missing, (range, frames)| {
-            let place = SideRange { first: range.start, side, width };
+            let place = SideRange { first: range.start, side, width: limits.width };
             frames_of_side::<N, W, O>(&sums[range.clone()], &flat.normals[range], place, frames, missing);
         });
     }
@@ -299,11 +301,12 @@ fn triangles_around(flat: &MeshSlices<'_>, sides: &[Side]) -> HashMap<u32, Vec<u
 
 fn to_corners<const N: usize, W: Weighting<N>, O: Output>(
     flat: &MeshSlices<'_>,
+    limits: RunLimits<'_>,
     orientation_of_face: &[Orientation],
     frames: &[Vec<O>; 2],
     corners: &mut [O],
 ) {
-    let threads = threads::count(flat.triangles().len());
+    let threads = limits.thread_count(flat.triangles().len());
     let ranges = split(0..flat.face_count(), threads, 1);
     let corners = parts(corners, 0, ranges.clone().map(|faces| flat.corners_of(faces)));
     threads::run(&mut vec![(); threads], ranges.zip(corners), |(), (faces, corners)| {

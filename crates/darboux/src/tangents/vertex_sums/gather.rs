@@ -5,6 +5,7 @@
 //! hardware wants. The adjacency is compressed: one array of triangles, ordered by vertex, and one of running sums that says where each
 //! vertex's part ends. Triangles come in their order, so that the bits are those of adding one by one.
 
+use crate::exec::limits::RunLimits;
 use crate::exec::threads::{self, parts, split};
 use crate::exec::windows::WINDOW;
 use crate::tangents::mesh_slices::MeshSlices;
@@ -24,7 +25,7 @@ pub(crate) fn gather_all<const N: usize, W: Weighting<N>>(
 ) {
     let (terms, uses_mirrors) = terms::<N, W>(flat, how, sums);
     let (triangle_of_entry, ends) = adjacency(flat);
-    gather((&terms, uses_mirrors), (&triangle_of_entry, &ends), sums);
+    gather((&terms, uses_mirrors), (&triangle_of_entry, &ends), how.1, sums);
 }
 
 /// What each triangle adds, and whether to the sums of mirrored triangles; and whether any does. Also counts the triangles.
@@ -35,7 +36,7 @@ fn terms<const N: usize, W: Weighting<N>>(
 ) -> (Vec<(SumRows<N>, bool)>, bool) {
     let count = flat.triangles().len();
     let mut terms = vec![([[0.0; 4]; N], false); count];
-    let threads = threads::count(count);
+    let threads = how.1.thread_count(count);
     let ranges = split(0..count, threads, WINDOW);
     let orientations = parts(&mut sums.orientation_of_face, 0, ranges.clone());
     let jobs = ranges.clone().zip(parts(&mut terms, 0, ranges)).zip(orientations);
@@ -95,12 +96,13 @@ fn adjacency(flat: &MeshSlices<'_>) -> (Vec<u32>, Vec<u32>) {
 fn gather<const N: usize>(
     (terms, uses_mirrors): (&[(SumRows<N>, bool)], bool),
     (triangle_of_entry, ends): (&[u32], &[u32]),
+    limits: RunLimits<'_>,
     sums: &mut SideSums<N>,
 ) {
     let [keeps, mirrors] = &mut sums.of_side;
     keeps.fill([[0.0; 4]; N]);
     mirrors.resize(if uses_mirrors { keeps.len() } else { 0 }, [[0.0; 4]; N]);
-    let threads = threads::count(terms.len());
+    let threads = limits.thread_count(terms.len());
     let ranges = split(0..ends.len(), threads, 1);
     let mirrors = parts(mirrors, 0, ranges.clone().map(|range| if uses_mirrors { range } else { 0..0 }));
     let jobs = ranges.clone().zip(parts(keeps, 0, ranges)).zip(mirrors);

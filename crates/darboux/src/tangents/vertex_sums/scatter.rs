@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use crate::exec::limits::RunLimits;
 use crate::exec::threads::{self, parts};
 use crate::exec::windows::{Share, Window, look_around, overlap, shares, triangles_of, windows_of};
 use crate::tangents::mesh_slices::MeshSlices;
@@ -24,10 +25,10 @@ pub(crate) struct ThreadWork {
 }
 
 /// Gives each thread consecutive triangles and the vertices that they meet first; none where vertices lie all over the mesh.
-pub(crate) fn thread_ranges(flat: &MeshSlices<'_>) -> Option<Vec<ThreadWork>> {
+pub(crate) fn thread_ranges(flat: &MeshSlices<'_>, limits: RunLimits<'_>) -> Option<Vec<ThreadWork>> {
     let (triangles, vertices) = (flat.triangles(), flat.positions.len());
     let count = triangles.len();
-    let threads = threads::count(count);
+    let threads = limits.thread_count(count);
     if threads == 1 {
         return Some(vec![ThreadWork { own: 0..count, adds: 0..count, vertices: 0..vertices }]);
     }
