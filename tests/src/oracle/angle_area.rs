@@ -1,13 +1,14 @@
-//! The method of angle and area in f64 by brute force, over the groups of MikkTSpace's brute force.
+//! The angle-area method in f64: sums over MikkTSpace's groups, then one fitting step.
 
 use darboux::{Frame, Mesh};
 
-use super::{
-    Corner, Group, Space, Triangle, Vec3, add, build_groups, cross, dot, find_neighbours, flatten,
-    force_quads_to_agree, is_degenerate, length, normalize, scale, sub, triangulate, weld,
+use super::triangles::{
+    Corner, Group, Space, Triangle, build_groups, find_neighbours, force_quads_to_agree, is_degenerate,
+    triangulate, weld,
 };
+use super::vectors::{Vec3, add, cross, dot, flatten, length, normalize, scale, sub};
 
-/// As [`Method::AngleArea`](darboux::Method::AngleArea), without repairs: none at corners without a group.
+/// Like [`Method::AngleArea`](darboux::Method::AngleArea) without repairs: none at corners without a group.
 pub fn angle_area(mesh: &Mesh<'_>) -> Vec<Option<Frame>> {
     let corners = weld(mesh);
     let mut triangles = triangulate(mesh, &corners);
@@ -29,11 +30,13 @@ pub fn angle_area(mesh: &Mesh<'_>) -> Vec<Option<Frame>> {
     frames
 }
 
-/// The sum over a group, weighted by angle and area.
+/// The mean over a group, weighted by angle and area.
 fn average(group: &Group, triangles: &[Triangle], corners: &[Corner]) -> Space {
     let normal = normalize(corners[group.vertex].normal);
     let (mut s, mut t, mut magnitude, mut weights) = ([0.0; 3], [0.0; 3], [0.0; 2], 0.0);
-    for triangle in group.members.iter().map(|&member| &triangles[member]).filter(|triangle| !triangle.any) {
+    for triangle in
+        group.members.iter().map(|&member| &triangles[member]).filter(|triangle| !triangle.is_uv_degenerate)
+    {
         let i =
             triangle.vertices(corners).iter().position(|&v| v == group.vertex).expect("a member's vertex");
         let [here, next, last] = [i, i + 1, i + 2].map(|j| corners[triangle.corners[j % 3]].position);
@@ -48,13 +51,14 @@ fn average(group: &Group, triangles: &[Triangle], corners: &[Corner]) -> Space {
     Space { s: normalize(s), t: normalize(t), magnitude, keeps_orientation: false }
 }
 
-/// A quarter of a Jacobi step towards the least squares of (interpolated tangent - dP/du's direction) over the surface.
+/// Takes a quarter of a Jacobi step towards the tangent field that minimises the squared difference between the interpolated tangent and
+/// the direction of dP/du over the surface.
 fn fit(number: usize, normal: Vec3, spaces: &[Space], triangles: &[Triangle], corners: &[Corner]) -> Space {
     let space = spaces[number];
     let (mut residual, mut weight) = ([0.0; 3], 0.0);
     for triangle in triangles.iter().filter(|triangle| triangle.groups.contains(&Some(number))) {
         let [Some(a), Some(b), Some(c)] = triangle.groups else { continue };
-        if triangle.any {
+        if triangle.is_uv_degenerate {
             continue;
         }
         let area = area(triangle, corners);

@@ -1,48 +1,48 @@
-//! The other methods in f64 by brute force: for every corner a loop over all triangles.
+//! The summing methods, the face method and the normal method in f64: for every corner a loop over all triangles.
 
 use darboux::{Frame, Mesh};
 
-use super::{
-    Corner, Space, Triangle, Vec3, add, cross, dot, flatten, force_quads_to_agree, is_degenerate, length,
-    normalize, scale, sub, triangulate, weld,
+use super::triangles::{
+    Corner, Space, Triangle, force_quads_to_agree, is_degenerate, triangulate, uv_area, weld,
 };
+use super::vectors::{Vec3, add, cross, dot, flatten, length, normalize, scale, sub};
 
-/// How much a triangle's unit tangent and bitangent count.
+/// The weight of a triangle's unit tangent and bitangent.
 #[derive(Clone, Copy, PartialEq)]
 enum Weight {
-    /// As much as dP/du and dP/dv are long.
+    /// The lengths of dP/du and dP/dv.
     Length,
     One,
     Area,
 }
 
-/// As [`Method::Lengyel`](darboux::Method::Lengyel), without repairs: none where nothing adds up to a direction.
+/// Like [`Method::Lengyel`](darboux::Method::Lengyel) without repairs: none where the sum has no direction.
 pub fn lengyel(mesh: &Mesh<'_>) -> Vec<Option<Frame>> {
     sums(mesh, true, Weight::Length)
 }
 
-/// As [`Method::LengyelPerVertex`](darboux::Method::LengyelPerVertex), without repairs.
+/// Like [`Method::LengyelPerVertex`](darboux::Method::LengyelPerVertex) without repairs.
 pub fn lengyel_per_vertex(mesh: &Mesh<'_>) -> Vec<Option<Frame>> {
     sums(mesh, false, Weight::Length)
 }
 
-/// As [`Method::Average`](darboux::Method::Average), without repairs.
+/// Like [`Method::Average`](darboux::Method::Average) without repairs.
 pub fn average(mesh: &Mesh<'_>) -> Vec<Option<Frame>> {
     sums(mesh, true, Weight::One)
 }
 
-/// As [`Method::Area`](darboux::Method::Area), without repairs.
+/// Like [`Method::Area`](darboux::Method::Area) without repairs.
 pub fn area(mesh: &Mesh<'_>) -> Vec<Option<Frame>> {
     sums(mesh, true, Weight::Area)
 }
 
-/// As [`Method::Face`](darboux::Method::Face), without repairs. Quads have the mean of their halves, weighted by signed UV area.
+/// Like [`Method::Face`](darboux::Method::Face) without repairs. A quad has the mean of its halves, weighted by signed UV area.
 pub fn face(mesh: &Mesh<'_>) -> Vec<Option<Frame>> {
     let scene = Scene::new(mesh);
     let of_corner = |number: usize| {
         let (mut s, mut t, mut total) = ([0.0; 3], [0.0; 3], 0.0);
         for half in scene.triangles.iter().filter(|half| half.face == scene.face_of_corner[number]) {
-            let area = super::uv_area(half.corners.map(|corner| &scene.corners[corner]));
+            let area = uv_area(half.corners.map(|corner| &scene.corners[corner]));
             s = add(s, scale(area * half.space.magnitude[0], half.space.s));
             t = add(t, scale(area * half.space.magnitude[1], half.space.t));
             total += area;
@@ -59,13 +59,13 @@ pub fn face(mesh: &Mesh<'_>) -> Vec<Option<Frame>> {
     (0..scene.corners.len()).map(of_corner).collect()
 }
 
-/// As [`Method::FromNormal`](darboux::Method::FromNormal): the axis that is least along the normal, turned into its plane as Duff's basis
-/// turns (1, 0, 0): by the shortest rotation from the pole on the normal's side to the normal.
+/// Like [`Method::FromNormal`](darboux::Method::FromNormal): (1, 0, 0), turned by the shortest rotation from the pole (0, 0, ±1) on the
+/// normal's side to the normal. That is Duff's basis.
 pub fn from_normal(mesh: &Mesh<'_>) -> Vec<Option<Frame>> {
     let of_corner = |number: usize| {
         let normal = normalize(mesh.normals().get(mesh.vertex_of_corner(number)).map(f64::from));
         let pole = [0.0, 0.0, 1f64.copysign(normal[2])];
-        // Two reflections make the rotation: by the pole, then by the direction half-way to the normal.
+        // The rotation is two reflections: by the pole, then by the direction half-way to the normal.
         let half = normalize(add(pole, normal));
         let reflect = |v: Vec3, by: Vec3| sub(scale(2.0 * dot(by, v), by), v);
         let s = reflect(reflect([1.0, 0.0, 0.0], pole), half);
@@ -76,7 +76,7 @@ pub fn from_normal(mesh: &Mesh<'_>) -> Vec<Option<Frame>> {
 }
 
 struct Scene {
-    /// Their vertices are the mesh's.
+    /// The corners, not welded: each has the mesh's vertex.
     corners: Vec<Corner>,
     face_of_corner: Vec<usize>,
     triangles: Vec<Triangle>,
@@ -97,20 +97,20 @@ impl Scene {
         Self { corners, face_of_corner, triangles }
     }
 
-    fn adds(&self, triangle: &Triangle) -> bool {
-        !triangle.any && !is_degenerate(triangle, &self.corners)
+    fn contributes(&self, triangle: &Triangle) -> bool {
+        !triangle.is_uv_degenerate && !is_degenerate(triangle, &self.corners)
     }
 
-    /// The triangles at a vertex that add something.
+    /// The triangles at a vertex that contribute to sums.
     fn around(&self, vertex: usize) -> impl Iterator<Item = &Triangle> {
         let touches = move |triangle: &&Triangle| triangle.vertices(&self.corners).contains(&vertex);
-        self.triangles.iter().filter(move |triangle| self.adds(triangle)).filter(touches)
+        self.triangles.iter().filter(move |triangle| self.contributes(triangle)).filter(touches)
     }
 
-    /// The orientation of a corner's face; of one without, that which more of its corners have triangles of.
+    /// The orientation of a corner's face. A face without one takes the orientation that is present at more of its corners.
     fn keeps_orientation(&self, corner: usize) -> bool {
         let face = self.face_of_corner[corner];
-        let own = self.triangles.iter().find(|triangle| triangle.face == face && self.adds(triangle));
+        let own = self.triangles.iter().find(|triangle| triangle.face == face && self.contributes(triangle));
         own.map_or_else(
             || {
                 let of_face = (0..self.corners.len()).filter(|&other| self.face_of_corner[other] == face);

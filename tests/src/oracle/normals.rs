@@ -1,10 +1,10 @@
-//! Normals in f64 by brute force: for every corner a flood over all corners at its position.
+//! Normals in f64: for every corner a flood fill over all corners at its position.
 
 use darboux::{Mesh, NormalOptions, NormalWeight, Shading, SmoothingSeams};
 
-use super::{Vec3, add, cross, dot, length, normalize, scale, sub};
+use super::vectors::{Vec3, add, cross, dot, length, normalize, scale, sub};
 
-/// A corner of a face and the corners before and after it there.
+/// A corner of a face; `around` are the corners before and after it in the face.
 struct Corner {
     face: usize,
     vertex: usize,
@@ -12,8 +12,8 @@ struct Corner {
     around: [usize; 2],
 }
 
-/// As [`generate_normals`](darboux::generate_normals), without repairs: zero where nothing adds up. Of the mesh only positions, indices
-/// and faces count.
+/// Like [`generate_normals`](darboux::generate_normals) without repairs: zero where the sum is zero. Only positions, indices and faces of
+/// the mesh are read.
 pub fn normals(mesh: &Mesh<'_>, face_sizes: &[u32], options: &NormalOptions) -> Vec<[f32; 3]> {
     let corners = corners(mesh, face_sizes, options.seams);
     let area_vectors: Vec<Vec3> = (0..face_sizes.len()).map(|face| area_vector(face, &corners)).collect();
@@ -65,7 +65,7 @@ fn angle(corner: usize, corners: &[Corner]) -> f64 {
     dot(a, b).clamp(-1.0, 1.0).acos()
 }
 
-/// The corners at a corner's vertex that edges within the crease angle connect to it.
+/// The corners at the vertex of `corner` that are connected to it by edges within the crease angle.
 fn fan(corner: usize, corners: &[Corner], area_vectors: &[Vec3], crease: f32) -> Vec<usize> {
     let at_vertex: Vec<usize> =
         (0..corners.len()).filter(|&other| corners[other].vertex == corners[corner].vertex).collect();
