@@ -69,7 +69,7 @@ impl Batch {
         for (t, derivative) in stages.derivatives.iter().enumerate() {
             let second = t > 0 && good.face[t - 1] == good.face[t];
             let first = good.face.get(t + 1) == Some(&good.face[t]);
-            let triangle_flags = u32::from(stages.preserves[t]) | u32::from(derivative.any) << 1;
+            let triangle_flags = u32::from(stages.preserves[t]) | u32::from(derivative.joins_any) << 1;
             self.triangle_flags.push(triangle_flags | u32::from(second) << 3);
             // Of UV-degenerate triangles nothing reads the derivatives.
             let values = words(derivative.s, derivative.t, derivative.magnitude).map(without_sign_of_zero);

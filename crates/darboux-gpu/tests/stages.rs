@@ -82,7 +82,7 @@ fn check_triangles(name: &str, core: &Stages, found: &StageArrays) {
         assert_eq!(found.vertex_of_corner[corners], [NONE; 3], "{name}: triangle {t} is degenerate");
     }
     for (&t, derivative) in good.face.iter().zip(&core.derivatives) {
-        let marks = u32::from(derivative.preserves) | u32::from(derivative.any) << 1;
+        let marks = u32::from(derivative.preserves) | u32::from(derivative.joins_any) << 1;
         assert_eq!(found.triangle_flags[t as usize], marks, "{name}: triangle {t}");
         assert_ne!(found.vertex_of_corner[3 * t as usize], NONE, "{name}: triangle {t} is not degenerate");
     }

@@ -1,7 +1,6 @@
 //! How far two sets of tangents are apart, and how well tangents follow the UVs.
 
 use crate::Context;
-use crate::Faces;
 use crate::Mesh;
 use crate::MeshError;
 use crate::math::V3;
@@ -172,23 +171,15 @@ pub fn measure_uv_fidelity_with(
     Ok(out)
 }
 
-/// The corners of every triangle; quads are cut from 0 to 2, other faces have none.
+/// The corners of every triangle. Quads are cut from corner 0 to 2, other faces have no triangles.
 fn triangles(mesh: &Mesh<'_>) -> impl Iterator<Item = [usize; 3]> {
-    let mut first = 0;
-    (0..mesh.face_count()).flat_map(move |face| {
-        let size = match mesh.faces() {
-            Faces::Triangles => 3,
-            Faces::Quads => 4,
-            Faces::Mixed(sizes) => sizes[face] as usize,
-        };
-        let start = first;
-        first += size;
-        let halves: &[[usize; 3]] = match size {
+    mesh.face_ranges().flat_map(|face| {
+        let halves: &[[usize; 3]] = match face.len() {
             3 => &[[0, 1, 2]],
             4 => &[[0, 1, 2], [0, 2, 3]],
             _ => &[],
         };
-        halves.iter().map(move |half| half.map(|corner| start + corner))
+        halves.iter().map(move |half| half.map(|corner| face.start + corner))
     })
 }
 

@@ -1,6 +1,7 @@
 //! The borrowed mesh: strided vertex data, indices, faces. Validated once, here; everything behind it trusts it.
 
 use std::fmt;
+use std::ops::Range;
 
 /// `N` floats per vertex, borrowed from any layout: packed arrays, an interleaved vertex buffer, raw bytes.
 ///
@@ -291,6 +292,20 @@ impl<'a> Mesh<'a> {
             Faces::Quads => self.corner_count / 4,
             Faces::Mixed(sizes) => sizes.len(),
         }
+    }
+
+    /// The corners of every face, in order.
+    pub(crate) fn face_ranges(&self) -> impl Iterator<Item = Range<usize>> + use<'a> {
+        let (faces, mut end) = (self.faces, 0);
+        (0..self.face_count()).map(move |face| {
+            let start = end;
+            end += match faces {
+                Faces::Triangles => 3,
+                Faces::Quads => 4,
+                Faces::Mixed(sizes) => sizes[face] as usize,
+            };
+            start..end
+        })
     }
 
     /// How corners make faces.

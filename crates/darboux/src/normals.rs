@@ -168,8 +168,7 @@ impl NormalPlan {
             indices: (0..mesh.corner_count()).map(|corner| mesh.vertex_of_corner(corner) as u32).collect(),
             sizes: match faces {
                 Faces::Triangles => None,
-                Faces::Quads => Some(vec![4; mesh.face_count()]),
-                Faces::Mixed(sizes) => Some(sizes.to_vec()),
+                _ => Some(mesh.face_ranges().map(|corners| corners.len() as u32).collect()),
             },
             vertex_of_corner,
             fan_of_corner,
@@ -312,17 +311,11 @@ impl Polygons {
             normal_of_face: Vec::with_capacity(mesh.face_count()),
             area_of_face: Vec::with_capacity(mesh.face_count()),
         };
-        for face in 0..mesh.face_count() {
+        for (face, corners) in mesh.face_ranges().enumerate() {
             limits.check_at(face)?;
-            let start = polygons.face_of_corner.len();
-            let size = match mesh.faces() {
-                Faces::Triangles => 3,
-                Faces::Quads => 4,
-                Faces::Mixed(sizes) => sizes[face] as usize,
-            };
-            let area_vector = area_vector(mesh, start..start + size);
-            polygons.face_of_corner.resize(start + size, face as u32);
-            polygons.ends.push((start + size) as u32);
+            polygons.face_of_corner.resize(corners.end, face as u32);
+            polygons.ends.push(corners.end as u32);
+            let area_vector = area_vector(mesh, corners);
             polygons.normal_of_face.push(unit(area_vector));
             polygons.area_of_face.push(length(area_vector));
         }

@@ -1,4 +1,4 @@
-//! From faces to welded triangles with neighbours.
+//! From faces to welded triangles with neighbours, in the order that mikktspace.c gives them.
 
 pub(crate) mod corner_lookup;
 pub(crate) mod edge_sort;

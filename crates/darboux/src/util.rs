@@ -1,4 +1,4 @@
-//! Containers and sorting: small replacements for parts of the standard library, each with its reason.
+//! Containers and sorting that the algorithms share.
 
 pub(crate) mod hash_map;
 pub(crate) mod radix_sort;

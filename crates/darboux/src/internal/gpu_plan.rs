@@ -189,7 +189,7 @@ fn triangle(mesh: &Mesh<'_>, stages: &Stages, t: usize) -> [u32; 5] {
     // Its own orientation, whatever a quad's halves agree on.
     let preserves = doubled_area(names.map(|name| mesh.uvs().get(name as usize))) > 0.0;
     a |= if preserves { 0 } else { FIRST_FLAG };
-    b |= if stages.derivatives[t].any { FIRST_FLAG } else { 0 };
+    b |= if stages.derivatives[t].joins_any { FIRST_FLAG } else { 0 };
     c |= if has_copies { FIRST_FLAG } else { 0 };
     let [d, e] = differences(mesh, good.vertices[t], 1);
     [a, b, c, d, e]

@@ -1,7 +1,8 @@
-//! What lies between the stages of MikkTSpace, for `darboux-gpu`, whose kernels are their twins, and for tests. Not part of the API: it
-//! changes as the stages do.
+//! The arrays between the stages of MikkTSpace: for the kernels of `darboux-gpu`, which mirror the stages, and for tests.
+//!
+//! Not part of the API: these types change with the stages.
 
-use std::collections::HashMap;
+use std::ops::Range;
 
 use crate::CornerFrames;
 use crate::Frames;
@@ -13,117 +14,131 @@ use crate::topology::neighbours::neighbours;
 use crate::topology::triangulate::triangulate;
 
 use crate::tangents::mikktspace::degenerate::copies;
-use crate::tangents::mikktspace::derivatives::agreed_derivatives;
-use crate::tangents::mikktspace::evaluate::joined;
-use crate::tangents::mikktspace::subgroups::SubgroupFinder;
+use crate::tangents::mikktspace::derivatives::quad_derivatives;
+use crate::tangents::mikktspace::subgroups::{SubgroupFinder, SubgroupVisitor, included};
 use crate::tangents::mikktspace::welded_mesh::WeldedMesh;
 use crate::tangents::mikktspace::{GroupedMesh, edge_order};
 
 pub use crate::tangents::mikktspace::degenerate::{CopySource, CornerCopy};
 pub use crate::tangents::mikktspace::derivatives::Derivative;
 pub use crate::tangents::mikktspace::groups::Groups;
-pub use crate::topology::triangles::NONE;
-pub use crate::topology::triangles::{Triangles, Triangulation};
+pub use crate::topology::triangles::{NONE, Triangles, Triangulation};
 
-/// The arrays of all stages of one run.
+/// The output of every stage of one run.
 #[derive(Clone, Debug)]
 pub struct Stages {
-    /// Triangles, welded. `good.vertices` has the representative of every corner; all arrays below go over `good`.
+    /// The welded triangles. All arrays per triangle below follow `triangulation.good`.
     pub triangulation: Triangulation,
-    /// The triangle across the edges 0-1, 1-2, 2-0, or [`NONE`].
+    /// The triangle across each of the edges 0-1, 1-2, 2-0, or [`NONE`].
     pub neighbours: Vec<[u32; 3]>,
-    /// Before groups are made, quads agreed.
+    /// The derivatives with one orientation per quad, before grouping.
     pub derivatives: Vec<Derivative>,
-    /// The orientation of each triangle once UV-degenerate ones have adopted their first group's.
+    /// The orientation of each triangle after grouping: UV-degenerate triangles have adopted that of their first group.
     pub preserves: Vec<bool>,
-    /// The groups, in the order of their seeds.
+    /// The groups, in the order of their first triangles.
     pub groups: Groups,
-    /// Over which members each corner sums.
+    /// The subgroups over which corners sum.
     pub sums: SubgroupSums,
-    /// What fills the corners that only degenerate triangles have.
+    /// The copies that fill the corners that only degenerate triangles have.
     pub copies: Vec<CornerCopy>,
-    /// The cosine above which members join.
+    /// The cosine of the threshold. Members join when their cosines exceed it.
     pub threshold_cosine: f32,
 }
 
-/// SubgroupFinder: the sums that a run makes, group after group.
+/// The distinct subgroups of all groups, as compressed rows.
 #[derive(Clone, Debug, Default)]
 pub struct SubgroupSums {
-    /// Corners `k` of triangles `t` as `3 t + k`, ascending in each sum, without the UV-degenerate ones, which add nothing.
+    /// The members of each sum, ascending: corner `k` of triangle `t` as `3 t + k`. UV-degenerate members, which add nothing, are absent.
     pub members: Vec<u32>,
-    /// Where the members of each sum end.
+    /// The end of each sum in `members`.
     pub ends: Vec<u32>,
-    /// The corner of the mesh that represents each sum's vertex: the normal is its.
+    /// The welded vertex of each sum, which has the normal.
     pub vertices: Vec<u32>,
-    /// Of each corner of the mesh: the sum that it has, or the two of which it has the average, or [`NONE`].
+    /// The sum of each corner of the mesh, or two sums whose frames are averaged. Unused entries are [`NONE`].
     pub of_corner: Vec<[u32; 2]>,
 }
 
 impl Stages {
-    /// Runs every stage in its general form. `None` where the members of all sums would be more than `limit`.
+    /// Runs every exact stage. `None` where the members of all sums would exceed `limit`.
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, limit: usize) -> Option<Self> {
         let triangulation = triangulate(mesh);
         let neighbours = neighbours(&triangulation.good, edge_order(options));
-        let derivatives =
-            agreed_derivatives(&triangulation.good, &WeldedMesh::welded(mesh), RunLimits::default());
-        let known = (&neighbours[..], derivatives.clone());
-        let topology = GroupedMesh::of(mesh, triangulation, known, |_| true, options);
+        let derivatives = quad_derivatives(&triangulation.good, &WeldedMesh::new(mesh), RunLimits::default());
+        let stages = (&neighbours[..], derivatives.clone());
+        let grouped = GroupedMesh::from_stages(mesh, triangulation, stages, |_| true, options);
         let threshold_cosine = cosine_of_degrees(options.threshold);
         Some(Self {
             neighbours,
             derivatives,
-            preserves: topology.base.derivatives.iter().map(|derivative| derivative.preserves).collect(),
-            sums: SubgroupSums::new(&topology, threshold_cosine, mesh.corner_count(), limit)?,
-            copies: copies(&topology.triangulation),
+            preserves: grouped.base.derivatives.iter().map(|derivative| derivative.preserves).collect(),
+            sums: SubgroupSums::new(&grouped, threshold_cosine, mesh.corner_count(), limit)?,
+            copies: copies(&grouped.triangulation),
             threshold_cosine,
-            groups: topology.groups,
-            triangulation: topology.triangulation,
+            groups: grouped.groups,
+            triangulation: grouped.triangulation,
         })
     }
 }
 
-/// As [`crate::generate_frames`], by all stages in their general form.
+/// As [`crate::generate_frames`], by the exact stages alone.
 pub fn frames(mesh: &Mesh<'_>, options: &TangentOptions) -> Frames {
     let limits = RunLimits::default();
-    let Some(topology) = GroupedMesh::new(mesh, options, limits) else { return Frames::default() };
-    let (corners, report) = topology.frames(mesh, limits);
+    let Some(grouped) = GroupedMesh::new(mesh, options, limits) else { return Frames::default() };
+    let (corners, report) = grouped.frames(mesh, limits);
     Frames { corners: CornerFrames(corners), report }
 }
 
 impl SubgroupSums {
-    fn new(topology: &GroupedMesh, threshold_cosine: f32, corners: usize, limit: usize) -> Option<Self> {
-        let (good, groups, base) = (&topology.triangulation.good, &topology.groups, &topology.base);
-        let mut out = Self { of_corner: vec![[NONE; 2]; corners], ..Self::default() };
+    fn new(grouped: &GroupedMesh, threshold_cosine: f32, corners: usize, limit: usize) -> Option<Self> {
+        let (good, groups, base) = (&grouped.triangulation.good, &grouped.groups, &grouped.base);
+        let sums = Self { of_corner: vec![[NONE; 2]; corners], ..Self::default() };
+        let mut collector = SumCollector { grouped, members: Vec::new(), vertex: NONE, limit, sums };
         let mut subgroups = SubgroupFinder::new(threshold_cosine);
         for group in 0..groups.len() {
             let members = groups.members(group);
-            let vertex = good.vertices.as_flattened()[members[0] as usize];
-            let mut sorted = members.to_vec();
-            sorted.sort_unstable();
-            subgroups.set(good, &sorted, &base.derivatives, base.normal_of_group[group]);
-            let all_joined = subgroups.all_joined();
-            let mut known = HashMap::new();
-            let mut left_out = Vec::new();
-            for &member in members {
-                if !all_joined {
-                    let at = sorted.partition_point(|&other| other < member);
-                    subgroups.find_left_out(subgroups.first_alike(at), &mut left_out);
-                }
-                let sum = *known.entry(left_out.clone()).or_insert_with(|| {
-                    let adds = |member: &u32| !base.derivatives[*member as usize / 3].any;
-                    let joined = joined(sorted.len(), &left_out).map(|at| sorted[at]);
-                    out.members.extend(joined.filter(adds));
-                    out.ends.push(out.members.len() as u32);
-                    out.vertices.push(vertex);
-                    out.ends.len() as u32 - 1
-                });
-                let slots = &mut out.of_corner[good.corners.as_flattened()[member as usize] as usize];
-                slots[usize::from(slots[0] != NONE)] = sum;
-                if out.members.len() > limit {
-                    return None;
-                }
+            subgroups.load(good, members, &base.derivatives, base.normal_of_group[group]);
+            collector.members.clear();
+            collector.members.extend_from_slice(subgroups.members());
+            collector.vertex = good.vertices.as_flattened()[members[0] as usize];
+            subgroups.visit(members, usize::MAX, &mut collector);
+            if collector.is_stopped() {
+                return None;
             }
         }
-        Some(out)
+        Some(collector.sums)
+    }
+}
+
+/// Lists the members of each subgroup instead of adding their terms.
+struct SumCollector<'a> {
+    grouped: &'a GroupedMesh,
+    /// The members of the current group, ascending, and its welded vertex.
+    members: Vec<u32>,
+    vertex: u32,
+    limit: usize,
+    sums: SubgroupSums,
+}
+
+impl SubgroupVisitor for SumCollector<'_> {
+    /// The number of the sum.
+    type Subgroup = u32;
+
+    fn compute(&mut self, excluded: &[Range<usize>]) -> u32 {
+        let has_term = |member: &u32| !self.grouped.base.derivatives[*member as usize / 3].joins_any;
+        let members = included(self.members.len(), excluded).map(|at| self.members[at]);
+        self.sums.members.extend(members.filter(has_term));
+        self.sums.ends.push(self.sums.members.len() as u32);
+        self.sums.vertices.push(self.vertex);
+        self.sums.ends.len() as u32 - 1
+    }
+
+    fn write(&mut self, member: u32, &sum: &u32) {
+        let corner = self.grouped.triangulation.good.corners.as_flattened()[member as usize];
+        let slots = &mut self.sums.of_corner[corner as usize];
+        slots[usize::from(slots[0] != NONE)] = sum;
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.sums.members.len() > self.limit
     }
 }

@@ -22,9 +22,9 @@ use crate::tangents::angle_area::group_sums::{GroupBuffers, GroupFrame, GroupSum
 use crate::tangents::mesh_slices::MeshSlices;
 use crate::tangents::mikktspace::derivatives::count_mirrored_edges;
 use crate::tangents::mikktspace::derivatives::{
-    Derivative, agree_in_quads, count_uv_degenerate, derivatives, derivatives_into,
+    Derivative, count_uv_degenerate, derivatives, derivatives_into, unify_quads,
 };
-use crate::tangents::mikktspace::groups::{Groups, group};
+use crate::tangents::mikktspace::groups::{Groups, build_groups};
 use crate::tangents::mikktspace::welded_mesh::WeldedMesh;
 use crate::tangents::mirrored_edges::survey;
 use crate::tangents::output::Output;
@@ -72,8 +72,7 @@ fn topology_and_report<O: Output>(
 ) -> (AngleAreaPlan, Report) {
     let (topology, mut report) = AngleAreaPlan::new(mesh, limits, memory);
     let flat = MeshSlices::new(mesh);
-    report.repaired_corners =
-        topology.frames(&flat, &WeldedMesh::welded(mesh), mode, limits, memory, corners);
+    report.repaired_corners = topology.frames(&flat, &WeldedMesh::new(mesh), mode, limits, memory, corners);
     report.split_vertices = count_split_vertices(mesh, corners);
     (topology, report)
 }
@@ -92,21 +91,21 @@ pub(crate) struct AngleAreaPlan {
 impl AngleAreaPlan {
     /// Welds, finds neighbours and groups; leaves the derivatives in `memory`, and what is known of the report.
     pub(crate) fn new(mesh: &Mesh<'_>, limits: RunLimits<'_>, memory: &mut GroupBuffers) -> (Self, Report) {
-        let (flat, shape) = (MeshSlices::new(mesh), WeldedMesh::welded(mesh));
+        let (flat, welded) = (MeshSlices::new(mesh), WeldedMesh::new(mesh));
         let triangulation = triangulate(mesh);
         let good = &triangulation.good;
-        let mut derivatives = derivatives(good, &shape, limits);
+        let mut derivatives = derivatives(good, &welded, limits);
         derivatives.iter_mut().for_each(leave_out_unless_finite);
-        agree_in_quads(good, &shape, &mut derivatives);
+        unify_quads(good, &welded, &mut derivatives);
         let neighbours = neighbours(good, EdgeOrder::Complete);
         let mut report = survey(mesh, &flat, limits);
         report.degenerate_triangles = triangulation.degenerate.len();
-        report.uv_degenerate_triangles = count_uv_degenerate(good, &shape, &derivatives);
+        report.uv_degenerate_triangles = count_uv_degenerate(good, &welded, &derivatives);
         report.mirrored_edges = count_mirrored_edges(&neighbours, &derivatives);
         let orientation_of_face = orientation_of_faces(&flat, good, &derivatives);
-        let groups = group(good, &neighbours, |_| true, &mut derivatives);
+        let groups = build_groups(good, &neighbours, |_| true, &mut derivatives);
         let places = CornerGroups::new(&flat, &triangulation, &groups);
-        let is_left_out = derivatives.iter().map(|derivative| derivative.any).collect();
+        let is_left_out = derivatives.iter().map(|derivative| derivative.joins_any).collect();
         memory.derivatives = derivatives;
         (Self { triangulation, groups, places, is_left_out, orientation_of_face }, report)
     }
@@ -120,14 +119,14 @@ impl AngleAreaPlan {
         memory: &mut GroupBuffers,
         corners: &mut [O],
     ) {
-        let shape = WeldedMesh::moved(mesh);
+        let welded = WeldedMesh::moved(mesh);
         on_pool(mesh, limits, || {
-            derivatives_into(&self.triangulation.good, &shape, limits, &mut memory.derivatives);
+            derivatives_into(&self.triangulation.good, &welded, limits, &mut memory.derivatives);
             threads::update(limits, &mut memory.derivatives, |t, derivative| {
                 leave_out_unless_finite(derivative);
-                derivative.any |= self.is_left_out[t];
+                derivative.joins_any |= self.is_left_out[t];
             });
-            self.frames(&MeshSlices::new(mesh), &shape, mode, limits, memory, corners);
+            self.frames(&MeshSlices::new(mesh), &welded, mode, limits, memory, corners);
         });
     }
 
@@ -135,7 +134,7 @@ impl AngleAreaPlan {
     fn frames<O: Output>(
         &self,
         flat: &MeshSlices<'_>,
-        shape: &WeldedMesh<'_>,
+        welded: &WeldedMesh<'_>,
         mode: Mode,
         limits: RunLimits<'_>,
         memory: &mut GroupBuffers,
@@ -144,25 +143,25 @@ impl AngleAreaPlan {
         let triangles = &self.triangulation.good;
         let grouped = GroupedTriangles {
             triangles,
-            shape,
+            welded,
             groups: &self.groups,
             group_of_corner: &self.places.group_of_corner,
         };
-        let normal = |group| direction(self.normal_of_vertex(group, shape)).unwrap_or_default();
+        let normal = |group| direction(self.normal_of_vertex(group, welded)).unwrap_or_default();
         memory.normals.resize(self.groups.len(), [0.0; 3]);
         threads::fill(limits, &mut memory.normals, normal);
         grouped.add_up(O::IS_FULL, limits, memory);
         let mut frames = std::mem::take(&mut memory.frames);
         frames.resize(self.groups.len(), GroupFrame { frame: Frame::EMPTY, repaired: true });
         let known = &*memory;
-        threads::fill(limits, &mut frames, |group| self.frame(group, O::IS_FULL, shape, known));
+        threads::fill(limits, &mut frames, |group| self.frame(group, O::IS_FULL, welded, known));
         grouped.fit(&frames, memory);
         let known = &*memory;
         threads::update(limits, &mut frames, |group, frame| {
             fit(frame, known.normals[group], known.residuals[group]);
             if O::IS_FULL && frame.frame.bitangent == Frame::EMPTY.bitangent {
                 let Frame { tangent, sign, .. } = frame.frame;
-                frame.frame.bitangent = across(self.normal_of_vertex(group, shape), tangent, sign);
+                frame.frame.bitangent = across(self.normal_of_vertex(group, welded), tangent, sign);
             }
         });
         let groups = (&self.groups, &frames[..]);
@@ -171,16 +170,16 @@ impl AngleAreaPlan {
         repaired
     }
 
-    fn normal_of_vertex(&self, group: usize, shape: &WeldedMesh<'_>) -> V3 {
+    fn normal_of_vertex(&self, group: usize, welded: &WeldedMesh<'_>) -> V3 {
         let first = self.groups.members(group)[0] as usize;
-        shape.normal(self.triangulation.good.vertices.as_flattened()[first])
+        welded.normal(self.triangulation.good.vertices.as_flattened()[first])
     }
 
     fn frame(
         &self,
         group: usize,
         is_whole: bool,
-        shape: &WeldedMesh<'_>,
+        welded: &WeldedMesh<'_>,
         memory: &GroupBuffers,
     ) -> GroupFrame {
         let GroupSum { s, t, magnitude, weight } = memory.sums[group];
@@ -188,7 +187,7 @@ impl AngleAreaPlan {
         let sign = if self.groups.preserves(group) { 1.0 } else { -1.0 };
         // What is left of tangents that cancel is rounding.
         let found = (length(s) > 1e-6 * weight).then(|| flat_direction_of(s, normal)).flatten();
-        let mean = || self.mean(group, shape, &memory.derivatives);
+        let mean = || self.mean(group, welded, &memory.derivatives);
         let tangent = found.map_or_else(mean, |s| s.map(|x| x as f32));
         let mut frame = Frame { tangent, sign, ..Frame::EMPTY };
         if is_whole {
@@ -201,15 +200,15 @@ impl AngleAreaPlan {
     }
 
     /// The repair of a group: the mean of its tangents, all weighted alike; the first triangle's own; a perpendicular.
-    fn mean(&self, group: usize, shape: &WeldedMesh<'_>, derivatives: &[Derivative]) -> V3 {
-        let normal = self.normal_of_vertex(group, shape);
+    fn mean(&self, group: usize, welded: &WeldedMesh<'_>, derivatives: &[Derivative]) -> V3 {
+        let normal = self.normal_of_vertex(group, welded);
         let Some(unit_normal) = direction(normal) else { return [1.0, 0.0, 0.0] };
         let members = self.groups.members(group);
         let counted = members.iter().map(|&member| &derivatives[member as usize / 3]);
-        let directions = counted.filter(|derivative| !derivative.any).map(|derivative| derivative.s);
+        let directions = counted.filter(|derivative| !derivative.joins_any).map(|derivative| derivative.s);
         mean_in_plane(directions, normal).unwrap_or_else(|| {
             let (first, good) = (members[0] as usize / 3, &self.triangulation.good);
-            let own = u_direction_of(shape.positions(good, first), shape.uvs(good, first));
+            let own = u_direction_of(welded.positions(good, first), welded.uvs(good, first));
             in_plane(own, unit_normal).unwrap_or_else(|| perpendicular(unit_normal)).map(|x| x as f32)
         })
     }
@@ -239,7 +238,7 @@ fn flat_direction_of(v: D3, normal: Option<D3>) -> Option<D3> {
 /// Triangles with values that are not finite join any group and add nothing.
 fn leave_out_unless_finite(derivative: &mut Derivative) {
     let numbers = derivative.s.iter().chain(&derivative.t).chain(&derivative.magnitude);
-    derivative.any |= !numbers.fold(0.0, |sum, x| sum + x).is_finite();
+    derivative.joins_any |= !numbers.fold(0.0, |sum, x| sum + x).is_finite();
 }
 
 /// The orientation of every face that has one, from its triangles that add something.
@@ -250,7 +249,7 @@ fn orientation_of_faces(
 ) -> Vec<Option<bool>> {
     let mut preserves = vec![None; flat.face_count()];
     for (&face, derivative) in good.face.iter().zip(derivatives) {
-        if !derivative.any {
+        if !derivative.joins_any {
             preserves[face as usize] = Some(derivative.preserves);
         }
     }

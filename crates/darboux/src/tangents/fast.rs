@@ -226,7 +226,7 @@ impl Fans {
     pub fn names(&self, mesh: &Mesh<'_>, list: &[u32]) -> Vec<u32> {
         let source = self.source(mesh);
         let mut first = InsertionMap::new();
-        let name = |(&corner, at): (&u32, u32)| *first.first(&[source.vertex(corner)], || at);
+        let name = |(&corner, at): (&u32, u32)| *first.get_or_insert_with(&[source.vertex(corner)], || at);
         list.iter().zip(0..).map(name).collect()
     }
 }

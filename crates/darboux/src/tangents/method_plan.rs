@@ -14,7 +14,7 @@ use crate::tangents::angle_area;
 use crate::tangents::fast::{Fans, PlannedFans, triangle_count};
 use crate::tangents::has_whole_fans;
 use crate::tangents::memory::TangentMemory;
-use crate::tangents::mikktspace::{GroupedMesh, unknown};
+use crate::tangents::mikktspace::{GroupedMesh, default_frames};
 use crate::tangents::submesh::UndecidedFaces;
 use crate::tangents::{generate, run};
 
@@ -88,7 +88,9 @@ impl Planned {
         let (options, signs) = base;
         match self {
             Self::Fans(decided) => return decided.evaluate(mesh, base, limits, memory, out),
-            Self::Stages(topology) => write(&topology.frames_of_moved(mesh, unknown(mesh), limits).0, out),
+            Self::Stages(topology) => {
+                write(&topology.frames_of_moved(mesh, default_frames(mesh), limits).0, out)
+            }
             Self::Groups(plan) => {
                 plan.frames_of_moved(mesh, options.mode, limits, &mut memory.sums.of_groups, out);
             }
@@ -116,7 +118,7 @@ impl Decided {
             return;
         }
         let Some(stages) = self.stages(mesh, options, limits) else { return };
-        write(&stages.frames_of_moved(mesh, unknown(mesh), limits).0, out);
+        write(&stages.frames_of_moved(mesh, default_frames(mesh), limits).0, out);
         take_signs(base, out);
     }
 

@@ -1,6 +1,11 @@
-//! MikkTSpace: Morten S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited" (2008), as mikktspace.c computes it, bit for bit.
+//! MikkTSpace in its exact stages: bit for bit what mikktspace.c computes.
 //!
-//! Every operation on floats is rounded to `f32` in the reference's order; see docs/algorithms/mikktspace.md for what "exact" means.
+//! [`GroupedMesh`] is the table of contents: [`GroupedMesh::new`] runs the stages that depend on topology, [`GroupedMesh::frames`] those
+//! that follow. Every floating-point operation is rounded to `f32` in the reference's order. These stages are slower than
+//! [`crate::tangents::fast`] and define its results; they also complete what it leaves undecided ([`crate::tangents::submesh`]).
+//! docs/algorithms/mikktspace.md says what "exact" covers.
+//!
+//! Source: Morten S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008, and mikktspace.c.
 
 pub(crate) mod antipodes;
 pub(crate) mod degenerate;
@@ -19,7 +24,7 @@ use crate::Mesh;
 use crate::exec::limits::RunLimits;
 use crate::math::cosine_of_degrees;
 use crate::topology::edge_sort::TriangleEdge;
-use crate::topology::neighbours::{EdgeOrder, match_again, neighbours};
+use crate::topology::neighbours::{EdgeOrder, neighbours, rematch};
 use crate::topology::triangles::{Triangles, Triangulation};
 use crate::topology::triangulate::{triangulate, triangulate_welded};
 use crate::util::radix_sort::sort;
@@ -29,23 +34,23 @@ use crate::tangents::Report;
 use crate::tangents::TangentOptions;
 use crate::tangents::mikktspace::degenerate::fill_degenerate;
 use crate::tangents::mikktspace::derivatives::{
-    Derivative, agreed_derivatives, count_mirrored_edges, count_uv_degenerate, derivatives,
+    Derivative, count_mirrored_edges, count_uv_degenerate, derivatives, quad_derivatives,
 };
 use crate::tangents::mikktspace::evaluate::{EvaluateOptions, GroupInputs, evaluate};
-use crate::tangents::mikktspace::groups::{Groups, group};
+use crate::tangents::mikktspace::groups::{Groups, build_groups};
 use crate::tangents::mikktspace::raw_frames::{DEFAULT_FRAME, RawFrames};
-use crate::tangents::mikktspace::repair_corners::repair;
-use crate::tangents::mikktspace::signs::{mixed_faces, unify_signs};
+use crate::tangents::mikktspace::repair_corners::repair_corners;
+use crate::tangents::mikktspace::signs::{mixed_sign_faces, unify_signs};
 use crate::tangents::mikktspace::welded_mesh::WeldedMesh;
 use crate::tangents::repair::is_usable;
 use crate::tangents::report;
 
-/// What does not depend on where vertices are, once they are welded and grouped.
+/// A mesh that is triangulated, welded and grouped. It can be evaluated again after its vertices moved.
 #[derive(Debug)]
 pub(crate) struct GroupedMesh {
     pub triangulation: Triangulation,
     pub groups: Groups,
-    /// The derivatives and normals of the mesh that was grouped.
+    /// The derivatives and normals of the mesh that was grouped. They decide which members of a group join.
     pub base: GroupInputs,
     uv_degenerate: usize,
     mirrored_edges: usize,
@@ -53,57 +58,57 @@ pub(crate) struct GroupedMesh {
     mode: Mode,
 }
 
-/// SubmeshWeld of a mesh: some faces, as a mesh of their own, of which some vertices count.
+/// The weld of a submesh, whose vertices were welded with the rest of their mesh.
 pub(crate) struct SubmeshWeld<'a> {
-    /// The welded vertex of each corner, named by its first corner here.
-    pub names: &'a [u32],
-    /// Of each corner: its vertex counts, and all faces around it are here. Other corners stay as they were.
-    pub counts: &'a [bool],
-    /// Stretches of edges that are matched with each other only.
+    /// The welded vertex of each corner, named by the first corner of the submesh that has it.
+    pub vertex_of_corner: &'a [u32],
+    /// For each corner: true when the submesh has all faces around the corner's vertex. Only these vertices get groups.
+    pub is_complete: &'a [bool],
+    /// The runs of the mesh's edge tail. Half-edges of a run match with each other only.
     pub tail_runs: &'a [Vec<TriangleEdge>],
 }
 
 impl GroupedMesh {
-    /// Welds, finds neighbours and groups. `None` after cancellation.
+    /// Triangulates, welds and groups. `None` after cancellation.
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, limits: RunLimits<'_>) -> Option<Self> {
         let triangulation = triangulate(mesh);
         limits.check().ok()?;
         let neighbours = neighbours(&triangulation.good, edge_order(options));
         limits.check().ok()?;
-        let derivatives = agreed_derivatives(&triangulation.good, &WeldedMesh::welded(mesh), limits);
-        Some(Self::of(mesh, triangulation, (&neighbours, derivatives), |_| true, options))
+        let derivatives = quad_derivatives(&triangulation.good, &WeldedMesh::new(mesh), limits);
+        Some(Self::from_stages(mesh, triangulation, (&neighbours, derivatives), |_| true, options))
     }
 
-    /// Of the vertices of `part` that count, where the order of vertices shows nowhere but in the last edges.
-    pub fn of_part(
+    /// As [`GroupedMesh::new`] for a submesh that is welded already.
+    pub fn of_submesh(
         mesh: &Mesh<'_>,
-        part: &SubmeshWeld<'_>,
+        weld: &SubmeshWeld<'_>,
         options: &TangentOptions,
         limits: RunLimits<'_>,
     ) -> Self {
-        let triangulation = triangulate_welded(mesh, part.names);
+        let triangulation = triangulate_welded(mesh, weld.vertex_of_corner);
         let good = &triangulation.good;
         let mut neighbours = neighbours(good, EdgeOrder::Complete);
-        match_again(good, &numbered(good, part.tail_runs), &mut neighbours);
-        let derivatives = agreed_derivatives(good, &WeldedMesh::welded(mesh), limits);
-        let counts = |vertex| part.counts[vertex as usize];
-        Self::of(mesh, triangulation, (&neighbours, derivatives), counts, options)
+        rematch(good, &half_edges(good, weld.tail_runs), &mut neighbours);
+        let derivatives = quad_derivatives(good, &WeldedMesh::new(mesh), limits);
+        let is_wanted = |vertex| weld.is_complete[vertex as usize];
+        Self::from_stages(mesh, triangulation, (&neighbours, derivatives), is_wanted, options)
     }
 
-    /// Groups triangles whose neighbours are found, and derivatives, quads agreed. `counts`: of the vertices that have groups.
-    pub fn of(
+    /// Builds the groups. `is_wanted`: vertices for which it returns false get no group.
+    pub fn from_stages(
         mesh: &Mesh<'_>,
         triangulation: Triangulation,
         (neighbours, mut derivatives): (&[[u32; 3]], Vec<Derivative>),
-        counts: impl Fn(u32) -> bool,
+        is_wanted: impl Fn(u32) -> bool,
         options: &TangentOptions,
     ) -> Self {
-        let shape = WeldedMesh::welded(mesh);
+        let welded = WeldedMesh::new(mesh);
         let good = &triangulation.good;
-        let uv_degenerate = count_uv_degenerate(good, &shape, &derivatives);
+        let uv_degenerate = count_uv_degenerate(good, &welded, &derivatives);
         let mirrored_edges = count_mirrored_edges(neighbours, &derivatives);
-        let groups = group(good, neighbours, counts, &mut derivatives);
-        let base = GroupInputs::new(good, &groups, derivatives, &shape);
+        let groups = build_groups(good, neighbours, is_wanted, &mut derivatives);
+        let base = GroupInputs::new(good, &groups, derivatives, &welded);
         let threshold_cosine = cosine_of_degrees(options.threshold);
         Self {
             triangulation,
@@ -116,71 +121,72 @@ impl GroupedMesh {
         }
     }
 
-    /// The frames of the mesh that was welded and grouped.
+    /// Computes the frames of the mesh that was grouped.
     pub fn frames(&self, mesh: &Mesh<'_>, limits: RunLimits<'_>) -> (Vec<Frame>, Report) {
-        self.frames_of_part(mesh, unknown(mesh), limits)
+        self.frames_from(mesh, default_frames(mesh), limits)
     }
 
-    /// As [`GroupedMesh::frames`], where corners of no group keep what they have in `known`.
-    pub fn frames_of_part(
+    /// As [`GroupedMesh::frames`]. `initial`: the frames of corners without a group.
+    pub fn frames_from(
         &self,
         mesh: &Mesh<'_>,
-        known: Vec<Frame>,
+        initial: Vec<Frame>,
         limits: RunLimits<'_>,
     ) -> (Vec<Frame>, Report) {
-        self.finish(mesh, &self.base, &WeldedMesh::welded(mesh), known, limits)
+        self.finish(mesh, &self.base, &WeldedMesh::new(mesh), initial, limits)
     }
 
-    /// As [`GroupedMesh::frames_of_part`] for a mesh whose vertices have moved since.
+    /// As [`GroupedMesh::frames_from`] for the mesh after its vertices moved. Orientations and groups stay the base's.
     pub fn frames_of_moved(
         &self,
         mesh: &Mesh<'_>,
-        known: Vec<Frame>,
+        initial: Vec<Frame>,
         limits: RunLimits<'_>,
     ) -> (Vec<Frame>, Report) {
-        let shape = WeldedMesh::moved(mesh);
+        let welded = WeldedMesh::moved(mesh);
         let good = &self.triangulation.good;
-        let mut moved = derivatives(good, &shape, limits);
+        let mut moved = derivatives(good, &welded, limits);
         for (moved, base) in moved.iter_mut().zip(&self.base.derivatives) {
-            (moved.preserves, moved.any) = (base.preserves, base.any);
+            (moved.preserves, moved.joins_any) = (base.preserves, base.joins_any);
         }
-        self.finish(mesh, &GroupInputs::new(good, &self.groups, moved, &shape), &shape, known, limits)
+        let values = GroupInputs::new(good, &self.groups, moved, &welded);
+        self.finish(mesh, &values, &welded, initial, limits)
     }
 
     fn finish(
         &self,
         mesh: &Mesh<'_>,
         values: &GroupInputs,
-        shape: &WeldedMesh<'_>,
-        known: Vec<Frame>,
+        welded: &WeldedMesh<'_>,
+        initial: Vec<Frame>,
         limits: RunLimits<'_>,
     ) -> (Vec<Frame>, Report) {
         let good = &self.triangulation.good;
-        let how = EvaluateOptions { threshold_cosine: self.threshold_cosine, limits };
-        let mut raw = evaluate(good, &self.groups, &how, (&self.base, values), shape, known);
+        let options = EvaluateOptions { threshold_cosine: self.threshold_cosine, limits };
+        let mut raw = evaluate(good, &self.groups, &options, (&self.base, values), welded, initial);
         if limits.is_cancelled() {
             return (raw.of_corner, Report::default());
         }
-        let copied = fill_degenerate(&self.triangulation, shape, &mut raw);
+        let copied = fill_degenerate(&self.triangulation, welded, &mut raw);
         let mut report = self.report(mesh);
-        let mixed = mixed_faces(mesh, &raw.of_corner);
+        let mixed = mixed_sign_faces(mesh, &raw.of_corner);
         report.mixed_sign_faces = mixed.len();
-        let mut needs = Vec::new();
+        let mut unusable = Vec::new();
         if self.mode == Mode::Corrected {
-            needs = unify_signs(mesh, &self.triangulation, &values.derivatives, &copied, &mixed, &mut raw);
+            unusable = unify_signs(mesh, &self.triangulation, &values.derivatives, &copied, &mixed, &mut raw);
         }
-        needs.extend(self.unusable_corners(mesh, &raw));
-        sort(&mut needs);
-        needs.dedup();
-        report.repaired_corners = needs.len();
+        unusable.extend(self.unusable_corners(mesh, &raw));
+        sort(&mut unusable);
+        unusable.dedup();
+        report.repaired_corners = unusable.len();
         if self.mode != Mode::Reference {
-            repair(mesh, &self.triangulation, &mut raw, &needs);
+            repair_corners(mesh, &self.triangulation, &mut raw, &unusable);
         }
         report.split_vertices = report::count_split_vertices(mesh, &raw.of_corner);
         (raw.of_corner, report)
     }
 
-    /// Corners without a usable tangent, and those of unsupported faces, which have none.
+    /// The corners without a usable tangent, and those of unsupported faces.
     fn unusable_corners(&self, mesh: &Mesh<'_>, raw: &RawFrames) -> Vec<u32> {
         let normal = |corner| mesh.normals().get(mesh.vertex_of_corner(corner));
         let unusable = |&corner: &usize| !is_usable(raw.of_corner[corner].tangent, normal(corner));
@@ -188,7 +194,7 @@ impl GroupedMesh {
         corners.chain(self.triangulation.unsupported_corners.iter().copied()).collect()
     }
 
-    /// What is known before evaluation.
+    /// The counts that do not depend on evaluation.
     fn report(&self, mesh: &Mesh<'_>) -> Report {
         let Triangulation { good, degenerate, unsupported_faces, .. } = &self.triangulation;
         Report {
@@ -203,20 +209,20 @@ impl GroupedMesh {
     }
 }
 
-/// EvaluateOptions far `options` has edges put in order.
+/// The edge order that the mode asks for.
 pub(crate) fn edge_order(options: &TangentOptions) -> EdgeOrder {
     if options.mode == Mode::Corrected { EdgeOrder::Complete } else { EdgeOrder::Reference }
 }
 
-/// What corners have before anything is known.
-pub(crate) fn unknown(mesh: &Mesh<'_>) -> Vec<Frame> {
+/// The initial frames of all corners.
+pub(crate) fn default_frames(mesh: &Mesh<'_>) -> Vec<Frame> {
     vec![DEFAULT_FRAME; mesh.corner_count()]
 }
 
-/// Numbers half-edges of triangles that are not degenerate. Their corners ascend.
-fn numbered(good: &Triangles, stretches: &[Vec<TriangleEdge>]) -> Vec<Vec<u32>> {
+/// The half-edges `3 t + k` of edges given by the corners of their triangles. `good.corners` ascends.
+fn half_edges(good: &Triangles, runs: &[Vec<TriangleEdge>]) -> Vec<Vec<u32>> {
     let number = |(corners, start): &TriangleEdge| {
         3 * good.corners.partition_point(|other| other < corners) as u32 + start
     };
-    stretches.iter().map(|stretch| stretch.iter().map(number).collect()).collect()
+    runs.iter().map(|run| run.iter().map(number).collect()).collect()
 }

@@ -91,7 +91,7 @@ impl FirstCorners {
                 }
                 &mut table[vertex]
             }
-            Self::Map(map) => map.first(&[vertex as u32], || corner as u32),
+            Self::Map(map) => map.get_or_insert_with(&[vertex as u32], || corner as u32),
         }
     }
 }

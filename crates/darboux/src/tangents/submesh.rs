@@ -1,35 +1,40 @@
-//! The general path for part of a mesh: what whole fans leave undecided, which are vertices, with all triangles around them, or corners of
-//! degenerate triangles, with one triangle at each that they copy.
+//! Completes a run of the fast path: runs the exact stages of MikkTSpace on the faces with undecided corners.
+//!
+//! The fast path ([`crate::tangents::fast`]) writes the tangents of vertices that it can decide, and the sign [`UNDECIDED`] at all other
+//! corners. The faces with an undecided corner are a submesh, which holds everything that decides about its undecided corners:
+//! - an undecided vertex has all its faces there;
+//! - a UV-degenerate triangle, whose orientation depends on the groups of all its vertices, leaves all of them undecided;
+//! - where a corner of a degenerate triangle copies a decided corner, a face with that corner is there.
 
 use crate::Frame;
 use crate::Mesh;
 use crate::exec::limits::RunLimits;
+use crate::topology::edge_sort::TriangleEdge;
 
 use crate::tangents::Report;
 use crate::tangents::TangentOptions;
 use crate::tangents::fast::{Fans, UNDECIDED, triangle_count};
 use crate::tangents::mikktspace::raw_frames::DEFAULT_FRAME;
 use crate::tangents::mikktspace::{GroupedMesh, SubmeshWeld};
-use crate::topology::edge_sort::TriangleEdge;
 
 /// The faces with an undecided corner, in their order, as a mesh of their own.
-///
-/// What decides about a corner is there: a UV-degenerate triangle, whose group another vertex can decide, leaves all its vertices
-/// undecided; where a degenerate triangle's corner copies a decided one, so does a face that has that.
 #[derive(Debug)]
 pub(crate) struct UndecidedFaces {
-    /// The corner of the whole mesh at each of the part's, and its vertex.
+    /// The corner of the mesh of each corner of the submesh.
     corners: Vec<u32>,
+    /// The vertex of each corner of the submesh.
     indices: Vec<u32>,
     /// The number of corners of each face.
     sizes: Vec<u32>,
-    /// Of each corner.
+    /// For each corner of the submesh: true when the fast path left it undecided.
     is_undecided: Vec<bool>,
-    topology: GroupedMesh,
+    grouped: GroupedMesh,
 }
 
 impl UndecidedFaces {
-    /// Of the mesh that `fans` has just run on, with the tangents that it wrote; none where all vertices are decided.
+    /// Collects and groups the undecided faces. `None` where all corners are decided.
+    ///
+    /// `fans`: the state of the fast path after its run on `mesh`. `tangents`: the output of that run.
     pub fn new(
         mesh: &Mesh<'_>,
         options: &TangentOptions,
@@ -47,23 +52,32 @@ impl UndecidedFaces {
         let indices: Vec<u32> = corners.iter().map(vertex).collect();
         let is_undecided = |&corner: &u32| tangents[corner as usize][3] == UNDECIDED;
         let is_undecided: Vec<bool> = corners.iter().map(is_undecided).collect();
-        let names = fans.names(mesh, &corners);
-        let counts = all_undecided(&names, &is_undecided);
-        let tail_runs = stretches_within(&corners, &fans.tail_runs(mesh));
-        let part = SubmeshWeld { names: &names, counts: &counts, tail_runs: &tail_runs };
-        let topology = GroupedMesh::of_part(&mesh.with_other_faces(&indices, &sizes), &part, options, limits);
-        Some(Self { corners, indices, sizes, is_undecided, topology })
+        let vertex_of_corner = fans.names(mesh, &corners);
+        let is_complete = are_all_undecided(&vertex_of_corner, &is_undecided);
+        let tail_runs = runs_within(&corners, &fans.tail_runs(mesh));
+        let weld = SubmeshWeld {
+            vertex_of_corner: &vertex_of_corner,
+            is_complete: &is_complete,
+            tail_runs: &tail_runs,
+        };
+        let grouped =
+            GroupedMesh::of_submesh(&mesh.with_other_faces(&indices, &sizes), &weld, options, limits);
+        Some(Self { corners, indices, sizes, is_undecided, grouped })
     }
 
-    /// Writes the tangents of the undecided corners; `out` has those of all others. Returns the report of the part.
+    /// Writes the tangents of the undecided corners. Returns the report of the submesh.
+    ///
+    /// `out`: one tangent per corner of the mesh; decided corners are read.
     pub fn decide(&self, mesh: &Mesh<'_>, limits: RunLimits<'_>, out: &mut [[f32; 4]]) -> Report {
-        let part = mesh.with_other_faces(&self.indices, &self.sizes);
-        let (frames, report) = self.topology.frames_of_part(&part, self.known(out), limits);
+        let submesh = mesh.with_other_faces(&self.indices, &self.sizes);
+        let (frames, report) = self.grouped.frames_from(&submesh, self.initial_frames(out), limits);
         self.write(&frames, |corner, frame| out[corner] = frame.tangent_and_sign());
         report
     }
 
-    /// As [`UndecidedFaces::decide`], whole frames with their corners, ascending. `tangents`: those of all others.
+    /// As [`UndecidedFaces::decide`], but appends the corners and their full frames to `out`, ascending.
+    ///
+    /// `tangents`: one tangent per corner of the mesh; decided corners are read.
     fn decide_frames(
         &self,
         mesh: &Mesh<'_>,
@@ -71,13 +85,13 @@ impl UndecidedFaces {
         tangents: &[[f32; 4]],
         out: &mut Vec<(u32, Frame)>,
     ) -> Report {
-        let part = mesh.with_other_faces(&self.indices, &self.sizes);
-        let (frames, report) = self.topology.frames_of_part(&part, self.known(tangents), limits);
+        let submesh = mesh.with_other_faces(&self.indices, &self.sizes);
+        let (frames, report) = self.grouped.frames_from(&submesh, self.initial_frames(tangents), limits);
         self.write(&frames, |corner, frame| out.push((corner as u32, frame)));
         report
     }
 
-    /// As [`UndecidedFaces::decide`] for a mesh whose vertices have moved since, with the signs of `base`.
+    /// As [`UndecidedFaces::decide`] for the mesh after its vertices moved. `base`: the tangents before; the signs are theirs.
     pub fn decide_moved(
         &self,
         mesh: &Mesh<'_>,
@@ -85,25 +99,24 @@ impl UndecidedFaces {
         limits: RunLimits<'_>,
         out: &mut [[f32; 4]],
     ) {
-        let part = mesh.with_other_faces(&self.indices, &self.sizes);
-        let (frames, _) = self.topology.frames_of_moved(&part, self.known(out), limits);
+        let submesh = mesh.with_other_faces(&self.indices, &self.sizes);
+        let (frames, _) = self.grouped.frames_of_moved(&submesh, self.initial_frames(out), limits);
         self.write(&frames, |corner, frame| out[corner] = frame.tangent_and_sign());
         for corner in self.corners.iter().map(|&corner| corner as usize) {
             out[corner][3] = base[corner][3];
         }
     }
 
-    /// What is known of the part's corners, of which nothing reads the bitangent and the magnitudes; what no group reaches has the
-    /// default.
-    fn known(&self, out: &[[f32; 4]]) -> Vec<Frame> {
-        let known = |(&corner, &is_undecided): (&u32, &bool)| {
-            let [x, y, z, sign] = out[corner as usize];
+    /// The frames of decided corners, and the default frame for undecided ones. Bitangents and magnitudes are not read.
+    fn initial_frames(&self, tangents: &[[f32; 4]]) -> Vec<Frame> {
+        let frame = |(&corner, &is_undecided): (&u32, &bool)| {
+            let [x, y, z, sign] = tangents[corner as usize];
             if is_undecided { DEFAULT_FRAME } else { Frame { tangent: [x, y, z], sign, ..DEFAULT_FRAME } }
         };
-        self.corners.iter().zip(&self.is_undecided).map(known).collect()
+        self.corners.iter().zip(&self.is_undecided).map(frame).collect()
     }
 
-    /// Calls `write` with the undecided corners.
+    /// Calls `write` with each undecided corner and its frame.
     fn write(&self, frames: &[Frame], mut write: impl FnMut(usize, Frame)) {
         let all = self.corners.iter().zip(frames).zip(&self.is_undecided);
         let undecided = all.filter(|(_, is_undecided)| **is_undecided);
@@ -111,7 +124,7 @@ impl UndecidedFaces {
     }
 }
 
-/// Decides the undecided corners in `out`, which has the tangents of all others, and makes the report of the whole mesh.
+/// Writes the tangents of the undecided corners of `out`. Returns the report of the whole mesh.
 pub(crate) fn decide(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
@@ -119,12 +132,12 @@ pub(crate) fn decide(
     limits: RunLimits<'_>,
     out: &mut [[f32; 4]],
 ) -> Report {
-    let part = UndecidedFaces::new(mesh, options, fans, limits, out);
-    let report = part.map(|part| part.decide(mesh, limits, out)).unwrap_or_default();
+    let faces = UndecidedFaces::new(mesh, options, fans, limits, out);
+    let report = faces.map(|faces| faces.decide(mesh, limits, out)).unwrap_or_default();
     Report { triangles: triangle_count(mesh), ..report }
 }
 
-/// As [`decide`], whole frames: those of the corners that are undecided in `tangents`, which `fans` wrote, ascending.
+/// As [`decide`], but appends the undecided corners and their full frames to `out`, ascending.
 pub(crate) fn decide_frames(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
@@ -133,23 +146,23 @@ pub(crate) fn decide_frames(
     tangents: &[[f32; 4]],
     out: &mut Vec<(u32, Frame)>,
 ) -> Report {
-    let part = UndecidedFaces::new(mesh, options, fans, limits, tangents);
-    let report = part.map(|part| part.decide_frames(mesh, limits, tangents, out)).unwrap_or_default();
+    let faces = UndecidedFaces::new(mesh, options, fans, limits, tangents);
+    let report = faces.map(|faces| faces.decide_frames(mesh, limits, tangents, out)).unwrap_or_default();
     Report { triangles: triangle_count(mesh), ..report }
 }
 
-/// Of each corner, whose vertex has a name: whether all of the vertex's are undecided.
-fn all_undecided(names: &[u32], is_undecided: &[bool]) -> Vec<bool> {
-    let mut of_name = vec![true; names.len()];
-    for (&name, is_undecided) in names.iter().zip(is_undecided) {
-        of_name[name as usize] &= is_undecided;
+/// For each corner: true when all corners of its vertex are undecided.
+fn are_all_undecided(vertex_of_corner: &[u32], is_undecided: &[bool]) -> Vec<bool> {
+    let mut of_vertex = vec![true; vertex_of_corner.len()];
+    for (&vertex, is_undecided) in vertex_of_corner.iter().zip(is_undecided) {
+        of_vertex[vertex as usize] &= is_undecided;
     }
-    names.iter().map(|&name| of_name[name as usize]).collect()
+    vertex_of_corner.iter().map(|&vertex| of_vertex[vertex as usize]).collect()
 }
 
-/// Edges of the mesh as edges of the part that has these of its corners.
-fn stretches_within(corners: &[u32], stretches: &[Vec<TriangleEdge>]) -> Vec<Vec<TriangleEdge>> {
+/// Renumbers the corners of half-edges from the mesh to the submesh. `corners`: the corners of the submesh, ascending.
+fn runs_within(corners: &[u32], runs: &[Vec<TriangleEdge>]) -> Vec<Vec<TriangleEdge>> {
     let within = |corner: u32| corners.partition_point(|&other| other < corner) as u32;
     let edge = |&(triangle, start): &TriangleEdge| (triangle.map(within), start);
-    stretches.iter().map(|stretch| stretch.iter().map(edge).collect()).collect()
+    runs.iter().map(|run| run.iter().map(edge).collect()).collect()
 }

@@ -2,21 +2,20 @@
 
 use crate::topology::triangles::{NONE, Triangulation};
 
-/// Where a corner is: its welded vertex, and the corners of its first triangle.
+/// A corner's welded vertex, and the corners of the first triangle that uses the corner.
 pub(crate) struct CornerOrigin {
     pub vertex: u32,
     pub triangle: [u32; 3],
 }
 
-/// The places of corners.
+/// The lookup table. Good triangles come before degenerate ones.
 pub(crate) struct CornerLookup<'a> {
     triangulation: &'a Triangulation,
-    /// The first entry that each corner has in both lists together, or [`NONE`].
+    /// The first entry of each corner in `good.corners` and `degenerate.corners`, flattened and concatenated, or [`NONE`].
     entry_of_corner: Vec<u32>,
 }
 
 impl<'a> CornerLookup<'a> {
-    /// Of the corners of a mesh that has so many.
     pub fn new(triangulation: &'a Triangulation, corner_count: usize) -> Self {
         let Triangulation { good, degenerate, .. } = triangulation;
         let mut entry_of_corner = vec![NONE; corner_count];
@@ -28,8 +27,8 @@ impl<'a> CornerLookup<'a> {
         Self { triangulation, entry_of_corner }
     }
 
-    /// None for corners of unsupported faces.
-    pub fn of(&self, corner: u32) -> Option<CornerOrigin> {
+    /// `None` for the corners of unsupported faces.
+    pub fn get(&self, corner: u32) -> Option<CornerOrigin> {
         let entry = self.entry_of_corner[corner as usize] as usize;
         let Triangulation { good, degenerate, .. } = self.triangulation;
         let (list, entry) = match entry.checked_sub(3 * good.len()) {

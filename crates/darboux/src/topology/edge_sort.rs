@@ -1,26 +1,40 @@
-//! The reference's last edges: those with the largest lower vertex, which it leaves nearly as an unstable sort left them.
+//! The order in which mikktspace.c matches the edge tail: the half-edges with the largest lower vertex.
 //!
-//! Only as far as it moves these is that sort done here.
+//! The reference sorts half-edges by lower vertex with a quicksort, then each run of equal lower vertices by upper vertex, then each run
+//! of equal edges by triangle. Its loops end one run early, so that the tail keeps the order of the first, unstable sort. Equal edges
+//! that are not adjacent in that order are never matched with each other.
+//!
+//! ```text
+//! quicksort(list):                        # only ranges that can hold tail half-edges
+//!     pivot = lower vertex of list[seed % length]
+//!     exchange from both ends around the pivot
+//!     continue with the right part, and with the left part if the pivot is the tail's lower vertex
+//! split the tail into runs of equal edges
+//! sort each run but the last              # the reference omits the last run
+//! ```
+//!
+//! The fast path does not know every vertex's name, the number that the reference sorts by. So the sort works on lower and upper bounds of
+//! names, and calls [`Edges::resolve_names`] only for vertices whose bounds do not decide.
 //!
 //! Source: mikktspace.c, `BuildNeighborsFast` and `QuickSortEdges`.
 
 use crate::util::radix_sort::sort;
 
-/// An edge of a triangle: the triangle's corners, and the place among these where the edge starts.
+/// A half-edge by its triangle: the triangle's corners, and the index 0 to 2 of the corner where the half-edge starts.
 pub(crate) type TriangleEdge = ([u32; 3], u32);
 
-/// Edges by the number `3 t + k` of the corner where they start, and the names of vertices, by which the reference orders them.
+/// Half-edges `3 t + k`, and bounds of the names of their vertices.
 pub(crate) trait Edges {
-    /// The vertices of an edge.
+    /// The two vertices of a half-edge.
     fn ends(&self, edge: u32) -> [u32; 2];
 
-    /// A name that is not above a vertex's, and one that is not below it.
+    /// The lower and the upper bound of a vertex's name.
     fn bounds(&self, vertex: u32) -> [u32; 2];
 
-    /// Finds the names of vertices: their bounds are equal from then on.
-    fn find(&mut self, vertices: &[u32]);
+    /// Computes the exact names of vertices. Afterwards their bounds are equal.
+    fn resolve_names(&mut self, vertices: &[u32]);
 
-    /// The bound, 0 or 1, of the name of an edge's lower vertex.
+    /// The lower (`which` = 0) or upper (1) bound of the name of a half-edge's lower vertex.
     #[inline(always)]
     fn lower_bound(&self, edge: u32, which: usize) -> u32 {
         let [a, b] = self.ends(edge).map(|vertex| self.bounds(vertex)[which]);
@@ -28,7 +42,7 @@ pub(crate) trait Edges {
     }
 }
 
-/// Edges of triangles whose vertices are their own names.
+/// Half-edges of triangles whose vertex numbers are the names.
 pub(crate) struct NamedTriangles<'a>(pub &'a [[u32; 3]]);
 
 impl Edges for NamedTriangles<'_> {
@@ -41,32 +55,30 @@ impl Edges for NamedTriangles<'_> {
         [vertex; 2]
     }
 
-    fn find(&mut self, _vertices: &[u32]) {}
+    fn resolve_names(&mut self, _vertices: &[u32]) {}
 }
 
-/// The last edges, in stretches within which the reference matches them, in its order.
+/// Returns the runs of the edge tail, in the reference's order. Half-edges match within a run only.
 ///
-/// `list`: all edges, ascending; it is put into another order. `last`: the largest name of a lower vertex, which `count` edges have.
-/// Edges between the same two vertices can lie in several stretches; then matches are missed (the reference's issue 5).
+/// `list`: all half-edges, ascending; reordered by the call. `last`: the name of the tail's lower vertex. `count`: the length of the tail.
+/// Equal edges can lie in several runs; then matches are missed (the reference's issue 5).
 pub(crate) fn tail_runs(list: &mut [u32], last: u32, count: usize, edges: &mut impl Edges) -> Vec<Vec<u32>> {
     sort_last(list, last, edges);
-    let run = &list[list.len() - count..];
+    let tail = &list[list.len() - count..];
     let sorted_ends = |edge: u32| {
         let [a, b] = edges.ends(edge);
         [a.min(b), a.max(b)]
     };
-    let same = run.chunk_by(|&a, &b| sorted_ends(a) == sorted_ends(b));
-    let mut stretches: Vec<Vec<u32>> = same.map(<[u32]>::to_vec).collect();
-    // The reference forgets to sort the last stretch.
-    stretches.iter_mut().rev().skip(1).for_each(|stretch| sort(stretch));
-    stretches
+    let same = tail.chunk_by(|&a, &b| sorted_ends(a) == sorted_ends(b));
+    let mut runs: Vec<Vec<u32>> = same.map(<[u32]>::to_vec).collect();
+    // The reference does not sort the last run.
+    runs.iter_mut().rev().skip(1).for_each(|run| sort(run));
+    runs
 }
 
 const SEED: u32 = 39_871_946;
 
-/// Sorts edges as the reference does, as far as the last ones are concerned.
-///
-/// The reference's quicksort: its pivots are drawn from a seed that both halves inherit.
+/// The reference's quicksort, restricted to ranges that can hold half-edges of the tail. Both parts of a range inherit its seed.
 fn sort_last(list: &mut [u32], last: u32, edges: &mut impl Edges) {
     let mut pending = vec![(0, list.len(), SEED)];
     while let Some((start, end, seed)) = pending.pop() {
@@ -81,9 +93,9 @@ fn sort_last(list: &mut [u32], last: u32, edges: &mut impl Edges) {
             _ => {
                 let seed = seed.wrapping_add(seed.rotate_left(seed & 31)).wrapping_add(3);
                 let pivot = lower(range[seed as usize % range.len()], edges);
-                tell_from(pivot, range, edges);
+                resolve_near(pivot, range, edges);
                 let (left_end, right_start) = exchange_around(range, pivot, edges);
-                // Left of a smaller pivot there is none of the last.
+                // The left part of a smaller pivot holds nothing of the tail.
                 if pivot == last {
                     pending.push((start, start + left_end, seed));
                 }
@@ -93,14 +105,14 @@ fn sort_last(list: &mut [u32], last: u32, edges: &mut impl Edges) {
     }
 }
 
-/// The name of an edge's lower vertex.
+/// The name of a half-edge's lower vertex.
 fn lower(edge: u32, edges: &mut impl Edges) -> u32 {
-    edges.find(&edges.ends(edge));
+    edges.resolve_names(&edges.ends(edge));
     edges.lower_bound(edge, 0)
 }
 
-/// Finds the names of those vertices of which it is not known whether they are below or above `pivot`.
-fn tell_from(pivot: u32, list: &[u32], edges: &mut impl Edges) {
+/// Resolves the names of the vertices whose bounds do not decide the comparison with `pivot`.
+fn resolve_near(pivot: u32, list: &[u32], edges: &mut impl Edges) {
     let mut unclear = Vec::new();
     for &edge in list {
         for vertex in edges.ends(edge) {
@@ -110,10 +122,11 @@ fn tell_from(pivot: u32, list: &[u32], edges: &mut impl Edges) {
             }
         }
     }
-    edges.find(&unclear);
+    edges.resolve_names(&unclear);
 }
 
-/// Exchanges from both ends until no edge above `pivot` is left of one below; returns the ends of the two halves.
+/// Exchanges half-edges from both ends until none above `pivot` is left of one below. Returns the end of the left part and the start of
+/// the right part.
 fn exchange_around(list: &mut [u32], pivot: u32, edges: &impl Edges) -> (usize, usize) {
     let (mut left, mut right) = (0, list.len());
     loop {

@@ -1,16 +1,16 @@
-//! Triangle lists as parallel arrays: the common data of welding, adjacency, grouping and evaluation.
+//! Triangle lists as parallel arrays: what welding, adjacency, grouping and evaluation read and write.
 
-/// Sentinel in index arrays: no triangle, no corner, no sum.
+/// Sentinel of index arrays: no triangle, no corner, no sum.
 pub const NONE: u32 = u32::MAX;
 
-/// Triangles as parallel arrays.
+/// Triangles as parallel arrays, one entry per triangle.
 #[derive(Clone, Debug, Default)]
 pub struct Triangles {
-    /// The corner of the mesh at each of the three corners.
+    /// The three corners of the mesh.
     pub corners: Vec<[u32; 3]>,
-    /// The welded vertex there, named by the corner that represents it.
+    /// The three welded vertices. A welded vertex is named by the corner that represents it.
     pub vertices: Vec<[u32; 3]>,
-    /// The face that the triangle is, or is half of.
+    /// The face that the triangle is, or is half of. Ascending.
     pub face: Vec<u32>,
 }
 
@@ -24,19 +24,14 @@ impl Triangles {
         t + 1 < self.len() && self.face[t] == self.face[t + 1]
     }
 
-    pub(crate) fn push(&mut self, corners: [u32; 3], face: usize) {
-        self.corners.push(corners);
-        self.face.push(face as u32);
-    }
-
-    pub(crate) fn push_welded(&mut self, corners: [u32; 3], vertices: [u32; 3], face: u32) {
+    pub(crate) fn push(&mut self, corners: [u32; 3], vertices: [u32; 3], face: u32) {
         self.corners.push(corners);
         self.vertices.push(vertices);
         self.face.push(face);
     }
 }
 
-/// The triangles of a mesh, welded.
+/// The welded triangles of a mesh. Both lists keep the order of the faces.
 #[derive(Clone, Debug, Default)]
 pub struct Triangulation {
     /// Triangles with three distinct positions.
@@ -45,6 +40,6 @@ pub struct Triangulation {
     pub degenerate: Triangles,
     /// The number of faces of other than 3 or 4 corners.
     pub unsupported_faces: usize,
-    /// These corners.
+    /// The corners of these faces.
     pub unsupported_corners: Vec<u32>,
 }

@@ -1,65 +1,70 @@
-//! Faces to triangles, welded, with the degenerate ones set aside.
+//! Splits the faces of a mesh into welded triangles, and separates the degenerate ones.
+//!
+//! A quad is cut along its shorter diagonal in UV space; if both are equally long there, along the shorter one in space; if both are
+//! equally long there as well, from corner 0 to 2. Faces of other than 3 or 4 corners have no triangles.
+//!
+//! Source: mikktspace.c, `GenerateInitialVerticesIndexList` and `DegenPrologue`.
 
-use crate::Faces;
 use crate::Mesh;
 use crate::math::{V3, dot, equal, sub};
 use crate::topology::triangles::{Triangles, Triangulation};
 use crate::topology::weld::weld;
 
-/// Splits faces into triangles, welds their corners and sets degenerate triangles aside; both lists keep the faces' order.
+/// Triangulates and welds a mesh.
 pub(crate) fn triangulate(mesh: &Mesh<'_>) -> Triangulation {
-    let mut out = Triangulation::default();
-    let all = split_faces(mesh, &mut out);
-    let vertices = weld(mesh, all.corners.as_flattened());
-    out.set_aside_degenerate(mesh, &all, &vertices);
-    out
+    SplitMesh::new(mesh).separate(mesh, |corners| weld(mesh, corners.as_flattened()))
 }
 
-/// As [`triangulate`] for a mesh whose corners' vertices are known.
+/// As [`triangulate`] for a mesh that is welded already.
+///
+/// `vertex_of_corner`: the welded vertex of each corner.
 pub(crate) fn triangulate_welded(mesh: &Mesh<'_>, vertex_of_corner: &[u32]) -> Triangulation {
-    let mut out = Triangulation::default();
-    let all = split_faces(mesh, &mut out);
-    let vertices: Vec<u32> =
-        all.corners.as_flattened().iter().map(|&corner| vertex_of_corner[corner as usize]).collect();
-    out.set_aside_degenerate(mesh, &all, &vertices);
-    out
+    let vertices = |corners: &[[u32; 3]]| -> Vec<u32> {
+        corners.as_flattened().iter().map(|&corner| vertex_of_corner[corner as usize]).collect()
+    };
+    SplitMesh::new(mesh).separate(mesh, vertices)
 }
 
-impl Triangulation {
-    fn set_aside_degenerate(&mut self, mesh: &Mesh<'_>, all: &Triangles, vertex_of_entry: &[u32]) {
-        for (t, vertices) in vertex_of_entry.as_chunks().0.iter().enumerate() {
-            let [a, b, c] = vertices.map(|vertex| position(mesh, vertex));
-            let degenerate = equal(a, b) || equal(a, c) || equal(b, c);
-            let list = if degenerate { &mut self.degenerate } else { &mut self.good };
-            list.push_welded(all.corners[t], *vertices, all.face[t]);
-        }
-    }
+/// All triangles of a mesh, degenerate ones included, before welding.
+#[derive(Default)]
+struct SplitMesh {
+    corners: Vec<[u32; 3]>,
+    face: Vec<u32>,
+    unsupported_faces: usize,
+    unsupported_corners: Vec<u32>,
 }
 
-fn split_faces(mesh: &Mesh<'_>, out: &mut Triangulation) -> Triangles {
-    let mut all = Triangles::default();
-    let mut first = 0;
-    for face in 0..mesh.face_count() {
-        let size = match mesh.faces() {
-            Faces::Triangles => 3,
-            Faces::Quads => 4,
-            Faces::Mixed(sizes) => sizes[face],
-        };
-        match size {
-            3 => all.push([first, first + 1, first + 2], face),
-            4 => {
-                for half in split_quad(mesh, first) {
-                    all.push(half, face);
+impl SplitMesh {
+    fn new(mesh: &Mesh<'_>) -> Self {
+        let mut split = Self::default();
+        for (face, corners) in mesh.face_ranges().enumerate() {
+            let first = corners.start as u32;
+            match corners.len() {
+                3 => split.corners.push([first, first + 1, first + 2]),
+                4 => split.corners.extend(split_quad(mesh, first)),
+                _ => {
+                    split.unsupported_faces += 1;
+                    split.unsupported_corners.extend(corners.map(|corner| corner as u32));
                 }
             }
-            _ => {
-                out.unsupported_faces += 1;
-                out.unsupported_corners.extend(first..first + size);
-            }
+            split.face.resize(split.corners.len(), face as u32);
         }
-        first += size;
+        split
     }
-    all
+
+    /// Separates degenerate triangles. `weld` returns the welded vertex of every corner of the triangles.
+    fn separate(self, mesh: &Mesh<'_>, weld: impl FnOnce(&[[u32; 3]]) -> Vec<u32>) -> Triangulation {
+        let (mut good, mut degenerate) = (Triangles::default(), Triangles::default());
+        let vertices = weld(&self.corners);
+        for (t, vertices) in vertices.as_chunks().0.iter().enumerate() {
+            let [a, b, c] = vertices.map(|vertex| position(mesh, vertex));
+            let is_degenerate = equal(a, b) || equal(a, c) || equal(b, c);
+            let list = if is_degenerate { &mut degenerate } else { &mut good };
+            list.push(self.corners[t], *vertices, self.face[t]);
+        }
+        let Self { unsupported_faces, unsupported_corners, .. } = self;
+        Triangulation { good, degenerate, unsupported_faces, unsupported_corners }
+    }
 }
 
 /// The halves of the quad whose first corner is `first`.
@@ -70,8 +75,7 @@ pub(crate) fn split_quad(mesh: &Mesh<'_>, first: u32) -> [[u32; 3]; 2] {
     if is_across { [[a, b, d], [b, c, d]] } else { [[a, b, c], [a, c, d]] }
 }
 
-/// Whether a quad is cut from corner 1 to 3: along the shorter diagonal in UV space; where neither is shorter (or one is NaN), along the
-/// one that is shorter in space, 0-2 unless 1-3 is strictly shorter.
+/// True when a quad is cut from corner 1 to 3. NaN lengths count as equal.
 #[inline(always)]
 pub(crate) fn is_cut_across(uvs: [[f32; 2]; 4], positions: impl FnOnce() -> [V3; 4]) -> bool {
     match shorter_diagonal(uvs.map(|[u, v]| [u, v, 1.0])) {
@@ -80,7 +84,7 @@ pub(crate) fn is_cut_across(uvs: [[f32; 2]; 4], positions: impl FnOnce() -> [V3;
     }
 }
 
-/// Whether the diagonal from corner 1 to 3 is shorter than that from 0 to 2, and whether neither is shorter.
+/// Returns two flags: the diagonal from corner 1 to 3 is the shorter one; neither diagonal is shorter.
 #[inline(always)]
 pub(crate) fn shorter_diagonal([a, b, c, d]: [V3; 4]) -> (bool, bool) {
     let squared = |p: V3, q: V3| dot(sub(p, q), sub(p, q));

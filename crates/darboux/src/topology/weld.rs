@@ -1,59 +1,66 @@
-//! Welding: which corners are one vertex.
+//! Welding: merges corners with equal position, normal and UV into one vertex.
 //!
-//! Corners with equal position, normal and UV (as floats: -0 equals +0, NaN equals nothing) are one vertex. Its name is the
-//! corner that represents it, and which one that is can show in the last bits of a tangent: copies may differ in the sign of
-//! a zero, and edges are ordered by these names. So the representative is the reference's: the first corner in an order
-//! made by
-//! 1. sorting the corners into 2048 cells along the longest axis of the bounding box, keeping their order in a cell;
-//! 2. in every cell, cutting the box of the corners in half along its longest axis, again and again, with an exchange of
-//!    corners from both ends as in quicksort, until a range has no float strictly between its ends.
+//! Values compare as floats: -0 equals +0, and NaN equals nothing. A welded vertex is named by the corner that represents it. The choice
+//! of the representative can change the last bits of a tangent, because merged corners may differ in the sign of a zero, and because edges
+//! are sorted by names. So the representative is the reference's, the first corner in this order:
 //!
-//! Source: mikktspace.c (M. S. Mikkelsen, 2011), `GenerateSharedVerticesIndexList`; there every final range is compared
-//! pairwise, here large ones go through a hash table.
+//! ```text
+//! sort the corners into 2048 cells along the longest axis of the bounding box (stable)
+//! for each cell, recursively:
+//!     if no float lies strictly between the ends of the corners' longest axis:
+//!         this is a final range: weld its corners, each to the first equal one
+//!     else:
+//!         partition the corners at the middle of that axis, exchanging from both ends as quicksort does
+//!         continue with both parts
+//! ```
+//!
+//! Source: mikktspace.c, `GenerateSharedVerticesIndexList`. We deviate: the reference compares all pairs of a final range; here large
+//! ranges go through a hash map.
 
 use crate::Mesh;
 use crate::math::{V3, equal, sub};
 use crate::util::hash_map::InsertionMap;
 use crate::util::radix_sort::{FEW, sort_by_key};
 
+/// The number of cells along the longest axis.
 pub(crate) const CELLS: usize = 2048;
 
 /// Final ranges up to this size are compared pairwise.
 const SMALL_RANGE: usize = 24;
 
-/// The vertex of every entry of `corners`, named by the corner that represents it.
+/// Returns the welded vertex of every entry of `corners`, named by the corner that represents it.
 ///
-/// `corners`: corner ids in the order of the triangle list, three per triangle.
+/// `corners`: corner numbers in the order of the triangle list, three per triangle.
 pub(crate) fn weld(mesh: &Mesh<'_>, corners: &[u32]) -> Vec<u32> {
     let mut vertex_of_entry = corners.to_vec();
     if corners.is_empty() {
         return vertex_of_entry;
     }
-    let mut by_cell = points_by_cell(mesh, corners);
+    let mut buckets = points_by_cell(mesh, corners);
     let mut welder = Welder { mesh, corners, vertex_of_entry: &mut vertex_of_entry };
-    for points in by_cell.each() {
+    for points in buckets.iter_mut() {
         for_each_final_range(points, &|_| true, &mut |points| welder.weld_all(points));
     }
     vertex_of_entry
 }
 
-/// A corner's position and its place in the triangle list.
+/// A corner's position and its entry in the triangle list.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Point {
     pub position: V3,
     pub entry: u32,
 }
 
-/// All corners sorted into cells along the longest axis, in list order within a cell.
+/// Sorts all corners into cells along the longest axis, in list order within a cell.
 fn points_by_cell(mesh: &Mesh<'_>, corners: &[u32]) -> CellBuckets {
     let position = |corner: u32| mesh.positions().get(mesh.vertex_of_corner(corner as usize));
-    // The reference seeds the box with its corner id 0, whether or not that is in the list, and leaves out the list's first.
+    // The reference starts the box with corner 0, whether or not the list contains that corner, and skips the list's first entry.
     let cells = Cells::of(&Bounds::of(position(0), corners[1..].iter().map(|&corner| position(corner))));
     let point = |(entry, &corner)| Point { position: position(corner), entry };
     let points: Vec<Point> = (0..).zip(corners).map(point).collect();
-    let mut by_cell = CellBuckets::default();
-    by_cell.sort(&cells, &points);
-    by_cell
+    let mut buckets = CellBuckets::default();
+    buckets.sort(&cells, &points);
+    buckets
 }
 
 /// The cells along the longest axis of a box.
@@ -70,7 +77,7 @@ impl Cells {
         Self { axis, low: bounds.min[axis], extent: bounds.max[axis] - bounds.min[axis] }
     }
 
-    /// The cell of a position. A quotient that is NaN or beyond 32 bits goes to cell 0, as the reference's cast does on x86-64.
+    /// The cell of a position. Quotients that are NaN or exceed 32 bits go to cell 0, as the reference's cast does on x86-64.
     #[inline]
     pub fn at(&self, position: V3) -> usize {
         let place = CELLS as f32 * ((position[self.axis] - self.low) / self.extent);
@@ -78,19 +85,20 @@ impl Cells {
     }
 }
 
-/// Points sorted into cells, in their order within a cell.
+/// Points sorted into cells (stable). The buffers are reused.
 #[derive(Debug, Default)]
 pub(crate) struct CellBuckets {
     points: Vec<Point>,
-    /// Where each cell ends; empty cells may be left out.
+    /// The end of each cell's points. Empty cells may be absent.
     ends: Vec<u32>,
+    /// The cell of each point before sorting.
     cells: Vec<u16>,
 }
 
 impl CellBuckets {
-    /// Sorts points anew, whose entries ascend.
+    /// Replaces the content by `points`, whose entries ascend.
     pub fn sort(&mut self, cells: &Cells, points: &[Point]) {
-        // Few are not worth a look at every cell.
+        // For few points, visiting every cell costs more than comparing.
         if points.len() > FEW {
             return self.sort_by_counting(cells, points);
         }
@@ -107,7 +115,7 @@ impl CellBuckets {
     fn sort_by_counting(&mut self, cells: &Cells, points: &[Point]) {
         self.cells.clear();
         self.cells.extend(points.iter().map(|point| cells.at(point.position) as u16));
-        // Each cell's entry is the end of the one before, which grows to be its own.
+        // While filling, each entry of `ends` is the next free slot of its cell, and so grows from the cell's start to its end.
         self.ends.clear();
         self.ends.resize(CELLS + 1, 0);
         for &cell in &self.cells {
@@ -125,8 +133,8 @@ impl CellBuckets {
         self.ends.truncate(CELLS);
     }
 
-    /// The points of each cell.
-    pub fn each(&mut self) -> impl Iterator<Item = &mut [Point]> {
+    /// The points of each cell, cell after cell.
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut [Point]> {
         let (mut rest, mut start) = (&mut self.points[..], 0);
         self.ends.iter().map(move |&end| {
             let (cell, later) = std::mem::take(&mut rest).split_at_mut((end - start) as usize);
@@ -136,7 +144,7 @@ impl CellBuckets {
     }
 }
 
-/// A bounding box in which NaN never counts, unless it is the first.
+/// A bounding box. NaN is ignored, except in the first point.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Bounds {
     pub min: V3,
@@ -155,7 +163,7 @@ impl Bounds {
         bounds
     }
 
-    /// x unless another is longer; y only when it beats both others.
+    /// The axis x, unless another is longer; y only if it is longer than both others.
     fn longest_axis(&self) -> usize {
         let [x, y, z] = sub(self.max, self.min);
         match (y > x && y > z, z > x) {
@@ -166,18 +174,19 @@ impl Bounds {
     }
 }
 
-/// Cuts the points of a cell in halves down to final ranges, and takes each that the reference welds. Ranges of which nothing is
-/// `wanted` are left out.
+/// Partitions the points of a cell down to final ranges, and calls `visit` with each that the reference welds.
+///
+/// `wanted`: ranges for which it returns false are skipped.
 pub(crate) fn for_each_final_range(
     points: &mut [Point],
     wanted: &impl Fn(&[Point]) -> bool,
-    take: &mut impl FnMut(&[Point]),
+    visit: &mut impl FnMut(&[Point]),
 ) {
     if !wanted(points) {
         return;
     }
     if points.len() < 2 {
-        return take(points);
+        return visit(points);
     }
     let bounds = Bounds::of(points[0].position, points[1..].iter().map(|point| point.position));
     let axis = bounds.longest_axis();
@@ -187,12 +196,12 @@ pub(crate) fn for_each_final_range(
         return;
     }
     if middle >= high || middle <= low {
-        return take(points);
+        return visit(points);
     }
     let below = partition(points, axis, middle);
     let (below, above) = points.split_at_mut(below);
-    for_each_final_range(below, wanted, take);
-    for_each_final_range(above, wanted, take);
+    for_each_final_range(below, wanted, visit);
+    for_each_final_range(above, wanted, visit);
 }
 
 struct Welder<'a, 'm> {
@@ -202,7 +211,7 @@ struct Welder<'a, 'm> {
 }
 
 impl Welder<'_, '_> {
-    /// Gives every corner of a final range the name of the first one that equals it.
+    /// Names every corner of a final range after the first corner that equals it.
     fn weld_all(&mut self, points: &[Point]) {
         if points.len() > SMALL_RANGE {
             return self.weld_hashed(points);
@@ -223,9 +232,9 @@ impl Welder<'_, '_> {
             let values = [x, y, z, a, b, c, u, v];
             if values.iter().all(|x| !x.is_nan()) {
                 let own = self.corners[point.entry as usize];
-                // Adding zero turns -0 into +0, so that bits are equal where floats are.
+                // Adding zero turns -0 into +0, so that equal floats have equal bits.
                 let key = values.map(|x| (x + 0.0).to_bits());
-                self.vertex_of_entry[point.entry as usize] = *first.first(&key, || own);
+                self.vertex_of_entry[point.entry as usize] = *first.get_or_insert_with(&key, || own);
             }
         }
     }
@@ -241,14 +250,14 @@ impl Welder<'_, '_> {
     }
 }
 
-/// Moves the points below `middle` to the front, exchanging from both ends, and returns how many they are.
+/// Moves the points below `middle` to the front, exchanging from both ends. Returns their number.
 fn partition(points: &mut [Point], axis: usize, middle: f32) -> usize {
     let (mut left, mut right) = (0, points.len());
     loop {
         while left < right && points[left].position[axis] < middle {
             left += 1;
         }
-        // NaN is not below either: it stays on the right.
+        // NaN is not below `middle`, so it stays on the right.
         while left < right && !(points[right - 1].position[axis] < middle) {
             right -= 1;
         }

@@ -1,84 +1,89 @@
-//! What is known of keys: one table for all kinds of keys, which are lists of words, and of values.
+//! Insertion-ordered hash map keyed by `[u32]` slices of any length.
+//!
+//! All maps of the crate share one copy of the probing code, whatever the types of their keys; `std::collections::HashMap` would be
+//! compiled once per type, which the WebAssembly build cannot afford. The hash is seeded at random, so that no mesh can be made whose
+//! keys collide.
 
 use std::hash::{BuildHasher, RandomState};
 
-/// Values by key. Values lie in the order in which their keys came.
+/// A map from keys to values. Values are stored in insertion order.
 #[derive(Debug)]
 pub(crate) struct InsertionMap<T> {
-    numbers: Numbers,
+    keys: KeyTable,
     values: Vec<T>,
 }
 
 impl<T> InsertionMap<T> {
     pub fn new() -> Self {
-        Self { numbers: Numbers::new(), values: Vec::new() }
+        Self { keys: KeyTable::new(), values: Vec::new() }
     }
 
-    /// The value of a key; at first it is `value`.
-    pub fn first(&mut self, key: &[u32], value: impl FnOnce() -> T) -> &mut T {
-        let number = self.numbers.of(key);
+    /// The value of `key`, which is inserted with the value `make()` if it is absent.
+    pub fn get_or_insert_with(&mut self, key: &[u32], make: impl FnOnce() -> T) -> &mut T {
+        let number = self.keys.insert(key);
         if number == self.values.len() {
-            self.values.push(value());
+            self.values.push(make());
         }
         &mut self.values[number]
     }
 
-    /// The value of a key, if it has one.
+    /// The value of `key`, if it is present.
     pub fn get(&mut self, key: &[u32]) -> Option<&mut T> {
-        let place = self.numbers.place(key);
-        self.values.get_mut(self.numbers.places[place] as usize)
+        let slot = self.keys.slot(key);
+        self.values.get_mut(self.keys.slots[slot] as usize)
     }
 }
 
-/// Keys, numbered in the order in which they come: open addressing.
+/// Keys, numbered in insertion order. Open addressing with linear probing.
 #[derive(Debug)]
-struct Numbers {
+struct KeyTable {
+    /// The keys, concatenated.
     words: Vec<u32>,
-    /// Where the words of each key end.
+    /// The end of each key in `words`.
     ends: Vec<usize>,
-    /// Numbers, each at the first place from its key's hash on that was free, or [`FREE`]: a power of two, of which half are free.
-    places: Vec<u32>,
-    /// Odd, and drawn by chance, so that no mesh can be made whose keys crowd.
+    /// Key numbers or [`FREE`]. The length is a power of two, and at least half of the slots are free.
+    slots: Vec<u32>,
+    /// The hash seed: random and odd.
     factor: u64,
 }
 
 const FREE: u32 = u32::MAX;
 
-impl Numbers {
+impl KeyTable {
     fn new() -> Self {
-        Self { words: Vec::new(), ends: Vec::new(), places: vec![FREE; 4], factor: chance() | 1 }
+        Self { words: Vec::new(), ends: Vec::new(), slots: vec![FREE; 4], factor: random_seed() | 1 }
     }
 
-    /// The number of a key: how many others there were when it first came.
-    fn of(&mut self, key: &[u32]) -> usize {
-        let mut place = self.place(key);
-        if self.places[place] == FREE {
-            if 2 * self.ends.len() >= self.places.len() {
+    /// The number of a key, which is inserted if it is absent.
+    fn insert(&mut self, key: &[u32]) -> usize {
+        let mut slot = self.slot(key);
+        if self.slots[slot] == FREE {
+            if 2 * self.ends.len() >= self.slots.len() {
                 self.grow();
-                place = self.place(key);
+                slot = self.slot(key);
             }
-            self.places[place] = self.ends.len() as u32;
+            self.slots[slot] = self.ends.len() as u32;
             self.words.extend_from_slice(key);
             self.ends.push(self.words.len());
         }
-        self.places[place] as usize
+        self.slots[slot] as usize
     }
 
-    /// Where a key is, or belongs.
+    /// The slot of a key, or the free slot where it would be inserted.
     #[inline(never)]
-    fn place(&self, key: &[u32]) -> usize {
+    fn slot(&self, key: &[u32]) -> usize {
         let hash = key.iter().fold(self.factor >> 32, |hash, &word| {
             let mixed = (hash ^ u64::from(word)).wrapping_mul(self.factor);
             mixed ^ mixed >> 32
         });
-        let mut place = hash as usize;
+        let mut slot = hash as usize;
         loop {
-            place &= self.places.len() - 1;
-            let number = self.places[place];
+            slot &= self.slots.len() - 1;
+            let number = self.slots[slot];
             if number == FREE || self.key(number as usize) == key {
-                return place;
+                return slot;
             }
-            place += 1;
+            slot += 1;
         }
     }
 
@@ -87,19 +92,19 @@ impl Numbers {
         &self.words[start..self.ends[number]]
     }
 
-    /// Makes room for twice as many.
+    /// Doubles the number of slots.
     fn grow(&mut self) {
-        self.places = vec![FREE; 2 * self.places.len()];
+        self.slots = vec![FREE; 2 * self.slots.len()];
         for number in 0..self.ends.len() {
-            let place = self.place(self.key(number));
-            self.places[place] = number as u32;
+            let slot = self.slot(self.key(number));
+            self.slots[slot] = number as u32;
         }
     }
 }
 
-/// Bits that nobody can foretell.
+/// 64 random bits from the standard library's hasher.
 #[inline(never)]
-pub(crate) fn chance() -> u64 {
+pub(crate) fn random_seed() -> u64 {
     RandomState::new().hash_one(0)
 }
 
@@ -109,13 +114,13 @@ mod tests {
 
     #[test]
     fn the_first_value_of_a_key_stays() {
-        let (mut known, mut all) = (InsertionMap::new(), Vec::<(Vec<u32>, u32)>::new());
+        let (mut map, mut all) = (InsertionMap::new(), Vec::<(Vec<u32>, u32)>::new());
         for at in 0..2000u32 {
             let word = at.wrapping_mul(2_654_435_761) >> 27;
             let key = vec![word; word as usize % 5];
             let found = all.iter().find(|(other, _)| *other == key).map(|(_, value)| *value);
-            assert_eq!(known.get(&key).copied(), found);
-            assert_eq!(*known.first(&key, || at), found.unwrap_or(at));
+            assert_eq!(map.get(&key).copied(), found);
+            assert_eq!(*map.get_or_insert_with(&key, || at), found.unwrap_or(at));
             if found.is_none() {
                 all.push((key, at));
             }

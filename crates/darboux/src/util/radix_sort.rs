@@ -1,21 +1,23 @@
-//! Sorting by whole numbers: few by insertion, many byte by byte.
+//! Stable sorting by integer keys: insertion sort for short lists, radix sort (least significant byte first) for long ones.
 //!
-//! Lists here are short, nearly sorted, or of so many numbers that this is no slower than comparing; and it is a tenth of the code of the standard
-//! library's sort, of which every type of elements has its own copy.
+//! It replaces the standard library's sort for the sake of code size in the WebAssembly build: the standard sort is ten times as large and
+//! compiled once per element type. It is no slower here, because lists are short, nearly sorted or very long.
 
-/// So few are sorted by insertion, without other memory.
+/// Lists up to this length are sorted by insertion, without a buffer.
 pub(crate) const FEW: usize = if cfg!(small_limits) { 4 } else { 64 };
 
-/// Sorts numbers.
+/// Sorts integers.
 pub(crate) fn sort<T: Copy + Into<u64>>(list: &mut [T]) {
     sort_by_key(list, |&number| number.into(), &mut Vec::new());
 }
 
-/// Sorts a list by keys; elements with one key keep their order. `room`: memory for more than a few.
+/// Sorts a list by keys (stable).
+///
+/// `buffer`: scratch memory for lists longer than [`FEW`].
 #[inline(never)]
-pub(crate) fn sort_by_key<T: Copy>(list: &mut [T], key: impl Fn(&T) -> u64, room: &mut Vec<T>) {
+pub(crate) fn sort_by_key<T: Copy>(list: &mut [T], key: impl Fn(&T) -> u64, buffer: &mut Vec<T>) {
     if list.len() > FEW {
-        return sort_by_bytes(list, key, room);
+        return sort_by_bytes(list, key, buffer);
     }
     for end in 1..list.len() {
         let element = list[end];
@@ -28,18 +30,18 @@ pub(crate) fn sort_by_key<T: Copy>(list: &mut [T], key: impl Fn(&T) -> u64, room
     }
 }
 
-/// By the lowest byte in which keys differ, then by the next, and so on.
-fn sort_by_bytes<T: Copy>(list: &mut [T], key: impl Fn(&T) -> u64, sorted: &mut Vec<T>) {
+/// Counting sort by each byte in which keys differ, the lowest first.
+fn sort_by_bytes<T: Copy>(list: &mut [T], key: impl Fn(&T) -> u64, buffer: &mut Vec<T>) {
     if list.is_sorted_by_key(&key) {
         return;
     }
     let first = key(&list[0]);
     let differing = list.iter().fold(0, |bits, element| bits | (key(element) ^ first));
-    sorted.clear();
-    sorted.extend_from_slice(list);
+    buffer.clear();
+    buffer.extend_from_slice(list);
     for shift in (0..u64::BITS).step_by(8).filter(|shift| differing >> shift & 0xff != 0) {
         let byte = |element: &T| (key(element) >> shift) as usize & 0xff;
-        // Where the next element of each byte goes.
+        // The next free slot of each byte value.
         let mut next = [0; 257];
         list.iter().for_each(|element| next[byte(element) + 1] += 1);
         for byte in 0..256 {
@@ -47,14 +49,14 @@ fn sort_by_bytes<T: Copy>(list: &mut [T], key: impl Fn(&T) -> u64, sorted: &mut 
         }
         for element in &*list {
             let next = &mut next[byte(element)];
-            sorted[*next] = *element;
+            buffer[*next] = *element;
             *next += 1;
         }
-        list.copy_from_slice(sorted);
+        list.copy_from_slice(buffer);
     }
 }
 
-/// Two numbers as one: sorted by the first, then by the second.
+/// Packs two numbers into one, which sorts by the first and then by the second.
 pub(crate) fn pair(first: u32, second: u32) -> u64 {
     u64::from(first) << 32 | u64::from(second)
 }

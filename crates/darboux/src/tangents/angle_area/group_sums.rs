@@ -47,7 +47,7 @@ pub(crate) struct GroupBuffers {
 /// What is summed, and where to.
 pub(crate) struct GroupedTriangles<'a> {
     pub triangles: &'a Triangles,
-    pub shape: &'a WeldedMesh<'a>,
+    pub welded: &'a WeldedMesh<'a>,
     pub groups: &'a Groups,
     pub group_of_corner: &'a [u32],
 }
@@ -60,7 +60,7 @@ impl GroupedTriangles<'_> {
         let GroupBuffers { derivatives, normals, sums, areas, terms, t_terms, .. } = memory;
         let (derivatives, normals) = (&derivatives[..], &normals[..]);
         areas.resize(derivatives.len(), 0.0);
-        threads::fill(limits, areas, |t| if derivatives[t].any { 0.0 } else { self.doubled_area(t) });
+        threads::fill(limits, areas, |t| if derivatives[t].joins_any { 0.0 } else { self.doubled_area(t) });
         terms.resize(derivatives.len(), [[0.0; 4]; 3]);
         threads::fill(limits, terms, |t| self.terms(t, &derivatives[t], normals, areas[t]));
         t_terms.resize(if is_whole { derivatives.len() } else { 0 }, [[0.0; 3]; 3]);
@@ -77,7 +77,7 @@ impl GroupedTriangles<'_> {
     }
 
     fn positions(&self, t: usize) -> [D3; 3] {
-        self.shape.positions(self.triangles, t).map(|position| position.map(f64::from))
+        self.welded.positions(self.triangles, t).map(|position| position.map(f64::from))
     }
 
     /// The normal of the group at each corner; zero where there is none.
@@ -89,7 +89,7 @@ impl GroupedTriangles<'_> {
     /// What a triangle adds at each corner: the weight times the direction of dP/du, and the weight.
     #[inline(always)]
     fn terms(&self, t: usize, derivative: &Derivative, normals: &[D3], area: f64) -> [[f64; 4]; 3] {
-        if derivative.any {
+        if derivative.joins_any {
             return [[0.0; 4]; 3];
         }
         let [a, b, c] = self.positions(t);
@@ -116,7 +116,7 @@ impl GroupedTriangles<'_> {
             let [x, y, z, weight] = terms[t][k];
             sum.s = add(sum.s, 1.0, [x, y, z]);
             sum.weight += weight;
-            if let Some(t_term) = t_terms.get(t).filter(|_| !derivatives[t].any) {
+            if let Some(t_term) = t_terms.get(t).filter(|_| !derivatives[t].joins_any) {
                 sum.t = add(sum.t, weight, t_term[k]);
                 let lengths = derivatives[t].magnitude.map(f64::from);
                 sum.magnitude = [0, 1].map(|i| sum.magnitude[i] + weight * lengths[i]);
@@ -136,7 +136,7 @@ impl GroupedTriangles<'_> {
         residuals.resize(normals.len(), ([0.0; 3], 0.0));
         for (t, (derivative, doubled)) in derivatives.iter().zip(areas).enumerate() {
             let groups = self.triangles.corners[t].map(|corner| self.group_of_corner[corner as usize]);
-            if derivative.any || groups.contains(&NONE) {
+            if derivative.joins_any || groups.contains(&NONE) {
                 continue;
             }
             let area = 0.5 * *doubled;

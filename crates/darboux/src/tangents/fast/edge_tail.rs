@@ -195,7 +195,7 @@ impl LastRun<'_> {
         let in_tail = |entry: u32| entry as usize >= 3 * cells.start;
         let is_wanted = |points: &[Point]| points.iter().any(|point| in_tail(point.entry));
         named.clear();
-        for points in by_cell.each() {
+        for points in by_cell.iter_mut() {
             for_each_final_range(points, &is_wanted, &mut |points| {
                 let place = |(at, point): (u32, &Point)| pair(self.vertex(point.entry), at);
                 of_range.clear();

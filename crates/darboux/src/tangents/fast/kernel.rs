@@ -8,7 +8,7 @@
 use std::sync::OnceLock;
 
 use crate::math::{V3, acos, add, direction_in_plane, dot, length, not_zero, scale, sub};
-use crate::util::hash_map::chance;
+use crate::util::hash_map::random_seed;
 
 /// Triangles per block.
 pub(crate) const BLOCK: usize = if cfg!(small_limits) { 2 } else { 64 };
@@ -429,7 +429,7 @@ fn edge(from: [f32; 2], to: [f32; 2]) -> u32 {
 pub(crate) fn key() -> [u32; 2] {
     static KEY: OnceLock<[u32; 2]> = OnceLock::new();
     *KEY.get_or_init(|| {
-        let bits = chance();
+        let bits = random_seed();
         [bits as u32, (bits >> 32) as u32]
     })
 }

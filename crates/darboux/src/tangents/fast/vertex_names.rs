@@ -147,7 +147,7 @@ impl Edges for NamesIn<'_> {
         self.names.bounds[vertex as usize]
     }
 
-    fn find(&mut self, vertices: &[u32]) {
+    fn resolve_names(&mut self, vertices: &[u32]) {
         let Self { run, names } = self;
         let mut cells = Vec::new();
         for &vertex in vertices {

@@ -1,6 +1,9 @@
-//! Degenerate triangles take the frames of their neighbours.
+//! Frames of the corners that only degenerate triangles have: copies from good corners.
 //!
-//! Source: mikktspace.c, `DegenEpilogue`; there the good corner is searched linearly for every degenerate one.
+//! A corner copies the first good corner at the same welded vertex, if there is one. The missing corner of a quad with one good half copies
+//! the first corner of that half at the same position.
+//!
+//! Source: mikktspace.c, `DegenEpilogue`. We deviate: the reference searches the good corners linearly for every degenerate one.
 
 use crate::math::equal;
 use crate::topology::triangles::{NONE, Triangles, Triangulation};
@@ -9,28 +12,25 @@ use crate::util::radix_sort::sort;
 use crate::tangents::mikktspace::raw_frames::RawFrames;
 use crate::tangents::mikktspace::welded_mesh::WeldedMesh;
 
-/// A corner that only degenerate triangles have, and where its frame comes from.
+/// A corner that only degenerate triangles have, and the source of its frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CornerCopy {
     /// The corner.
     pub corner: u32,
-    /// Good corners.
+    /// The source of the frame.
     pub from: CopySource,
 }
 
-/// Which good corner is copied.
+/// The good corner that is copied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CopySource {
-    /// The first one at the same welded vertex.
+    /// This corner: the first good one at the same welded vertex.
     Vertex(u32),
-    /// Of the good half of the same quad: the first one with the same position, if there is one.
+    /// Of these corners, the good half of the same quad, the first one at the same position, if there is one.
     Half([u32; 3]),
 }
 
-/// What is copied where, in order.
-///
-/// A corner copies the first good corner at the same welded vertex, if there is one. The missing corner of a quad with one good
-/// half copies the first corner of that half that has the same position.
+/// Lists the copies in the order in which they are made.
 pub fn copies(triangulation: &Triangulation) -> Vec<CornerCopy> {
     let Triangulation { good, degenerate, .. } = triangulation;
     let mut copies = Vec::new();
@@ -57,18 +57,18 @@ pub fn copies(triangulation: &Triangulation) -> Vec<CornerCopy> {
     copies
 }
 
-/// Writes the corners that only degenerate triangles have, and returns them, ascending.
+/// Makes the copies. Returns the corners that were written, ascending.
 pub(crate) fn fill_degenerate(
     triangulation: &Triangulation,
-    shape: &WeldedMesh<'_>,
+    welded: &WeldedMesh<'_>,
     raw: &mut RawFrames,
 ) -> Vec<u32> {
     let mut copied = Vec::new();
     for CornerCopy { corner, from } in copies(triangulation) {
-        let at_same_place = |source: &u32| equal(shape.position(*source), shape.position(corner));
+        let is_at_same_position = |source: &u32| equal(welded.position(*source), welded.position(corner));
         let source = match from {
             CopySource::Vertex(good) => Some(good),
-            CopySource::Half(present) => present.into_iter().find(at_same_place),
+            CopySource::Half(present) => present.into_iter().find(is_at_same_position),
         };
         if let Some(source) = source {
             copy(raw, source, corner);
@@ -85,7 +85,7 @@ fn copy(raw: &mut RawFrames, source: u32, corner: u32) {
     raw.mean_of_corner[corner as usize] = raw.mean_of_corner[source as usize];
 }
 
-/// The first good corner at each welded vertex, up to the last that degenerate triangles have, or [`NONE`].
+/// The first good corner at each welded vertex, or [`NONE`], for vertices up to the last one of degenerate triangles.
 fn first_good_corners(good: &Triangles, degenerate: &Triangles) -> Vec<u32> {
     let last = degenerate.vertices.as_flattened().iter().max();
     let mut first = vec![NONE; last.map_or(0, |&last| last as usize + 1)];

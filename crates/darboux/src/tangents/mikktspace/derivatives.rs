@@ -1,4 +1,4 @@
-//! The derivatives of position by UV on each triangle, and its UV orientation.
+//! The derivatives dP/du and dP/dv of each triangle, and the orientation of its UV map.
 //!
 //! Source: mikktspace.c, `InitTriInfo`, equations 18 and 19.
 
@@ -13,40 +13,41 @@ use crate::tangents::report::are_finite;
 /// One triangle's derivatives.
 #[derive(Clone, Copy, Debug)]
 pub struct Derivative {
-    /// The direction of dP/du, unit length but on UV-degenerate triangles.
+    /// The direction of dP/du: a unit vector, except on UV-degenerate triangles.
     pub s: V3,
-    /// The direction of dP/dv, likewise.
+    /// The direction of dP/dv: a unit vector, except on UV-degenerate triangles.
     pub t: V3,
     /// The lengths of dP/du and dP/dv.
     pub magnitude: [f32; 2],
-    /// True when the UV map keeps the triangle's orientation.
+    /// True when the UV map preserves the triangle's orientation.
     pub preserves: bool,
-    /// "Group with any": UV-degenerate. The triangle joins any group and adds nothing to its tangent.
-    pub any: bool,
+    /// True for UV-degenerate triangles: they join groups of either orientation, and add nothing to tangents (`GROUP_WITH_ANY`).
+    pub joins_any: bool,
 }
 
-/// The derivatives of every triangle.
+/// Computes the derivatives of every triangle.
 pub(crate) fn derivatives(
     triangles: &Triangles,
-    shape: &WeldedMesh<'_>,
+    welded: &WeldedMesh<'_>,
     limits: RunLimits<'_>,
 ) -> Vec<Derivative> {
     threads::map(limits, triangles.len(), |t| {
-        derivative(shape.positions(triangles, t), shape.uvs(triangles, t))
+        derivative(welded.positions(triangles, t), welded.uvs(triangles, t))
     })
 }
 
-/// As [`derivatives`], in the memory of others.
+/// As [`derivatives`], into a reused buffer.
 pub(crate) fn derivatives_into(
     triangles: &Triangles,
-    shape: &WeldedMesh<'_>,
+    welded: &WeldedMesh<'_>,
     limits: RunLimits<'_>,
     derivatives: &mut Vec<Derivative>,
 ) {
-    let none = Derivative { s: [0.0; 3], t: [0.0; 3], magnitude: [0.0; 2], preserves: false, any: true };
+    let none =
+        Derivative { s: [0.0; 3], t: [0.0; 3], magnitude: [0.0; 2], preserves: false, joins_any: true };
     derivatives.resize(triangles.len(), none);
     threads::fill(limits, derivatives, |t| {
-        derivative(shape.positions(triangles, t), shape.uvs(triangles, t))
+        derivative(welded.positions(triangles, t), welded.uvs(triangles, t))
     });
 }
 
@@ -57,26 +58,26 @@ fn derivative(positions: [V3; 3], uvs: [[f32; 2]; 3]) -> Derivative {
     let s = sub(scale(dv2, e1), scale(dv1, e2));
     let t = add(scale(-du2, e1), scale(du1, e2));
     let area = doubled_area(uvs);
-    let mut out = Derivative { s, t, magnitude: [0.0; 2], preserves: area > 0.0, any: true };
+    let mut out = Derivative { s, t, magnitude: [0.0; 2], preserves: area > 0.0, joins_any: true };
     if not_zero(area) {
         let sign = if out.preserves { 1.0 } else { -1.0 };
         let (s_length, t_length) = (length(s), length(t));
         out.s = if not_zero(s_length) { scale(sign / s_length, s) } else { s };
         out.t = if not_zero(t_length) { scale(sign / t_length, t) } else { t };
         out.magnitude = [s_length / area.abs(), t_length / area.abs()];
-        out.any = !out.magnitude.iter().all(|&magnitude| not_zero(magnitude));
+        out.joins_any = !out.magnitude.iter().all(|&magnitude| not_zero(magnitude));
     }
     out
 }
 
-/// The number of UV-degenerate triangles, of those whose values are finite.
+/// The number of UV-degenerate triangles with finite positions and UVs.
 pub(crate) fn count_uv_degenerate(
     triangles: &Triangles,
-    shape: &WeldedMesh<'_>,
+    welded: &WeldedMesh<'_>,
     derivatives: &[Derivative],
 ) -> usize {
-    let finite = |t| are_finite(shape.positions(triangles, t), shape.uvs(triangles, t));
-    derivatives.iter().enumerate().filter(|(t, derivative)| derivative.any && finite(*t)).count()
+    let finite = |t| are_finite(welded.positions(triangles, t), welded.uvs(triangles, t));
+    derivatives.iter().enumerate().filter(|(t, derivative)| derivative.joins_any && finite(*t)).count()
 }
 
 /// Twice the signed area of a triangle in UV space.
@@ -87,16 +88,16 @@ pub(crate) fn doubled_area(uvs: [[f32; 2]; 3]) -> f32 {
     du1 * dv2 - dv1 * du2
 }
 
-/// Gives the halves of a quad one orientation: the first half's if the second is UV-degenerate or not larger in UV space.
-pub(crate) fn agree_in_quads(triangles: &Triangles, shape: &WeldedMesh<'_>, derivatives: &mut [Derivative]) {
+/// Sets one orientation for both halves of each quad: the first half's, if the second is UV-degenerate or not larger in UV space.
+pub(crate) fn unify_quads(triangles: &Triangles, welded: &WeldedMesh<'_>, derivatives: &mut [Derivative]) {
     let mut t = 0;
     while t < triangles.len() {
         if !triangles.is_pair(t) {
             t += 1;
             continue;
         }
-        let area = |t| doubled_area(shape.uvs(triangles, t)).abs();
-        let first_decides = derivatives[t + 1].any || area(t) >= area(t + 1);
+        let area = |t| doubled_area(welded.uvs(triangles, t)).abs();
+        let first_decides = derivatives[t + 1].joins_any || area(t) >= area(t + 1);
         let preserves = derivatives[if first_decides { t } else { t + 1 }].preserves;
         derivatives[t].preserves = preserves;
         derivatives[t + 1].preserves = preserves;
@@ -104,23 +105,23 @@ pub(crate) fn agree_in_quads(triangles: &Triangles, shape: &WeldedMesh<'_>, deri
     }
 }
 
-/// The derivatives of every triangle, with one orientation per quad.
-pub(crate) fn agreed_derivatives(
+/// Computes the derivatives of every triangle, with one orientation per quad.
+pub(crate) fn quad_derivatives(
     good: &Triangles,
-    shape: &WeldedMesh<'_>,
+    welded: &WeldedMesh<'_>,
     limits: RunLimits<'_>,
 ) -> Vec<Derivative> {
-    let mut derivatives = derivatives(good, shape, limits);
-    agree_in_quads(good, shape, &mut derivatives);
+    let mut derivatives = derivatives(good, welded, limits);
+    unify_quads(good, welded, &mut derivatives);
     derivatives
 }
 
-/// Edges between two triangles, neither UV-degenerate, of opposite orientation.
+/// The number of edges between two triangles of opposite orientation, neither of which is UV-degenerate.
 pub(crate) fn count_mirrored_edges(neighbours: &[[u32; 3]], derivatives: &[Derivative]) -> usize {
     let mirrored = |t: usize, other: u32| {
         other != NONE && (t as u32) < other && {
             let (a, b) = (&derivatives[t], &derivatives[other as usize]);
-            !a.any && !b.any && a.preserves != b.preserves
+            !a.joins_any && !b.joins_any && a.preserves != b.preserves
         }
     };
     let of_triangle =

@@ -1,32 +1,39 @@
-//! From groups to frames: weighted sums over subgroups, and output to corners.
+//! From groups to frames: weighted sums over subgroups, written to the corners.
 //!
-//! Source: mikktspace.c, `GenerateTSpaces`, `EvalTspace`, `AvgTSpace`. There the members of each subgroup are listed, sorted and
-//! compared; here a group whose members all join each other, which is nearly every group, is summed once, and subgroups are lists
-//! of the members left out.
+//! ```text
+//! for each group, in order:
+//!     term of a member = its derivatives in the tangent plane, times the angle of its corner
+//!     for each member, in the order in which the group was built:
+//!         sum = terms of its subgroup, added in triangle order
+//!         frame = sum, normalised; corner = frame, or the average where the other half of a quad has written it before
+//! ```
+//!
+//! A group whose members all join, which is nearly every group, is summed once. In other groups, prefix sums skip most additions
+//! ([`crate::tangents::mikktspace::prefix_sums`]).
+//!
+//! Source: mikktspace.c, `GenerateTSpaces`, `EvalTspace`, `AvgTSpace`. We deviate: the reference lists, sorts and compares the members of
+//! every subgroup; here a subgroup is the list of the members that it excludes.
 
 use std::cell::OnceCell;
 use std::ops::Range;
-use std::rc::Rc;
 
 use crate::Frame;
 use crate::exec::limits::RunLimits;
 use crate::math::{V3, add, angle, direction_in_plane, dot, equal, normalized_unless_zero, scale, sub};
 use crate::topology::triangles::Triangles;
-use crate::util::hash_map::InsertionMap;
-use crate::util::radix_sort::sort;
 
 use crate::tangents::mikktspace::derivatives::Derivative;
 use crate::tangents::mikktspace::groups::Groups;
 use crate::tangents::mikktspace::prefix_sums::{PrefixSums, TermLanes};
 use crate::tangents::mikktspace::raw_frames::RawFrames;
-use crate::tangents::mikktspace::subgroups::SubgroupFinder;
+use crate::tangents::mikktspace::subgroups::{SubgroupFinder, SubgroupVisitor, included};
 use crate::tangents::mikktspace::welded_mesh::WeldedMesh;
 use crate::tangents::repair::{is_usable, mean_in_plane};
 
-/// At most this many bytes of subgroups are remembered per group, to find those that several members share.
-const REMEMBERED_BYTES: usize = 1 << 24;
+/// The memory per group for finding members with equal subgroups.
+const CACHE_BYTES: usize = 1 << 24;
 
-/// What depends on the positions and normals that groups are evaluated on.
+/// What evaluation reads besides the groups: the derivatives of all triangles, and the normal of each group's vertex.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct GroupInputs {
     pub derivatives: Vec<Derivative>,
@@ -38,171 +45,123 @@ impl GroupInputs {
         triangles: &Triangles,
         groups: &Groups,
         derivatives: Vec<Derivative>,
-        shape: &WeldedMesh<'_>,
+        welded: &WeldedMesh<'_>,
     ) -> Self {
         let vertices = triangles.vertices.as_flattened();
-        let normal = |group| shape.normal(vertices[groups.members(group)[0] as usize]);
+        let normal = |group| welded.normal(vertices[groups.members(group)[0] as usize]);
         Self { derivatives, normal_of_group: (0..groups.len()).map(normal).collect() }
     }
 }
 
-/// Options of [`evaluate`]. Each member of a group that the threshold splits may look at all others, so cancellation is checked between them.
+/// The threshold, and cancellation, which is checked between groups and between the members of a group that the threshold splits.
 pub(crate) struct EvaluateOptions<'a> {
     pub threshold_cosine: f32,
     pub limits: RunLimits<'a>,
 }
 
-/// Evaluates every group, in order, and writes the results to the groups' corners.
+/// Evaluates every group, in order, and writes the frames of the groups' corners.
 ///
-/// `membership` decides which members join (a plan's base), `values` what they add; on a fresh run they are the same. Corners of
-/// no group keep what they have in `known`.
+/// `membership`: decides which members join; a plan passes its base. `values`: what the members add; a plan passes the moved mesh. A fresh
+/// run passes the same inputs twice. `initial`: the frames of corners without a group.
 pub(crate) fn evaluate(
     triangles: &Triangles,
     groups: &Groups,
-    how: &EvaluateOptions<'_>,
+    options: &EvaluateOptions<'_>,
     (membership, values): (&GroupInputs, &GroupInputs),
-    shape: &WeldedMesh<'_>,
-    known: Vec<Frame>,
+    welded: &WeldedMesh<'_>,
+    initial: Vec<Frame>,
 ) -> RawFrames {
-    let mut evaluator = Evaluator {
-        triangles,
-        values,
-        shape,
-        running: PrefixSums::default(),
-        tangents: Vec::new(),
-        written: vec![false; shape.corner_count()],
-        of_corner: known,
-        mean_of_corner: vec![[0.0; 3]; shape.corner_count()],
-    };
-    let mut subgroups = SubgroupFinder::new(how.threshold_cosine);
-    let mut sorted = Vec::new();
-    for group in 0..groups.len() {
-        if how.limits.is_cancelled() {
-            break;
-        }
+    let corner_count = welded.corner_count();
+    let raw = RawFrames { of_corner: initial, mean_of_corner: vec![[0.0; 3]; corner_count] };
+    let (written, sums, tangents) = (vec![false; corner_count], PrefixSums::default(), Vec::new());
+    let limits = options.limits;
+    let mut evaluator =
+        Evaluator { triangles, values, welded, sums, tangents, sign: 1.0, written, raw, limits };
+    let mut subgroups = SubgroupFinder::new(options.threshold_cosine);
+    for group in (0..groups.len()).take_while(|_| !limits.is_cancelled()) {
         let members = groups.members(group);
-        sorted.clear();
-        sorted.extend_from_slice(members);
-        sort(&mut sorted);
-        let sign = if groups.preserves(group) { 1.0 } else { -1.0 };
-        evaluator.take_terms(&sorted, values.normal_of_group[group]);
-        subgroups.set(triangles, &sorted, &membership.derivatives, membership.normal_of_group[group]);
-        if subgroups.all_joined() {
-            let subgroup = evaluator.subgroup(&[], sign);
-            members.iter().for_each(|&member| evaluator.write(member, &subgroup));
-        } else {
-            evaluator.write_split_group(members, &sorted, &mut subgroups, sign, how.limits);
-        }
+        subgroups.load(triangles, members, &membership.derivatives, membership.normal_of_group[group]);
+        evaluator.load(subgroups.members(), values.normal_of_group[group], groups.preserves(group));
+        subgroups.visit(members, CACHE_BYTES, &mut evaluator);
     }
-    RawFrames { of_corner: evaluator.of_corner, mean_of_corner: evaluator.mean_of_corner }
+    evaluator.raw
 }
 
 struct Evaluator<'a> {
     triangles: &'a Triangles,
     values: &'a GroupInputs,
-    shape: &'a WeldedMesh<'a>,
-    /// What each member of the current group adds; nothing where it is UV-degenerate.
-    running: PrefixSums,
-    /// The triangles' own tangents, which count for a repair.
+    welded: &'a WeldedMesh<'a>,
+    /// The terms of the current group's members, ascending. UV-degenerate members have none.
+    sums: PrefixSums,
+    /// The tangents of the members' triangles, for repairs.
     tangents: Vec<V3>,
-    /// Corners that a group has written.
+    /// The sign of the current group.
+    sign: f32,
+    /// True for corners that a group has written.
     written: Vec<bool>,
-    of_corner: Vec<Frame>,
-    mean_of_corner: Vec<V3>,
+    raw: RawFrames,
+    limits: RunLimits<'a>,
 }
 
-/// One subgroup's frame, whom it leaves out, and the mean of its tangents for when the frame is unusable.
+/// One subgroup's frame, its excluded members, and the mean of its tangents, which is computed when the frame is unusable.
 struct Subgroup {
     frame: Frame,
-    left_out: Vec<Range<usize>>,
+    excluded: Vec<Range<usize>>,
     mean: OnceCell<Option<V3>>,
 }
 
 impl Evaluator<'_> {
-    /// Computes what every member adds.
-    fn take_terms(&mut self, members: &[u32], normal: V3) {
+    /// Computes the terms of a group's members, which ascend.
+    fn load(&mut self, members: &[u32], normal: V3, preserves: bool) {
         let derivative = |&member: &u32| &self.values.derivatives[member as usize / 3];
+        self.sign = if preserves { 1.0 } else { -1.0 };
         self.tangents.clear();
         self.tangents.extend(members.iter().map(|member| derivative(member).s));
-        self.running.set(members.iter().map(|member| {
+        self.sums.load(members.iter().map(|member| {
             let (triangle, k) = (*member as usize / 3, *member as usize % 3);
-            let positions = || self.shape.positions(self.triangles, triangle);
-            (!derivative(member).any).then(|| term(derivative(member), positions(), k, normal))
+            let positions = || self.welded.positions(self.triangles, triangle);
+            (!derivative(member).joins_any).then(|| term(derivative(member), positions(), k, normal))
         }));
     }
+}
 
-    /// Sums the terms of all members but those left out, in triangle order.
-    fn subgroup(&self, left_out: &[Range<usize>], sign: f32) -> Subgroup {
-        let frame = frame(&self.running.sum_without(left_out), sign);
-        Subgroup { frame, left_out: left_out.to_vec(), mean: OnceCell::new() }
+impl SubgroupVisitor for Evaluator<'_> {
+    type Subgroup = Subgroup;
+
+    fn compute(&mut self, excluded: &[Range<usize>]) -> Subgroup {
+        let frame = frame(&self.sums.sum_without(excluded), self.sign);
+        Subgroup { frame, excluded: excluded.to_vec(), mean: OnceCell::new() }
     }
 
-    /// Evaluates each member's own subgroup. The order of writes shows where both halves of a quad are members and their frames
-    /// differ in the sign of a zero only.
-    fn write_split_group(
-        &mut self,
-        members: &[u32],
-        sorted: &[u32],
-        subgroups: &mut SubgroupFinder,
-        sign: f32,
-        limits: RunLimits<'_>,
-    ) {
-        self.running.find_stretches();
-        let mut of_members: Vec<Option<Rc<Subgroup>>> = vec![None; sorted.len()];
-        let mut of_left_out: InsertionMap<Rc<Subgroup>> = InsertionMap::new();
-        let (mut left_out, mut key, mut bytes) = (Vec::new(), Vec::new(), 0);
-        for &member in members.iter().take_while(|_| !limits.is_cancelled()) {
-            let at = subgroups.first_alike(sorted.partition_point(|&other| other < member));
-            if let Some(subgroup) = &of_members[at] {
-                self.write(member, subgroup);
-                continue;
-            }
-            subgroups.find_left_out(at, &mut left_out);
-            key.clear();
-            key.extend(left_out.iter().flat_map(|gap| [gap.start as u32, gap.end as u32]));
-            let known = of_left_out.get(&key).map(|subgroup| Rc::clone(subgroup));
-            let subgroup = known.unwrap_or_else(|| Rc::new(self.subgroup(&left_out, sign)));
-            self.write(member, &subgroup);
-            bytes += size_of::<Subgroup>() + 2 * size_of_val(left_out.as_slice());
-            if bytes <= REMEMBERED_BYTES {
-                of_left_out.first(&key, || Rc::clone(&subgroup));
-                of_members[at] = Some(subgroup);
-            }
-        }
-    }
-
-    /// Writes a subgroup's frame to a member's corner. A quad's diagonal corner can be written twice: then it has the average.
+    /// Writes the frame to the member's corner. The corners of a quad's diagonal may be written twice and then have the average. The order
+    /// of the writes matters only where both frames differ in nothing but the sign of a zero.
     fn write(&mut self, member: u32, subgroup: &Subgroup) {
         let corner = self.triangles.corners.as_flattened()[member as usize];
-        let slot = &mut self.of_corner[corner as usize];
-        let again = std::mem::replace(&mut self.written[corner as usize], true);
-        *slot = if again { average(slot, &subgroup.frame) } else { subgroup.frame };
-        if again {
-            self.mean_of_corner[corner as usize] = [0.0; 3];
+        let slot = &mut self.raw.of_corner[corner as usize];
+        let is_second = std::mem::replace(&mut self.written[corner as usize], true);
+        *slot = if is_second { average(slot, &subgroup.frame) } else { subgroup.frame };
+        let mean = &mut self.raw.mean_of_corner[corner as usize];
+        if is_second {
+            *mean = [0.0; 3];
         }
-        let normal = self.shape.normal(corner);
+        let normal = self.welded.normal(corner);
         if !is_usable(slot.tangent, normal) {
-            let joined =
-                || joined(self.tangents.len(), &subgroup.left_out).filter(|&at| self.running.adds(at));
-            let tangents = || joined().map(|at| self.tangents[at]);
-            if let Some(mean) = subgroup.mean.get_or_init(|| mean_in_plane(tangents(), normal)) {
-                self.mean_of_corner[corner as usize] = *mean;
+            let members = || included(self.tangents.len(), &subgroup.excluded);
+            let tangents = || members().filter(|&at| self.sums.has_term(at)).map(|at| self.tangents[at]);
+            if let Some(found) = subgroup.mean.get_or_init(|| mean_in_plane(tangents(), normal)) {
+                *mean = *found;
             }
         }
     }
+
+    fn is_stopped(&self) -> bool {
+        self.limits.is_cancelled()
+    }
 }
 
-/// The first `count` numbers but those of `left_out`, in order.
-pub(crate) fn joined(count: usize, left_out: &[Range<usize>]) -> impl Iterator<Item = usize> {
-    let starts = [0].into_iter().chain(left_out.iter().map(|gap| gap.end));
-    let ends = left_out.iter().map(|gap| gap.start).chain([count]);
-    starts.zip(ends).flat_map(|(start, end)| start..end)
-}
-
-/// What corner `k` of a triangle adds to the sums at its vertex: its derivatives in the plane of the vertex, times the angle of the
-/// corner there.
+/// The term of corner `k` of a triangle: its derivatives in the tangent plane, times the angle of the corner in that plane.
 ///
-/// TermLanes: s and the angle; t and a zero; the magnitudes and two zeros. So a sum is three additions of four numbers.
+/// Lanes: s and the angle; t and a zero; the magnitudes and two zeros. So one addition is three additions of four lanes.
 fn term(derivative: &Derivative, positions: [V3; 3], k: usize, normal: V3) -> TermLanes {
     let [before, here, after] = [(k + 2) % 3, k, (k + 1) % 3].map(|k| positions[k]);
     let to_before = direction_in_plane(normal, sub(before, here));
@@ -214,7 +173,7 @@ fn term(derivative: &Derivative, positions: [V3; 3], k: usize, normal: V3) -> Te
     TermLanes([s0, s1, s2, weight, t0, t1, t2, 0.0, m0, m1, 0.0, 0.0])
 }
 
-/// The frame that a sum of terms makes.
+/// The frame of a sum of terms.
 fn frame(sum: &TermLanes, sign: f32) -> Frame {
     let [s0, s1, s2, weight, t0, t1, t2, _, m0, m1, _, _] = sum.0;
     let magnitude = if weight > 0.0 { [m0 / weight, m1 / weight] } else { [m0, m1] };
@@ -222,7 +181,7 @@ fn frame(sum: &TermLanes, sign: f32) -> Frame {
     Frame { tangent, bitangent, magnitude, sign }
 }
 
-/// The mean of two frames, or the first when they are equal. The sign is the second's.
+/// The mean of two frames; the first frame where both are equal. The sign is the second's.
 fn average(a: &Frame, b: &Frame) -> Frame {
     let same =
         equal(a.magnitude, b.magnitude) && equal(a.tangent, b.tangent) && equal(a.bitangent, b.bitangent);

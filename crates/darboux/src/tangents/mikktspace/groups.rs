@@ -1,4 +1,13 @@
-//! Groups: the triangles around one vertex that are joined by edges and share one UV orientation.
+//! Groups: the triangles around one vertex that are connected by edges and have one UV orientation.
+//!
+//! ```text
+//! for each corner of each triangle, in order:
+//!     unless the triangle is UV-degenerate or the corner has a group:
+//!         flood fill from the triangle, across the edges at the vertex, to triangles of the same orientation
+//! ```
+//!
+//! A UV-degenerate triangle never starts a group, and adopts the orientation of the first group that reaches it. This is the only place
+//! where the order of the triangles decides which triangles share a frame.
 //!
 //! Source: mikktspace.c, `Build4RuleGroups`.
 
@@ -6,7 +15,7 @@ use crate::topology::triangles::{NONE, Triangles};
 
 use crate::tangents::mikktspace::derivatives::Derivative;
 
-/// All groups, in the order of the triangles that seeded them.
+/// All groups, in the order of their first triangles.
 #[derive(Clone, Debug, Default)]
 pub struct Groups {
     members: Vec<u32>,
@@ -20,29 +29,30 @@ impl Groups {
         self.ends.len()
     }
 
-    /// The members of a group, corner `k` of triangle `t` as `3 t + k`, in the order in which the reference reaches and writes them.
+    /// The members of a group, corner `k` of triangle `t` as `3 t + k`, in the order of the flood fill, which is the order of the writes.
     pub fn members(&self, group: usize) -> &[u32] {
         let start = if group == 0 { 0 } else { self.ends[group - 1] };
         &self.members[start as usize..self.ends[group] as usize]
     }
 
-    /// Where the members of each group end.
+    /// The end of each group in the concatenated member lists.
     pub fn ends(&self) -> &[u32] {
         &self.ends
     }
 
-    /// The orientation of a group's triangles.
+    /// True when the UV map preserves the orientation of the group's triangles.
     pub fn preserves(&self, group: usize) -> bool {
         self.preserves[group]
     }
 }
 
-/// Collects the groups around the vertices that count. A UV-degenerate triangle never seeds one, and takes the orientation of the first that reaches it:
-/// the only place where the order of triangles decides.
-pub(crate) fn group(
+/// Builds the groups.
+///
+/// `is_wanted`: vertices for which it returns false get no group. `derivatives`: receives the orientations that UV-degenerate triangles adopt.
+pub(crate) fn build_groups(
     triangles: &Triangles,
     neighbours: &[[u32; 3]],
-    counts: impl Fn(u32) -> bool,
+    is_wanted: impl Fn(u32) -> bool,
     derivatives: &mut [Derivative],
 ) -> Groups {
     let mut groups = Groups::default();
@@ -51,7 +61,7 @@ pub(crate) fn group(
     for t in 0..triangles.len() {
         for k in 0..3 {
             let (vertex, preserves) = (triangles.vertices[t][k], derivatives[t].preserves);
-            if derivatives[t].any || grouped[t][k] || !counts(vertex) {
+            if derivatives[t].joins_any || grouped[t][k] || !is_wanted(vertex) {
                 continue;
             }
             pending.push(t as u32);
@@ -61,7 +71,7 @@ pub(crate) fn group(
                 if joins(&mut derivatives[reached], grouped[reached], k, preserves) {
                     grouped[reached][k] = true;
                     groups.members.push(3 * t + k as u32);
-                    // The last pushed is the next reached: the edge that starts at the corner, with all behind it.
+                    // A stack: the neighbour across the edge that starts at the corner is visited first, as in the reference.
                     let around = [neighbours[reached][(k + 2) % 3], neighbours[reached][k]];
                     pending.extend(around.into_iter().filter(|&neighbour| neighbour != NONE));
                 }
@@ -77,12 +87,12 @@ fn corner_at(vertices: [u32; 3], vertex: u32) -> usize {
     (0..2).find(|&k| vertices[k] == vertex).unwrap_or(2)
 }
 
-/// Whether a triangle joins, at corner `k`, a group of the given orientation; an ungrouped UV-degenerate one adopts it.
+/// True when a triangle joins a group of the given orientation at corner `k`. A UV-degenerate triangle without groups adopts the orientation.
 fn joins(derivative: &mut Derivative, grouped: [bool; 3], k: usize, preserves: bool) -> bool {
     if grouped[k] {
         return false;
     }
-    if derivative.any && grouped == [false; 3] {
+    if derivative.joins_any && grouped == [false; 3] {
         derivative.preserves = preserves;
     }
     derivative.preserves == preserves

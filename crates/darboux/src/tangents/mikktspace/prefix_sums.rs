@@ -1,43 +1,56 @@
-//! Sums of a list with some terms left out: the bits of adding one by one, without adding all.
+//! Sums of a list without some of its terms: bit for bit what adding the others one by one gives, without adding all of them.
 //!
-//! Let P be the running sum of all terms and R that of a row which leaves some out, at the same place and with the same sign and
-//! exponent, so that R = P + d units in the last place with a whole d. The next term moves both by the same number of units:
-//! rounding to multiples of a unit commutes with adding d units, but for two exceptions. Where P was rounded from halfway between
-//! two floats, to the even one, an odd d takes R the other way. And below the least float of that exponent units are smaller. So
-//! for stretches of the list we keep how far d may be from zero such that R meets neither; then R at the end is P there and d
-//! units, in one step. Where R = P, bit for bit, every stretch will do.
+//! Let P be the prefix sum of all terms, and R the sum of the terms before the same index without the excluded ones. If P and R have the
+//! same sign and exponent, they differ by a whole number d of ulps. Adding the next term to both keeps that difference, because rounding to
+//! a multiple of an ulp commutes with adding d ulps, with two exceptions:
+//! - P was rounded from a tie, to the even neighbour: then an odd d rounds R the other way;
+//! - R leaves the exponent, where ulps have another size.
+//!
+//! So we store per block of terms the largest ulp offset that stays constant over the block:
+//!
+//! ```text
+//! block: max_below, max_above = distance of P's extremes to the ends of their exponent, in ulps; must_be_even = a tie occurs
+//! sum_without(excluded):
+//!     R = P before the first excluded term
+//!     between excluded terms, from each index on:
+//!         d = ulps between R and P
+//!         take the longest block that allows d: R = P at the block's end + d ulps
+//!         otherwise add one term to R
+//! ```
+//!
+//! R = P (d = 0) is allowed by every block.
 
 use std::ops::Range;
 
-/// Numbers that are summed side by side.
+/// The number of lanes of a term.
 pub(crate) const LANES: usize = 12;
 
-/// What one member adds, or a sum of these.
+/// A term, or a sum of terms.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TermLanes(pub [f32; LANES]);
 
-/// The shortest stretches have this many terms,
+/// The number of terms in the shortest blocks.
 const SHORTEST: usize = 8;
-/// and the next longer ones so many of those.
+/// The number of blocks that make one block of the next level.
 const RADIX: usize = 4;
 
-/// A list of terms, their running sums, and what stretches of it can be skipped.
+/// A list of terms, its prefix sums and its blocks.
 #[derive(Debug, Default)]
 pub(crate) struct PrefixSums {
-    /// None where a member adds nothing, not even a zero.
+    /// `None` where a member adds nothing, not even a zero.
     terms: Vec<Option<TermLanes>>,
     /// `sums[n]` is the sum of the first `n` terms.
     sums: Vec<TermLanes>,
-    /// By length, then by place.
-    stretches: Vec<Vec<SkipBlock>>,
+    /// The blocks of each level, built when the first term is excluded. Block `i` of a level begins at term `i` times its length.
+    levels: Vec<Vec<SkipBlock>>,
 }
 
 impl PrefixSums {
-    /// Takes the terms in their order.
-    pub fn set(&mut self, terms: impl Iterator<Item = Option<TermLanes>>) {
+    /// Replaces the list.
+    pub fn load(&mut self, terms: impl Iterator<Item = Option<TermLanes>>) {
         self.terms.clear();
         self.sums.clear();
-        self.stretches.clear();
+        self.levels.clear();
         let mut sum = TermLanes::default();
         self.sums.push(sum);
         for term in terms {
@@ -47,35 +60,38 @@ impl PrefixSums {
         }
     }
 
-    /// Whether the member at `at` adds anything.
-    pub fn adds(&self, at: usize) -> bool {
+    /// True when there is a term at index `at`.
+    pub fn has_term(&self, at: usize) -> bool {
         self.terms[at].is_some()
     }
 
-    /// Prepares many sums of the same list.
-    pub fn find_stretches(&mut self) {
-        let shortest = |(place, terms): (usize, &[Option<TermLanes>])| {
-            SkipBlock::new(&self.sums[place * SHORTEST..=(place + 1) * SHORTEST], terms)
+    fn build_blocks(&mut self) {
+        let shortest = |(at, terms): (usize, &[Option<TermLanes>])| {
+            SkipBlock::new(&self.sums[at * SHORTEST..=(at + 1) * SHORTEST], terms)
         };
-        let mut stretches: Vec<_> = self.terms.chunks_exact(SHORTEST).enumerate().map(shortest).collect();
-        while !stretches.is_empty() {
-            let longer = stretches.chunks_exact(RADIX).map(SkipBlock::joined).collect();
-            self.stretches.push(std::mem::replace(&mut stretches, longer));
+        let mut blocks: Vec<_> = self.terms.chunks_exact(SHORTEST).enumerate().map(shortest).collect();
+        while !blocks.is_empty() {
+            let longer = blocks.chunks_exact(RADIX).map(SkipBlock::merged).collect();
+            self.levels.push(std::mem::replace(&mut blocks, longer));
         }
     }
 
-    /// The sum of all terms but those in `left_out`, in order and disjoint.
-    pub fn sum_without(&self, left_out: &[Range<usize>]) -> TermLanes {
-        let Some(first) = left_out.first() else { return self.sums[self.terms.len()] };
+    /// The sum of all terms but those in `excluded`, whose ranges ascend and are disjoint.
+    pub fn sum_without(&mut self, excluded: &[Range<usize>]) -> TermLanes {
+        let Some(first) = excluded.first() else { return self.sums[self.terms.len()] };
+        if self.levels.is_empty() {
+            self.build_blocks();
+        }
         let mut sum = self.sums[first.start];
-        let ends = left_out.iter().skip(1).map(|next| next.start).chain([self.terms.len()]);
-        for (gap, end) in left_out.iter().zip(ends) {
-            self.add_stretch(&mut sum, gap.end..end);
+        let ends = excluded.iter().skip(1).map(|next| next.start).chain([self.terms.len()]);
+        for (gap, end) in excluded.iter().zip(ends) {
+            self.add_range(&mut sum, gap.end..end);
         }
         sum
     }
 
-    fn add_stretch(&self, sum: &mut TermLanes, range: Range<usize>) {
+    /// Adds the terms of a range to `sum`.
+    fn add_range(&self, sum: &mut TermLanes, range: Range<usize>) {
         let mut at = range.start;
         while at < range.end {
             let end = self.skip(sum, at, range.end);
@@ -88,22 +104,22 @@ impl PrefixSums {
         }
     }
 
-    /// Adds the longest stretch from `at` on that can be added in one step and ends by `limit`; returns where it ends.
+    /// Adds the longest block that begins at `at`, ends by `limit` and allows the offset of `sum`. Returns its end, or `at`.
     fn skip(&self, sum: &mut TermLanes, at: usize, limit: usize) -> usize {
         let (mut end, mut length) = (at, SHORTEST);
         if !at.is_multiple_of(length) || at + length > limit {
             return end;
         }
-        let units = sum.units_from(&self.sums[at]);
-        for stretches in &self.stretches {
-            if !at.is_multiple_of(length) || at + length > limit || !stretches[at / length].admits(&units) {
+        let offsets = sum.ulps_from(&self.sums[at]);
+        for blocks in &self.levels {
+            if !at.is_multiple_of(length) || at + length > limit || !blocks[at / length].allows(&offsets) {
                 break;
             }
             end = at + length;
             length *= RADIX;
         }
         if end > at {
-            *sum = self.sums[end].plus_units(&units);
+            *sum = self.sums[end].plus_ulps(&offsets);
         }
         end
     }
@@ -119,32 +135,34 @@ impl TermLanes {
         }
     }
 
-    /// By how many units in the last place this is above `other`, where sign and exponent are the same.
+    /// The difference to `other` in ulps, per lane. Meaningful where sign and exponent are equal.
     #[inline]
-    fn units_from(&self, other: &TermLanes) -> [i32; LANES] {
+    fn ulps_from(&self, other: &TermLanes) -> [i32; LANES] {
         std::array::from_fn(|lane| self.0[lane].to_bits().wrapping_sub(other.0[lane].to_bits()).cast_signed())
     }
 
     #[inline]
-    fn plus_units(&self, units: &[i32; LANES]) -> TermLanes {
+    fn plus_ulps(&self, offsets: &[i32; LANES]) -> TermLanes {
         TermLanes(std::array::from_fn(|lane| {
-            f32::from_bits(self.0[lane].to_bits().wrapping_add(units[lane].cast_unsigned()))
+            f32::from_bits(self.0[lane].to_bits().wrapping_add(offsets[lane].cast_unsigned()))
         }))
     }
 }
 
-/// How many units a sum may be from the running sum at the start of a stretch, to be as many from it all along.
+/// The ulp offsets from the prefix sums that stay constant over a block, per lane.
 #[derive(Clone, Copy, Debug)]
 struct SkipBlock {
-    below: [i32; LANES],
-    above: [i32; LANES],
-    /// 1 where the number has to be even.
-    even: [i32; LANES],
+    /// The largest negative offset, as a positive number.
+    max_below: [i32; LANES],
+    /// The largest positive offset.
+    max_above: [i32; LANES],
+    /// 1 where the offset must be even, else 0.
+    must_be_even: [i32; LANES],
 }
 
 impl SkipBlock {
     fn new(sums: &[TermLanes], terms: &[Option<TermLanes>]) -> Self {
-        let mut stretch = Self { below: [0; LANES], above: [0; LANES], even: [0; LANES] };
+        let mut block = Self { max_below: [0; LANES], max_above: [0; LANES], must_be_even: [0; LANES] };
         for lane in 0..LANES {
             let steps = sums
                 .windows(2)
@@ -156,48 +174,50 @@ impl SkipBlock {
             if least >> 23 != most >> 23 || !f32::from_bits(least).is_normal() {
                 continue;
             }
-            // A sum with the least fraction can come from below, where units are smaller.
-            stretch.below[lane] = ((least & FRACTION).cast_signed() - 1).max(0);
-            stretch.above[lane] = (FRACTION - (most & FRACTION)).cast_signed();
-            stretch.even[lane] =
+            // One ulp less than the distance: a sum with fraction zero can be rounded from below, where ulps are smaller.
+            block.max_below[lane] = ((least & FRACTION).cast_signed() - 1).max(0);
+            block.max_above[lane] = (FRACTION - (most & FRACTION)).cast_signed();
+            block.must_be_even[lane] =
                 i32::from(steps.into_iter().any(|[before, term, after]| is_tie(before, term, after)));
         }
-        stretch
+        block
     }
 
-    fn joined(parts: &[SkipBlock]) -> Self {
+    fn merged(parts: &[SkipBlock]) -> Self {
         let mut all = parts[0];
         for part in &parts[1..] {
             for lane in 0..LANES {
-                all.below[lane] = all.below[lane].min(part.below[lane]);
-                all.above[lane] = all.above[lane].min(part.above[lane]);
-                all.even[lane] |= part.even[lane];
+                all.max_below[lane] = all.max_below[lane].min(part.max_below[lane]);
+                all.max_above[lane] = all.max_above[lane].min(part.max_above[lane]);
+                all.must_be_even[lane] |= part.must_be_even[lane];
             }
         }
         all
     }
 
-    /// Without a branch, so that it runs several lanes at a time.
+    /// No branches, so that it vectorises.
     #[inline]
-    fn admits(&self, units: &[i32; LANES]) -> bool {
+    fn allows(&self, offsets: &[i32; LANES]) -> bool {
         (0..LANES).fold(true, |all, lane| {
-            let d = units[lane];
-            all & (-self.below[lane] <= d) & (d <= self.above[lane]) & (d & self.even[lane] == 0)
+            let d = offsets[lane];
+            all & (-self.max_below[lane] <= d)
+                & (d <= self.max_above[lane])
+                & (d & self.must_be_even[lane] == 0)
         })
     }
 }
 
-/// The bits of a float that are neither sign nor exponent.
+/// The fraction bits of an `f32`.
 const FRACTION: u32 = 0x7f_ffff;
 
-/// Whether `before + term` lay halfway between `after`, which it was rounded to, and another float of its exponent.
+/// True when `before + term` lay halfway between `after`, its rounded value, and another float of the same exponent.
 ///
 /// The rounding error is exact (D. E. Knuth, "The Art of Computer Programming", volume 2, theorem 4.2.2 B).
 fn is_tie(before: f32, term: f32, after: f32) -> bool {
     let added = after - before;
     let error = (before - (after - added)) + (term - added);
-    let unit = f32::from_bits(after.to_bits() & !FRACTION | 1) - f32::from_bits(after.to_bits() & !FRACTION);
-    2.0 * error.abs() == unit.abs()
+    let ulp = f32::from_bits(after.to_bits() & !FRACTION | 1) - f32::from_bits(after.to_bits() & !FRACTION);
+    2.0 * error.abs() == ulp.abs()
 }
 
 #[cfg(test)]
@@ -210,7 +230,7 @@ mod tests {
         (*state >> (32 - bits)) as f32 / (1u32 << (bits - 1)) as f32 - 1.0
     }
 
-    /// TermLanes with sums that grow, wander about zero, or are mostly halfway between two floats.
+    /// Lanes whose sums grow, stay near zero, or are mostly ties.
     fn terms(state: &mut u32, count: usize) -> Vec<Option<TermLanes>> {
         let lane = |state: &mut u32, lane: usize| match lane % 4 {
             0 => 1.0 + 0.1 * number(state, 23),
@@ -225,30 +245,29 @@ mod tests {
     #[test]
     fn sums_are_those_of_adding_one_by_one() {
         let mut state = 1;
-        let mut running = PrefixSums::default();
+        let mut sums = PrefixSums::default();
         for count in [1, 8, 31, 300, 3000] {
             let terms = terms(&mut state, count);
-            running.set(terms.iter().copied());
-            running.find_stretches();
+            sums.load(terms.iter().copied());
             for _ in 0..300 {
                 let start = ((number(&mut state, 16) + 1.0) * 0.5 * count as f32) as usize;
                 let gaps = [start..start + 1, start + 2..start + 4];
-                let left_out: Vec<_> = gaps.into_iter().filter(|gap| gap.end <= count).collect();
-                let joins = |at: &usize| left_out.iter().all(|gap| !gap.contains(at));
+                let excluded: Vec<_> = gaps.into_iter().filter(|gap| gap.end <= count).collect();
+                let is_included = |at: &usize| excluded.iter().all(|gap| !gap.contains(at));
                 let mut expected = TermLanes::default();
-                (0..count).filter(joins).for_each(|at| expected.add(&terms[at]));
-                let found = running.sum_without(&left_out);
-                assert_eq!(found.0.map(f32::to_bits), expected.0.map(f32::to_bits), "{count}, {left_out:?}");
+                (0..count).filter(is_included).for_each(|at| expected.add(&terms[at]));
+                let found = sums.sum_without(&excluded);
+                assert_eq!(found.0.map(f32::to_bits), expected.0.map(f32::to_bits), "{count}, {excluded:?}");
             }
         }
     }
 
     #[test]
-    fn stretches_are_skipped() {
-        let mut running = PrefixSums::default();
-        running.set((0..4096).map(|at| Some(TermLanes([1.0 + 0.01 * (at as f32).sin(); LANES]))));
-        running.find_stretches();
-        let mut sum = running.sums[2560].plus_units(&[16; LANES]);
-        assert_eq!(running.skip(&mut sum, 2560, 4096), 3072);
+    fn blocks_are_skipped() {
+        let mut sums = PrefixSums::default();
+        sums.load((0..4096).map(|at| Some(TermLanes([1.0 + 0.01 * (at as f32).sin(); LANES]))));
+        sums.build_blocks();
+        let mut sum = sums.sums[2560].plus_ulps(&[16; LANES]);
+        assert_eq!(sums.skip(&mut sum, 2560, 4096), 3072);
     }
 }

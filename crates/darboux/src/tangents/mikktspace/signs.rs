@@ -1,11 +1,10 @@
-//! Faces whose corners carry both signs: finding them, and giving each face one sign.
+//! Faces whose corners have both signs: finds them, and unifies their signs ([`Mode::Corrected`](crate::Mode::Corrected)).
 //!
-//! Signs mix on UV-degenerate faces, which have corners in groups of both orientations, and on degenerate ones, which copy corners
-//! from faces of both. Shaders interpolate the sign, so on such a face the bitangent turns over somewhere in the middle.
+//! UV-degenerate faces have corners in groups of both orientations, and degenerate faces copy corners of both orientations. A shader
+//! interpolates the sign, so that the bitangent of such a face flips somewhere inside it.
 
 use std::ops::Range;
 
-use crate::Faces;
 use crate::Frame;
 use crate::Mesh;
 use crate::topology::corner_lookup::CornerLookup;
@@ -16,31 +15,21 @@ use crate::tangents::mikktspace::derivatives::Derivative;
 use crate::tangents::mikktspace::raw_frames::RawFrames;
 use crate::tangents::repair::is_usable;
 
-/// A face with both signs: its number and its corners.
+/// A face whose corners have both signs: its number and its corners.
 pub(crate) type MixedSignFace = (u32, Range<usize>);
 
-/// The supported faces whose corners carry both signs.
-pub(crate) fn mixed_faces(mesh: &Mesh<'_>, frames: &[Frame]) -> Vec<MixedSignFace> {
-    let mut mixed = Vec::new();
-    let mut end = 0;
-    for face in 0..mesh.face_count() {
-        let start = end;
-        end += match mesh.faces() {
-            Faces::Triangles => 3,
-            Faces::Quads => 4,
-            Faces::Mixed(sizes) => sizes[face] as usize,
-        };
-        if frames[start..end].windows(2).any(|pair| pair[0].sign != pair[1].sign) {
-            mixed.push((face as u32, start..end));
-        }
-    }
-    mixed
+/// Finds the faces whose corners have both signs.
+pub(crate) fn mixed_sign_faces(mesh: &Mesh<'_>, frames: &[Frame]) -> Vec<MixedSignFace> {
+    let is_mixed = |(_, corners): &MixedSignFace| {
+        frames[corners.clone()].windows(2).any(|pair| pair[0].sign != pair[1].sign)
+    };
+    (0..).zip(mesh.face_ranges()).filter(is_mixed).collect()
 }
 
-/// Gives every face of `mixed` one sign, and returns the corners that need a repair for it, ascending.
+/// Sets one sign for every face of `mixed`. Returns the corners that need a repair afterwards, ascending.
 ///
-/// The sign is that of the face's orientation; on degenerate faces the majority of the corners that were `copied`, a tie +1. A
-/// corner of the other sign takes the first usable frame of that sign at its welded vertex, if there is one.
+/// The sign is that of the face's orientation; on degenerate faces it is the majority of the `copied` corners, +1 on a tie. A corner of the
+/// other sign takes the first usable frame of the right sign at its welded vertex. If there is none, it needs a repair.
 pub(crate) fn unify_signs(
     mesh: &Mesh<'_>,
     triangulation: &Triangulation,
@@ -58,12 +47,14 @@ pub(crate) fn unify_signs(
         let corners = corners.clone().filter(|&corner| raw.of_corner[corner].sign != sign);
         wrong.extend(corners.map(|corner| (corner as u32, sign)));
     }
-    let places = CornerLookup::new(triangulation, mesh.corner_count());
-    let vertex = |corner: u32| places.of(corner).map_or(corner, |place| place.vertex);
+    let lookup = CornerLookup::new(triangulation, mesh.corner_count());
+    let vertex = |corner: u32| lookup.get(corner).map_or(corner, |origin| origin.vertex);
     let mut sources = InsertionMap::new();
-    wrong.iter().for_each(|&(corner, sign)| _ = sources.first(&key(vertex(corner), sign), || None));
+    for &(corner, sign) in &wrong {
+        sources.get_or_insert_with(&key(vertex(corner), sign), || None);
+    }
     find_first_frames(mesh, triangulation, &raw.of_corner, &mut sources);
-    let mut needs = Vec::new();
+    let mut unrepaired = Vec::new();
     for (corner, sign) in wrong {
         raw.mean_of_corner[corner as usize] = [0.0; 3];
         let frame = &mut raw.of_corner[corner as usize];
@@ -71,11 +62,11 @@ pub(crate) fn unify_signs(
             Some(Some(source)) => *frame = *source,
             _ => {
                 frame.sign = sign;
-                needs.push(corner);
+                unrepaired.push(corner);
             }
         }
     }
-    needs
+    unrepaired
 }
 
 fn sign_of_face(
@@ -89,7 +80,7 @@ fn sign_of_face(
     let faces = &triangulation.good.face;
     let first = faces.partition_point(|&other| other < face);
     let halves = &derivatives[first..faces.partition_point(|&other| other <= face)];
-    if let Some(decisive) = halves.iter().find(|half| !half.any).or(halves.first()) {
+    if let Some(decisive) = halves.iter().find(|half| !half.joins_any).or(halves.first()) {
         return if decisive.preserves { 1.0 } else { -1.0 };
     }
     let copied = corners.filter(|&corner| copied.binary_search(&(corner as u32)).is_ok());
@@ -97,12 +88,12 @@ fn sign_of_face(
     if balance >= 0.0 { 1.0 } else { -1.0 }
 }
 
-/// What frames are looked for by: a welded vertex and a sign.
+/// The key of a frame: its welded vertex and its sign.
 fn key(vertex: u32, sign: f32) -> [u32; 2] {
     [vertex, (sign > 0.0).into()]
 }
 
-/// Finds the first usable frame of each vertex and sign that are asked for.
+/// Sets every value of `sources` to the first usable frame of its key.
 fn find_first_frames(
     mesh: &Mesh<'_>,
     triangulation: &Triangulation,

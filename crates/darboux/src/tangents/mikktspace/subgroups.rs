@@ -1,12 +1,27 @@
-//! SubgroupFinder: which members of a group share a tangent under the angular threshold.
+//! Subgroups: which members of a group share a tangent under the angular threshold.
 //!
-//! Two members join when either is UV-degenerate, both are halves of one quad, or their tangents and their bitangents, in the
-//! plane of the vertex, are both nearer than the threshold. A member's subgroup is all that it joins. At 180 degrees directions have
-//! to be exactly opposite not to join, and only candidates for that are compared; below, all pairs are.
+//! A *member* is corner `k` of triangle `t`, as `3 t + k`. Two members join when
+//! - one of the triangles is UV-degenerate, or
+//! - the triangles are halves of one quad, or
+//! - the angle between their tangents and the angle between their bitangents, both in the tangent plane of the vertex, are below the
+//!   threshold.
+//!
+//! The subgroup of a member is the set of all members that it joins. [`SubgroupFinder`] stores its complement, the *excluded* members,
+//! which are few in most groups:
+//!
+//! ```text
+//! if every direction is within half the threshold of the mean direction: nothing is excluded
+//! for each member, in the order in which the reference writes them:
+//!     excluded = members that it does not join
+//!         threshold 180 degrees: only exactly opposite directions are excluded; AntipodeGrid lists the candidates
+//!         smaller thresholds: compare with all members
+//!     compute each distinct subgroup once
+//! ```
 //!
 //! Source: mikktspace.c, `GenerateTSpaces`.
 
 use std::ops::Range;
+use std::rc::Rc;
 
 use crate::math::{V3, direction_in_plane, dot};
 use crate::topology::triangles::Triangles;
@@ -16,23 +31,45 @@ use crate::util::radix_sort::sort;
 use crate::tangents::mikktspace::antipodes::AntipodeGrid;
 use crate::tangents::mikktspace::derivatives::Derivative;
 
-/// Groups up to this size are compared pairwise without looking at their mean first.
+/// In groups up to this size all pairs are compared, without the test of the mean direction.
 const SMALL_GROUP: usize = 8;
 
-/// The directions of one group's members; reused from group to group.
+/// An estimate of the bytes that a cached subgroup takes besides its excluded ranges.
+const SUBGROUP_BYTES: usize = 128;
+
+/// Receives the subgroups of one group.
+pub(crate) trait SubgroupVisitor {
+    /// What is computed once per distinct subgroup.
+    type Subgroup;
+
+    /// Computes the subgroup of all members but `excluded`: ranges of indices into [`SubgroupFinder::members`], ascending and disjoint.
+    fn compute(&mut self, excluded: &[Range<usize>]) -> Self::Subgroup;
+
+    /// Assigns a subgroup to a member.
+    fn write(&mut self, member: u32, subgroup: &Self::Subgroup);
+
+    /// True ends the visit early.
+    fn is_stopped(&self) -> bool;
+}
+
+/// Finds the subgroups of one group at a time. The buffers are reused from group to group.
 #[derive(Debug, Default)]
 pub(crate) struct SubgroupFinder {
     threshold_cosine: f32,
+    /// The members, ascending. All arrays below have one entry per member.
+    members: Vec<u32>,
+    /// The directions of the tangents and of the bitangents in the tangent plane, as separate coordinates.
     s: [Vec<f32>; 3],
     t: [Vec<f32>; 3],
-    any: Vec<bool>,
+    joins_any: Vec<bool>,
     face: Vec<u32>,
-    /// At 180 degrees, in a large group: of the tangents and of the bitangents.
-    opposites: Option<[AntipodeGrid; 2]>,
-    /// With `opposites`: the first member of which all members joined are the same.
-    first_alike: Vec<u32>,
-    row: Vec<bool>,
-    apart: Vec<u32>,
+    /// The lookup of opposite tangents and of opposite bitangents; only in large groups at 180 degrees.
+    antipodes: Option<[AntipodeGrid; 2]>,
+    /// With `antipodes`: the first member that has the same subgroup for certain.
+    representative: Vec<u32>,
+    /// Scratch memory of [`SubgroupFinder::find_excluded`].
+    joins: Vec<bool>,
+    candidates: Vec<u32>,
 }
 
 impl SubgroupFinder {
@@ -40,13 +77,16 @@ impl SubgroupFinder {
         Self { threshold_cosine, ..Self::default() }
     }
 
-    /// Takes the members of a group: corners `k` of triangles `t` as `3 t + k`.
-    pub fn set(&mut self, triangles: &Triangles, members: &[u32], derivatives: &[Derivative], normal: V3) {
+    /// Loads the members of a group, in any order. `normal`: the group's normal.
+    pub fn load(&mut self, triangles: &Triangles, members: &[u32], derivatives: &[Derivative], normal: V3) {
+        self.members.clear();
+        self.members.extend_from_slice(members);
+        sort(&mut self.members);
         self.s.iter_mut().chain(&mut self.t).for_each(Vec::clear);
-        self.any.clear();
+        self.joins_any.clear();
         self.face.clear();
-        self.opposites = None;
-        for &member in members {
+        self.antipodes = None;
+        for &member in &self.members {
             let triangle = member as usize / 3;
             let derivative = &derivatives[triangle];
             let (s, t) = (direction_in_plane(normal, derivative.s), direction_in_plane(normal, derivative.t));
@@ -54,14 +94,55 @@ impl SubgroupFinder {
                 self.s[axis].push(s[axis]);
                 self.t[axis].push(t[axis]);
             }
-            self.any.push(derivative.any);
+            self.joins_any.push(derivative.joins_any);
             self.face.push(triangles.face[triangle]);
         }
     }
 
+    /// The members of the loaded group, ascending.
+    pub fn members(&self) -> &[u32] {
+        &self.members
+    }
+
+    /// Calls `visitor` with the subgroup of every member.
+    ///
+    /// `members`: the loaded members in the order of the writes. `cache_bytes`: the memory for finding members with equal subgroups;
+    /// beyond it, equal subgroups may be computed again.
+    pub fn visit<V: SubgroupVisitor>(&mut self, members: &[u32], cache_bytes: usize, visitor: &mut V) {
+        if self.all_join() {
+            let subgroup = visitor.compute(&[]);
+            members.iter().for_each(|&member| visitor.write(member, &subgroup));
+            return;
+        }
+        let mut of_representative: Vec<Option<Rc<V::Subgroup>>> = vec![None; members.len()];
+        let mut of_excluded: InsertionMap<Rc<V::Subgroup>> = InsertionMap::new();
+        let (mut excluded, mut key, mut bytes) = (Vec::new(), Vec::new(), 0);
+        for &member in members {
+            if visitor.is_stopped() {
+                return;
+            }
+            let at = self.representative(self.members.partition_point(|&other| other < member));
+            if let Some(subgroup) = &of_representative[at] {
+                visitor.write(member, subgroup);
+                continue;
+            }
+            self.find_excluded(at, &mut excluded);
+            key.clear();
+            key.extend(excluded.iter().flat_map(|gap| [gap.start as u32, gap.end as u32]));
+            let cached = of_excluded.get(&key).map(|subgroup| Rc::clone(subgroup));
+            let subgroup = cached.unwrap_or_else(|| Rc::new(visitor.compute(&excluded)));
+            visitor.write(member, &subgroup);
+            bytes += SUBGROUP_BYTES + 2 * size_of_val(excluded.as_slice());
+            if bytes <= cache_bytes {
+                of_excluded.get_or_insert_with(&key, || Rc::clone(&subgroup));
+                of_representative[at] = Some(subgroup);
+            }
+        }
+    }
+
     /// True when every member joins every other.
-    pub fn all_joined(&mut self) -> bool {
-        let count = self.any.len();
+    fn all_join(&mut self) -> bool {
+        let count = self.members.len();
         if count <= SMALL_GROUP || self.threshold_cosine != -1.0 {
             return (count > SMALL_GROUP && self.is_near_mean())
                 || (0..count).all(|a| (a + 1..count).all(|b| self.joins(a, b)));
@@ -69,95 +150,96 @@ impl SubgroupFinder {
         if self.is_near_mean() {
             return true;
         }
-        self.opposites = Some([&self.s, &self.t].map(|axes| {
-            let of_all = (0..count).filter(|&at| !self.any[at]).map(|at| (at as u32, direction(axes, at)));
-            AntipodeGrid::new(of_all)
+        self.antipodes = Some([&self.s, &self.t].map(|axes| {
+            let counted = (0..count).filter(|&at| !self.joins_any[at]);
+            AntipodeGrid::new(counted.map(|at| (at as u32, direction(axes, at))))
         }));
-        self.find_alike();
-        let mut left_out = Vec::new();
+        self.find_representatives();
+        let mut excluded = Vec::new();
         (0..count).all(|at| {
-            self.first_alike(at) < at || {
-                self.find_left_out(at, &mut left_out);
-                left_out.is_empty()
+            self.representative(at) < at || {
+                self.find_excluded(at, &mut excluded);
+                excluded.is_empty()
             }
         })
     }
 
-    /// Groups members of equal directions. Alone is a half of a quad whose other half is a member too, and who is NaN.
-    fn find_alike(&mut self) {
-        let count = self.any.len();
+    /// Fills `representative`: members with equal directions have equal subgroups. Two kinds of members are equal only to themselves: halves
+    /// of a quad whose both halves are members, and members with NaN.
+    fn find_representatives(&mut self) {
+        let count = self.members.len();
         let mut first = InsertionMap::new();
-        self.first_alike.clear();
+        self.representative.clear();
         for at in 0..count {
-            let other_half = (at > 0 && self.face[at - 1] == self.face[at])
+            let has_other_half = (at > 0 && self.face[at - 1] == self.face[at])
                 || (at + 1 < count && self.face[at + 1] == self.face[at]);
             let [s, t] = [&self.s, &self.t].map(|axes| direction(axes, at).map(f32::to_bits));
-            let alone = if other_half || !self.are_near(at, at) { at as u32 } else { u32::MAX };
-            let key = [s[0], s[1], s[2], t[0], t[1], t[2], self.any[at].into(), alone];
-            self.first_alike.push(*first.first(&key, || at as u32));
+            let unique = if has_other_half || !self.are_near(at, at) { at as u32 } else { u32::MAX };
+            let key = [s[0], s[1], s[2], t[0], t[1], t[2], self.joins_any[at].into(), unique];
+            self.representative.push(*first.get_or_insert_with(&key, || at as u32));
         }
     }
 
-    /// A member that the same members join as member `at`.
-    pub fn first_alike(&self, at: usize) -> usize {
-        if self.opposites.is_some() { self.first_alike[at] as usize } else { at }
+    /// A member with the same subgroup as member `at`.
+    fn representative(&self, at: usize) -> usize {
+        if self.antipodes.is_some() { self.representative[at] as usize } else { at }
     }
 
-    /// Writes to `left_out` the members that do not join member `at`, in order.
-    pub fn find_left_out(&mut self, at: usize, left_out: &mut Vec<Range<usize>>) {
-        left_out.clear();
-        if self.any[at] {
+    /// Writes the members that member `at` does not join to `excluded`, ascending.
+    fn find_excluded(&mut self, at: usize, excluded: &mut Vec<Range<usize>>) {
+        excluded.clear();
+        if self.joins_any[at] {
             return;
         }
-        if self.find_apart(at).is_some() {
-            self.apart.iter().for_each(|&other| push(left_out, other as usize));
+        if self.find_candidates(at).is_some() {
+            self.candidates.iter().for_each(|&other| push(excluded, other as usize));
         } else {
             self.compare_with_all(at);
-            let apart = self.row.iter().enumerate().filter(|(_, joins)| !**joins);
-            apart.for_each(|(other, _)| push(left_out, other));
+            let apart = self.joins.iter().enumerate().filter(|(_, joins)| !**joins);
+            apart.for_each(|(other, _)| push(excluded, other));
         }
     }
 
-    /// Finds in `apart`, sorted, the members that do not join member `at`; none where all have to be compared.
-    fn find_apart(&mut self, at: usize) -> Option<()> {
-        let [of_s, of_t] = self.opposites.as_ref()?;
-        let mut apart = std::mem::take(&mut self.apart);
+    /// Writes the members that member `at` does not join to `candidates`, ascending. `None` where comparing with all is needed or faster.
+    fn find_candidates(&mut self, at: usize) -> Option<()> {
+        let [of_s, of_t] = self.antipodes.as_ref()?;
+        let mut apart = std::mem::take(&mut self.candidates);
         apart.clear();
         let mut test = |other: u32| {
             if !self.joins(at, other as usize) {
                 apart.push(other);
             }
         };
-        // Of many candidates, comparing with all is quicker.
-        let limit = self.any.len() / 8;
-        let found = of_s.near(direction(&self.s, at), limit, &mut test);
-        let found = found.and_then(|()| of_t.near(direction(&self.t, at), limit, &mut test));
+        // For more candidates than this, comparing with all is faster.
+        let limit = self.members.len() / 8;
+        let found = of_s.for_each_candidate(direction(&self.s, at), limit, &mut test);
+        let found = found.and_then(|()| of_t.for_each_candidate(direction(&self.t, at), limit, &mut test));
         sort(&mut apart);
         apart.dedup();
-        self.apart = apart;
+        self.candidates = apart;
         found
     }
 
-    /// Writes to `row` which members join member `at`, which is not UV-degenerate.
+    /// Writes to `joins` which members join member `at`, which is not UV-degenerate.
     fn compare_with_all(&mut self, at: usize) {
-        let count = self.any.len();
+        let count = self.members.len();
         let ([sx, sy, sz], [tx, ty, tz]) =
             (self.s.each_ref().map(|x| &x[..count]), self.t.each_ref().map(|x| &x[..count]));
         let (s, t) = ([sx[at], sy[at], sz[at]], [tx[at], ty[at], tz[at]]);
-        self.row.clear();
-        // Plain arithmetic over arrays, so that it runs several members at a time.
-        self.row.extend((0..count).map(|other| {
+        self.joins.clear();
+        // Arithmetic on arrays without branches, which vectorises.
+        self.joins.extend((0..count).map(|other| {
             (dot(s, [sx[other], sy[other], sz[other]]) > self.threshold_cosine)
                 & (dot(t, [tx[other], ty[other], tz[other]]) > self.threshold_cosine)
         }));
-        for (joins, (&any, &face)) in self.row.iter_mut().zip(self.any.iter().zip(&self.face)) {
+        for (joins, (&any, &face)) in self.joins.iter_mut().zip(self.joins_any.iter().zip(&self.face)) {
             *joins |= any | (face == self.face[at]);
         }
     }
 
     #[inline]
     fn joins(&self, a: usize, b: usize) -> bool {
-        self.are_near(a, b) | (self.any[a] | self.any[b]) | (self.face[a] == self.face[b])
+        self.are_near(a, b) | (self.joins_any[a] | self.joins_any[b]) | (self.face[a] == self.face[b])
     }
 
     #[inline]
@@ -166,26 +248,34 @@ impl SubgroupFinder {
         cosine(&self.s) > self.threshold_cosine && cosine(&self.t) > self.threshold_cosine
     }
 
-    /// True when every direction is within half the threshold of their mean, so that any two are within the threshold.
+    /// True when every direction is within half the threshold of the mean direction, so that any two are within the threshold.
     ///
-    /// The margin of 0.001 in the cosine of the half angle is at least 2e-6 in the cosine of the whole one (least at 180
-    /// degrees: 1 - cos 0.002), five times the rounding errors of a dot product of unit vectors.
+    /// The margin of 0.001 in the cosine of the half angle is at least 2e-6 in the cosine of the full angle (least at 180 degrees:
+    /// 1 - cos 0.002), five times the rounding error of a dot product of unit vectors.
     fn is_near_mean(&self) -> bool {
         self.are_near_mean(&self.s) && self.are_near_mean(&self.t)
     }
 
     fn are_near_mean(&self, axes: &[Vec<f32>; 3]) -> bool {
-        let sum: V3 =
-            axes.each_ref().map(|x| x.iter().zip(&self.any).filter(|(_, any)| !**any).map(|(x, _)| x).sum());
+        let sum: V3 = axes
+            .each_ref()
+            .map(|x| x.iter().zip(&self.joins_any).filter(|(_, any)| !**any).map(|(x, _)| x).sum());
         let length = dot(sum, sum).sqrt();
         let bound = length * (((1.0 + self.threshold_cosine) / 2.0).sqrt() + 0.001);
-        // Directions whose squares underflowed are not of unit length; for them the margin says nothing.
+        // Directions whose squares underflowed are not unit vectors; the margin does not hold for them.
         let is_unit = |v: V3| (dot(v, v) - 1.0).abs() < 1e-6;
-        (0..self.any.len()).all(|at| {
+        (0..self.members.len()).all(|at| {
             let direction = direction(axes, at);
-            self.any[at] || (is_unit(direction) && dot(direction, sum) > bound)
+            self.joins_any[at] || (is_unit(direction) && dot(direction, sum) > bound)
         })
     }
+}
+
+/// The indices below `count` that are not in `excluded`, ascending.
+pub(crate) fn included(count: usize, excluded: &[Range<usize>]) -> impl Iterator<Item = usize> {
+    let starts = [0].into_iter().chain(excluded.iter().map(|gap| gap.end));
+    let ends = excluded.iter().map(|gap| gap.start).chain([count]);
+    starts.zip(ends).flat_map(|(start, end)| start..end)
 }
 
 #[inline]
@@ -193,7 +283,7 @@ fn direction(axes: &[Vec<f32>; 3], at: usize) -> V3 {
     axes.each_ref().map(|x| x[at])
 }
 
-/// Adds `next`, which is past all of `ranges`.
+/// Appends an index that is above all of `ranges`.
 fn push(ranges: &mut Vec<Range<usize>>, next: usize) {
     match ranges.last_mut() {
         Some(last) if last.end == next => last.end += 1,

@@ -1,26 +1,26 @@
-//! Vertex values as the evaluation reads them.
+//! A mesh read through its welded vertices.
 
 use crate::Mesh;
 use crate::math::{V3, equal};
 use crate::topology::triangles::Triangles;
 
-/// A mesh read through its welded vertices: every corner has the values of the corner that represents it.
+/// Positions, normals and UVs of welded vertices: every corner has the values of the corner that represents it.
 #[derive(Clone, Copy)]
 pub(crate) struct WeldedMesh<'a> {
     mesh: &'a Mesh<'a>,
-    /// Vertices may have moved apart since they were welded.
-    moved: bool,
+    /// True where vertices may have moved apart since they were welded.
+    has_moved: bool,
 }
 
 impl<'a> WeldedMesh<'a> {
     /// The mesh that was welded.
-    pub fn welded(mesh: &'a Mesh<'a>) -> Self {
-        Self { mesh, moved: false }
+    pub fn new(mesh: &'a Mesh<'a>) -> Self {
+        Self { mesh, has_moved: false }
     }
 
-    /// A mesh whose vertices moved after its twin was welded. Corners whose position left their representative's have their own.
+    /// The mesh after its vertices moved. Corners whose position differs from their representative's keep their own position.
     pub fn moved(mesh: &'a Mesh<'a>) -> Self {
-        Self { mesh, moved: true }
+        Self { mesh, has_moved: true }
     }
 
     /// The number of corners of the mesh.
@@ -28,7 +28,7 @@ impl<'a> WeldedMesh<'a> {
         self.mesh.corner_count()
     }
 
-    /// The position of a corner, its own.
+    /// The position of a corner.
     pub fn position(&self, corner: u32) -> V3 {
         self.mesh.positions().get(self.mesh.vertex_of_corner(corner as usize))
     }
@@ -36,7 +36,7 @@ impl<'a> WeldedMesh<'a> {
     /// The positions of triangle `t`.
     pub fn positions(&self, triangles: &Triangles, t: usize) -> [V3; 3] {
         let positions = triangles.vertices[t].map(|vertex| self.position(vertex));
-        if !self.moved {
+        if !self.has_moved {
             return positions;
         }
         let own = triangles.corners[t].map(|corner| self.position(corner));
@@ -48,8 +48,8 @@ impl<'a> WeldedMesh<'a> {
         triangles.vertices[t].map(|vertex| self.mesh.uvs().get(self.mesh.vertex_of_corner(vertex as usize)))
     }
 
-    /// The normal of a welded vertex, or of a corner.
-    pub fn normal(&self, vertex: u32) -> V3 {
-        self.mesh.normals().get(self.mesh.vertex_of_corner(vertex as usize))
+    /// The normal of a corner, or of a welded vertex by the corner that represents it.
+    pub fn normal(&self, corner: u32) -> V3 {
+        self.mesh.normals().get(self.mesh.vertex_of_corner(corner as usize))
     }
 }
