@@ -129,18 +129,18 @@ fn mikktspace_of_corners(
     memory: &mut TangentMemory,
     out: &mut [[f32; 4]],
 ) -> Report {
-    if has_whole_fans(options) && memory.fans.run(mesh, options, limits, out) {
+    if fast_path_applies(options) && memory.fast.run(mesh, options, limits, out) {
         if limits.is_cancelled() {
             Report::default()
         } else {
-            submesh::decide(mesh, options, &memory.fans, limits, out)
+            submesh::decide(mesh, options, &memory.fast, limits, out)
         }
     } else {
         method::mikktspace(mesh, options, limits, out)
     }
 }
 
-/// Whether the fast path may apply: where not all fans may split by their angles.
-fn has_whole_fans(options: &TangentOptions) -> bool {
+/// False where the angular threshold is so small that nearly all vertices would go through the general path anyway.
+fn fast_path_applies(options: &TangentOptions) -> bool {
     options.method == Method::MikkTSpace && cosine_of_degrees(options.threshold) < LARGEST_COSINE
 }

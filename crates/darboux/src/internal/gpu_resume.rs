@@ -6,7 +6,7 @@ use crate::TangentOptions;
 use crate::exec::limits::RunLimits;
 use crate::math::cosine_of_degrees;
 
-use crate::tangents::fast::Fans;
+use crate::tangents::fast::FastPath;
 use crate::tangents::submesh;
 
 pub use crate::tangents::fast::UNDECIDED;
@@ -23,11 +23,11 @@ pub fn complete(
     welded: Vec<u32>,
     out: &mut [[f32; 4]],
 ) -> (Report, usize) {
-    let mut fans = Fans::default();
-    fans.resume(mesh, options.mode, welded, out);
-    let corners = fans.undecided(mesh).flatten().map(|corner| out[corner as usize]);
+    let mut fast = FastPath::default();
+    fast.resume(mesh, options.mode, welded, out);
+    let corners = fast.undecided(mesh).flatten().map(|corner| out[corner as usize]);
     let left = corners.filter(|corner| corner[3] == UNDECIDED).count();
-    (submesh::decide(mesh, options, &fans, RunLimits::default(), out), left)
+    (submesh::decide(mesh, options, &fast, RunLimits::default(), out), left)
 }
 
 /// The cosine above which directions are nearer than the threshold.

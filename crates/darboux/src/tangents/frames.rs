@@ -12,8 +12,8 @@ use crate::exec::threads::{self, parts, split};
 use crate::tangents::Frames;
 use crate::tangents::Report;
 use crate::tangents::TangentOptions;
-use crate::tangents::fast::{Fans, UNDECIDED, triangle_count};
-use crate::tangents::has_whole_fans;
+use crate::tangents::fast::{FastPath, UNDECIDED, triangle_count};
+use crate::tangents::fast_path_applies;
 use crate::tangents::memory::{FrameMemory, TangentMemory};
 use crate::tangents::method;
 use crate::tangents::output::{Output, fill};
@@ -65,7 +65,7 @@ pub fn lend_frames<'a>(
     context: &'a mut Context,
 ) -> Result<LentFrames<'a>, MeshError> {
     let (limits, memory) = context.limits_and_memory();
-    let report = if let Some(report) = run_fans(mesh, options, limits, memory) {
+    let report = if let Some(report) = run_fast(mesh, options, limits, memory) {
         report
     } else {
         let frames = &mut memory.frames.frames;
@@ -74,14 +74,14 @@ pub fn lend_frames<'a>(
         method::run(mesh, options, limits, &mut memory.sums, frames)
     };
     limits.check()?;
-    Ok(LentFrames { mesh, fans: &memory.fans, memory: &memory.frames, limits, report })
+    Ok(LentFrames { mesh, fast: &memory.fast, memory: &memory.frames, limits, report })
 }
 
 /// Frames of corners in the memory of a [`Context`], one per corner, in corner order. Not in vertex order.
 #[derive(Clone, Copy, Debug)]
 pub struct LentFrames<'a> {
     mesh: &'a Mesh<'a>,
-    fans: &'a Fans,
+    fast: &'a FastPath,
     memory: &'a FrameMemory,
     limits: RunLimits<'a>,
     report: Report,
@@ -105,7 +105,7 @@ impl LentFrames<'_> {
 
     /// Writes the frames of corners from number `first` on, as many as `out` has or there are.
     pub fn write(&self, first: usize, out: &mut [Frame]) {
-        let Self { mesh, fans, memory: FrameMemory { tangents, decided, frames }, .. } = self;
+        let Self { mesh, fast, memory: FrameMemory { tangents, decided, frames }, .. } = self;
         if let Some(frames) = frames.get(first..) {
             fill(out, frames.iter().copied());
         }
@@ -115,7 +115,7 @@ impl LentFrames<'_> {
             return;
         }
         let out = &mut out[..count];
-        fans.write_rest(mesh, first, out);
+        fast.write_rest(mesh, first, out);
         let mut decided = &decided[decided.partition_point(|&(corner, _)| (corner as usize) < first)..];
         for (&[x, y, z, sign], out) in tangents.iter().zip(out) {
             if sign != UNDECIDED {
@@ -172,13 +172,13 @@ fn run(
     memory: &mut TangentMemory,
     out: &mut [Frame],
 ) -> Report {
-    let Some(report) = run_fans(mesh, options, limits, memory) else {
+    let Some(report) = run_fast(mesh, options, limits, memory) else {
         return method::run(mesh, options, limits, &mut memory.sums, out);
     };
     if limits.is_cancelled() {
         return report;
     }
-    let frames = LentFrames { mesh, fans: &memory.fans, memory: &memory.frames, limits, report };
+    let frames = LentFrames { mesh, fast: &memory.fast, memory: &memory.frames, limits, report };
     let threads = limits.thread_count(triangle_count(mesh));
     let ranges = split(0..out.len(), threads, 1);
     threads::run(&mut vec![(); threads], ranges.clone().zip(parts(out, 0, ranges)), |(), (range, out)| {
@@ -188,24 +188,24 @@ fn run(
 }
 
 /// Leaves the frames in `memory` where the fast path applies; else returns `None`.
-fn run_fans(
+fn run_fast(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
     limits: RunLimits<'_>,
     memory: &mut TangentMemory,
 ) -> Option<Report> {
-    if !has_whole_fans(options) {
+    if !fast_path_applies(options) {
         return None;
     }
-    let TangentMemory { fans, frames: FrameMemory { tangents, decided, frames }, .. } = memory;
+    let TangentMemory { fast, frames: FrameMemory { tangents, decided, frames }, .. } = memory;
     frames.clear();
     tangents.resize(mesh.corner_count(), [0.0; 4]);
     threads::on_pool(limits.thread_count(triangle_count(mesh)), || {
-        fans.run(mesh, options, limits, tangents).then(|| fans.add_frames(mesh, limits))
+        fast.run(mesh, options, limits, tangents).then(|| fast.add_frames(mesh, limits))
     })?;
     decided.clear();
     if limits.is_cancelled() {
         return Some(Report::default());
     }
-    Some(submesh::decide_frames(mesh, options, fans, limits, tangents, decided))
+    Some(submesh::decide_frames(mesh, options, fast, limits, tangents, decided))
 }

@@ -1,13 +1,13 @@
 //! Memory that tangent generation reuses from call to call.
 
 use crate::Frame;
-use crate::tangents::fast::Fans;
+use crate::tangents::fast::FastPath;
 use crate::tangents::method_buffers::MethodBuffers;
 
 /// The memory of every method and output.
 #[derive(Debug, Default)]
 pub(crate) struct TangentMemory {
-    pub fans: Fans,
+    pub fast: FastPath,
     pub sums: MethodBuffers,
     pub frames: FrameMemory,
 }

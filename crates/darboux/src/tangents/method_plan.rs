@@ -11,8 +11,8 @@ use crate::tangents::Method;
 use crate::tangents::TangentOptions;
 use crate::tangents::Tangents;
 use crate::tangents::angle_area;
-use crate::tangents::fast::{Fans, PlannedFans, triangle_count};
-use crate::tangents::has_whole_fans;
+use crate::tangents::fast::{FastPath, FastPlan, triangle_count};
+use crate::tangents::fast_path_applies;
 use crate::tangents::memory::TangentMemory;
 use crate::tangents::mikktspace::{GroupedMesh, default_frames};
 use crate::tangents::submesh::UndecidedFaces;
@@ -22,7 +22,7 @@ use crate::tangents::{generate, run};
 #[derive(Debug)]
 pub(crate) enum Planned {
     /// MikkTSpace on faces of 3 and 4 corners: nearly all vertices are decided.
-    Fans(Box<Decided>),
+    Fast(Box<Decided>),
     /// MikkTSpace elsewhere.
     Stages(Box<GroupedMesh>),
     /// Angle and area, on the same groups.
@@ -34,7 +34,7 @@ pub(crate) enum Planned {
 /// Decided vertices, the stages for the others, and the vertices, for when vertices that were decided need the stages after all.
 #[derive(Debug)]
 pub(crate) struct Decided {
-    fans: PlannedFans,
+    fast: FastPlan,
     undecided: Option<UndecidedFaces>,
     base: Vertices,
     stages: OnceLock<GroupedMesh>,
@@ -54,8 +54,8 @@ impl Planned {
         }
         let mut base = Tangents::default();
         base.corners.0.resize(mesh.corner_count(), [0.0; 4]);
-        let mut fans = Fans::default();
-        if !has_whole_fans(options) || !fans.run(mesh, options, limits, &mut base.corners.0) {
+        let mut fast = FastPath::default();
+        if !fast_path_applies(options) || !fast.run(mesh, options, limits, &mut base.corners.0) {
             let Some(topology) = GroupedMesh::new(mesh, options, limits) else {
                 return (Self::Nothing, base);
             };
@@ -66,14 +66,14 @@ impl Planned {
         if limits.is_cancelled() {
             return (Self::Nothing, base);
         }
-        let undecided = UndecidedFaces::new(mesh, options, &fans, limits, &base.corners.0);
-        let fans = PlannedFans::new(mesh, fans, &base.corners.0);
+        let undecided = UndecidedFaces::new(mesh, options, &fast, limits, &base.corners.0);
+        let fast = FastPlan::new(mesh, fast, &base.corners.0);
         if let Some(part) = &undecided {
             base.report = part.decide(mesh, limits, &mut base.corners.0);
         }
         base.report.triangles = triangle_count(mesh);
         let vertices = Vertices::new(mesh);
-        (Self::Fans(Box::new(Decided { fans, undecided, base: vertices, stages: OnceLock::new() })), base)
+        (Self::Fast(Box::new(Decided { fast, undecided, base: vertices, stages: OnceLock::new() })), base)
     }
 
     /// Writes the tangents of the moved mesh with the signs of the base's. `base`: what it was planned with, and its tangents.
@@ -87,7 +87,7 @@ impl Planned {
     ) {
         let (options, signs) = base;
         match self {
-            Self::Fans(decided) => return decided.evaluate(mesh, base, limits, memory, out),
+            Self::Fast(decided) => return decided.evaluate(mesh, base, limits, memory, out),
             Self::Stages(topology) => {
                 write(&topology.frames_of_moved(mesh, default_frames(mesh), limits).0, out)
             }
@@ -111,7 +111,7 @@ impl Decided {
         memory: &mut TangentMemory,
         out: &mut [[f32; 4]],
     ) {
-        if memory.fans.run_planned(&self.fans, mesh, limits, out) {
+        if memory.fast.run_planned(&self.fast, mesh, limits, out) {
             if let Some(part) = &self.undecided {
                 part.decide_moved(mesh, base, limits, out);
             }

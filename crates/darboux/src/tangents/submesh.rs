@@ -13,7 +13,7 @@ use crate::topology::edge_sort::TriangleEdge;
 
 use crate::tangents::Report;
 use crate::tangents::TangentOptions;
-use crate::tangents::fast::{Fans, UNDECIDED, triangle_count};
+use crate::tangents::fast::{FastPath, UNDECIDED, triangle_count};
 use crate::tangents::mikktspace::raw_frames::DEFAULT_FRAME;
 use crate::tangents::mikktspace::{GroupedMesh, SubmeshWeld};
 
@@ -34,15 +34,15 @@ pub(crate) struct UndecidedFaces {
 impl UndecidedFaces {
     /// Collects and groups the undecided faces. `None` where all corners are decided.
     ///
-    /// `fans`: the state of the fast path after its run on `mesh`. `tangents`: the output of that run.
+    /// `fast`: the state of the fast path after its run on `mesh`. `tangents`: the output of that run.
     pub fn new(
         mesh: &Mesh<'_>,
         options: &TangentOptions,
-        fans: &Fans,
+        fast: &FastPath,
         limits: RunLimits<'_>,
         tangents: &[[f32; 4]],
     ) -> Option<Self> {
-        let faces = fans.undecided(mesh);
+        let faces = fast.undecided(mesh);
         let sizes: Vec<u32> = faces.clone().map(|corners| corners.len() as u32).collect();
         if sizes.is_empty() {
             return None;
@@ -52,9 +52,9 @@ impl UndecidedFaces {
         let indices: Vec<u32> = corners.iter().map(vertex).collect();
         let is_undecided = |&corner: &u32| tangents[corner as usize][3] == UNDECIDED;
         let is_undecided: Vec<bool> = corners.iter().map(is_undecided).collect();
-        let vertex_of_corner = fans.names(mesh, &corners);
+        let vertex_of_corner = fast.names(mesh, &corners);
         let is_complete = are_all_undecided(&vertex_of_corner, &is_undecided);
-        let tail_runs = runs_within(&corners, &fans.tail_runs(mesh));
+        let tail_runs = runs_within(&corners, &fast.tail_runs(mesh));
         let weld = SubmeshWeld {
             vertex_of_corner: &vertex_of_corner,
             is_complete: &is_complete,
@@ -128,11 +128,11 @@ impl UndecidedFaces {
 pub(crate) fn decide(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
-    fans: &Fans,
+    fast: &FastPath,
     limits: RunLimits<'_>,
     out: &mut [[f32; 4]],
 ) -> Report {
-    let faces = UndecidedFaces::new(mesh, options, fans, limits, out);
+    let faces = UndecidedFaces::new(mesh, options, fast, limits, out);
     let report = faces.map(|faces| faces.decide(mesh, limits, out)).unwrap_or_default();
     Report { triangles: triangle_count(mesh), ..report }
 }
@@ -141,12 +141,12 @@ pub(crate) fn decide(
 pub(crate) fn decide_frames(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
-    fans: &Fans,
+    fast: &FastPath,
     limits: RunLimits<'_>,
     tangents: &[[f32; 4]],
     out: &mut Vec<(u32, Frame)>,
 ) -> Report {
-    let faces = UndecidedFaces::new(mesh, options, fans, limits, tangents);
+    let faces = UndecidedFaces::new(mesh, options, fast, limits, tangents);
     let report = faces.map(|faces| faces.decide_frames(mesh, limits, tangents, out)).unwrap_or_default();
     Report { triangles: triangle_count(mesh), ..report }
 }

@@ -1,85 +1,102 @@
-//! Whether the order of the reference's last edges could show.
+//! The reference's last edges: whether their order changes the result.
 //!
-//! The reference leaves the edges with the largest lower vertex in the order of an unstable sort. What that sort does shows when
-//! those edges are more than two and some of them are one edge; then it is done (see `crate::topology::edge_sort`). Which edges they are
-//! depends on the vertices' names, the corners that represent them (see `crate::topology::weld`). Names near the end of the triangle list
-//! decide, and those are names of vertices that the last triangles use: only the cells of these are put into the reference's order.
+//! The reference finds neighbours by sorting edges by the names of their two vertices. Those edges whose lower name is the largest of
+//! all, the *last edges*, stay in the order of an unstable sort. That order changes the result when the last edges are more than two
+//! and two of them join the same vertices; then the sort itself is repeated (see `vertex_names.rs` and `crate::topology::edge_sort`).
+//!
+//! Which edges are the last ones depends on names, and a vertex is named after one of its corners (see `crate::topology::weld`). Large
+//! names belong to vertices that the last triangles of the list use, the *triangle tail*. The reference finds names cell by cell,
+//! where a cell is one of 2048 slabs of the bounding box; so only cells in which the triangle tail has vertices have to be examined:
+//!
+//! ```text
+//! tail = the last few triangles that have edges
+//! repeat
+//!     cells = the cells in which triangles of the tail have vertices
+//!     points = all entries of the triangle list whose vertex lies in one of the cells
+//!     name the vertices of the points, cell by cell, as the reference does
+//!     edges = for each triangle with two or three vertices named after corners of the tail:
+//!             the edge between the two with the largest names
+//!     if there are edges or the tail is the whole list: the last edges are those with the largest lower name
+//!     tail = a tail four times as long
+//! ```
+//!
+//! Proof: an edge whose lower name is a corner of the tail belongs to a triangle in which two vertices are named after corners of the
+//! tail, and the edge that is listed for this triangle has no smaller lower name.
+//!
+//! The first points are found in passing: the pass over the triangles sets the flag `IN_TAIL` (`accumulator.rs`) of vertices in the cells
+//! when it finishes them, and lists their corners when it writes these (`exceptions.rs`).
 
 use crate::topology::neighbours::tail_order_matters;
 use crate::topology::weld::{Bounds, CELLS, CellBuckets, Cells, Point, for_each_final_range};
 use crate::util::radix_sort::{first, pair, second, sort};
 
-use crate::tangents::fast::input::{Source, TriangleBuffer};
+use crate::tangents::fast::triangle_list::{TriangleBuffer, TriangleList};
 
-/// How many triangles from the end are looked at first, where triangles that share vertices are near each other in the list, and
-/// where they are not: there fewer of them have vertices that are named at the end.
+/// The number of triangles of the first tail, where triangles that share vertices are near each other in the list.
 const FIRST_TAIL: usize = if cfg!(small_limits) { 1 } else { 4 };
+/// The number of triangles of the first tail of a shuffled list, in which fewer triangles have vertices that are named after the end.
 const FIRST_TAIL_SHUFFLED: usize = 8 * FIRST_TAIL;
 
-/// The cells in which a tail of the triangle list has vertices.
+/// The cells in which a triangle tail has vertices.
 #[derive(Debug)]
 pub(crate) struct TailCells {
-    /// Its first triangle, which begins a face: entries from there on are of corners whose numbers are not below its first corner's.
+    /// The first triangle of the tail. It begins a face, so the corners of the tail are those from its first corner on.
     start: usize,
     cells: Cells,
-    wanted: [bool; CELLS],
+    /// True for each cell that contains a vertex of the tail.
+    is_wanted: [bool; CELLS],
+    /// The lowest and highest coordinate along the cells' axis at which a wanted cell can lie.
     low: f32,
     high: f32,
 }
 
 impl TailCells {
-    /// Of the triangles from `start` on; `bounds` are those of all vertices in use.
-    fn new(source: &Source<'_>, bounds: &Bounds, triangle: usize) -> Self {
-        let start = source.face_of(triangle as u32).start as usize;
+    /// The cells of the tail that begins with the face of `triangle`. `bounds`: of the positions of all used vertices.
+    fn new(list: &TriangleList<'_>, bounds: &Bounds, triangle: usize) -> Self {
+        let start = list.face_of(triangle as u32).start as usize;
         let cells = Cells::of(bounds);
         let mut tail =
-            Self { start, cells, wanted: [false; CELLS], low: f32::INFINITY, high: f32::NEG_INFINITY };
-        for vertex in (start..source.count()).flat_map(|triangle| source.triangle(triangle as u32)) {
-            let position = source.position(vertex);
-            tail.wanted[cells.at(position)] = true;
+            Self { start, cells, is_wanted: [false; CELLS], low: f32::INFINITY, high: f32::NEG_INFINITY };
+        for vertex in (start..list.count()).flat_map(|triangle| list.triangle(triangle as u32)) {
+            let position = list.position(vertex);
+            tail.is_wanted[cells.at(position)] = true;
             let along = position[cells.axis];
             (tail.low, tail.high) = (tail.low.min(along), tail.high.max(along));
         }
-        // A cell more on either side, and rounding.
+        // One more cell on either side, and rounding.
         let margin = 1.01 / CELLS as f32 * cells.extent + 1e-6 * (tail.low.abs() + tail.high.abs());
         (tail.low, tail.high) = (tail.low - margin, tail.high + margin);
         tail
     }
 
-    /// Of no triangles.
-    pub fn none() -> Self {
-        let cells = Cells::of(&Bounds::default());
-        Self { start: 0, cells, wanted: [false; CELLS], low: f32::INFINITY, high: f32::NEG_INFINITY }
-    }
-
-    /// Of the first tail to look at: so many triangles that have edges, and whatever lies among and behind them.
-    pub fn first(source: &Source<'_>, bounds: &Bounds, is_shuffled: bool) -> Self {
+    /// The cells of the first tail to examine: a few triangles that have edges, and the degenerate triangles between and after them.
+    pub fn first(list: &TriangleList<'_>, bounds: &Bounds, is_shuffled: bool) -> Self {
         let tail = if is_shuffled { FIRST_TAIL_SHUFFLED } else { FIRST_TAIL };
-        let mut good = (0..source.count()).rev().filter(|&triangle| {
-            let positions = source.triangle(triangle as u32).map(|vertex| source.position(vertex));
+        let mut with_edges = (0..list.count()).rev().filter(|&triangle| {
+            let positions = list.triangle(triangle as u32).map(|vertex| list.position(vertex));
             !are_degenerate(positions)
         });
-        Self::new(source, bounds, good.nth(tail - 1).unwrap_or(0))
+        Self::new(list, bounds, with_edges.nth(tail - 1).unwrap_or(0))
     }
 
-    /// True for vertices in these cells.
+    /// True for positions in these cells.
     #[inline(always)]
-    pub fn hold(&self, position: [f32; 3]) -> bool {
+    pub fn contain(&self, position: [f32; 3]) -> bool {
         let along = position[self.cells.axis];
-        (along >= self.low) & (along <= self.high) && self.hold_cell(position)
+        (along >= self.low) & (along <= self.high) && self.is_in_wanted_cell(position)
     }
 
     #[inline(never)]
-    fn hold_cell(&self, position: [f32; 3]) -> bool {
-        self.wanted[self.cells.at(position)]
+    fn is_in_wanted_cell(&self, position: [f32; 3]) -> bool {
+        self.is_wanted[self.cells.at(position)]
     }
 }
 
-/// An edge's vertices and their names, the lower first.
+/// The names of an edge's vertices, the lower first, and the vertices themselves.
 #[derive(Clone, Copy, Debug)]
 struct Edge {
     names: [u32; 2],
-    ends: [u32; 2],
+    vertices: [u32; 2],
 }
 
 /// The last edges.
@@ -88,23 +105,23 @@ pub(crate) struct LastEdges {
     /// The name of their lower vertex.
     pub name: u32,
     pub count: usize,
-    /// All vertices at their ends, ascending.
+    /// Both vertices of all of them, ascending.
     pub vertices: Vec<u32>,
 }
 
 impl LastEdges {
-    /// Of listed edges, those with the largest lower name among them.
-    fn of(lists: &mut Lists) -> Option<Self> {
-        let Lists { edges, uppers, .. } = lists;
+    /// The edges with the largest lower name among the listed ones. None where their order does not matter.
+    fn of(buffers: &mut TailBuffers) -> Option<Self> {
+        let TailBuffers { edges, upper_names, .. } = buffers;
         let name = edges.iter().map(|edge| edge.names[0]).max()?;
         edges.retain(|edge| edge.names[0] == name);
-        uppers.clear();
-        uppers.extend(edges.iter().map(|edge| edge.names[1]));
-        sort(uppers);
-        if !tail_order_matters(uppers.iter()) {
+        upper_names.clear();
+        upper_names.extend(edges.iter().map(|edge| edge.names[1]));
+        sort(upper_names);
+        if !tail_order_matters(upper_names.iter()) {
             return None;
         }
-        let mut vertices: Vec<u32> = edges.iter().flat_map(|edge| edge.ends).collect();
+        let mut vertices: Vec<u32> = edges.iter().flat_map(|edge| edge.vertices).collect();
         sort(&mut vertices);
         vertices.dedup();
         Some(Self { name, count: edges.len(), vertices })
@@ -115,97 +132,99 @@ fn sorted<T: PartialOrd>(a: T, b: T) -> (T, T) {
     if b < a { (b, a) } else { (a, b) }
 }
 
-/// What is listed on the way; the memory is kept from mesh to mesh.
+/// The lists of a search. The memory is reused from mesh to mesh.
 #[derive(Debug, Default)]
-pub(crate) struct Lists {
+pub(crate) struct TailBuffers {
     points: Vec<Point>,
-    by_cell: CellBuckets,
-    /// Entries of vertices that are named after a corner of the tail, each with that name.
+    buckets: CellBuckets,
+    /// Pairs of an entry and a name: the entries of vertices that are named after a corner of the tail.
     named: Vec<u64>,
-    /// The vertices of one range's entries, and where these are in it.
+    /// Pairs of a vertex and the index of its point in one range.
     of_range: Vec<u64>,
     edges: Vec<Edge>,
     /// The names of the last edges' upper vertices, ascending.
-    uppers: Vec<u32>,
+    upper_names: Vec<u32>,
 }
 
-/// A welded mesh.
+/// The mesh in which the last edges are searched.
 #[derive(Clone, Copy)]
-pub(crate) struct LastRun<'a> {
-    pub source: Source<'a>,
+pub(crate) struct EdgeTail<'a> {
+    pub list: TriangleList<'a>,
+    /// The bounds of the positions of all used vertices.
     pub bounds: &'a Bounds,
 }
 
-impl LastRun<'_> {
-    /// The last edges, where their order shows. `points` are the entries of `cells`' vertices, ascending, or none if they have to be
-    /// looked for.
+impl EdgeTail<'_> {
+    /// The last edges. None where their order does not matter.
+    ///
+    /// `cells`: those of the first tail. `points`: the entries of all vertices in these cells, ascending; none if they have to be searched.
     pub fn find(
         &self,
         mut cells: TailCells,
         points: Option<&[Point]>,
-        lists: &mut Lists,
+        buffers: &mut TailBuffers,
     ) -> Option<LastEdges> {
         match points {
-            Some(points) => lists.by_cell.sort(&cells.cells, points),
-            None => self.sort_points(&cells, lists),
+            Some(points) => buffers.buckets.sort(&cells.cells, points),
+            None => self.sort_points(&cells, buffers),
         }
-        self.list_edges(&cells, lists);
-        while lists.edges.is_empty() && cells.start > 0 {
-            let tail = 4 * (self.source.count() - cells.start);
-            cells = TailCells::new(&self.source, self.bounds, self.source.count().saturating_sub(tail));
-            self.sort_points(&cells, lists);
-            self.list_edges(&cells, lists);
+        self.list_edges(&cells, buffers);
+        while buffers.edges.is_empty() && cells.start > 0 {
+            let tail = 4 * (self.list.count() - cells.start);
+            cells = TailCells::new(&self.list, self.bounds, self.list.count().saturating_sub(tail));
+            self.sort_points(&cells, buffers);
+            self.list_edges(&cells, buffers);
         }
-        LastEdges::of(lists)
+        LastEdges::of(buffers)
     }
 
-    /// Lists edges, among them those with the largest lower vertex, if it is named after a corner of the tail.
-    fn list_edges(&self, cells: &TailCells, lists: &mut Lists) {
-        self.list_named(cells, lists);
-        lists.edges.clear();
-        let triangles = lists.named.chunk_by(|&a, &b| first(a) / 3 == first(b) / 3);
-        lists.edges.extend(triangles.filter_map(|entries| self.highest_edge(entries)));
+    /// Lists one edge of every triangle that has two or three vertices named after corners of the tail.
+    fn list_edges(&self, cells: &TailCells, buffers: &mut TailBuffers) {
+        self.list_named(cells, buffers);
+        buffers.edges.clear();
+        let triangles = buffers.named.chunk_by(|&a, &b| first(a) / 3 == first(b) / 3);
+        buffers.edges.extend(triangles.filter_map(|entries| self.highest_edge(entries)));
     }
 
     /// The welded vertex at an entry.
     fn vertex(&self, entry: u32) -> u32 {
-        self.source.vertex(self.source.corner(entry))
+        self.list.vertex(self.list.corner(entry))
     }
 
-    /// Sorts the entries of all vertices in the cells.
-    fn sort_points(&self, cells: &TailCells, lists: &mut Lists) {
-        let mut buffer = TriangleBuffer::default();
-        lists.points.clear();
-        for range in self.source.windows() {
+    /// Sorts the entries of all vertices in the cells by cell.
+    fn sort_points(&self, cells: &TailCells, buffers: &mut TailBuffers) {
+        let mut triangle_buffer = TriangleBuffer::default();
+        buffers.points.clear();
+        for range in self.list.windows() {
             let first = 3 * range.start as u32;
-            let triangles = self.source.triangles(range, &mut buffer);
+            let triangles = self.list.triangles(range, &mut triangle_buffer);
             for (entry, &vertex) in (first..).zip(triangles.as_flattened()) {
-                let position = self.source.position(vertex);
-                if cells.hold(position) {
-                    lists.points.push(Point { position, entry });
+                let position = self.list.position(vertex);
+                if cells.contain(position) {
+                    buffers.points.push(Point { position, entry });
                 }
             }
         }
-        lists.by_cell.sort(&cells.cells, &lists.points);
+        buffers.buckets.sort(&cells.cells, &buffers.points);
     }
 
     /// Lists the entries of all vertices that are named after a corner of the tail, ascending.
-    fn list_named(&self, cells: &TailCells, lists: &mut Lists) {
-        let Lists { by_cell, named, of_range, .. } = lists;
+    fn list_named(&self, cells: &TailCells, buffers: &mut TailBuffers) {
+        let TailBuffers { buckets, named, of_range, .. } = buffers;
         let in_tail = |entry: u32| entry as usize >= 3 * cells.start;
         let is_wanted = |points: &[Point]| points.iter().any(|point| in_tail(point.entry));
         named.clear();
-        for points in by_cell.iter_mut() {
+        for points in buckets.iter_mut() {
             for_each_final_range(points, &is_wanted, &mut |points| {
                 let place = |(at, point): (u32, &Point)| pair(self.vertex(point.entry), at);
                 of_range.clear();
                 of_range.extend((0..).zip(points).map(place));
-                // By vertex, in the range's order: the corner at the first entry of each vertex is its name.
+                // By vertex, in the order of the range: the corner at the first entry of each vertex is its name.
                 sort(of_range);
                 let entry = |place: u64| points[second(place) as usize].entry;
                 for same in of_range.chunk_by(|&a, &b| first(a) == first(b)) {
                     if in_tail(entry(same[0])) {
-                        let name = self.source.corner(entry(same[0]));
+                        let name = self.list.corner(entry(same[0]));
                         named.extend(same.iter().map(|&place| pair(entry(place), name)));
                     }
                 }
@@ -214,7 +233,7 @@ impl LastRun<'_> {
         sort(named);
     }
 
-    /// The edge between the two higher vertices of a triangle, if two of its corners are named.
+    /// The edge between the two vertices of a triangle with the largest names, if at least two are named. `entries`: those of the triangle.
     fn highest_edge(&self, entries: &[u64]) -> Option<Edge> {
         let named = |&entry: &u64| (second(entry), self.vertex(first(entry)));
         let (lower, upper) = match entries {
@@ -226,18 +245,18 @@ impl LastRun<'_> {
             }
             _ => return None,
         };
-        let triangle = self.source.triangle(first(entries[0]) / 3);
-        let edge = Edge { names: [lower.0, upper.0], ends: [lower.1, upper.1] };
+        let triangle = self.list.triangle(first(entries[0]) / 3);
+        let edge = Edge { names: [lower.0, upper.0], vertices: [lower.1, upper.1] };
         (!self.is_degenerate(triangle)).then_some(edge)
     }
 
-    /// True for triangles of which the reference makes no edges.
+    /// True for triangles with two equal positions, of which the reference makes no edges.
     pub fn is_degenerate(&self, triangle: [u32; 3]) -> bool {
-        are_degenerate(triangle.map(|vertex| self.source.position(vertex)))
+        are_degenerate(triangle.map(|vertex| self.list.position(vertex)))
     }
 }
 
-/// True for triangles with two equal positions.
+/// True for the positions of a triangle two of which are equal.
 pub(crate) fn are_degenerate([a, b, c]: [[f32; 3]; 3]) -> bool {
     a == b || b == c || c == a
 }

@@ -1,39 +1,41 @@
-//! Whole frames: the bitangents and magnitudes that go with tangents, once these are decided.
+//! Full frames: a second pass adds up the bitangents and the derivatives' lengths that belong to the decided tangents.
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
 
 use crate::Frame;
-use crate::Mesh;
 use crate::math::normalized_unless_zero;
 
-use crate::exec::limits::RunLimits;
 use crate::exec::simd::{Task, Width};
-use crate::tangents::fast::Fans;
-use crate::tangents::fast::kernel::{BLOCK, Block};
-use crate::tangents::fast::second_pass::OfVertex;
+use crate::tangents::fast::kernel::{BLOCK_SIZE, TriangleBlock};
+use crate::tangents::fast::second_pass::{SecondPass, VertexQuantity};
+use crate::tangents::fast::triangle_list::TriangleList;
 
-/// What the corners of a vertex add up to: the bitangent and the weight; the magnitudes of both directions.
+/// What the corners of a vertex add up to, and after [`VertexQuantity::finish`] the vertex's own values.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Sums {
+struct FrameAccumulator {
+    /// The bitangent, and the sum of the weights.
     bitangent: [f32; 4],
+    /// The lengths of dP/du and dP/dv.
     magnitude: [f32; 2],
 }
 
-impl Fans {
-    /// Adds up the bitangents and magnitudes of all vertices of the mesh that this has just run on.
-    pub fn add_frames(&mut self, mesh: &Mesh<'_>, limits: RunLimits<'_>) {
-        let mut sums = std::mem::take(&mut self.sums);
-        self.add_again(mesh, limits, &mut sums);
-        self.sums = sums;
+/// The bitangents and magnitudes of a mesh's vertices. The memory is reused from mesh to mesh.
+#[derive(Debug, Default)]
+pub(crate) struct FullFrames(Vec<FrameAccumulator>);
+
+impl FullFrames {
+    /// Computes the bitangents and magnitudes of all vertices of a mesh.
+    pub fn compute(&mut self, pass: SecondPass<'_>) {
+        pass.run(&mut self.0);
     }
 
-    /// Writes the bitangents and the magnitudes at the corners from number `first` on, as many as `out` has. Anything where the tangent is
-    /// not decided.
-    pub fn write_rest(&self, mesh: &Mesh<'_>, first: usize, out: &mut [Frame]) {
+    /// Writes the bitangents and magnitudes of corners, the first of which is corner number `first`. They are unspecified at corners
+    /// whose tangent is undecided.
+    pub fn write(&self, list: &TriangleList<'_>, first: usize, out: &mut [Frame]) {
         let corners = first..first + out.len();
         let mut out = out.iter_mut();
-        self.source(mesh).visit(corners, |vertex| {
-            let Sums { bitangent: [x, y, z, _], magnitude } = self.sums[vertex as usize];
+        list.visit_vertices(corners, |vertex| {
+            let FrameAccumulator { bitangent: [x, y, z, _], magnitude } = self.0[vertex as usize];
             if let Some(out) = out.next() {
                 (out.bitangent, out.magnitude) = ([x, y, z], magnitude);
             }
@@ -41,43 +43,44 @@ impl Fans {
     }
 }
 
-impl OfVertex for Sums {
+impl VertexQuantity for FrameAccumulator {
     #[inline(always)]
-    fn evaluate(block: &mut Block) {
+    fn evaluate(block: &mut TriangleBlock) {
         block.evaluate_bitangents();
     }
 
     #[inline(always)]
-    fn add(&mut self, block: &Block, k: usize, i: usize) {
+    fn add(&mut self, block: &TriangleBlock, k: usize, i: usize) {
         (0..4).for_each(|lane| self.bitangent[lane] += block.sum[k][i][lane]);
         (0..2).for_each(|lane| self.magnitude[lane] += block.magnitude_sum[k][i][lane]);
     }
 
-    fn finish(width: Width, of_vertices: &mut [Self]) {
-        width.run(FinishFrames(of_vertices));
+    fn finish(width: Width, vertices: &mut [Self]) {
+        width.run(FinishFrames(vertices));
     }
 }
 
-/// From sums to directions and means.
-struct FinishFrames<'a>(&'a mut [Sums]);
+/// Turns sums into unit bitangents and weighted means.
+struct FinishFrames<'a>(&'a mut [FrameAccumulator]);
 
 impl Task for FinishFrames<'_> {
     #[inline(always)]
     fn run(self) {
-        let mut lanes = [[0.0; BLOCK]; 6];
-        for sums in self.0.chunks_mut(BLOCK) {
-            for (i, &Sums { bitangent: [x, y, z, weight], magnitude: [s, t] }) in sums.iter().enumerate() {
+        let mut lanes = [[0.0; BLOCK_SIZE]; 6];
+        for frames in self.0.chunks_mut(BLOCK_SIZE) {
+            for (i, frame) in frames.iter().enumerate() {
+                let FrameAccumulator { bitangent: [x, y, z, weight], magnitude: [s, t] } = *frame;
                 [x, y, z, weight, s, t].into_iter().zip(&mut lanes).for_each(|(value, lane)| lane[i] = value);
             }
-            for i in 0..BLOCK {
+            for i in 0..BLOCK_SIZE {
                 let [x, y, z] = normalized_unless_zero([lanes[0][i], lanes[1][i], lanes[2][i]]);
                 let weight = if lanes[3][i] > 0.0 { lanes[3][i] } else { 1.0 };
                 (lanes[0][i], lanes[1][i], lanes[2][i]) = (x, y, z);
                 (lanes[4][i], lanes[5][i]) = (lanes[4][i] / weight, lanes[5][i] / weight);
             }
-            for (i, sums) in sums.iter_mut().enumerate() {
+            for (i, frame) in frames.iter_mut().enumerate() {
                 let [x, y, z, weight, s, t] = lanes.each_ref().map(|lane| lane[i]);
-                *sums = Sums { bitangent: [x, y, z, weight], magnitude: [s, t] };
+                *frame = FrameAccumulator { bitangent: [x, y, z, weight], magnitude: [s, t] };
             }
         }
     }

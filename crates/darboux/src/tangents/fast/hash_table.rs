@@ -1,102 +1,105 @@
-//! What has been met, by hash.
+//! Hash tables of the weld: a chained table that inserts lazily, and a filter of one bit per hash.
 
-/// Numbered things in lists by hash. They are put in when something is looked for: many at once, for whose memory is waited together.
+/// A chained hash table of numbered items.
+///
+/// Items are inserted at the next search, many at once, so that their cache misses overlap.
 #[derive(Debug, Default)]
-pub(crate) struct Chains {
-    /// Of all things.
+pub(crate) struct ChainedTable {
+    /// The hash of each item.
     hashes: Vec<u32>,
-    /// The last thing of each list, and the one before each thing that is in a list; or [`END`].
+    /// The last item of each chain, or [`END`].
     last: Vec<u32>,
+    /// For each inserted item the item before it in its chain, or [`END`].
     before: Vec<u32>,
 }
 
-/// Many things have one hash, by bad luck or by intent: looking for them would take long.
-pub(crate) struct Crowded;
+/// A chain is too long to search: many items have one hash, by bad luck or by intent.
+pub(crate) struct ChainTooLong;
 
-/// So many things are looked at.
-const LONGEST_LIST: usize = 256;
+/// The number of items that a search examines.
+const LONGEST_CHAIN: usize = 256;
 
-/// The end of a list.
+/// The end of a chain.
 const END: u32 = u32::MAX;
 
-impl Chains {
-    /// Nothing, in a size for about `count`.
+impl ChainedTable {
+    /// Removes all items, and chooses a size for about `count` items.
     pub fn clear(&mut self, count: usize) {
         let count = if cfg!(small_limits) { count / 16 } else { count };
-        let lists = count.next_power_of_two();
+        let chains = count.next_power_of_two();
         self.last.clear();
-        self.last.resize(lists, END);
+        self.last.resize(chains, END);
         self.before.clear();
         self.hashes.clear();
     }
 
-    /// Takes the next thing.
+    /// Adds the next item.
     #[inline(always)]
     pub fn push(&mut self, hash: u32) {
         self.hashes.push(hash);
     }
 
-    /// The hashes of all things.
+    /// The hashes of all items.
     pub fn hashes(&self) -> &[u32] {
         &self.hashes
     }
 
-    /// The last thing of this hash that is the one looked for. Errors: the list is too long.
+    /// The last item of this hash that is wanted. Errors: the chain is too long.
     #[inline(never)]
-    pub fn find(&mut self, hash: u32, is_it: impl Fn(u32) -> bool) -> Result<Option<u32>, Crowded> {
-        self.put_in();
-        let mut thing = self.last[list(hash, self.last.len())];
-        for _ in 0..LONGEST_LIST {
-            if thing == END {
+    pub fn find(&mut self, hash: u32, is_wanted: impl Fn(u32) -> bool) -> Result<Option<u32>, ChainTooLong> {
+        self.insert_pushed();
+        let mut item = self.last[chain(hash, self.last.len())];
+        for _ in 0..LONGEST_CHAIN {
+            if item == END {
                 return Ok(None);
             }
-            if self.hashes[thing as usize] == hash && is_it(thing) {
-                return Ok(Some(thing));
+            if self.hashes[item as usize] == hash && is_wanted(item) {
+                return Ok(Some(item));
             }
-            thing = self.before[thing as usize];
+            item = self.before[item as usize];
         }
-        Err(Crowded)
+        Err(ChainTooLong)
     }
 
-    fn put_in(&mut self) {
-        let (first, lists) = (self.before.len(), self.last.len());
-        let put_in = |(&hash, thing)| std::mem::replace(&mut self.last[list(hash, lists)], thing);
-        self.before.extend(self.hashes[first..].iter().zip(first as u32..).map(put_in));
+    fn insert_pushed(&mut self) {
+        let (first, chains) = (self.before.len(), self.last.len());
+        let insert = |(&hash, item)| std::mem::replace(&mut self.last[chain(hash, chains)], item);
+        self.before.extend(self.hashes[first..].iter().zip(first as u32..).map(insert));
     }
 }
 
-/// The list of a hash, of a power of two of them: by the highest bits.
-fn list(hash: u32, lists: usize) -> usize {
-    ((u64::from(hash) * lists as u64) >> 32) as usize
+/// The chain of a hash: its highest bits. `chains`: a power of two.
+fn chain(hash: u32, chains: usize) -> usize {
+    ((u64::from(hash) * chains as u64) >> 32) as usize
 }
 
-/// One bit for each of many hash values.
+/// One bit for each of many hash values, which the highest bits of a hash select.
 #[derive(Debug, Default)]
-pub(crate) struct BitMap {
+pub(crate) struct HashFilter {
     pub words: Vec<u64>,
-    /// How many of a hash's highest bits choose the bit.
+    /// How many of a hash's bits select its bit here.
     pub bits: u32,
 }
 
-impl BitMap {
-    /// No bit set, in a size for `count` hashes.
+impl HashFilter {
+    /// Clears all bits, and chooses a size for `count` hashes.
     pub fn clear(&mut self, count: usize) {
         self.bits = if cfg!(small_limits) { 2 } else { (8 * count).max(64).ilog2().min(31) + 1 };
         self.words.clear();
         self.words.resize((1usize << self.bits).div_ceil(64), 0);
     }
 
-    /// Sets a hash's bit; true if it was.
+    /// Sets the bit of a hash. True if it was set before.
     #[inline(always)]
-    pub fn set(&mut self, hash: u32) -> bool {
+    pub fn insert(&mut self, hash: u32) -> bool {
         let (word, bit) = place(hash, self.bits);
         let was_set = self.words[word] & bit != 0;
         self.words[word] |= bit;
         was_set
     }
 
-    /// True if a hash's bit is set.
-    pub fn has(&self, hash: u32) -> bool {
+    /// True if the bit of a hash is set.
+    pub fn contains(&self, hash: u32) -> bool {
         let (word, bit) = place(hash, self.bits);
         self.words[word] & bit != 0
     }
@@ -109,13 +112,15 @@ fn place(hash: u32, bits: u32) -> (usize, u64) {
     (at / 64, 1 << (at % 64))
 }
 
-/// Marks hashes in `seen` and those met before in `again`, both the words from `first` on; returns how many of these there are.
+/// Sets the bits of hashes in the filter `seen`, and in `repeated` the bits of hashes whose bit was set before. Returns how many those are.
+///
+/// `seen`, `repeated`: the words of two filters from number `first` on. Hashes of other words are skipped.
 pub(crate) fn mark_collisions(
     hashes: &[u32],
     bits: u32,
     first: usize,
     seen: &mut [u64],
-    again: &mut [u64],
+    repeated: &mut [u64],
 ) -> usize {
     let mut collisions = 0;
     if seen.is_empty() {
@@ -123,13 +128,13 @@ pub(crate) fn mark_collisions(
     }
     for &hash in hashes {
         let (word, bit) = place(hash, bits);
-        // Whether a hash is among these words cannot be foretold: no branch.
+        // No branch: it could not be predicted.
         let at = word.wrapping_sub(first);
         let (at, bit) = if at < seen.len() { (at, bit) } else { (0, 0) };
-        let met = seen[at] & bit;
-        again[at] |= met;
+        let found = seen[at] & bit;
+        repeated[at] |= found;
         seen[at] |= bit;
-        collisions += usize::from(met != 0);
+        collisions += usize::from(found != 0);
     }
     collisions
 }

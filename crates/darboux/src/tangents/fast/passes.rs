@@ -1,243 +1,348 @@
-//! The steps of a window, each compiled for every vector width.
+//! The two passes over the triangles, and their steps, each compiled for every vector width.
+//!
+//! Both passes read vertices, add the weighted tangents of triangles to them, finish the vertices and write the corners:
+//! - [`Discover`] also collects marks and fingerprints, and decides from them which vertices have one tangent;
+//! - [`Replay`] belongs to a plan, whose vertices have been decided before: it takes their signs as given.
+//!
+//! `streamed.rs` and `scattered.rs` run the steps in two orders.
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
 
+use std::ops::Range;
+
 use crate::math::{dot, normalized_unless_zero};
-use crate::topology::weld::Point;
-use crate::util::radix_sort::{sort, sort_by_key};
 
+use crate::exec::limits::RunLimits;
 use crate::exec::simd::Task;
-use crate::tangents::fast::accumulator::{IN_TAIL, UNDECIDED, Unused, Vertex, gather, scatter, scatter_sums};
+use crate::exec::windows::Window;
+use crate::tangents::fast::accumulator::{
+    VertexAccumulator, VertexRange, flags, gather, scatter, scatter_sums,
+};
 use crate::tangents::fast::edge_tail::TailCells;
-use crate::tangents::fast::input::Source;
-use crate::tangents::fast::kernel::{BLOCK, Block, Fourth, marks, turns};
-use crate::tangents::fast::rows::{Rows, Welded};
+use crate::tangents::fast::exceptions::Exceptions;
+use crate::tangents::fast::kernel::{BLOCK_SIZE, TriangleBlock};
+use crate::tangents::fast::proof::{UNDECIDED, decided_sign, first_ray_count};
+use crate::tangents::fast::triangle_list::TriangleList;
+use crate::tangents::fast::vertex_record::{VertexSlices, VertexValues};
+use crate::tangents::fast::worker::Findings;
 
-/// Makes vertices of rows.
-pub(crate) struct Read<'a> {
-    pub rows: Welded<'a>,
+/// What all threads of a pass read.
+#[derive(Clone, Copy)]
+pub(crate) struct PassInput<'a, P> {
+    pub list: TriangleList<'a>,
+    pub windows: &'a [Window],
+    pub pass: P,
+    pub limits: RunLimits<'a>,
+}
+
+/// What the corners of a triangle add to their vertices: the weighted tangent, and a fourth number of the pass's own.
+pub(crate) type TriangleTerms = [[f32; 4]; 3];
+
+/// What a pass over the triangles computes. The passes are types, so that a program without plans contains no code of [`Replay`].
+pub(crate) trait Pass: Copy + Sync {
+    /// Computes what the corners of a block's triangles add to their vertices.
+    fn evaluate(self, block: &mut TriangleBlock);
+
+    /// Adds an evaluated block's first `count` triangles to `vertices`, which contain all of theirs.
+    fn scatter(
+        self,
+        block: &TriangleBlock,
+        count: usize,
+        vertices: &mut [VertexAccumulator],
+        marks: &mut [u32],
+    );
+
+    /// What is stored of corner `k` of triangle `i` of an evaluated block, for [`Pass::scatter_stored`].
+    fn stored_term(self, block: &TriangleBlock, k: usize, i: usize) -> [f32; 4];
+
+    /// Adds up to [`BLOCK_SIZE`] triangles, whose terms were stored before, to those of their vertices that are in `range`.
+    fn scatter_stored(
+        self,
+        triangles: &[[u32; 3]],
+        terms: &[TriangleTerms],
+        block: &mut TriangleBlock,
+        range: &mut VertexRange<'_>,
+    );
+
+    /// Marks vertices of quads that the general path handles whole (see `quads.rs`), after `triangles` have been added to `range`.
+    fn mark_quads(self, list: &TriangleList<'_>, triangles: Range<usize>, range: &mut VertexRange<'_>);
+
+    /// Finishes up to [`BLOCK_SIZE`] vertices: `tangents` holds their normalized sums.
+    fn finish(self, range: &mut VertexRange<'_>, tangents: &TangentBlock, findings: &mut Findings);
+}
+
+/// The pass that decides which vertices have one tangent.
+#[derive(Clone, Copy)]
+pub(crate) struct Discover<'a> {
+    /// The cells that the search for the last edges examines.
     pub tail: &'a TailCells,
-    pub vertices: &'a mut [Vertex],
-    pub marks: &'a mut [u32],
 }
 
-impl Task for Read<'_> {
+impl Pass for Discover<'_> {
     #[inline(always)]
-    fn run(self) {
-        match self.rows {
-            Welded::Records(records) => {
-                for ((record, vertex), marks) in records.iter().zip(self.vertices).zip(self.marks) {
-                    vertex.record = *record;
-                    vertex.clear();
-                    *marks = self.tail.mark([record[0], record[1], record[2]]);
-                }
-            }
-            Welded::Rows(Rows { positions, normals, uvs }) => {
-                let rows = positions.iter().zip(normals).zip(uvs);
-                for ((((position, normal), uv), vertex), marks) in rows.zip(self.vertices).zip(self.marks) {
-                    // Piece by piece: a record on the stack would be written in pieces and read as a whole, which waits.
-                    vertex.record[..3].copy_from_slice(position);
-                    vertex.record[3..6].copy_from_slice(normal);
-                    vertex.record[6..].copy_from_slice(uv);
-                    vertex.clear();
-                    *marks = self.tail.mark(*position);
-                }
-            }
-        }
+    fn evaluate(self, block: &mut TriangleBlock) {
+        block.evaluate();
     }
-}
 
-/// Adds triangles to their vertices.
-pub(crate) struct Add<'a> {
-    pub triangles: &'a [[u32; 3]],
-    /// The number of the first of `vertices`.
-    pub first: u32,
-    pub block: &'a mut Block,
-    pub vertices: &'a mut [Vertex],
-    pub marks: &'a mut [u32],
-}
-
-impl Task for Add<'_> {
     #[inline(always)]
-    fn run(self) {
-        for triangles in self.triangles.chunks(BLOCK) {
-            self.block.set(triangles, self.first);
-            gather(self.block, triangles.len(), self.vertices);
-            self.block.evaluate(Fourth::Turns);
-            scatter(self.block, triangles.len(), 0, self.vertices, self.marks);
-        }
+    fn scatter(
+        self,
+        block: &TriangleBlock,
+        count: usize,
+        vertices: &mut [VertexAccumulator],
+        marks: &mut [u32],
+    ) {
+        scatter(block, count, &mut VertexRange { first: 0, vertices, marks });
     }
-}
 
-/// Adds triangles to their vertices, the sums alone.
-pub(crate) struct AddTerms<'a> {
-    pub triangles: &'a [[u32; 3]],
-    /// The number of the first of `vertices`.
-    pub first: u32,
-    pub block: &'a mut Block,
-    pub vertices: &'a mut [Vertex],
-}
-
-impl Task for AddTerms<'_> {
+    /// The weighted tangent and the marks.
     #[inline(always)]
-    fn run(self) {
-        for triangles in self.triangles.chunks(BLOCK) {
-            self.block.set(triangles, self.first);
-            gather(self.block, triangles.len(), self.vertices);
-            self.block.evaluate_terms();
-            scatter_sums(self.block, triangles.len(), self.vertices);
-        }
+    fn stored_term(self, block: &TriangleBlock, k: usize, i: usize) -> [f32; 4] {
+        let [x, y, z, _] = block.sum[k][i];
+        [x, y, z, f32::from_bits(block.marks[k][i])]
     }
-}
 
-/// Writes what each corner adds to its vertex, and with `MARKS` its marks as bits.
-pub(crate) struct Evaluate<'a, const MARKS: bool> {
-    pub triangles: &'a [[u32; 3]],
-    pub block: &'a mut Block,
-    pub vertices: &'a [Vertex],
-    pub out: &'a mut [[[f32; 4]; 3]],
-}
-
-impl<const MARKS: bool> Task for Evaluate<'_, MARKS> {
     #[inline(always)]
-    fn run(self) {
-        for (triangles, out) in self.triangles.chunks(BLOCK).zip(self.out.chunks_mut(BLOCK)) {
-            self.block.set(triangles, 0);
-            gather(self.block, triangles.len(), self.vertices);
-            if MARKS {
-                self.block.evaluate(Fourth::Marks);
-            } else {
-                self.block.evaluate_terms();
-            }
+    fn scatter_stored(
+        self,
+        triangles: &[[u32; 3]],
+        terms: &[TriangleTerms],
+        block: &mut TriangleBlock,
+        range: &mut VertexRange<'_>,
+    ) {
+        block.set(triangles, 0);
+        block.fingerprints();
+        for (i, terms) in terms.iter().enumerate() {
             for k in 0..3 {
-                for (out, term) in out.iter_mut().zip(&self.block.sum[k]) {
-                    out[k] = *term;
-                }
+                let [x, y, z, marks] = terms[k];
+                block.marks[k][i] = marks.to_bits();
+                block.sum[k][i] = [x, y, z, first_ray_count(marks.to_bits())];
             }
+        }
+        scatter(block, triangles.len(), range);
+    }
+
+    fn mark_quads(self, list: &TriangleList<'_>, triangles: Range<usize>, range: &mut VertexRange<'_>) {
+        list.mark_doubtful_quads(triangles, range.first, range.marks);
+    }
+
+    #[inline(always)]
+    fn finish(self, range: &mut VertexRange<'_>, tangents: &TangentBlock, findings: &mut Findings) {
+        for (i, (vertex, &marks)) in range.vertices.iter_mut().zip(&*range.marks).enumerate() {
+            let is_usable = tangents.is_usable[i] != 0;
+            let sign = decided_sign(marks, vertex.sum[3], vertex.fingerprint, is_usable);
+            if sign.is_nan() {
+                findings.unused.note(vertex.position());
+            }
+            let undecided = if sign == UNDECIDED { flags::UNDECIDED } else { 0 };
+            let in_tail = if self.tail.contain(vertex.position()) { flags::IN_TAIL } else { 0 };
+            vertex.finish(tangents.get(i), sign, undecided | in_tail);
         }
     }
 }
 
-/// Adds what [`Evaluate`] wrote to those vertices that are in `vertices`.
-pub(crate) struct Collect<'a> {
-    pub triangles: &'a [[u32; 3]],
-    pub terms: &'a [[[f32; 4]; 3]],
-    /// The number of the first vertex.
-    pub first: u32,
-    pub block: &'a mut Block,
-    pub vertices: &'a mut [Vertex],
-    pub marks: &'a mut [u32],
+/// The pass of a plan, which knows the sign of every vertex: [`UNDECIDED`] where other stages compute the tangent.
+#[derive(Clone, Copy)]
+pub(crate) struct Replay<'a> {
+    /// One sign per welded vertex.
+    pub signs: &'a [f32],
 }
 
-impl Task for Collect<'_> {
+impl Pass for Replay<'_> {
     #[inline(always)]
-    fn run(self) {
-        let Self { triangles, terms, first, block, vertices, marks } = self;
-        for (triangles, terms) in triangles.chunks(BLOCK).zip(terms.chunks(BLOCK)) {
-            block.set(triangles, 0);
-            block.prints();
-            for (i, terms) in terms.iter().enumerate() {
-                for k in 0..3 {
-                    let [x, y, z, marks] = terms[k];
-                    block.marks[k][i] = marks.to_bits();
-                    block.sum[k][i] = [x, y, z, turns(marks.to_bits())];
-                }
-            }
-            scatter(block, triangles.len(), first, vertices, marks);
-        }
+    fn evaluate(self, block: &mut TriangleBlock) {
+        block.evaluate_terms();
     }
-}
 
-/// As [`Collect`], of terms without marks.
-pub(crate) struct CollectTerms<'a> {
-    pub triangles: &'a [[u32; 3]],
-    pub terms: &'a [[[f32; 4]; 3]],
-    /// The number of the first vertex.
-    pub first: u32,
-    pub vertices: &'a mut [Vertex],
-}
-
-impl Task for CollectTerms<'_> {
     #[inline(always)]
-    fn run(self) {
-        for (triangle, terms) in self.triangles.iter().zip(self.terms) {
+    fn scatter(
+        self,
+        block: &TriangleBlock,
+        count: usize,
+        vertices: &mut [VertexAccumulator],
+        _marks: &mut [u32],
+    ) {
+        scatter_sums(block, count, vertices);
+    }
+
+    #[inline(always)]
+    fn stored_term(self, block: &TriangleBlock, k: usize, i: usize) -> [f32; 4] {
+        block.sum[k][i]
+    }
+
+    #[inline(always)]
+    fn scatter_stored(
+        self,
+        triangles: &[[u32; 3]],
+        terms: &[TriangleTerms],
+        _block: &mut TriangleBlock,
+        range: &mut VertexRange<'_>,
+    ) {
+        for (triangle, terms) in triangles.iter().zip(terms) {
             for k in 0..3 {
-                let at = triangle[k].wrapping_sub(self.first) as usize;
-                let Some(vertex) = self.vertices.get_mut(at) else { continue };
+                let at = triangle[k].wrapping_sub(range.first) as usize;
+                let Some(vertex) = range.vertices.get_mut(at) else { continue };
                 for lane in 0..4 {
                     vertex.sum[lane] += terms[k][lane];
                 }
             }
         }
     }
-}
 
-/// Finishes vertices, and notes those that no triangle uses.
-pub(crate) struct Finish<'a> {
-    pub vertices: &'a mut [Vertex],
-    pub marks: &'a [u32],
-    pub unused: &'a mut Unused,
-}
+    fn mark_quads(self, _list: &TriangleList<'_>, _triangles: Range<usize>, _range: &mut VertexRange<'_>) {}
 
-impl Task for Finish<'_> {
+    /// Notes whether all vertices with a sign have usable tangents.
     #[inline(always)]
-    fn run(self) {
-        let mut lanes = Lanes::default();
-        for (vertices, marks) in self.vertices.chunks_mut(BLOCK).zip(self.marks.chunks(BLOCK)) {
-            lanes.load(vertices);
-            lanes.normalize();
-            for (i, (vertex, &marks)) in vertices.iter_mut().zip(marks).enumerate() {
-                let sign = vertex.sign(marks, lanes.is_usable[i] != 0);
-                if sign.is_nan() {
-                    self.unused.note(vertex.position());
-                }
-                vertex.sum = [lanes.sum[0][i], lanes.sum[1][i], lanes.sum[2][i], sign];
-            }
-        }
-    }
-}
-
-/// Finishes vertices whose signs are known, and notes whether those that are decided have usable tangents.
-pub(crate) struct FinishPlanned<'a> {
-    pub vertices: &'a mut [Vertex],
-    pub signs: &'a [f32],
-    pub all_usable: &'a mut bool,
-}
-
-impl Task for FinishPlanned<'_> {
-    #[inline(always)]
-    fn run(self) {
-        let mut lanes = Lanes::default();
+    fn finish(self, range: &mut VertexRange<'_>, tangents: &TangentBlock, findings: &mut Findings) {
         let mut all_usable = true;
-        for (vertices, signs) in self.vertices.chunks_mut(BLOCK).zip(self.signs.chunks(BLOCK)) {
-            lanes.load(vertices);
-            lanes.normalize();
-            for (i, (vertex, &sign)) in vertices.iter_mut().zip(signs).enumerate() {
-                all_usable &= (lanes.is_usable[i] != 0) | (sign == UNDECIDED);
-                vertex.sum = [lanes.sum[0][i], lanes.sum[1][i], lanes.sum[2][i], sign];
+        let signs = &self.signs[range.first as usize..];
+        for (i, (vertex, &sign)) in range.vertices.iter_mut().zip(signs).enumerate() {
+            all_usable &= (tangents.is_usable[i] != 0) | (sign == UNDECIDED);
+            vertex.finish(tangents.get(i), sign, 0);
+        }
+        findings.all_usable &= all_usable;
+    }
+}
+
+/// Copies the values of vertices into accumulators whose sums are zero.
+pub(crate) struct ReadVertices<'a> {
+    pub values: VertexValues<'a>,
+    pub vertices: &'a mut [VertexAccumulator],
+    pub marks: &'a mut [u32],
+}
+
+impl Task for ReadVertices<'_> {
+    #[inline(always)]
+    fn run(self) {
+        match self.values {
+            VertexValues::Records(records) => {
+                for ((record, vertex), marks) in records.iter().zip(self.vertices).zip(self.marks) {
+                    vertex.record = *record;
+                    vertex.clear();
+                    *marks = 0;
+                }
+            }
+            VertexValues::Slices(VertexSlices { positions, normals, uvs }) => {
+                let values = positions.iter().zip(normals).zip(uvs);
+                for ((((position, normal), uv), vertex), marks) in values.zip(self.vertices).zip(self.marks) {
+                    // Written in three pieces: a record on the stack, written in pieces and read as a whole, stalls the processor.
+                    vertex.record[..3].copy_from_slice(position);
+                    vertex.record[3..6].copy_from_slice(normal);
+                    vertex.record[6..].copy_from_slice(uv);
+                    vertex.clear();
+                    *marks = 0;
+                }
             }
         }
-        *self.all_usable &= all_usable;
     }
 }
 
-/// Sums and normals of a block of vertices, one component after the other.
-struct Lanes {
-    sum: [[f32; BLOCK]; 3],
-    normal: [[f32; BLOCK]; 3],
-    is_usable: [u32; BLOCK],
+/// Adds triangles to their vertices, all of which are in `range`.
+pub(crate) struct AddTriangles<'a, P> {
+    pub pass: P,
+    pub triangles: &'a [[u32; 3]],
+    pub block: &'a mut TriangleBlock,
+    pub range: VertexRange<'a>,
 }
 
-impl Default for Lanes {
-    fn default() -> Self {
-        Self { sum: [[0.0; BLOCK]; 3], normal: [[0.0; BLOCK]; 3], is_usable: [0; BLOCK] }
-    }
-}
-
-impl Lanes {
+impl<P: Pass> Task for AddTriangles<'_, P> {
     #[inline(always)]
-    fn load(&mut self, vertices: &[Vertex]) {
-        for (i, vertex) in vertices.iter().take(BLOCK).enumerate() {
+    fn run(self) {
+        let VertexRange { first, vertices, marks } = self.range;
+        for triangles in self.triangles.chunks(BLOCK_SIZE) {
+            self.block.set(triangles, first);
+            gather(self.block, triangles.len(), vertices);
+            self.pass.evaluate(self.block);
+            self.pass.scatter(self.block, triangles.len(), vertices, marks);
+        }
+    }
+}
+
+/// Stores what each corner adds to its vertex.
+pub(crate) struct StoreTerms<'a, P> {
+    pub pass: P,
+    pub triangles: &'a [[u32; 3]],
+    pub block: &'a mut TriangleBlock,
+    /// All vertices of the mesh.
+    pub vertices: &'a [VertexAccumulator],
+    pub out: &'a mut [TriangleTerms],
+}
+
+impl<P: Pass> Task for StoreTerms<'_, P> {
+    #[inline(always)]
+    fn run(self) {
+        for (triangles, out) in self.triangles.chunks(BLOCK_SIZE).zip(self.out.chunks_mut(BLOCK_SIZE)) {
+            self.block.set(triangles, 0);
+            gather(self.block, triangles.len(), self.vertices);
+            self.pass.evaluate(self.block);
+            for k in 0..3 {
+                for (i, out) in out.iter_mut().take(BLOCK_SIZE).enumerate() {
+                    out[k] = self.pass.stored_term(self.block, k, i);
+                }
+            }
+        }
+    }
+}
+
+/// Adds the terms that [`StoreTerms`] wrote to those vertices that are in `range`.
+pub(crate) struct AddStoredTerms<'a, P> {
+    pub pass: P,
+    pub triangles: &'a [[u32; 3]],
+    pub terms: &'a [TriangleTerms],
+    pub block: &'a mut TriangleBlock,
+    pub range: VertexRange<'a>,
+}
+
+impl<P: Pass> Task for AddStoredTerms<'_, P> {
+    #[inline(always)]
+    fn run(mut self) {
+        let blocks = self.triangles.chunks(BLOCK_SIZE).zip(self.terms.chunks(BLOCK_SIZE));
+        for (triangles, terms) in blocks {
+            self.pass.scatter_stored(triangles, terms, self.block, &mut self.range);
+        }
+    }
+}
+
+/// Makes tangents of the sums of vertices to which all triangles have been added.
+pub(crate) struct FinishVertices<'a, P> {
+    pub pass: P,
+    pub range: VertexRange<'a>,
+    pub findings: &'a mut Findings,
+}
+
+impl<P: Pass> Task for FinishVertices<'_, P> {
+    #[inline(always)]
+    fn run(self) {
+        let mut tangents = TangentBlock::default();
+        let VertexRange { mut first, vertices, marks } = self.range;
+        for (vertices, marks) in vertices.chunks_mut(BLOCK_SIZE).zip(marks.chunks_mut(BLOCK_SIZE)) {
+            tangents.load(vertices);
+            tangents.normalize();
+            let count = vertices.len() as u32;
+            self.pass.finish(&mut VertexRange { first, vertices, marks }, &tangents, self.findings);
+            first += count;
+        }
+    }
+}
+
+/// The sums and the normals of a block of vertices, one array per component.
+pub(crate) struct TangentBlock {
+    sum: [[f32; BLOCK_SIZE]; 3],
+    normal: [[f32; BLOCK_SIZE]; 3],
+    /// 1 where the tangent needs no repair, else 0.
+    is_usable: [u32; BLOCK_SIZE],
+}
+
+impl Default for TangentBlock {
+    fn default() -> Self {
+        Self { sum: [[0.0; BLOCK_SIZE]; 3], normal: [[0.0; BLOCK_SIZE]; 3], is_usable: [0; BLOCK_SIZE] }
+    }
+}
+
+impl TangentBlock {
+    #[inline(always)]
+    fn load(&mut self, vertices: &[VertexAccumulator]) {
+        for (i, vertex) in vertices.iter().take(BLOCK_SIZE).enumerate() {
             for axis in 0..3 {
                 self.sum[axis][i] = vertex.sum[axis];
                 self.normal[axis][i] = vertex.record[3 + axis];
@@ -245,10 +350,10 @@ impl Lanes {
         }
     }
 
-    /// Sums to tangents; usable in the sense of a repair, with a margin for rounding.
+    /// Turns sums into tangents. A tangent is usable in the sense of `repair.rs`, with a margin for rounding.
     #[inline(always)]
     fn normalize(&mut self) {
-        for i in 0..BLOCK {
+        for i in 0..BLOCK_SIZE {
             let tangent = normalized_unless_zero([self.sum[0][i], self.sum[1][i], self.sum[2][i]]);
             let normal = [self.normal[0][i], self.normal[1][i], self.normal[2][i]];
             let (along, squared) = (dot(tangent, normal), dot(normal, normal));
@@ -261,142 +366,51 @@ impl Lanes {
             self.is_usable[i] = if is_usable { 1 } else { 0 };
         }
     }
+
+    #[inline(always)]
+    fn get(&self, i: usize) -> [f32; 3] {
+        [self.sum[0][i], self.sum[1][i], self.sum[2][i]]
+    }
 }
 
-/// Copies tangents from vertices to corners: those of faces of `N` corners, or one after the other.
-pub(crate) struct Write<'a, const N: usize> {
+/// Copies tangents from finished vertices to the corners of faces of `N` corners; with `N` = 1, to single corners.
+pub(crate) struct WriteCorners<'a, const N: usize> {
+    /// The vertices of each face.
     pub faces: &'a [[u32; N]],
     /// The number of the first face.
-    pub first: usize,
-    pub vertices: &'a [Vertex],
+    pub first_face: usize,
+    pub vertices: &'a [VertexAccumulator],
     /// The number of the first of `vertices`.
     pub first_vertex: u32,
     pub out: &'a mut [[[f32; 4]; N]],
-    pub special: &'a mut Special,
+    pub exceptions: &'a mut Exceptions,
 }
 
-/// Faces and corners that need another look, ascending.
-#[derive(Debug, Default)]
-pub(crate) struct Special {
-    /// Faces with an undecided vertex, as they were written; in the end their first triangles.
-    pub undecided: Vec<u32>,
-    /// Corners of vertices in the tail's cells; in the end entries.
-    pub in_tail: Vec<Point>,
-    /// For sorting these.
-    room: Vec<Point>,
-}
-
-impl<const N: usize> Task for Write<'_, N> {
+impl<const N: usize> Task for WriteCorners<'_, N> {
     #[inline(always)]
     fn run(self) {
+        let vertex = |number: u32| &self.vertices[number.wrapping_sub(self.first_vertex) as usize];
         let out = &mut self.out[..self.faces.len()];
         for i in 0..self.faces.len() {
-            let mut specials = 0;
-            for k in 0..N {
-                let at = self.faces[i][k].wrapping_sub(self.first_vertex) as usize;
-                let vertex = &self.vertices[at];
-                out[i][k] = vertex.sum;
-                specials |= (vertex.sum[3].to_bits() << 1) ^ (1f32.to_bits() << 1);
-            }
-            if specials != 0 {
-                let at = |vertex: u32| vertex.wrapping_sub(self.first_vertex) as usize;
-                let positions = self.faces[i].map(|vertex| self.vertices[at(vertex)].position());
-                self.special.note((self.first + i) as u32, positions, &mut out[i]);
-            }
+            write_face((self.first_face + i) as u32, self.faces[i].map(vertex), self.exceptions, &mut out[i]);
         }
     }
 }
 
-impl Special {
-    pub fn clear(&mut self) {
-        self.undecided.clear();
-        self.in_tail.clear();
+/// Copies tangents to the corners of one face, and lists the face where a vertex has flags.
+#[inline(always)]
+pub(crate) fn write_face<const N: usize>(
+    face: u32,
+    vertices: [&VertexAccumulator; N],
+    exceptions: &mut Exceptions,
+    out: &mut [[f32; 4]; N],
+) {
+    let mut flags = 0;
+    for k in 0..N {
+        out[k] = vertices[k].tangent();
+        flags |= vertices[k].flags();
     }
-
-    /// Puts everything in ascending order, and makes triangles and entries of corners, which cut faces were written as.
-    pub fn settle(&mut self, source: &Source<'_>) {
-        sort(&mut self.undecided);
-        sort_by_key(&mut self.in_tail, |point| point.entry.into(), &mut self.room);
-        if source.is_cut() {
-            let mut end = 0;
-            self.undecided.retain_mut(|corner| {
-                let is_new = *corner >= end;
-                if is_new {
-                    *corner = source.triangles_at(*corner).start;
-                    end = source.corners_of_face(*corner).end;
-                }
-                is_new
-            });
-            for at in 0..self.in_tail.len() {
-                let Point { position, entry: corner } = self.in_tail[at];
-                let mut points = source.entries(corner).map(|entry| Point { position, entry });
-                self.in_tail[at] = points.next().expect("a triangle has the corner");
-                self.in_tail.extend(points);
-            }
-            sort_by_key(&mut self.in_tail, |point| point.entry.into(), &mut self.room);
-        }
-    }
-
-    /// Appends what another has, which is empty afterwards.
-    pub fn take(&mut self, other: &mut Self) {
-        self.undecided.append(&mut other.undecided);
-        self.in_tail.append(&mut other.in_tail);
-    }
-
-    /// Leaves entries undecided, all of their vertices'.
-    #[cold]
-    pub fn leave(&mut self, source: &Source<'_>, entries: impl Iterator<Item = u32>, out: &mut [[f32; 4]]) {
-        for entry in entries {
-            out[source.corner(entry) as usize][3] = UNDECIDED;
-            let face = source.face_of(entry / 3).start;
-            if self.undecided.last() != Some(&face) {
-                self.undecided.push(face);
-            }
-        }
-        sort(&mut self.undecided);
-        self.undecided.dedup();
-    }
-
-    /// Lists a face with undecided vertices, and its corners in the tail's cells, which get their signs back.
-    #[cold]
-    pub fn note<const N: usize>(&mut self, face: u32, positions: [[f32; 3]; N], out: &mut [[f32; 4]; N]) {
-        for ((entry, position), [_, _, _, sign]) in (N as u32 * face..).zip(positions).zip(&mut *out) {
-            let is_minus_zero = *sign == 0.0 && sign.is_sign_negative();
-            if sign.abs() == IN_TAIL.abs() || is_minus_zero {
-                *sign /= IN_TAIL;
-                self.in_tail.push(Point { position, entry });
-            }
-        }
-        if out.iter().any(|tangent| tangent[3] == UNDECIDED) {
-            self.undecided.push(face);
-        }
-    }
-}
-
-/// Finds the lowest and the highest of vertices.
-pub(crate) struct Extent<'a> {
-    pub vertices: &'a [u32],
-    pub lowest: &'a mut u32,
-    /// One more than the highest.
-    pub end: &'a mut u32,
-}
-
-impl Task for Extent<'_> {
-    #[inline(always)]
-    fn run(self) {
-        let (mut lowest, mut highest) = (u32::MAX, 0);
-        for &vertex in self.vertices {
-            lowest = vertex.min(lowest);
-            highest = vertex.max(highest);
-        }
-        (*self.lowest, *self.end) = (lowest, highest + 1);
-    }
-}
-
-impl TailCells {
-    /// The marks that a vertex begins with.
-    #[inline(always)]
-    pub fn mark(&self, position: [f32; 3]) -> u32 {
-        if self.hold(position) { marks::IN_TAIL } else { 0 }
+    if flags != 0 {
+        exceptions.note(face, vertices);
     }
 }

@@ -1,84 +1,80 @@
-//! A run that goes on where another machine decided whole fans.
+//! Resumes the fast path from the results of a GPU, which welds vertices and computes the tangents of vertices that it can decide.
 
 use crate::Mesh;
-use crate::tangents::Mode;
+use crate::tangents::options::Mode;
 use crate::topology::weld::{Bounds, Point};
 
-use crate::tangents::fast::Fans;
-use crate::tangents::fast::UNDECIDED;
-use crate::tangents::fast::edge_tail::{LastRun, TailCells, are_degenerate};
-use crate::tangents::fast::quads::UNCUT;
-use crate::tangents::fast::source;
+use crate::tangents::fast::edge_tail::{TailCells, are_degenerate};
+use crate::tangents::fast::proof::UNDECIDED;
+use crate::tangents::fast::quads::FaceSplit;
+use crate::tangents::fast::state::FastPath;
 
-impl Fans {
-    /// As after [`Fans::run`].
+impl FastPath {
+    /// Brings the state to what it is after `FastPath::run`.
     ///
-    /// `mesh`: of triangles, with indices. `welded`: the first vertex that equals each of its vertices. `out`: the tangents of decided vertices;
-    /// [`UNDECIDED`] signs at all corners of the others, among which are those of UV-degenerate triangles, and at the corners of degenerate
-    /// triangles.
+    /// `mesh`: indexed triangles. `welded`: for each vertex the first vertex that equals it. `out`: the tangents of decided vertices;
+    /// [`UNDECIDED`] signs at all corners of other vertices, among them those of UV-degenerate triangles, and at the corners of
+    /// degenerate triangles.
     pub fn resume(&mut self, mesh: &Mesh<'_>, mode: Mode, welded: Vec<u32>, out: &mut [[f32; 4]]) {
-        self.weld.take(welded);
-        self.special.clear();
+        self.weld.set(welded);
+        self.split = FaceSplit::default();
+        self.exceptions.clear();
         let is_undecided = |corners: &[[f32; 4]; 3]| corners.iter().any(|corner| corner[3] == UNDECIDED);
         let triangles = (0..).zip(out.as_chunks().0);
         let undecided = triangles.filter(|(_, corners)| is_undecided(corners)).map(|(triangle, _)| triangle);
-        self.special.undecided.extend(undecided);
+        self.exceptions.undecided.extend(undecided);
         self.tail_runs.clear();
         if mode != Mode::Corrected && mesh.corner_count() > 0 {
-            self.leave_last_edges_of_all(mesh, out);
+            self.search_last_edges_by_vertex(mesh, out);
         }
-        self.add_sources(mesh, out);
+        self.list_copied_triangles(mesh, out);
     }
 
-    /// Lists triangles with decided corners at those vertices where undecided corners of degenerate triangles copy them.
-    fn add_sources(&mut self, mesh: &Mesh<'_>, out: &[[f32; 4]]) {
-        let source = source(mesh, &self.weld, &UNCUT);
+    /// Lists triangles with decided corners at vertices whose tangents undecided corners of degenerate triangles copy.
+    fn list_copied_triangles(&mut self, mesh: &Mesh<'_>, out: &[[f32; 4]]) {
+        let list = self.list(mesh);
         let corners = |triangle: u32| 3 * triangle..3 * triangle + 3;
         let is_undecided = |corner: &u32| out[*corner as usize][3] == UNDECIDED;
-        let position = |vertex| source.position(vertex);
-        let is_degenerate = |triangle: &&u32| are_degenerate(source.triangle(**triangle).map(position));
-        let degenerate = self.special.undecided.iter().filter(is_degenerate);
+        let position = |vertex| list.position(vertex);
+        let is_degenerate = |triangle: &&u32| are_degenerate(list.triangle(**triangle).map(position));
+        let degenerate = self.exceptions.undecided.iter().filter(is_degenerate);
         let mut wanted = degenerate.flat_map(|&triangle| corners(triangle)).filter(is_undecided).peekable();
         if wanted.peek().is_none() {
             return;
         }
         let mut is_wanted = vec![false; self.weld.count];
-        wanted.for_each(|corner| is_wanted[source.vertex(corner) as usize] = true);
-        let mut next = self.special.undecided.iter().peekable();
+        wanted.for_each(|corner| is_wanted[list.vertex(corner) as usize] = true);
+        let mut next = self.exceptions.undecided.iter().peekable();
         let mut added = Vec::new();
-        for triangle in 0..source.count() as u32 {
+        for triangle in 0..list.count() as u32 {
             let is_listed = next.next_if_eq(&&triangle).is_some();
             for corner in corners(triangle).filter(|corner| !is_undecided(corner)) {
-                if std::mem::take(&mut is_wanted[source.vertex(corner) as usize]) && !is_listed {
+                if std::mem::take(&mut is_wanted[list.vertex(corner) as usize]) && !is_listed {
                     added.push(triangle);
                 }
             }
         }
-        self.special.undecided.append(&mut added);
-        self.special.undecided.sort_unstable();
-        self.special.undecided.dedup();
+        self.exceptions.undecided.append(&mut added);
+        self.exceptions.undecided.sort_unstable();
+        self.exceptions.undecided.dedup();
     }
 
-    /// Positions are looked at vertex by vertex: by corners it would take as long as a run.
-    fn leave_last_edges_of_all(&mut self, mesh: &Mesh<'_>, out: &mut [[f32; 4]]) {
+    /// Searches for the last edges whose order changes the result. Positions are tested once per vertex; a test per corner would take as
+    /// long as a whole run.
+    fn search_last_edges_by_vertex(&mut self, mesh: &Mesh<'_>, out: &mut [[f32; 4]]) {
         let position = |vertex| mesh.positions().get(vertex);
-        let mut is_wanted = vec![false; mesh.vertex_count()];
-        (0..mesh.corner_count()).for_each(|corner| is_wanted[mesh.vertex_of_corner(corner)] = true);
-        let mut used = (0..is_wanted.len()).filter(|&vertex| is_wanted[vertex]).map(position);
+        let mut is_listed = vec![false; mesh.vertex_count()];
+        (0..mesh.corner_count()).for_each(|corner| is_listed[mesh.vertex_of_corner(corner)] = true);
+        let mut used = (0..is_listed.len()).filter(|&vertex| is_listed[vertex]).map(position);
         let bounds = Bounds::of(used.next().unwrap_or_default(), used);
-        let run = LastRun { source: source(mesh, &self.weld, &UNCUT), bounds: &bounds };
-        let tail = TailCells::first(&run.source, &bounds, true);
-        for (vertex, is_wanted) in is_wanted.iter_mut().enumerate() {
-            *is_wanted = tail.hold(position(vertex));
+        let cells = TailCells::first(&self.list(mesh), &bounds, true);
+        for (vertex, is_listed) in is_listed.iter_mut().enumerate() {
+            *is_listed = cells.contain(position(vertex));
         }
         let vertices = (0..).zip((0..mesh.corner_count()).map(|corner| mesh.vertex_of_corner(corner)));
-        let in_tail = vertices.filter(|(_, vertex)| is_wanted[*vertex]);
-        let points: Vec<Point> =
-            in_tail.map(|(entry, vertex)| Point { position: position(vertex), entry }).collect();
-        if let Some(last) = run.find(tail, Some(&points), &mut self.lists) {
-            let suspects = &self.special.undecided;
-            self.tail_runs = self.names.tail_runs(&run, &last, self.weld.count, suspects);
-            self.special.leave(&run.source, self.names.entries_of(&last.vertices), out);
-        }
+        let in_tail = vertices.filter(|(_, vertex)| is_listed[*vertex]);
+        let point = |(entry, vertex)| Point { position: position(vertex), entry };
+        self.exceptions.in_tail.extend(in_tail.map(point));
+        self.undecide_last_edges(mesh, &bounds, cells, true, out);
     }
 }

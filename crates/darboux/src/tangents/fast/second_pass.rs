@@ -1,86 +1,91 @@
-//! A second pass over the triangles: what corners add to their vertices once these are decided.
+//! A second pass over the triangles, after the tangents are decided: it adds up other quantities per vertex.
 
 use std::ops::Range;
-
-use crate::Mesh;
 
 use crate::exec::limits::RunLimits;
 use crate::exec::simd::{Task, Width};
 use crate::exec::threads::{self, parts};
-use crate::exec::windows::{Share, overlap};
-use crate::tangents::fast::Fans;
-use crate::tangents::fast::accumulator::{Vertex, gather};
-use crate::tangents::fast::kernel::{BLOCK, Block};
-use crate::tangents::fast::source;
+use crate::exec::windows::{Partition, Window};
+use crate::tangents::fast::accumulator::{VertexAccumulator, gather};
+use crate::tangents::fast::kernel::{BLOCK_SIZE, TriangleBlock};
+use crate::tangents::fast::schedule::Schedule;
+use crate::tangents::fast::triangle_list::TriangleList;
 use crate::tangents::fast::worker::Worker;
 
-/// What the corners of a vertex add up to.
-pub(crate) trait OfVertex: Copy + Default + Send {
-    /// Makes what the corners of a block add.
-    fn evaluate(block: &mut Block);
+/// A quantity of a vertex that the corners of triangles add to.
+pub(crate) trait VertexQuantity: Copy + Default + Send {
+    /// Computes what the corners of a block's triangles add.
+    fn evaluate(block: &mut TriangleBlock);
 
-    /// Adds what corner `k` of triangle `i` has.
-    fn add(&mut self, block: &Block, k: usize, i: usize);
+    /// Adds what corner `k` of triangle `i` of an evaluated block has.
+    fn add(&mut self, block: &TriangleBlock, k: usize, i: usize);
 
-    /// Finishes vertices all of whose corners have been added.
-    fn finish(_width: Width, _of_vertices: &mut [Self]) {}
+    /// Finishes vertices to which all corners have been added.
+    fn finish(_width: Width, _vertices: &mut [Self]) {}
 }
 
-impl Fans {
-    /// Adds up all vertices of the mesh that this has just run on. `out`: one per welded vertex.
-    pub(crate) fn add_again<V: OfVertex>(
-        &mut self,
-        mesh: &Mesh<'_>,
-        limits: RunLimits<'_>,
-        out: &mut Vec<V>,
-    ) {
+/// The mesh of the last run, whose workers still have its vertices.
+pub(crate) struct SecondPass<'a> {
+    pub list: TriangleList<'a>,
+    pub windows: &'a [Window],
+    pub schedule: &'a Schedule,
+    pub workers: &'a mut [Worker],
+    /// The number of welded vertices.
+    pub vertex_count: usize,
+    pub limits: RunLimits<'a>,
+}
+
+impl SecondPass<'_> {
+    /// Adds up a quantity of all vertices. `out`: receives one element per welded vertex.
+    pub fn run<Q: VertexQuantity>(self, out: &mut Vec<Q>) {
+        let Self { list, windows, schedule, workers, vertex_count, limits } = self;
         out.clear();
-        out.resize(self.weld.count, V::default());
+        out.resize(vertex_count, Q::default());
         let all =
-            Share { windows: 0..self.windows.len(), until: self.windows.len(), vertices: 0..self.weld.count };
-        // Where shares overlap too much, the first worker has the vertices of all.
-        let one = overlap(&self.shares, &self.windows);
-        let shares = if one { std::slice::from_ref(&all) } else { &self.shares[..] };
-        let vertices = shares.iter().map(|share| share.vertices.clone());
-        let jobs = shares.iter().zip(parts(out, 0, vertices));
-        let source = source(mesh, &self.weld, &self.cut);
-        threads::run(&mut self.workers, jobs, |worker, (share, of_vertices)| {
+            Partition { windows: 0..windows.len(), end_window: windows.len(), vertices: 0..vertex_count };
+        let is_scattered = schedule.is_scattered(windows);
+        let partitions = if is_scattered { std::slice::from_ref(&all) } else { &schedule.partitions[..] };
+        let vertices = partitions.iter().map(|partition| partition.vertices.clone());
+        let jobs = partitions.iter().zip(parts(out, 0, vertices));
+        threads::run(workers, jobs, |worker, (partition, quantities)| {
             let Worker { block, vertices, triangles: buffer, first, .. } = worker;
-            for at in (share.windows.start..share.until).take_while(|_| !limits.is_cancelled()) {
-                let triangles = source.triangles(source.window(at), buffer);
-                let (first, own, of_vertices) = (*first as u32, share.vertices.clone(), &mut *of_vertices);
-                limits.width.run(Add { triangles, first, block, vertices, own, of_vertices });
+            let windows = partition.windows.start..partition.end_window;
+            for at in windows.take_while(|_| !limits.is_cancelled()) {
+                let triangles = list.triangles(list.window(at), buffer);
+                let (first, own, quantities) = (*first as u32, partition.vertices.clone(), &mut *quantities);
+                limits.width.run(AddQuantities { triangles, first, block, vertices, own, quantities });
             }
-            V::finish(limits.width, of_vertices);
+            Q::finish(limits.width, quantities);
         });
     }
 }
 
-/// Adds triangles to those of their vertices that are in `own`.
-struct Add<'a, V> {
+/// Adds triangles to the quantities of those of their vertices that are in `own`.
+struct AddQuantities<'a, Q> {
     triangles: &'a [[u32; 3]],
     /// The number of the first of `vertices`.
     first: u32,
-    block: &'a mut Block,
-    vertices: &'a [Vertex],
+    block: &'a mut TriangleBlock,
+    vertices: &'a [VertexAccumulator],
     own: Range<usize>,
-    of_vertices: &'a mut [V],
+    /// The quantities of the vertices in `own`.
+    quantities: &'a mut [Q],
 }
 
-impl<V: OfVertex> Task for Add<'_, V> {
+impl<Q: VertexQuantity> Task for AddQuantities<'_, Q> {
     #[inline(always)]
     fn run(self) {
-        let Self { triangles, first, block, vertices, own, of_vertices } = self;
+        let Self { triangles, first, block, vertices, own, quantities } = self;
         let before = (own.start as u32).wrapping_sub(first);
-        for triangles in triangles.chunks(BLOCK) {
+        for triangles in triangles.chunks(BLOCK_SIZE) {
             block.set(triangles, first);
             gather(block, triangles.len(), vertices);
-            V::evaluate(block);
+            Q::evaluate(block);
             for i in 0..triangles.len() {
                 for k in 0..3 {
                     let at = block.vertex[k][i].wrapping_sub(before) as usize;
-                    if let Some(of_vertex) = of_vertices.get_mut(at) {
-                        of_vertex.add(block, k, i);
+                    if let Some(quantity) = quantities.get_mut(at) {
+                        quantity.add(block, k, i);
                     }
                 }
             }

@@ -1,169 +1,177 @@
-//! One thread's way through its windows.
+//! A pass in which every thread streams its own windows: each vertex is read before the first window that uses it and finished after
+//! the last, so that it stays in the cache in between.
 
 use std::ops::Range;
 
-use crate::exec::limits::RunLimits;
-use crate::exec::windows::{Share, WINDOW, Window};
-use crate::tangents::fast::accumulator::Vertex;
-use crate::tangents::fast::edge_tail::TailCells;
-use crate::tangents::fast::input::Source;
-use crate::tangents::fast::passes::{Add, AddTerms, Finish, FinishPlanned, Read, Special, Write};
-use crate::tangents::fast::quads::mark_doubtful;
+use crate::exec::windows::{Partition, WINDOW, Window};
+use crate::tangents::fast::accumulator::{VertexAccumulator, VertexRange};
+use crate::tangents::fast::exceptions::Exceptions;
+use crate::tangents::fast::passes::{
+    AddTriangles, FinishVertices, Pass, PassInput, ReadVertices, WriteCorners, write_face,
+};
 use crate::tangents::fast::worker::Worker;
 
-/// What all shares have in common.
-#[derive(Clone, Copy)]
-pub(crate) struct Stream<'a, S = Unknown> {
-    pub source: Source<'a>,
-    pub windows: &'a [Window],
-    pub tail: &'a TailCells,
-    pub signs: S,
-    pub limits: RunLimits<'a>,
-}
-
-/// The signs of the vertices, where they are known: of those that are decided. Two types, so that a program without plans has no code
-/// of theirs.
-pub(crate) trait Signs: Copy + Sync {
-    fn known(&self) -> Option<&[f32]>;
-}
-
-/// Signs that are still to be found.
-#[derive(Clone, Copy)]
-pub(crate) struct Unknown;
-
-impl Signs for Unknown {
-    fn known(&self) -> Option<&[f32]> {
-        None
-    }
-}
-
-impl Signs for &[f32] {
-    fn known(&self) -> Option<&[f32]> {
-        Some(self)
-    }
-}
-
-impl<S: Signs> Stream<'_, S> {
-    /// Goes through the windows of a share: reads the vertices that each needs first, adds its triangles, finishes vertices that
-    /// none needs any more, writes windows whose vertices are finished. Windows with vertices of other shares are left pending.
-    pub fn run(&self, share: &Share, worker: &mut Worker, out: &mut [[f32; 4]]) {
-        let first_window = share.windows.start;
-        let corner = |window: usize| self.source.corners_of(first_window..window).len();
-        worker.begin(self.span(share));
-        let (mut finished, mut written) = (share.vertices.start.max(worker.first), first_window);
-        worker.unused.unseen = finished - share.vertices.start;
-        for at in first_window..share.until {
-            if self.limits.is_cancelled() {
+/// Streams the windows of one partition: reads the vertices that each window needs first, adds the window's triangles, finishes vertices
+/// that no later window needs, writes the corners of windows whose vertices are finished. Windows with vertices of other partitions stay
+/// pending.
+///
+/// `out`: the corners of the partition's windows.
+pub(crate) fn run<P: Pass>(
+    input: &PassInput<'_, P>,
+    partition: &Partition,
+    worker: &mut Worker,
+    out: &mut [[f32; 4]],
+) {
+    let Range { start: first_window, end: end_window } = partition.windows;
+    let own = partition.vertices.clone();
+    let corner = |window: usize| input.list.corners_of(first_window..window).len();
+    worker.begin(vertices_to_read(input, partition));
+    let (mut finished, mut written) = (own.start.max(worker.first), first_window);
+    worker.findings.unused.unread = finished - own.start;
+    for at in first_window..partition.end_window {
+        if input.limits.is_cancelled() {
+            break;
+        }
+        read(input, worker, input.windows[at].vertices.end as usize);
+        add(input, worker, at);
+        let unfinished = match input.windows.get(at + 1) {
+            Some(next) if at + 1 < partition.end_window => next.lowest_from_here as usize,
+            _ => own.end,
+        };
+        let end = unfinished.min(own.end).min(worker.end()).max(finished);
+        finish(input, worker, finished..end);
+        finished = end;
+        while written <= at && written < end_window {
+            let Window { vertices: Range { start, end }, .. } = &input.windows[written];
+            if (*start as usize) < own.start || *end as usize > own.end {
+                worker.pending.push(written);
+            } else if *end as usize <= finished {
+                let Worker { vertices, first, exceptions, corner_vertices, .. } = &mut *worker;
+                let out = &mut out[corner(written)..corner(written + 1)];
+                write(input, written, (vertices, *first as u32), corner_vertices, exceptions, out);
+            } else {
                 break;
             }
-            self.read(worker, self.windows[at].end as usize);
-            self.add(worker, at);
-            let unfinished = match self.windows.get(at + 1) {
-                Some(next) if at + 1 < share.until => next.lowest_from_here as usize,
-                _ => share.vertices.end,
-            };
-            let end = unfinished.min(share.vertices.end).min(worker.end()).max(finished);
-            self.finish(worker, finished..end);
-            finished = end;
-            while written <= at && written < share.windows.end {
-                let Window { lowest, end, .. } = self.windows[written];
-                if (lowest as usize) < share.vertices.start || end as usize > share.vertices.end {
-                    worker.pending.push(written);
-                } else if end as usize <= finished {
-                    let Worker { vertices, first, special, corners, .. } = &mut *worker;
-                    let out = &mut out[corner(written)..corner(written + 1)];
-                    self.write(written, (vertices, *first as u32), corners, special, out);
-                } else {
-                    break;
-                }
-                written += 1;
-            }
-        }
-        worker.unused.unseen += share.vertices.end.saturating_sub(finished);
-    }
-
-    /// The vertices of all windows that a share adds.
-    fn span(&self, share: &Share) -> Range<usize> {
-        let windows = &self.windows[share.windows.start..share.until];
-        let lowest = windows.iter().map(|window| window.lowest).min().unwrap_or(0);
-        let end = windows.iter().map(|window| window.end).max().unwrap_or(0);
-        lowest as usize..end as usize
-    }
-
-    /// Makes vertices of the mesh's, up to `end`.
-    fn read(&self, worker: &mut Worker, end: usize) {
-        let mut start = worker.end();
-        while start < end {
-            let range = start..(start + WINDOW).min(end);
-            let place = range.start - worker.first..range.end - worker.first;
-            let (vertices, marks) = (&mut worker.vertices[place.clone()], &mut worker.marks[place]);
-            start = range.end;
-            worker.read = start - worker.first;
-            let rows = self.source.rows(range, &mut worker.rows);
-            self.limits.width.run(Read { rows, tail: self.tail, vertices, marks });
+            written += 1;
         }
     }
+    worker.findings.unused.unread += own.end.saturating_sub(finished);
+}
 
-    /// Adds a window to its vertices.
-    fn add(&self, worker: &mut Worker, at: usize) {
-        let range = self.source.window(at);
-        let triangles = self.source.triangles(range.clone(), &mut worker.triangles);
-        let Worker { block, vertices, marks, first, .. } = worker;
-        let first_vertex = *first as u32;
-        match self.signs.known() {
-            None => {
-                self.limits.width.run(Add { triangles, first: first_vertex, block, vertices, marks });
-                mark_doubtful(&self.source, range, *first, marks);
-            }
-            Some(_) => self.limits.width.run(AddTerms { triangles, first: first_vertex, block, vertices }),
-        }
+/// The vertices of all windows that a partition adds.
+fn vertices_to_read<P>(input: &PassInput<'_, P>, partition: &Partition) -> Range<usize> {
+    let windows = &input.windows[partition.windows.start..partition.end_window];
+    let lowest = windows.iter().map(|window| window.vertices.start).min().unwrap_or(0);
+    let end = windows.iter().map(|window| window.vertices.end).max().unwrap_or(0);
+    lowest as usize..end as usize
+}
+
+/// Reads all vertices below `end` that have not been read yet.
+fn read<P>(input: &PassInput<'_, P>, worker: &mut Worker, end: usize) {
+    let mut start = worker.end();
+    while start < end {
+        let range = start..(start + WINDOW).min(end);
+        start = range.end;
+        worker.read = start - worker.first;
+        let Worker { first, vertices, marks, slices, .. } = worker;
+        let VertexRange { vertices, marks, .. } = VertexRange::new(range.clone(), *first, vertices, marks);
+        let values = input.list.values(range, slices);
+        input.limits.width.run(ReadVertices { values, vertices, marks });
     }
+}
 
-    /// Finishes vertices that no later triangle uses.
-    fn finish(&self, worker: &mut Worker, range: Range<usize>) {
-        if range.is_empty() {
-            // A share without vertices of its own can end below the place where its own would start.
-            return;
-        }
-        let place = range.start - worker.first..range.end - worker.first;
-        let (vertices, marks) = (&mut worker.vertices[place.clone()], &worker.marks[place]);
-        match self.signs.known() {
-            None => self.limits.width.run(Finish { vertices, marks, unused: &mut worker.unused }),
-            Some(signs) => {
-                let signs = &signs[range];
-                self.limits.width.run(FinishPlanned { vertices, signs, all_usable: &mut worker.all_usable });
-            }
-        }
+/// Adds the triangles of a window to their vertices.
+fn add<P: Pass>(input: &PassInput<'_, P>, worker: &mut Worker, at: usize) {
+    let range = input.list.window(at);
+    let Worker { block, first, vertices, marks, triangles, .. } = worker;
+    let triangles = input.list.triangles(range.clone(), triangles);
+    let first = *first as u32;
+    input.limits.width.run(AddTriangles {
+        pass: input.pass,
+        triangles,
+        block,
+        range: VertexRange { first, vertices, marks },
+    });
+    input.pass.mark_quads(&input.list, range, &mut VertexRange { first, vertices, marks });
+}
+
+/// Finishes vertices that no later triangle uses.
+fn finish<P: Pass>(input: &PassInput<'_, P>, worker: &mut Worker, range: Range<usize>) {
+    if range.is_empty() {
+        // The vertices that a partition reads can end below its own vertices, when it has none.
+        return;
     }
+    let Worker { first, vertices, marks, findings, .. } = worker;
+    let range = VertexRange::new(range, *first, vertices, marks);
+    input.limits.width.run(FinishVertices { pass: input.pass, range, findings });
+}
 
-    /// Writes the corners of a window. `vertices`: consecutive ones, and the number of the first.
-    pub fn write(
-        &self,
-        at: usize,
-        vertices: (&[Vertex], u32),
-        corners: &mut Vec<u32>,
-        special: &mut Special,
-        out: &mut [[f32; 4]],
-    ) {
-        let range = self.source.corners_of(at..at + 1);
-        let corners = self.source.vertices(range.clone(), corners);
-        if self.source.is_cut() {
-            self.write_faces::<1>(corners, range.start, vertices, special, out);
+/// Writes the corners of a window. `vertices`: consecutive finished vertices, and the number of the first.
+pub(crate) fn write<P>(
+    input: &PassInput<'_, P>,
+    at: usize,
+    vertices: (&[VertexAccumulator], u32),
+    buffer: &mut Vec<u32>,
+    exceptions: &mut Exceptions,
+    out: &mut [[f32; 4]],
+) {
+    let corners = input.list.corners_of(at..at + 1);
+    let vertex_of_corner = input.list.vertices(corners.clone(), buffer);
+    if input.list.is_split() {
+        write_faces::<1, P>(input, vertex_of_corner, corners.start, vertices, exceptions, out);
+    } else {
+        write_faces::<3, P>(input, vertex_of_corner, corners.start, vertices, exceptions, out);
+    }
+}
+
+fn write_faces<const N: usize, P>(
+    input: &PassInput<'_, P>,
+    vertex_of_corner: &[u32],
+    first_corner: usize,
+    (vertices, first_vertex): (&[VertexAccumulator], u32),
+    exceptions: &mut Exceptions,
+    out: &mut [[f32; 4]],
+) {
+    let (faces, out) = (vertex_of_corner.as_chunks::<N>().0, out.as_chunks_mut().0);
+    let first_face = first_corner / N;
+    input.limits.width.run(WriteCorners { faces, first_face, vertices, first_vertex, out, exceptions });
+}
+
+/// Writes the windows whose vertices several threads have finished.
+pub(crate) fn write_pending<P>(
+    input: &PassInput<'_, P>,
+    partitions: &[Partition],
+    workers: &mut [Worker],
+    out: &mut [[f32; 4]],
+) {
+    let mut exceptions = Exceptions::default();
+    let mut buffer = Vec::new();
+    for &at in workers.iter().flat_map(|worker| &worker.pending) {
+        let vertex = |number: u32| {
+            let owner = partitions.partition_point(|partition| partition.vertices.end <= number as usize);
+            workers[owner].vertex(number)
+        };
+        let corners = input.list.corners_of(at..at + 1);
+        let vertex_of_corner = input.list.vertices(corners.clone(), &mut buffer);
+        let out = &mut out[corners.clone()];
+        if input.list.is_split() {
+            write_pending_faces::<1>(vertex_of_corner, corners.start, &vertex, &mut exceptions, out);
         } else {
-            self.write_faces::<3>(corners, range.start, vertices, special, out);
+            write_pending_faces::<3>(vertex_of_corner, corners.start, &vertex, &mut exceptions, out);
         }
     }
+    workers[0].exceptions.append(&mut exceptions);
+}
 
-    fn write_faces<const N: usize>(
-        &self,
-        corners: &[u32],
-        first_corner: usize,
-        (vertices, first_vertex): (&[Vertex], u32),
-        special: &mut Special,
-        out: &mut [[f32; 4]],
-    ) {
-        let (faces, out) = (corners.as_chunks::<N>().0, out.as_chunks_mut().0);
-        let first = first_corner / N;
-        self.limits.width.run(Write { faces, first, vertices, first_vertex, out, special });
+fn write_pending_faces<'a, const N: usize>(
+    vertex_of_corner: &[u32],
+    first_corner: usize,
+    vertex: &impl Fn(u32) -> &'a VertexAccumulator,
+    exceptions: &mut Exceptions,
+    out: &mut [[f32; 4]],
+) {
+    let faces = vertex_of_corner.as_chunks::<N>().0.iter().zip(out.as_chunks_mut().0);
+    for ((vertices, out), face) in faces.zip((first_corner / N) as u32..) {
+        write_face(face, vertices.map(vertex), exceptions, out);
     }
 }

@@ -1,42 +1,41 @@
-//! Hashes of vertices, and what values they have.
+//! Hashes of vertices, and the range of their values.
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
 
 use crate::topology::weld::Bounds;
 
 use crate::exec::simd::Task;
-use crate::tangents::fast::rows::Rows;
-use crate::tangents::fast::weld_vertices::Refused;
+use crate::tangents::fast::vertex_record::VertexSlices;
 
-/// Hashes vertices: equal for those that are equal as floats. Notes what values they have.
-pub(crate) struct Hash<'a> {
-    pub rows: Rows<'a>,
+/// Hashes vertices: vertices that are equal as floats have equal hashes. Extends the range of values.
+pub(crate) struct HashVertices<'a> {
+    pub slices: VertexSlices<'a>,
     pub hashes: &'a mut [u32],
-    pub span: &'a mut Span,
+    pub value_range: &'a mut ValueRange,
 }
 
-/// Vertices whose components are taken at once.
+/// Vertices whose components are multiplied together, in lanes.
 const LANES: usize = 16;
 
-/// So many times these are multiplied before they are added up.
+/// How many times [`LANES`] vertices are multiplied before the products are added up.
 const CHUNK: usize = 8;
 
-/// What each component is multiplied with; the hash is the sum, mixed.
-const OF_POSITION: [u32; 3] = [0x9e37_79b1, 0x85eb_ca77, 0xc2b2_ae3d];
-const OF_NORMAL: [u32; 3] = [0x27d4_eb2f, 0x1656_67b1, 0xd35a_2d97];
-const OF_UV: [u32; 2] = [0xb55a_4f09, 0xa3b1_95c5];
+/// The factor of each component. The hash is the sum of the products, mixed.
+const POSITION_FACTORS: [u32; 3] = [0x9e37_79b1, 0x85eb_ca77, 0xc2b2_ae3d];
+const NORMAL_FACTORS: [u32; 3] = [0x27d4_eb2f, 0x1656_67b1, 0xd35a_2d97];
+const UV_FACTORS: [u32; 2] = [0xb55a_4f09, 0xa3b1_95c5];
 
-impl Task for Hash<'_> {
+impl Task for HashVertices<'_> {
     #[inline(always)]
     fn run(self) {
-        let Rows { positions, normals, uvs } = self.rows;
+        let VertexSlices { positions, normals, uvs } = self.slices;
         self.hashes.fill(0);
-        self.span.take_positions(positions);
-        // A loop, so that both have one copy of the code.
-        for (rows, factors) in [(positions, OF_POSITION), (normals, OF_NORMAL)] {
-            add_products::<3, { 3 * LANES }>(rows, factors, self.hashes, &mut self.span.largest);
+        self.value_range.add_positions(positions);
+        // A loop, so that both share one copy of the code.
+        for (values, factors) in [(positions, POSITION_FACTORS), (normals, NORMAL_FACTORS)] {
+            add_products::<3, { 3 * LANES }>(values, factors, self.hashes, &mut self.value_range.largest);
         }
-        add_products::<2, { 2 * LANES }>(uvs, OF_UV, self.hashes, &mut self.span.largest);
+        add_products::<2, { 2 * LANES }>(uvs, UV_FACTORS, self.hashes, &mut self.value_range.largest);
         for hash in self.hashes {
             let mixed = (*hash ^ *hash >> 15).wrapping_mul(0x2c1b_3c6d);
             *hash = mixed ^ mixed >> 14;
@@ -44,35 +43,35 @@ impl Task for Hash<'_> {
     }
 }
 
-/// Adds the products of one attribute to the sums, and takes the largest size of its components, as bits without the sign.
+/// Adds the products of one attribute to the sums, and finds the largest magnitude of its components, as bits without the sign.
 ///
-/// `L` is `N * LANES`: components lie one after the other, so that one loop over them all is vector code for any `N`.
+/// `L` is `N * LANES`: components lie one after the other, so that one loop over all of them is vector code for any `N`.
 #[inline(always)]
 fn add_products<const N: usize, const L: usize>(
-    rows: &[[f32; N]],
+    values: &[[f32; N]],
     factors: [u32; N],
     sums: &mut [u32],
     largest: &mut u32,
 ) {
     let factors: [u32; L] = std::array::from_fn(|j| factors[j % N]);
-    let mut sizes = [0; L];
+    let mut magnitudes = [0; L];
     let mut products = [[0; L]; CHUNK];
-    for (rows, sums) in rows.chunks(CHUNK * LANES).zip(sums.chunks_mut(CHUNK * LANES)) {
-        let (whole, rest) = rows.as_flattened().as_chunks();
+    for (values, sums) in values.chunks(CHUNK * LANES).zip(sums.chunks_mut(CHUNK * LANES)) {
+        let (whole, rest) = values.as_flattened().as_chunks();
         let mut padded = [0.0; L];
         padded[..rest.len()].copy_from_slice(rest);
         let last = if rest.is_empty() { None } else { Some(&padded) };
         for (components, products) in whole.iter().chain(last).zip(&mut products) {
-            multiply(components, &factors, products, &mut sizes);
+            multiply(components, &factors, products, &mut magnitudes);
         }
-        // A loop of its own: mixed with the one above it would be taken apart lane by lane.
+        // A separate loop: the compiler would split a common one into scalar code.
         for (sum, products) in sums.iter_mut().zip(products.as_flattened().as_chunks::<N>().0) {
             for k in 0..N {
                 *sum = sum.wrapping_add(products[k]);
             }
         }
     }
-    *largest = sizes.into_iter().fold(*largest, u32::max);
+    *largest = magnitudes.into_iter().fold(*largest, u32::max);
 }
 
 #[inline(always)]
@@ -80,39 +79,40 @@ fn multiply<const L: usize>(
     components: &[f32; L],
     factors: &[u32; L],
     products: &mut [u32; L],
-    sizes: &mut [u32; L],
+    magnitudes: &mut [u32; L],
 ) {
     for j in 0..L {
-        // Adding zero turns -0 into +0. Short fractions have their bits at the top: the shift brings them down.
+        // Adding zero turns -0 into +0. The bits of short fractions are the highest; the shift moves them down.
         let bits = (components[j] + 0.0).to_bits();
         products[j] = (bits ^ bits >> 15).wrapping_mul(factors[j]);
-        let size = bits & !(1 << 31);
-        sizes[j] = if size > sizes[j] { size } else { sizes[j] };
+        let magnitude = bits & !(1 << 31);
+        magnitudes[j] = if magnitude > magnitudes[j] { magnitude } else { magnitudes[j] };
     }
 }
 
-/// What values a mesh has.
+/// The range of a mesh's values.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Span {
-    /// Of positions, as [`ordered`] numbers.
+pub(crate) struct ValueRange {
+    /// The lowest coordinates, as [`ordered`] integers.
     low: [i32; 3],
+    /// The highest coordinates, as [`ordered`] integers.
     high: [i32; 3],
-    /// The largest size of any component, as bits.
+    /// The largest magnitude of any component, as bits.
     largest: u32,
 }
 
-/// The largest size of a coordinate that is welded here; the reference stops welding at half the largest float.
+/// The largest magnitude of a value that is welded here. The reference does not weld values above half the largest float.
 const LARGEST: f32 = 1e38;
 
-impl Default for Span {
+impl Default for ValueRange {
     fn default() -> Self {
         Self { low: [i32::MAX; 3], high: [i32::MIN; 3], largest: 0 }
     }
 }
 
-impl Span {
+impl ValueRange {
     #[inline(always)]
-    fn take_positions(&mut self, positions: &[[f32; 3]]) {
+    fn add_positions(&mut self, positions: &[[f32; 3]]) {
         let mut low = [i32::MAX; 3 * LANES];
         let mut high = [i32::MIN; 3 * LANES];
         let (whole, rest) = positions.as_flattened().as_chunks::<{ 3 * LANES }>();
@@ -133,28 +133,28 @@ impl Span {
         }
     }
 
-    /// The bounds of all positions. Refuses values that are too large or not finite.
-    pub fn check<'a>(spans: impl Iterator<Item = &'a Self> + Clone) -> Result<Bounds, Refused> {
-        let low = |axis: usize| spans.clone().map(|span| span.low[axis]).min();
-        let high = |axis: usize| spans.clone().map(|span| span.high[axis]).max();
-        let largest = spans.clone().map(|span| span.largest).max();
+    /// The bounds of all positions. None where a value is too large or not finite.
+    pub fn bounds<'a>(ranges: impl Iterator<Item = &'a Self> + Clone) -> Option<Bounds> {
+        let low = |axis: usize| ranges.clone().map(|range| range.low[axis]).min();
+        let high = |axis: usize| ranges.clone().map(|range| range.high[axis]).max();
+        let largest = ranges.clone().map(|range| range.largest).max();
         if largest > Some(LARGEST.to_bits()) {
-            return Err(Refused);
+            return None;
         }
         let min = [0, 1, 2].map(|axis| float(low(axis).unwrap_or_default()));
         let max = [0, 1, 2].map(|axis| float(high(axis).unwrap_or_default()));
-        Ok(Bounds { min, max })
+        Some(Bounds { min, max })
     }
 }
 
-/// A number in the order of floats (-0 below +0), which has an instruction for the lesser of two everywhere.
+/// An integer in the order of floats, -0 below +0. All processors have an instruction for the minimum of integers.
 #[inline(always)]
 fn ordered(x: f32) -> i32 {
     let bits = x.to_bits() as i32;
     bits ^ ((bits >> 31) as u32 >> 1) as i32
 }
 
-/// The float of an [`ordered`] number.
+/// The float of an [`ordered`] integer.
 fn float(ordered: i32) -> f32 {
     f32::from_bits((ordered ^ ((ordered >> 31) as u32 >> 1) as i32) as u32)
 }

@@ -1,4 +1,6 @@
-//! Welding of corners, for meshes without indices and for small parts of large vertex lists: distinct corners are numbered in the order in which they are first met.
+//! Welding of corners, for meshes without indices and for small parts of large vertex lists.
+//!
+//! Distinct corners are numbered in the order of their first occurrence.
 
 use std::ops::Range;
 
@@ -6,102 +8,102 @@ use crate::Mesh;
 
 use crate::exec::simd::{Task, Width};
 use crate::exec::windows::WINDOW;
-use crate::tangents::fast::hash_table::{BitMap, Chains};
-use crate::tangents::fast::kernel::Record;
-use crate::tangents::fast::rows::{RowBuffer, Rows};
-use crate::tangents::fast::vertex_hash::{Hash, Span};
+use crate::tangents::fast::hash_table::{ChainedTable, HashFilter};
+use crate::tangents::fast::vertex_hash::{HashVertices, ValueRange};
+use crate::tangents::fast::vertex_record::{SliceBuffer, VertexRecord, VertexSlices, same_bits};
 
-/// How many recently met vertices are looked at first.
+/// The number of recent vertices that are compared before the table is searched.
 const RECENT: usize = if cfg!(small_limits) { 2 } else { 1 << 14 };
 
-/// The distinct corners of a stretch of a mesh; the memory is kept from mesh to mesh.
+/// The distinct corners of a range of corners. The memory is reused from mesh to mesh.
 #[derive(Debug, Default)]
-pub(crate) struct Corners {
-    pub distinct: Distinct,
-    pub span: Span,
-    /// The last vertex met with each lowest part of a hash.
+pub(crate) struct CornerWeld {
+    pub distinct: DistinctVertices,
+    pub value_range: ValueRange,
+    /// The last vertex for each value of a hash's lowest bits.
     recent: Vec<u32>,
-    /// Those of the current window, and their hashes.
-    window: Vec<Record>,
+    /// The corners of the current window.
+    records: Vec<VertexRecord>,
+    /// The hashes of these corners.
     hashes: Vec<u32>,
-    /// The number of each vertex among those of the whole mesh.
+    /// The number of each distinct vertex among those of the whole mesh.
     numbers: Vec<u32>,
 }
 
-impl Corners {
+impl CornerWeld {
     /// Numbers the corners of `range`.
     pub fn weld(
         &mut self,
         mesh: &Mesh<'_>,
         range: Range<usize>,
         width: Width,
-        buffer: &mut RowBuffer,
-        of: &mut [u32],
+        buffer: &mut SliceBuffer,
+        welded: &mut [u32],
     ) {
-        self.distinct.clear(range.len());
-        self.span = Span::default();
-        self.recent.clear();
-        self.recent.resize(RECENT, 0);
-        for (start, of) in range.step_by(WINDOW).zip(of.chunks_mut(WINDOW)) {
-            let rows = Rows::of_corners(mesh, start..start + of.len(), buffer);
-            self.hashes.resize(of.len(), 0);
-            width.run(Hash { rows, hashes: &mut self.hashes, span: &mut self.span });
-            self.window.resize(of.len(), Record::default());
-            width.run(Assemble { rows, records: &mut self.window });
-            let Self { distinct, recent, window: corners, hashes, .. } = self;
-            width.run(Number { corners, hashes, recent, distinct, of });
+        let Self { distinct, value_range, recent, records, hashes, .. } = self;
+        distinct.clear(range.len());
+        *value_range = ValueRange::default();
+        recent.clear();
+        recent.resize(RECENT, 0);
+        for (start, welded) in range.step_by(WINDOW).zip(welded.chunks_mut(WINDOW)) {
+            let slices = VertexSlices::of_corners(mesh, start..start + welded.len(), buffer);
+            hashes.resize(welded.len(), 0);
+            width.run(HashVertices { slices, hashes, value_range });
+            records.resize(welded.len(), VertexRecord::default());
+            width.run(PackRecords { slices, records });
+            width.run(NumberCorners { records, hashes, recent, distinct, welded });
         }
     }
 
-    /// Adds the corners of a later stretch to these, of the first.
-    pub fn absorb(&mut self, later: &mut Self) {
-        let Distinct { records, chains, .. } = &later.distinct;
-        let number = |(record, &hash): (&Record, &u32)| self.distinct.number(record, hash);
+    /// Adds the distinct corners of a later range to these, of the first range.
+    pub fn append(&mut self, later: &mut Self) {
+        let DistinctVertices { records, table, .. } = &later.distinct;
+        let number = |(record, &hash): (&VertexRecord, &u32)| self.distinct.number(record, hash);
         later.numbers.clear();
-        later.numbers.extend(records.iter().zip(chains.hashes()).map(number));
-        self.distinct.refused |= later.distinct.refused;
+        later.numbers.extend(records.iter().zip(table.hashes()).map(number));
+        self.distinct.is_unsupported |= later.distinct.is_unsupported;
     }
 
-    /// Turns numbers within this stretch into those that [`Corners::absorb`] has found.
-    pub fn renumber(&self, of: &mut [u32]) {
-        of.iter_mut().for_each(|vertex| *vertex = self.numbers[*vertex as usize]);
+    /// Turns numbers within this range into those that [`CornerWeld::append`] has found.
+    pub fn renumber(&self, welded: &mut [u32]) {
+        welded.iter_mut().for_each(|vertex| *vertex = self.numbers[*vertex as usize]);
     }
 }
 
 /// Distinct vertices, numbered.
 #[derive(Debug, Default)]
-pub(crate) struct Distinct {
-    pub records: Vec<Record>,
-    /// Some that are equal as floats differ in the sign of a zero, or too many have one hash.
-    pub refused: bool,
-    seen: BitMap,
-    chains: Chains,
+pub(crate) struct DistinctVertices {
+    pub records: Vec<VertexRecord>,
+    /// Equal vertices differ in the sign of a zero, or too many vertices have one hash.
+    pub is_unsupported: bool,
+    seen: HashFilter,
+    table: ChainedTable,
 }
 
-impl Distinct {
-    /// No vertex, in a size for those of so many corners.
+impl DistinctVertices {
+    /// Removes all vertices, and chooses a size for the vertices of so many corners.
     fn clear(&mut self, corners: usize) {
         self.records.clear();
-        self.refused = false;
+        self.is_unsupported = false;
         self.seen.clear(corners / 4);
-        self.chains.clear(corners / 8);
+        self.table.clear(corners / 8);
     }
 
-    /// The number of a vertex, which may be new.
+    /// The number of a vertex, which is added if it is new.
     #[inline(always)]
-    fn number(&mut self, record: &Record, hash: u32) -> u32 {
-        // Most are new, and most of these have a hash never seen: nothing to look for.
-        let is_same = |known: u32| self.records[known as usize] == *record;
-        let known = if self.seen.set(hash) { self.chains.find(hash, is_same) } else { Ok(None) };
-        self.refused |= known.is_err();
+    fn number(&mut self, record: &VertexRecord, hash: u32) -> u32 {
+        // Most vertices are new, and the filter tells so for most of these without a search.
+        let is_equal = |known: u32| self.records[known as usize] == *record;
+        let known = if self.seen.insert(hash) { self.table.find(hash, is_equal) } else { Ok(None) };
+        self.is_unsupported |= known.is_err();
         match known.unwrap_or(None) {
             Some(known) => {
-                self.refused |= !same(&self.records[known as usize], record);
+                self.is_unsupported |= !same_bits(&self.records[known as usize], record);
                 known
             }
             None => {
                 let new = self.records.len() as u32;
-                self.chains.push(hash);
+                self.table.push(hash);
                 self.records.push(*record);
                 new
             }
@@ -109,18 +111,18 @@ impl Distinct {
     }
 }
 
-/// Writes rows as records.
-struct Assemble<'a> {
-    rows: Rows<'a>,
-    records: &'a mut [Record],
+/// Copies vertices into records.
+struct PackRecords<'a> {
+    slices: VertexSlices<'a>,
+    records: &'a mut [VertexRecord],
 }
 
-impl Task for Assemble<'_> {
+impl Task for PackRecords<'_> {
     #[inline(always)]
     fn run(self) {
-        let Rows { positions, normals, uvs } = self.rows;
-        let rows = positions.iter().zip(normals).zip(uvs);
-        for (record, ((position, normal), uv)) in self.records.iter_mut().zip(rows) {
+        let VertexSlices { positions, normals, uvs } = self.slices;
+        let values = positions.iter().zip(normals).zip(uvs);
+        for (record, ((position, normal), uv)) in self.records.iter_mut().zip(values) {
             record[..3].copy_from_slice(position);
             record[3..6].copy_from_slice(normal);
             record[6..].copy_from_slice(uv);
@@ -128,36 +130,26 @@ impl Task for Assemble<'_> {
     }
 }
 
-/// Finds the vertex of each corner, among the recent ones or all.
-struct Number<'a> {
-    corners: &'a [Record],
+/// Finds the vertex of each corner, first among the recent vertices.
+struct NumberCorners<'a> {
+    records: &'a [VertexRecord],
     hashes: &'a [u32],
     recent: &'a mut [u32],
-    distinct: &'a mut Distinct,
-    of: &'a mut [u32],
+    distinct: &'a mut DistinctVertices,
+    welded: &'a mut [u32],
 }
 
-impl Task for Number<'_> {
+impl Task for NumberCorners<'_> {
     #[inline(always)]
     fn run(self) {
-        for ((corner, &hash), of) in self.corners.iter().zip(self.hashes).zip(self.of) {
+        for ((corner, &hash), vertex) in self.records.iter().zip(self.hashes).zip(self.welded) {
             let recent = &mut self.recent[hash as usize % RECENT];
             let is_recent =
-                self.distinct.records.get(*recent as usize).is_some_and(|record| same(record, corner));
+                self.distinct.records.get(*recent as usize).is_some_and(|record| same_bits(record, corner));
             if !is_recent {
                 *recent = self.distinct.number(corner, hash);
             }
-            *of = *recent;
+            *vertex = *recent;
         }
     }
-}
-
-/// True for equal bits.
-#[inline(always)]
-pub(crate) fn same(a: &Record, b: &Record) -> bool {
-    let mut difference = 0;
-    for i in 0..8 {
-        difference |= a[i].to_bits() ^ b[i].to_bits();
-    }
-    difference == 0
 }

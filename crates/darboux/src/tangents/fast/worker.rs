@@ -1,54 +1,51 @@
-//! One thread's memory.
+//! The memory of one thread, reused from mesh to mesh, and what the thread has found.
 
 use std::ops::Range;
 
-use crate::tangents::fast::accumulator::{Unused, Vertex};
-use crate::tangents::fast::input::TriangleBuffer;
-use crate::tangents::fast::kernel::Block;
-use crate::tangents::fast::passes::Special;
-use crate::tangents::fast::rows::RowBuffer;
-use crate::tangents::fast::vertex_hash::Span;
+use crate::topology::weld::Bounds;
 
-/// What a thread uses again from mesh to mesh.
+use crate::tangents::fast::accumulator::VertexAccumulator;
+use crate::tangents::fast::exceptions::Exceptions;
+use crate::tangents::fast::kernel::TriangleBlock;
+use crate::tangents::fast::triangle_list::TriangleBuffer;
+use crate::tangents::fast::vertex_hash::ValueRange;
+use crate::tangents::fast::vertex_record::SliceBuffer;
+
+/// The memory of one thread.
 #[derive(Debug, Default)]
 pub(crate) struct Worker {
-    pub block: Box<Block>,
-    pub rows: RowBuffer,
+    pub block: Box<TriangleBlock>,
+    pub slices: SliceBuffer,
     pub triangles: TriangleBuffer,
-    /// Vertices of corners, where they do not lie one after the other in the mesh.
-    pub corners: Vec<u32>,
-    /// The vertices from `first` on, of which `read` have been read.
-    pub vertices: Vec<Vertex>,
-    /// What the corners of each vertex say of it.
+    /// The vertices of corners, where they are not contiguous in the mesh.
+    pub corner_vertices: Vec<u32>,
+    /// The vertices from number `first` on. The first `read` of them hold values.
+    pub vertices: Vec<VertexAccumulator>,
+    /// The marks of each vertex.
     pub marks: Vec<u32>,
     pub first: usize,
     pub read: usize,
     /// Windows with vertices that other threads finish.
     pub pending: Vec<usize>,
-    pub special: Special,
-    /// The quads that it has cut of which `Cut` wants to know.
-    pub doubtful: Vec<u32>,
-    /// Of its vertices' values.
-    pub span: Span,
-    /// Its hashes that were met before.
+    pub exceptions: Exceptions,
+    pub findings: Findings,
+    /// The range of the values that the thread has hashed.
+    pub value_range: ValueRange,
+    /// How many of the thread's hashes had been seen before.
     pub collisions: usize,
-    /// The bits in which its corners are not what they were welded to.
-    pub difference: u32,
-    /// Its decided vertices have usable tangents.
-    pub all_usable: bool,
-    /// Its vertices that no triangle uses.
-    pub unused: Unused,
+    /// The bits in which corners differ from the record that they were welded to.
+    pub differing_bits: u32,
 }
 
 impl Worker {
-    /// Makes room for vertices.
+    /// Prepares a pass over `vertices`.
     pub fn begin(&mut self, vertices: Range<usize>) {
-        self.vertices.resize(vertices.len(), Vertex::default());
+        self.vertices.resize(vertices.len(), VertexAccumulator::default());
         self.marks.resize(vertices.len(), 0);
-        (self.first, self.read, self.unused) = (vertices.start, 0, Unused::default());
-        self.all_usable = true;
+        (self.first, self.read) = (vertices.start, 0);
+        self.findings = Findings::default();
         self.pending.clear();
-        self.special.clear();
+        self.exceptions.clear();
     }
 
     /// The end of the vertices that have been read.
@@ -56,8 +53,49 @@ impl Worker {
         self.first + self.read
     }
 
-    /// A vertex by its number.
-    pub fn vertex(&self, number: u32) -> &Vertex {
+    /// The vertex of a number.
+    pub fn vertex(&self, number: u32) -> &VertexAccumulator {
         &self.vertices[number as usize - self.first]
+    }
+}
+
+/// What a thread finds when it finishes vertices.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Findings {
+    pub unused: UnusedVertices,
+    /// All tangents that a plan keeps need no repair.
+    pub all_usable: bool,
+}
+
+impl Default for Findings {
+    fn default() -> Self {
+        Self { unused: UnusedVertices::default(), all_usable: true }
+    }
+}
+
+/// The vertices that no triangle uses.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct UnusedVertices {
+    /// How many vertices were not even read.
+    pub unread: usize,
+    /// How many others there are.
+    pub count: usize,
+    /// The bounds of these others.
+    bounds: Option<Bounds>,
+}
+
+impl UnusedVertices {
+    #[cold]
+    pub fn note(&mut self, position: [f32; 3]) {
+        let bounds = self.bounds.unwrap_or(Bounds { min: position, max: position });
+        self.bounds = Some(Bounds::of(bounds.min, [bounds.max, position].into_iter()));
+        self.count += 1;
+    }
+
+    /// True when all vertices that were read lie inside the bounds of all vertices, which are then the bounds of the used ones.
+    pub fn are_inside(&self, all: &Bounds) -> bool {
+        let inside =
+            |bounds: Bounds| (0..3).all(|i| bounds.min[i] > all.min[i] && bounds.max[i] < all.max[i]);
+        self.bounds.is_none_or(inside)
     }
 }

@@ -5,7 +5,9 @@ use std::ops::Range;
 
 use crate::exec::limits::RunLimits;
 use crate::exec::threads::{self, parts};
-use crate::exec::windows::{Share, Window, look_around, overlap, shares, triangles_of, windows_of};
+use crate::exec::windows::{
+    Partition, Window, accumulate_bounds, overlap_too_much, partitions, triangles_of, windows_of,
+};
 use crate::tangents::mesh_slices::MeshSlices;
 use crate::tangents::uv_derivatives::Orientation;
 use crate::tangents::vertex_sums::blocks::{
@@ -33,13 +35,13 @@ pub(crate) fn thread_ranges(flat: &MeshSlices<'_>, limits: RunLimits<'_>) -> Opt
         return Some(vec![ThreadWork { own: 0..count, adds: 0..count, vertices: 0..vertices }]);
     }
     let windows = windows(triangles);
-    let shares: Vec<_> = shares(&windows, vertices, threads).collect();
-    let part = |share: &Share| ThreadWork {
-        own: triangles_of(share.windows.clone(), count),
-        adds: triangles_of(share.windows.start..share.until, count),
-        vertices: share.vertices.clone(),
+    let partitions: Vec<_> = partitions(&windows, vertices, threads).collect();
+    let work = |partition: &Partition| ThreadWork {
+        own: triangles_of(partition.windows.clone(), count),
+        adds: triangles_of(partition.windows.start..partition.end_window, count),
+        vertices: partition.vertices.clone(),
     };
-    (!overlap(&shares, &windows)).then(|| shares.iter().map(part).collect())
+    (!overlap_too_much(&partitions, &windows)).then(|| partitions.iter().map(work).collect())
 }
 
 fn windows(triangles: &[[u32; 3]]) -> Vec<Window> {
@@ -49,10 +51,10 @@ fn windows(triangles: &[[u32; 3]]) -> Vec<Window> {
             lowest = vertex.min(lowest);
             end = end.max(vertex + 1);
         }
-        Window { lowest, end, ..Window::default() }
+        Window { vertices: lowest..end, ..Window::default() }
     };
     let mut windows: Vec<_> = windows_of(triangles.len()).map(window).collect();
-    look_around(&mut windows);
+    accumulate_bounds(&mut windows);
     windows
 }
 

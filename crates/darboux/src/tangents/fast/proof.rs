@@ -1,0 +1,197 @@
+//! The tests that prove that all triangles around a vertex share one tangent. The head of `fast.rs` says why they suffice.
+//!
+//! The kernel computes marks (bits that are OR-ed together) and a fingerprint (numbers that are added up) for every corner of a
+//! triangle. [`decided_sign`] reads the marks and the fingerprint of a vertex to which all corners have been added.
+
+use std::sync::OnceLock;
+
+use crate::math::V3;
+use crate::util::hash_map::random_seed;
+
+/// The sign of a vertex at which the tests fail: its tangent is left to the general path.
+pub const UNDECIDED: f32 = 0.0;
+
+/// Marks of corners, as bits. The marks of a vertex are the marks of all its corners, OR-ed together.
+pub(crate) mod marks {
+    /// One bit for each of the rays +u, -u, +v, -v that start at the vertex and lie in the corner's wedge in UV space.
+    pub const RAYS: u32 = 0xf;
+    /// The ray +u.
+    pub const FIRST_RAY: u32 = 1;
+    /// The shift of six bits for the tangent's direction in the plane of the normal: x, y, z not clearly positive, then x, y, z not
+    /// clearly negative.
+    pub const TANGENT: u32 = 8;
+    /// The shift of the same six bits for the bitangent.
+    pub const BITANGENT: u32 = 14;
+    /// All six bits of a direction.
+    pub const ALL_AXES: u32 = 0x3f;
+    /// The triangle keeps the orientation of UV space.
+    pub const PRESERVES: u32 = 1 << 20;
+    /// The triangle reverses the orientation of UV space.
+    pub const MIRRORS: u32 = 1 << 21;
+    /// The triangle or the corner is one that only the general path handles.
+    pub const TROUBLE: u32 = 1 << 22;
+}
+
+/// The smallest ratio of a triangle's doubled UV area to the two products whose difference it is, at which the sign of the area is
+/// certain.
+///
+/// Differences and products are right to 2^-24 each, three roundings per product and one for the sum: 2^-21 is twice that.
+pub(crate) const LEAST_AREA_RATIO: f32 = 1.0 / 2_097_152.0;
+
+/// The smallest ratio of a direction's component to the direction's length at which the component counts as clearly positive or
+/// clearly negative.
+pub(crate) const CLEAR_COMPONENT: f32 = 1.0 / 16.0;
+
+/// The six bits of a direction: which components are not above `clear`, then which are not below `-clear`.
+#[inline(always)]
+pub(crate) fn direction_marks(v: V3, clear: f32) -> u32 {
+    let above = |x: f32, bit: u32| if x > clear { 0 } else { bit };
+    let below = |x: f32, bit: u32| if x < -clear { 0 } else { bit };
+    (above(v[0], 1) | above(v[1], 2) | above(v[2], 4)) | (below(v[0], 8) | below(v[1], 16) | below(v[2], 32))
+}
+
+/// The rays in the wedges of a triangle's three corners, in UV space.
+#[inline(always)]
+pub(crate) fn ray_marks([t0, t1, t2]: [[f32; 2]; 3], is_mirrored: bool) -> [u32; 3] {
+    let flip = if is_mirrored { u32::MAX } else { 0 };
+    let edges = [edge_sides(t0, t1), edge_sides(t1, t2), edge_sides(t2, t0)];
+    [0, 1, 2].map(|k| {
+        // The incoming edge is seen from its other end.
+        let (after, before) = (edges[k] & 0xff, edges[(k + 2) % 3] >> 8);
+        let (entered, left) = (after & !before, before & !after);
+        let (up, down) = ((entered & !flip) | (left & flip), (left & !flip) | (entered & flip));
+        (up & 5) | (down & 5) << 1
+    })
+}
+
+/// Where the end of an edge lies, seen from its start: bit 0 below, bit 2 to the right. Bits 8 and 10 say the same of the start, seen
+/// from the end.
+#[inline(always)]
+fn edge_sides(from: [f32; 2], to: [f32; 2]) -> u32 {
+    let bit = |is: bool, bit: u32| if is { bit } else { 0 };
+    (bit(to[1] < from[1], 1) | bit(to[0] > from[0], 4))
+        | (bit(from[1] < to[1], 0x100) | bit(from[0] > to[0], 0x400))
+}
+
+/// 1 when the corner's wedge holds the ray +u, else 0.
+#[inline(always)]
+pub(crate) fn first_ray_count(marks: u32) -> f32 {
+    if marks & marks::FIRST_RAY == 0 { 0.0 } else { 1.0 }
+}
+
+/// The random key of all fingerprints of this process. Without the key nobody can construct a mesh that passes the tests wrongly.
+pub(crate) fn fingerprint_key() -> [u32; 2] {
+    static KEY: OnceLock<[u32; 2]> = OnceLock::new();
+    *KEY.get_or_init(|| {
+        let bits = random_seed();
+        [bits as u32, (bits >> 32) as u32]
+    })
+}
+
+/// The fingerprint of one vertex: its number, the square of the number, and two keyed hashes of it.
+#[inline(always)]
+pub(crate) fn fingerprint(vertex: u32, key: [u32; 2]) -> [u32; 4] {
+    let first = (vertex ^ key[0]).wrapping_mul(0x85eb_ca6b);
+    let first = (first ^ first >> 15).wrapping_mul(0xc2b2_ae35);
+    let second = (vertex ^ key[1]).wrapping_mul(0x27d4_eb2f);
+    let second = (second ^ second >> 13).wrapping_mul(0x1656_67b1);
+    [vertex, vertex.wrapping_mul(vertex), first ^ first >> 16, second ^ second >> 16]
+}
+
+/// The difference of two fingerprints.
+#[inline(always)]
+pub(crate) fn difference(a: [u32; 4], b: [u32; 4]) -> [u32; 4] {
+    [0, 1, 2, 3].map(|lane| a[lane].wrapping_sub(b[lane]))
+}
+
+/// The tangent sign of a vertex to which all corners have been added: [`UNDECIDED`] where a test fails, NaN where no triangle uses the
+/// vertex.
+///
+/// `found`: the vertex's marks. `first_ray_count`: how many wedges hold the ray +u. `is_usable`: the tangent needs no repair.
+#[inline(always)]
+pub(crate) fn decided_sign(found: u32, first_ray_count: f32, fingerprint: [u32; 4], is_usable: bool) -> f32 {
+    let decided = is_usable & is_one_subgroup(found) && is_one_fan(found, first_ray_count, fingerprint);
+    match found & (marks::PRESERVES | marks::MIRRORS) {
+        0 => f32::NAN,
+        _ if !decided => UNDECIDED,
+        marks::MIRRORS => -1.0,
+        _ => 1.0,
+    }
+}
+
+/// True when the triangles have one orientation, and no two of them have opposite tangents or opposite bitangents.
+///
+/// Two unit vectors whose components on one axis are both above 1/16 have a dot product above -1 + 2 / 256.
+#[inline(always)]
+fn is_one_subgroup(found: u32) -> bool {
+    let orientation = found & (marks::PRESERVES | marks::MIRRORS | marks::TROUBLE);
+    let has_axis = |shift: u32| found >> shift & marks::ALL_AXES != marks::ALL_AXES;
+    (orientation == marks::PRESERVES) | (orientation == marks::MIRRORS)
+        && has_axis(marks::TANGENT) & has_axis(marks::BITANGENT)
+}
+
+/// True when all triangles are connected by edges at the vertex; wrongly true with a probability below 2^-64.
+///
+/// An edge at the vertex that as many triangles leave along as come back along adds nothing to the fingerprint. So the fingerprint is
+/// zero when all triangles lie in closed loops, and the difference of two vertices when there is one open row besides. Every closed
+/// loop of triangles of one orientation turns about the vertex in UV space at least once and crosses every ray.
+#[inline(always)]
+fn is_one_fan(found: u32, first_ray_count: f32, fingerprint: [u32; 4]) -> bool {
+    if fingerprint == [0; 4] {
+        first_ray_count == 1.0
+    } else {
+        found & marks::RAYS != marks::RAYS && is_difference_of_two(fingerprint)
+    }
+}
+
+/// True when `sum` is the fingerprint of one vertex minus the fingerprint of another.
+///
+/// The first lanes hold a - b and a^2 - b^2 modulo 2^32. Their quotient is a + b, and both give a and b; the other lanes then confirm
+/// them. A difference with many factors of two leaves several candidates.
+fn is_difference_of_two(sum: [u32; 4]) -> bool {
+    let key = fingerprint_key();
+    let a_minus_b = i64::from(sum[0] as i32);
+    if a_minus_b == 0 {
+        return false;
+    }
+    let twos = a_minus_b.trailing_zeros();
+    let first = u64::from(sum[1].wrapping_mul(inverse((a_minus_b >> twos) as u32)) >> twos);
+    let mut candidates = (0..CANDIDATES).map(|n| (first + (n << (32 - twos))) as i64);
+    candidates.any(|a_plus_b| {
+        let (a, b) = ((a_plus_b + a_minus_b) / 2, (a_plus_b - a_minus_b) / 2);
+        let (Ok(a), Ok(b)) = (u32::try_from(a), u32::try_from(b)) else { return false };
+        difference(fingerprint(a, key), fingerprint(b, key)) == sum
+    })
+}
+
+/// How many values of a + b are tried; a vertex with more candidates is left to the general path.
+const CANDIDATES: u64 = 64;
+
+/// The inverse of an odd number modulo 2^32, by Newton's iteration: each step doubles the number of right bits, 3 at the start.
+fn inverse(odd: u32) -> u32 {
+    (0..4).fold(odd, |inverse, _| inverse.wrapping_mul(2u32.wrapping_sub(odd.wrapping_mul(inverse))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of_two(a: u32, b: u32) -> [u32; 4] {
+        let key = fingerprint_key();
+        difference(fingerprint(a, key), fingerprint(b, key))
+    }
+
+    #[test]
+    fn a_difference_of_two_vertices_is_recognised() {
+        for (a, b) in [(1, 0), (0, 1), (7, 1_000_000_000), (70_000, 4_464), (1 << 24, (1 << 24) + 4096)] {
+            assert!(is_difference_of_two(of_two(a, b)), "{a} - {b}");
+        }
+    }
+
+    #[test]
+    fn a_difference_of_more_vertices_is_not() {
+        let [first, second] = [of_two(10, 11), of_two(20, 25)];
+        let both = std::array::from_fn(|lane| first[lane].wrapping_add(second[lane]));
+        assert!(!is_difference_of_two(both));
+    }
+}

@@ -1,0 +1,82 @@
+//! Runs a pass on all threads: streamed where triangles that share vertices are near each other in the list, else scattered.
+
+use crate::exec::simd::{Task, Width};
+use crate::exec::threads::{self, parts, split};
+use crate::exec::windows::{Partition, Window, accumulate_bounds, overlap_too_much, partitions};
+use crate::tangents::fast::passes::{Pass, PassInput, TriangleTerms};
+use crate::tangents::fast::triangle_list::TriangleList;
+use crate::tangents::fast::worker::Worker;
+use crate::tangents::fast::{scattered, streamed};
+
+/// The memory of a schedule, reused from mesh to mesh.
+#[derive(Debug, Default)]
+pub(crate) struct Schedule {
+    /// What each thread does in a streamed pass.
+    pub partitions: Vec<Partition>,
+    /// What triangles add in a scattered pass, where the output array does not have one element per entry.
+    terms: Vec<TriangleTerms>,
+}
+
+impl Schedule {
+    /// Runs a pass with one thread per worker. `out`: all corners.
+    pub fn run<P: Pass>(
+        &mut self,
+        input: &PassInput<'_, P>,
+        vertex_count: usize,
+        workers: &mut [Worker],
+        out: &mut [[f32; 4]],
+    ) {
+        self.partitions.clear();
+        self.partitions.extend(partitions(input.windows, vertex_count, workers.len()));
+        if self.is_scattered(input.windows) {
+            return scattered::run(input, vertex_count, workers, &mut self.terms, out);
+        }
+        let ranges = self.partitions.iter().map(|partition| input.list.corners_of(partition.windows.clone()));
+        let jobs = self.partitions.iter().zip(parts(&mut *out, 0, ranges));
+        threads::run(workers, jobs, |worker, (partition, out)| streamed::run(input, partition, worker, out));
+        streamed::write_pending(input, &self.partitions, workers, out);
+    }
+
+    /// True when the last pass was scattered: the first worker then has all vertices.
+    pub fn is_scattered(&self, windows: &[Window]) -> bool {
+        overlap_too_much(&self.partitions, windows)
+    }
+}
+
+/// Finds which vertices each window of the triangle list uses.
+pub(crate) fn find_windows(
+    list: &TriangleList<'_>,
+    width: Width,
+    workers: &mut [Worker],
+    windows: &mut Vec<Window>,
+) {
+    windows.clear();
+    windows.resize(list.window_count(), Window::default());
+    let ranges = split(0..windows.len(), workers.len(), 1);
+    let jobs = ranges.clone().zip(parts(windows, 0, ranges));
+    threads::run(workers, jobs, |worker, (range, windows)| {
+        for (at, window) in range.zip(windows) {
+            let vertices = list.vertices(list.corners_of(at..at + 1), &mut worker.corner_vertices);
+            width.run(FindVertexBounds { vertices, window });
+        }
+    });
+    accumulate_bounds(windows);
+}
+
+/// Finds the lowest and the highest vertex of a window.
+struct FindVertexBounds<'a> {
+    vertices: &'a [u32],
+    window: &'a mut Window,
+}
+
+impl Task for FindVertexBounds<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let (mut lowest, mut highest) = (u32::MAX, 0);
+        for &vertex in self.vertices {
+            lowest = vertex.min(lowest);
+            highest = vertex.max(highest);
+        }
+        self.window.vertices = lowest..highest + 1;
+    }
+}
