@@ -1,4 +1,4 @@
-//! How work runs: SIMD widths, threads, and the windows of the triangle list that threads divide among them.
+//! How work is executed: vector widths, threads, the limits of a call, and windows of the triangle list.
 
 pub(crate) mod limits;
 pub(crate) mod simd;

@@ -1,17 +1,17 @@
-//! The widest vector instructions that the machine has, chosen when the program runs.
+//! Vector instructions of the widest kind that the processor has, chosen at run time.
 //!
-//! Every task is compiled once per width from one source; lanes round alike in all of them, so that the width never shows in a
-//! result. No fused multiply-add: the compiler never fuses on its own.
+//! Every task is compiled once per vector width, from one source. A lane rounds every operation alike at all widths, and the compiler
+//! does not fuse multiplications with additions, so results do not depend on the width.
 
-/// Work that is compiled once per width. `run` must be `#[inline(always)]`.
+/// Work that is compiled once per vector width. `run` must be `#[inline(always)]`.
 pub(crate) trait Task {
     fn run(self);
 }
 
-/// How wide vector instructions may be.
+/// An upper limit of the vector width.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum WidthLimit {
-    /// What the program was compiled for: 128 bits on x86-64, Arm and WASM.
+    /// The width that the program was compiled for: 128 bits on x86-64, Arm and WebAssembly.
     Compiled,
     /// 256 bits: AVX2.
     Bits256,
@@ -20,12 +20,12 @@ pub enum WidthLimit {
     Bits512,
 }
 
-/// A vector width that the machine has.
+/// A vector width that the processor has.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Width(#[cfg(target_arch = "x86_64")] WidthLimit);
 
 impl Width {
-    /// The widest that the machine has within `limit`.
+    /// The largest width within `limit` that the processor has.
     #[cfg(target_arch = "x86_64")]
     pub fn widest(limit: WidthLimit) -> Self {
         let has_512 = std::is_x86_feature_detected!("avx512f")
@@ -49,10 +49,10 @@ impl Width {
 
     /// Runs a task at this width.
     #[cfg(target_arch = "x86_64")]
-    #[expect(unsafe_code, reason = "instructions that are found at run time are called so")]
+    #[expect(unsafe_code, reason = "functions with target features are unsafe to call")]
     pub fn run(self, task: impl Task) {
         match self.0 {
-            // SAFETY: a width is only made by `widest`, which has found these instructions, or wider ones that include them.
+            // SAFETY: only `widest` makes a width, and it has detected these instructions or wider ones that include them.
             WidthLimit::Bits512 => unsafe { avx512(task) },
             // SAFETY: as above.
             WidthLimit::Bits256 => unsafe { avx2(task) },
@@ -60,7 +60,7 @@ impl Width {
         }
     }
 
-    /// Runs a task, as a function of its own: where all else is compiled for size, these are not.
+    /// Runs a task as a separate function, so that builds for size can compile it for speed.
     #[cfg(not(target_arch = "x86_64"))]
     #[inline(never)]
     pub fn run(self, task: impl Task) {

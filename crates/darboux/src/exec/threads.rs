@@ -1,11 +1,11 @@
-//! Work split among threads: every job has its own memory, and its own part of what is written.
+//! Work divided among threads. Every thread has its own memory, and writes its own part of the output.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::exec::limits::RunLimits;
 
-/// Does work for a mesh on a thread of the pool, whose others are then quick to join in: all are woken only once.
+/// Runs all work for a mesh on a thread of the pool, so that the other threads are woken once and not at every stage.
 #[cfg(feature = "parallel")]
 pub(crate) fn on_pool<R: Send>(threads: usize, work: impl FnOnce() -> R + Send) -> R {
     if threads > 1 && rayon::current_thread_index().is_none() { rayon::scope(|_| work()) } else { work() }
@@ -16,7 +16,7 @@ pub(crate) fn on_pool<R: Send>(_threads: usize, work: impl FnOnce() -> R + Send)
     work()
 }
 
-/// Runs `job` for every worker and its part, on all threads.
+/// Calls `job` once for every worker with its part of the work, on as many threads as there are workers.
 pub(crate) fn run<W: Send, P: Send>(
     workers: &mut [W],
     parts: impl Iterator<Item = P>,
@@ -37,12 +37,12 @@ pub(crate) fn run<W: Send, P: Send>(
     }
 }
 
-/// The values of `of` at 0 to `count`, in their order, found by all threads.
+/// The values of a function for all numbers below `count`, computed on all threads.
 pub(crate) fn map<T: Send>(limits: RunLimits<'_>, count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let threads = limits.thread_count(count);
-    let mut found: Vec<Vec<T>> = (0..threads).map(|_| Vec::new()).collect();
-    run(&mut found, split(0..count, threads, 1), |found, range| *found = range.map(&of).collect());
-    found
+    let mut lists: Vec<Vec<T>> = (0..threads).map(|_| Vec::new()).collect();
+    run(&mut lists, split_range(0..count, threads, 1), |list, range| *list = range.map(&of).collect());
+    lists
         .into_iter()
         .reduce(|mut all, mut more| {
             all.append(&mut more);
@@ -51,35 +51,35 @@ pub(crate) fn map<T: Send>(limits: RunLimits<'_>, count: usize, of: impl Fn(usiz
         .unwrap_or_default()
 }
 
-/// Sets every element to the value of `of` at its place, by all threads; on one it allocates nothing.
+/// Sets every element to the value of a function for its index, on all threads. A single thread allocates nothing.
 pub(crate) fn fill<T: Send>(limits: RunLimits<'_>, slice: &mut [T], of: impl Fn(usize) -> T + Sync) {
     update(limits, slice, |at, element| *element = of(at));
 }
 
-/// Calls `with` with every element and its place, by all threads; on one it allocates nothing.
+/// Calls a function with the index of every element and the element, on all threads. A single thread allocates nothing.
 pub(crate) fn update<T: Send>(limits: RunLimits<'_>, slice: &mut [T], with: impl Fn(usize, &mut T) + Sync) {
     let threads = limits.thread_count(slice.len());
-    let ranges = split(0..slice.len(), threads, 1);
-    let jobs = parts(slice, 0, ranges.clone()).zip(ranges);
+    let ranges = split_range(0..slice.len(), threads, 1);
+    let jobs = split_slice(slice, 0, ranges.clone()).zip(ranges);
     run(&mut vec![(); threads], jobs, |(), (part, range)| {
         part.iter_mut().zip(range).for_each(|(element, at)| with(at, element));
     });
 }
 
-/// Whether all numbers below `count` are as wanted, by all threads; on one it allocates nothing.
-pub(crate) fn all(limits: RunLimits<'_>, count: usize, is_wanted: impl Fn(usize) -> bool + Sync) -> bool {
+/// True when a predicate holds for all numbers below `count`, tested on all threads. A single thread allocates nothing.
+pub(crate) fn all(limits: RunLimits<'_>, count: usize, predicate: impl Fn(usize) -> bool + Sync) -> bool {
     let threads = limits.thread_count(count);
-    let found = AtomicBool::new(true);
-    run(&mut vec![(); threads], split(0..count, threads, 1), |(), mut range| {
-        if !range.all(&is_wanted) {
-            found.store(false, Ordering::Relaxed);
+    let holds = AtomicBool::new(true);
+    run(&mut vec![(); threads], split_range(0..count, threads, 1), |(), mut range| {
+        if !range.all(&predicate) {
+            holds.store(false, Ordering::Relaxed);
         }
     });
-    found.into_inner()
+    holds.into_inner()
 }
 
-/// A range in `count` parts, of sizes that differ by one at most times `unit`.
-pub(crate) fn split(
+/// Splits a range into `count` consecutive ranges of nearly equal length. All but the last length are multiples of `unit`.
+pub(crate) fn split_range(
     range: Range<usize>,
     count: usize,
     unit: usize,
@@ -91,8 +91,8 @@ pub(crate) fn split(
     })
 }
 
-/// The parts of a slice whose first element is number `first`, at consecutive ranges of such numbers.
-pub(crate) fn parts<T>(
+/// Splits a slice at consecutive ranges of element numbers. `first`: the number of the slice's first element.
+pub(crate) fn split_slice<T>(
     mut slice: &mut [T],
     first: usize,
     ranges: impl Iterator<Item = Range<usize>>,

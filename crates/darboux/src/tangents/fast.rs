@@ -1,4 +1,70 @@
-//! The fast path of MikkTSpace: the tangents of vertices around which all triangles share one.
+//! The fast path of MikkTSpace: computes the tangents of vertices around which all triangles share one tangent.
+//!
+//! The reference finds the neighbours of every triangle through shared edges, joins the triangles around a vertex that are connected by
+//! edges and have one UV orientation into groups, splits groups by angle into subgroups, and gives the corners of a subgroup one tangent: the
+//! sum, in the order of the triangle list, of the triangles' unit tangents weighted by corner angle. Around nearly every vertex of a real
+//! mesh all triangles form one subgroup. There, the sum over *all* triangles is that sum, with equal bits. So the fast path adds
+//! every triangle to its vertices without looking up an edge, and proves afterwards for which vertices this was right. The others are
+//! *undecided*: they and all triangles around them go through the general path (`submesh.rs`).
+//!
+//! ```text
+//! split quads into triangles                                                  quads.rs
+//! weld equal vertices by hashing, or corners where there are no indices       weld_vertices.rs, weld_corners.rs
+//! find which vertices every window of 1024 triangles uses                     schedule.rs
+//! for each triangle, in order, 64 at a time:                                  passes.rs, kernel.rs
+//!     compute dP/du, dP/dv and the angles of its corners
+//!     for each corner, v its vertex:                                          accumulator.rs
+//!         sum[v]         += corner angle * unit tangent in the plane of the normal
+//!         marks[v]       |= UV orientation, signs of the directions' components, rays in the corner's wedge
+//!         rays[v]        += 1 if the corner's wedge in UV space holds the ray +u
+//!         fingerprint[v] += f(next vertex of the triangle) - f(previous vertex)
+//! for each vertex v to which all its triangles have been added:               proof.rs
+//!     if one orientation and nothing opposite and one fan and the tangent needs no repair:
+//!         tangent[v] = normalize(sum[v]), with the sign of the orientation
+//!     else: v is undecided
+//! copy the tangents of vertices to corners, list the faces of undecided ones  exceptions.rs
+//! unless the mode corrects edges:                                             edge_tail.rs, vertex_names.rs
+//!     make vertices of the reference's last edges undecided where the order of these edges matters
+//! if the angular threshold is below 180 degrees:                              angle_bounds.rs
+//!     make vertices undecided whose tangents or bitangents may differ by the threshold
+//! ```
+//!
+//! # Why the tests suffice
+//!
+//! A decided vertex passes three tests, which together say that its triangles are one subgroup.
+//!
+//! - **One orientation.** Exactly one of `PRESERVES` and `MIRRORS` is marked, and no `TROUBLE`: no triangle is degenerate, has no UV area,
+//!   or has so little that rounding could have changed its sign. Proof: the reference makes groups of triangles of one orientation, the sign
+//!   of the same expression; only triangles without UV area can join groups of either.
+//! - **Nothing opposite.** All tangents have a component above 1/16 on one axis, or all have one below -1/16; the bitangents likewise. Proof:
+//!   at 180 degrees the reference separates triangles whose tangents or bitangents have a dot product of -1 or less, and two unit
+//!   vectors with such components have one of at least 1/256 - (1 - 1/256) = -1 + 2/256.
+//! - **One fan.** The triangles are connected by edges at the vertex. Let f(x) be the number of vertex x, its square and 64 bits of a keyed
+//!   hash. A triangle adds f(next) - f(previous); at an edge that two triangles share, the terms cancel. So the sum is zero when
+//!   every edge is shared, that is, when the triangles form closed loops, and f(a) - f(b) when one open row from a to b is left besides.
+//!   Every closed loop of triangles of one orientation turns around the vertex in UV space at least once, so each ray is in a wedge of it.
+//!   Sum zero and the ray +u in one wedge: one loop. Sum f(a) - f(b) and one of the rays +u, -u, +v, -v in no wedge: one row.
+//!
+//! The first two tests are certain. The third is certain for a fan, and can be wrong for a vertex of several fans whose terms cancel by
+//! chance. Numbers and squares can be made to cancel; the hash has a random key, drawn when the program first needs it, so that a mesh cannot
+//! be made for it. The probability of a wrong decision is 2^-64 for a vertex whose sum is zero or determines a and b, and at most
+//! 2^-58 where a - b has so many factors of two that up to 64 pairs are tried; this takes the hash for a random function. (With a known key,
+//! twenty triangles that are twenty fans and pass the test were found by lattice reduction in a second.)
+//!
+//! # Where the fast path does not apply
+//!
+//! The whole mesh takes the general path where the reference's own order of vertices decides: values that are not finite or above 1e38,
+//! equal vertices that differ in the sign of a zero, more than 256 vertices of one hash. So do faces of other than 3 or 4
+//! corners, and thresholds below about 0.36 degrees.
+//!
+//! # Memory and threads
+//!
+//! A vertex is one cache line. It is read when the first window that uses it begins, finished when the last has ended, and written to its
+//! corners then, so that a mesh in a sensible order stays in the cache from the first access to the output (`streamed.rs`). Each thread
+//! streams its own windows; triangles at the border of two threads are added by both. Where triangles that share vertices are far apart in the
+//! list, all threads share all windows instead (`scattered.rs`). A plan repeats the sums alone (`replay.rs`), a second pass adds the
+//! bitangents of full frames (`full_frames.rs`), and a GPU can take the place of the main pass (`resume.rs`).
+//! Measurements and failed attempts are in docs/notes/speed.md.
 
 mod accumulator;
 mod angle_bounds;

@@ -8,7 +8,7 @@ use crate::MeshError;
 use crate::split::expect;
 
 use crate::exec::limits::RunLimits;
-use crate::exec::threads::{self, parts, split};
+use crate::exec::threads::{self, split_range, split_slice};
 use crate::tangents::Frames;
 use crate::tangents::Report;
 use crate::tangents::TangentOptions;
@@ -138,10 +138,10 @@ impl LentFrames<'_> {
             expect("corners", self.len(), len)?;
         }
         let threads = self.limits.thread_count(triangle_count(self.mesh));
-        let ranges = split(0..self.len(), threads, 1);
+        let ranges = split_range(0..self.len(), threads, 1);
         let (tangents, bitangents) =
-            (parts(tangents, 0, ranges.clone()), parts(bitangents, 0, ranges.clone()));
-        let magnitudes = parts(magnitudes, 0, ranges.clone());
+            (split_slice(tangents, 0, ranges.clone()), split_slice(bitangents, 0, ranges.clone()));
+        let magnitudes = split_slice(magnitudes, 0, ranges.clone());
         let jobs = ranges.zip(tangents.zip(bitangents).zip(magnitudes));
         threads::run(&mut vec![(); threads], jobs, |(), (range, ((tangents, bitangents), magnitudes))| {
             let mut block = [Frame::default(); BLOCK];
@@ -180,10 +180,14 @@ fn run(
     }
     let frames = LentFrames { mesh, fast: &memory.fast, memory: &memory.frames, limits, report };
     let threads = limits.thread_count(triangle_count(mesh));
-    let ranges = split(0..out.len(), threads, 1);
-    threads::run(&mut vec![(); threads], ranges.clone().zip(parts(out, 0, ranges)), |(), (range, out)| {
-        frames.write(range.start, out);
-    });
+    let ranges = split_range(0..out.len(), threads, 1);
+    threads::run(
+        &mut vec![(); threads],
+        ranges.clone().zip(split_slice(out, 0, ranges)),
+        |(), (range, out)| {
+            frames.write(range.start, out);
+        },
+    );
     report
 }
 

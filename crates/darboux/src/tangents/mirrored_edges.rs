@@ -3,7 +3,7 @@
 use crate::Mesh;
 
 use crate::exec::limits::RunLimits;
-use crate::exec::threads::{self, split};
+use crate::exec::threads::{self, split_range};
 use crate::tangents::Report;
 use crate::tangents::mesh_slices::MeshSlices;
 use crate::tangents::report;
@@ -43,7 +43,7 @@ pub(crate) fn has_finite_normals(flat: &MeshSlices<'_>, limits: RunLimits<'_>) -
 fn all_finite(values: &[f32], limits: RunLimits<'_>) -> bool {
     let threads = limits.thread_count(values.len() / 8);
     let mut found = vec![true; threads];
-    threads::run(&mut found, split(0..values.len(), threads, 1), |finite, range| {
+    threads::run(&mut found, split_range(0..values.len(), threads, 1), |finite, range| {
         // The largest exponent, as integers: a loop that runs several lanes at a time.
         let values = values[range].iter().map(|x| (x.to_bits() & 0x7fff_ffff) as i32);
         *finite = f32::from_bits(values.fold(0, i32::max) as u32).is_finite();

@@ -18,7 +18,7 @@ use crate::mesh::MAX_CORNERS;
 use crate::topology::triangulate::{is_cut_across, shorter_diagonal};
 
 use crate::exec::simd::{Task, Width};
-use crate::exec::threads::{self, parts, split};
+use crate::exec::threads::{self, split_range, split_slice};
 use crate::tangents::mikktspace::derivatives::doubled_area;
 
 /// A triangle of a face: the first corner of the face, and in the two highest bits a row of [`CORNERS`].
@@ -94,13 +94,13 @@ impl FaceSplit {
             Some(sizes) => sizes[..face].iter().sum::<u32>() as usize,
         };
         let first_triangle = |face: usize| first_corner(face) - 2 * face;
-        let faces = split(0..mesh.face_count(), threads, 1);
+        let faces = split_range(0..mesh.face_count(), threads, 1);
         let ranges = faces.clone().map(|faces| first_triangle(faces.start)..first_triangle(faces.end));
-        let jobs = faces.zip(parts(&mut self.triangles, 0, ranges));
+        let jobs = faces.zip(split_slice(&mut self.triangles, 0, ranges));
         threads::run(&mut self.doubtful_of_thread, jobs, |doubtful, (faces, triangles)| {
             let (corner, first) = (first_corner(faces.start), first_triangle(faces.start));
             let sizes = sizes.map(|sizes| &sizes[faces]);
-            width.run(SplitFaces { mesh, sizes, corner, first, triangles, doubtful });
+            width.run(SplitQuads { mesh, sizes, corner, first, triangles, doubtful });
         });
         self.doubtful_of_thread.iter_mut().for_each(|doubtful| self.doubtful.append(doubtful));
         Some(())
@@ -119,7 +119,7 @@ pub(crate) fn triangle_count(mesh: &Mesh<'_>) -> usize {
 }
 
 /// Splits faces, [`QUADS_AT_ONCE`] quads together.
-struct SplitFaces<'a> {
+struct SplitQuads<'a> {
     mesh: &'a Mesh<'a>,
     /// The number of corners of each face; none where all faces are quads.
     sizes: Option<&'a [u32]>,
@@ -131,7 +131,7 @@ struct SplitFaces<'a> {
     doubtful: &'a mut Vec<u32>,
 }
 
-impl Task for SplitFaces<'_> {
+impl Task for SplitQuads<'_> {
     #[inline(always)]
     fn run(self) {
         let Self { mesh, sizes, mut corner, first, triangles, doubtful } = self;

@@ -4,7 +4,7 @@ use crate::Mesh;
 
 use crate::exec::limits::RunLimits;
 use crate::exec::simd::{Task, Width};
-use crate::exec::threads::{self, split};
+use crate::exec::threads::{self, split_range};
 use crate::exec::windows::{WINDOW, Window};
 use crate::tangents::fast::passes::{PassInput, Replay};
 use crate::tangents::fast::proof::UNDECIDED;
@@ -148,7 +148,7 @@ impl FastPath {
     /// True when all corners of each welded vertex are still equal.
     fn corners_are_equal(&mut self, welded: &[u32], mesh: &Mesh<'_>, width: Width) -> bool {
         let records = &self.records[..];
-        let ranges = split(0..welded.len(), self.workers.len(), 1);
+        let ranges = split_range(0..welded.len(), self.workers.len(), 1);
         threads::run(&mut self.workers, ranges, |worker, range| {
             let Worker { slices: buffer, differing_bits, .. } = worker;
             *differing_bits = 0;

@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use crate::exec::threads::{self, parts, split};
+use crate::exec::threads::{self, split_range, split_slice};
 use crate::exec::windows::WINDOW;
 use crate::tangents::fast::accumulator::{VertexAccumulator, VertexRange};
 use crate::tangents::fast::passes::{
@@ -58,8 +58,8 @@ fn ranges_of<'a>(
     marks: &'a mut [u32],
     threads: usize,
 ) -> impl Iterator<Item = VertexRange<'a>> {
-    let ranges = split(0..vertices.len(), threads, 1);
-    let parts = parts(vertices, 0, ranges.clone()).zip(parts(marks, 0, ranges.clone()));
+    let ranges = split_range(0..vertices.len(), threads, 1);
+    let parts = split_slice(vertices, 0, ranges.clone()).zip(split_slice(marks, 0, ranges.clone()));
     let range = |(range, (vertices, marks)): (Range<usize>, _)| VertexRange {
         first: range.start as u32,
         vertices,
@@ -94,9 +94,9 @@ fn store<P: Pass>(
 ) {
     let list = &input.list;
     let first = list.triangles_of(windows.clone()).start;
-    let ranges = split(windows, workers.len(), 1);
+    let ranges = split_range(windows, workers.len(), 1);
     let triangles = ranges.clone().map(|windows| list.triangles_of(windows));
-    threads::run(workers, ranges.zip(parts(terms, first, triangles)), |worker, (windows, mut rest)| {
+    threads::run(workers, ranges.zip(split_slice(terms, first, triangles)), |worker, (windows, mut rest)| {
         for at in windows {
             let range = list.window(at);
             let out;
@@ -152,9 +152,9 @@ fn write<P: Pass>(
     vertices: &[VertexAccumulator],
     out: &mut [[f32; 4]],
 ) {
-    let ranges = split(0..input.windows.len(), workers.len(), 1);
+    let ranges = split_range(0..input.windows.len(), workers.len(), 1);
     let corners = ranges.clone().map(|windows| input.list.corners_of(windows));
-    threads::run(workers, ranges.zip(parts(out, 0, corners)), |worker, (windows, mut rest)| {
+    threads::run(workers, ranges.zip(split_slice(out, 0, corners)), |worker, (windows, mut rest)| {
         let Worker { corner_vertices, exceptions, .. } = worker;
         for at in windows {
             let out;

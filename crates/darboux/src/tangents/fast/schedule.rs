@@ -1,7 +1,7 @@
 //! Runs a pass on all threads: streamed where triangles that share vertices are near each other in the list, else scattered.
 
 use crate::exec::simd::{Task, Width};
-use crate::exec::threads::{self, parts, split};
+use crate::exec::threads::{self, split_range, split_slice};
 use crate::exec::windows::{Partition, Window, accumulate_bounds, overlap_too_much, partitions};
 use crate::tangents::fast::passes::{Pass, PassInput, TriangleTerms};
 use crate::tangents::fast::triangle_list::TriangleList;
@@ -32,7 +32,7 @@ impl Schedule {
             return scattered::run(input, vertex_count, workers, &mut self.terms, out);
         }
         let ranges = self.partitions.iter().map(|partition| input.list.corners_of(partition.windows.clone()));
-        let jobs = self.partitions.iter().zip(parts(&mut *out, 0, ranges));
+        let jobs = self.partitions.iter().zip(split_slice(&mut *out, 0, ranges));
         threads::run(workers, jobs, |worker, (partition, out)| streamed::run(input, partition, worker, out));
         streamed::write_pending(input, &self.partitions, workers, out);
     }
@@ -52,8 +52,8 @@ pub(crate) fn find_windows(
 ) {
     windows.clear();
     windows.resize(list.window_count(), Window::default());
-    let ranges = split(0..windows.len(), workers.len(), 1);
-    let jobs = ranges.clone().zip(parts(windows, 0, ranges));
+    let ranges = split_range(0..windows.len(), workers.len(), 1);
+    let jobs = ranges.clone().zip(split_slice(windows, 0, ranges));
     threads::run(workers, jobs, |worker, (range, windows)| {
         for (at, window) in range.zip(windows) {
             let vertices = list.vertices(list.corners_of(at..at + 1), &mut worker.corner_vertices);

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::exec::limits::RunLimits;
 use crate::exec::simd::{Task, Width};
-use crate::exec::threads::{self, parts};
+use crate::exec::threads::{self, split_slice};
 use crate::exec::windows::{Partition, Window};
 use crate::tangents::fast::accumulator::{VertexAccumulator, gather};
 use crate::tangents::fast::kernel::{BLOCK_SIZE, TriangleBlock};
@@ -46,7 +46,7 @@ impl SecondPass<'_> {
         let is_scattered = schedule.is_scattered(windows);
         let partitions = if is_scattered { std::slice::from_ref(&all) } else { &schedule.partitions[..] };
         let vertices = partitions.iter().map(|partition| partition.vertices.clone());
-        let jobs = partitions.iter().zip(parts(out, 0, vertices));
+        let jobs = partitions.iter().zip(split_slice(out, 0, vertices));
         threads::run(workers, jobs, |worker, (partition, quantities)| {
             let Worker { block, vertices, triangles: buffer, first, .. } = worker;
             let windows = partition.windows.start..partition.end_window;

@@ -9,7 +9,7 @@ use crate::Mesh;
 use crate::topology::weld::Bounds;
 
 use crate::exec::simd::Width;
-use crate::exec::threads::{self, parts, split};
+use crate::exec::threads::{self, split_range, split_slice};
 use crate::exec::windows::WINDOW;
 use crate::tangents::fast::hash_table::{ChainedTable, HashFilter, mark_collisions};
 use crate::tangents::fast::triangle_list::WeldMap;
@@ -81,8 +81,8 @@ impl HashWeld {
         self.seen.clear(self.count);
         self.repeated.clear(self.count);
         self.hashes.resize(self.count, 0);
-        let ranges = split(0..self.count, workers.len(), 1);
-        let jobs = ranges.clone().zip(parts(&mut self.hashes, 0, ranges));
+        let ranges = split_range(0..self.count, workers.len(), 1);
+        let jobs = ranges.clone().zip(split_slice(&mut self.hashes, 0, ranges));
         threads::run(workers, jobs, |worker, (range, hashes)| {
             let Worker { value_range, slices: buffer, .. } = worker;
             *value_range = ValueRange::default();
@@ -92,9 +92,9 @@ impl HashWeld {
             }
         });
         let (hashes, bits) = (&self.hashes[..], self.seen.bits);
-        let ranges = split(0..self.seen.words.len(), workers.len(), 1);
-        let seen = parts(&mut self.seen.words, 0, ranges.clone());
-        let repeated = parts(&mut self.repeated.words, 0, ranges.clone());
+        let ranges = split_range(0..self.seen.words.len(), workers.len(), 1);
+        let seen = split_slice(&mut self.seen.words, 0, ranges.clone());
+        let repeated = split_slice(&mut self.repeated.words, 0, ranges.clone());
         threads::run(workers, ranges.zip(seen.zip(repeated)), |worker, (range, (seen, repeated))| {
             worker.collisions = mark_collisions(hashes, bits, range.start, seen, repeated);
         });
@@ -133,14 +133,15 @@ impl HashWeld {
     fn weld_corners(&mut self, mesh: &Mesh<'_>, width: Width, workers: &mut [Worker]) -> Option<()> {
         self.welded.resize(mesh.corner_count(), 0);
         self.corners.resize_with(workers.len(), CornerWeld::default);
-        let ranges = split(0..mesh.corner_count(), workers.len(), 1);
-        let jobs = ranges.clone().zip(parts(&mut self.welded, 0, ranges.clone())).zip(&mut self.corners);
+        let ranges = split_range(0..mesh.corner_count(), workers.len(), 1);
+        let jobs =
+            ranges.clone().zip(split_slice(&mut self.welded, 0, ranges.clone())).zip(&mut self.corners);
         threads::run(workers, jobs, |worker, ((range, welded), corners)| {
             corners.weld(mesh, range, width, &mut worker.slices, welded);
         });
         let (first, later) = self.corners.split_first_mut().expect("one for each worker");
         later.iter_mut().for_each(|later| first.append(later));
-        let jobs = parts(&mut self.welded, 0, ranges.skip(1)).zip(&*later);
+        let jobs = split_slice(&mut self.welded, 0, ranges.skip(1)).zip(&*later);
         threads::run(workers, jobs, |_, (welded, later)| later.renumber(welded));
         self.count = first.distinct.records.len();
         self.bounds = ValueRange::bounds(self.corners.iter().map(|corners| &corners.value_range))?;

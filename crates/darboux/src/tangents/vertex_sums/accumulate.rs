@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::exec::limits::RunLimits;
-use crate::exec::threads::{self, parts, split};
+use crate::exec::threads::{self, split_range, split_slice};
 use crate::tangents::mesh_slices::MeshSlices;
 use crate::tangents::uv_derivatives::{Orientation, ScaledDerivatives};
 use crate::tangents::vertex_sums::gather::gather_all;
@@ -36,8 +36,8 @@ fn agreed_orientations<const N: usize, W: Weighting<N>>(
 ) -> Vec<Orientation> {
     let mut agreed = vec![Orientation::None; flat.face_count()];
     let threads = limits.thread_count(flat.triangles().len());
-    let ranges = split(0..agreed.len(), threads, 1);
-    let jobs = ranges.clone().zip(parts(&mut agreed, 0, ranges));
+    let ranges = split_range(0..agreed.len(), threads, 1);
+    let jobs = ranges.clone().zip(split_slice(&mut agreed, 0, ranges));
     threads::run(&mut vec![(); threads], jobs, |(), (faces, agreed)| agree_in::<N, W>(flat, faces, agreed));
     agreed
 }

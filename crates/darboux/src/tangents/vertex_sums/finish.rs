@@ -12,7 +12,7 @@ use crate::math::V3;
 
 use crate::exec::limits::RunLimits;
 use crate::exec::simd::Width;
-use crate::exec::threads::{self, parts, split};
+use crate::exec::threads::{self, split_range, split_slice};
 use crate::tangents::mesh_slices::MeshSlices;
 use crate::tangents::mirrored_edges::{
     count_mirrored_edges, has_finite_normals, has_finite_vertices, survey_where, vertices_of_both,
@@ -127,8 +127,8 @@ fn frames_of_sides<const N: usize, W: Weighting<N>, O: Output>(
     for (side, frames) in frames.iter_mut().enumerate() {
         let sums = &sums.of_side[side];
         frames.resize(sums.len(), O::EMPTY);
-        let ranges = split(0..sums.len(), threads, 1);
-        let jobs = ranges.clone().zip(parts(frames, 0, ranges));
+        let ranges = split_range(0..sums.len(), threads, 1);
+        let jobs = ranges.clone().zip(split_slice(frames, 0, ranges));
         threads::run(&mut missing, jobs, |missing, (range, frames)| {
             let place = SideRange { first: range.start, side, width: limits.width };
             frames_of_side::<N, W, O>(&sums[range.clone()], &flat.normals[range], place, frames, missing);
@@ -307,8 +307,8 @@ fn to_corners<const N: usize, W: Weighting<N>, O: Output>(
     corners: &mut [O],
 ) {
     let threads = limits.thread_count(flat.triangles().len());
-    let ranges = split(0..flat.face_count(), threads, 1);
-    let corners = parts(corners, 0, ranges.clone().map(|faces| flat.corners_of(faces)));
+    let ranges = split_range(0..flat.face_count(), threads, 1);
+    let corners = split_slice(corners, 0, ranges.clone().map(|faces| flat.corners_of(faces)));
     threads::run(&mut vec![(); threads], ranges.zip(corners), |(), (faces, corners)| {
         let range = flat.corners_of(faces.clone());
         let vertices = &flat.vertex_of_corner[range.clone()];

@@ -6,7 +6,7 @@
 //! vertex's part ends. Triangles come in their order, so that the bits are those of adding one by one.
 
 use crate::exec::limits::RunLimits;
-use crate::exec::threads::{self, parts, split};
+use crate::exec::threads::{self, split_range, split_slice};
 use crate::exec::windows::WINDOW;
 use crate::tangents::mesh_slices::MeshSlices;
 use crate::tangents::uv_derivatives::Orientation;
@@ -37,9 +37,9 @@ fn terms<const N: usize, W: Weighting<N>>(
     let count = flat.triangles().len();
     let mut terms = vec![([[0.0; 4]; N], false); count];
     let threads = how.1.thread_count(count);
-    let ranges = split(0..count, threads, WINDOW);
-    let orientations = parts(&mut sums.orientation_of_face, 0, ranges.clone());
-    let jobs = ranges.clone().zip(parts(&mut terms, 0, ranges)).zip(orientations);
+    let ranges = split_range(0..count, threads, WINDOW);
+    let orientations = split_slice(&mut sums.orientation_of_face, 0, ranges.clone());
+    let jobs = ranges.clone().zip(split_slice(&mut terms, 0, ranges)).zip(orientations);
     let mut of_threads = vec![(SkippedTriangles::default(), 0); threads];
     threads::run(&mut of_threads, jobs, |(flaws, all_found), ((range, terms), orientations)| {
         let start = range.start;
@@ -103,9 +103,10 @@ fn gather<const N: usize>(
     keeps.fill([[0.0; 4]; N]);
     mirrors.resize(if uses_mirrors { keeps.len() } else { 0 }, [[0.0; 4]; N]);
     let threads = limits.thread_count(terms.len());
-    let ranges = split(0..ends.len(), threads, 1);
-    let mirrors = parts(mirrors, 0, ranges.clone().map(|range| if uses_mirrors { range } else { 0..0 }));
-    let jobs = ranges.clone().zip(parts(keeps, 0, ranges)).zip(mirrors);
+    let ranges = split_range(0..ends.len(), threads, 1);
+    let mirrors =
+        split_slice(mirrors, 0, ranges.clone().map(|range| if uses_mirrors { range } else { 0..0 }));
+    let jobs = ranges.clone().zip(split_slice(keeps, 0, ranges)).zip(mirrors);
     threads::run(&mut vec![(); threads], jobs, |(), ((range, keeps), mirrors)| {
         let mut start = if range.start == 0 { 0 } else { ends[range.start - 1] };
         for (at, &end) in ends[range].iter().enumerate() {

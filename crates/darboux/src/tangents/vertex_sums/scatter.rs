@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use crate::exec::limits::RunLimits;
-use crate::exec::threads::{self, parts};
+use crate::exec::threads::{self, split_slice};
 use crate::exec::windows::{
     Partition, Window, accumulate_bounds, overlap_too_much, partitions, triangles_of, windows_of,
 };
@@ -65,8 +65,8 @@ pub(crate) fn scatter_all<const N: usize, W: Weighting<N>>(
     sums: &mut SideSums<N>,
 ) {
     let SideSums { of_side: [keeps, mirrors], orientation_of_face, flaws } = sums;
-    let keeps = parts(keeps, 0, list.iter().map(|part| part.vertices.clone()));
-    let orientations = parts(orientation_of_face, 0, list.iter().map(|part| part.own.clone()));
+    let keeps = split_slice(keeps, 0, list.iter().map(|part| part.vertices.clone()));
+    let orientations = split_slice(orientation_of_face, 0, list.iter().map(|part| part.own.clone()));
     let mut found: Vec<(Vec<SumRows<N>>, SkippedTriangles)> = vec![Default::default(); list.len()];
     found[0].0 = std::mem::take(mirrors);
     let jobs = list.iter().zip(keeps).zip(orientations);
