@@ -211,7 +211,7 @@ impl FastPath {
     }
 
     /// Computes the bitangents and magnitudes of all vertices of the mesh of the last run.
-    pub fn add_frames(&mut self, mesh: &Mesh<'_>, limits: RunLimits<'_>) {
+    pub fn compute_bitangents(&mut self, mesh: &Mesh<'_>, limits: RunLimits<'_>) {
         let mut full_frames = std::mem::take(&mut self.full_frames);
         full_frames.compute(self.second_pass(mesh, limits));
         self.full_frames = full_frames;
@@ -219,7 +219,7 @@ impl FastPath {
 
     /// Writes the bitangents and magnitudes of corners of the mesh of the last run, the first of which is corner number `first`. They are
     /// unspecified where the tangent is undecided.
-    pub fn write_rest(&self, mesh: &Mesh<'_>, first: usize, out: &mut [Frame]) {
+    pub fn write_bitangents(&self, mesh: &Mesh<'_>, first: usize, out: &mut [Frame]) {
         self.full_frames.write(&self.list(mesh), first, out);
     }
 

@@ -115,7 +115,7 @@ impl LentFrames<'_> {
             return;
         }
         let out = &mut out[..count];
-        fast.write_rest(mesh, first, out);
+        fast.write_bitangents(mesh, first, out);
         let mut decided = &decided[decided.partition_point(|&(corner, _)| (corner as usize) < first)..];
         for (&[x, y, z, sign], out) in tangents.iter().zip(out) {
             if sign != UNDECIDED {
@@ -205,7 +205,7 @@ fn run_fast(
     frames.clear();
     tangents.resize(mesh.corner_count(), [0.0; 4]);
     threads::on_pool(limits.thread_count(triangle_count(mesh)), || {
-        fast.run(mesh, options, limits, tangents).then(|| fast.add_frames(mesh, limits))
+        fast.run(mesh, options, limits, tangents).then(|| fast.compute_bitangents(mesh, limits))
     })?;
     decided.clear();
     if limits.is_cancelled() {

@@ -21,7 +21,7 @@ pub(crate) struct VertexAccumulator {
 /// Flags of finished vertices whose corners have to be listed when they are written.
 pub(crate) mod flags {
     /// The general path computes the tangent.
-    pub const UNDECIDED: u32 = 1;
+    pub const IS_UNDECIDED: u32 = 1;
     /// The vertex lies in one of the cells that the search for the last edges examines (see `edge_tail.rs`).
     pub const IN_TAIL: u32 = 2;
 }

@@ -1,4 +1,5 @@
-//! The faces and corners that a run lists while it writes corners: those of vertices with [`flags`].
+//! The faces and corners that need further work after a pass: faces with undecided vertices, for the general path, and corners in the
+//! cells of the triangle tail, for the search for the last edges. They are listed when the corners of vertices with [`flags`] are written.
 
 use crate::topology::weld::Point;
 use crate::util::radix_sort::{sort, sort_by_key};
@@ -31,7 +32,7 @@ impl Exceptions {
                 self.in_tail.push(Point { position: vertex.position(), entry });
             }
         }
-        if vertices.iter().any(|vertex| vertex.flags() & flags::UNDECIDED != 0) {
+        if vertices.iter().any(|vertex| vertex.flags() & flags::IS_UNDECIDED != 0) {
             self.undecided.push(face);
         }
     }

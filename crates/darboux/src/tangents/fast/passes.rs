@@ -35,7 +35,7 @@ pub(crate) struct PassInput<'a, P> {
     pub limits: RunLimits<'a>,
 }
 
-/// What the corners of a triangle add to their vertices: the weighted tangent, and a fourth number of the pass's own.
+/// What the corners of a triangle add to their vertices: the weighted tangent, and a fourth number that the pass defines.
 pub(crate) type TriangleTerms = [[f32; 4]; 3];
 
 /// What a pass over the triangles computes. The passes are types, so that a program without plans contains no code of [`Replay`].
@@ -134,7 +134,7 @@ impl Pass for Discover<'_> {
             if sign.is_nan() {
                 findings.unused.note(vertex.position());
             }
-            let undecided = if sign == UNDECIDED { flags::UNDECIDED } else { 0 };
+            let undecided = if sign == UNDECIDED { flags::IS_UNDECIDED } else { 0 };
             let in_tail = if self.tail.contain(vertex.position()) { flags::IN_TAIL } else { 0 };
             vertex.finish(tangents.get(i), sign, undecided | in_tail);
         }

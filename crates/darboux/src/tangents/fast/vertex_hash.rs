@@ -15,10 +15,10 @@ pub(crate) struct HashVertices<'a> {
 }
 
 /// Vertices whose components are multiplied together, in lanes.
-const LANES: usize = 16;
+const HASH_LANES: usize = 16;
 
-/// How many times [`LANES`] vertices are multiplied before the products are added up.
-const CHUNK: usize = 8;
+/// How many times [`HASH_LANES`] vertices are multiplied before the products are added up.
+const HASH_CHUNK: usize = 8;
 
 /// The factor of each component. The hash is the sum of the products, mixed.
 const POSITION_FACTORS: [u32; 3] = [0x9e37_79b1, 0x85eb_ca77, 0xc2b2_ae3d];
@@ -33,9 +33,14 @@ impl Task for HashVertices<'_> {
         self.value_range.add_positions(positions);
         // A loop, so that both share one copy of the code.
         for (values, factors) in [(positions, POSITION_FACTORS), (normals, NORMAL_FACTORS)] {
-            add_products::<3, { 3 * LANES }>(values, factors, self.hashes, &mut self.value_range.largest);
+            add_products::<3, { 3 * HASH_LANES }>(
+                values,
+                factors,
+                self.hashes,
+                &mut self.value_range.largest,
+            );
         }
-        add_products::<2, { 2 * LANES }>(uvs, UV_FACTORS, self.hashes, &mut self.value_range.largest);
+        add_products::<2, { 2 * HASH_LANES }>(uvs, UV_FACTORS, self.hashes, &mut self.value_range.largest);
         for hash in self.hashes {
             let mixed = (*hash ^ *hash >> 15).wrapping_mul(0x2c1b_3c6d);
             *hash = mixed ^ mixed >> 14;
@@ -45,7 +50,7 @@ impl Task for HashVertices<'_> {
 
 /// Adds the products of one attribute to the sums, and finds the largest magnitude of its components, as bits without the sign.
 ///
-/// `L` is `N * LANES`: components lie one after the other, so that one loop over all of them is vector code for any `N`.
+/// `L` is `N * HASH_LANES`: components lie one after the other, so that one loop over all of them is vector code for any `N`.
 #[inline(always)]
 fn add_products<const N: usize, const L: usize>(
     values: &[[f32; N]],
@@ -55,8 +60,9 @@ fn add_products<const N: usize, const L: usize>(
 ) {
     let factors: [u32; L] = std::array::from_fn(|j| factors[j % N]);
     let mut magnitudes = [0; L];
-    let mut products = [[0; L]; CHUNK];
-    for (values, sums) in values.chunks(CHUNK * LANES).zip(sums.chunks_mut(CHUNK * LANES)) {
+    let mut products = [[0; L]; HASH_CHUNK];
+    for (values, sums) in values.chunks(HASH_CHUNK * HASH_LANES).zip(sums.chunks_mut(HASH_CHUNK * HASH_LANES))
+    {
         let (whole, rest) = values.as_flattened().as_chunks();
         let mut padded = [0.0; L];
         padded[..rest.len()].copy_from_slice(rest);
@@ -102,7 +108,7 @@ pub(crate) struct ValueRange {
 }
 
 /// The largest magnitude of a value that is welded here. The reference does not weld values above half the largest float.
-const LARGEST: f32 = 1e38;
+const LARGEST_VALUE: f32 = 1e38;
 
 impl Default for ValueRange {
     fn default() -> Self {
@@ -113,17 +119,17 @@ impl Default for ValueRange {
 impl ValueRange {
     #[inline(always)]
     fn add_positions(&mut self, positions: &[[f32; 3]]) {
-        let mut low = [i32::MAX; 3 * LANES];
-        let mut high = [i32::MIN; 3 * LANES];
-        let (whole, rest) = positions.as_flattened().as_chunks::<{ 3 * LANES }>();
+        let mut low = [i32::MAX; 3 * HASH_LANES];
+        let mut high = [i32::MIN; 3 * HASH_LANES];
+        let (whole, rest) = positions.as_flattened().as_chunks::<{ 3 * HASH_LANES }>();
         for components in whole {
-            for j in 0..3 * LANES {
+            for j in 0..3 * HASH_LANES {
                 let x = ordered(components[j]);
                 low[j] = x.min(low[j]);
                 high[j] = x.max(high[j]);
             }
         }
-        for j in 0..3 * LANES {
+        for j in 0..3 * HASH_LANES {
             self.low[j % 3] = low[j].min(self.low[j % 3]);
             self.high[j % 3] = high[j].max(self.high[j % 3]);
         }
@@ -138,7 +144,7 @@ impl ValueRange {
         let low = |axis: usize| ranges.clone().map(|range| range.low[axis]).min();
         let high = |axis: usize| ranges.clone().map(|range| range.high[axis]).max();
         let largest = ranges.clone().map(|range| range.largest).max();
-        if largest > Some(LARGEST.to_bits()) {
+        if largest > Some(LARGEST_VALUE.to_bits()) {
             return None;
         }
         let min = [0, 1, 2].map(|axis| float(low(axis).unwrap_or_default()));
