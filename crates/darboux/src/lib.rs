@@ -33,6 +33,7 @@ mod frame;
 #[doc(hidden)]
 pub mod internal;
 mod math;
+mod math_f64;
 mod measure;
 mod mesh;
 mod normal_map;

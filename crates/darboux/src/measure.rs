@@ -4,9 +4,8 @@ use crate::Context;
 use crate::Mesh;
 use crate::MeshError;
 use crate::math::V3;
+use crate::math_f64::{D3, cross, dot, length, unit};
 use crate::split::expect;
-
-type D3 = [f64; 3];
 
 /// The upper ends, in degrees, of the bins of [`TangentDifference::histogram`]; each bin begins above the end before it.
 pub const HISTOGRAM_ENDS: [f64; 10] = [0.0, 0.001, 0.01, 0.1, 1.0, 5.0, 15.0, 45.0, 90.0, 180.0];
@@ -239,21 +238,4 @@ fn edges(corners: [V3; 3]) -> [D3; 2] {
 fn angle_of(a: D3, b: D3) -> Option<f64> {
     let [a, b] = [unit(a)?, unit(b)?];
     Some(length(cross(a, b)).atan2(dot(a, b)).to_degrees())
-}
-
-fn unit(v: D3) -> Option<D3> {
-    let length = length(v);
-    (length > 0.0 && length.is_finite()).then(|| v.map(|x| x / length))
-}
-
-fn dot(a: D3, b: D3) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: D3, b: D3) -> D3 {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn length(v: D3) -> f64 {
-    dot(v, v).sqrt()
 }

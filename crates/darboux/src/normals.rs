@@ -16,9 +16,8 @@ use crate::Splitter;
 use crate::Strided;
 use crate::exec::limits::RunLimits;
 use crate::math::angle;
+use crate::math_f64::{D3, cross, dot, length, sub, unit};
 use crate::split::expect;
-
-type D3 = [f64; 3];
 
 /// How normals are made.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -477,25 +476,4 @@ fn unite(fan_of_corner: &mut [u32], a: usize, b: usize) {
 
 fn position(mesh: &Mesh<'_>, corner: usize) -> D3 {
     mesh.positions().get(mesh.vertex_of_corner(corner)).map(f64::from)
-}
-
-fn sub(a: D3, b: D3) -> D3 {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: D3, b: D3) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: D3, b: D3) -> D3 {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn length(v: D3) -> f64 {
-    dot(v, v).sqrt()
-}
-
-fn unit(v: D3) -> Option<D3> {
-    let length = length(v);
-    (length > 0.0 && length.is_finite()).then(|| v.map(|x| x / length))
 }

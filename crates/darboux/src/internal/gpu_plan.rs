@@ -1,4 +1,6 @@
-//! What of a mesh does not move, as the shaders of plans read it: for `darboux-gpu` and the npm package. Not part of the API.
+//! Position-independent arrays of a GPU plan: the sums that each corner has, in the layout of the plan shaders.
+//!
+//! For `darboux-gpu` and the npm package. Not part of the API.
 
 use std::collections::HashMap;
 
@@ -13,63 +15,62 @@ use crate::generate_tangents;
 use crate::internal::stage_arrays::{CopySource, CornerCopy, NONE, Stages, Triangles};
 use crate::tangents::mikktspace::derivatives::doubled_area;
 
-/// Vertices' numbers end below these bits; see darboux-gpu's shaders/plan/triangle.wgsl.
+/// Flags in the two highest bits of vertex numbers; see darboux-gpu/shaders/plan/triangle.wgsl.
 const FIRST_FLAG: u32 = 1 << 31;
 const SECOND_FLAG: u32 = 1 << 30;
-/// The bits of a vertex.
+/// The bits of the vertex number.
 pub const VERTEX_MASK: u32 = SECOND_FLAG - 1;
 
-/// Why a mesh has no plan there.
+/// Why a mesh has no GPU plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlanRefusal {
-    /// Corners of quads whose halves disagree about them: they have the average of two tangents, or, where one half is degenerate, that of
-    /// the corner that lies where they do.
+    /// Some corners of quads have the average of two tangents, or copy a tangent from the other half of the quad by position.
     HalvesDisagree {
-        /// Their number.
+        /// The number of these corners.
         corners: usize,
     },
-    /// Another method than MikkTSpace.
+    /// The method is not MikkTSpace.
     OtherMethod,
-    /// More members of sums than fit.
+    /// A sum, or all sums together, has more members than the limit.
     TooManyMembers {
-        /// At least so many.
+        /// A lower bound of the number of members.
         members: usize,
         /// The largest number.
         limit: usize,
     },
 }
 
-/// The arrays of a plan.
+/// The arrays of a plan, in the layout of the shaders.
 #[derive(Debug, Default)]
 pub struct PlanArrays {
-    /// Five words per triangle, degenerate ones last.
+    /// Five words per triangle: three vertices with flags, and two differences of v. Degenerate triangles come last.
     pub triangles: Vec<u32>,
-    /// Two words per triangle: the differences of u.
+    /// Two words per triangle: two differences of u.
     pub du: Vec<u32>,
     pub triangle_count: u32,
     pub degenerate_count: u32,
-    /// Of each vertex; none for those that nothing uses.
+    /// The welded vertex of each vertex, or [`NONE`] for unused ones.
     pub representatives: Vec<u32>,
-    /// Ends, vertices and members.
+    /// The end of each sum in the member list, the vertex of each sum, and the member list.
     pub sums: Vec<u32>,
     pub sum_count: u32,
-    /// Of the corners of the triangles that are not degenerate, marked where their group has several.
+    /// The sum of each corner of the triangles that are not degenerate, with a flag where the corner's group has several sums.
     pub sum_of_place: Vec<u32>,
-    /// Two words per vertex, without -0.
+    /// Two words per vertex: the UVs, with -0 replaced by +0.
     pub uvs: Vec<u32>,
-    /// Of the corners of the mesh, with signs.
+    /// The sum of each corner of the mesh, with a flag for sign -1.
     pub sum_of_corner: Vec<u32>,
-    /// The base's tangents.
+    /// The tangents of the base.
     pub base: CornerTangents,
-    /// Unusable tangents are replaced.
+    /// True when unusable tangents are replaced.
     pub repairs: bool,
-    /// Which diagonals cut quads may depend on where they are.
+    /// True when the mesh has faces other than triangles. The diagonals of quads may depend on positions.
     pub has_quads: bool,
     pub threshold_cosine: f32,
 }
 
 impl PlanArrays {
-    /// `most_members`: of one sum. Errors: another method, quads whose halves disagree, too many members.
+    /// Computes the arrays. `most_members`: the limit of the members of one sum.
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, most_members: usize) -> Result<Self, PlanRefusal> {
         if options.method != Method::MikkTSpace {
             return Err(PlanRefusal::OtherMethod);
@@ -115,9 +116,9 @@ impl PlanArrays {
         })
     }
 
-    /// The sum of each vertex: that of its first corner, [`NONE`] for those that nothing uses.
+    /// The sum of each vertex, which is that of its first corner, or [`NONE`] for unused vertices.
     ///
-    /// Errors: corners of one vertex have different tangents; the number of such vertices.
+    /// Errors: the number of vertices whose corners have different tangents, if there are any.
     pub fn sum_of_vertex(&self, mesh: &Mesh<'_>) -> Result<Vec<u32>, usize> {
         let mut first = vec![NONE; mesh.vertex_count()];
         let mut has_several = vec![false; mesh.vertex_count()];
@@ -140,7 +141,7 @@ impl PlanArrays {
     }
 }
 
-/// Corners that have neither the tangent of one sum nor, at the same vertex, that of another corner.
+/// The number of corners whose tangent is neither that of one sum nor a copy from the same vertex.
 fn corners_of_both_halves(stages: &Stages) -> usize {
     let is_average = |sums: &&[u32; 2]| sums[1] != NONE && sums[1] != sums[0];
     let is_of_half = |copied: &&CornerCopy| matches!(copied.from, CopySource::Half(_));
@@ -155,7 +156,7 @@ fn vertex(mesh: &Mesh<'_>, corner: u32) -> u32 {
     mesh.vertex_of_corner(corner as usize) as u32
 }
 
-/// Which vertex stands for each: its own number but for copies.
+/// The welded vertex of each vertex, or [`NONE`] for unused ones.
 fn representatives(mesh: &Mesh<'_>, lists: [&Triangles; 2]) -> Vec<u32> {
     let mut of_vertex = vec![NONE; mesh.vertex_count()];
     for list in lists {
@@ -166,7 +167,7 @@ fn representatives(mesh: &Mesh<'_>, lists: [&Triangles; 2]) -> Vec<u32> {
     of_vertex
 }
 
-/// The sum of each corner of the triangles that are not degenerate, marked where members of its group have several.
+/// The sum of each corner of the triangles that are not degenerate, flagged where the members of the group have several sums.
 fn sums_of_places(stages: &Stages, sum_of_corner: &[u32]) -> Vec<u32> {
     let corners = stages.triangulation.good.corners.as_flattened();
     let sum_of_place = |place: &u32| sum_of_corner[corners[*place as usize] as usize] & !FIRST_FLAG;
@@ -180,13 +181,13 @@ fn sums_of_places(stages: &Stages, sum_of_corner: &[u32]) -> Vec<u32> {
     sums
 }
 
-/// The words of triangle `t` of those that are not degenerate.
+/// The words of good triangle `t`.
 fn triangle(mesh: &Mesh<'_>, stages: &Stages, t: usize) -> [u32; 5] {
     let good = &stages.triangulation.good;
     let [mut a, mut b, mut c] = good.corners[t].map(|corner| vertex(mesh, corner));
     let names = good.vertices[t].map(|corner| vertex(mesh, corner));
     let has_copies = [a, b, c] != names;
-    // Its own orientation, whatever a quad's halves agree on.
+    // The triangle's own orientation, before the halves of quads are unified.
     let preserves = doubled_area(names.map(|name| mesh.uvs().get(name as usize))) > 0.0;
     a |= if preserves { 0 } else { FIRST_FLAG };
     b |= if stages.derivatives[t].joins_any { FIRST_FLAG } else { 0 };
@@ -195,30 +196,31 @@ fn triangle(mesh: &Mesh<'_>, stages: &Stages, t: usize) -> [u32; 5] {
     [a, b, c, d, e]
 }
 
+/// The words of a degenerate triangle.
 fn degenerate_triangle(mesh: &Mesh<'_>, corners: [u32; 3]) -> [u32; 5] {
     let [a, b, c] = corners.map(|corner| vertex(mesh, corner));
     [a, b | FIRST_FLAG | SECOND_FLAG, c, 0, 0]
 }
 
-/// How much u or v differs along the two edges from the first corner.
+/// The differences of u (`axis` 0) or v (1) along the two edges from corner 0, as bits.
 fn differences(mesh: &Mesh<'_>, vertices: [u32; 3], axis: usize) -> [u32; 2] {
     let [a, b, c] = vertices.map(|corner| mesh.uvs().get(mesh.vertex_of_corner(corner as usize))[axis]);
     [b - a, c - a].map(f32::to_bits)
 }
 
-/// PlanSums, and which corner has which.
+/// The sums of a plan: those with members, then those without.
 struct PlanSums {
     ends: Vec<u32>,
-    /// The vertex whose normal it has.
+    /// The vertex of each sum, which has the normal.
     vertices: Vec<u32>,
     members: Vec<u32>,
-    /// The sign of each that has members.
+    /// The sign of each sum with members.
     signs: Vec<f32>,
-    /// Those without members, by vertex and whether they are to be replaced whatever they are.
+    /// The sums without members, by vertex and by whether their tangent is always replaced.
     empty: HashMap<(u32, bool), u32>,
 }
 
-/// The sign of what no group reaches.
+/// The sign of corners without a group.
 const DEFAULT_SIGN: f32 = -1.0;
 
 impl PlanSums {
@@ -241,8 +243,7 @@ impl PlanSums {
         starts.zip(&self.ends).map(|(start, &end)| (end - start) as usize).max()
     }
 
-    /// The sum of every corner, with the sign that it has in `base`. Corners of faces that are neither triangles nor quads have none to take:
-    /// what they have is replaced, if `repairs`.
+    /// The sum of every corner, with the sign of the base. Corners of unsupported faces have a sum that is always replaced, if `repairs`.
     fn of_corners(
         &mut self,
         mesh: &Mesh<'_>,
@@ -264,7 +265,7 @@ impl PlanSums {
             .unsupported_corners
             .iter()
             .for_each(|&corner| is_forced[corner as usize] |= repairs);
-        // Where a face was given one sign, a corner has the tangent of another group at its vertex.
+        // Where the signs of a face were unified, a corner has the tangent of another group at its vertex.
         let first =
             if is_forced.contains(&true) { self.first_of_sign(stages, &sums) } else { HashMap::new() };
         let names = names(stages, sums.len());
@@ -281,7 +282,7 @@ impl PlanSums {
         sums
     }
 
-    /// The first sum of each sign at each welded vertex.
+    /// The first sum of each welded vertex and sign.
     fn first_of_sign(&self, stages: &Stages, sums: &[u32]) -> HashMap<(u32, bool), u32> {
         let good = &stages.triangulation.good;
         let mut first = HashMap::new();
@@ -305,7 +306,7 @@ impl PlanSums {
     }
 }
 
-/// The welded vertex of every corner.
+/// The welded vertex of every corner, or [`NONE`].
 fn names(stages: &Stages, corners: usize) -> Vec<u32> {
     let mut names = vec![NONE; corners];
     for list in [&stages.triangulation.good, &stages.triangulation.degenerate] {

@@ -1,4 +1,6 @@
-//! Tangents that another machine began, for `darboux-gpu`. Not part of the API.
+//! Completes a run that a GPU started: decides the vertices that the GPU left undecided.
+//!
+//! For `darboux-gpu` and the npm package. Not part of the API.
 
 use crate::Mesh;
 use crate::Report;
@@ -11,12 +13,12 @@ use crate::tangents::submesh;
 
 pub use crate::tangents::fast::UNDECIDED;
 
-/// Decides the vertices that are left, and makes the report of the whole mesh.
+/// Decides the undecided vertices. Returns the report of the whole mesh, and the number of corners that were undecided.
 ///
-/// `mesh`: indexed triangles, finite. `welded`: the first vertex that equals each vertex, the signs of zeros included. `out`: the tangents
-/// of vertices whose triangles are one group and one subgroup; [`UNDECIDED`] signs at all corners of the others, among which are those of
-/// UV-degenerate triangles and those without a usable tangent, and at the corners of degenerate triangles.
-/// Returns how many corners were decided here, too.
+/// `mesh`: indexed triangles with finite values. `welded`: for each vertex the first vertex with equal bits. `out`: one tangent per corner;
+/// the sign [`UNDECIDED`] marks all corners of vertices that the GPU did not decide. A GPU must leave undecided: vertices whose triangles are
+/// not one group and one subgroup, vertices of UV-degenerate triangles, vertices without a usable tangent, and corners of degenerate
+/// triangles.
 pub fn complete(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
@@ -30,7 +32,7 @@ pub fn complete(
     (submesh::decide(mesh, options, &fast, RunLimits::default(), out), left)
 }
 
-/// The cosine above which directions are nearer than the threshold.
+/// The cosine of the threshold. Directions join when their cosines exceed it.
 pub fn threshold_cosine(options: &TangentOptions) -> f32 {
     cosine_of_degrees(options.threshold)
 }

@@ -1,9 +1,15 @@
-//! MikkTSpace's groups, weighted by corner angle and triangle area, one sign per face.
+//! The angle-area method: the groups of MikkTSpace, weighted by corner angle times triangle area.
 //!
-//! With angles alone a sliver or a thin bevel pulls the tangent of a vertex as much as the wide triangle beside it, which then shows the
-//! error over its whole area. The angle keeps the result independent of how a flat fan is cut; the area makes it follow what is seen.
-//! From there one step goes towards the least-squares fit, which takes into account that a triangle's inside is interpolated from three
-//! vertices. Thresholds do not apply, all edges are matched, and sums are in f64.
+//! ```text
+//! weld, find neighbours and build groups as MikkTSpace does, with all edges matched and without a threshold
+//! frame of each group = sum of its triangles' dP/du in the tangent plane, weighted by angle times area, in f64
+//! move each tangent a quarter of a Jacobi step towards the least-squares fit of the interpolated tangents
+//! orientation of each face; each corner has the frame of its group of that orientation
+//! ```
+//!
+//! With weights by angle alone, a sliver changes the tangent of a vertex as much as the wide triangle beside it, which shows the error over
+//! its whole area. The angle makes the result independent of the triangulation of a flat fan; the area reduces the visible error.
+//! Derivation: docs/algorithms/methods.md.
 
 pub(crate) mod group_sums;
 
@@ -11,6 +17,7 @@ use crate::Frame;
 use crate::Mesh;
 use crate::Mode;
 use crate::math::V3;
+use crate::math_f64::{D3, add_scaled, length, unit};
 use crate::topology::neighbours::{EdgeOrder, neighbours};
 use crate::topology::triangles::{NONE, Triangles, Triangulation};
 use crate::topology::triangulate::triangulate;
@@ -18,7 +25,7 @@ use crate::topology::triangulate::triangulate;
 use crate::exec::limits::RunLimits;
 use crate::exec::threads;
 use crate::tangents::Report;
-use crate::tangents::angle_area::group_sums::{GroupBuffers, GroupFrame, GroupSum, GroupedTriangles, add};
+use crate::tangents::angle_area::group_sums::{GroupBuffers, GroupFrame, GroupSum, GroupedTriangles};
 use crate::tangents::mesh_slices::MeshSlices;
 use crate::tangents::mikktspace::derivatives::count_mirrored_edges;
 use crate::tangents::mikktspace::derivatives::{
@@ -28,29 +35,26 @@ use crate::tangents::mikktspace::groups::{Groups, build_groups};
 use crate::tangents::mikktspace::welded_mesh::WeldedMesh;
 use crate::tangents::mirrored_edges::survey;
 use crate::tangents::output::Output;
-use crate::tangents::repair::across;
-use crate::tangents::repair::{
-    D3, direction, in_plane, length, mean_in_plane, perpendicular, u_direction_of, unit,
-};
+use crate::tangents::repair::{across, direction, in_plane, mean_in_plane, perpendicular, u_direction_of};
 use crate::tangents::report::count_split_vertices;
 
-/// The frame of every corner's group.
+/// Runs the method.
 pub(crate) fn run<O: Output>(
     mesh: &Mesh<'_>,
     mode: Mode,
     limits: RunLimits<'_>,
-    memory: &mut GroupBuffers,
+    buffers: &mut GroupBuffers,
     corners: &mut [O],
 ) -> Report {
-    on_pool(mesh, limits, || topology_and_report(mesh, mode, limits, memory, corners).1)
+    on_pool(mesh, limits, || plan_and_report(mesh, mode, limits, buffers, corners).1)
 }
 
-/// Enters the thread pool once for all stages.
+/// Runs all stages in one visit of the thread pool.
 fn on_pool<R: Send>(mesh: &Mesh<'_>, limits: RunLimits<'_>, work: impl FnOnce() -> R + Send) -> R {
     threads::on_pool(limits.thread_count(mesh.face_count()), work)
 }
 
-/// What does not depend on where vertices are, and the tangents where they are now.
+/// Computes the plan, the tangents and the report of a mesh.
 pub(crate) fn plan(
     mesh: &Mesh<'_>,
     mode: Mode,
@@ -58,86 +62,85 @@ pub(crate) fn plan(
 ) -> (AngleAreaPlan, Vec<[f32; 4]>, Report) {
     let mut corners = vec![Output::EMPTY; mesh.corner_count()];
     let buffers = &mut GroupBuffers::default();
-    let (plan, report) =
-        on_pool(mesh, limits, || topology_and_report(mesh, mode, limits, buffers, &mut corners));
+    let (plan, report) = on_pool(mesh, limits, || plan_and_report(mesh, mode, limits, buffers, &mut corners));
     (plan, corners, report)
 }
 
-fn topology_and_report<O: Output>(
+fn plan_and_report<O: Output>(
     mesh: &Mesh<'_>,
     mode: Mode,
     limits: RunLimits<'_>,
-    memory: &mut GroupBuffers,
+    buffers: &mut GroupBuffers,
     corners: &mut [O],
 ) -> (AngleAreaPlan, Report) {
-    let (topology, mut report) = AngleAreaPlan::new(mesh, limits, memory);
-    let flat = MeshSlices::new(mesh);
-    report.repaired_corners = topology.frames(&flat, &WeldedMesh::new(mesh), mode, limits, memory, corners);
+    let (plan, mut report) = AngleAreaPlan::new(mesh, limits, buffers);
+    let slices = MeshSlices::new(mesh);
+    report.repaired_corners = plan.frames(&slices, &WeldedMesh::new(mesh), mode, limits, buffers, corners);
     report.split_vertices = count_split_vertices(mesh, corners);
-    (topology, report)
+    (plan, report)
 }
 
-/// What does not depend on where vertices are, once they are welded and grouped.
+/// The triangulation, the groups and the orientations of a mesh, to evaluate it again after its vertices moved.
 #[derive(Debug)]
 pub(crate) struct AngleAreaPlan {
     triangulation: Triangulation,
     groups: Groups,
-    places: CornerGroups,
-    /// Of good triangles: those that add nothing, wherever they are.
-    is_left_out: Vec<bool>,
+    corner_groups: CornerGroups,
+    /// True for good triangles that are skipped: UV-degenerate or not finite in the base.
+    is_skipped: Vec<bool>,
     orientation_of_face: Vec<Option<bool>>,
 }
 
 impl AngleAreaPlan {
-    /// Welds, finds neighbours and groups; leaves the derivatives in `memory`, and what is known of the report.
-    pub(crate) fn new(mesh: &Mesh<'_>, limits: RunLimits<'_>, memory: &mut GroupBuffers) -> (Self, Report) {
-        let (flat, welded) = (MeshSlices::new(mesh), WeldedMesh::new(mesh));
+    /// Builds the groups. Leaves the derivatives in `buffers`, and returns the counts that do not depend on evaluation.
+    pub(crate) fn new(mesh: &Mesh<'_>, limits: RunLimits<'_>, buffers: &mut GroupBuffers) -> (Self, Report) {
+        let (slices, welded) = (MeshSlices::new(mesh), WeldedMesh::new(mesh));
         let triangulation = triangulate(mesh);
         let good = &triangulation.good;
         let mut derivatives = derivatives(good, &welded, limits);
-        derivatives.iter_mut().for_each(leave_out_unless_finite);
+        derivatives.iter_mut().for_each(skip_unless_finite);
         unify_quads(good, &welded, &mut derivatives);
         let neighbours = neighbours(good, EdgeOrder::Complete);
-        let mut report = survey(mesh, &flat, limits);
+        let mut report = survey(mesh, &slices, limits);
         report.degenerate_triangles = triangulation.degenerate.len();
         report.uv_degenerate_triangles = count_uv_degenerate(good, &welded, &derivatives);
         report.mirrored_edges = count_mirrored_edges(&neighbours, &derivatives);
-        let orientation_of_face = orientation_of_faces(&flat, good, &derivatives);
+        let orientation_of_face = orientation_of_faces(&slices, good, &derivatives);
         let groups = build_groups(good, &neighbours, |_| true, &mut derivatives);
-        let places = CornerGroups::new(&flat, &triangulation, &groups);
-        let is_left_out = derivatives.iter().map(|derivative| derivative.joins_any).collect();
-        memory.derivatives = derivatives;
-        (Self { triangulation, groups, places, is_left_out, orientation_of_face }, report)
+        let corner_groups = CornerGroups::new(&slices, &triangulation, &groups);
+        let is_skipped = derivatives.iter().map(|derivative| derivative.joins_any).collect();
+        buffers.derivatives = derivatives;
+        (Self { triangulation, groups, corner_groups, is_skipped, orientation_of_face }, report)
     }
 
-    /// The frames of a mesh whose vertices have moved since it was grouped.
+    /// Writes the frames of the mesh after its vertices moved.
     pub(crate) fn frames_of_moved<O: Output>(
         &self,
         mesh: &Mesh<'_>,
         mode: Mode,
         limits: RunLimits<'_>,
-        memory: &mut GroupBuffers,
+        buffers: &mut GroupBuffers,
         corners: &mut [O],
     ) {
         let welded = WeldedMesh::moved(mesh);
         on_pool(mesh, limits, || {
-            derivatives_into(&self.triangulation.good, &welded, limits, &mut memory.derivatives);
-            threads::update(limits, &mut memory.derivatives, |t, derivative| {
-                leave_out_unless_finite(derivative);
-                derivative.joins_any |= self.is_left_out[t];
+            derivatives_into(&self.triangulation.good, &welded, limits, &mut buffers.derivatives);
+            threads::update(limits, &mut buffers.derivatives, |t, derivative| {
+                skip_unless_finite(derivative);
+                derivative.joins_any |= self.is_skipped[t];
             });
-            self.frames(&MeshSlices::new(mesh), &welded, mode, limits, memory, corners);
+            self.frames(&MeshSlices::new(mesh), &welded, mode, limits, buffers, corners);
         });
     }
 
-    /// Gives every corner a frame, by the derivatives in `memory`; says how many have a repair.
+    /// Writes the frames of all corners from the derivatives in `buffers`. Returns the number of repaired corners.
     fn frames<O: Output>(
         &self,
-        flat: &MeshSlices<'_>,
+        slices: &MeshSlices<'_>,
         welded: &WeldedMesh<'_>,
         mode: Mode,
         limits: RunLimits<'_>,
-        memory: &mut GroupBuffers,
+        buffers: &mut GroupBuffers,
         corners: &mut [O],
     ) -> usize {
         let triangles = &self.triangulation.good;
@@ -145,28 +148,29 @@ impl AngleAreaPlan {
             triangles,
             welded,
             groups: &self.groups,
-            group_of_corner: &self.places.group_of_corner,
+            group_of_corner: &self.corner_groups.group_of_corner,
         };
         let normal = |group| direction(self.normal_of_vertex(group, welded)).unwrap_or_default();
-        memory.normals.resize(self.groups.len(), [0.0; 3]);
-        threads::fill(limits, &mut memory.normals, normal);
-        grouped.add_up(O::IS_FULL, limits, memory);
-        let mut frames = std::mem::take(&mut memory.frames);
+        buffers.normals.resize(self.groups.len(), [0.0; 3]);
+        threads::fill(limits, &mut buffers.normals, normal);
+        grouped.add_up(O::IS_FULL, limits, buffers);
+        let mut frames = std::mem::take(&mut buffers.frames);
         frames.resize(self.groups.len(), GroupFrame { frame: Frame::EMPTY, repaired: true });
-        let known = &*memory;
-        threads::fill(limits, &mut frames, |group| self.frame(group, O::IS_FULL, welded, known));
-        grouped.fit(&frames, memory);
-        let known = &*memory;
+        let inputs = &*buffers;
+        threads::fill(limits, &mut frames, |group| self.frame(group, O::IS_FULL, welded, inputs));
+        grouped.fit(&frames, buffers);
+        let inputs = &*buffers;
         threads::update(limits, &mut frames, |group, frame| {
-            fit(frame, known.normals[group], known.residuals[group]);
+            fit(frame, inputs.normals[group], inputs.residuals[group]);
             if O::IS_FULL && frame.frame.bitangent == Frame::EMPTY.bitangent {
                 let Frame { tangent, sign, .. } = frame.frame;
                 frame.frame.bitangent = across(self.normal_of_vertex(group, welded), tangent, sign);
             }
         });
         let groups = (&self.groups, &frames[..]);
-        let repaired = to_corners(flat, &self.places, groups, &self.orientation_of_face, mode, corners);
-        memory.frames = frames;
+        let repaired =
+            to_corners(slices, &self.corner_groups, groups, &self.orientation_of_face, mode, corners);
+        buffers.frames = frames;
         repaired
     }
 
@@ -178,28 +182,29 @@ impl AngleAreaPlan {
     fn frame(
         &self,
         group: usize,
-        is_whole: bool,
+        is_full: bool,
         welded: &WeldedMesh<'_>,
-        memory: &GroupBuffers,
+        buffers: &GroupBuffers,
     ) -> GroupFrame {
-        let GroupSum { s, t, magnitude, weight } = memory.sums[group];
-        let normal = unless_zero(memory.normals[group]);
+        let GroupSum { s, t, magnitude, weight } = buffers.sums[group];
+        let normal = unless_zero(buffers.normals[group]);
         let sign = if self.groups.preserves(group) { 1.0 } else { -1.0 };
-        // What is left of tangents that cancel is rounding.
+        // A sum of tangents that cancel is rounding error.
         let found = (length(s) > 1e-6 * weight).then(|| flat_direction_of(s, normal)).flatten();
-        let mean = || self.mean(group, welded, &memory.derivatives);
+        let mean = || self.mean(group, welded, &buffers.derivatives);
         let tangent = found.map_or_else(mean, |s| s.map(|x| x as f32));
         let mut frame = Frame { tangent, sign, ..Frame::EMPTY };
-        if is_whole {
+        if is_full {
             let bitangent = flat_direction_of(t, normal).map(|t| t.map(|x| x as f32));
-            // Without a direction it is made from the tangent, once that is fitted.
+            // A bitangent without a direction is computed from the tangent after the fit.
             frame.bitangent = bitangent.unwrap_or(Frame::EMPTY.bitangent);
             frame.magnitude = magnitude.map(|sum| if weight > 0.0 { (sum / weight) as f32 } else { 1.0 });
         }
         GroupFrame { frame, repaired: found.is_none() }
     }
 
-    /// The repair of a group: the mean of its tangents, all weighted alike; the first triangle's own; a perpendicular.
+    /// The tangent of a group without one: the mean of its triangles' tangents, all weighted alike; else dP/du of its first triangle; else a
+    /// perpendicular of the normal.
     fn mean(&self, group: usize, welded: &WeldedMesh<'_>, derivatives: &[Derivative]) -> V3 {
         let normal = self.normal_of_vertex(group, welded);
         let Some(unit_normal) = direction(normal) else { return [1.0, 0.0, 0.0] };
@@ -214,11 +219,11 @@ impl AngleAreaPlan {
     }
 }
 
-/// Moves a tangent a part of the way to the fit. The whole step overshoots, half of one still does where neighbours differ much; see
+/// Moves a tangent a quarter of a Jacobi step towards the fit. Larger steps overshoot where neighbouring tangents differ much; see
 /// docs/notes/methods.md.
 fn fit(group: &mut GroupFrame, normal: D3, (residual, weight): (D3, f64)) {
     const PART: f64 = 0.25;
-    let moved = add(group.frame.tangent.map(f64::from), PART / weight, residual);
+    let moved = add_scaled(group.frame.tangent.map(f64::from), PART / weight, residual);
     if !group.repaired
         && let Some(tangent) = flat_direction_of(moved, unless_zero(normal))
     {
@@ -230,24 +235,24 @@ fn unless_zero(normal: D3) -> Option<D3> {
     Some(normal).filter(|normal| *normal != [0.0; 3])
 }
 
-/// The direction of `v` in the plane of the normal; its direction where there is no normal.
+/// The direction of `v` in the tangent plane; without a normal, the direction of `v`.
 fn flat_direction_of(v: D3, normal: Option<D3>) -> Option<D3> {
     normal.map_or_else(|| unit(v), |normal| in_plane(v, normal))
 }
 
-/// Triangles with values that are not finite join any group and add nothing.
-fn leave_out_unless_finite(derivative: &mut Derivative) {
+/// Marks triangles with values that are not finite: they join any group and are skipped.
+fn skip_unless_finite(derivative: &mut Derivative) {
     let numbers = derivative.s.iter().chain(&derivative.t).chain(&derivative.magnitude);
     derivative.joins_any |= !numbers.fold(0.0, |sum, x| sum + x).is_finite();
 }
 
-/// The orientation of every face that has one, from its triangles that add something.
+/// The orientation of every face, from its triangles that are not skipped. `None` where all are skipped.
 fn orientation_of_faces(
-    flat: &MeshSlices<'_>,
+    slices: &MeshSlices<'_>,
     good: &Triangles,
     derivatives: &[Derivative],
 ) -> Vec<Option<bool>> {
-    let mut preserves = vec![None; flat.face_count()];
+    let mut preserves = vec![None; slices.face_count()];
     for (&face, derivative) in good.face.iter().zip(derivatives) {
         if !derivative.joins_any {
             preserves[face as usize] = Some(derivative.preserves);
@@ -256,42 +261,42 @@ fn orientation_of_faces(
     preserves
 }
 
-/// Where corners are: their group and their welded vertex, and the groups of each vertex.
+/// The group and the welded vertex of each corner, and the groups of each welded vertex.
 #[derive(Debug)]
 struct CornerGroups {
     group_of_corner: Vec<u32>,
-    /// None for corners of unsupported faces.
+    /// [`NONE`] for corners of unsupported faces.
     vertex_of_corner: Vec<u32>,
-    /// Per welded vertex and orientation its first group.
+    /// The first group of each welded vertex, per orientation: mirrored, preserved.
     first_group: Vec<[u32; 2]>,
 }
 
 impl CornerGroups {
-    fn new(flat: &MeshSlices<'_>, triangulation: &Triangulation, groups: &Groups) -> Self {
-        let count = flat.vertex_of_corner.len();
-        let mut places = Self {
+    fn new(slices: &MeshSlices<'_>, triangulation: &Triangulation, groups: &Groups) -> Self {
+        let count = slices.vertex_of_corner.len();
+        let mut corner_groups = Self {
             group_of_corner: vec![NONE; count],
             vertex_of_corner: vec![NONE; count],
             first_group: vec![[NONE; 2]; count],
         };
         for list in [&triangulation.degenerate, &triangulation.good] {
             for (&corner, &vertex) in list.corners.as_flattened().iter().zip(list.vertices.as_flattened()) {
-                places.vertex_of_corner[corner as usize] = vertex;
+                corner_groups.vertex_of_corner[corner as usize] = vertex;
             }
         }
         let good = &triangulation.good;
         for group in (0..groups.len()).rev() {
             for &member in groups.members(group) {
                 let corner = good.corners.as_flattened()[member as usize];
-                places.group_of_corner[corner as usize] = group as u32;
+                corner_groups.group_of_corner[corner as usize] = group as u32;
             }
             let vertex = good.vertices.as_flattened()[groups.members(group)[0] as usize];
-            places.first_group[vertex as usize][usize::from(groups.preserves(group))] = group as u32;
+            corner_groups.first_group[vertex as usize][usize::from(groups.preserves(group))] = group as u32;
         }
-        places
+        corner_groups
     }
 
-    /// A corner's group of the given orientation: its own, or the first at its vertex.
+    /// The group of a corner with the given orientation: its own, or the first one at its vertex.
     fn group(&self, corner: usize, preserves: bool, groups: &Groups) -> Option<usize> {
         let own = self.group_of_corner[corner];
         if own != NONE && groups.preserves(own as usize) == preserves {
@@ -303,11 +308,13 @@ impl CornerGroups {
     }
 }
 
-/// Gives every corner its group's frame of its face's orientation. A face without one takes the orientation that more of its corners have
-/// groups of, +1 on a tie; a corner without a group, a frame from its normal, one per vertex and sign. Returns how many corners have a repair.
+/// Writes to every corner the frame of its group that has the face's orientation. Returns the number of repaired corners.
+///
+/// A face without an orientation takes the one for which more of its corners have groups; on a tie, preserved. A corner without a group
+/// gets a frame from its normal.
 fn to_corners<O: Output>(
-    flat: &MeshSlices<'_>,
-    places: &CornerGroups,
+    slices: &MeshSlices<'_>,
+    corner_groups: &CornerGroups,
     (groups, frames): (&Groups, &[GroupFrame]),
     preserves: &[Option<bool>],
     mode: Mode,
@@ -315,26 +322,28 @@ fn to_corners<O: Output>(
 ) -> usize {
     let mut repaired_corners = 0;
     for (face, &preserves) in preserves.iter().enumerate() {
-        let range = flat.corners(face);
-        let count =
-            |preserves| range.clone().filter(|&c| places.group(c, preserves, groups).is_some()).count();
+        let range = slices.corners(face);
+        let count = |preserves| {
+            range.clone().filter(|&c| corner_groups.group(c, preserves, groups).is_some()).count()
+        };
         let preserves = preserves.unwrap_or_else(|| count(true) >= count(false));
         for corner in range.clone() {
-            let group = places.group(corner, preserves, groups).map(|group| &frames[group]);
+            let group = corner_groups.group(corner, preserves, groups).map(|group| &frames[group]);
             let frame = group.map_or_else(
-                || from_normal(flat.normals[flat.vertex_of_corner[corner] as usize], preserves),
+                || from_normal(slices.normals[slices.vertex_of_corner[corner] as usize], preserves),
                 |group| group.frame,
             );
             let repaired = group.is_none_or(|group| group.repaired);
             repaired_corners += usize::from(repaired);
-            let left_out = repaired && mode == Mode::Reference;
+            let is_unwritten = repaired && mode == Mode::Reference;
             corners[corner] =
-                O::from_frame(&if left_out { Frame { sign: frame.sign, ..Frame::EMPTY } } else { frame });
+                O::from_frame(&if is_unwritten { Frame { sign: frame.sign, ..Frame::EMPTY } } else { frame });
         }
     }
     repaired_corners
 }
 
+/// A frame whose tangent is a perpendicular of the normal.
 fn from_normal(normal: V3, preserves: bool) -> Frame {
     let tangent = direction(normal).map_or([1.0, 0.0, 0.0], perpendicular).map(|x| x as f32);
     let sign = if preserves { 1.0 } else { -1.0 };

@@ -1,7 +1,7 @@
-//! A frame from the normal alone, for surfaces without UVs: any perpendicular, the same for the same normal.
+//! The method for surfaces without UVs: the tangent is a perpendicular of the normal, a function of the normal alone.
 //!
-//! Source: T. Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017, listing 3. No continuous choice exists
-//! (the sphere cannot be combed): this one jumps where z changes its sign.
+//! Source: T. Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017, listing 3. No continuous function
+//! exists (hairy ball theorem); this one is discontinuous where z changes sign.
 
 use crate::Frame;
 use crate::Mesh;
@@ -13,19 +13,18 @@ use crate::tangents::Report;
 use crate::tangents::mesh_slices::MeshSlices;
 use crate::tangents::mirrored_edges::survey;
 use crate::tangents::output::{Output, fill};
-use crate::tangents::repair::across;
-use crate::tangents::repair::{direction, perpendicular};
+use crate::tangents::repair::{across, direction, perpendicular};
 use crate::tangents::uv_derivatives::is_degenerate;
 
-/// The frame of every vertex, at each of its corners.
+/// Writes the frame of every vertex to its corners.
 pub(crate) fn run<O: Output>(
     mesh: &Mesh<'_>,
     mode: Mode,
     limits: RunLimits<'_>,
     corners: &mut [O],
 ) -> Report {
-    let flat = MeshSlices::new(mesh);
-    let mut report = survey(mesh, &flat, limits);
+    let slices = MeshSlices::new(mesh);
+    let mut report = survey(mesh, &slices, limits);
     let frame = |&normal: &V3| match (direction(normal), mode) {
         (None, Mode::Reference) => O::EMPTY,
         (unit, _) => {
@@ -34,11 +33,11 @@ pub(crate) fn run<O: Output>(
             O::from_frame(&Frame { tangent, bitangent, magnitude: [1.0; 2], sign: 1.0 })
         }
     };
-    let of_vertex: Vec<O> = flat.normals.iter().map(frame).collect();
-    let has_normal: Vec<bool> = flat.normals.iter().map(|&normal| direction(normal).is_some()).collect();
-    report.repaired_corners = flat.vertex_of_corner.iter().filter(|&&v| !has_normal[v as usize]).count();
+    let of_vertex: Vec<O> = slices.normals.iter().map(frame).collect();
+    let has_normal: Vec<bool> = slices.normals.iter().map(|&normal| direction(normal).is_some()).collect();
+    report.repaired_corners = slices.vertex_of_corner.iter().filter(|&&v| !has_normal[v as usize]).count();
     report.degenerate_triangles =
-        (0..flat.triangles().len()).filter(|&t| is_degenerate(flat.values(t).0)).count();
-    fill(corners, flat.vertex_of_corner.iter().map(|&v| of_vertex[v as usize]));
+        (0..slices.triangles().len()).filter(|&t| is_degenerate(slices.values(t).0)).count();
+    fill(corners, slices.vertex_of_corner.iter().map(|&v| of_vertex[v as usize]));
     report
 }

@@ -1,4 +1,4 @@
-//! A mesh as slices: packed vertex arrays and triangles of vertices, for loops that do nothing but arithmetic.
+//! A mesh as packed slices: positions, normals and UVs of vertices, and triangles of vertex numbers, for arithmetic loops.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -10,8 +10,8 @@ use crate::Strided;
 use crate::math::V3;
 use crate::topology::triangulate::split_quad;
 
-/// A mesh read as packed arrays. Nothing is copied where the caller's arrays are packed and mostly used, indices 32-bit and faces
-/// triangles. Vertices may be numbered other than in the mesh, corners and faces are not.
+/// A mesh as packed arrays. Arrays are borrowed where the caller's are packed, indices are 32-bit, faces are triangles, and most vertices
+/// are used; otherwise they are copied. Unused vertices may be dropped, which renumbers the others; corners and faces keep their numbers.
 pub(crate) struct MeshSlices<'a> {
     pub positions: Cow<'a, [V3]>,
     pub normals: Cow<'a, [V3]>,
@@ -21,19 +21,19 @@ pub(crate) struct MeshSlices<'a> {
     faces: Option<SplitFaces>,
 }
 
-/// The vertices of triangles, and positions and UVs of vertices.
+/// What term kernels read: the vertices of triangles, and the positions and UVs of vertices.
 #[derive(Clone, Copy)]
-pub(crate) struct TriangleSlices<'a> {
+pub(crate) struct TriangleInputs<'a> {
     pub triangles: &'a [[u32; 3]],
     positions: &'a [V3],
     uvs: &'a [[f32; 2]],
 }
 
-impl<'a> TriangleSlices<'a> {
-    /// Positions and UVs of a triangle, where they are: copies would go through memory once more.
+impl<'a> TriangleInputs<'a> {
+    /// References to the positions and UVs of a triangle.
     #[inline(always)]
-    pub fn refer(&self, triangle: [u32; 3]) -> ([&'a V3; 3], [&'a [f32; 2]; 3]) {
-        // Written out, as `map` over panicking reads becomes a call.
+    pub fn values_of(&self, triangle: [u32; 3]) -> ([&'a V3; 3], [&'a [f32; 2]; 3]) {
+        // Written out: `map` over indexing that may panic is not inlined.
         let [a, b, c] = [triangle[0] as usize, triangle[1] as usize, triangle[2] as usize];
         let (positions, uvs) = (self.positions, self.uvs);
         ([&positions[a], &positions[b], &positions[c]], [&uvs[a], &uvs[b], &uvs[c]])
@@ -44,28 +44,23 @@ impl<'a> TriangleSlices<'a> {
 struct SplitFaces {
     triangles: Vec<[u32; 3]>,
     face_of_triangle: Vec<u32>,
-    /// Where the corners of each face end.
+    /// The end of each face's corners.
     ends: Vec<u32>,
 }
 
 impl<'a> MeshSlices<'a> {
     pub fn new(mesh: &Mesh<'a>) -> Self {
         let (vertex_of_corner, used) = used_vertices(mesh);
-        let sizes = match mesh.faces() {
-            Faces::Triangles => None,
-            Faces::Quads => Some(Cow::Owned(vec![4; mesh.face_count()])),
-            Faces::Mixed(sizes) => Some(Cow::Borrowed(sizes)),
-        };
         Self {
             positions: packed(mesh.positions(), used.as_deref()),
             normals: packed(mesh.normals(), used.as_deref()),
             uvs: packed(mesh.uvs(), used.as_deref()),
-            faces: sizes.map(|sizes| split(mesh, &sizes, &vertex_of_corner)),
+            faces: (!matches!(mesh.faces(), Faces::Triangles)).then(|| split_faces(mesh, &vertex_of_corner)),
             vertex_of_corner,
         }
     }
 
-    /// The vertices of each triangle, quads cut in halves that follow each other.
+    /// The vertices of each triangle. The halves of a quad are adjacent.
     pub fn triangles(&self) -> &[[u32; 3]] {
         self.faces.as_ref().map_or(self.vertex_of_corner.as_chunks().0, |faces| &faces.triangles)
     }
@@ -104,22 +99,22 @@ impl<'a> MeshSlices<'a> {
         end_before(faces.start)..end_before(faces.end)
     }
 
-    /// The arrays that inner loops read.
-    pub fn slices(&self) -> TriangleSlices<'_> {
-        // Of one length, so that an index is checked once.
+    /// The arrays that term kernels read.
+    pub fn triangle_inputs(&self) -> TriangleInputs<'_> {
+        // Equal lengths, so that one bounds check serves both.
         let (positions, uvs) = (&self.positions[..], &self.uvs[..self.positions.len()]);
-        TriangleSlices { triangles: self.triangles(), positions, uvs }
+        TriangleInputs { triangles: self.triangles(), positions, uvs }
     }
 
-    /// Positions and UVs of triangle `t`.
+    /// The positions and UVs of triangle `t`.
     pub fn values(&self, t: usize) -> ([V3; 3], [[f32; 2]; 3]) {
-        let slices = self.slices();
-        let (positions, uvs) = slices.refer(slices.triangles[t]);
+        let inputs = self.triangle_inputs();
+        let (positions, uvs) = inputs.values_of(inputs.triangles[t]);
         (positions.map(|position| *position), uvs.map(|uv| *uv))
     }
 }
 
-/// The vertex of each corner; where the mesh uses few of many vertices these are numbers in the list that comes with it.
+/// The vertex of each corner. Where the mesh uses few of its vertices, also the list of used vertices, in which the numbers are indices.
 fn used_vertices<'a>(mesh: &Mesh<'a>) -> (Cow<'a, [u32]>, Option<Vec<u32>>) {
     let vertex_of_corner = vertices_of_corners(mesh);
     if mesh.vertex_count() <= 4 * mesh.corner_count() {
@@ -148,15 +143,15 @@ fn vertices_of_corners<'a>(mesh: &Mesh<'a>) -> Cow<'a, [u32]> {
     }
 }
 
-fn split(mesh: &Mesh<'_>, sizes: &[u32], vertex_of_corner: &[u32]) -> SplitFaces {
+fn split_faces(mesh: &Mesh<'_>, vertex_of_corner: &[u32]) -> SplitFaces {
     let mut faces = SplitFaces {
         triangles: Vec::new(),
         face_of_triangle: Vec::new(),
-        ends: Vec::with_capacity(sizes.len()),
+        ends: Vec::with_capacity(mesh.face_count()),
     };
-    let mut first = 0;
-    for (face, &size) in sizes.iter().enumerate() {
-        let halves = match size {
+    for (face, corners) in mesh.face_ranges().enumerate() {
+        let first = corners.start as u32;
+        let halves = match corners.len() {
             3 => &[[first, first + 1, first + 2]][..],
             4 => &split_quad(mesh, first),
             _ => &[],
@@ -165,8 +160,7 @@ fn split(mesh: &Mesh<'_>, sizes: &[u32], vertex_of_corner: &[u32]) -> SplitFaces
             faces.triangles.push(half.map(|corner| vertex_of_corner[corner as usize]));
             faces.face_of_triangle.push(face as u32);
         }
-        first += size;
-        faces.ends.push(first);
+        faces.ends.push(corners.end as u32);
     }
     faces
 }

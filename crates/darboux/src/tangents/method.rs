@@ -69,7 +69,7 @@ pub(crate) fn mikktspace<O: Output>(
     report
 }
 
-/// SideSums as `add_up` does, and makes corners of the sums.
+/// Runs a method of vertex sums. `add_up`: [`accumulate`] for the method.
 fn summed<const N: usize, W: Weighting<N>, O: Output>(
     mesh: &Mesh<'_>,
     (mode, limits): (Mode, RunLimits<'_>),
@@ -80,13 +80,14 @@ fn summed<const N: usize, W: Weighting<N>, O: Output>(
 where
     MethodBuffers: SumBuffers<N>,
 {
-    let flat = MeshSlices::new(mesh);
-    let (mut sums, mut frames) = (SideSums::new(&flat, memory), O::kept(&mut memory.tangents_of_side));
-    let report = threads::on_pool(limits.thread_count(flat.triangles().len()), || {
-        add_up(&flat, limits, &mut sums);
-        finish::<N, W, O>(mesh, &flat, &mut sums, (mode, limits), &mut frames, corners)
+    let slices = MeshSlices::new(mesh);
+    let (mut sums, mut frames) =
+        (SideSums::new(&slices, memory), O::take_buffers(&mut memory.tangents_of_side));
+    let report = threads::on_pool(limits.thread_count(slices.triangles().len()), || {
+        add_up(&slices, limits, &mut sums);
+        finish::<N, W, O>(mesh, &slices, &mut sums, (mode, limits), &mut frames, corners)
     });
-    sums.keep(memory);
-    O::keep(frames, &mut memory.tangents_of_side);
+    sums.return_to(memory);
+    O::return_buffers(frames, &mut memory.tangents_of_side);
     report
 }

@@ -1,4 +1,4 @@
-//! Where triangles of opposite UV orientation meet, and what else a report counts on packed arrays.
+//! Counts for reports: mirrored edges, supported faces and non-finite corners, from packed arrays.
 
 use crate::Mesh;
 
@@ -9,75 +9,77 @@ use crate::tangents::mesh_slices::MeshSlices;
 use crate::tangents::report;
 use crate::tangents::uv_derivatives::Orientation;
 
-/// The part of a report that does not depend on the method.
-pub(crate) fn survey(mesh: &Mesh<'_>, flat: &MeshSlices<'_>, limits: RunLimits<'_>) -> Report {
-    survey_where(mesh, flat, has_finite_vertices(flat, limits))
+/// The counts that do not depend on the method.
+pub(crate) fn survey(mesh: &Mesh<'_>, slices: &MeshSlices<'_>, limits: RunLimits<'_>) -> Report {
+    survey_where(mesh, slices, has_finite_vertices(slices, limits))
 }
 
-/// As [`survey`]. `is_finite`: whether all values that corners have are known to be finite.
-pub(crate) fn survey_where(mesh: &Mesh<'_>, flat: &MeshSlices<'_>, is_finite: bool) -> Report {
-    let is_supported = |face: &usize| matches!(flat.corners(*face).len(), 3 | 4);
-    let supported = if flat.is_triangles() {
-        flat.face_count()
+/// As [`survey`]. `is_finite`: true when all positions, normals and UVs are known to be finite.
+pub(crate) fn survey_where(mesh: &Mesh<'_>, slices: &MeshSlices<'_>, is_finite: bool) -> Report {
+    let is_supported = |face: &usize| matches!(slices.corners(*face).len(), 3 | 4);
+    let supported = if slices.is_triangles() {
+        slices.face_count()
     } else {
-        (0..flat.face_count()).filter(is_supported).count()
+        (0..slices.face_count()).filter(is_supported).count()
     };
     Report {
-        triangles: flat.triangles().len(),
-        unsupported_faces: flat.face_count() - supported,
+        triangles: slices.triangles().len(),
+        unsupported_faces: slices.face_count() - supported,
         non_finite_corners: if is_finite { 0 } else { report::count_non_finite_corners(mesh) },
         ..Report::default()
     }
 }
 
-pub(crate) fn has_finite_vertices(flat: &MeshSlices<'_>, limits: RunLimits<'_>) -> bool {
-    all_finite(flat.positions.as_flattened(), limits)
-        && has_finite_normals(flat, limits)
-        && all_finite(flat.uvs.as_flattened(), limits)
+pub(crate) fn has_finite_vertices(slices: &MeshSlices<'_>, limits: RunLimits<'_>) -> bool {
+    all_finite(slices.positions.as_flattened(), limits)
+        && has_finite_normals(slices, limits)
+        && all_finite(slices.uvs.as_flattened(), limits)
 }
 
-pub(crate) fn has_finite_normals(flat: &MeshSlices<'_>, limits: RunLimits<'_>) -> bool {
-    all_finite(flat.normals.as_flattened(), limits)
+pub(crate) fn has_finite_normals(slices: &MeshSlices<'_>, limits: RunLimits<'_>) -> bool {
+    all_finite(slices.normals.as_flattened(), limits)
 }
 
 fn all_finite(values: &[f32], limits: RunLimits<'_>) -> bool {
     let threads = limits.thread_count(values.len() / 8);
     let mut found = vec![true; threads];
     threads::run(&mut found, split_range(0..values.len(), threads, 1), |finite, range| {
-        // The largest exponent, as integers: a loop that runs several lanes at a time.
+        // The maximum of the bits as integers: a loop that vectorises.
         let values = values[range].iter().map(|x| (x.to_bits() & 0x7fff_ffff) as i32);
         *finite = f32::from_bits(values.fold(0, i32::max) as u32).is_finite();
     });
     found.into_iter().all(|finite| finite)
 }
 
-/// For each vertex, whether faces of both orientations meet there; none when the mesh has but one.
+/// For each vertex: true when faces of both orientations meet there. `None` when the mesh has one orientation only.
 pub(crate) fn vertices_of_both(
-    flat: &MeshSlices<'_>,
+    slices: &MeshSlices<'_>,
     orientation_of_face: &[Orientation],
 ) -> Option<Vec<bool>> {
-    // All of them, as bits: a loop that runs many lanes at a time.
+    // The bitmask of the orientations that occur: a loop that vectorises.
     let found = orientation_of_face.iter().fold(0, |found, &orientation| found | 1u8 << orientation as u8);
     if found & 3 != 3 {
         return None;
     }
-    let mut seen = vec![0u8; flat.positions.len()];
+    let mut seen = vec![0u8; slices.positions.len()];
     for (face, &orientation) in orientation_of_face.iter().enumerate() {
         let mark = [1, 2, 0][orientation as usize];
-        flat.vertex_of_corner[flat.corners(face)].iter().for_each(|&v| seen[v as usize] |= mark);
+        slices.vertex_of_corner[slices.corners(face)].iter().for_each(|&v| seen[v as usize] |= mark);
     }
     Some(seen.into_iter().map(|seen| seen == 3).collect())
 }
 
-/// The number of edges between two triangles of opposite orientation. Edges are those of the given indices.
+/// The number of edges between two triangles of opposite orientation. Edges connect vertices of the mesh, which are not welded.
+///
+/// `of_both`: the result of [`vertices_of_both`].
 pub(crate) fn count_mirrored_edges(
-    flat: &MeshSlices<'_>,
+    slices: &MeshSlices<'_>,
     orientation_of_face: &[Orientation],
     of_both: &[bool],
 ) -> usize {
     let mut edges: Vec<([u32; 2], bool, Orientation)> = Vec::new();
-    for (t, triangle) in flat.triangles().iter().enumerate() {
-        let orientation = orientation_of_face[flat.face(t)];
+    for (t, triangle) in slices.triangles().iter().enumerate() {
+        let orientation = orientation_of_face[slices.face(t)];
         for k in 0..3 {
             let [a, b] = [triangle[k], triangle[(k + 1) % 3]];
             if orientation != Orientation::None && of_both[a as usize] && of_both[b as usize] && a != b {
@@ -89,7 +91,7 @@ pub(crate) fn count_mirrored_edges(
     edges.chunk_by(|a, b| a.0 == b.0).map(count_mirrored_pairs).sum()
 }
 
-/// Pairs along one edge that run in opposite directions and have opposite orientations.
+/// The number of pairs along one edge that run in opposite directions and have opposite orientations.
 fn count_mirrored_pairs(along: &[([u32; 2], bool, Orientation)]) -> usize {
     let count = |up, orientation| along.iter().filter(|edge| edge.1 == up && edge.2 == orientation).count();
     let (keeps, mirrors) = (Orientation::Preserves, Orientation::Mirrors);

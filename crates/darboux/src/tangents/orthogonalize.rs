@@ -1,4 +1,4 @@
-//! Whole Gram and Schmidt: the bitangent made perpendicular as well.
+//! Orthogonalisation of full frames: the bitangent that shaders compute from the normal, the tangent and the sign.
 
 use crate::CornerFrames;
 use crate::Mesh;

@@ -1,33 +1,33 @@
-//! What a run writes for each corner: a whole frame, or a tangent with its sign.
+//! [`Output`]: what a method writes for each corner, either a full frame or a tangent with its sign.
 
 use crate::Frame;
 
-/// Tangents of both sides of every vertex, kept from one run to the next.
-pub(crate) type TangentsOfSides = [Vec<[f32; 4]>; 2];
+/// The tangents of all vertices, for preserved and for mirrored UV orientation: reused buffers.
+pub(crate) type SideTangents = [Vec<[f32; 4]>; 2];
 
-/// What corners are given: whole frames, or tangents alone.
+/// The element type of an output array.
 pub(crate) trait Output: Copy + Send + Sync {
-    /// What nobody reads, or nothing reached.
+    /// The value of elements that are not computed: a zero tangent with sign +1.
     const EMPTY: Self;
 
-    /// Whether bitangents and magnitudes are wanted.
+    /// True for full frames: with bitangents and magnitudes.
     const IS_FULL: bool;
 
     fn from_frame(frame: &Frame) -> Self;
 
-    /// `tangent`: xyz and sign w, of a frame that is not whole.
+    /// `tangent`: xyz and sign w. Bitangent and magnitudes of a full frame are zero.
     fn from_tangent(tangent: [f32; 4]) -> Self;
 
-    /// Tangent xyz and sign w.
+    /// The tangent: xyz and sign w.
     fn tangent(&self) -> [f32; 4];
 
-    /// The memory of an earlier run, where it is kept.
-    fn kept(_kept: &mut TangentsOfSides) -> [Vec<Self>; 2] {
+    /// Takes the buffers of an earlier run; empty ones for full frames, which are not reused.
+    fn take_buffers(_buffers: &mut SideTangents) -> [Vec<Self>; 2] {
         Default::default()
     }
 
-    /// Leaves memory for another run.
-    fn keep(_sides: [Vec<Self>; 2], _kept: &mut TangentsOfSides) {}
+    /// Returns the buffers for the next run.
+    fn return_buffers(_sides: [Vec<Self>; 2], _buffers: &mut SideTangents) {}
 }
 
 impl Output for Frame {
@@ -65,16 +65,16 @@ impl Output for [f32; 4] {
         *self
     }
 
-    fn kept(kept: &mut TangentsOfSides) -> [Vec<Self>; 2] {
-        std::mem::take(kept)
+    fn take_buffers(buffers: &mut SideTangents) -> [Vec<Self>; 2] {
+        std::mem::take(buffers)
     }
 
-    fn keep(sides: [Vec<Self>; 2], kept: &mut TangentsOfSides) {
-        *kept = sides;
+    fn return_buffers(sides: [Vec<Self>; 2], buffers: &mut SideTangents) {
+        *buffers = sides;
     }
 }
 
-/// Writes one output after the other.
+/// Copies `values` to `out`, element by element.
 #[inline(always)]
 pub(crate) fn fill<O: Output>(out: &mut [O], values: impl Iterator<Item = O>) {
     for (out, value) in out.iter_mut().zip(values) {

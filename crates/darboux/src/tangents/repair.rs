@@ -1,13 +1,11 @@
-//! Which tangents are usable, and what takes the place of those that are not.
+//! The test of usable tangents, and the vectors that replace unusable ones.
 //!
-//! Everything here is computed in double precision with additions, products, quotients and square roots only: the same bits
-//! everywhere.
+//! All results are the same bits on every platform: `f64`, and only additions, products, quotients and square roots.
 
 use crate::math::{V3, not_zero};
+use crate::math_f64::{D3, cross, dot, length, unit};
 
-pub(crate) type D3 = [f64; 3];
-
-/// sign * cross(normal, tangent), unit; without a normal, or where the tangent runs along it, a perpendicular of the tangent.
+/// sign * cross(normal, tangent), normalised. Without a normal, or with a tangent along it, a perpendicular of the tangent.
 pub(crate) fn bitangent(normal: Option<D3>, tangent: V3, sign: f32) -> V3 {
     let tangent = tangent.map(f64::from);
     let across = normal.and_then(|normal| unit(cross(normal, tangent)));
@@ -19,17 +17,17 @@ pub(crate) fn across(normal: V3, tangent: V3, sign: f32) -> V3 {
     bitangent(direction(normal), tangent, sign)
 }
 
-/// As [`u_direction`], from a triangle's values.
+/// The direction of dP/du on a triangle, not normalised. Zero or NaN where positions or UVs give none.
 pub(crate) fn u_direction_of(positions: [V3; 3], uvs: [[f32; 2]; 3]) -> D3 {
     let [p0, p1, p2] = positions.map(|position| position.map(f64::from));
     let [t0, t1, t2] = uvs.map(|uv| uv.map(f64::from));
     let [dv1, dv2] = [t1[1] - t0[1], t2[1] - t0[1]];
     let area = (t1[0] - t0[0]) * dv2 - dv1 * (t2[0] - t0[0]);
-    // NaN where the area is, as it is with an infinite u: the sign of a NaN is another on every processor.
+    // `signum` of NaN is NaN. The sign bit of a NaN area (from infinite UVs) differs between processors and must not decide.
     [0, 1, 2].map(|i| (dv2 * (p1[i] - p0[i]) - dv1 * (p2[i] - p0[i])) * area.signum())
 }
 
-/// True for a finite tangent of unit length to 1e-3 that is not along the normal (|cos| < 0.999, if there is a normal).
+/// True for a finite tangent of unit length (within 1e-3) that is not along the normal (|cos| < 0.999). Normals may be zero.
 pub(crate) fn is_usable(tangent: V3, normal: V3) -> bool {
     let has_normal = is_not_zero(normal);
     let (tangent, normal) = (tangent.map(f64::from), normal.map(f64::from));
@@ -39,7 +37,8 @@ pub(crate) fn is_usable(tangent: V3, normal: V3) -> bool {
         && (!has_normal || dot(tangent, normal).abs() < 0.999 * length_of_tangent * length(normal))
 }
 
-/// The mean of the directions in the plane of `normal`, each with the same weight; none where they have or leave no direction.
+/// The direction of the sum of `directions`, each projected to the tangent plane and normalised. `None` where the sum cancels or there is no
+/// normal.
 pub(crate) fn mean_in_plane(directions: impl Iterator<Item = V3>, normal: V3) -> Option<V3> {
     let normal = direction(normal)?;
     let (mut sum, mut count) = ([0.0; 3], 0.0);
@@ -49,11 +48,11 @@ pub(crate) fn mean_in_plane(directions: impl Iterator<Item = V3>, normal: V3) ->
             count += 1.0;
         }
     }
-    // What is left of vectors that cancel is rounding error.
+    // A sum of vectors that cancel is rounding error.
     if length(sum) > 1e-6 * count { Some(in_plane(sum, normal)?.map(|x| x as f32)) } else { None }
 }
 
-/// The unit vector along the part of `v` that is perpendicular to the unit `normal`; none where that part is rounding error.
+/// `v`, projected to the plane of the unit `normal` and normalised. `None` where the projection is rounding error.
 pub(crate) fn in_plane(v: D3, normal: D3) -> Option<D3> {
     let v = unit(v)?;
     let along = dot(v, normal);
@@ -69,29 +68,11 @@ pub(crate) fn perpendicular(normal: D3) -> D3 {
     [1.0 + sign * x * x * a, sign * (x * y * a), -sign * x]
 }
 
-/// The direction of a normal, if it has one.
+/// `normal`, normalised. `None` where it is zero.
 pub(crate) fn direction(normal: V3) -> Option<D3> {
     if is_not_zero(normal) { unit(normal.map(f64::from)) } else { None }
 }
 
 fn is_not_zero(v: V3) -> bool {
     v.iter().any(|&x| not_zero(x))
-}
-
-pub(crate) fn unit(v: D3) -> Option<D3> {
-    // Floats' squares neither overflow nor vanish in double precision.
-    let length = length(v);
-    (length > 0.0 && length.is_finite()).then(|| v.map(|x| x / length))
-}
-
-pub(crate) fn dot(a: D3, b: D3) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub(crate) fn cross(a: D3, b: D3) -> D3 {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-pub(crate) fn length(v: D3) -> f64 {
-    dot(v, v).sqrt()
 }

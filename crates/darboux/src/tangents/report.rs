@@ -1,4 +1,4 @@
-//! What a user must know of a run.
+//! [`Report`]: the counts of a run, of degenerate input, repairs and splits.
 
 use crate::Mesh;
 use crate::math::V3;
@@ -6,39 +6,40 @@ use crate::util::hash_map::InsertionMap;
 
 use crate::tangents::output::Output;
 
-/// What was met on the way. Quads count as the two triangles that they are split into.
+/// The counts of a run. Quads count as two triangles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Report {
-    /// Triangles, quad halves included.
+    /// The triangles of the mesh, halves of quads included.
     pub triangles: usize,
-    /// Faces of other than 3 or 4 corners. MikkTSpace gives them no tangents; they get ones from their normals alone.
+    /// Faces of other than 3 or 4 corners. Their tangents are perpendiculars of their normals.
     pub unsupported_faces: usize,
     /// Triangles with two equal positions.
     pub degenerate_triangles: usize,
-    /// Triangles, not degenerate and with finite positions and UVs, whose UVs span no area (or too little for a direction).
+    /// Triangles whose UVs span no area, or too little area for a direction. Degenerate and non-finite triangles are not counted.
     pub uv_degenerate_triangles: usize,
-    /// Corners with a NaN or an infinity in position, normal or UV.
+    /// Corners with NaN or infinity in the position, normal or UV.
     pub non_finite_corners: usize,
-    /// Corners whose reference tangent is absent or unusable, or had the wrong sign for its face and no other to take
-    /// ([`Mode::Corrected`](crate::Mode::Corrected)). Replaced, but for [`Mode::Reference`](crate::Mode::Reference).
+    /// Corners without a usable tangent, or whose sign [`Mode::Corrected`](crate::Mode::Corrected) changed without a tangent to copy. Their
+    /// tangents are replaced, except in [`Mode::Reference`](crate::Mode::Reference).
     pub repaired_corners: usize,
-    /// Faces whose corners carry both signs; [`Mode::Corrected`](crate::Mode::Corrected) gave them one.
+    /// Faces whose corners have both signs before [`Mode::Corrected`](crate::Mode::Corrected) unifies them.
     pub mixed_sign_faces: usize,
     /// Edges between two triangles of opposite UV orientation.
     pub mirrored_edges: usize,
-    /// Vertices of the mesh that need more than one tangent: what [`split_vertices`](crate::split_vertices) splits.
+    /// Vertices of the mesh whose corners have different tangents. [`split_vertices`](crate::split_vertices) splits them.
     pub split_vertices: usize,
-    /// Vertices at which triangles of both UV orientations share one tangent: seams that
-    /// [`Method::LengyelPerVertex`](crate::Method::LengyelPerVertex) breaks. None in all other methods.
+    /// Vertices at which triangles of both UV orientations share one tangent. Zero for all methods but
+    /// [`Method::LengyelPerVertex`](crate::Method::LengyelPerVertex).
     pub merged_vertices: usize,
 }
 
-/// Whether a triangle's positions and UVs are numbers to compute with.
+/// True when all positions and UVs are finite.
 pub(crate) fn are_finite(positions: [V3; 3], uvs: [[f32; 2]; 3]) -> bool {
     positions.as_flattened().iter().chain(uvs.as_flattened()).all(|x| x.is_finite())
 }
 
+/// The number of corners with a position, normal or UV that is not finite.
 pub(crate) fn count_non_finite_corners(mesh: &Mesh<'_>) -> usize {
     let finite = |vertex| {
         let [positions, normals] = [mesh.positions().get(vertex), mesh.normals().get(vertex)];
@@ -47,7 +48,7 @@ pub(crate) fn count_non_finite_corners(mesh: &Mesh<'_>) -> usize {
     (0..mesh.corner_count()).filter(|&corner| !finite(mesh.vertex_of_corner(corner))).count()
 }
 
-/// Vertices with corners of different tangents, compared as bits. Costs time in the corners, however many vertices there are.
+/// The number of vertices whose corners have different tangents, compared as bits. The time depends on the number of corners only.
 pub(crate) fn count_split_vertices<O: Output>(mesh: &Mesh<'_>, corners: &[O]) -> usize {
     let mut count = 0;
     let mut first = FirstCorners::new(mesh);
@@ -64,10 +65,10 @@ pub(crate) fn count_split_vertices<O: Output>(mesh: &Mesh<'_>, corners: &[O]) ->
     count
 }
 
-/// Marks the first corner of a vertex that is split.
+/// The flag of a vertex that has been counted, in its first corner.
 const SPLIT: u32 = 1 << 31;
 
-/// The first corner of each vertex: a table, or a map where vertices by far outnumber corners.
+/// The first corner of each vertex: an array, or a hash map where vertices far outnumber corners.
 enum FirstCorners {
     Table(Vec<u32>),
     Map(InsertionMap<u32>),
@@ -82,7 +83,7 @@ impl FirstCorners {
         }
     }
 
-    /// The first corner of `vertex`, which is `corner` when none was asked for before.
+    /// The first corner of `vertex`, set to `corner` at the first call for the vertex.
     fn of(&mut self, vertex: usize, corner: usize) -> &mut u32 {
         match self {
             Self::Table(table) => {

@@ -2,16 +2,17 @@
 
 use crate::math::{V3, length, not_zero, scale, sub};
 
-/// A triangle's edges and the derivatives of position by UV, before the division by `area`.
+/// The edges of a triangle, and the derivatives of position by UV before the division by `area`.
 ///
 /// With E = [e1 e2] and the UV edges as columns of U, the derivatives are the columns of E U^-1 (E. Lengyel, "Foundations of
 /// Game Engine Development", vol. 2, 7.5; M. Mikkelsen 2008, equations 18 and 19).
 #[derive(Clone, Copy)]
 pub(crate) struct ScaledDerivatives {
-    /// From the first corner to the second and to the third, and between these.
+    /// From corner 0 to 1, from 0 to 2, and from 1 to 2.
     pub edges: [V3; 3],
-    /// dP/du and dP/dv, times `area`.
+    /// dP/du times `area`.
     pub s: V3,
+    /// dP/dv times `area`.
     pub t: V3,
     /// Twice the signed area in UV space: the determinant of U.
     pub area: f32,
@@ -31,7 +32,7 @@ impl ScaledDerivatives {
         }
     }
 
-    /// True where neither derivative is zero and the triangle is not degenerate. No branches: it nearly always is.
+    /// True where neither derivative is zero and the triangle is not degenerate. No branches.
     #[inline(always)]
     pub fn has_direction(&self) -> bool {
         let [a, b, c] = self.edges;
@@ -48,7 +49,7 @@ impl ScaledDerivatives {
         (directions, [s_length / area, t_length / area])
     }
 
-    /// Twice the triangle's area times its normal.
+    /// Twice the triangle's area times its unit normal.
     #[inline(always)]
     pub fn doubled_area_vector(&self) -> V3 {
         let [a, b, _] = self.edges;
@@ -56,7 +57,7 @@ impl ScaledDerivatives {
     }
 }
 
-/// The sum of the absolute coordinates: the cheapest norm.
+/// The sum of the absolute coordinates.
 #[inline(always)]
 pub(crate) fn size([x, y, z]: V3) -> f32 {
     x.abs() + y.abs() + z.abs()
@@ -68,17 +69,20 @@ pub(crate) fn is_degenerate([a, b, c]: [V3; 3]) -> bool {
     a == b || b == c || a == c
 }
 
-/// What the UV map does with a face's orientation.
+/// The orientation of a face's UV map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Orientation {
+    /// The UV map preserves the orientation.
     Preserves = 0,
+    /// The UV map mirrors the face.
     Mirrors = 1,
-    /// No UV area, no area, values that are not finite, or a face of other than 3 or 4 corners.
+    /// Undefined: no UV area, no area, values that are not finite, or a face of other than 3 or 4 corners.
     #[default]
     None = 2,
 }
 
 impl Orientation {
+    /// The orientation of a UV area, which is not zero.
     pub fn of(area: f32) -> Self {
         if area > 0.0 { Self::Preserves } else { Self::Mirrors }
     }

@@ -1,4 +1,13 @@
-//! Tangents from sums over the triangles around each vertex: the methods `lengyel`, `average` and `area`.
+//! Methods that sum over the triangles around each vertex: Lengyel, average and area.
+//!
+//! ```text
+//! accumulate: for each triangle, add its term (Weighting::term) to its three vertices, apart for the two UV orientations
+//!     scatter: triangle by triangle, where the triangles around a vertex are near each other in the list
+//!     gather: vertex by vertex over the adjacency, where they are not
+//! finish: frame of each vertex and orientation from its sum; repair frames without a direction; write the corners
+//! ```
+//!
+//! A new method of this kind is one file with an implementation of [`weighting::Weighting`], and a line in `method.rs`.
 
 pub(crate) mod accumulate;
 pub(crate) mod area;

@@ -1,4 +1,4 @@
-//! Sums over groups, weighted by corner angle and triangle area; and a step of the fit to what is seen.
+//! The sums of the angle-area method: per group, weighted by corner angle and triangle area; and the residuals of the least-squares fit.
 
 use crate::Frame;
 use crate::math::{V3, angle};
@@ -6,45 +6,48 @@ use crate::topology::triangles::{NONE, Triangles};
 
 use crate::exec::limits::RunLimits;
 use crate::exec::threads;
+use crate::math_f64::{D3, add_scaled, cross, dot, length, sub};
 use crate::tangents::mikktspace::derivatives::Derivative;
 use crate::tangents::mikktspace::groups::Groups;
 use crate::tangents::mikktspace::welded_mesh::WeldedMesh;
-use crate::tangents::repair::{D3, cross, dot, length};
 
-/// What is summed over a group.
+/// The sums of one group.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct GroupSum {
-    /// The directions of dP/du and dP/dv in the plane of the normal; of the second and the magnitudes only where they are wanted.
+    /// The weighted directions of dP/du in the tangent plane.
     pub s: D3,
+    /// The weighted directions of dP/dv in the tangent plane; computed for full frames only, as are the magnitudes.
     pub t: D3,
     pub magnitude: [f64; 2],
     pub weight: f64,
 }
 
-/// A group's frame, and whether it is a repair.
+/// The frame of a group, and whether it is a repair.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GroupFrame {
     pub frame: Frame,
     pub repaired: bool,
 }
 
-/// What runs keep from one to the next: 140 bytes per triangle (for whole frames 212) and 170 per group.
+/// Buffers, reused from run to run: 140 bytes per triangle (212 for full frames) and 170 per group.
 #[derive(Debug, Default)]
 pub(crate) struct GroupBuffers {
     pub derivatives: Vec<Derivative>,
-    /// Of each group: its unit normal, or zero; its sum; what is left to the fit, and its weight.
+    /// The unit normal of each group, or zero.
     pub normals: Vec<D3>,
     pub sums: Vec<GroupSum>,
+    /// The residual of each group's tangent in the fit, and the weight of the residual.
     pub residuals: Vec<(D3, f64)>,
-    /// Twice the area of each triangle; 0 of those that add nothing.
+    /// Twice the area of each triangle; 0 for skipped triangles.
     pub areas: Vec<f64>,
-    /// What each triangle adds at its corners.
+    /// The terms of each triangle at its corners: weight times the direction of dP/du, and the weight.
     terms: Vec<[[f64; 4]; 3]>,
+    /// The directions of dP/dv at the corners; for full frames only.
     t_terms: Vec<[D3; 3]>,
     pub frames: Vec<GroupFrame>,
 }
 
-/// What is summed, and where to.
+/// The triangles and the groups of a mesh.
 pub(crate) struct GroupedTriangles<'a> {
     pub triangles: &'a Triangles,
     pub welded: &'a WeldedMesh<'a>,
@@ -53,17 +56,18 @@ pub(crate) struct GroupedTriangles<'a> {
 }
 
 impl GroupedTriangles<'_> {
-    /// Sums over every group; `memory` has the derivatives and the groups' normals. With bitangents and magnitudes, if `is_whole`.
+    /// Computes the sums of all groups from the derivatives and the normals in `buffers`.
     ///
-    /// First what every triangle adds at its corners, then what groups gather: both by all threads, in the same order on any number.
-    pub fn add_up(&self, is_whole: bool, limits: RunLimits<'_>, memory: &mut GroupBuffers) {
-        let GroupBuffers { derivatives, normals, sums, areas, terms, t_terms, .. } = memory;
+    /// `is_full`: with bitangents and magnitudes. First the terms of all triangles, then the sum of each group, both on all threads. The
+    /// bits do not depend on the number of threads.
+    pub fn add_up(&self, is_full: bool, limits: RunLimits<'_>, buffers: &mut GroupBuffers) {
+        let GroupBuffers { derivatives, normals, sums, areas, terms, t_terms, .. } = buffers;
         let (derivatives, normals) = (&derivatives[..], &normals[..]);
         areas.resize(derivatives.len(), 0.0);
         threads::fill(limits, areas, |t| if derivatives[t].joins_any { 0.0 } else { self.doubled_area(t) });
         terms.resize(derivatives.len(), [[0.0; 4]; 3]);
         threads::fill(limits, terms, |t| self.terms(t, &derivatives[t], normals, areas[t]));
-        t_terms.resize(if is_whole { derivatives.len() } else { 0 }, [[0.0; 3]; 3]);
+        t_terms.resize(if is_full { derivatives.len() } else { 0 }, [[0.0; 3]; 3]);
         threads::fill(limits, t_terms, |t| {
             self.corner_normals(t, normals).map(|n| direction_in_plane(derivatives[t].t, n))
         });
@@ -80,13 +84,13 @@ impl GroupedTriangles<'_> {
         self.welded.positions(self.triangles, t).map(|position| position.map(f64::from))
     }
 
-    /// The normal of the group at each corner; zero where there is none.
+    /// The normal of the group of each corner; zero where there is none.
     fn corner_normals(&self, t: usize, normals: &[D3]) -> [D3; 3] {
         let groups = self.triangles.corners[t].map(|corner| self.group_of_corner[corner as usize]);
         groups.map(|group| normals.get(group as usize).copied().unwrap_or_default())
     }
 
-    /// What a triangle adds at each corner: the weight times the direction of dP/du, and the weight.
+    /// The terms of a triangle at its corners.
     #[inline(always)]
     fn terms(&self, t: usize, derivative: &Derivative, normals: &[D3], area: f64) -> [[f64; 4]; 3] {
         if derivative.joins_any {
@@ -95,7 +99,7 @@ impl GroupedTriangles<'_> {
         let [a, b, c] = self.positions(t);
         let (ab, bc, ca) = (sub(b, a), sub(c, b), sub(a, c));
         let [of_a, of_b, of_c] = self.corner_normals(t, normals);
-        // Written out, as `map` becomes calls.
+        // Written out: `map` is not inlined.
         [
             term(derivative.s, [ab, ca], of_a, area),
             term(derivative.s, [bc, ab], of_b, area),
@@ -114,10 +118,10 @@ impl GroupedTriangles<'_> {
         for &member in self.groups.members(group) {
             let (t, k) = (member as usize / 3, member as usize % 3);
             let [x, y, z, weight] = terms[t][k];
-            sum.s = add(sum.s, 1.0, [x, y, z]);
+            sum.s = add_scaled(sum.s, 1.0, [x, y, z]);
             sum.weight += weight;
             if let Some(t_term) = t_terms.get(t).filter(|_| !derivatives[t].joins_any) {
-                sum.t = add(sum.t, weight, t_term[k]);
+                sum.t = add_scaled(sum.t, weight, t_term[k]);
                 let lengths = derivatives[t].magnitude.map(f64::from);
                 sum.magnitude = [0, 1].map(|i| sum.magnitude[i] + weight * lengths[i]);
             }
@@ -125,13 +129,13 @@ impl GroupedTriangles<'_> {
         sum
     }
 
-    /// For every group the residual of the least squares of what is seen, and its weight: the integral over the surface of the squared
-    /// distance between the interpolated tangent T and the direction s of dP/du.
+    /// Computes the residuals of the least-squares fit, which minimises the integral over the surface of |T - s|^2, where T is the
+    /// interpolated tangent and s the direction of dP/du.
     ///
-    /// With linear weights w_i over a triangle of area A, integral w_i w_j = A/12, or A/6 for i = j, and integral w_i = A/3; so the
-    /// residual of corner i is A/3 s - A/12 (t_i + t_0 + t_1 + t_2), and its step (Jacobi's) is that over the sum of A/6.
-    pub fn fit(&self, frames: &[GroupFrame], memory: &mut GroupBuffers) {
-        let GroupBuffers { derivatives, normals, areas, residuals, .. } = memory;
+    /// With barycentric weights w_i on a triangle of area A, the integral of w_i w_j is A/12, or A/6 for i = j, and that of w_i is A/3. So
+    /// the residual of corner i is A/3 s - A/12 (t_i + t_0 + t_1 + t_2), and the Jacobi step divides it by the sum of A/6.
+    pub fn fit(&self, frames: &[GroupFrame], buffers: &mut GroupBuffers) {
+        let GroupBuffers { derivatives, normals, areas, residuals, .. } = buffers;
         residuals.clear();
         residuals.resize(normals.len(), ([0.0; 3], 0.0));
         for (t, (derivative, doubled)) in derivatives.iter().zip(areas).enumerate() {
@@ -141,18 +145,18 @@ impl GroupedTriangles<'_> {
             }
             let area = 0.5 * *doubled;
             let tangents = groups.map(|group| frames[group as usize].frame.tangent.map(f64::from));
-            let sum = tangents.into_iter().fold([0.0; 3], |sum, tangent| add(sum, 1.0, tangent));
-            let target = add(sum, -4.0, derivative.s.map(f64::from));
+            let sum = tangents.into_iter().fold([0.0; 3], |sum, tangent| add_scaled(sum, 1.0, tangent));
+            let target = add_scaled(sum, -4.0, derivative.s.map(f64::from));
             for (group, tangent) in groups.into_iter().zip(tangents) {
                 let (residual, weight) = &mut residuals[group as usize];
-                *residual = add(*residual, -area / 12.0, add(target, 1.0, tangent));
+                *residual = add_scaled(*residual, -area / 12.0, add_scaled(target, 1.0, tangent));
                 *weight += area / 6.0;
             }
         }
     }
 }
 
-/// What a triangle adds at the corner between `edges`, of which one leaves it and the other comes to it.
+/// The term of a triangle at the corner where `edges[0]` begins and `edges[1]` ends.
 #[inline(always)]
 fn term(s: V3, edges: [D3; 2], normal: D3, area: f64) -> [f64; 4] {
     let [leaving, [x, y, z]] = edges;
@@ -161,8 +165,8 @@ fn term(s: V3, edges: [D3; 2], normal: D3, area: f64) -> [f64; 4] {
     [weight * x, weight * y, weight * z, weight]
 }
 
-/// The angle between the parts of `a` and `b` perpendicular to the normal, which is a unit vector or zero; 0 where one has none but
-/// rounding.
+/// The angle between the projections of `a` and `b` to the plane of the normal, which is a unit vector or zero. 0 where a projection is
+/// rounding error.
 #[inline(always)]
 fn angle_in_plane(a: D3, b: D3, normal: D3) -> f64 {
     let (along_a, along_b) = (dot(a, normal), dot(b, normal));
@@ -176,26 +180,16 @@ fn angle_in_plane(a: D3, b: D3, normal: D3) -> f64 {
     }
 }
 
-/// The direction of the part of `v` perpendicular to the normal, which is a unit vector or zero; zero where there is none but rounding.
+/// The direction of the projection of `v` to the plane of the normal, which is a unit vector or zero. Zero where the projection is rounding
+/// error.
 #[inline(always)]
 fn direction_in_plane(v: V3, normal: D3) -> D3 {
     let v = [f64::from(v[0]), f64::from(v[1]), f64::from(v[2])];
-    let rest = add(v, -dot(v, normal), normal);
+    let rest = add_scaled(v, -dot(v, normal), normal);
     let square = dot(rest, rest);
     let inverse = if square > ROUNDING * dot(v, v) { 1.0 / square.sqrt() } else { 0.0 };
     [inverse * rest[0], inverse * rest[1], inverse * rest[2]]
 }
 
-/// The part of a squared length below which a difference is rounding: a millionth of the length.
+/// The fraction of a squared length below which a projection counts as rounding error: a millionth of the length.
 const ROUNDING: f64 = 1e-12;
-
-#[inline(always)]
-fn sub(a: D3, b: D3) -> D3 {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-/// sum + weight * v.
-#[inline(always)]
-pub(crate) fn add(sum: D3, weight: f64, v: D3) -> D3 {
-    [sum[0] + weight * v[0], sum[1] + weight * v[1], sum[2] + weight * v[2]]
-}

@@ -10,8 +10,9 @@ use crate::topology::corner_lookup::CornerLookup;
 use crate::topology::triangles::Triangulation;
 use crate::util::hash_map::InsertionMap;
 
+use crate::math_f64::D3;
 use crate::tangents::mikktspace::raw_frames::RawFrames;
-use crate::tangents::repair::{D3, bitangent, direction, in_plane, perpendicular, u_direction_of};
+use crate::tangents::repair::{bitangent, direction, in_plane, perpendicular, u_direction_of};
 
 /// Replaces the tangents of `corners` in `raw`.
 pub(crate) fn repair_corners(

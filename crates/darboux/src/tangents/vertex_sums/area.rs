@@ -1,14 +1,14 @@
 //! Unit tangents, bitangents and normals of the triangles around a vertex, weighted by the triangles' areas.
 //!
-//! The area vector cross(e1, e2) / 2 is normal and weight in one; summed over a fan it is the normal of G. Thürmer and C. A.
-//! Wüthrich's "area weighted" kind ("Computing Vertex Normals from Polygonal Facets", 1998, which argues for angles).
+//! The area vector cross(e1, e2) / 2 gives both the normal and the weight. Its sum over a fan is the "area weighted" normal of G. Thürmer and
+//! C. A. Wüthrich, "Computing Vertex Normals from Polygonal Facets", 1998 (who recommend weights by angle).
 
 use crate::math::{V3, length, scale};
 
 use crate::tangents::uv_derivatives::ScaledDerivatives;
 use crate::tangents::vertex_sums::weighting::{SumRows, Weighting};
 
-/// The area weights of tangents and bitangents; the summed normal stands in where the mesh has none.
+/// Weights by area. The summed normal replaces an absent normal of the mesh.
 pub(crate) struct Area;
 
 impl Weighting<3> for Area {

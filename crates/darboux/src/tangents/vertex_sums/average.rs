@@ -1,12 +1,9 @@
-//! The mean of the adjacent triangles' unit tangents and bitangents: every triangle counts the same.
-//!
-//! Each vertex's mean is what it would gather over its adjacency, triangle by triangle. Where the triangles around it lie near each other in the
-//! list, adding each to its three vertices gives the same bits sooner (docs/notes/methods.md); where not, they are gathered (gather.rs).
+//! The mean of the unit tangents and bitangents of the triangles around a vertex, all weighted alike.
 
 use crate::tangents::uv_derivatives::ScaledDerivatives;
 use crate::tangents::vertex_sums::weighting::{SumRows, Weighting};
 
-/// Weight one for every triangle.
+/// Every triangle has weight 1.
 pub(crate) struct Average;
 
 impl Weighting<3> for Average {

@@ -5,27 +5,28 @@ use std::ops::Range;
 
 use crate::exec::limits::RunLimits;
 use crate::exec::simd::Task;
-use crate::tangents::mesh_slices::{MeshSlices, TriangleSlices};
+use crate::tangents::mesh_slices::{MeshSlices, TriangleInputs};
 use crate::tangents::uv_derivatives::Orientation;
 use crate::tangents::vertex_sums::side_sums::SkippedTriangles;
 use crate::tangents::vertex_sums::term_kernel::{TERM_BLOCK, TermBlock};
 use crate::tangents::vertex_sums::weighting::{SumRows, Weighting};
 
-/// What a thread finds out about the triangles that it counts.
+/// Records the orientations of the triangles that one thread owns, and counts those that are skipped.
 pub(crate) struct OrientationRecorder<'a> {
+    /// The first owned triangle.
     first: usize,
     orientations: &'a mut [Orientation],
-    pub flaws: SkippedTriangles,
+    pub skipped: SkippedTriangles,
 }
 
 impl<'a> OrientationRecorder<'a> {
     pub fn new(first: usize, orientations: &'a mut [Orientation]) -> Self {
-        Self { first, orientations, flaws: SkippedTriangles::default() }
+        Self { first, orientations, skipped: SkippedTriangles::default() }
     }
 
-    /// Notes the orientations of consecutive triangles, of which any may be another's to count.
+    /// Records the orientations of consecutive triangles from `first` on. Triangles of other threads are ignored.
     #[inline(always)]
-    fn note(&mut self, slices: &TriangleSlices<'_>, first: usize, orientations: &[Orientation]) {
+    fn record(&mut self, inputs: &TriangleInputs<'_>, first: usize, orientations: &[Orientation]) {
         let start = first.max(self.first);
         let end = (first + orientations.len()).min(self.first + self.orientations.len());
         if start >= end {
@@ -33,51 +34,60 @@ impl<'a> OrientationRecorder<'a> {
         }
         let own = &orientations[start - first..end - first];
         self.orientations[start - self.first..end - self.first].copy_from_slice(own);
-        if found(own) & bit(Orientation::None) != 0 {
-            self.note_flaws(slices, start, own);
+        if orientation_set(own) & orientation_bit(Orientation::None) != 0 {
+            self.record_skipped(inputs, start, own);
         }
     }
 
     #[cold]
-    fn note_flaws(&mut self, slices: &TriangleSlices<'_>, first: usize, orientations: &[Orientation]) {
+    fn record_skipped(&mut self, inputs: &TriangleInputs<'_>, first: usize, orientations: &[Orientation]) {
         for (t, _) in (first..).zip(orientations).filter(|(_, found)| **found == Orientation::None) {
-            let (positions, uvs) = slices.refer(slices.triangles[t]);
-            self.flaws.count(positions, uvs);
+            let (positions, uvs) = inputs.values_of(inputs.triangles[t]);
+            self.skipped.count(positions, uvs);
         }
     }
 }
 
-/// One bit for each orientation that is found: a loop that runs many lanes at a time.
+/// The bitmask of the orientations that occur. The loop vectorises.
 #[inline(always)]
-pub(crate) fn found(orientations: &[Orientation]) -> u8 {
-    orientations.iter().fold(0, |found, &orientation| found | bit(orientation))
+pub(crate) fn orientation_set(orientations: &[Orientation]) -> u8 {
+    orientations.iter().fold(0, |found, &orientation| found | orientation_bit(orientation))
 }
 
+/// The bit of an orientation in [`orientation_set`].
 #[inline(always)]
-pub(crate) fn bit(orientation: Orientation) -> u8 {
+pub(crate) fn orientation_bit(orientation: Orientation) -> u8 {
     1 << orientation as u8
 }
 
-/// The orientations of faces, where these are not all triangles, and how wide vectors may be.
-pub(crate) type BlockOptions<'a> = (Option<&'a [Orientation]>, RunLimits<'a>);
+/// The orientation of each face, where not all faces are triangles, and the limits of the run.
+#[derive(Clone, Copy)]
+pub(crate) struct BlockOptions<'a> {
+    pub orientation_of_face: Option<&'a [Orientation]>,
+    pub limits: RunLimits<'a>,
+}
 
-/// Calls `add` with every block of a range: the number of its first triangle, the triangles, and what they add. `add` must be
-/// `#[inline(always)]` to be compiled for wide vectors as well, and own its slices, which would be loaded from memory each time.
+/// Runs the term kernel on every block of a range of triangles.
+///
+/// `add`: called per block with its first triangle, its triangles and its terms. The closure must be `#[inline(always)]`, so that it is
+/// compiled for wide vectors, and must own its slices, so that their addresses stay in registers.
 pub(crate) fn for_each_block<const N: usize, W: Weighting<N>>(
-    flat: &MeshSlices<'_>,
-    (agreed, limits): BlockOptions<'_>,
+    slices: &MeshSlices<'_>,
+    options: BlockOptions<'_>,
     range: Range<usize>,
-    count: &mut OrientationRecorder<'_>,
+    recorder: &mut OrientationRecorder<'_>,
     add: impl FnMut(usize, &[[u32; 3]], &TermBlock<N>),
 ) {
-    limits.width.run(ForEachBlock::<N, W, _> { flat, agreed, range, count, add, weighting: PhantomData });
+    let BlockOptions { orientation_of_face, limits } = options;
+    let weighting = PhantomData::<W>;
+    limits.width.run(ForEachBlock { slices, orientation_of_face, range, recorder, add, weighting });
 }
 
 struct ForEachBlock<'a, 'b, const N: usize, W, F> {
-    flat: &'a MeshSlices<'a>,
-    agreed: Option<&'a [Orientation]>,
+    slices: &'a MeshSlices<'a>,
+    orientation_of_face: Option<&'a [Orientation]>,
     range: Range<usize>,
-    count: &'a mut OrientationRecorder<'b>,
+    recorder: &'a mut OrientationRecorder<'b>,
     add: F,
     weighting: PhantomData<W>,
 }
@@ -89,25 +99,25 @@ where
 {
     #[inline(always)]
     fn run(self) {
-        let Self { flat, agreed, range, count, mut add, .. } = self;
-        let slices = flat.slices();
+        let Self { slices, orientation_of_face, range, recorder, mut add, .. } = self;
+        let inputs = slices.triangle_inputs();
         let mut block = TermBlock::<N>::new();
         for first in range.clone().step_by(TERM_BLOCK) {
-            let triangles = &slices.triangles[first..range.end.min(first + TERM_BLOCK)];
-            block.set(&slices, triangles);
+            let triangles = &inputs.triangles[first..range.end.min(first + TERM_BLOCK)];
+            block.set(&inputs, triangles);
             block.evaluate::<W>();
             let orientations = &mut block.orientations[..triangles.len()];
-            if let Some(agreed) = agreed {
-                agree(orientations, |i| agreed[flat.face(first + i)]);
+            if let Some(of_face) = orientation_of_face {
+                set_face_orientations(orientations, |i| of_face[slices.face(first + i)]);
             }
-            count.note(&slices, first, orientations);
+            recorder.record(&inputs, first, orientations);
             add(first, triangles, &block);
         }
     }
 }
 
-/// Gives triangles that add something the orientations of their faces.
-fn agree(orientations: &mut [Orientation], of_face: impl Fn(usize) -> Orientation) {
+/// Replaces the orientations of triangles that are not skipped by those of their faces.
+fn set_face_orientations(orientations: &mut [Orientation], of_face: impl Fn(usize) -> Orientation) {
     for (i, orientation) in orientations.iter_mut().enumerate() {
         if *orientation != Orientation::None {
             *orientation = of_face(i);
@@ -115,6 +125,7 @@ fn agree(orientations: &mut [Orientation], of_face: impl Fn(usize) -> Orientatio
     }
 }
 
+/// Adds a term to a sum.
 #[inline(always)]
 pub(crate) fn accumulate_into<const N: usize>(sum: &mut SumRows<N>, term: &SumRows<N>) {
     for (sum, term) in sum.as_flattened_mut().iter_mut().zip(term.as_flattened()) {

@@ -1,4 +1,7 @@
-//! The tangents of a block of vertices, lane by lane, as [`crate::tangents::vertex_sums::term_kernel`] has the terms of a block of triangles.
+//! Tangents of a block of vertices from their sums.
+//!
+//! As in [`crate::tangents::vertex_sums::term_kernel`], every quantity is an array with one lane per element, and loops have no branches, so
+//! that compilers vectorise them. Lanes that are not reliable are computed again one by one.
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
 
@@ -11,17 +14,18 @@ use crate::tangents::vertex_sums::frame_math::{sign_of, sure_tangent};
 use crate::tangents::vertex_sums::term_kernel::{TERM_BLOCK, TermLane};
 use crate::tangents::vertex_sums::weighting::{SumRows, Weighting};
 
-/// One block's arrays; reused from block to block.
+/// The arrays of one block, reused from block to block.
 pub(crate) struct FrameBlock {
     normals: [TermLane<f32>; 3],
-    /// The sums of tangents and of bitangents.
+    /// The summed tangents and bitangents.
     sums: [[TermLane<f32>; 3]; 2],
-    /// [`Weighting::size`].
+    /// [`Weighting::size`] of each sum.
     sizes: TermLane<f32>,
+    /// The coordinates and signs of the tangents.
     lanes: [TermLane<f32>; 4],
-    /// Tangents xyz and signs w,
+    /// The tangents: xyz and sign w.
     pub tangents: TermLane<[f32; 4]>,
-    /// and 1 where they are sure, else 0.
+    /// 1 for reliable tangents, else 0.
     pub sure: TermLane<u32>,
 }
 
@@ -37,7 +41,7 @@ impl FrameBlock {
         }
     }
 
-    /// Takes up to [`TERM_BLOCK`] vertices; the lanes beyond them keep what they had.
+    /// Loads up to [`TERM_BLOCK`] vertices. Other lanes keep their values.
     #[inline(always)]
     pub fn set<const N: usize, W: Weighting<N>>(&mut self, sums: &[SumRows<N>], normals: &[V3]) {
         let count = sums.len().min(normals.len()).min(TERM_BLOCK);
@@ -53,12 +57,14 @@ impl FrameBlock {
         }
     }
 
-    /// Whether the tangents of the first `count` vertices are what [`crate::tangents::vertex_sums::finish`] would make of their sums one by one.
+    /// True when the tangents of the first `count` vertices are reliable: equal to what [`crate::tangents::vertex_sums::finish`] computes one by one.
     pub fn are_sure(&self, count: usize) -> bool {
         self.sure[..count].iter().fold(1, |all, sure| all & sure) == 1
     }
 
-    /// Computes the tangents of what was [set](FrameBlock::set). `sign`: that of all; of sums that do not split, their own.
+    /// Computes the tangents of the loaded vertices.
+    ///
+    /// `sign`: the sign of all tangents; ignored by methods that do not split, whose signs follow from the summed bitangents.
     pub fn evaluate<const N: usize, W: Weighting<N>>(&mut self, sign: f32, width: Width) {
         width.run(FrameTask::<N, W>(self, sign, PhantomData));
     }

@@ -1,4 +1,4 @@
-//! Lengyel's sum: the derivatives of the triangles around a vertex, as long as they are.
+//! Lengyel's method: the sum of the derivatives of the triangles around a vertex, not normalised.
 //!
 //! Source: E. Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", 2001; "Foundations of Game Engine
 //! Development", vol. 2, 2019, section 7.5. The derivation is in docs/algorithms/methods.md.
@@ -8,7 +8,7 @@ use crate::math::{length, scale};
 use crate::tangents::uv_derivatives::{ScaledDerivatives, size};
 use crate::tangents::vertex_sums::weighting::{SumRows, Weighting};
 
-/// Each triangle adds dP/du and dP/dv; triangles of the two UV orientations sum apart.
+/// Each triangle adds dP/du and dP/dv. The two UV orientations have separate sums.
 pub(crate) struct Lengyel;
 
 impl Weighting<2> for Lengyel {
@@ -28,7 +28,7 @@ impl Weighting<2> for Lengyel {
     }
 }
 
-/// As [`Lengyel`], but all triangles of a vertex share one sum, mirrored or not: what tutorials and three.js do.
+/// As [`Lengyel`], but with one sum per vertex for both orientations, as in three.js and many tutorials.
 pub(crate) struct LengyelPerVertex;
 
 impl Weighting<2> for LengyelPerVertex {

@@ -1,5 +1,8 @@
-//! What all triangles add to their vertices, by all threads: each has vertices of its own and adds to them in the triangles' order, so that
-//! no sum depends on how many threads there are.
+//! Accumulation triangle by triangle, for meshes whose triangles around a vertex are near each other in the list.
+//!
+//! Each thread owns consecutive triangles and the vertices that first occur in them. It adds, in triangle order, to its vertices only, and
+//! continues past its triangles while later ones use its vertices. So a few triangles are computed by two threads, no two threads write one
+//! sum, and the bits do not depend on the number of threads.
 
 use std::ops::Range;
 
@@ -11,24 +14,24 @@ use crate::exec::windows::{
 use crate::tangents::mesh_slices::MeshSlices;
 use crate::tangents::uv_derivatives::Orientation;
 use crate::tangents::vertex_sums::blocks::{
-    BlockOptions, OrientationRecorder, accumulate_into, bit, for_each_block, found,
+    BlockOptions, OrientationRecorder, accumulate_into, for_each_block, orientation_bit, orientation_set,
 };
 use crate::tangents::vertex_sums::side_sums::{SideSums, SkippedTriangles};
 use crate::tangents::vertex_sums::weighting::{SumRows, Weighting};
 
-/// What one thread has to do.
+/// The share of one thread.
 pub(crate) struct ThreadWork {
-    /// The triangles that it counts.
+    /// The triangles whose orientations it records.
     own: Range<usize>,
-    /// The triangles that it adds.
+    /// The triangles whose terms it computes.
     adds: Range<usize>,
-    /// The vertices that it adds to.
+    /// The vertices whose sums it owns.
     vertices: Range<usize>,
 }
 
-/// Gives each thread consecutive triangles and the vertices that they meet first; none where vertices lie all over the mesh.
-pub(crate) fn thread_ranges(flat: &MeshSlices<'_>, limits: RunLimits<'_>) -> Option<Vec<ThreadWork>> {
-    let (triangles, vertices) = (flat.triangles(), flat.positions.len());
+/// Divides the mesh among threads. `None` where so many triangles would be computed twice that gathering is faster.
+pub(crate) fn thread_ranges(slices: &MeshSlices<'_>, limits: RunLimits<'_>) -> Option<Vec<ThreadWork>> {
+    let (triangles, vertices) = (slices.triangles(), slices.positions.len());
     let count = triangles.len();
     let threads = limits.thread_count(count);
     if threads == 1 {
@@ -59,67 +62,67 @@ fn windows(triangles: &[[u32; 3]]) -> Vec<Window> {
 }
 
 pub(crate) fn scatter_all<const N: usize, W: Weighting<N>>(
-    flat: &MeshSlices<'_>,
-    how: BlockOptions<'_>,
+    slices: &MeshSlices<'_>,
+    options: BlockOptions<'_>,
     list: &[ThreadWork],
     sums: &mut SideSums<N>,
 ) {
-    let SideSums { of_side: [keeps, mirrors], orientation_of_face, flaws } = sums;
-    let keeps = split_slice(keeps, 0, list.iter().map(|part| part.vertices.clone()));
+    let SideSums { of_side: [preserved, mirrored], orientation_of_face, skipped } = sums;
+    let preserved = split_slice(preserved, 0, list.iter().map(|part| part.vertices.clone()));
     let orientations = split_slice(orientation_of_face, 0, list.iter().map(|part| part.own.clone()));
     let mut found: Vec<(Vec<SumRows<N>>, SkippedTriangles)> = vec![Default::default(); list.len()];
-    found[0].0 = std::mem::take(mirrors);
-    let jobs = list.iter().zip(keeps).zip(orientations);
-    threads::run(&mut found, jobs, |(mirrors, flaws), ((part, keeps), orientations)| {
-        let mut count = OrientationRecorder::new(part.own.start, orientations);
-        add_part::<N, W>(flat, how, part, (keeps, mirrors), &mut count);
-        *flaws = count.flaws;
+    found[0].0 = std::mem::take(mirrored);
+    let jobs = list.iter().zip(preserved).zip(orientations);
+    threads::run(&mut found, jobs, |(mirrored, skipped), ((part, preserved), orientations)| {
+        let mut recorder = OrientationRecorder::new(part.own.start, orientations);
+        add_part::<N, W>(slices, options, part, (preserved, mirrored), &mut recorder);
+        *skipped = recorder.skipped;
     });
-    found.iter().for_each(|(_, found)| flaws.add(*found));
-    *mirrors = joined(found.into_iter().map(|(mirrors, _)| mirrors), list, flat.positions.len());
+    found.iter().for_each(|(_, found)| skipped.add(*found));
+    *mirrored = concatenated(found.into_iter().map(|(mirrored, _)| mirrored), list, slices.positions.len());
 }
 
-/// Adds what a thread's triangles add to its vertices, whose sums for mirrored triangles are made when the first comes.
+/// Runs one thread's share. The mirrored sums are allocated at the first mirrored triangle.
 fn add_part<const N: usize, W: Weighting<N>>(
-    flat: &MeshSlices<'_>,
-    how: BlockOptions<'_>,
+    slices: &MeshSlices<'_>,
+    options: BlockOptions<'_>,
     part: &ThreadWork,
-    (keeps, mirrors): (&mut [SumRows<N>], &mut Vec<SumRows<N>>),
-    count: &mut OrientationRecorder<'_>,
+    (preserved, mirrored): (&mut [SumRows<N>], &mut Vec<SumRows<N>>),
+    recorder: &mut OrientationRecorder<'_>,
 ) {
-    keeps.fill([[0.0; 4]; N]);
+    preserved.fill([[0.0; 4]; N]);
     let first = part.vertices.start as u32;
     for_each_block::<N, W>(
-        flat,
-        how,
+        slices,
+        options,
         part.adds.clone(),
-        count,
+        recorder,
         #[inline(always)]
         move |_, triangles, block| {
             let orientations = &block.orientations[..triangles.len()];
-            let found = found(orientations);
-            if W::SPLITS && found & bit(Orientation::Mirrors) != 0 && mirrors.is_empty() {
-                mirrors.resize(keeps.len(), [[0.0; 4]; N]);
+            let found = orientation_set(orientations);
+            if W::SPLITS && found & orientation_bit(Orientation::Mirrors) != 0 && mirrored.is_empty() {
+                mirrored.resize(preserved.len(), [[0.0; 4]; N]);
             }
-            let all_add = found & bit(Orientation::None) == 0;
-            if all_add && (!W::SPLITS || found == bit(Orientation::Preserves)) {
+            let all_add = found & orientation_bit(Orientation::None) == 0;
+            if all_add && (!W::SPLITS || found == orientation_bit(Orientation::Preserves)) {
                 for (i, &triangle) in triangles.iter().enumerate() {
-                    scatter(keeps, first, triangle, &block.term(i));
+                    scatter(preserved, first, triangle, &block.term(i));
                 }
                 return;
             }
             for (i, (&triangle, orientation)) in triangles.iter().zip(orientations).enumerate() {
                 match orientation {
                     Orientation::None => {}
-                    Orientation::Mirrors if W::SPLITS => scatter(mirrors, first, triangle, &block.term(i)),
-                    _ => scatter(keeps, first, triangle, &block.term(i)),
+                    Orientation::Mirrors if W::SPLITS => scatter(mirrored, first, triangle, &block.term(i)),
+                    _ => scatter(preserved, first, triangle, &block.term(i)),
                 }
             }
         },
     );
 }
 
-/// Adds a term to the vertices of a triangle, of which the first sum's is `first`, and others may be other threads'.
+/// Adds a term to those vertices of a triangle that this thread owns; `sums[0]` is vertex `first`.
 #[inline(always)]
 fn scatter<const N: usize>(sums: &mut [SumRows<N>], first: u32, triangle: [u32; 3], term: &SumRows<N>) {
     for vertex in triangle {
@@ -129,19 +132,19 @@ fn scatter<const N: usize>(sums: &mut [SumRows<N>], first: u32, triangle: [u32; 
     }
 }
 
-/// The sums of all parts' vertices, of which some parts may have none; none where no part has any.
-fn joined<const N: usize>(
-    mut of_parts: impl ExactSizeIterator<Item = Vec<SumRows<N>>>,
+/// Concatenates the mirrored sums of all threads. Threads without mirrored triangles have none; empty where no thread has any.
+fn concatenated<const N: usize>(
+    mut of_threads: impl ExactSizeIterator<Item = Vec<SumRows<N>>>,
     list: &[ThreadWork],
     vertices: usize,
 ) -> Vec<SumRows<N>> {
-    if of_parts.len() == 1 {
-        return of_parts.next().unwrap_or_default();
+    if of_threads.len() == 1 {
+        return of_threads.next().unwrap_or_default();
     }
     let mut all = Vec::new();
-    for (part, of_part) in list.iter().zip(of_parts).filter(|(_, of_part)| !of_part.is_empty()) {
+    for (work, of_thread) in list.iter().zip(of_threads).filter(|(_, of_thread)| !of_thread.is_empty()) {
         all.resize(vertices, [[0.0; 4]; N]);
-        all[part.vertices.clone()].copy_from_slice(&of_part);
+        all[work.vertices.clone()].copy_from_slice(&of_thread);
     }
     all
 }

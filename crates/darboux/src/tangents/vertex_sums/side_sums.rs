@@ -1,4 +1,4 @@
-//! The sums of all vertices, apart for the two UV orientations.
+//! The sums of all vertices, apart for the two UV orientations, and the counts of skipped triangles.
 
 use crate::math::V3;
 
@@ -8,28 +8,30 @@ use crate::tangents::report::are_finite;
 use crate::tangents::uv_derivatives::{Orientation, is_degenerate};
 use crate::tangents::vertex_sums::weighting::SumRows;
 
-/// The sums of all vertices and what was met on the way.
+/// The result of accumulation.
 pub(crate) struct SideSums<const N: usize> {
-    /// Per orientation and vertex; none of an orientation that no triangle has, but that the first is always there.
+    /// One sum per vertex for each orientation: preserved and mirrored. The mirrored list is empty where no triangle is mirrored.
     pub of_side: [Vec<SumRows<N>>; 2],
     pub orientation_of_face: Vec<Orientation>,
-    pub flaws: SkippedTriangles,
+    pub skipped: SkippedTriangles,
 }
 
-/// Triangles that add nothing.
+/// The numbers of triangles that are skipped, by reason.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SkippedTriangles {
     pub degenerate: usize,
     pub uv_degenerate: usize,
-    /// Others, with a value that is not finite.
+    /// Triangles with a position or a UV that is not finite, and that are not degenerate.
     non_finite: usize,
 }
 
 impl SkippedTriangles {
-    pub fn are_none(&self) -> bool {
+    /// True when no triangle is skipped.
+    pub fn is_empty(&self) -> bool {
         self.degenerate + self.uv_degenerate + self.non_finite == 0
     }
 
+    /// Counts a skipped triangle.
     #[cold]
     pub fn count(&mut self, positions: [&V3; 3], uvs: [&[f32; 2]; 3]) {
         if is_degenerate(positions.map(|position| *position)) {
@@ -49,25 +51,25 @@ impl SkippedTriangles {
 }
 
 impl<const N: usize> SideSums<N> {
-    /// Room for sums, in the memory of earlier ones. What the first side holds is anything.
-    pub fn new(flat: &MeshSlices<'_>, memory: &mut MethodBuffers) -> Self
+    /// Takes the buffers and resizes them. The content of the preserved list is unspecified.
+    pub fn new(slices: &MeshSlices<'_>, buffers: &mut MethodBuffers) -> Self
     where
         MethodBuffers: SumBuffers<N>,
     {
-        let mut of_side = std::mem::take(memory.of_side());
-        let mut orientation_of_face = std::mem::take(&mut memory.orientation_of_face);
-        of_side[0].resize(flat.positions.len(), [[0.0; 4]; N]);
+        let mut of_side = std::mem::take(buffers.of_side());
+        let mut orientation_of_face = std::mem::take(&mut buffers.orientation_of_face);
+        of_side[0].resize(slices.positions.len(), [[0.0; 4]; N]);
         of_side[1].clear();
-        orientation_of_face.resize(flat.triangles().len(), Orientation::None);
-        Self { of_side, orientation_of_face, flaws: SkippedTriangles::default() }
+        orientation_of_face.resize(slices.triangles().len(), Orientation::None);
+        Self { of_side, orientation_of_face, skipped: SkippedTriangles::default() }
     }
 
-    /// Leaves the memory for others.
-    pub fn keep(self, memory: &mut MethodBuffers)
+    /// Returns the buffers for the next run.
+    pub fn return_to(self, buffers: &mut MethodBuffers)
     where
         MethodBuffers: SumBuffers<N>,
     {
-        *memory.of_side() = self.of_side;
-        memory.orientation_of_face = self.orientation_of_face;
+        *buffers.of_side() = self.of_side;
+        buffers.orientation_of_face = self.orientation_of_face;
     }
 }

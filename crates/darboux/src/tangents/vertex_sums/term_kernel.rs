@@ -1,29 +1,30 @@
-//! What a block of triangles adds to its vertices, lane by lane.
+//! Terms of a block of triangles: what they add to their vertices.
 //!
-//! Every quantity is an array with one entry per triangle, and what is computed one loop over them without branches, which compilers turn
-//! into vector code of whatever width the machine has. Each lane rounds as [`crate::tangents::vertex_sums::weighting::term`], its one source.
+//! Every quantity is an array with one lane per triangle, and loops have no branches, so that compilers vectorise them at any width. Each
+//! lane gives the bits of [`crate::tangents::vertex_sums::weighting::term`], which has the same source.
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
 
-use crate::tangents::mesh_slices::TriangleSlices;
+use crate::tangents::mesh_slices::TriangleInputs;
 use crate::tangents::uv_derivatives::{Orientation, ScaledDerivatives};
 use crate::tangents::vertex_sums::weighting::{SumRows, Weighting, term_and_test};
 
-/// Triangles per block.
+/// The number of triangles or vertices per block.
 pub(crate) const TERM_BLOCK: usize = if cfg!(small_limits) { 2 } else { 64 };
 
+/// One value per element of a block.
 pub(crate) type TermLane<T> = [T; TERM_BLOCK];
 
-/// One block's arrays; reused from block to block.
+/// The arrays of one block, reused from block to block.
 pub(crate) struct TermBlock<const N: usize> {
     positions: [[TermLane<f32>; 3]; 3],
     uvs: [[TermLane<f32>; 2]; 3],
     lanes: [[TermLane<f32>; 4]; N],
-    /// Orientations as wide as the other lanes.
+    /// The orientations as numbers, as wide as the other lanes.
     sides: TermLane<u32>,
-    /// What each triangle adds, one row after the other,
+    /// The rows of the terms.
     rows: [TermLane<[f32; 4]>; N],
-    /// and to which side, or that it adds nothing.
+    /// The orientation of each triangle; `None` for triangles that are skipped.
     pub orientations: TermLane<Orientation>,
 }
 
@@ -39,7 +40,7 @@ impl<const N: usize> TermBlock<N> {
         }
     }
 
-    /// What triangle `i` adds.
+    /// The term of triangle `i`.
     #[inline(always)]
     pub fn term(&self, i: usize) -> SumRows<N> {
         let mut term = [[0.0; 4]; N];
@@ -49,11 +50,11 @@ impl<const N: usize> TermBlock<N> {
         term
     }
 
-    /// Takes up to [`TERM_BLOCK`] triangles; the lanes beyond them keep what they had.
+    /// Loads up to [`TERM_BLOCK`] triangles. Other lanes keep their values.
     #[inline(always)]
-    pub fn set(&mut self, slices: &TriangleSlices<'_>, triangles: &[[u32; 3]]) {
+    pub fn set(&mut self, inputs: &TriangleInputs<'_>, triangles: &[[u32; 3]]) {
         for (i, &triangle) in triangles.iter().take(TERM_BLOCK).enumerate() {
-            let (positions, uvs) = slices.refer(triangle);
+            let (positions, uvs) = inputs.values_of(triangle);
             for k in 0..3 {
                 for axis in 0..3 {
                     self.positions[k][axis][i] = positions[k][axis];
@@ -65,7 +66,7 @@ impl<const N: usize> TermBlock<N> {
         }
     }
 
-    /// Computes the terms and orientations of what was [set](TermBlock::set).
+    /// Computes the terms and orientations of the loaded triangles.
     #[inline(always)]
     pub fn evaluate<W: Weighting<N>>(&mut self) {
         self.compute::<W>();
@@ -101,8 +102,8 @@ impl<const N: usize> TermBlock<N> {
             }
         }
         for i in 0..TERM_BLOCK {
-            let of_area = if self.sides[i] == 0 { Orientation::Preserves } else { Orientation::Mirrors };
-            self.orientations[i] = if self.sides[i] == 2 { Orientation::None } else { of_area };
+            let orientation = if self.sides[i] == 0 { Orientation::Preserves } else { Orientation::Mirrors };
+            self.orientations[i] = if self.sides[i] == 2 { Orientation::None } else { orientation };
         }
     }
 }
