@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use cpu_time::ProcessTime;
 use darboux::internal::width_limit::{self, WidthLimit};
-use darboux::{Context, Mode, TangentOptions, generate_tangents, write_tangents};
+use darboux::{Context, MikktOptions, Mode, TangentOptions, generate_tangents, write_tangents};
 use darboux_tests::{FaceSizes, OwnedMesh};
 
 use crate::callbacks::Callbacks;
@@ -90,7 +90,7 @@ fn ours() -> Vec<Engine> {
     vec![
         native("darboux", version, Method::MikkTSpace, |mesh| {
             let view = mesh.view();
-            per_corner(mesh, move |out| *out = generate_tangents(&view, &EXACT).corners.into_per_corner())
+            per_corner(mesh, move |out| *out = generate_tangents(&view, &exact()).corners.into_per_corner())
         }),
         native("darboux-kept", version, Method::MikkTSpace, |mesh| kept(mesh, Context::new())),
         native("darboux-kept-256", version, Method::MikkTSpace, |mesh| {
@@ -109,15 +109,16 @@ fn available_threads() -> usize {
 }
 
 /// The reference's own answer, repairs left out.
-const EXACT: TangentOptions =
-    TangentOptions { method: darboux::Method::MikkTSpace, mode: Mode::Reference, threshold: 180.0 };
+fn exact() -> TangentOptions {
+    MikktOptions::new().with_mode(Mode::Reference).into()
+}
 
 /// Darboux with memory kept between calls.
 fn kept(mesh: &OwnedMesh, mut context: Context) -> Box<dyn Run + '_> {
     let view = mesh.view();
     per_corner(mesh, move |out| {
         out.resize(view.corner_count(), [0.0; 4]);
-        _ = write_tangents(&view, &EXACT, &mut context, out).expect("one tangent per corner");
+        _ = write_tangents(&view, &exact(), &mut context, out).expect("one tangent per corner");
     })
 }
 
@@ -130,7 +131,7 @@ fn kept_by_threads(mesh: &OwnedMesh) -> Box<dyn Run + '_> {
     per_corner(mesh, move |out| {
         out.resize(view.corner_count(), [0.0; 4]);
         pool.install(|| {
-            _ = write_tangents(&view, &EXACT, &mut context, out).expect("one tangent per corner")
+            _ = write_tangents(&view, &exact(), &mut context, out).expect("one tangent per corner")
         });
     })
 }

@@ -4,8 +4,8 @@ use std::collections::HashSet;
 
 use darboux::internal::stage_arrays;
 use darboux::{
-    CornerTangents, Frame, Frames, Mode, Plan, TangentOptions, generate_frames, generate_tangents,
-    split_vertices,
+    CornerTangents, Frame, Frames, MikktOptions, Mode, Plan, TangentOptions, generate_frames,
+    generate_tangents, split_vertices,
 };
 
 use crate::{Case, OwnedMesh, engine};
@@ -22,13 +22,14 @@ pub fn all_modes(case: &Case) -> Result<(), String> {
     };
     let splits = distinct(&mut reference.iter().copied().flatten());
     for mode in [Mode::Reference, Mode::Repaired, Mode::Corrected] {
-        let options = TangentOptions { mode, threshold: *threshold, ..TangentOptions::default() };
+        let mikkt = MikktOptions::new().with_mode(mode).with_threshold(*threshold);
+        let options = TangentOptions::from(mikkt);
         let Frames { corners, report } = generate_frames(&mesh.view(), &options);
         let tangents = generate_tangents(&mesh.view(), &options);
         if tangents.report != report {
             return Err(format!("{mode:?}: tangents report {:?}, frames {report:?}", tangents.report));
         }
-        let general = stage_arrays::frames(&mesh.view(), &options).report;
+        let general = stage_arrays::frames(&mesh.view(), &mikkt).report;
         if report != general {
             return Err(format!("{mode:?}: report {report:?}, of all stages {general:?}"));
         }
@@ -49,7 +50,7 @@ pub fn all_modes(case: &Case) -> Result<(), String> {
 /// The first promise of splitting and of plans that is broken on a case.
 pub fn split_and_plan(case: &Case) -> Result<(), String> {
     let mesh = case.mesh.view();
-    let options = TangentOptions { threshold: case.threshold, ..TangentOptions::default() };
+    let options = TangentOptions::from(MikktOptions::new().with_threshold(case.threshold));
     let tangents = generate_tangents(&mesh, &options);
     let (split, corners) = (split_vertices(&mesh, &tangents.corners), tangents.corners.per_corner());
     let split = split.map_err(|error| error.to_string())?;

@@ -2,7 +2,9 @@
 
 use darboux::internal::stage_arrays;
 use darboux::internal::width_limit::{self, WidthLimit};
-use darboux::{Frame, Frames, Mesh, Mode, TangentOptions, generate_frames, generate_tangents_with};
+use darboux::{
+    Frame, Frames, Mesh, MikktOptions, Mode, TangentOptions, generate_frames, generate_tangents_with,
+};
 use mikktspace_sys::{MikkTSpaceInterface, gen_tang_space};
 
 use crate::OwnedMesh;
@@ -43,10 +45,10 @@ impl Engine for Reference {
 }
 
 /// The library, by one of its ways to whole frames.
-pub struct Darboux(&'static str, fn(&Mesh<'_>, &TangentOptions) -> Frames);
+pub struct Darboux(&'static str, fn(&Mesh<'_>, &MikktOptions) -> Frames);
 
 /// The way that users go.
-pub const DARBOUX: Darboux = Darboux("darboux", generate_frames);
+pub const DARBOUX: Darboux = Darboux("darboux", |mesh, options| generate_frames(mesh, &(*options).into()));
 
 impl Engine for Darboux {
     fn name(&self) -> &'static str {
@@ -54,7 +56,7 @@ impl Engine for Darboux {
     }
 
     fn run(&self, mesh: &OwnedMesh, threshold: f32, mode: Mode) -> Option<Vec<Option<Frame>>> {
-        let options = TangentOptions { mode, threshold, ..TangentOptions::default() };
+        let options = MikktOptions::new().with_mode(mode).with_threshold(threshold);
         let frames = (self.1)(&mesh.view(), &options).corners.into_per_corner();
         let supported = mesh.supported_corners();
         Some(frames.into_iter().zip(supported).map(|(frame, supported)| supported.then_some(frame)).collect())
@@ -71,7 +73,7 @@ impl Engine for DarbouxTangents {
 
     fn run(&self, mesh: &OwnedMesh, threshold: f32, mode: Mode) -> Option<Vec<Option<Frame>>> {
         let mut frames = DARBOUX.run(mesh, threshold, mode)?;
-        let options = TangentOptions { mode, threshold, ..TangentOptions::default() };
+        let options = TangentOptions::from(MikktOptions::new().with_mode(mode).with_threshold(threshold));
         let context = &mut width_limit::context(self.1);
         let tangents = generate_tangents_with(&mesh.view(), &options, context).ok()?;
         for (frame, [x, y, z, sign]) in frames.iter_mut().zip(tangents.corners.into_per_corner()) {

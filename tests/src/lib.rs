@@ -22,9 +22,9 @@ pub use mesh::{FaceSizes, OwnedMesh};
 
 /// All methods, in the order of C's numbers for them.
 pub const METHODS: [darboux::Method; 8] = {
-    use darboux::Method;
+    use darboux::{Method, MikktOptions};
     [
-        Method::MikkTSpace,
+        Method::MikkTSpace(MikktOptions::new()),
         Method::AngleArea,
         Method::Lengyel,
         Method::LengyelPerVertex,

@@ -1,12 +1,17 @@
 //! Arrays of the caller's: the same results as in the library's own, and none for an array that does not fit.
 
 use darboux::{
-    Context, CornerTangentsRef, Frame, MeshError, Method, Mode, Plan, TangentOptions, generate_frames,
-    generate_tangents, lend_frames, split_vertices, write_frames, write_tangents,
+    Context, CornerTangentsRef, Frame, MeshError, Method, MikktOptions, Mode, Plan, TangentOptions,
+    generate_frames, generate_tangents, lend_frames, split_vertices, write_frames, write_tangents,
 };
 use darboux_tests::{OwnedMesh, families};
 
-const METHODS: [Method; 4] = [Method::MikkTSpace, Method::AngleArea, Method::Lengyel, Method::Face];
+const METHODS: [Method; 4] = [
+    Method::MikkTSpace(MikktOptions::new().with_mode(Mode::Reference)),
+    Method::AngleArea,
+    Method::Lengyel,
+    Method::Face,
+];
 
 fn meshes() -> [OwnedMesh; 3] {
     [
@@ -20,7 +25,7 @@ fn meshes() -> [OwnedMesh; 3] {
 fn have_the_same_tangents_and_splits() {
     for (mesh, method) in meshes().iter().flat_map(|mesh| METHODS.map(|method| (mesh, method))) {
         let (view, mut context) = (mesh.view(), Context::new());
-        let options = TangentOptions { method, mode: Mode::Reference, ..TangentOptions::default() };
+        let options = TangentOptions::from(method);
         let own = generate_tangents(&view, &options);
         let mut corners = vec![[f32::NAN; 4]; mesh.corner_count()];
         let report = write_tangents(&view, &options, &mut context, &mut corners).unwrap();
@@ -41,10 +46,9 @@ fn have_the_same_frames() {
     let large = families::grid(97, 97, false, true);
     let mut context = Context::new();
     for mesh in meshes().iter().chain([&large, &families::fan(9, false)]) {
-        for (method, threshold) in
-            METHODS.map(|method| (method, 180.0)).into_iter().chain([(METHODS[0], 60.0)])
-        {
-            let options = TangentOptions { method, threshold, mode: Mode::Repaired };
+        let sharp = Method::MikkTSpace(MikktOptions::new().with_threshold(60.0));
+        for method in METHODS.into_iter().chain([Method::default(), sharp]) {
+            let options = TangentOptions::from(method);
             let (view, count) = (mesh.view(), mesh.corner_count());
             let own = generate_frames(&view, &options);
             let mut frames = vec![Frame::default(); count];

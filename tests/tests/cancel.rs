@@ -3,14 +3,15 @@
 use std::time::Duration;
 
 use darboux::{
-    Cancel, Context, Frame, Mesh, MeshError, NormalOptions, NormalPlan, Plan, Splitter, TangentOptions,
-    generate_frames_with, generate_normals_with, generate_tangents_with, lend_frames, measure_tangents_with,
-    measure_uv_fidelity_with, split_normals_with, split_vertices_with, write_frames, write_tangents,
+    Cancel, Context, Frame, Mesh, MeshError, MikktOptions, NormalOptions, NormalPlan, Plan, Splitter,
+    TangentOptions, generate_frames_with, generate_normals_with, generate_tangents_with, lend_frames,
+    measure_tangents_with, measure_uv_fidelity_with, split_normals_with, split_vertices_with, write_frames,
+    write_tangents,
 };
 use darboux_tests::{OwnedMesh, families};
 
 fn options(threshold: f32) -> TangentOptions {
-    TangentOptions { threshold, ..TangentOptions::default() }
+    TangentOptions::from(MikktOptions::new().with_threshold(threshold))
 }
 
 /// Below 180 degrees a fan costs its size squared: this one would take minutes.

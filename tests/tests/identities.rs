@@ -1,6 +1,6 @@
 //! The same mesh in another layout, or turned or mirrored: the result must follow.
 
-use darboux::{Faces, Frame, Mesh, Mode, Strided, TangentOptions, generate_frames};
+use darboux::{Faces, Frame, Mesh, MikktOptions, Mode, Strided, TangentOptions, generate_frames};
 use darboux_tests::{Case, OwnedMesh, families};
 
 fn bits(frames: &[Frame]) -> Vec<[u32; 9]> {
@@ -8,9 +8,12 @@ fn bits(frames: &[Frame]) -> Vec<[u32; 9]> {
 }
 
 fn frames(mesh: &Mesh<'_>, threshold: f32) -> Vec<Frame> {
-    generate_frames(mesh, &TangentOptions { mode: Mode::Repaired, threshold, ..TangentOptions::default() })
-        .corners
-        .into_per_corner()
+    generate_frames(
+        mesh,
+        &TangentOptions::from(MikktOptions::new().with_mode(Mode::Repaired).with_threshold(threshold)),
+    )
+    .corners
+    .into_per_corner()
 }
 
 /// Position, UV and normal of each vertex in one buffer of 9 floats a vertex, with one that is nobody's.
@@ -60,7 +63,8 @@ fn the_layout_of_the_input_does_not_matter() {
 fn indices_do_not_matter() {
     for seed in 0..3_000 {
         let Case { mesh, threshold } = Case::from_seed(seed);
-        let options = TangentOptions { mode: Mode::Reference, threshold, ..TangentOptions::default() };
+        let options =
+            TangentOptions::from(MikktOptions::new().with_mode(Mode::Reference).with_threshold(threshold));
         let [indexed, unindexed] = [&mesh, &mesh.unindexed()]
             .map(|mesh| bits(&generate_frames(&mesh.view(), &options).corners.into_per_corner()));
         assert_eq!(indexed, unindexed, "seed {seed}");

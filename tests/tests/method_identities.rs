@@ -9,7 +9,7 @@ use darboux_tests::{METHODS, OwnedMesh, families};
 const TOLERANCE: f32 = 2.4e-5;
 
 fn frames(mesh: &OwnedMesh, method: Method) -> Vec<Frame> {
-    let options = TangentOptions { method, ..TangentOptions::default() };
+    let options = TangentOptions::from(method);
     generate_frames(&mesh.view(), &options).corners.into_per_corner()
 }
 
@@ -134,7 +134,7 @@ fn orthogonalized_bitangents() {
     let dot = |a: [f32; 3], b: [f32; 3]| (0..3).map(|i| a[i] * b[i]).sum::<f32>();
     for method in METHODS.into_iter().filter(|&method| method != Method::Face) {
         for mesh in meshes() {
-            let options = TangentOptions { method, ..TangentOptions::default() };
+            let options = TangentOptions::from(method);
             let frames = generate_frames(&mesh.view(), &options).corners;
             let found = frames.clone().orthogonalized(&mesh.view()).expect("the same mesh");
             for (corner, (frame, own)) in found.per_corner().iter().zip(frames.per_corner()).enumerate() {

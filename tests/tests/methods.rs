@@ -1,6 +1,6 @@
 //! Every method but MikkTSpace against its brute force in double precision, and on odd meshes.
 
-use darboux::{Frame, Mesh, Method, Mode, Report, TangentOptions, generate_frames, generate_tangents};
+use darboux::{Frame, Mesh, Method, Report, TangentOptions, generate_frames, generate_tangents};
 use darboux_tests::{Case, METHODS, OwnedMesh, families, oracle};
 
 /// A method and its brute force.
@@ -20,9 +20,8 @@ const TWINS: [Twin; 7] = [
 /// the meshes' triangles are no thinner than 1 to 10, which multiplies the errors of edges as much: 40 * 6e-8 * 10.
 const TOLERANCE: f32 = 2.4e-5;
 
-fn run(mesh: &OwnedMesh, method: Method, mode: Mode) -> (Vec<Frame>, Report) {
-    let options = TangentOptions { method, mode, ..TangentOptions::default() };
-    let frames = generate_frames(&mesh.view(), &options);
+fn run(mesh: &OwnedMesh, method: Method) -> (Vec<Frame>, Report) {
+    let frames = generate_frames(&mesh.view(), &method.into());
     (frames.corners.into_per_corner(), frames.report)
 }
 
@@ -58,7 +57,7 @@ fn regular_meshes() -> Vec<(&'static str, OwnedMesh)> {
 fn all_agree_with_their_brute_force() {
     for (name, mesh) in regular_meshes() {
         for (method, twin) in TWINS {
-            let (found, _) = run(&mesh, method, Mode::Reference);
+            let (found, _) = run(&mesh, method);
             for (corner, (found, expected)) in found.iter().zip(twin(&mesh.view())).enumerate() {
                 // At a mirrored seam the one sum per vertex cancels: what is left there is rounding.
                 let Some(expected) = expected else { continue };
@@ -83,9 +82,9 @@ fn cancels(mesh: &OwnedMesh, corner: usize) -> bool {
     mesh.positions[mesh.vertex_of_corner(corner)][0] == 0.5
 }
 
-/// The method's frames, but for what `Mode::Reference` may leave.
-fn check(mesh: &OwnedMesh, method: Method, mode: Mode) -> Result<(), String> {
-    let (frames, report) = run(mesh, method, mode);
+/// Checks the method's frames and its report.
+fn check(mesh: &OwnedMesh, method: Method) -> Result<(), String> {
+    let (frames, report) = run(mesh, method);
     if frames.len() != mesh.corner_count() {
         return Err(format!("{} frames", frames.len()));
     }
@@ -107,8 +106,7 @@ fn check(mesh: &OwnedMesh, method: Method, mode: Mode) -> Result<(), String> {
             return wrong("not perpendicular to the normal");
         }
     }
-    let tangents =
-        generate_tangents(&mesh.view(), &TangentOptions { method, mode, ..TangentOptions::default() });
+    let tangents = generate_tangents(&mesh.view(), &method.into());
     let same = tangents.corners.per_corner().iter().zip(&frames);
     if let Some(corner) =
         same.into_iter().position(|(a, b)| a.map(f32::to_bits) != b.tangent_and_sign().map(f32::to_bits))
@@ -159,10 +157,8 @@ fn sweep(seeds: std::ops::Range<u64>) {
     for seed in seeds {
         let Case { mesh, .. } = Case::from_seed(seed);
         for (method, _) in TWINS {
-            for mode in [Mode::Repaired, Mode::Corrected] {
-                if let Err(broken) = check(&mesh, method, mode) {
-                    panic!("{method:?}, {mode:?}, seed {seed}: {broken}\n{}", mesh.to_text());
-                }
+            if let Err(broken) = check(&mesh, method) {
+                panic!("{method:?}, seed {seed}: {broken}\n{}", mesh.to_text());
             }
         }
     }
@@ -187,7 +183,7 @@ fn bitangents_without_a_direction_follow_the_fit() {
     let normals = [[half, half, 0.0], [-0.6, 0.0, 0.8], [-0.6, 0.0, 0.8], [0.0, 0.0, 1.0f32]];
     let uvs = [[0.0, 0.0], [1.0, 1.0], [-1.0, 1.0], [0.0, 2.0f32]];
     let mesh = Mesh::triangles(&positions, &normals, &uvs, &[0u32, 1, 2, 1, 3, 2]).expect("a mesh");
-    let options = TangentOptions { method: Method::AngleArea, ..TangentOptions::default() };
+    let options = TangentOptions::from(Method::AngleArea);
     let frame = generate_frames(&mesh, &options).corners.per_corner()[0];
     assert!(frame.tangent[2].abs() > 0.01, "the fit moved nothing: {frame:?}");
     assert!(dot(frame.bitangent, frame.tangent).abs() < 1e-6, "{frame:?}");
@@ -197,7 +193,7 @@ fn bitangents_without_a_direction_follow_the_fit() {
 #[test]
 fn what_is_not_finite_is_not_uv_degenerate() {
     for method in METHODS.into_iter().filter(|&method| method != Method::FromNormal) {
-        let options = TangentOptions { method, ..TangentOptions::default() };
+        let options = TangentOptions::from(method);
         let counts = |mesh: &OwnedMesh| {
             let report = generate_tangents(&mesh.view(), &options).report;
             [report.non_finite_corners, report.uv_degenerate_triangles, report.degenerate_triangles]

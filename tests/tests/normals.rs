@@ -159,8 +159,7 @@ fn tangents_without_normals() {
     let none = darboux::Strided::repeated(&[0.0; 3], mesh.positions.len());
     let indices = mesh.indices.as_ref().expect("an indexed mesh");
     let bare = Mesh::triangles(&mesh.positions, none, &mesh.uvs, indices).expect("a valid mesh");
-    let options = darboux::TangentOptions { method: darboux::Method::Area, ..Default::default() };
-    let tangents = darboux::generate_tangents(&bare, &options);
+    let tangents = darboux::generate_tangents(&bare, &darboux::Method::Area.into());
     assert_eq!(tangents.report.repaired_corners, 0);
     let options =
         NormalOptions { weight: NormalWeight::Area, seams: SmoothingSeams::Respected, ..Default::default() };

@@ -1,6 +1,6 @@
 //! Plans on meshes that move.
 
-use darboux::{Context, Method, Mode, Plan, TangentOptions, generate_tangents};
+use darboux::{Context, Method, MikktOptions, Mode, Plan, TangentOptions, generate_tangents};
 use darboux_tests::{Case, FaceSizes, OwnedMesh, families};
 
 /// A plan of `base` on `moved`.
@@ -36,7 +36,7 @@ fn every_stage_agrees_with_the_short_way() {
         let Case { mesh, threshold } = Case::from_seed(seed);
         if mesh.corner_count() > 0 && mesh.face_sizes().into_iter().all(is_supported) {
             let mode = [Mode::Reference, Mode::Repaired, Mode::Corrected][seed as usize % 3];
-            let options = TangentOptions { mode, threshold, ..TangentOptions::default() };
+            let options = TangentOptions::from(MikktOptions::new().with_mode(mode).with_threshold(threshold));
             let moved = mesh.moved(seed as usize);
             let short = planned(&mesh, &moved, &options);
             let mut long = planned(&with_pentagon(&mesh), &with_pentagon(&moved), &options);
@@ -55,9 +55,9 @@ fn other_faces_change_nothing() {
         base.clone().with_face_list(&vec![vec![11, 5, 7]; corners / 3]),
         base.clone().with_face_list(&[vec![11; 2], vec![0; corners - 2]]),
     ];
-    for method in [Method::MikkTSpace, Method::AngleArea, Method::Lengyel] {
+    for method in [Method::default(), Method::AngleArea, Method::Lengyel] {
         for base in [base.clone(), OwnedMesh { faces: FaceSizes::Triangles, ..base.clone() }] {
-            let options = TangentOptions { method, ..TangentOptions::default() };
+            let options = TangentOptions::from(method);
             let plan = Plan::new(&base.view(), &options);
             for other in &others {
                 assert_eq!(plan.evaluate(&other.view()), plan.evaluate(&view), "{method:?}");
@@ -69,14 +69,14 @@ fn other_faces_change_nothing() {
 #[test]
 fn a_waving_surface_keeps_its_groups() {
     for (mirrored, method) in [
-        (false, Method::MikkTSpace),
-        (true, Method::MikkTSpace),
+        (false, Method::default()),
+        (true, Method::default()),
         (false, Method::AngleArea),
         (true, Method::AngleArea),
         (true, Method::Lengyel),
         (true, Method::Average),
     ] {
-        let options = TangentOptions { method, ..TangentOptions::default() };
+        let options = TangentOptions::from(method);
         let base = families::grid(40, 30, false, mirrored);
         let mut waving = base.clone();
         for position in &mut waving.positions {
@@ -96,7 +96,7 @@ fn a_waving_surface_keeps_its_groups() {
 /// Vertices that fall onto others, or nowhere, change no group: nothing but their own triangles and those around them.
 #[test]
 fn groups_of_angle_and_area_hold_whatever_moves() {
-    let options = TangentOptions { method: Method::AngleArea, ..TangentOptions::default() };
+    let options = TangentOptions::from(Method::AngleArea);
     for seed in 0..5_000 {
         let mesh = Case::from_seed(seed).mesh;
         let moved = mesh.moved(seed as usize);

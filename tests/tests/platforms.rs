@@ -2,7 +2,7 @@
 //!
 //! Run this on another one to see whether the promise holds there. A change that is meant to change tangents records new ones.
 
-use darboux::{Frame, Method, Mode, TangentOptions, generate_frames, generate_tangents};
+use darboux::{Frame, Method, MikktOptions, Mode, generate_frames, generate_tangents};
 use darboux_tests::{Case, METHODS, OwnedMesh, compare};
 
 /// FNV-1a of 64 bits, word by word.
@@ -33,10 +33,6 @@ fn hash(meshes: &[(OwnedMesh, f32)], take: impl Fn(&OwnedMesh, f32, &mut Hash)) 
     hash.0
 }
 
-fn options(method: Method, mode: Mode, threshold: f32) -> TangentOptions {
-    TangentOptions { method, mode, threshold }
-}
-
 #[test]
 fn meshes_are_the_same() {
     let found = hash(&meshes(), |mesh, threshold, hash| {
@@ -54,7 +50,8 @@ fn frames_of_mikktspace_are_the_same() {
     let meshes = meshes();
     let found = [Mode::Reference, Mode::Repaired, Mode::Corrected].map(|mode| {
         hash(&meshes, |mesh, threshold, hash| {
-            let frames = generate_frames(&mesh.view(), &options(Method::MikkTSpace, mode, threshold));
+            let options = MikktOptions::new().with_mode(mode).with_threshold(threshold);
+            let frames = generate_frames(&mesh.view(), &options.into());
             frames.corners.per_corner().iter().for_each(|frame| hash.take_frame(frame));
         })
     });
@@ -67,7 +64,11 @@ fn tangents_of_every_method_are_the_same() {
     let meshes = meshes();
     let found = METHODS.map(|method| {
         hash(&meshes, |mesh, threshold, hash| {
-            let tangents = generate_tangents(&mesh.view(), &options(method, Mode::Repaired, threshold));
+            let method = match method {
+                Method::MikkTSpace(options) => options.with_threshold(threshold).into(),
+                other => other,
+            };
+            let tangents = generate_tangents(&mesh.view(), &method.into());
             tangents.corners.per_corner().as_flattened().iter().for_each(|float| hash.take_float(*float));
         })
     });

@@ -3,13 +3,13 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use darboux::{Method, TangentOptions, UvFidelity, generate_tangents, measure_uv_fidelity};
+use darboux::{Method, MikktOptions, TangentOptions, UvFidelity, generate_tangents, measure_uv_fidelity};
 use darboux_tests::OwnedMesh;
 use darboux_tests::models::{meshes, models};
 
 const METHODS: [Method; 8] = [
     Method::AngleArea,
-    Method::MikkTSpace,
+    Method::MikkTSpace(MikktOptions::new()),
     Method::Lengyel,
     Method::LengyelPerVertex,
     Method::Average,
@@ -42,7 +42,7 @@ const FLAT: f64 = 0.001;
 fn measure(mesh: &OwnedMesh) -> Vec<UvFidelity> {
     let view = mesh.view();
     let ours = METHODS.map(|method| {
-        let options = TangentOptions { method, ..TangentOptions::default() };
+        let options = TangentOptions::from(method);
         measure_uv_fidelity(&view, generate_tangents(&view, &options).corners.per_corner())
             .expect("the same mesh")
     });

@@ -4,8 +4,8 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use darboux::internal::width_limit::{self, WidthLimit};
 use darboux::{
-    Context, Faces, Indices, Mesh, Method, Mode, Plan, TangentOptions, generate_frames, generate_tangents,
-    generate_tangents_with,
+    Context, Faces, Indices, Mesh, Method, MikktOptions, Mode, Plan, TangentOptions, generate_frames,
+    generate_tangents, generate_tangents_with,
 };
 
 /// A wavy grid of quads whose UVs are mirrored from one half to the other: vertices, and triangles in order.
@@ -26,20 +26,15 @@ fn grid(columns: u32, rows: u32) -> (Vec<[f32; 8]>, Vec<[u32; 3]>) {
 }
 
 /// The modes of the fast path.
-const MIKKTSPACE: [(Method, Mode); 3] = [
-    (Method::MikkTSpace, Mode::Reference),
-    (Method::MikkTSpace, Mode::Repaired),
-    (Method::MikkTSpace, Mode::Corrected),
+const MIKKTSPACE: [Method; 3] = [
+    Method::MikkTSpace(MikktOptions::new().with_mode(Mode::Reference)),
+    Method::MikkTSpace(MikktOptions::new().with_mode(Mode::Repaired)),
+    Method::MikkTSpace(MikktOptions::new().with_mode(Mode::Corrected)),
 ];
 
 /// The methods that sum, which run on several threads as well.
-const SUMS: [(Method, Mode); 5] = [
-    (Method::Lengyel, Mode::Repaired),
-    (Method::LengyelPerVertex, Mode::Reference),
-    (Method::Average, Mode::Repaired),
-    (Method::Area, Mode::Repaired),
-    (Method::AngleArea, Mode::Repaired),
-];
+const SUMS: [Method; 5] =
+    [Method::Lengyel, Method::LengyelPerVertex, Method::Average, Method::Area, Method::AngleArea];
 
 /// Faces over vertices.
 #[derive(Clone, Copy)]
@@ -65,21 +60,21 @@ fn for_each_layout(shape: &Shape<'_>, mut take: impl FnMut(&Mesh<'_>)) {
 }
 
 /// Hashes of the tangents and reports in some runs; plans give the same tangents.
-fn hash(shape: &Shape<'_>, runs: &[(Method, Mode)]) -> u64 {
+fn hash(shape: &Shape<'_>, runs: &[Method]) -> u64 {
     hash_with(Context::new(), shape, runs)
 }
 
-fn hash_with(mut context: Context, shape: &Shape<'_>, runs: &[(Method, Mode)]) -> u64 {
+fn hash_with(mut context: Context, shape: &Shape<'_>, runs: &[Method]) -> u64 {
     let mut hasher = DefaultHasher::new();
     for_each_layout(shape, |mesh| {
-        for &(method, mode) in runs {
-            let options = TangentOptions { method, mode, ..TangentOptions::default() };
+        for &method in runs {
+            let options = TangentOptions::from(method);
             let tangents = generate_tangents_with(mesh, &options, &mut context).expect("not cancelled");
             let corners = tangents.corners.per_corner();
             corners.iter().for_each(|tangent| tangent.map(f32::to_bits).hash(&mut hasher));
             format!("{:?}", tangents.report).hash(&mut hasher);
             if options == TangentOptions::default() {
-                let split = TangentOptions { threshold: 20.0, ..options };
+                let split = MikktOptions::new().with_threshold(20.0).into();
                 let of_split = generate_tangents(mesh, &split).corners;
                 for (options, corners) in [(options, corners), (split, of_split.per_corner())] {
                     let planned = Plan::new(mesh, &options).evaluate(mesh).expect("the same mesh");

@@ -239,7 +239,7 @@ macro_rules! from_code {
 }
 
 from_code!(method, "darboux_method", MethodCode => Method {
-    Mikktspace => Method::MikkTSpace,
+    Mikktspace => Method::default(),
     AngleArea => Method::AngleArea,
     Lengyel => Method::Lengyel,
     LengyelPerVertex => Method::LengyelPerVertex,

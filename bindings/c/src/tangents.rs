@@ -2,7 +2,7 @@
 
 use std::mem::offset_of;
 
-use darboux::{Frame, LentFrames, Report, TangentOptions, lend_frames, write_tangents};
+use darboux::{Frame, LentFrames, Method, MikktOptions, Report, TangentOptions, lend_frames, write_tangents};
 
 use crate::codes::{self, darboux_method, darboux_mode};
 use crate::mesh::{self, darboux_mesh};
@@ -118,9 +118,19 @@ pub(crate) unsafe fn options<'a>(
     let options = unsafe { pointers::read_or_zeros(options) }?;
     // SAFETY: null or from `darboux_scratch_create`, and no other thread's for now.
     let scratch = unsafe { options.scratch.as_mut() };
-    let threshold = if options.threshold == 0.0 { 180.0 } else { options.threshold };
-    let (method, mode) = (codes::method(options.method)?, codes::mode(options.mode)?);
-    Ok((TangentOptions { method, mode, threshold }, scratch))
+    let mut mikkt = MikktOptions::new().with_mode(codes::mode(options.mode)?);
+    if options.threshold != 0.0 {
+        mikkt = mikkt.with_threshold(options.threshold);
+    }
+    match codes::method(options.method)? {
+        Method::MikkTSpace(_) => Ok((mikkt.into(), scratch)),
+        other if mikkt == MikktOptions::new() => Ok((other.into(), scratch)),
+        _ => {
+            let message =
+                "mode and threshold belong to DARBOUX_METHOD_MIKKTSPACE; leave them 0 with other methods";
+            Err(Error::new(darboux_status::UnknownValue, message.into()))
+        }
+    }
 }
 
 /// Computes the tangent of every corner.

@@ -3,12 +3,12 @@
 use darboux::internal::gpu_resume;
 
 use crate::arena::with_arena;
-use crate::options::tangent_options;
+use crate::options::mikkt_options;
 
 /// The cosine of an angular threshold, which the shaders compare with.
 #[unsafe(no_mangle)]
 pub extern "C" fn threshold_cosine(threshold: f32) -> f32 {
-    gpu_resume::threshold_cosine(&tangent_options(0, threshold, 0))
+    gpu_resume::threshold_cosine(&mikkt_options(0, threshold))
 }
 
 /// Computes the tangents that the GPU left open, in the array of given tangents, from `welded_vertices`. The mesh is indexed and of
@@ -19,7 +19,7 @@ pub extern "C" fn complete_tangents(mode: u32, threshold: f32) -> i32 {
         let mut tangents = std::mem::take(&mut arena.extras.given_tangents);
         let welded = std::mem::take(&mut arena.extras.welded_vertices);
         let Some(mesh) = arena.mesh() else { return -1 };
-        let options = tangent_options(mode, threshold, 0);
+        let options = mikkt_options(mode, threshold);
         let (report, corners) = gpu_resume::complete(&mesh, &options, welded, tangents.as_chunks_mut().0);
         (arena.extras.given_tangents, arena.report) = (tangents, report);
         corners as i32

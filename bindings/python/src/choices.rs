@@ -1,11 +1,11 @@
 //! Options that Python names by strings.
 
-use darboux::{Method, Mode, TangentOptions};
+use darboux::{Method, MikktOptions, Mode, TangentOptions};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 const METHODS: &[(&str, Method)] = &[
-    ("mikktspace", Method::MikkTSpace),
+    ("mikktspace", Method::MikkTSpace(MikktOptions::new())),
     ("angle-area", Method::AngleArea),
     ("lengyel", Method::Lengyel),
     ("lengyel-per-vertex", Method::LengyelPerVertex),
@@ -27,7 +27,8 @@ pub fn choice<T: Copy>(what: &str, name: &str, choices: &[(&str, T)]) -> PyResul
     })
 }
 
-/// The options of the core. Errors: unknown names; a threshold that is no number of degrees, or that the method does not have.
+/// The options of the core. Errors: an unknown name; a threshold that is not a number; a mode or threshold with another method than
+/// MikkTSpace.
 pub fn tangent_options(method: &str, mode: &str, threshold: f32) -> PyResult<TangentOptions> {
     let method = choice("method", method, METHODS)?;
     let mode = choice("mode", mode, MODES)?;
@@ -36,13 +37,19 @@ pub fn tangent_options(method: &str, mode: &str, threshold: f32) -> PyResult<Tan
             "threshold is {threshold}; it must be a number of degrees"
         )));
     }
-    if method != Method::MikkTSpace && threshold != TangentOptions::default().threshold {
-        return Err(PyValueError::new_err("threshold belongs to method='mikktspace'; leave one of them out"));
+    let defaults = MikktOptions::new();
+    let belongs_to_mikktspace =
+        [("mode", mode != defaults.mode), ("threshold", threshold != defaults.threshold)];
+    match (method, belongs_to_mikktspace.iter().find(|(_, is_set)| *is_set)) {
+        (Method::MikkTSpace(_), _) => Ok(defaults.with_mode(mode).with_threshold(threshold).into()),
+        (other, None) => Ok(other.into()),
+        (_, Some((option, _))) => Err(PyValueError::new_err(format!(
+            "{option} belongs to method='mikktspace'; leave one of them out"
+        ))),
     }
-    Ok(TangentOptions { method, mode, threshold })
 }
 
-/// Whether fans of many triangles may take their size squared.
+/// Whether a fan may take time in the square of its number of triangles.
 pub fn is_slow(options: &TangentOptions) -> bool {
-    options.method == Method::MikkTSpace && options.threshold < TangentOptions::default().threshold
+    matches!(options.method, Method::MikkTSpace(mikkt) if mikkt.threshold < MikktOptions::new().threshold)
 }

@@ -4,7 +4,7 @@
 //! sign, corners in another group, and how many corners the CPU did.
 
 use darboux::internal::stage_arrays::{NONE, Stages};
-use darboux::{Faces, Mode, TangentOptions, generate_tangents};
+use darboux::{Faces, MikktOptions, Mode, TangentOptions, generate_tangents};
 use darboux_gpu::{Gpu, GpuError, MikkTSpace};
 use darboux_tests::{Case, OwnedMesh, corpus, families};
 
@@ -95,7 +95,7 @@ fn ordered(x: f32) -> i64 {
 
 /// Corners that are not in the core's group, at vertices without UV-degenerate triangles.
 fn other_groups(kernels: &MikkTSpace, mesh: &OwnedMesh) -> Result<usize, GpuError> {
-    let options = TangentOptions { mode: Mode::Corrected, ..Default::default() };
+    let options = MikktOptions::new().with_mode(Mode::Corrected);
     let found = kernels.stage_arrays(&mesh.view(), &options)?;
     let core = Stages::new(&mesh.view(), &options, usize::MAX).expect("no limit");
     let faces = &core.triangulation.good.face;

@@ -7,7 +7,7 @@ use common::{
     APART, APART_STRIDE, ENGINE, ENGINE_FRAME, Found, GpuFrame, Packed, Place, UNTOUCHED, frames, gpus, pack,
     run, triangulated,
 };
-use darboux::{Method, Mode, TangentOptions, generate_frames};
+use darboux::{Method, TangentOptions, generate_frames};
 use darboux_gpu::{FrameLayout, Search, VertexLayout};
 use darboux_tests::{Case, OwnedMesh, corpus, families, oracle};
 
@@ -61,7 +61,7 @@ fn check_in_place(name: &str, packed: &Packed, apart: &Found, found: &Found) {
 
 fn compare(name: &str, mesh: &OwnedMesh, found: &[GpuFrame], tally: &mut Tally) {
     let view = mesh.view();
-    let options = TangentOptions { method: Method::Average, mode: Mode::Reference, ..Default::default() };
+    let options = TangentOptions::from(Method::Average);
     let core = generate_frames(&view, &options);
     let slow = (mesh.corner_count() < 3_000).then(|| oracle::average(&view));
     for (v, frame) in found.iter().enumerate() {

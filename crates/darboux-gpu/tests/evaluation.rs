@@ -7,7 +7,7 @@ use std::sync::Mutex;
 
 use common::{buffer, gpus, words_of};
 use darboux::internal::stage_arrays::{NONE, Stages};
-use darboux::{Frame, Mode, TangentOptions, generate_frames};
+use darboux::{Frame, MikktOptions, Mode, generate_frames};
 use darboux_gpu::Gpu;
 use darboux_gpu::internal::{Arithmetic, Evaluation, EvaluationKernels, GroupedMesh};
 use darboux_tests::{Case, OwnedMesh, corpus, families};
@@ -51,9 +51,9 @@ fn without_sign_of_zero(word: u32) -> u32 {
 impl Batch {
     fn add(&mut self, name: &str, mesh: &OwnedMesh, threshold: f32) {
         let view = mesh.view();
-        let options = TangentOptions { mode: Mode::Reference, threshold, ..Default::default() };
+        let options = MikktOptions::new().with_mode(Mode::Reference).with_threshold(threshold);
         let stages = Stages::new(&view, &options, LIMIT).expect("small groups");
-        let frames = generate_frames(&view, &options).corners;
+        let frames = generate_frames(&view, &options.into()).corners;
         let good = &stages.triangulation.good;
         let first_triangle = self.triangles();
         self.names.push((first_triangle, name.to_owned()));

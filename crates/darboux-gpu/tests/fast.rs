@@ -9,7 +9,7 @@ use common::plan_bound::bounds;
 use common::plans::run;
 use common::{gpus, triangulated};
 use darboux::internal::stage_arrays::Stages;
-use darboux::{Mode, TangentOptions};
+use darboux::{MikktOptions, Mode};
 use darboux_gpu::{Gpu, Planner, Precision, TangentsPer};
 use darboux_tests::{Case, OwnedMesh, families, models};
 
@@ -24,11 +24,11 @@ struct Tally {
 
 fn check(planner: &Planner, gpu: &Gpu, name: &str, mesh: &OwnedMesh, tally: &mut Tally) {
     let mesh = &triangulated(mesh);
-    let options = TangentOptions { mode: Mode::Reference, ..Default::default() };
+    let options = MikktOptions::new().with_mode(Mode::Reference);
     let stages = Stages::new(&mesh.view(), &options, 1 << 22).expect("small groups");
     let bounds = bounds(&stages, mesh);
     let found = run(planner, gpu, [mesh, mesh], Mode::Reference, TangentsPer::Corner);
-    let expected = darboux::generate_tangents(&mesh.view(), &options).corners;
+    let expected = darboux::generate_tangents(&mesh.view(), &options.into()).corners;
     for (corner, found) in found.words.as_chunks::<4>().0.iter().enumerate() {
         let (found, expected) = (found.map(f32::from_bits), expected.per_corner()[corner]);
         assert_eq!(found[3], expected[3], "{name}, corner {corner}: sign");

@@ -68,7 +68,7 @@ fn faults_are_named() {
             Ok(_) => "none".to_owned(),
             Err(error) => error.to_string(),
         };
-        let other = TangentOptions { method: Method::Average, ..options };
+        let other = TangentOptions::from(Method::Average);
         assert!(fault(&mesh, &other).starts_with("a plan on a GPU computes MikkTSpace"));
         let plan = planner.plan(&mesh.view(), &options).unwrap_or_else(|error| panic!("{error}"));
         let count = mesh.positions.len() as u32;

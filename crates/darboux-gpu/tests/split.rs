@@ -3,7 +3,9 @@
 mod common;
 
 use common::gpus;
-use darboux::{CornerTangents, Mesh, TangentOptions, VertexSplit, generate_tangents, split_vertices};
+use darboux::{
+    CornerTangents, Mesh, MikktOptions, TangentOptions, VertexSplit, generate_tangents, split_vertices,
+};
 use darboux_gpu::{GpuError, Splitter};
 use darboux_tests::{Case, corpus, families};
 
@@ -44,7 +46,7 @@ fn meshes_are_split_as_by_the_core() {
     let mut appended = 0;
     for (name, mesh) in &meshes {
         for mode in [darboux::Mode::Reference, darboux::Mode::Repaired] {
-            let options = TangentOptions { mode, threshold: 30.0, ..Default::default() };
+            let options = TangentOptions::from(MikktOptions::new().with_mode(mode).with_threshold(30.0));
             let tangents = generate_tangents(&mesh.view(), &options).corners;
             appended += check(&splitters, name, &mesh.view(), &tangents);
         }

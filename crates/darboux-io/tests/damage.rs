@@ -51,7 +51,7 @@ fn check_all(bytes: &[u8], good: &[u8]) {
     check(bytes, |document| {
         convert_vertices(document, Convention::GLTF, Convention::UNITY, &mut |_| {}).is_ok()
     });
-    let tangents = TangentOptions { method: Method::AngleArea, ..TangentOptions::default() };
+    let tangents = TangentOptions::from(Method::AngleArea);
     let encoding = TangentEncoding::Snorm8x4;
     let options = TangentsOptions { tangents, encoding, overwrite: true, ..TangentsOptions::default() };
     check(bytes, |document| add_tangents(document, &options, &mut |_| {}).is_ok());

@@ -8,7 +8,7 @@ use serde_json::json;
 use support::{BOTH, Builder, Vertices, butterfly, reason, reread, run_with, wide, written};
 
 fn with_method(method: Method) -> TangentsOptions {
-    let tangents = TangentOptions { method, ..TangentOptions::default() };
+    let tangents = TangentOptions::from(method);
     TangentsOptions { tangents, ..TangentsOptions::default() }
 }
 

@@ -65,7 +65,7 @@ pub use normals::{
 pub use plan::Plan;
 pub use split::{Splitter, VertexSplit, split_vertices, split_vertices_with};
 pub use tangents::{
-    Frames, LentFrames, Method, Mode, Report, TangentOptions, Tangents, generate_frames,
+    Frames, LentFrames, Method, MikktOptions, Mode, Report, TangentOptions, Tangents, generate_frames,
     generate_frames_with, generate_tangents, generate_tangents_with, lend_frames, write_frames,
     write_tangents,
 };

@@ -36,7 +36,7 @@ pub use crate::tangents::frames::{
 };
 use crate::tangents::memory::TangentMemory;
 pub(crate) use crate::tangents::method_plan::Planned;
-pub use crate::tangents::options::{Method, Mode, TangentOptions};
+pub use crate::tangents::options::{Method, MikktOptions, Mode, TangentOptions};
 pub use crate::tangents::report::Report;
 
 /// The tangents of corners and the report of the run.
@@ -116,15 +116,15 @@ fn run(
     memory: &mut TangentMemory,
     out: &mut [[f32; 4]],
 ) -> Report {
-    if options.method != Method::MikkTSpace {
-        return method::run(mesh, options, limits, &mut memory.sums, out);
+    match options.method {
+        Method::MikkTSpace(options) => mikktspace_of_corners(mesh, &options, limits, memory, out),
+        method => method::run(mesh, method, limits, &mut memory.sums, out),
     }
-    mikktspace_of_corners(mesh, options, limits, memory, out)
 }
 
 fn mikktspace_of_corners(
     mesh: &Mesh<'_>,
-    options: &TangentOptions,
+    options: &MikktOptions,
     limits: RunLimits<'_>,
     memory: &mut TangentMemory,
     out: &mut [[f32; 4]],
@@ -141,6 +141,6 @@ fn mikktspace_of_corners(
 }
 
 /// False where the angular threshold is so small that nearly all vertices would go through the general path anyway.
-fn fast_path_applies(options: &TangentOptions) -> bool {
-    options.method == Method::MikkTSpace && cosine_of_degrees(options.threshold) < LARGEST_COSINE
+fn fast_path_applies(options: &MikktOptions) -> bool {
+    cosine_of_degrees(options.threshold) < LARGEST_COSINE
 }

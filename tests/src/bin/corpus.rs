@@ -1,7 +1,8 @@
 //! Writes what the core makes of every specimen, as lines of JSON, for tests of bindings to other languages: floats as their bits.
 
 use darboux::{
-    Mesh, Method, Mode, Plan, TangentOptions, Tangents, generate_frames, generate_tangents, split_vertices,
+    Mesh, Method, MikktOptions, Mode, Plan, TangentOptions, Tangents, generate_frames, generate_tangents,
+    split_vertices,
 };
 use darboux_tests::corpus::{Specimen, corpus};
 
@@ -22,15 +23,15 @@ fn main() {
             for &threshold in &specimen.thresholds {
                 println!(
                     "{}",
-                    line(&specimen, &TangentOptions { mode, threshold, ..TangentOptions::default() })
+                    line(&specimen, MikktOptions::new().with_mode(mode).with_threshold(threshold))
                 );
             }
         }
     }
 }
 
-fn line(Specimen { name, mesh, .. }: &Specimen, options: &TangentOptions) -> String {
-    let view = mesh.view();
+fn line(Specimen { name, mesh, .. }: &Specimen, mikkt: MikktOptions) -> String {
+    let (view, options) = (mesh.view(), &TangentOptions::from(mikkt));
     let Tangents { corners: tangents, report } = generate_tangents(&view, options);
     let frames = generate_frames(&view, options).corners;
     let moved = moved(&mesh.positions);
@@ -38,13 +39,13 @@ fn line(Specimen { name, mesh, .. }: &Specimen, options: &TangentOptions) -> Str
     let moved_view = Mesh::with_faces(&moved, view.normals(), view.uvs(), view.indices(), view.faces());
     let planned = plan.evaluate(&moved_view.expect("a moved mesh is one")).expect("the same corners");
     let split = split_vertices(&view, &tangents).expect("tangents of the same mesh");
-    let mode = format!("{:?}", options.mode).to_lowercase();
+    let mode = format!("{:?}", mikkt.mode).to_lowercase();
     let bitangents: Vec<_> = frames.per_corner().iter().map(|frame| frame.bitangent).collect();
     let magnitudes: Vec<_> = frames.per_corner().iter().map(|frame| frame.magnitude).collect();
     let members = [
         ("name", format!("{name:?}")),
         ("mode", format!("{mode:?}")),
-        ("threshold", format!("{:?}", options.threshold)),
+        ("threshold", format!("{:?}", mikkt.threshold)),
         ("positions", bits(&mesh.positions)),
         ("normals", bits(&mesh.normals)),
         ("uvs", bits(&mesh.uvs)),
@@ -57,7 +58,7 @@ fn line(Specimen { name, mesh, .. }: &Specimen, options: &TangentOptions) -> Str
         ("repaired", format!("{}", report.repaired_corners)),
         ("moved", bits(&moved)),
         ("planned", bits(planned.per_corner())),
-        ("methods", methods(&view, options.mode)),
+        ("methods", methods(&view)),
         ("split_indices", format!("{:?}", split.indices)),
         ("split_sources", format!("{:?}", split.source_of_vertex)),
         ("split_tangents", bits(&split.tangent_of_vertex)),
@@ -67,10 +68,9 @@ fn line(Specimen { name, mesh, .. }: &Specimen, options: &TangentOptions) -> Str
 }
 
 /// What the other methods make of the mesh.
-fn methods(mesh: &Mesh<'_>, mode: Mode) -> String {
-    let of = |&(name, method)| {
-        let options = TangentOptions { method, mode, ..TangentOptions::default() };
-        format!("{name:?}: {}", bits(generate_tangents(mesh, &options).corners.per_corner()))
+fn methods(mesh: &Mesh<'_>) -> String {
+    let of = |&(name, method): &(&str, Method)| {
+        format!("{name:?}: {}", bits(generate_tangents(mesh, &method.into()).corners.per_corner()))
     };
     format!("{{{}}}", METHODS.iter().map(of).collect::<Vec<_>>().join(", "))
 }

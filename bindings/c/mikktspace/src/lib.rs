@@ -14,7 +14,7 @@ mod corners;
 use std::ffi::c_int;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use darboux::{Mode, TangentOptions, generate_tangents, lend_frames};
+use darboux::{MikktOptions, Mode, TangentOptions, generate_tangents, lend_frames};
 
 use callbacks::{Caller, Context};
 use corners::Corners;
@@ -37,7 +37,8 @@ pub unsafe extern "C-unwind" fn genTangSpace(context: *const Context, threshold:
 /// None where there is nothing to compute, no memory for it, or more corners than there can be.
 fn run(caller: &Caller, threshold: f32) -> Option<()> {
     let corners = Corners::read(caller)?;
-    let options = TangentOptions { mode: Mode::Reference, threshold, ..TangentOptions::default() };
+    let options =
+        TangentOptions::from(MikktOptions::new().with_mode(Mode::Reference).with_threshold(threshold));
     let mesh = corners.mesh()?;
     if caller.wants_frames() {
         let mut memory = darboux::Context::new();

@@ -141,7 +141,7 @@ fn give_tangents(
     method: darboux::Method,
     progress: &FileProgress<'_>,
 ) -> Result<(), String> {
-    let tangents = TangentOptions { method, ..TangentOptions::default() };
+    let tangents = TangentOptions::from(method);
     let options = TangentsOptions { tangents, overwrite: true, ..TangentsOptions::default() };
     let mut on_progress = |Progress { done, total }: Progress| progress.set(done, total);
     add_tangents(document, &options, &mut on_progress).map(drop).map_err(|error| error.to_string())

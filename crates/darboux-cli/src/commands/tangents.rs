@@ -4,7 +4,7 @@ pub mod arguments;
 mod device;
 pub mod summary;
 
-use darboux::{Context, Mesh, TangentOptions};
+use darboux::{Context, Mesh, Method, MikktOptions, TangentOptions};
 use darboux_io::gltf::{
     NormalsOptions, Outcome, Progress, TangentsOptions, Totals, Written, add_normals, add_tangents_with,
 };
@@ -21,7 +21,7 @@ use crate::options::messages::MessageOptions;
 use crate::options::method::MethodName;
 use crate::terminal::FileProgress;
 use crate::text::{counted, nonzero_counts};
-use arguments::{Device, TangentsArguments};
+use arguments::{Device, Mode, TangentsArguments};
 use device::TangentDevice;
 use summary::{DeviceReport, TangentsSummary};
 
@@ -44,17 +44,17 @@ impl FileCommand for TangentsArguments {
     }
 
     fn check(&self) -> Result<(), UsageError> {
-        if self.method != MethodName::MikkTSpace && self.threshold != TangentOptions::default().threshold {
-            return Err(UsageError(
-                "--threshold belongs to --method mikktspace; leave one of them out".into(),
-            ));
+        let belongs_to_mikktspace = [
+            ("--threshold", self.threshold != MikktOptions::new().threshold),
+            ("--mode", self.mode != Mode::default()),
+            ("--device gpu", self.device == Device::Gpu),
+        ];
+        match belongs_to_mikktspace.iter().find(|(_, is_set)| *is_set) {
+            Some((option, _)) if self.method != MethodName::MikkTSpace => {
+                Err(UsageError(format!("{option} belongs to --method mikktspace; leave one of them out")))
+            }
+            _ => Ok(()),
         }
-        if self.method != MethodName::MikkTSpace && self.device == Device::Gpu {
-            return Err(UsageError(
-                "--device gpu belongs to --method mikktspace; leave one of them out".into(),
-            ));
-        }
-        Ok(())
     }
 
     fn options(&self) -> String {
@@ -142,10 +142,11 @@ fn advice(without_normals: usize) -> Option<String> {
 
 fn options(arguments: &TangentsArguments) -> TangentsOptions {
     TangentsOptions {
-        tangents: TangentOptions {
-            method: arguments.method.into(),
-            mode: arguments.mode.into(),
-            threshold: arguments.threshold,
+        tangents: match arguments.method.into() {
+            Method::MikkTSpace(options) => {
+                options.with_mode(arguments.mode.into()).with_threshold(arguments.threshold).into()
+            }
+            method => TangentOptions::from(method),
         },
         encoding: arguments.encoding,
         overwrite: arguments.overwrite,

@@ -28,7 +28,7 @@ pub enum MethodName {
 impl From<MethodName> for darboux::Method {
     fn from(method: MethodName) -> Self {
         match method {
-            MethodName::MikkTSpace => Self::MikkTSpace,
+            MethodName::MikkTSpace => Self::default(),
             MethodName::AngleArea => Self::AngleArea,
             MethodName::Lengyel => Self::Lengyel,
             MethodName::LengyelPerVertex => Self::LengyelPerVertex,

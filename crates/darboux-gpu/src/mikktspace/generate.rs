@@ -9,7 +9,9 @@
 //! What is common runs on the GPU; what is rare, and hard to parallelise with the same bits, runs on the CPU.
 
 use darboux::internal::gpu_resume;
-use darboux::{CornerTangents, Faces, Indices, Mesh, Method, TangentOptions, Tangents, generate_tangents};
+use darboux::{
+    CornerTangents, Faces, Indices, Mesh, Method, MikktOptions, TangentOptions, Tangents, generate_tangents,
+};
 use wgpu::{CommandEncoder, Device, Queue};
 
 use crate::device::adapters::{AdapterSummary, Gpu};
@@ -112,9 +114,9 @@ impl MikkTSpace {
         mesh: &Mesh<'_>,
         options: &TangentOptions,
     ) -> Result<GpuTangents, GpuError> {
-        if options.method != Method::MikkTSpace {
+        let Method::MikkTSpace(mikkt) = &options.method else {
             return Ok(GpuTangents::from_cpu(mesh, options, CpuFallback::Method));
-        }
+        };
         if !matches!(mesh.faces(), Faces::Triangles) {
             return Ok(GpuTangents::from_cpu(mesh, options, CpuFallback::Faces));
         }
@@ -123,20 +125,20 @@ impl MikkTSpace {
             return Ok(GpuTangents { tangents, cpu_corners: 0, cpu_fallback: None });
         }
         let indices = corner_indices(mesh);
-        let partial = with_error_scopes(&self.device, || self.run(mesh, &indices, options))?;
+        let partial = with_error_scopes(&self.device, || self.run(mesh, &indices, mikkt))?;
         let Some(PartialTangents { welded_vertex, mut tangents }) = partial else {
             return Ok(GpuTangents::from_cpu(mesh, options, CpuFallback::Values));
         };
         let indexed = Mesh::triangles(mesh.positions(), mesh.normals(), mesh.uvs(), Indices::U32(&indices));
         let indexed = indexed.expect("the same triangles");
-        let (report, cpu_corners) = gpu_resume::complete(&indexed, options, welded_vertex, &mut tangents);
+        let (report, cpu_corners) = gpu_resume::complete(&indexed, mikkt, welded_vertex, &mut tangents);
         let tangents = Tangents { corners: CornerTangents::from_per_corner(tangents), report };
         Ok(GpuTangents { tangents, cpu_corners, cpu_fallback: None })
     }
 
     /// The arrays between the stages for a mesh of one tile, for tests. Errors as for [`MikkTSpace::generate_tangents`].
     #[doc(hidden)]
-    pub fn stage_arrays(&self, mesh: &Mesh<'_>, options: &TangentOptions) -> Result<StageArrays, GpuError> {
+    pub fn stage_arrays(&self, mesh: &Mesh<'_>, options: &MikktOptions) -> Result<StageArrays, GpuError> {
         let (device, queue) = (&self.device, &self.queue);
         with_error_scopes(device, || {
             let StageRecording { vertices, tile } = self.single_tile(mesh, options)?;
@@ -165,11 +167,11 @@ impl MikkTSpace {
 
     /// The commands for a mesh of one tile, for benchmarks. Errors as for [`MikkTSpace::generate_tangents`].
     #[doc(hidden)]
-    pub fn recording(&self, mesh: &Mesh<'_>, options: &TangentOptions) -> Result<StageRecording, GpuError> {
+    pub fn recording(&self, mesh: &Mesh<'_>, options: &MikktOptions) -> Result<StageRecording, GpuError> {
         with_error_scopes(&self.device, || self.single_tile(mesh, options))
     }
 
-    fn single_tile(&self, mesh: &Mesh<'_>, options: &TangentOptions) -> Result<StageRecording, GpuError> {
+    fn single_tile(&self, mesh: &Mesh<'_>, options: &MikktOptions) -> Result<StageRecording, GpuError> {
         let (device, programs) = (&self.device, &self.programs);
         let vertices = UploadedVertices::new(device, programs, mesh)?;
         let threshold_cosine = gpu_resume::threshold_cosine(options);
@@ -182,7 +184,7 @@ impl MikkTSpace {
         &self,
         mesh: &Mesh<'_>,
         indices: &[u32],
-        options: &TangentOptions,
+        options: &MikktOptions,
     ) -> Result<Option<PartialTangents>, GpuError> {
         let tile_corners = 3 * self.triangles_per_tile()?;
         let threshold_cosine = gpu_resume::threshold_cosine(options);

@@ -18,7 +18,7 @@ pub use summary::{Counts, Outcome, PrimitiveSummary, Summary, Totals, Written};
 
 use std::collections::{HashMap, HashSet};
 
-use darboux::{Context, Mode, Report};
+use darboux::{Context, Method, Mode, Report};
 
 use super::primitives::append::{is_sparse, push_vectors};
 use super::primitives::canonical::CanonicalAccessors;
@@ -150,7 +150,8 @@ impl Run<'_, '_> {
 
     fn warn_unusable(&mut self, job: &Job, result: &JobResult<'_>) {
         let unusable = result.report.repaired_corners;
-        if self.options.tangents.mode == Mode::Reference && unusable > 0 {
+        let keeps_them = matches!(self.options.tangents.method, Method::MikkTSpace(options) if options.mode == Mode::Reference);
+        if keeps_them && unusable > 0 {
             let name = &self.selection.candidates[job.first].name;
             self.summary.warnings.push(format!(
                 "{name}: {unusable} corners have an unusable tangent, as the reference has it; validators will complain"

@@ -72,18 +72,16 @@ pub struct PlanArrays {
 impl PlanArrays {
     /// Computes the arrays. `most_members`: the limit of the members of one sum.
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, most_members: usize) -> Result<Self, PlanRefusal> {
-        if options.method != Method::MikkTSpace {
-            return Err(PlanRefusal::OtherMethod);
-        }
+        let Method::MikkTSpace(mikkt) = options.method else { return Err(PlanRefusal::OtherMethod) };
         let limit = 8 * mesh.corner_count() + (1 << 20);
         let too_many = |members, limit| PlanRefusal::TooManyMembers { members, limit };
-        let stages = Stages::new(mesh, options, limit).ok_or_else(|| too_many(limit + 1, limit))?;
+        let stages = Stages::new(mesh, &mikkt, limit).ok_or_else(|| too_many(limit + 1, limit))?;
         match corners_of_both_halves(&stages) {
             0 => {}
             corners => return Err(PlanRefusal::HalvesDisagree { corners }),
         }
         let base = generate_tangents(mesh, options).corners;
-        let repairs = options.mode != Mode::Reference;
+        let repairs = mikkt.mode != Mode::Reference;
         let mut sums = PlanSums::new(mesh, &stages);
         let sum_of_corner = sums.of_corners(mesh, &stages, &base, repairs);
         if let Some(members) = sums.largest().filter(|&members| members > most_members) {

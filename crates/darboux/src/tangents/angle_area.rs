@@ -15,7 +15,6 @@ pub(crate) mod group_sums;
 
 use crate::Frame;
 use crate::Mesh;
-use crate::Mode;
 use crate::math::V3;
 use crate::math_f64::{D3, add_scaled, length, unit};
 use crate::topology::neighbours::{EdgeOrder, neighbours};
@@ -41,12 +40,11 @@ use crate::tangents::report::count_split_vertices;
 /// Runs the method.
 pub(crate) fn run<O: Output>(
     mesh: &Mesh<'_>,
-    mode: Mode,
     limits: RunLimits<'_>,
     buffers: &mut GroupBuffers,
     corners: &mut [O],
 ) -> Report {
-    on_pool(mesh, limits, || plan_and_report(mesh, mode, limits, buffers, corners).1)
+    on_pool(mesh, limits, || plan_and_report(mesh, limits, buffers, corners).1)
 }
 
 /// Runs all stages in one visit of the thread pool.
@@ -55,27 +53,22 @@ fn on_pool<R: Send>(mesh: &Mesh<'_>, limits: RunLimits<'_>, work: impl FnOnce() 
 }
 
 /// Computes the plan, the tangents and the report of a mesh.
-pub(crate) fn plan(
-    mesh: &Mesh<'_>,
-    mode: Mode,
-    limits: RunLimits<'_>,
-) -> (AngleAreaPlan, Vec<[f32; 4]>, Report) {
+pub(crate) fn plan(mesh: &Mesh<'_>, limits: RunLimits<'_>) -> (AngleAreaPlan, Vec<[f32; 4]>, Report) {
     let mut corners = vec![Output::EMPTY; mesh.corner_count()];
     let buffers = &mut GroupBuffers::default();
-    let (plan, report) = on_pool(mesh, limits, || plan_and_report(mesh, mode, limits, buffers, &mut corners));
+    let (plan, report) = on_pool(mesh, limits, || plan_and_report(mesh, limits, buffers, &mut corners));
     (plan, corners, report)
 }
 
 fn plan_and_report<O: Output>(
     mesh: &Mesh<'_>,
-    mode: Mode,
     limits: RunLimits<'_>,
     buffers: &mut GroupBuffers,
     corners: &mut [O],
 ) -> (AngleAreaPlan, Report) {
     let (plan, mut report) = AngleAreaPlan::new(mesh, limits, buffers);
     let slices = MeshSlices::new(mesh);
-    report.repaired_corners = plan.frames(&slices, &WeldedMesh::new(mesh), mode, limits, buffers, corners);
+    report.repaired_corners = plan.frames(&slices, &WeldedMesh::new(mesh), limits, buffers, corners);
     report.split_vertices = count_split_vertices(mesh, corners);
     (plan, report)
 }
@@ -117,7 +110,6 @@ impl AngleAreaPlan {
     pub(crate) fn frames_of_moved<O: Output>(
         &self,
         mesh: &Mesh<'_>,
-        mode: Mode,
         limits: RunLimits<'_>,
         buffers: &mut GroupBuffers,
         corners: &mut [O],
@@ -129,7 +121,7 @@ impl AngleAreaPlan {
                 skip_unless_finite(derivative);
                 derivative.joins_any |= self.is_skipped[t];
             });
-            self.frames(&MeshSlices::new(mesh), &welded, mode, limits, buffers, corners);
+            self.frames(&MeshSlices::new(mesh), &welded, limits, buffers, corners);
         });
     }
 
@@ -138,7 +130,6 @@ impl AngleAreaPlan {
         &self,
         slices: &MeshSlices<'_>,
         welded: &WeldedMesh<'_>,
-        mode: Mode,
         limits: RunLimits<'_>,
         buffers: &mut GroupBuffers,
         corners: &mut [O],
@@ -168,8 +159,7 @@ impl AngleAreaPlan {
             }
         });
         let groups = (&self.groups, &frames[..]);
-        let repaired =
-            to_corners(slices, &self.corner_groups, groups, &self.orientation_of_face, mode, corners);
+        let repaired = to_corners(slices, &self.corner_groups, groups, &self.orientation_of_face, corners);
         buffers.frames = frames;
         repaired
     }
@@ -317,7 +307,6 @@ fn to_corners<O: Output>(
     corner_groups: &CornerGroups,
     (groups, frames): (&Groups, &[GroupFrame]),
     preserves: &[Option<bool>],
-    mode: Mode,
     corners: &mut [O],
 ) -> usize {
     let mut repaired_corners = 0;
@@ -335,9 +324,7 @@ fn to_corners<O: Output>(
             );
             let repaired = group.is_none_or(|group| group.repaired);
             repaired_corners += usize::from(repaired);
-            let is_unwritten = repaired && mode == Mode::Reference;
-            corners[corner] =
-                O::from_frame(&if is_unwritten { Frame { sign: frame.sign, ..Frame::EMPTY } } else { frame });
+            corners[corner] = O::from_frame(&frame);
         }
     }
     repaired_corners

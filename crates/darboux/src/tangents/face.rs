@@ -5,7 +5,6 @@
 
 use crate::Frame;
 use crate::Mesh;
-use crate::Mode;
 use crate::math::{V3, add, not_zero};
 use crate::math_f64::unit;
 
@@ -31,12 +30,7 @@ struct Face {
 }
 
 /// Writes the frame of every face to its corners.
-pub(crate) fn run<O: Output>(
-    mesh: &Mesh<'_>,
-    mode: Mode,
-    limits: RunLimits<'_>,
-    corners: &mut [O],
-) -> Report {
+pub(crate) fn run<O: Output>(mesh: &Mesh<'_>, limits: RunLimits<'_>, corners: &mut [O]) -> Report {
     let slices = MeshSlices::new(mesh);
     let mut report = survey(mesh, &slices, limits);
     let faces = add_up(&slices, &mut report);
@@ -49,10 +43,9 @@ pub(crate) fn run<O: Output>(
         report.repaired_corners += if frame.is_some() { 0 } else { vertices.len() };
         let replacement = |&v: &u32| O::from_frame(&face.replacement(slices.normals[v as usize]));
         let (own, corners) = (frame.map(|frame| O::from_frame(&frame)), &mut corners[range]);
-        match (own, mode) {
-            (Some(own), _) => corners.fill(own),
-            (None, Mode::Reference) => corners.fill(O::EMPTY),
-            (None, _) => fill(corners, vertices.iter().map(replacement)),
+        match own {
+            Some(own) => corners.fill(own),
+            None => fill(corners, vertices.iter().map(replacement)),
         }
     }
     if let Some(of_both) = vertices_of_both(&slices, &orientations) {

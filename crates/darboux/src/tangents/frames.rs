@@ -10,6 +10,7 @@ use crate::split::expect;
 use crate::exec::limits::RunLimits;
 use crate::exec::threads::{self, split_range, split_slice};
 use crate::tangents::Frames;
+use crate::tangents::Method;
 use crate::tangents::Report;
 use crate::tangents::TangentOptions;
 use crate::tangents::fast::{FastPath, UNDECIDED, triangle_count};
@@ -71,7 +72,7 @@ pub fn lend_frames<'a>(
         let frames = &mut memory.frames.frames;
         frames.resize(mesh.corner_count(), Frame::EMPTY);
         memory.frames.tangents.clear();
-        method::run(mesh, options, limits, &mut memory.sums, frames)
+        method::run(mesh, options.method, limits, &mut memory.sums, frames)
     };
     limits.check()?;
     Ok(LentFrames { mesh, fast: &memory.fast, memory: &memory.frames, limits, report })
@@ -173,7 +174,7 @@ fn run(
     out: &mut [Frame],
 ) -> Report {
     let Some(report) = run_fast(mesh, options, limits, memory) else {
-        return method::run(mesh, options, limits, &mut memory.sums, out);
+        return method::run(mesh, options.method, limits, &mut memory.sums, out);
     };
     if limits.is_cancelled() {
         return report;
@@ -198,6 +199,7 @@ fn run_fast(
     limits: RunLimits<'_>,
     memory: &mut TangentMemory,
 ) -> Option<Report> {
+    let Method::MikkTSpace(options) = &options.method else { return None };
     if !fast_path_applies(options) {
         return None;
     }

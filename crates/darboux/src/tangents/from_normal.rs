@@ -5,7 +5,6 @@
 
 use crate::Frame;
 use crate::Mesh;
-use crate::Mode;
 use crate::math::V3;
 
 use crate::exec::limits::RunLimits;
@@ -17,21 +16,13 @@ use crate::tangents::repair::{across, direction, perpendicular};
 use crate::tangents::uv_derivatives::is_degenerate;
 
 /// Writes the frame of every vertex to its corners.
-pub(crate) fn run<O: Output>(
-    mesh: &Mesh<'_>,
-    mode: Mode,
-    limits: RunLimits<'_>,
-    corners: &mut [O],
-) -> Report {
+pub(crate) fn run<O: Output>(mesh: &Mesh<'_>, limits: RunLimits<'_>, corners: &mut [O]) -> Report {
     let slices = MeshSlices::new(mesh);
     let mut report = survey(mesh, &slices, limits);
-    let frame = |&normal: &V3| match (direction(normal), mode) {
-        (None, Mode::Reference) => O::EMPTY,
-        (unit, _) => {
-            let tangent = unit.map_or([1.0, 0.0, 0.0], perpendicular).map(|x| x as f32);
-            let bitangent = if O::IS_FULL { across(normal, tangent, 1.0) } else { [0.0; 3] };
-            O::from_frame(&Frame { tangent, bitangent, magnitude: [1.0; 2], sign: 1.0 })
-        }
+    let frame = |&normal: &V3| {
+        let tangent = direction(normal).map_or([1.0, 0.0, 0.0], perpendicular).map(|x| x as f32);
+        let bitangent = if O::IS_FULL { across(normal, tangent, 1.0) } else { [0.0; 3] };
+        O::from_frame(&Frame { tangent, bitangent, magnitude: [1.0; 2], sign: 1.0 })
     };
     let of_vertex: Vec<O> = slices.normals.iter().map(frame).collect();
     let has_normal: Vec<bool> = slices.normals.iter().map(|&normal| direction(normal).is_some()).collect();

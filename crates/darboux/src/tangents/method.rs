@@ -1,11 +1,10 @@
 //! The choice of a method, and where it leads.
 
 use crate::Mesh;
-use crate::Mode;
 
 use crate::exec::limits::RunLimits;
 use crate::exec::threads;
-use crate::tangents::TangentOptions;
+use crate::tangents::MikktOptions;
 use crate::tangents::angle_area;
 use crate::tangents::face;
 use crate::tangents::from_normal;
@@ -23,41 +22,32 @@ use crate::tangents::vertex_sums::lengyel::{Lengyel, LengyelPerVertex};
 use crate::tangents::vertex_sums::side_sums::SideSums;
 use crate::tangents::vertex_sums::weighting::Weighting;
 
-/// Runs the method of `options`. `corners`: receives one output per corner.
+/// Runs a method. `corners`: receives one output per corner.
 pub(crate) fn run<O: Output>(
     mesh: &Mesh<'_>,
-    options: &TangentOptions,
+    method: Method,
     limits: RunLimits<'_>,
     memory: &mut MethodBuffers,
     corners: &mut [O],
 ) -> Report {
-    let mode = options.mode;
-    match options.method {
-        Method::MikkTSpace => mikktspace(mesh, options, limits, corners),
-        Method::AngleArea => angle_area::run(mesh, mode, limits, &mut memory.of_groups, corners),
-        Method::Lengyel => {
-            summed::<2, Lengyel, O>(mesh, (mode, limits), accumulate::<2, Lengyel>, memory, corners)
+    match method {
+        Method::MikkTSpace(options) => mikktspace(mesh, &options, limits, corners),
+        Method::AngleArea => angle_area::run(mesh, limits, &mut memory.of_groups, corners),
+        Method::Lengyel => summed::<2, Lengyel, O>(mesh, limits, accumulate::<2, Lengyel>, memory, corners),
+        Method::LengyelPerVertex => {
+            summed::<2, LengyelPerVertex, O>(mesh, limits, accumulate::<2, LengyelPerVertex>, memory, corners)
         }
-        Method::LengyelPerVertex => summed::<2, LengyelPerVertex, O>(
-            mesh,
-            (mode, limits),
-            accumulate::<2, LengyelPerVertex>,
-            memory,
-            corners,
-        ),
-        Method::Average => {
-            summed::<3, Average, O>(mesh, (mode, limits), accumulate::<3, Average>, memory, corners)
-        }
-        Method::Area => summed::<3, Area, O>(mesh, (mode, limits), accumulate::<3, Area>, memory, corners),
-        Method::Face => face::run(mesh, mode, limits, corners),
-        Method::FromNormal => from_normal::run(mesh, mode, limits, corners),
+        Method::Average => summed::<3, Average, O>(mesh, limits, accumulate::<3, Average>, memory, corners),
+        Method::Area => summed::<3, Area, O>(mesh, limits, accumulate::<3, Area>, memory, corners),
+        Method::Face => face::run(mesh, limits, corners),
+        Method::FromNormal => from_normal::run(mesh, limits, corners),
     }
 }
 
 /// MikkTSpace by its stages.
 pub(crate) fn mikktspace<O: Output>(
     mesh: &Mesh<'_>,
-    options: &TangentOptions,
+    options: &MikktOptions,
     limits: RunLimits<'_>,
     corners: &mut [O],
 ) -> Report {
@@ -72,7 +62,7 @@ pub(crate) fn mikktspace<O: Output>(
 /// Runs a method of vertex sums. `add_up`: [`accumulate`] for the method.
 fn summed<const N: usize, W: Weighting<N>, O: Output>(
     mesh: &Mesh<'_>,
-    (mode, limits): (Mode, RunLimits<'_>),
+    limits: RunLimits<'_>,
     add_up: fn(&MeshSlices<'_>, RunLimits<'_>, &mut SideSums<N>),
     memory: &mut MethodBuffers,
     corners: &mut [O],
@@ -85,7 +75,7 @@ where
         (SideSums::new(&slices, memory), O::take_buffers(&mut memory.tangents_of_side));
     let report = threads::on_pool(limits.thread_count(slices.triangles().len()), || {
         add_up(&slices, limits, &mut sums);
-        finish::<N, W, O>(mesh, &slices, &mut sums, (mode, limits), &mut frames, corners)
+        finish::<N, W, O>(mesh, &slices, &mut sums, limits, &mut frames, corners)
     });
     sums.return_to(memory);
     O::return_buffers(frames, &mut memory.tangents_of_side);

@@ -8,6 +8,7 @@ use crate::Mesh;
 
 use crate::exec::limits::RunLimits;
 use crate::tangents::Method;
+use crate::tangents::MikktOptions;
 use crate::tangents::TangentOptions;
 use crate::tangents::Tangents;
 use crate::tangents::angle_area;
@@ -34,6 +35,7 @@ pub(crate) enum Planned {
 /// Decided vertices, the stages for the others, and the vertices, for when vertices that were decided need the stages after all.
 #[derive(Debug)]
 pub(crate) struct Decided {
+    options: MikktOptions,
     fast: FastPlan,
     undecided: Option<UndecidedFaces>,
     base: Vertices,
@@ -43,15 +45,15 @@ pub(crate) struct Decided {
 impl Planned {
     /// Runs on the base, and keeps what does not depend on where vertices are.
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, limits: RunLimits<'_>) -> (Self, Tangents) {
-        match options.method {
-            Method::MikkTSpace => {}
+        let options = match &options.method {
+            Method::MikkTSpace(options) => options,
             Method::AngleArea => {
-                let (plan, tangents, report) = angle_area::plan(mesh, options.mode, limits);
+                let (plan, tangents, report) = angle_area::plan(mesh, limits);
                 let corners = CornerTangents(tangents);
                 return (Self::Groups(Box::new(plan)), Tangents { corners, report });
             }
             _ => return (Self::Nothing, generate(mesh, options, limits, &mut TangentMemory::default())),
-        }
+        };
         let mut base = Tangents::default();
         base.corners.0.resize(mesh.corner_count(), [0.0; 4]);
         let mut fast = FastPath::default();
@@ -73,7 +75,16 @@ impl Planned {
         }
         base.report.triangles = triangle_count(mesh);
         let vertices = Vertices::new(mesh);
-        (Self::Fast(Box::new(Decided { fast, undecided, base: vertices, stages: OnceLock::new() })), base)
+        (
+            Self::Fast(Box::new(Decided {
+                options: *options,
+                fast,
+                undecided,
+                base: vertices,
+                stages: OnceLock::new(),
+            })),
+            base,
+        )
     }
 
     /// Writes the tangents of the moved mesh with the signs of the base's. `base`: what it was planned with, and its tangents.
@@ -87,12 +98,12 @@ impl Planned {
     ) {
         let (options, signs) = base;
         match self {
-            Self::Fast(decided) => return decided.evaluate(mesh, base, limits, memory, out),
+            Self::Fast(decided) => return decided.evaluate(mesh, signs, limits, memory, out),
             Self::Stages(topology) => {
                 write(&topology.frames_of_moved(mesh, default_frames(mesh), limits).0, out)
             }
             Self::Groups(plan) => {
-                plan.frames_of_moved(mesh, options.mode, limits, &mut memory.sums.of_groups, out);
+                plan.frames_of_moved(mesh, limits, &mut memory.sums.of_groups, out);
             }
             Self::Nothing => {
                 run(mesh, options, limits, memory, out);
@@ -106,7 +117,7 @@ impl Decided {
     fn evaluate(
         &self,
         mesh: &Mesh<'_>,
-        (options, base): (&TangentOptions, &[[f32; 4]]),
+        base: &[[f32; 4]],
         limits: RunLimits<'_>,
         memory: &mut TangentMemory,
         out: &mut [[f32; 4]],
@@ -117,20 +128,15 @@ impl Decided {
             }
             return;
         }
-        let Some(stages) = self.stages(mesh, options, limits) else { return };
+        let Some(stages) = self.stages(mesh, limits) else { return };
         write(&stages.frames_of_moved(mesh, default_frames(mesh), limits).0, out);
         take_signs(base, out);
     }
 
     /// The stages of the mesh that was planned, which are made when they are first asked for; `None` after cancellation.
-    fn stages(
-        &self,
-        moved: &Mesh<'_>,
-        options: &TangentOptions,
-        limits: RunLimits<'_>,
-    ) -> Option<&GroupedMesh> {
+    fn stages(&self, moved: &Mesh<'_>, limits: RunLimits<'_>) -> Option<&GroupedMesh> {
         if self.stages.get().is_none() {
-            let made = GroupedMesh::new(&self.base.of(moved), options, limits)?;
+            let made = GroupedMesh::new(&self.base.of(moved), &self.options, limits)?;
             // Another thread may have been quicker, with the same.
             _ = self.stages.set(made);
         }

@@ -1,36 +1,115 @@
-//! What a caller chooses: the method, the mode, the angular threshold.
+//! The options of tangent generation: a method, and for MikkTSpace a mode and an angular threshold.
 
-/// How tangents are computed. Normal maps need the method that they were baked with, nearly always the default.
+/// Options of [`generate_tangents`](crate::generate_tangents) and [`generate_frames`](crate::generate_frames). The default, MikkTSpace with
+/// its default options, is right for normal maps from today's bakers.
 ///
-/// All but [`Method::MikkTSpace`] leave out triangles whose values are not finite, give every face one sign, and take
-/// [`Mode::Corrected`](crate::Mode) for [`Mode::Repaired`](crate::Mode). Derivations are in docs/algorithms/methods.md.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+/// ```
+/// use darboux::{Method, MikktOptions, Mode, TangentOptions};
+///
+/// let standard = TangentOptions::default();
+/// let every_bit = TangentOptions::from(MikktOptions::new().with_mode(Mode::Reference));
+/// let without_bake = TangentOptions::from(Method::AngleArea);
+/// # assert!(standard != every_bit && every_bit != without_bake);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct TangentOptions {
+    /// The method. Default: MikkTSpace.
+    pub method: Method,
+}
+
+impl From<Method> for TangentOptions {
+    fn from(method: Method) -> Self {
+        Self { method }
+    }
+}
+
+impl From<MikktOptions> for TangentOptions {
+    fn from(options: MikktOptions) -> Self {
+        Self { method: Method::MikkTSpace(options) }
+    }
+}
+
+/// How tangents are computed. A normal map needs the method that it was baked with, nearly always the default.
+///
+/// All methods but [`Method::MikkTSpace`] leave out triangles whose values are not finite, give every face one sign, and replace tangents
+/// without a direction. Derivations are in docs/algorithms/methods.md.
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Method {
     /// The standard of bakers and renderers: sums of unit tangents weighted by corner angles, over welded vertices.
-    #[default]
-    MikkTSpace,
-    /// MikkTSpace's groups with weights of corner angle times area: nearest to the UVs where the mesh was cut unevenly, so the choice
-    /// where no baked map asks for another.
+    MikkTSpace(MikktOptions),
+    /// MikkTSpace's groups with weights of corner angle times area: closest to the UVs where the mesh is cut unevenly, so the choice
+    /// where no baked map requires another method.
     AngleArea,
-    /// Per vertex the sum of dP/du, as long as they are: large where UVs are dense. One sum per UV orientation (Lengyel 2001).
+    /// The sum of dP/du per vertex and UV orientation, not normalised: triangles with dense UVs weigh more (Lengyel 2001).
     Lengyel,
     /// As `Lengyel` with one sum per vertex, as three.js and many tutorials have it: mirrored seams break, and are counted in
-    /// [`Report::merged_vertices`]. One tangent per vertex, so nothing splits; signs can differ within a face.
+    /// [`Report::merged_vertices`](crate::Report::merged_vertices). One tangent per vertex, so that nothing splits; signs can differ within
+    /// a face.
     LengyelPerVertex,
-    /// Per vertex and UV orientation the mean of the unit tangents, every triangle counting the same.
+    /// The mean of the unit tangents per vertex and UV orientation; all triangles weigh the same.
     Average,
-    /// Per vertex and UV orientation the mean of the unit tangents, weighted by area. Where a normal is absent (zero) the tangent is
+    /// The mean of the unit tangents per vertex and UV orientation, weighted by area. Where a normal is absent (zero) the tangent is
     /// perpendicular to the mean of the triangles' normals instead.
     Area,
-    /// Per face dP/du itself, in the plane of the face: exact on each, not smooth.
+    /// dP/du of each face, in the plane of the face: exact on each face, not smooth.
     Face,
     /// A perpendicular of the normal, without any UVs (Duff et al. 2017).
     FromNormal,
 }
 
+impl Default for Method {
+    fn default() -> Self {
+        Self::MikkTSpace(MikktOptions::new())
+    }
+}
+
+impl From<MikktOptions> for Method {
+    fn from(options: MikktOptions) -> Self {
+        Self::MikkTSpace(options)
+    }
+}
+
+/// Options of [`Method::MikkTSpace`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct MikktOptions {
+    /// How faithfully defects of the reference are kept. Default: [`Mode::Repaired`].
+    pub mode: Mode,
+    /// Angular threshold in degrees: faces around a vertex share a tangent while their tangents and their bitangents differ by less.
+    /// Default: 180, which is what bakers use. Any value is accepted; its cosine is compared.
+    pub threshold: f32,
+}
+
+impl Default for MikktOptions {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl MikktOptions {
+    /// The defaults.
+    pub const fn new() -> Self {
+        Self { mode: Mode::Repaired, threshold: 180.0 }
+    }
+
+    /// These options with another mode.
+    #[must_use]
+    pub const fn with_mode(self, mode: Mode) -> Self {
+        Self { mode, ..self }
+    }
+
+    /// These options with another threshold, in degrees.
+    #[must_use]
+    pub const fn with_threshold(self, degrees: f32) -> Self {
+        Self { threshold: degrees, ..self }
+    }
+}
+
 /// How faithfully defects of the MikkTSpace reference are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Mode {
     /// Every bit of the reference, its defects included: zero-length tangents, tangents along the normal, NaN.
     Reference,
@@ -39,22 +118,4 @@ pub enum Mode {
     Repaired,
     /// As `Repaired`, with complete edge matching (the reference's issue 5) and one sign per face.
     Corrected,
-}
-
-/// What [`generate_tangents`] and [`generate_frames`] do. The default is right for normal maps from today's bakers.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TangentOptions {
-    /// The method; MikkTSpace unless told otherwise.
-    pub method: Method,
-    /// How faithfully defects of the reference are kept.
-    pub mode: Mode,
-    /// Angular threshold in degrees: faces around a vertex share a tangent while their tangents and their bitangents differ by less.
-    /// Default 180, which is what bakers use. [`Method::MikkTSpace`] alone has it. Any value is accepted; its cosine counts.
-    pub threshold: f32,
-}
-
-impl Default for TangentOptions {
-    fn default() -> Self {
-        Self { method: Method::default(), mode: Mode::default(), threshold: 180.0 }
-    }
 }

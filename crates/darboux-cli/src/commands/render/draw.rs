@@ -224,7 +224,7 @@ fn open(arguments: &RenderArguments, source: Option<TangentSource>) -> Result<Lo
             return Ok(LoadedModel { document, source, warnings });
         }
         Some(TangentSource::Method(method)) => {
-            let tangents = TangentOptions { method: method.into(), ..TangentOptions::default() };
+            let tangents = TangentOptions::from(darboux::Method::from(method));
             TangentsOptions { tangents, overwrite: true, ..TangentsOptions::default() }
         }
         None => TangentsOptions::default(),

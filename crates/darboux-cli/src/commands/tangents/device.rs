@@ -2,7 +2,7 @@
 
 use std::sync::atomic::Ordering;
 
-use darboux::{Context, Mesh, TangentOptions, Tangents, generate_tangents_with};
+use darboux::{Context, Mesh, Method, TangentOptions, Tangents, generate_tangents_with};
 
 use super::arguments::Device;
 use super::summary::DeviceReport;
@@ -50,7 +50,7 @@ impl TangentDevice {
     }
 
     fn wants_gpu(&self, mesh: &Mesh<'_>, options: &TangentOptions) -> bool {
-        let is_mikktspace = options.method == darboux::Method::MikkTSpace;
+        let is_mikktspace = matches!(options.method, Method::MikkTSpace(_));
         let is_large = mesh.face_count() >= self.least_for_gpu;
         match self.device {
             Device::Cpu => false,

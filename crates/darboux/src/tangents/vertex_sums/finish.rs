@@ -14,7 +14,6 @@ use std::collections::HashMap;
 
 use crate::Frame;
 use crate::Mesh;
-use crate::Mode;
 use crate::math::V3;
 
 use crate::exec::limits::RunLimits;
@@ -47,7 +46,7 @@ pub(crate) fn finish<const N: usize, W: Weighting<N>, O: Output>(
     mesh: &Mesh<'_>,
     slices: &MeshSlices<'_>,
     sums: &mut SideSums<N>,
-    (mode, limits): (Mode, RunLimits<'_>),
+    limits: RunLimits<'_>,
     frames: &mut [Vec<O>; 2],
     corners: &mut [O],
 ) -> Report {
@@ -67,7 +66,7 @@ pub(crate) fn finish<const N: usize, W: Weighting<N>, O: Output>(
     decide_faces::<N, W>(slices, sums, &mut missing);
     missing.sort_unstable();
     missing.dedup();
-    if mode != Mode::Reference && !missing.is_empty() {
+    if !missing.is_empty() {
         replace::<N, W, O>(slices, sums, &missing, frames);
     }
     report.repaired_corners = count_corners::<N, W>(slices, &sums.orientation_of_face, &missing);
