@@ -22,8 +22,6 @@ const CYCLES_ALLOWED: &[&str] = &[
     "bindings/js/lib",
     "bindings/js/src",
     "crates/darboux-cli/src",
-    "crates/darboux-gpu/src",
-    "crates/darboux-render/src",
     "crates/darboux/src",
     "tests/shaders/src",
     "viewer/src",

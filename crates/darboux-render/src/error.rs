@@ -1,44 +1,44 @@
-//! Why there is no picture.
+//! The errors of [`render`](crate::render::render).
 
 use darboux_gpu::GpuError;
 
-/// Why a picture could not be drawn. Its text is one sentence.
+/// Why a picture could not be drawn.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RenderError {
     /// The model has no triangles with finite positions, or the UV layout no UVs.
     #[error(
-        "has nothing to draw: no triangles with finite positions, or for the UV layout none with finite UVs"
+        "has nothing to draw: it has no triangles with finite positions, or for the UV layout none with finite UVs"
     )]
     Nothing,
-    /// A size past the limits of the adapter.
-    #[error("{adapter:?} draws from 1 x 1 to {limit} x {limit} pixels, and {most} in all: {} x {} are not possible", .size[0], .size[1])]
+    /// The size is outside the limits of the adapter.
+    #[error("{adapter:?} cannot draw {} x {} pixels: choose a size from 1 x 1 to {limit} x {limit} with at most {most} pixels in total", .size[0], .size[1])]
     Size {
-        /// Pixels across and down.
+        /// The width and height in pixels.
         size: [u32; 2],
-        /// The most in either direction.
+        /// The largest width and height.
         limit: u32,
-        /// The most in all.
+        /// The largest number of pixels.
         most: u64,
-        /// The adapter's name.
+        /// The name of the adapter.
         adapter: String,
     },
-    /// More than can be drawn in reasonable time.
+    /// The scene has more triangles than can be drawn in reasonable time.
     #[error(
-        "its nodes place {triangles} triangles, more than the {limit} that are drawn: render a part of the scene"
+        "its scene has {triangles} triangles, more than the limit of {limit}: render a part of the scene"
     )]
     TooMany {
-        /// The triangles.
+        /// The number of triangles.
         triangles: u64,
-        /// The most.
+        /// The limit.
         limit: u64,
     },
-    /// The device has no memory left.
+    /// The device is out of memory.
     #[error(
-        "the adapter's memory is too small for this model and size: choose a smaller size, or render a part of the scene"
+        "the adapter does not have enough memory for this model and size: choose a smaller size, or render a part of the scene"
     )]
     Memory,
-    /// The device stopped or refused.
+    /// The device is lost, or reported an error.
     #[error(transparent)]
     Gpu(GpuError),
 }

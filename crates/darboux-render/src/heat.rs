@@ -1,35 +1,35 @@
-//! Angles between two sets of tangents, and their colours.
+//! Angles between two sets of tangents, and the colours of these angles.
 
 use darboux::CornerDifference;
 
-/// The colours of angles: callers give it, so that all their pictures have the same.
+/// The colours of angles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatScale {
-    /// The least and the greatest angle in degrees; the scale is logarithmic between them.
+    /// The smallest and the largest angle in degrees. The scale between them is logarithmic.
     pub ends: [f32; 2],
-    /// From the least to the greatest, at equal distances, in sRGB.
+    /// The sRGB colours from the smallest to the largest angle, at equal distances.
     pub ramp: [[u8; 3]; 9],
-    /// Of triangles in which a sign is flipped, whatever the angle.
+    /// The colour of triangles in which a sign is flipped, whatever the angle.
     pub flip: [u8; 3],
-    /// Where there are no tangents on one side.
+    /// The colour of triangles without tangents in one of the two models.
     pub none: [u8; 3],
 }
 
-/// What the shader is told where there is no angle. All corners of a triangle have it, so that it is interpolated to itself.
-pub const NONE: f32 = -1.0;
+/// Sentinels instead of an angle. All corners of a triangle have the same, so interpolation does not change it.
+pub const NO_ANGLE: f32 = -1.0;
 pub const FLIP: f32 = 1000.0;
 
-/// As far apart as can be, where only one of two different tangents has a direction.
-const APART: f64 = 180.0;
+/// The angle between a tangent with a direction and one without.
+const NO_DIRECTION: f64 = 180.0;
 
-/// Degrees between two tangents of every corner of a triangle, or [`FLIP`].
+/// The degrees between the two tangents of each corner of a triangle, or [`FLIP`].
 pub fn degrees(a: [[f32; 4]; 3], b: [[f32; 4]; 3]) -> [f32; 3] {
     let differences = [0, 1, 2].map(|i| CornerDifference::between(a[i], b[i]));
     let flips = differences.iter().any(|difference| difference.flips_sign);
     if flips { [FLIP; 3] } else { differences.map(|difference| angle(difference) as f32) }
 }
 
-/// Without an angle nothing where both are identical.
+/// The angle in degrees. Identical tangents without a direction have the angle 0.
 fn angle(difference: CornerDifference) -> f64 {
-    difference.angle.unwrap_or(if difference.is_identical { 0.0 } else { APART })
+    difference.angle.unwrap_or(if difference.is_identical { 0.0 } else { NO_DIRECTION })
 }

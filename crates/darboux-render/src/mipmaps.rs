@@ -1,4 +1,4 @@
-//! Smaller versions of a texture (mip levels).
+//! Computes the mip levels of a texture.
 
 use darboux_io::image::RgbaImage;
 
@@ -19,10 +19,10 @@ pub fn halved(image: &RgbaImage) -> RgbaImage {
     RgbaImage { width, height, texels }
 }
 
-/// The texels of a row or column that one texel of the smaller image is made of.
+/// The texels of a row or column that one texel of the smaller image is computed from.
 struct Taps {
     first: usize,
-    /// The weights of the texels from `first` on. Their sum is 1.
+    /// The weights of the texels, starting at `first`. Their sum is 1.
     weights: Vec<f32>,
 }
 
@@ -36,7 +36,7 @@ impl Taps {
     }
 }
 
-/// The taps of every texel when `from` texels become `to`.
+/// The taps of every texel when `from` texels are reduced to `to`.
 fn taps(from: u32, to: u32) -> Vec<Taps> {
     if from == to {
         return (0..to as usize).map(|first| Taps { first, weights: vec![1.0] }).collect();

@@ -1,9 +1,8 @@
-//! What is drawn of a document.
+//! Reads the meshes of a glTF document, in the pose of its scene, as triangles with tangents.
 
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
-use bytemuck::{Pod, Zeroable};
 use darboux_io::Error;
 use darboux_io::gltf::{
     Appearance, Document, PlacedMesh, PlacedMeshes, PrimitiveCorners, PrimitiveName, TextureUse,
@@ -11,64 +10,38 @@ use darboux_io::gltf::{
 
 use crate::algebra::Matrix;
 use crate::camera::Bounds;
-use crate::painter::Shape;
-use crate::pose::{self, MOST_SETS, Vertices};
-use crate::{derivatives, heat};
+use crate::derivatives;
+use crate::heat;
+use crate::part::{Part, layout_position};
+use crate::pose::{self, MAX_INFLUENCE_SETS, Vertices};
+use crate::subject::Subject;
+use crate::vertex::SurfaceVertex;
 
-/// A corner as the shader takes it.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-pub struct Corner {
-    pub position: [f32; 3],
-    pub normal: [f32; 3],
-    /// Zero where there is none.
-    pub tangent: [f32; 4],
-    /// Of the base colour, then of the normal map, as stored.
-    pub uvs: [[f32; 2]; 2],
-    /// The angle, [`heat::FLIP`] or [`heat::NONE`].
-    pub degrees: f32,
-}
-
-/// The triangles of a primitive in a pose.
-pub struct Part {
-    pub mesh: usize,
-    /// What tells it from all other parts: its mesh, primitive and pose.
-    name: [usize; 3],
-    /// The index of its material.
-    pub material: Option<usize>,
-    pub corners: Vec<Corner>,
-    has_tangents: bool,
-    /// Triangles without a place.
-    left_out: usize,
-    /// The UVs that its tangents follow, at every corner; empty where there are none.
-    pub layout: Vec<[f32; 2]>,
-    /// From the mesh to the scene, wherever it is.
-    pub places: Arc<[Matrix]>,
-}
-
-/// What is drawn of a document.
+/// The meshes of a document, ready to be drawn.
 pub struct Model<'a> {
     pub(crate) document: &'a Document,
     pub(crate) appearances: Vec<Appearance>,
     pub(crate) parts: Vec<Part>,
-    /// Whether tangents are what shaders derive.
+    /// Whether the tangents are derived from positions and UVs, as some shaders do.
     pub(crate) is_derived: bool,
+    /// The number of primitives of points or lines, which are not drawn.
+    skipped_primitives: usize,
 }
 
-/// A mesh in one pose, wherever it has that.
-struct Posed<'a> {
+/// A mesh in one pose, with all places where the scene has it.
+struct PosedMesh<'a> {
     weights: Vec<f64>,
     joints: Option<&'a [Matrix]>,
-    places: Arc<[Matrix]>,
+    matrices: Arc<[Matrix]>,
 }
 
-/// Corners of meshes whose nodes pose them differently are kept, and their vertices read, for each: so many are some GB.
-const MOST_CORNERS: usize = 3 << 24;
+/// The most corners in additional poses, which take several GB: every pose of a mesh has its own copy of the vertices.
+const MAX_POSED_CORNERS: usize = 3 << 24;
 
 impl<'a> Model<'a> {
-    /// Reads the meshes of the scene in its pose, with the tangents that the document has. Compressed documents are decompressed.
+    /// Reads the meshes of the scene in their poses, with the tangents of the document. Decompresses the document first.
     ///
-    /// Errors: broken data; more poses of large meshes than can be kept.
+    /// Errors: invalid data; too many poses of large meshes.
     pub fn read(document: &'a mut Document) -> Result<Self, Error> {
         document.decompress()?;
         let document: &'a Document = document;
@@ -79,10 +52,11 @@ impl<'a> Model<'a> {
         let mut kept: usize = 0;
         for corners in document.corners()? {
             let poses = posed.get(corners.name().mesh).map_or(&[][..], Vec::as_slice);
-            kept = kept
-                .saturating_add(elements(document, &corners).saturating_mul(poses.len().saturating_sub(1)));
-            if kept > MOST_CORNERS {
-                let problem = "is posed in more ways than are drawn; render a part of the scene";
+            kept = kept.saturating_add(
+                element_count(document, &corners).saturating_mul(poses.len().saturating_sub(1)),
+            );
+            if kept > MAX_POSED_CORNERS {
+                let problem = "has too many poses; render a part of the scene";
                 return Err(document.invalid(corners.name().path(), problem));
             }
             check_influences(document, &corners, poses)?;
@@ -90,16 +64,17 @@ impl<'a> Model<'a> {
                 parts.push(read_part(document, &appearances, &corners, at, pose)?);
             }
         }
-        Ok(Self { document, appearances, parts, is_derived: false })
+        let skipped_primitives = skipped_primitives(document, &posed);
+        Ok(Self { document, appearances, parts, is_derived: false, skipped_primitives })
     }
 
-    /// The model with the tangents that shaders derive from positions and UVs, in place of its own.
+    /// The model with tangents that are derived from positions and UVs, as some shaders do, instead of its own.
     pub fn derived(mut self) -> Self {
         self.is_derived = true;
         for part in &mut self.parts {
-            part.has_tangents = !part.layout.is_empty();
+            part.has_tangents = !part.tangent_uvs.is_empty();
             for (corners, uvs) in
-                part.corners.as_chunks_mut::<3>().0.iter_mut().zip(part.layout.as_chunks().0)
+                part.corners.as_chunks_mut::<3>().0.iter_mut().zip(part.tangent_uvs.as_chunks().0)
             {
                 let tangents =
                     derivatives::tangents(corners.map(|c| c.position), corners.map(|c| c.normal), *uvs);
@@ -109,11 +84,11 @@ impl<'a> Model<'a> {
         self
     }
 
-    /// The model with the angles to the tangents of another one of the same file, for [`View::Angle`](crate::View::Angle).
+    /// The model with the angles to the tangents of another model of the same file, for [`View::Angle`](crate::View::Angle).
     pub fn compared_with(mut self, other: &Model<'_>) -> Self {
-        let others: HashMap<_, _> = other.parts.iter().map(|part| (part.name, part)).collect();
+        let others: HashMap<_, _> = other.parts.iter().map(|part| (part.key, part)).collect();
         for part in &mut self.parts {
-            let other = others.get(&part.name).filter(|other| part.is_comparable(other));
+            let other = others.get(&part.key).filter(|other| part.is_comparable(other));
             let Some(other) = other else { continue };
             let pairs = part.corners.as_chunks_mut::<3>().0.iter_mut().zip(other.corners.as_chunks::<3>().0);
             for (corners, others) in pairs {
@@ -124,74 +99,83 @@ impl<'a> Model<'a> {
         self
     }
 
-    /// The model without all other meshes. `meshes`: indices.
+    /// The model with only these meshes. `meshes`: their indices.
     pub fn only(mut self, meshes: &[usize]) -> Self {
         self.parts.retain(|part| meshes.contains(&part.mesh));
         self
     }
 
-    /// Triangles that views of the surface show, counted as often as nodes place them.
+    /// The number of triangles in the scene. A mesh counts once per place.
     pub fn triangle_count(&self) -> u64 {
-        let placed = |part: &Part| (part.corners.len() / 3) as u64 * part.places.len() as u64;
-        self.parts.iter().map(placed).fold(0, u64::saturating_add)
+        self.parts.iter().map(Part::triangle_count).fold(0, u64::saturating_add)
     }
 
-    /// What is not drawn of a shape, and should be.
-    pub(crate) fn warnings(&self, shape: Shape) -> Vec<String> {
-        let left_out: usize = self.parts.iter().map(|part| part.left_out).sum();
-        let left_out = (left_out > 0 && shape == Shape::Model)
-            .then(|| format!("{left_out} triangles have positions that are not finite, and are left out"));
-        left_out.into_iter().collect()
+    /// What a drawing of the subject lacks, one sentence each.
+    pub(crate) fn warnings(&self, subject: Subject) -> Vec<String> {
+        let triangles: usize = self.parts.iter().map(|part| part.skipped_triangles).sum();
+        let mut warnings = Vec::new();
+        if triangles > 0 && subject == Subject::Surface {
+            warnings.push(format!(
+                "has {triangles} triangles with positions that are not finite, which are not drawn"
+            ));
+        }
+        if self.skipped_primitives > 0 {
+            let primitives = self.skipped_primitives;
+            warnings.push(format!("has {primitives} primitives of points or lines, which are not drawn"));
+        }
+        warnings
     }
 
-    /// The box that holds all that is drawn; none without triangles.
-    pub(crate) fn bounds(&self, shape: Shape) -> Option<Bounds> {
+    /// The box around the subject; none if the subject is empty.
+    pub(crate) fn bounds(&self, subject: Subject) -> Option<Bounds> {
         let mut all = Box3::EMPTY;
+        self.visit_points(subject, &mut |point| all.add(point));
+        if subject == Subject::UvLayout && all.min[0] <= all.max[0] {
+            for uv in [[0.0, 0.0], [1.0, 1.0]] {
+                all.add(layout_position(uv).map(f64::from));
+            }
+        }
+        (all.min[0] <= all.max[0]).then_some([all.min, all.max])
+    }
+
+    /// Visits points whose convex hull contains the subject: all vertices, or the boxes of parts that have very many places. Points may be
+    /// not finite.
+    pub(crate) fn visit_points(&self, subject: Subject, visit: &mut dyn FnMut([f64; 3])) {
         for part in &self.parts {
-            if shape == Shape::Layout {
-                part.layout.iter().for_each(|&uv| all.add(on_layout(uv).map(f64::from)));
+            if subject == Subject::UvLayout {
+                part.tangent_uvs.iter().for_each(|&uv| visit(layout_position(uv).map(f64::from)));
                 continue;
             }
-            let mut own = Box3::EMPTY;
-            part.corners.iter().for_each(|corner| own.add(corner.position.map(f64::from)));
-            for (matrix, corner) in part.places.iter().flat_map(|m| own.corners().map(move |c| (m, c))) {
-                let [a, b, c, d] = matrix;
-                all.add([0, 1, 2].map(|i| a[i] * corner[0] + b[i] * corner[1] + c[i] * corner[2] + d[i]));
+            let positions = part.corners.iter().map(|corner| corner.position.map(f64::from));
+            let points: Vec<[f64; 3]> = if part.triangle_count() > MAX_VISITED_TRIANGLES {
+                let mut own = Box3::EMPTY;
+                positions.for_each(|position| own.add(position));
+                own.corners().to_vec()
+            } else {
+                positions.collect()
+            };
+            for [a, b, c, d] in part.matrices.iter() {
+                for [x, y, z] in &points {
+                    visit([0, 1, 2].map(|i| a[i] * x + b[i] * y + c[i] * z + d[i]));
+                }
             }
         }
-        if shape == Shape::Layout && all.least[0] <= all.most[0] {
-            for uv in [[0.0, 0.0], [1.0, 1.0]] {
-                all.add(on_layout(uv).map(f64::from));
-            }
-        }
-        (all.least[0] <= all.most[0]).then_some([all.least, all.most])
     }
 }
 
-impl Part {
-    /// Corners at places, with nothing else.
-    #[cfg(test)]
-    pub fn of(corners: Vec<Corner>, places: &[Matrix]) -> Self {
-        Self {
-            mesh: 0,
-            name: [0; 3],
-            material: None,
-            corners,
-            has_tangents: true,
-            left_out: 0,
-            layout: Vec::new(),
-            places: places.into(),
-        }
-    }
+/// The most triangles of a part whose vertices are all visited.
+const MAX_VISITED_TRIANGLES: u64 = 1 << 20;
 
-    /// Whether there are tangents on both sides, of the same corners.
-    fn is_comparable(&self, other: &Part) -> bool {
-        self.has_tangents && other.has_tangents && self.corners.len() == other.corners.len()
-    }
+/// The number of primitives of points or lines in meshes that the scene shows.
+fn skipped_primitives(document: &Document, posed: &[Vec<PosedMesh<'_>>]) -> usize {
+    /// The first mode of triangles in glTF.
+    const TRIANGLES: u32 = 4;
+    let shown = document.meshes().iter().zip(posed).filter(|(_, poses)| !poses.is_empty());
+    shown.flat_map(|(mesh, _)| &mesh.primitives).filter(|primitive| primitive.mode < TRIANGLES).count()
 }
 
-/// The poses of every mesh, each with all its places.
-fn posed_meshes(placed: &PlacedMeshes, mesh_count: usize) -> Vec<Vec<Posed<'_>>> {
+/// The poses of every mesh, each with the matrices of all its places.
+fn posed_meshes(placed: &PlacedMeshes, mesh_count: usize) -> Vec<Vec<PosedMesh<'_>>> {
     let mut at = HashMap::new();
     let mut posed: Vec<Vec<(&PlacedMesh, Vec<Matrix>)>> = (0..mesh_count).map(|_| Vec::new()).collect();
     for mesh in &placed.meshes {
@@ -199,22 +183,22 @@ fn posed_meshes(placed: &PlacedMeshes, mesh_count: usize) -> Vec<Vec<Posed<'_>>>
         let weights: Vec<u64> = mesh.weights.iter().map(|weight| weight.to_bits()).collect();
         let pose = *at.entry((mesh.mesh, mesh.skin, weights)).or_insert(poses.len());
         match poses.get_mut(pose) {
-            // Skins place meshes: the same skin again is at the same place.
+            // A skin determines the place of a mesh, so the same skin has the same place.
             Some(_) if mesh.skin.is_some() => {}
-            Some((_, places)) => places.extend(&mesh.matrices),
+            Some((_, matrices)) => matrices.extend(&mesh.matrices),
             None => poses.push((mesh, mesh.matrices.clone())),
         }
     }
-    let pose = |(mesh, places): (&PlacedMesh, Vec<Matrix>)| Posed {
+    let pose = |(mesh, matrices): (&PlacedMesh, Vec<Matrix>)| PosedMesh {
         weights: mesh.weights.clone(),
         joints: mesh.skin.and_then(|skin| placed.skins.get(skin)).map(Vec::as_slice),
-        places: places.into(),
+        matrices: matrices.into(),
     };
     posed.into_iter().map(|poses| poses.into_iter().map(pose).collect()).collect()
 }
 
-/// The corners of a primitive, or its vertices where these are more: each pose reads all of them.
-fn elements(document: &Document, corners: &PrimitiveCorners<'_>) -> usize {
+/// The number of corners of a primitive, or of its vertices if there are more. Every pose reads all of them.
+fn element_count(document: &Document, corners: &PrimitiveCorners<'_>) -> usize {
     let PrimitiveName { mesh, primitive, .. } = corners.name();
     let primitive = &document.meshes()[*mesh].primitives[*primitive];
     let accessors = primitive.targets.iter().chain([&primitive.attributes]).flat_map(BTreeMap::values);
@@ -222,35 +206,30 @@ fn elements(document: &Document, corners: &PrimitiveCorners<'_>) -> usize {
     counts.fold(corners.len(), usize::max)
 }
 
-/// Errors: a skin whose vertices have more influences than are kept.
+/// Errors: the vertices of a skinned primitive have too many joints.
 fn check_influences(
     document: &Document,
     corners: &PrimitiveCorners<'_>,
-    poses: &[Posed<'_>],
+    poses: &[PosedMesh<'_>],
 ) -> Result<(), Error> {
     let PrimitiveName { mesh, primitive, .. } = corners.name();
     let attributes = &document.meshes()[*mesh].primitives[*primitive].attributes;
     let is_skinned = poses.iter().any(|pose| pose.joints.is_some());
-    if is_skinned && attributes.contains_key(&format!("JOINTS_{MOST_SETS}")) {
-        let most = 4 * MOST_SETS;
+    if is_skinned && attributes.contains_key(&format!("JOINTS_{MAX_INFLUENCE_SETS}")) {
+        let most = 4 * MAX_INFLUENCE_SETS;
         let problem = format!("has vertices with more than {most} joints; limit them where you export it");
         return Err(document.invalid(corners.name().path(), problem));
     }
     Ok(())
 }
 
-/// Where a UV lies in the layout, whose v goes down.
-pub fn on_layout([u, v]: [f32; 2]) -> [f32; 3] {
-    [u, -v, 0.0]
-}
-
-/// Reads a primitive in the pose `at` of its mesh, leaving out triangles that have no place.
+/// Reads a primitive in a pose of its mesh, without triangles whose positions are not finite. `at`: the index of the pose.
 fn read_part(
     document: &Document,
     appearances: &[Appearance],
     corners: &PrimitiveCorners<'_>,
     at: usize,
-    pose: &Posed<'_>,
+    pose: &PosedMesh<'_>,
 ) -> Result<Part, Error> {
     let none = Appearance::default();
     let appearance = match corners.material() {
@@ -260,42 +239,45 @@ fn read_part(
             document.invalid(corners.name().path(), problem)
         })?,
     };
-    let layout = corners.vectors::<2>(&set_name(appearance.tangent_uv_set))?.unwrap_or_default();
+    let tangent_uvs = corners.vectors::<2>(&set_name(appearance.tangent_uv_set))?.unwrap_or_default();
     let uvs = |texture: &Option<TextureUse>| -> Result<Vec<[f32; 2]>, Error> {
-        let Some(texture) = texture else { return Ok(layout.clone()) };
+        let Some(texture) = texture else { return Ok(tangent_uvs.clone()) };
         Ok(corners.vectors::<2>(&set_name(texture.uv_set))?.unwrap_or_default())
     };
     let uvs = [uvs(&appearance.base_texture)?, uvs(&appearance.normal_texture)?];
     let (Vertices { positions, normals, tangents }, is_mirrored) = posed_vertices(corners, pose)?;
-    let corner = |i: usize| Corner {
+    let corner = |i: usize| SurfaceVertex {
         position: positions[i],
         normal: normals.get(i).copied().unwrap_or_default(),
         tangent: tangents.get(i).copied().unwrap_or_default(),
         uvs: [0, 1].map(|k| uvs[k].get(i).copied().unwrap_or_default()),
-        degrees: heat::NONE,
+        degrees: heat::NO_ANGLE,
     };
     let is_finite = |triangle: &[[f32; 3]; 3]| triangle.as_flattened().iter().all(|x| x.is_finite());
     let triangles = positions.as_chunks::<3>().0.iter().enumerate();
     let kept = triangles.filter(|(_, triangle)| is_finite(triangle)).map(|(triangle, _)| 3 * triangle);
-    let turned = |first: usize| match is_mirrored.get(first..first + 3) {
+    let wound = |first: usize| match is_mirrored.get(first..first + 3) {
         Some([true, true, true]) => [first, first + 2, first + 1],
         _ => [first, first + 1, first + 2],
     };
-    let kept: Vec<usize> = kept.flat_map(turned).collect();
+    let kept: Vec<usize> = kept.flat_map(wound).collect();
     Ok(Part {
         mesh: corners.name().mesh,
-        name: [corners.name().mesh, corners.name().primitive, at],
+        key: [corners.name().mesh, corners.name().primitive, at],
         has_tangents: !tangents.is_empty(),
         material: corners.material(),
-        left_out: positions.len() / 3 - kept.len() / 3,
+        skipped_triangles: positions.len() / 3 - kept.len() / 3,
         corners: kept.iter().map(|&i| corner(i)).collect(),
-        layout: kept.iter().filter_map(|&i| layout.get(i).copied()).collect(),
-        places: pose.places.clone(),
+        tangent_uvs: kept.iter().filter_map(|&i| tangent_uvs.get(i).copied()).collect(),
+        matrices: pose.matrices.clone(),
     })
 }
 
-/// The vertices of a primitive's corners in a pose; with a skin, which of them it mirrors.
-fn posed_vertices(corners: &PrimitiveCorners<'_>, pose: &Posed<'_>) -> Result<(Vertices, Vec<bool>), Error> {
+/// The vertices of a primitive's corners in a pose. With a skin, also whether the skin mirrors each of them.
+fn posed_vertices(
+    corners: &PrimitiveCorners<'_>,
+    pose: &PosedMesh<'_>,
+) -> Result<(Vertices, Vec<bool>), Error> {
     let mut vertices = Vertices {
         positions: corners.vectors("POSITION")?.unwrap_or_default(),
         normals: corners.vectors("NORMAL")?.unwrap_or_default(),
@@ -309,32 +291,32 @@ fn posed_vertices(corners: &PrimitiveCorners<'_>, pose: &Posed<'_>) -> Result<(V
     Ok((vertices, is_mirrored))
 }
 
-/// glTF's name of a UV set.
+/// The semantic of a UV set in glTF.
 fn set_name(set: usize) -> String {
     format!("TEXCOORD_{set}")
 }
 
-/// A box that grows.
+/// An axis-aligned bounding box.
 struct Box3 {
-    least: [f64; 3],
-    most: [f64; 3],
+    min: [f64; 3],
+    max: [f64; 3],
 }
 
 impl Box3 {
-    const EMPTY: Self = Self { least: [f64::INFINITY; 3], most: [f64::NEG_INFINITY; 3] };
+    const EMPTY: Self = Self { min: [f64::INFINITY; 3], max: [f64::NEG_INFINITY; 3] };
 
-    /// Points that are not finite have no place.
+    /// Ignores points that are not finite.
     fn add(&mut self, point: [f64; 3]) {
         if point.iter().all(|x| x.is_finite()) {
             (0..3).for_each(|i| {
-                self.least[i] = self.least[i].min(point[i]);
-                self.most[i] = self.most[i].max(point[i]);
+                self.min[i] = self.min[i].min(point[i]);
+                self.max[i] = self.max[i].max(point[i]);
             });
         }
     }
 
     fn corners(&self) -> [[f64; 3]; 8] {
-        let ends = [self.least, self.most];
+        let ends = [self.min, self.max];
         [0, 1, 2, 3, 4, 5, 6, 7].map(|bits: usize| [0, 1, 2].map(|i| ends[bits >> i & 1][i]))
     }
 }

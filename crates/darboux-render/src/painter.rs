@@ -1,4 +1,4 @@
-//! Draws the sides of a picture.
+//! Draws both sides of a [`Drawing`] in one render pass.
 
 use bytemuck::Pod;
 use darboux_gpu::Gpu;
@@ -10,115 +10,85 @@ use wgpu::{
     LoadOp, RenderPass, RenderPipeline, StoreOp, TextureFormat,
 };
 
-use crate::camera::Sight;
-use crate::model::{Corner, Part, on_layout};
+use crate::drawing::{Drawing, Side};
+use crate::error::RenderError;
+use crate::lines::{MAX_SEGMENTS, segments};
+use crate::options::View;
+use crate::part::{Part, layout_position};
 use crate::pipelines::{line_pipeline, surface_pipeline};
-use crate::strokes::{MOST_STROKES, strokes};
+use crate::subject::Subject;
 use crate::target::Target;
 use crate::textures::{Kind, Textures, sampler};
-use crate::uniforms::{MaterialUniforms, PictureUniforms, Place, StrokesUniforms};
-use crate::{RenderError, RenderOptions, Side, View};
+use crate::uniforms::{Instance, LineUniforms, MaterialUniforms, PictureUniforms};
+use crate::vertex::SurfaceVertex;
 
-/// Corners per buffer: 47 MB.
-const PIECE: usize = 3 << 18;
+/// The most corners per vertex buffer, which take 47 MB.
+const MAX_CHUNK_CORNERS: usize = 3 << 18;
 
-/// Small files can ask for any number: their nodes place one mesh again and again.
-const MOST_TRIANGLES: u64 = 1 << 28;
+/// The most triangles. Small files can ask for any number, because many nodes may show one mesh.
+const MAX_TRIANGLES: u64 = 1 << 28;
 
-/// What of a model is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
-    /// Its surface in the scene.
-    Model,
-    /// Its UV layout.
-    Layout,
-}
-
-/// What a picture shows.
-pub struct Show<'a> {
-    pub left: Side<'a>,
-    /// What is seen right of a part of the width.
-    pub right: Option<(Side<'a>, f64)>,
-    pub shape: Shape,
-    pub size: [u32; 2],
-    pub sight: Sight,
-    pub options: &'a RenderOptions,
-}
-
-impl<'a> Show<'a> {
-    /// What the surface is painted with.
-    pub fn view(&self) -> View {
-        match (self.shape, self.options.view) {
-            (Shape::Layout, View::Shaded) => View::Sign,
-            (_, view) => view,
-        }
-    }
-
-    /// The sides, and the columns of pixels in which each is seen: from, and how many.
-    fn sides(&self) -> Vec<(Side<'a>, [u32; 2])> {
-        let width = self.size[0];
-        let Some((right, part)) = self.right else { return vec![(self.left, [0, width])] };
-        let middle = (f64::from(width) * part.clamp(0.0, 1.0)).round() as u32;
-        let sides = [(self.left, [0, middle]), (right, [middle, width - middle])];
-        sides.into_iter().filter(|(_, [_, columns])| *columns > 0).collect()
-    }
-}
-
-/// A piece of a primitive, on the adapter.
-struct Piece {
+/// The vertex buffers of some triangles of a part.
+struct Chunk {
     corners: Buffer,
-    count: u32,
-    places: Buffer,
-    place_count: u32,
+    corner_count: u32,
+    instances: Buffer,
+    instance_count: u32,
     material: Option<usize>,
 }
 
-/// A side, on the adapter.
-struct SideOnGpu {
+/// The resources of a side on the device.
+struct SideResources {
+    /// The first column of pixels, and their number.
     columns: [u32; 2],
     picture: BindGroup,
-    pieces: Vec<Piece>,
+    chunks: Vec<Chunk>,
+    /// By the index of the material; none for materials that are not used.
     materials: Vec<Option<BindGroup>>,
-    /// The material of pieces without one.
-    plain: BindGroup,
-    strokes: Option<Strokes>,
+    /// For parts without a material.
+    default_material: BindGroup,
+    lines: Option<LineResources>,
 }
 
-/// Lines, on the adapter.
-struct Strokes {
+/// The resources of lines on the device.
+struct LineResources {
     uniforms: BindGroup,
-    lines: Buffer,
+    segments: Buffer,
     count: u32,
 }
 
-/// Draws the picture; gives its pixels.
-pub fn paint(gpu: &Gpu, show: &Show<'_>, warnings: &mut Vec<String>) -> Result<Vec<[u8; 3]>, RenderError> {
-    let sides = show.sides();
+/// Draws the drawing and returns its pixels. Adds to `warnings` what is missing.
+pub fn paint(
+    gpu: &Gpu,
+    drawing: &Drawing<'_>,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<[u8; 3]>, RenderError> {
+    let sides = drawing.sides();
     let triangles = sides.iter().map(|(side, _)| side.model.triangle_count()).fold(0, u64::saturating_add);
-    if triangles > MOST_TRIANGLES {
-        return Err(RenderError::TooMany { triangles, limit: MOST_TRIANGLES });
+    if triangles > MAX_TRIANGLES {
+        return Err(RenderError::TooMany { triangles, limit: MAX_TRIANGLES });
     }
-    let format = match show.view() {
+    let format = match drawing.view() {
         View::Shaded => TextureFormat::Rgba8UnormSrgb,
         _ => TextureFormat::Rgba8Unorm,
     };
     let painter = Painter {
         gpu,
-        show,
+        drawing,
         format,
-        surfaces: surface_pipeline(gpu, show.shape, show.view(), format),
+        surfaces: surface_pipeline(gpu, drawing.subject, drawing.view(), format),
         lines: line_pipeline(gpu, format),
     };
-    let target = Target::new(gpu, show.size, format);
-    let sides: Vec<SideOnGpu> =
+    let target = Target::new(gpu, drawing.size, format);
+    let sides: Vec<SideResources> =
         sides.iter().map(|(side, columns)| painter.side(side, *columns, warnings)).collect();
     let draw = |pass: &mut RenderPass<'_>| sides.iter().for_each(|side| painter.draw(pass, side));
-    let [r, g, b] = color_in(show.options.background, format);
+    let [r, g, b] = color_in(drawing.options.background, format);
     let clear = wgpu::Color { r, g, b, a: 1.0 };
     Ok(target.read(|encoder| record(encoder, &target, clear, draw))?)
 }
 
-/// Records a pass into the target.
+/// Records a render pass into the target.
 fn record(
     encoder: &mut CommandEncoder,
     target: &Target<'_>,
@@ -145,7 +115,7 @@ fn record(
     draw(&mut pass);
 }
 
-/// A colour of sRGB as the target's format takes it.
+/// An sRGB colour in the target's format.
 fn color_in(color: [u8; 3], format: TextureFormat) -> [f64; 3] {
     color.map(|channel| {
         let channel = f64::from(channel) / 255.0;
@@ -156,85 +126,87 @@ fn color_in(color: [u8; 3], format: TextureFormat) -> [f64; 3] {
     })
 }
 
-/// What draws on an adapter.
+/// The pipelines, and the drawing that they are for.
 struct Painter<'a> {
     gpu: &'a Gpu,
-    show: &'a Show<'a>,
+    drawing: &'a Drawing<'a>,
     format: TextureFormat,
     surfaces: RenderPipeline,
     lines: RenderPipeline,
 }
 
 impl Painter<'_> {
-    fn draw(&self, pass: &mut RenderPass<'_>, side: &SideOnGpu) {
-        pass.set_scissor_rect(side.columns[0], 0, side.columns[1], self.show.size[1]);
+    fn draw(&self, pass: &mut RenderPass<'_>, side: &SideResources) {
+        pass.set_scissor_rect(side.columns[0], 0, side.columns[1], self.drawing.size[1]);
         pass.set_pipeline(&self.surfaces);
         pass.set_bind_group(0, &side.picture, &[]);
-        for piece in &side.pieces {
-            let material = piece.material.and_then(|material| side.materials.get(material)?.as_ref());
-            pass.set_bind_group(1, material.unwrap_or(&side.plain), &[]);
-            pass.set_vertex_buffer(0, piece.corners.slice(..));
-            pass.set_vertex_buffer(1, piece.places.slice(..));
-            pass.draw(0..piece.count, 0..piece.place_count);
+        for chunk in &side.chunks {
+            let material = chunk.material.and_then(|material| side.materials.get(material)?.as_ref());
+            pass.set_bind_group(1, material.unwrap_or(&side.default_material), &[]);
+            pass.set_vertex_buffer(0, chunk.corners.slice(..));
+            pass.set_vertex_buffer(1, chunk.instances.slice(..));
+            pass.draw(0..chunk.corner_count, 0..chunk.instance_count);
         }
-        if let Some(strokes) = &side.strokes {
+        if let Some(lines) = &side.lines {
             pass.set_pipeline(&self.lines);
-            pass.set_bind_group(0, &strokes.uniforms, &[]);
-            pass.set_vertex_buffer(0, strokes.lines.slice(..));
-            pass.draw(0..4, 0..strokes.count);
+            pass.set_bind_group(0, &lines.uniforms, &[]);
+            pass.set_vertex_buffer(0, lines.segments.slice(..));
+            pass.draw(0..4, 0..lines.count);
         }
     }
 
-    fn side(&self, side: &Side<'_>, columns: [u32; 2], warnings: &mut Vec<String>) -> SideOnGpu {
+    fn side(&self, side: &Side<'_>, columns: [u32; 2], warnings: &mut Vec<String>) -> SideResources {
         let Side { model, .. } = side;
         let mut textures = Textures::new(self.gpu, model.document);
         let is_used = |material| {
             let mut parts = model.parts.iter();
-            self.show.view() == View::Shaded && parts.any(|part| part.material == Some(material))
+            self.drawing.view() == View::Shaded && parts.any(|part| part.material == Some(material))
         };
         let appearances = model.appearances.iter().enumerate();
         let materials = appearances.map(|(material, appearance)| {
             is_used(material).then(|| self.material(appearance, &mut textures))
         });
         let materials = materials.collect();
-        let plain = self.material(&Appearance::default(), &mut textures);
-        let (strokes, is_cut) = self.strokes(side);
-        let told = model.warnings(self.show.shape).into_iter().chain(textures.warnings).chain(is_cut);
-        for warning in told {
-            // Both sides of one file have the same to say.
+        let default_material = self.material(&Appearance::default(), &mut textures);
+        let (lines, line_warning) = self.line_resources(side);
+        let side_warnings =
+            model.warnings(self.drawing.subject).into_iter().chain(textures.warnings).chain(line_warning);
+        for warning in side_warnings {
+            // Two sides of one file have the same warnings.
             if !warnings.contains(&warning) {
                 warnings.push(warning);
             }
         }
-        let picture = self.uniform(&PictureUniforms::of(self.show, side));
-        SideOnGpu {
+        let picture = self.uniform(&PictureUniforms::of(self.drawing, side));
+        SideResources {
             columns,
             picture: self.group(&self.surfaces, 0, &[picture.as_entire_binding()]),
-            pieces: model.parts.iter().flat_map(|part| self.pieces(part)).collect(),
+            chunks: model.parts.iter().flat_map(|part| self.chunks(part)).collect(),
             materials,
-            plain,
-            strokes,
+            default_material,
+            lines,
         }
     }
 
-    /// The lines over a side, none where there are none; and what to say where these are not all.
-    fn strokes(&self, side: &Side<'_>) -> (Option<Strokes>, Option<String>) {
-        let Show { shape, size, sight, options, .. } = self.show;
-        if *shape == Shape::Layout {
+    /// The lines over a side, and a warning if they are not all.
+    fn line_resources(&self, side: &Side<'_>) -> (Option<LineResources>, Option<String>) {
+        let Drawing { subject, size, transform, options, .. } = self.drawing;
+        if *subject == Subject::UvLayout {
             return (None, None);
         }
         let color = |color| color_in(color, self.format).map(|channel| channel as f32);
-        let (lines, are_all) = strokes(&side.model.parts, side.mistakes, sight, options, MOST_STROKES, color);
-        let uniforms = self.uniform(&StrokesUniforms::of(sight, *size));
-        let on_gpu = (!lines.is_empty()).then(|| Strokes {
+        let (lines, are_all) =
+            segments(&side.model.parts, side.mistakes, transform, options, MAX_SEGMENTS, color);
+        let uniforms = self.uniform(&LineUniforms::of(transform, *size));
+        let resources = (!lines.is_empty()).then(|| LineResources {
             uniforms: self.group(&self.lines, 0, &[uniforms.as_entire_binding()]),
-            lines: self.buffer(bytemuck::cast_slice(&lines), BufferUsages::VERTEX),
+            segments: self.buffer(bytemuck::cast_slice(&lines), BufferUsages::VERTEX),
             count: lines.len() as u32,
         });
-        let is_cut = (!are_all).then(|| {
-            format!("has more than {MOST_STROKES} lines and seams, of which only so many are drawn; render a part of the scene")
+        let warning = (!are_all).then(|| {
+            format!("has more than {MAX_SEGMENTS} lines, of which only the first are drawn; render a part of the scene")
         });
-        (on_gpu, is_cut)
+        (resources, warning)
     }
 
     fn uniform(&self, value: &impl Pod) -> Buffer {
@@ -278,35 +250,35 @@ impl Painter<'_> {
         )
     }
 
-    fn pieces(&self, part: &Part) -> Vec<Piece> {
-        let is_layout = self.show.shape == Shape::Layout;
-        let laid_out = if is_layout { laid_out(part) } else { Vec::new() };
-        let corners = if is_layout { &laid_out } else { &part.corners };
-        let places: Vec<Place> = part
-            .places
+    fn chunks(&self, part: &Part) -> Vec<Chunk> {
+        let is_layout = self.drawing.subject == Subject::UvLayout;
+        let layout_corners = if is_layout { layout_corners(part) } else { Vec::new() };
+        let corners = if is_layout { &layout_corners } else { &part.corners };
+        let instances: Vec<Instance> = part
+            .matrices
             .iter()
-            // A layout shows a part once, with the directions of its first node.
+            // A layout shows a part once, with the directions of its first place.
             .take(if is_layout { 1 } else { usize::MAX })
-            .map(|matrix| Place::of(matrix, &self.show.sight, self.show.shape))
+            .map(|matrix| Instance::of(matrix, &self.drawing.transform, self.drawing.subject))
             .collect();
-        let places_buffer = self.buffer(bytemuck::cast_slice(&places), BufferUsages::VERTEX);
-        let piece = |corners: &[Corner]| Piece {
+        let instance_buffer = self.buffer(bytemuck::cast_slice(&instances), BufferUsages::VERTEX);
+        let chunk = |corners: &[SurfaceVertex]| Chunk {
             corners: self.buffer(bytemuck::cast_slice(corners), BufferUsages::VERTEX),
-            count: corners.len() as u32,
-            places: places_buffer.clone(),
-            place_count: places.len() as u32,
+            corner_count: corners.len() as u32,
+            instances: instance_buffer.clone(),
+            instance_count: instances.len() as u32,
             material: part.material,
         };
-        corners.chunks(PIECE).map(piece).collect()
+        corners.chunks(MAX_CHUNK_CORNERS).map(chunk).collect()
     }
 }
 
-/// The corners of the triangles that have UVs, where these are.
-fn laid_out(part: &Part) -> Vec<Corner> {
-    let triangles = part.corners.as_chunks::<3>().0.iter().zip(part.layout.as_chunks::<3>().0);
-    let has_place = |uvs: &[[f32; 2]; 3]| uvs.as_flattened().iter().all(|x| x.is_finite());
-    let placed = triangles
-        .filter(|(_, uvs)| has_place(uvs))
-        .flat_map(|(corners, uvs)| [0, 1, 2].map(|i| Corner { position: on_layout(uvs[i]), ..corners[i] }));
+/// The corners of the triangles with finite UVs, at their positions in the layout.
+fn layout_corners(part: &Part) -> Vec<SurfaceVertex> {
+    let triangles = part.corners.as_chunks::<3>().0.iter().zip(part.tangent_uvs.as_chunks::<3>().0);
+    let is_finite = |uvs: &[[f32; 2]; 3]| uvs.as_flattened().iter().all(|x| x.is_finite());
+    let placed = triangles.filter(|(_, uvs)| is_finite(uvs)).flat_map(|(corners, uvs)| {
+        [0, 1, 2].map(|i| SurfaceVertex { position: layout_position(uvs[i]), ..corners[i] })
+    });
     placed.collect()
 }

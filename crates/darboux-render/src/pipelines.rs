@@ -1,4 +1,4 @@
-//! How surfaces and lines are drawn.
+//! The render pipelines of surfaces and lines.
 
 use darboux_gpu::Gpu;
 use wgpu::{
@@ -6,68 +6,67 @@ use wgpu::{
     VertexAttribute, VertexBufferLayout, VertexStepMode, vertex_attr_array,
 };
 
-use crate::View;
-use crate::model::Corner;
-use crate::painter::Shape;
-use crate::strokes::Stroke;
+use crate::options::View;
+use crate::subject::Subject;
 use crate::target::{DEPTH, SAMPLES};
-use crate::uniforms::Place;
+use crate::uniforms::Instance;
+use crate::vertex::{Segment, SurfaceVertex};
 
 const SURFACES: &str = concat!(
     include_str!("../../../shaders/wgsl/frame.wgsl"),
     include_str!("../../../shaders/wgsl/normal_map.wgsl"),
     include_str!("../../../shaders/wgsl/transform.wgsl"),
     include_str!("../../../shaders/wgsl/derivatives.wgsl"),
-    include_str!("draw.wgsl"),
+    include_str!("surface.wgsl"),
 );
-const LINES: &str = include_str!("strokes.wgsl");
+const LINES: &str = include_str!("lines.wgsl");
 
-/// In what pipelines differ.
-struct Plan<'a> {
+/// The differences between the pipelines.
+struct PipelineOptions<'a> {
     shader: &'static str,
-    /// The functions of vertices and of pixels.
+    /// The entry points of the vertex and fragment shaders.
     entries: [&'static str; 2],
     buffers: &'a [Option<VertexBufferLayout<'a>>],
     topology: PrimitiveTopology,
-    /// Whether what is nearer to the eye hides the rest; else what is under it shows through, by alpha.
+    /// Whether there is a depth test. Without it, surfaces are blended by alpha.
     has_depth: bool,
-    /// Whether alpha covers a part of the samples.
-    is_covering: bool,
+    /// Whether alpha determines the coverage of samples.
+    alpha_to_coverage: bool,
 }
 
-/// Draws triangles.
-pub fn surface_pipeline(gpu: &Gpu, shape: Shape, view: View, format: TextureFormat) -> RenderPipeline {
-    let of_corner =
+/// The pipeline for triangles.
+pub fn surface_pipeline(gpu: &Gpu, subject: Subject, view: View, format: TextureFormat) -> RenderPipeline {
+    let vertex_attributes =
         vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x4, 4 => Float32];
-    let of_place = vertex_attr_array![
+    let instance_attributes = vertex_attr_array![
         5 => Float32x4, 6 => Float32x4, 7 => Float32x4, 8 => Float32x4, 9 => Float32x3, 10 => Float32x3, 11 => Float32x3
     ];
-    let plan = Plan {
+    let options = PipelineOptions {
         shader: SURFACES,
-        entries: ["place_corner", "shade"],
+        entries: ["transform_corner", "shade"],
         buffers: &[
-            layout(size_of::<Corner>(), VertexStepMode::Vertex, &of_corner),
-            layout(size_of::<Place>(), VertexStepMode::Instance, &of_place),
+            layout(size_of::<SurfaceVertex>(), VertexStepMode::Vertex, &vertex_attributes),
+            layout(size_of::<Instance>(), VertexStepMode::Instance, &instance_attributes),
         ],
         topology: PrimitiveTopology::TriangleList,
-        has_depth: shape == Shape::Model,
-        is_covering: view == View::Shaded,
+        has_depth: subject == Subject::Surface,
+        alpha_to_coverage: view == View::Shaded,
     };
-    pipeline(gpu, &plan, format)
+    pipeline(gpu, &options, format)
 }
 
-/// Draws lines, each of four corners.
+/// The pipeline for lines, each of which is a strip of two triangles.
 pub fn line_pipeline(gpu: &Gpu, format: TextureFormat) -> RenderPipeline {
-    let of_stroke = vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3];
-    let plan = Plan {
+    let attributes = vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3];
+    let options = PipelineOptions {
         shader: LINES,
-        entries: ["place_stroke", "color_stroke"],
-        buffers: &[layout(size_of::<Stroke>(), VertexStepMode::Instance, &of_stroke)],
+        entries: ["transform_line", "color_line"],
+        buffers: &[layout(size_of::<Segment>(), VertexStepMode::Instance, &attributes)],
         topology: PrimitiveTopology::TriangleStrip,
         has_depth: true,
-        is_covering: false,
+        alpha_to_coverage: false,
     };
-    pipeline(gpu, &plan, format)
+    pipeline(gpu, &options, format)
 }
 
 fn layout(
@@ -78,37 +77,37 @@ fn layout(
     Some(VertexBufferLayout { array_stride: stride as u64, step_mode, attributes })
 }
 
-fn pipeline(gpu: &Gpu, plan: &Plan<'_>, format: TextureFormat) -> RenderPipeline {
-    let source = wgpu::ShaderSource::Wgsl(plan.shader.into());
-    let label = Some(plan.entries[0]);
+fn pipeline(gpu: &Gpu, options: &PipelineOptions<'_>, format: TextureFormat) -> RenderPipeline {
+    let source = wgpu::ShaderSource::Wgsl(options.shader.into());
+    let label = Some(options.entries[0]);
     let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label, source });
-    let blend = (!plan.has_depth).then_some(BlendState::ALPHA_BLENDING);
-    let compare = if plan.has_depth { CompareFunction::Less } else { CompareFunction::Always };
+    let blend = (!options.has_depth).then_some(BlendState::ALPHA_BLENDING);
+    let compare = if options.has_depth { CompareFunction::Less } else { CompareFunction::Always };
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label,
         layout: None,
         vertex: wgpu::VertexState {
             module: &module,
-            entry_point: Some(plan.entries[0]),
+            entry_point: Some(options.entries[0]),
             compilation_options: Default::default(),
-            buffers: plan.buffers,
+            buffers: options.buffers,
         },
-        primitive: wgpu::PrimitiveState { topology: plan.topology, ..Default::default() },
+        primitive: wgpu::PrimitiveState { topology: options.topology, ..Default::default() },
         depth_stencil: Some(wgpu::DepthStencilState {
             format: DEPTH,
-            depth_write_enabled: Some(plan.has_depth),
+            depth_write_enabled: Some(options.has_depth),
             depth_compare: Some(compare),
             stencil: Default::default(),
             bias: Default::default(),
         }),
         multisample: wgpu::MultisampleState {
             count: SAMPLES,
-            alpha_to_coverage_enabled: plan.is_covering,
+            alpha_to_coverage_enabled: options.alpha_to_coverage,
             ..Default::default()
         },
         fragment: Some(wgpu::FragmentState {
             module: &module,
-            entry_point: Some(plan.entries[1]),
+            entry_point: Some(options.entries[1]),
             compilation_options: Default::default(),
             targets: &[Some(ColorTargetState { blend, ..format.into() })],
         }),

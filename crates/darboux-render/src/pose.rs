@@ -1,4 +1,4 @@
-//! Vertices where morph targets and skins move them.
+//! Moves vertices by morph targets and skins.
 
 use darboux::Transform;
 use darboux_io::Error;
@@ -6,37 +6,39 @@ use darboux_io::gltf::PrimitiveCorners;
 
 use crate::algebra::{Matrix, direction_columns};
 
-/// What of a corner moves with a pose. Normals and tangents are empty where the primitive has none.
+/// The attributes of corners that a pose changes. Normals and tangents are empty if the primitive has none.
 pub struct Vertices {
     pub positions: Vec<[f32; 3]>,
     pub normals: Vec<[f32; 3]>,
     pub tangents: Vec<[f32; 4]>,
 }
 
-/// Moves vertices by morph targets: each by its offset times the target's weight. Errors: broken data.
+/// Adds the offsets of each morph target, times its weight. Errors: invalid data.
 pub fn morph(corners: &PrimitiveCorners<'_>, weights: &[f64], vertices: &mut Vertices) -> Result<(), Error> {
     let Vertices { positions, normals, tangents } = vertices;
     for (target, &weight) in weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
         let offsets = |semantic| corners.offsets(target, semantic).map(Option::unwrap_or_default);
-        move_by(positions, &offsets("POSITION")?, weight);
-        move_by(normals, &offsets("NORMAL")?, weight);
-        move_by(tangents, &offsets("TANGENT")?, weight);
+        add_scaled(positions, &offsets("POSITION")?, weight);
+        add_scaled(normals, &offsets("NORMAL")?, weight);
+        add_scaled(tangents, &offsets("TANGENT")?, weight);
     }
     Ok(())
 }
 
-fn move_by<const N: usize>(vectors: &mut [[f32; N]], offsets: &[[f32; 3]], weight: f64) {
+fn add_scaled<const N: usize>(vectors: &mut [[f32; N]], offsets: &[[f32; 3]], weight: f64) {
     for (vector, offset) in vectors.iter_mut().zip(offsets) {
         vector.iter_mut().zip(offset).for_each(|(x, by)| *x += weight as f32 * by);
     }
 }
 
-/// Four influences each; programs write one or two sets. All are kept while vertices are moved.
-pub const MOST_SETS: usize = 4;
+/// The most influence sets per vertex, of four joints each. Exporters write one or two.
+pub const MAX_INFLUENCE_SETS: usize = 4;
 
-/// Moves vertices by a skin; says of each whether it is mirrored, which turns the winding of faces.
+/// Moves vertices by a skin. Returns for each vertex whether the skin mirrors it, which reverses the winding of its triangles.
 ///
-/// `joints`: the matrices of the joints. Joints that do not exist move nothing, as do sets past [`MOST_SETS`]. Errors: broken data.
+/// `joints`: the matrices of the joints. Joints that do not exist are ignored, as are influence sets past [`MAX_INFLUENCE_SETS`].
+///
+/// Errors: invalid data.
 pub fn skin(
     corners: &PrimitiveCorners<'_>,
     joints: &[Matrix],
@@ -47,7 +49,7 @@ pub fn skin(
     let mut is_mirrored = vec![false; positions.len()];
     for at in 0..positions.len() {
         let (sum, weight) = sum_at(at, &sets, joints);
-        // What nothing moves stays where it was bound.
+        // A vertex without joints keeps its position.
         if weight == 0.0 {
             continue;
         }
@@ -71,28 +73,28 @@ pub fn skin(
     Ok(is_mirrored)
 }
 
-/// The joints of every corner, as floats, and their weights: four of each.
+/// Four joint indices (as floats) and four weights per corner.
 type Influences = (Vec<[f32; 4]>, Vec<[f32; 4]>);
 
-/// The sets of influences that the primitive has.
+/// The influence sets of the primitive.
 fn influences(corners: &PrimitiveCorners<'_>) -> Result<Vec<Influences>, Error> {
     let mut sets = Vec::new();
-    for set in 0..MOST_SETS {
+    for set in 0..MAX_INFLUENCE_SETS {
         let influence = |name: &str| corners.vectors::<4>(&format!("{name}_{set}"));
-        let (Some(places), Some(weights)) = (influence("JOINTS")?, influence("WEIGHTS")?) else { break };
-        sets.push((places, weights));
+        let (Some(joints), Some(weights)) = (influence("JOINTS")?, influence("WEIGHTS")?) else { break };
+        sets.push((joints, weights));
     }
     Ok(sets)
 }
 
-/// The sum of the matrices that move a corner, by weight, and that of the weights.
+/// The weighted sum of the joint matrices of a corner, and the sum of the weights.
 fn sum_at(corner: usize, sets: &[Influences], joints: &[Matrix]) -> (Matrix, f64) {
     let (mut sum, mut total) = (Matrix::default(), 0.0);
-    for (places, weights) in sets {
-        for (place, weight) in places[corner].into_iter().zip(weights[corner].map(f64::from)) {
-            let Some(joint) = joints.get(place as usize).filter(|_| weight != 0.0) else { continue };
-            let parts = sum.as_flattened_mut().iter_mut().zip(joint.as_flattened());
-            parts.for_each(|(sum, part)| *sum += weight * part);
+    for (indices, weights) in sets {
+        for (index, weight) in indices[corner].into_iter().zip(weights[corner].map(f64::from)) {
+            let Some(joint) = joints.get(index as usize).filter(|_| weight != 0.0) else { continue };
+            let elements = sum.as_flattened_mut().iter_mut().zip(joint.as_flattened());
+            elements.for_each(|(sum, element)| *sum += weight * element);
             total += weight;
         }
     }

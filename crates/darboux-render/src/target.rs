@@ -1,27 +1,27 @@
-//! What is drawn into, and read back.
+//! The textures that are drawn into, and reading the picture back.
 
 use darboux_gpu::{Gpu, GpuError};
 use wgpu::{BufferDescriptor, BufferUsages, CommandEncoder, Extent3d, Texture, TextureFormat, TextureUsages};
 
-use crate::RenderError;
+use crate::error::RenderError;
 
 pub const SAMPLES: u32 = 4;
 pub const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 
-/// Pixels in all: with their samples and depths 1.2 GB.
-const MOST_PIXELS: u64 = 1 << 25;
+/// The most pixels of a picture. With samples and depth they take 1.2 GB.
+const MAX_PIXELS: u64 = 1 << 25;
 
-/// Errors: a size that the adapter cannot draw.
+/// Errors: the adapter cannot draw this size.
 pub fn check_size(gpu: &Gpu, size: [u32; 2]) -> Result<(), RenderError> {
     let limit = gpu.device.limits().max_texture_dimension_2d;
     let pixels = u64::from(size[0]) * u64::from(size[1]);
-    if size.iter().all(|&side| (1..=limit).contains(&side)) && pixels <= MOST_PIXELS {
+    if size.iter().all(|&side| (1..=limit).contains(&side)) && pixels <= MAX_PIXELS {
         return Ok(());
     }
-    Err(RenderError::Size { size, limit, most: MOST_PIXELS, adapter: gpu.name.clone() })
+    Err(RenderError::Size { size, limit, most: MAX_PIXELS, adapter: gpu.name.clone() })
 }
 
-/// Textures of one size.
+/// The multisampled colour and depth textures, and the resolved picture.
 pub struct Target<'a> {
     gpu: &'a Gpu,
     size: [u32; 2],
@@ -42,7 +42,7 @@ impl<'a> Target<'a> {
         }
     }
 
-    /// Submits what `record` draws; gives the pixels.
+    /// Submits the commands of `record` and returns the pixels of the picture.
     pub fn read(&self, record: impl FnOnce(&mut CommandEncoder)) -> Result<Vec<[u8; 3]>, GpuError> {
         let [width, height] = self.size;
         let row = (4 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
@@ -52,14 +52,14 @@ impl<'a> Target<'a> {
             usage: BufferUsages::COPY_DST | BufferUsages::COPY_SRC,
             mapped_at_creation: false,
         });
-        let copied = |encoder: &mut CommandEncoder| {
+        let record_copy = |encoder: &mut CommandEncoder| {
             record(encoder);
             let layout =
                 wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
-            let place = wgpu::TexelCopyBufferInfo { buffer: &buffer, layout };
-            encoder.copy_texture_to_buffer(self.picture.as_image_copy(), place, self.picture.size());
+            let destination = wgpu::TexelCopyBufferInfo { buffer: &buffer, layout };
+            encoder.copy_texture_to_buffer(self.picture.as_image_copy(), destination, self.picture.size());
         };
-        let bytes = self.gpu.read(copied, &buffer)?;
+        let bytes = self.gpu.read(record_copy, &buffer)?;
         let rows = bytes.chunks_exact(row as usize).map(|row| row.as_chunks::<4>().0);
         Ok(rows.flat_map(|row| row.iter().take(width as usize).map(|&[r, g, b, _]| [r, g, b])).collect())
     }

@@ -1,4 +1,4 @@
-//! Images on the adapter.
+//! Decodes the images of a document and uploads them as textures with mip levels.
 
 use std::collections::HashMap;
 
@@ -11,10 +11,10 @@ use wgpu::{
 
 use crate::mipmaps::halved;
 
-/// The texels of all images together: 1 GiB with their smaller versions.
-const MOST_TEXELS: u64 = 200 << 20;
+/// The most texels of all images together. With mip levels they take 1 GiB.
+const MAX_TEXELS: u64 = 200 << 20;
 
-/// What a texture's texels are.
+/// The meaning of a texture's texels.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Kind {
     Color,
@@ -29,7 +29,7 @@ impl Kind {
         }
     }
 
-    /// The texel that changes nothing.
+    /// The texel that has no effect.
     fn neutral(self) -> [u8; 4] {
         match self {
             Self::Color => [255; 4],
@@ -38,59 +38,62 @@ impl Kind {
     }
 }
 
-/// The images of a document, each sent once.
+/// The textures of a document. Each image is uploaded once.
 pub struct Textures<'a> {
     gpu: &'a Gpu,
     document: &'a Document,
-    sent: HashMap<(Option<usize>, Kind), Option<TextureView>>,
+    /// By image and kind; none for images that cannot be decoded.
+    uploaded: HashMap<(Option<usize>, Kind), Option<TextureView>>,
     texels: u64,
     pub warnings: Vec<String>,
 }
 
 impl<'a> Textures<'a> {
     pub fn new(gpu: &'a Gpu, document: &'a Document) -> Self {
-        Self { gpu, document, sent: HashMap::new(), texels: 0, warnings: Vec::new() }
+        Self { gpu, document, uploaded: HashMap::new(), texels: 0, warnings: Vec::new() }
     }
 
-    /// The texture that a material uses, or none where it cannot be had, which then is a warning.
+    /// The texture that a material uses. If it cannot be decoded, the result is none, and there is a warning.
     pub fn view(&mut self, used: Option<&TextureUse>, kind: Kind) -> Option<TextureView> {
         let image = used?.image;
-        if let Some(sent) = self.sent.get(&(image, kind)) {
-            return sent.clone();
+        if let Some(view) = self.uploaded.get(&(image, kind)) {
+            return view.clone();
         }
         let view = match self.decode(image) {
-            Ok(image) => Some(self.send(image, kind)),
+            Ok(image) => Some(self.upload(image, kind)),
             Err(problem) => {
-                self.warnings.push(format!("{problem}; drawn without it"));
+                self.warnings.push(format!("{problem}; the model is drawn without it"));
                 None
             }
         };
-        self.sent.insert((image, kind), view.clone());
+        self.uploaded.insert((image, kind), view.clone());
         view
     }
 
-    /// A texture that changes nothing.
+    /// A texture of one texel that has no effect.
     pub fn neutral(&self, kind: Kind) -> TextureView {
-        self.send(RgbaImage { width: 1, height: 1, texels: vec![kind.neutral()] }, kind)
+        self.upload(RgbaImage { width: 1, height: 1, texels: vec![kind.neutral()] }, kind)
     }
 
-    /// The error is a sentence.
+    /// Decodes an image. Errors: one sentence.
     fn decode(&mut self, image: Option<usize>) -> Result<RgbaImage, String> {
         let image = image.ok_or("a texture has no image; export the file again")?;
         let bytes = self.document.image_bytes(image).map_err(|error| error.to_string())?;
-        let told = |problem: String| format!("images[{image}] {problem}");
+        let message = |problem: String| format!("images[{image}] {problem}");
         let side = self.gpu.device.limits().max_texture_dimension_2d;
         let limits = DecodeLimits { side, ..DecodeLimits::default() };
-        let decoded = RgbaImage::decode(&bytes, &limits).map_err(|error| told(error.to_string()))?;
+        let decoded = RgbaImage::decode(&bytes, &limits).map_err(|error| message(error.to_string()))?;
         self.texels += decoded.texels.len() as u64;
-        if self.texels > MOST_TEXELS {
-            return Err(told("and others are larger than 200 million texels together".to_owned()));
+        if self.texels > MAX_TEXELS {
+            return Err(message(
+                "and the other images have more than 200 million texels together".to_owned(),
+            ));
         }
         Ok(decoded)
     }
 
-    /// Sends an image and its smaller versions.
-    fn send(&self, mut image: RgbaImage, kind: Kind) -> TextureView {
+    /// Uploads an image with its mip levels.
+    fn upload(&self, mut image: RgbaImage, kind: Kind) -> TextureView {
         let RgbaImage { width, height, .. } = image;
         let levels = width.max(height).ilog2() + 1;
         let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
@@ -108,7 +111,7 @@ impl<'a> Textures<'a> {
             if level > 0 {
                 image = halved(&image);
             }
-            let place = wgpu::TexelCopyTextureInfo { mip_level: level, ..texture.as_image_copy() };
+            let destination = wgpu::TexelCopyTextureInfo { mip_level: level, ..texture.as_image_copy() };
             let RgbaImage { width, height, .. } = image;
             let layout = wgpu::TexelCopyBufferLayout {
                 offset: 0,
@@ -116,13 +119,13 @@ impl<'a> Textures<'a> {
                 rows_per_image: None,
             };
             let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
-            self.gpu.queue.write_texture(place, image.texels.as_flattened(), layout, size);
+            self.gpu.queue.write_texture(destination, image.texels.as_flattened(), layout, size);
         }
         texture.create_view(&Default::default())
     }
 }
 
-/// The sampler that a material asks for.
+/// The sampler of a material's texture.
 pub fn sampler(gpu: &Gpu, used: Option<&TextureUse>) -> Sampler {
     let (wrap, is_nearest) = used.map_or(([Wrap::Repeat; 2], false), |used| (used.wrap, used.is_nearest));
     let [u, v] = wrap.map(|wrap| match wrap {

@@ -1,48 +1,50 @@
-//! What the shaders are told, as they take it.
+//! The uniforms and the per-instance data of both shaders, in their memory layout.
 
 use bytemuck::{Pod, Zeroable};
 use darboux_io::gltf::{Alpha, Appearance, TextureUse};
 
 use crate::algebra::{IDENTITY, Matrix, direction_columns};
-use crate::camera::Sight;
-use crate::painter::{Shape, Show};
-use crate::{HeatScale, SIGN_COLORS, Side};
+use crate::camera::ViewTransform;
+use crate::drawing::{Drawing, Side};
+use crate::heat::HeatScale;
+use crate::options::SIGN_COLORS;
+use crate::subject::Subject;
 
-/// Pixels along a picture's shorter side for one of a line's width, which is at least one.
-const PIXELS_PER_WIDTH: f32 = 500.0;
+/// Lines are one pixel wide per this many pixels of the shorter side of the picture, and at least one pixel.
+const PICTURE_PIXELS_PER_LINE_PIXEL: f32 = 500.0;
 
-/// The uniforms of draw.wgsl's `Picture`.
+/// `Picture` of surface.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub struct PictureUniforms {
     projection: [[f32; 4]; 4],
-    turn: [[f32; 4]; 3],
+    rotation: [[f32; 4]; 3],
     distance: f32,
     view: u32,
     heat_ends: [f32; 2],
     ramp: [[f32; 4]; 9],
     flip: [f32; 4],
-    none: [f32; 4],
+    no_angle: [f32; 4],
     signs: [[f32; 4]; 2],
-    w_side: f32,
-    green_side: f32,
+    w_factor: f32,
+    green_factor: f32,
     is_v_flipped: u32,
     is_derived: u32,
-    is_flat: u32,
-    unused: [u32; 3],
+    is_layout: u32,
+    padding: [u32; 3],
 }
 
-/// The uniforms of strokes.wgsl.
+/// `Lines` of lines.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
-pub struct StrokesUniforms {
+pub struct LineUniforms {
     projection: [[f32; 4]; 4],
     pixel: [f32; 2],
     distance: f32,
     half_width: f32,
 }
 
-/// The uniforms of draw.wgsl's `Material`.
+/// `Material` of surface.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub struct MaterialUniforms {
@@ -53,54 +55,54 @@ pub struct MaterialUniforms {
     normal_scale: f32,
     alpha_cutoff: f32,
     has_normal_map: u32,
-    unused: u32,
+    padding: u32,
 }
 
-/// draw.wgsl's `Place`.
+/// `Instance` of surface.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
-pub struct Place {
-    eye: [[f32; 4]; 4],
+pub struct Instance {
+    to_eye: [[f32; 4]; 4],
     directions: [[f32; 3]; 3],
 }
 
 impl PictureUniforms {
-    pub fn of(show: &Show<'_>, side: &Side<'_>) -> Self {
-        let HeatScale { ends, ramp, flip, none } = &show.options.heat;
+    pub fn of(drawing: &Drawing<'_>, side: &Side<'_>) -> Self {
+        let HeatScale { ends, ramp, flip, none } = &drawing.options.heat;
         let color = |[r, g, b]: [u8; 3]| [r, g, b, 255].map(|channel| f32::from(channel) / 255.0);
-        let turn = [0, 1, 2].map(|column| {
-            let [x, y, z] = show.sight.turn.map(|row| row[column] as f32);
+        let rotation = [0, 1, 2].map(|column| {
+            let [x, y, z] = drawing.transform.rotation.map(|row| row[column] as f32);
             [x, y, z, 0.0]
         });
-        let flipped = |is_flipped| if is_flipped { -1.0 } else { 1.0 };
+        let factor = |is_negated| if is_negated { -1.0 } else { 1.0 };
         Self {
-            projection: show.sight.projection,
-            turn,
-            distance: show.sight.distance as f32,
-            view: show.view() as u32,
+            projection: drawing.transform.projection,
+            rotation,
+            distance: drawing.transform.distance as f32,
+            view: drawing.view() as u32,
             heat_ends: *ends,
             ramp: ramp.map(color),
             flip: color(*flip),
-            none: color(*none),
+            no_angle: color(*none),
             signs: SIGN_COLORS.map(color),
-            w_side: flipped(side.mistakes.w),
-            green_side: flipped(side.mistakes.green),
+            w_factor: factor(side.mistakes.w),
+            green_factor: factor(side.mistakes.green),
             is_v_flipped: side.mistakes.v.into(),
             is_derived: side.model.is_derived.into(),
-            is_flat: (show.shape == Shape::Layout).into(),
-            unused: [0; 3],
+            is_layout: (drawing.subject == Subject::UvLayout).into(),
+            padding: [0; 3],
         }
     }
 }
 
-impl StrokesUniforms {
-    pub fn of(sight: &Sight, size: [u32; 2]) -> Self {
+impl LineUniforms {
+    pub fn of(transform: &ViewTransform, size: [u32; 2]) -> Self {
         let [width, height] = size.map(|side| side as f32);
         Self {
-            projection: sight.projection,
+            projection: transform.projection,
             pixel: [2.0 / width, 2.0 / height],
-            distance: sight.distance as f32,
-            half_width: 0.5 * (width.min(height) / PIXELS_PER_WIDTH).max(1.0),
+            distance: transform.distance as f32,
+            half_width: 0.5 * (width.min(height) / PICTURE_PIXELS_PER_LINE_PIXEL).max(1.0),
         }
     }
 }
@@ -121,23 +123,23 @@ impl MaterialUniforms {
                 Alpha::Blend => 2.0,
             },
             has_normal_map: has_normal_map.into(),
-            unused: 0,
+            padding: 0,
         }
     }
 }
 
-impl Place {
-    pub fn of(matrix: &Matrix, sight: &Sight, shape: Shape) -> Self {
+impl Instance {
+    pub fn of(matrix: &Matrix, transform: &ViewTransform, subject: Subject) -> Self {
         Self {
-            eye: sight.to_eye(if shape == Shape::Layout { &IDENTITY } else { matrix }),
+            to_eye: transform.to_eye(if subject == Subject::UvLayout { &IDENTITY } else { matrix }),
             directions: direction_columns(matrix),
         }
     }
 }
 
-/// Where u and v are taken on an image, and where its origin is.
+/// The texture transform of a material: the images of the u and v axes, and of the origin.
 fn axes(used: Option<&TextureUse>) -> ([f32; 4], [f32; 2]) {
-    let place = |uv| used.map_or(uv, |used| used.place(uv));
-    let [origin, [ux, uy], [vx, vy]] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(place);
+    let transformed = |uv| used.map_or(uv, |used| used.place(uv));
+    let [origin, [ux, uy], [vx, vy]] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(transformed);
     ([ux - origin[0], uy - origin[1], vx - origin[0], vy - origin[1]], origin)
 }

@@ -1,13 +1,13 @@
-//! What pixels show: colours of known frames, light on mirrored halves, angles, layouts.
+//! Tests single pixels of pictures: colours of known frames, light on mirrored halves, angles, UV layouts.
 
 mod common;
 
 use common::{Quad, document, has_adapter_or_says_so};
 use darboux_io::gltf::{Document, LoadOptions};
-use darboux_render::{Layout, Mistakes, Model, RenderOptions, Side, View};
+use darboux_render::{LayoutPlacement, Mistakes, Model, RenderOptions, Side, View};
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage, Rgba, RgbaImage};
 
-/// Pixels across and down.
+/// The width and height of the pictures.
 const SIZE: usize = 64;
 
 /// The pixel in the middle of the left, or of the right, half.
@@ -15,7 +15,7 @@ fn half(pixels: &[[u8; 3]], is_right: bool) -> [u8; 3] {
     pixels[SIZE / 2 * SIZE + if is_right { 3 * SIZE / 4 } else { SIZE / 4 }]
 }
 
-/// The pixels of a quad, compared with another. Expects that there is an adapter.
+/// The pixels of a quad that is compared with another. Panics without an adapter.
 fn picture(quad: &Quad, other: &Quad, view: View) -> Vec<[u8; 3]> {
     let [mut document, mut other] = [quad, other].map(document);
     let [model, other] = [&mut document, &mut other].map(|document| Model::read(document).expect("a model"));
@@ -33,7 +33,7 @@ fn light([r, g, b]: [u8; 3]) -> u32 {
     u32::from(r) + u32::from(g) + u32::from(b)
 }
 
-/// Half of 255 is rounded either way.
+/// Adapters round half of 255 up or down.
 fn is_about(pixel: [u8; 3], color: [u8; 3]) -> bool {
     pixel.iter().zip(color).all(|(a, b)| a.abs_diff(b) <= 1)
 }
@@ -54,7 +54,7 @@ fn frames_have_the_colours_of_their_directions() {
         (turned.clone(), View::Tangent, up),
         (turned.clone(), View::Bitangent, left),
         (turned, View::Normal, near),
-        // Directions go with the surface.
+        // A node that mirrors mirrors the directions.
         (mirrored.clone(), View::Tangent, left),
         (mirrored.clone(), View::Bitangent, up),
         (mirrored, View::Normal, near),
@@ -72,32 +72,32 @@ fn mirrored_halves_are_lit_from_the_same_side() {
     if !has_adapter_or_says_so() {
         return;
     }
-    // A map that leans up the image: towards the light on either half.
+    // A normal map that leans up, towards the light, on both halves.
     let up = Quad { texel: [128, 220, 200], ..Quad::mirrored() };
     let flat = Quad { texel: [128, 128, 255], ..Quad::mirrored() };
     let [left, right] = halves(&up, View::Shaded);
     let [level, _] = halves(&flat, View::Shaded);
     assert!(is_about(left, right), "{left:?} {right:?}");
     assert!(light(left) > light(level) + 30, "{left:?} {level:?}");
-    // A wrong w on the mirrored half is seen.
+    // A wrong w darkens the mirrored half.
     let [wrong, right] = halves(&Quad { w: [1.0; 2], ..up.clone() }, View::Shaded);
     assert!(light(wrong) + 30 < light(level), "{wrong:?} {level:?}");
     assert!(is_about(left, right), "{left:?} {right:?}");
-    // A map that leans along u: towards the light, which is on the right, where u grows to the right.
+    // A normal map that leans along u. The light is on the right, so only the half where u grows to the right leans towards it.
     let along = Quad { texel: [220, 128, 200], ..Quad::mirrored() };
     let [left, right] = halves(&along, View::Shaded);
     assert!(light(left) + 60 < light(right), "{left:?} {right:?}");
-    // The same of a node that mirrors: neither inside out nor lit from below.
+    // A node that mirrors neither turns the surface inside out nor moves the light.
     let [left, right] = halves(&Quad { node: r#""scale":[-1,1,1]"#, ..up }, View::Shaded);
     assert!(is_about(left, right) && light(left) > light(level) + 30, "{left:?} {right:?} {level:?}");
 }
 
-/// The light shines a little more on one half.
+/// Tolerates that the light shines a little more on one half.
 fn is_like(a: [u8; 3], b: [u8; 3]) -> bool {
     a.iter().zip(b).all(|(a, b)| a.abs_diff(b) <= 12)
 }
 
-/// A quad with a base colour whose left and right half have some alpha.
+/// A quad with a red base colour, whose left and right halves have these alpha values.
 fn translucent(alpha: [u8; 2], material: &'static str) -> Quad {
     let texels = RgbaImage::from_fn(8, 8, |x, _| Rgba([255, 0, 0, alpha[usize::from(x >= 4)]]));
     let base = common::file_of(&texels.into(), ImageFormat::Png);
@@ -111,29 +111,29 @@ fn alpha_means_what_the_material_says() {
     }
     let seen = |alpha, material| halves(&translucent(alpha, material), View::Shaded);
     let is_red = |pixel: [u8; 3]| pixel[0] > 100 && pixel[1] < 80;
-    // Of opaque materials it means nothing.
+    // Opaque materials ignore alpha.
     let [left, right] = seen([0, 255], "");
     assert!(is_red(left) && is_like(left, right), "{left:?} {right:?}");
-    // The cutoff is one half where none is said; what has just as much is there.
+    // The default cutoff is one half. Alpha equal to the cutoff is opaque.
     for (material, alpha) in
         [(r#","alphaMode":"MASK""#, [127, 128]), (r#","alphaMode":"MASK","alphaCutoff":0.8"#, [203, 204])]
     {
         let [gone, there] = seen(alpha, material);
         assert!(gone == common::BACKGROUND && is_like(there, right), "{material}: {gone:?} {there:?}");
     }
-    // About half of what is behind shines through: some of the four samples, which adapters round either way.
+    // About half of the background shines through. Coverage has four samples, which adapters round up or down.
     let [none, half] = seen([0, 128], r#","alphaMode":"BLEND""#);
     assert_eq!(none, common::BACKGROUND);
     let linear = |channel: u8| (f64::from(channel) / 255.0).powf(2.2);
     let covered = linear(half[0]) / linear(right[0]);
     assert!((0.24..0.77).contains(&covered), "{half:?} of {right:?}");
-    // Frames are seen whatever covers them.
+    // Views of frames ignore alpha.
     let [left, right] = halves(&translucent([0, 255], r#","alphaMode":"BLEND""#), View::Tangent);
     assert!(is_like(left, right) && left != common::BACKGROUND, "{left:?} {right:?}");
 }
 
 #[test]
-fn textures_may_be_jpeg_or_webp_and_others_are_said() {
+fn jpeg_and_webp_textures_are_drawn_and_others_are_warned_about() {
     if !has_adapter_or_says_so() {
         return;
     }
@@ -161,17 +161,17 @@ fn textures_may_be_jpeg_or_webp_and_others_are_said() {
         (b"\0\0\0\x20ftypavif\0\0\0\0avifmif1miafMA1B", "EXT_texture_avif", "images[1] is AVIF, for which"),
         (b"\xABKTX 20\xBB\r\n\x1A\n", "KHR_texture_basisu", "images[1] is KTX 2, for which"),
     ];
-    for (file, image_extension, said) in cases {
+    for (file, image_extension, expected) in cases {
         let quad = Quad { base: Some((file.to_vec(), "image/other")), image_extension, ..Quad::default() };
         let warnings = common::drawn(&quad, &common::options(View::Shaded)).warnings;
         assert!(
-            matches!(&warnings[..], [one] if one.starts_with(said) && one.ends_with("drawn without it")),
+            matches!(&warnings[..], [one] if one.starts_with(expected) && one.ends_with("drawn without it")),
             "{warnings:?}"
         );
     }
 }
 
-/// The quad with a skin whose joint 1, with all weight, is the node 1. Its joints and weights are its tangents: 1, 0, 0, 1.
+/// A quad with a skin. Joint 1, which is node 1, has all the weight. The attributes of joints and weights are the tangents: 1, 0, 0, 1.
 fn skinned(joint: &'static str) -> Quad {
     Quad {
         node: r#""skin":0,"children":[1],"translation":[7,8,9]"#,
@@ -195,11 +195,11 @@ fn skins_move_vertices_and_their_frames() {
             assert!(is_about(pixel, color), "{view:?}: {pixel:?}");
         }
     }
-    // Longer along x: two thirds of the rows are empty.
+    // The quad is three times wider than high, so two thirds of the rows are empty.
     let wide = picture(&skinned(r#",{"scale":[3,1,1]}"#), &Quad::default(), View::Normal);
     let rows = wide.chunks(SIZE).filter(|row| row[SIZE / 2] != common::BACKGROUND).count();
     assert!((18..=22).contains(&rows), "{rows}");
-    // A joint that mirrors: lit from the same side as a node that does.
+    // A joint that mirrors is lit as a node that mirrors.
     let up = |quad: Quad| halves(&Quad { texel: [128, 220, 200], ..quad }, View::Shaded);
     let [joint, node] =
         [up(skinned(r#",{"scale":[-1,1,1]}"#)), up(Quad { node: r#""scale":[-1,1,1]"#, ..Quad::default() })];
@@ -211,7 +211,7 @@ fn morph_targets_move_vertices_and_their_frames() {
     if !has_adapter_or_says_so() {
         return;
     }
-    // By the normals, half as far.
+    // The target moves positions by the normals, with a weight of one half.
     let morphed = Quad {
         node: r#""weights":[0.5]"#,
         primitive: r#","targets":[{"POSITION":1,"TANGENT":1}]"#,
@@ -226,11 +226,11 @@ fn morph_targets_move_vertices_and_their_frames() {
 }
 
 #[test]
-fn instances_are_where_they_are() {
+fn instances_are_drawn_at_their_places() {
     if !has_adapter_or_says_so() {
         return;
     }
-    // One at each of the quad's corners.
+    // One instance at each corner of the quad.
     let node = r#""extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0}}}"#;
     let quad = Quad { half_size: 0.25, node, ..Quad::default() };
     let mut document = document(&quad);
@@ -240,7 +240,7 @@ fn instances_are_where_they_are() {
 }
 
 #[test]
-fn broken_poses_are_said() {
+fn invalid_poses_are_errors() {
     let cases = [
         (Quad { node: r#""skin":1"#, ..Quad::default() }, "nodes[0]: skin 1 does not exist: there are 0"),
         (skinned(",{}"), ""),
@@ -267,17 +267,20 @@ fn broken_poses_are_said() {
             "accessors[3].type",
         ),
     ];
-    for (quad, said) in cases {
+    for (quad, expected) in cases {
         let mut document = document(&quad);
         let error =
             Model::read(&mut document).map(|_| ()).err().map(|error| error.to_string()).unwrap_or_default();
-        assert!(error.contains(said) && error.is_empty() == said.is_empty(), "{error} in place of {said}");
+        assert!(
+            error.contains(expected) && error.is_empty() == expected.is_empty(),
+            "{error} in place of {expected}"
+        );
     }
 }
 
 #[test]
-fn vertices_are_read_for_so_many_poses() {
-    // One triangle, whose vertices are zeros that the file does not store.
+fn the_number_of_poses_of_a_mesh_is_limited() {
+    // One triangle. The file does not store the vertices, which are zeros.
     let read = |vertices: usize| {
         let file = format!(
             r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0,1,2]}}],
@@ -291,7 +294,7 @@ fn vertices_are_read_for_so_many_poses() {
     };
     assert_eq!(read(3), Ok(3));
     let error = read(30_000_000).expect_err("too many");
-    assert!(error.contains("is posed in more ways than are drawn"), "{error}");
+    assert!(error.contains("has too many poses"), "{error}");
 }
 
 #[test]
@@ -315,7 +318,7 @@ fn heat_is_the_angle() {
     assert!(is_about(shown(&quad), scale.ramp[0]));
     let opposite = Quad { tangent: [-1.0, 0.0, 0.0], ..Quad::default() };
     assert!(is_about(shown(&opposite), scale.ramp[8]));
-    // In the middle of a scale from 0.01 to 180 degrees.
+    // The middle of a logarithmic scale from 0.01 to 180 degrees.
     let angle = (0.01f32 * 180.0).sqrt().to_radians();
     let between = Quad { tangent: [angle.cos(), angle.sin(), 0.0], ..Quad::default() };
     assert!(is_about(shown(&between), scale.ramp[4]), "{:?}", shown(&between));
@@ -325,12 +328,12 @@ fn heat_is_the_angle() {
     assert!(is_about(shown(&without), scale.none));
 }
 
-/// The UV layout in place of the model.
+/// Options for the UV layout alone.
 fn alone(view: View) -> RenderOptions {
-    RenderOptions { layout: Some(Layout::Alone), ..common::options(view) }
+    RenderOptions { layout: Some(LayoutPlacement::Alone), ..common::options(view) }
 }
 
-/// A colour that covers three fifths of the background.
+/// A colour over the background, with an alpha of 0.6.
 fn through(color: [u8; 3]) -> [u8; 3] {
     [0, 1, 2].map(|i| (0.6 * f64::from(color[i]) + 0.4 * f64::from(common::BACKGROUND[i])).round() as u8)
 }
@@ -340,7 +343,7 @@ fn layouts_show_where_uvs_are_in_the_colours_of_the_surface() {
     if !has_adapter_or_says_so() {
         return;
     }
-    // UVs in the left half of the square.
+    // The UVs lie in the left half of the square.
     let quad = Quad { u_scale: 0.5, ..Quad::default() };
     let laid_out = |view| {
         let pixels = common::drawn(&quad, &alone(view)).pixels;
@@ -357,11 +360,14 @@ fn layouts_show_where_uvs_are_in_the_colours_of_the_surface() {
     for view in [View::Sign, View::Shaded] {
         assert!(is_about(laid_out(view)[0], through([61, 139, 217])), "{view:?}: {:?}", laid_out(view));
     }
-    let corner =
-        RenderOptions { layout: Some(Layout::Corner), size: [200, 200], ..common::options(View::Normal) };
+    let corner = RenderOptions {
+        layout: Some(LayoutPlacement::Corner),
+        size: [200, 200],
+        ..common::options(View::Normal)
+    };
     let [with, without] = [corner.clone(), RenderOptions { layout: None, ..corner }]
         .map(|options| common::drawn(&quad, &options).pixels);
-    // The square is 76 pixels wide and 12 from the edges: UVs on its left, none on its right.
+    // The square is 76 pixels wide, 12 pixels from the edges of the picture. UVs lie only in its left half.
     let at = |x: usize, y: usize| [with[200 * y + x], without[200 * y + x]];
     assert!(is_about(at(120, 150)[0], through([128, 128, 255])));
     assert_eq!(at(180, 150)[0], common::BACKGROUND);
@@ -373,31 +379,48 @@ fn a_model_without_uvs_has_no_layout_beside_it() {
     if !has_adapter_or_says_so() {
         return;
     }
-    let options =
-        RenderOptions { layout: Some(Layout::Corner), size: [200, 200], ..common::options(View::Normal) };
+    let options = RenderOptions {
+        layout: Some(LayoutPlacement::Corner),
+        size: [200, 200],
+        ..common::options(View::Normal)
+    };
     let picture = common::drawn(&Quad { u_scale: f32::NAN, ..Quad::default() }, &options);
-    assert_eq!(picture.warnings, ["has no UVs that could be laid out"]);
+    assert_eq!(picture.warnings, ["has no finite UVs, so its UV layout is not drawn"]);
     assert!(is_about(picture.pixels[200 * 150 + 150], [128, 128, 255]));
 }
 
 #[test]
-fn what_cannot_be_drawn_is_said() {
+fn primitives_of_points_and_lines_are_warned_about() {
+    if !has_adapter_or_says_so() {
+        return;
+    }
+    for mode in 0..4 {
+        let primitive: &str = format!(r#"}},{{"attributes":{{"POSITION":0}},"mode":{mode}"#).leak();
+        let quad = Quad { primitive, ..Quad::default() };
+        let warnings = common::drawn(&quad, &common::options(View::Normal)).warnings;
+        assert_eq!(warnings, ["has 1 primitives of points or lines, which are not drawn"], "mode {mode}");
+    }
+}
+
+#[test]
+fn what_cannot_be_drawn_is_an_error() {
     if !has_adapter_or_says_so() {
         return;
     }
     let gpu = common::gpu().expect("an adapter");
     let options = common::options(View::Shaded);
-    let said = |quad: &Quad, options: &RenderOptions| {
+    let error_of = |quad: &Quad, options: &RenderOptions| {
         let mut document = document(quad);
         let model = &Model::read(&mut document).expect("a model");
         let side = Side { model, mistakes: Mistakes::default() };
         darboux_render::render(gpu, side, None, options).expect_err("no picture").to_string()
     };
     assert!(
-        said(&Quad { half_size: f32::NAN, ..Quad::default() }, &options).starts_with("has nothing to draw")
+        error_of(&Quad { half_size: f32::NAN, ..Quad::default() }, &options)
+            .starts_with("has nothing to draw")
     );
     for size in [[0, 64], [64, 1_000_000], [16_384, 16_384]] {
-        let sentence = said(&Quad::default(), &RenderOptions { size, ..options.clone() });
+        let sentence = error_of(&Quad::default(), &RenderOptions { size, ..options.clone() });
         assert!(sentence.contains("pixels") && sentence.contains(&size[1].to_string()), "{sentence}");
     }
 }

@@ -1,14 +1,14 @@
-//! What the views beside the surface show: lines, seams, derivatives, mistakes, and two sides.
+//! Tests pictures with lines, mirrored edges, derived tangents, mistakes and two sides, and the framing of the camera.
 
 mod common;
 
 use common::{BACKGROUND, Quad, document, has_adapter_or_says_so};
 use darboux_render::{LINE_COLORS, Lines, Mistakes, Model, RenderOptions, SEAM_COLOR, Side, View};
 
-/// Pixels across and down.
+/// The width and height of the pictures.
 const SIZE: usize = 64;
 
-/// The pixel in the middle of the left, or of the right, half.
+/// The pixels in the middle of the left and the right half.
 fn halves(pixels: &[[u8; 3]]) -> [[u8; 3]; 2] {
     [SIZE / 4, 3 * SIZE / 4].map(|column| pixels[SIZE / 2 * SIZE + column])
 }
@@ -21,16 +21,17 @@ fn is_about(pixel: [u8; 3], color: [u8; 3]) -> bool {
     pixel.iter().zip(color).all(|(a, b)| a.abs_diff(b) <= 3)
 }
 
-/// The columns, and the rows, from and to, in which lines of a colour are seen. They are narrow: pixels have some of what is beside them.
+/// The first and last column, and the first and last row, with pixels of about this colour. Lines are narrow, so their pixels blend with
+/// the background.
 fn extent(pixels: &[[u8; 3]], color: [u8; 3]) -> Option<[[usize; 2]; 2]> {
     let is_like = |pixel: &[u8; 3]| pixel.iter().zip(color).all(|(a, b)| a.abs_diff(b) <= 100);
-    let places = pixels.iter().enumerate().filter(|(_, pixel)| is_like(pixel));
-    let places: Vec<[usize; 2]> = places.map(|(at, _)| [at % SIZE, at / SIZE]).collect();
-    let ends = |i: usize| Some([places.iter().map(|p| p[i]).min()?, places.iter().map(|p| p[i]).max()?]);
+    let found = pixels.iter().enumerate().filter(|(_, pixel)| is_like(pixel));
+    let found: Vec<[usize; 2]> = found.map(|(at, _)| [at % SIZE, at / SIZE]).collect();
+    let ends = |i: usize| Some([found.iter().map(|p| p[i]).min()?, found.iter().map(|p| p[i]).max()?]);
     Some([ends(0)?, ends(1)?])
 }
 
-/// A flat quad of one colour that is none of lines'.
+/// Options that draw the quad in one colour, which no line has.
 fn plain() -> RenderOptions {
     common::options(View::Normal)
 }
@@ -47,11 +48,11 @@ fn lines_lead_from_vertices_along_their_vectors() {
     };
     let tangents = Lines { tangent: true, ..none };
     let bitangents = Lines { bitangent: true, ..none };
-    // Vertices are at the columns 1, 32 and 63 and at the rows 1 and 63; the lines are 11 pixels long.
+    // The vertices are in the columns 1, 32 and 63 and in the rows 1 and 63. The lines are 11 pixels long.
     let [columns, rows] = seen(tangents, LINE_COLORS[0]).expect("tangents");
     assert!(columns[0] >= 1 && rows == [1, 62], "{columns:?} {rows:?}");
     assert_eq!(seen(tangents, LINE_COLORS[1]), None);
-    // With this w they lead down.
+    // With w = -1 bitangents point down.
     let crosses = |quad: &Quad, row: usize| {
         let pixels = common::drawn(quad, &RenderOptions { lines: bitangents, ..plain() }).pixels;
         extent(&pixels[row * SIZE..][..SIZE], LINE_COLORS[1]).is_some()
@@ -59,7 +60,7 @@ fn lines_lead_from_vertices_along_their_vectors() {
     assert!(crosses(&quad, 8) && !crosses(&quad, 56));
     let up = Quad::default();
     assert!(crosses(&up, 56) && !crosses(&up, 8) && !crosses(&up, 40));
-    // From the side: the surface is a line in the middle, and normals lead to its left.
+    // From the side the surface is a line in the middle, and normals point left.
     let mut side = RenderOptions { lines: Lines { normal: true, ..none }, ..common::options(View::Tangent) };
     side.camera.yaw = 90.0;
     let [columns, _] = extent(&common::drawn(&quad, &side).pixels, LINE_COLORS[2]).expect("normals");
@@ -79,7 +80,7 @@ fn bitangents_follow_a_wrong_w() {
             common::drawn_wrong(&Quad::default(), Mistakes { w, ..Mistakes::default() }, &options).pixels;
         extent(&pixels[row * SIZE..][..SIZE], LINE_COLORS[1]).is_some()
     };
-    // From the lower vertices up, or from the upper ones down.
+    // Bitangents lead from the lower vertices up, or from the upper vertices down.
     assert!(has_lines(false, 56) && !has_lines(false, 8));
     assert!(has_lines(true, 8) && !has_lines(true, 56));
 }
@@ -95,7 +96,7 @@ fn seams_are_where_the_sign_changes() {
     assert!(columns[0] >= 31 && columns[1] <= 33, "{columns:?}");
     assert!(rows[0] <= 4 && rows[1] >= 60, "{rows:?}");
     assert_eq!(extent(&common::drawn(&Quad::default(), &options).pixels, SEAM_COLOR), None);
-    // What is behind a surface is hidden by it.
+    // From behind the edge is visible too.
     let mut behind = options;
     behind.camera.yaw = 180.0;
     assert!(extent(&common::drawn(&Quad::mirrored(), &behind).pixels, SEAM_COLOR).is_some());
@@ -111,7 +112,7 @@ fn derivatives_are_along_the_uvs_of_every_triangle() {
         let model = Model::read(&mut document).expect("a model").derived();
         halves(&common::shown(&model, Mistakes::default(), &common::options(view)).pixels)
     };
-    // Tangents of the file that are all wrong, and none.
+    // The file has wrong tangents, or none.
     for has_tangents in [false, true] {
         let quad = Quad { has_tangents, tangent: [0.0, 0.0, 1.0], ..Quad::mirrored() };
         let [left, right] = derived(&quad, View::Tangent);
@@ -120,7 +121,7 @@ fn derivatives_are_along_the_uvs_of_every_triangle() {
             assert!(is_about(pixel, [128, 255, 128]), "{pixel:?}");
         }
     }
-    // Shaded at every pixel: along u as with the right vertex data, along v, where the map is stretched, to the same side.
+    // Shading derives frames at every pixel. Along u it is as with correct tangents, along v both halves lean to the same side.
     let along_u = Quad { texel: [220, 128, 200], ..Quad::mirrored() };
     let right = halves(&common::drawn(&along_u, &common::options(View::Shaded)).pixels);
     let seen = |quad| derived(&Quad { tangent: [0.0, 0.0, 1.0], ..quad }, View::Shaded);
@@ -132,7 +133,7 @@ fn derivatives_are_along_the_uvs_of_every_triangle() {
 }
 
 #[test]
-fn the_angle_to_derivatives_is_seen() {
+fn the_angle_to_derived_tangents_is_drawn() {
     if !has_adapter_or_says_so() {
         return;
     }
@@ -141,13 +142,13 @@ fn the_angle_to_derivatives_is_seen() {
     let derived = Model::read(&mut second).expect("a model").derived();
     let model = Model::read(&mut first).expect("a model").compared_with(&derived);
     let [left, _] = halves(&common::shown(&model, Mistakes::default(), &common::options(View::Angle)).pixels);
-    // 90 degrees lie at 0.93 of the scale.
+    // 90 degrees are at 0.93 of the scale.
     let [below, last] = [7, 8].map(|step| common::heat().ramp[step]);
     assert!(left[0] > below[0] && left[0] < last[0], "{left:?}");
 }
 
 #[test]
-fn mistakes_look_as_they_do() {
+fn mistakes_change_the_shading() {
     if !has_adapter_or_says_so() {
         return;
     }
@@ -158,14 +159,14 @@ fn mistakes_look_as_they_do() {
     for wrong in [Mistakes { green: true, ..none }, Mistakes { w: true, ..none }] {
         assert!(light(seen(wrong)) + 60 < light(right), "{wrong:?}");
     }
-    // Two that cancel out.
+    // Two mistakes cancel out.
     assert!(is_about(seen(Mistakes { green: true, w: true, v: false }), right));
     let sign = |mistakes| halves(&common::drawn_wrong(&up, mistakes, &common::options(View::Sign)).pixels)[0];
     assert!(sign(none)[2] > 190 && sign(Mistakes { w: true, ..none })[0] > 200);
 }
 
 #[test]
-fn images_stand_on_their_heads_where_v_is_flipped() {
+fn images_are_upside_down_if_v_is_flipped() {
     if !has_adapter_or_says_so() {
         return;
     }
@@ -205,7 +206,31 @@ fn a_picture_has_two_sides() {
         let seen = halves(&split(at));
         assert!(is_about(seen[0], colors[0]) && is_about(seen[1], colors[1]), "{at}: {seen:?}");
     }
-    // At the very column.
+    // The sides meet at exactly this column.
     let row = &split(0.5)[SIZE / 2 * SIZE..][..SIZE];
     assert!(is_about(row[31], along_x) && is_about(row[32], along_y) && row[0] == BACKGROUND);
+}
+
+#[test]
+fn models_are_centred_whatever_the_direction_of_the_camera() {
+    if !has_adapter_or_says_so() {
+        return;
+    }
+    for [yaw, pitch] in [[0.0, 0.0], [30.0, 20.0], [-60.0, 45.0], [150.0, -30.0]] {
+        let camera = darboux_render::Camera { yaw, pitch, zoom: 1.0 };
+        let options = RenderOptions { camera, size: [96, 64], ..plain() };
+        // Only one triangle, so the centre of its bounding box is not its own.
+        let document = &mut document(&Quad { triangle_count: 1, ..Quad::default() });
+        let model = Model::read(document).expect("a model");
+        let pixels = common::shown(&model, Mistakes::default(), &options).pixels;
+        let covered =
+            (0..).zip(&pixels).filter(|(_, pixel)| **pixel != BACKGROUND).map(|(at, _)| [at % 96, at / 96]);
+        let covered: Vec<[i32; 2]> = covered.collect();
+        for (axis, size) in [96, 64].into_iter().enumerate() {
+            let first = covered.iter().map(|at| at[axis]).min().expect("a triangle");
+            let last = covered.iter().map(|at| at[axis]).max().expect("a triangle");
+            let (before, after) = (first, size - 1 - last);
+            assert!((before - after).abs() <= 2, "{yaw}, {pitch}, axis {axis}: margins {before} and {after}");
+        }
+    }
 }

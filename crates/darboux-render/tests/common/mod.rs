@@ -1,4 +1,4 @@
-//! A quad with a normal map, as a GLB.
+//! A quad with a normal map as a GLB file, and functions that draw it.
 
 use std::io::{Cursor, Write};
 use std::sync::OnceLock;
@@ -9,34 +9,36 @@ use darboux_render::{Camera, HeatScale, Lines, Mistakes, Model, Picture, RenderO
 
 pub const BACKGROUND: [u8; 3] = [10, 20, 30];
 
-/// A quad from -1 to 1 that faces the camera, in two halves.
+/// A quad from -1 to 1 that faces the camera. It has a left and a right half, of two triangles each.
 #[derive(Clone)]
 pub struct Quad {
     pub half_size: f32,
-    /// Whether u grows from the middle to either side; else from left to right.
+    /// Whether u grows from the middle to both sides. Otherwise it grows from left to right.
     pub is_mirrored: bool,
     pub u_scale: f32,
     pub has_tangents: bool,
-    /// Where the tangent points on the right; on the left its x is mirrored where UVs are.
+    /// The tangent of the right half. The left half has the same, with x negated if the UVs are mirrored.
     pub tangent: [f32; 3],
-    /// Of the left half, and of the right.
+    /// The sign w of the left and the right half.
     pub w: [f32; 2],
-    /// All of the normal map.
+    /// The colour of all texels of the normal map.
     pub texel: [u8; 3],
-    /// Members of the node, which is node 0.
+    /// The number of triangles, at most 4. The others have positions that are not finite.
+    pub triangle_count: usize,
+    /// JSON members of node 0.
     pub node: &'static str,
-    /// Other nodes, each with a comma before it.
+    /// JSON of more nodes, each after a comma.
     pub nodes: &'static str,
-    /// Other attributes, each with a comma before it. Accessors have positions, normals, tangents and UVs.
+    /// JSON of more attributes, each after a comma. The accessors 0 to 3 have positions, normals, tangents and UVs.
     pub attributes: &'static str,
-    /// Other members of the primitive, and of the file, each with a comma before it.
+    /// JSON of more members of the primitive and of the file, each after a comma.
     pub primitive: &'static str,
     pub file: &'static str,
-    /// Other members of the material, each with a comma before it.
+    /// JSON of more members of the material, each after a comma.
     pub material: &'static str,
-    /// The file of the base colour's texture, in place of grey, and its media type.
+    /// The file of the base colour texture and its media type. Without one the base colour is grey.
     pub base: Option<(Vec<u8>, &'static str)>,
-    /// The extension in which the base colour's texture names its image; none where it does itself.
+    /// The extension that names the image of the base colour texture; empty if the texture itself names it.
     pub image_extension: &'static str,
 }
 
@@ -50,6 +52,7 @@ impl Default for Quad {
             tangent: [1.0, 0.0, 0.0],
             w: [1.0; 2],
             texel: [128, 128, 255],
+            triangle_count: 4,
             node: r#""translation":[5,0,0]"#,
             nodes: "",
             attributes: "",
@@ -63,19 +66,21 @@ impl Default for Quad {
 }
 
 impl Quad {
-    /// Its left half is mirrored.
+    /// A quad whose left half is mirrored.
     pub fn mirrored() -> Self {
         Self { is_mirrored: true, w: [-1.0, 1.0], ..Self::default() }
     }
 
-    /// Positions, normals, tangents and UVs of all corners, each array after the other.
+    /// The arrays of positions, normals, tangents and UVs of all corners, concatenated.
     fn floats(&self) -> Vec<f32> {
         let (mut positions, mut tangents, mut uvs) = (Vec::new(), Vec::new(), Vec::new());
         for (side, from, to) in [(0, -1.0, 0.0), (1, 0.0, 1.0)] {
             let corners: [[f32; 2]; 6] =
                 [[from, -1.0], [to, -1.0], [to, 1.0], [from, -1.0], [to, 1.0], [from, 1.0]];
             for [x, y] in corners {
-                positions.extend([x * self.half_size, y * self.half_size, 0.0]);
+                let is_drawn = positions.len() < 9 * self.triangle_count;
+                let half_size = if is_drawn { self.half_size } else { f32::NAN };
+                positions.extend([x * half_size, y * half_size, 0.0]);
                 let [tx, ty, tz] = self.tangent;
                 let tx = if self.is_mirrored && side == 0 { -tx } else { tx };
                 tangents.extend([tx, ty, tz, self.w[side]]);
@@ -101,7 +106,7 @@ impl Quad {
             "" => r#""source":1"#.to_owned(),
             extension => format!(r#""extensions":{{"{extension}":{{"source":1}}}}"#),
         };
-        // A view of nothing is invalid.
+        // Empty buffer views are invalid.
         let base_len = base.len().max(1);
         bytes.resize((bytes.len() + 1).next_multiple_of(4), 0);
         let accessor = |offset: usize, kind: &str| {
@@ -159,13 +164,13 @@ pub fn document(quad: &Quad) -> Document {
     Document::from_bytes("quad", quad.glb(), None, &LoadOptions::default()).expect("a document")
 }
 
-/// The fastest adapter, opened once; none where there is none.
+/// The adapter that wgpu prefers, opened once; none if there is no adapter.
 pub fn gpu() -> Option<&'static Gpu> {
     static GPU: OnceLock<Option<Gpu>> = OnceLock::new();
     GPU.get_or_init(|| pollster::block_on(Gpu::open()).ok()).as_ref()
 }
 
-/// Where there is none, says that the test is skipped.
+/// Whether there is an adapter. If there is none, prints that the test is skipped.
 pub fn has_adapter_or_says_so() -> bool {
     if gpu().is_none() {
         assert!(std::env::var_os("CI").is_none(), "no adapter");
@@ -180,7 +185,7 @@ pub fn heat() -> HeatScale {
     HeatScale { ends: [0.01, 180.0], ramp, flip: [255, 0, 0], none: [0; 3] }
 }
 
-/// Straight from the front.
+/// Options for a view from the front.
 pub fn options(view: View) -> RenderOptions {
     RenderOptions {
         view,
@@ -194,18 +199,18 @@ pub fn options(view: View) -> RenderOptions {
     }
 }
 
-/// A model drawn. Expects that there is an adapter.
+/// Draws a model. Panics without an adapter.
 pub fn shown(model: &Model<'_>, mistakes: Mistakes, options: &RenderOptions) -> Picture {
     let gpu = gpu().expect("an adapter");
     darboux_render::render(gpu, Side { model, mistakes }, None, options).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// A quad drawn, whatever there is to say about it. Expects that there is an adapter.
+/// Draws a quad. Panics without an adapter.
 pub fn drawn(quad: &Quad, options: &RenderOptions) -> Picture {
     drawn_wrong(quad, Mistakes::default(), options)
 }
 
-/// A quad drawn with mistakes. Expects that there is an adapter.
+/// Draws a quad with mistakes. Panics without an adapter.
 pub fn drawn_wrong(quad: &Quad, mistakes: Mistakes, options: &RenderOptions) -> Picture {
     let mut document = document(quad);
     shown(&Model::read(&mut document).expect("a model"), mistakes, options)

@@ -285,8 +285,8 @@ fn options(arguments: &RenderArguments) -> RenderOptions {
         },
         seams: arguments.seams,
         layout: arguments.layout.map(|layout| match layout {
-            LayoutPlacement::Corner => darboux_render::Layout::Corner,
-            LayoutPlacement::Alone => darboux_render::Layout::Alone,
+            LayoutPlacement::Corner => darboux_render::LayoutPlacement::Corner,
+            LayoutPlacement::Alone => darboux_render::LayoutPlacement::Alone,
         }),
         size: arguments.size,
         camera: Camera { yaw, pitch, zoom },
