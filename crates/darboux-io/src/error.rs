@@ -1,35 +1,35 @@
-//! What can be wrong with a file: one sentence that says which file, where in it, what is wrong and what to do.
+//! Errors about files: one sentence that names the file, the place in it, what is wrong and what to do.
 
 use std::io;
 use std::path::PathBuf;
 
 use darboux::MeshError;
 
-/// Why a file could not be read, processed or written. Its text is one sentence.
+/// Why a file was not read, processed or written. Its text is one sentence.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The file breaks the format: truncated, out of range, of a wrong type.
+    /// The file violates its format: it is truncated, a value is out of range or has the wrong type.
     #[error("{file}: {}{problem}", prefix(at))]
     Invalid {
         /// The input, as the caller named it.
         file: String,
-        /// The JSON path, such as `accessors[3].count`; empty where the whole file is meant.
+        /// The JSON path, such as `accessors[3].count`; empty for the whole file.
         at: String,
         /// What is wrong, and what to do.
         problem: String,
     },
-    /// The file may be right, but it cannot be processed faithfully.
+    /// The file may be valid, but cannot be processed without loss.
     #[error("{file}: {}{problem}", prefix(at))]
     Unsupported {
         /// The input, as the caller named it.
         file: String,
-        /// The JSON path; empty where the whole file is meant.
+        /// The JSON path; empty for the whole file.
         at: String,
         /// What is not supported, and what to do.
         problem: String,
     },
-    /// A buffer or image outside the file cannot be used: missing, remote, or outside the input's folder.
+    /// A buffer or image outside the file cannot be used: it is missing, remote, or outside the input's folder.
     #[error("{file}: {}{problem}", prefix(at))]
     Resource {
         /// The input, as the caller named it.
@@ -39,33 +39,33 @@ pub enum Error {
         /// What is wrong, and what to do.
         problem: String,
     },
-    /// The mesh of a primitive is not one.
+    /// The vertex data of a primitive is not a valid mesh.
     #[error("{file}: {}{source}", prefix(at))]
     Mesh {
         /// The input, as the caller named it.
         file: String,
         /// The JSON path of the primitive.
         at: String,
-        /// What is wrong with it.
+        /// What is wrong with the mesh.
         source: MeshError,
     },
-    /// The operating system refuses to read.
+    /// The operating system refuses to read a file.
     #[error("{}: cannot be read: {source}", file.display())]
     Read {
-        /// Which file.
+        /// The file.
         file: PathBuf,
-        /// Why.
+        /// The system's reason.
         source: io::Error,
     },
-    /// The operating system refuses to write.
+    /// The operating system refuses to write a file.
     #[error("{}: cannot be written: {source}", file.display())]
     Write {
-        /// Which file.
+        /// The file.
         file: PathBuf,
-        /// Why.
+        /// The system's reason.
         source: io::Error,
     },
-    /// The output may not be written to that place, or not in that form.
+    /// The output may not be written to this path, or not in this format.
     #[error("{}: {problem}", file.display())]
     Output {
         /// The output.
@@ -79,7 +79,7 @@ fn prefix(at: &str) -> String {
     if at.is_empty() { String::new() } else { format!("{at}: ") }
 }
 
-/// A fault whose file is not known where it is found; [`Fault::in_file`] makes it an [`Error`].
+/// An error without the name of its file. [`Fault::in_file`] adds the name.
 #[derive(Debug)]
 pub(crate) struct Fault {
     kind: FaultKind,
@@ -95,22 +95,22 @@ enum FaultKind {
 }
 
 impl Fault {
-    /// The format is broken at the JSON path `at` (empty: the whole file).
+    /// The file violates its format at the JSON path `at`; an empty path means the whole file.
     pub fn invalid(at: impl Into<String>, problem: impl Into<String>) -> Self {
         Self { kind: FaultKind::Invalid, at: at.into(), problem: problem.into() }
     }
 
-    /// The format is right at `at`, but cannot be processed faithfully.
+    /// The content at `at` is valid, but cannot be processed without loss.
     pub fn unsupported(at: impl Into<String>, problem: impl Into<String>) -> Self {
         Self { kind: FaultKind::Unsupported, at: at.into(), problem: problem.into() }
     }
 
-    /// The resource that is named at `at` cannot be used.
+    /// The file that is referred to at `at` cannot be used.
     pub fn resource(at: impl Into<String>, problem: impl Into<String>) -> Self {
         Self { kind: FaultKind::Resource, at: at.into(), problem: problem.into() }
     }
 
-    /// The error that names `file`.
+    /// The error about `file`.
     pub fn in_file(self, file: &str) -> Error {
         let Self { kind, at, problem } = self;
         let file = file.to_owned();

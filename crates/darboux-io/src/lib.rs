@@ -6,10 +6,12 @@
 mod error;
 pub mod gltf;
 pub mod image;
+mod memory_limit;
 pub mod obj;
 mod paths;
 mod staging;
 
 pub use error::Error;
+pub use memory_limit::MemoryLimit;
 pub use paths::{FileKind, readable};
 pub use staging::{RunId, SaveOptions};

@@ -1,4 +1,6 @@
-//! What paths stand for, and which may be read and written: regular files, links resolved. A pipe would wait for its other end, a device give no end.
+//! File kinds by extension, and checks of paths before they are read or written.
+//!
+//! Only regular files are read and written, links resolved: a pipe would block until its other end opens, and a device may never end.
 
 use std::fs;
 use std::io;
@@ -6,21 +8,21 @@ use std::path::{Path, PathBuf};
 
 use crate::Error;
 
-/// What a file is, as its extension says in whichever case.
+/// The kind of a file by its extension, in upper or lower case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
-    /// `.glb`, and `.vrm`, which is one.
+    /// `.glb`, and `.vrm`, which has the same format.
     Glb,
     /// `.gltf`.
     Gltf,
     /// `.png`.
     Png,
-    /// An image that loses texels, or that few programs write as a normal map: nothing here reads it.
+    /// An image format that is not read here: lossy, or rare for normal maps.
     OtherImage,
 }
 
 impl FileKind {
-    /// None: another extension, or none.
+    /// The kind of a path; none for other extensions and for none.
     pub fn of(path: &Path) -> Option<Self> {
         match path.extension()?.to_ascii_lowercase().to_str()? {
             "glb" | "vrm" => Some(Self::Glb),
@@ -32,16 +34,16 @@ impl FileKind {
         }
     }
 
-    /// Whether it holds a model.
+    /// Whether files of this kind hold models.
     pub fn is_model(self) -> bool {
         matches!(self, Self::Glb | Self::Gltf)
     }
 }
 
-/// The file to read: `path`, or what it links to. Errors: none there; anything but a regular file.
+/// The regular file to read at `path`, links resolved. Errors: there is no file, or it is not a regular file.
 pub fn readable(path: &Path) -> Result<PathBuf, Error> {
     let failed = |source| Error::Read { file: path.to_owned(), source };
-    // Asked first, as a piped /dev/stdin links to nothing that has a name.
+    // Metadata comes first: a piped /dev/stdin links to something without a path.
     let metadata = fs::metadata(path).map_err(failed)?;
     if metadata.is_dir() {
         return Err(failed(io::Error::other("it is a folder; name a file in it")));
@@ -52,9 +54,9 @@ pub fn readable(path: &Path) -> Result<PathBuf, Error> {
     path.canonicalize().map_err(failed)
 }
 
-/// The file to write: `path`, or what it links to. `why_not` says why an existing one must stay, if it must.
+/// The regular file to write at `path`, links resolved. `why_not` gives the reason when an existing file must not be replaced.
 ///
-/// Errors: a broken link; what is no regular file, is read-only, or must stay; an existing file without `force`.
+/// Errors: a broken link; an existing file that is not regular, is read-only, or must not be replaced; an existing file without `force`.
 pub fn writable(
     path: &Path,
     force: bool,
@@ -79,7 +81,7 @@ pub fn writable(
     if force { Ok(target) } else { Err(refuse("exists; force its replacement or name another output")) }
 }
 
-/// A file can be replaced where its folder can be written; one that is read-only was made so to prevent that, as some version control does.
+/// Refuses to replace a read-only file. Its folder would permit that, but version control marks files so to prevent changes.
 pub fn refuse_read_only(path: &Path, metadata: &fs::Metadata) -> Result<(), Error> {
     if metadata.permissions().readonly() {
         let problem = "is read-only; make it writable, or name another output".to_owned();

@@ -1,17 +1,28 @@
-//! Writing files whole or not at all: beside their targets first, then renamed together.
+//! Writes files whole or not at all: first under a temporary name beside the target, then renamed.
+//!
+//! ```text
+//! stage    writes a temporary file; commit renames it to its target     (documents, images)
+//! publish  gives a temporary file its name at once, if the name is free  (buffers beside a document)
+//! drop     without commit: removes everything that was made
+//! ```
+//!
+//! A temporary file is locked while its process runs. A process that is killed leaves its temporary files without a lock, and the
+//! next process that writes into the folder deletes them.
 
+use std::collections::HashSet;
 use std::fmt;
 use std::fs::{self, File};
-use std::io;
+use std::io::{self, ErrorKind};
 use std::num::ParseIntError;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
+use std::sync::{LazyLock, Mutex, PoisonError};
 
-use tempfile::TempPath;
+use tempfile::NamedTempFile;
 
 use crate::Error;
 
-/// Files written beside their targets, to be renamed together. Dropped before that, it removes everything it made.
+/// The files that one save writes. Dropped before [`Staging::commit`], it removes them.
 pub struct Staging {
     run: Option<RunId>,
     staged: Vec<Staged>,
@@ -20,7 +31,7 @@ pub struct Staging {
 }
 
 struct Staged {
-    temporary: TempPath,
+    temporary: NamedTempFile,
     target: PathBuf,
     replace: bool,
 }
@@ -28,44 +39,71 @@ struct Staged {
 /// How a document or an image is written.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SaveOptions {
-    /// Replace an existing output; without, that is an error.
+    /// Replaces an existing output. Without it, an existing output is an error.
     pub force: bool,
-    /// The run that this is a part of, if any.
+    /// The run that the file belongs to, if any. Its temporary files are named after it.
     pub run: Option<RunId>,
 }
 
-/// A run of many files. Those that it has not completed are named after it, so that what it left when it was killed is known for its.
+/// The identifier of a run over many files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct RunId(pub u64);
 
 impl Staging {
-    pub fn of_run(run: Option<RunId>) -> Self {
+    pub fn new(run: Option<RunId>) -> Self {
         Self { run, staged: Vec::new(), made_folders: Vec::new(), renamed: Vec::new() }
     }
 
-    /// Writes the content of `target` to a file beside it, down to the disk.
+    /// Writes a file, which [`Staging::commit`] renames to `target`. With `replace`, an existing target is replaced and its permissions
+    /// are kept.
     pub fn stage(
         &mut self,
         target: &Path,
         replace: bool,
         write: impl FnOnce(&mut File) -> io::Result<()>,
     ) -> Result<(), Error> {
-        let failed = |source| Error::Write { file: target.to_owned(), source };
-        let folder =
-            target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        self.make_folders(folder).map_err(failed)?;
-        let temporary = || -> io::Result<TempPath> {
-            let mut file = new_file(folder, self.run)?;
-            write(file.as_file_mut())?;
-            if let Some(existing) = fs::metadata(target).ok().filter(|_| replace) {
-                file.as_file().set_permissions(existing.permissions())?;
+        let existing = fs::metadata(target).ok().filter(|_| replace);
+        let temporary = self.write_temporary(target, write).and_then(|temporary| {
+            if let Some(existing) = existing {
+                temporary.as_file().set_permissions(existing.permissions())?;
             }
-            file.as_file().sync_all()?;
-            Ok(file.into_temp_path())
-        };
-        let temporary = temporary().map_err(failed)?;
+            Ok(temporary)
+        });
+        let temporary = temporary.map_err(|source| Error::Write { file: target.to_owned(), source })?;
         self.staged.push(Staged { temporary, target: target.to_owned(), replace });
         Ok(())
+    }
+
+    /// Writes a temporary file in the folder of `target`, down to the disk.
+    pub fn write_temporary(
+        &mut self,
+        target: &Path,
+        write: impl FnOnce(&mut File) -> io::Result<()>,
+    ) -> io::Result<NamedTempFile> {
+        let folder =
+            target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        self.make_folders(folder)?;
+        remove_abandoned_files_once(folder);
+        let mut temporary = new_temporary(folder, self.run)?;
+        write(temporary.as_file_mut())?;
+        temporary.as_file().sync_all()?;
+        Ok(temporary)
+    }
+
+    /// Renames a temporary file to `target` at once; gives it back if a file of that name exists.
+    pub fn publish(
+        &mut self,
+        temporary: NamedTempFile,
+        target: &Path,
+    ) -> Result<Option<NamedTempFile>, Error> {
+        match temporary.persist_noclobber(target) {
+            Ok(_) => {
+                self.renamed.push(target.to_owned());
+                Ok(None)
+            }
+            Err(failed) if failed.error.kind() == ErrorKind::AlreadyExists => Ok(Some(failed.file)),
+            Err(failed) => Err(Error::Write { file: target.to_owned(), source: failed.error }),
+        }
     }
 
     fn make_folders(&mut self, folder: &Path) -> io::Result<()> {
@@ -75,17 +113,21 @@ impl Staging {
         if let Some(parent) = folder.parent() {
             self.make_folders(parent)?;
         }
-        fs::create_dir(folder)?;
+        match fs::create_dir(folder) {
+            // Another process made it meanwhile.
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => return Ok(()),
+            made => made?,
+        }
         self.made_folders.push(folder.to_owned());
         Ok(())
     }
 
-    /// Renames every file to its target, in the order of staging; gives the targets.
+    /// Renames every staged file to its target, in the order of staging. Returns all files written, published ones first.
     pub fn commit(mut self) -> Result<Vec<PathBuf>, Error> {
         for Staged { temporary, target, replace } in std::mem::take(&mut self.staged) {
             let renamed =
                 if replace { temporary.persist(&target) } else { temporary.persist_noclobber(&target) };
-            renamed.map_err(|error| Error::Write { file: target.clone(), source: error.error })?;
+            renamed.map_err(|failed| Error::Write { file: target.clone(), source: failed.error })?;
             self.renamed.push(target);
         }
         self.made_folders.clear();
@@ -95,7 +137,7 @@ impl Staging {
 
 impl Drop for Staging {
     fn drop(&mut self) {
-        // Temporary files first: their folders must be empty. A failure to clean up has no one to be told to.
+        // Folders can be removed once they are empty. Failures to clean up cannot be reported from here.
         self.staged.clear();
         for file in &self.renamed {
             let _ = fs::remove_file(file);
@@ -106,18 +148,18 @@ impl Drop for Staging {
     }
 }
 
-/// What the names of files begin with until they are complete.
-const UNFINISHED: &str = ".darboux-";
+/// The prefix of temporary file names.
+const PREFIX: &str = ".darboux-";
 
 impl RunId {
-    /// What the names of this run's files begin with until they are complete.
-    fn unfinished(self) -> String {
-        format!("{UNFINISHED}{self}-")
+    /// The prefix of the names of this run's temporary files.
+    fn prefix(self) -> String {
+        format!("{PREFIX}{self}-")
     }
 
-    /// The run that has not completed a file, by its name: where the run has ended, it was killed meanwhile.
+    /// The run that made a temporary file, by the file's name.
     pub fn that_left(path: &Path) -> Option<Self> {
-        let name = path.file_name()?.to_str()?.strip_prefix(UNFINISHED)?;
+        let name = path.file_name()?.to_str()?.strip_prefix(PREFIX)?;
         name.split_once('-')?.0.parse().ok()
     }
 }
@@ -136,8 +178,70 @@ impl FromStr for RunId {
     }
 }
 
-/// A temporary file with the permissions of an ordinary new file. Its errors do not name it: nobody asked for it.
-fn new_file(folder: &Path, run: Option<RunId>) -> io::Result<tempfile::NamedTempFile> {
-    let prefix = run.map_or(UNFINISHED.into(), RunId::unfinished);
-    tempfile::Builder::new().prefix(&prefix).make_in(folder, |path| File::create_new(path))
+/// A locked temporary file with the permissions of an ordinary new file. Errors do not name it, since users do not know it.
+fn new_temporary(folder: &Path, run: Option<RunId>) -> io::Result<NamedTempFile> {
+    let prefix = run.map_or(PREFIX.into(), RunId::prefix);
+    loop {
+        let temporary =
+            tempfile::Builder::new().prefix(&prefix).make_in(folder, |path| File::create_new(path))?;
+        // A file system without locks leaves abandoned files where they are.
+        let is_locked = temporary.as_file().lock().is_ok();
+        // Another process may have deleted the file as abandoned before it was locked.
+        if !is_locked || temporary.path().exists() {
+            return Ok(temporary);
+        }
+    }
+}
+
+/// Deletes the temporary files of processes that were killed, the first time that this process writes into a folder.
+fn remove_abandoned_files_once(folder: &Path) {
+    static SEEN: LazyLock<Mutex<HashSet<PathBuf>>> = LazyLock::new(Mutex::default);
+    let Ok(folder) = folder.canonicalize() else { return };
+    if SEEN.lock().unwrap_or_else(PoisonError::into_inner).insert(folder.clone()) {
+        remove_abandoned_files(&folder);
+    }
+}
+
+fn remove_abandoned_files(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for path in entries.flatten().map(|entry| entry.path()) {
+        let name = path.file_name().map(|name| name.to_string_lossy());
+        let is_regular = || path.symlink_metadata().is_ok_and(|metadata| metadata.is_file());
+        if name.is_some_and(|name| name.starts_with(PREFIX)) && is_regular() {
+            let file = File::open(&path);
+            if file.is_ok_and(|file| file.try_lock().is_ok()) {
+                let _ = fs::remove_file(&path);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn temporary_files_of_killed_processes_are_removed_and_those_of_running_ones_stay() {
+        let folder = tempfile::tempdir().unwrap();
+        let abandoned = folder.path().join(".darboux-abc");
+        let other = folder.path().join("other.bin");
+        fs::write(&abandoned, "half").unwrap();
+        fs::write(&other, "whole").unwrap();
+        let running = new_temporary(folder.path(), Some(RunId(7))).unwrap();
+        remove_abandoned_files(folder.path());
+        assert!(!abandoned.exists() && other.exists() && running.path().exists());
+    }
+
+    #[test]
+    fn a_published_file_never_replaces_another() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("a.bin");
+        let mut staging = Staging::new(None);
+        let mut temporary = || staging.write_temporary(&target, |_| Ok(())).unwrap();
+        let (first, second) = (temporary(), temporary());
+        assert!(staging.publish(first, &target).unwrap().is_none());
+        let second = staging.publish(second, &target).unwrap().expect("the file is given back");
+        drop((second, staging));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "nothing is left without a commit");
+    }
 }

@@ -186,7 +186,7 @@ fn open_with(folder: &Path, uri: &str, allow_outside: bool) -> Result<Document, 
     let json = json!({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 1, "uri": uri}]});
     let path = folder.join("a.gltf");
     fs::write(&path, json.to_string()).unwrap();
-    Document::open(&path, &LoadOptions { allow_outside })
+    Document::open(&path, &LoadOptions { allow_outside, ..LoadOptions::default() })
 }
 
 #[test]
@@ -241,7 +241,7 @@ fn images_outside_are_left_alone() {
     let json = json!({"asset": {"version": "2.0"}, "images": [{"uri": "../secret.png"}]});
     let path = folder.path().join("in/a.gltf");
     fs::write(&path, json.to_string()).unwrap();
-    let read = |allow_outside| Document::open(&path, &LoadOptions { allow_outside }).unwrap();
+    let read = |allow_outside| Document::open(&path, &LoadOptions { allow_outside, ..LoadOptions::default() }).unwrap();
     assert!(read(false).warnings()[0].contains("images[0].uri: \"../secret.png\" lies outside"));
     assert!(json_of(&read(false).to_glb().unwrap()).contains("../secret.png"));
     assert!(read(true).to_glb().unwrap().windows(7).any(|bytes| bytes == b" secret"));

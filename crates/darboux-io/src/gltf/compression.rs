@@ -1,4 +1,4 @@
-//! Decompression: Draco primitives and meshopt buffer views become plain accessors, and the extensions go.
+//! Decompression: primitives compressed with Draco and buffer views compressed with meshoptimizer become plain data.
 
 mod draco;
 #[cfg(feature = "meshopt")]
@@ -17,33 +17,31 @@ use super::json_text::{member, set_member};
 use super::schema::{Accessor, ComponentType};
 use crate::Error;
 use crate::error::Fault;
-
-/// The most bytes that one document may decompress to. Constant data compresses to almost nothing, so that no ratio separates
-/// honest files from hostile ones.
-const MAX_DECODED: usize = 2 << 30;
+use crate::memory_limit;
 
 impl Document {
-    /// Whether any data is compressed, so that [`Document::decompress`] has work.
+    /// Whether the document has compressed data, which [`Document::decompress`] decodes.
     pub fn is_compressed(&self) -> bool {
         let mut primitives = self.root.meshes.iter().flat_map(|mesh| &mesh.primitives);
         primitives.any(|primitive| primitive.extensions.draco.is_some())
             || self.root.buffer_views.iter().any(|view| view.extensions.meshopt.is_some())
     }
 
-    /// Decodes all compressed meshes and buffer views and removes the extensions. Must come before accessors are read.
+    /// Decodes all compressed meshes and buffer views and removes the extensions. Accessors can be read afterwards only.
     ///
-    /// Where a file has uncompressed data as a fallback, that is used. Errors: streams that are broken, or do not hold what the
-    /// accessors and buffer views promise; more than 2 GiB.
+    /// A file's uncompressed fallback data is used if there is any. Errors: a stream that is broken, or does not match its accessors or
+    /// buffer views; more data than [`LoadOptions::memory_limit`](super::LoadOptions::memory_limit) permits.
     pub fn decompress(&mut self) -> Result<(), Error> {
         if self.is_compressed() {
-            let mut budget = Budget(MAX_DECODED);
+            let limit = self.memory_limit();
+            let mut budget = DecodeBudget { left: limit, limit };
             self.decode_all(&mut budget).map_err(|fault| fault.in_file(self.name()))?;
             self.backed_count.take();
         }
         Ok(())
     }
 
-    fn decode_all(&mut self, budget: &mut Budget) -> Result<(), Fault> {
+    fn decode_all(&mut self, budget: &mut DecodeBudget) -> Result<(), Fault> {
         let views = self.decode_meshopt(budget)?;
         let mut accessors = self.decode_draco(budget)?;
         for (i, accessor) in self.root.accessors.iter().enumerate() {
@@ -54,8 +52,12 @@ impl Document {
         self.refresh_bounds(&accessors, budget)
     }
 
-    /// Corrects `min` and `max` where accessors have them: compression may have moved the values.
-    fn refresh_bounds(&mut self, accessors: &BTreeSet<usize>, budget: &mut Budget) -> Result<(), Fault> {
+    /// Corrects `min` and `max` of decoded accessors, since lossy compression changes values.
+    fn refresh_bounds(
+        &mut self,
+        accessors: &BTreeSet<usize>,
+        budget: &mut DecodeBudget,
+    ) -> Result<(), Fault> {
         let broken = |error: serde_json::Error| Fault::invalid("accessors", error.to_string());
         let array = member(self.text(), "accessors").map_err(broken)?.unwrap_or("[]");
         let texts: Vec<&RawValue> = serde_json::from_str(array).map_err(broken)?;
@@ -87,14 +89,14 @@ impl Document {
     }
 }
 
-/// The bounds that an accessor's JSON states.
+/// The bounds in an accessor's JSON.
 #[derive(Deserialize)]
 struct StoredBounds {
     min: Option<Vec<f64>>,
     max: Option<Vec<f64>>,
 }
 
-/// Whether bounds are the same as numbers of the component type: JSON may have fewer digits.
+/// Whether bounds are equal as numbers of the component type: JSON may spell them with fewer digits.
 fn same_values(a: &[f64], b: &[f64], kind: ComponentType) -> bool {
     match kind {
         ComponentType::F32 => a.iter().map(|&x| x as f32).eq(b.iter().map(|&x| x as f32)),
@@ -102,16 +104,17 @@ fn same_values(a: &[f64], b: &[f64], kind: ComponentType) -> bool {
     }
 }
 
-/// How many bytes may still be decoded.
-struct Budget(usize);
+/// The bytes that may be decoded.
+struct DecodeBudget {
+    left: usize,
+    limit: usize,
+}
 
-impl Budget {
+impl DecodeBudget {
+    /// Subtracts bytes before they are decoded. Errors: too few are left.
     fn spend(&mut self, bytes: usize, at: &str) -> Result<(), Fault> {
-        self.0 = self.0.checked_sub(bytes).ok_or_else(|| {
-            Fault::unsupported(
-                at,
-                "the file decompresses to more than 2 GiB; decompress it with its exporter",
-            )
+        self.left = self.left.checked_sub(bytes).ok_or_else(|| {
+            Fault::unsupported(at, memory_limit::exceeded("the file decompresses to", self.limit))
         })?;
         Ok(())
     }

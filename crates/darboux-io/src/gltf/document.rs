@@ -1,4 +1,4 @@
-//! The document: what was read, and what is edited.
+//! A glTF document: the file as it was read, and the edits to it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -12,29 +12,33 @@ use serde_json::{Map, Value};
 
 use super::container::Container;
 use super::elements::{Elements, NewAccessor, Target};
-use super::file_bytes::FileBytes;
+use super::file_bytes::{FileAccess, FileBytes};
 use super::json_text;
+use super::references;
 use super::resources::{ResourceFile, Resources, UriTarget, decode_data_uri};
 use super::schema::{self, ComponentType, Probe, Root};
 use crate::error::Fault;
+use crate::memory_limit::{self, MemoryLimit};
 use crate::{Error, paths};
 
 /// How a document is read.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LoadOptions {
-    /// Also read files outside the input's folder: `..`, absolute paths, links.
+    /// Also reads files outside the input's folder, through `..`, absolute paths or links.
     pub allow_outside: bool,
+    /// The most memory that decoding the file, and computing from it, may take.
+    pub memory_limit: MemoryLimit,
 }
 
-/// A glTF document: read once, edited, written elsewhere or in place.
+/// A glTF document: read from a file, edited, and written to another file or in place.
 ///
-/// What no edit names is kept as text and bytes, unknown extensions and the spelling of numbers included.
+/// Everything that is not edited is kept as text and bytes, unknown extensions and the spelling of numbers included.
 #[derive(Debug)]
 pub struct Document {
     name: String,
     /// The input file, links resolved.
     pub(super) input: Option<PathBuf>,
-    /// The whole file, if it is a GLB.
+    /// The whole file, if it is a GLB; else empty.
     pub(super) file: FileBytes,
     pub(super) container: Container,
     /// The JSON text as it was read.
@@ -43,30 +47,32 @@ pub struct Document {
     pub(super) resources: Resources,
     pub(super) buffer_sources: Vec<BufferSource>,
     pub(super) edits: Edits,
-    /// How many of the new bytes came out of compressed meshes.
+    /// The number of new bytes that came from compressed meshes.
     pub(super) decompressed_bytes: usize,
+    memory_limit: MemoryLimit,
+    /// The most elements of an accessor with a buffer view.
     pub(super) backed_count: OnceLock<usize>,
     primitive_texts: OnceLock<Vec<Vec<Box<RawValue>>>>,
     warnings: Vec<String>,
 }
 
-/// Where the bytes of a buffer are.
+/// The source of a buffer's bytes.
 #[derive(Debug)]
 pub(super) enum BufferSource {
-    /// In the GLB's binary chunk.
+    /// The GLB's binary chunk.
     Chunk,
-    /// In a file.
+    /// A file.
     File(Arc<ResourceFile>),
-    /// In a `data:` URI, decoded.
+    /// A `data:` URI, decoded.
     Data(Vec<u8>),
-    /// Decompressed into a buffer that had no bytes.
-    #[cfg_attr(not(feature = "meshopt"), expect(dead_code, reason = "meshopt alone fills buffers"))]
+    /// Decompressed bytes of a buffer that had none.
+    #[cfg_attr(not(feature = "meshopt"), expect(dead_code, reason = "only meshopt fills buffers"))]
     Decoded(Vec<u8>),
-    /// Nowhere in reach; the clause says why.
+    /// None; the clause says why, and what to do.
     Absent(&'static str),
 }
 
-/// Changes to the JSON, by index as JSON text, and new bytes.
+/// Edits of the JSON, as the new text of elements by their index, and new bytes.
 #[derive(Debug, Default)]
 pub(super) struct Edits {
     pub primitives: BTreeMap<(usize, usize), String>,
@@ -77,18 +83,18 @@ pub(super) struct Edits {
     pub required_extensions: Vec<&'static str>,
     pub new_accessors: Vec<String>,
     pub asset: Option<String>,
-    /// Elements of `nodes`, `skins` and `animations`.
+    /// Edited elements of `nodes`, `skins` and `animations`.
     pub scene: BTreeMap<&'static str, BTreeMap<usize, String>>,
-    /// Accessors that primitives named before they were edited.
-    pub once_named: BTreeSet<usize>,
-    /// Whether it was said that data without a use stays.
+    /// Accessors that primitives referred to before they were edited.
+    pub formerly_referenced: BTreeSet<usize>,
+    /// Whether a warning about unused data that stays has been given.
     pub is_unused_data_reported: bool,
     pub new_views: Vec<NewView>,
-    /// The length of all new views.
+    /// The number of bytes in all new views.
     pub new_byte_count: usize,
 }
 
-/// A buffer view with bytes of its own.
+/// A new buffer view and its bytes.
 #[derive(Debug)]
 pub(super) struct NewView {
     pub bytes: Vec<u8>,
@@ -97,30 +103,47 @@ pub(super) struct NewView {
 }
 
 impl Document {
-    /// Reads a `.glb` or `.gltf` file and the buffers it names; the first bytes decide which it is.
+    /// Reads a `.glb` or `.gltf` file and the buffers that it refers to. The first bytes decide between the two formats.
     ///
-    /// Errors: anything that makes the file unreadable, in one sentence; see [`Error`].
+    /// Errors: a file that cannot be read, or is not valid glTF; a reference to an element that does not exist.
     pub fn open(path: &Path, options: &LoadOptions) -> Result<Self, Error> {
+        Self::open_with(path, options, FileAccess::default())
+    }
+
+    /// As [`Document::open`], with files mapped where the system can: large files are not copied, and parts that are not needed are
+    /// not read.
+    ///
+    /// # Safety
+    /// Until the document is dropped, no process may write into its files or shorten them. A process that shortens a file ends this
+    /// one by a signal (SIGBUS on Unix); one that writes into a file changes bytes that Rust takes for constant.
+    #[expect(unsafe_code, reason = "the caller vouches for other processes")]
+    pub unsafe fn open_mapped(path: &Path, options: &LoadOptions) -> Result<Self, Error> {
+        // SAFETY: the caller makes the promise that `mapped` asks for.
+        Self::open_with(path, options, unsafe { FileAccess::mapped() })
+    }
+
+    fn open_with(path: &Path, options: &LoadOptions, access: FileAccess) -> Result<Self, Error> {
         let failed = |source| Error::Read { file: path.to_owned(), source };
         let input = paths::readable(path)?;
-        let bytes = FileBytes::open(&input).map_err(failed)?;
+        let bytes = access.open(&input).map_err(failed)?;
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let mut document = Self::from_file(&path.display().to_string(), bytes, Some(folder), options)?;
+        let name = path.display().to_string();
+        let mut document = Self::from_file(&name, bytes, Some(folder), options, access)?;
         document.input = Some(input);
         Ok(document)
     }
 
     /// Reads a document from memory.
     ///
-    /// `name` stands for the file in messages; `base` is the folder of external files, without which buffers must be embedded
-    /// and images stay where they are. Errors: as [`Document::open`].
+    /// `name` stands for the file in messages. `base` is the folder of external files; without it, buffers must be embedded, and
+    /// references to image files are kept as they are. Errors: as [`Document::open`].
     pub fn from_bytes(
         name: &str,
         bytes: Vec<u8>,
         base: Option<&Path>,
         options: &LoadOptions,
     ) -> Result<Self, Error> {
-        Self::from_file(name, FileBytes::Read(bytes), base, options)
+        Self::from_file(name, FileBytes::Read(bytes), base, options, FileAccess::default())
     }
 
     fn from_file(
@@ -128,20 +151,28 @@ impl Document {
         file: FileBytes,
         base: Option<&Path>,
         options: &LoadOptions,
+        access: FileAccess,
     ) -> Result<Self, Error> {
-        let resources = Resources::new(base, options.allow_outside)
+        let resources = Resources::new(base, options.allow_outside, access)
             .map_err(|source| Error::Read { file: base.unwrap_or(Path::new("")).to_owned(), source })?;
-        Self::parse(name, file, resources).map_err(|fault| fault.in_file(name))
+        Self::parse(name, file, resources, options.memory_limit).map_err(|fault| fault.in_file(name))
     }
 
-    fn parse(name: &str, mut file: FileBytes, mut resources: Resources) -> Result<Self, Fault> {
+    fn parse(
+        name: &str,
+        mut file: FileBytes,
+        mut resources: Resources,
+        memory_limit: MemoryLimit,
+    ) -> Result<Self, Fault> {
         let container = Container::parse(&file)?;
-        let text = String::from_utf8(file[container.json.clone()].to_vec())
-            .map_err(|error| Fault::invalid("", format!("the JSON is not UTF-8: {error}")))?;
+        let text = String::from_utf8(file[container.json.clone()].to_vec()).map_err(|error| {
+            Fault::invalid("", format!("the JSON is not UTF-8: {error}; export the file again"))
+        })?;
         if !container.is_glb {
             file = FileBytes::Read(Vec::new());
         }
         let root = parse_root(&text)?;
+        references::check(&text)?;
         let chunk = container.bin.clone().map(|range| &file[range]);
         let buffer_sources = root
             .buffers
@@ -150,7 +181,7 @@ impl Document {
             .map(|(i, buffer)| load_buffer(i, buffer, chunk, &mut resources))
             .collect::<Result<_, _>>()?;
         let warnings = image_warnings(&root, &resources);
-        Ok(Self {
+        let document = Self {
             name: name.to_owned(),
             input: None,
             file,
@@ -161,18 +192,48 @@ impl Document {
             buffer_sources,
             edits: Edits::default(),
             decompressed_bytes: 0,
+            memory_limit,
             backed_count: OnceLock::new(),
             primitive_texts: OnceLock::new(),
             warnings,
-        })
+        };
+        document.check_primitive_count()?;
+        Ok(document)
     }
 
-    /// The name in messages.
+    /// Checks that the primitives do not need more memory than the limit.
+    fn check_primitive_count(&self) -> Result<(), Fault> {
+        let count: usize = self.root.meshes.iter().map(|mesh| mesh.primitives.len()).sum();
+        let limit = self.memory_limit();
+        if count.saturating_mul(memory_limit::BYTES_PER_PRIMITIVE) <= limit {
+            return Ok(());
+        }
+        Err(Fault::unsupported(
+            "meshes",
+            memory_limit::exceeded(&format!("has {count} primitives, which need"), limit),
+        ))
+    }
+
+    /// The most bytes that may be computed for a document of this size, or decompressed from it.
+    pub(super) fn memory_limit(&self) -> usize {
+        let buffers = self.buffer_sources.iter();
+        let embedded = buffers.map(|source| match source {
+            BufferSource::Chunk | BufferSource::Absent(_) => [0, 0],
+            BufferSource::File(file) => [file.bytes.len(), 0],
+            BufferSource::Data(bytes) => [bytes.len(), 0],
+            BufferSource::Decoded(bytes) => [0, bytes.len()],
+        });
+        let start = [self.file.len().max(self.text.len()), self.decompressed_bytes];
+        let [read, decompressed] = embedded.fold(start, |sum, bytes| [sum[0] + bytes[0], sum[1] + bytes[1]]);
+        self.memory_limit.for_sizes(read, decompressed)
+    }
+
+    /// The name of the document in messages.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// What is odd but not an error, such as missing images: one sentence each.
+    /// Problems that are not errors, such as missing images: one sentence each.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
     }
@@ -192,9 +253,9 @@ impl Document {
         &self.root.accessors
     }
 
-    /// Appends an accessor with buffer views of its own; gives its index.
+    /// Appends an accessor with new buffer views. Returns its index.
     ///
-    /// Panics when `new.elements.bytes` is not `count` elements long.
+    /// Panics if `new.elements.bytes` does not have the length of `count` elements.
     pub fn push_accessor(&mut self, new: NewAccessor) -> usize {
         let like = new.like.and_then(|index| self.root.accessors.get(index)).cloned();
         let bounds = new.bounds.then(|| new.elements.bounds()).flatten();
@@ -207,8 +268,8 @@ impl Document {
         self.root.accessors.len() - 1
     }
 
-    /// As [`Document::push_accessor`], unless the accessor that `new` would take the place of has the same elements: then that stays. So
-    /// nothing new is stored where a run gives what an earlier one gave.
+    /// As [`Document::push_accessor`], unless the accessor `old`, which `new` would replace, has the same elements: then `old` is
+    /// kept. A second run with the same result thus stores nothing new.
     pub(super) fn push_in_place_of(&mut self, old: Option<usize>, new: NewAccessor) -> usize {
         let is_same = |&old: &usize| self.elements(old).is_ok_and(|elements| elements == new.elements);
         match old.filter(is_same) {
@@ -217,7 +278,7 @@ impl Document {
         }
     }
 
-    /// Stores the elements of `new` in views of their own.
+    /// Stores the elements of `new` in new buffer views.
     fn store(&mut self, new: NewAccessor) -> schema::Accessor {
         let elements = new.elements;
         let size = elements.element_size();
@@ -263,7 +324,7 @@ impl Document {
         schema::Sparse { count: places.len(), indices, values }
     }
 
-    /// Appends a view over elements of `size` bytes, put `stride` bytes apart; gives its index.
+    /// Appends a buffer view of elements of `size` bytes, `stride` bytes apart. Returns its index.
     pub(super) fn push_view(
         &mut self,
         bytes: Vec<u8>,
@@ -287,8 +348,8 @@ impl Document {
 
     /// Edits a primitive.
     ///
-    /// The map holds what is understood: `attributes`, `indices`, `material`, `mode`, `targets`. Other members, and those that
-    /// `edit` leaves equal, stay as they are spelled in the file. Errors: no such primitive; a result that is no primitive.
+    /// The map holds the members `attributes`, `indices`, `material`, `mode` and `targets`. Other members, and those that `edit` leaves
+    /// equal, keep their spelling. Errors: no such primitive; a result that is not a primitive.
     pub fn edit_primitive(
         &mut self,
         mesh: usize,
@@ -296,14 +357,15 @@ impl Document {
         edit: impl FnOnce(&mut Map<String, Value>),
     ) -> Result<(), Error> {
         let at = || format!("meshes[{mesh}].primitives[{primitive}]");
-        let text =
-            self.primitive_text(mesh, primitive).ok_or_else(|| self.invalid(at(), "does not exist"))?;
+        let text = self
+            .primitive_text(mesh, primitive)
+            .ok_or_else(|| self.invalid(at(), "does not exist; name one of the document"))?;
         let edited = edited_primitive(text, edit).map_err(|error| self.invalid(at(), error.to_string()))?;
         self.replace_primitive(mesh, primitive, edited)
-            .map_err(|error| self.invalid(at(), format!("the edit is no primitive: {error}")))
+            .map_err(|error| self.invalid(at(), format!("the edit is not a primitive: {error}")))
     }
 
-    /// Declares extensions that readers must know, unless they are declared already.
+    /// Declares extensions that readers must support, unless they are declared already.
     pub(super) fn require_extensions(&mut self, names: impl IntoIterator<Item = &'static str>) {
         for name in names {
             if !self.edits.required_extensions.contains(&name) {
@@ -321,7 +383,7 @@ impl Document {
         Some(texts.get(mesh)?.get(primitive)?.get())
     }
 
-    /// Sets the JSON of a primitive that exists; no edit where it is that already.
+    /// Sets the JSON of an existing primitive, unless it is the same.
     pub(super) fn replace_primitive(
         &mut self,
         mesh: usize,
@@ -334,19 +396,9 @@ impl Document {
         let replaced: schema::Primitive = serde_json::from_str(&text)?;
         let replaced = std::mem::replace(&mut self.root.meshes[mesh].primitives[primitive], replaced);
         let attributes = replaced.targets.iter().chain([&replaced.attributes]).flat_map(BTreeMap::values);
-        self.edits.once_named.extend(attributes.chain(&replaced.indices));
+        self.edits.formerly_referenced.extend(attributes.chain(&replaced.indices));
         self.edits.primitives.insert((mesh, primitive), text);
         Ok(())
-    }
-
-    /// The size of what was read, decompressed.
-    pub(super) fn stored_bytes(&self) -> usize {
-        let buffer_sources = self.buffer_sources.iter().map(|store| match store {
-            BufferSource::Chunk | BufferSource::Absent(_) => 0,
-            BufferSource::File(file) => file.bytes.len(),
-            BufferSource::Data(bytes) | BufferSource::Decoded(bytes) => bytes.len(),
-        });
-        self.file.len().max(self.text.len()) + buffer_sources.sum::<usize>() + self.decompressed_bytes
     }
 
     /// Whether there are edits.
@@ -377,13 +429,13 @@ impl Document {
         &self.text
     }
 
-    /// What a type reads out of the JSON text as it was read. Errors: text that it cannot be read from.
+    /// The JSON text as it was read, parsed as another type.
     pub(super) fn parsed<T: DeserializeOwned>(&self) -> Result<T, Fault> {
         let mut parser = serde_json::Deserializer::from_str(&self.text);
         serde_path_to_error::deserialize(&mut parser).map_err(json_fault)
     }
 
-    /// The bytes of a buffer view and its stride. `at` is the JSON path that refers to it.
+    /// The bytes of a buffer view, and its stride. `at` is the JSON path that refers to it.
     pub(super) fn view(&self, index: usize, at: &str) -> Result<(&[u8], Option<usize>), Fault> {
         let views = &self.root.buffer_views;
         if let Some(new) = index.checked_sub(views.len()).and_then(|new| self.edits.new_views.get(new)) {
@@ -398,7 +450,7 @@ impl Document {
         Ok((bytes, view.byte_stride))
     }
 
-    /// Some bytes of a buffer. `at` is the JSON path that refers to them.
+    /// A range of a buffer. `at` is the JSON path that refers to it.
     pub(super) fn buffer_range(
         &self,
         buffer: usize,
@@ -429,23 +481,23 @@ impl Document {
             BufferSource::Data(bytes) | BufferSource::Decoded(bytes) => bytes,
             BufferSource::Absent(why) => return Err(Fault::resource(format!("buffers[{index}]"), *why)),
         };
-        // Longer sources are legal: the GLB's chunk is padded.
+        // A source may be longer than its buffer: the GLB's chunk is padded.
         Ok(&bytes[..buffer.byte_length.min(bytes.len())])
     }
 
-    /// The error that says `problem` about the JSON path `at`.
+    /// The error [`Error::Invalid`] about the JSON path `at`.
     pub fn invalid(&self, at: impl Into<String>, problem: impl Into<String>) -> Error {
         Fault::invalid(at, problem).in_file(&self.name)
     }
 
-    /// The error that says what is wrong with the mesh of the primitive at `at`.
+    /// The error [`Error::Mesh`] about the primitive at the JSON path `at`.
     pub fn mesh_error(&self, at: impl Into<String>, source: MeshError) -> Error {
         Error::Mesh { file: self.name.clone(), at: at.into(), source }
     }
 }
 
 fn parse_root(text: &str) -> Result<Root, Fault> {
-    // The path of a failure is only looked for when there is one: it costs time.
+    // Tracking the path of a failure costs time, so only text that fails is parsed again for it.
     let parsed: Result<Root, _> = serde_json::from_str(text);
     let version = match &parsed {
         Ok(root) => Some(root.asset.version.clone()),
@@ -495,20 +547,21 @@ fn load_buffer(
             BufferSource::Data(decode_data_uri(data).map_err(|problem| Fault::invalid(at(), problem))?)
         }
         Some(Ok(UriTarget::File(located))) => {
-            let file = resources.read(&located);
+            let file = resources.open(&located);
             BufferSource::File(
                 file.map_err(|error| Fault::resource(at(), format!("cannot be read: {error}")))?,
             )
         }
         Some(Err(problem)) => return Err(Fault::resource(at(), problem)),
     };
-    let found = match &store {
+    let available = match &store {
         BufferSource::File(file) => file.bytes.len(),
         BufferSource::Data(bytes) => bytes.len(),
         _ => chunk.unwrap_or_default().len(),
     };
-    if buffer.byte_length > found {
-        let problem = format!("is {} but there are {found} bytes; export the file again", buffer.byte_length);
+    if buffer.byte_length > available {
+        let problem =
+            format!("is {} but there are {available} bytes; export the file again", buffer.byte_length);
         return Err(Fault::invalid(format!("buffers[{index}].byteLength"), problem));
     }
     Ok(store)
@@ -518,12 +571,12 @@ fn image_warnings(root: &Root, resources: &Resources) -> Vec<String> {
     let uris = root.images.iter().enumerate().filter_map(|(i, image)| Some((i, image.uri.as_deref()?)));
     uris.filter_map(|(i, uri)| {
         let problem = resources.resolve(uri).err()?;
-        Some(format!("images[{i}].uri: {problem}; left as it is"))
+        Some(format!("images[{i}].uri: {problem}; the reference is kept"))
     })
     .collect()
 }
 
-/// The text of every primitive of every mesh.
+/// The JSON text of every primitive of every mesh.
 fn split_primitives(text: &str) -> Vec<Vec<Box<RawValue>>> {
     #[derive(Deserialize)]
     struct Meshes {
@@ -535,7 +588,7 @@ fn split_primitives(text: &str) -> Vec<Vec<Box<RawValue>>> {
         primitives: Vec<Box<RawValue>>,
     }
     let parsed: serde_json::Result<Meshes> = serde_json::from_str(text);
-    // The same text was parsed more strictly when it was read.
+    // The same text was parsed more strictly when the document was read.
     let meshes = parsed.map(|parsed| parsed.meshes).unwrap_or_default();
     meshes.into_iter().map(|mesh| mesh.primitives).collect()
 }

@@ -1,4 +1,4 @@
-//! The bytes of a file: mapped into memory where that works, so that a large model is neither copied nor read twice.
+//! The content of a file: read into memory or, on request, mapped, so that a large model is neither copied nor read twice.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -8,40 +8,52 @@ use std::path::Path;
 /// The bytes of a file.
 #[derive(Debug)]
 pub enum FileBytes {
-    /// As the system shows them.
+    /// Mapped by the operating system.
     #[cfg(unix)]
     Mapped(memmap2::Mmap),
-    /// Read.
+    /// Read into memory.
     Read(Vec<u8>),
 }
 
-impl FileBytes {
-    /// Opens a file. What cannot be mapped is read.
-    pub fn open(path: &Path) -> io::Result<Self> {
+/// How files are brought into memory: read by default.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FileAccess {
+    maps: bool,
+}
+
+impl FileAccess {
+    /// Files are mapped where the system can.
+    ///
+    /// # Safety
+    /// While a mapped file is in use, no process may write into it or shorten it.
+    #[expect(unsafe_code, reason = "the caller vouches for other processes")]
+    pub unsafe fn mapped() -> Self {
+        Self { maps: true }
+    }
+
+    /// Opens a file. A file that cannot be mapped is read.
+    pub fn open(self, path: &Path) -> io::Result<FileBytes> {
         let mut file = File::open(path)?;
-        if let Some(mapped) = map(&file) {
+        if let Some(mapped) = Some(&file).filter(|_| self.maps).and_then(map) {
             return Ok(mapped);
         }
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes)?;
-        Ok(Self::Read(bytes))
+        Ok(FileBytes::Read(bytes))
     }
 }
 
-/// The mapped file; none where the system cannot.
+/// The mapped file; none if the system cannot map it.
 #[cfg(unix)]
-#[expect(unsafe_code, reason = "what a map shows is another program's to change")]
+#[expect(unsafe_code, reason = "another process could change a mapped file")]
 fn map(file: &File) -> Option<FileBytes> {
-    // SAFETY: the map is only read, and this program never writes into a file that exists: outputs are new files, renamed when they
-    // are complete. Another program could write into it meanwhile. No decision is kept from bytes that are read again: JSON is
-    // copied before it is looked at, every number is checked where it is used, in code that checks bounds, and floats may have any
-    // value; such a change costs a wrong or refused result. A file that is cut short meanwhile ends this program by a signal
-    // (SIGBUS) when the missing part is touched; outputs are not there yet then, a temporary file may stay behind.
+    // SAFETY: `FileAccess::mapped` is the only way to here, and its caller has promised that nobody changes the file. The map is only
+    // read, and this crate never writes into a file that exists: outputs are new files, renamed when they are complete.
     let mapped = unsafe { memmap2::Mmap::map(file) }.ok()?;
     (!mapped.is_empty()).then_some(FileBytes::Mapped(mapped))
 }
 
-/// None: elsewhere a file that is mapped cannot be replaced, as writing in place does.
+/// None: on other systems a mapped file cannot be replaced, as writing in place does.
 #[cfg(not(unix))]
 fn map(_file: &File) -> Option<FileBytes> {
     None

@@ -10,7 +10,6 @@ use serde_json::value::RawValue;
 
 use super::document::{BufferSource, Document, NewView};
 use super::elements::Target;
-use super::file_bytes::FileBytes;
 use super::json_text::{edit_array, keys, member, quoted, set_member};
 use super::resources::{UriTarget, encode_data_uri, image_type};
 use super::schema::Buffer;
@@ -221,7 +220,7 @@ impl<'a> OutputLayout<'a> {
             let stored = match known.get(&located.path) {
                 Some(stored) => *stored,
                 None => {
-                    let bytes = FileBytes::open(&located.path).map_err(|error| {
+                    let bytes = document.resources.bytes(&located.path).map_err(|error| {
                         Fault::resource(format!("images[{index}].uri"), format!("cannot be read: {error}"))
                     })?;
                     let stored = image_type(&bytes).map(|kind| {

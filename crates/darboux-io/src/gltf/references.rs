@@ -1,41 +1,72 @@
-//! Where a document's JSON names accessors and buffer views by their numbers.
+//! Finds and checks the references in a document's JSON: indices into its arrays, such as the accessor of an attribute.
 
 use std::borrow::Cow;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::ops::Range;
 
+use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde_json::value::RawValue;
 
 use super::json_text::range_in;
+use crate::error::Fault;
 
-/// What a number names, and who names it.
+/// What a reference refers to. Buffer views are told apart by what refers to them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReferenceKind {
-    /// An accessor.
     Accessor,
-    /// A buffer view, named by an accessor.
+    /// A buffer view, referred to by an accessor.
     ViewOfAccessor,
-    /// A buffer view, named by anything else.
+    /// A buffer view, referred to by anything else.
     View,
+    Buffer,
+    Camera,
+    Image,
+    Material,
+    Mesh,
+    Node,
+    Sampler,
+    Scene,
+    Skin,
+    Texture,
 }
 
-/// A number that names something.
+impl ReferenceKind {
+    /// The array that the reference is an index of, and the name of one of its elements.
+    fn array(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Accessor => ("accessors", "accessor"),
+            Self::ViewOfAccessor | Self::View => ("bufferViews", "buffer view"),
+            Self::Buffer => ("buffers", "buffer"),
+            Self::Camera => ("cameras", "camera"),
+            Self::Image => ("images", "image"),
+            Self::Material => ("materials", "material"),
+            Self::Mesh => ("meshes", "mesh"),
+            Self::Node => ("nodes", "node"),
+            Self::Sampler => ("samplers", "sampler"),
+            Self::Scene => ("scenes", "scene"),
+            Self::Skin => ("skins", "skin"),
+            Self::Texture => ("textures", "texture"),
+        }
+    }
+}
+
+/// A reference in JSON text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct IndexReference {
     pub kind: ReferenceKind,
-    pub number: usize,
-    /// Where it stands in the text.
+    pub index: usize,
+    /// The range of the number in the text.
     pub range: Range<usize>,
 }
 
-/// Keys from the root to a number; [`ANY`] stands for every key and every place in an array.
+/// Keys from the root to a number. [`ANY`] stands for every key and every index.
 type Path = &'static [&'static str];
 
 const ANY: &str = "*";
 
-/// glTF 2.0, and the extensions whose references are known.
+/// The paths of references in glTF 2.0 and in the extensions of [`KNOWN`].
 const PATHS: &[(ReferenceKind, Path)] = &[
     (ReferenceKind::Accessor, &["meshes", ANY, "primitives", ANY, "attributes", ANY]),
     (ReferenceKind::Accessor, &["meshes", ANY, "primitives", ANY, "indices"]),
@@ -69,9 +100,46 @@ const PATHS: &[(ReferenceKind, Path)] = &[
         ReferenceKind::View,
         &["extensions", "EXT_structural_metadata", "propertyTables", ANY, "properties", ANY, "stringOffsets"],
     ),
+    (ReferenceKind::Buffer, &["bufferViews", ANY, "buffer"]),
+    (ReferenceKind::Buffer, &["bufferViews", ANY, "extensions", "EXT_meshopt_compression", "buffer"]),
+    (ReferenceKind::Buffer, &["bufferViews", ANY, "extensions", "KHR_meshopt_compression", "buffer"]),
+    (ReferenceKind::Camera, &["nodes", ANY, "camera"]),
+    (ReferenceKind::Image, &["textures", ANY, "source"]),
+    (ReferenceKind::Material, &["meshes", ANY, "primitives", ANY, "material"]),
+    (
+        ReferenceKind::Material,
+        &[
+            "meshes",
+            ANY,
+            "primitives",
+            ANY,
+            "extensions",
+            "KHR_materials_variants",
+            "mappings",
+            ANY,
+            "material",
+        ],
+    ),
+    (ReferenceKind::Mesh, &["nodes", ANY, "mesh"]),
+    (ReferenceKind::Node, &["nodes", ANY, "children", ANY]),
+    (ReferenceKind::Node, &["scenes", ANY, "nodes", ANY]),
+    (ReferenceKind::Node, &["skins", ANY, "joints", ANY]),
+    (ReferenceKind::Node, &["skins", ANY, "skeleton"]),
+    (ReferenceKind::Node, &["animations", ANY, "channels", ANY, "target", "node"]),
+    (ReferenceKind::Sampler, &["textures", ANY, "sampler"]),
+    (ReferenceKind::Scene, &["scene"]),
+    (ReferenceKind::Skin, &["nodes", ANY, "skin"]),
+    (ReferenceKind::Texture, &["materials", ANY, "pbrMetallicRoughness", "baseColorTexture", "index"]),
+    (
+        ReferenceKind::Texture,
+        &["materials", ANY, "pbrMetallicRoughness", "metallicRoughnessTexture", "index"],
+    ),
+    (ReferenceKind::Texture, &["materials", ANY, "normalTexture", "index"]),
+    (ReferenceKind::Texture, &["materials", ANY, "occlusionTexture", "index"]),
+    (ReferenceKind::Texture, &["materials", ANY, "emissiveTexture", "index"]),
 ];
 
-/// Extensions that name accessors and buffer views at [`PATHS`] only, or nowhere.
+/// Extensions that refer to accessors and buffer views at [`PATHS`] only, or not at all.
 const KNOWN: &[&str] = &[
     "AGI_articulations",
     "AGI_stk_metadata",
@@ -107,25 +175,140 @@ const KNOWN: &[&str] = &[
     "VRMC_vrm",
 ];
 
-/// Families of extensions of materials, which name textures only.
+/// Prefixes of material extensions, which refer to textures only.
 const KNOWN_FAMILIES: &[&str] = &["KHR_materials_", "EXT_materials_", "ADOBE_materials_", "VRMC_materials_"];
 
-/// Every reference in `json`, in the order of the text. None: one of them is no number.
+/// All references in `json`, in the order of the text. None: one of them is not an index.
 pub fn references(json: &str) -> Option<Vec<IndexReference>> {
-    let mut found = Vec::new();
-    let walk = Walk { json, paths: PATHS.to_vec(), found: &mut found };
-    walk.deserialize(&mut serde_json::Deserializer::from_str(json)).ok()?;
-    Some(found)
+    Some(scan(json).ok()?.references)
 }
 
-/// The first extension in `json`, by its name, that may name accessors or buffer views at places that are not known.
+/// Checks that every reference in the JSON of a document refers to an element that exists.
+pub fn check(json: &str) -> Result<(), Fault> {
+    let Found { references, counts, .. } = match scan(json) {
+        Ok(found) => found,
+        Err(Some(offset)) => {
+            return Err(Fault::invalid(path_at(json, offset), "is not an index; export the file again"));
+        }
+        // The same text has been parsed before, so that other failures cannot be.
+        Err(None) => return Ok(()),
+    };
+    for IndexReference { kind, index, range } in references {
+        let (array, element) = kind.array();
+        let count = counts.get(array).copied().unwrap_or(0);
+        // A default scene without scenes is harmless: everything is shown.
+        if index >= count && (kind, count) != (ReferenceKind::Scene, 0) {
+            let problem =
+                format!("{element} {index} does not exist: there are {count}; export the file again");
+            return Err(Fault::invalid(path_at(json, range.start), problem));
+        }
+    }
+    if counts.contains_key("animations") { check_animations(json) } else { Ok(()) }
+}
+
+/// Checks the references of animation channels to the samplers of their own animation.
+fn check_animations(json: &str) -> Result<(), Fault> {
+    #[derive(Deserialize)]
+    struct Animations {
+        animations: Vec<Animation>,
+    }
+    #[derive(Deserialize)]
+    struct Animation {
+        #[serde(default)]
+        channels: Vec<Channel>,
+        #[serde(default)]
+        samplers: Vec<IgnoredAny>,
+    }
+    #[derive(Deserialize)]
+    struct Channel {
+        sampler: usize,
+    }
+    let parsed: Result<Animations, _> = serde_json::from_str(json);
+    let animations = parsed.map_err(|error| {
+        Fault::invalid("animations", format!("cannot be read: {error}; export the file again"))
+    })?;
+    for (i, Animation { channels, samplers }) in animations.animations.iter().enumerate() {
+        for (k, Channel { sampler }) in channels.iter().enumerate() {
+            if *sampler >= samplers.len() {
+                let at = format!("animations[{i}].channels[{k}].sampler");
+                let problem = format!("sampler {sampler} does not exist: there are {}", samplers.len());
+                return Err(Fault::invalid(at, format!("{problem}; export the file again")));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What a scan of a document's JSON finds.
+#[derive(Default)]
+struct Found {
+    references: Vec<IndexReference>,
+    /// The lengths of the arrays of the root object.
+    counts: BTreeMap<String, usize>,
+    /// The offset of a value that should be an index and is not.
+    broken: Option<usize>,
+}
+
+/// Finds all references. The error is the offset of a value that is not an index, if that is the reason.
+fn scan(json: &str) -> Result<Found, Option<usize>> {
+    let mut found = Found::default();
+    let root = Scan { json, paths: PATHS.to_vec(), depth: 0, array: None, found: &mut found };
+    match root.deserialize(&mut serde_json::Deserializer::from_str(json)) {
+        Ok(()) => Ok(found),
+        Err(_) => Err(found.broken),
+    }
+}
+
+/// The JSON path of the value at an offset.
+fn path_at(json: &str, offset: usize) -> String {
+    enum Step {
+        Key(String),
+        Index(usize),
+    }
+    let mut steps: Vec<Step> = Vec::new();
+    let mut at = 0;
+    while let Some(next) = json[at..offset].find(['{', '[', '}', ']', ',', '"']) {
+        at += next;
+        let mut length = 1;
+        match json.as_bytes()[at] {
+            b'{' => steps.push(Step::Key(String::new())),
+            b'[' => steps.push(Step::Index(0)),
+            b'"' => {
+                length = string_length(&json[at..]);
+                let text = &json[at..at + length];
+                let is_key = json[at + length..].trim_start().starts_with(':');
+                if let Some(Step::Key(key)) = steps.last_mut().filter(|_| is_key) {
+                    *key = serde_json::from_str(text).unwrap_or_default();
+                }
+            }
+            b',' => {
+                if let Some(Step::Index(index)) = steps.last_mut() {
+                    *index += 1;
+                }
+            }
+            _ => drop(steps.pop()),
+        }
+        at = (at + length).min(offset);
+    }
+    let mut path = String::new();
+    for step in steps {
+        match step {
+            Step::Key(key) if path.is_empty() => path = key,
+            Step::Key(key) => path += &format!(".{key}"),
+            Step::Index(index) => path += &format!("[{index}]"),
+        }
+    }
+    path
+}
+
+/// The first extension in `json`, in order of names, that may refer to accessors or buffer views at unknown paths.
 pub fn unknown_extension(json: &str) -> Option<String> {
     let is_known =
         |name: &str| KNOWN.contains(&name) || KNOWN_FAMILIES.iter().any(|family| name.starts_with(family));
     extension_names(json).into_iter().find(|name| !is_known(name))
 }
 
-/// The keys of every object that is a member `extensions`, at any depth.
+/// The keys of every object called `extensions`, at any depth.
 fn extension_names(json: &str) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     let mut is_extensions = Vec::new();
@@ -152,7 +335,7 @@ fn extension_names(json: &str) -> BTreeSet<String> {
     names
 }
 
-/// The length of the string that `text` begins with, quotes included.
+/// The length of the JSON string at the beginning of `text`, quotes included.
 fn string_length(text: &str) -> usize {
     let mut escaped = false;
     let end = text.bytes().skip(1).position(|byte| {
@@ -163,47 +346,54 @@ fn string_length(text: &str) -> usize {
     end.map_or(text.len(), |end| end + 2)
 }
 
-/// A value on the way to numbers.
-struct Walk<'t, 'f> {
+/// A value on the way to references.
+struct Scan<'t, 'f> {
     json: &'t str,
-    /// What is left of the paths that lead here.
+    /// The rest of every path that leads through this value.
     paths: Vec<(ReferenceKind, Path)>,
-    found: &'f mut Vec<IndexReference>,
+    depth: usize,
+    /// The name of this value, if it is a member of the root object.
+    array: Option<String>,
+    found: &'f mut Found,
 }
 
-impl<'t> Walk<'t, '_> {
-    /// The paths that go on at `key`; none for those that do not.
-    fn step(&self, key: &str) -> Vec<(ReferenceKind, Path)> {
-        let goes_on = |&(kind, path): &(ReferenceKind, Path)| match path.split_first() {
+impl<'t> Scan<'t, '_> {
+    /// The value of a member or an element.
+    fn step<'n>(&'n mut self, key: &str) -> Scan<'t, 'n> {
+        let next = |&(kind, path): &(ReferenceKind, Path)| match path.split_first() {
             Some((first, rest)) if *first == ANY || *first == key => Some((kind, rest)),
             _ => None,
         };
-        self.paths.iter().filter_map(goes_on).collect()
-    }
-
-    fn at<'n>(&'n mut self, key: &str) -> Walk<'t, 'n> {
-        Walk { json: self.json, paths: self.step(key), found: self.found }
+        let paths = self.paths.iter().filter_map(next).collect();
+        let array = (self.depth == 0).then(|| key.to_owned());
+        Scan { json: self.json, paths, depth: self.depth + 1, array, found: self.found }
     }
 }
 
-impl<'t> DeserializeSeed<'t> for Walk<'t, '_> {
+impl<'t> DeserializeSeed<'t> for Scan<'t, '_> {
     type Value = ();
 
     fn deserialize<D: Deserializer<'t>>(self, deserializer: D) -> Result<(), D::Error> {
-        if self.paths.is_empty() {
+        if self.paths.is_empty() && self.array.is_none() {
             return deserializer.deserialize_ignored_any(IgnoredAny).map(drop);
         }
         let Some(&(kind, _)) = self.paths.iter().find(|(_, path)| path.is_empty()) else {
             return deserializer.deserialize_any(self);
         };
-        let raw = <&RawValue as serde::Deserialize>::deserialize(deserializer)?.get();
-        let number = raw.parse().map_err(|_| serde::de::Error::custom("not a number"))?;
-        self.found.push(IndexReference { kind, number, range: range_in(self.json, raw) });
+        let raw = <&RawValue as Deserialize>::deserialize(deserializer)?.get();
+        let range = range_in(self.json, raw);
+        match raw.parse() {
+            Ok(index) => self.found.references.push(IndexReference { kind, index, range }),
+            Err(_) => {
+                self.found.broken = Some(range.start);
+                return Err(serde::de::Error::custom("not an index"));
+            }
+        }
         Ok(())
     }
 }
 
-impl<'t> Visitor<'t> for Walk<'t, '_> {
+impl<'t> Visitor<'t> for Scan<'t, '_> {
     type Value = ();
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -212,13 +402,43 @@ impl<'t> Visitor<'t> for Walk<'t, '_> {
 
     fn visit_map<A: MapAccess<'t>>(mut self, mut map: A) -> Result<(), A::Error> {
         while let Some(key) = map.next_key::<Cow<'t, str>>()? {
-            map.next_value_seed(self.at(&key))?;
+            map.next_value_seed(self.step(&key))?;
         }
         Ok(())
     }
 
     fn visit_seq<A: SeqAccess<'t>>(mut self, mut sequence: A) -> Result<(), A::Error> {
-        while sequence.next_element_seed(self.at(ANY))?.is_some() {}
+        let mut count = 0;
+        while sequence.next_element_seed(self.step(ANY))?.is_some() {
+            count += 1;
+        }
+        if let Some(array) = self.array {
+            self.found.counts.insert(array, count);
+        }
+        Ok(())
+    }
+
+    fn visit_bool<E>(self, _: bool) -> Result<(), E> {
+        Ok(())
+    }
+
+    fn visit_i64<E>(self, _: i64) -> Result<(), E> {
+        Ok(())
+    }
+
+    fn visit_u64<E>(self, _: u64) -> Result<(), E> {
+        Ok(())
+    }
+
+    fn visit_f64<E>(self, _: f64) -> Result<(), E> {
+        Ok(())
+    }
+
+    fn visit_str<E>(self, _: &str) -> Result<(), E> {
+        Ok(())
+    }
+
+    fn visit_unit<E>(self) -> Result<(), E> {
         Ok(())
     }
 }
@@ -234,16 +454,49 @@ mod tests {
             "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "_\u0041": 7}, "targets": [{"NORMAL": 2}]}]}]}"#;
         let found = references(json).unwrap();
         for reference in &found {
-            assert_eq!(json[reference.range.clone()], reference.number.to_string());
+            assert_eq!(json[reference.range.clone()], reference.index.to_string());
         }
         let of = |kind: ReferenceKind| {
             let of_kind = found.iter().filter(|reference| reference.kind == kind);
-            of_kind.map(|reference| reference.number).collect::<Vec<_>>()
+            of_kind.map(|reference| reference.index).collect::<Vec<_>>()
         };
         assert_eq!(of(ReferenceKind::Accessor), [12, 0, 7, 2]);
         assert_eq!((of(ReferenceKind::ViewOfAccessor), of(ReferenceKind::View)), (vec![3], vec![4]));
         assert_eq!(references(r#"{"skins": [{"inverseBindMatrices": -1}]}"#), None);
-        assert_eq!(references(r#"{"skins": 5}"#), None);
+        assert_eq!(references(r#"{"skins": 5}"#), Some(Vec::new()));
+    }
+
+    /// The sentence of the first broken reference.
+    fn problem(json: &str) -> Option<String> {
+        check(json).err().map(|fault| fault.in_file("x").to_string())
+    }
+
+    #[test]
+    fn references_to_nothing_are_errors_with_their_path() {
+        let dangling = r#"{"accessors": [{}, {}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}},
+            {"attributes": {"POSITION" : 1, "TEXCOORD_0": 2}}]}]}"#;
+        let expected = "x: meshes[0].primitives[1].attributes.TEXCOORD_0: accessor 2 does not exist: there are 2; export the file again";
+        assert_eq!(problem(dangling).as_deref(), Some(expected));
+        for (json, expected) in [
+            (
+                r#"{"nodes": [{"children": [0, 1]}]}"#,
+                "nodes[0].children[1]: node 1 does not exist: there are 1",
+            ),
+            (r#"{"scenes": [{}], "scene": 1}"#, "scene: scene 1 does not exist: there are 1"),
+            (r#"{"textures": [{"source": -1}]}"#, "textures[0].source: is not an index"),
+            (
+                r#"{"bufferViews": [{"buffer": 0}]}"#,
+                "bufferViews[0].buffer: buffer 0 does not exist: there are 0",
+            ),
+            (
+                r#"{"animations": [{"channels": [{"sampler": 1}], "samplers": [{}]}]}"#,
+                "animations[0].channels[0].sampler: sampler 1 does not exist: there are 1",
+            ),
+        ] {
+            assert!(problem(json).is_some_and(|problem| problem.contains(expected)), "{:?}", problem(json));
+        }
+        let fine = r#"{"scene": 0, "nodes": [{"mesh": 0, "name": "a,b"}], "meshes": [{}], "extras": {"nodes": [7]}}"#;
+        assert_eq!(problem(fine), None);
     }
 
     #[test]

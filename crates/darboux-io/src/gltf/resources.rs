@@ -1,7 +1,7 @@
-//! Files and data that a document refers to by URI, and the rules of what may be read.
+//! Resolves the URIs of a document: to files that may be read, to embedded data, or to other machines.
 //!
-//! Only regular files inside the document's folder are touched, unless the caller allows more: no absolute path, no `..`
-//! that leaves the folder, no link out of it.
+//! Only regular files inside the document's folder are opened, unless the caller allows more: no absolute path, no `..` that leaves the
+//! folder, no link out of it.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -16,52 +16,51 @@ use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use percent_encoding::{AsciiSet, CONTROLS, percent_decode_str, utf8_percent_encode};
 
-use super::file_bytes::FileBytes;
+use super::file_bytes::{FileAccess, FileBytes};
 
-/// What a URI refers to.
+/// The target of a URI.
 #[derive(Debug)]
 pub enum UriTarget<'a> {
-    /// A `data:` URI: what follows the colon.
+    /// A `data:` URI: the text after the colon.
     Data(&'a str),
-    /// `http:` or `https:`.
+    /// An `http:` or `https:` URI.
     Remote,
     /// A file.
     File(LocatedFile),
 }
 
-/// A file that may be read.
+/// A file that exists and may be read.
 #[derive(Clone, Debug)]
 pub struct LocatedFile {
-    /// Where it is, links resolved.
+    /// The path, links resolved.
     pub path: PathBuf,
-    /// Where it is relative to the document's folder, or just its name when it lies outside.
+    /// The path relative to the document's folder, or the file's name if it lies outside.
     pub relative: PathBuf,
-    /// Whether it lies outside.
+    /// Whether the file lies outside the document's folder.
     pub is_outside: bool,
 }
 
-/// A file that was read.
+/// A file that was opened.
 #[derive(Debug)]
 pub struct ResourceFile {
-    /// Where it is.
     pub located: LocatedFile,
-    /// Its content.
     pub bytes: FileBytes,
 }
 
-/// The rules, and the files read so far.
+/// What may be read, and the files opened so far.
 #[derive(Debug)]
 pub struct Resources {
     base: Option<PathBuf>,
     allow_outside: bool,
-    read: HashMap<PathBuf, Arc<ResourceFile>>,
+    access: FileAccess,
+    opened: HashMap<PathBuf, Arc<ResourceFile>>,
 }
 
 impl Resources {
     /// `base` is the document's folder, if it has one.
-    pub fn new(base: Option<&Path>, allow_outside: bool) -> io::Result<Self> {
+    pub fn new(base: Option<&Path>, allow_outside: bool, access: FileAccess) -> io::Result<Self> {
         let base = base.map(Path::canonicalize).transpose()?;
-        Ok(Self { base, allow_outside, read: HashMap::new() })
+        Ok(Self { base, allow_outside, access, opened: HashMap::new() })
     }
 
     /// The document's folder, links resolved.
@@ -69,14 +68,14 @@ impl Resources {
         self.base.as_deref()
     }
 
-    /// What `uri` refers to; for files, they exist and may be read. The error is a clause that says why not.
+    /// The target of `uri`. A file exists and may be read. The error is a clause that says what is wrong and what to do.
     pub fn resolve<'a>(&self, uri: &'a str) -> Result<UriTarget<'a>, String> {
         match scheme(uri) {
             Some(name) if name.eq_ignore_ascii_case("data") => Ok(UriTarget::Data(&uri[5..])),
             Some(name) if name.eq_ignore_ascii_case("http") || name.eq_ignore_ascii_case("https") => {
                 Ok(UriTarget::Remote)
             }
-            Some(name) => Err(format!("uses the scheme {name:?}; use a relative path")),
+            Some(name) => Err(format!("uses the scheme {}; use a relative path", shortened(name))),
             None => self.locate(uri).map(UriTarget::File),
         }
     }
@@ -86,7 +85,7 @@ impl Resources {
         let base = self.base.as_ref().ok_or_else(|| {
             format!("refers to the file {shown}, but input without a folder has none; give a .glb or a path")
         })?;
-        let decoded = percent_decode_str(uri).decode_utf8().map_err(|_| format!("{shown} is not UTF-8"))?;
+        let decoded = decoded_path(uri).ok_or_else(|| format!("{shown} is not UTF-8; rename the file"))?;
         let inside = normalised(&decoded);
         if inside.is_none() && !self.allow_outside {
             return Err(outside(&shown));
@@ -100,7 +99,7 @@ impl Resources {
             return Err(outside(&shown));
         }
         if !fs::metadata(&path).is_ok_and(|metadata| metadata.is_file()) {
-            return Err(format!("{shown} is not a regular file"));
+            return Err(format!("{shown} is not a regular file; put a file there"));
         }
         let name = || path.file_name().map(PathBuf::from).unwrap_or_default();
         let is_outside = inside.is_none();
@@ -108,23 +107,35 @@ impl Resources {
         Ok(LocatedFile { path, relative, is_outside })
     }
 
-    /// Reads a file, once however often it is asked for.
-    pub fn read(&mut self, located: &LocatedFile) -> io::Result<Arc<ResourceFile>> {
-        if let Some(file) = self.read.get(&located.path) {
+    /// Opens a file once, however often it is asked for.
+    pub fn open(&mut self, located: &LocatedFile) -> io::Result<Arc<ResourceFile>> {
+        if let Some(file) = self.opened.get(&located.path) {
             return Ok(Arc::clone(file));
         }
-        let bytes = FileBytes::open(&located.path)?;
+        let bytes = self.bytes(&located.path)?;
         let file = Arc::new(ResourceFile { located: located.clone(), bytes });
-        self.read.insert(located.path.clone(), Arc::clone(&file));
+        self.opened.insert(located.path.clone(), Arc::clone(&file));
         Ok(file)
+    }
+
+    /// The content of a file, which is not kept.
+    pub fn bytes(&self, path: &Path) -> io::Result<FileBytes> {
+        self.access.open(path)
     }
 }
 
 fn outside(shown: &str) -> String {
-    format!("{shown} lies outside the document's folder; move it there, or allow files outside")
+    format!(
+        "{shown} lies outside the document's folder; move it there, or allow files outside (--allow-outside)"
+    )
 }
 
-/// The scheme of a URI. One letter is not a scheme but a Windows drive.
+/// The path that a relative URI spells; none if it is not UTF-8.
+fn decoded_path(uri: &str) -> Option<Cow<'_, str>> {
+    percent_decode_str(uri).decode_utf8().ok()
+}
+
+/// The scheme of a URI. A single letter is a drive of Windows, not a scheme.
 fn scheme(uri: &str) -> Option<&str> {
     let (name, _) = uri.split_once(':')?;
     let is_scheme = name.len() > 1
@@ -133,7 +144,7 @@ fn scheme(uri: &str) -> Option<&str> {
     is_scheme.then_some(name)
 }
 
-/// A relative path without `.` and `..`, unless it is absolute, leaves its folder, or is one of Windows' forms.
+/// A relative path without `.` and `..`; none if it is absolute, leaves its folder, or has a form of Windows (`c:a`, `a\b`).
 fn normalised(path: &str) -> Option<PathBuf> {
     let drive = path.as_bytes().get(1) == Some(&b':');
     if drive || path.contains(['\\', '\0']) {
@@ -153,7 +164,19 @@ fn normalised(path: &str) -> Option<PathBuf> {
     (!parts.is_empty()).then(|| parts.iter().collect())
 }
 
-/// Decodes what follows `data:`. The error is a clause that says what is wrong.
+/// A relative path for a new file beside a document: `path` with `_` in place of whatever a URI cannot spell or a reader refuses.
+///
+/// These are bytes that are not UTF-8, control characters, and the characters `:` and `\`.
+pub fn portable(path: &Path) -> PathBuf {
+    let part = |part: &OsStr| {
+        let text = part.to_string_lossy();
+        let is_portable = |c: char| !c.is_control() && !matches!(c, ':' | '\\' | char::REPLACEMENT_CHARACTER);
+        text.chars().map(|c| if is_portable(c) { c } else { '_' }).collect::<String>()
+    };
+    path.iter().map(part).collect()
+}
+
+/// Decodes the text after `data:`. The error is a clause that says what is wrong and what to do.
 pub fn decode_data_uri(data: &str) -> Result<Vec<u8>, String> {
     let (kind, content) = data.split_once(',').ok_or("the data URI has no comma; export the file again")?;
     let content: Cow<[u8]> = percent_decode_str(content).into();
@@ -168,13 +191,13 @@ pub fn decode_data_uri(data: &str) -> Result<Vec<u8>, String> {
         .map_err(|error| format!("the data URI is not base64 ({error}); export the file again"))
 }
 
-/// A `data:` URI of a buffer's bytes.
+/// The `data:` URI of a buffer.
 pub fn encode_data_uri(bytes: &[u8]) -> String {
     let encoded = base64::engine::general_purpose::STANDARD.encode(bytes);
     format!("data:application/octet-stream;base64,{encoded}")
 }
 
-/// The URI of a relative path.
+/// The URI of a [`portable`] relative path.
 pub fn encode_path(path: &Path) -> String {
     const RESERVED: &AsciiSet =
         &CONTROLS.add(b' ').add(b'"').add(b'#').add(b'%').add(b'<').add(b'>').add(b'?').add(b':').add(b'\\');
@@ -195,7 +218,7 @@ pub fn image_type(bytes: &[u8]) -> Option<&'static str> {
     if webp { Some("image/webp") } else { known.map(|&(_, kind)| kind) }
 }
 
-/// A URI as it is shown in messages: quoted, and not longer than a line.
+/// A URI in messages: quoted, and at most 100 characters.
 fn shortened(uri: &str) -> String {
     match uri.char_indices().nth(100) {
         Some((end, _)) => format!("{:?}...", &uri[..end]),
@@ -216,7 +239,30 @@ mod tests {
     }
 
     #[test]
-    fn schemes_are_not_drives() {
+    fn portable_names_are_readable_from_their_uri() {
+        for name in [
+            "a:b.bin",
+            "a\\b.bin",
+            "ab:c",
+            "C:",
+            "https:x",
+            "data:a",
+            "a b%20#?.bin",
+            "tab\there",
+            "m\u{fffd}",
+            "ä",
+            "%5C",
+        ] {
+            let portable = portable(Path::new(name));
+            let uri = encode_path(&portable);
+            assert_eq!(scheme(&uri), None, "{name:?}");
+            assert_eq!(decoded_path(&uri).and_then(|path| normalised(&path)), Some(portable), "{name:?}");
+        }
+        assert_eq!(portable(Path::new("maps/my color.png")), Path::new("maps/my color.png"));
+    }
+
+    #[test]
+    fn drives_are_not_schemes() {
         assert_eq!(scheme("https://a/b"), Some("https"));
         assert_eq!(scheme("data:,x"), Some("data"));
         assert_eq!(scheme("C:/a"), None);

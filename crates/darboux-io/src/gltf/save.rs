@@ -1,4 +1,4 @@
-//! Writing: every file beside its target first, then all of them renamed, the document last.
+//! Writes documents: as a GLB in memory or a stream, or as files, the document after the files that it refers to.
 
 use std::collections::{HashMap, HashSet};
 use std::ffi::OsStr;
@@ -8,46 +8,44 @@ use std::path::{Path, PathBuf};
 
 use super::container::glb;
 use super::document::{BufferSource, Document};
-use super::file_bytes::FileBytes;
-use super::output_layout::{BinaryOutput, OutputLayout};
-use super::resources::{LocatedFile, UriTarget, encode_path};
+use super::output_layout::OutputLayout;
+use super::resources::{LocatedFile, UriTarget, encode_path, portable};
 use super::segments::{self, Segment};
 use crate::error::Fault;
 use crate::staging::Staging;
 use crate::{Error, FileKind, SaveOptions, paths};
 
 impl Document {
-    /// The document as a GLB that holds all its buffers and images, but for remote and missing ones.
+    /// The document as a GLB with all its buffers and images, except remote and missing ones.
     ///
-    /// Without edits, and with nothing to embed, a GLB is given back byte for byte. Errors: more than 4 GiB; files that cannot
-    /// be read.
+    /// A GLB without edits and without external files is returned byte for byte. Errors: more than 4 GiB; files that cannot be read.
     pub fn to_glb(&self) -> Result<Vec<u8>, Error> {
-        Ok(segments::joined(&self.glb_pieces()?))
+        Ok(segments::joined(&self.glb_segments()?))
     }
 
-    /// Writes what [`Document::to_glb`] gives, without putting it together in memory.
+    /// Writes the bytes of [`Document::to_glb`] without assembling them in memory.
     ///
-    /// Errors: as [`Document::to_glb`], before anything is written; [`Error::Write`] about `name`, where `out` refuses.
+    /// Errors: as [`Document::to_glb`], before anything is written; [`Error::Write`] about `name` if `out` fails.
     pub fn write_glb(&self, name: &Path, out: impl Write) -> Result<(), Error> {
-        segments::write(&self.glb_pieces()?, out)
+        segments::write(&self.glb_segments()?, out)
             .map_err(|source| Error::Write { file: name.to_owned(), source })
     }
 
-    /// Writes the document and, for a `.gltf`, the files that it needs; gives the files written, the document last.
+    /// Writes the document and, for a `.gltf`, the files that it refers to. Returns the files written, the document last.
     ///
-    /// The extension decides the container: `.glb` (or `.vrm`) or `.gltf`. New data of a `.gltf` goes to a fresh file; existing
-    /// files are never changed, but a file with the same content is used again. Missing folders are made. Errors: an existing
-    /// output without [`SaveOptions::force`]; the input, or a file that it uses, as output; a GLB's chunks of unknown type in a
-    /// `.gltf`. After an error nothing is left behind.
+    /// The extension decides the container: `.glb` (or `.vrm`) or `.gltf`. New data of a `.gltf` goes into a new `.bin` file. Existing
+    /// files beside the output are never changed; one with the same content is reused. Missing folders are created. Errors: an existing
+    /// output without [`SaveOptions::force`]; the input, or a file that it refers to, as output; a `.gltf` of a GLB that has chunks of
+    /// unknown type. After an error, no file is left.
     pub fn save(&self, path: &Path, options: &SaveOptions) -> Result<Vec<PathBuf>, Error> {
         let is_glb = is_glb(path)?;
         let target = self.checked_target(path, options)?;
         self.write(&target, is_glb, options)
     }
 
-    /// Replaces the input file, keeping its container and permissions; gives the files written, none when there are no edits.
+    /// Replaces the input file, with the same container and permissions. Returns the files written, none without edits.
     ///
-    /// Errors: as [`Document::save`]; a document that was not read from a file; an input that is gone.
+    /// Errors: as [`Document::save`]; a document that was not read from a file; an input that no longer exists.
     pub fn save_in_place(&self) -> Result<Vec<PathBuf>, Error> {
         let input = self.input.as_ref().ok_or_else(|| Error::Output {
             file: self.name().into(),
@@ -61,8 +59,8 @@ impl Document {
         self.write(input, self.container.is_glb, &SaveOptions { force: true, run: None })
     }
 
-    /// The file of a buffer that an earlier run made for new data: edited, the document gets another in its place. The file itself
-    /// stays: other models, wherever they are, can use it.
+    /// The file of a buffer that an earlier run made for new data, if the document has edits: it gets a new file for that buffer. The old
+    /// file is kept, since other documents may refer to it.
     pub(super) fn replaced_file(&self, buffer: usize) -> Option<&LocatedFile> {
         match (self.root.buffers.get(buffer), self.buffer_sources.get(buffer)) {
             (Some(buffer), Some(BufferSource::File(file))) if buffer.is_ours() && self.is_changed() => {
@@ -72,7 +70,7 @@ impl Document {
         }
     }
 
-    /// The file to write: `path`, or what it links to.
+    /// The file to write at `path`, links resolved.
     fn checked_target(&self, path: &Path, options: &SaveOptions) -> Result<PathBuf, Error> {
         paths::writable(path, options.force, |target| {
             if self.input.as_deref() == Some(target) {
@@ -83,7 +81,7 @@ impl Document {
         })
     }
 
-    /// Whether a file, links resolved, is the one that was read, or one that it refers to.
+    /// Whether a file is the input, or one that it refers to, links resolved.
     pub fn uses_file(&self, path: &Path) -> bool {
         path.canonicalize().is_ok_and(|path| self.input.as_ref() == Some(&path) || self.uses(&path))
     }
@@ -93,13 +91,13 @@ impl Document {
     }
 
     fn write(&self, target: &Path, is_glb: bool, options: &SaveOptions) -> Result<Vec<PathBuf>, Error> {
-        let mut staging = Staging::of_run(options.run);
-        let segments = if is_glb { self.glb_pieces()? } else { self.stage_gltf(target, &mut staging)? };
+        let mut staging = Staging::new(options.run);
+        let segments = if is_glb { self.glb_segments()? } else { self.stage_gltf(target, &mut staging)? };
         staging.stage(target, options.force, |file| segments::write(&segments, file))?;
         staging.commit()
     }
 
-    fn glb_pieces(&self) -> Result<Vec<Segment<'_>>, Error> {
+    fn glb_segments(&self) -> Result<Vec<Segment<'_>>, Error> {
         if self.container.is_glb && !self.is_changed() && self.files().is_empty() {
             return Ok(vec![Segment::Borrowed(&self.file)]);
         }
@@ -113,18 +111,18 @@ impl Document {
         segments().map_err(|fault| fault.in_file(self.name()))
     }
 
-    /// Stages what a `.gltf` needs beside it; gives its text.
+    /// Writes the files that a `.gltf` needs beside it. Returns its text.
     fn stage_gltf(&self, target: &Path, staging: &mut Staging) -> Result<Vec<Segment<'_>>, Error> {
         if !self.container.other_chunks.is_empty() {
             let problem = "has chunks of unknown type, which a .gltf cannot hold; write a .glb";
             return Err(Fault::unsupported("", problem).in_file(self.name()));
         }
         let folder = target.parent().unwrap_or(Path::new(""));
-        let mut names = Names { folder, taken: HashSet::from([target.to_owned()]) };
+        let mut names = FileNames { folder, taken: HashSet::from([target.to_owned()]) };
         let in_file = |fault: Fault| fault.in_file(self.name());
         let layout = OutputLayout::gltf(self).map_err(in_file)?;
         let kept = |buffer| !layout.unused_data.has_buffer(buffer) && self.replaced_file(buffer).is_none();
-        let renamed = self.stage_files(&self.files_of(kept), &mut names, staging)?;
+        let renamed = self.copy_files(&self.files_of(kept), &mut names, staging)?;
         if !self.container.is_glb && !self.is_changed() && renamed.is_empty() {
             return Ok(self
                 .container
@@ -137,44 +135,42 @@ impl Document {
         let name = Path::new(target.file_stem().unwrap_or(OsStr::new("buffer"))).with_added_extension("bin");
         let mut uris = Vec::new();
         for binary in &layout.binaries {
-            let relative = stage_binary(binary, &name, &mut names, staging)?;
+            let write = |file: &mut File| segments::write(&binary.segments, file);
+            let relative = names.place(&name, staging, |file| holds(file, &binary.segments), write)?;
             uris.push(encode_path(&relative));
         }
         Ok(vec![Segment::Owned(layout.json(&uris, &renamed).map_err(in_file)?.into_bytes())])
     }
 
-    /// Stages copies of files that the document refers to, unless it stays in its folder; gives those whose name had to
-    /// change, with their new URI.
-    fn stage_files(
+    /// Copies the files that the document refers to into the output's folder, unless that is the document's folder. Returns the files
+    /// whose path had to change, with their new URI.
+    fn copy_files(
         &self,
         files: &[LocatedFile],
-        names: &mut Names,
+        names: &mut FileNames,
         staging: &mut Staging,
     ) -> Result<HashMap<PathBuf, String>, Error> {
         let mut renamed = HashMap::new();
-        let there = names.folder.canonicalize().ok();
-        if there.is_some() && there.as_deref() == self.resources.base() {
+        let folder = names.folder.canonicalize().ok();
+        if folder.is_some() && folder.as_deref() == self.resources.base() {
             return Ok(renamed);
         }
         for file in files {
             let failed = |source| Error::Read { file: file.path.clone(), source };
-            let same = |existing: &Path| {
+            let is_same = |existing: &Path| {
                 Ok(existing.canonicalize()? == file.path || same_files(existing, &file.path)?)
             };
-            let chosen = names.choose(&file.relative, same).map_err(failed)?;
-            let path = names.folder.join(&chosen.relative);
-            if !chosen.exists {
-                let mut source = File::open(&file.path).map_err(failed)?;
-                staging.stage(&path, false, |copy| io::copy(&mut source, copy).map(drop))?;
-            }
-            if chosen.relative != file.relative || file.is_outside {
-                renamed.insert(file.path.clone(), encode_path(&chosen.relative));
+            let mut source = File::open(&file.path).map_err(failed)?;
+            let copy = |copy: &mut File| io::copy(&mut source, copy).map(drop);
+            let relative = names.place(&file.relative, staging, is_same, copy)?;
+            if relative != file.relative || file.is_outside {
+                renamed.insert(file.path.clone(), encode_path(&relative));
             }
         }
         Ok(renamed)
     }
 
-    /// The files that the document was read from and those that it refers to, its own first, links resolved. Missing ones are left out.
+    /// The input file and the files that it refers to, links resolved. Missing files are left out.
     pub fn source_files(&self) -> Vec<PathBuf> {
         let own = self.input.iter().cloned();
         own.chain(self.files().into_iter().map(|file| file.path)).collect()
@@ -185,7 +181,7 @@ impl Document {
         self.files_of(|_| true)
     }
 
-    /// As [`Document::files`], of some buffers and all images.
+    /// As [`Document::files`], for some buffers and all images.
     fn files_of(&self, is_wanted: impl Fn(usize) -> bool) -> Vec<LocatedFile> {
         let buffers = self.buffer_sources.iter().enumerate().filter_map(|(buffer, store)| match store {
             BufferSource::File(file) if is_wanted(buffer) => Some(file.located.clone()),
@@ -201,64 +197,68 @@ impl Document {
     }
 }
 
-/// Whether the file to write is a GLB. Errors: its extension does not say.
+/// Whether the output is a GLB. Errors: its extension is not that of a model.
 fn is_glb(path: &Path) -> Result<bool, Error> {
     match FileKind::of(path) {
         Some(FileKind::Glb) => Ok(true),
         Some(FileKind::Gltf) => Ok(false),
         _ => {
-            let problem = "does not say what to write; name it .glb or .gltf".to_owned();
+            let problem = "has no extension of a model; name it .glb or .gltf".to_owned();
             Err(Error::Output { file: path.to_owned(), problem })
         }
     }
 }
 
-fn stage_binary(
-    binary: &BinaryOutput<'_>,
-    name: &Path,
-    names: &mut Names,
-    staging: &mut Staging,
-) -> Result<PathBuf, Error> {
-    let folder = names.folder;
-    let chosen = names
-        .choose(name, |existing| holds(existing, binary))
-        .map_err(|source| Error::Read { file: folder.join(name), source })?;
-    if !chosen.exists {
-        staging
-            .stage(&folder.join(&chosen.relative), false, |file| segments::write(&binary.segments, file))?;
-    }
-    Ok(chosen.relative)
-}
-
-/// Names for files in the output's folder that change no file that is there.
-struct Names<'a> {
+/// The names of files beside an output. No existing file is changed.
+struct FileNames<'a> {
     folder: &'a Path,
     taken: HashSet<PathBuf>,
 }
 
-struct Chosen {
-    relative: PathBuf,
-    /// Whether a file of that name and content is there.
-    exists: bool,
-}
-
-impl Names<'_> {
-    /// `wanted`, or the first of `wanted_1`, `wanted_2`, ... that is free or that `same` content already has.
-    fn choose(&mut self, wanted: &Path, same: impl Fn(&Path) -> io::Result<bool>) -> io::Result<Chosen> {
+impl FileNames<'_> {
+    /// Puts a file into the folder under the name `wanted` or, if that is taken, `wanted_1`, `wanted_2` and so on. An existing file for
+    /// which `is_same` holds is used as it is. Returns the relative path.
+    ///
+    /// The name has no characters that a URI cannot spell or that readers refuse.
+    fn place(
+        &mut self,
+        wanted: &Path,
+        staging: &mut Staging,
+        is_same: impl Fn(&Path) -> io::Result<bool>,
+        write: impl FnOnce(&mut File) -> io::Result<()>,
+    ) -> Result<PathBuf, Error> {
+        let wanted = portable(wanted);
         let stem = wanted.file_stem().unwrap_or_default().to_string_lossy();
         let extension = wanted.extension().map(|text| format!(".{}", text.to_string_lossy()));
-        let mut relative = wanted.to_owned();
+        let mut relative = wanted.clone();
+        let (mut write, mut written) = (Some(write), None);
         for number in 1u32.. {
             let path = self.folder.join(&relative);
-            let is_there = path.symlink_metadata().is_ok();
-            let reusable = is_there && path.is_file() && same(&path)?;
-            if (!is_there || reusable) && self.taken.insert(path) {
-                return Ok(Chosen { relative, exists: is_there });
+            let failed = |source| Error::Write { file: path.clone(), source };
+            if !self.taken.contains(&path) {
+                if path.symlink_metadata().is_err() {
+                    if let Some(write) = write.take() {
+                        written = Some(staging.write_temporary(&path, write).map_err(failed)?);
+                    }
+                    if let Some(temporary) = written.take() {
+                        written = staging.publish(temporary, &path)?;
+                    }
+                    if written.is_none() {
+                        self.taken.insert(path);
+                        return Ok(relative);
+                    }
+                }
+                // Another process may have made the file just now.
+                if path.is_file() && is_same(&path).map_err(failed)? {
+                    self.taken.insert(path);
+                    return Ok(relative);
+                }
             }
             relative =
                 wanted.with_file_name(format!("{stem}_{number}{}", extension.as_deref().unwrap_or("")));
         }
-        Err(io::Error::other("no name is free"))
+        let problem = "and its numbered variants exist; clear the folder".to_owned();
+        Err(Error::Output { file: self.folder.join(wanted), problem })
     }
 }
 
@@ -279,16 +279,18 @@ fn same_files(a: &Path, b: &Path) -> io::Result<bool> {
     }
 }
 
-/// Whether a file holds just the bytes of `binary`.
-fn holds(file: &Path, binary: &BinaryOutput<'_>) -> io::Result<bool> {
-    if fs::metadata(file)?.len() != segments::length(&binary.segments) as u64 {
+/// Whether the content of a file is `segments`.
+fn holds(file: &Path, segments: &[Segment<'_>]) -> io::Result<bool> {
+    if fs::metadata(file)?.len() != segments::length(segments) as u64 {
         return Ok(false);
     }
-    let bytes = FileBytes::open(file)?;
-    let mut rest = &*bytes;
-    Ok(binary.segments.iter().all(|piece| {
-        let (start, after) = rest.split_at(piece.len().min(rest.len()));
-        rest = after;
-        *start == **piece
-    }))
+    let mut file = File::open(file)?;
+    let mut bytes = vec![0; 1 << 16];
+    for part in segments.iter().flat_map(|segment| segment.chunks(1 << 16)) {
+        let bytes = &mut bytes[..part.len()];
+        if file.read_exact(bytes).is_err() || bytes != part {
+            return Ok(false);
+        }
+    }
+    Ok(true)
 }

@@ -1,18 +1,18 @@
-//! Bytes to be written one after the other, each where it is already: no file is put together in memory.
+//! An output as a list of byte segments, so that no file is assembled in memory.
 
 use std::io::{self, Write};
 use std::ops::Deref;
 
 use super::file_bytes::FileBytes;
 
-/// Some bytes of an output.
+/// A run of bytes of an output.
 #[derive(Debug)]
 pub enum Segment<'a> {
-    /// Of the document.
+    /// Bytes of the document.
     Borrowed(&'a [u8]),
-    /// Made for the output.
+    /// Bytes made for the output.
     Owned(Vec<u8>),
-    /// A whole file.
+    /// The content of a file.
     File(FileBytes),
 }
 
@@ -28,22 +28,22 @@ impl Deref for Segment<'_> {
     }
 }
 
-/// The number of bytes.
+/// The number of bytes of all segments.
 pub fn length(segments: &[Segment<'_>]) -> usize {
-    segments.iter().map(|piece| piece.len()).sum()
+    segments.iter().map(|segment| segment.len()).sum()
 }
 
-/// All segments as one buffer.
+/// All segments, one after the other.
 pub fn joined(segments: &[Segment<'_>]) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(length(segments));
-    segments.iter().for_each(|piece| bytes.extend_from_slice(piece));
+    segments.iter().for_each(|segment| bytes.extend_from_slice(segment));
     bytes
 }
 
-/// Writes all segments.
+/// Writes all segments, one after the other.
 pub fn write(segments: &[Segment<'_>], out: impl Write) -> io::Result<()> {
-    // Small segments are gathered; large ones pass the buffer by.
+    // Small segments are buffered; large ones are written directly.
     let mut out = io::BufWriter::with_capacity(1 << 16, out);
-    segments.iter().try_for_each(|piece| out.write_all(piece))?;
+    segments.iter().try_for_each(|segment| out.write_all(segment))?;
     out.flush()
 }

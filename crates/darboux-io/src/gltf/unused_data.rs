@@ -117,10 +117,14 @@ impl UnusedData {
             [&self.accessors, &self.views].map(|dead| Vec::from_iter(dead.iter().copied()));
         let mut out = String::with_capacity(root.len());
         let mut copied = 0;
-        for IndexReference { kind, number, range } in references {
-            let dead = if kind == ReferenceKind::Accessor { &accessors } else { &views };
+        for IndexReference { kind, index, range } in references {
+            let dead = match kind {
+                ReferenceKind::Accessor => &accessors,
+                ReferenceKind::View | ReferenceKind::ViewOfAccessor => &views,
+                _ => continue,
+            };
             out.push_str(&root[copied..range.start]);
-            out.push_str(&(number - dead.partition_point(|&dead| dead < number)).to_string());
+            out.push_str(&(index - dead.partition_point(|&dead| dead < index)).to_string());
             copied = range.end;
         }
         out.push_str(&root[copied..]);
@@ -168,7 +172,7 @@ fn numbers(references: &[IndexReference], kinds: &[ReferenceKind]) -> BTreeSet<u
     references
         .iter()
         .filter(|reference| kinds.contains(&reference.kind))
-        .map(|reference| reference.number)
+        .map(|reference| reference.index)
         .collect()
 }
 
@@ -178,7 +182,7 @@ fn unused_accessors(
     after: &[IndexReference],
 ) -> BTreeSet<usize> {
     let mut used = numbers(before, &[ReferenceKind::Accessor]);
-    used.extend(&document.edits.once_named);
+    used.extend(&document.edits.formerly_referenced);
     used.retain(|&number| number < document.root.accessors.len());
     &used - &numbers(after, &[ReferenceKind::Accessor])
 }

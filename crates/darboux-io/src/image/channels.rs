@@ -1,11 +1,11 @@
-//! Which channels of an image hold a vector, by their letters.
+//! The channels of an image that hold a vector, named by their letters.
 
 use std::fmt;
 use std::str::FromStr;
 
 use png::ColorType;
 
-/// The channels of x, y and, where it is stored, z: `rgb`, `rg`, `ag` (x in alpha, y in green), `la` (grey and alpha) and so on.
+/// The channels of x, y and, if it is stored, z: `rgb`, `rg`, `ag` (x in alpha, y in green), `la` (grey and alpha) and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Channels {
     x: Letter,
@@ -23,7 +23,7 @@ enum Letter {
     Alpha,
 }
 
-/// A text that names no channels.
+/// The error of a text that does not name channels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "name the channels of x, y and, if it is stored, z by two or three different letters of r, g, b, a, or la"
@@ -31,29 +31,29 @@ enum Letter {
 pub struct ChannelsError;
 
 impl Channels {
-    /// x, y, z in red, green, blue.
+    /// x, y and z in red, green and blue.
     pub const RGB: Self = Self { x: Letter::Red, y: Letter::Green, z: Some(Letter::Blue) };
 
     fn letters(self) -> impl Iterator<Item = Letter> {
         [self.x, self.y].into_iter().chain(self.z)
     }
 
-    /// The channels by number in texels of this kind, if they are there.
-    pub(super) fn places(self, color: ColorType) -> Option<(usize, usize, Option<usize>)> {
-        let place = |letter: Letter| letters(color).find(letter.char());
-        let z = self.z.map(place);
-        Some((place(self.x)?, place(self.y)?, if z == Some(None) { return None } else { z.flatten() }))
+    /// The indices of the channels in texels of this kind; none if one is missing.
+    pub(super) fn indices(self, color: ColorType) -> Option<(usize, usize, Option<usize>)> {
+        let index = |letter: Letter| letters(color).find(letter.char());
+        let z = self.z.map(index);
+        Some((index(self.x)?, index(self.y)?, if z == Some(None) { return None } else { z.flatten() }))
     }
 
-    /// The kind of texels nearest to `color` that has these channels.
+    /// The kind of texels that has these channels: `color` if possible, else the smallest one.
     pub(super) fn kind(self, color: ColorType) -> ColorType {
-        let has_all = |color: &ColorType| self.places(*color).is_some();
+        let has_all = |color: &ColorType| self.indices(*color).is_some();
         let kinds = [color, ColorType::Rgb, ColorType::Rgba, ColorType::GrayscaleAlpha];
         kinds.into_iter().find(has_all).unwrap_or(ColorType::Rgba)
     }
 }
 
-/// The letters of the channels of a kind of texels.
+/// The channel letters of a kind of texels.
 pub(super) fn letters(color: ColorType) -> &'static str {
     match color {
         ColorType::Rgb => "rgb",
@@ -89,7 +89,7 @@ impl FromStr for Channels {
             _ => return Err(ChannelsError),
         };
         let kinds = [ColorType::Rgba, ColorType::GrayscaleAlpha];
-        let exists = kinds.into_iter().any(|kind| channels.places(kind).is_some());
+        let exists = kinds.into_iter().any(|kind| channels.indices(kind).is_some());
         let differ =
             channels.x != channels.y && Some(channels.x) != channels.z && Some(channels.y) != channels.z;
         if exists && differ { Ok(channels) } else { Err(ChannelsError) }

@@ -1,28 +1,28 @@
-//! The chunks of a PNG as bytes (PNG specification, third edition, section 5).
+//! Splits a PNG into its chunks (PNG specification, third edition, section 5).
 
 use crate::error::Fault;
 
 /// The first bytes of every PNG.
 pub const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 
-/// A chunk.
+/// A chunk of a PNG.
 #[derive(Clone, Copy, Debug)]
 pub struct Chunk<'a> {
     pub kind: &'a [u8; 4],
-    /// All of it: length, kind, data, checksum.
+    /// The whole chunk: length, kind, data and checksum.
     pub bytes: &'a [u8],
 }
 
-/// The chunks of a file, IEND the last.
+/// The chunks of a file. The last is IEND.
 #[derive(Debug)]
 pub struct Chunks<'a> {
     pub chunks: Vec<Chunk<'a>>,
-    /// What follows IEND, which readers ignore.
+    /// The bytes after IEND, which readers ignore.
     pub rest: &'a [u8],
 }
 
 impl<'a> Chunks<'a> {
-    /// Cuts a file into its chunks; checksums are the decoder's matter. Errors: no PNG, or one that ends within a chunk.
+    /// Splits a file into its chunks. Checksums are not checked. Errors: a file that is not a PNG, or ends within a chunk.
     pub fn split(file: &'a [u8]) -> Result<Self, Fault> {
         let Some(mut rest) = file.strip_prefix(&SIGNATURE) else {
             return Err(Fault::invalid("", "is not a PNG; save it as one"));
@@ -45,14 +45,14 @@ impl<'a> Chunks<'a> {
         self.chunks.iter().filter(move |chunk| chunk.kind == kind)
     }
 
-    /// How many bytes the chunks of one kind have.
+    /// The number of bytes in the chunks of one kind.
     pub fn total_of(&self, kind: &[u8; 4]) -> usize {
         self.of(kind).map(|chunk| chunk.bytes.len()).sum()
     }
 }
 
 impl Chunk<'_> {
-    /// Of a header: bit depth and colour type.
+    /// The bit depth and the colour type of a header chunk.
     pub fn kind_of_texels(&self) -> Option<[u8; 2]> {
         self.bytes.get(16..18)?.try_into().ok()
     }

@@ -1,4 +1,4 @@
-//! Normal maps between conventions and channels: [`darboux::Conversion::texels`] and [`darboux::repack_texels`] on images.
+//! Converts normal maps between conventions and channels: [`darboux::Conversion::texels`] and [`darboux::repack_texels`] on images.
 
 use darboux::{Channel, Conversion, TexelLayout, repack_texels};
 
@@ -7,31 +7,33 @@ use super::png_image::{PngImage, Texels};
 use crate::Error;
 use crate::error::Fault;
 
-/// Converts a normal map in place: red and green inverted where `conversion` says so, and the vector moved from the channels `from` to
-/// the channels `to`.
+/// Converts a normal map in place: inverts red and green as `conversion` requires, and moves the vector from the channels `from` to the
+/// channels `to`.
 ///
-/// Channels that hold nothing of the vector keep their content. Where `to` has a z that `from` has not, it is rebuilt. The image gets
-/// an alpha channel, or loses grey, where `to` needs that. Errors: an image without the channels `from`.
+/// Channels outside the vector keep their content. If `to` has a z and `from` does not, z is reconstructed. The kind of texels changes if
+/// `to` requires it. Errors: the image does not have the channels `from`.
 pub fn convert_normal_map(
     image: &mut PngImage,
     conversion: &Conversion,
     from: Channels,
     to: Channels,
 ) -> Result<(), Error> {
-    let Some(places) = from.places(image.color) else {
-        let problem =
-            format!("has the channels {}, not {from}; name those that hold the vector", image.channels());
+    let Some(indices) = from.indices(image.color) else {
+        let problem = format!(
+            "has the channels {}, not {from}; name the channels that hold the vector",
+            image.channels()
+        );
         return Err(Fault::invalid("", problem).in_file(image.name()));
     };
     let color = to.kind(image.color);
-    let target = to.places(color).unwrap_or(places);
+    let target = to.indices(color).unwrap_or(indices);
     let (before, after) = (image.color.samples(), color.samples());
     let texels = match &image.texels {
         Texels::Bytes(bytes) => {
-            Texels::Bytes(converted(bytes, conversion, (before, places), (after, target)))
+            Texels::Bytes(converted(bytes, conversion, (before, indices), (after, target)))
         }
         Texels::Words(words) => {
-            Texels::Words(converted(words, conversion, (before, places), (after, target)))
+            Texels::Words(converted(words, conversion, (before, indices), (after, target)))
         }
     };
     image.is_changed |= color != image.color || texels != image.texels;
@@ -39,53 +41,52 @@ pub fn convert_normal_map(
     Ok(())
 }
 
-/// How many texels hold no normal in these channels ([`TexelLayout::holds_normal`]): nearly none of a normal map, most of a photograph.
-///
-/// All of them where the image does not have the channels.
+/// Counts the texels without a normal in these channels ([`TexelLayout::holds_normal`]): nearly none in a normal map, most in a
+/// photograph, all if the image does not have the channels.
 pub fn count_no_normals(image: &PngImage, channels: Channels) -> usize {
-    let places = channels.places(image.color);
-    match (&image.texels, places) {
+    let indices = channels.indices(image.color);
+    match (&image.texels, indices) {
         (_, None) => image.width as usize * image.height as usize,
-        (Texels::Bytes(bytes), Some(places)) => no_normals(bytes, image.color.samples(), places),
-        (Texels::Words(words), Some(places)) => no_normals(words, image.color.samples(), places),
+        (Texels::Bytes(bytes), Some(indices)) => no_normals(bytes, image.color.samples(), indices),
+        (Texels::Words(words), Some(indices)) => no_normals(words, image.color.samples(), indices),
     }
 }
 
-fn no_normals<C: Channel>(channels: &[C], samples: usize, places: Places) -> usize {
-    fn of<C: Channel, const N: usize>(channels: &[C], places: Places) -> usize {
-        let layout = layout::<N>(places);
+fn no_normals<C: Channel>(channels: &[C], samples: usize, indices: VectorChannels) -> usize {
+    fn count<C: Channel, const N: usize>(channels: &[C], indices: VectorChannels) -> usize {
+        let layout = layout::<N>(indices);
         channels.as_chunks::<N>().0.iter().filter(|&&texel| !layout.holds_normal(texel)).count()
     }
     match samples {
-        2 => of::<C, 2>(channels, places),
-        3 => of::<C, 3>(channels, places),
-        _ => of::<C, 4>(channels, places),
+        2 => count::<C, 2>(channels, indices),
+        3 => count::<C, 3>(channels, indices),
+        _ => count::<C, 4>(channels, indices),
     }
 }
 
-/// The channels of x, y and z by number.
-type Places = (usize, usize, Option<usize>);
+/// The indices of the channels of x, y and z.
+type VectorChannels = (usize, usize, Option<usize>);
 
-/// Texels of `before` channels, `from` of them the vector, as texels of `after` channels with the vector in `to`.
+/// Converts texels of `before` channels, with the vector in `from`, to texels of `after` channels, with the vector in `to`.
 fn converted<C: Channel>(
     channels: &[C],
     conversion: &Conversion,
-    (before, from): (usize, Places),
-    (after, to): (usize, Places),
+    (before, from): (usize, VectorChannels),
+    (after, to): (usize, VectorChannels),
 ) -> Vec<C> {
     match before {
-        2 => of::<C, 2>(channels, conversion, from, after, to),
-        3 => of::<C, 3>(channels, conversion, from, after, to),
-        _ => of::<C, 4>(channels, conversion, from, after, to),
+        2 => converted_from::<C, 2>(channels, conversion, from, after, to),
+        3 => converted_from::<C, 3>(channels, conversion, from, after, to),
+        _ => converted_from::<C, 4>(channels, conversion, from, after, to),
     }
 }
 
-fn of<C: Channel, const N: usize>(
+fn converted_from<C: Channel, const N: usize>(
     channels: &[C],
     conversion: &Conversion,
-    from: Places,
+    from: VectorChannels,
     after: usize,
-    to: Places,
+    to: VectorChannels,
 ) -> Vec<C> {
     let from = layout::<N>(from);
     let mut texels = channels.as_chunks::<N>().0.to_vec();
@@ -97,6 +98,6 @@ fn of<C: Channel, const N: usize>(
     }
 }
 
-fn layout<const N: usize>((x, y, z): Places) -> TexelLayout<N> {
-    TexelLayout::new(x, y, z).expect("these are different channels of the texel")
+fn layout<const N: usize>((x, y, z): VectorChannels) -> TexelLayout<N> {
+    TexelLayout::new(x, y, z).expect("the channels differ and are channels of the texel")
 }

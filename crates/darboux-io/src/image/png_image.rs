@@ -1,4 +1,4 @@
-//! Normal maps in PNG files: texels change, every other chunk stays as it is.
+//! PNG files whose texels can be changed. Every other chunk is kept as it was read.
 
 use std::fs;
 use std::io::{Cursor, Write};
@@ -9,10 +9,11 @@ use png::{BitDepth, ColorType, Decoder, Encoder, Transformations};
 use super::channels;
 use super::chunks::{self, Chunk, Chunks};
 use crate::error::Fault;
+use crate::memory_limit::{self, MemoryLimit};
 use crate::staging::Staging;
 use crate::{Error, SaveOptions, paths};
 
-/// A PNG of 8 or 16 bits per channel: grey with alpha, RGB or RGBA.
+/// A PNG with 8 or 16 bits per channel: grey with alpha, RGB or RGBA.
 #[derive(Debug)]
 pub struct PngImage {
     name: String,
@@ -24,36 +25,41 @@ pub struct PngImage {
     pub(super) is_changed: bool,
 }
 
-/// The channels of all texels, row after row.
+/// The channels of all texels, row after row, the top row first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Texels {
     Bytes(Vec<u8>),
     Words(Vec<u16>),
 }
 
-/// The greatest ratio of deflate (RFC 1951): 258 bytes for two bits.
+/// The greatest compression ratio of deflate (RFC 1951): 258 bytes in two bits.
 const DEFLATE_RATIO: usize = 1032;
 
-/// Chunks whose content depends on the channels of texels and on their bits.
+/// Copies of the texels that a conversion holds at once.
+const COPIES: usize = 3;
+
+/// Chunks whose content depends on the channels of texels and their bit depth.
 const OF_TEXELS: [&[u8; 4]; 3] = [b"tRNS", b"bKGD", b"sBIT"];
 
-/// Chunks that are for colours, or for greys, alone: palettes and profiles (PNG specification, third edition, 11.2.2 and 11.3.2.3).
+/// Chunks that are valid for colours only, or for greys only: palettes and profiles (PNG specification, third edition, 11.2.2 and
+/// 11.3.2.3).
 const OF_COLOURS: [&[u8; 4]; 4] = [b"PLTE", b"sPLT", b"hIST", b"iCCP"];
 
 impl PngImage {
-    /// Reads a PNG. Errors: a file that cannot be read; anything but a whole PNG of a supported kind.
-    pub fn open(path: &Path) -> Result<Self, Error> {
+    /// Reads a PNG. Errors: a file that cannot be read; a file that is not a PNG of a supported kind, or is damaged; more texels than
+    /// `memory_limit` permits.
+    pub fn open(path: &Path, memory_limit: MemoryLimit) -> Result<Self, Error> {
         let file = paths::readable(path)?;
         let bytes = fs::read(file).map_err(|source| Error::Read { file: path.to_owned(), source })?;
-        Self::from_bytes(&path.display().to_string(), bytes)
+        Self::from_bytes(&path.display().to_string(), bytes, memory_limit)
     }
 
-    /// Reads a PNG from memory; `name` stands for the file in messages. Errors: as [`PngImage::open`].
-    pub fn from_bytes(name: &str, bytes: Vec<u8>) -> Result<Self, Error> {
-        Self::decode(name, bytes).map_err(|fault| fault.in_file(name))
+    /// Reads a PNG from memory. `name` stands for the file in messages. Errors: as [`PngImage::open`].
+    pub fn from_bytes(name: &str, bytes: Vec<u8>, memory_limit: MemoryLimit) -> Result<Self, Error> {
+        Self::decode(name, bytes, memory_limit).map_err(|fault| fault.in_file(name))
     }
 
-    /// An image of 8-bit RGB texels, row after row. Errors: another number of texels than `width` times `height`.
+    /// An image of 8-bit RGB texels, row after row, the top row first. Errors: the number of texels is not `width` times `height`.
     pub fn from_rgb(name: &str, [width, height]: [u32; 2], texels: &[[u8; 3]]) -> Result<Self, Error> {
         let texels = Texels::Bytes(texels.as_flattened().to_vec());
         let file = encoded([width, height], ColorType::Rgb, &texels).map_err(|fault| fault.in_file(name))?;
@@ -61,14 +67,14 @@ impl PngImage {
         Ok(Self { name, file, width, height, color, texels, is_changed: false })
     }
 
-    /// Whether these are the first bytes of a PNG.
+    /// Whether a file that begins with `bytes` is a PNG.
     pub fn is_png(bytes: &[u8]) -> bool {
         bytes.starts_with(&chunks::SIGNATURE)
     }
 
-    fn decode(name: &str, file: Vec<u8>) -> Result<Self, Fault> {
+    fn decode(name: &str, file: Vec<u8>, memory_limit: MemoryLimit) -> Result<Self, Fault> {
         let broken = |error: png::DecodingError| {
-            Fault::invalid("", format!("is no whole PNG: {error}; save it again"))
+            Fault::invalid("", format!("is not a complete PNG: {error}; save it again"))
         };
         let chunks = Chunks::split(&file)?;
         let mut decoder = Decoder::new(Cursor::new(&file));
@@ -84,11 +90,12 @@ impl PngImage {
             let problem = format!("its data is too short for {width} x {height} texels; save it again");
             return Err(Fault::invalid("", problem));
         }
-        let mut bytes = Vec::new();
-        if bytes.try_reserve_exact(length).is_err() {
-            return Err(Fault::unsupported("", format!("{width} x {height} texels do not fit the memory")));
+        let limit = memory_limit.for_size(file.len());
+        if length.saturating_mul(COPIES) > limit {
+            let what = format!("its {width} x {height} texels need");
+            return Err(Fault::unsupported("", memory_limit::exceeded(&what, limit)));
         }
-        bytes.resize(length, 0);
+        let mut bytes = vec![0; length];
         reader.next_frame(&mut bytes).map_err(broken)?;
         let texels = match depth {
             BitDepth::Sixteen => {
@@ -101,12 +108,12 @@ impl PngImage {
         Ok(Self { name: name.to_owned(), file, width, height, color, texels, is_changed: false })
     }
 
-    /// The name in messages.
+    /// The name of the image in messages.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Texels across and down.
+    /// Texels per row, and rows.
     pub fn size(&self) -> [u32; 2] {
         [self.width, self.height]
     }
@@ -119,19 +126,20 @@ impl PngImage {
         }
     }
 
-    /// The letters of its channels: `la`, `rgb` or `rgba`.
+    /// The letters of the channels: `la`, `rgb` or `rgba`.
     pub fn channels(&self) -> &'static str {
         channels::letters(self.color)
     }
 
-    /// Whether texels differ from those that were read.
+    /// Whether texels have changed since the image was read.
     pub fn is_changed(&self) -> bool {
         self.is_changed
     }
 
-    /// The file: as it was read if nothing changed; otherwise new texels, all other chunks as they were read, but for those that describe another kind of texels.
+    /// The file. Without changes it is the file that was read; otherwise it has new texels, and all other chunks are kept except those
+    /// that are not valid for the new kind of texels.
     ///
-    /// Interlaced images become plain ones. Errors: none but those of memory.
+    /// An interlaced image becomes one that is not. Errors: the texels cannot be encoded.
     pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
         self.encode().map_err(|fault| fault.in_file(&self.name))
     }
@@ -144,7 +152,7 @@ impl PngImage {
         Ok(self.spliced(&Chunks::split(&self.file)?, &Chunks::split(&encoded)?))
     }
 
-    /// The chunks that were read, with header and texels of `new`.
+    /// The chunks of `old`, with the header and the texels of `new`.
     fn spliced(&self, old: &Chunks<'_>, new: &Chunks<'_>) -> Vec<u8> {
         let [before, after] =
             [old, new].map(|chunks| chunks.of(b"IHDR").next().and_then(Chunk::kind_of_texels));
@@ -165,33 +173,33 @@ impl PngImage {
         out
     }
 
-    /// Writes the image. Errors: an existing file without `force`, or one that is no regular file; a place that cannot be written.
-    /// After an error nothing is left.
+    /// Writes the image. Errors: an existing file without [`SaveOptions::force`], or one that is not regular; a path that cannot be
+    /// written. After an error, no file is left.
     pub fn save(&self, path: &Path, options: &SaveOptions) -> Result<PathBuf, Error> {
         let target = paths::writable(path, options.force, |_| None)?;
         let bytes = self.to_bytes()?;
-        let mut staging = Staging::of_run(options.run);
+        let mut staging = Staging::new(options.run);
         staging.stage(&target, options.force, |file| file.write_all(&bytes))?;
         staging.commit()?;
         Ok(path.to_owned())
     }
 }
 
-/// Errors: a PNG that is no normal map that could be converted to the bit.
+/// Refuses a PNG that cannot hold a normal map, or not be converted without loss.
 fn refuse_unsupported(color: ColorType, depth: BitDepth, chunks: &Chunks<'_>) -> Result<(), Fault> {
     let refused = |problem: &str| Err(Fault::unsupported("", problem));
     match (color, depth) {
         (ColorType::Indexed, _) => refused("has a palette; save it as RGB"),
-        (ColorType::Grayscale, _) => {
-            refused("has one channel, but a normal map has two or more; is it a bump map?")
-        }
+        (ColorType::Grayscale, _) => refused(
+            "has one channel, but a normal map has two or more; bake a normal map from it if it is a height map",
+        ),
         (_, BitDepth::Eight | BitDepth::Sixteen) => {
             if chunks.of(b"acTL").next().is_some() {
-                return refused("is an animation; save its frames one by one");
+                return refused("is an animation; save its frames as single images");
             }
             if chunks.of(b"tRNS").next().is_some() {
                 return refused(
-                    "has a transparent colour, which would be another one afterwards; save it without",
+                    "has a transparent colour, which a conversion would change; save it without one",
                 );
             }
             Ok(())
@@ -200,7 +208,7 @@ fn refuse_unsupported(color: ColorType, depth: BitDepth, chunks: &Chunks<'_>) ->
     }
 }
 
-/// Texels as a PNG of nothing else.
+/// Encodes texels as a PNG without further chunks.
 fn encoded([width, height]: [u32; 2], color: ColorType, texels: &Texels) -> Result<Vec<u8>, Fault> {
     let mut encoded = Vec::new();
     let mut encoder = Encoder::new(&mut encoded, width, height);
@@ -216,6 +224,6 @@ fn encoded([width, height]: [u32; 2], color: ColorType, texels: &Texels) -> Resu
             encoder.write_header().and_then(|mut writer| writer.write_image_data(&bytes))
         }
     };
-    written.map_err(|error| Fault::unsupported("", format!("cannot be encoded: {error}")))?;
+    written.map_err(|error| Fault::unsupported("", format!("cannot be encoded: {error}; check its size")))?;
     Ok(encoded)
 }

@@ -11,6 +11,7 @@ use super::libraries::MaterialLibraries;
 use crate::Error;
 use crate::error::Fault;
 use crate::gltf::{Document, LoadOptions};
+use crate::memory_limit::{self, MemoryLimit};
 
 /// An OBJ as a document, and what the document lacks.
 #[derive(Debug)]
@@ -23,9 +24,9 @@ pub struct ObjModel {
 
 /// Reads an OBJ with the material libraries and textures in its folder or below.
 ///
-/// Polygons become triangles; points and lines are left out. Errors: a file that cannot be read, is not an OBJ, has no faces, or is
-/// larger than a GLB can be.
-pub fn read(path: &Path) -> Result<ObjModel, Error> {
+/// Polygons become triangles; points and lines are left out. Errors: a file that cannot be read, is not an OBJ, or has no faces; more
+/// objects than `memory_limit` permits; a document larger than a GLB can be.
+pub fn read(path: &Path, memory_limit: MemoryLimit) -> Result<ObjModel, Error> {
     let shown = path.display().to_string();
     let invalid = |problem: String| Fault::invalid("", problem).in_file(&shown);
     let libraries = MaterialLibraries::new(folder_of(path)?);
@@ -38,6 +39,11 @@ pub fn read(path: &Path) -> Result<ObjModel, Error> {
         .and_then(|()| tobj::load_obj_buf(&mut text.as_bytes(), &options, |line| Ok(libraries.load(line))))
         .map_err(|error| invalid(format!("is not a valid OBJ ({error}); export it again")))?;
 
+    let limit = memory_limit.for_size(bytes.len());
+    if models.len().saturating_mul(memory_limit::BYTES_PER_PRIMITIVE) > limit {
+        let what = format!("has {} objects and groups, which need", models.len());
+        return Err(Fault::unsupported("", memory_limit::exceeded(&what, limit)).in_file(&shown));
+    }
     let (materials, mut warnings) = libraries.into_parts();
     let mut builder = DocumentBuilder::default();
     materials.iter().for_each(|material| builder.add_material(material));
@@ -48,7 +54,8 @@ pub fn read(path: &Path) -> Result<ObjModel, Error> {
     warnings.append(&mut builder.warnings);
     warnings.extend(incomplete_attributes(&models));
     let glb = builder.into_glb().map_err(|fault| fault.in_file(&shown))?;
-    let document = Document::from_bytes(&shown, glb, None, &LoadOptions::default())?;
+    let options = LoadOptions { memory_limit, ..LoadOptions::default() };
+    let document = Document::from_bytes(&shown, glb, None, &options)?;
     Ok(ObjModel { document, warnings })
 }
 

@@ -1,4 +1,4 @@
-//! `KHR_draco_mesh_compression`: primitives whose indices and some attributes are in one Draco stream.
+//! `KHR_draco_mesh_compression`: decodes primitives whose indices and attributes are in a Draco stream.
 
 use std::collections::{BTreeSet, HashMap};
 use std::panic;
@@ -8,7 +8,7 @@ use ::draco_core::{
 };
 use serde_json::value::RawValue;
 
-use super::{Budget, without_extension};
+use super::{DecodeBudget, without_extension};
 use crate::error::Fault;
 use crate::gltf::document::Document;
 use crate::gltf::elements::{Elements, Target};
@@ -17,12 +17,12 @@ use crate::gltf::schema::{Accessor, ComponentType, Draco, ElementType, Primitive
 
 const NAME: &str = "KHR_draco_mesh_compression";
 
-/// Where decoded accessors came from: buffer view, and Draco's id of the attribute or none for indices.
+/// The source of each decoded accessor: the buffer view, and Draco's identifier of the attribute, or none for indices.
 type Sources = HashMap<usize, (usize, Option<u32>)>;
 
 impl Document {
-    /// Decodes every compressed primitive; gives the accessors that were filled.
-    pub(super) fn decode_draco(&mut self, budget: &mut Budget) -> Result<BTreeSet<usize>, Fault> {
+    /// Decodes every compressed primitive. Returns the decoded accessors.
+    pub(super) fn decode_draco(&mut self, budget: &mut DecodeBudget) -> Result<BTreeSet<usize>, Fault> {
         let mut sources = Sources::new();
         for mesh in 0..self.root.meshes.len() {
             for i in 0..self.root.meshes[mesh].primitives.len() {
@@ -30,7 +30,7 @@ impl Document {
                 let Some(draco) = primitive.extensions.draco.clone() else { continue };
                 let at = format!("meshes[{mesh}].primitives[{i}]");
                 let wanted = wanted_accessors(primitive, &draco, &at)?;
-                if !self.is_there(&wanted, &draco, &sources, &at)? {
+                if !self.has_data(&wanted, &draco, &sources, &at)? {
                     self.decode_primitive(&wanted, &draco, budget, &mut sources, &at)?;
                 }
                 let text = self.primitive_text(mesh, i).unwrap_or_default();
@@ -45,43 +45,46 @@ impl Document {
         Ok(sources.into_keys().collect())
     }
 
-    /// Whether the accessors have their data already: as an uncompressed fallback, or since another primitive has the same.
-    fn is_there(
+    /// Whether the accessors have data already: an uncompressed fallback, or the same stream decoded for another primitive.
+    fn has_data(
         &self,
         wanted: &[(usize, Option<u32>)],
         draco: &Draco,
         sources: &Sources,
         at: &str,
     ) -> Result<bool, Fault> {
-        let mut there = 0;
+        let mut with_data = 0;
         for &(index, id) in wanted {
             let accessor = self.root.accessors.get(index).ok_or_else(|| {
                 Fault::invalid(at, format!("accessor {index} does not exist; export the file again"))
             })?;
             if sources.get(&index).is_some_and(|source| *source != (draco.buffer_view, id)) {
-                let problem = format!("accessor {index} has two compressed contents; export the file again");
+                let problem = format!("accessor {index} belongs to two Draco streams; export the file again");
                 return Err(Fault::invalid(at, problem));
             }
-            there += usize::from(accessor.buffer_view.is_some());
+            with_data += usize::from(accessor.buffer_view.is_some());
         }
-        if there > 0 && there < wanted.len() && !wanted.iter().any(|(index, _)| sources.contains_key(index)) {
-            let problem = "is uncompressed in parts only, whose order is unknown; export the file again";
+        if with_data > 0
+            && with_data < wanted.len()
+            && !wanted.iter().any(|(index, _)| sources.contains_key(index))
+        {
+            let problem = "is compressed in part only, so that the order of its vertices is unknown; export the file again";
             return Err(Fault::unsupported(at, problem));
         }
-        Ok(there == wanted.len())
+        Ok(with_data == wanted.len())
     }
 
     fn decode_primitive(
         &mut self,
         wanted: &[(usize, Option<u32>)],
         draco: &Draco,
-        budget: &mut Budget,
+        budget: &mut DecodeBudget,
         sources: &mut Sources,
         at: &str,
     ) -> Result<(), Fault> {
         let at = format!("{at}.extensions.{NAME}");
         let (stream, _) = self.view(draco.buffer_view, &format!("{at}.bufferView"))?;
-        let mesh = decode(stream, budget.0).map_err(|problem| {
+        let mesh = decode(stream, budget.left).map_err(|problem| {
             Fault::invalid(&at, format!("the stream cannot be decoded ({problem}); compress the file again"))
         })?;
         for &(index, id) in wanted {
@@ -108,7 +111,7 @@ impl Document {
         Ok(())
     }
 
-    /// Writes the new buffer views into the JSON of the decoded accessors.
+    /// Sets the new buffer views in the JSON of the decoded accessors.
     fn store_accessors(&mut self, sources: &Sources) -> serde_json::Result<()> {
         let array = member(self.text(), "accessors")?.unwrap_or("[]");
         let texts: Vec<&RawValue> = serde_json::from_str(array)?;
@@ -124,7 +127,7 @@ impl Document {
     }
 }
 
-/// The accessors that the stream fills, with Draco's id of each attribute and none for the indices.
+/// The accessors that a stream fills, with Draco's identifier of each attribute, or none for the indices.
 fn wanted_accessors(
     primitive: &Primitive,
     draco: &Draco,
@@ -132,14 +135,14 @@ fn wanted_accessors(
 ) -> Result<Vec<(usize, Option<u32>)>, Fault> {
     let unsupported = |problem: &str| Fault::unsupported(at, format!("{problem}; export the file again"));
     if primitive.mode != 4 {
-        return Err(unsupported("is compressed by Draco but is no triangle list"));
+        return Err(unsupported("is compressed by Draco but is not a triangle list"));
     }
     let indices =
         primitive.indices.ok_or_else(|| unsupported("is compressed by Draco but has no indices"))?;
     let mut wanted = vec![(indices, None)];
     for (name, &id) in &draco.attributes {
         let accessor = primitive.attributes.get(name).ok_or_else(|| {
-            Fault::invalid(at, format!("{name} is compressed but is no attribute; export the file again"))
+            Fault::invalid(at, format!("{name} is compressed but is not an attribute; export the file again"))
         })?;
         wanted.push((*accessor, Some(id)));
     }
@@ -148,7 +151,7 @@ fn wanted_accessors(
 
 fn decode(stream: &[u8], max_bytes: usize) -> Result<Mesh, String> {
     let limits = DecodeLimits::default().with_max_decoded_bytes(max_bytes as u64);
-    // The decoder has no panics that we know of; should hostile bytes find one, it costs this file, not the program.
+    // A panic of the decoder becomes an error of this file. None is known.
     let decoded = panic::catch_unwind(|| {
         let mut mesh = Mesh::new();
         let mut buffer = DecoderBuffer::new(stream).with_limits(limits);
@@ -160,7 +163,7 @@ fn decode(stream: &[u8], max_bytes: usize) -> Result<Mesh, String> {
 fn index_elements(mesh: &Mesh, accessor: &Accessor) -> Result<Elements, String> {
     let count = mesh.num_faces().saturating_mul(3);
     if count != accessor.count || accessor.element_type != ElementType::Scalar {
-        return Err(format!("{} indices are promised but the stream has {count}", accessor.count));
+        return Err(format!("the accessor has {} indices but the stream has {count}", accessor.count));
     }
     let size = accessor.component_type.size();
     let mut bytes = Vec::with_capacity(count * size);
@@ -180,7 +183,7 @@ fn attribute_elements(mesh: &Mesh, id: u32, accessor: &Accessor) -> Result<Eleme
         mesh.attribute_by_unique_id(id).ok_or_else(|| format!("the stream has no attribute {id}"))?;
     if mesh.num_points() != accessor.count {
         return Err(format!(
-            "{} elements are promised but the stream has {}",
+            "the accessor has {} elements but the stream has {}",
             accessor.count,
             mesh.num_points()
         ));
@@ -188,7 +191,7 @@ fn attribute_elements(mesh: &Mesh, id: u32, accessor: &Accessor) -> Result<Eleme
     let components = usize::from(attribute.num_components());
     if components != accessor.element_type.components() {
         return Err(format!(
-            "{} is promised but the stream has {components} components",
+            "the accessor is {} but the stream has {components} components",
             accessor.element_type.name()
         ));
     }
@@ -211,7 +214,7 @@ fn elements(accessor: &Accessor, bytes: Vec<u8>) -> Elements {
     Elements { bytes, count, component_type, element_type, normalized }
 }
 
-/// The bytes of an attribute at a point.
+/// The bytes of an attribute at a point, if the stream has them.
 fn stored(attribute: &PointAttribute, point: u32, size: usize) -> Option<&[u8]> {
     let start = (attribute.mapped_index(PointIndex(point)).0 as usize).checked_mul(size)?;
     attribute.buffer().data().get(start..start.checked_add(size)?)
@@ -229,19 +232,19 @@ fn same_type(from: DataType, to: ComponentType) -> bool {
     )
 }
 
-/// Integers as integers of another type, when they keep their values.
+/// Converts integers to another integer type. Errors: a value does not fit.
 fn convert(from: DataType, element: &[u8], to: ComponentType, out: &mut Vec<u8>) -> Result<(), String> {
     let is_signed = match from {
         DataType::Int8 | DataType::Int16 | DataType::Int32 => true,
         DataType::Uint8 | DataType::Uint16 | DataType::Uint32 => false,
-        _ => return Err(format!("{from:?} in the stream is not the promised component type")),
+        _ => return Err(format!("{from:?} in the stream is not the accessor's component type")),
     };
     for bytes in element.chunks_exact(from.byte_length()) {
         let unsigned = bytes.iter().rev().fold(0i64, |value, &byte| value << 8 | i64::from(byte));
         let wrap = 1i64 << (8 * bytes.len());
         let value = if is_signed && unsigned >= wrap / 2 { unsigned - wrap } else { unsigned };
         if !fits(to, value) {
-            return Err(format!("{value} in the stream does not fit the promised component type"));
+            return Err(format!("{value} in the stream does not fit the accessor's component type"));
         }
         out.extend_from_slice(&value.to_le_bytes()[..to.size()]);
     }

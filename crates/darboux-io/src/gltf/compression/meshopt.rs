@@ -1,17 +1,17 @@
-//! `EXT_meshopt_compression` and `KHR_meshopt_compression`: buffer views whose bytes are compressed.
+//! `EXT_meshopt_compression` and `KHR_meshopt_compression`: decodes compressed buffer views.
 //!
-//! The two differ in what their streams may use, not in their JSON: the second adds version 1 of the vertex codec and the
-//! colour filter. Streams name their version, so that one decoder serves both.
+//! The two extensions have the same JSON. The second permits version 1 of the vertex codec and the colour filter; a stream names its
+//! version, so that one decoder serves both.
 //!
-//! A compressed view refers to a buffer that would hold its decoded bytes, but mostly has none. We fill that buffer, so that
-//! views keep their places.
+//! A compressed view refers to a buffer for its decoded bytes, which usually has none. That buffer is filled, so that the offsets of
+//! views stay valid.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use ::meshopt as codec;
 use serde_json::value::RawValue;
 
-use super::{Budget, without_extension};
+use super::{DecodeBudget, without_extension};
 use crate::error::Fault;
 use crate::gltf::document::{BufferSource, Document};
 use crate::gltf::json_text::{member, set_member};
@@ -19,12 +19,12 @@ use crate::gltf::schema::{BufferView, Meshopt};
 
 const NAMES: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
 
-/// The most that the codecs can save: a quarter of a byte stands for up to 256 zeros.
+/// The greatest compression ratio of the codecs: a quarter of a byte encodes up to 256 zeros.
 const MAX_RATIO: usize = 1024;
 
 impl Document {
-    /// Decodes every compressed view; gives those that were decoded.
-    pub(super) fn decode_meshopt(&mut self, budget: &mut Budget) -> Result<BTreeSet<usize>, Fault> {
+    /// Decodes every compressed view without a fallback. Returns the decoded views.
+    pub(super) fn decode_meshopt(&mut self, budget: &mut DecodeBudget) -> Result<BTreeSet<usize>, Fault> {
         let mut views = BTreeSet::new();
         if self.root.buffer_views.iter().all(|view| view.extensions.meshopt.is_none()) {
             return Ok(views);
@@ -41,8 +41,8 @@ impl Document {
                 decoded.entry(view.buffer).or_default().push((view.byte_offset, bytes));
             }
         }
-        for (buffer, segments) in decoded {
-            self.fill_buffer(buffer, &segments, budget)?;
+        for (buffer, ranges) in decoded {
+            self.fill_buffer(buffer, &ranges, budget)?;
         }
         self.remove_meshopt().map_err(|error| Fault::invalid("bufferViews", error.to_string()))?;
         Ok(views)
@@ -52,16 +52,17 @@ impl Document {
         &self,
         view: &BufferView,
         compressed: &Meshopt,
-        budget: &mut Budget,
+        budget: &mut DecodeBudget,
         at: &str,
     ) -> Result<Vec<u8>, Fault> {
         let Meshopt { buffer, byte_offset, byte_length, byte_stride: stride, count, .. } = *compressed;
         let broken = |problem: String| Fault::invalid(at, format!("{problem}; compress the file again"));
-        let stream = self.buffer_range(buffer, byte_offset, byte_length, at)?;
+        // A copy: the decoder is written in C++, and the bytes of a mapped file could change under it.
+        let stream = &self.buffer_range(buffer, byte_offset, byte_length, at)?.to_vec();
         let length =
             count.checked_mul(stride).filter(|&length| length == view.byte_length).ok_or_else(|| {
                 broken(format!(
-                    "{count} elements of {stride} bytes are not the view's {} bytes",
+                    "{count} elements of {stride} bytes are not the {} bytes of the view",
                     view.byte_length
                 ))
             })?;
@@ -73,34 +74,34 @@ impl Document {
         decode(&compressed.mode, filter, stride, stream, count).ok_or_else(|| {
             let mode = &compressed.mode;
             broken(format!(
-                "the stream is broken, or cannot be {mode:?} of {stride} bytes with filter {filter:?}"
+                "the stream is broken, or is not of mode {mode:?} with elements of {stride} bytes and filter {filter:?}"
             ))
         })
     }
 
-    /// Gives a buffer without bytes the decoded ones.
+    /// Fills a buffer without bytes with decoded ones.
     fn fill_buffer(
         &mut self,
         buffer: usize,
-        segments: &[(usize, Vec<u8>)],
-        budget: &mut Budget,
+        ranges: &[(usize, Vec<u8>)],
+        budget: &mut DecodeBudget,
     ) -> Result<(), Fault> {
         let at = format!("buffers[{buffer}]");
         let invalid = |problem: &str| Fault::invalid(&at, format!("{problem}; compress the file again"));
         let declared = self.root.buffers.get(buffer).map(|buffer| buffer.byte_length);
-        let ends = segments.iter().map(|(offset, bytes)| offset.saturating_add(bytes.len()));
+        let ends = ranges.iter().map(|(offset, bytes)| offset.saturating_add(bytes.len()));
         let length = ends.max().unwrap_or(0);
         if declared.is_none_or(|declared| length > declared) {
             return Err(invalid("is shorter than the buffer views in it, or does not exist"));
         }
-        // Zeros between the segments need no backing in the file, so that they must be few.
-        let backed: usize = segments.iter().map(|(_, bytes)| bytes.len()).sum();
-        if length > backed.saturating_mul(2).saturating_add(1 << 16) {
-            return Err(invalid("has more space between the buffer views in it than they need themselves"));
+        // The gaps between the decoded ranges have no bytes in the file, so that their size must be limited.
+        let decoded: usize = ranges.iter().map(|(_, bytes)| bytes.len()).sum();
+        if length > decoded.saturating_mul(2).saturating_add(1 << 16) {
+            return Err(invalid("has larger gaps between its buffer views than the views themselves"));
         }
         budget.spend(length, &at)?;
         let mut content = vec![0; length];
-        for (offset, bytes) in segments {
+        for (offset, bytes) in ranges {
             content[*offset..offset + bytes.len()].copy_from_slice(bytes);
         }
         self.root.buffers[buffer].byte_length = length;
@@ -164,7 +165,7 @@ fn words_to_bytes(values: Vec<u32>) -> Vec<u8> {
     values.into_iter().flat_map(u32::to_le_bytes).collect()
 }
 
-/// An element of `N` bytes: the decoder takes its stride from a type.
+/// An element of `N` bytes. The decoder takes its stride from a type.
 #[derive(Clone, Copy)]
 struct Element<const N: usize>([u8; N]);
 
@@ -196,7 +197,7 @@ fn decode_attributes(stride: usize, stream: &[u8], count: usize) -> Option<Vec<u
         232 236 240 244 248 252 256)
 }
 
-/// Undoes a filter. None: it cannot be used with that stride.
+/// Undoes a filter. None: the filter does not support this stride.
 fn filtered(filter: &str, stride: usize, mut bytes: Vec<u8>) -> Option<Vec<u8>> {
     match (filter, stride) {
         ("NONE", _) => return Some(bytes),

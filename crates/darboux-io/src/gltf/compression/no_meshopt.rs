@@ -1,19 +1,19 @@
-//! Without the feature `meshopt`.
+//! Refuses files compressed with meshoptimizer when the feature `meshopt` is off.
 
 use std::collections::BTreeSet;
 
-use super::Budget;
+use super::DecodeBudget;
 use crate::error::Fault;
 use crate::gltf::document::Document;
 
 impl Document {
-    /// Errors: there is a compressed view.
-    pub(super) fn decode_meshopt(&mut self, _budget: &mut Budget) -> Result<BTreeSet<usize>, Fault> {
+    /// Errors: the document has a compressed buffer view.
+    pub(super) fn decode_meshopt(&mut self, _budget: &mut DecodeBudget) -> Result<BTreeSet<usize>, Fault> {
         match self.root.buffer_views.iter().position(|view| view.extensions.meshopt.is_some()) {
             None => Ok(BTreeSet::new()),
             Some(view) => Err(Fault::unsupported(
                 format!("bufferViews[{view}].extensions"),
-                "is compressed with meshoptimizer, which cannot be read here; use the command `darboux`, or decompress the file",
+                "is compressed with meshoptimizer, which this build cannot decode; use the command `darboux`, or decompress the file",
             )),
         }
     }

@@ -1,36 +1,35 @@
-//! Small files that ask for much: accessors over the same bytes, again and again.
+//! Checks of memory before corners are computed and bytes are written.
+//!
+//! Accessors may read the same bytes again and again, so that a small file can ask for any amount of work.
 
 use crate::Error;
+use crate::error::Fault;
 use crate::gltf::Document;
+use crate::memory_limit::{self, BYTES_PER_CORNER};
 
-/// How many corners, or bytes written, each byte of a document may ask for. Real ones stay below 4, however much they share.
-const MOST_PER_BYTE: usize = 16;
-
-/// What a document of any size may ask for.
-const ALWAYS_ALLOWED: usize = 1 << 20;
-
-fn limit(document: &Document) -> usize {
-    document.stored_bytes().saturating_mul(MOST_PER_BYTE).saturating_add(ALWAYS_ALLOWED)
+/// Checks the corners of triangles that are to be computed, given as triangles per primitive.
+///
+/// Errors: their computation needs more than the memory limit.
+pub fn check_triangles(document: &Document, counts: impl Iterator<Item = usize>) -> Result<(), Error> {
+    let triangles = counts.fold(0, usize::saturating_add);
+    check(document, triangles.saturating_mul(3 * BYTES_PER_CORNER), "have so many corners that they need")
 }
 
-/// Errors: more corners in all these triangles than the document has room for.
-pub fn check_triangles(document: &Document, mut counts: impl Iterator<Item = usize>) -> Result<(), Error> {
-    let corners = counts.try_fold(0usize, |sum, count| sum.checked_add(count.checked_mul(3)?));
-    if corners.unwrap_or(usize::MAX) <= limit(document) { Ok(()) } else { Err(refused(document)) }
-}
-
-/// Errors: more bytes written than the document's size explains.
+/// Checks the bytes that are to be written. Errors: they are more than the memory limit.
 pub fn check_output(document: &Document) -> Result<(), Error> {
     check_more_output(document, 0)
 }
 
-/// As [`check_output`], with bytes that are yet to be written.
+/// As [`check_output`], with bytes that have not been added to the document yet.
 pub fn check_more_output(document: &Document, bytes: usize) -> Result<(), Error> {
     let written = document.edits.new_byte_count.saturating_add(bytes);
-    if written <= limit(document) { Ok(()) } else { Err(refused(document)) }
+    check(document, written, "share bytes so often that the result needs")
 }
 
-fn refused(document: &Document) -> Error {
-    let problem = "so many accessors read the same bytes that what is computed would dwarf the file; export the file again";
-    document.invalid("accessors", problem)
+fn check(document: &Document, bytes: usize, what: &str) -> Result<(), Error> {
+    let limit = document.memory_limit();
+    if bytes <= limit {
+        return Ok(());
+    }
+    Err(Fault::unsupported("accessors", memory_limit::exceeded(what, limit)).in_file(document.name()))
 }

@@ -1,0 +1,54 @@
+//! A limit on the memory that reading or processing a file may take, so that a small file cannot ask for all of it.
+//!
+//! Compressed data, accessors over the same bytes, and lists of tiny primitives can need a thousand times the size of their file. Each
+//! such request is estimated and compared with the limit before memory is allocated.
+
+/// The most bytes that a file's content may take in memory. The default is 256 MiB and 64 times the size of the file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MemoryLimit(Option<u64>);
+
+/// The default limit of an empty file.
+const BASE: usize = 256 << 20;
+
+/// What the default limit grows by for each byte of the file. Draco and meshopt compress honest meshes to a twentieth and less.
+const PER_BYTE: usize = 64;
+
+/// What the default limit grows by for each byte that was decompressed. A corner has about ten such bytes.
+const PER_DECOMPRESSED_BYTE: usize = 8;
+
+/// The estimate for a corner whose tangents or normals are computed.
+pub const BYTES_PER_CORNER: usize = 64;
+
+/// The estimate for a primitive: its text, its parsed form, and its report.
+pub const BYTES_PER_PRIMITIVE: usize = 4096;
+
+impl MemoryLimit {
+    /// A limit of `bytes` for files of any size.
+    pub const fn bytes(bytes: u64) -> Self {
+        Self(Some(bytes))
+    }
+
+    /// The limit for a file of `size` bytes.
+    pub(crate) fn for_size(self, size: usize) -> usize {
+        self.for_sizes(size, 0)
+    }
+
+    /// The limit for a file of `size` bytes of which `decompressed` bytes were made.
+    pub(crate) fn for_sizes(self, size: usize, decompressed: usize) -> usize {
+        match self.0 {
+            Some(bytes) => usize::try_from(bytes).unwrap_or(usize::MAX),
+            None => size
+                .saturating_mul(PER_BYTE)
+                .saturating_add(decompressed.saturating_mul(PER_DECOMPRESSED_BYTE))
+                .saturating_add(BASE),
+        }
+    }
+}
+
+/// What is wrong with a file that asks for more than `limit`, and what to do. `what` is a clause such as `decompresses to`.
+pub fn exceeded(what: &str, limit: usize) -> String {
+    let limit = limit.div_ceil(1 << 20);
+    format!(
+        "{what} more than the memory limit of {limit} MiB; if you trust the file, raise the limit (--memory-limit)"
+    )
+}
