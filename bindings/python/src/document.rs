@@ -49,7 +49,8 @@ pub struct Document {
 #[pyfunction]
 #[pyo3(signature = (path, *, allow_outside=false))]
 pub fn load(py: Python<'_>, path: PathBuf, allow_outside: bool) -> PyResult<Document> {
-    let document = py.detach(|| gltf::Document::open(&path, &LoadOptions { allow_outside }));
+    let document =
+        py.detach(|| gltf::Document::open(&path, &LoadOptions { allow_outside, ..LoadOptions::default() }));
     Ok(Document { document: document.map_err(file_error)?, is_half_done: false })
 }
 

@@ -5,17 +5,18 @@ use std::path::Path;
 
 use darboux::Convention;
 use darboux_io::Error;
-use darboux_io::gltf::{Document, LoadOptions};
+use darboux_io::gltf::Document;
 
 use crate::batch::plan::Output;
 use crate::batch::report::Status;
 use crate::inputs::Input;
 use crate::interrupt;
 use crate::options::files::FileOptions;
+use crate::options::reading::ReadOptions;
 
 /// Reads a document and refuses one whose vertices are not in glTF's convention.
-pub fn load(input: &Input, allow_outside: bool) -> Result<Document, String> {
-    let document = load_any(input, allow_outside)?;
+pub fn load(input: &Input, reading: &ReadOptions) -> Result<Document, String> {
+    let document = load_any(input, reading)?;
     let convention = document.convention().map_err(|error| error.to_string())?;
     if convention == Convention::GLTF {
         return Ok(document);
@@ -29,16 +30,17 @@ pub fn load(input: &Input, allow_outside: bool) -> Result<Document, String> {
 }
 
 /// Reads a document in any convention. Standard input has no folder, so its buffers must be embedded.
-pub fn load_any(input: &Input, allow_outside: bool) -> Result<Document, String> {
-    let options = LoadOptions { allow_outside };
+pub fn load_any(input: &Input, reading: &ReadOptions) -> Result<Document, String> {
     let document = match input {
         Input::File(path) if path.is_file() && is_other_format(path) => {
             return Err(format!(
                 "{input}: only glTF files are read here; export it as .glb from the program that made it (darboux view and darboux render show an OBJ as it is)"
             ));
         }
-        Input::File(path) => Document::open(path, &options),
-        Input::Stdin => Document::from_bytes(&input.to_string(), read_stdin()?, None, &options),
+        Input::File(path) => reading.open(path),
+        Input::Stdin => {
+            Document::from_bytes(&input.to_string(), read_stdin()?, None, &reading.load_options())
+        }
     };
     document.map_err(|error| error.to_string())
 }

@@ -5,4 +5,5 @@ pub mod convention;
 pub mod files;
 pub mod messages;
 pub mod method;
+pub mod reading;
 pub mod shading;

@@ -29,8 +29,9 @@ fn glb_of(words: &[u32], json: &str) -> Vec<u8> {
 #[test]
 fn containers() {
     const JSON: u32 = 0x4E4F_534A;
-    refused(parse(""), "x.gltf: is empty; give a .glb or .gltf file");
-    refused(parse("PK\x03\x04"), "is neither a GLB nor glTF's JSON");
+    refused(parse(""), "x.gltf: is empty; give a .gltf or .glb file");
+    refused(parse("PK\x03\x04"), "is neither glTF nor GLB");
+    refused(parse("glTF, once upon a time"), "is neither glTF nor GLB");
     refused(parse("glTF\x02\0"), "is cut off within the GLB header");
     refused(parse(glb_of(&[1, 12], "")), "is a GLB of version 1; convert it to glTF 2.0");
     refused(parse(glb_of(&[2, 99], "")), "the GLB header says 99 bytes but there are 12");
@@ -241,7 +242,9 @@ fn images_outside_are_left_alone() {
     let json = json!({"asset": {"version": "2.0"}, "images": [{"uri": "../secret.png"}]});
     let path = folder.path().join("in/a.gltf");
     fs::write(&path, json.to_string()).unwrap();
-    let read = |allow_outside| Document::open(&path, &LoadOptions { allow_outside, ..LoadOptions::default() }).unwrap();
+    let read = |allow_outside| {
+        Document::open(&path, &LoadOptions { allow_outside, ..LoadOptions::default() }).unwrap()
+    };
     assert!(read(false).warnings()[0].contains("images[0].uri: \"../secret.png\" lies outside"));
     assert!(json_of(&read(false).to_glb().unwrap()).contains("../secret.png"));
     assert!(read(true).to_glb().unwrap().windows(7).any(|bytes| bytes == b" secret"));

@@ -74,5 +74,5 @@ fn gaps_between_views_do_not_add_up() {
     };
     assert_eq!(decode(&[0, 8, 4]), Ok(()));
     let error = decode(&[0, 60 << 20, 120 << 20]).expect_err("gaps");
-    assert!(error.starts_with("model: buffers[1]: has more space between"), "{error}");
+    assert!(error.starts_with("model: buffers[1]: has larger gaps between"), "{error}");
 }

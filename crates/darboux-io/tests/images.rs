@@ -190,8 +190,8 @@ fn what_cannot_be_converted_to_the_bit_is_refused_with_a_reason() {
         (b"GIF89a".to_vec(), "not a PNG"),
         (png(ColorType::Rgb, BitDepth::Eight)[..100].to_vec(), "ends within a chunk"),
         (claiming(u32::MAX >> 1), "too short for"),
-        (claiming(65), "no whole PNG"),
-        (claiming(0), "no whole PNG"),
+        (claiming(65), "not a complete PNG"),
+        (claiming(0), "not a complete PNG"),
     ];
     for (file, part) in cases {
         let error =

@@ -3,7 +3,7 @@
 mod support;
 
 use darboux::{MikktOptions, Mode, TangentOptions};
-use darboux_io::gltf::{Progress, TangentsOptions, add_tangents, inspect};
+use darboux_io::gltf::{LoadOptions, Progress, TangentsOptions, add_tangents, inspect};
 use gltf::Semantic;
 use gltf::mesh::Mode as Topology;
 use serde_json::json;
@@ -454,7 +454,9 @@ fn broken_primitives_are_errors_that_name_them() {
         let mut primitive = json!({"attributes": attributes, "indices": builder.indices(&SQUARE)});
         change(&mut builder, &mut primitive);
         builder.mesh(&[primitive]);
-        let result = add_tangents(&mut builder.build(), &TangentsOptions::default(), &mut |_| {});
+        let result = builder
+            .read(&LoadOptions::default())
+            .and_then(|mut document| add_tangents(&mut document, &TangentsOptions::default(), &mut |_| {}));
         result.unwrap_err().to_string()
     };
     let out_of_range = error(|builder, primitive| primitive["indices"] = builder.indices(&[0, 1, 4]).into());
@@ -467,9 +469,13 @@ fn broken_primitives_are_errors_that_name_them() {
     });
     assert!(short.starts_with("test.gltf: meshes[0].primitives[0]: normals has 3 elements"), "{short}");
     let missing = error(|_, primitive| primitive["indices"] = 99.into());
-    assert!(missing.starts_with("test.gltf: accessors[99]"), "{missing}");
+    let sentence = "test.gltf: meshes[0].primitives[0].indices: accessor 99 does not exist: there are 4";
+    assert!(missing.starts_with(sentence), "{missing}");
     let material = error(|_, primitive| primitive["material"] = 7.into());
-    assert!(material.contains("its material 7 does not exist"), "{material}");
+    assert!(
+        material.contains("primitives[0].material: material 7 does not exist: there are 0"),
+        "{material}"
+    );
     let mode = error(|_, primitive| primitive["mode"] = 9.into());
     assert!(mode.starts_with("test.gltf: meshes[0].primitives[0].mode: 9 is no mode"), "{mode}");
     let wrong = error(|_, primitive| {

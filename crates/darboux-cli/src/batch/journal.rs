@@ -11,8 +11,8 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
+use crate::options::reading::ReadOptions;
 use darboux_io::RunId;
-use darboux_io::gltf::{Document, LoadOptions};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use walkdir::WalkDir;
@@ -62,16 +62,16 @@ pub struct Origin {
 
 impl Origin {
     /// The current origin of an output of `input`. Errors: a file cannot be read.
-    pub fn new(command: &str, options: String, input: &Path, allow_outside: bool) -> Result<Self, String> {
-        let content = content_of(input, allow_outside)
+    pub fn new(command: &str, options: String, input: &Path, reading: &ReadOptions) -> Result<Self, String> {
+        let content = content_of(input, reading)
             .map_err(|(file, error)| format!("{}: cannot be read: {error}", file.display()))?;
         Ok(Self { command: command.into(), version: VERSION.into(), options, content })
     }
 }
 
 /// Hashes the hashes of a model and of all files that it refers to, or the file alone if it is no readable model.
-fn content_of(input: &Path, allow_outside: bool) -> Result<String, (PathBuf, io::Error)> {
-    let document = Document::open(input, &LoadOptions { allow_outside });
+fn content_of(input: &Path, reading: &ReadOptions) -> Result<String, (PathBuf, io::Error)> {
+    let document = reading.open(input);
     let files = document.map_or_else(|_| vec![input.to_owned()], |document| document.source_files());
     let mut all = blake3::Hasher::new();
     for file in files {

@@ -72,10 +72,10 @@ fn compare(arguments: &CompareArguments, messages: &Messages) -> Result<CompareR
     messages.start(inputs.iter().map(Input::byte_length).sum());
     let begun = |input: &Input| messages.file(&input.to_string(), input.byte_length());
     let progress = begun(&inputs[0]);
-    let mut first = load(&inputs[0], arguments.allow_outside)?;
+    let mut first = load(&inputs[0], &arguments.reading)?;
     drop(progress);
     let progress = begun(&inputs[1]);
-    let mut second = load(&inputs[1], arguments.allow_outside)?;
+    let mut second = load(&inputs[1], &arguments.reading)?;
     if let Some(path) = &arguments.heat_map {
         refuse_used(path, [&first, &second])?;
     }

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use darboux::Convention;
 use darboux_io::FileKind;
-use darboux_io::gltf::{ConversionSummary, Document, LoadOptions, Progress, convert_vertices};
+use darboux_io::gltf::{ConversionSummary, Document, Progress, convert_vertices};
 use darboux_io::image::{PngImage, convert_normal_map, count_no_normals};
 use serde::Serialize;
 
@@ -87,13 +87,15 @@ impl FileCommand for ConvertArguments {
         progress: &FileProgress<'_>,
     ) -> Result<ProcessedFile<ConvertSummary>, String> {
         let sentence = |error: darboux_io::Error| error.to_string();
+        let limit = self.files.reading.memory_limit();
         match &job.input {
             Input::Stdin => {
                 let (name, bytes) = (job.input.to_string(), read_stdin()?);
                 if PngImage::is_png(&bytes) {
-                    return self.image(PngImage::from_bytes(&name, bytes).map_err(sentence)?, &job.output);
+                    return self
+                        .image(PngImage::from_bytes(&name, bytes, limit).map_err(sentence)?, &job.output);
                 }
-                let options = LoadOptions { allow_outside: self.files.allow_outside };
+                let options = self.files.reading.load_options();
                 self.model(
                     Document::from_bytes(&name, bytes, None, &options).map_err(sentence)?,
                     job,
@@ -101,13 +103,13 @@ impl FileCommand for ConvertArguments {
                 )
             }
             Input::File(path) if is_png(path) || starts_as_png(path) => {
-                self.image(PngImage::open(path).map_err(sentence)?, &job.output)
+                self.image(PngImage::open(path, limit).map_err(sentence)?, &job.output)
             }
             Input::File(path) if FileKind::of(path) == Some(FileKind::OtherImage) => Err(format!(
                 "{}: only PNG files are converted, which keep every texel; save it as one",
                 path.display()
             )),
-            Input::File(_) => self.model(load_any(&job.input, self.files.allow_outside)?, job, progress),
+            Input::File(_) => self.model(load_any(&job.input, &self.files.reading)?, job, progress),
         }
     }
 

@@ -12,6 +12,7 @@ use crate::documents::load;
 use crate::exit;
 use crate::inputs::{Input, SearchMode, UsageError, check_stdin, find_inputs};
 use crate::json::{VERSION, to_json};
+use crate::options::reading::ReadOptions;
 use crate::terminal::{Messages, write_stdout};
 use arguments::InspectArguments;
 use report::{InspectReport, InspectedFile};
@@ -26,7 +27,7 @@ pub fn run(arguments: &InspectArguments) -> u8 {
     let found = find_inputs(&arguments.inputs, SearchMode::All);
     let mut files: Vec<InspectedFile> = Vec::new();
     for (input, _) in &found.files {
-        files.push(look(input, arguments.allow_outside));
+        files.push(look(input, &arguments.reading));
     }
     files.extend(found.failed.iter().map(|(path, reason)| {
         let path = path.display().to_string();
@@ -58,8 +59,8 @@ fn tell(files: &[InspectedFile], messages: &Messages) -> u8 {
     if errors.is_empty() { exit::DONE } else { exit::FAILED }
 }
 
-fn look(input: &Input, allow_outside: bool) -> InspectedFile {
-    let looked = load(input, allow_outside).and_then(|mut document| {
+fn look(input: &Input, reading: &ReadOptions) -> InspectedFile {
+    let looked = load(input, reading).and_then(|mut document| {
         let primitives = inspect(&mut document).map_err(|error| error.to_string())?;
         Ok(InspectedFile {
             input: input.to_string(),

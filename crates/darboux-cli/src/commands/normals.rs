@@ -49,7 +49,7 @@ impl FileCommand for NormalsArguments {
         job: &Job,
         progress: &FileProgress<'_>,
     ) -> Result<ProcessedFile<NormalsSummary>, String> {
-        let mut document = load(&job.input, self.files.allow_outside)?;
+        let mut document = load(&job.input, &self.files.reading)?;
         let mut on_progress = |Progress { done, total }: Progress| progress.set(done, total);
         let mut summary = add_normals(&mut document, &normals_options(self), &mut on_progress)
             .map_err(|error| error.to_string())?;

@@ -68,7 +68,7 @@ impl FileCommand for TangentsArguments {
     ) -> Result<ProcessedFile<TangentsSummary>, String> {
         let sentence = |error: darboux_io::Error| error.to_string();
         let mut device = TangentDevice::new(self.device)?;
-        let mut document = load(&job.input, self.files.allow_outside)?;
+        let mut document = load(&job.input, &self.files.reading)?;
         let mut warnings = document.warnings().to_vec();
         let mut normals = None;
         if let Some(options) = self.normals.options() {

@@ -28,8 +28,11 @@ pub fn run(arguments: &ViewArguments) -> u8 {
 }
 
 fn serve(arguments: &ViewArguments, messages: &Messages) -> Result<(), String> {
-    let model =
-        arguments.model.as_deref().map(|path| Model::find(path, arguments.allow_outside)).transpose()?;
+    let model = arguments
+        .model
+        .as_deref()
+        .map(|path| Model::find(path, arguments.reading.load_options()))
+        .transpose()?;
     let page = Page::find(arguments.page.as_deref())?;
     let server = Server::start(page, model, secret()?)?;
     let address = server.address();

@@ -7,6 +7,8 @@ use std::path::PathBuf;
 use clap::{ArgGroup, Args};
 use darboux_io::{RunId, SaveOptions};
 
+use super::reading::ReadOptions;
+
 /// Which files are read, and where their outputs go.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("destination").args(["output", "out_dir", "in_place"]))]
@@ -45,9 +47,8 @@ pub struct FileOptions {
     #[arg(long, value_name = "NUMBER", default_value = "1", value_parser = jobs, help_heading = "Output")]
     pub jobs: NonZero<u16>,
 
-    /// Allow buffers and images outside the input's folder
-    #[arg(long, help_heading = "Input")]
-    pub allow_outside: bool,
+    #[command(flatten, next_help_heading = "Input")]
+    pub reading: ReadOptions,
 
     /// Identifies this run in the journal of --resume.
     #[arg(skip = new_run())]

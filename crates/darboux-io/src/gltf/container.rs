@@ -1,4 +1,4 @@
-//! The two containers: a GLB's header and chunks, or bare JSON.
+//! The two containers of glTF: JSON text, and GLB with a header and chunks.
 
 use std::ops::Range;
 
@@ -10,26 +10,26 @@ const JSON: u32 = 0x4E4F_534A;
 const BIN: u32 = 0x004E_4942;
 const BOM: &[u8] = b"\xEF\xBB\xBF";
 
-/// Where the parts of a file are.
+/// The ranges of a file's parts.
 #[derive(Clone, Debug)]
 pub struct Container {
     /// Whether the file is a GLB.
     pub is_glb: bool,
-    /// The JSON text, without byte order mark and padding.
+    /// The JSON text, without its byte order mark and padding.
     pub json: Range<usize>,
-    /// The binary chunk's content.
+    /// The content of the binary chunk.
     pub bin: Option<Range<usize>>,
-    /// Chunks of other types: type and content.
+    /// The type and content of other chunks.
     pub other_chunks: Vec<(u32, Range<usize>)>,
 }
 
 impl Container {
-    /// The byte order mark before bare JSON, where there was one.
+    /// The byte order mark before JSON text, if there is one.
     pub fn mark(&self) -> Option<&'static [u8]> {
         (!self.is_glb && self.json.start > 0).then_some(BOM)
     }
 
-    /// Finds the parts of `file`; its first bytes decide what it is.
+    /// Finds the parts of a file. Its first bytes decide between the containers.
     pub fn parse(file: &[u8]) -> Result<Self, Fault> {
         if file.starts_with(MAGIC) {
             return parse_glb(file);
@@ -37,11 +37,16 @@ impl Container {
         let start = if file.starts_with(BOM) { BOM.len() } else { 0 };
         let first = file[start..].iter().find(|byte| !byte.is_ascii_whitespace());
         if first != Some(&b'{') {
-            let what = if file.is_empty() { "is empty" } else { "is neither a GLB nor glTF's JSON" };
-            return Err(Fault::invalid("", format!("{what}; give a .glb or .gltf file of glTF 2.0")));
+            return Err(unknown_format(if file.is_empty() { "is empty" } else { NEITHER }));
         }
         Ok(Self { is_glb: false, json: start..file.len(), bin: None, other_chunks: Vec::new() })
     }
+}
+
+const NEITHER: &str = "is neither glTF nor GLB";
+
+fn unknown_format(what: &str) -> Fault {
+    Fault::invalid("", format!("{what}; give a .gltf or .glb file of glTF 2.0"))
 }
 
 fn parse_glb(file: &[u8]) -> Result<Container, Fault> {
@@ -49,8 +54,10 @@ fn parse_glb(file: &[u8]) -> Result<Container, Fault> {
     let (Some(version), Some(length)) = (word(file, 4), word(file, 8)) else {
         return Err(broken("is cut off within the GLB header".into()));
     };
-    if version != 2 {
-        return Err(Fault::invalid("", format!("is a GLB of version {version}; convert it to glTF 2.0")));
+    match version {
+        2 => {}
+        1 => return Err(Fault::invalid("", "is a GLB of version 1; convert it to glTF 2.0")),
+        _ => return Err(unknown_format(NEITHER)),
     }
     if length as usize != file.len() {
         return Err(broken(format!("the GLB header says {length} bytes but there are {}", file.len())));
@@ -84,7 +91,7 @@ fn parse_glb(file: &[u8]) -> Result<Container, Fault> {
     Ok(container)
 }
 
-/// The length of `json` without the spaces, and the zeros of careless exporters, at its end.
+/// The length of `json` without the spaces at its end, or the zeros that some exporters write instead.
 fn unpadded(json: &[u8]) -> usize {
     json.iter().rposition(|&byte| byte != b' ' && byte != 0).map_or(0, |at| at + 1)
 }
@@ -93,9 +100,7 @@ fn word(file: &[u8], at: usize) -> Option<u32> {
     Some(u32::from_le_bytes(*file.get(at..)?.first_chunk()?))
 }
 
-/// A GLB of `json`, the binary chunk `bin` and further chunks.
-///
-/// Error: more than the 4 GiB that a GLB can hold.
+/// A GLB of `json`, the binary chunk `bin` and other chunks. Errors: more than the 4 GiB that a GLB can hold.
 pub fn glb<'a>(
     json: String,
     bin: Option<Vec<Segment<'a>>>,

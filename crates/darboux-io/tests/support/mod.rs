@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "every test binary uses its own part")]
 
 use darboux::{Convention, Mesh, TangentOptions, generate_tangents};
+use darboux_io::Error;
 use darboux_io::gltf::{Document, LoadOptions, Outcome, Summary, TangentsOptions, Written, add_tangents};
 use serde_json::{Value, json};
 
@@ -87,13 +88,18 @@ impl Builder {
         self.json[key] = value;
     }
 
-    pub fn build(mut self) -> Document {
+    pub fn build(self) -> Document {
+        self.read(&LoadOptions::default()).unwrap()
+    }
+
+    /// Reads the document.
+    pub fn read(mut self, options: &LoadOptions) -> Result<Document, Error> {
         use base64::Engine;
         let data = base64::engine::general_purpose::STANDARD.encode(&self.bytes);
         let uri = format!("data:application/octet-stream;base64,{data}");
         self.json["buffers"] = json!([{"byteLength": self.bytes.len(), "uri": uri}]);
         let text = self.json.to_string().into_bytes();
-        Document::from_bytes("test.gltf", text, None, &LoadOptions::default()).unwrap()
+        Document::from_bytes("test.gltf", text, None, options)
     }
 }
 

@@ -7,6 +7,7 @@ use clap::{ArgGroup, Args};
 use crate::options::angle::degrees;
 use crate::options::messages::MessageOptions;
 use crate::options::method::MethodName;
+use crate::options::reading::ReadOptions;
 
 pub const ABOUT: &str = "\
 Compare the tangents of two files of one model, or of a file with those of a method.
@@ -56,9 +57,8 @@ pub struct CompareArguments {
     #[arg(long, requires = "heat_map")]
     pub force: bool,
 
-    /// Allow buffers and images outside the inputs' folders
-    #[arg(long)]
-    pub allow_outside: bool,
+    #[command(flatten)]
+    pub reading: ReadOptions,
 
     #[command(flatten)]
     pub messages: MessageOptions,

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::options::messages::MessageOptions;
+use crate::options::reading::ReadOptions;
 
 pub const ABOUT: &str = "\
 Show what each primitive holds and what its tangents would meet.
@@ -25,9 +26,8 @@ pub struct InspectArguments {
     #[arg(required = true, value_name = "FILE")]
     pub inputs: Vec<PathBuf>,
 
-    /// Allow buffers and images outside the input's folder
-    #[arg(long)]
-    pub allow_outside: bool,
+    #[command(flatten)]
+    pub reading: ReadOptions,
 
     #[command(flatten)]
     pub messages: MessageOptions,

@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 
 use crate::options::messages::MessageOptions;
 use crate::options::method::MethodName;
+use crate::options::reading::ReadOptions;
 
 pub const ABOUT: &str = "\
 Draw a model or its tangents into a PNG, without a window.
@@ -106,9 +107,8 @@ pub struct RenderArguments {
     #[arg(long)]
     pub force: bool,
 
-    /// Allow buffers and images outside the model's folder
-    #[arg(long)]
-    pub allow_outside: bool,
+    #[command(flatten)]
+    pub reading: ReadOptions,
 
     #[command(flatten)]
     pub messages: MessageOptions,

@@ -200,10 +200,11 @@ fn open(arguments: &RenderArguments, source: Option<TangentSource>) -> Result<Lo
     let is_obj = arguments.model.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj"));
     let (mut document, warnings) = match is_obj {
         true => {
-            let model = darboux_io::obj::read(&arguments.model).map_err(sentence)?;
+            let model = darboux_io::obj::read(&arguments.model, arguments.reading.memory_limit())
+                .map_err(sentence)?;
             (model.document, model.warnings)
         }
-        false => (load(&Input::File(arguments.model.clone()), arguments.allow_outside)?, Vec::new()),
+        false => (load(&Input::File(arguments.model.clone()), &arguments.reading)?, Vec::new()),
     };
     let flat = NormalOptions { shading: Shading::Flat, ..NormalOptions::default() };
     let flat = NormalsOptions { normals: flat, ..NormalsOptions::default() };

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::options::reading::ReadOptions;
+
 pub const ABOUT: &str = "\
 Show a model in the browser: normal-mapped, split between two sources of tangents, with its frames, signs, seams and a report.
 
@@ -29,9 +31,8 @@ pub struct ViewArguments {
     #[arg(long)]
     pub no_open: bool,
 
-    /// Allow a glTF's buffers and images outside its folder; what lies outside an OBJ's is never sent
-    #[arg(long)]
-    pub allow_outside: bool,
+    #[command(flatten)]
+    pub reading: ReadOptions,
 
     /// The folder with the page's files
     #[arg(long, value_name = "FOLDER")]

@@ -11,7 +11,7 @@ use darboux_io::readable;
 pub struct Model {
     path: PathBuf,
     kind: Kind,
-    allow_outside: bool,
+    options: LoadOptions,
 }
 
 enum Kind {
@@ -22,7 +22,7 @@ enum Kind {
 
 impl Model {
     /// Reads the model once, so that a broken one is known before there is a page. Errors: no such file, another format, broken data.
-    pub fn find(path: &Path, allow_outside: bool) -> Result<Self, String> {
+    pub fn find(path: &Path, options: LoadOptions) -> Result<Self, String> {
         let shown = path.display();
         readable(path).map_err(|error| error.to_string())?;
         let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
@@ -31,7 +31,7 @@ impl Model {
             Some("obj") => Kind::Obj(companions(path).map_err(|error| error.to_string())?),
             _ => return Err(format!("{shown}: cannot be shown; give a .gltf, .glb, .vrm or .obj")),
         };
-        let model = Self { path: path.to_owned(), kind, allow_outside };
+        let model = Self { path: path.to_owned(), kind, options };
         if let Kind::Gltf = model.kind {
             model
                 .open()
@@ -70,6 +70,6 @@ impl Model {
     }
 
     fn open(&self) -> Result<Document, darboux_io::Error> {
-        Document::open(&self.path, &LoadOptions { allow_outside: self.allow_outside })
+        Document::open(&self.path, &self.options)
     }
 }

@@ -128,10 +128,6 @@ impl<'a> SceneConverter<'a> {
             if !["translation", "rotation", "scale", "weights"].contains(&target.path.as_str()) {
                 return unsupported("animates something that cannot stand in other axes; take it out");
             }
-            if *sampler >= samplers.len() {
-                let problem = format!("sampler {sampler} does not exist: there are {}", samplers.len());
-                return Err(document.invalid(at, format!("{problem}; export the file again")));
-            }
             let kind = TransformKind::of(&target.path);
             if kinds.insert(*sampler, kind).is_some_and(|other| other != kind) {
                 return unsupported(
@@ -146,6 +142,9 @@ impl<'a> SceneConverter<'a> {
             let AnimationSampler { output } = parsed(document, &at, sampler.get())?;
             let output = self.accessor(document, output, kind)?.to_string();
             new.insert(index, edited(document, &at, set_member(sampler.get(), "output", Some(&output)))?);
+        }
+        if new.is_empty() {
+            return Ok(text.to_owned());
         }
         let array = edited(document, at, edit_array(array, &new, &[]))?;
         edited(document, at, set_member(text, "samplers", Some(&array)))
