@@ -306,8 +306,8 @@ fn bad_inputs_are_sentences_and_leave_nothing() {
     let cases = [
         ("cut.glb", "a.png", "cut.glb: "),
         ("circle.gltf", "a.png", "nodes[0]: is in the scene twice"),
-        ("lost.gltf", "a.png", "nodes[0]: mesh 3 does not exist"),
-        ("none.gltf", "a.png", "nodes[7]: does not exist"),
+        ("lost.gltf", "a.png", "nodes[0].mesh: mesh 3 does not exist"),
+        ("none.gltf", "a.png", "nodes[0].children[0]: node 7 does not exist"),
         ("NormalTangentTest.glb", "a.jpg", "name it .png"),
         ("missing.glb", "a.png", "cannot be read"),
     ];

