@@ -1,4 +1,4 @@
-//! Tangents and normals in fewer bytes, and back.
+//! Compact encodings of tangents and normals.
 //!
 //! | encoding | bytes | what | largest error of a direction |
 //! |---|---|---|---|
@@ -11,9 +11,9 @@
 //! | [`tangent_to_diamond`] | 2 | tangent, given the decoded normal | 0.0071 degrees |
 //! | [`frame_to_quaternion`] | 8 | tangent and normal | 0.0047 degrees |
 //!
-//! The sign is exact in all of them: a w below zero counts as -1, any other as +1. What has no direction, or is not finite, becomes
-//! *some* direction, or zero in the forms that can hold it. `shaders/` holds the same decoders for GPUs; no decoder needs more than
-//! + - * / and sqrt, so that vertices of one direction agree everywhere.
+//! The sign is exact in all of them: w below zero decodes to -1, any other w to +1. A vector that is zero or not finite decodes to an
+//! unspecified direction, or to zero in encodings that can represent it. `shaders/` has the same decoders for GPUs. Decoders use only
+//! + - * / and sqrt, so that results agree between platforms.
 
 mod diamond;
 mod octahedral;

@@ -1,6 +1,7 @@
-//! Private vector functions, each operation rounded to `f32` in the order written, and the two transcendental functions.
+//! Vector functions in single precision, arccosine and cosine.
 //!
-//! Nothing here may be re-associated or contracted: the bits are the promise.
+//! Every operation is rounded to `f32` in the order written. Nothing here may be re-associated or contracted: results are specified to the
+//! bit.
 
 pub(crate) type V3 = [f32; 3];
 
@@ -40,13 +41,13 @@ pub(crate) fn sign(x: f32) -> f32 {
     if x < 0.0 { -1.0 } else { 1.0 }
 }
 
-/// MikkTSpace's "not zero": above the smallest normal float. NaN counts as zero.
+/// `NotZero` of mikktspace.c: true for absolute values above the smallest normal float. False for NaN.
 #[inline(always)]
 pub(crate) fn not_zero(x: f32) -> bool {
     x.abs() > f32::MIN_POSITIVE
 }
 
-/// The unit vector along `v`, or `v` itself when every component counts as zero. Without a branch, so that it vectorises.
+/// `v`, normalised; `v` itself when no component is [`not_zero`]. No branches, so that it vectorises.
 #[inline(always)]
 pub(crate) fn normalized_unless_zero(v: V3) -> V3 {
     let has_direction = not_zero(v[0]) | not_zero(v[1]) | not_zero(v[2]);
@@ -54,14 +55,13 @@ pub(crate) fn normalized_unless_zero(v: V3) -> V3 {
     scale(factor, v)
 }
 
-/// The direction of `v` in the plane perpendicular to `normal`, which is used as given.
+/// `v`, projected to the plane of `normal` and normalised. `normal` is used as given.
 #[inline(always)]
 pub(crate) fn direction_in_plane(normal: V3, v: V3) -> V3 {
     normalized_unless_zero(sub(v, scale(dot(normal, v), normal)))
 }
 
-/// The unit direction of `v` in the plane perpendicular to the unit `normal`; a perpendicular of `normal` where rounding error is all
-/// that is left of `v`.
+/// `v`, projected to the plane of the unit `normal` and normalised. A perpendicular of `normal` where the projection is rounding error.
 pub(crate) fn unit_in_plane(normal: V3, v: V3) -> V3 {
     let rest = sub(v, scale(dot(normal, v), normal));
     let size = length(rest);
@@ -111,8 +111,8 @@ pub(crate) fn acos(x: f32) -> f32 {
     (if is_small { small } else { large }) as f32
 }
 
-/// (asin z - z) / z^3 as a polynomial in t = z^2 on [0, 1/4], the minimax fit of asin z: the error of asin z is below 2e-15. One degree
-/// less, or this one with another weight, makes a few floats wrong.
+/// (asin z - z) / z^3 as a polynomial in t = z^2 on [0, 1/4]: a minimax fit whose error of asin z is below 2e-15. A fit of one degree less, or
+/// with another weight, rounds a few floats wrong.
 #[inline(always)]
 fn asin_tail(t: f64) -> f64 {
     ASIN_TAIL.iter().rev().fold(0.0, |sum, coefficient| sum * t + coefficient)
@@ -137,14 +137,14 @@ pub(crate) fn cosine_of_degrees(degrees: f32) -> f32 {
     if radians.is_finite() { cosine(radians.abs()) } else { f32::NAN }
 }
 
-/// The first 256 binary digits of 1 / (2 pi).
+/// The first 256 bits of 1 / (2 pi).
 const TURNS_PER_RADIAN: [u64; 4] =
     [0x28be_60db_9391_054a, 0x7f09_d5f4_7d4d_3770, 0x36d8_a566_4f10_e410, 0x7f94_58ea_f7ae_f158];
 
 /// The cosine of `radians` >= 0, rounded from a double.
 ///
-/// `radians` is an integer times a power of two; the fraction of a turn is that integer times the digits of 1 / (2 pi) that
-/// follow that power, modulo one: exact to 2^-104 of a turn for every float (Payne and Hanek 1983).
+/// `radians` is an integer times a power of two. The fraction of a turn is that integer times the bits of 1 / (2 pi) that follow the power,
+/// modulo 1. Error: below 2^-104 of a turn for every float (Payne and Hanek 1983).
 fn cosine(radians: f32) -> f32 {
     let exponent = (radians.to_bits() >> 23).max(1) as i32 - 150;
     let mantissa =
@@ -164,7 +164,7 @@ fn cosine(radians: f32) -> f32 {
     }) as f32
 }
 
-/// 128 digits of 1 / (2 pi), the first of weight 2^-(1 + `place`) before the shift by `place`.
+/// 128 bits of 1 / (2 pi), the first of weight 2^-(1 + `place`) before the shift by `place`.
 fn digits_from(place: i32) -> u128 {
     let [a, b, c, d] = TURNS_PER_RADIAN.map(u128::from);
     let (high, low) = (a << 64 | b, c << 64 | d);

@@ -1,4 +1,4 @@
-//! How far two sets of tangents are apart, and how well tangents follow the UVs.
+//! Comparison of two sets of tangents, and of tangents with the derivatives of the UV map.
 
 use crate::Context;
 use crate::Mesh;
@@ -7,13 +7,13 @@ use crate::math::V3;
 use crate::math_f64::{D3, cross, dot, length, unit};
 use crate::split::expect;
 
-/// The upper ends, in degrees, of the bins of [`TangentDifference::histogram`]; each bin begins above the end before it.
+/// The upper ends of the bins of [`TangentDifference::histogram`], in degrees. A bin excludes the end of the previous bin.
 pub const HISTOGRAM_ENDS: [f64; 10] = [0.0, 0.001, 0.01, 0.1, 1.0, 5.0, 15.0, 45.0, 90.0, 180.0];
 
-/// How many corners [`TangentDifference::worst`] lists at most.
+/// The maximum length of [`TangentDifference::worst`].
 const WORST: usize = 16;
 
-/// How two sets of tangents of one mesh differ. Angles are between the xyz of a corner in both, in degrees.
+/// The difference of two sets of tangents of one mesh. Angles are in degrees, between the xyz of one corner in both sets.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct TangentDifference {
@@ -23,37 +23,37 @@ pub struct TangentDifference {
     pub identical: usize,
     /// Corners that [flip the sign](CornerDifference::flips_sign).
     pub sign_flips: usize,
-    /// Corners where a tangent is zero or not finite, so that there is no angle. They are in none of the numbers below.
+    /// Corners without an angle, because a tangent is zero or not finite. The fields below ignore them.
     pub without_angle: usize,
     /// The mean angle.
     pub mean: f64,
     /// The smallest angle.
     pub min: f64,
-    /// The angle that half of the corners do not exceed.
+    /// The median angle.
     pub median: f64,
-    /// The angle that 95 corners in 100 do not exceed.
+    /// The 95th percentile of the angles.
     pub p95: f64,
     /// The largest angle.
     pub max: f64,
-    /// Corners per bin of [`HISTOGRAM_ENDS`].
+    /// The number of corners per bin of [`HISTOGRAM_ENDS`].
     pub histogram: [usize; HISTOGRAM_ENDS.len()],
-    /// The corners with the largest angles and these, the largest first, the lower corner first among equals. None with an angle of zero.
+    /// Up to 16 corners with the largest angles above zero, and the angles: descending by angle, then ascending by corner.
     pub worst: Vec<(usize, f64)>,
 }
 
-/// How two tangents of one corner differ.
+/// The difference of two tangents of one corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CornerDifference {
-    /// The angle between their xyz in degrees; none where one is zero or not finite.
+    /// The angle between the xyz in degrees. `None` where one of them is zero or not finite.
     pub angle: Option<f64>,
-    /// Their signs differ: one w is below zero, the other is not. Rounded and odd ones (0.99, NaN) are no flips.
+    /// True when exactly one w is below zero. Values other than 1 and -1 (0.99, NaN) count by that rule.
     pub flips_sign: bool,
-    /// All four floats are the same bits, or NaN in both.
+    /// True when all four floats have equal bits or are NaN in both.
     pub is_identical: bool,
 }
 
 impl CornerDifference {
-    /// Compares `a` and `b`, each unit xyz and sign w.
+    /// Compares two tangents, each unit xyz and sign w.
     pub fn between(a: [f32; 4], b: [f32; 4]) -> Self {
         let is_same = |(a, b): (&f32, &f32)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
         Self {
@@ -63,7 +63,7 @@ impl CornerDifference {
         }
     }
 
-    /// True where nothing tells how far they are apart: there is no angle, and they are not identical.
+    /// True when the tangents are not identical and have no angle.
     pub fn is_unknown(&self) -> bool {
         self.angle.is_none() && !self.is_identical
     }
@@ -72,7 +72,7 @@ impl CornerDifference {
 /// Compares two sets of tangents, corner by corner.
 ///
 /// `a`, `b`: one tangent per corner ([`CornerTangents::per_corner`](crate::CornerTangents::per_corner)) of the same mesh, in the same
-/// convention. Errors: another number of corners.
+/// convention. Errors: different lengths.
 pub fn measure_tangents(a: &[[f32; 4]], b: &[[f32; 4]]) -> Result<TangentDifference, MeshError> {
     measure_tangents_with(a, b, &Context::new())
 }
@@ -108,33 +108,32 @@ pub fn measure_tangents_with(
     Ok(out)
 }
 
-/// The least angle that `part` of the corners do not exceed; `descending` is sorted so.
+/// The smallest angle that the fraction `part` of the corners does not exceed. `descending`: corners and angles, descending by angle.
 fn quantile(descending: &[(usize, f64)], part: f64) -> f64 {
     let count = descending.len();
     let within = (part * count as f64).ceil() as usize;
     descending.get(count - within.clamp(usize::from(count > 0), count)).map_or(0.0, |(_, angle)| *angle)
 }
 
-/// How well tangents follow the UVs: the angle between the tangent as shaders interpolate it and the true dP/du, over the surface.
+/// The angle between interpolated tangents and dP/du, over the surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct UvFidelity {
     /// The mean angle over the surface, weighted by area, in degrees.
     pub mean: f64,
-    /// The root of the mean square of the angle, in degrees: dominated by what is worst.
+    /// The root of the mean square of the angle, in degrees. Large angles dominate it.
     pub root_mean_square: f64,
-    /// The area that was measured.
+    /// The area of the triangles that were measured.
     pub area: f64,
-    /// Triangles that were not: without area, or without a dP/du.
+    /// The number of triangles that were not measured, because they have no area or no dP/du.
     pub left_out: usize,
 }
 
 /// Measures tangents against the derivatives of the UV map.
 ///
-/// Each triangle is sampled at the centres of 16 equal parts. There the three corners' tangents are interpolated linearly and compared,
-/// as directions in space, with the triangle's dP/du. A part of the angle is not the tangents' fault: they are perpendicular to
-/// smoothed normals, dP/du lies in the face. `tangents`: one per corner. Quads count as the halves of diagonal 0-2. Errors: tangents of another number
-/// of corners.
+/// Each triangle is sampled at the centres of 16 equal parts. At each sample, the tangents of the three corners are interpolated linearly, and
+/// the angle to the triangle's dP/du is measured. Smooth normals alone cause a part of the angle: tangents are perpendicular to them, while
+/// dP/du lies in the face. Quads are cut from corner 0 to 2. `tangents`: one per corner. Errors: another number of tangents than corners.
 pub fn measure_uv_fidelity(mesh: &Mesh<'_>, tangents: &[[f32; 4]]) -> Result<UvFidelity, MeshError> {
     measure_uv_fidelity_with(mesh, tangents, &Context::new())
 }
@@ -157,7 +156,7 @@ pub fn measure_uv_fidelity_with(
         let corners = triangle.map(|corner| xyz(tangents[corner]).map(f64::from));
         for weights in CENTRES {
             let tangent = [0, 1, 2].map(|i| (0..3).map(|k| weights[k] * corners[k][i]).sum::<f64>());
-            // Where tangents cancel shaders get anything: a right angle stands for it.
+            // Where tangents cancel, the direction is unspecified: count 90 degrees.
             let angle = angle_of(tangent, u_direction).unwrap_or(90.0);
             sum += angle * area / CENTRES.len() as f64;
             squares += angle * angle * area / CENTRES.len() as f64;
@@ -182,7 +181,7 @@ fn triangles(mesh: &Mesh<'_>) -> impl Iterator<Item = [usize; 3]> {
     })
 }
 
-/// The direction of dP/du, as long as it may be, and the area.
+/// dP/du and the area of a triangle. `None` where one of them is zero or not finite.
 fn u_direction_and_area(mesh: &Mesh<'_>, triangle: [usize; 3]) -> Option<(D3, f64)> {
     let vertices = triangle.map(|corner| mesh.vertex_of_corner(corner));
     let positions = vertices.map(|vertex| mesh.positions().get(vertex));
@@ -196,14 +195,14 @@ fn u_direction_and_area(mesh: &Mesh<'_>, triangle: [usize; 3]) -> Option<(D3, f6
     has_both.then_some((direction, area))
 }
 
-/// The barycentric coordinates of the centres of the 16 parts into which three rounds of lines parallel to the sides cut a triangle.
+/// The barycentric coordinates of the centres of the 16 equal parts of a triangle.
 const CENTRES: [[f64; 3]; 16] = {
     let mut centres = [[0.0; 3]; 16];
     let (mut at, mut i) = (0, 0);
     while i < 4 {
         let mut j = 0;
         while i + j < 4 {
-            // The part that points as the triangle does, and the one that points the other way.
+            // The part with the triangle's orientation, and the rotated part beside it.
             let [a, b] = [3.0 * i as f64 + 1.0, 3.0 * j as f64 + 1.0];
             centres[at] = [a / 12.0, b / 12.0, (12.0 - a - b) / 12.0];
             at += 1;
@@ -222,19 +221,19 @@ fn xyz([x, y, z, _]: [f32; 4]) -> V3 {
     [x, y, z]
 }
 
-/// The area of a triangle by the positions of its corners. Not finite where they are not.
+/// The area of a triangle. `corners`: three positions. Not finite where they are not.
 pub fn triangle_area(corners: [[f32; 3]; 3]) -> f64 {
     let [e1, e2] = edges(corners);
     0.5 * length(cross(e1, e2))
 }
 
-/// From the first corner to the second and to the third.
+/// The edges from corner 0 to 1 and from corner 0 to 2.
 fn edges(corners: [V3; 3]) -> [D3; 2] {
     let [p0, p1, p2] = corners.map(|p| p.map(f64::from));
     [p1, p2].map(|p| [p[0] - p0[0], p[1] - p0[1], p[2] - p0[2]])
 }
 
-/// The angle in degrees; none where a vector has no direction. By the arctangent, which is exact for small and for large angles.
+/// The angle in degrees, by the arctangent, which is accurate for small and large angles. `None` where a vector is zero or not finite.
 fn angle_of(a: D3, b: D3) -> Option<f64> {
     let [a, b] = [unit(a)?, unit(b)?];
     Some(length(cross(a, b)).atan2(dot(a, b)).to_degrees())

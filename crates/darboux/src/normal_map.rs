@@ -1,13 +1,12 @@
-//! Texels of normal maps: channels inverted, moved, and z rebuilt.
+//! Texels of normal maps: inverts channels, moves channels, and reconstructs z.
 //!
-//! A channel c of n bits stands for 2 c / (2^n - 1) - 1 (glTF 2.0, 3.9.3; unsigned normalized formats of every API). No c stands for
-//! zero, and the 128 of a flat 8-bit texel leans by 1/255: an inverted flat map has 127 there, and that is right, since c and
-//! 2^n - 1 - c are exact opposites and inverting twice gives the first texel back. Tools that read 128 as zero, (c - 128) / 127, have
-//! no opposite for 0.
+//! An n-bit code c decodes to 2 c / (2^n - 1) - 1 (glTF 2.0, 3.9.3; unsigned normalized formats of all APIs). No code decodes to zero: the
+//! 128 of a flat 8-bit texel is 1/255. Inversion maps c to 2^n - 1 - c, its exact negation, so that inverting twice restores the texel and
+//! 128 becomes 127. Tools that decode 128 as zero, by (c - 128) / 127, have no negation of code 0.
 
 use crate::Conversion;
 
-/// A channel of a texel: `u8` or `u16`.
+/// The type of a texel's channels: `u8` or `u16`.
 pub trait Channel: Copy + sealed::Channel {}
 
 impl Channel for u8 {}
@@ -44,7 +43,7 @@ macro_rules! channel {
 
 channel!(u8 u16);
 
-/// Which of a texel's `N` channels hold the vector.
+/// The channels of an `N`-channel texel that store the components of the vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TexelLayout<const N: usize> {
     x: usize,
@@ -53,7 +52,7 @@ pub struct TexelLayout<const N: usize> {
 }
 
 impl TexelLayout<2> {
-    /// x and y, z rebuilt: BC5, EAC RG, 3Dc.
+    /// x and y; z is reconstructed. BC5, EAC RG, 3Dc.
     pub const RG: Self = Self { x: 0, y: 1, z: None };
 }
 
@@ -63,14 +62,14 @@ impl TexelLayout<3> {
 }
 
 impl TexelLayout<4> {
-    /// x, y and z; alpha is something else.
+    /// x, y and z; alpha is not part of the vector.
     pub const RGBA: Self = Self { x: 0, y: 1, z: Some(2) };
-    /// x in alpha, y in green, z rebuilt: "DXT5nm", whose alpha and green are the finest channels of BC3.
+    /// x in alpha and y in green; z is reconstructed. "DXT5nm": alpha and green are the most precise channels of BC3.
     pub const AG: Self = Self { x: 3, y: 1, z: None };
 }
 
 impl<const N: usize> TexelLayout<N> {
-    /// The vector's components by channel, or none where two share one or a channel is not there.
+    /// The layout with the given channels of x, y and z. `None` where two components share a channel or a channel is not below `N`.
     pub fn new(x: usize, y: usize, z: Option<usize>) -> Option<Self> {
         let is_free = |z: usize| z < N && z != x && z != y;
         (x < N && y < N && x != y && z.is_none_or(is_free)).then_some(Self { x, y, z })
@@ -80,15 +79,15 @@ impl<const N: usize> TexelLayout<N> {
         channel == self.x || channel == self.y || Some(channel) == self.z
     }
 
-    /// The vector of a texel, as stored: unit to rounding at best. Where z is not stored, it is rebuilt.
+    /// Decodes the vector of a texel. Not normalised. A z that is not stored is reconstructed.
     pub fn vector<C: Channel>(&self, texel: [C; N]) -> [f32; 3] {
         let [x, y] = [texel[self.x].component(), texel[self.y].component()];
         let z = self.z.map_or_else(|| rebuilt(x, y), |z| texel[z].component());
         [x, y, z].map(|component| component as f32)
     }
 
-    /// Whether a texel can be a normal of a tangent-space map: about unit length, as filters and rounding leave it, and not below the
-    /// surface. Where z is not stored, whether x and y leave room for it.
+    /// True when a texel can be a normal of a tangent-space map: its length is in [0.5, 1.2], as filtering and rounding leave it, and z is at
+    /// least -0.1.
     pub fn holds_normal<C: Channel>(&self, texel: [C; N]) -> bool {
         let [x, y, z] = self.vector(texel);
         let length = (x * x + y * y + z * z).sqrt();
@@ -97,7 +96,7 @@ impl<const N: usize> TexelLayout<N> {
 }
 
 impl Conversion {
-    /// A normal map in the other convention. The picture stays upright: what moves is where red and green lean.
+    /// Converts the texels of a normal map in place: inverts red and green as the conventions require. The image is not flipped.
     pub fn texels<C: Channel, const N: usize>(&self, layout: TexelLayout<N>, texels: &mut [[C; N]]) {
         let channels = [(self.inverts_red(), layout.x), (self.inverts_green(), layout.y)];
         for (_, channel) in channels.into_iter().filter(|(inverts, _)| *inverts) {
@@ -108,10 +107,11 @@ impl Conversion {
     }
 }
 
-/// A normal map with the same x and y in other channels, to the bit; z the same or, where `from` has none, rebuilt.
+/// Moves the components of a normal map to other channels.
 ///
-/// Channels of `to` without a component keep what is in that channel now, or are at their largest where a component was in it.
-/// Dropping z and rebuilding it gives z back where texels are unit to rounding; others change their direction.
+/// x and y keep their bits. z keeps its bits, or is reconstructed where `from` does not store it. A channel of `to` without a component keeps
+/// the value of that channel, or has the maximum value where `from` stored a component in it. Reconstructing a z that was dropped restores
+/// it for unit vectors; other vectors change their direction.
 pub fn repack_texels<C: Channel, const N: usize, const M: usize>(
     texels: &[[C; N]],
     from: TexelLayout<N>,
@@ -135,7 +135,7 @@ pub fn repack_texels<C: Channel, const N: usize, const M: usize>(
     texels.iter().map(repack).collect()
 }
 
-/// The z >= 0 of the unit vector with this x and y; 0 where they alone are longer than 1.
+/// The z >= 0 of the unit vector with this x and y. 0 where the length of (x, y) exceeds 1.
 fn rebuilt(x: f64, y: f64) -> f64 {
     (1.0 - x * x - y * y).max(0.0).sqrt()
 }

@@ -1,8 +1,13 @@
-//! Normals from positions: flat, or smooth over the fans that creases leave.
+//! Generates normals from positions: flat, or smooth with creases.
 //!
-//! A face's normal and area come from its area vector, half the sum of cross(p_i, p_(i+1)) around it (M. Newell's method), which does
-//! not depend on how the face would be cut. Weighting by angle is G. Thürmer and C. A. Wüthrich, "Computing Vertex Normals from Polygonal
-//! Facets", 1998; by area the older habit; by both what keeps wide faces flat beside bevels ("weighted normals").
+//! ```text
+//! area vector of each face = 1/2 sum of cross(p_i, p_(i+1)) (M. Newell), which does not depend on a triangulation
+//! fan = corners at a vertex that are connected by edges below the crease angle (union-find)
+//! normal of each fan = sum of its faces' unit normals, weighted by angle, area or both
+//! ```
+//!
+//! Weights by angle: G. Thürmer and C. A. Wüthrich, "Computing Vertex Normals from Polygonal Facets", 1998. Weights by angle times area keep
+//! wide faces flat beside bevels ("weighted normals").
 
 use std::collections::HashMap;
 
@@ -19,16 +24,16 @@ use crate::math::angle;
 use crate::math_f64::{D3, cross, dot, length, sub, unit};
 use crate::split::expect;
 
-/// How normals are made.
+/// Options of [`generate_normals`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormalOptions {
-    /// Flat, or smooth.
+    /// Flat or smooth shading.
     pub shading: Shading,
-    /// How much each face counts at a vertex, where shading is smooth.
+    /// The weight of each face at a vertex, for smooth shading.
     pub weight: NormalWeight,
-    /// Smooth shading stops at edges whose faces' normals differ by more than this, in degrees. Default 180: nowhere.
+    /// The crease angle in degrees: smooth shading stops at edges whose faces' normals differ by more. Default 180: no creases.
     pub crease: f32,
-    /// Which vertices are one, where shading is smooth.
+    /// Whether smooth shading crosses seams of the index list.
     pub seams: SmoothingSeams,
 }
 
@@ -43,12 +48,12 @@ impl Default for NormalOptions {
     }
 }
 
-/// Flat or smooth.
+/// Flat or smooth shading.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Shading {
-    /// Every corner has its face's normal: what glTF asks of renderers where normals are absent (2.0, section 3.7.2.1).
+    /// Every corner has its face's normal, as glTF requires where normals are absent (2.0, section 3.7.2.1).
     Flat,
-    /// Corners around a vertex share the weighted mean of their faces' normals, but for creases.
+    /// Corners of a vertex share the weighted mean of their faces' normals, except across creases.
     #[default]
     Smooth,
 }
@@ -56,53 +61,53 @@ pub enum Shading {
 /// The weight of a face at a vertex.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum NormalWeight {
-    /// The angle of its corner there: independent of how a flat surface is cut.
+    /// The angle of the face's corner. The result does not depend on the triangulation of flat surfaces.
     #[default]
     Angle,
-    /// Its area.
+    /// The area of the face.
     Area,
-    /// Both multiplied: wide faces stay flat beside bevels.
+    /// Angle times area. Wide faces stay flat beside bevels.
     AngleArea,
 }
 
-/// What keeps vertices apart.
+/// The treatment of vertices at equal positions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum SmoothingSeams {
-    /// Nothing: vertices at equal positions are one, so that UV seams do not show in the shading.
+    /// Vertices at equal positions are merged, so that UV seams are not visible in the shading.
     #[default]
     Ignored,
-    /// The index list: distinct vertices have distinct normals, as a modeller who split them meant.
+    /// Distinct vertices have distinct normals.
     Respected,
 }
 
 /// Normals of corners and the report of the run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Normals {
-    /// One unit normal per corner, in corner order. Not in vertex order: [`split_normals`] gives vertices.
+    /// One unit normal per corner, in corner order, which is not vertex order. [`split_normals`] computes vertices from them.
     pub corners: Vec<[f32; 3]>,
-    /// What was met on the way.
+    /// The counts of the run.
     pub report: NormalReport,
 }
 
-/// What a user must know of a run.
+/// The counts of a run of [`generate_normals`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct NormalReport {
-    /// Faces, degenerate ones included.
+    /// The faces of the mesh, degenerate ones included.
     pub faces: usize,
-    /// Faces without an area, or with values that are not finite. They add nothing.
+    /// Faces without an area or with values that are not finite. They are skipped.
     pub degenerate_faces: usize,
-    /// Corners whose faces' normals cancel or are missing. They have their own face's, the mean of their vertex, or (0, 0, 1).
+    /// Corners whose faces' normals cancel or are missing. Their normal is that of their face, else the mean at their vertex, else (0, 0, 1).
     pub repaired_corners: usize,
-    /// Edges between two faces at which smooth shading stops for their angle.
+    /// Edges at which smooth shading stops because of the crease angle.
     pub creased_edges: usize,
 }
 
 /// Computes a normal for every corner.
 ///
-/// `positions`: V by 3, any values; `indices`: one per corner; `faces`: how corners make faces, of any size from 3 on (smaller ones are
-/// degenerate). Faces wind counter-clockwise seen from where their normal points. Errors: an index out of range, corners that do not
-/// make whole faces, too many corners.
+/// `positions`: V by 3, any values. `indices`: one per corner. `faces`: faces of 3 or more corners; smaller ones are degenerate. Faces wind
+/// counter-clockwise, seen from the side that their normal points to.
+/// Errors: an index out of range; corners that do not make whole faces; too many corners.
 pub fn generate_normals<'a>(
     positions: impl Into<Strided<'a, 3>>,
     indices: impl Into<Indices<'a>>,
@@ -124,23 +129,23 @@ pub fn generate_normals_with<'a>(
     NormalPlan::new_with(positions, indices, faces, options, context)?.evaluate_with(positions, context)
 }
 
-/// The smoothed vertices and creases of one mesh, kept to compute its normals again after its vertices moved (morph targets, skinning).
+/// The smoothed vertices and creases of one mesh, for computing its normals again after its vertices moved (morph targets, skinning).
 #[derive(Clone, Debug)]
 pub struct NormalPlan {
     vertex_count: usize,
     indices: Vec<u32>,
-    /// None where all faces are triangles.
+    /// The corners per face. `None` where all faces are triangles.
     sizes: Option<Vec<u32>>,
-    /// Corners that share a vertex, seams or not.
+    /// The smoothed vertex of each corner.
     vertex_of_corner: Vec<u32>,
-    /// Corners that share a normal.
+    /// The fan of each corner. Corners of one fan share a normal.
     fan_of_corner: Vec<u32>,
     weight: NormalWeight,
     creased_edges: usize,
 }
 
 impl NormalPlan {
-    /// Finds vertices and creases. All as for [`generate_normals`].
+    /// Finds vertices and creases. Parameters and errors as for [`generate_normals`].
     pub fn new<'a>(
         positions: impl Into<Strided<'a, 3>>,
         indices: impl Into<Indices<'a>>,
@@ -176,10 +181,10 @@ impl NormalPlan {
         })
     }
 
-    /// The normals of the moved mesh, smoothed over the same corners: what [`generate_normals`] gives while no position meets or leaves
-    /// another and no edge becomes a crease or ceases to be one.
+    /// Computes the normals of the mesh after its vertices moved, with the smoothed vertices and creases of the plan.
     ///
-    /// `positions`: as many as before. Errors: another number.
+    /// The result equals that of [`generate_normals`] as long as equal positions stay equal, distinct ones stay distinct, and no edge crosses
+    /// the crease angle. `positions`: as many as at planning. Errors: another number of positions.
     pub fn evaluate<'a>(&self, positions: impl Into<Strided<'a, 3>>) -> Result<Normals, MeshError> {
         self.evaluate_with(positions, &Context::new())
     }
@@ -221,10 +226,10 @@ impl NormalPlan {
     }
 }
 
-/// An indexed mesh's vertices after splitting by normals, as [`VertexSplit`](crate::VertexSplit) is by tangents.
+/// The vertices of an indexed mesh, split by normals. See [`VertexSplit`](crate::VertexSplit) for tangents.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NormalSplit {
-    /// One normal per new vertex; (0, 0, 1) for vertices that no corner uses.
+    /// One normal per new vertex. (0, 0, 1) for vertices that no corner uses.
     pub normal_of_vertex: Vec<[f32; 3]>,
     /// The new index list, one per corner, in the old corner order.
     pub indices: Vec<u32>,
@@ -232,10 +237,10 @@ pub struct NormalSplit {
     pub source_of_vertex: Vec<u32>,
 }
 
-/// Splits the vertices whose corners have different normals: one vertex per distinct pair of old vertex and normal, compared as bits.
+/// Splits the vertices whose corners have different normals.
 ///
-/// `vertex_count`: the number of old vertices; `indices`: one per corner; `corners`: the normal of each. Errors: an index out of
-/// range, normals of another number of corners.
+/// Each distinct pair of old vertex and normal, compared as bits, becomes one vertex. `vertex_count`: the number of old vertices. `indices`:
+/// one per corner. `corners`: one normal per corner. Errors: an index out of range; another number of normals than corners.
 pub fn split_normals<'a>(
     vertex_count: usize,
     indices: impl Into<Indices<'a>>,
@@ -255,7 +260,7 @@ pub fn split_normals_with<'a>(
     let positions = Strided::repeated(&[0.0; 3], vertex_count);
     let mesh = bare_mesh(positions, indices.into(), Faces::Mixed(&size))?;
     let mut splitter = Splitter::new_with(vertex_count, context);
-    // As tangents of sign zero, which no unused vertex has.
+    // The splitter takes tangents: w = 0 marks used vertices, because unused ones get w = 1.
     let tangents = CornerTangents(corners.iter().map(|&[x, y, z]| [x, y, z, 0.0]).collect());
     let indices = splitter.add(&mesh, &tangents)?;
     let (of_vertex, source_of_vertex) = splitter.finish();
@@ -267,7 +272,7 @@ pub fn split_normals_with<'a>(
     })
 }
 
-/// A mesh that has positions only.
+/// A mesh with positions only.
 fn bare_mesh<'a>(
     positions: Strided<'a, 3>,
     indices: Indices<'a>,
@@ -278,12 +283,12 @@ fn bare_mesh<'a>(
     Mesh::with_faces(positions, normals, uvs, indices, faces)
 }
 
-/// The faces as polygons.
+/// The faces of a mesh with their normals and areas.
 struct Polygons {
     face_of_corner: Vec<u32>,
-    /// Where the corners of each face end.
+    /// The end of each face's corners.
     ends: Vec<u32>,
-    /// The unit normal of each face that has one.
+    /// The unit normal of each face; `None` for degenerate faces.
     normal_of_face: Vec<Option<D3>>,
     area_of_face: Vec<f64>,
 }
@@ -296,7 +301,7 @@ struct WeightedNormal {
 }
 
 impl WeightedNormal {
-    /// None where nothing was added, or what was added cancels but for rounding.
+    /// The unit normal. `None` where nothing was added, or the sum is rounding error.
     fn direction(&self) -> Option<D3> {
         (length(self.normal) > 1e-6 * self.weight).then(|| unit(self.normal)).flatten()
     }
@@ -321,7 +326,7 @@ impl Polygons {
         Ok(polygons)
     }
 
-    /// The corners before and after a corner in its face.
+    /// The previous and the next corner in a corner's face.
     fn around(&self, corner: usize) -> [usize; 2] {
         let face = self.face_of_corner[corner] as usize;
         let start = if face == 0 { 0 } else { self.ends[face - 1] as usize };
@@ -358,7 +363,7 @@ impl Polygons {
         sums
     }
 
-    /// The angle at a corner, zero beside an edge without length.
+    /// The angle at a corner. Zero beside an edge without length.
     fn angle(&self, mesh: &Mesh<'_>, corner: usize) -> f64 {
         let here = position(mesh, corner);
         let directions = self.around(corner).map(|other| unit(sub(position(mesh, other), here)));
@@ -367,7 +372,7 @@ impl Polygons {
     }
 }
 
-/// The area times the normal; corners are taken relative to the first, so that far from the origin nothing cancels.
+/// The area times the normal. Positions are taken relative to the first corner, so that far from the origin digits do not cancel.
 fn area_vector(mesh: &Mesh<'_>, corners: std::ops::Range<usize>) -> D3 {
     let first = corners.start;
     let edge = |corner: usize| sub(position(mesh, corner), position(mesh, first));
@@ -379,7 +384,7 @@ fn area_vector(mesh: &Mesh<'_>, corners: std::ops::Range<usize>) -> D3 {
     sum
 }
 
-/// The smoothed vertex of every corner: the first of the mesh's vertices at its position, or its own.
+/// The smoothed vertex of every corner: the first vertex at the same position, or the corner's vertex.
 fn vertices_of_corners(
     mesh: &Mesh<'_>,
     seams: SmoothingSeams,
@@ -394,7 +399,7 @@ fn vertices_of_corners(
         limits.check_at(corner)?;
         let vertex = mesh.vertex_of_corner(corner);
         let position = mesh.positions().get(vertex);
-        // Adding zero turns -0 into +0. NaN is nobody's equal.
+        // Adding zero turns -0 into +0. NaN equals nothing.
         let key = position.map(|x| (x + 0.0).to_bits());
         let is_nan = position.iter().any(|x| x.is_nan());
         Ok(if is_nan { vertex as u32 } else { *first.entry(key).or_insert(vertex as u32) })
@@ -402,7 +407,7 @@ fn vertices_of_corners(
     corners.map(vertex).collect()
 }
 
-/// The corners that share a normal, and how many edges are creases.
+/// The fan of each corner, and the number of creases.
 fn fans_of_corners(
     mesh: &Mesh<'_>,
     vertex_of_corner: &[u32],
@@ -416,10 +421,9 @@ fn fans_of_corners(
     }
 }
 
-/// The fan of every corner, named by one of its corners: corners at a vertex that edges without a crease connect. And how many edges are
-/// creases.
+/// As [`fans_of_corners`], for smooth shading with creases. A fan is named by one of its corners.
 ///
-/// On an edge of more than two faces each is compared with the next. Degenerate faces crease nothing.
+/// On an edge of more than two faces, each face is compared with the next. Edges of degenerate faces are no creases.
 fn fans(
     polygons: &Polygons,
     vertex_of_corner: &[u32],
@@ -443,7 +447,7 @@ fn fans(
         }
         let normals =
             [a, b].map(|&corner| polygons.normal_of_face[polygons.face_of_corner[corner as usize] as usize]);
-        // A hair more than the rounding of a cosine, so that equal normals never crease.
+        // The margin exceeds the rounding error of a cosine, so that equal normals never crease.
         let is_crease = matches!(normals, [Some(a), Some(b)] if dot(a, b) < least_cosine - 1e-12);
         creased_edges += usize::from(is_crease);
         if !is_crease {
@@ -460,7 +464,7 @@ fn fans(
     Ok((names, creased_edges))
 }
 
-/// The corner that names a corner's fan; halves the way there (R. Tarjan and J. van Leeuwen 1984).
+/// The corner that names a corner's fan. Union-find with path halving (R. Tarjan and J. van Leeuwen 1984).
 fn find(fan_of_corner: &mut [u32], mut corner: usize) -> usize {
     while fan_of_corner[corner] as usize != corner {
         fan_of_corner[corner] = fan_of_corner[fan_of_corner[corner] as usize];

@@ -1,4 +1,7 @@
-//! Corner tangents to an indexed mesh with the fewest vertices that correctness allows.
+//! Splits vertices whose corners have different tangents: from corner tangents to an indexed mesh with the fewest vertices.
+//!
+//! The vertices with one source form a linked list. A fan whose corners all differ has a long list, so vertices beyond the first few go to a
+//! hash map.
 
 use std::collections::HashMap;
 
@@ -10,23 +13,23 @@ use crate::Mesh;
 use crate::MeshError;
 use crate::cancel::Cancel;
 
-/// An indexed mesh's vertices after splitting. The old vertices come first, in their old places.
+/// The vertices of an indexed mesh after splitting. The old vertices come first and keep their numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VertexSplit {
-    /// One tangent per new vertex: unit xyz and sign w. Vertices that no corner uses get (1, 0, 0, 1).
+    /// One tangent per new vertex: unit xyz and sign w. (1, 0, 0, 1) for vertices that no corner uses.
     pub tangent_of_vertex: Vec<[f32; 4]>,
     /// The new index list, one per corner, in the old corner order.
     pub indices: Vec<u32>,
-    /// The old vertex that each new vertex copies; `source_of_vertex[v] == v` for every old vertex. Gather any other attribute,
-    /// skin weight or morph target with it: `new[v] = old[source_of_vertex[v]]`.
+    /// The old vertex that each new vertex copies; `source_of_vertex[v] == v` for every old vertex. All other attributes and morph
+    /// targets follow from it: `new[v] = old[source_of_vertex[v]]`.
     pub source_of_vertex: Vec<u32>,
 }
 
-/// Splits the vertices whose corners need different tangents.
+/// Splits the vertices whose corners have different tangents.
 ///
-/// One vertex per distinct pair of old vertex and tangent (all four floats compared as bits). Old vertices keep their number;
-/// further ones are appended in the order of the corners that ask for them. The index list keeps its length and order.
-/// Errors: tangents of another number of corners.
+/// Each distinct pair of old vertex and tangent (four floats, compared as bits) becomes one vertex. Old vertices keep their numbers; new
+/// ones are appended in the order of their first corners. The index list keeps its length and order. `corners`: one tangent per corner.
+/// Errors: another number of tangents than corners.
 pub fn split_vertices<'a>(
     mesh: &Mesh<'_>,
     corners: impl Into<CornerTangentsRef<'a>>,
@@ -46,34 +49,35 @@ pub fn split_vertices_with<'a>(
     Ok(VertexSplit { tangent_of_vertex, indices, source_of_vertex })
 }
 
-/// Splits several meshes over one vertex buffer jointly, so that they go on sharing it.
+/// Splits several meshes that share one vertex buffer, so that they share the new one as well.
 ///
-/// [`Splitter::add`] each mesh, then [`Splitter::finish`]. Each `add` costs time in the mesh's corners, not in the buffer's size.
+/// Call [`Splitter::add`] for each mesh, then [`Splitter::finish`]. The time of `add` depends on the mesh's corners, not on the size of the
+/// vertex buffer.
 #[derive(Debug)]
 pub struct Splitter {
     tangent_of_vertex: Vec<[f32; 4]>,
     source_of_vertex: Vec<u32>,
-    /// The next vertex with the same source, or one of the two marks.
+    /// The next vertex with the same source, or [`UNUSED`] or [`LAST`].
     next_of_vertex: Vec<u32>,
-    /// Vertices at the ends of long lists, by source and tangent: a fan of a million tangents must not be walked again and again.
-    far: HashMap<(u32, [u32; 4]), u32>,
+    /// The vertices beyond the first [`LIST_LIMIT`] of their source, by source and tangent.
+    overflow: HashMap<(u32, [u32; 4]), u32>,
     old_count: usize,
     cancel: Option<Cancel>,
 }
 
-/// In place of a next vertex: no corner uses this one yet.
+/// Sentinel of `next_of_vertex`: no corner uses the vertex yet.
 const UNUSED: u32 = u32::MAX;
-/// In place of a next vertex: this is the last.
+/// Sentinel of `next_of_vertex`: the vertex is the last of its list.
 const LAST: u32 = u32::MAX - 1;
 
-/// Corners between two cancellation checks.
+/// The number of corners between two cancellation checks.
 const CHUNK: usize = 1 << 12;
 
-/// Vertices that are looked at one by one before the map of far ones is asked.
-const NEAR: usize = if cfg!(small_limits) { 2 } else { 16 };
+/// The number of vertices per source that are searched linearly before the hash map.
+const LIST_LIMIT: usize = if cfg!(small_limits) { 2 } else { 16 };
 
 impl Splitter {
-    /// Starts with `vertex_count` old vertices.
+    /// A splitter for a buffer of `vertex_count` vertices.
     pub fn new(vertex_count: usize) -> Self {
         Self::new_with(vertex_count, &Context::new())
     }
@@ -85,14 +89,14 @@ impl Splitter {
             tangent_of_vertex: vec![[1.0, 0.0, 0.0, 1.0]; vertex_count],
             source_of_vertex: (0..vertex_count as u32).collect(),
             next_of_vertex: vec![UNUSED; vertex_count],
-            far: HashMap::new(),
+            overflow: HashMap::new(),
             old_count: vertex_count,
         }
     }
 
-    /// Gives every corner of `mesh` its vertex: the new index list.
+    /// Adds a mesh. Returns its new index list: one vertex per corner.
     ///
-    /// Errors: tangents of another number of corners, a mesh over another number of vertices.
+    /// `corners`: one tangent per corner. Errors: another number of tangents than corners; a mesh with another number of vertices.
     pub fn add<'a>(
         &mut self,
         mesh: &Mesh<'_>,
@@ -102,7 +106,7 @@ impl Splitter {
         Ok(self.add_changes(mesh, corners)?.unwrap_or_else(|| (0..mesh.corner_count()).map(old).collect()))
     }
 
-    /// As [`Splitter::add`], but none where the old index list serves.
+    /// As [`Splitter::add`]. `None` where the index list does not change.
     pub fn add_changes<'a>(
         &mut self,
         mesh: &Mesh<'_>,
@@ -118,7 +122,7 @@ impl Splitter {
         }
     }
 
-    /// The vertices of corners, from the old ones; none where they are the same.
+    /// The vertices of corners with these old vertices. `None` where they are equal.
     fn changes(
         &mut self,
         old: impl Iterator<Item = u32> + Clone,
@@ -160,12 +164,12 @@ impl Splitter {
         }
     }
 
-    /// The vertex for `old` with `tangent`: the old one if it can have it, else an appended one.
+    /// The vertex with source `old` and this tangent: the old vertex, if it has the tangent or none yet; else an appended one.
     fn vertex(&mut self, old: u32, tangent: [f32; 4]) -> u32 {
-        if self.takes(old, tangent) { old } else { self.further(old, tangent) }
+        if self.takes(old, tangent) { old } else { self.appended(old, tangent) }
     }
 
-    /// Whether `old` has `tangent`; it takes it if no corner uses it yet.
+    /// True when the old vertex has the tangent. A vertex that no corner uses yet takes it.
     #[inline]
     fn takes(&mut self, old: u32, tangent: [f32; 4]) -> bool {
         let next = &mut self.next_of_vertex[old as usize];
@@ -177,10 +181,10 @@ impl Splitter {
         has_bits(&self.tangent_of_vertex[old as usize], &tangent)
     }
 
-    /// The appended vertex for `old` with `tangent`, found or made.
-    fn further(&mut self, old: u32, tangent: [f32; 4]) -> u32 {
+    /// The appended vertex with source `old` and this tangent, which is appended if it is absent.
+    fn appended(&mut self, old: u32, tangent: [f32; 4]) -> u32 {
         let mut last = old;
-        for _ in 1..NEAR {
+        for _ in 1..LIST_LIMIT {
             match self.next_of_vertex[last as usize] {
                 LAST => {
                     let appended = self.append(old, tangent);
@@ -192,11 +196,11 @@ impl Splitter {
             }
         }
         let key = (old, tangent.map(f32::to_bits));
-        if let Some(&known) = self.far.get(&key) {
-            return known;
+        if let Some(&vertex) = self.overflow.get(&key) {
+            return vertex;
         }
         let appended = self.append(old, tangent);
-        self.far.insert(key, appended);
+        self.overflow.insert(key, appended);
         appended
     }
 
@@ -207,7 +211,7 @@ impl Splitter {
         self.source_of_vertex.len() as u32 - 1
     }
 
-    /// As [`Splitter::finish`], with the tangents written in another convention, but for those of unused vertices.
+    /// As [`Splitter::finish`], with the tangents converted from one convention to another. Tangents of unused vertices stay (1, 0, 0, 1).
     pub fn finish_in(mut self, from: Convention, to: Convention) -> (Vec<[f32; 4]>, Vec<u32>) {
         let conversion = from.to(to);
         for (tangent, &next) in self.tangent_of_vertex.iter_mut().zip(&self.next_of_vertex) {
@@ -218,7 +222,7 @@ impl Splitter {
         self.finish()
     }
 
-    /// The tangent and the source of every new vertex, as in [`VertexSplit`].
+    /// Returns `tangent_of_vertex` and `source_of_vertex` of [`VertexSplit`].
     pub fn finish(self) -> (Vec<[f32; 4]>, Vec<u32>) {
         (self.tangent_of_vertex, self.source_of_vertex)
     }
@@ -228,7 +232,7 @@ fn has_bits(held: &[f32; 4], wanted: &[f32; 4]) -> bool {
     held.map(f32::to_bits) == wanted.map(f32::to_bits)
 }
 
-/// An error unless as many were found as expected.
+/// An error unless `found` equals `expected`.
 pub(crate) fn expect(what: &'static str, expected: usize, found: usize) -> Result<(), MeshError> {
     if expected == found { Ok(()) } else { Err(MeshError::OtherMesh { what, expected, found }) }
 }
@@ -238,7 +242,7 @@ mod tests {
     use super::*;
     use crate::CornerTangents;
 
-    /// The shortest code for the same: the first tangent of a vertex stays, further ones are appended as they come.
+    /// The same result by linear search: the first tangent of a vertex stays, others are appended in order.
     fn naive(old: &[u32], tangents: &[[f32; 4]], vertex_count: usize) -> (Vec<u32>, Vec<u32>) {
         let mut sources: Vec<u32> = (0..vertex_count as u32).collect();
         let mut held: Vec<Option<[u32; 4]>> = vec![None; vertex_count];
@@ -261,7 +265,7 @@ mod tests {
     fn vertices_are_those_of_the_naive_search() {
         let vertices = [[0.0; 3]; 4];
         let mesh = |old| Mesh::triangles(&vertices, &vertices, &[[0.0; 2]; 4], Indices::U32(old)).unwrap();
-        // Zeros and NaNs of other bits are other tangents; one vertex has far more of them than are looked at one by one.
+        // Zeros and NaNs of different bits are different tangents. One vertex has more tangents than the linear search covers.
         let palette = |i: u32| match i % 50 {
             0 => [0.0; 4],
             1 => [-0.0, 0.0, 0.0, 0.0],
@@ -275,7 +279,7 @@ mod tests {
             .map(|i| palette(random(i + 5000) / if old[i as usize] == 2 { 40 } else { 1 }))
             .collect();
         let (indices, sources) = naive(&old, &tangents, 4);
-        assert!(sources.iter().filter(|&&source| source == 0).count() > 2 * NEAR);
+        assert!(sources.iter().filter(|&&source| source == 0).count() > 2 * LIST_LIMIT);
 
         let mut splitter = Splitter::new(4);
         let (first, second) = tangents.split_at(600);

@@ -1,13 +1,12 @@
-//! Frames under transforms: node matrices, mirrored and unevenly scaled ones included, and skins.
+//! Transforms of frames by node matrices, also mirrored and non-uniform ones, and by skins.
 //!
-//! A tangent is a direction on the surface and goes with the surface: by the matrix M. A normal is what is perpendicular to the
-//! surface: it goes by the inverse transpose of M, so that it stays perpendicular and stays on its side. That is M's cofactors
-//! divided by its determinant, of which only the sign matters, since a normal is made unit. cross(normal, tangent) is negated by a
-//! mirror while the surface's own bitangent goes with the surface, so there w changes its sign.
+//! A tangent lies on the surface, so it transforms by the matrix M. A normal is perpendicular to the surface, so it transforms by the inverse
+//! transpose of M, which is the cofactor matrix divided by the determinant. Normals are normalised, so only the sign of the determinant
+//! matters. A mirroring M negates cross(normal, tangent) but not the bitangent of the surface, so w changes its sign.
 
 use crate::math::{V3, cross, dot, length, scale, unit_in_plane};
 
-/// The linear part of a transform, made ready for frames.
+/// The linear part of a transform, with its cofactors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {
     columns: [V3; 3],
@@ -16,8 +15,8 @@ pub struct Transform {
 }
 
 impl Transform {
-    /// `columns`: where the transform takes the x, y and z directions; the first three numbers of the first three columns of a 4x4
-    /// matrix. Any scale; translation does not matter to frames.
+    /// `columns`: the images of the x, y and z directions, which are the first three numbers of the first three columns of a 4x4 matrix. Any
+    /// scale. Translation does not affect frames.
     pub fn new(columns: [[f32; 3]; 3]) -> Self {
         let columns = rescaled(columns);
         let [x, y, z] = columns;
@@ -26,11 +25,11 @@ impl Transform {
         Self { columns, cofactors, orientation }
     }
 
-    /// The transform of a vertex that several bones move (linear blend skinning): the mean of their matrices.
+    /// The transform of a vertex under linear blend skinning: the weighted sum of the bones' matrices.
     ///
-    /// `bones`: the columns of each bone's matrix, as in [`Transform::new`], and its weight. That weights vary over the surface is
-    /// left out, as everywhere: normals of strongly bent skins are approximate (B. Merry et al., "Normal Transformations for
-    /// Articulated Models", SIGGRAPH Sketches 2006).
+    /// `bones`: the columns of each bone's matrix, as in [`Transform::new`], and its weight. The variation of weights over the surface is
+    /// ignored, as is usual, so normals of strongly bent skins are approximate (B. Merry et al., "Normal Transformations for Articulated
+    /// Models", SIGGRAPH Sketches 2006).
     pub fn blended(bones: impl IntoIterator<Item = ([[f32; 3]; 3], f32)>) -> Self {
         let mut sum = [[0.0; 3]; 3];
         for (columns, weight) in bones {
@@ -41,22 +40,22 @@ impl Transform {
         Self::new(sum)
     }
 
-    /// -1 where the transform mirrors, which turns the winding of faces as well; else +1.
+    /// -1 if the transform mirrors, which also reverses the winding of faces; else +1.
     pub fn orientation(&self) -> f32 {
         self.orientation
     }
 
-    /// The unit normal of the transformed surface, on the same side of it. One that the transform leaves no direction stays as it is.
+    /// Transforms a normal. The result is normalised. A normal that the transform maps to zero is returned unchanged.
     pub fn normal(&self, normal: [f32; 3]) -> [f32; 3] {
         let turned = scale(self.orientation, product(self.cofactors, normal));
         let size = length(turned);
         if size > 0.0 && size.is_finite() { scale(1.0 / size, turned) } else { normal }
     }
 
-    /// The unit normal and the unit tangent, perpendicular to it, of the transformed surface.
+    /// Transforms a normal and a tangent. Returns the unit normal, and the unit tangent perpendicular to it with its sign.
     ///
-    /// `tangent`: unit xyz and the sign w. What leaves the plane of the new normal is taken away: nothing, where tangent and normal
-    /// were perpendicular. A tangent that keeps no direction becomes a perpendicular of the normal.
+    /// `tangent`: unit xyz and sign w. The component of the tangent along the new normal is removed; it is zero if tangent and normal were
+    /// perpendicular. A tangent that becomes zero is replaced by a perpendicular of the normal.
     pub fn frame(&self, normal: [f32; 3], [x, y, z, w]: [f32; 4]) -> ([f32; 3], [f32; 4]) {
         let normal = self.normal(normal);
         let [x, y, z] = unit_in_plane(normal, product(self.columns, [x, y, z]));
@@ -64,7 +63,7 @@ impl Transform {
     }
 }
 
-/// The columns with 1 as their largest component, so that their products neither overflow nor vanish.
+/// Scales the columns to a largest component of 1, so that products neither overflow nor underflow.
 fn rescaled(columns: [V3; 3]) -> [V3; 3] {
     let largest = columns.iter().flatten().fold(0f32, |largest, component| largest.max(component.abs()));
     if largest > 0.0 && largest.is_finite() {

@@ -1,4 +1,4 @@
-//! Named conventions, each with its source. What a source leaves open is said with it.
+//! Named conventions, each with its source. Comments say what a source does not define.
 
 use crate::convention::rules::{
     Axes, Axis, BitangentDirection, Convention, SignRule, TangentDirection, UvOrigin, Winding,
@@ -11,11 +11,11 @@ const fn axes(right: Axis, up: Axis, front: Axis) -> Axes {
     }
 }
 
-/// Right-handed, y up, models look along z.
+/// Right-handed, y up, models face +z.
 const Y_UP_RIGHT_HANDED: Axes = axes(Axis::MinusX, Axis::Y, Axis::Z);
-/// Left-handed, y up, models look along z.
+/// Left-handed, y up, models face +z.
 const Y_UP_LEFT_HANDED: Axes = axes(Axis::X, Axis::Y, Axis::Z);
-/// Right-handed, z up, models look against y, into the front view.
+/// Right-handed, z up, models face -y, as in Blender's front view.
 const Z_UP_RIGHT_HANDED: Axes = axes(Axis::MinusX, Axis::Z, Axis::MinusY);
 
 impl Convention {
@@ -30,12 +30,12 @@ impl Convention {
         sign: SignRule::NormalCrossTangent,
     };
 
-    /// OpenGL: fronts are GL_CCW at first (OpenGL 4.6, 14.6.1), a texture's first row is at t = 0, which pictures put at the bottom
-    /// (8.5). Axes of models and green are custom: y up, right-handed, "Y+".
+    /// OpenGL: front faces are GL_CCW by default (OpenGL 4.6, 14.6.1), and the first row of a texture is at t = 0, the bottom of the
+    /// image (8.5). OpenGL does not define the axes of models and the direction of green; common practice is right-handed, y up, "Y+".
     pub const OPENGL: Self = Self { uv_origin: UvOrigin::BottomLeft, ..Self::GLTF };
 
-    /// Direct3D: left-handed, clockwise fronts (D3D11_RASTERIZER_DESC, FrontCounterClockwise is FALSE at first), UVs from the upper
-    /// left. Green down is custom: "Y-".
+    /// Direct3D: left-handed, clockwise front faces (D3D11_RASTERIZER_DESC, FrontCounterClockwise is FALSE by default), UVs from the upper
+    /// left. Direct3D does not define the direction of green; common practice is down, "Y-".
     pub const DIRECTX: Self = Self {
         axes: Y_UP_LEFT_HANDED,
         winding: Winding::Clockwise,
@@ -54,12 +54,12 @@ impl Convention {
     pub const UNREAL: Self =
         Self { axes: axes(Axis::Y, Axis::Z, Axis::X), bitangent: BitangentDirection::Down, ..Self::GLTF };
 
-    /// Godot 4: right-handed, y up, models look along z (Vector3.MODEL_FRONT), clockwise fronts (ArrayMesh), UVs from the upper left,
+    /// Godot 4: right-handed, y up, models face +z (Vector3.MODEL_FRONT), clockwise front faces (ArrayMesh), UVs from the upper left,
     /// green up.
     pub const GODOT: Self = Self { winding: Winding::Clockwise, ..Self::GLTF };
 
-    /// three.js: right-handed, y up, objects look along z; textures are turned over on upload (Texture.flipY), so UVs count from the
-    /// lower left. Loaded glTF is not turned over: it stays [`Convention::GLTF`].
+    /// three.js: right-handed, y up, objects face +z; textures are flipped on upload (Texture.flipY), so the UV origin is the lower
+    /// left. Textures of loaded glTF are not flipped: use [`Convention::GLTF`] for those.
     pub const THREE_JS: Self = Self::OPENGL;
 
     /// Maya: right-handed, y up, UVs from the lower left, right-handed tangent space.
@@ -68,7 +68,7 @@ impl Convention {
     /// 3ds Max: right-handed, z up, UVs from the lower left, left-handed tangent space with green down.
     pub const MAX: Self = Self { bitangent: BitangentDirection::Down, ..Self::BLENDER };
 
-    /// Every preset with its name on the command line.
+    /// All presets with their names on the command line.
     pub const PRESETS: [(&str, Self); 10] = [
         ("gltf", Self::GLTF),
         ("opengl", Self::OPENGL),

@@ -31,7 +31,7 @@ impl Axis {
     }
 }
 
-/// Where a model's own right hand, head and face point: three different axes.
+/// The axes of a model: where its right, its top and its front point. Three different axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Axes {
     right: Axis,
@@ -39,39 +39,39 @@ pub struct Axes {
     front: Axis,
 }
 
-/// Which hand's thumb, index and middle finger lie along x, y and z.
+/// The handedness of a coordinate system: thumb, index and middle finger along x, y and z.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Handedness {
-    /// z points to a viewer who sees x to the right and y up.
+    /// Right-handed: with x to the right and y up, z points to the viewer.
     Right,
-    /// z points away from that viewer.
+    /// Left-handed: with x to the right and y up, z points away from the viewer.
     Left,
 }
 
 impl Axes {
-    /// The axes of a model that looks along `front`, or none where two of the three lie along one line.
+    /// The axes of a model. `None` where two of the three are parallel.
     pub const fn new(right: Axis, up: Axis, front: Axis) -> Option<Self> {
         let (r, u, f) = (right.index(), up.index(), front.index());
         if r == u || u == f || f == r { None } else { Some(Self { right, up, front }) }
     }
 
-    /// The model's right, which a viewer in front of it sees on the left.
+    /// The right of the model, which a viewer in front of the model sees on the left.
     pub const fn right(self) -> Axis {
         self.right
     }
 
-    /// Up.
+    /// The top of the model.
     pub const fn up(self) -> Axis {
         self.up
     }
 
-    /// Where the model looks.
+    /// The front of the model.
     pub const fn front(self) -> Axis {
         self.front
     }
 
-    /// Right, up and front are the fingers of a left hand, whatever the coordinates: the space is left-handed just where their
-    /// determinant is +1.
+    /// The handedness of the coordinate system. Right, up and front of a model are left-handed in space, so the coordinates are left-handed
+    /// exactly when the determinant of the three axes is +1.
     pub const fn handedness(self) -> Handedness {
         let is_cyclic = (self.right.index() + 1) % 3 == self.up.index();
         let is_odd = self.right.is_negative() != (self.up.is_negative() != self.front.is_negative());
@@ -79,43 +79,44 @@ impl Axes {
     }
 }
 
-/// The order of a face's corners, seen from the side that its normal points to, as the eye sees it and not as the numbers say.
+/// The winding of front faces, as seen on the screen from the side that the normal points to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Winding {
-    /// Against the clock.
+    /// Counter-clockwise.
     CounterClockwise,
-    /// With the clock.
+    /// Clockwise.
     Clockwise,
 }
 
-/// Where in the picture v = 0 is. u always runs to the right.
+/// The origin of UVs in the image. u always points to the right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UvOrigin {
-    /// v runs up.
+    /// v = 0 is the bottom; v points up.
     BottomLeft,
-    /// v runs down.
+    /// v = 0 is the top; v points down.
     TopLeft,
 }
 
-/// Where the tangent points on the surface, and more red leans the normal: a direction in the picture that lies on it.
+/// The direction of the tangent, as a direction in the texture image. More red tilts the normal in this direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TangentDirection {
-    /// To the picture's right.
+    /// To the right of the image.
     Right,
-    /// To the picture's left.
+    /// To the left of the image.
     Left,
 }
 
-/// Where the bitangent that a shader rebuilds points on the surface, and more green leans the normal: a direction in the picture.
+/// The direction of the bitangent that a shader rebuilds, as a direction in the texture image. More green tilts the normal in this
+/// direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BitangentDirection {
-    /// To the picture's top ("OpenGL", Y+).
+    /// To the top of the image ("OpenGL", Y+).
     Up,
-    /// To the picture's bottom ("DirectX", Y-).
+    /// To the bottom of the image ("DirectX", Y-).
     Down,
 }
 
-/// How a shader rebuilds the bitangent from normal, tangent and sign: by numbers, so that a left-handed space takes the left hand.
+/// The formula by which a shader rebuilds the bitangent from normal, tangent and sign, applied to coordinates of either handedness.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SignRule {
     /// w * cross(normal, tangent).
@@ -124,28 +125,29 @@ pub enum SignRule {
     TangentCrossNormal,
 }
 
-/// What the numbers of a mesh and of its normal map mean.
+/// The convention of a mesh and of its normal map: the meaning of their numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Convention {
-    /// How a model stands in its space.
+    /// The axes of models.
     pub axes: Axes,
-    /// How fronts of faces are wound.
+    /// The winding of front faces.
     pub winding: Winding,
-    /// Where v = 0 is.
+    /// The origin of UVs.
     pub uv_origin: UvOrigin,
-    /// Where tangents, and red, point.
+    /// The direction of tangents and of red.
     pub tangent: TangentDirection,
-    /// Where bitangents, and green, point.
+    /// The direction of bitangents and of green.
     pub bitangent: BitangentDirection,
-    /// What w means.
+    /// The formula of the bitangent.
     pub sign: SignRule,
 }
 
 impl Convention {
-    /// What [`crate::generate_tangents`] returns for a mesh in this convention: this one but for the frames.
+    /// The convention of the tangents that [`crate::generate_tangents`] returns for a mesh in this convention. Axes, winding and UV origin
+    /// stay.
     ///
-    /// MikkTSpace knows no pictures. Its tangent follows u. Its sign is that of the UV area, so w * cross(normal, tangent) follows
-    /// v where the numbers of front faces turn about the normal as the right hand does, and opposes v where they do not.
+    /// The tangent points along u. The sign is that of the UV area, so w * cross(normal, tangent) points along v if front faces wind about the
+    /// normal by the right-hand rule in coordinates, and against v otherwise.
     pub const fn generated(self) -> Self {
         let is_right = matches!(self.axes.handedness(), Handedness::Right);
         let is_counter_clockwise = matches!(self.winding, Winding::CounterClockwise);

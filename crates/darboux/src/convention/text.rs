@@ -1,4 +1,4 @@
-//! Conventions as text: the name of a preset, and what differs from it: `blender`, `gltf,green=down`.
+//! Conventions as text: the name of a preset, followed by changes: `blender`, `gltf,green=down`.
 
 use std::error::Error;
 use std::fmt;
@@ -8,21 +8,21 @@ use crate::convention::rules::{
     Axes, Axis, BitangentDirection, Convention, SignRule, TangentDirection, UvOrigin, Winding,
 };
 
-/// A text that is no convention.
+/// The error of parsing a convention.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ConventionError {
-    /// The first part is no preset.
+    /// The first part is not the name of a preset.
     Preset(String),
-    /// A later part does not begin with the name of a choice and `=`.
+    /// A later part is not `CHOICE=VALUE` with the name of a choice.
     Choice(String),
-    /// A choice is not one of those that there are.
+    /// The value of a choice is invalid.
     Value {
-        /// Which choice.
+        /// The name of the choice.
         choice: &'static str,
-        /// What was written.
+        /// The invalid value.
         value: String,
-        /// What may be written.
+        /// The valid values.
         allowed: String,
     },
 }
@@ -32,11 +32,11 @@ impl fmt::Display for ConventionError {
         match self {
             Self::Preset(name) => {
                 let presets = Convention::PRESETS.map(|(name, _)| name).join(", ");
-                write!(f, "{name:?} is no convention; begin with one of {presets}")
+                write!(f, "{name:?} is not a convention; begin with one of {presets}")
             }
             Self::Choice(part) => {
                 let choices = CHOICES.map(|choice| choice.0).join(", ");
-                write!(f, "{part:?} changes nothing; write CHOICE=VALUE with one of {choices}")
+                write!(f, "{part:?} is not a change; write CHOICE=VALUE with one of {choices}")
             }
             Self::Value { choice, value, allowed } => {
                 write!(f, "{choice} cannot be {value:?}; write {allowed}")
@@ -47,11 +47,11 @@ impl fmt::Display for ConventionError {
 
 impl Error for ConventionError {}
 
-/// A choice: its name, what it is in a convention, a convention with another, what there is.
+/// A choice: its name, a function that reads its value, one that sets it, and one that lists the valid values.
 type Choice =
     (&'static str, fn(Convention) -> String, fn(Convention, &str) -> Option<Convention>, fn() -> String);
 
-/// A choice between values with names.
+/// A choice between named values.
 macro_rules! choice {
     ($name:literal, $field:ident, [$($text:literal => $value:expr),*]) => {
         (
@@ -69,7 +69,7 @@ macro_rules! choice {
     };
 }
 
-/// The choices in the order in which they are written.
+/// All choices, in the order of the text form.
 const CHOICES: [Choice; 6] = [
     (
         "axes",
@@ -85,13 +85,13 @@ const CHOICES: [Choice; 6] = [
 ];
 
 impl Convention {
-    /// The names of the presets that are this convention: several, one, or none.
+    /// The names of all presets that equal this convention.
     pub fn names(self) -> impl Iterator<Item = &'static str> {
         Self::PRESETS.into_iter().filter(move |(_, preset)| *preset == self).map(|(name, _)| name)
     }
 }
 
-/// The first name that it has, or glTF's with what differs. [`Convention::from_str`] reads it.
+/// The first name of the convention; without a name, `gltf` and the changes. [`Convention::from_str`] parses the text.
 impl fmt::Display for Convention {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(name) = self.names().next() {
@@ -106,7 +106,7 @@ impl fmt::Display for Convention {
 impl FromStr for Convention {
     type Err = ConventionError;
 
-    /// Reads a preset's name, after which `,CHOICE=VALUE` may follow: `axes=-x/y/z` (right, up, front), `fronts=ccw` or `cw`, `v0=bottom`
+    /// Parses the name of a preset, followed by any number of `,CHOICE=VALUE`: `axes=-x/y/z` (right, up, front), `fronts=ccw` or `cw`, `v0=bottom`
     /// or `top`, `red=right` or `left`, `green=up` or `down`, `w=n-cross-t` or `t-cross-n`.
     fn from_str(text: &str) -> Result<Self, ConventionError> {
         let mut parts = text.split(',');

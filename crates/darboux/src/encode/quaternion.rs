@@ -1,20 +1,22 @@
-//! A whole frame as the rotation that turns x, y and z into tangent, cross(normal, tangent) and normal, the sign of w in the sign of
-//! the quaternion: q and -q are one rotation. Its last component must not be zero, since integers have no -0.
+//! Quaternion encoding of a frame: the rotation that maps x, y and z to tangent, cross(normal, tangent) and normal.
 //!
-//! Source: I. Frey and I. Herzeg, "Spherical Skinning with Dual-Quaternions and QTangents", SIGGRAPH Talks 2011. They move the last
-//! component away from zero before rounding; we round first, which moves it by at most one step. Quaternion of a matrix:
+//! q and -q are the same rotation, so the sign of the scalar component stores the sign w. The scalar component must not be zero, because
+//! integers have no -0.
+//!
+//! Source: I. Frey and I. Herzeg, "Spherical Skinning with Dual-Quaternions and QTangents", SIGGRAPH Talks 2011. We deviate: they move the
+//! scalar component away from zero before rounding; we round first, which moves it by at most one step. Quaternion of a matrix:
 //! S. W. Shepperd, "Quaternion from Rotation Matrix", Journal of Guidance and Control 1(3), 1978.
 //!
-//! Error: three components round by half a step, the last by up to a whole one, and the rotation's angle is twice the quaternion's:
-//! 2 sqrt(3/4 + 1) / 32767 radians.
+//! Error: three components are rounded by up to half a step, the scalar by up to one step, and the angle of the rotation is twice that of the
+//! quaternion: 2 sqrt(3/4 + 1) / 32767 radians.
 
 use crate::math::{V3, cross, sign, unit_in_plane};
 
 const LARGEST: f32 = 32767.0;
 
-/// Eight bytes, x y z and the scalar last; either direction turns by up to 0.0047 degrees.
+/// Encodes a frame in eight bytes: x, y, z and the scalar component. Error of either direction: up to 0.0047 degrees.
 ///
-/// `normal`, `tangent`: unit; what of the tangent lies along the normal is lost.
+/// `normal`, `tangent`: unit. The component of the tangent along the normal is lost.
 pub fn frame_to_quaternion(normal: [f32; 3], [x, y, z, w]: [f32; 4]) -> [i16; 4] {
     let tangent = unit_in_plane(normal, [x, y, z]);
     let [x, y, z, scalar] = rotation([tangent, cross(normal, tangent), normal]);
@@ -25,7 +27,7 @@ pub fn frame_to_quaternion(normal: [f32; 3], [x, y, z, w]: [f32; 4]) -> [i16; 4]
     [round(x), round(y), round(z), if scalar == 0 { nearest_to_zero } else { scalar }]
 }
 
-/// The unit normal and the unit tangent of [`frame_to_quaternion`].
+/// Decodes the unit normal and the unit tangent of [`frame_to_quaternion`].
 pub fn frame_from_quaternion(code: [i16; 4]) -> ([f32; 3], [f32; 4]) {
     let [x, y, z, w] = code.map(f32::from);
     let twice = 2.0 / (x * x + y * y + z * z + w * w);
@@ -34,7 +36,7 @@ pub fn frame_from_quaternion(code: [i16; 4]) -> ([f32; 3], [f32; 4]) {
     (normal, [tangent[0], tangent[1], tangent[2], sign(w)])
 }
 
-/// The unit quaternion, scalar last, of the rotation with these columns. Its largest component is found first, so that nothing cancels.
+/// The unit quaternion (scalar last) of the rotation with these columns. The largest component is computed first, so that no digits cancel.
 fn rotation([[m00, m10, m20], [m01, m11, m21], [m02, m12, m22]]: [V3; 3]) -> [f32; 4] {
     let four_squares =
         [1.0 + m00 - m11 - m22, 1.0 - m00 + m11 - m22, 1.0 - m00 - m11 + m22, 1.0 + m00 + m11 + m22];
