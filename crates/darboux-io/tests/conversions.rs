@@ -141,7 +141,7 @@ fn any_convention_can_be_noted_and_none_is_guessed() {
         })
     };
     for (note, part) in
-        [(json!("quake"), "\"quake\" is no convention; begin with"), (json!(7), "7 is no text; ")]
+        [(json!("quake"), "\"quake\" is not a convention; begin with"), (json!(7), "7 is no text; ")]
     {
         let mut document = noted(note);
         let sentence = refusal(&mut document, Convention::UNITY, Convention::GLTF);

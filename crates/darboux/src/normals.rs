@@ -334,7 +334,7 @@ impl Polygons {
         [size - 1, 1].map(|step| start + (corner - start + step) % size)
     }
 
-    /// For every group of corners the sum of their faces' normals; unspecified after cancellation.
+    /// The sum of the faces' normals for every group of corners. Unspecified after cancellation.
     fn sums(
         &self,
         mesh: &Mesh<'_>,
