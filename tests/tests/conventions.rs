@@ -256,14 +256,14 @@ fn every_convention_can_be_written_and_read() {
 }
 
 #[test]
-fn what_is_no_convention_is_told_in_a_sentence() {
+fn invalid_conventions_have_clear_errors() {
     let sentence =
         |text: &str| text.parse::<Convention>().map_err(|error: ConventionError| error.to_string());
     let cases = [
         ("quake", "\"quake\" is not a convention; begin with one of gltf, "),
         ("", "\"\" is not a convention"),
         ("gltf,blue=up", "\"blue=up\" is not a change; write CHOICE=VALUE with one of axes, fronts, "),
-        ("gltf,", "\"\" changes nothing"),
+        ("gltf,", "\"\" is not a change"),
         ("gltf,green=left", "green cannot be \"left\"; write up or down"),
         ("gltf,axes=x/-x/z", "axes cannot be \"x/-x/z\"; write right, up and front as in -x/y/z"),
         ("gltf,axes=x/y/z/z", "axes cannot be"),
