@@ -6,6 +6,7 @@ mod ci;
 mod dist_c;
 mod dist_js;
 mod dist_viewer;
+mod doc_blocks;
 mod generated;
 mod gpu;
 mod layers;
@@ -23,7 +24,8 @@ usage: cargo xtask <task>
 
   ci [--full]   what must hold before a change lands; --full adds what is long
   gen           write the generated files (command-line reference, man pages, completions, darboux.h, shaders)
-  layers        check who imports whom
+  layers        check which packages import which, and that files import each other without cycles
+  docs [PAGE]   run every code block of the documentation twice
   validate      check the command's outputs for all models with independent tools (needs node and npm)
   bench [...]   time every engine on every mesh; see bench --help
   bench --gpu   time everything on every adapter: [--quick] [TRIANGLES ...]
@@ -47,6 +49,7 @@ fn main() -> ExitCode {
         ["ci", "--full"] => ci::full(),
         ["gen"] => generated::write(),
         ["layers"] => layers::check(),
+        ["docs", ref pages @ ..] => doc_blocks::run(pages),
         ["validate"] => validate::all_models(validate::WithoutNpm::Fail),
         ["bench", "--gpu", ref options @ ..] => bench::bench_gpu(options),
         ["bench", ref options @ ..] => bench::bench(options),

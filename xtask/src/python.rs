@@ -22,9 +22,26 @@ pub fn test(without: WithoutPython) -> Outcome {
         return Ok(());
     }
     let python = environment()?;
-    let package = format!("{PACKAGE}[test]");
-    run(pip(&python).args(["--config-settings", "build-args=--profile dev", &package]))?;
+    install(&python)?;
     run(with(&python, "-m pytest --quiet").arg(PACKAGE))
+}
+
+/// An interpreter that has the package, which is installed if it is missing; none where there is no Python that makes environments.
+pub fn with_package() -> Result<Option<PathBuf>, String> {
+    if !works(&mut program("python3 -m venv --help")) {
+        return Ok(None);
+    }
+    let python = environment()?;
+    if !works(with(&python, "-c").arg("import darboux")) {
+        install(&python)?;
+    }
+    Ok(Some(python))
+}
+
+/// Installs the package with what its tests need, in cargo's dev profile.
+fn install(python: &Path) -> Outcome {
+    let package = format!("{PACKAGE}[test]");
+    run(pip(python).args(["--config-settings", "build-args=--profile dev", &package]))
 }
 
 /// Installs the wheel that is shipped into a fresh environment, where there is no Rust to build it with, and runs the tests on it.
