@@ -7,7 +7,7 @@ use std::time::Instant;
 use crate::python::WithoutPython;
 use crate::run::{Outcome, program, root, run, shown, works};
 use crate::validate::WithoutNpm;
-use crate::{dist_js, dist_viewer, generated, layers, packages, python, validate};
+use crate::{dist_js, dist_viewer, doc_blocks, generated, layers, packages, python, validate};
 
 type Step = (&'static str, fn() -> Outcome);
 
@@ -23,6 +23,7 @@ const QUICK: &[Step] = &[
     ("small limits", small_limits),
     ("python", || python::test(without_python())),
     ("npm package", || dist_js::test(without_npm())),
+    ("code blocks of the documentation", || doc_blocks::run(&[])),
     ("viewer", || dist_viewer::test(without_npm())),
 ];
 
