@@ -87,12 +87,15 @@ fn of_another_length_are_left_alone() {
     for result in [
         write_tangents(&view, &options, &mut context, &mut corners).map(drop),
         Plan::new(&view, &options).write_tangents(&view, &mut context, &mut corners),
-        split_vertices(&view, CornerTangentsRef::from_per_corner(&corners)).map(drop),
     ] {
-        assert!(matches!(result, Err(MeshError::OtherMesh { what: "corners", .. })), "{result:?}");
+        assert!(matches!(result, Err(MeshError::OutputLength { what: "tangents", .. })), "{result:?}");
     }
+    let result = split_vertices(&view, CornerTangentsRef::from_per_corner(&corners));
+    assert!(matches!(result, Err(MeshError::InputLength { what: "tangents", .. })), "{result:?}");
     assert!(corners.iter().all(|corner| *corner == [7.0; 4]));
     let mut frames = vec![Frame::default(); mesh.corner_count() + 1];
     let result = write_frames(&view, &options, &mut context, &mut frames);
-    assert!(matches!(result, Err(MeshError::OtherMesh { what: "corners", .. })), "{result:?}");
+    let expected = mesh.corner_count();
+    let error = MeshError::OutputLength { what: "frames", expected, found: expected + 1 };
+    assert_eq!(result, Err(error));
 }

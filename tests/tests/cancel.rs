@@ -3,10 +3,10 @@
 use std::time::Duration;
 
 use darboux::{
-    Cancel, Context, Frame, Mesh, MeshError, MikktOptions, NormalOptions, NormalPlan, Plan, Splitter,
-    TangentOptions, generate_frames_with, generate_normals_with, generate_tangents_with, lend_frames,
-    measure_tangents_with, measure_uv_fidelity_with, split_normals_with, split_vertices_with, write_frames,
-    write_tangents,
+    Cancel, Context, CornerNormals, Frame, Mesh, MeshError, MikktOptions, NormalOptions, NormalPlan, Plan,
+    Splitter, TangentOptions, generate_frames_with, generate_normals_with, generate_tangents_with,
+    lend_frames, measure_tangents_with, measure_uv_fidelity_with, split_normals_with, split_vertices_with,
+    write_frames, write_tangents,
 };
 use darboux_tests::{OwnedMesh, families};
 
@@ -73,7 +73,7 @@ fn results(
     results.push(plan.write_tangents(mesh, context, &mut corners));
     results.push(plan.evaluate_with(mesh, context).map(drop));
     results.push(plan.count_regrouped_with(mesh, context).map(drop));
-    let creased = &NormalOptions { crease: 30.0, ..NormalOptions::default() };
+    let creased = &NormalOptions::new().with_crease(30.0);
     let (positions, indices, faces) = (mesh.positions(), mesh.indices(), mesh.faces());
     results.push(generate_normals_with(positions, indices, faces, creased, context).map(drop));
     results.push(NormalPlan::new_with(positions, indices, faces, creased, context).map(drop));
@@ -82,7 +82,7 @@ fn results(
     results.push(measure_uv_fidelity_with(mesh, tangents, context).map(drop));
     results.push(split_vertices_with(mesh, &plan.base().corners, context).map(drop));
     results.push(Splitter::new_with(mesh.vertex_count(), context).add(mesh, &plan.base().corners).map(drop));
-    let zeros = vec![[0.0; 3]; mesh.corner_count()];
+    let zeros = CornerNormals::from_per_corner(vec![[0.0; 3]; mesh.corner_count()]);
     results.push(split_normals_with(mesh.vertex_count(), indices, &zeros, context).map(drop));
     results
 }

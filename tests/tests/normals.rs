@@ -1,8 +1,8 @@
 //! Normals against their brute force, on shapes whose normals are known, and on odd input.
 
 use darboux::{
-    Faces, Indices, Mesh, MeshError, NormalOptions, NormalPlan, NormalWeight, Normals, Shading,
-    SmoothingSeams, generate_normals, split_normals,
+    CornerNormalsRef, Faces, Indices, Mesh, MeshError, NormalOptions, NormalPlan, NormalWeight, Normals,
+    Shading, SmoothingSeams, generate_normals, split_normals,
 };
 use darboux_tests::{Case, FaceSizes, OwnedMesh, families, oracle};
 
@@ -19,11 +19,11 @@ fn run(mesh: &OwnedMesh, options: &NormalOptions) -> Normals {
 }
 
 fn all_options() -> Vec<NormalOptions> {
-    let mut all = vec![NormalOptions { shading: Shading::Flat, ..NormalOptions::default() }];
+    let mut all = vec![NormalOptions::new().with_shading(Shading::Flat)];
     for weight in WEIGHTS {
         for crease in [180.0, 60.0, 20.0] {
             for seams in [SmoothingSeams::Ignored, SmoothingSeams::Respected] {
-                all.push(NormalOptions { weight, crease, seams, ..NormalOptions::default() });
+                all.push(NormalOptions::new().with_weight(weight).with_crease(crease).with_seams(seams));
             }
         }
     }
@@ -42,7 +42,7 @@ fn regular_meshes_agree_with_the_brute_force() {
         ];
         for mesh in meshes {
             for options in all_options() {
-                let found = run(&mesh, &options).corners;
+                let found = run(&mesh, &options).corners.into_per_corner();
                 let expected = oracle::normals(&mesh.view(), &mesh.face_sizes(), &options);
                 for (corner, (a, b)) in found.iter().zip(&expected).enumerate() {
                     let worst = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
@@ -56,22 +56,25 @@ fn regular_meshes_agree_with_the_brute_force() {
 #[test]
 fn a_cube_is_flat_or_round() {
     let mesh = families::cube(true);
-    let flat = run(&mesh, &NormalOptions { shading: Shading::Flat, ..NormalOptions::default() });
-    let creased = run(&mesh, &NormalOptions { crease: 89.0, ..NormalOptions::default() });
+    let flat = run(&mesh, &NormalOptions::new().with_shading(Shading::Flat));
+    let creased = run(&mesh, &NormalOptions::new().with_crease(89.0));
     let sides: Vec<[f32; 3]> = (0..24).map(|corner| mesh.normals[mesh.vertex_of_corner(corner)]).collect();
     let outward = |normal: &[f32; 3], side: &[f32; 3]| {
         normal.iter().zip(side).map(|(a, b)| a * b).sum::<f32>().abs() > 0.999_999
     };
-    assert!(flat.corners.iter().zip(&sides).all(|(normal, side)| outward(normal, side)));
+    assert!(flat.corners.per_corner().iter().zip(&sides).all(|(normal, side)| outward(normal, side)));
     assert_eq!(flat.corners, creased.corners);
     assert_eq!(creased.report.creased_edges, 12);
-    for options in [NormalOptions::default(), NormalOptions { crease: 91.0, ..NormalOptions::default() }] {
+    for options in [NormalOptions::default(), NormalOptions::new().with_crease(91.0)] {
         let round = run(&mesh, &options);
         let third = (1.0f32 / 3.0).sqrt();
-        assert!(round.corners.iter().flatten().all(|x| (x.abs() - third).abs() < 1e-6), "{round:?}");
+        assert!(
+            round.corners.per_corner().iter().flatten().all(|x| (x.abs() - third).abs() < 1e-6),
+            "{round:?}"
+        );
         assert_eq!(round.report.creased_edges, 0);
     }
-    let own = run(&mesh, &NormalOptions { seams: SmoothingSeams::Respected, ..NormalOptions::default() });
+    let own = run(&mesh, &NormalOptions::new().with_seams(SmoothingSeams::Respected));
     assert_eq!(own.corners, flat.corners, "every side has vertices of its own");
 }
 
@@ -88,8 +91,8 @@ fn angles_do_not_see_how_a_surface_is_cut() {
     let faces: Vec<Vec<u32>> = mesh.face_list().iter().enumerate().flat_map(halves).collect();
     let cut = mesh.clone().with_face_list(&faces);
     let normals = |weight| {
-        let options = NormalOptions { weight, ..NormalOptions::default() };
-        [&mesh, &cut].map(|mesh| run(mesh, &options).corners)
+        let options = NormalOptions::new().with_weight(weight);
+        [&mesh, &cut].map(|mesh| run(mesh, &options).corners.into_per_corner())
     };
     let differ = |[quads, triangles]: [Vec<[f32; 3]>; 2]| {
         let pairs = triangles.iter().enumerate();
@@ -107,16 +110,17 @@ fn angles_do_not_see_how_a_surface_is_cut() {
 #[test]
 fn splitting_keeps_every_corner_s_normal() {
     let mesh = families::grid(6, 5, false, false);
-    let normals = run(&mesh, &NormalOptions { crease: 5.0, ..NormalOptions::default() });
+    let normals = run(&mesh, &NormalOptions::new().with_crease(5.0));
     let indices = mesh.indices.as_ref().expect("an indexed mesh");
     let split = split_normals(mesh.positions.len(), indices, &normals.corners).expect("as many corners");
-    for (corner, normal) in normals.corners.iter().enumerate() {
+    for (corner, normal) in normals.corners.per_corner().iter().enumerate() {
         let vertex = split.indices[corner] as usize;
         assert_eq!(split.normal_of_vertex[vertex], *normal);
         assert_eq!(split.source_of_vertex[vertex] as usize, mesh.vertex_of_corner(corner));
     }
     assert!(split.normal_of_vertex.len() > mesh.positions.len(), "creases split");
-    let lone = split_normals(2, &[1u32, 1, 1], &[[1.0, 0.0, 0.0]; 3]).expect("three corners");
+    let lone = split_normals(2, &[1u32, 1, 1], CornerNormalsRef::from_per_corner(&[[1.0, 0.0, 0.0]; 3]))
+        .expect("three corners");
     assert_eq!(lone.normal_of_vertex, [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]);
 }
 
@@ -127,7 +131,7 @@ fn any_input_gives_unit_normals() {
         for options in all_options().into_iter().step_by(3) {
             let normals = run(&mesh, &options);
             assert_eq!(normals.corners.len(), mesh.corner_count());
-            for (corner, normal) in normals.corners.iter().enumerate() {
+            for (corner, normal) in normals.corners.per_corner().iter().enumerate() {
                 let size = normal.iter().map(|&x| f64::from(x).powi(2)).sum::<f64>().sqrt();
                 let unit = (size - 1.0).abs() < 1e-6;
                 assert!(unit, "seed {seed}, {options:?}, corner {corner}: {normal:?}\n{}", mesh.to_text());
@@ -149,7 +153,8 @@ fn wrong_structure_is_an_error() {
     assert_eq!(run(&[0, 1], Faces::Triangles), Err(MeshError::PartialFace { corners: 2, size: 3 }));
     let empty_faces = run(&[0, 1, 2], Faces::Mixed(&[0, 0, 3, 0])).expect("faces may be empty");
     assert_eq!((empty_faces.faces, empty_faces.degenerate_faces, empty_faces.repaired_corners), (4, 4, 3));
-    split_normals(3, &[0u32, 1, 2], &[[0.0; 3]; 2]).expect_err("two normals for three corners");
+    split_normals(3, &[0u32, 1, 2], CornerNormalsRef::from_per_corner(&[[0.0; 3]; 2]))
+        .expect_err("two normals for three corners");
 }
 
 /// A mesh without normals: zeros stand for them, and the method of area uses its own.
@@ -161,11 +166,10 @@ fn tangents_without_normals() {
     let bare = Mesh::triangles(&mesh.positions, none, &mesh.uvs, indices).expect("a valid mesh");
     let tangents = darboux::generate_tangents(&bare, &darboux::Method::Area.into());
     assert_eq!(tangents.report.repaired_corners, 0);
-    let options =
-        NormalOptions { weight: NormalWeight::Area, seams: SmoothingSeams::Respected, ..Default::default() };
+    let options = NormalOptions::new().with_weight(NormalWeight::Area).with_seams(SmoothingSeams::Respected);
     let normals =
         generate_normals(&mesh.positions, indices, Faces::Triangles, &options).expect("a valid mesh");
-    for (tangent, normal) in tangents.corners.per_corner().iter().zip(&normals.corners) {
+    for (tangent, normal) in tangents.corners.per_corner().iter().zip(normals.corners.per_corner()) {
         let cosine: f32 = (0..3).map(|i| tangent[i] * normal[i]).sum();
         assert!(cosine.abs() < 1e-6, "{tangent:?} {normal:?}");
     }
@@ -196,7 +200,7 @@ fn plans_give_moved_meshes_what_a_fresh_run_does() {
                     (plan.evaluate(&mesh.positions).expect("as many"), run(&mesh, &options));
                 assert_eq!(planned.report, fresh.report, "{options:?}");
                 let bits = |normals: &Normals| {
-                    normals.corners.iter().map(|n| n.map(f32::to_bits)).collect::<Vec<_>>()
+                    normals.corners.per_corner().iter().map(|n| n.map(f32::to_bits)).collect::<Vec<_>>()
                 };
                 assert_eq!(bits(&planned), bits(&fresh), "{options:?}");
             }
@@ -207,10 +211,7 @@ fn plans_give_moved_meshes_what_a_fresh_run_does() {
 #[test]
 fn plans_keep_the_creases_that_they_began_with() {
     let mesh = families::cube(true);
-    let plan = plan(
-        &mesh,
-        &NormalOptions { crease: 60.0, seams: SmoothingSeams::Ignored, ..NormalOptions::default() },
-    );
+    let plan = plan(&mesh, &NormalOptions::new().with_crease(60.0).with_seams(SmoothingSeams::Ignored));
     let mut flat = mesh.clone();
     flat.positions.iter_mut().for_each(|position| position[2] = 0.0);
     let planned = plan.evaluate(&flat.positions).expect("as many");

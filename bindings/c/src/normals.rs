@@ -90,7 +90,7 @@ pub unsafe extern "C" fn darboux_generate_normals(
             (mesh, self::options(options)?, Receiver::optional(report)?, out)
         };
         let made = generate_normals(mesh.positions(), mesh.indices(), mesh.faces(), &options)?;
-        out.copy(&made.corners);
+        out.copy(made.corners.per_corner());
         if let Some(report) = report {
             report.put(made.report.into());
         }
@@ -104,10 +104,9 @@ pub unsafe extern "C" fn darboux_generate_normals(
 unsafe fn options(options: *const darboux_normal_options) -> Result<NormalOptions, Error> {
     // SAFETY: as of this function.
     let options = unsafe { pointers::read_or_zeros(options) }?;
-    Ok(NormalOptions {
-        shading: codes::shading(options.shading)?,
-        weight: codes::normal_weight(options.weight)?,
-        crease: if options.crease == 0.0 { 180.0 } else { options.crease },
-        seams: codes::smoothing_seams(options.seams)?,
-    })
+    Ok(NormalOptions::new()
+        .with_shading(codes::shading(options.shading)?)
+        .with_weight(codes::normal_weight(options.weight)?)
+        .with_crease(if options.crease == 0.0 { 180.0 } else { options.crease })
+        .with_seams(codes::smoothing_seams(options.seams)?))
 }

@@ -1,6 +1,6 @@
 //! Corner results to indexed meshes.
 
-use darboux::{CornerTangentsRef, NormalSplit, VertexSplit, split_normals, split_vertices};
+use darboux::{CornerNormalsRef, CornerTangentsRef, NormalSplit, VertexSplit, split_normals, split_vertices};
 
 use crate::mesh::{self, darboux_mesh};
 use crate::pointers::{gathered_of_corners, hand_out, take_back};
@@ -100,7 +100,11 @@ pub unsafe extern "C" fn darboux_split_normals(
                 gathered_of_corners(corners, "normals", normals.cast(), normal_count, normal_stride)?;
             (mesh, normals)
         };
-        Ok(owned_normals(split_normals(mesh.vertex_count(), mesh.indices(), &normals)?))
+        Ok(owned_normals(split_normals(
+            mesh.vertex_count(),
+            mesh.indices(),
+            CornerNormalsRef::from_per_corner(&normals),
+        )?))
     };
     // SAFETY: `split` is null or may be written; the view is what the owner begins with.
     call(|| unsafe { hand_out("split", split.cast(), make) })

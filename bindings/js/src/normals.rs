@@ -8,21 +8,21 @@ use crate::arena::with_arena;
 /// Options are positions in the lists of names in `lib/darboux.ts`.
 #[unsafe(no_mangle)]
 pub extern "C" fn generate_normals(shading: u32, weight: u32, crease: f32, seams: u32) -> *const f32 {
-    let options = NormalOptions {
-        shading: if shading == 0 { Shading::Flat } else { Shading::Smooth },
-        weight: match weight {
-            0 => NormalWeight::Angle,
-            1 => NormalWeight::Area,
-            _ => NormalWeight::AngleArea,
-        },
-        crease,
-        seams: if seams == 0 { SmoothingSeams::Ignored } else { SmoothingSeams::Respected },
+    let weight = match weight {
+        0 => NormalWeight::Angle,
+        1 => NormalWeight::Area,
+        _ => NormalWeight::AngleArea,
     };
+    let options = NormalOptions::new()
+        .with_shading(if shading == 0 { Shading::Flat } else { Shading::Smooth })
+        .with_weight(weight)
+        .with_crease(crease)
+        .with_seams(if seams == 0 { SmoothingSeams::Ignored } else { SmoothingSeams::Respected });
     with_arena(|arena| {
         let (positions, surface) = (arena.vertices.positions(), &arena.surface);
         let made = generate(positions, surface.indices(), surface.faces(), &options);
         let Ok(normals) = made else { return std::ptr::null() };
-        arena.extras.floats = normals.corners.into_flattened();
+        arena.extras.floats = normals.corners.into_per_corner().into_flattened();
         arena.extras.floats.as_ptr()
     })
 }

@@ -24,12 +24,11 @@ pub fn normal_options(shading: &str, weight: &str, crease: f32, seams: &str) -> 
     if !crease.is_finite() {
         return Err(PyValueError::new_err(format!("crease is {crease}; it must be a number of degrees")));
     }
-    Ok(NormalOptions {
-        shading: choice("shading", shading, SHADINGS)?,
-        weight: choice("weight", weight, WEIGHTS)?,
-        crease,
-        seams: choice("seams", seams, SEAMS)?,
-    })
+    Ok(NormalOptions::new()
+        .with_shading(choice("shading", shading, SHADINGS)?)
+        .with_weight(choice("weight", weight, WEIGHTS)?)
+        .with_crease(crease)
+        .with_seams(choice("seams", seams, SEAMS)?))
 }
 
 /// Compute a unit normal for every corner.
@@ -90,7 +89,7 @@ pub fn generate_normals<'py>(
         darboux::generate_normals_with(positions, list, faces.view(), &options, context)
     };
     let darboux::Normals { corners, report } = cancellable(py, None, size, &mut Context::new(), generate)?;
-    let normals = rows_array(py, corners)?.into_any();
+    let normals = rows_array(py, corners.into_per_corner())?.into_any();
     if !return_report {
         return Ok(normals);
     }

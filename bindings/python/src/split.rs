@@ -1,6 +1,6 @@
 //! Corner values back to an indexed mesh.
 
-use darboux::{CornerTangentsRef, Faces, Mesh, MeshError, Strided};
+use darboux::{CornerNormalsRef, CornerTangentsRef, Faces, Mesh, MeshError, Strided};
 use numpy::PyArray1;
 use numpy::prelude::*;
 use pyo3::exceptions::PyMemoryError;
@@ -46,7 +46,7 @@ pub fn split_vertices<'py>(
     let indices = IndexArray::new(Some(indices))?;
     let tangents = Rows::new("tangents", "C", tangents)?;
     let tangents = tangents.packed()?;
-    check_corners(&indices, tangents.len())?;
+    check_corners(&indices, "tangents", tangents.len())?;
     let list = indices.view()?;
     let split = py.detach(|| {
         // Splitting asks for numbers alone: of vertices, and of corners in one large face.
@@ -97,9 +97,11 @@ pub fn split_normals<'py>(
     let indices = IndexArray::new(Some(indices))?;
     let normals = Rows::new("normals", "C", normals)?;
     let normals = normals.packed()?;
-    check_corners(&indices, normals.len())?;
+    check_corners(&indices, "normals", normals.len())?;
     let list = indices.view()?;
-    let split = py.detach(|| darboux::split_normals(vertex_count, list, &normals)).map_err(value_error)?;
+    let split = py
+        .detach(|| darboux::split_normals(vertex_count, list, CornerNormalsRef::from_per_corner(&normals)))
+        .map_err(value_error)?;
     let fields = (
         rows_array(py, split.normal_of_vertex)?,
         PyArray1::from_vec(py, split.indices).reshape(indices.shape)?,
@@ -120,10 +122,10 @@ fn check_room(vertex_count: usize) -> PyResult<()> {
 }
 
 /// Errors: values of another number of corners.
-fn check_corners(indices: &IndexArray<'_>, found: usize) -> PyResult<()> {
+fn check_corners(indices: &IndexArray<'_>, what: &'static str, found: usize) -> PyResult<()> {
     match indices.len() {
         Some(expected) if expected != found => {
-            Err(value_error(MeshError::OtherMesh { what: "corners", expected, found }))
+            Err(value_error(MeshError::InputLength { what, expected, found }))
         }
         _ => Ok(()),
     }

@@ -41,9 +41,8 @@ fn check(bytes: &[u8], operation: impl FnOnce(&mut Document) -> bool) {
 }
 
 fn check_all(bytes: &[u8], good: &[u8]) {
-    let flat = NormalOptions { shading: Shading::Flat, ..NormalOptions::default() };
-    let creased =
-        NormalOptions { crease: 20.0, seams: SmoothingSeams::Respected, ..NormalOptions::default() };
+    let flat = NormalOptions::new().with_shading(Shading::Flat);
+    let creased = NormalOptions::new().with_crease(20.0).with_seams(SmoothingSeams::Respected);
     for normals in [flat, creased] {
         let options = NormalsOptions { normals, overwrite: true };
         check(bytes, |document| add_normals(document, &options, &mut |_| {}).is_ok());

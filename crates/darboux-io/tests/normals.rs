@@ -19,11 +19,11 @@ fn options(normals: NormalOptions) -> NormalsOptions {
 }
 
 fn crease(degrees: f32) -> NormalOptions {
-    NormalOptions { crease: degrees, ..NormalOptions::default() }
+    NormalOptions::new().with_crease(degrees)
 }
 
 fn flat() -> NormalOptions {
-    NormalOptions { shading: Shading::Flat, ..NormalOptions::default() }
+    NormalOptions::new().with_shading(Shading::Flat)
 }
 
 fn run(document: &mut Document, options: &NormalsOptions) -> NormalsSummary {
@@ -57,7 +57,7 @@ fn corner_normals(document: &Document, mesh: usize, place: usize) -> Vec<[f32; 3
 fn expected(positions: &[[f32; 3]], indices: &[u16], options: &NormalOptions) -> Vec<[f32; 3]> {
     let indices = wide(indices);
     let normals = generate_normals(positions, Indices::U32(&indices), Faces::Triangles, options);
-    normals.expect("normals").corners
+    normals.expect("normals").corners.into_per_corner()
 }
 
 #[test]

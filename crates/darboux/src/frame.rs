@@ -10,7 +10,7 @@ use crate::Convention;
 pub struct CornerTangents(pub(crate) Vec<[f32; 4]>);
 
 impl CornerTangents {
-    /// Tangents from elsewhere, one per corner, in corner order: those of another program, or of a file that has no indices.
+    /// Tangents of another program, or of a file without indices, one per corner, in corner order.
     pub fn from_per_corner(tangents: Vec<[f32; 4]>) -> Self {
         Self(tangents)
     }
@@ -50,7 +50,7 @@ impl CornerTangents {
     }
 }
 
-/// Tangents of corners that lie elsewhere: [`CornerTangents`], or an array of another program.
+/// Borrowed tangents of corners: [`CornerTangents`], or an array of another program.
 #[derive(Clone, Copy, Debug)]
 pub struct CornerTangentsRef<'a>(pub(crate) &'a [[f32; 4]]);
 
@@ -67,7 +67,58 @@ impl<'a> From<&'a CornerTangents> for CornerTangentsRef<'a> {
     }
 }
 
-/// All that a method says of one corner. The default is all zeros, for arrays that are to be written.
+/// Normals of corners, one unit normal per corner.
+///
+/// These are not vertex normals. Corners of one vertex may disagree (at creases they do), so they have a type of their own:
+/// [`crate::split_normals`] gives vertices and new indices.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CornerNormals(pub(crate) Vec<[f32; 3]>);
+
+impl CornerNormals {
+    /// Normals of another program, one per corner, in corner order.
+    pub fn from_per_corner(normals: Vec<[f32; 3]>) -> Self {
+        Self(normals)
+    }
+
+    /// The number of corners.
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// True when there are no corners.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// One normal per corner, in corner order. Not in vertex order.
+    pub fn per_corner(&self) -> &[[f32; 3]] {
+        &self.0
+    }
+
+    /// As [`CornerNormals::per_corner`], giving up the allocation.
+    pub fn into_per_corner(self) -> Vec<[f32; 3]> {
+        self.0
+    }
+}
+
+/// Borrowed normals of corners: [`CornerNormals`], or an array of another program.
+#[derive(Clone, Copy, Debug)]
+pub struct CornerNormalsRef<'a>(pub(crate) &'a [[f32; 3]]);
+
+impl<'a> CornerNormalsRef<'a> {
+    /// One normal per corner, in corner order.
+    pub fn from_per_corner(normals: &'a [[f32; 3]]) -> Self {
+        Self(normals)
+    }
+}
+
+impl<'a> From<&'a CornerNormals> for CornerNormalsRef<'a> {
+    fn from(normals: &'a CornerNormals) -> Self {
+        Self(&normals.0)
+    }
+}
+
+/// The frame of one corner. The default is all zeros, for output arrays.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Frame {
     /// The direction of increasing u, unit length; perpendicular to the normal but for [`Method::Face`](crate::Method::Face), whose frame

@@ -18,6 +18,14 @@
 //! assert_eq!(split.indices, [0, 1, 2, 0, 2, 3]);
 //! # Ok::<(), darboux::MeshError>(())
 //! ```
+//!
+//! A function whose time grows with the mesh has a short form, such as [`generate_tangents`], and a form that takes a [`Context`], such as
+//! [`generate_tangents_with`]: the context carries reused memory, a cancellation token and a thread limit. Functions named `write_*` fill
+//! the caller's array. Parameters come in one order: positions, normals, UVs, indices (or a mesh of these), options, context, output.
+//!
+//! Options, option enums, reports and errors are `#[non_exhaustive]`: they gain fields and variants in minor versions. Options are made by
+//! `new`, `default` or `From` and changed by `with_*` methods. Plain data is exhaustive, so that it can be written and taken apart:
+//! [`Frame`], [`Transform`], [`Convention`], [`Faces`], [`Indices`] and the results of functions.
 
 #![allow(
     clippy::neg_cmp_op_on_partial_ord,
@@ -51,7 +59,7 @@ pub use convention::{
     Axes, Axis, BitangentDirection, Convention, ConventionError, Conversion, Handedness, SignRule,
     TangentDirection, UvOrigin, Winding,
 };
-pub use frame::{CornerFrames, CornerTangents, CornerTangentsRef, Frame};
+pub use frame::{CornerFrames, CornerNormals, CornerNormalsRef, CornerTangents, CornerTangentsRef, Frame};
 pub use measure::{
     CornerDifference, HISTOGRAM_ENDS, TangentDifference, UvFidelity, measure_tangents, measure_tangents_with,
     measure_uv_fidelity, measure_uv_fidelity_with, triangle_area,

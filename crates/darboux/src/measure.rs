@@ -5,7 +5,6 @@ use crate::Mesh;
 use crate::MeshError;
 use crate::math::V3;
 use crate::math_f64::{D3, cross, dot, length, unit};
-use crate::split::expect;
 
 /// The upper ends of the bins of [`TangentDifference::histogram`], in degrees. A bin excludes the end of the previous bin.
 pub const HISTOGRAM_ENDS: [f64; 10] = [0.0, 0.001, 0.01, 0.1, 1.0, 5.0, 15.0, 45.0, 90.0, 180.0];
@@ -83,7 +82,7 @@ pub fn measure_tangents_with(
     b: &[[f32; 4]],
     context: &Context,
 ) -> Result<TangentDifference, MeshError> {
-    expect("corners", a.len(), b.len())?;
+    MeshError::check_input("tangents", a.len(), b.len())?;
     let limits = context.limits();
     let mut out = TangentDifference { corners: a.len(), ..TangentDifference::default() };
     let mut angles = Vec::with_capacity(a.len());
@@ -144,7 +143,7 @@ pub fn measure_uv_fidelity_with(
     tangents: &[[f32; 4]],
     context: &Context,
 ) -> Result<UvFidelity, MeshError> {
-    expect("corners", mesh.corner_count(), tangents.len())?;
+    MeshError::check_input("tangents", mesh.corner_count(), tangents.len())?;
     let (mut out, limits) = (UvFidelity::default(), context.limits());
     let (mut sum, mut squares) = (0.0, 0.0);
     for (number, triangle) in triangles(mesh).enumerate() {

@@ -132,6 +132,17 @@ pub enum Indices<'a> {
     U32(&'a [u32]),
 }
 
+impl Indices<'_> {
+    /// The number of corners of a mesh with `vertex_count` vertices.
+    pub(crate) fn corner_count(&self, vertex_count: usize) -> usize {
+        match self {
+            Self::Unindexed => vertex_count,
+            Self::U16(list) => list.len(),
+            Self::U32(list) => list.len(),
+        }
+    }
+}
+
 macro_rules! indices_from {
     ($($source:ty, $variant:ident, $index:ty, [$($generic:tt)*]);* $(;)?) => {$(
         impl<'a, $($generic)*> From<$source> for Indices<'a> {
@@ -416,17 +427,52 @@ pub enum MeshError {
         /// The largest number that works.
         limit: usize,
     },
-    /// Tangents or a mesh that belong to another mesh: the number of corners (or vertices) differs.
+    /// An input array, such as tangents to split, has another length than one element per corner.
+    InputLength {
+        /// What the array holds: "tangents", "normals" or "frames".
+        what: &'static str,
+        /// The number of corners.
+        expected: usize,
+        /// The length found.
+        found: usize,
+    },
+    /// An output array has another length than one element per corner.
+    OutputLength {
+        /// What the array receives: "tangents", "frames", "bitangents" or "magnitudes".
+        what: &'static str,
+        /// The number of corners.
+        expected: usize,
+        /// The length found.
+        found: usize,
+    },
+    /// A plan or a splitter was made for a mesh of another size.
     OtherMesh {
         /// What is counted: "corners" or "vertices".
         what: &'static str,
-        /// The number that was expected.
+        /// The number in the mesh of the plan or the splitter.
         expected: usize,
-        /// The number found.
+        /// The number in the mesh that was passed.
         found: usize,
     },
-    /// The caller asked for the run to stop.
+    /// The token of the context was cancelled.
     Cancelled,
+}
+
+impl MeshError {
+    /// Errors: an input array that has not one element per corner.
+    pub(crate) fn check_input(what: &'static str, expected: usize, found: usize) -> Result<(), Self> {
+        if expected == found { Ok(()) } else { Err(Self::InputLength { what, expected, found }) }
+    }
+
+    /// Errors: an output array that has not one element per corner.
+    pub(crate) fn check_output(what: &'static str, expected: usize, found: usize) -> Result<(), Self> {
+        if expected == found { Ok(()) } else { Err(Self::OutputLength { what, expected, found }) }
+    }
+
+    /// Errors: a mesh of another size than the one that a plan or a splitter was made for.
+    pub(crate) fn check_mesh(what: &'static str, expected: usize, found: usize) -> Result<(), Self> {
+        if expected == found { Ok(()) } else { Err(Self::OtherMesh { what, expected, found }) }
+    }
 }
 
 impl fmt::Display for MeshError {
@@ -457,11 +503,21 @@ impl fmt::Display for MeshError {
             MeshError::TooManyVertices { vertices, limit } => {
                 write!(f, "{vertices} vertices are too many: the limit is {limit}; split the mesh")
             }
-            MeshError::Cancelled => f.write_str("the run was cancelled; what it has written is not complete"),
+            MeshError::InputLength { what, expected, found } => {
+                write!(
+                    f,
+                    "{found} {what} were passed but the mesh has {expected} corners; pass one per corner"
+                )
+            }
+            MeshError::OutputLength { what, expected, found } => write!(
+                f,
+                "the output array of {what} has {found} elements but the mesh has {expected} corners; make it as long as the corners"
+            ),
             MeshError::OtherMesh { what, expected, found } => write!(
                 f,
-                "{found} {what} where the mesh has {expected}; pass what was computed from this mesh"
+                "the mesh has {found} {what} but this plan or splitter was made for {expected}; make a new one for this mesh"
             ),
+            MeshError::Cancelled => f.write_str("the call was cancelled; its output is incomplete"),
         }
     }
 }

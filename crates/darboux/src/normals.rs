@@ -12,6 +12,8 @@
 use std::collections::HashMap;
 
 use crate::Context;
+use crate::CornerNormals;
+use crate::CornerNormalsRef;
 use crate::CornerTangents;
 use crate::Faces;
 use crate::Indices;
@@ -22,10 +24,10 @@ use crate::Strided;
 use crate::exec::limits::RunLimits;
 use crate::math::angle;
 use crate::math_f64::{D3, cross, dot, length, sub, unit};
-use crate::split::expect;
 
 /// Options of [`generate_normals`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct NormalOptions {
     /// Flat or smooth shading.
     pub shading: Shading,
@@ -48,8 +50,40 @@ impl Default for NormalOptions {
     }
 }
 
+impl NormalOptions {
+    /// The defaults: smooth everywhere, weighted by angle, over vertices at equal positions.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// These options with another shading.
+    #[must_use]
+    pub fn with_shading(self, shading: Shading) -> Self {
+        Self { shading, ..self }
+    }
+
+    /// These options with another weight.
+    #[must_use]
+    pub fn with_weight(self, weight: NormalWeight) -> Self {
+        Self { weight, ..self }
+    }
+
+    /// These options with another crease angle, in degrees.
+    #[must_use]
+    pub fn with_crease(self, degrees: f32) -> Self {
+        Self { crease: degrees, ..self }
+    }
+
+    /// These options with other seams.
+    #[must_use]
+    pub fn with_seams(self, seams: SmoothingSeams) -> Self {
+        Self { seams, ..self }
+    }
+}
+
 /// Flat or smooth shading.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Shading {
     /// Every corner has its face's normal, as glTF requires where normals are absent (2.0, section 3.7.2.1).
     Flat,
@@ -60,6 +94,7 @@ pub enum Shading {
 
 /// The weight of a face at a vertex.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum NormalWeight {
     /// The angle of the face's corner. The result does not depend on the triangulation of flat surfaces.
     #[default]
@@ -72,6 +107,7 @@ pub enum NormalWeight {
 
 /// The treatment of vertices at equal positions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum SmoothingSeams {
     /// Vertices at equal positions are merged, so that UV seams are not visible in the shading.
     #[default]
@@ -83,8 +119,8 @@ pub enum SmoothingSeams {
 /// Normals of corners and the report of the run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Normals {
-    /// One unit normal per corner, in corner order, which is not vertex order. [`split_normals`] computes vertices from them.
-    pub corners: Vec<[f32; 3]>,
+    /// One unit normal per corner. [`split_normals`] computes vertices from them.
+    pub corners: CornerNormals,
     /// The counts of the run.
     pub report: NormalReport,
 }
@@ -196,7 +232,7 @@ impl NormalPlan {
         context: &Context,
     ) -> Result<Normals, MeshError> {
         let positions = positions.into();
-        expect("vertices", self.vertex_count, positions.len())?;
+        MeshError::check_mesh("vertices", self.vertex_count, positions.len())?;
         let faces = self.sizes.as_deref().map_or(Faces::Triangles, Faces::Mixed);
         let mesh = bare_mesh(positions, Indices::U32(&self.indices), faces)?;
         let limits = context.limits();
@@ -214,7 +250,7 @@ impl NormalPlan {
             };
             found.or_else(own).or_else(of_vertex).unwrap_or([0.0, 0.0, 1.0]).map(|x| x as f32)
         };
-        let corners = (0..mesh.corner_count()).map(normal).collect();
+        let corners = CornerNormals((0..mesh.corner_count()).map(normal).collect());
         limits.check()?;
         let report = NormalReport {
             faces: mesh.face_count(),
@@ -244,7 +280,7 @@ pub struct NormalSplit {
 pub fn split_normals<'a>(
     vertex_count: usize,
     indices: impl Into<Indices<'a>>,
-    corners: &[[f32; 3]],
+    corners: impl Into<CornerNormalsRef<'a>>,
 ) -> Result<NormalSplit, MeshError> {
     split_normals_with(vertex_count, indices, corners, &Context::new())
 }
@@ -253,12 +289,16 @@ pub fn split_normals<'a>(
 pub fn split_normals_with<'a>(
     vertex_count: usize,
     indices: impl Into<Indices<'a>>,
-    corners: &[[f32; 3]],
+    corners: impl Into<CornerNormalsRef<'a>>,
     context: &Context,
 ) -> Result<NormalSplit, MeshError> {
+    let CornerNormalsRef(corners) = corners.into();
     let size = [corners.len() as u32];
     let positions = Strided::repeated(&[0.0; 3], vertex_count);
-    let mesh = bare_mesh(positions, indices.into(), Faces::Mixed(&size))?;
+    let indices = indices.into();
+    let corner_count = indices.corner_count(vertex_count);
+    MeshError::check_input("normals", corner_count, corners.len())?;
+    let mesh = bare_mesh(positions, indices, Faces::Mixed(&size))?;
     let mut splitter = Splitter::new_with(vertex_count, context);
     // The splitter takes tangents: w = 0 marks used vertices, because unused ones get w = 1.
     let tangents = CornerTangents(corners.iter().map(|&[x, y, z]| [x, y, z, 0.0]).collect());

@@ -9,7 +9,6 @@ use crate::MeshError;
 use crate::TangentOptions;
 use crate::Tangents;
 use crate::generate_tangents_with;
-use crate::split::expect;
 use crate::tangents::Planned;
 
 /// The weld, groups and subgroups of one mesh, kept to evaluate tangents again after its vertices moved (morph targets, skinning).
@@ -120,9 +119,9 @@ impl Plan {
         corners: &mut [[f32; 4]],
     ) -> Result<(), MeshError> {
         let base = &self.base.corners.0;
-        expect("corners", base.len(), mesh.corner_count())?;
-        expect("corners", base.len(), corners.len())?;
-        expect("vertices", self.vertex_count, mesh.vertex_count())?;
+        MeshError::check_mesh("corners", base.len(), mesh.corner_count())?;
+        MeshError::check_output("tangents", base.len(), corners.len())?;
+        MeshError::check_mesh("vertices", self.vertex_count, mesh.vertex_count())?;
         let (limits, memory) = context.limits_and_memory();
         self.planned.evaluate(&self.faces.over(mesh), (&self.options, base), limits, memory, corners);
         limits.check()

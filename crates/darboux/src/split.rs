@@ -113,8 +113,8 @@ impl Splitter {
         corners: impl Into<CornerTangentsRef<'a>>,
     ) -> Result<Option<Vec<u32>>, MeshError> {
         let CornerTangentsRef(tangents) = corners.into();
-        expect("corners", mesh.corner_count(), tangents.len())?;
-        expect("vertices", self.old_count, mesh.vertex_count())?;
+        MeshError::check_input("tangents", mesh.corner_count(), tangents.len())?;
+        MeshError::check_mesh("vertices", self.old_count, mesh.vertex_count())?;
         match mesh.indices() {
             Indices::Unindexed => self.changes(0..tangents.len() as u32, tangents),
             Indices::U16(list) => self.changes(list.iter().map(|&index| index.into()), tangents),
@@ -230,11 +230,6 @@ impl Splitter {
 
 fn has_bits(held: &[f32; 4], wanted: &[f32; 4]) -> bool {
     held.map(f32::to_bits) == wanted.map(f32::to_bits)
-}
-
-/// An error unless `found` equals `expected`.
-pub(crate) fn expect(what: &'static str, expected: usize, found: usize) -> Result<(), MeshError> {
-    if expected == found { Ok(()) } else { Err(MeshError::OtherMesh { what, expected, found }) }
 }
 
 #[cfg(test)]

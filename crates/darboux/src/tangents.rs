@@ -28,7 +28,6 @@ use crate::Mesh;
 use crate::MeshError;
 use crate::exec::limits::RunLimits;
 use crate::math::cosine_of_degrees;
-use crate::split::expect;
 
 use crate::tangents::fast::LARGEST_COSINE;
 pub use crate::tangents::frames::{
@@ -87,7 +86,7 @@ pub fn write_tangents(
     context: &mut Context,
     corners: &mut [[f32; 4]],
 ) -> Result<Report, MeshError> {
-    expect("corners", mesh.corner_count(), corners.len())?;
+    MeshError::check_output("tangents", mesh.corner_count(), corners.len())?;
     let (limits, memory) = context.limits_and_memory();
     let report = run(mesh, options, limits, memory, corners);
     limits.check().map(|()| report)

@@ -20,14 +20,14 @@ pub fn normals(mesh: &Mesh<'_>, face_sizes: &[u32], options: &NormalOptions) -> 
     let normal = |corner: usize| {
         let joined: Vec<usize> = match options.shading {
             Shading::Flat => vec![corner],
-            Shading::Smooth => fan(corner, &corners, &area_vectors, options.crease),
+            _ => fan(corner, &corners, &area_vectors, options.crease),
         };
         let sum = joined.into_iter().fold([0.0; 3], |sum, corner| {
             let vector = area_vectors[corners[corner].face];
             let weight = match options.weight {
                 NormalWeight::Angle => angle(corner, &corners),
                 NormalWeight::Area => length(vector),
-                NormalWeight::AngleArea => angle(corner, &corners) * length(vector),
+                _ => angle(corner, &corners) * length(vector),
             };
             add(sum, scale(weight, normalize(vector)))
         });

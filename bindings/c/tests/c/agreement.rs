@@ -334,7 +334,11 @@ fn normals_and_their_splits() {
             dice.pick(&[(0, NormalWeight::Angle), (1, NormalWeight::Area), (2, NormalWeight::AngleArea)]);
         let crease = dice.pick(&[(0.0, 180.0), (30.0, 30.0), (-1.0, 0.0)]);
         let seams = dice.pick(&[(0, SmoothingSeams::Ignored), (1, SmoothingSeams::Respected)]);
-        let ours = NormalOptions { shading: shading.1, weight: weight.1, crease: crease.1, seams: seams.1 };
+        let ours = NormalOptions::new()
+            .with_shading(shading.1)
+            .with_weight(weight.1)
+            .with_crease(crease.1)
+            .with_seams(seams.1);
         let theirs = darboux_normal_options {
             size: size_of::<darboux_normal_options>(),
             shading: shading.0,
@@ -369,7 +373,7 @@ fn normals_and_their_splits() {
             assert_eq!(indices, split_expected.indices);
             darboux_normal_split_free(split);
         }
-        assert_eq!(bits(&found), bits(&expected.corners));
+        assert_eq!(bits(&found), bits(expected.corners.per_corner()));
         assert_eq!(report.faces, expected.report.faces);
         assert_eq!(report.degenerate_faces, expected.report.degenerate_faces);
         assert_eq!(report.repaired_corners, expected.report.repaired_corners);

@@ -17,9 +17,9 @@ impl ShadingChoice {
     pub fn options(self) -> NormalOptions {
         let smooth = NormalOptions::default();
         match self {
-            Self::Flat => NormalOptions { shading: Shading::Flat, ..smooth },
+            Self::Flat => smooth.with_shading(Shading::Flat),
             Self::Smooth => smooth,
-            Self::Crease(crease) => NormalOptions { crease, ..smooth },
+            Self::Crease(crease) => smooth.with_crease(crease),
         }
     }
 }

@@ -5,7 +5,6 @@ use crate::CornerFrames;
 use crate::Frame;
 use crate::Mesh;
 use crate::MeshError;
-use crate::split::expect;
 
 use crate::exec::limits::RunLimits;
 use crate::exec::threads::{self, split_range, split_slice};
@@ -53,7 +52,7 @@ pub fn write_frames(
     context: &mut Context,
     corners: &mut [Frame],
 ) -> Result<Report, MeshError> {
-    expect("corners", mesh.corner_count(), corners.len())?;
+    MeshError::check_output("frames", mesh.corner_count(), corners.len())?;
     let (limits, memory) = context.limits_and_memory();
     let report = run(mesh, options, limits, memory, corners);
     limits.check().map(|()| report)
@@ -135,8 +134,10 @@ impl LentFrames<'_> {
         bitangents: &mut [[f32; 3]],
         magnitudes: &mut [[f32; 2]],
     ) -> Result<(), MeshError> {
-        for len in [tangents.len(), bitangents.len(), magnitudes.len()] {
-            expect("corners", self.len(), len)?;
+        for (what, len) in
+            [("tangents", tangents.len()), ("bitangents", bitangents.len()), ("magnitudes", magnitudes.len())]
+        {
+            MeshError::check_output(what, self.len(), len)?;
         }
         let threads = self.limits.thread_count(triangle_count(self.mesh));
         let ranges = split_range(0..self.len(), threads, 1);

@@ -3,7 +3,6 @@
 use crate::CornerFrames;
 use crate::Mesh;
 use crate::MeshError;
-use crate::split::expect;
 
 use crate::tangents::repair::across;
 
@@ -12,7 +11,7 @@ impl CornerFrames {
     ///
     /// Without a normal it is a perpendicular of the tangent. Errors: frames of another number of corners.
     pub fn orthogonalized(mut self, mesh: &Mesh<'_>) -> Result<Self, MeshError> {
-        expect("corners", mesh.corner_count(), self.0.len())?;
+        MeshError::check_input("frames", mesh.corner_count(), self.0.len())?;
         for (corner, frame) in self.0.iter_mut().enumerate() {
             let normal = mesh.normals().get(mesh.vertex_of_corner(corner));
             frame.bitangent = across(normal, frame.tangent, frame.sign);

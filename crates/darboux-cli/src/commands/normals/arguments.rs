@@ -55,7 +55,7 @@ impl NormalsArguments {
     /// The options of the core.
     pub fn shading(&self) -> NormalOptions {
         let seams = if self.respect_seams { SmoothingSeams::Respected } else { SmoothingSeams::Ignored };
-        NormalOptions { weight: self.weight.into(), seams, ..self.normals.options() }
+        self.normals.options().with_weight(self.weight.into()).with_seams(seams)
     }
 }
 

@@ -206,7 +206,7 @@ fn open(arguments: &RenderArguments, source: Option<TangentSource>) -> Result<Lo
         }
         false => (load(&Input::File(arguments.model.clone()), &arguments.reading)?, Vec::new()),
     };
-    let flat = NormalOptions { shading: Shading::Flat, ..NormalOptions::default() };
+    let flat = NormalOptions::new().with_shading(Shading::Flat);
     let flat = NormalsOptions { normals: flat, ..NormalsOptions::default() };
     add_normals(&mut document, &flat, &mut |_| {}).map_err(sentence)?;
     let of_file = if has_tangents(&document) {

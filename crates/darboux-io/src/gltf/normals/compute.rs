@@ -191,7 +191,7 @@ fn welded(parts: &[ShadedPrimitive], positions: &[[f32; 3]], seams: SmoothingSea
                 SmoothingSeams::Ignored => {
                     *at_position.entry(bits(positions[welded.len()])).or_insert_with(|| next(&mut count))
                 }
-                SmoothingSeams::Respected => next(&mut count),
+                _ => next(&mut count),
             });
             welded.push(number);
         }
@@ -213,7 +213,7 @@ fn move_mesh(
     fan_of_corner: &[u32],
     (options, context): (&NormalOptions, &Context),
 ) -> Result<(), Error> {
-    let in_fans = NormalOptions { crease: 180.0, ..*options };
+    let in_fans = options.with_crease(180.0);
     let targets = parts.iter().map(|part| part.moves.len()).max().unwrap_or(0);
     for target in 0..targets {
         let accessor = |part: &ShadedPrimitive| {
@@ -259,21 +259,21 @@ fn normals(
         Shading::Flat => {
             generate_normals_with(positions, Indices::Unindexed, Faces::Triangles, options, context)
         }
-        Shading::Smooth => {
+        _ => {
             let count = vertex_of_corner.iter().max().map_or(0, |&last| last as usize + 1);
             let mut of_vertex = vec![[0.0; 3]; count];
             for (&vertex, &position) in vertex_of_corner.iter().zip(positions).rev() {
                 of_vertex[vertex as usize] = position;
             }
             // Which corners are one vertex is decided here, across primitives.
-            let options = NormalOptions { seams: SmoothingSeams::Respected, ..*options };
+            let options = options.with_seams(SmoothingSeams::Respected);
             let indices = Indices::U32(vertex_of_corner);
             generate_normals_with(&of_vertex, indices, Faces::Triangles, &options, context)
         }
     };
     let path = parts.first().map_or_else(String::new, |part| part.name.path());
     generated
-        .map(|normals| (normals.corners, normals.report))
+        .map(|normals| (normals.corners.into_per_corner(), normals.report))
         .map_err(|error| document.mesh_error(path, error))
 }
 

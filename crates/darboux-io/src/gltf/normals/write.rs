@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use darboux::{NormalSplit, split_normals};
+use darboux::{CornerNormalsRef, NormalSplit, split_normals};
 use serde_json::Value;
 
 use super::compute::{MovedNormals, ShadedPrimitive};
@@ -65,7 +65,8 @@ fn split(document: &Document, position: usize, parts: &[&ShadedPrimitive]) -> Re
     if vertices.saturating_add(corners.len()) >= u32::MAX as usize {
         return Err(document.invalid(at, "has too many vertices for 32-bit indices; divide the mesh"));
     }
-    split_normals(vertices, &corners, &normals).map_err(|error| document.mesh_error(at, error))
+    split_normals(vertices, &corners, CornerNormalsRef::from_per_corner(&normals))
+        .map_err(|error| document.mesh_error(at, error))
 }
 
 struct NormalWriter<'a> {
