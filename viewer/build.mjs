@@ -1,4 +1,4 @@
-// `node build.mjs DARBOUX MODULE`: makes the page in `dist`, of the npm package in the folder DARBOUX and the WebAssembly of `wasm`.
+// `node build.mjs DARBOUX MODULE`: builds the page into `dist`, from the npm package in the folder DARBOUX and the compiled module of `wasm`.
 
 import { spawnSync } from 'node:child_process';
 import { copyFileSync, mkdirSync, rmSync, symlinkSync } from 'node:fs';
@@ -6,11 +6,12 @@ import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const here = dirname(fileURLToPath(import.meta.url));
-/** What the compiler uses without being told. */
+/** The WebAssembly features that rustc enables by default. */
 const FEATURES = ['bulk-memory', 'bulk-memory-opt', 'nontrapping-float-to-int', 'sign-ext', 'mutable-globals', 'reference-types', 'multivalue', 'call-indirect-overlong'];
 
 const [darboux, module] = process.argv.slice(2);
 
+/** Runs an installed program. Errors: it fails. */
 function run(program, ...words) {
   const { status, error } = spawnSync(join(here, 'node_modules/.bin', program), words, { cwd: here, stdio: ['ignore', 2, 2] });
   if (status !== 0) throw error ?? new Error(`${program} failed`);

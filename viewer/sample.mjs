@@ -1,37 +1,37 @@
-// `node viewer/sample.mjs`, after `cargo xtask dist-viewer`, makes assets/made/shield.glb, which the page opens with: a shield whose halves
-// share one half of the texture, with tangents in the file as many tools write them, one per vertex, so that its middle is broken.
+// `node viewer/sample.mjs`, after `cargo xtask dist-viewer`, writes assets/made/shield.glb, the sample model of the page: a shield whose
+// halves share one half of the texture. Its tangents are one per vertex, as many tools write them, so that they are wrong in the middle.
 
 import { writeFileSync } from 'node:fs';
 import { crc32, deflateSync } from 'node:zlib';
 
 import { generateNormals, generateTangents, ready } from 'darboux';
 
-/** Quads across one half, and from the top down. */
+/** The number of quads across one half, and from top to bottom. */
 const [ACROSS, DOWN] = [8, 24];
-/** Texels along a side of the normal map. */
+/** The width and height of the normal map. */
 const SIZE = 512;
 
 await ready;
 writeFileSync(new URL('../assets/made/shield.glb', import.meta.url), sample());
 
-/** The bytes of the GLB. */
+/** Makes the GLB. */
 function sample() {
   const { positions, uvs, indices } = shield();
   const normals = ofVertices(generateNormals(positions, indices), 3, indices, positions.length / 3);
   const corners = generateTangents(positions, normals, uvs, indices, { method: 'lengyel-per-vertex' });
   const tangents = ofVertices(corners, 4, indices, positions.length / 3);
-  // glTF's v runs down.
+  // v points down in glTF.
   for (let w = 3; w < tangents.length; w += 4) tangents[w] = -tangents[w];
   return glb({ positions, normals, uvs, tangents, indices }, png());
 }
 
-/** Both halves: u runs from the middle outwards on either. */
+/** Both halves. u grows from the middle outwards. */
 function shield() {
   const [positions, uvs, indices] = [[], [], []];
   const columns = 2 * ACROSS + 1;
   for (let row = 0; row <= DOWN; row++) {
     const v = row / DOWN;
-    // From the rim at the top to the point at the bottom.
+    // From the upper rim to the tip at the bottom.
     const half = 0.8 * (1 - 0.06 * Math.sin(Math.PI * v)) * (v < 0.35 ? 1 : Math.sqrt(Math.max(0, 1 - ((v - 0.35) / 0.66) ** 2)));
     for (let column = 0; column < columns; column++) {
       const side = (column - ACROSS) / ACROSS;
@@ -47,14 +47,14 @@ function shield() {
   return { positions: new Float32Array(positions), uvs: new Float32Array(uvs), indices: new Uint16Array(indices) };
 }
 
-/** Corner data on vertices whose corners agree. */
+/** Values of corners as values of vertices, whose corners all have the same value. */
 function ofVertices(corners, width, indices, count) {
   const out = new Float32Array(count * width);
   indices.forEach((vertex, corner) => out.set(corners.subarray(corner * width, (corner + 1) * width), vertex * width));
   return out;
 }
 
-/** How high the texture's surface is at a place, u to the right and v down: scales in rows, each over the one below. */
+/** The height of the surface at a UV: rows of scales, each row over the next lower one. */
 function height(u, v) {
   const rows = 14;
   let highest = 0;
@@ -69,7 +69,7 @@ function height(u, v) {
   return highest / rows / 3;
 }
 
-/** The normal map, green pointing up the image. */
+/** The normal map. Green points up the image. */
 function png() {
   const raw = Buffer.alloc(SIZE * (1 + 3 * SIZE));
   const step = 0.5 / SIZE;
@@ -97,7 +97,7 @@ function chunk(kind, data) {
   return Buffer.concat([length, content, sum]);
 }
 
-/** One mesh with one material, whose normal map it is. */
+/** The glTF: one mesh with one material and its normal map. */
 function glb({ positions, normals, uvs, tangents, indices }, image) {
   const parts = [positions, normals, uvs, tangents, indices, image].map((part) => Buffer.from(part.buffer, part.byteOffset, part.byteLength));
   let at = 0;
@@ -112,7 +112,7 @@ function glb({ positions, normals, uvs, tangents, indices }, image) {
     asset: { version: '2.0', generator: 'Darboux', copyright: 'CC0' },
     scene: 0,
     scenes: [{ nodes: [0] }],
-    // Leaning, so that the middle crosses an upright slider.
+    // Rotated, so that the slider crosses the middle.
     nodes: [{ mesh: 0, name: 'Shield', rotation: [0, 0, Math.sin(-0.15), Math.cos(-0.15)] }],
     meshes: [{ name: 'Shield', primitives: [{ attributes: { POSITION: 0, NORMAL: 1, TEXCOORD_0: 2, TANGENT: 3 }, indices: 4, material: 0 }] }],
     materials: [{ name: 'Bronze', doubleSided: true, normalTexture: { index: 0 }, pbrMetallicRoughness: { baseColorFactor: [0.4, 0.23, 0.11, 1], metallicFactor: 0.6, roughnessFactor: 0.45 } }],

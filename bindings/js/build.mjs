@@ -1,7 +1,15 @@
-// `node build.mjs MODULES OUT VERSION`: makes the folder that is published in OUT, of the WebAssembly modules in MODULES.
+// `node build.mjs MODULES OUT VERSION ENTRY...`: makes the published folder OUT from the WebAssembly modules in MODULES.
+//
+//   shrink each module: panics become traps, wasm-opt; deflate it
+//   bundle each entry with its module, as ES module and CommonJS; bundle the adapters
+//   write type declarations, package.json, README and licences
+//
+// Shrunk modules are cached by their content, because wasm-opt takes most of the time.
 
-import { spawnSync } from 'node:child_process';
-import { copyFileSync, cpSync, mkdirSync, readdirSync, readFileSync, rmdirSync, rmSync, writeFileSync } from 'node:fs';
+import { spawn } from 'node:child_process';
+import { createHash } from 'node:crypto';
+import { copyFileSync, cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmdirSync, rmSync, writeFileSync } from 'node:fs';
+import { availableParallelism } from 'node:os';
 import { basename, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import zopfli from '@gfx/zopfli';
@@ -9,67 +17,101 @@ import binaryen from 'binaryen';
 import { build } from 'esbuild';
 
 const here = dirname(fileURLToPath(import.meta.url));
-const [modules, out, version] = process.argv.slice(2);
+const [modules, out, version, ...entries] = process.argv.slice(2);
 
-/** What users import, each with a WebAssembly module of its name. */
-const ENTRIES = ['darboux', 'tangents'];
+/** The entries of the whole package, each with a WebAssembly module of its name. */
+const ALL_ENTRIES = ['darboux', 'tangents'];
 
-/** What users import beside, most of it over one of those. */
-const ADAPTERS = ['three', 'gltf-transform', 'mikktspace', 'webgpu'];
+/** The other entries of the whole package. Most import one of the above. */
+const ADAPTERS = entries.length === ALL_ENTRIES.length ? ['three', 'gltf-transform', 'mikktspace', 'webgpu'] : [];
 
-/** What those import when it is asked for, CommonJS too. */
-const LATER = ['webgpu.tangents.ts'];
+/** Chunks that adapters load on demand. They are ES modules in CommonJS, too. */
+const LAZY_CHUNKS = ADAPTERS.includes('webgpu') ? ['webgpu.tangents.ts'] : [];
 
-/** What the compiler uses without being told. */
+/** The WebAssembly features that rustc enables by default. */
 const FEATURES = ['bulk-memory', 'bulk-memory-opt', 'nontrapping-float-to-int', 'sign-ext', 'mutable-globals', 'reference-types', 'multivalue', 'call-indirect-overlong'];
 
-function run(program, ...words) {
-  const { status, error } = spawnSync(join(here, 'node_modules/.bin', program), words, { cwd: here, stdio: ['ignore', 2, 2] });
-  if (status !== 0) throw error ?? new Error(`${program} failed`);
+/** Runs a step, with a line when it starts, every 5 seconds while it runs, and when it ends. */
+async function step(name, work) {
+  const start = performance.now();
+  const seconds = () => (performance.now() - start) / 1000;
+  console.error(`  ${name} ...`);
+  const timer = setInterval(() => console.error(`  ${name} ... ${seconds().toFixed(0)} s so far`), 5000);
+  try {
+    return await work();
+  } finally {
+    clearInterval(timer);
+    console.error(`  ${name}: done after ${seconds().toFixed(1)} s`);
+  }
 }
 
-/** Functions of the standard library that end a call, and those that write what no one hears then. */
-const ENDS = /^_R.*(4core3fmt|9panicking\d|_fail$|_failed$|17rust_begin_unwind|15panic_with_hook|12handle_error|18handle_alloc_error|17capacity_overflow|8rust_oom)/;
+/** Runs an installed program. Errors: it fails. */
+function run(program, ...words) {
+  return new Promise((resolve, reject) => {
+    const child = spawn(join(here, 'node_modules/.bin', program), words, { cwd: here, stdio: ['ignore', 2, 2] });
+    child.on('error', reject);
+    child.on('close', (status) => (status === 0 ? resolve() : reject(new Error(`${program} failed`))));
+  });
+}
 
-/** A module whose panics are traps, without their words. */
-function withoutWords(from, to) {
+/** Functions of the standard library that end a call, and those that format messages which WebAssembly cannot print. */
+const PANICS = /^_R.*(4core3fmt|9panicking\d|_fail$|_failed$|17rust_begin_unwind|15panic_with_hook|12handle_error|18handle_alloc_error|17capacity_overflow|8rust_oom)/;
+
+/** Replaces the bodies of panics by traps. Their messages, which nothing can print, are not linked then. */
+function trapPanics(from, to) {
   const module = binaryen.readBinary(readFileSync(from));
+  // Keeps the names of functions, which wasm-opt sorts by.
+  binaryen.setDebugInfo(true);
   for (let at = 0; at < module.getNumFunctions(); at++) {
-    const place = module.getFunctionByIndex(at);
-    if (ENDS.test(binaryen.getFunctionInfo(place).name)) binaryen.Function(place).body = module.unreachable();
+    const pointer = module.getFunctionByIndex(at);
+    if (PANICS.test(binaryen.getFunctionInfo(pointer).name)) binaryen.Function(pointer).body = module.unreachable();
   }
   writeFileSync(to, module.emitBinary());
   module.dispose();
 }
 
-/** The modules, made smaller. */
-function optimize(entry, form) {
-  const features = [...FEATURES, ...(form === 'simd' ? ['simd'] : [])].map((name) => `--enable-${name}`);
-  const place = join(here, 'lib/wasm', `${entry}.${form}.wasm`);
-  mkdirSync(dirname(place), { recursive: true });
-  withoutWords(join(modules, `${entry}.${form}.wasm`), place);
-  // Functions with one caller stay functions: those alike lie nearer to each other for it, and no loop has a call within.
-  const levels = ['-O3', '--one-caller-inline-max-function-size=0'];
-  run('wasm-opt', ...features, ...levels, '--strip-debug', '--strip-producers', '--strip-target-features', place, '-o', place);
+/** The shrunk module of an entry, and the same deflated. */
+const shrunkPath = (entry, form) => join(here, 'lib/wasm', `${entry}.${form}.wasm`);
+const deflatedPath = (path) => `${path}.deflated`;
+
+/** Shrinks and deflates a module, unless the same module was shrunk before. */
+async function shrink(entry, form) {
+  const [source, path] = [join(modules, `${entry}.${form}.wasm`), shrunkPath(entry, form)];
+  const key = createHash('sha256').update(readFileSync(source)).update(readFileSync(fileURLToPath(import.meta.url))).digest('hex');
+  const keyPath = `${path}.key`;
+  if (existsSync(keyPath) && readFileSync(keyPath, 'utf8') === key) return;
+  mkdirSync(dirname(path), { recursive: true });
+  await step(`shrink the module of ${entry} (${form})`, async () => {
+    trapPanics(source, path);
+    const features = [...FEATURES, ...(form === 'simd' ? ['simd'] : [])].map((name) => `--enable-${name}`);
+    // Functions with one caller are not inlined: similar functions compress better side by side, and no hot loop contains a call.
+    // Functions sorted by name lie beside those of the same module, which compresses better.
+    const passes = ['-O3', '--one-caller-inline-max-function-size=0', '--reorder-functions-by-name'];
+    await run('wasm-opt', ...features, ...passes, '--strip-debug', '--strip-producers', '--strip-target-features', path, '-o', path);
+    writeFileSync(deflatedPath(path), await zopfli.deflateAsync(readFileSync(path), { numiterations: 5 }));
+  });
+  writeFileSync(keyPath, key);
 }
 
-/** Modules are embedded deflated: what a server compresses again then barely grows, while plain base64 grows by half. */
+/** Runs tasks, as many at the same time as there are processors. */
+async function inParallel(tasks) {
+  const queue = tasks.values();
+  const work = async () => {
+    for (const task of queue) await task();
+  };
+  await Promise.all(Array.from({ length: availableParallelism() }, work));
+}
+
+/** Modules are embedded deflated. A server's compression then adds little, whereas plain base64 of a module grows by half. */
 const deflated = {
   name: 'deflated',
-  setup: (build) =>
-    build.onLoad({ filter: /\.wasm$/ }, async ({ path }) => ({
-      contents: await (smallest[path] ??= zopfli.deflateAsync(readFileSync(path), { numiterations: 5 })),
-      loader: 'binary',
-    })),
+  setup: (build) => build.onLoad({ filter: /\.wasm$/ }, ({ path }) => ({ contents: readFileSync(deflatedPath(path)), loader: 'binary' })),
 };
-
-/** Modules that have been deflated, by path: both forms of an entry have the same. */
-const smallest = {};
 
 /** A WGSL file without its comment lines. */
 const withoutComments = (text) => text.replace(/^\s*\/\/.*\n/gm, '');
 
-/** The shaders of crates/darboux-gpu, each file once, put together as its list says. Parts that are no files stand for themselves. */
+/** Embeds the shaders of crates/darboux-gpu: each file once, and per kernel the list of its parts. A part that is not a file name is WGSL. */
 const shaders = {
   name: 'shaders',
   setup: (build) => {
@@ -87,11 +129,11 @@ const shaders = {
   },
 };
 
-/** Adapters import their entry as users do, so that it is there once. */
-const entries = (extension) => ({
-  name: 'entries',
+/** Adapters import the entries as users do, so that a program has each entry once. */
+const externalEntries = (extension) => ({
+  name: 'external-entries',
   setup: (build) =>
-    build.onResolve({ filter: new RegExp(`^\\./(${ENTRIES.join('|')})\\.js$`) }, ({ path }) => ({
+    build.onResolve({ filter: new RegExp(`^\\./(${ALL_ENTRIES.join('|')})\\.js$`) }, ({ path }) => ({
       path: path.replace('.js', extension),
       external: true,
     })),
@@ -108,8 +150,8 @@ const common = {
   outdir: out,
   bundle: true,
   minify: true,
-  // Node.js shows the line that throws: not the whole module.
-  lineLimit: 400,
+  // Node.js prints the source line of an uncaught error, so lines are short.
+  lineLimit: 100,
   target: 'es2022',
   platform: 'neutral',
   plugins: [deflated, shaders, lazyChunks],
@@ -117,17 +159,24 @@ const common = {
   logLevel: 'warning',
 };
 
-/** The form without SIMD is a file of its own, which is imported where it is needed. */
-async function bundle(entry) {
-  await build({ ...common, format: 'esm', entryPoints: [`${entry}.ts`, `${entry}.scalar.ts`] });
-  await build({ ...common, format: 'cjs', entryPoints: [`${entry}.ts`], outExtension: { '.js': '.cjs' } });
+/** Bundles with esbuild. Joins the string literals that it splits at the line limit, which would add thousands of bytes. */
+async function bundle(options) {
+  const { outputFiles } = await build({ ...common, ...options, write: false });
+  for (const { path, text } of outputFiles) writeFileSync(path, text.replaceAll('\\\n', ''));
+}
+
+/** The form without SIMD is a lazy chunk, which browsers without SIMD load. */
+async function bundleEntry(entry) {
+  await bundle({ format: 'esm', entryPoints: [`${entry}.ts`, `${entry}.scalar.ts`] });
+  await bundle({ format: 'cjs', entryPoints: [`${entry}.ts`], outExtension: { '.js': '.cjs' } });
 }
 
 async function bundleAdapters() {
+  if (!ADAPTERS.length) return;
   const entryPoints = ADAPTERS.map((adapter) => `${adapter}.ts`);
-  const plugins = (extension) => [entries(extension), shaders];
-  await build({ ...common, format: 'esm', entryPoints: [...entryPoints, ...LATER], plugins: plugins('.js') });
-  await build({ ...common, format: 'cjs', entryPoints, plugins: plugins('.cjs'), outExtension: { '.js': '.cjs' } });
+  const plugins = (extension) => [externalEntries(extension), shaders];
+  await bundle({ format: 'esm', entryPoints: [...entryPoints, ...LAZY_CHUNKS], plugins: plugins('.js') });
+  await bundle({ format: 'cjs', entryPoints, plugins: plugins('.cjs'), outExtension: { '.js': '.cjs' } });
 }
 
 /** Keeps the type declarations that the entries reach, for ES modules and for CommonJS, and deletes the others. */
@@ -140,7 +189,7 @@ function keepTypes() {
     for (const [, imported] of text.matchAll(/from '(\..*)\.js'/g)) visit(join(dirname(path), `${imported}.d.ts`));
     writeFileSync(path.replace(/\.d\.ts$/, '.d.cts'), text.replaceAll(/from '(\..*)\.js'/g, "from '$1.cjs'"));
   };
-  for (const entry of [...ENTRIES, ...ADAPTERS]) visit(join(out, `${entry}.d.ts`));
+  for (const entry of [...entries, ...ADAPTERS]) visit(join(out, `${entry}.d.ts`));
   for (const path of readdirSync(out, { recursive: true }).map((name) => join(out, name))) {
     if (path.endsWith('.d.ts') && !reached.has(path)) rmSync(path);
   }
@@ -150,19 +199,23 @@ function keepTypes() {
 }
 
 rmSync(out, { recursive: true, force: true });
-for (const entry of ENTRIES) {
-  for (const form of ['simd', 'scalar']) optimize(entry, form);
-  await bundle(entry);
-}
-await bundleAdapters();
-run('tsc', '-p', 'lib', '--outDir', out);
-keepTypes();
+mkdirSync(out, { recursive: true });
+await inParallel(entries.flatMap((entry) => ['simd', 'scalar'].map((form) => () => shrink(entry, form))));
+await step('bundle the package and write its types', async () => {
+  const types = run('tsc', '-p', 'lib', '--outDir', out);
+  for (const entry of entries) await bundleEntry(entry);
+  await bundleAdapters();
+  await types;
+  keepTypes();
+});
 const manifest = JSON.parse(readFileSync(join(here, 'lib/package.json'), 'utf8'));
 writeFileSync(join(out, 'package.json'), JSON.stringify({ ...manifest, version }, null, 2) + '\n');
 copyFileSync(join(here, 'README.md'), join(out, 'README.md'));
 for (const license of ['LICENSE-APACHE', 'LICENSE-MIT']) copyFileSync(join(here, '../..', license), join(out, license));
 
-// Tests and examples import it as users do, beside the libraries that it extends.
+// Tests and examples import the package as users do, beside the libraries that it extends.
 const installed = join(here, 'node_modules/darboux');
-rmSync(installed, { recursive: true, force: true });
-cpSync(out, installed, { recursive: true });
+if (ADAPTERS.length) {
+  rmSync(installed, { recursive: true, force: true });
+  cpSync(out, installed, { recursive: true });
+}

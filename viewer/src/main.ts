@@ -1,4 +1,4 @@
-// The page: opens models, and shows them.
+// The entry of the viewer's page.
 
 import { App } from './page/app';
 import { showError } from './page/status';
@@ -6,6 +6,6 @@ import { showError } from './page/status';
 try {
   new App().start();
 } catch (error) {
-  // three.js says on the console what it found missing.
-  showError(new Error('This browser shows no 3D pictures: WebGL 2 is missing or turned off.', { cause: error }));
+  // three.js has logged the details on the console.
+  showError(new Error('This browser cannot show 3D: WebGL 2 is missing or disabled.', { cause: error }));
 }

@@ -1,16 +1,19 @@
-// What the controls say.
+// The settings that the controls choose and the scene draws by.
 
 import type { Source } from './surface/sources';
 
-/** What the surface is painted with. */
+/** What the colours of the surface show. */
 export const PAINTS = ['shaded', 'tangent', 'bitangent', 'normal', 'sign', 'angle'] as const;
 
 export type Paint = (typeof PAINTS)[number];
 
-/** Mistakes that circulate, made on the right side. */
+/** Common mistakes with normal maps, applied to the right side on request. */
 export interface Mistakes {
+  /** Negates the green channel of the normal map. */
   green: boolean;
+  /** Negates the sign of the tangents. */
   w: boolean;
+  /** Replaces v by 1 - v. */
   v: boolean;
 }
 
@@ -20,13 +23,17 @@ export const VECTORS = ['tangent', 'bitangent', 'normal'] as const;
 export type VectorName = (typeof VECTORS)[number];
 
 export interface Settings {
+  /** The sources of tangents on the left and on the right. */
   sources: readonly [Source, Source];
   paint: Paint;
   vectors: Record<VectorName, boolean>;
-  /** Of lines, as a part of the model's radius. */
+  /** The length of lines, relative to the model's radius. */
   length: number;
+  /** Whether mirrored edges are drawn. */
   seams: boolean;
+  /** Whether the UV layout is drawn. */
   layout: boolean;
+  /** Whether models without a normal map get a pattern. */
   pattern: boolean;
   mistakes: Mistakes;
 }

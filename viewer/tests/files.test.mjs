@@ -1,4 +1,4 @@
-// Models in: by address, button and drop; good and bad. Models out: as the command writes them.
+// Opening models by address, button and drop, valid and broken, and exporting them with the same bytes as the command.
 
 import assert from 'node:assert/strict';
 import { execFileSync, spawn } from 'node:child_process';
@@ -25,11 +25,11 @@ after(async () => {
   await chromium?.close();
   server?.close();
   rmSync(folder, { recursive: true });
-  // Some models have pictures that no decoder takes, which the page says in words.
+  // Some models have images that no decoder reads; the page shows a warning for these.
   assert.deepEqual(viewer?.faults.filter((fault) => !fault.includes("Couldn't load texture")), []);
 });
 
-/** What the command's inspection says of a file's only primitive. */
+/** The command's inspection of a file's only primitive. */
 function inspected(path) {
   return JSON.parse(execFileSync(DARBOUX, ['inspect', '--json', path])).files[0].primitives[0];
 }
@@ -236,11 +236,11 @@ test('bad files get a sentence, and leave the model that is open', async () => {
     'noise.glb': [Buffer.from(Array.from({ length: 5000 }, (_, at) => (at * 7919) % 251)), /^noise\.glb: .*\.$/],
     'text.gltf': ['{"asset": ', /^text\.gltf: .*not JSON.*\.$/],
     'index.gltf': [readFileSync(asset('made/shared-vertices-two-uv-sets.gltf'), 'utf8').replace(/"POSITION": *\d+/, '"POSITION": 99'), /^index\.gltf: .*99.*\.$/],
-    'alone.gltf': [plane, /^alone\.gltf refers to TwoSidedPlane.*, which was not given; drop the whole folder\.$/],
+    'alone.gltf': [plane, /^alone\.gltf refers to TwoSidedPlane.*, which is not among the files; drop the whole folder\.$/],
     'remote.gltf': [plane.replace('TwoSidedPlane.bin', 'https://example.com/a.bin'), /^remote\.gltf refers to https:.*nothing is fetched/],
     'empty.obj': ['# nothing\n', /^empty\.obj has no vertices/],
     'points.obj': ['v 0 0 0\nv 1 0 0\n', /no triangles/],
-    'notes.txt': ['hello', /^There is no model in what was given \(notes\.txt\)/],
+    'notes.txt': ['hello', /^There is no model in these files \(notes\.txt\)/],
   };
   for (const [name, [content, sentence]] of Object.entries(bad)) {
     writeFileSync(join(folder, name), content);
@@ -303,7 +303,7 @@ test('darboux view shows an OBJ with its materials and textures', { skip: !DARBO
   });
   // Alone it is shown, and what it lacks is said.
   await viewer.give('files', [join(place, 'quad.obj')]);
-  assert.match(await viewer.text('status'), /; dress\/quad one\.mtl was not given, and its materials are missing$/);
+  assert.match(await viewer.text('status'), /; dress\/quad one\.mtl is not among the files, and its materials are missing$/);
   rmSync(join(place, 'normal 1.png'));
   await viewer.give('folder', place);
   assert.match(await viewer.text('status'), /; 1 texture missing or not decodable$/);

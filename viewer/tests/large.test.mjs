@@ -1,4 +1,4 @@
-// Large models: progress, and a page that answers meanwhile. And that nothing leaves the machine, whatever is done.
+// Large models: the page shows progress and stays responsive. Privacy: the page sends no request to another machine.
 
 import assert from 'node:assert/strict';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
@@ -30,7 +30,7 @@ test('a large model shows progress, and the page answers meanwhile', async () =>
   try {
     const viewer = await Viewer.open(chromium, server.address, { viewport: { width: 500, height: 400 } });
     writeFileSync(join(folder, 'grid.gltf'), gltf(grid(SIDE)));
-    // All that is said, and what is said when a button works while the bar is shown.
+    // All status texts, and those during which a button worked while the progress bar was shown.
     await viewer.page.evaluate(() => {
       const [status, bar, theme] = ['status', 'progress', 'theme'].map((id) => document.getElementById(id));
       globalThis.log = { said: [], answered: [] };
@@ -57,7 +57,7 @@ test('a large model shows progress, and the page answers meanwhile', async () =>
 });
 
 test('nothing leaves the machine', async () => {
-  // All that is not for this machine would go here.
+  // A proxy that gets every request to another machine.
   const asked = [];
   const proxy = createServer((socket) => socket.on('error', () => {}).once('data', (data) => socket.end(asked.push(String(data).split('\r\n')[0]) && '')));
   await new Promise((resolve) => proxy.listen(0, '127.0.0.1', resolve));
@@ -77,16 +77,16 @@ test('nothing leaves the machine', async () => {
     for (const files of [['image.gltf'], ['buffer.gltf'], ['quad.obj', 'quad.mtl']]) {
       await viewer.give('files', files.map((name) => join(folder, name)));
     }
-    assert.match(await viewer.text('status'), /a\.mtl was not given.*2 textures missing/);
+    assert.match(await viewer.text('status'), /a\.mtl is not among the files.*2 textures missing/);
     await viewer.download('#save-model');
     await viewer.download('#save-picture');
     await viewer.click('#open-sample');
     const foreign = requests.filter((url) => !url.startsWith(server.address) && !/^(blob|data):/.test(url));
     assert.ok(requests.length > 0);
-    // The browser itself asks its maker for updates, whatever it is told.
+    // The browser itself checks for updates despite its options.
     const ofPage = asked.filter((line) => !/\b(google|googleapis|gstatic)\.com\b/.test(line));
     assert.deepEqual([foreign, ofPage], [[], []]);
-    // The proxy would have seen it.
+    // Proves that the proxy sees such a request.
     await viewer.page.goto(elsewhere('page')).catch(() => {});
     assert.ok(asked.some((line) => line.includes('elsewhere.example')), asked.join());
   } finally {

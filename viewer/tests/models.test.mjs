@@ -1,4 +1,4 @@
-// Models that are more than meshes at nodes: skins, morph targets, instances, and textures in formats of extensions.
+// Models with skins, morph targets, instances, and textures in formats of extensions.
 
 import assert from 'node:assert/strict';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
@@ -31,7 +31,7 @@ async function open(text) {
   assert.equal(await viewer.text('error'), '');
 }
 
-/** What a file looks like from some sources, in views that show its shape, its frames and its seams, and where its report leads. */
+/** Screenshots of a file with some sources, in views of its shape, frames and mirrored edges, and the places of its report. */
 async function seen(text, sources) {
   await open(text);
   const pictures = {};
@@ -51,7 +51,7 @@ async function seen(text, sources) {
 
 const LINES = ['lines-tangent', 'lines-normal', 'seams'];
 
-/** Expects that two files look alike from some sources, and unlike a third. */
+/** Asserts that two files look the same with some sources, and different from a third. */
 async function looksAs(text, expected, other, sources) {
   const [ours, theirs] = [await seen(text, sources), await seen(expected, sources)];
   for (const view in ours) {
@@ -62,7 +62,7 @@ async function looksAs(text, expected, other, sources) {
   assert.ok(ours[`${sources[0]}, shaded`].differs(await viewer.picture()) > 0.02, 'the pose is seen');
 }
 
-/** A sixth of a turn about z, larger, and aside. */
+/** A rotation by 60 degrees about z, a scale and a translation. */
 const [SINE, COSINE] = [Math.sin(Math.PI / 3), Math.cos(Math.PI / 3)];
 const MATRIX = [2 * COSINE, 2 * SINE, 0, 0, -2 * SINE, 2 * COSINE, 0, 0, 0, 0, 2, 0, 3, 1, 0, 1];
 
@@ -80,7 +80,7 @@ test('skins move models and their frames as the scene\'s joints stand', async ()
       more: { inverses },
       json: ({ inverses: inverseBindMatrices }) => ({
         scenes: [{ nodes: [0, 1] }],
-        // The place of the mesh's own node means nothing.
+        // The transform of a skinned mesh's own node is ignored.
         nodes: [{ mesh: 0, skin: 0, translation: [9, 9, 9] }, { matrix: node ? after : before, children: [2, 3] }, node ? { translation: [7, 0, 0] } : {}, node ? { translation: [7, 0, 0] } : {}],
         skins: [{ joints: [2, 3], inverseBindMatrices }],
       }),
@@ -129,7 +129,7 @@ test('instances are where the file places them', async () => {
   await looksAs(instanced, placed, gltf(), ['mikktspace']);
 });
 
-/** All green, as are the others. */
+/** An image of a single green. */
 const GREEN_PNG = 'iVBORw0KGgoAAAANSUhEUgAAAAgAAAAICAIAAABLbSncAAAAFElEQVR4nGOUO6HBgA0wYRUdtBIA19IBHqVA1jcAAAAASUVORK5CYII=';
 
 /** A quad with an image of an extension as its base colour. */
@@ -162,10 +162,10 @@ test('textures in WebP and AVIF are shown', async () => {
   }
 });
 
-test('textures in KTX 2 are left out and said, or their stand-ins shown', async () => {
+test('textures in KTX 2 are left out with a warning, or their fallback images are shown', async () => {
   const ktx2 = Buffer.from('«KTX 20»\r\n\x1a\n', 'latin1');
   await open(dressed('KHR_texture_basisu', 'image/ktx2', ktx2));
-  assert.match(await viewer.text('status'), /; 1 texture in KTX 2 is left out, as this page has no decoder for it$/);
+  assert.match(await viewer.text('status'), /; 1 texture in KTX 2 is left out, because this page has no decoder for it$/);
   assert.ok((await viewer.picture()).share(isGreen) < 0.001);
   await open(dressed('KHR_texture_basisu', 'image/ktx2', ktx2, { source: 1 }));
   assert.equal(await viewer.text('status'), '4 triangles in 1 part');

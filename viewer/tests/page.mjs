@@ -1,4 +1,4 @@
-// The built page, in Chromium without a window.
+// The built page in headless Chromium.
 
 import { readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
@@ -13,10 +13,10 @@ export const root = join(here, '../..');
 
 const KINDS = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm' };
 
-/** Longer than anything takes on a slow machine without a graphics card. */
+/** A timeout that a slow machine without a graphics card does not reach. */
 const LONG = 120_000;
 
-/** Serves the built page; gives its address. */
+/** Serves the built page. Returns its address. */
 export async function serve() {
   const server = createServer(async (request, response) => {
     const path = normalize(new URL(request.url, 'http://x').pathname);
@@ -41,7 +41,7 @@ export function browser(more = []) {
   });
 }
 
-/** A page with the viewer, and what tests do with it. */
+/** A page with the viewer, and the actions of tests. */
 export class Viewer {
   /** What the page said that it should not have, and what it asked of others. */
   faults = [];
@@ -68,7 +68,7 @@ export class Viewer {
       const text = (id) => document.getElementById(id).textContent;
       return document.getElementById('progress').hidden && (text('status') || text('error'));
     });
-    // What is to be drawn is drawn in the next frame.
+    // The page draws in the next animation frame.
     await this.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   }
 
@@ -137,7 +137,7 @@ export class Viewer {
   }
 }
 
-/** Pixels. */
+/** The pixels of a screenshot. */
 export class Picture {
   constructor(width, height, data) {
     Object.assign(this, { width, height, data });

@@ -1,4 +1,4 @@
-// The page for everyone: by keyboard, read aloud, dark and light, and where there is no graphics card.
+// Accessibility: keyboard, screen readers, contrast, dark and light colours, and browsers without WebGL.
 
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
@@ -20,7 +20,7 @@ after(async () => {
   assert.deepEqual(viewer?.faults, []);
 });
 
-/** The brightness of the pixel in the corner, behind the model. */
+/** The brightness of the background. */
 async function background() {
   return (await viewer.picture()).data[0];
 }
@@ -34,7 +34,7 @@ test('dark and light follow the system, then the button', async () => {
   assert.equal(await viewer.page.getAttribute('#theme', 'aria-pressed'), 'true');
 });
 
-test('text stands out from what is behind it', async () => {
+test('text has enough contrast', async () => {
   for (const theme of ['light', 'dark']) {
     const ratios = await viewer.page.evaluate((theme) => {
       document.documentElement.dataset.theme = theme;
@@ -71,9 +71,9 @@ test('the rules for accessible pages hold, dark and light', async () => {
   await viewer.click('input[value=shaded]');
 });
 
-test('Tab goes through all that can be used, in the order of the page, and shows where it is', async () => {
+test('Tab visits all controls in the order of the page, and focus is visible', async () => {
   const all = await viewer.page.evaluate(() => {
-    // Of radio buttons only the chosen one.
+    // Tab stops at the selected radio button only.
     const usable = document.querySelectorAll('button, select, summary, canvas, input:not([hidden], [type=radio]:not(:checked))');
     return [...usable].map((one, at) => (one.dataset.order = String(at)));
   });
@@ -88,7 +88,7 @@ test('Tab goes through all that can be used, in the order of the page, and shows
   assert.deepEqual(reached, all);
 });
 
-test('sliders say what their values mean', async () => {
+test('sliders have value texts with units', async () => {
   await viewer.slide('split', 30);
   assert.equal(await viewer.page.getAttribute('#split', 'aria-valuetext'), '30 percent: In the file on the left, MikkTSpace on the right');
   await viewer.choose('right', 'lengyel');
@@ -99,7 +99,7 @@ test('sliders say what their values mean', async () => {
   assert.equal(await viewer.page.getAttribute('#light-above', 'aria-valuetext'), '35 degrees');
 });
 
-test('everything that can be used has a name', async () => {
+test('every control has an accessible name', async () => {
   const snapshot = await viewer.page.locator('body').ariaSnapshot();
   for (const line of snapshot.split('\n')) {
     const [, role, name] = /^\s*- (button|checkbox|radio|slider|combobox)\b(?: "(.*?)")?/.exec(line) ?? [];
@@ -131,12 +131,12 @@ test('the keyboard reaches and turns the model', async () => {
   assert.ok((await viewer.picture()).differs(front, 0.4, 0.5) > 0.005, 'the slider moves, too');
 });
 
-test('what is said is said to screen readers, too', async () => {
+test('status texts are announced to screen readers', async () => {
   assert.equal(await viewer.page.getAttribute('#status', 'role'), 'status');
   assert.equal(await viewer.page.getAttribute('#error', 'role'), 'alert');
 });
 
-test('without WebGL there is a sentence', async () => {
+test('without WebGL the page shows an error', async () => {
   const blind = await browser(['--disable-3d-apis']);
   try {
     const page = await Viewer.open(blind, server.address);

@@ -1,4 +1,4 @@
-// The picture for the documentation. Where PICTURES names a folder it is written there.
+// The picture for the documentation, written to the folder in the environment variable PICTURES, if any.
 
 import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
@@ -7,7 +7,7 @@ import { test } from 'node:test';
 
 import { browser, serve, Viewer } from './page.mjs';
 
-/** What a page of documentation can have. */
+/** The size limit of a picture on a page of documentation. */
 const MOST_BYTES = 300_000;
 
 test('a picture of the page', async () => {

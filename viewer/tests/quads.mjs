@@ -1,27 +1,27 @@
-// Small models for tests: a quad whose halves mirror their texture, as a glTF with all that it needs.
+// Small glTF models for tests: a quad with mirrored halves, and variants of it.
 
 const TYPES = { 1: 'SCALAR', 2: 'VEC2', 3: 'VEC3', 4: 'VEC4', 16: 'MAT4' };
 const COMPONENTS = new Map([[Uint8Array, 5121], [Uint16Array, 5123], [Uint32Array, 5125], [Float32Array, 5126]]);
 
-/** From x = -1 to 1 and y = -0.5 to 0.5, facing +z; u grows from the middle to either side. */
+/** The quad spans x from -1 to 1 and y from -0.5 to 0.5 and faces +z. u grows from the middle to both sides. */
 const CORNERS = [[-1, -0.5], [0, -0.5], [1, -0.5], [-1, 0.5], [0, 0.5], [1, 0.5]];
 
-/** What the quad's vertices have, each an array and its width. */
+/** The vertex attributes of the quad, each an array and its width. */
 export const QUAD = {
   POSITION: [Float32Array.from(CORNERS.flatMap(([x, y]) => [x, y, 0])), 3],
   NORMAL: [Float32Array.from(CORNERS.flatMap(() => [0, 0, 1])), 3],
   TEXCOORD_0: [Float32Array.from(CORNERS.flatMap(([x, y]) => [Math.abs(x), 0.5 - y])), 2],
 };
 
-/** Tangents of the vertices, of which the two in the middle are right on one side only. */
+/** Tangents of the vertices. The two in the middle are right for one half only. */
 export const TANGENTS = [Float32Array.from([-1, 1, 1, -1, 1, 1].flatMap((x) => [x, 0, 0, Math.sign(x)])), 4];
 
-/** Two triangles on either side. */
+/** Two triangles per half. */
 export const INDICES = Uint16Array.from([0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4]);
 
 /**
- * The text of a glTF with one mesh. `attributes`: as in QUAD; `targets`: of morph targets; `more`: arrays by name, of which `json` says what
- * they are for, told the accessor of each; its members take the place of the file's own.
+ * The text of a glTF with one mesh. `attributes` is like QUAD, and `targets` has the attributes of each morph target. `more` has further
+ * arrays by name. `json` gets their accessor numbers and returns members that replace those of the file.
  */
 export function gltf({ attributes = QUAD, indices = INDICES, targets = [], more = {}, mesh = {}, primitive = {}, json = () => ({}) } = {}) {
   const [accessors, bufferViews, bytes] = [[], [], []];
@@ -42,7 +42,7 @@ export function gltf({ attributes = QUAD, indices = INDICES, targets = [], more 
   return JSON.stringify({ asset: { version: '2.0' }, scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }], meshes: [{ primitives: [one], ...mesh }], accessors, bufferViews, buffers, ...others });
 }
 
-/** A grid of so many quads along either side, for {@link gltf}: u grows from the middle to either side. */
+/** A square grid of quads, for {@link gltf}. u grows from the middle to both sides. */
 export function grid(side) {
   const line = Array.from({ length: side + 1 }, (_, at) => at / side - 0.5);
   const places = line.flatMap((y) => line.map((x) => [x, y]));

@@ -1,4 +1,4 @@
-// The report: every kind of finding, of a model that has it, and the way to its place.
+// The report: a model for every kind of finding, and the place that a click leads to.
 
 import assert from 'node:assert/strict';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
@@ -24,13 +24,13 @@ after(async () => {
   assert.deepEqual(viewer?.faults, []);
 });
 
-/** The quad's two upper vertices at the left and in the middle, and the lower ones there. */
+/** The vertices of the quad at the upper left, upper middle, lower left and lower middle. */
 const [UP_LEFT, UP_MIDDLE, LOW_LEFT, LOW_MIDDLE] = ['(-1, 0.5, 0)', '(0, 0.5, 0)', '(-1, -0.5, 0)', '(0, -0.5, 0)'];
 
-/** An attribute with other values at a vertex. */
+/** A copy of an attribute with another value at one vertex. */
 const changed = ([array, width], vertex, values) => [array.map((x, at) => (Math.floor(at / width) === vertex ? values[at % width] : x)), width];
 
-/** Vertices of their own for either side: without a seam in the data, whose signs are right everywhere. */
+/** The quad with separate vertices for both halves, so that all signs are right. */
 const APART = (() => {
   const order = [0, 1, 3, 4, 1, 2, 4, 5];
   const taken = ([array, width]) => [Float32Array.from(order.flatMap((vertex) => [...array.subarray(vertex * width, (vertex + 1) * width)])), width];
@@ -39,19 +39,19 @@ const APART = (() => {
   return { attributes: { ...attributes, TANGENT: tangents }, indices: Uint16Array.of(0, 1, 3, 0, 3, 2, 4, 5, 7, 4, 7, 6) };
 })();
 
-/** With another tangent at the upper left. */
+/** The quad with another tangent at the upper left. */
 const tilted = (values) => ({ ...APART, attributes: { ...APART.attributes, TANGENT: changed(APART.attributes.TANGENT, 2, values) } });
 
-/** With one texel on the left side. */
+/** The quad with equal UVs on the left half. */
 const FLAT = (() => {
   const TEXCOORD_0 = [0, 1, 2, 3].reduce((array, vertex) => changed(array, vertex, [0.5, 0.5]), APART.attributes.TEXCOORD_0);
   return { ...APART, attributes: { ...APART.attributes, TEXCOORD_0 } };
 })();
 
-/** And with normals along x, which is also where MikkTSpace's tangents without UVs point. */
+/** The quad with normals along x, which is also the direction of MikkTSpace's tangents without UVs. */
 const USELESS = { ...FLAT, attributes: { ...FLAT.attributes, NORMAL: [0, 1, 2, 3].reduce((array, vertex) => changed(array, vertex, [1, 0, 0]), APART.attributes.NORMAL) } };
 
-/** What each model has wrong, how the report says it, and where it is. */
+/** For each kind of finding: a model, the text of the report, and the place. */
 const FAULTS = [
   ['zero', tilted([0, 0, 0, -1]), /^1 corner with a zero tangent: /, [UP_LEFT]],
   ['not-finite', tilted([NaN, 0, 0, -1]), /^1 corner with a tangent that is not finite: /, [UP_LEFT]],
@@ -86,7 +86,7 @@ for (const [kind, model, sentence, places] of FAULTS) {
   });
 }
 
-test('a model without faults has none', async () => {
+test('the report of a model without faults is empty', async () => {
   writeFileSync(join(folder, 'quad.gltf'), gltf(APART));
   await viewer.give('files', [join(folder, 'quad.gltf')]);
   assert.deepEqual(Object.keys(await viewer.report()), ['seams']);

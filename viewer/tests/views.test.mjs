@@ -1,4 +1,4 @@
-// What the page shows of the model that it opens with, in pixels.
+// The pixels of the sample model in every view.
 
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
@@ -18,7 +18,7 @@ after(async () => {
   assert.deepEqual(viewer?.faults, []);
 });
 
-/** Colours that are unlike all others on the page. */
+/** Colours that occur nowhere else on the page. */
 const isRed = (r, g, b) => r > 200 && g < 110 && b < 110;
 const isGreen = (r, g, b) => g > 150 && r < 120 && b < 120;
 const isBlue = (r, g, b) => b > 200 && r < 130 && g < 170;
@@ -26,7 +26,7 @@ const isMagenta = (r, g, b) => r > 220 && b > 180 && g < 130;
 const isPlus = (r, g, b) => b > r + 60 && g > r;
 const isMinus = (r, g, b) => r > b + 80 && g < r;
 
-test('it opens with a sample, and says what is wrong with it', async () => {
+test('the page opens with a sample and reports its faults', async () => {
   assert.equal(await viewer.text('name'), 'shield.glb');
   assert.equal(await viewer.text('error'), '');
   assert.equal(await viewer.text('status'), '768 triangles in 1 part');
@@ -36,7 +36,7 @@ test('it opens with a sample, and says what is wrong with it', async () => {
   assert.equal(await viewer.page.inputValue('#left'), 'file');
 });
 
-test('the slider parts two sources', async () => {
+test('the slider separates two sources', async () => {
   await viewer.slide('split', 100);
   const left = await viewer.picture();
   await viewer.slide('split', 0);
@@ -49,7 +49,7 @@ test('the slider parts two sources', async () => {
   assert.equal(both.differs(right, 0.51), 0);
 });
 
-test('every source shows a surface, and derivatives their facets', async () => {
+test('every source shows a surface, and derivatives show facets', async () => {
   await viewer.slide('split', 100);
   const pictures = {};
   for (const source of ['mikktspace', 'angle-area', 'lengyel', 'derivatives']) {
@@ -104,7 +104,7 @@ test('frames and seams are drawn as lines', async () => {
   await viewer.click('input[value=shaded]');
 });
 
-test('mistakes show on the right alone', async () => {
+test('mistakes change the right side only', async () => {
   await viewer.slide('split', 50);
   const before = await viewer.picture();
   for (const mistake of ['green', 'w', 'v']) {

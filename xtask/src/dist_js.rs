@@ -1,125 +1,182 @@
-//! The folder that is published as the npm package darboux.
+//! `cargo xtask dist-js`: the folder that is published as the npm package `darboux`.
+//!
+//! ```text
+//! at the same time:  compile the WebAssembly modules, each in a target folder of its own
+//!                    install the npm packages that bundling needs
+//! then (build.mjs):  shrink each module (wasm-opt), compress it, bundle it with the TypeScript side
+//! ```
+//!
+//! Modules are compiled without function names in the end, but the names say which functions take the time: see [`SIZE_FLAG`].
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::thread;
+use std::time::SystemTime;
 
 use wasmparser::{KnownCustom, Name, Parser, Payload};
 
-use crate::run::{Outcome, program, root, run, target_folder, to_stderr, works};
+use crate::npm;
+use crate::progress::step;
+use crate::run::{Outcome, files_below, program, root, run, target_folder, to_stderr, works};
 use crate::validate::WithoutNpm;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// WebAssembly, with nothing around it.
+/// WebAssembly without an operating system.
 pub const TRIPLE: &str = "wasm32-unknown-unknown";
 
-/// Forms of a module, and what the compiler may use in them.
-const FORMS: &[(&str, &str)] = &[("simd", "-Ctarget-feature=+simd128"), ("scalar", "")];
+/// The two forms of every module, and their compiler flags.
+const FORMS: [(&str, &str); 2] = [("simd", "-Ctarget-feature=+simd128"), ("scalar", "")];
 
-/// What is called from several places is copied to none, and loops of unknown length are not unrolled: an eighth smaller, and no slower.
-/// Loops stay vector code, as they would not at optimisation levels for size.
-const SMALLER: &str = "-Cllvm-args=-inline-threshold=0 -Cllvm-args=-inlinehint-threshold=30 \
+/// Flags of all modules: functions with several callers are not inlined, and loops of unknown length are not unrolled. The modules are an
+/// eighth smaller for it and as fast. Optimisation levels for size would lose vectorisation.
+const FLAGS: &str = "-Cllvm-args=-inline-threshold=0 -Cllvm-args=-inlinehint-threshold=30 \
     -Cllvm-args=-unroll-runtime=false -Cllvm-args=-unroll-allow-partial=false";
 
-/// Modules, their features of darboux-js, and how they are compiled.
-const MODULES: &[(&str, &str, Size)] = &[("darboux", "full", Size::AsItIs), ("tangents", "", Size::Small)];
-
-/// How a module is compiled.
-#[derive(Clone, Copy, PartialEq)]
-enum Size {
-    AsItIs,
-    /// For size, but for the tasks that are compiled per vector width: what takes the time.
-    Small,
+/// A module: the entry of the npm package that embeds it, the features of `darboux-js`, and whether size matters more than speed outside
+/// the hot functions.
+#[derive(Clone, Copy)]
+pub struct Module {
+    entry: &'static str,
+    features: &'static str,
+    is_small: bool,
 }
 
-/// An attribute of every function, taken from some of them again.
-const FOR_SIZE: &str = "-Cllvm-args=-force-attribute=optsize";
+/// The module of `darboux`.
+pub const FULL: Module = Module { entry: "darboux", features: "full", is_small: false };
 
-/// What the names of the functions that run such tasks hold (see `tangents/width.rs` of the core), however the compiler mangles them.
-const TASK: &str = "5Width3run";
+/// The module of `darboux/tangents`.
+const SMALL: Module = Module { entry: "tangents", features: "", is_small: true };
 
-/// Makes the folder and runs the tests of what is in it.
+/// Optimises every function for size. The hot functions are excluded by name.
+const SIZE_FLAG: &str = "-Cllvm-args=-force-attribute=optsize";
+
+/// Part of the mangled name of every hot function: `Width::run`, which runs a kernel (`exec/simd.rs` of the core).
+const HOT: &str = "5Width3run";
+
+/// Makes the folder and runs the tests of the package.
 pub fn test(without: WithoutNpm) -> Outcome {
     if matches!(without, WithoutNpm::Skip) && !works(&mut program("npm --version")) {
         println!("skipped: the npm package needs node and npm");
         return Ok(());
     }
-    make_folder()?;
+    make_folder(&folder()?, &[FULL, SMALL])?;
     run(program("npm test").current_dir(root().join("bindings/js")))
 }
 
-/// `cargo xtask dist-js`: makes the folder, and prints its absolute path as the last line.
+/// `cargo xtask dist-js`: makes the folder and prints its absolute path as the last line.
 pub fn make() -> Outcome {
-    println!("{}", make_folder()?.display());
+    eprintln!("dist-js makes the npm package: 4 WebAssembly modules, bundled with TypeScript");
+    let folder = folder()?;
+    make_folder(&folder, &[FULL, SMALL])?;
+    println!("{}", folder.display());
     Ok(())
 }
 
-/// Where the folder is made.
+/// The path of the package.
 pub fn folder() -> Result<PathBuf, String> {
     Ok(target_folder()?.join("dist-js/darboux"))
 }
 
-/// Makes the folder; gives its path.
-pub fn make_folder() -> Result<PathBuf, String> {
+/// Makes the package with the entries of some modules.
+pub fn make_folder(folder: &Path, modules: &[Module]) -> Outcome {
     run(to_stderr(&mut program(&format!("rustup target add {TRIPLE}"))))?;
-    let (target, folder) = (target_folder()?, folder()?);
-    let modules = target.join("dist-js/modules");
-    fs::create_dir_all(&modules).map_err(|error| format!("{} cannot be made: {error}", modules.display()))?;
-    for (name, features, size) in MODULES {
-        for (form, flags) in FORMS {
-            eprintln!("compiling {name} ({form}), a minute or more");
-            let out = modules.join(format!("{name}.{form}.wasm"));
-            compile(&target, features, flags, &out)?;
-            if *size == Size::Small {
-                let tasks = tasks_of(&out)?;
-                compile(&target, features, &format!("{flags} {FOR_SIZE}{}", but_for(&tasks)), &out)?;
-                if tasks_of(&out)? != tasks {
-                    return Err(format!(
-                        "{}: its tasks have new names, so that they are slow",
-                        out.display()
-                    ));
-                }
-            }
+    let package = root().join("bindings/js");
+    let compiled = target_folder()?.join("dist-js/modules");
+    fs::create_dir_all(&compiled)
+        .map_err(|error| format!("{} cannot be made: {error}", compiled.display()))?;
+    let forms = modules.iter().flat_map(|module| FORMS.map(|form| (*module, form)));
+    let queue = Mutex::new(forms.collect::<Vec<_>>().into_iter());
+    let next = || queue.lock().ok().and_then(|mut queue| queue.next());
+    let compile_all = || {
+        while let Some((module, form)) = next() {
+            compile(module, form, &compiled)?;
         }
-    }
-    let ours = root().join("bindings/js");
-    eprintln!("making the modules smaller, and bundling");
-    run(to_stderr(program("npm ci --no-audit --no-fund").current_dir(&ours)))?;
-    run(to_stderr(program("node build.mjs").args([&modules, &folder]).arg(VERSION).current_dir(&ours)))?;
-    Ok(folder)
+        Ok(())
+    };
+    thread::scope(|scope| {
+        let mut others = vec![scope.spawn(|| npm::install("bindings/js", &package))];
+        let threads = thread::available_parallelism().map_or(1, usize::from);
+        others.extend((1..threads.min(2 * modules.len())).map(|_| scope.spawn(compile_all)));
+        let mine = compile_all();
+        let others = others.into_iter().map(|thread| thread.join().expect("compiling does not panic"));
+        others.fold(mine, Outcome::and)
+    })?;
+    let mut bundle = program("node build.mjs");
+    bundle.args([&compiled, folder]).arg(VERSION).args(modules.iter().map(|module| module.entry));
+    run(to_stderr(bundle.current_dir(&package)))
 }
 
-fn compile(target: &Path, features: &str, flags: &str, out: &Path) -> Outcome {
-    let mut cargo = program("cargo build --quiet --profile dist --package darboux-js --target");
-    run(to_stderr(
-        cargo
-            .args([TRIPLE, "--no-default-features", "--features", features])
-            // `build.mjs` finds functions by their names, and strips them then.
-            .env("CARGO_PROFILE_DIST_STRIP", "none")
-            .env("RUSTFLAGS", format!("{flags} {SMALLER}")),
-    ))?;
+/// Compiles one form of a module to `FOLDER/ENTRY.FORM.wasm`.
+fn compile(module: Module, (form, form_flags): (&str, &str), folder: &Path) -> Outcome {
+    let Module { entry, features, is_small } = module;
+    let target = target_folder()?.join("dist-js").join(format!("{entry}-{form}"));
+    let hot = if is_small { hot_functions(&target)? } else { BTreeSet::new() };
+    let size = if is_small { format!(" {SIZE_FLAG}{}", excluded(&hot)) } else { String::new() };
+    step(&format!("compile the module of {entry} ({form})"), || {
+        let mut cargo = cargo_build("darboux-js", &target);
+        cargo.args(["--no-default-features", "--features", features]);
+        run(to_stderr(cargo.env("RUSTFLAGS", format!("{form_flags} {FLAGS}{size}"))))
+    })?;
     let built = target.join(TRIPLE).join("dist/darboux_js.wasm");
-    fs::copy(&built, out)
+    if is_small {
+        check_hot_functions(&built, &hot)?;
+    }
+    let out = folder.join(format!("{entry}.{form}.wasm"));
+    fs::copy(&built, &out)
         .map(|_| ())
-        .map_err(|error| format!("{} cannot be copied: {error}", built.display()))
+        .map_err(|error| format!("{} cannot be copied to {}: {error}", built.display(), out.display()))
 }
 
-/// The names of the tasks that a compiled module has. Errors: there are none.
-fn tasks_of(module: &Path) -> Result<BTreeSet<String>, String> {
+fn cargo_build(package: &str, target: &Path) -> std::process::Command {
+    let mut cargo = program("cargo build --quiet --profile dist --package");
+    cargo.args([package, "--target", TRIPLE]).env("CARGO_TARGET_DIR", target);
+    // Names are needed to find functions; `build.mjs` strips them. The setting is part of the mangled names, too.
+    cargo.env("CARGO_PROFILE_DIST_STRIP", "none");
+    cargo
+}
+
+/// The mangled names of the hot functions, from the core's LLVM IR before optimisation, which takes seconds to make. Compiler flags are no
+/// part of mangled names.
+fn hot_functions(target: &Path) -> Result<BTreeSet<String>, String> {
+    let target = target.join("names");
+    let mut cargo = cargo_build("darboux", &target);
+    cargo.env("RUSTFLAGS", "-Cno-prepopulate-passes --emit=llvm-ir");
+    step("list the hot functions of the core", || run(to_stderr(&mut cargo)))?;
+    let files = files_below(&target.join(TRIPLE).join("dist/deps"))?.into_iter();
+    let newest =
+        files.filter(|path| path.extension().is_some_and(|extension| extension == "ll")).max_by_key(|path| {
+            path.metadata().and_then(|data| data.modified()).unwrap_or(SystemTime::UNIX_EPOCH)
+        });
+    let path = newest.ok_or_else(|| format!("{} has no LLVM IR of the core", target.display()))?;
+    let text =
+        fs::read_to_string(&path).map_err(|error| format!("{} cannot be read: {error}", path.display()))?;
+    let defined = text.lines().filter(|line| line.starts_with("define ")).filter_map(|line| {
+        let (_, rest) = line.split_once('@')?;
+        rest.split_once('(').map(|(name, _)| name.trim_matches('"'))
+    });
+    Ok(defined.filter(|name| name.contains(HOT)).map(str::to_owned).collect())
+}
+
+/// Flags that exclude functions from [`SIZE_FLAG`].
+fn excluded(functions: &BTreeSet<String>) -> String {
+    functions.iter().map(|name| format!(" -Cllvm-args=-force-remove-attribute={name}:optsize")).collect()
+}
+
+/// Errors: the module has hot functions that were not excluded from [`SIZE_FLAG`], or none at all.
+fn check_hot_functions(module: &Path, excluded: &BTreeSet<String>) -> Outcome {
     let read = fs::read(module).map_err(|error| format!("{} cannot be read: {error}", module.display()))?;
     let names = names(&read).map_err(|error| format!("{} has no names: {error}", module.display()))?;
-    let tasks: BTreeSet<String> =
-        names.into_iter().filter(|name| name.contains(TASK)).map(str::to_owned).collect();
-    if tasks.is_empty() {
-        return Err(format!("no function of {} is called as tasks are ({TASK})", module.display()));
+    let found: BTreeSet<&str> = names.into_iter().filter(|name| name.contains(HOT)).collect();
+    if found.is_empty() || found.iter().any(|name| !excluded.contains(*name)) {
+        return Err(format!(
+            "{}: a hot function (*{HOT}*) was optimised for size and is slow",
+            module.display()
+        ));
     }
-    Ok(tasks)
-}
-
-/// Flags that take [`FOR_SIZE`] from tasks.
-fn but_for(tasks: &BTreeSet<String>) -> String {
-    tasks.iter().map(|name| format!(" -Cllvm-args=-force-remove-attribute={name}:optsize")).collect()
+    Ok(())
 }
 
 /// The functions of a module, as the compiler names them.

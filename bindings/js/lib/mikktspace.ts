@@ -1,14 +1,14 @@
-// `darboux/mikktspace`: what the npm package mikktspace has, and three.js's module of that name.
+// `darboux/mikktspace`: the functions of the npm package mikktspace and of three.js's module of that name, over `darboux/tangents`.
 
 import { ready } from './tangents.js';
 
 export { generateTangents, ready } from './tangents.js';
 
-/** Whether `ready` has resolved. */
+/** True once `ready` has resolved. */
 export let isReady = false;
 
-// Who awaits `ready` hears of what goes wrong.
+// A caller that awaits `ready` gets its error; nobody else needs it.
 ready.then(() => (isReady = true), () => {});
 
-/** Does nothing, as there is nothing to release: for callers of three.js's module. */
+/** Does nothing, because nothing has to be released. Callers of three.js's module call it. */
 export function dispose(): void {}

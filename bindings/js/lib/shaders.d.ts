@@ -1,4 +1,4 @@
-// What crates/darboux-gpu lists for other languages (shaders/*.json), as build.mjs embeds it: texts in place of files.
+// The types of the shader lists of crates/darboux-gpu (shaders/*.json). build.mjs embeds them with the text of each file in place of its name.
 
 declare module 'darboux-gpu/kernels' {
   type Kernel = 'adjacency' | 'average' | 'scan' | 'terms' | 'gather' | 'repair' | 'write';
@@ -6,7 +6,7 @@ declare module 'darboux-gpu/kernels' {
   export default kernels;
 }
 
-/** The kernels of the passes. */
+/** The kernels of MikkTSpace on whole meshes. */
 declare module 'darboux-gpu/mikktspace' {
   const kernels: Readonly<Record<string, readonly string[]>>;
   export default kernels;
@@ -19,7 +19,7 @@ declare module 'darboux-gpu/passes' {
     kernel: string;
     entry: string;
   }
-  /** With the names of its buffers by binding, and what runs over the list of what it was unsure of. */
+  /** A dispatch: the names of its buffers by binding, and the kernel that computes the items that it left open. */
   interface Run extends Entry {
     domain: Domain;
     buffers: Readonly<Record<string, string>>;
@@ -27,7 +27,8 @@ declare module 'darboux-gpu/passes' {
   }
   type Pass = { clear: string } | { scan: string; domain: Domain } | Run;
 
-  /** What every shader's text begins with: threads of a group, values of a prefix sum's thread and block, limits of dispatches and loops. */
+  /** The constants that every shader begins with: workgroup size, values of a prefix sum per thread and per block, limits of dispatches and
+   * loops. */
   const constants: Readonly<Record<'WORKGROUP' | 'VALUES_PER_THREAD' | 'BLOCK' | 'MAX_GROUPS' | 'MAX_ITERATIONS', number>>;
   /** For each buffer, its domain and its words per element. */
   const buffers: Readonly<Record<string, readonly [Domain, number]>>;

@@ -1,7 +1,8 @@
-// `darboux/tangents`: MikkTSpace alone.
+// `darboux/tangents`: MikkTSpace alone, in a WebAssembly module a third of the size.
 
+import { checkOut, choice, degrees, optionsOf } from './core/checks.js';
+import { checkedMesh, indexError, readFloats, writeMesh } from './core/mesh.js';
 import { load, type Exports } from './core/wasm-module.js';
-import { checkOut, choice, degrees, floats, indexError, mesh, write } from './core/mesh.js';
 import type { Indices, MikkTSpaceOptions } from './types.js';
 import simd from './wasm/tangents.simd.wasm';
 
@@ -11,42 +12,47 @@ interface TangentExports extends Exports {
   generate_tangents(mode: number, threshold: number): number;
 }
 
+/** The position of a mode is the code that WebAssembly takes. */
 const MODES = ['reference', 'repaired', 'corrected'] as const;
 
-const engine = load<TangentExports>(simd, () => import('./tangents.scalar.js'));
+const smallModule = load<TangentExports>(simd, () => import('./tangents.scalar.js'));
 
-/** Resolves when {@link generateTangents} may be called. */
-export const ready: Promise<void> = engine.ready;
+/** Resolves when {@link generateTangents} can be called. */
+export const ready: Promise<void> = smallModule.ready;
 
 /**
- * The tangent of every corner: unit xyz and the sign w, bitangent = w * cross(normal, xyz). The sign is MikkTSpace's for the UVs as given.
+ * Computes the tangent of every corner: unit xyz and the sign w, with bitangent = w * cross(normal, xyz). The sign is that of MikkTSpace
+ * for the UVs as given.
  *
- * These are not vertex tangents: corners of one vertex may disagree, as at mirrored seams. Without indices they are the vertices' own.
+ * Corners of one vertex may have different tangents, as at mirrored seams. Without indices, every corner is a vertex.
  *
  * @param positions 3 per vertex, any values.
- * @param normals 3 per vertex, used as given; they should be unit length.
+ * @param normals 3 per vertex, used as given. They should have unit length.
  * @param uvs 2 per vertex.
- * @param indices The vertex of each corner; without, every vertex is a corner of its own.
- * @param out Receives the tangents, 4 per corner, and is returned: arrays that are used again cost less than new ones.
+ * @param indices The vertex of each corner. Without indices, the corners are the vertices in order.
+ * @param options May be left out, undefined or null, and so may each option.
+ * @param out Receives the tangents, 4 per corner, and is returned. Reusing an array is faster than allocating one.
  * @returns 4 per corner.
- * @throws TypeError for arrays of another kind; RangeError for lengths that differ, an index out of range, corners that are not whole faces.
+ * @throws TypeError for an array of another type. RangeError for lengths that do not fit together, for an index out of range, and for a
+ * number of corners that is not a multiple of the face size.
  */
 export function generateTangents<Out extends Float32Array = Float32Array<ArrayBuffer>>(
   positions: Float32Array,
   normals: Float32Array,
   uvs: Float32Array,
   indices?: Indices | null,
-  options: MikkTSpaceOptions = {},
-  out?: Out,
+  options?: MikkTSpaceOptions | null,
+  out?: Out | null,
 ): Out {
-  const given = mesh(positions, [['normals', normals, 3], ['uvs', uvs, 2]], indices, options.faces);
-  const mode = choice('mode', options.mode ?? 'repaired', MODES);
-  const threshold = degrees('threshold', options.threshold);
-  if (out) checkOut(out, given.corners);
-  return engine.call((exports) => {
-    write(exports, given);
-    const place = exports.generate_tangents(mode, threshold);
-    if (!place) throw indexError(given);
-    return floats(exports, place, 4 * given.corners, out);
+  const given = optionsOf(options);
+  const mesh = checkedMesh(positions, [['normals', normals, 3], ['uvs', uvs, 2]], indices, given.faces);
+  const mode = choice('mode', given.mode, MODES, 'repaired');
+  const threshold = degrees('threshold', given.threshold);
+  if (out) checkOut(out, mesh.corners);
+  return smallModule.call((exports) => {
+    writeMesh(exports, mesh);
+    const address = exports.generate_tangents(mode, threshold);
+    if (!address) throw indexError(mesh);
+    return readFloats(exports, address, 4 * mesh.corners, out);
   });
 }

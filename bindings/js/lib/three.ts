@@ -1,4 +1,4 @@
-// `darboux/three`: tangents of BufferGeometry.
+// `darboux/three`: tangents of three.js geometries. Vertices are split where needed, and the index, groups and morph targets stay valid.
 
 import {
   BufferAttribute,
@@ -9,68 +9,70 @@ import {
   type GLBufferAttribute,
   type TypedArray,
 } from 'three';
+import { optionsOf } from './core/checks.js';
 import { generateTangents, ready, splitVertices } from './darboux.js';
 import type { Indices, TangentOptions } from './types.js';
 
 export { generateTangents, ready } from './darboux.js';
 
-/** Whether `ready` has resolved: with `ready`, `generateTangents` and `dispose` what `computeMikkTSpaceTangents` of three.js expects. */
+/** True once `ready` has resolved. `computeMikkTSpaceTangents` of three.js takes a module with `ready`, `isReady`, `generateTangents` and
+ * `dispose`. */
 export let isReady = false;
 
-// Who awaits `ready` hears of what goes wrong.
+// A caller that awaits `ready` gets its error; nobody else needs it.
 ready.then(() => (isReady = true), () => {});
 
-/** Does nothing, as there is nothing to release: for callers of three.js's module. */
+/** Does nothing, because nothing has to be released. Callers of three.js's module call it. */
 export function dispose(): void {}
 
-/** What {@link computeTangents} does beyond `darboux`'s own options. */
+/** Options of {@link computeTangents}: those of `darboux`, and two more. */
 export interface ComputeTangentsOptions extends Omit<TangentOptions, 'faces'> {
   /**
-   * Default: true, as in three.js's `computeMikkTSpaceTangents`: right for UVs whose v points down the image, as glTF's do (textures with
-   * `flipY = false`). Give false where v points up it (`flipY = true`, what three.js's own loaders of images set).
+   * Default: true, as in three.js's `computeMikkTSpaceTangents`. This is right where v points down the image, as in glTF (textures with
+   * `flipY = false`). Pass false where v points up (`flipY = true`, which three.js's image loaders set).
    */
-  negateSign?: boolean;
-  /** The attribute of the UVs that the normal map has. Default: 'uv'. */
-  uv?: string;
+  negateSign?: boolean | null;
+  /** The name of the attribute with the UVs of the normal map. Default: 'uv'. */
+  uv?: string | null;
 }
 
 type Attribute = BufferAttribute | InterleavedBufferAttribute;
 
 /**
- * Gives a geometry of triangles tangents. The index stays; vertices are copied only where their corners need different tangents, as at
- * mirrored seams, and then every attribute and morph attribute follows, groups and the draw range stay right. Attributes may be interleaved or
- * normalized; where normals are normalized integers, tangents become such.
+ * Adds tangents to a geometry of triangles, in place. The geometry stays indexed. A vertex is copied, with all its attributes and morph
+ * attributes, only where its corners need different tangents, as at mirrored seams. Groups and the draw range stay valid. Attributes may be
+ * interleaved or normalized. Where normals are normalized integers, the tangents are normalized integers too.
  *
- * `await ready` first. A material that GLTFLoader made for a geometry without tangents has a negated `normalScale.y`: negate it back.
+ * Await `ready` first. A material that GLTFLoader made for a geometry without tangents has a negated `normalScale.y`: negate it again.
  *
  * @returns The geometry.
  * @throws Error without position, normal or UVs; RangeError where lengths do not fit together or an index is out of range.
  */
-export function computeTangents<G extends BufferGeometry>(geometry: G, options: ComputeTangentsOptions = {}): G {
-  const { negateSign = true, uv = 'uv', ...rest } = options;
+export function computeTangents<G extends BufferGeometry>(geometry: G, options?: ComputeTangentsOptions | null): G {
+  const { negateSign, uv, ...rest } = optionsOf(options);
   const normal = attribute(geometry, 'normal');
-  const arrays = [floats(attribute(geometry, 'position'), 3), floats(normal, 3), floats(attribute(geometry, uv), 2)] as const;
+  const arrays = [floats(attribute(geometry, 'position'), 3), floats(normal, 3), floats(attribute(geometry, uv ?? 'uv'), 2)] as const;
   const index = geometry.index && integers(geometry.index.array);
   const tangents = generateTangents(...arrays, index, rest);
-  if (negateSign) for (let at = 3; at < tangents.length; at += 4) tangents[at]! *= -1;
+  if (negateSign ?? true) for (let at = 3; at < tangents.length; at += 4) tangents[at]! *= -1;
   const { array } = normal;
   const codes = normal.normalized && (array instanceof Int8Array || array instanceof Int16Array) ? array : null;
-  // Rounded before vertices are split, so that what becomes equal shares a vertex.
+  // Tangents are rounded before vertices are split, so that tangents that become equal share a vertex.
   if (codes) tangents.forEach((x, at) => (tangents[at] = MathUtils.denormalize(MathUtils.normalize(x, codes), codes)));
   const ofVertex = index ? split(geometry, index, tangents) : tangents;
   geometry.setAttribute('tangent', codes ? normalized(ofVertex, codes) : new BufferAttribute(ofVertex, 4));
   return geometry;
 }
 
-/** An attribute that must be there. */
+/** An attribute. Errors: it is missing, or on the GPU only. */
 function attribute(geometry: BufferGeometry, name: string): Attribute {
   const found = geometry.getAttribute(name) as Attribute | GLBufferAttribute | undefined;
   if (!found) throw new Error(`the geometry has no attribute '${name}'; tangents need positions, normals and UVs`);
-  if (!('array' in found)) throw new Error(`the attribute '${name}' lies on the GPU; tangents need its array`);
+  if (!('array' in found)) throw new Error(`the attribute '${name}' is on the GPU only; tangents need its array`);
   return found;
 }
 
-/** The values of an attribute that is in any form. */
+/** The values of an attribute as floats: dequantised, and not interleaved. */
 function floats(attribute: Attribute, width: number): Float32Array {
   const { array, normalized, itemSize, count } = attribute;
   const isPlain = array instanceof Float32Array && !normalized && itemSize === width;
@@ -84,24 +86,25 @@ function floats(attribute: Attribute, width: number): Float32Array {
   return values;
 }
 
+/** An index as an array type that `darboux` takes. */
 function integers(array: TypedArray): Indices {
-  const isOne = array instanceof Uint8Array || array instanceof Uint16Array || array instanceof Uint32Array;
-  return isOne ? array : Uint32Array.from(array);
+  const isIndices = array instanceof Uint8Array || array instanceof Uint16Array || array instanceof Uint32Array;
+  return isIndices ? array : Uint32Array.from(array);
 }
 
-/** Tangents in the integers of normals. */
+/** Tangents as normalized integers of the normals' type. */
 function normalized(tangents: Float32Array, codes: Int8Array | Int16Array): BufferAttribute {
   const array = new (codes.constructor as Int8ArrayConstructor)(tangents.length);
   tangents.forEach((x, at) => (array[at] = MathUtils.normalize(x, codes)));
   return new BufferAttribute(array, 4, true);
 }
 
-/** Copies the vertices that need several tangents: the tangent of every vertex. */
+/** Splits the vertices that need several tangents, and returns the tangent of every vertex. */
 function split(geometry: BufferGeometry, index: Indices, tangents: Float32Array): Float32Array {
   const { count } = geometry.getAttribute('position');
   const { tangentOfVertex, indices, sourceOfVertex } = splitVertices(index, tangents, count);
   if (sourceOfVertex.length > count) {
-    // What is on the GPU goes; three.js uploads the rest anew when it draws.
+    // Frees the old buffers on the GPU; three.js uploads the new ones when it draws.
     geometry.dispose();
     gatherAll(geometry, sourceOfVertex);
     setIndex(geometry, indices, sourceOfVertex.length);
@@ -109,7 +112,7 @@ function split(geometry: BufferGeometry, index: Indices, tangents: Float32Array)
   return tangentOfVertex;
 }
 
-/** The index list again, in its own numbers if the vertices do not outgrow them. The largest number means "restart" to a GPU. */
+/** Sets the index, in the old integer type if it fits. The largest integer of a type is the primitive restart value. */
 function setIndex(geometry: BufferGeometry, indices: Uint32Array<ArrayBuffer>, vertices: number): void {
   const { array } = geometry.index!;
   const Kind = array.constructor as Uint32ArrayConstructor;
@@ -117,7 +120,7 @@ function setIndex(geometry: BufferGeometry, indices: Uint32Array<ArrayBuffer>, v
   geometry.setIndex(new BufferAttribute(fits ? Kind.from(indices) : indices, 1));
 }
 
-/** Gives every vertex the values of its source, in all attributes but those of instances. */
+/** Copies the values of source vertices to new vertices, in all attributes except those of instances. */
 function gatherAll(geometry: BufferGeometry, sources: Uint32Array): void {
   const buffers = new Map<InterleavedBuffer, InterleavedBuffer>();
   const { attributes, morphAttributes } = geometry;

@@ -1,28 +1,28 @@
-// What users pass, as types.
+// The types of arguments and results.
 
 /** The vertex of each corner. */
 export type Indices = Uint8Array | Uint16Array | Uint32Array;
 
-/** Corners per face: 3, 4, or those of every face. */
+/** The number of corners per face: 3, 4, or one number for each face. */
 export type Faces = 3 | 4 | Uint32Array;
 
 /**
- * 'reference': every bit of mikktspace.c, its defects included; 'repaired': the same but for unusable tangents; 'corrected': its known
- * defects corrected as well.
+ * 'reference': the bits of mikktspace.c, defects included. 'repaired': the same, except that unusable tangents are replaced. 'corrected':
+ * known defects of mikktspace.c are corrected as well.
  */
 export type Mode = 'reference' | 'repaired' | 'corrected';
 
-/** What generateTangents does; the defaults are right for normal maps from today's bakers. */
+/** Options of MikkTSpace. The defaults fit normal maps of current bakers. */
 export interface MikkTSpaceOptions {
   /** Default: 'repaired'. */
-  mode?: Mode;
-  /** Degrees; faces around a vertex share a tangent while their tangents and their bitangents differ by less. Default: 180. */
-  threshold?: number;
-  /** Default: 3. Faces of other than 3 or 4 corners get tangents from their normals alone. */
-  faces?: Faces;
+  mode?: Mode | null;
+  /** Degrees. Faces around a vertex share a tangent if their tangents and bitangents differ by less. Default: 180. */
+  threshold?: number | null;
+  /** Default: 3. Faces with another number of corners than 3 or 4 get tangents that depend on their normals only. */
+  faces?: Faces | null;
 }
 
-/** How tangents are computed; normal maps need the method that they were baked with, nearly always 'mikktspace'. */
+/** How tangents are computed. A normal map needs the method that it was baked with, nearly always 'mikktspace'. */
 export type Method =
   | 'mikktspace'
   | 'angle-area'
@@ -33,36 +33,36 @@ export type Method =
   | 'face'
   | 'from-normal';
 
-/** What generateTangents of `darboux` does; `threshold` belongs to 'mikktspace'. */
+/** Options of `generateTangents` of `darboux`. `threshold` is for 'mikktspace' only. */
 export interface TangentOptions extends MikkTSpaceOptions {
   /** Default: 'mikktspace'. */
-  method?: Method;
+  method?: Method | null;
 }
 
-/** What a run met. Quads count as the two triangles that they are split into. */
+/** Counts of what the mesh of a run contains. A quad counts as the two triangles that it is split into. */
 export interface Report {
   triangles: number;
-  /** Faces of other than 3 or 4 corners. */
+  /** Faces with another number of corners than 3 or 4. */
   unsupportedFaces: number;
   /** Triangles with two equal positions. */
   degenerateTriangles: number;
-  /** Triangles, not degenerate, whose UVs span no area. */
+  /** Triangles whose UVs span no area, degenerate triangles excluded. */
   uvDegenerateTriangles: number;
   /** Corners with a NaN or an infinity in position, normal or UV. */
   nonFiniteCorners: number;
-  /** Corners whose reference tangent is absent or unusable; replaced, but for the mode 'reference'. */
+  /** Corners whose reference tangent is missing or unusable. It is replaced except in the mode 'reference'. */
   repairedCorners: number;
-  /** Faces whose corners carry both signs; the mode 'corrected' gave them one. */
+  /** Faces whose corners have both signs. The mode 'corrected' gives them one. */
   mixedSignFaces: number;
   /** Edges between two triangles of opposite UV orientation. */
   mirroredEdges: number;
-  /** Vertices that need more than one tangent: what splitVertices splits. */
+  /** Vertices that need more than one tangent; `splitVertices` splits them. */
   splitVertices: number;
-  /** Vertices at which both UV orientations share one tangent: seams that 'lengyel-per-vertex' breaks. */
+  /** Vertices whose triangles of both UV orientations share one tangent, which 'lengyel-per-vertex' gets wrong. */
   mergedVertices: number;
 }
 
-/** Tangents of corners and the report of the run. */
+/** The tangents of corners and the report of the run. */
 export interface ReportedTangents {
   /** 4 per corner. */
   tangents: Float32Array<ArrayBuffer>;
@@ -71,51 +71,52 @@ export interface ReportedTangents {
 
 /** The whole frame of every corner, and the report of the run. */
 export interface Frames {
-  /** 4 per corner: the direction of increasing u, unit, and the sign w, -1 where the UV map mirrors. */
+  /** 4 per corner: the direction of increasing u, of unit length, and the sign w, -1 where the UV map is mirrored. */
   tangents: Float32Array<ArrayBuffer>;
-  /** 3 per corner: the direction of increasing v, unit, perpendicular to the normal but not always to the tangent. */
+  /** 3 per corner: the direction of increasing v, of unit length, perpendicular to the normal but not always to the tangent. */
   bitangents: Float32Array<ArrayBuffer>;
   /** 2 per corner: world units per unit of u and per unit of v. */
   magnitudes: Float32Array<ArrayBuffer>;
   report: Report;
 }
 
-/** An indexed mesh's vertices after splitting. */
+/** The vertices and indices of a mesh after splitting. */
 export interface VertexSplit {
-  /** 4 per new vertex; (1, 0, 0, 1) where no corner uses it. */
+  /** 4 per new vertex; (1, 0, 0, 1) for a vertex that no corner uses. */
   tangentOfVertex: Float32Array<ArrayBuffer>;
-  /** The new index list, in the old corner order. */
+  /** The new vertex of each corner, in the old order of corners. */
   indices: Uint32Array<ArrayBuffer>;
-  /** The old vertex that each new vertex copies: new = old[sourceOfVertex], for every other attribute. */
+  /** The old vertex that each new vertex copies. Use it for all other attributes: new[i] = old[sourceOfVertex[i]]. */
   sourceOfVertex: Uint32Array<ArrayBuffer>;
 }
 
+/** Options of `generateNormals`. */
 export interface NormalOptions {
   /** Default: 'smooth'. */
-  shading?: 'flat' | 'smooth';
-  /** How much each face counts at a vertex, where shading is smooth. Default: 'angle'. */
-  weight?: 'angle' | 'area' | 'angle-area';
-  /** Degrees; smooth shading stops at edges whose faces' normals differ by more. Default: 180, nowhere. */
-  crease?: number;
-  /** 'ignored': vertices at equal positions are one; 'respected': only the index list joins. Default: 'ignored'. */
-  seams?: 'ignored' | 'respected';
-  /** Default: 3. Any size from 3 on. */
-  faces?: Faces;
+  shading?: 'flat' | 'smooth' | null;
+  /** The weight of each face at a smooth vertex. Default: 'angle'. */
+  weight?: 'angle' | 'area' | 'angle-area' | null;
+  /** Degrees. An edge is sharp if the normals of its faces differ by more. Default: 180, so that no edge is sharp. */
+  crease?: number | null;
+  /** 'ignored': vertices with equal positions are one vertex. 'respected': only equal indices are one vertex. Default: 'ignored'. */
+  seams?: 'ignored' | 'respected' | null;
+  /** Default: 3. Faces may have any number of corners from 3. */
+  faces?: Faces | null;
 }
 
-/** How two sets of tangents differ. Angles are between the xyz of a corner in both, in degrees. */
+/** The difference of two sets of tangents. Angles are in degrees, between the xyz of the same corner in both. */
 export interface TangentDifference {
   corners: number;
-  /** Corners whose four floats are the same bits. */
+  /** Corners whose four floats have the same bits. */
   identical: number;
   /** Corners whose signs differ. */
   signFlips: number;
-  /** Corners where a tangent is zero or not finite. They are in none of the numbers below. */
+  /** Corners where a tangent is zero or not finite. The numbers below exclude them. */
   withoutAngle: number;
   mean: number;
   min: number;
   median: number;
-  /** The angle that 95 corners in 100 do not exceed. */
+  /** The 95th percentile of the angles. */
   p95: number;
   max: number;
   /** Corners per bin; the bins end at 0, 0.001, 0.01, 0.1, 1, 5, 15, 45, 90 and 180 degrees. */
@@ -124,53 +125,56 @@ export interface TangentDifference {
   worst: { corner: number; angle: number }[];
 }
 
-/** The array that each encoding has: 4, 1, 4, 2 and 1 elements per tangent. */
+/** The array type of each encoding, with 4, 1, 4, 2 and 1 elements per tangent. */
 export interface TangentCodes {
-  /** x, y, z and the sign; directions turn by up to 0.40 degrees. */
+  /** x, y, z and the sign. The angular error is at most 0.40 degrees. */
   snorm8: Int8Array<ArrayBuffer>;
-  /** 10 bits each for x (the lowest), y and z, 2 for w; directions turn by up to 0.098 degrees. */
+  /** From the lowest bits: 10 bits each for x, y and z, and 2 bits for w. The angular error is at most 0.098 degrees. */
   snorm10: Uint32Array<ArrayBuffer>;
-  /** Directions turn by up to 0.0016 degrees. */
+  /** x, y, z and the sign. The angular error is at most 0.0016 degrees. */
   snorm16: Int16Array<ArrayBuffer>;
-  /** The sign is the lowest bit of the second; directions turn by up to 0.0057 degrees. */
+  /** Octahedral coordinates. The lowest bit of the second is the sign. The angular error is at most 0.0057 degrees. */
   octahedral: Int16Array<ArrayBuffer>;
-  /** An angle around the normal and, as the lowest bit, the sign; directions turn by up to 0.0071 degrees. */
+  /** An angle around the normal. The lowest bit is the sign. The angular error is at most 0.0071 degrees. */
   diamond: Uint16Array<ArrayBuffer>;
 }
 
-/** Names of encodings. */
+/** The name of an encoding. */
 export type TangentEncoding = keyof TangentCodes;
 
-/** What of a mesh does not move when its vertices do, as the shaders of `darboux/webgpu` read it. Data: it may be posted and stored. */
+/** The part of a mesh that stays the same when its vertices move, as arrays for the shaders of `darboux/webgpu`. It can be posted to a worker
+ * and stored. */
 export interface PlanTopology {
   vertexCount: number;
   cornerCount: number;
-  /** Triangles without those that have two equal positions, which come after them. */
+  /** The number of triangles that are not degenerate. They come first. */
   triangleCount: number;
+  /** The number of triangles with two equal positions. */
   degenerateCount: number;
   sumCount: number;
   /** Whether unusable tangents are replaced. */
   repairs: boolean;
-  /** Vertices whose corners have several tangents. */
+  /** The number of vertices whose corners have several tangents. */
   splitVertices: number;
   triangles: Uint32Array<ArrayBuffer>;
   representatives: Uint32Array<ArrayBuffer>;
   sums: Uint32Array<ArrayBuffer>;
   sumOfCorner: Uint32Array<ArrayBuffer>;
-  /** Empty where there are split vertices. */
+  /** Empty if `splitVertices` is not 0. */
   sumOfVertex: Uint32Array<ArrayBuffer>;
 }
 
-/** What generateTangents of `darboux/webgpu` does. */
+/** Options of `generateTangents` of `darboux/webgpu`. */
 export interface GpuTangentOptions extends MikkTSpaceOptions {
-  /** Receives the tangents, 16 bytes per corner from its start on; with the usage COPY_DST. After an error it may hold anything. */
+  /** Receives the tangents, 16 bytes per corner from offset 0. Its usage includes COPY_DST. Its content is unspecified after an error. */
   buffer?: GPUBuffer;
 }
 
-/** What a run on WebGPU met. */
+/** The result of a run on WebGPU. */
 export interface GpuTangents extends ReportedTangents {
-  /** Corners that the CPU did: rare cases, and what the device's floats leave open. */
+  /** The number of corners that the CPU computed: rare cases, and corners whose last bits the device's floats leave open. */
   cornersOfCpu: number;
-  /** Why the CPU did them all, if it did: faces that are not triangles; values that are not finite, huge, or zeros whose signs differ. */
+  /** Why the CPU computed all corners: 'faces' that are not triangles, or 'values' that are not finite, huge, or zeros of different signs. Null
+   * where it did not. */
   leftToCpu: 'faces' | 'values' | null;
 }

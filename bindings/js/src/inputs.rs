@@ -1,8 +1,16 @@
-//! Addresses of the input arrays: each function resizes one array of the arena and returns where JavaScript writes its elements.
+//! The inputs of calls. Each function resizes one array of the arena and returns the address where JavaScript writes its elements.
 //!
 //! Memory may move whenever an array grows, so JavaScript asks for all addresses of a call before it writes the first element.
 
 use crate::arena::with_arena;
+
+/// Seeds the hash keys with 64 random bits, in two halves. JavaScript calls this once per instance, before anything else, because
+/// WebAssembly itself has no randomness.
+#[cfg(target_family = "wasm")]
+#[unsafe(no_mangle)]
+pub extern "C" fn seed_random(low: u32, high: u32) {
+    darboux::internal::seed_random(u64::from(low) | u64::from(high) << 32);
+}
 
 /// Starts a mesh of triangles without indices. The functions below add what the caller's mesh has.
 #[unsafe(no_mangle)]

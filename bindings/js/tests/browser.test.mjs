@@ -85,7 +85,7 @@ test('plans on WebGPU refuse buffers that do not fit', { skip }, async (context)
   if (!found) return context.skip('this Chromium has no WebGPU adapter');
   assert.deepEqual(found, [
     'RangeError: 2 vertices have several tangents; split them first (splitVertices)',
-    'RangeError: the positions are not whole words apart; strides and offsets must be multiples of 4',
+    'RangeError: the stride and the offset of the positions must be multiples of 4',
     'RangeError: the tangents need 464 bytes but their buffer has 240',
     'RangeError: the tangents need 480 bytes but their buffer has 240',
     [],

@@ -73,7 +73,7 @@ test('the topology for shaders is that of the mesh', () => {
   assert.deepEqual([topology.vertexCount, topology.cornerCount, topology.triangleCount, topology.sumCount, topology.splitVertices], [4, 6, 2, 4, 0]);
   assert.deepEqual(Array.from(topology.sumOfCorner), Array.from(square()[3], (vertex) => topology.sumOfVertex[vertex]));
   assert.equal(planTopology(...mirrored()).splitVertices, 2);
-  assert.throws(() => planTopology(...square(), { method: 'area' }), /has no plan for shaders/);
-  assert.throws(() => planTopology(...square().slice(0, 3), Uint16Array.of(0, 1, 2, 3), { faces: 4 }), /shaders take triangles/);
+  assert.throws(() => planTopology(...square(), { method: 'area' }), /the shaders cannot plan the method 'area'/);
+  assert.throws(() => planTopology(...square().slice(0, 3), Uint16Array.of(0, 1, 2, 3), { faces: 4 }), /the shaders take triangles/);
   assert.throws(() => planTopology(...square().slice(0, 3), Uint16Array.of(0, 1, 9)), /index 9/);
 });

@@ -63,17 +63,18 @@ const wrong = [
   [[positions, Float64Array.from(normals), uvs], TypeError, 'normals must be a Float32Array, not Float64Array'],
   [[positions, normals, null], TypeError, 'uvs must be a Float32Array, not Null'],
   [[positions, normals, uvs, [0, 1, 2]], TypeError, 'indices must be a Uint32Array or Uint16Array or Uint8Array, not Array'],
-  [[positions.slice(1), normals, uvs], RangeError, 'positions has a length of 11, which is not a whole number of 3-component elements'],
+  [[positions.slice(1), normals, uvs], RangeError, 'positions has a length of 11, which is not a multiple of 3'],
   [[positions, normals.slice(3), uvs], RangeError, 'normals has 3 elements but there are 4 positions; give one per vertex'],
   [[positions, normals, uvs, Uint16Array.of(0, 1, 2, 0, 2, 4)], RangeError, 'index 4 at place 5 is out of range: there are 4 vertices'],
-  [[positions, normals, uvs], RangeError, '4 corners do not make whole faces of 3'],
-  [[positions, normals, uvs, indices, { faces: 4 }], RangeError, '6 corners do not make whole faces of 4'],
+  [[positions, normals, uvs], RangeError, '4 corners are not a multiple of 3, the corners of a face'],
+  [[positions, normals, uvs, indices, { faces: 4 }], RangeError, '6 corners are not a multiple of 4, the corners of a face'],
   [[positions, normals, uvs, indices, { faces: 5 }], RangeError, 'faces is 5; it must be 3, 4 or a Uint32Array of sizes'],
   [[positions, normals, uvs, indices, { faces: [3, 3] }], TypeError, 'faces must be a Uint32Array, not Array'],
   [[positions, normals, uvs, indices, { faces: Uint32Array.of(3, 4) }], RangeError, 'the face sizes add up to 7 but there are 6 corners'],
   [[positions, normals, uvs, indices, { mode: 'best' }], RangeError, "mode is 'best'; it must be one of 'reference', 'repaired', 'corrected'"],
   [[positions, normals, uvs, indices, {}, [0, 0]], TypeError, 'out must be a Float32Array, not Array'],
   [[positions, normals, uvs, indices, {}, new Float32Array(16)], RangeError, 'out has room for 4 tangents but there are 6 corners'],
+  [[positions, normals, uvs, indices, 'corrected'], TypeError, 'options must be an object, not "corrected"'],
   [[positions, normals, uvs, indices, { threshold: NaN }], RangeError, 'threshold is NaN; it must be a number of degrees'],
 ];
 
@@ -83,6 +84,12 @@ for (const [call, kind, message] of wrong) {
     assert.equal(esm.generateTangents(...square()).length, 24);
   });
 }
+
+test('null stands for a missing argument or option', () => {
+  const expected = esm.generateTangents(positions, normals, uvs, indices);
+  assert.deepEqual(esm.generateTangents(positions, normals, uvs, indices, null, null), expected);
+  assert.deepEqual(esm.generateTangents(positions, normals, uvs, indices, { mode: null, threshold: null, faces: null }), expected);
+});
 
 test('calls before the module has loaded say so', async () => {
   const early = await import(`${import.meta.resolve('darboux/tangents')}?early`);

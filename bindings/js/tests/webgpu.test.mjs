@@ -72,13 +72,13 @@ onGpu('a buffer receives the tangents', async () => {
 
 onGpu('what does not fit is said', async () => {
   assert.deepEqual(await page.evaluate(() => tested.refusals()), [
-    'TypeError: device must be a GPUDevice, as openDevice gives it',
+    'TypeError: device must be a GPUDevice, as openDevice returns it',
     "RangeError: mode is 'best'; it must be one of 'reference', 'repaired', 'corrected'",
-    "RangeError: shaders have the method 'mikktspace' alone; leave the method out",
+    "RangeError: the shaders compute the method 'mikktspace' only; leave the method out",
     'RangeError: index 6 at place 2 is out of range: there are 6 vertices',
     'RangeError: the tangents need 192 bytes but their buffer has 16',
     'RangeError: the buffer of tangents was made without GPUBufferUsage.COPY_DST',
-    'RangeError: the buffer of wedges has 201326592 bytes, the device binds 134217728 at most; ask for one with larger limits, or compute on the CPU',
+    'RangeError: the buffer of wedges needs 201326592 bytes but the device binds 134217728 at most; request a device with larger limits, or compute on the CPU',
     'Error: the GPU was lost: its driver was reset or it was removed; open another device, or compute on the CPU (generateTangents of darboux)',
     [],
   ]);
@@ -99,13 +99,13 @@ test('without an adapter there is a sentence', async () => {
     return openDevice().catch((error) => error.message);
   };
   const cure = 'or compute on the CPU (generateTangents of darboux)';
-  assert.equal(await message({}), `there is no WebGPU here: use a browser that has it, from https or localhost, ${cure}`);
+  assert.equal(await message({}), `WebGPU is missing here: use a browser that has it, from https or localhost, ${cure}`);
   assert.equal(await message({ gpu: { requestAdapter: async () => null } }), `no GPU adapter was found: install a driver, ${cure}`);
 });
 
 test('CommonJS loads the shaders when they are asked for', async () => {
   const { generateTangents } = createRequire(import.meta.url)('darboux/webgpu');
-  await assert.rejects(generateTangents({}), { name: 'TypeError', message: 'device must be a GPUDevice, as openDevice gives it' });
+  await assert.rejects(generateTangents({}), { name: 'TypeError', message: 'device must be a GPUDevice, as openDevice returns it' });
 });
 
 test('nothing failed unheard', { skip }, () => assert.deepEqual(faults, []));

@@ -4,3 +4,6 @@ pub mod gpu_plan;
 pub mod gpu_resume;
 pub mod stage_arrays;
 pub mod width_limit;
+
+#[cfg(all(target_family = "wasm", target_os = "unknown"))]
+pub use crate::util::random::seed_random;

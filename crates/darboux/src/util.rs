@@ -2,3 +2,4 @@
 
 pub(crate) mod hash_map;
 pub(crate) mod radix_sort;
+pub(crate) mod random;

@@ -1,52 +1,53 @@
-// Files that come together: a model and what it refers to.
+// The files of one model: the model itself and the files that it refers to, by path.
 
-/** Files by their path, with / between parts. */
-export type Bundle = Map<string, Blob>;
+/** Files by path, with / as separator. */
+export type FileBundle = Map<string, Blob>;
 
-/** More files than any model has: a home folder, dropped by mistake. */
-const MOST_FILES = 5000;
+/** The limit on files. A folder with more was dropped by mistake. */
+const MAX_FILES = 5000;
 
 /** The files of an input element. */
-export function fromList(files: Iterable<File>): Bundle {
+export function fromList(files: Iterable<File>): FileBundle {
   return new Map([...files].map((file) => [file.webkitRelativePath || file.name, file]));
 }
 
-/** What was dropped, folders with all that lies below them. */
-export async function fromDrop(data: DataTransfer): Promise<Bundle> {
-  // Entries must be taken before anything is awaited: the list is emptied when the event ends.
+/** The files of a drop. Folders are read recursively. */
+export async function fromDrop(data: DataTransfer): Promise<FileBundle> {
+  // Entries are read before the first await, because the list is emptied when the event ends.
   const entries = [...data.items].map((item) => item.webkitGetAsEntry()).filter((entry) => entry !== null);
   if (!entries.length) return fromList(data.files);
-  const bundle: Bundle = new Map();
+  const bundle: FileBundle = new Map();
   for (const entry of entries) await collect(entry, bundle);
   return bundle;
 }
 
-async function collect(entry: FileSystemEntry, bundle: Bundle): Promise<void> {
-  if (bundle.size > MOST_FILES) throw new Error(`There are more than ${MOST_FILES.toLocaleString('en')} files in that folder; drop the model's own.`);
+async function collect(entry: FileSystemEntry, bundle: FileBundle): Promise<void> {
+  if (bundle.size > MAX_FILES) throw new Error(`The folder has more than ${MAX_FILES.toLocaleString('en')} files; drop the model's own folder.`);
   if (entry.isDirectory) {
     const reader = (entry as FileSystemDirectoryEntry).createReader();
     for (;;) {
-      const some = await new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
-      if (!some.length) return;
-      for (const inner of some) await collect(inner, bundle);
+      const batch = await new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
+      if (!batch.length) return;
+      for (const inner of batch) await collect(inner, bundle);
     }
   }
   const file = await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject));
   bundle.set(entry.fullPath.replace(/^\//, ''), file);
 }
 
-/** The path that `uri` means, seen from the file at `base`; null for what is no relative path. */
-export function located(uri: string, base: string): string | null {
+/** The path of a URI that is relative to the file `base`; null for other URIs. */
+export function resolvePath(uri: string, base: string): string | null {
   if (/^[a-z][a-z0-9+.-]+:/i.test(uri) || uri.startsWith('/')) return null;
   const parts = base.split('/').slice(0, -1);
-  for (const part of decoded(uri).replaceAll('\\', '/').split('/')) {
+  for (const part of percentDecoded(uri).replaceAll('\\', '/').split('/')) {
     if (part === '..') parts.pop();
     else if (part !== '.' && part !== '') parts.push(part);
   }
   return parts.join('/');
 }
 
-function decoded(uri: string): string {
+/** The decoded URI, or the URI itself where an escape is invalid. */
+function percentDecoded(uri: string): string {
   try {
     return decodeURIComponent(uri);
   } catch {

@@ -1,9 +1,11 @@
-// The command's own reading and writing of glTF, in WebAssembly. In the thread that computes.
+// Reads and writes glTF with the same code as the command, compiled to WebAssembly (viewer/wasm). Runs in the worker.
 
 import address from './darboux_viewer.wasm?url';
 
 interface Exports extends WebAssembly.Exports {
   memory: WebAssembly.Memory;
+  /** Takes 64 random bits for hash keys, before any other call. */
+  seed_random(low: number, high: number): void;
   name(length: number): number;
   file(length: number): number;
   made(): number;
@@ -14,20 +16,20 @@ interface Exports extends WebAssembly.Exports {
   repair(): number;
 }
 
-/** A file that came out, and what there is to say about it. */
+/** A file that was made, and the JSON that describes it. */
 export interface Outcome<T> {
   bytes: Uint8Array<ArrayBuffer>;
-  told: T;
+  description: T;
 }
 
-/** What inspecting tells of a primitive, as far as the page shows it. */
+/** The part of a primitive's inspection that the page shows. */
 export interface Primitive {
   mesh: number;
   primitive: number;
   ineligible: string | null;
 }
 
-/** What was done to the primitives of a file. */
+/** The number of primitives with new tangents, with kept ones, and without; and warnings. */
 export interface Summary {
   warnings: string[];
   totals: { written: number; kept: number; skipped: number };
@@ -35,32 +37,34 @@ export interface Summary {
 
 let module: Promise<WebAssembly.Module> | undefined;
 
-/** Reads all that tangents need, and decompresses it. Errors: a sentence that says where the file is wrong. */
+/** Decompresses and checks the data that tangents depend on. Errors: one sentence that names the place and the fault. */
 export function check(name: string, bytes: Uint8Array): Promise<Outcome<Primitive[]>> {
   return run('check', name, bytes);
 }
 
-/** Writes MikkTSpace tangents for all primitives that can have them; all else stays as it is. Errors: as {@link check}. */
+/** Writes MikkTSpace tangents to every eligible primitive and changes nothing else. Errors: those of {@link check}. */
 export function repair(name: string, bytes: Uint8Array): Promise<Outcome<Summary>> {
   return run('repair', name, bytes);
 }
 
-/** An instance is used once: its memory, which never shrinks, goes with it. */
-async function run<T>(what: 'check' | 'repair', name: string, bytes: Uint8Array): Promise<Outcome<T>> {
-  module ??= fetch(address).then(async (answer) => WebAssembly.compile(await answer.arrayBuffer()));
+/** Runs a function in a new instance, because the memory of an instance never shrinks. */
+async function run<T>(task: 'check' | 'repair', name: string, bytes: Uint8Array): Promise<Outcome<T>> {
+  module ??= fetch(address).then(async (response) => WebAssembly.compile(await response.arrayBuffer()));
   const exports = (await WebAssembly.instantiate(await module)).exports as Exports;
-  const put = (from: Uint8Array, place: number) => new Uint8Array(exports.memory.buffer, place >>> 0, from.length).set(from);
-  const get = (place: number, length: number) => new Uint8Array(exports.memory.buffer, place >>> 0, length >>> 0).slice();
+  const [low, high] = crypto.getRandomValues(new Uint32Array(2));
+  exports.seed_random(low, high);
+  const write = (from: Uint8Array, address: number) => new Uint8Array(exports.memory.buffer, address >>> 0, from.length).set(from);
+  const read = (address: number, length: number) => new Uint8Array(exports.memory.buffer, address >>> 0, length >>> 0).slice();
   try {
-    const label = new TextEncoder().encode(name);
-    put(label, exports.name(label.length));
-    put(bytes, exports.file(bytes.length));
-    const isDone = exports[what]();
-    const text = new TextDecoder().decode(get(exports.text(), exports.text_len()));
+    const encodedName = new TextEncoder().encode(name);
+    write(encodedName, exports.name(encodedName.length));
+    write(bytes, exports.file(bytes.length));
+    const isDone = exports[task]();
+    const text = new TextDecoder().decode(read(exports.text(), exports.text_len()));
     if (!isDone) throw new Error(`${text}.`);
-    return { bytes: get(exports.made(), exports.made_len()), told: JSON.parse(text) };
+    return { bytes: read(exports.made(), exports.made_len()), description: JSON.parse(text) };
   } catch (error) {
     if (!(error instanceof WebAssembly.RuntimeError)) throw error;
-    throw new Error(`${name} needs more memory than a page can have; use the command darboux.`, { cause: error });
+    throw new Error(`${name} needs more memory than a page can use; use the command darboux.`, { cause: error });
   }
 }

@@ -1,4 +1,4 @@
-// glTF and GLB.
+// Opens glTF and GLB with three.js, after the worker has made the file self-contained and has checked it.
 
 import { LoadingManager, Mesh, type Object3D, type Texture } from 'three';
 import { type GLTF, GLTFLoader, type GLTFLoaderPlugin, type GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
@@ -6,34 +6,35 @@ import { type GLTF, GLTFLoader, type GLTFLoaderPlugin, type GLTFParser } from 't
 import { counted } from '../plural';
 import { TANGENT_TARGETS } from '../scene/morph-and-skin';
 import { call } from '../worker/client';
-import type { Bundle } from './file-bundle';
+import type { FileBundle } from './file-bundle';
 
-/** What a .gltf or .glb shows, and all of it as one GLB. */
+/** An opened .gltf or .glb. */
 export interface Gltf {
   scene: Object3D;
+  /** The model with everything that it refers to, as one file. */
   bytes: Uint8Array<ArrayBuffer>;
-  /** What is odd but not an error, as sentences. */
+  /** Faults that are not errors, one sentence each. */
   warnings: string[];
 }
 
 const KTX2 = 'KHR_texture_basisu';
 
 /**
- * In place of a decoder of KTX 2, which would be larger than all else of the page: the textures that stand in for them where there are
- * some, else none, of which `told` is told.
+ * Handles textures in KTX 2 without a decoder, which would be larger than the rest of the page. A texture with a fallback image loads that.
+ * One without is left out, and `onMissing` is called.
  */
-function withoutKtx2({ json }: GLTFParser, told: () => void): GLTFLoaderPlugin {
+function withoutKtx2({ json }: GLTFParser, onMissing: () => void): GLTFLoaderPlugin {
   const loadTexture = (index: number) => {
     const { source, extensions } = json.textures[index];
     if (!extensions?.[KTX2] || source !== undefined) return null;
-    told();
+    onMissing();
     return Promise.resolve(null) as unknown as Promise<Texture>;
   };
   return { name: KTX2, loadTexture };
 }
 
-/** Leaves with geometries what morph targets do to tangents. */
-async function keepTangentTargets({ scene, parser }: GLTF): Promise<void> {
+/** Stores the tangent offsets of morph targets, which three.js ignores, in the user data of geometries. */
+async function storeTangentTargets({ scene, parser }: GLTF): Promise<void> {
   const meshes: Mesh[] = [];
   scene.traverse((object) => object instanceof Mesh && meshes.push(object));
   for (const mesh of meshes) {
@@ -44,29 +45,29 @@ async function keepTangentTargets({ scene, parser }: GLTF): Promise<void> {
   }
 }
 
-/** Opens a .gltf or .glb. Errors: a sentence for people. */
-export async function openGltf(name: string, bytes: Uint8Array<ArrayBuffer>, bundle: Bundle): Promise<Gltf> {
-  const whole = (await call('whole', name, bytes, bundle)).bytes;
-  // What the file refers to and was not given is not looked for elsewhere.
+/** Opens a .gltf or .glb. Errors: one sentence to show. */
+export async function openGltf(name: string, bytes: Uint8Array<ArrayBuffer>, bundle: FileBundle): Promise<Gltf> {
+  const file = (await call('makeSelfContained', name, bytes, bundle)).bytes;
+  // Nothing is fetched: missing files stay missing.
   const manager = new LoadingManager().setURLModifier((url) => (/^(data|blob):/.test(url) ? url : 'data:,'));
   let lost = 0;
   manager.onError = () => lost++;
   let ktx2 = 0;
   const loader = new GLTFLoader(manager).register((parser) => withoutKtx2(parser, () => ktx2++));
   try {
-    const gltf = await loader.parseAsync(whole.buffer, '');
-    await keepTangentTargets(gltf);
+    const gltf = await loader.parseAsync(file.buffer, '');
+    await storeTangentTargets(gltf);
     const warnings = [];
-    if (ktx2) warnings.push(`${counted(ktx2, 'texture in KTX 2 is', 'textures in KTX 2 are')} left out, as this page has no decoder for it`);
+    if (ktx2) warnings.push(`${counted(ktx2, 'texture in KTX 2 is', 'textures in KTX 2 are')} left out, because this page has no decoder for it`);
     if (lost) warnings.push(`${counted(lost, 'texture', 'textures')} missing or not decodable`);
-    if (hasMoreJoints(gltf.scene)) warnings.push('vertices have more than 4 joints, of which the first 4 move them');
-    return { scene: gltf.scene, bytes: whole, warnings };
+    if (hasMoreJoints(gltf.scene)) warnings.push('vertices have more than 4 joints, and only the first 4 are used');
+    return { scene: gltf.scene, bytes: file, warnings };
   } catch (error) {
     throw new Error(`${name} cannot be shown: ${error instanceof Error ? error.message : error}.`, { cause: error });
   }
 }
 
-/** Whether there are joints that three.js does not use. */
+/** Whether vertices have joints that three.js ignores. */
 function hasMoreJoints(scene: Object3D): boolean {
   let found = false;
   scene.traverse((object) => (found ||= object instanceof Mesh && object.geometry.hasAttribute('joints_1')));

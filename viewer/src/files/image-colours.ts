@@ -1,12 +1,12 @@
-// What an image holds, as far as it has to be guessed.
+// Guesses whether an image is a normal map or a height map.
 
-/** Texels along a side that are looked at. */
+/** The width and height that the image is reduced to. */
 const SIDE = 32;
 
-/** How far the channels of a coloured image's texels are apart on average, of 255: normal maps are bluish, by more than 60. */
-const APART = 24;
+/** The least mean difference between the largest and the smallest channel of a coloured image, of 255. Normal maps have more than 60. */
+const MIN_DIFFERENCE = 24;
 
-/** Whether an image has colours, as normal maps have and height maps do not. */
+/** Whether an image is coloured, as normal maps are and height maps are not. */
 export function isColored(image: CanvasImageSource): boolean {
   const context = new OffscreenCanvas(SIDE, SIDE).getContext('2d')!;
   context.drawImage(image, 0, 0, SIDE, SIDE);
@@ -16,5 +16,5 @@ export function isColored(image: CanvasImageSource): boolean {
     const texel = [data[at], data[at + 1], data[at + 2]];
     sum += Math.max(...texel) - Math.min(...texel);
   }
-  return sum / (SIDE * SIDE) > APART;
+  return sum / (SIDE * SIDE) > MIN_DIFFERENCE;
 }

@@ -1,4 +1,4 @@
-// Files that are compressed with meshoptimizer, whose decoder the page has and our WebAssembly has not.
+// Decompresses meshopt buffers of glTF with three.js's decoder, because our WebAssembly has none. Runs in the worker.
 
 import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
 
@@ -25,25 +25,25 @@ interface Json {
   extensionsRequired?: string[];
 }
 
-/** Whether a text names the compression. */
+/** Whether a glTF text names the extension. */
 export function isMeshopt(text: string): boolean {
   return NAMES.some((name) => text.includes(`"${name}"`));
 }
 
 /**
- * The text of a file whose compressed views are decoded into the buffers that they would lie in. `chunk` is the GLB's own buffer.
- * Errors: a stream that is broken.
+ * Decodes the compressed buffer views into their fallback buffers and returns the new glTF text. `chunk` is the binary chunk of a GLB.
+ * Errors: broken compressed data.
  */
 export async function withoutMeshopt(name: string, json: Json, chunk: Uint8Array | null): Promise<string> {
   await MeshoptDecoder.ready;
-  const read = json.buffers.map((buffer, at) => (at === 0 && !buffer.uri ? chunk : bytesOf(buffer.uri)));
+  const sources = json.buffers.map((buffer, at) => (at === 0 && !buffer.uri ? chunk : bytesOf(buffer.uri)));
   const decoded = new Map<number, Uint8Array>();
   for (const [at, view] of json.bufferViews.entries()) {
-    const compressed = taken(view) as Compressed | undefined;
-    if (!compressed || read[view.buffer]) continue;
+    const compressed = removeExtension(view) as Compressed | undefined;
+    if (!compressed || sources[view.buffer]) continue;
     try {
       const { buffer, byteOffset = 0, byteLength, count, byteStride, mode, filter = 'NONE' } = compressed;
-      const source = read[buffer]!.subarray(byteOffset, byteOffset + byteLength);
+      const source = sources[buffer]!.subarray(byteOffset, byteOffset + byteLength);
       const out = new Uint8Array(count * byteStride);
       MeshoptDecoder.decodeGltfBuffer(out, count, byteStride, source, mode, filter);
       if (!decoded.has(view.buffer)) decoded.set(view.buffer, new Uint8Array(json.buffers[view.buffer].byteLength));
@@ -53,7 +53,7 @@ export async function withoutMeshopt(name: string, json: Json, chunk: Uint8Array
     }
   }
   for (const [at, buffer] of json.buffers.entries()) {
-    taken(buffer);
+    removeExtension(buffer);
     const bytes = decoded.get(at);
     if (bytes) buffer.uri = `data:application/octet-stream;base64,${base64(bytes)}`;
   }
@@ -65,8 +65,8 @@ export async function withoutMeshopt(name: string, json: Json, chunk: Uint8Array
   return JSON.stringify(json);
 }
 
-/** Takes the extension out of an object. */
-function taken(object: Extended): unknown {
+/** Removes the extension from an object and returns it. */
+function removeExtension(object: Extended): unknown {
   const { extensions } = object;
   const name = extensions && NAMES.find((name) => name in extensions);
   if (!name) return undefined;
@@ -83,7 +83,7 @@ function bytesOf(uri: string | undefined): Uint8Array | null {
 
 function base64(bytes: Uint8Array): string {
   let text = '';
-  // The most arguments that a call can safely have.
+  // Calls have a limited number of arguments.
   for (let at = 0; at < bytes.length; at += 8192) text += String.fromCharCode(...bytes.subarray(at, at + 8192));
   return btoa(text);
 }

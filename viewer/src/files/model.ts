@@ -1,38 +1,38 @@
-// Opens the model in a bundle of files.
+// Opens the model in a set of files: glTF, GLB, VRM or OBJ.
 
 import type { Object3D } from 'three';
 
-import type { Bundle } from './file-bundle';
+import type { FileBundle } from './file-bundle';
 import { openGltf } from './gltf';
 import { openObj } from './obj';
 
-/** A model as three.js has it. */
+/** An opened model. */
 export interface Model {
-  /** The path of its file. */
+  /** The path of the model's file. */
   name: string;
   scene: Object3D;
   kind: 'gltf' | 'obj';
-  /** The file with all that it refers to, as a GLB: what an export begins with. Null for other formats. */
+  /** The self-contained glTF that an export starts from. Null for other formats. */
   bytes: Uint8Array<ArrayBuffer> | null;
-  /** What is odd but not an error, as sentences. */
+  /** Faults that are not errors, one sentence each. */
   warnings: string[];
 }
 
-/** How far it is: what is being done, and how much of that is, from 0 to 1, or null. */
-export type Progress = (what: string, done: number | null) => void;
+/** Receives the current task and its progress from 0 to 1, or null where that is unknown. */
+export type Progress = (task: string, fraction: number | null) => void;
 
-/** The largest file that is read: the page holds it several times over. */
-const MOST_BYTES = 1.5e9;
+/** The largest file that is read. The page holds several copies. */
+const MAX_BYTES = 1.5e9;
 
-const MODEL = /\.(glb|gltf|vrm|obj)$/i;
+const MODEL_NAME = /\.(glb|gltf|vrm|obj)$/i;
 
-/** Opens the first model of a bundle, those nearest to its top first. Errors: a sentence for people. */
-export async function openModel(bundle: Bundle, progress: Progress): Promise<Model> {
+/** Opens the model with the fewest folders in its path, and of several the first by name. Errors: one sentence to show. */
+export async function openModel(bundle: FileBundle, progress: Progress): Promise<Model> {
   const depth = (path: string) => path.split('/').length;
-  const [name] = [...bundle.keys()].filter((path) => MODEL.test(path)).sort((a, b) => depth(a) - depth(b) || a.localeCompare(b));
+  const [name] = [...bundle.keys()].filter((path) => MODEL_NAME.test(path)).sort((a, b) => depth(a) - depth(b) || a.localeCompare(b));
   if (!name) {
-    const given = [...bundle.keys()].slice(0, 3).join(', ') || 'nothing';
-    throw new Error(`There is no model in what was given (${given}); give a .glb, an .obj, or a folder with a .gltf.`);
+    const given = [...bundle.keys()].slice(0, 3).join(', ') || 'none';
+    throw new Error(`There is no model in these files (${given}); open a .glb, an .obj, or a folder with a .gltf.`);
   }
   const bytes = await read(name, bundle.get(name)!, progress);
   progress(`Opening ${name}`, null);
@@ -44,9 +44,9 @@ export async function openModel(bundle: Bundle, progress: Progress): Promise<Mod
 
 async function read(name: string, file: Blob, progress: Progress): Promise<Uint8Array<ArrayBuffer>> {
   if (!file.size) throw new Error(`${name} is empty; export it again.`);
-  if (file.size > MOST_BYTES) {
+  if (file.size > MAX_BYTES) {
     const size = (file.size / 1e9).toFixed(1);
-    throw new Error(`${name} has ${size} GB, more than a page can hold; use the command: darboux tangents, darboux inspect.`);
+    throw new Error(`${name} has ${size} GB, more than a page can hold; use the command (darboux tangents, darboux inspect).`);
   }
   const bytes = new Uint8Array(file.size);
   let at = 0;

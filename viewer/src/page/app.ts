@@ -1,49 +1,50 @@
-// What the page does: opens models, computes, and shows what its controls say.
+// The application: opens models, computes tangents, and draws them by the settings.
 
 import { Matrix3, Vector3 } from 'three';
 
 import { openModel, type Model } from '../files/model';
 import { repairedGlb } from '../files/export-glb';
-import { Marker } from '../scene/place-marker';
-import { partsOf, placesOf, squareOf, type Part } from '../scene/model-parts';
-import { Shown } from '../scene/model-view';
-import { Stage } from '../scene/viewport';
-import type { Arrangement } from '../surface/comparison';
+import { PlaceMarker } from '../scene/place-marker';
+import { partsOf, placesOf, uvSquare, type Part } from '../scene/model-parts';
+import { ModelView } from '../scene/model-view';
+import { Viewport } from '../scene/viewport';
+import type { Comparison } from '../surface/comparison';
 import { SOURCE_NAMES } from '../surface/sources';
 import { call } from '../worker/client';
 import { connectControls, offerSources, settings } from './controls';
 import { element, numberOf } from './elements';
 import { connectKeys, connectLightDrag } from './keyboard';
 import { showLegend } from './legend';
-import { connectOpening, type Find } from './opening';
+import { connectOpening, type FindFiles } from './opening';
 import { clearReport, showReport, type Found } from './report-list';
 import { nameLike, save } from './download';
 import { clearError, showDone, showError, showProgress } from './status';
 import { connectTheme } from './theme';
 import { counted } from '../plural';
 
-/** How much of the model is in view where the report leads, as a part of its radius. */
-const CLOSE = 0.12;
+/** The radius around a place of the report that is in view, relative to the model's radius. */
+const CLOSE_UP = 0.12;
 
-const LOST = 'The graphics card was lost, perhaps for want of memory; load the page again, and a smaller model.';
+const CONTEXT_LOST = 'The connection to the graphics card was lost, perhaps because of too little memory; reload the page and open a smaller model.';
 
 export class App {
-  private readonly stage = new Stage(element('view'));
-  private readonly shown = new Shown();
-  private readonly marker = new Marker();
+  private readonly viewport = new Viewport(element('view'));
+  private readonly view = new ModelView();
+  private readonly marker = new PlaceMarker();
   private model: Model | null = null;
   private parts: Part[] = [];
-  /** Grow with each model and each arrangement: what belongs to older ones is dropped. */
+  /** The number of the current opening. Results of older openings are dropped. */
   private opening = 0;
-  private arranging = 0;
+  /** The number of the current comparison. Results of older comparisons are dropped. */
+  private comparing = 0;
 
   start(): void {
-    this.stage.add(this.marker.object);
-    element('view').addEventListener('webglcontextlost', () => showError(new Error(LOST)));
-    connectTheme((model, layout) => this.stage.background(model, layout));
-    connectKeys(this.stage);
+    this.viewport.add(this.marker.object);
+    element('view').addEventListener('webglcontextlost', () => showError(new Error(CONTEXT_LOST)));
+    connectTheme((model, layout) => this.viewport.background(model, layout));
+    connectKeys(this.viewport);
     connectLightDrag();
-    connectControls({ sources: () => this.attempt(() => this.arrange()), look: () => this.build(), light: () => this.light() });
+    connectControls({ sources: () => this.attempt(() => this.compare()), look: () => this.build(), light: () => this.light() });
     this.connectSplit();
     element('save-picture').addEventListener('click', () => this.attempt(() => this.savePicture()));
     element('save-model').addEventListener('click', () => this.attempt(() => this.saveModel()));
@@ -57,14 +58,14 @@ export class App {
 
   private moveSplit(): void {
     const input = element<HTMLInputElement>('split');
-    this.stage.split = input.valueAsNumber / 100;
+    this.viewport.split = input.valueAsNumber / 100;
     element('divider').style.insetInlineStart = `${input.value}%`;
     const [left, right] = settings().sources.map((source) => SOURCE_NAMES[source]);
     input.ariaValueText = `${Math.round(input.valueAsNumber)} percent: ${left} on the left, ${right} on the right`;
-    this.stage.draw();
+    this.viewport.draw();
   }
 
-  /** Does something that may fail with a sentence. */
+  /** Runs a task and shows its error, if any. */
   private async attempt(work: () => Promise<void>): Promise<void> {
     clearError();
     try {
@@ -74,115 +75,115 @@ export class App {
     }
   }
 
-  private async open(find: Find): Promise<void> {
+  private async open(find: FindFiles): Promise<void> {
     const turn = ++this.opening;
-    const isOld = () => turn !== this.opening;
+    const isOutdated = () => turn !== this.opening;
     try {
-      showProgress('Looking for a model', null);
-      const model = await openModel(await find(), (what, done) => isOld() || showProgress(what, done));
+      showProgress('Searching for a model', null);
+      const model = await openModel(await find(), (task, fraction) => isOutdated() || showProgress(task, fraction));
       const parts = partsOf(model.scene, model.kind);
-      if (isOld()) return;
-      // What is computed of the model before asks for no more of it.
-      this.arranging++;
+      if (isOutdated()) return;
+      // Stops the comparison of the model before.
+      this.comparing++;
       await call('open', parts.map((part) => part.surface));
-      if (isOld()) return;
-      this.take(model, parts);
-      await this.arrange();
-      if (isOld()) return;
-      this.stage.lookAtAll();
+      if (isOutdated()) return;
+      this.setModel(model, parts);
+      await this.compare();
+      if (isOutdated()) return;
+      this.viewport.lookAtAll();
       this.light();
-      showReport(await this.findings(isOld), (finding, place) => this.visit(finding, place));
-      showDone(this.told());
+      showReport(await this.findings(isOutdated), (finding, place) => this.visit(finding, place));
+      showDone(this.summary());
     } catch (error) {
-      if (!isOld()) throw error;
+      if (!isOutdated()) throw error;
     }
   }
 
-  /** Takes a model in place of the one before. */
-  private take(model: Model, parts: Part[]): void {
+  /** Replaces the model. */
+  private setModel(model: Model, parts: Part[]): void {
     [this.model, this.parts] = [model, parts];
-    this.stage.measureLayout(...squareOf(parts));
+    this.viewport.setLayoutSquare(...uvSquare(parts));
     this.marker.hide();
     offerSources(parts.some((part) => part.surface.tangents));
     element('name').textContent = model.name;
     clearReport();
   }
 
-  /** What is odd about the model. */
-  private async findings(isOld: () => boolean): Promise<Found[]> {
+  /** Collects the findings of all parts. */
+  private async findings(isOutdated: () => boolean): Promise<Found[]> {
     const found: Found[] = [];
     for (const [at, part] of this.parts.entries()) {
-      showProgress(`Looking at ${part.name}`, this.done(at));
+      showProgress(`Checking ${part.name}`, this.fraction(at));
       for (const finding of await call('report', at)) found.push({ ...finding, part: at, partName: part.name });
-      if (isOld()) throw new Error('Another model was opened.');
+      if (isOutdated()) throw new Error('Another model was opened.');
     }
     return found;
   }
 
-  /** Computes what both sides show. */
-  private async arrange(): Promise<void> {
-    const turn = ++this.arranging;
+  /** Computes the tangents of both sides. */
+  private async compare(): Promise<void> {
+    const turn = ++this.comparing;
     const { sources } = settings();
-    const arrangements: Arrangement[] = [];
+    const comparisons: Comparison[] = [];
     for (const [at, part] of this.parts.entries()) {
-      showProgress(`Computing tangents of ${part.name}`, this.done(at));
-      arrangements.push(await call('arrange', at, sources));
-      if (turn !== this.arranging) return;
+      showProgress(`Computing tangents of ${part.name}`, this.fraction(at));
+      comparisons.push(await call('compare', at, sources));
+      if (turn !== this.comparing) return;
     }
-    this.shown.arrange(this.parts, arrangements);
-    this.stage.measure(this.shown.bounds());
+    this.view.setParts(this.parts, comparisons);
+    this.viewport.setBounds(this.view.bounds());
     for (const [at, id] of ['caption-left', 'caption-right'].entries()) element(id).textContent = SOURCE_NAMES[sources[at]];
     this.moveSplit();
     this.build();
-    showDone(this.told());
+    showDone(this.summary());
   }
 
-  /** The model in a line, and what is odd about its file. */
-  private told(): string {
+  /** The size of the model and the warnings about its file, in one line. */
+  private summary(): string {
     const triangles = this.parts.reduce((sum, { surface }) => sum + surface.indices.length / 3, 0);
     const size = `${counted(triangles, 'triangle', 'triangles')} in ${counted(this.parts.length, 'part', 'parts')}`;
     return [size, ...(this.model?.warnings ?? [])].join('; ');
   }
 
-  /** How much is done when as many parts are. */
-  private done(parts: number): number | null {
+  /** The progress after some parts; null for a single part. */
+  private fraction(parts: number): number | null {
     return this.parts.length > 1 ? parts / this.parts.length : null;
   }
 
-  /** Shows what was computed, as the controls say. */
+  /** Rebuilds the drawing by the settings. */
   private build(): void {
     const now = settings();
-    this.shown.build(now, this.stage.radius);
-    this.stage.show(this.shown.sides, now.layout);
+    this.view.build(now, this.viewport.radius);
+    this.viewport.show(this.view.sides, now.layout);
     showLegend(now);
   }
 
   private light(): void {
-    this.stage.lightFrom(numberOf('light-around'), numberOf('light-above'));
-    this.stage.brightness(numberOf('surroundings'), numberOf('light'));
+    this.viewport.lightFrom(numberOf('light-around'), numberOf('light-above'));
+    this.viewport.brightness(numberOf('surroundings'), numberOf('light'));
   }
 
-  /** Flies to a place of the report; gives its coordinates. */
+  /** Moves the camera to a place of the report. Returns its coordinates. */
   private visit({ part, places }: Found, place: number): number[] {
     const [matrix] = placesOf(this.parts[part]);
     const at = new Vector3().fromArray(places, place * 6).applyMatrix4(matrix);
     const normal = new Vector3().fromArray(places, place * 6 + 3).applyMatrix3(new Matrix3().getNormalMatrix(matrix));
     this.marker.showAt(at);
-    this.stage.look(at, CLOSE * this.stage.radius, normal.lengthSq() > 0 ? normal : new Vector3(0, 0, 1), true);
+    this.viewport.look(at, CLOSE_UP * this.viewport.radius, normal.lengthSq() > 0 ? normal : new Vector3(0, 0, 1), true);
     return at.toArray();
   }
 
   private async savePicture(): Promise<void> {
-    save(nameLike(this.model?.name ?? 'picture', '.png'), await this.stage.picture());
+    save(nameLike(this.model?.name ?? 'picture', '.png'), await this.viewport.picture());
   }
 
   private async saveModel(): Promise<void> {
     if (!this.model) throw new Error('There is no model to save.');
     showProgress('Writing tangents', null);
-    const { bytes, told } = await repairedGlb(this.model);
+    const { bytes, description } = await repairedGlb(this.model);
     save(nameLike(this.model.name, '.tangents.glb'), new Blob([bytes], { type: 'model/gltf-binary' }));
-    const { written, skipped } = told.totals;
-    const lines = [`Tangents written to ${counted(written, 'primitive', 'primitives')}, ${skipped} left alone`, ...told.warnings];
+    const { written, skipped } = description.totals;
+    const lines = [`Tangents written to ${counted(written, 'primitive', 'primitives')}, ${skipped} skipped`, ...description.warnings];
     showDone(lines.join('. '));
   }
 }

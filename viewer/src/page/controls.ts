@@ -1,4 +1,4 @@
-// The controls: what they say, and when they change.
+// The controls of the page: fills them, reads them, and reports changes.
 
 import { SOURCES, SOURCE_NAMES, type Source } from '../surface/sources';
 import { element, isOn, numberOf } from './elements';
@@ -15,21 +15,24 @@ const PAINT_NAMES: Record<Paint, string> = {
 
 const MISTAKES = ['green', 'w', 'v'] as const;
 
-/** What each mistake is, and what it looks like. */
+/** The description of each mistake. */
 const MISTAKE_TEXTS: Record<(typeof MISTAKES)[number], string> = {
-  green: 'Green flipped: bumps are lit as dents along v, everywhere alike.',
-  w: 'w flipped: the bitangent points the other way, as with UVs whose v runs the other way. Bumps are lit as dents along v.',
-  v: 'V flipped: textures stand on their heads, or land where they do not belong.',
+  green: 'Green flipped: bumps look like dents along v, everywhere.',
+  w: 'w flipped: the bitangent is reversed, as with UVs whose v points the other way. Bumps look like dents along v.',
+  v: 'V flipped: textures are upside down or in the wrong place.',
 };
 
-/** What a change of a control asks for: computing, building anew, or drawing again. */
+/** Callbacks for changes of controls. */
 export interface Changes {
+  /** The sources of tangents: they must be computed. */
   sources(): void;
+  /** Colours, lines, mistakes: the drawing must be rebuilt. */
   look(): void;
+  /** The light: a new frame is enough. */
   light(): void;
 }
 
-/** Fills the controls, and says when they change. */
+/** Fills the controls and connects them to callbacks. */
 export function connectControls(changes: Changes): void {
   for (const [id, source] of [['left', 'mikktspace'], ['right', 'derivatives']] as const) {
     const select = element<HTMLSelectElement>(id);
@@ -47,15 +50,15 @@ export function connectControls(changes: Changes): void {
     const button = element(`flip-${name}`);
     button.addEventListener('click', () => {
       button.ariaPressed = String(button.ariaPressed !== 'true');
-      const made = MISTAKES.filter((mistake) => isPressed(mistake));
-      element('mistake').textContent = made.map((mistake) => MISTAKE_TEXTS[mistake]).join(' ');
+      const active = MISTAKES.filter((mistake) => isPressed(mistake));
+      element('mistake').textContent = active.map((mistake) => MISTAKE_TEXTS[mistake]).join(' ');
       changes.look();
     });
   }
   for (const input of document.querySelectorAll<HTMLInputElement>('input[data-unit]')) {
-    const tell = () => (input.ariaValueText = `${Math.round(input.valueAsNumber * 10) / 10} ${input.dataset.unit}`);
-    input.addEventListener('input', tell);
-    tell();
+    const update = () => (input.ariaValueText = `${Math.round(input.valueAsNumber * 10) / 10} ${input.dataset.unit}`);
+    input.addEventListener('input', update);
+    update();
   }
   for (const id of ['light-around', 'light-above', 'light', 'surroundings']) element(id).addEventListener('input', changes.light);
 }
@@ -73,7 +76,7 @@ function isPressed(mistake: (typeof MISTAKES)[number]): boolean {
   return element(`flip-${mistake}`).ariaPressed === 'true';
 }
 
-/** Offers the tangents of the file only where there are some, and chooses what the model is best shown with. */
+/** Enables the tangents of the file where there are some, and selects the default sources of a model. */
 export function offerSources(hasFile: boolean): void {
   const [left, right] = ['left', 'right'].map((id) => element<HTMLSelectElement>(id));
   for (const select of [left, right]) {
@@ -84,7 +87,7 @@ export function offerSources(hasFile: boolean): void {
   [left.value, right.value] = hasFile ? ['file', 'mikktspace'] : ['mikktspace', 'derivatives'];
 }
 
-/** What the controls say. */
+/** The settings of all controls. */
 export function settings(): Settings {
   const source = (id: string) => element<HTMLSelectElement>(id).value as Source;
   const paint = document.querySelector<HTMLInputElement>('input[name=paint]:checked')!.value as Paint;

@@ -1,11 +1,12 @@
-// The model by keyboard, and the light by hand.
+// Keyboard control of the camera, and dragging of the light.
 
-import type { Stage } from '../scene/viewport';
+import type { Viewport } from '../scene/viewport';
 import { element } from './elements';
 
-/** Degrees per key, and how much nearer. */
+/** Degrees per key press. */
 const TURN = 5;
-const NEARER = 1.15;
+/** The zoom factor per key press. */
+const ZOOM = 1.15;
 
 const DEGREES_PER_PIXEL = 0.5;
 
@@ -16,25 +17,25 @@ const ARROWS: Record<string, [number, number]> = {
   ArrowDown: [0, -TURN],
 };
 
-/** Takes keys while the model has the focus. */
-export function connectKeys(stage: Stage): void {
+/** Handles keys while the model has the focus. */
+export function connectKeys(viewport: Viewport): void {
   element('view').addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey) return;
     const arrow = ARROWS[event.key];
     if (arrow && event.shiftKey) moveLight(arrow);
-    else if (arrow) stage.orbit(...arrow);
-    else if (event.key === '+' || event.key === '=') stage.orbit(0, 0, NEARER);
-    else if (event.key === '-') stage.orbit(0, 0, 1 / NEARER);
-    else if (event.key === 'Home') stage.lookAtAll();
+    else if (arrow) viewport.orbit(...arrow);
+    else if (event.key === '+' || event.key === '=') viewport.orbit(0, 0, ZOOM);
+    else if (event.key === '-') viewport.orbit(0, 0, 1 / ZOOM);
+    else if (event.key === 'Home') viewport.lookAtAll();
     else return;
     event.preventDefault();
   });
 }
 
-/** With Shift, dragging moves the light instead of the model. */
+/** Dragging with Shift moves the light instead of the camera. */
 export function connectLightDrag(): void {
   const view = element('view');
-  // Before the orbit's own listener, which must not see it.
+  // In the capture phase, so that the orbit controls do not get the event.
   view.addEventListener('pointerdown', (event) => event.shiftKey && begin(event), { capture: true });
 
   function begin(event: PointerEvent): void {
@@ -48,7 +49,7 @@ export function connectLightDrag(): void {
   }
 }
 
-/** Moves the light's controls, around as far as one likes. */
+/** Moves the controls of the light. The azimuth wraps around. */
 function moveLight([around, above]: [number, number]): void {
   for (const [id, degrees] of [['light-around', around], ['light-above', above]] as const) {
     const input = element<HTMLInputElement>(id);

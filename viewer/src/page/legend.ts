@@ -1,11 +1,11 @@
-// What the colours mean.
+// The legend of the colours.
 
 import { COLORS, RAMP, SCALE } from '../scene/frame-material';
 import { SEAM_COLOR, VECTOR_COLORS } from '../scene/frame-lines';
 import { element } from './elements';
 import { VECTORS, type Settings } from '../settings';
 
-/** Explains the colours that are shown. */
+/** Shows the legend for the settings. */
 export function showLegend({ paint, layout, vectors, seams }: Settings): void {
   const legend = element('legend');
   legend.replaceChildren();
@@ -17,10 +17,10 @@ export function showLegend({ paint, layout, vectors, seams }: Settings): void {
     legend.append(key('#ff8080', '+x'), key('#80ff80', '+y'), key('#8080ff', '+z'));
   }
   for (const name of VECTORS) if (vectors[name]) legend.append(key(VECTOR_COLORS[name], name));
-  if (seams) legend.append(key(SEAM_COLOR, 'mirrored seam'));
+  if (seams) legend.append(key(SEAM_COLOR, 'mirrored edge'));
 }
 
-/** The scale of angles. */
+/** The colour scale of angles. */
 function scale(): HTMLElement {
   const box = document.createElement('div');
   box.className = 'scale';

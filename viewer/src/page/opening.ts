@@ -1,23 +1,23 @@
-// The ways in which a model gets into the page.
+// Opens models from buttons, drops and the page's address.
 
-import { fromDrop, fromList, type Bundle } from '../files/file-bundle';
+import { fromDrop, fromList, type FileBundle } from '../files/file-bundle';
 import { element } from './elements';
 
-/** The model that is shown when nothing was asked for. */
+/** The model that the page opens without an address. */
 const SAMPLE = 'shield.glb';
 
-/** Finds files: they may still have to be read. */
-export type Find = () => Promise<Bundle>;
+/** Finds the files of a model. */
+export type FindFiles = () => Promise<FileBundle>;
 
-/** Connects buttons, drops and the address; opens the model that the address names, or the sample. */
-export function connectOpening(open: (find: Find) => void): void {
+/** Connects buttons and drops, and opens the model that the address names, or the sample. */
+export function connectOpening(open: (find: FindFiles) => void): void {
   element('open-sample').addEventListener('click', () => open(sample));
   for (const id of ['files', 'folder']) {
     const input = element<HTMLInputElement>(id);
     element(`open-${id}`).addEventListener('click', () => input.click());
     input.addEventListener('change', () => {
       const bundle = fromList(input.files ?? []);
-      // The same file can be chosen again.
+      // Lets the same file be chosen again.
       input.value = '';
       if (bundle.size) open(async () => bundle);
     });
@@ -32,22 +32,22 @@ export function connectOpening(open: (find: Find) => void): void {
   open(named === null ? sample : () => served(named));
 }
 
-async function sample(): Promise<Bundle> {
+async function sample(): Promise<FileBundle> {
   return new Map([[SAMPLE, await (await fetched(SAMPLE, SAMPLE)).blob()]]);
 }
 
-/** The model that this page's own server was started with, and what it refers to. */
-async function served(model: string): Promise<Bundle> {
+/** The model that `darboux view` serves, with the files that it refers to. */
+async function served(model: string): Promise<FileBundle> {
   const names: string[] = await (await fetched('model', model)).json();
   const files = names.map(async (name, at) => [name, await (await fetched(`model/${at}`, name)).blob()] as const);
   return new Map(await Promise.all(files));
 }
 
-/** What this page's own server has at an address. */
+/** The response of the page's server. Errors: the server has ended, or answers with a sentence. */
 async function fetched(address: string, name: string): Promise<Response> {
-  const answer = await fetch(address).catch(() => {
-    throw new Error(`${name} cannot be fetched: the server has ended.`);
+  const response = await fetch(address).catch(() => {
+    throw new Error(`${name} cannot be read because the server has ended; start darboux view again.`);
   });
-  if (!answer.ok) throw new Error(`${await answer.text()}.`);
-  return answer;
+  if (!response.ok) throw new Error(`${await response.text()}.`);
+  return response;
 }

@@ -1,19 +1,19 @@
-// The report: what is odd, in words, and the way to each place.
+// The list of findings. A click leads to the places of a finding, one after the other.
 
 import type { Finding, FindingKind } from '../surface/findings';
 import { element } from './elements';
 import { counted } from '../plural';
 
-/** What was found, and in which part. */
+/** A finding, and the part of the model that it concerns. */
 export interface Found extends Finding {
   part: number;
   partName: string;
 }
 
-/** One of them, and many. */
-const NAMES: Record<FindingKind, [string, string]> = {
-  'no-uvs': ['No texture coordinates: no tangents', ''],
-  'no-normals': ['No normals: shown flat, and the export leaves it alone', ''],
+/** The text for one and for several. */
+const TEXTS: Record<FindingKind, [string, string]> = {
+  'no-uvs': ['No texture coordinates, so no tangents', ''],
+  'no-normals': ['No normals: shown flat, and skipped by the export', ''],
   'no-tangents': ['No tangents in the file', ''],
   zero: ['corner with a zero tangent', 'corners with a zero tangent'],
   'not-finite': ['corner with a tangent that is not finite', 'corners with tangents that are not finite'],
@@ -28,20 +28,20 @@ const NAMES: Record<FindingKind, [string, string]> = {
   seams: ['mirrored edge', 'mirrored edges'],
 };
 
-/** What is no fault. */
-const PLAIN: FindingKind[] = ['seams', 'no-tangents'];
+/** The findings that are not faults. */
+const NOT_FAULTS: FindingKind[] = ['seams', 'no-tangents'];
 
-/** Goes to a place of a finding; gives its coordinates in the scene. */
+/** Moves the camera to a place of a finding. Returns its coordinates in the scene. */
 export type Visit = (finding: Found, place: number) => number[];
 
-/** Lists what was found; `visit` is called with a place in it when that is asked for. */
+/** Lists findings. A click calls `visit` with the next place. */
 export function showReport(found: Found[], visit: Visit): void {
   element('report').replaceChildren(...found.map((finding) => row(finding, visit)));
-  const faults = found.filter(({ kind }) => !PLAIN.includes(kind));
+  const faults = found.filter(({ kind }) => !NOT_FAULTS.includes(kind));
   element('report-none').textContent = faults.length ? '' : 'No faults found.';
 }
 
-/** Takes the report of another model away. */
+/** Clears the list. */
 export function clearReport(): void {
   element('report').replaceChildren();
   element('report-none').textContent = '';
@@ -62,7 +62,7 @@ function row(finding: Found, visit: Visit): HTMLElement {
   button.textContent = text;
   let next = 0;
   button.addEventListener('click', () => {
-    // Single precision has seven digits.
+    // Single precision has about seven decimal digits.
     const at = visit(finding, next).map((x) => Number(x.toPrecision(7)));
     element('status').textContent = `${text}, place ${next + 1} of ${places}, at (${at.join(', ')})`;
     next = (next + 1) % places;
@@ -72,7 +72,7 @@ function row(finding: Found, visit: Visit): HTMLElement {
 }
 
 function sentence({ kind, count, worst }: Finding): string {
-  const [one, many] = NAMES[kind];
+  const [one, many] = TEXTS[kind];
   if (!many) return one;
   const by = worst === undefined ? '' : `, by up to ${worst.toFixed(1)}°`;
   return counted(count, one, many) + by;

@@ -1,35 +1,35 @@
-// What is being done, and what went wrong.
+// The status line, the progress bar and the error message.
 
 import { element } from './elements';
 
-/** Shows work, and how much of it is done, from 0 to 1; null where that is not known. */
-export function showProgress(what: string, done: number | null): void {
-  say(what);
+/** Shows a task and its progress from 0 to 1, or null where that is unknown. */
+export function showProgress(task: string, fraction: number | null): void {
+  setStatus(task);
   const bar = element<HTMLProgressElement>('progress');
   bar.hidden = false;
-  if (done === null) bar.removeAttribute('value');
-  else bar.value = done;
+  if (fraction === null) bar.removeAttribute('value');
+  else bar.value = fraction;
 }
 
-/** Shows that work has ended. */
-export function showDone(what: string): void {
-  say(what);
+/** Shows a text and hides the progress bar. */
+export function showDone(text: string): void {
+  setStatus(text);
   element('progress').hidden = true;
 }
 
-/** What is said again is not read aloud again. */
-function say(what: string): void {
+/** Sets the status line. Screen readers do not repeat an unchanged text. */
+function setStatus(text: string): void {
   const status = element('status');
-  if (status.textContent !== what) status.textContent = what;
+  if (status.textContent !== text) status.textContent = text;
 }
 
-/** Shows what went wrong; takes errors of all kinds. */
+/** Shows an error of any type. */
 export function showError(error: unknown): void {
   element('error').textContent = error instanceof Error ? error.message : String(error);
   showDone('');
 }
 
-/** Takes the last error away. */
+/** Clears the error. */
 export function clearError(): void {
   element('error').textContent = '';
 }

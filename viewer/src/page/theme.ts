@@ -1,8 +1,8 @@
-// Dark and light: as the system has it, until the button is pressed.
+// Dark and light colours: those of the system until the button is pressed.
 
 import { element } from './elements';
 
-/** Sets the page's colours, now and whenever they change; `changed` is told those behind the model and behind its layout. */
+/** Sets the page's colours now and on every change. `changed` gets the background colours of the model and of the UV layout. */
 export function connectTheme(changed: (model: string, layout: string) => void): void {
   const light = matchMedia('(prefers-color-scheme: light)');
   const button = element('theme');

@@ -4,10 +4,10 @@ import type { BufferAttribute, InterleavedBufferAttribute } from 'three';
 
 export type Attribute = BufferAttribute | InterleavedBufferAttribute;
 
-/** The elements of an attribute as floats: dequantised, and out of interleaved arrays. Errors: three.js could not read it. */
+/** The elements of an attribute, dequantised and without interleaving. Errors: three.js could not read the attribute. */
 export function floatsOf(attribute: Attribute, width: number): Float32Array<ArrayBuffer> {
   if (!Number.isInteger(attribute.count)) {
-    throw new Error('The model cannot be shown: three.js does not read sparse data whose elements lie apart; the command darboux does.');
+    throw new Error('The model cannot be shown: three.js does not read sparse accessors over interleaved data; use the command darboux.');
   }
   const out = new Float32Array(attribute.count * width);
   for (let at = 0; at < attribute.count; at++) {

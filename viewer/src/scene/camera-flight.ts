@@ -1,17 +1,17 @@
-// The camera's way to a place.
+// Animates the camera from one view to another.
 
 import { Vector3 } from 'three';
 
-/** Milliseconds. */
+/** The duration in milliseconds. */
 const DURATION = 600;
 
-/** Where a camera is, and what it looks at. */
+/** The position of a camera and the point that it looks at. */
 export interface View {
   eye: Vector3;
   target: Vector3;
 }
 
-/** Leads from one view to another, frame by frame; at once where motion is not wanted. Gives a way to stop it. */
+/** Calls `move` every frame, or once where the user prefers reduced motion. Returns a function that stops the animation. */
 export function fly(from: View, to: View, move: (view: View) => void): () => void {
   if (matchMedia('(prefers-reduced-motion: reduce)').matches) {
     move(to);

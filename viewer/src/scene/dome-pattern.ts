@@ -1,23 +1,23 @@
-// A normal map for models that have none: domes, lit from wherever the light is, so that wrong tangents show.
+// A normal map of domes for models that have none. Domes make wrong tangents visible under any light.
 
 import { DataTexture, LinearFilter, LinearMipmapLinearFilter, RepeatWrapping, type MeshStandardMaterial } from 'three';
 
 const SIZE = 128;
-/** Domes along a side. */
+/** The number of domes along a side. */
 const DOMES = 4;
-/** Of a dome's cell. */
+/** The radius of a dome, relative to its cell. */
 const RADIUS = 0.36;
 
 let texture: DataTexture | undefined;
 
-/** Gives a material the pattern, eight domes across the UV square. */
+/** Sets the pattern as the normal map of a material: eight domes across the UV square. */
 export function withPattern(material: MeshStandardMaterial, vDown: boolean): void {
   texture ??= pattern();
   material.normalMap = texture;
   material.normalScale.set(1, vDown ? 1 : -1);
 }
 
-/** Green points up the image, whose first row is its top: as it is where v runs down. */
+/** Makes the texture. Its first row is the top, and green points up, as where v points down the image. */
 function pattern(): DataTexture {
   const data = new Uint8Array(SIZE * SIZE * 4);
   for (let row = 0; row < SIZE; row++) {
@@ -41,7 +41,7 @@ function pattern(): DataTexture {
   return out;
 }
 
-/** The place of a texel in its dome's cell, from -0.5 to 0.5. */
+/** The coordinate of a texel in its dome's cell, from -0.5 to 0.5. */
 function within(texel: number): number {
   return ((texel + 0.5) * DOMES) / SIZE % 1 - 0.5;
 }

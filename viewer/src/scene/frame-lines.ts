@@ -1,49 +1,50 @@
-// Lines over a model: frames at its vertices, and seams.
+// Lines over a model: the vectors of frames at its vertices, and mirrored edges.
 
 import { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments, Matrix3, Matrix4, Vector3 } from 'three';
 
 import type { VectorName } from '../settings';
 
-/** The colours of axes, as everywhere. */
+/** The usual colours of axes. */
 export const VECTOR_COLORS: Record<VectorName, string> = { tangent: '#ff4d4d', bitangent: '#4dd24d', normal: '#5c8cff' };
 
 export const SEAM_COLOR = '#ff4dd8';
 
-/** More lines of a part than this show nothing more: every so-many-th vertex is drawn then. */
-const MOST_LINES = 50_000;
+/** The limit on lines per part. Beyond it only every n-th vertex has lines. */
+const MAX_LINES = 50_000;
 
-/** The vertices that lines start from. */
-export interface Roots {
+/** The vertices at which lines start. */
+export interface LineVertices {
   positions: Float32Array;
   normals: Float32Array;
   /** 4 floats per vertex. */
   tangents: Float32Array;
+  /** The world matrix of every copy of the part. */
   places: Matrix4[];
 }
 
-/** One kind of vector at the vertices, as lines of a length. */
-export function vectorLines(roots: Roots, name: VectorName, length: number): LineSegments {
-  const { positions, places } = roots;
+/** One kind of vector at the vertices, as lines of equal length. */
+export function vectorLines(vertices: LineVertices, name: VectorName, length: number): LineSegments {
+  const { positions, places } = vertices;
   const count = positions.length / 3;
-  const step = Math.ceil((count * places.length) / MOST_LINES);
+  const step = Math.ceil((count * places.length) / MAX_LINES);
   const out = new Float32Array(Math.ceil((count * places.length) / step) * 6);
   const [from, along, directions] = [new Vector3(), new Vector3(), new Matrix3()];
   for (let line = 0, at = 0; line < count * places.length; line += step, at += 6) {
     const [vertex, place] = [line % count, places[Math.floor(line / count)]];
     from.fromArray(positions, vertex * 3).applyMatrix4(place).toArray(out, at);
-    direction(roots, name, vertex, along).applyMatrix3(directions.setFromMatrix4(place)).setLength(length);
+    direction(vertices, name, vertex, along).applyMatrix3(directions.setFromMatrix4(place)).setLength(length);
     from.add(along).toArray(out, at + 3);
   }
   return segments(out, VECTOR_COLORS[name]);
 }
 
-function direction({ normals, tangents }: Roots, name: VectorName, vertex: number, out: Vector3): Vector3 {
+function direction({ normals, tangents }: LineVertices, name: VectorName, vertex: number, out: Vector3): Vector3 {
   if (name === 'tangent') return out.fromArray(tangents, vertex * 4);
   out.fromArray(normals, vertex * 3);
   return name === 'normal' ? out : out.cross(new Vector3().fromArray(tangents, vertex * 4)).multiplyScalar(tangents[vertex * 4 + 3]);
 }
 
-/** Seams, wherever a part is: 6 floats each, the ends of an edge. */
+/** Mirrored edges in every copy of a part. `ends` has 6 floats per edge. */
 export function seamLines(ends: Float32Array, places: Matrix4[]): LineSegments {
   const out = new Float32Array(ends.length * places.length);
   const end = new Vector3();

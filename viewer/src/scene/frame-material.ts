@@ -1,16 +1,16 @@
-// Frames as colours: on the surface, and laid out by the UVs.
+// The material that shows tangent frames as colours, on the surface and in the UV layout.
 
 import { DoubleSide, ShaderMaterial, Matrix3, type Matrix4 } from 'three';
 
 import { PAINTS, type Paint } from '../settings';
 
-/** The scale of angles in degrees: logarithmic from its first to its last, with ticks. As the command's heat maps have it. */
+/** The logarithmic colour scale of angles in degrees: its ends and its ticks. The command's heat maps have the same scale. */
 export const SCALE = { ends: [0.01, 180], ticks: [0.01, 0.1, 1, 10, 180] } as const;
 
-/** From least to greatest: nine colours of viridis (N. Smith and S. van der Walt, 2015, CC0), which grow lighter evenly. */
+/** The colours of the scale: nine colours of viridis (N. Smith and S. van der Walt, 2015, CC0), whose lightness grows evenly. */
 export const RAMP = ['#440154', '#472c7a', '#3b518b', '#2c718e', '#21908d', '#27ad81', '#5cc863', '#aadc32', '#fde725'] as const;
 
-/** Colours of what has no place on a scale. */
+/** The colours of values that are not on the scale. */
 export const COLORS = { plus: '#3d8bd9', minus: '#e8873a', flipped: '#e62828', none: '#000000' } as const;
 
 const VERTEX = /* glsl */ `
@@ -23,7 +23,7 @@ varying float vSign;
 varying float vAngle;
 varying vec3 vEye;
 uniform mat3 place;
-// To the world's directions.
+// Transforms directions to world space.
 flat varying mat3 vPlace;
 
 void main() {
@@ -63,7 +63,7 @@ const vec3 RAMP[${RAMP.length}] = vec3[${RAMP.length}](${RAMP.map(color).join(',
 
 vec3 heat(float degrees) {
   if (degrees < -0.5) return ${color(COLORS.none)};
-  // FLIPPED and NO_ANGLE lie beyond the angles that there are.
+  // FLIPPED and NO_ANGLE are no angles.
   if (degrees > 180.5) return ${color(COLORS.flipped)};
   float least = log(float(${SCALE.ends[0]}));
   float most = log(float(${SCALE.ends[1]}.0));
@@ -88,14 +88,14 @@ void main() {
   #ifdef LAYOUT
     gl_FragColor = vec4(color, 0.6);
   #else
-    // A little light from the eye, so that the shape is seen.
+    // A weak light from the camera makes the shape visible.
     float facing = abs(dot(normalize(cross(dFdx(vEye), dFdy(vEye))), normalize(vEye)));
     gl_FragColor = vec4(color * (0.75 + 0.25 * facing), 1.0);
   #endif
 }`;
 
-/** What paints frames. `place`: the matrix of the part's node, whose directions are the world's. */
-export function inkOf(paint: Paint, place: Matrix4, isLayout: boolean): ShaderMaterial {
+/** Makes the material. `place` is the world matrix of the part's node. */
+export function frameMaterial(paint: Paint, place: Matrix4, isLayout: boolean): ShaderMaterial {
   return new ShaderMaterial({
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,

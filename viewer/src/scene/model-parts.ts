@@ -1,4 +1,4 @@
-// The parts of a model: its meshes, one material each.
+// Divides a model into parts: its meshes, with one material each.
 
 import {
   type BufferGeometry,
@@ -13,11 +13,13 @@ import {
 
 import type { GivenSurface } from '../surface/surface';
 import { floatsOf, type Attribute } from './attribute-floats';
-import { shapeOf, skinOf } from './morph-and-skin';
+import { morphedShape, skinOf } from './morph-and-skin';
 
-/** Where a part is: at its node's place, and there where its instances are, if it has some. Skins place meshes themselves. */
+/** A copy of a part in the scene. */
 export interface Copy {
+  /** The world matrix of the node; the identity for skinned meshes, which the joints place. */
   place: Matrix4;
+  /** The matrices of instances, or null without instances. */
   instances: InstancedBufferAttribute | null;
 }
 
@@ -26,15 +28,15 @@ export interface Part {
   name: string;
   geometry: BufferGeometry;
   material: MeshStandardMaterial;
-  /** Which UVs the normal map is laid by: the attribute's name. */
+  /** The name of the attribute with the UVs of the normal map. */
   uvName: string;
   copies: Copy[];
   surface: GivenSurface;
-  /** Whether three.js turned the normal map's green channel because it found no tangents. */
-  isGreenTurned: boolean;
+  /** Whether three.js negated the normal map's green channel, as it does for glTF without tangents. */
+  isGreenNegated: boolean;
 }
 
-/** The parts of a model, those first that the scene has first. Errors: there is none. */
+/** The parts of a model, in the order of the scene. Errors: there are none. */
 export function partsOf(scene: Object3D, kind: 'gltf' | 'obj'): Part[] {
   scene.updateMatrixWorld(true);
   const parts: Part[] = [];
@@ -59,8 +61,8 @@ function partsOfMesh(mesh: Mesh, kind: 'gltf' | 'obj'): Part[] {
     const uvName = channel ? `uv${channel}` : 'uv';
     const surface = surfaceOf(mesh, uvName, start, count, kind === 'gltf');
     const name = [mesh.name || 'mesh', ranges.length > 1 && (material.name || at + 1)].filter(Boolean).join(' / ');
-    const isGreenTurned = kind === 'gltf' && !surface.tangents;
-    return { name, geometry, material, uvName, copies, surface, isGreenTurned };
+    const isGreenNegated = kind === 'gltf' && !surface.tangents;
+    return { name, geometry, material, uvName, copies, surface, isGreenNegated };
   });
 }
 
@@ -74,20 +76,20 @@ function surfaceOf(mesh: Mesh, uvName: string, start: number, count: number, vDo
   const whole = count - (count % 3);
   const indices = Uint32Array.from({ length: whole }, (_, corner) => (list ? list.getX(start + corner) : start + corner));
   const vectors = { positions: floats('position', 3)!, normals: floats('normal', 3), tangents: floats('tangent', 4) };
-  return { ...vectors, uvs: floats(uvName, 2), indices, shape: shapeOf(mesh, vectors), skin: skinOf(mesh), vDown };
+  return { ...vectors, uvs: floats(uvName, 2), indices, shape: morphedShape(mesh, vectors), skin: skinOf(mesh), vDown };
 }
 
-/** Instances that mirror are apart from others: three.js takes the sides of triangles from the place that they share. */
+/** The copies of a mesh. Mirrored instances are a copy of their own, because three.js derives the winding from the node's matrix alone. */
 function copiesOf(mesh: Mesh): Copy[] {
   if (mesh instanceof SkinnedMesh) return [{ place: new Matrix4(), instances: null }];
   if (!(mesh instanceof InstancedMesh)) return [{ place: mesh.matrixWorld, instances: null }];
   const all = matricesOf(mesh.instanceMatrix);
-  return [new Matrix4(), new Matrix4().makeScale(-1, 1, 1)].flatMap((turn) => {
-    // A mirror is its own inverse.
-    const matrices = all.filter((matrix) => matrix.determinant() < 0 === turn.determinant() < 0).map((matrix) => matrix.clone().premultiply(turn));
+  return [new Matrix4(), new Matrix4().makeScale(-1, 1, 1)].flatMap((mirror) => {
+    // A reflection is its own inverse.
+    const matrices = all.filter((matrix) => matrix.determinant() < 0 === mirror.determinant() < 0).map((matrix) => matrix.clone().premultiply(mirror));
     if (!matrices.length) return [];
     const instances = new InstancedBufferAttribute(new Float32Array(matrices.flatMap((matrix) => matrix.elements)), 16);
-    return [{ place: mesh.matrixWorld.clone().multiply(turn), instances }];
+    return [{ place: mesh.matrixWorld.clone().multiply(mirror), instances }];
   });
 }
 
@@ -95,13 +97,13 @@ function matricesOf(instances: InstancedBufferAttribute): Matrix4[] {
   return Array.from({ length: instances.count }, (_, at) => new Matrix4().fromArray(instances.array, at * 16));
 }
 
-/** Everywhere that a part is. */
+/** The world matrix of every copy and instance of a part. */
 export function placesOf({ copies }: Part): Matrix4[] {
   return copies.flatMap(({ place, instances }) => (instances ? matricesOf(instances).map((matrix) => matrix.premultiply(place)) : [place]));
 }
 
-/** The square that holds the UV square and all UVs: its left, its bottom and its side. */
-export function squareOf(parts: Part[]): [number, number, number] {
+/** The smallest square that contains the unit square and all UVs: its left, its bottom and its side. */
+export function uvSquare(parts: Part[]): [number, number, number] {
   let [left, bottom, right, top] = [0, 0, 1, 1];
   for (const { surface } of parts) {
     const uvs = surface.uvs ?? [];

@@ -1,58 +1,59 @@
-// The model on the stage: both sides of the slider, lines over them, and their UV layout.
+// Builds the three.js objects of the model: both sides of the slider, lines over them, and their UV layouts.
 
 import { Box3, BufferAttribute, Group, InstancedMesh, LineSegments, Mesh, type BufferGeometry, type Material, Vector3 } from 'three';
 
 import type { Mistakes, Settings } from '../settings';
-import type { Arrangement } from '../surface/comparison';
-import { inkOf } from './frame-material';
+import type { Comparison } from '../surface/comparison';
+import { frameMaterial } from './frame-material';
 import { seamLines, vectorLines } from './frame-lines';
 import { type Copy, placesOf, type Part } from './model-parts';
-import { geometryOf, materialOf, sharedOf, type Shared } from './side-geometry';
+import { sharedAttributes, sideGeometry, sideMaterial, type SharedAttributes } from './side-geometry';
 
-/** A part, its vertices split for the two sources that are compared. */
-interface Piece {
+/** A part with the data of both sides. */
+interface ComparedPart {
   part: Part;
-  arrangement: Arrangement;
-  shared: Shared;
+  comparison: Comparison;
+  shared: SharedAttributes;
   indices: BufferAttribute;
-  /** Of both sides, and the mistakes that the right one was made with. */
+  /** The geometries of both sides, or null before they are built. */
   geometries: [BufferGeometry, BufferGeometry] | null;
+  /** The mistakes that the right geometry was built with. */
   mistakes: string;
 }
 
-/** What is drawn on one side. */
+/** The objects of one side. */
 export interface Side {
   model: Group;
   /** The triangles of the UV layout. */
   layout: Group;
 }
 
-export class Shown {
+export class ModelView {
   /** The left and the right side. */
   sides: [Side, Side] = [empty(), empty()];
-  private pieces: Piece[] = [];
+  private parts: ComparedPart[] = [];
 
-  /** Takes parts in place of those before. */
-  arrange(parts: Part[], arrangements: Arrangement[]): void {
-    this.pieces.forEach(forget);
-    this.pieces = parts.map((part, at) => {
-      const arrangement = arrangements[at];
-      const [shared, indices] = [sharedOf(part, arrangement), new BufferAttribute(arrangement.indices, 1)];
-      return { part, arrangement, shared, indices, geometries: null, mistakes: '' };
+  /** Replaces the parts. */
+  setParts(parts: Part[], comparisons: Comparison[]): void {
+    this.parts.forEach(disposeGeometries);
+    this.parts = parts.map((part, at) => {
+      const comparison = comparisons[at];
+      const [shared, indices] = [sharedAttributes(part, comparison), new BufferAttribute(comparison.indices, 1)];
+      return { part, comparison, shared, indices, geometries: null, mistakes: '' };
     });
   }
 
-  /** What holds all that is seen, wherever parts are. */
+  /** The bounding box of all copies of all parts. */
   bounds(): Box3 {
     const all = new Box3();
-    for (const { part, arrangement } of this.pieces) {
-      const own = boundsOf(arrangement.positions);
+    for (const { part, comparison } of this.parts) {
+      const own = boundsOf(comparison.positions);
       if (!own.isEmpty()) placesOf(part).forEach((place) => all.union(own.clone().applyMatrix4(place)));
     }
     return all;
   }
 
-  /** Builds both sides anew, for a model of some radius. */
+  /** Rebuilds both sides. `radius` is that of the model. */
   build(settings: Settings, radius: number): void {
     this.sides.forEach(dispose);
     this.sides = [this.side(0, settings, radius), this.side(1, settings, radius)];
@@ -61,58 +62,58 @@ export class Shown {
   private side(at: 0 | 1, settings: Settings, radius: number): Side {
     const side = empty();
     const mistakes = at === 1 ? settings.mistakes : NONE;
-    for (const piece of this.pieces) {
-      const { part } = piece;
-      const hasTangents = isVertexData(piece, settings, at);
-      const geometry = geometriesOf(piece, settings)[at];
+    for (const compared of this.parts) {
+      const { part } = compared;
+      const hasTangents = isVertexData(compared, settings, at);
+      const geometry = geometriesOf(compared, settings)[at];
       const isShaded = settings.paint === 'shaded';
       for (const copy of part.copies) {
-        const material = isShaded ? materialOf(part, hasTangents, settings.pattern, mistakes) : inkOf(settings.paint, copy.place, false);
-        side.model.add(placed(copy, geometry, material));
+        const material = isShaded ? sideMaterial(part, hasTangents, settings.pattern, mistakes) : frameMaterial(settings.paint, copy.place, false);
+        side.model.add(placedMesh(copy, geometry, material));
       }
-      if (settings.layout) side.layout.add(flat(new Mesh(geometry, inkOf(isShaded ? 'sign' : settings.paint, part.copies[0].place, true))));
-      this.lines(side, at, piece, geometry, settings, radius);
+      if (settings.layout) side.layout.add(layoutMesh(geometry, frameMaterial(isShaded ? 'sign' : settings.paint, part.copies[0].place, true)));
+      this.addLines(side, at, compared, geometry, settings, radius);
     }
     return side;
   }
 
-  private lines(side: Side, at: 0 | 1, { part, arrangement }: Piece, geometry: BufferGeometry, settings: Settings, radius: number): void {
-    const { positions, normals } = arrangement;
+  private addLines(side: Side, at: 0 | 1, { part, comparison }: ComparedPart, geometry: BufferGeometry, settings: Settings, radius: number): void {
+    const { positions, normals } = comparison;
     const tangents = geometry.getAttribute('frame').array as Float32Array;
     const places = placesOf(part);
-    const roots = { positions, normals, tangents, places };
+    const vertices = { positions, normals, tangents, places };
     for (const name of ['tangent', 'bitangent', 'normal'] as const) {
-      if (settings.vectors[name]) side.model.add(vectorLines(roots, name, settings.length * radius));
+      if (settings.vectors[name]) side.model.add(vectorLines(vertices, name, settings.length * radius));
     }
-    const seams = arrangement.seams[at];
+    const seams = comparison.seams[at];
     if (settings.seams && seams.length) side.model.add(seamLines(seams, places));
   }
 }
 
 const NONE: Mistakes = { green: false, w: false, v: false };
 
-/** The geometry of both sides. It is kept while nothing in it changes: it may be large. */
-function geometriesOf(piece: Piece, settings: Settings): [BufferGeometry, BufferGeometry] {
-  const { shared, indices, arrangement } = piece;
+/** The geometries of both sides, rebuilt only where the mistakes changed. */
+function geometriesOf(part: ComparedPart, settings: Settings): [BufferGeometry, BufferGeometry] {
+  const { shared, indices, comparison } = part;
   const { mistakes } = settings;
   const key = JSON.stringify([mistakes.w, mistakes.v]);
-  if (piece.geometries && piece.mistakes === key) return piece.geometries;
-  forget(piece);
-  const none = () => new Float32Array(arrangement.sourceOfVertex.length * 4);
+  if (part.geometries && part.mistakes === key) return part.geometries;
+  disposeGeometries(part);
+  const zeros = () => new Float32Array(comparison.sourceOfVertex.length * 4);
   const make = (at: 0 | 1) => {
-    const frames = arrangement.tangents[at] ?? none();
-    return geometryOf(shared, indices, frames, isVertexData(piece, settings, at), at ? mistakes : NONE);
+    const frames = comparison.tangents[at] ?? zeros();
+    return sideGeometry(shared, indices, frames, isVertexData(part, settings, at), at ? mistakes : NONE);
   };
-  piece.mistakes = key;
-  return (piece.geometries = [make(0), make(1)]);
+  part.mistakes = key;
+  return (part.geometries = [make(0), make(1)]);
 }
 
-/** Whether a side's tangents are given to the renderer; what it has none for it derives itself. */
-function isVertexData({ arrangement }: Piece, { sources }: Settings, at: 0 | 1): boolean {
-  return sources[at] !== 'derivatives' && arrangement.tangents[at] !== null;
+/** Whether the renderer gets the tangents of a side as a vertex attribute. Without them it uses derivatives. */
+function isVertexData({ comparison }: ComparedPart, { sources }: Settings, at: 0 | 1): boolean {
+  return sources[at] !== 'derivatives' && comparison.tangents[at] !== null;
 }
 
-/** The box that holds points, but for those that are not finite. */
+/** The bounding box of the finite points. */
 function boundsOf(positions: Float32Array): Box3 {
   const box = new Box3();
   const point = new Vector3();
@@ -123,13 +124,13 @@ function boundsOf(positions: Float32Array): Box3 {
   return box;
 }
 
-function forget(piece: Piece): void {
-  piece.geometries?.forEach((geometry) => geometry.dispose());
-  piece.geometries = null;
+function disposeGeometries(part: ComparedPart): void {
+  part.geometries?.forEach((geometry) => geometry.dispose());
+  part.geometries = null;
 }
 
-/** At its node's place, as often as there are instances. */
-function placed({ place, instances }: Copy, geometry: BufferGeometry, material: Material): Mesh {
+/** A mesh, or an instanced mesh, at the place of a copy. */
+function placedMesh({ place, instances }: Copy, geometry: BufferGeometry, material: Material): Mesh {
   const mesh = instances ? new InstancedMesh(geometry, material, 0) : new Mesh(geometry, material);
   if (mesh instanceof InstancedMesh && instances) [mesh.instanceMatrix, mesh.count] = [instances, instances.count];
   mesh.matrixAutoUpdate = false;
@@ -137,7 +138,9 @@ function placed({ place, instances }: Copy, geometry: BufferGeometry, material: 
   return mesh;
 }
 
-function flat(mesh: Mesh): Mesh {
+/** A mesh for the UV layout, whose positions say nothing about where it is drawn. */
+function layoutMesh(geometry: BufferGeometry, material: Material): Mesh {
+  const mesh = new Mesh(geometry, material);
   mesh.frustumCulled = false;
   return mesh;
 }
@@ -146,7 +149,7 @@ function empty(): Side {
   return { model: new Group(), layout: new Group() };
 }
 
-/** Gives back memory of the graphics card, but for geometry and textures: those belong to pieces and parts. */
+/** Frees materials and line geometries. Other geometries and textures are shared, and stay. */
 function dispose({ model, layout }: Side): void {
   for (const object of [...model.children, ...layout.children] as (Mesh | LineSegments)[]) {
     if (object instanceof LineSegments) object.geometry.dispose();

@@ -1,15 +1,15 @@
-// The pose that a mesh has in its scene, as three.js has it.
+// Reads morph targets and skins from three.js meshes.
 
 import { Matrix4, type Mesh, SkinnedMesh, type BufferGeometry } from 'three';
 
 import type { Shape, Skin } from '../surface/surface';
 import { floatsOf, type Attribute } from './attribute-floats';
 
-/** The offsets of tangents by morph targets, which three.js does not read: where the loader leaves them in a geometry's user data. */
+/** The key of the tangent offsets of morph targets in a geometry's user data. The loader stores them there, because three.js ignores them. */
 export const TANGENT_TARGETS = 'tangentTargets';
 
-/** Where morph targets move vertices; null where all weigh nothing. Offsets are relative, as in glTF. */
-export function shapeOf(mesh: Mesh, { positions, normals, tangents }: Shape): Shape | null {
+/** The vertices after morph targets; null where all weights are 0. Offsets are relative, as in glTF. */
+export function morphedShape(mesh: Mesh, { positions, normals, tangents }: Shape): Shape | null {
   const weights = mesh.morphTargetInfluences ?? [];
   if (!weights.some((weight) => weight !== 0)) return null;
   const { morphAttributes, userData } = mesh.geometry as BufferGeometry;
@@ -31,7 +31,7 @@ export function shapeOf(mesh: Mesh, { positions, normals, tangents }: Shape): Sh
   };
 }
 
-/** What a skin does to vertices; null without one. */
+/** The skin of a mesh; null without one. */
 export function skinOf(mesh: Mesh): Skin | null {
   if (!(mesh instanceof SkinnedMesh)) return null;
   const [joints, weights] = ['skinIndex', 'skinWeight'].map((name) => floatsOf(mesh.geometry.getAttribute(name) as Attribute, 4));

@@ -1,8 +1,8 @@
-// A spot at the place that the report led to.
+// Marks the place that the report leads to.
 
 import { BufferAttribute, BufferGeometry, Points, PointsMaterial, type Vector3 } from 'three';
 
-export class Marker {
+export class PlaceMarker {
   readonly object = new Points(
     new BufferGeometry().setAttribute('position', new BufferAttribute(new Float32Array(3), 3)),
     new PointsMaterial({ color: 0xff4dd8, size: 12, sizeAttenuation: false, depthTest: false, transparent: true, opacity: 0.8, toneMapped: false }),

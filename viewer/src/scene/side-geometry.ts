@@ -1,47 +1,47 @@
-// One side of the slider: a part with the tangents of one source.
+// The geometry and material of a part on one side of the slider, with the tangents of one source.
 
 import { BufferAttribute, BufferGeometry, type MeshStandardMaterial } from 'three';
 
 import type { Mistakes } from '../settings';
 import { NO_ANGLE } from '../surface/angles';
-import type { Arrangement } from '../surface/comparison';
+import type { Comparison } from '../surface/comparison';
 import { floatsOf } from './attribute-floats';
 import type { Part } from './model-parts';
 import { withPattern } from './dome-pattern';
 
-/** Attributes that both sides have. */
-export type Shared = Map<string, BufferAttribute>;
+/** The attributes that both sides share, by name. */
+export type SharedAttributes = Map<string, BufferAttribute>;
 
-/** The vertices of a part once split, but for tangents. */
-export function sharedOf(part: Part, arrangement: Arrangement): Shared {
-  const { sourceOfVertex, positions, normals, uvs, angles } = arrangement;
-  const shared: Shared = new Map();
-  const put = (name: string, array: Float32Array, width: number) => shared.set(name, new BufferAttribute(array, width));
-  put('position', positions, 3);
-  put('normal', normals, 3);
-  put('chart', charted(uvs, part.surface.vDown), 2);
-  put('angle', angles ?? new Float32Array(sourceOfVertex.length).fill(NO_ANGLE), 1);
+/** The attributes of a part's split vertices, without tangents. */
+export function sharedAttributes(part: Part, comparison: Comparison): SharedAttributes {
+  const { sourceOfVertex, positions, normals, uvs, angles } = comparison;
+  const shared: SharedAttributes = new Map();
+  const add = (name: string, array: Float32Array, width: number) => shared.set(name, new BufferAttribute(array, width));
+  add('position', positions, 3);
+  add('normal', normals, 3);
+  add('chart', layoutPositions(uvs, part.surface.vDown), 2);
+  add('angle', angles ?? new Float32Array(sourceOfVertex.length).fill(NO_ANGLE), 1);
   for (const name of ['uv', 'uv1', 'uv2', 'uv3', 'color']) {
     const attribute = part.geometry.getAttribute(name);
     if (!attribute) continue;
     const width = attribute.itemSize;
     const all = floatsOf(attribute, width);
-    const taken = new Float32Array(sourceOfVertex.length * width);
-    sourceOfVertex.forEach((source, vertex) => taken.set(all.subarray(source * width, (source + 1) * width), vertex * width));
-    put(name, taken, width);
+    const copied = new Float32Array(sourceOfVertex.length * width);
+    sourceOfVertex.forEach((source, vertex) => copied.set(all.subarray(source * width, (source + 1) * width), vertex * width));
+    add(name, copied, width);
   }
-  if (!shared.has('uv')) put('uv', uvs, 2);
+  if (!shared.has('uv')) add('uv', uvs, 2);
   return shared;
 }
 
-/** UVs as they lie on an image that is seen upright. */
-function charted(uvs: Float32Array, vDown: boolean): Float32Array {
+/** UVs as positions on the upright image: v points up. */
+function layoutPositions(uvs: Float32Array, vDown: boolean): Float32Array {
   return vDown ? uvs.map((x, at) => (at % 2 ? 1 - x : x)) : uvs;
 }
 
-/** The geometry of one side. `frames`: 4 floats per vertex; `hasTangents`: whether the renderer gets them. */
-export function geometryOf(
-  shared: Shared,
+/** Makes the geometry. `frames` has 4 floats per vertex, and `hasTangents` says whether the renderer gets them as tangents. */
+export function sideGeometry(
+  shared: SharedAttributes,
   indices: BufferAttribute,
   frames: Float32Array,
   hasTangents: boolean,
@@ -49,33 +49,33 @@ export function geometryOf(
 ): BufferGeometry {
   const geometry = new BufferGeometry().setIndex(indices);
   for (const [name, attribute] of shared) {
-    const isTurned = mistakes.v && name.startsWith('uv');
-    geometry.setAttribute(name, isTurned ? mapped(attribute, 1, (v) => 1 - v) : attribute);
+    const isFlipped = mistakes.v && name.startsWith('uv');
+    geometry.setAttribute(name, isFlipped ? withComponent(attribute, 1, (v) => 1 - v) : attribute);
   }
   const frame = new BufferAttribute(frames, 4);
-  const shown = mistakes.w ? mapped(frame, 3, (w) => -w) : frame;
+  const shown = mistakes.w ? withComponent(frame, 3, (w) => -w) : frame;
   geometry.setAttribute('frame', shown);
   if (hasTangents) geometry.setAttribute('tangent', shown);
   return geometry;
 }
 
-/** A copy with one component of each element changed. */
-function mapped(attribute: BufferAttribute, component: number, change: (x: number) => number): BufferAttribute {
+/** A copy of an attribute with one component of each element changed. */
+function withComponent(attribute: BufferAttribute, component: number, change: (x: number) => number): BufferAttribute {
   const copy = attribute.clone();
   for (let at = 0; at < copy.count; at++) copy.setComponent(at, component, change(copy.getComponent(at, component)));
   return copy;
 }
 
-/** The material of one side. */
-export function materialOf(part: Part, hasTangents: boolean, hasPattern: boolean, mistakes: Mistakes): MeshStandardMaterial {
+/** Makes the material. */
+export function sideMaterial(part: Part, hasTangents: boolean, hasPattern: boolean, mistakes: Mistakes): MeshStandardMaterial {
   const material = part.material.clone();
   const { vDown } = part.surface;
   const isPattern = !material.normalMap && hasPattern;
   if (isPattern) withPattern(material, vDown);
-  // Without tangents, three.js takes green along the derivative by v; glTF's v runs down, so green has to be turned.
-  const isTurned = vDown && !hasTangents;
-  const wasTurned = part.isGreenTurned && !isPattern;
-  if (isTurned !== wasTurned) material.normalScale.y *= -1;
+  // Without tangents, three.js takes green along the derivative by v. In glTF v points down, so green has to be negated.
+  const isNegated = vDown && !hasTangents;
+  const wasNegated = part.isGreenNegated && !isPattern;
+  if (isNegated !== wasNegated) material.normalScale.y *= -1;
   if (mistakes.green) material.normalScale.y *= -1;
   material.polygonOffset = true;
   material.polygonOffsetFactor = material.polygonOffsetUnits = 1;

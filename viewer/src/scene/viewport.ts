@@ -1,4 +1,4 @@
-// Where the model stands: camera, light, environment, and the picture, drawn once for each side of the slider.
+// The viewport: camera, light, environment, and drawing, once for each side of the slider.
 
 import {
   type Box3,
@@ -22,27 +22,31 @@ import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
 import { fly, type View } from './camera-flight';
 import type { Side } from './model-view';
 
-const FIELD = 35;
+/** The vertical field of view in degrees. */
+const FIELD_OF_VIEW = 35;
 
-/** The side of the UV layout's square, as a part of the picture's shorter side, and its distances from the picture's edges in pixels. */
-const INSET = 0.5;
-const MARGIN = 12;
-const BELOW = 36;
+/** The side of the UV layout, relative to the shorter side of the picture. */
+const LAYOUT_SIZE = 0.5;
+/** The distance of the UV layout from the right edge in pixels. */
+const LAYOUT_RIGHT = 12;
+/** The distance of the UV layout from the bottom edge in pixels. */
+const LAYOUT_BOTTOM = 36;
 
-export class Stage {
-  readonly camera = new PerspectiveCamera(FIELD, 1, 0.01, 100);
+export class Viewport {
+  readonly camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 100);
   readonly controls: OrbitControls;
-  /** The place of the slider, from 0 to 1. */
+  /** The position of the slider, from 0 to 1. */
   split = 0.5;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly light = new DirectionalLight(0xffffff, 2);
-  private readonly charts = new Scene();
-  private readonly chartCamera = new OrthographicCamera(0, 1, 1, 0, -1, 1);
+  private readonly layouts = new Scene();
+  private readonly layoutCamera = new OrthographicCamera(0, 1, 1, 0, -1, 1);
   private readonly sphere = new Sphere(new Vector3(), 1);
   private sides: Side[] = [];
   private hasLayout = false;
-  private wanted = 0;
+  /** The requested animation frame, or 0. */
+  private requestedFrame = 0;
   private stopFlight = () => {};
 
   /** Errors: the browser has no WebGL 2. */
@@ -64,16 +68,16 @@ export class Stage {
     return this.sphere.radius;
   }
 
-  /** Shows two sides in place of those before. */
+  /** Replaces both sides. */
   show(sides: Side[], hasLayout: boolean): void {
     this.sides = sides;
     this.hasLayout = hasLayout;
     this.scene.add(...sides.map((side) => side.model));
-    this.charts.add(...sides.map((side) => side.layout));
+    this.layouts.add(...sides.map((side) => side.layout));
     this.draw();
   }
 
-  /** Adds to what both sides show. */
+  /** Adds an object that both sides show. */
   add(object: Object3D): void {
     this.scene.add(object);
   }
@@ -81,47 +85,47 @@ export class Stage {
   /** Sets the colours behind the model and behind its layout. */
   background(color: string, layout: string): void {
     this.scene.background = new Color(color);
-    this.charts.background = new Color(layout);
+    this.layouts.background = new Color(layout);
     this.draw();
   }
 
-  /** Moves the light: degrees around the model, and above the horizon. */
+  /** Sets the direction of the light in degrees: azimuth and elevation. */
   lightFrom(around: number, above: number): void {
     const [a, b] = [around, above].map((degrees) => (degrees * Math.PI) / 180);
-    const away = new Vector3(Math.sin(a) * Math.cos(b), Math.sin(b), Math.cos(a) * Math.cos(b));
-    this.light.position.copy(this.sphere.center).addScaledVector(away, 10 * this.sphere.radius);
+    const direction = new Vector3(Math.sin(a) * Math.cos(b), Math.sin(b), Math.cos(a) * Math.cos(b));
+    this.light.position.copy(this.sphere.center).addScaledVector(direction, 10 * this.sphere.radius);
     this.light.target.position.copy(this.sphere.center);
     this.draw();
   }
 
-  /** Sets how bright the surroundings and the light are. */
+  /** Sets the intensity of the environment and of the light. */
   brightness(surroundings: number, light: number): void {
     this.scene.environmentIntensity = surroundings;
     this.light.intensity = light;
     this.draw();
   }
 
-  /** Takes the size and the place of a model. */
-  measure(box: Box3): void {
+  /** Sets the bounding sphere of the model from its box. */
+  setBounds(box: Box3): void {
     box.getBoundingSphere(this.sphere);
     if (!(this.sphere.radius > 0) || !Number.isFinite(this.sphere.radius)) this.sphere.set(new Vector3(), 1);
   }
 
-  /** Takes the square that the UV layout is shown in. */
-  measureLayout(left: number, bottom: number, size: number): void {
+  /** Sets the square of UVs that the layout shows. */
+  setLayoutSquare(left: number, bottom: number, size: number): void {
     const margin = 0.02 * size;
-    Object.assign(this.chartCamera, { left: left - margin, bottom: bottom - margin, right: left + size + margin, top: bottom + size + margin });
-    this.chartCamera.updateProjectionMatrix();
+    Object.assign(this.layoutCamera, { left: left - margin, bottom: bottom - margin, right: left + size + margin, top: bottom + size + margin });
+    this.layoutCamera.updateProjectionMatrix();
   }
 
-  /** Looks at all of the model, from the front and a little from above. */
+  /** Shows the whole model, from the front and slightly above. */
   lookAtAll(): void {
     this.look(this.sphere.center, this.sphere.radius, new Vector3(0.35, 0.3, 1));
   }
 
-  /** Looks at a place from a direction, so that a radius around it is in view. */
+  /** Looks at a point from a direction, so that a sphere around it is in view. */
   look(at: Vector3, radius: number, from: Vector3, isFlight = false): void {
-    const distance = radius / Math.sin(((FIELD / 2) * Math.PI) / 180) / Math.min(1, this.camera.aspect);
+    const distance = radius / Math.sin(((FIELD_OF_VIEW / 2) * Math.PI) / 180) / Math.min(1, this.camera.aspect);
     this.camera.near = Math.min(this.sphere.radius, radius) / 100;
     this.camera.far = this.sphere.radius * 20 + distance;
     const to = { eye: at.clone().addScaledVector(from.clone().normalize(), distance), target: at.clone() };
@@ -136,7 +140,7 @@ export class Stage {
     else move(to);
   }
 
-  /** Turns around the model by degrees, and comes nearer by a factor. */
+  /** Orbits around the model by degrees, and moves closer by a factor. */
   orbit(around: number, above: number, nearer = 1): void {
     this.stopFlight();
     const offset = this.camera.position.clone().sub(this.controls.target);
@@ -147,23 +151,23 @@ export class Stage {
     this.draw();
   }
 
-  /** Draws soon: once, however often it is called before. */
+  /** Requests a frame. Several calls before the next frame draw once. */
   draw(): void {
-    this.wanted ||= requestAnimationFrame(() => this.drawNow());
+    this.requestedFrame ||= requestAnimationFrame(() => this.drawNow());
   }
 
   /** The picture as a file. */
   async picture(): Promise<Blob> {
-    // What was drawn is there until this task ends.
+    // The drawing buffer is valid until this task ends.
     this.drawNow();
     const blob = await new Promise<Blob | null>((resolve) => this.canvas.toBlob(resolve, 'image/png'));
-    if (!blob) throw new Error('The browser cannot make a picture of this size.');
+    if (!blob) throw new Error('The browser cannot save a picture of this size; make the window smaller.');
     return blob;
   }
 
   private drawNow(): void {
-    cancelAnimationFrame(this.wanted);
-    this.wanted = 0;
+    cancelAnimationFrame(this.requestedFrame);
+    this.requestedFrame = 0;
     const { renderer, canvas, camera } = this;
     const [width, height] = [canvas.clientWidth, canvas.clientHeight];
     if (!width || !height) return;
@@ -173,11 +177,11 @@ export class Stage {
     camera.updateProjectionMatrix();
     this.drawSplit(0, 0, width, height, this.scene, camera);
     if (!this.hasLayout) return;
-    const size = Math.round(INSET * Math.min(width, height));
-    this.drawSplit(width - size - MARGIN, BELOW, size, size, this.charts, this.chartCamera);
+    const size = Math.round(LAYOUT_SIZE * Math.min(width, height));
+    this.drawSplit(width - size - LAYOUT_RIGHT, LAYOUT_BOTTOM, size, size, this.layouts, this.layoutCamera);
   }
 
-  /** Draws a rectangle, on either side of the slider's place in it what that side shows. */
+  /** Draws a rectangle of the canvas: the left side left of the slider and the right side right of it. */
   private drawSplit(left: number, bottom: number, width: number, height: number, scene: Scene, camera: Camera): void {
     const { renderer } = this;
     const middle = Math.round(width * this.split);

@@ -1,12 +1,12 @@
-// How far two sets of tangents are apart.
+// The angles between two sets of tangents.
 
-/** Stands for an angle where one of the two is zero or not finite. */
+/** In place of an angle where a tangent is zero or not finite. */
 export const NO_ANGLE = -1;
 
-/** Stands for an angle on faces where the signs of the two differ. */
+/** In place of an angle at the corners of a face where the signs differ. */
 export const FLIPPED = 1000;
 
-/** Degrees between the directions of each corner's tangents, or one of the above. */
+/** The angle in degrees between the tangents of each corner, or one of the values above. */
 export function angles(a: Float32Array, b: Float32Array): Float32Array<ArrayBuffer> {
   const out = new Float32Array(a.length / 4);
   for (let corner = 0; corner < out.length; corner++) out[corner] = angle(a, b, corner * 4);
@@ -17,7 +17,7 @@ export function angles(a: Float32Array, b: Float32Array): Float32Array<ArrayBuff
   return out;
 }
 
-/** The angle between the vectors at a place. As atan2, which is exact at both ends. */
+/** The angle between two vectors, by atan2, which is accurate near 0 and 180 degrees. */
 function angle(a: Float32Array, b: Float32Array, at: number): number {
   const [ax, ay, az] = [a[at], a[at + 1], a[at + 2]];
   const [bx, by, bz] = [b[at], b[at + 1], b[at + 2]];

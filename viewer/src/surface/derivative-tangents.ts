@@ -1,11 +1,11 @@
-// What shaders do that have no tangents: they take the derivatives of position and UVs by the place on the screen, which are those along
+// The tangents of shaders without vertex tangents. They use screen-space derivatives of position and UV, which are the differences along
 // the triangle's edges in another basis. As in three.js (getTangentFrame), after Christian Schueler, "Normal mapping without precomputed
 // tangents", ShaderX5, 2006.
 
 import type { Surface } from './surface';
 import { cross, dot, edges, type Vector } from './vectors';
 
-/** The tangent of every corner; (0, 0, 0, 1) where the UVs have no extent. */
+/** The tangent of every corner. Its xyz is zero where all UVs of the triangle are equal. */
 export function derivativeTangents(surface: Surface): Float32Array<ArrayBuffer> {
   const { indices, normals, uvs, vDown } = surface;
   const out = new Float32Array(indices.length * 4);

@@ -1,16 +1,16 @@
-// Where tangents come from.
+// The sources of tangents that the page compares.
 
 import { generateTangents } from 'darboux';
 
 import { derivativeTangents } from './derivative-tangents';
 import { gathered, type Surface } from './surface';
 
-/** What a side of the picture can show. */
+/** The sources that a side can show. */
 export const SOURCES = ['file', 'mikktspace', 'angle-area', 'lengyel', 'derivatives'] as const;
 
 export type Source = (typeof SOURCES)[number];
 
-/** How they are called. */
+/** The names on the page. */
 export const SOURCE_NAMES: Record<Source, string> = {
   file: 'In the file',
   mikktspace: 'MikkTSpace',
@@ -19,14 +19,14 @@ export const SOURCE_NAMES: Record<Source, string> = {
   derivatives: 'Shader derivatives',
 };
 
-/** The tangent of every corner (4 floats), with signs as the file's renderer expects them; null where the file has none. */
+/** The tangent of every corner, 4 floats each, with the sign convention of the file's format. Null where the file has no tangents. */
 export function tangentsFrom(surface: Surface, source: Source): Float32Array | null {
   if (source === 'file') return surface.tangents && gathered(surface.tangents, 4, surface.indices);
   if (source === 'derivatives') return derivativeTangents(surface);
   return computedTangents(surface, source);
 }
 
-/** As {@link tangentsFrom}, computed. */
+/** The tangents of a method, likewise. */
 export function computedTangents(
   { positions, normals, uvs, indices, vDown }: Surface,
   method: 'mikktspace' | 'angle-area' | 'lengyel',

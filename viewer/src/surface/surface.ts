@@ -1,49 +1,49 @@
-// The surface of one part of a model: what tangents are computed from.
+// The surface of one part of a model: the input of the computation of tangents.
 
 import { generateNormals } from 'darboux';
 
-/** Vertices with 3, 3 and 4 floats each. */
+/** Vertex arrays with 3, 3 and 4 floats per vertex. */
 export interface Shape {
   positions: Float32Array;
   normals: Float32Array | null;
   tangents: Float32Array | null;
 }
 
-/** What moves vertices, in the file's numbering. */
+/** A skin. Vertices are numbered as in the file. */
 export interface Skin {
-  /** 4 per vertex. */
+  /** 4 joint numbers per vertex. */
   joints: Uint16Array;
-  /** 4 per vertex. */
+  /** 4 weights per vertex. */
   weights: Float32Array;
-  /** 16 floats per joint, column after column: from the mesh to the scene. */
+  /** The matrix of each joint from mesh space to scene space: 16 floats in column-major order. */
   matrices: Float32Array;
 }
 
-/** A part's vertices as the file has them. Arrays have 3, 3, 2 and 4 floats per vertex. */
+/** A part of the model as it is in the file. Arrays have 3, 3, 2 and 4 floats per vertex. */
 export interface GivenSurface {
   positions: Float32Array;
   normals: Float32Array | null;
   uvs: Float32Array | null;
   tangents: Float32Array | null;
   indices: Uint32Array;
-  /** Where morph targets move the vertices, as the file weights them; null where they do not. */
+  /** The vertices after morph targets with the weights of the file; null where all weights are 0. */
   shape: Shape | null;
   skin: Skin | null;
-  /** Whether v runs down the image, as in glTF; then signs are the opposite of MikkTSpace's. */
+  /** Whether v points down the image, as in glTF. Signs are then the negated signs of MikkTSpace. */
   vDown: boolean;
 }
 
-/** A surface that has all that tangents need. */
+/** A surface with normals and UVs. */
 export interface Surface extends GivenSurface {
   normals: Float32Array;
   uvs: Float32Array;
-  /** The given vertex that each vertex copies; null where they are the same. */
+  /** The vertex of the file that each vertex copies; null where the vertices are the same. */
   sourceOfVertex: Uint32Array | null;
-  /** What was missing, and is made up so that the part can be shown. */
+  /** The arrays that were missing and were filled in, so that the part can be shown. */
   without: { normals: boolean; uvs: boolean };
 }
 
-/** Makes up what is missing: flat normals, as glTF demands, and UVs that are all zero. */
+/** Fills in missing arrays: flat normals, as glTF requires, and UVs that are all zero. */
 export function completed(given: GivenSurface): Surface {
   const without = { normals: !given.normals, uvs: !given.uvs };
   const uvs = given.uvs ?? new Float32Array((given.positions.length / 3) * 2);
@@ -62,12 +62,12 @@ export function completed(given: GivenSurface): Surface {
   };
 }
 
-/** The surface as morph targets shape it, whose tangents are computed from that shape. */
-export function shaped(given: GivenSurface): Surface {
+/** The surface after morph targets. Its tangents are computed from the moved vertices. */
+export function morphed(given: GivenSurface): Surface {
   return completed({ ...given, ...given.shape });
 }
 
-/** Elements of `width` floats, taken from the places `sources`. */
+/** The elements of `width` floats at the places `sources`. */
 export function gathered(array: Float32Array, width: number, sources: Uint32Array): Float32Array<ArrayBuffer> {
   const out = new Float32Array(sources.length * width);
   for (let at = 0; at < sources.length; at++) {

@@ -1,4 +1,4 @@
-// Vectors of three, as arrays.
+// Operations on vectors of three numbers.
 
 export type Vector = [number, number, number];
 
@@ -10,7 +10,7 @@ export function dot(a: Vector, b: Vector): number {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/** What leads from the first corner of a face to its others, in the first `width` of three numbers. */
+/** The vectors from the first corner of a triangle to the other two. Components from `width` on are 0. */
 export function edges(array: Float32Array, width: number, indices: Uint32Array, face: number): [Vector, Vector] {
   const between = (corner: number): Vector => {
     const edge: Vector = [0, 0, 0];

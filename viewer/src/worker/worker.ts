@@ -1,84 +1,84 @@
-// The thread that computes. It keeps the surfaces of the model that is open; the page asks for what it draws.
+// The worker thread: keeps the surfaces of the open model and computes what the page draws and reports.
 
 import { ready } from 'darboux';
 
-import type { Bundle } from '../files/file-bundle';
+import type { FileBundle } from '../files/file-bundle';
 import { repair, type Outcome, type Primitive, type Summary } from '../files/gltf-wasm';
-import { wholeGltf } from '../files/self-contained';
-import { arranged, type Arrangement } from '../surface/comparison';
+import { makeSelfContained } from '../files/self-contained';
+import { compareSources, type Comparison } from '../surface/comparison';
 import type { Source } from '../surface/sources';
 import { findings, type Finding } from '../surface/findings';
-import { posed } from '../surface/skinning';
-import { completed, shaped, type GivenSurface, type Surface } from '../surface/surface';
+import { skinned } from '../surface/skinning';
+import { completed, morphed, type GivenSurface, type Surface } from '../surface/surface';
 
-/** As their files have them, and as the pose of the scene shapes them. */
-let surfaces: { stored: Surface; shape: Surface }[] = [];
+/** For each part of the model, its surface in the file, and the surface after morph targets. */
+let surfaces: { stored: Surface; morphed: Surface }[] = [];
 
-/** What the page can ask for. */
-const work = {
-  /** A glTF file with all that it refers to, checked. */
-  whole(name: string, bytes: Uint8Array<ArrayBuffer>, bundle: Bundle): Promise<Outcome<Primitive[]>> {
-    return wholeGltf(name, bytes, bundle);
+/** The functions that the page can call. */
+const functions = {
+  /** Embeds the files that a glTF refers to, and checks it. */
+  makeSelfContained(name: string, bytes: Uint8Array<ArrayBuffer>, bundle: FileBundle): Promise<Outcome<Primitive[]>> {
+    return makeSelfContained(name, bytes, bundle);
   },
 
-  /** A GLB with new tangents. */
+  /** Writes new tangents into a glTF and returns it as GLB. */
   repair(name: string, bytes: Uint8Array<ArrayBuffer>): Promise<Outcome<Summary>> {
     return repair(name, bytes);
   },
 
-  /** Takes the surfaces of a model in place of those before. */
+  /** Replaces the surfaces by those of another model. */
   open(given: GivenSurface[]): void {
-    surfaces = given.map((one) => {
-      const stored = completed(one);
-      return { stored, shape: one.shape ? shaped(one) : stored };
+    surfaces = given.map((surface) => {
+      const stored = completed(surface);
+      return { stored, morphed: surface.shape ? morphed(surface) : stored };
     });
   },
 
-  /** A part, ready to be drawn. */
-  arrange(part: number, sources: readonly [Source, Source]): Arrangement {
-    return arranged(surfaces[part].shape, sources);
+  /** Prepares a part for drawing with two sources of tangents. */
+  compare(part: number, sources: readonly [Source, Source]): Comparison {
+    return compareSources(surfaces[part].morphed, sources);
   },
 
-  /** What is odd about a part. */
+  /** Finds the faults of a part. */
   report(part: number): Finding[] {
-    const { stored, shape } = surfaces[part];
-    return findings(stored, posed(shape));
+    const { stored, morphed } = surfaces[part];
+    return findings(stored, skinned(morphed));
   },
 };
 
-export type Work = typeof work;
+export type WorkerFunctions = typeof functions;
 
-/** A call, and its number. */
-export interface Call<K extends keyof Work = keyof Work> {
+/** A call of a function, with a number that the reply repeats. */
+export interface Call<K extends keyof WorkerFunctions = keyof WorkerFunctions> {
   id: number;
   name: K;
-  args: Parameters<Work[K]>;
+  args: Parameters<WorkerFunctions[K]>;
 }
 
-/** What comes back: a result, or a sentence that says why there is none. */
+/** The reply to a call: a result, or the message of an error. */
 export type Reply = { id: number; result: unknown } | { id: number; error: string };
 
 addEventListener('message', async ({ data }: MessageEvent<Call>) => {
   const { id, name, args } = data;
   try {
     await ready;
-    const result = await (work[name] as (...args: unknown[]) => unknown)(...args);
-    postMessage({ id, result } satisfies Reply, { transfer: buffers(result) });
+    const result = await (functions[name] as (...args: unknown[]) => unknown)(...args);
+    postMessage({ id, result } satisfies Reply, { transfer: transferableBuffers(result) });
   } catch (error) {
     postMessage({ id, error: error instanceof Error ? error.message : String(error) } satisfies Reply);
   }
 });
 
-/** The memory of all arrays in a result, which moves to the page instead of being copied. */
-function buffers(result: unknown): ArrayBuffer[] {
+/** The buffers of all arrays in a result. They are transferred to the page instead of copied. */
+function transferableBuffers(result: unknown): ArrayBuffer[] {
   const found = new Set<ArrayBuffer>();
-  const look = (value: unknown): void => {
+  const collect = (value: unknown): void => {
     if (ArrayBuffer.isView(value)) found.add(value.buffer as ArrayBuffer);
-    else if (value && typeof value === 'object') Object.values(value).forEach(look);
+    else if (value && typeof value === 'object') Object.values(value).forEach(collect);
   };
-  look(result);
-  // What the surfaces themselves hold stays here.
-  for (const surface of surfaces.flatMap(({ stored, shape }) => [stored, shape])) {
+  collect(result);
+  // Buffers of the stored surfaces stay here.
+  for (const surface of surfaces.flatMap(({ stored, morphed }) => [stored, morphed])) {
     for (const value of Object.values(surface)) if (ArrayBuffer.isView(value)) found.delete(value.buffer as ArrayBuffer);
   }
   return [...found];

@@ -1,6 +1,11 @@
-//! Files in the viewer's page: checked as they are opened, and written with new tangents, as the command does it.
+//! Reading and writing of glTF for the viewer's page, with the same code as the command.
 //!
-//! The page writes a name and a file into memory that this side owns, calls, and reads the text and the file that came out.
+//! JavaScript writes a file name and a file into memory that this side owns, calls `check` or `repair`, and reads a text and a file:
+//!
+//! ```text
+//! p = name(n); q = file(m); memory[p ..] = ...; memory[q ..] = ...
+//! if check() == 1 { JSON = memory[text() .. + text_len()]; glb = memory[made() .. + made_len()] } else { text() is the error }
+//! ```
 
 #![allow(unsafe_code, reason = "functions are exported under the names that JavaScript calls")]
 
@@ -10,58 +15,65 @@ use std::mem::take;
 use darboux_io::Error;
 use darboux_io::gltf::{Document, LoadOptions, TangentsOptions, add_tangents, inspect};
 
-/// What goes in and what comes out.
+/// The inputs and outputs of a call.
 #[derive(Default)]
-struct Room {
+struct Buffers {
     name: Vec<u8>,
     file: Vec<u8>,
     made: Vec<u8>,
-    /// JSON, or the sentence that says what is wrong.
+    /// JSON, or the message of an error.
     text: Vec<u8>,
 }
 
 thread_local! {
-    static ROOM: RefCell<Room> = RefCell::default();
+    static BUFFERS: RefCell<Buffers> = RefCell::default();
 }
 
-/// Where a name of so many bytes goes.
+/// Seeds the hash keys with 64 random bits, in two halves. The page calls this first, because WebAssembly itself has no randomness.
+#[cfg(target_family = "wasm")]
+#[unsafe(no_mangle)]
+pub extern "C" fn seed_random(low: u32, high: u32) {
+    darboux::internal::seed_random(u64::from(low) | u64::from(high) << 32);
+}
+
+/// The address for a file name of `len` bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn name(len: usize) -> *mut u8 {
-    ROOM.with_borrow_mut(|room| sized(&mut room.name, len))
+    BUFFERS.with_borrow_mut(|buffers| resized(&mut buffers.name, len))
 }
 
-/// Where a file of so many bytes goes.
+/// The address for a file of `len` bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn file(len: usize) -> *mut u8 {
-    ROOM.with_borrow_mut(|room| sized(&mut room.file, len))
+    BUFFERS.with_borrow_mut(|buffers| resized(&mut buffers.file, len))
 }
 
-/// Where the file that came out lies.
+/// The address of the resulting file.
 #[unsafe(no_mangle)]
 pub extern "C" fn made() -> *const u8 {
-    ROOM.with_borrow(|room| room.made.as_ptr())
+    BUFFERS.with_borrow(|buffers| buffers.made.as_ptr())
 }
 
-/// Its length.
+/// The length of the resulting file.
 #[unsafe(no_mangle)]
 pub extern "C" fn made_len() -> usize {
-    ROOM.with_borrow(|room| room.made.len())
+    BUFFERS.with_borrow(|buffers| buffers.made.len())
 }
 
-/// Where the text that came out lies.
+/// The address of the resulting text.
 #[unsafe(no_mangle)]
 pub extern "C" fn text() -> *const u8 {
-    ROOM.with_borrow(|room| room.text.as_ptr())
+    BUFFERS.with_borrow(|buffers| buffers.text.as_ptr())
 }
 
-/// Its length.
+/// The length of the resulting text.
 #[unsafe(no_mangle)]
 pub extern "C" fn text_len() -> usize {
-    ROOM.with_borrow(|room| room.text.len())
+    BUFFERS.with_borrow(|buffers| buffers.text.len())
 }
 
-/// Reads all that tangents need of a file, and decompresses it. 1: the text lists its primitives, and the file that came out is the
-/// one to show; 0: the text says what is wrong.
+/// Decompresses a file and checks the data that tangents depend on. Returns 1 where the text is JSON about its primitives and the resulting
+/// file is the one to show, and 0 where the text is an error.
 #[unsafe(no_mangle)]
 pub extern "C" fn check() -> u32 {
     run(|document| {
@@ -71,8 +83,8 @@ pub extern "C" fn check() -> u32 {
     })
 }
 
-/// Gives every primitive that can have them new tangents. 1: the text tells what was done, and the file that came out is a GLB; 0: the
-/// text says what is wrong.
+/// Writes new tangents to every eligible primitive. Returns 1 where the text is a summary in JSON and the resulting file is a GLB, and 0
+/// where the text is an error.
 #[unsafe(no_mangle)]
 pub extern "C" fn repair() -> u32 {
     run(|document| {
@@ -82,18 +94,18 @@ pub extern "C" fn repair() -> u32 {
     })
 }
 
-/// Opens the file that was given; what comes of it goes where the page reads it.
+/// Opens the given file, and stores the results of `work` or its error.
 fn run(work: impl FnOnce(&mut Document) -> Result<(Vec<u8>, Vec<u8>), Error>) -> u32 {
-    ROOM.with_borrow_mut(|room| {
-        let name = String::from_utf8_lossy(&room.name).into_owned();
-        let opened = Document::from_bytes(&name, take(&mut room.file), None, &LoadOptions::default());
+    BUFFERS.with_borrow_mut(|buffers| {
+        let name = String::from_utf8_lossy(&buffers.name).into_owned();
+        let opened = Document::from_bytes(&name, take(&mut buffers.file), None, &LoadOptions::default());
         match opened.and_then(|mut document| work(&mut document)) {
             Ok((text, file)) => {
-                (room.text, room.made) = (text, file);
+                (buffers.text, buffers.made) = (text, file);
                 1
             }
             Err(error) => {
-                room.text = error.to_string().into_bytes();
+                buffers.text = error.to_string().into_bytes();
                 0
             }
         }
@@ -101,11 +113,12 @@ fn run(work: impl FnOnce(&mut Document) -> Result<(Vec<u8>, Vec<u8>), Error>) ->
 }
 
 fn to_json(value: &impl serde::Serialize) -> Vec<u8> {
-    // Numbers, names and sentences: nothing that JSON could refuse.
+    // These structs have string keys only, so serialisation cannot fail.
     serde_json::to_vec(value).unwrap_or_default()
 }
 
-fn sized(bytes: &mut Vec<u8>, len: usize) -> *mut u8 {
+/// Clears an array, gives it a length, and returns its address.
+fn resized(bytes: &mut Vec<u8>, len: usize) -> *mut u8 {
     bytes.clear();
     bytes.resize(len, 0);
     bytes.as_mut_ptr()

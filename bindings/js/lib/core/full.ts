@@ -1,12 +1,13 @@
-// The module of `darboux`, and what its entry and plans share.
+// The full WebAssembly module, which `darboux` and its plans share: its exports, the codes of options, and reports.
 
+import { choice, degrees, optionsOf } from './checks.js';
+import { checkedMesh, type Mesh } from './mesh.js';
 import { load, type Exports } from './wasm-module.js';
-import { choice, degrees, mesh, type Mesh } from './mesh.js';
 import type * as types from '../types.js';
 import simd from '../wasm/darboux.simd.wasm';
 
-/** What the module of `darboux` has. */
-export interface AllExports extends Exports {
+/** The functions of the full module; bindings/js/src documents them. */
+export interface FullExports extends Exports {
   generate_tangents(mode: number, threshold: number, method: number): number;
   report(): number;
   generate_frames(mode: number, threshold: number, method: number): number;
@@ -17,7 +18,7 @@ export interface AllExports extends Exports {
   evaluate_plan(plan: number): number;
   count_regrouped(plan: number): number;
   free_plan(plan: number): void;
-  plan_topology(mode: number, threshold: number, most: number): number;
+  plan_topology(mode: number, threshold: number, maxMembers: number): number;
   gpu_plan_array(array: number): number;
   gpu_plan_array_len(array: number): number;
   free_gpu_plan(): void;
@@ -33,42 +34,45 @@ export interface AllExports extends Exports {
   split_indices(): number;
   split_sources(): number;
   measure_tangents(): number;
-  encode_tangents(form: number): number;
-  decode_tangents(form: number): number;
+  encode_tangents(encoding: number): number;
+  decode_tangents(encoding: number): number;
 }
 
-// In the order of the codes that the WebAssembly side knows.
+// The position of a name in its list is the code that WebAssembly takes.
 const MODES = ['reference', 'repaired', 'corrected'] as const;
 const METHODS = ['mikktspace', 'angle-area', 'lengyel', 'lengyel-per-vertex', 'average', 'area', 'face', 'from-normal'] as const;
+
+/** The counts of a report, in the order in which WebAssembly writes them. */
 const COUNTS = [
   'triangles', 'unsupportedFaces', 'degenerateTriangles', 'uvDegenerateTriangles', 'nonFiniteCorners', 'repairedCorners',
   'mixedSignFaces', 'mirroredEdges', 'splitVertices', 'mergedVertices',
 ] as const satisfies (keyof types.Report)[];
 
-export const engine = load<AllExports>(simd, () => import('../darboux.scalar.js'));
+export const fullModule = load<FullExports>(simd, () => import('../darboux.scalar.js'));
 
-/** A mesh with UVs. */
-export function surface(
+/** Checks a mesh that has all that tangents need. */
+export function tangentMesh(
   positions: Float32Array,
   normals: Float32Array,
   uvs: Float32Array,
   indices: types.Indices | null | undefined,
-  { faces }: types.TangentOptions,
+  options: types.TangentOptions | null | undefined,
 ): Mesh {
-  return mesh(positions, [['normals', normals, 3], ['uvs', uvs, 2]], indices, faces);
+  return checkedMesh(positions, [['normals', normals, 3], ['uvs', uvs, 2]], indices, optionsOf(options).faces);
 }
 
-/** Options as the WebAssembly side has them. */
-export function choices(options: types.TangentOptions): [mode: number, threshold: number, method: number] {
-  const method = choice('method', options.method ?? 'mikktspace', METHODS);
-  const mode = choice('mode', options.mode ?? 'repaired', MODES);
-  const threshold = degrees('threshold', options.threshold);
+/** Options as WebAssembly takes them. */
+export function tangentOptions(options: types.TangentOptions | null | undefined): [mode: number, threshold: number, method: number] {
+  const given = optionsOf(options);
+  const method = choice('method', given.method, METHODS, 'mikktspace');
+  const mode = choice('mode', given.mode, MODES, 'repaired');
+  const threshold = degrees('threshold', given.threshold);
   if (method && threshold !== 180) throw new RangeError("threshold belongs to the method 'mikktspace'; leave one of them out");
   return [mode, threshold, method];
 }
 
-/** What the last run met. */
-export function report(exports: AllExports): types.Report {
+/** The report of the last run. */
+export function readReport(exports: FullExports): types.Report {
   const counts = Array.from(new Float64Array(exports.memory.buffer, exports.report() >>> 0, COUNTS.length));
   return Object.fromEntries(COUNTS.map((name, at) => [name, counts[at]])) as unknown as types.Report;
 }

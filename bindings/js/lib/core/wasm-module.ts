@@ -1,8 +1,10 @@
-// The WebAssembly side: loaded once, called with numbers and places in its memory.
+// Loads a WebAssembly module once and calls its functions: compilation, random hash keys, memory limits, lost instances.
 
-/** What every module has: memory, and places for a call's arrays in it. */
+/** The functions that every module exports. Those that return an address take the number of elements to make room for. */
 export interface Exports extends WebAssembly.Exports {
   memory: WebAssembly.Memory;
+  /** Takes 64 random bits for hash keys, before any other call. */
+  seed_random(low: number, high: number): void;
   begin(): void;
   positions(vertices: number): number;
   normals(vertices: number): number;
@@ -11,50 +13,59 @@ export interface Exports extends WebAssembly.Exports {
   face_sizes(faces: number): number;
 }
 
-/** Memory that stays with a module between calls, in bytes, so that the next need not ask for it again. */
-const KEPT = 2 ** 28;
+/** An instance whose memory exceeds this many bytes after a call is replaced: memory of WebAssembly never shrinks. */
+const MAX_KEPT_MEMORY = 2 ** 28;
 
-/** Makes a call. Errors: not ready yet, not enough memory. */
+/** Runs a function with the exports of an instance. @throws RangeError where WebAssembly has not enough memory. */
 export type Call<E extends Exports> = <R>(work: (exports: E) => R) => R;
 
-/** A module that loads. */
-export interface Engine<E extends Exports> {
-  /** Resolves when calls may begin. */
+/** A module that is loading, or has loaded. */
+export interface WasmModule<E extends Exports> {
+  /** Resolves when calls are possible. */
   ready: Promise<void>;
+  /** Calls the shared instance. @throws Error before {@link ready} has resolved. */
   call: Call<E>;
-  /** An instance for what lasts from call to call. Errors: not ready yet. */
-  own(): Own<E>;
+  /** Makes an instance for state that outlives a call. @throws Error before {@link ready} has resolved. */
+  newInstance(): OwnInstance<E>;
 }
 
-/** An instance that lasts. */
-export interface Own<E extends Exports> {
+/** An instance whose state outlives calls. */
+export interface OwnInstance<E extends Exports> {
   call: Call<E>;
-  /** Whether its memory is so large, or has been so short, that another one is to be begun. */
-  isSpent(): boolean;
+  /** True when new state belongs into another instance: memory is large, or a call ran out of memory. */
+  isFull(): boolean;
 }
 
-/** Compiles what build.mjs deflated. The stream is read piece by piece: `Response` would load an HTTP client in Node.js. */
+/** Inflates and compiles a module. The stream is read chunk by chunk, because `Response` would load an HTTP client in Node.js. */
 async function compile(deflated: Uint8Array<ArrayBuffer>): Promise<WebAssembly.Module> {
   const reader = new Blob([deflated]).stream().pipeThrough(new DecompressionStream('deflate-raw')).getReader();
-  const parts: Uint8Array<ArrayBuffer>[] = [];
-  for (let part = await reader.read(); !part.done; part = await reader.read()) parts.push(part.value);
-  return WebAssembly.compile(await new Blob(parts).arrayBuffer());
+  const chunks: Uint8Array<ArrayBuffer>[] = [];
+  for (let chunk = await reader.read(); !chunk.done; chunk = await reader.read()) chunks.push(chunk.value);
+  return WebAssembly.compile(await new Blob(chunks).arrayBuffer());
 }
 
-/** Begins to load a module; the form without SIMD is asked for only where there is no SIMD. */
+/** Seeds the hash keys of a new instance, so that nobody can make a mesh whose keys collide. */
+function seeded<E extends Exports>(instance: WebAssembly.Instance): E {
+  const exports = instance.exports as E;
+  const [low, high] = crypto.getRandomValues(new Uint32Array(2));
+  exports.seed_random(low!, high!);
+  return exports;
+}
+
+/** Starts to load a module. The form without SIMD is imported only where the one with SIMD does not compile. */
 export function load<E extends Exports>(
   simd: Uint8Array<ArrayBuffer>,
   scalar: () => Promise<{ default: Uint8Array<ArrayBuffer> }>,
-): Engine<E> {
+): WasmModule<E> {
   let module: WebAssembly.Module;
   let exports: E | undefined;
 
   async function start(): Promise<void> {
     module = await compile(simd).catch(async () => compile((await scalar()).default));
-    exports = (await WebAssembly.instantiate(module)).exports as E;
+    exports = seeded(await WebAssembly.instantiate(module));
   }
 
-  const instance = () => new WebAssembly.Instance(module).exports as E;
+  const instantiate = () => seeded<E>(new WebAssembly.Instance(module));
 
   function shared(): E {
     if (!exports) throw new Error('darboux has not loaded yet; await ready before the first call');
@@ -63,40 +74,40 @@ export function load<E extends Exports>(
 
   function call<R>(work: (exports: E) => R): R {
     const exported = shared();
-    let keeps = false;
+    let isUsable = false;
     try {
       const result = work(exported);
-      keeps = true;
+      isUsable = true;
       return result;
     } catch (error) {
-      keeps = !isTrap(error);
-      throw keeps ? error : outOfMemory(error);
+      isUsable = !isTrap(error);
+      throw isUsable ? error : outOfMemory(error);
     } finally {
-      // Memory of WebAssembly never shrinks, and nothing is known of it after a call that ended within.
-      if (!keeps || exported.memory.buffer.byteLength > KEPT) exports = instance();
+      // A trap leaves the instance in an unspecified state.
+      if (!isUsable || exported.memory.buffer.byteLength > MAX_KEPT_MEMORY) exports = instantiate();
     }
   }
 
-  function own(): Own<E> {
+  function newInstance(): OwnInstance<E> {
     shared();
-    const mine = instance();
-    let lost: RangeError | undefined;
+    const own = instantiate();
+    let failure: RangeError | undefined;
     const call: Call<E> = (work) => {
-      if (lost) throw lost;
+      if (failure) throw failure;
       try {
-        return work(mine);
+        return work(own);
       } catch (error) {
-        if (isTrap(error)) lost = outOfMemory(error);
-        throw lost ?? error;
+        if (isTrap(error)) failure = outOfMemory(error);
+        throw failure ?? error;
       }
     };
-    return { call, isSpent: () => lost !== undefined || mine.memory.buffer.byteLength > KEPT };
+    return { call, isFull: () => failure !== undefined || own.memory.buffer.byteLength > MAX_KEPT_MEMORY };
   }
 
   const ready = start();
-  // Who never calls need not hear that nothing loads; who awaits does.
+  // A program that never awaits `ready` gets no unhandled rejection; one that does gets the error.
   ready.catch(() => {});
-  return { ready, call, own };
+  return { ready, call, newInstance };
 }
 
 const isTrap = (error: unknown) => error instanceof WebAssembly.RuntimeError;

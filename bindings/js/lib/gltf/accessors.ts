@@ -1,11 +1,11 @@
-// Accessors as arrays, and back.
+// Conversions between accessors of glTF-Transform and typed arrays.
 
 import type { Accessor, TypedArray } from '@gltf-transform/core';
 
-/** The values of an accessor; quantised ones are what they stand for. Errors: another number of elements than vertices. */
+/** The values of an accessor, dequantised. Errors: the number of elements is not the number of vertices. */
 export function floats(accessor: Accessor, semantic: string, width: number, vertices: number): Float32Array {
   const count = accessor.getCount();
-  if (count !== vertices) throw new RangeError(`${semantic} has ${count} elements for ${vertices} vertices; export the file again`);
+  if (count !== vertices) throw new RangeError(`${semantic} has ${count} elements but there are ${vertices} vertices; export the file again`);
   const array = accessor.getArray();
   if (array instanceof Float32Array) return array;
   const values = new Float32Array(width * count);
@@ -14,7 +14,7 @@ export function floats(accessor: Accessor, semantic: string, width: number, vert
   return values;
 }
 
-/** An accessor with the elements of their sources. */
+/** A copy of an accessor whose element i is the old element `sources[i]`. */
 export function gathered(accessor: Accessor, sources: Uint32Array): Accessor {
   const [array, width] = [accessor.getArray()!, accessor.getElementSize()];
   const result = new (array.constructor as Float32ArrayConstructor)(width * sources.length);
@@ -24,17 +24,17 @@ export function gathered(accessor: Accessor, sources: Uint32Array): Accessor {
   return accessor.clone().setArray(result);
 }
 
-/** Indices in the numbers of the old ones if the vertices do not outgrow them; the largest number is reserved. */
+/** Indices in the integer type of the old indices, or in the next larger type that fits. The largest integer of a type is reserved. */
 export function indexArray(indices: Uint32Array<ArrayBuffer>, vertices: number, old: TypedArray | null | undefined): TypedArray {
   const kinds = [Uint8Array, Uint16Array, Uint32Array].filter((Kind) => Kind.BYTES_PER_ELEMENT >= (old?.BYTES_PER_ELEMENT ?? 2));
   const Kind = kinds.find((Kind) => vertices < 2 ** (8 * Kind.BYTES_PER_ELEMENT)) ?? Uint32Array;
   return Kind.from(indices);
 }
 
-/** Removes accessors that nothing uses any more. */
+/** Disposes of accessors that nothing uses any more. */
 export function disposeUnused(accessors: Iterable<Accessor | null>): void {
   for (const accessor of accessors) {
-    // The root is one parent.
+    // The document's root is always a parent.
     if (accessor && !accessor.isDisposed() && accessor.listParents().length === 1) accessor.dispose();
   }
 }

@@ -1,70 +1,70 @@
-// Primitives over the same vertices, which are split together and go on sharing them.
+// Groups primitives that share vertices. Vertices of a group are split together, so that its primitives keep sharing them.
 
 import type { Accessor, Primitive, PrimitiveTarget } from '@gltf-transform/core';
-import { TRIANGLE_FAN, TRIANGLE_STRIP, type Chosen } from './selection.js';
+import { TRIANGLE_FAN, TRIANGLE_STRIP, type SelectedPrimitive } from './selection.js';
 
-/** Primitives over the same positions, normals and UVs, named as the first. */
-export interface Group extends Omit<Chosen, 'primitive'> {
+/** Primitives with the same positions, normals and UVs. The name is that of the first. */
+export interface Group extends Omit<SelectedPrimitive, 'primitive'> {
   jobs: Job[];
 }
 
-/** Primitives of a group over the same triangles. */
+/** Primitives of a group with the same triangles: their tangents are computed once. */
 export interface Job {
   members: Member[];
   /** The vertex of each corner. */
   corners: Uint32Array<ArrayBuffer>;
-  /** What moves the vertices of its members. */
-  movements: Map<string, Movement>;
+  /** The distinct morph targets of its members, by key. */
+  morphs: Map<string, Morph>;
 }
 
-/** A primitive, and for each of its targets the key of the movement; none where the target gets no offsets. */
+/** A primitive, and for each of its morph targets the key in {@link Job.morphs}; null where the target gets no tangent offsets. */
 export interface Member {
   primitive: Primitive;
-  movements: (string | null)[];
+  morphs: (string | null)[];
 }
 
-/** Offsets of morph targets. */
-export interface Movement {
+/** The position and normal offsets of a morph target. */
+export interface Morph {
   position: Accessor | null;
   normal: Accessor | null;
 }
 
-/** Primitives in groups, in the order in which each is met first. Targets keep the offsets that they have, unless these are overwritten. */
-export function grouped(chosen: Chosen[], overwrite: boolean): Group[] {
-  const key = keys();
+/** Groups primitives, in the order of the first of each group. Existing tangent offsets of targets are kept unless `overwrite` is set. */
+export function groupPrimitives(selected: SelectedPrimitive[], overwrite: boolean): Group[] {
+  const key = keyMaker();
   const groups = new Map<string, Group>();
   const jobs = new Map<string, Job>();
-  for (const { primitive, ...shared } of chosen) {
+  for (const { primitive, ...shared } of selected) {
     const { position, normal, uv } = shared;
-    const group = entry(groups, key(position, normal, uv), () => ({ ...shared, jobs: [] }));
-    const job = entry(jobs, key(position, normal, uv, primitive.getIndices(), primitive.getMode()), () => {
-      const made = { members: [], corners: corners(primitive, position.getCount()), movements: new Map() };
-      group.jobs.push(made);
-      return made;
+    const group = getOrInsert(groups, key(position, normal, uv), () => ({ ...shared, jobs: [] }));
+    const job = getOrInsert(jobs, key(position, normal, uv, primitive.getIndices(), primitive.getMode()), () => {
+      const job = { members: [], corners: cornersOf(primitive, position.getCount()), morphs: new Map() };
+      group.jobs.push(job);
+      return job;
     });
-    ownTargets(primitive);
-    const movements = primitive.listTargets().map((target) => {
-      const movement = { position: target.getAttribute('POSITION'), normal: target.getAttribute('NORMAL') };
+    unshareTargets(primitive);
+    const morphs = primitive.listTargets().map((target) => {
+      const morph = { position: target.getAttribute('POSITION'), normal: target.getAttribute('NORMAL') };
       const isWanted = overwrite || !target.getAttribute('TANGENT');
-      if (!isWanted || !(movement.position || movement.normal)) return null;
-      const name = key(movement.position, movement.normal);
-      job.movements.set(name, movement);
+      if (!isWanted || !(morph.position || morph.normal)) return null;
+      const name = key(morph.position, morph.normal);
+      job.morphs.set(name, morph);
       return name;
     });
-    job.members.push({ primitive, movements });
+    job.members.push({ primitive, morphs });
   }
   return [...groups.values()];
 }
 
-/** Makes keys that lists of the same objects have in common. */
-function keys(): (...objects: unknown[]) => string {
+/** Makes a function that gives equal keys to lists of the same objects. */
+function keyMaker(): (...objects: unknown[]) => string {
   const ids = new Map<unknown, number>();
   const id = (object: unknown) => ids.get(object) ?? ids.set(object, ids.size).size - 1;
   return (...objects) => objects.map(id).join();
 }
 
-/** Gives a primitive targets that no other has. */
-function ownTargets(primitive: Primitive): void {
+/** Clones the morph targets that a primitive shares with another. */
+function unshareTargets(primitive: Primitive): void {
   const targets = primitive.listTargets();
   const isShared = (target: PrimitiveTarget) => target.listParents().some((parent) => parent.propertyType === 'Primitive' && parent !== primitive);
   if (!targets.some(isShared)) return;
@@ -72,8 +72,8 @@ function ownTargets(primitive: Primitive): void {
   for (const target of targets) primitive.addTarget(isShared(target) ? target.clone() : target);
 }
 
-/** The vertex of each corner, of lists, strips and fans alike (glTF 2.0, 3.7.2.1). */
-function corners(primitive: Primitive, vertices: number): Uint32Array<ArrayBuffer> {
+/** The vertex of each corner: a triangle list from a list, a strip or a fan (glTF 2.0, 3.7.2.1). */
+function cornersOf(primitive: Primitive, vertices: number): Uint32Array<ArrayBuffer> {
   const given = primitive.getIndices()?.getArray();
   const list = given ? Uint32Array.from(given) : Uint32Array.from({ length: vertices }, (_, vertex) => vertex);
   const mode = primitive.getMode();
@@ -83,8 +83,8 @@ function corners(primitive: Primitive, vertices: number): Uint32Array<ArrayBuffe
   return Uint32Array.from(triangles.flat(), (place) => list[place]!);
 }
 
-function entry<V>(map: Map<string, V>, key: string, make: () => V): V {
+function getOrInsert<V>(map: Map<string, V>, key: string, create: () => V): V {
   let value = map.get(key);
-  if (value === undefined) map.set(key, (value = make()));
+  if (value === undefined) map.set(key, (value = create()));
   return value;
 }

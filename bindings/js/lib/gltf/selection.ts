@@ -1,11 +1,11 @@
-// Which primitives get tangents, and for which UVs.
+// Selects the primitives that get tangents, and the UV set of each.
 
 import type { Accessor, Document, ILogger, Material, Primitive, TextureInfo } from '@gltf-transform/core';
 
 /** A primitive that gets tangents. */
-export interface Chosen {
+export interface SelectedPrimitive {
   primitive: Primitive;
-  /** Its name in messages. */
+  /** The name in messages. */
   name: string;
   position: Accessor;
   normal: Accessor;
@@ -17,20 +17,21 @@ export const TRIANGLES = 4;
 export const TRIANGLE_STRIP = 5;
 export const TRIANGLE_FAN = 6;
 
-/** The primitives that get tangents, each once; the logger hears why others do not. */
-export function select(document: Document, overwrite: boolean): Chosen[] {
-  const chosen = new Map<Primitive, Chosen>();
+/** The primitives that get tangents, each once. The reason why another does not is logged. */
+export function selectPrimitives(document: Document, overwrite: boolean): SelectedPrimitive[] {
+  const selected = new Map<Primitive, SelectedPrimitive>();
   for (const mesh of document.getRoot().listMeshes()) {
     for (const [at, primitive] of mesh.listPrimitives().entries()) {
       const name = `primitive ${at} of mesh "${mesh.getName()}"`;
-      const found = choose(primitive, name, overwrite, document.getLogger());
-      if (found && !chosen.has(primitive)) chosen.set(primitive, found);
+      const found = eligible(primitive, name, overwrite, document.getLogger());
+      if (found && !selected.has(primitive)) selected.set(primitive, found);
     }
   }
-  return [...chosen.values()];
+  return [...selected.values()];
 }
 
-function choose(primitive: Primitive, name: string, overwrite: boolean, logger: ILogger): Chosen | null {
+/** A primitive with its attributes, or null where one is missing or tangents exist. */
+function eligible(primitive: Primitive, name: string, overwrite: boolean, logger: ILogger): SelectedPrimitive | null {
   const skip = (reason: string) => {
     logger.debug(`tangents: Skipping ${name}: ${reason}.`);
     return null;
@@ -45,7 +46,7 @@ function choose(primitive: Primitive, name: string, overwrite: boolean, logger: 
   return { primitive, name, position, normal, uv };
 }
 
-/** What is read of the extensions, which are classes of a package that need not be there. */
+/** The methods of extensions that are called here. Their classes are in a package that may not be installed. */
 interface Extensions {
   KHR_materials_clearcoat: { getClearcoatNormalTextureInfo(): TextureInfo | null };
   KHR_materials_anisotropy: { getAnisotropyTextureInfo(): TextureInfo | null };
@@ -56,7 +57,7 @@ function extension<N extends keyof Extensions>(owner: Material | TextureInfo, na
   return owner.getExtension(name) as unknown as Extensions[N] | null;
 }
 
-/** The UV set of the normal texture (glTF 2.0, 3.9.3), else of another texture that is seen in tangent space, else the first. */
+/** The UV set of the normal texture (glTF 2.0, 3.9.3), else of the clearcoat normal or anisotropy texture, else 0. */
 function uvSet(material: Material | null): number {
   const info =
     material &&

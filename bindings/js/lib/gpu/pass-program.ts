@@ -1,25 +1,26 @@
-// Runs lists of passes, which crates/darboux-gpu writes (src/mikktspace/passes.rs): the counterpart of its src/mikktspace/program.rs.
+// Compiles and binds lists of compute passes. crates/darboux-gpu writes the lists (shaders/passes.json); its own runner is
+// src/mikktspace/program.rs.
 
-import { buffer, module, scanSteps, step, stepOverList, type Buffers, type Step } from './pipelines.js';
-import { LIST, realStep } from './unsure-items.js';
+import { dispatchStep, indirectStep, scanSteps, shaderModule, storageBuffer, type Buffers, type Step } from './pipelines.js';
+import { exactStep, LIST_BINDING } from './unsure-items.js';
 import { buffers, type Domain, type Entry, type Pass, type Run } from 'darboux-gpu/passes';
 
-/** How many there are. */
+/** The size of a mesh. */
 export interface Sizes {
   vertices: number;
   triangles: number;
 }
 
-/** Buffers by the names that passes know them by. */
-export type Named = Record<string, GPUBuffer>;
+/** Buffers by the names that the list of passes uses. */
+export type NamedBuffers = Record<string, GPUBuffer>;
 
-/** Texts of kernels, by their names. */
-type Kernels = Readonly<Record<string, readonly string[]>>;
+/** The source files of each kernel, by its name. */
+type KernelSources = Readonly<Record<string, readonly string[]>>;
 
-/** What makes prefix sums. */
+/** The entry points of a prefix sum. */
 const SCAN = [{ kernel: 'scan', entry: 'scan' }, { kernel: 'scan', entry: 'add_sums' }] as const;
 
-/** Entry points, each once. */
+/** The distinct entry points of passes. */
 function entriesOf(passes: readonly Pass[]): Entry[] {
   const entries = passes.flatMap((pass): readonly Entry[] => {
     if ('clear' in pass) return [];
@@ -31,10 +32,10 @@ function entriesOf(passes: readonly Pass[]): Entry[] {
 
 const keyOf = ({ kernel, entry }: Entry) => `${kernel} ${entry}`;
 
-/** What to compile; each kernel has one shader. */
-function descriptors(device: GPUDevice, kernels: Kernels, passes: readonly Pass[]): [key: string, GPUComputePipelineDescriptor][] {
+/** A pipeline descriptor per entry point; a shader module per kernel. */
+function descriptors(device: GPUDevice, kernels: KernelSources, passes: readonly Pass[]): [key: string, GPUComputePipelineDescriptor][] {
   const entries = entriesOf(passes);
-  const modules = new Map([...new Set(entries.map(({ kernel }) => kernel))].map((kernel) => [kernel, module(device, kernels[kernel]!)]));
+  const modules = new Map([...new Set(entries.map(({ kernel }) => kernel))].map((kernel) => [kernel, shaderModule(device, kernels[kernel]!)]));
   return entries.map((entry) => {
     const compute = { module: modules.get(entry.kernel)!, entryPoint: entry.entry };
     return [keyOf(entry), { label: keyOf(entry), layout: 'auto', compute }];
@@ -42,7 +43,7 @@ function descriptors(device: GPUDevice, kernels: Kernels, passes: readonly Pass[
 }
 
 /** Compiled passes. */
-export class Program {
+export class PassProgram {
   readonly #passes: readonly Pass[];
   readonly #pipelines: Map<string, GPUComputePipeline>;
 
@@ -50,53 +51,53 @@ export class Program {
     [this.#passes, this.#pipelines] = [passes, new Map(pipelines)];
   }
 
-  /** Compiled when it is first used, or before: as the device likes. */
-  static now(device: GPUDevice, kernels: Kernels, passes: readonly Pass[]): Program {
+  /** Returns at once. The device compiles the shaders no later than at their first use. */
+  static compileLazily(device: GPUDevice, kernels: KernelSources, passes: readonly Pass[]): PassProgram {
     const all = descriptors(device, kernels, passes);
-    return new Program(passes, all.map(([key, descriptor]) => [key, device.createComputePipeline(descriptor)]));
+    return new PassProgram(passes, all.map(([key, descriptor]) => [key, device.createComputePipeline(descriptor)]));
   }
 
-  /** Compiled while the page goes on. Errors: the device refuses a shader. */
-  static async soon(device: GPUDevice, kernels: Kernels, passes: readonly Pass[]): Promise<Program> {
+  /** Compiles in the background. Errors: the device refuses a shader. */
+  static async compile(device: GPUDevice, kernels: KernelSources, passes: readonly Pass[]): Promise<PassProgram> {
     const all = descriptors(device, kernels, passes);
     const pipelines = all.map(async ([key, descriptor]) => [key, await device.createComputePipelineAsync(descriptor)] as const);
-    return new Program(passes, await Promise.all(pipelines));
+    return new PassProgram(passes, await Promise.all(pipelines));
   }
 
-  /** What records the passes, after buffers that `named` lacks have been made there. Errors: RangeError for one that the device cannot bind. */
-  on(device: GPUDevice, sizes: Sizes, named: Named): Step[] {
-    const make = (name: string) => (named[name] ??= made(device, sizes, name));
-    const bound = (run: Run): Buffers => Object.fromEntries(Object.entries(run.buffers).map(([binding, name]) => [binding, make(name)]));
+  /** Binds the passes to buffers and adds the missing buffers to `named`. Errors: RangeError for a buffer that the device cannot bind. */
+  bind(device: GPUDevice, sizes: Sizes, named: NamedBuffers): Step[] {
+    const bufferOf = (name: string) => (named[name] ??= newBuffer(device, sizes, name));
+    const bound = (run: Run): Buffers => Object.fromEntries(Object.entries(run.buffers).map(([binding, name]) => [binding, bufferOf(name)]));
     const pipeline = (entry: Entry) => this.#pipelines.get(keyOf(entry))!;
     return this.#passes.flatMap((pass): Step[] => {
       if ('clear' in pass) {
-        const cleared = make(pass.clear);
+        const cleared = bufferOf(pass.clear);
         return [(encoder) => encoder.clearBuffer(cleared)];
       }
-      const threads = count(sizes, pass.domain);
-      if ('scan' in pass) return scanSteps(device, { scan: pipeline(SCAN[0]), addSums: pipeline(SCAN[1]) }, make(pass.scan), threads);
-      if (!pass.unsure) return [step(device, pipeline(pass), bound(pass), threads)];
-      const { record, list } = realStep(device, pipeline(pass), bound(pass), threads);
-      return [record, stepOverList(device, pipeline(pass.unsure), { ...bound(pass.unsure), [LIST]: list }, list)];
+      const threads = countOf(sizes, pass.domain);
+      if ('scan' in pass) return scanSteps(device, { scan: pipeline(SCAN[0]), addSums: pipeline(SCAN[1]) }, bufferOf(pass.scan), threads);
+      if (!pass.unsure) return [dispatchStep(device, pipeline(pass), bound(pass), threads)];
+      const { record, unsure } = exactStep(device, pipeline(pass), bound(pass), threads);
+      return [record, indirectStep(device, pipeline(pass.unsure), { ...bound(pass.unsure), [LIST_BINDING]: unsure }, unsure)];
     });
   }
 }
 
-function made(device: GPUDevice, sizes: Sizes, name: string): GPUBuffer {
+function newBuffer(device: GPUDevice, sizes: Sizes, name: string): GPUBuffer {
   const [domain, words] = buffers[name]!;
-  const length = words * count(sizes, domain);
-  checkSize(device, name, 4 * length);
-  return buffer(device, name, length);
+  const length = words * countOf(sizes, domain);
+  checkBufferSize(device, name, 4 * length);
+  return storageBuffer(device, name, length);
 }
 
-/** Errors: a buffer that the device cannot make or bind. */
-export function checkSize({ limits }: GPUDevice, what: string, bytes: number): void {
+/** Errors: a buffer that the device cannot create or bind. */
+export function checkBufferSize({ limits }: GPUDevice, name: string, bytes: number): void {
   const limit = Math.min(limits.maxStorageBufferBindingSize, limits.maxBufferSize);
   if (bytes <= limit) return;
-  throw new RangeError(`the buffer of ${what} has ${bytes} bytes, the device binds ${limit} at most; ask for one with larger limits, or compute on the CPU`);
+  throw new RangeError(`the buffer of ${name} needs ${bytes} bytes but the device binds ${limit} at most; request a device with larger limits, or compute on the CPU`);
 }
 
-function count({ vertices, triangles }: Sizes, domain: Domain): number {
+function countOf({ vertices, triangles }: Sizes, domain: Domain): number {
   switch (domain) {
     case 'mesh': return 1;
     case 'vertex': return vertices;

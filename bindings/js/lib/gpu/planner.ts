@@ -1,31 +1,32 @@
-// Topology once, tangents every frame: the counterpart of crates/darboux-gpu/src/plan.rs.
+// Tangents of moving vertices on WebGPU: the mesh is grouped once (`planTopology` of `darboux`), and shaders evaluate its tangents every frame.
+// The native counterpart is crates/darboux-gpu/src/plan.rs.
 
 import shaders from 'darboux-gpu/kernels';
 import { checkRows } from './buffer-checks.js';
-import { buffer, filled, module, pipeline, step, stepOverList, USAGE, type Step } from './pipelines.js';
-import { LIST, list, realStep } from './unsure-items.js';
+import { BUFFER_USAGE, computePipeline, dispatchStep, filledBuffer, indirectStep, shaderModule, storageBuffer, type Step } from './pipelines.js';
+import { exactStep, itemList, LIST_BINDING } from './unsure-items.js';
 import type { PlanTopology } from '../types.js';
 
-/** Floats per vertex or corner in a buffer with the usage STORAGE. Stride and offset count bytes and are multiples of 4. */
+/** Where the floats of vertices or corners lie, in a buffer with the usage STORAGE. Stride and offset are in bytes and multiples of 4. */
 export interface GpuAttribute {
   buffer: GPUBuffer;
   stride: number;
   offset: number;
 }
 
-/** The moving vertices of a plan's mesh, and where their tangents go. All may be parts of one buffer. */
+/** The moving vertices of a planned mesh, and where their tangents go. All attributes may share one buffer. */
 export interface GpuMovingMesh {
   /** Three floats per vertex. */
   positions: GpuAttribute;
-  /** Likewise. */
+  /** Three floats per vertex. */
   normals: GpuAttribute;
-  /** Four floats each, unit xyz and the sign w. A vertex that nothing uses keeps what it has. */
+  /** Four floats each, unit xyz and the sign w. The tangent of an unused vertex is not written. */
   tangents: GpuAttribute;
-  /** What has a tangent of its own. */
+  /** Whether tangents are written per vertex or per corner. */
   per: 'vertex' | 'corner';
 }
 
-/** The kernels of a device. */
+/** The pipelines of plans. */
 interface Kernels {
   terms: GPUComputePipeline;
   gather: GPUComputePipeline;
@@ -33,14 +34,14 @@ interface Kernels {
   write: GPUComputePipeline;
 }
 
-/** What plans need, compiled for a device. */
+/** The shaders of plans, compiled for a device. */
 export class Planner {
   readonly #device: GPUDevice;
   readonly #kernels: Kernels;
 
   constructor(device: GPUDevice) {
     this.#device = device;
-    const compiled = (files: readonly string[], entry = 'every_item') => pipeline(device, module(device, files), entry);
+    const compiled = (files: readonly string[], entry = 'every_item') => computePipeline(device, shaderModule(device, files), entry);
     this.#kernels = {
       terms: compiled(shaders.terms),
       gather: compiled(shaders.gather),
@@ -49,17 +50,17 @@ export class Planner {
     };
   }
 
-  /** Uploads what `planTopology` of `darboux` found. Errors: RangeError for a mesh past the device's limits. */
+  /** Uploads the result of `planTopology` of `darboux`. Errors: RangeError for a mesh beyond the device's limits. */
   plan(topology: PlanTopology): GpuPlan {
     const { maxStorageBufferBindingSize: limit } = this.#device.limits;
     const bytes = Math.max(36 * topology.triangleCount, topology.sums.byteLength, topology.sumOfCorner.byteLength);
-    if (bytes > limit) throw new RangeError(`the plan has a buffer of ${bytes} bytes, the device binds ${limit} at most; use Plan`);
+    if (bytes > limit) throw new RangeError(`the plan needs a buffer of ${bytes} bytes but the device binds ${limit} at most; use Plan`);
     return new GpuPlan(this.#device, this.#kernels, topology);
   }
 }
 
 /**
- * The groups of one mesh on a device, to evaluate its tangents wherever its vertices are: as `Plan` of `darboux`, bit for bit where
+ * The groups of one mesh on a device. Its tangents can be evaluated wherever its vertices are, bit for bit as by `Plan` of `darboux` where
  * {@link PlanOfBuffers.counts} are 0.
  */
 export class GpuPlan {
@@ -75,47 +76,47 @@ export class GpuPlan {
   /** @internal */
   constructor(device: GPUDevice, kernels: Kernels, topology: PlanTopology) {
     [this.#device, this.#kernels, this.#topology] = [device, kernels, topology];
-    this.#triangles = filled(device, 'triangles', topology.triangles);
-    this.#representatives = filled(device, 'representatives', topology.representatives);
-    this.#sums = filled(device, 'sums', topology.sums);
-    this.#terms = buffer(device, 'terms', 9 * topology.triangleCount);
-    this.#tangents = buffer(device, 'tangents', 4 * topology.sumCount);
+    this.#triangles = filledBuffer(device, 'triangles', topology.triangles);
+    this.#representatives = filledBuffer(device, 'representatives', topology.representatives);
+    this.#sums = filledBuffer(device, 'sums', topology.sums);
+    this.#terms = storageBuffer(device, 'terms', 9 * topology.triangleCount);
+    this.#tangents = storageBuffer(device, 'tangents', 4 * topology.sumCount);
   }
 
   /**
-   * Makes what recording needs. One plan serves any number of buffers, one after the other.
+   * Binds the plan to buffers. One plan may be bound to any number of buffers and recorded for one after the other.
    *
-   * @throws RangeError for places that are not whole words, past their buffer or in each other's; for tangents per vertex where corners of
-   * one vertex have several.
+   * @throws RangeError for strides and offsets that are not multiples of 4, for attributes past the end of their buffer, for tangents that
+   * overlap positions or normals, and for tangents per vertex where corners of one vertex have several.
    */
   ofBuffers(mesh: GpuMovingMesh): PlanOfBuffers {
     const { triangleCount, sumCount, repairs } = this.#topology;
     const sumOfOutput = this.#sumOfOutput(mesh.per);
-    check(mesh, this.#topology.vertexCount, sumOfOutput.length);
+    checkBuffers(mesh, this.#topology.vertexCount, sumOfOutput.length);
     const device = this.#device;
-    const plan = filled(device, 'plan', this.#words(mesh, sumOfOutput.length), USAGE.UNIFORM);
-    const unusable = list(device, 'unusable', sumCount);
-    const repaired = buffer(device, 'repaired', 1);
+    const plan = filledBuffer(device, 'plan', this.#words(mesh, sumOfOutput.length), BUFFER_USAGE.UNIFORM);
+    const unusable = itemList(device, 'unusable', sumCount);
+    const repaired = storageBuffer(device, 'repaired', 1);
     const [positions, normals] = [mesh.positions.buffer, mesh.normals.buffer];
     const ofTriangles = { 0: plan, 1: positions, 2: normals, 3: this.#triangles, 4: this.#representatives };
     const toSums = { 0: plan, 2: normals, 3: this.#terms, 5: this.#sums, 6: this.#tangents, 7: unusable.items };
-    const toRepair = { ...ofTriangles, 5: this.#sums, 6: this.#tangents, 8: repaired, [LIST]: unusable.items };
-    const toWrite = { 0: plan, 1: filled(device, 'sum_of_output', sumOfOutput), 2: this.#tangents, 3: mesh.tangents.buffer };
+    const toRepair = { ...ofTriangles, 5: this.#sums, 6: this.#tangents, 8: repaired, [LIST_BINDING]: unusable.items };
+    const toWrite = { 0: plan, 1: filledBuffer(device, 'sum_of_output', sumOfOutput), 2: this.#tangents, 3: mesh.tangents.buffer };
     const { terms, gather, repair, write } = this.#kernels;
-    const counts = buffer(device, 'counts', 3);
+    const counts = storageBuffer(device, 'counts', 3);
     const [ofTerms, ofSums] = [
-      realStep(device, terms, { ...ofTriangles, 5: this.#terms }, triangleCount),
-      realStep(device, gather, toSums, sumCount),
+      exactStep(device, terms, { ...ofTriangles, 5: this.#terms }, triangleCount),
+      exactStep(device, gather, toSums, sumCount),
     ];
     const steps: Step[] = [
       unusable.clear,
       (encoder) => encoder.clearBuffer(repaired),
       ofTerms.record,
       ofSums.record,
-      ...(repairs ? [stepOverList(device, repair, toRepair, unusable.items)] : []),
-      step(device, write, toWrite, sumOfOutput.length),
-      (encoder) => ofTerms.count(encoder, counts, 0),
-      (encoder) => ofSums.count(encoder, counts, 4),
+      ...(repairs ? [indirectStep(device, repair, toRepair, unusable.items)] : []),
+      dispatchStep(device, write, toWrite, sumOfOutput.length),
+      (encoder) => ofTerms.copyUnsureCount(encoder, counts, 0),
+      (encoder) => ofSums.copyUnsureCount(encoder, counts, 4),
       (encoder) => encoder.copyBufferToBuffer(repaired, 0, counts, 8, 4),
     ];
     return new PlanOfBuffers(steps, counts);
@@ -128,22 +129,22 @@ export class GpuPlan {
     throw new RangeError(`${splitVertices} vertices have several tangents; split them first (splitVertices)`);
   }
 
-  /** The shaders' `Plan`. */
+  /** The struct `Plan` of the shaders. */
   #words({ positions, normals, tangents }: GpuMovingMesh, outputs: number): Uint32Array {
     const { vertexCount, triangleCount, degenerateCount, sumCount, repairs } = this.#topology;
     const places = [positions, normals, tangents].flatMap(({ offset, stride }) => [offset / 4, stride / 4]);
-    // What only checks read, and a zero.
+    // The last words are read by the native checks only.
     return Uint32Array.of(vertexCount, triangleCount, degenerateCount, sumCount, outputs, ...places, Number(repairs), 0, 0, 0, 0);
   }
 }
 
-/** A {@link GpuPlan} on a caller's buffers: recorded every frame, without allocation. */
+/** A {@link GpuPlan} bound to a caller's buffers. Recording it every frame allocates nothing. */
 export class PlanOfBuffers {
   readonly #steps: readonly Step[];
 
   /**
-   * Three words to copy from: triangles and tangents whose last bits the device's floats leave open, for which there is `Plan`; unusable
-   * tangents that were replaced, nearly as `Plan` replaces them.
+   * Three words to copy from: triangles whose last bits the device's floats leave open, tangents likewise, and unusable tangents that were
+   * replaced, nearly as by `Plan`. Where one of the first two is not 0, `Plan` computes the exact bits.
    */
   readonly counts: GPUBuffer;
 
@@ -152,23 +153,23 @@ export class PlanOfBuffers {
     [this.#steps, this.counts] = [steps, counts];
   }
 
-  /** Records the tangents of where the vertices are when the device comes to it. */
+  /** Records the evaluation. It reads the vertices when the device executes the commands. */
   record(encoder: GPUCommandEncoder): void {
     for (const step of this.#steps) step(encoder);
   }
 }
 
-function check({ positions, normals, tangents }: GpuMovingMesh, vertices: number, outputs: number): void {
-  const rows = (what: string, { buffer, stride, offset }: GpuAttribute, count: number, bytes: number) =>
-    checkRows(what, buffer, stride, offset, count, bytes);
-  rows('positions', positions, vertices, 12);
-  rows('normals', normals, vertices, 12);
-  rows('tangents', tangents, outputs, 16);
-  if (tangents.stride < 16) throw new RangeError(`tangents are ${tangents.stride} bytes apart but have 16`);
-  for (const [what, other] of [['positions', positions], ['normals', normals]] as const) {
+function checkBuffers({ positions, normals, tangents }: GpuMovingMesh, vertices: number, outputs: number): void {
+  const check = (name: string, { buffer, stride, offset }: GpuAttribute, count: number, bytes: number) =>
+    checkRows(name, buffer, stride, offset, count, bytes);
+  check('positions', positions, vertices, 12);
+  check('normals', normals, vertices, 12);
+  check('tangents', tangents, outputs, 16);
+  if (tangents.stride < 16) throw new RangeError(`the stride of the tangents is ${tangents.stride} bytes but a tangent has 16`);
+  for (const [name, other] of [['positions', positions], ['normals', normals]] as const) {
     const isBeside = other.buffer === tangents.buffer && other.stride === tangents.stride;
     const [start, end] = [tangents.offset % tangents.stride, (tangents.offset % tangents.stride) + 16];
     const own = other.offset % tangents.stride;
-    if (isBeside && start < own + 12 && own < end) throw new RangeError(`the tangents would overwrite the ${what}; give them a place of their own`);
+    if (isBeside && start < own + 12 && own < end) throw new RangeError(`the tangents would overwrite the ${name}; give them another offset`);
   }
 }

@@ -1,45 +1,46 @@
-// Kernels of exact arithmetic, which list what they are unsure of: the counterpart of crates/darboux-gpu/src/device/precision.rs, whose second kernels,
-// on whole numbers, take software adapters of browsers minutes to compile. Here the caller has the CPU.
+// Kernels of exact arithmetic list the items whose last bits the device's floats leave open. The native counterpart,
+// crates/darboux-gpu/src/device/precision.rs, computes these items with a second kernel on integers. Software adapters of browsers take minutes to
+// compile that kernel, so here the caller computes the listed items on the CPU.
 
-import { filled, step, USAGE, type Buffers, type Step } from './pipelines.js';
+import { BUFFER_USAGE, dispatchStep, filledBuffer, type Buffers, type Step } from './pipelines.js';
 
-/** The binding of the list. */
-export const LIST = 9;
+/** The binding number of the list. */
+export const LIST_BINDING = 9;
 
-/** An indirect dispatch of no groups, and an empty list. */
-const NOTHING = Uint32Array.of(0, 1, 1, 0);
+/** The head of an empty list: an indirect dispatch of no workgroups, and the length 0. */
+const EMPTY_HEAD = Uint32Array.of(0, 1, 1, 0);
 
-/** Items that a kernel leaves to others. */
-export interface List {
+/** The numbers of items that another kernel, or the CPU, computes. */
+export interface ItemList {
   items: GPUBuffer;
   clear: Step;
-  /** Records a copy of the number of items to a byte of `into`. */
-  count(encoder: GPUCommandEncoder, into: GPUBuffer, offset: number): void;
+  /** Records a copy of the length to a byte offset of `into`. */
+  copyLength(encoder: GPUCommandEncoder, into: GPUBuffer, offset: number): void;
 }
 
-/** Room for so many items. */
-export function list(device: GPUDevice, label: string, room: number): List {
-  const usage = USAGE.STORAGE | USAGE.INDIRECT | USAGE.COPY_DST | USAGE.COPY_SRC;
-  const items = device.createBuffer({ label, size: NOTHING.byteLength + 4 * Math.max(room, 1), usage });
-  const nothing = filled(device, 'nothing', NOTHING, USAGE.COPY_SRC);
+/** An empty list of at most `capacity` items. */
+export function itemList(device: GPUDevice, label: string, capacity: number): ItemList {
+  const usage = BUFFER_USAGE.STORAGE | BUFFER_USAGE.INDIRECT | BUFFER_USAGE.COPY_DST | BUFFER_USAGE.COPY_SRC;
+  const items = device.createBuffer({ label, size: EMPTY_HEAD.byteLength + 4 * Math.max(capacity, 1), usage });
+  const head = filledBuffer(device, 'empty_head', EMPTY_HEAD, BUFFER_USAGE.COPY_SRC);
   return {
     items,
-    clear: (encoder) => encoder.copyBufferToBuffer(nothing, 0, items, 0, NOTHING.byteLength),
-    count: (encoder, into, offset) => encoder.copyBufferToBuffer(items, 12, into, offset, 4),
+    clear: (encoder) => encoder.copyBufferToBuffer(head, 0, items, 0, EMPTY_HEAD.byteLength),
+    copyLength: (encoder, into, offset) => encoder.copyBufferToBuffer(items, 12, into, offset, 4),
   };
 }
 
-/** Such a kernel with its buffers. */
-export interface RealStep {
+/** A kernel of exact arithmetic with its buffers. */
+export interface ExactStep {
   record: Step;
-  /** The items that it was unsure of. */
-  list: GPUBuffer;
-  /** Records a copy of their number. */
-  count: List['count'];
+  /** The items that the kernel left open. */
+  unsure: GPUBuffer;
+  /** Records a copy of the number of these items. */
+  copyUnsureCount: ItemList['copyLength'];
 }
 
-export function realStep(device: GPUDevice, kernel: GPUComputePipeline, buffers: Buffers, items: number): RealStep {
-  const unsure = list(device, 'unsure', items);
-  const run = step(device, kernel, { ...buffers, [LIST]: unsure.items }, items);
-  return { record: (encoder) => [unsure.clear, run].forEach((step) => step(encoder)), list: unsure.items, count: unsure.count };
+export function exactStep(device: GPUDevice, kernel: GPUComputePipeline, buffers: Buffers, items: number): ExactStep {
+  const unsure = itemList(device, 'unsure', items);
+  const run = dispatchStep(device, kernel, { ...buffers, [LIST_BINDING]: unsure.items }, items);
+  return { record: (encoder) => [unsure.clear, run].forEach((step) => step(encoder)), unsure: unsure.items, copyUnsureCount: unsure.copyLength };
 }

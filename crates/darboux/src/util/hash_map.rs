@@ -4,7 +4,7 @@
 //! compiled once per type, which the WebAssembly build cannot afford. The hash is seeded at random, so that no mesh can be made whose
 //! keys collide.
 
-use std::hash::{BuildHasher, RandomState};
+use crate::util::random::random_bits;
 
 /// A map from keys to values. Values are stored in insertion order.
 #[derive(Debug)]
@@ -51,7 +51,7 @@ const FREE: u32 = u32::MAX;
 
 impl KeyTable {
     fn new() -> Self {
-        Self { words: Vec::new(), ends: Vec::new(), slots: vec![FREE; 4], factor: random_seed() | 1 }
+        Self { words: Vec::new(), ends: Vec::new(), slots: vec![FREE; 4], factor: random_bits() | 1 }
     }
 
     /// The number of a key, which is inserted if it is absent.
@@ -100,12 +100,6 @@ impl KeyTable {
             self.slots[slot] = number as u32;
         }
     }
-}
-
-/// 64 random bits from the standard library's hasher.
-#[inline(never)]
-pub(crate) fn random_seed() -> u64 {
-    RandomState::new().hash_one(0)
 }
 
 #[cfg(test)]

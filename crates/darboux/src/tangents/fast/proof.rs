@@ -6,7 +6,7 @@
 use std::sync::OnceLock;
 
 use crate::math::V3;
-use crate::util::hash_map::random_seed;
+use crate::util::random::random_bits;
 
 /// The sign of a vertex at which the tests fail: its tangent is left to the general path.
 pub const UNDECIDED: f32 = 0.0;
@@ -83,7 +83,7 @@ pub(crate) fn first_ray_count(marks: u32) -> f32 {
 pub(crate) fn fingerprint_key() -> [u32; 2] {
     static KEY: OnceLock<[u32; 2]> = OnceLock::new();
     *KEY.get_or_init(|| {
-        let bits = random_seed();
+        let bits = random_bits();
         [bits as u32, (bits >> 32) as u32]
     })
 }
