@@ -1,21 +1,22 @@
-//! The folder that is shipped to users of C and C++: include, lib, cmake, examples.
+//! `cargo xtask dist-c`: the folder for users of C and C++, with headers, libraries, CMake and pkg-config files, and examples.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::Instant;
 
 use crate::run::{Outcome, output_of, program, root, run, target_folder};
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// A library and its names.
+/// A shipped library.
 struct Library {
     package: &'static str,
-    /// What cargo calls it.
+    /// Its name in cargo's target folder.
     built: &'static str,
-    /// What users call it.
+    /// Its name in the shipped folder.
     shipped: &'static str,
-    /// Its functions.
+    /// A pattern for the names of its public functions.
     functions: &'static str,
 }
 
@@ -29,11 +30,11 @@ const LIBRARIES: &[Library] = &[
     },
 ];
 
-/// Files of bindings/c that are shipped as they are, and their places.
+/// Files that are copied unchanged: their paths in bindings/c and in the shipped folder.
 const FILES: &[(&str, &str)] = &[
     ("include/darboux.h", "include/darboux.h"),
     ("include/darboux.hpp", "include/darboux.hpp"),
-    // In a folder of its own, as programs may have another of this name.
+    // In a folder of its own, because programs may have another file of this name.
     ("include/mikktspace.h", "include/mikktspace/mikktspace.h"),
     ("cmake/darboux-config.cmake", "cmake/darboux-config.cmake"),
     ("examples/CMakeLists.txt", "examples/CMakeLists.txt"),
@@ -46,7 +47,7 @@ const FILES: &[(&str, &str)] = &[
     ("../../LICENSE-MIT", "LICENSE-MIT"),
 ];
 
-/// Files that name a version, and their places.
+/// Files in which the version is filled in: their paths in bindings/c and in the shipped folder.
 const TEMPLATES: &[(&str, &str)] = &[
     ("cmake/darboux-config-version.cmake.in", "cmake/darboux-config-version.cmake"),
     ("pkgconfig/darboux.pc.in", "lib/pkgconfig/darboux.pc"),
@@ -55,6 +56,13 @@ const TEMPLATES: &[(&str, &str)] = &[
 
 /// `cargo xtask dist-c`: makes the folder, and prints its absolute path as the last line.
 pub fn make() -> Outcome {
+    println!("{}", make_folder()?.display());
+    Ok(())
+}
+
+/// Makes the folder; gives its path. Progress goes to standard error.
+pub fn make_folder() -> Result<PathBuf, String> {
+    let start = Instant::now();
     if !matches!(std::env::consts::OS, "linux" | "macos") {
         return Err(format!(
             "dist-c makes the folder on Linux and macOS, not on {}; docs/c.md says how the libraries are built elsewhere",
@@ -67,7 +75,8 @@ pub fn make() -> Outcome {
         fs::remove_dir_all(&folder)
             .map_err(|error| format!("{} cannot be removed: {error}", folder.display()))?;
     }
-    for library in LIBRARIES {
+    for (number, library) in LIBRARIES.iter().enumerate() {
+        eprintln!("dist-c: building lib{} ({} of {})", library.shipped, number + 1, LIBRARIES.len());
         build(library)?;
         let built = target.join("dist").join(format!("lib{}", library.built));
         put_shared(library, &built, &folder.join("lib"))?;
@@ -76,11 +85,11 @@ pub fn make() -> Outcome {
     let ours = root().join("bindings/c");
     FILES.iter().try_for_each(|(from, to)| copy(&ours.join(from), &folder.join(to)))?;
     TEMPLATES.iter().try_for_each(|(from, to)| fill_in(&ours.join(from), &folder.join(to)))?;
-    println!("{}", folder.display());
-    Ok(())
+    eprintln!("dist-c: done, {:.1} s", start.elapsed().as_secs_f32());
+    Ok(folder)
 }
 
-/// The versions that programs need not be linked anew for: before 1.0 those of one minor version.
+/// The part of the version that stays while programs need not be linked again: before 1.0 major and minor.
 fn series() -> String {
     VERSION.split('.').take(2).collect::<Vec<_>>().join(".")
 }
@@ -94,7 +103,7 @@ fn shared_name(library: &Library, version: &str) -> String {
     }
 }
 
-/// Builds both forms. The shared one carries the name that programs look for at their start.
+/// Builds the shared and the static library. The shared one carries the name that loaders look for.
 fn build(library: &Library) -> Outcome {
     let name = shared_name(library, &series());
     let own_name = if cfg!(target_os = "macos") {
@@ -106,7 +115,7 @@ fn build(library: &Library) -> Outcome {
     run(cargo.args([library.package, "--", "-C", &own_name]))
 }
 
-/// Puts the shared library under its full name, and links to it under the names that loaders and linkers look for.
+/// Copies the shared library under its full name, and makes links under the names that loaders and linkers look for.
 fn put_shared(library: &Library, built: &Path, folder: &Path) -> Outcome {
     let extension = if cfg!(target_os = "macos") { "dylib" } else { "so" };
     let name = shared_name(library, VERSION);
@@ -128,8 +137,8 @@ fn link_to(name: &str, link: &Path) -> Outcome {
     copy(&link.with_file_name(name), link)
 }
 
-/// Puts the static library. On Linux it becomes one object that shows its functions only: two libraries with the same parts of Rust's
-/// own library cannot be linked into one program otherwise.
+/// Copies the static library. On Linux it becomes one object whose only global symbols are its public functions. Otherwise two libraries
+/// that both contain Rust's standard library could not be linked into one program.
 fn put_static(library: &Library, built: &Path, folder: &Path) -> Outcome {
     let (archive, out) = (built.with_extension("a"), folder.join(format!("lib{}.a", library.shipped)));
     if !cfg!(target_os = "linux") {
@@ -148,7 +157,7 @@ fn put_static(library: &Library, built: &Path, folder: &Path) -> Outcome {
     run(Command::new("ar").arg("rcs").args([&out, &object]))
 }
 
-/// What a shared library offers.
+/// The names of a shared library's exported functions.
 fn functions(library: &Path) -> Result<Vec<String>, String> {
     let listed =
         output_of(Command::new("nm").args(["-D", "--defined-only", "--format=just-symbols"]).arg(library))?;

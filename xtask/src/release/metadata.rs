@@ -1,0 +1,93 @@
+//! The fields that registries show.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::VERSION;
+use crate::run::{Outcome, output_of, program, root};
+
+/// Errors: a field, a README or the changelog's section for this version is missing.
+pub fn check() -> Outcome {
+    let mut faults = Vec::new();
+    for package in published()? {
+        faults.extend(crate_faults(&package));
+    }
+    let pyproject = read("bindings/python/pyproject.toml")?;
+    for field in ["description", "readme", "requires-python", "license", "keywords", "classifiers"] {
+        if !pyproject.lines().any(|line| line.starts_with(&format!("{field} = "))) {
+            faults.push(format!("bindings/python/pyproject.toml has no {field}"));
+        }
+    }
+    let npm: Value = serde_json::from_str(&read("bindings/js/lib/package.json")?)
+        .map_err(|error| format!("bindings/js/lib/package.json: {error}"))?;
+    for field in ["description", "keywords", "license", "exports"] {
+        if npm[field].is_null() {
+            faults.push(format!("bindings/js/lib/package.json has no {field}"));
+        }
+    }
+    for readme in ["bindings/python/README.md", "bindings/js/README.md"] {
+        if !root().join(readme).exists() {
+            faults.push(format!("{readme} is missing"));
+        }
+    }
+    if !has_section(&read("CHANGELOG.md")?) {
+        faults.push(format!("the first section of CHANGELOG.md must be \"## {VERSION}\""));
+    }
+    if faults.is_empty() { Ok(()) } else { Err(faults.join("; ")) }
+}
+
+/// The packages that go to crates.io, in an order in which each comes after those that it needs.
+pub fn published() -> Result<Vec<Value>, String> {
+    let text = output_of(&mut program("cargo metadata --format-version 1 --no-deps"))?;
+    let mut metadata: Value =
+        serde_json::from_slice(&text).map_err(|error| format!("cargo metadata: {error}"))?;
+    let Value::Array(mut packages) = metadata["packages"].take() else {
+        return Err("cargo metadata lists no packages".into());
+    };
+    packages.retain(|package| package["publish"].is_null());
+    let names: Vec<String> = packages.iter().map(|package| name(package).to_owned()).collect();
+    packages.sort_by_key(|package| {
+        let dependencies = package["dependencies"].as_array().into_iter().flatten();
+        dependencies.filter(|one| names.iter().any(|name| one["name"] == name.as_str())).count()
+    });
+    Ok(packages)
+}
+
+/// The name of a package.
+pub fn name(package: &Value) -> &str {
+    package["name"].as_str().unwrap_or_default()
+}
+
+fn crate_faults(package: &Value) -> Vec<String> {
+    let is_missing = |field: &&str| match &package[*field] {
+        Value::Null => true,
+        Value::Array(list) => list.is_empty(),
+        Value::String(text) => text.is_empty(),
+        _ => false,
+    };
+    let fields = ["description", "license", "readme", "keywords", "categories", "rust_version"];
+    let mut faults: Vec<String> = fields
+        .iter()
+        .filter(|field| is_missing(field))
+        .map(|field| format!("{} has no {field}", name(package)))
+        .collect();
+    if package["keywords"].as_array().is_some_and(|keywords| keywords.len() > 5) {
+        faults.push(format!("{} has more than the five keywords that crates.io takes", name(package)));
+    }
+    if package["version"] != VERSION {
+        faults.push(format!("{} has another version than {VERSION}", name(package)));
+    }
+    faults
+}
+
+fn has_section(changelog: &str) -> bool {
+    let first = changelog.lines().find_map(|line| line.strip_prefix("## ")).unwrap_or_default();
+    first.split(' ').next() == Some(VERSION)
+}
+
+fn read(name: &str) -> Result<String, String> {
+    let path: &Path = &root().join(name);
+    fs::read_to_string(path).map_err(|error| format!("{name} cannot be read: {error}"))
+}
