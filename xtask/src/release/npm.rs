@@ -8,7 +8,8 @@ use crate::{dist_js, doc_blocks};
 
 /// Makes the npm package, packs and installs it, and runs the example.
 pub fn check() -> Outcome {
-    let made = dist_js::make_folder()?;
+    dist_js::make()?;
+    let made = dist_js::folder()?;
     let work = empty_folder("npm")?;
     run(program("npm pack --silent --pack-destination").arg(&work).current_dir(&made))?;
     let archive = work.join(format!("darboux-{VERSION}.tgz"));
