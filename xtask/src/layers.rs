@@ -23,7 +23,6 @@ const CYCLES_ALLOWED: &[&str] = &[
     "bindings/js/src",
     "crates/darboux-cli/src",
     "crates/darboux/src",
-    "tests/shaders/src",
     "viewer/src",
 ];
 

@@ -5,9 +5,13 @@ mod absent;
 #[cfg(feature = "gpu")]
 pub mod adapter;
 #[cfg(feature = "gpu")]
+mod driver_messages;
+#[cfg(feature = "gpu")]
 mod present;
 
 #[cfg(not(feature = "gpu"))]
 pub use absent::{OpenGpu, open};
+#[cfg(feature = "gpu")]
+pub use driver_messages::without_driver_messages;
 #[cfg(feature = "gpu")]
 pub use present::{OpenGpu, adapters, open};

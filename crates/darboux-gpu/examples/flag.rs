@@ -1,6 +1,7 @@
-//! A flag waves on the device: its vertices are moved there, and a plan gives it normals and tangents there, all in one command encoder.
+//! Draws a waving flag. The GPU moves its vertices, and a plan computes their normals and tangents, all in one command encoder.
 //!
-//! The UVs of its outer half mirror those of the inner. Above with a plan's tangents, below with those of the flag at rest.
+//! The UVs of its outer half mirror those of the inner half. The upper row uses the tangents of the plan, the lower row those of the flag at
+//! rest.
 //!
 //! `cargo run -p darboux-gpu --example flag -- docs/flag.png`
 
@@ -13,9 +14,9 @@ use picture::{HEIGHT, Painter, WIDTH};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{Buffer, BufferUsages};
 
-/// Moments that are shown, beside each other.
+/// The times of the pictures, from left to right.
 const TIMES: [f32; 3] = [0.0, 1.7, 3.4];
-/// Position, normal, UV and tangent.
+/// The byte length of a vertex: position, normal, UV and tangent.
 const STRIDE: u32 = 48;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -26,7 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_compression(png::Compression::High);
     encoder.set_filter(png::Filter::Adaptive);
-    // Six bits of each colour are enough to see, and half as long.
+    // Six bits per channel halve the size of the file.
     let colors: Vec<u8> =
         pixels.as_chunks::<4>().0.iter().flat_map(|pixel| [0, 1, 2].map(|k| pixel[k] & 0xfc)).collect();
     encoder.write_header()?.write_image_data(&colors)?;
@@ -34,7 +35,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Paints all moments; RGBA, row by row.
+/// Draws all times. Returns RGBA, row by row.
 pub fn paint(gpu: &Gpu) -> Result<Vec<u8>, Box<dyn std::error::Error>> {
     let flag = Flag::new()?;
     let painter = Painter::new(gpu, flag.split.indices.as_slice());
@@ -63,7 +64,7 @@ pub fn paint(gpu: &Gpu) -> Result<Vec<u8>, Box<dyn std::error::Error>> {
     Ok(painter.finish(encoder))
 }
 
-/// The flag at rest, its vertices split where tangents differ.
+/// The flag at rest, with vertices split where tangents differ.
 struct Flag {
     positions: Vec<[f32; 3]>,
     normals: Vec<[f32; 3]>,
@@ -71,7 +72,7 @@ struct Flag {
     split: VertexSplit,
 }
 
-/// Quads along the flag and up.
+/// The number of quads along the flag and up.
 const SIZE: [usize; 2] = [72, 40];
 
 impl Flag {
@@ -105,12 +106,12 @@ impl Flag {
         Mesh::triangles(&self.positions, &self.normals, &self.uvs, &self.split.indices)
     }
 
-    /// The positions.
+    /// A buffer of the positions.
     fn upload(&self, gpu: &Gpu) -> Buffer {
         buffer(gpu, self.positions.as_flattened())
     }
 
-    /// The vertices as they are drawn.
+    /// A buffer of the vertices, as they are drawn.
     fn vertices(&self, gpu: &Gpu) -> Buffer {
         let all = self.positions.iter().zip(&self.normals).zip(&self.uvs).zip(&self.split.tangent_of_vertex);
         let words = all.flat_map(|(((position, normal), uv), tangent)| {

@@ -1,14 +1,14 @@
-//! How near each adapter comes to the core, on families of meshes, the corpus and random meshes: `cargo run -p darboux-gpu --example report`.
+//! Compares MikkTSpace on each adapter with the core, on families of meshes, the corpus and random meshes.
 //!
-//! Prints a table in Markdown: corners with the core's bits, the largest distance of a component in units in the last place, corners of another
-//! sign, corners in another group, and how many corners the CPU did.
+//! `cargo run -p darboux-gpu --example report` prints a table in Markdown: the number of corners with the bits of the core, the largest
+//! difference of a component in ulp, the number of corners with another sign or in another group, and of corners that the CPU computed.
 
 use darboux::internal::stage_arrays::{NONE, Stages};
 use darboux::{Faces, MikktOptions, Mode, TangentOptions, generate_tangents};
 use darboux_gpu::{Gpu, GpuError, MikkTSpace};
 use darboux_tests::{Case, OwnedMesh, corpus, families};
 
-/// What is reported of an adapter.
+/// The row of an adapter.
 #[derive(Default)]
 struct Row {
     corners: usize,
@@ -47,7 +47,7 @@ fn meshes() -> Vec<OwnedMesh> {
     meshes.extend(corpus::corpus().into_iter().map(|specimen| specimen.mesh));
     meshes.extend((0..2_000).map(|seed| Case::from_seed(seed).mesh));
     meshes.retain(|mesh| matches!(mesh.view().faces(), Faces::Triangles) && mesh.corner_count() > 0);
-    // Soup has few whole fans: some noise on a grid keeps them all, with every rounding there is.
+    // Random meshes have few complete triangle fans. Grids with noise have only complete fans, and all kinds of rounding.
     meshes.extend((0..20).map(noisy_grid));
     meshes
 }
@@ -87,13 +87,13 @@ impl Row {
     }
 }
 
-/// A float's place among all floats.
+/// Maps floats to integers of the same order.
 fn ordered(x: f32) -> i64 {
     let size = i64::from(x.to_bits() & !(1 << 31));
     if x.is_sign_negative() { -size } else { size }
 }
 
-/// Corners that are not in the core's group, at vertices without UV-degenerate triangles.
+/// The number of corners that are in another group than in the core, at vertices without UV-degenerate triangles.
 fn other_groups(kernels: &MikkTSpace, mesh: &OwnedMesh) -> Result<usize, GpuError> {
     let options = MikktOptions::new().with_mode(Mode::Corrected);
     let found = kernels.stage_arrays(&mesh.view(), &options)?;

@@ -1,4 +1,4 @@
-//! How long everything takes, on every adapter and on one thread of the CPU.
+//! Measures all algorithms of this crate on every adapter, and the same on one thread of the CPU.
 //!
 //! `cargo xtask bench --gpu [--quick] [TRIANGLES ...]`
 
@@ -18,14 +18,14 @@ use darboux_tests::{OwnedMesh, families};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{Buffer, BufferUsages};
 
-/// Triangles of the grids.
+/// The numbers of triangles of the grids.
 const SIZES: [usize; 4] = [2_000, 200_000, 1_000_000, 10_000_000];
 const QUICK: [usize; 2] = [2_000, 20_000];
-/// Vertices times triangles beyond which brute force is left out: on a GPU, in software.
+/// The largest product of vertices and triangles for which brute force is measured: on a GPU, on a software adapter.
 const BRUTE_FORCE_ENDS: [usize; 2] = [30_000_000_000, 50_000_000];
-/// Bytes copied to find the rate of copying: more than any cache holds.
+/// The bytes of the copy that measures the memory bandwidth, more than any cache holds.
 const COPIED: u64 = 1 << 28;
-/// Position, UV, normal, tangent and its sign.
+/// The byte length of a vertex: position, UV, normal, tangent and sign.
 const STRIDE: u32 = 48;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -45,28 +45,28 @@ fn main() -> Result<(), Box<dyn Error>> {
         let (info, kind) = (gpu.device.adapter_info(), gpu.kind());
         println!("{}, {kind}, {}, {} {}", info.name, info.backend, info.driver, info.driver_info);
         if kind == AdapterKind::Software {
-            println!("A CPU that runs shaders: these times say nothing about a GPU's.");
+            println!("This is a software adapter. Its times do not indicate those of a GPU.");
         }
         let clock = Clock::new(&gpu, if is_quick { 3 } else { 11 });
         let bench = Bench { gpu: &gpu, rate: copy_rate(&gpu, &clock), clock, kind };
         println!("copies: {:.1} GB/s, read and written\n", bench.rate * 1e-6);
         for &size in sizes {
-            bench.print_all(size).or_else(left_out)?;
+            bench.print_all(size).or_else(print_limit)?;
         }
     }
     Ok(())
 }
 
-/// Says what an adapter is too little for. Errors: all others.
-fn left_out(error: Box<dyn Error>) -> Result<(), Box<dyn Error>> {
+/// Prints what the limits of an adapter do not allow. Errors: all other errors.
+fn print_limit(error: Box<dyn Error>) -> Result<(), Box<dyn Error>> {
     match error.downcast_ref() {
-        Some(GpuError::PastLimit { .. }) => println!("the rest is left out: {error}\n"),
+        Some(GpuError::PastLimit { .. }) => println!("skipped: {error}\n"),
         _ => return Err(error),
     }
     Ok(())
 }
 
-/// Bytes per millisecond of a copy on the device, read and written.
+/// The bytes per millisecond that a copy on the device reads and writes.
 fn copy_rate(gpu: &Gpu, clock: &Clock<'_>) -> f64 {
     let usage = BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
     let buffer = || {
@@ -113,7 +113,7 @@ impl Bench<'_> {
         Ok(())
     }
 
-    /// `bytes`: what must be read and written.
+    /// `bytes`: the least number of bytes that must be read and written.
     fn print(&self, what: &str, mesh: &Uploaded, times: Times, bytes: Option<u64>) {
         let milliseconds = times.device.unwrap_or(times.wall);
         let device = times.device.map_or("-".to_owned(), |time| format!("{time:.3}"));
@@ -158,7 +158,7 @@ impl Bench<'_> {
             per: TangentsPer::Vertex,
         };
         let [vertices, triangles] = [uploaded.vertex_count, uploaded.triangle_count].map(u64::from);
-        // Positions, normals, tangents; triangles, members, ends, vertices of sums and sums of vertices.
+        // Positions, normals, tangents; triangles, members and ends of sums, vertices of sums, sums of vertices.
         let bytes = (24 + 16) * vertices + (20 + 12) * triangles + 12 * vertices;
         for precision in [Precision::Exact, Precision::Fast] {
             let planner = Planner::new(&self.gpu.device, precision);
@@ -194,12 +194,12 @@ impl Bench<'_> {
         let options = TangentOptions::default();
         let mikktspace = MikkTSpace::new(self.gpu)?;
         let recorded = mikktspace.recording(&mesh.view(), &MikktOptions::new())?;
-        // Vertices, indices; a tangent per corner.
+        // Vertices, indices and a tangent per corner.
         let bytes = 32 * vertices + 12 * triangles + 48 * triangles;
         let times = self.clock.time(|encoder| recorded.record(encoder));
         self.print("MikkTSpace, buffers", uploaded, times, Some(bytes));
         let times = self.clock.time_cpu(|| {
-            black_box(mikktspace.generate_tangents(&mesh.view(), &options)).expect("a device that goes on");
+            black_box(mikktspace.generate_tangents(&mesh.view(), &options)).expect("a working device");
         });
         self.print("MikkTSpace, with transfers", uploaded, times, None);
         let times = self.clock.time_cpu(|| {

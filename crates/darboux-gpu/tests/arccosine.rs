@@ -1,4 +1,4 @@
-//! The arccosine of shaders against the platform's in double precision, rounded: what the core's is, on every float.
+//! Compares the arccosine of the shaders with that of the platform in double precision, rounded to floats, which is that of the core.
 
 mod common;
 
@@ -11,7 +11,7 @@ const FILES: &[&str] = &[
     include_str!("../shaders/precision/uint64.wgsl"),
     include_str!("../shaders/precision/arccosine.wgsl"),
 ];
-/// Both ways, of which the first takes the second where it is not sure.
+/// The short and the long computation. The short one calls the long one if its rounding is undecided.
 const BODY: &str = "let x = bitcast<f32>(given[at]);
     got[into] = bitcast<u32>(arccosine(x));
     got[into + 1u] = bitcast<u32>(long_arccosine(x));";
@@ -29,12 +29,12 @@ fn check(sizes: impl Iterator<Item = u32>) {
             assert!(is_right, "acos({x:e}): {found:e}, {long:e}, not {right:e}");
         }
     }
-    println!("{} arccosines as on the CPU", samples.len());
+    println!("{} arccosines are those of the CPU", samples.len());
 }
 
 #[test]
 fn arccosines_are_those_of_the_cpu() {
-    // Everywhere, what is rounded twice, and every float next to 1, to 1/2 and to where asin x is half a unit of pi/2.
+    // A sample of all floats, the float that is rounded twice, and all floats next to 1, to 1/2 and to where asin x is half an ulp of pi/2.
     let around = |x: f32| x.to_bits() - 30_000..(x.to_bits() + 30_000).min(ONE + 1);
     let sample = (0..=ONE).step_by(1_999);
     check(
@@ -45,7 +45,7 @@ fn arccosines_are_those_of_the_cpu() {
 #[test]
 #[ignore = "minutes"]
 fn all_arccosines_are_those_of_the_cpu() {
-    // Below 2^-27 all are one float.
+    // Below 2^-27 the result is constant.
     for start in (0x3200_0000..=ONE).step_by(1 << 22) {
         check(start..(start + (1 << 22)).min(ONE + 1));
     }

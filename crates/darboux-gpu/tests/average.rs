@@ -1,4 +1,4 @@
-//! The average on every adapter, both ways, against the core's and its f64 twin.
+//! Compares the method `Average` on every adapter, with both searches, with the core and with the oracle in double precision.
 
 mod common;
 
@@ -11,17 +11,17 @@ use darboux::{Method, TangentOptions, generate_frames};
 use darboux_gpu::{FrameLayout, Search, VertexLayout};
 use darboux_tests::{Case, OwnedMesh, corpus, families, oracle};
 
-/// How vertices fared in a comparison.
+/// Counts of compared vertices.
 #[derive(Debug, Default)]
 struct Tally {
     compared: usize,
     same_bits_as_core: usize,
     unsure: usize,
-    /// The largest error, in parts of its bound.
+    /// The largest error as a fraction of its bound.
     of_bound: f64,
 }
 
-/// Runs a mesh both ways, apart and in place, and compares with the core.
+/// Runs a mesh with both searches, into a separate buffer and in place, and compares the frames with the core.
 fn check(name: &str, mesh: &OwnedMesh, tally: &mut Tally) {
     let mesh = triangulated(mesh);
     if mesh.corner_count() == 0 {
@@ -47,7 +47,7 @@ fn check(name: &str, mesh: &OwnedMesh, tally: &mut Tally) {
     }
 }
 
-/// That the words of frames are those of `apart`, and all others as they were.
+/// Checks that the words of frames equal those of `apart`, and that all other words are unchanged.
 fn check_in_place(name: &str, packed: &Packed, apart: &Found, found: &Found) {
     let mut expected = packed.vertices.clone();
     for v in 0..packed.vertex_count as usize {
@@ -80,7 +80,7 @@ fn compare(name: &str, mesh: &OwnedMesh, found: &[GpuFrame], tally: &mut Tally) 
         };
         assert_eq!(sign, right, "{name}, vertex {v}: sign");
         let expected = core.corners.per_corner()[corner];
-        // Faces without an orientation may take a side that no triangle of the vertex has.
+        // Faces without an orientation may take an orientation that no triangle of the vertex has.
         if expected.sign != sign || expected.tangent == [0.0; 3] || std::mem::replace(&mut is_seen[v], true) {
             continue;
         }
@@ -89,10 +89,10 @@ fn compare(name: &str, mesh: &OwnedMesh, found: &[GpuFrame], tally: &mut Tally) 
             assert!(error <= bound, "{name}, vertex {v}, {what}: {found:?}, not {expected:?} to {bound:e}");
             tally.of_bound = tally.of_bound.max(error / bound);
         };
-        // Both are off.
+        // Both have errors.
         near("tangent", tangent, expected.tangent, 2.0 * tangent_bound);
         near("bitangent", bitangent, expected.bitangent, 2.0 * bitangent_bound);
-        // Without a normal the twin takes that of the triangles.
+        // Without a normal the oracle uses those of the triangles.
         let slow = slow.as_ref().filter(|_| mesh.normals[v] != [0.0; 3]);
         if let Some(expected) = slow.and_then(|slow| slow[corner]) {
             near("tangent in f64", tangent, expected.tangent, tangent_bound + 2.0 * U);
@@ -106,7 +106,7 @@ fn compare(name: &str, mesh: &OwnedMesh, found: &[GpuFrame], tally: &mut Tally) 
     }
 }
 
-/// Every vertex has a frame that can be used: unit vectors in the plane of the normal, if it has one.
+/// Checks that a frame is usable: unit vectors, perpendicular to the normal if there is one.
 fn check_shape(name: &str, v: usize, (tangent, sign, bitangent): &GpuFrame, normal: [f32; 3]) {
     assert!(sign.abs() == 1.0, "{name}, vertex {v}: sign {sign}");
     let normal = normal.map(f64::from);
@@ -175,7 +175,7 @@ fn any_layout_of_whole_words_gives_the_same_bits() {
 }
 
 #[test]
-fn what_is_not_asked_for_is_not_written() {
+fn absent_parts_of_frames_are_not_written() {
     let mesh = triangulated(&families::grid(5, 5, false, true));
     let packed = pack(&mesh, ENGINE);
     for gpu in gpus() {
@@ -187,7 +187,7 @@ fn what_is_not_asked_for_is_not_written() {
         let tangent_and_sign = FrameLayout { tangent: 36, bitangent: None, sign: Some(48) };
         let found = run(gpu, Search::Adjacency, &packed, Place::InPlace(tangent_and_sign));
         assert!(found.words == expected);
-        // Nor is anything behind the last vertex.
+        // The words after the last vertex are unchanged.
         assert_eq!(all.words.len(), 7 * mesh.positions.len() + 1);
         assert_eq!(all.words.last(), Some(&UNTOUCHED));
     }
@@ -207,7 +207,7 @@ fn every_run_gives_the_same_bits() {
 }
 
 #[test]
-fn triangles_of_indices_out_of_range_count_for_nothing() {
+fn triangles_with_indices_out_of_range_are_ignored() {
     let mesh = triangulated(&families::grid(6, 4, false, false));
     let packed = pack(&mesh, ENGINE);
     let mut broken = packed.clone();
@@ -227,7 +227,7 @@ fn triangles_of_indices_out_of_range_count_for_nothing() {
 
 #[test]
 fn vertices_without_a_direction_and_of_both_orientations_are_counted() {
-    // Two columns of quads, the second mirrored: the three vertices between them are of both orientations. One more vertex is unused.
+    // Two columns of quads, of which the second is mirrored: the three vertices between them have both orientations. One vertex is unused.
     let mut mesh = triangulated(&families::grid(2, 2, false, true));
     mesh.push(([0.0; 3], [0.0, 0.0, -1.0], [0.0; 2]));
     for gpu in gpus() {
@@ -238,7 +238,7 @@ fn vertices_without_a_direction_and_of_both_orientations_are_counted() {
 }
 
 #[test]
-fn lists_longer_than_a_piece_are_taken_in_pieces() {
+fn long_index_lists_are_processed_in_ranges() {
     let grid = triangulated(&families::grid(9, 9, false, true));
     let faces = vec![grid.face_list(); 250].concat();
     assert!(faces.len() > 40_000);
@@ -248,7 +248,7 @@ fn lists_longer_than_a_piece_are_taken_in_pieces() {
 }
 
 #[test]
-fn hubs_past_the_limit_are_counted() {
+fn vertices_with_too_many_triangles_are_counted() {
     let triangle = triangulated(&families::strip(1));
     let faces = vec![triangle.face_list(); 32_769].concat();
     let (within, past) = (triangle.clone().with_face_list(&faces[1..]), triangle.with_face_list(&faces));

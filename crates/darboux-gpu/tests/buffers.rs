@@ -1,4 +1,4 @@
-//! Indices of every form, and what is wrong with buffers.
+//! Tests index buffers of every format, and the errors for wrong buffers.
 
 mod common;
 
@@ -40,7 +40,7 @@ fn a_part_of_a_longer_list_is_a_mesh() {
 }
 
 #[test]
-fn a_mesh_of_nothing_is_nothing_to_do() {
+fn an_empty_mesh_changes_nothing() {
     let mut packed = pack(&triangulated(&families::strip(2)), ENGINE);
     packed.indices.clear();
     for gpu in gpus() {
@@ -50,7 +50,7 @@ fn a_mesh_of_nothing_is_nothing_to_do() {
     }
 }
 
-/// Ten vertices and two triangles, in order.
+/// Buffers of ten vertices and two triangles.
 struct Given {
     vertices: Buffer,
     indices: Buffer,
@@ -83,7 +83,7 @@ fn fault(gpu: &Gpu, mesh: MeshBuffers<'_>, destination: Destination<'_>) -> Stri
 }
 
 #[test]
-fn faults_of_layouts_are_named() {
+fn wrong_layouts_are_errors() {
     for gpu in gpus() {
         let given = given(gpu, BufferUsages::STORAGE);
         let plain = mesh(&given);
@@ -125,7 +125,7 @@ fn faults_of_layouts_are_named() {
 }
 
 #[test]
-fn faults_of_buffers_are_named() {
+fn wrong_buffers_are_errors() {
     for gpu in gpus() {
         let given_here = given(gpu, BufferUsages::STORAGE);
         let plain = mesh(&given_here);
@@ -158,11 +158,11 @@ fn faults_of_buffers_are_named() {
 }
 
 #[test]
-fn what_a_device_cannot_bind_is_named() {
+fn buffers_past_the_limits_are_errors() {
     for gpu in gpus() {
         let size = gpu.device.limits().max_buffer_size;
         let limit = gpu.device.limits().max_storage_buffer_binding_size.min(u64::from(u32::MAX));
-        // Only where a buffer that is too large to bind can be had without touching its memory.
+        // The test needs a buffer that is too large to bind, but not too large to create.
         if limit >= size || limit > 1 << 28 {
             continue;
         }

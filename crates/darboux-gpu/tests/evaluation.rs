@@ -1,4 +1,4 @@
-//! Derivatives and frames of shaders against the core's, bit for bit, from the core's groups.
+//! Compares the derivatives and frames of the shaders with the core, bit by bit. The groups are those of the core.
 
 mod common;
 
@@ -13,24 +13,24 @@ use darboux_gpu::internal::{Arithmetic, Evaluation, EvaluationKernels, GroupedMe
 use darboux_tests::{Case, OwnedMesh, corpus, families};
 use wgpu::BufferUsages;
 
-/// Several meshes as one: their welded vertices, triangles and groups, and what the core makes of them.
+/// Several meshes as one: their welded vertices, triangles and groups, and the results of the core.
 #[derive(Default)]
 struct Batch {
     vertices: Vec<u32>,
     vertex_of_corner: Vec<u32>,
     triangle_flags: Vec<u32>,
     seed_of_corner: Vec<u32>,
-    /// Eight words per triangle, and its orientation where quads have no say.
+    /// Eight words per triangle, and its orientation; none for halves of quads, whose orientation depends on the other half.
     derivatives: Vec<([u32; 8], u32)>,
-    /// Eight words per corner, where one sum is all that it has.
+    /// Eight words per corner; none for corners with several sums.
     frames: Vec<Option<[u32; 8]>>,
-    /// What a fault is called.
+    /// The first triangle of each mesh, and its name.
     names: Vec<(usize, String)>,
 }
 
 const ALL: &[Arithmetic] = &[Arithmetic::Exact, Arithmetic::HostileDevice, Arithmetic::SoftFloat];
 
-/// Members of all sums of one mesh.
+/// The most members of all sums of one mesh.
 const LIMIT: usize = 1 << 22;
 
 fn bits(x: f32) -> u32 {
@@ -71,7 +71,7 @@ impl Batch {
             let first = good.face.get(t + 1) == Some(&good.face[t]);
             let triangle_flags = u32::from(stages.preserves[t]) | u32::from(derivative.joins_any) << 1;
             self.triangle_flags.push(triangle_flags | u32::from(second) << 3);
-            // Of UV-degenerate triangles nothing reads the derivatives.
+            // The derivatives of UV-degenerate triangles are not used.
             let values = words(derivative.s, derivative.t, derivative.magnitude).map(without_sign_of_zero);
             let sides = if first || second { NONE } else { u32::from(derivative.preserves) };
             self.derivatives.push((values, sides));
@@ -92,7 +92,7 @@ impl Batch {
             let sums = stages.sums.of_corner[corner as usize];
             let frame = &frames[corner as usize];
             let values = words(frame.tangent, frame.bitangent, frame.magnitude);
-            // The average of a frame with itself is that frame, unless something in it is NaN.
+            // The average of a frame with itself is that frame, unless it has a NaN.
             let is_nan = values.contains(&f32::NAN.to_bits());
             let is_one = sums[1] == NONE || (sums[0] == sums[1] && !is_nan);
             self.frames.push((seed != NONE && is_one).then_some(values));
@@ -103,7 +103,7 @@ impl Batch {
         self.triangle_flags.len()
     }
 
-    /// The triangles at each vertex, and where they end.
+    /// The triangles at each vertex, and the ends of their ranges.
     fn adjacency(&self) -> [Vec<u32>; 2] {
         let mut of_vertex = vec![Vec::new(); self.vertices.len() / 8];
         for (corner, &vertex) in self.vertex_of_corner.iter().enumerate() {
@@ -135,7 +135,7 @@ impl Batch {
                 assert_eq!(found.triangle_flags[t] & 1, *sides, "{}: orientation", name(t));
             }
             assert_eq!(found.triangle_flags[t] & 2, self.triangle_flags[t] & 2, "{}: any", name(t));
-            // Nothing depends on the signs of their zeros.
+            // Results do not depend on the signs of these zeros.
             let derivatives = canonical(&found.derivatives, t).map(without_sign_of_zero);
             assert_eq!(derivatives, *expected, "{}: derivatives", name(t));
         }
@@ -148,7 +148,7 @@ impl Batch {
             }
         }
         println!(
-            "{} on {}, {arithmetic:?}: {} triangles and {compared} corners identical; in whole numbers: {:?}",
+            "{} on {}, {arithmetic:?}: {} triangles and {compared} corners identical; computed with integers: {:?}",
             self.names[0].1,
             gpu.name,
             self.triangles(),
@@ -221,7 +221,7 @@ struct Found {
     counts: [u32; 3],
 }
 
-/// Eight words, every NaN one.
+/// Eight words, with all NaNs replaced by one.
 fn canonical(words: &[u32], at: usize) -> [u32; 8] {
     std::array::from_fn(|k| bits(f32::from_bits(words[8 * at + k])))
 }

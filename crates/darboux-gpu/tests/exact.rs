@@ -1,4 +1,4 @@
-//! Arithmetic of shaders against that of Rust, bit for bit.
+//! Compares the corrected and the emulated float arithmetic of the shaders with Rust, bit by bit.
 
 mod common;
 
@@ -25,7 +25,7 @@ impl Random {
     }
 }
 
-/// Where arithmetic is hard: the ends of every range, and what is next to powers of two and to one half of a unit.
+/// Words for which rounding is hard: the ends of all ranges, and neighbours of powers of two and of ties.
 fn hard() -> Vec<u32> {
     let mut words = Vec::new();
     for exponent in
@@ -41,7 +41,7 @@ fn hard() -> Vec<u32> {
     words
 }
 
-/// Products that are above half of the smallest subnormal by less than 256 parts in 2^47.
+/// Factors whose product is above half of the smallest subnormal number by less than 256 / 2^47 of it.
 fn just_above_half() -> impl Iterator<Item = [u32; 3]> {
     let product = 1u64 << 47;
     (1 << 23..1 << 24).filter_map(move |a: u64| {
@@ -53,7 +53,7 @@ fn just_above_half() -> impl Iterator<Item = [u32; 3]> {
     })
 }
 
-/// All pairs of hard words, random words, random words of like size, and small ones; a third word from 0 to 8 beside.
+/// All pairs of hard words, and pairs of random words, of random words of similar size and of small ones. Each has a third word from 0 to 8.
 fn pairs() -> Vec<[u32; 3]> {
     let hard = hard();
     let mut pairs: Vec<[u32; 3]> =
@@ -62,13 +62,13 @@ fn pairs() -> Vec<[u32; 3]> {
     let mut random = Random(5);
     for step in 0..STEPS {
         let (a, b) = (random.word(), random.word());
-        // Exponents that differ by less than 32.
+        // The exponents differ by less than 32.
         let near = a.wrapping_add((b & 0x0fff_ffff).wrapping_sub(0x0800_0000)) ^ (b & 1 << 31);
         let third = random.word() % 9;
         pairs.push(match step % 3 {
             0 => [a, b, third],
             1 => [a, near, third],
-            // Exponents of 0 to 31: what is subnormal, and what makes it normal.
+            // The exponents are 0 to 31: subnormal numbers, and numbers that make them normal.
             _ => [a & 0x8fff_ffff, b & 0x8fff_ffff, third],
         });
     }
@@ -79,7 +79,7 @@ fn is_plain(x: f32) -> bool {
     x.is_normal() || x == 0.0
 }
 
-/// Every answer has Rust's bits where operands and result are normal, and what is zero is so with any sign.
+/// Checks that every result has the bits of Rust if operands and result are normal or zero. Zeros may have any sign.
 fn check(name: &str, body: &str, exact: impl Fn(f32, f32) -> f32, is_defined: impl Fn(f32, f32) -> bool) {
     let pairs = pairs();
     for (device, gpu) in DEVICES.iter().flat_map(|device| gpus().iter().map(move |gpu| (device, gpu))) {
@@ -95,14 +95,14 @@ fn check(name: &str, body: &str, exact: impl Fn(f32, f32) -> f32, is_defined: im
                 compared += 1;
             }
         }
-        println!("{name} on {}: {compared} as in Rust", gpu.name);
+        println!("{name} on {}: {compared} results are those of Rust", gpu.name);
     }
 }
 
-/// What devices compute, and what they may.
+/// The floats of the device, and those of the simulated hostile device.
 const DEVICES: &[&str] = &[FILES[0], include_str!("../shaders/precision/hostile_floats.wgsl")];
 
-/// Applies `call` to floats a and b, with `near` units to be off by.
+/// A body that applies `call` to floats a and b. `near`: an error in ulp.
 fn body(call: &str) -> String {
     format!(
         "let a = bitcast<f32>(given[at]);
@@ -112,14 +112,14 @@ fn body(call: &str) -> String {
     )
 }
 
-/// The reciprocal of a significand, off by `near` units.
+/// The quotient from a reciprocal with an error of `near` ulp.
 const ROUGH_QUOTIENT: &str = "quotient_near(a, b, bitcast<f32>(u32(i32(bitcast<u32>(\
     1.0 / bitcast<f32>(bitcast<u32>(b) & 0x7fffffu | ONE))) + near)))";
-/// As well, of a root.
+/// The square root from a reciprocal root with an error of `near` ulp.
 const ROUGH_ROOT: &str = "root_and_reciprocal_near(a, from_one_to_four(bitcast<u32>(a)), bitcast<f32>(u32(i32(\
     bitcast<u32>(inverseSqrt(from_one_to_four(bitcast<u32>(a))))) + near)))";
 
-/// Not a product that is zero because it is too small.
+/// Whether the product is exact zero or does not underflow.
 fn lasts(a: f32, b: f32) -> bool {
     is_plain(a * b) && (a * b != 0.0 || a == 0.0 || b == 0.0)
 }
@@ -143,7 +143,7 @@ fn products_are_rounded_before_they_are_added() {
 
 #[test]
 fn quotients_are_rounded() {
-    // What is rounded to the smallest normal number may be less.
+    // A quotient that rounds to the smallest normal number may be subnormal.
     let is_defined = |a: f32, b: f32| b != 0.0 && (a == 0.0 || (a / b).abs() > f32::MIN_POSITIVE);
     check("quotient", &body("quotient(a, b)"), |a, b| a / b, is_defined);
     check("quotient from an estimate", &body(ROUGH_QUOTIENT), |a, b| a / b, is_defined);
@@ -152,7 +152,7 @@ fn quotients_are_rounded() {
 #[test]
 fn roots_are_rounded() {
     let is_defined = |a: f32, _| a >= 0.0;
-    // Of zero nobody asks for it.
+    // The reciprocal root of zero is unspecified.
     let inverse = |a: f32, _| if a == 0.0 { 0.0 } else { 1.0 / a.sqrt() };
     for call in ["root_and_reciprocal(a)", ROUGH_ROOT] {
         check("root", &body(&format!("{call}.x")), |a, _| a.sqrt(), is_defined);
@@ -162,7 +162,7 @@ fn roots_are_rounded() {
     check("one over a root alone", &body("select(reciprocal_root(a), 0.0, a == 0.0)"), inverse, is_defined);
 }
 
-/// Every answer has Rust's bits, whatever the operands are; NaN is NaN.
+/// Checks that every result has the bits of Rust, for all operands. Any NaN equals any NaN.
 fn check_soft(name: &str, call: &str, exact: impl Fn(f32, f32) -> f32) {
     let body = format!("let a = given[at]; let b = given[at + 1u]; got[into] = {call};");
     let samples: Vec<[u32; 2]> = pairs().into_iter().map(|[a, b, _]| [a, b]).collect();
@@ -174,7 +174,7 @@ fn check_soft(name: &str, call: &str, exact: impl Fn(f32, f32) -> f32) {
             let is_right = found.to_bits() == right.to_bits() || (found.is_nan() && right.is_nan());
             assert!(is_right, "{name} of {a:e} and {b:e}: {found:e}, not {right:e}");
         }
-        println!("{name} on {}: {} as in Rust", gpu.name, samples.len());
+        println!("{name} on {}: {} results are those of Rust", gpu.name, samples.len());
     }
 }
 

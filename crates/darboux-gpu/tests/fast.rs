@@ -1,4 +1,4 @@
-//! The fast precision of plans: within a bound of the core's tangents, with the same signs.
+//! Tests that plans in fast precision give the core's tangents within a bound, and the same signs.
 
 mod common;
 
@@ -13,7 +13,7 @@ use darboux::{MikktOptions, Mode};
 use darboux_gpu::{Gpu, Planner, Precision, TangentsPer};
 use darboux_tests::{Case, OwnedMesh, families, models};
 
-/// How tangents fared: those compared, the largest error in radians, and in parts of its bound.
+/// Counts of compared tangents, the largest error in radians, and the largest error as a fraction of its bound.
 #[derive(Debug, Default)]
 struct Tally {
     compared: usize,
@@ -37,7 +37,7 @@ fn check(planner: &Planner, gpu: &Gpu, name: &str, mesh: &OwnedMesh, tally: &mut
             tally.unknown += 1;
             continue;
         };
-        // Both are off.
+        // Both have errors.
         let error = length([0, 1, 2].map(|i| f64::from(found[i]) - f64::from(expected[i])));
         assert!(error <= 2.0 * bound, "{name}, corner {corner}: off by {error:e}, not {bound:e}");
         tally.compared += 1;

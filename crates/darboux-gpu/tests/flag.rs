@@ -1,4 +1,4 @@
-//! The flag of the example is drawn, and its waves show.
+//! Draws the flag of the example and checks that the tangents of the plan change the picture.
 
 mod common;
 #[path = "../examples/flag.rs"]

@@ -1,4 +1,4 @@
-//! Devices that hold little: pieces, and errors that name what is too large.
+//! Tests devices with small limits: meshes in several tiles, and errors that name the buffer that is too large.
 
 mod common;
 
@@ -13,7 +13,7 @@ use darboux_gpu::{
 use darboux_tests::{Case, OwnedMesh, families};
 use wgpu::{Backends, BufferUsages, DeviceDescriptor, IndexFormat, Instance, InstanceDescriptor, Limits};
 
-/// Every adapter with a device whose buffers hold so many bytes.
+/// A device of every adapter whose buffers are limited to this many bytes.
 fn small_devices(bytes: u64) -> Vec<Gpu> {
     devices(InstanceDescriptor::new_without_display_handle(), |limits| Limits {
         max_buffer_size: bytes,
@@ -23,7 +23,7 @@ fn small_devices(bytes: u64) -> Vec<Gpu> {
 }
 
 fn devices(descriptor: InstanceDescriptor, limited: impl Fn(Limits) -> Limits) -> Vec<Gpu> {
-    // Says once where there are none.
+    // Prints once if there are no adapters.
     if gpus().is_empty() {
         return Vec::new();
     }
@@ -32,20 +32,20 @@ fn devices(descriptor: InstanceDescriptor, limited: impl Fn(Limits) -> Limits) -
     let open = |adapter: &wgpu::Adapter| {
         let required_limits = limited(adapter.limits());
         let asked = adapter.request_device(&DeviceDescriptor { required_limits, ..Default::default() });
-        let (device, queue) = pollster::block_on(asked).expect("a device that asks for less");
+        let (device, queue) = pollster::block_on(asked).expect("a device with smaller limits");
         Gpu { name: adapter.get_info().name, device, queue }
     };
     adapters.iter().map(open).collect()
 }
 
-/// The bytes of 42 triangles and of 128 vertices.
-const LITTLE: u64 = 4096;
+/// The byte length of 42 triangles, and of 128 vertices.
+const SMALL_LIMIT: u64 = 4096;
 
 /// MikkTSpace on such devices, compiled once.
-fn little() -> &'static [MikkTSpace] {
+fn small_kernels() -> &'static [MikkTSpace] {
     static KERNELS: OnceLock<Vec<MikkTSpace>> = OnceLock::new();
     let compile = |gpu: &Gpu| MikkTSpace::new(gpu).expect("valid shaders");
-    KERNELS.get_or_init(|| small_devices(LITTLE).iter().map(compile).collect())
+    KERNELS.get_or_init(|| small_devices(SMALL_LIMIT).iter().map(compile).collect())
 }
 
 fn has_the_bits_of_the_core(kernels: &MikkTSpace, name: &str, mesh: &OwnedMesh) -> usize {
@@ -62,8 +62,8 @@ fn has_the_bits_of_the_core(kernels: &MikkTSpace, name: &str, mesh: &OwnedMesh) 
 }
 
 #[test]
-fn vertices_past_a_binding_are_cut_into_pieces() {
-    for kernels in little() {
+fn vertices_past_a_binding_are_split_into_submeshes() {
+    for kernels in small_kernels() {
         for (name, mesh) in [
             ("as many vertices as fit", families::grid(15, 7, false, false)),
             ("more", families::grid(15, 8, false, false)),
@@ -77,8 +77,8 @@ fn vertices_past_a_binding_are_cut_into_pieces() {
 }
 
 #[test]
-fn random_meshes_in_little_pieces_have_the_bits_of_the_core() {
-    for kernels in little() {
+fn random_meshes_in_small_tiles_have_the_bits_of_the_core() {
+    for kernels in small_kernels() {
         for seed in 0..150 {
             let mesh = triangulated(&Case::from_seed(seed).mesh);
             has_the_bits_of_the_core(kernels, &format!("seed {seed}"), &mesh);
@@ -87,7 +87,7 @@ fn random_meshes_in_little_pieces_have_the_bits_of_the_core() {
 }
 
 #[test]
-fn where_no_triangle_fits_an_error_says_so() {
+fn a_limit_below_one_triangle_is_an_error() {
     let mesh = families::grid(4, 4, false, false);
     for gpu in small_devices(64) {
         let kernels = MikkTSpace::new(&gpu).expect("valid shaders");
@@ -97,12 +97,12 @@ fn where_no_triangle_fits_an_error_says_so() {
 }
 
 #[test]
-fn what_little_devices_cannot_hold_is_named() {
+fn buffers_past_small_limits_are_errors() {
     let mesh = families::grid(20, 20, false, false);
     let (view, options) = (mesh.view(), TangentOptions::default());
     let tangents = generate_tangents(&view, &options).corners;
-    for gpu in small_devices(LITTLE) {
-        let limit = LITTLE;
+    for gpu in small_devices(SMALL_LIMIT) {
+        let limit = SMALL_LIMIT;
         let split = Splitter::new(&gpu).expect("valid shaders").split_vertices(&view, &tangents);
         let bytes = 16 * mesh.corner_count() as u64;
         assert_eq!(split.err(), Some(GpuError::PastLimit { what: "the tangents", bytes, limit }));
@@ -112,10 +112,10 @@ fn what_little_devices_cannot_hold_is_named() {
     }
 }
 
-/// The caller's own buffers fit, those of the adjacency do not.
+/// The buffers of the caller fit, those of the adjacency do not.
 #[test]
-fn a_table_past_a_binding_is_named() {
-    for gpu in small_devices(LITTLE) {
+fn an_adjacency_past_a_binding_is_an_error() {
+    for gpu in small_devices(SMALL_LIMIT) {
         let words = |count: usize| buffer(&gpu, &vec![0; count], BufferUsages::STORAGE);
         let (vertices, indices, frames) = (words(14), words(1_023), words(7));
         let mesh = MeshBuffers {
@@ -131,20 +131,20 @@ fn a_table_past_a_binding_is_named() {
         let refused = Average::new(&gpu.device, Search::Adjacency).of_mesh(&mesh, &frames).err();
         let bytes = 4 * 2_046;
         let what = "the triangles at each vertex";
-        assert_eq!(refused, Some(GpuError::PastLimit { what, bytes, limit: LITTLE }));
+        assert_eq!(refused, Some(GpuError::PastLimit { what, bytes, limit: SMALL_LIMIT }));
     }
 }
 
-/// In a process of its own, whose memory ends soon after everything is compiled.
+/// Runs in a separate process whose memory is limited after everything is compiled.
 #[test]
 #[cfg_attr(not(target_os = "linux"), ignore = "processes have no limits elsewhere")]
-fn memory_that_is_used_up_is_an_error() {
-    const NAME: &str = "memory_that_is_used_up_is_an_error";
-    const IS_CHILD: &str = "DARBOUX_TEST_IN_LITTLE_MEMORY";
+fn exhausted_memory_is_an_error() {
+    const NAME: &str = "exhausted_memory_is_an_error";
+    const IS_CHILD: &str = "DARBOUX_TEST_LIMITED_MEMORY";
     if std::env::var_os(IS_CHILD).is_some() {
-        return run_in_little_memory();
+        return run_with_limited_memory();
     }
-    // A real GPU has memory of its own, which no process can limit.
+    // The memory of a hardware GPU cannot be limited per process.
     if software().is_none() || !has_prlimit() {
         let why = "skipped: no adapter whose memory is this machine's, or no prlimit (Debian: util-linux)";
         writeln!(std::io::stdout(), "{why}").expect("standard output");
@@ -154,7 +154,7 @@ fn memory_that_is_used_up_is_an_error() {
     let mut child = std::process::Command::new(program);
     let output = child.args([NAME, "--exact", "--nocapture"]).env(IS_CHILD, "1").output().expect("a process");
     let said = String::from_utf8_lossy(&output.stdout);
-    assert!(output.status.success() && said.contains("refused in little memory"), "{said}");
+    assert!(output.status.success() && said.contains("rejected with limited memory"), "{said}");
 }
 
 fn has_prlimit() -> bool {
@@ -164,14 +164,14 @@ fn has_prlimit() -> bool {
         .is_ok_and(|output| output.status.success())
 }
 
-/// An adapter whose memory is this machine's.
+/// An adapter that uses the memory of the CPU.
 fn software() -> Option<&'static Gpu> {
     gpus().iter().find(|gpu| gpu.name.contains("llvmpipe"))
 }
 
-fn run_in_little_memory() {
-    let gpu = software().expect("as in the process before");
-    // In one piece, in the stress build too.
+fn run_with_limited_memory() {
+    let gpu = software().expect("an adapter, as in the parent process");
+    // One tile, in the stress build too.
     let kernels = MikkTSpace::new(gpu).expect("valid shaders").with_tile_size(1 << 28);
     let status = std::fs::read_to_string("/proc/self/status").expect("Linux");
     let size = status.lines().find_map(|line| line.strip_prefix("VmSize:")?.trim().strip_suffix(" kB"));
@@ -183,13 +183,13 @@ fn run_in_little_memory() {
     let mesh = families::grid(500, 500, false, false);
     let refused = kernels.generate_tangents(&mesh.view(), &TangentOptions::default()).err();
     assert_eq!(refused, Some(GpuError::OutOfMemory));
-    // What fits is done as before.
+    // A mesh that fits still works.
     has_the_bits_of_the_core(&kernels, "after that", &families::grid(10, 10, false, false));
-    println!("refused in little memory");
+    println!("rejected with limited memory");
 }
 
 #[test]
-fn a_device_lost_in_the_middle_is_an_error_or_too_late() {
+fn a_device_lost_during_a_run_is_an_error() {
     let mesh = families::grid(100, 100, false, true);
     let options = TangentOptions::default();
     let expected = generate_tangents(&mesh.view(), &options);

@@ -1,4 +1,4 @@
-//! MikkTSpace on every adapter, against the core's bits.
+//! Compares MikkTSpace on every adapter with the core, bit by bit.
 
 mod common;
 
@@ -8,7 +8,7 @@ use darboux_gpu::internal::Arithmetic;
 use darboux_gpu::{CpuFallback, Gpu, GpuError, GpuTangents, MikkTSpace, Splitter};
 use darboux_tests::{Case, OwnedMesh, corpus, families};
 
-/// How corners fared.
+/// Counts of compared corners and meshes.
 #[derive(Debug, Default)]
 struct Tally {
     corners: usize,
@@ -17,7 +17,7 @@ struct Tally {
     whole_on_cpu: usize,
 }
 
-/// Compares tangents, signs and reports with the core's, in every mode.
+/// Compares tangents and reports with those of the core, in every mode.
 fn check(name: &str, mesh: &OwnedMesh, threshold: f32, tally: &mut Tally) {
     check_with(kernels(), name, mesh, threshold, tally);
 }
@@ -73,7 +73,7 @@ fn families_have_the_bits_of_the_core() {
         check(name, &mesh, 60.0, &mut tally);
     }
     println!("{tally:?}");
-    // In the stress build pieces are small, and vertices between them many.
+    // In the stress build tiles are small, and many vertices lie between them.
     assert!(tally.of_cpu * 4 < tally.corners || gpus().is_empty() || cfg!(small_limits));
 }
 
@@ -102,7 +102,7 @@ fn random_meshes_have_the_bits_of_the_core() {
 }
 
 #[test]
-fn what_the_cpu_does_is_said() {
+fn work_of_the_cpu_is_reported() {
     let grid = families::grid(4, 4, false, false);
     let quads = families::grid(4, 4, true, false);
     let mut endless = grid.clone();
@@ -116,23 +116,23 @@ fn what_the_cpu_does_is_said() {
 }
 
 #[test]
-fn meshes_in_pieces_have_the_bits_of_the_core() {
-    let pieces: Vec<_> = kernels().iter().map(|kernels| kernels.clone().with_tile_size(300)).collect();
+fn meshes_in_tiles_have_the_bits_of_the_core() {
+    let tiled: Vec<_> = kernels().iter().map(|kernels| kernels.clone().with_tile_size(300)).collect();
     let mut tally = Tally::default();
     for (name, mesh) in [
         ("grid", families::grid(37, 23, false, true)),
         ("sphere", families::sphere(20, 31, false)),
         ("fan", families::fan(1_000, false)),
     ] {
-        check_with(&pieces, name, &mesh, 180.0, &mut tally);
-        check_with(&pieces, name, &mesh.unindexed(), 180.0, &mut tally);
+        check_with(&tiled, name, &mesh, 180.0, &mut tally);
+        check_with(&tiled, name, &mesh.unindexed(), 180.0, &mut tally);
     }
     println!("{tally:?}");
     assert!(gpus().is_empty() || tally.of_cpu * 3 < tally.corners);
 }
 
 #[test]
-fn whole_numbers_have_the_bits_of_the_core() {
+fn integer_arithmetic_has_the_bits_of_the_core() {
     let soft = |gpu| MikkTSpace::with_arithmetic(gpu, Arithmetic::SoftFloat).expect("valid shaders");
     let soft: Vec<_> = gpus().iter().map(soft).collect();
     let mut tally = Tally::default();
@@ -144,28 +144,28 @@ fn whole_numbers_have_the_bits_of_the_core() {
     println!("{tally:?}");
 }
 
-/// As the packages of other languages run it.
+/// The npm package runs MikkTSpace in this way.
 #[test]
-fn what_floats_are_unsure_of_is_left_to_the_cpu() {
-    let leaving = |gpu| MikkTSpace::with_arithmetic(gpu, Arithmetic::CpuFallback).expect("valid shaders");
-    let leaving: Vec<_> = gpus().iter().map(leaving).collect();
+fn unsure_items_are_deferred_to_the_cpu() {
+    let deferring = |gpu| MikkTSpace::with_arithmetic(gpu, Arithmetic::CpuFallback).expect("valid shaders");
+    let deferring: Vec<_> = gpus().iter().map(deferring).collect();
     let sphere = families::sphere(20, 31, false);
     let mut tiny = sphere.clone();
     tiny.positions.as_flattened_mut().iter_mut().for_each(|x| *x *= 2f32.powi(-70));
     let (mut plain, mut left) = (Tally::default(), Tally::default());
-    check_with(&leaving, "sphere", &sphere, 180.0, &mut plain);
-    check_with(&leaving, "a tiny sphere", &tiny, 180.0, &mut left);
+    check_with(&deferring, "sphere", &sphere, 180.0, &mut plain);
+    check_with(&deferring, "a tiny sphere", &tiny, 180.0, &mut left);
     println!("{plain:?}, {left:?}");
     assert!(plain.of_cpu < left.of_cpu && left.of_cpu == left.corners || gpus().is_empty());
     let mut random = Tally::default();
     for seed in 0..200 {
         let Case { mesh, threshold } = Case::from_seed(seed);
-        check_with(&leaving, &format!("seed {seed}"), &triangulated(&mesh), threshold, &mut random);
+        check_with(&deferring, &format!("seed {seed}"), &triangulated(&mesh), threshold, &mut random);
     }
     println!("{random:?}");
 }
 
-/// More triangles than a binding of 128 MiB holds, the least that devices promise.
+/// More triangles than fit in a binding of 128 MiB, which all devices support.
 #[test]
 #[ignore = "half a minute and a gigabyte"]
 fn meshes_past_a_binding_have_the_bits_of_the_core() {

@@ -1,4 +1,4 @@
-//! Plans on the device against the core's, bit for bit.
+//! Compares plans on the GPU with plans of the core, bit by bit.
 
 mod common;
 
@@ -14,14 +14,14 @@ fn bits(tangent: [f32; 4]) -> [u32; 4] {
     tangent.map(|x| if x.is_nan() { f32::NAN } else { x }.to_bits())
 }
 
-/// The core's plan of `base` on `moved`, as words.
+/// The tangents of the plan of `base` on the moved mesh `moved` by the core, as words.
 fn on_cpu(base: &OwnedMesh, moved: &OwnedMesh, mode: Mode) -> Vec<[u32; 4]> {
     let plan = darboux::Plan::new(&base.view(), &TangentOptions::from(MikktOptions::new().with_mode(mode)));
     let tangents = plan.evaluate(&moved.view()).expect("the same mesh, moved");
     tangents.per_corner().iter().map(|tangent| bits(*tangent)).collect()
 }
 
-/// How corners fared.
+/// Counts of compared corners.
 #[derive(Debug, Default)]
 struct Tally {
     identical: usize,
@@ -48,7 +48,7 @@ fn check(planner: &Planner, gpu: &Gpu, name: &str, meshes: [&OwnedMesh; 2], mode
     tally.counts = std::array::from_fn(|k| tally.counts[k] + counts[k]);
 }
 
-/// A unit vector in the plane of the normal, of its own vertex or of one that it was welded with.
+/// Checks a replaced tangent: a unit vector perpendicular to the normal of its vertex, or of a vertex that it was welded with.
 fn check_replaced(name: &str, corner: usize, [x, y, z, _]: [f32; 4], [base, moved]: [&OwnedMesh; 2]) {
     let dot = |a: [f32; 3], b: [f32; 3]| (0..3).map(|i| f64::from(a[i]) * f64::from(b[i])).sum::<f64>();
     let (tangent, own) = ([x, y, z], base.vertex_of_corner(corner));
@@ -112,7 +112,7 @@ fn moved_quads_have_the_core_s_bits() {
     }
 }
 
-/// Quads, and faces of three, four and more corners.
+/// Meshes of quads, and of faces with three, four and more corners.
 fn quads() -> Vec<OwnedMesh> {
     let mut meshes = vec![families::grid(12, 9, true, false), families::grid(12, 9, true, true)];
     meshes.extend((0..900).map(|seed| Case::from_seed(seed).mesh));
@@ -120,7 +120,7 @@ fn quads() -> Vec<OwnedMesh> {
     meshes
 }
 
-/// A grid with an edge of mirrored UVs, and the same as it waves.
+/// A grid that may have a mirrored edge, and the same grid bent into waves.
 fn waving(mirrored: bool) -> [OwnedMesh; 2] {
     let base = triangulated(&families::grid(40, 30, false, mirrored));
     let split = split_vertices(&base.view(), &generate_tangents(&base.view(), &Default::default()).corners);

@@ -1,4 +1,4 @@
-//! Plans in buffers of any layout, and what is wrong with buffers and meshes.
+//! Tests plans with buffers of any layout, and the errors for wrong buffers and meshes.
 
 mod common;
 
@@ -11,7 +11,7 @@ use wgpu::{Buffer, BufferUsages};
 
 const USAGE: BufferUsages = BufferUsages::STORAGE.union(BufferUsages::COPY_SRC);
 
-/// Positions, normals and tangents `stride` words apart, at these places.
+/// Interleaved positions and normals, `stride` words apart, at these word offsets.
 fn interleaved(gpu: &Gpu, mesh: &OwnedMesh, stride: usize, [position, normal]: [usize; 2]) -> Buffer {
     let mut words = vec![UNTOUCHED; stride * (mesh.positions.len() + 2)];
     for v in 0..mesh.positions.len() {
@@ -50,7 +50,7 @@ fn any_layout_of_whole_words_gives_the_same_bits() {
                 let tangents: Vec<Vec<u32>> =
                     (0..count).map(|v| words[stride * v + places[2]..][..4].to_vec()).collect();
                 assert!(*first.get_or_insert(tangents.clone()) == tangents, "stride {stride}");
-                // Nothing else is written: the words behind the last vertex's are as they were.
+                // The words after the last vertex are unchanged.
                 let last = stride * (count - 1) + places[2] + 4;
                 assert!(words[last..].iter().filter(|&&word| word == UNTOUCHED).count() >= stride);
             }
@@ -59,7 +59,7 @@ fn any_layout_of_whole_words_gives_the_same_bits() {
 }
 
 #[test]
-fn faults_are_named() {
+fn wrong_buffers_are_errors() {
     let mesh = triangulated(&families::grid(4, 3, false, true));
     let options = TangentOptions::default();
     for gpu in gpus() {
@@ -86,7 +86,7 @@ fn faults_are_named() {
             Ok(_) => "none".to_owned(),
             Err(error) => error.to_string(),
         };
-        // The vertices at the mirrored edge are not split.
+        // The vertices at the mirrored edge have several tangents.
         let per_vertex = MovingMesh { per: TangentsPer::Vertex, tangents: part(24), ..plain };
         assert_eq!(fault(per_vertex), "4 vertices have several tangents: split them first (split_vertices)");
         let of_other = MovingMesh { vertex_count: count + 1, ..plain };

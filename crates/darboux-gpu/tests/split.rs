@@ -1,4 +1,4 @@
-//! Vertices split on every adapter, against the core's arrays.
+//! Compares the splitting of vertices on every adapter with the core.
 
 mod common;
 
@@ -9,7 +9,7 @@ use darboux::{
 use darboux_gpu::{GpuError, Splitter};
 use darboux_tests::{Case, corpus, families};
 
-/// Compiled once for every adapter.
+/// `Splitter` on every adapter.
 fn splitters() -> Vec<Splitter> {
     gpus().iter().map(|gpu| Splitter::new(gpu).expect("valid shaders")).collect()
 }

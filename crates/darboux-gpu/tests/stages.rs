@@ -1,4 +1,4 @@
-//! The arrays between the stages, on every adapter, against the core's.
+//! Compares the arrays between the stages on every adapter with those of the core.
 
 mod common;
 
@@ -10,7 +10,7 @@ use darboux::{MikktOptions, Mode};
 use darboux_gpu::internal::StageArrays;
 use darboux_tests::{Case, OwnedMesh, corpus, families};
 
-/// How many meshes, triangles and groups were compared, and how many meshes have values that only the core welds.
+/// Counts of compared meshes, triangles and groups, and of meshes with values that only the core can weld.
 #[derive(Debug, Default)]
 struct Tally {
     meshes: usize,
@@ -25,7 +25,7 @@ fn check(name: &str, mesh: &OwnedMesh, tally: &mut Tally) {
     if view.face_count() == 0 {
         return;
     }
-    // The order of the last edges is the core's to know.
+    // In this mode the order of the last edges does not matter, which only the core reproduces.
     let options = MikktOptions::new().with_mode(Mode::Corrected);
     let core = Stages::new(&view, &options, usize::MAX).expect("no limit");
     for kernels in kernels() {
@@ -42,8 +42,8 @@ fn check(name: &str, mesh: &OwnedMesh, tally: &mut Tally) {
     }
 }
 
-/// The names that the core gives to the corners' vertices, and those given here, lead to the same first corners; the vertex that represents
-/// others is the first of them.
+/// Checks that the welded vertices of corners form the same classes as in the core, and that each class is represented by its first
+/// vertex.
 fn check_weld(name: &str, mesh: &OwnedMesh, core: &Triangulation, found: &StageArrays) {
     let mut core_names = vec![NONE; mesh.corner_count()];
     for list in [&core.good, &core.degenerate] {
@@ -61,13 +61,13 @@ fn check_weld(name: &str, mesh: &OwnedMesh, core: &Triangulation, found: &StageA
     }
 }
 
-/// The first place of each name.
+/// For each element, the position of the first equal element.
 fn firsts(names: impl Iterator<Item = u32>) -> Vec<usize> {
     let mut first = HashMap::new();
     names.enumerate().map(|(at, name)| *first.entry(name).or_insert(at)).collect()
 }
 
-/// Degenerate triangles, neighbours, orientations.
+/// Checks degenerate triangles, neighbours and orientations.
 fn check_triangles(name: &str, core: &Stages, found: &StageArrays) {
     let good = &core.triangulation.good;
     let mut neighbours = vec![NONE; found.neighbours.len()];
@@ -88,7 +88,7 @@ fn check_triangles(name: &str, core: &Stages, found: &StageArrays) {
     }
 }
 
-/// Groups at vertices without UV-degenerate triangles, of which each has a seed and no other corner has it.
+/// Checks the groups at vertices without UV-degenerate triangles: all corners of a group, and no others, have its seed.
 fn check_groups(name: &str, core: &Stages, found: &StageArrays, tally: &mut Tally) {
     let good = &core.triangulation.good;
     let place = |member: u32| 3 * good.face[member as usize / 3] + member % 3;

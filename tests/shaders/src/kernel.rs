@@ -1,39 +1,40 @@
-//! Library functions on many samples at once, as compute or fragment shaders.
+//! Runs a function of the library on many samples at once, in a compute or a fragment shader.
 //!
-//! What is between loading and storing is one line that all three languages read alike, as their functions have the same names.
+//! The call of the function is one line, which is valid in all three languages because the functions have the same names in all of them.
 
 use wgpu::{BufferUsages, ComputePipelineDescriptor};
 
-use crate::gpu::{Gpu, gpus};
+use crate::adapters::{Gpu, gpus};
 use crate::language::{Language, Stage, library};
 
-/// Threads of a workgroup in the preludes.
+/// Threads per workgroup in the preludes.
 const WORKGROUP: usize = 64;
-/// Quads of four pixels in a row of the fragment shaders' target.
+/// Quads of four pixels per row of the render target.
 const QUADS: usize = 128;
 
-/// A library function, its samples, and what it should give.
+/// A function of the library with samples and expected results.
 pub struct Case<'a> {
-    /// Its name, for messages.
+    /// The name in messages.
     pub name: &'a str,
-    /// A statement that loads with `given1(offset)`, `given_int2(offset)`... and stores with `got3(offset, value)`...; see the preludes.
+    /// A statement that loads arguments with `given1(offset)`, `given_int2(offset)`, ... and stores results with `got3(offset, value)`, ...; see
+    /// the preludes.
     pub body: &'a str,
-    /// The words of each sample: bits of floats, or integers. As many in each.
+    /// The words of each sample: bits of floats, or integers. All samples have the same length.
     pub samples: Vec<Vec<u32>>,
-    /// What a sample should give.
+    /// The expected result of a sample.
     pub expected: &'a Expected<'a>,
 }
 
-/// Of a sample the right answer, and how far from it each component may be.
+/// Returns the correct result of a sample, and the largest error of a component.
 pub type Expected<'a> = dyn Fn(&[u32]) -> (Vec<f64>, f64) + 'a;
 
-/// Runs a case in every language on every adapter. Panics where an answer is off by more than it may be.
+/// Runs a case in every language on every adapter. Panics if an error is larger than expected.
 pub fn check(case: &Case) {
     check_in(Stage::Compute, case);
 }
 
-/// As [`check`], in fragment shaders. Each sample has four pixels, which must all give the answer; what the body loads with
-/// `spread2(offset)` or `spread3(offset)` grows from pixel to pixel.
+/// As [`check`], in fragment shaders. A quad of four pixels computes each sample, and all four must be correct. Values that the body loads
+/// with `spread2(offset)` or `spread3(offset)` change linearly from pixel to pixel.
 pub fn check_in_quads(mut case: Case) {
     case.samples = case.samples.into_iter().flat_map(|sample| std::iter::repeat_n(sample, 4)).collect();
     check_in(Stage::Fragment, &case);
@@ -56,18 +57,18 @@ fn compare(case: &Case, expected: &[(Vec<f64>, f64)], answers: &[f32], title: &s
     for ((sample, (right, bound)), answer) in case.samples.iter().zip(expected).zip(answers) {
         let errors: Vec<f64> = right.iter().zip(answer).map(|(x, &y)| (x - f64::from(y)).abs()).collect();
         let is_near = errors.iter().all(|error| error <= bound);
-        assert!(is_near, "{title}: {answer:?}, not {right:?} to {bound:e}, for {sample:x?}");
+        assert!(is_near, "{title}: {answer:?} instead of {right:?} within {bound:e}, for {sample:x?}");
         let error = errors.into_iter().fold(0.0, f64::max);
         largest = largest.max(error);
         of_bound = of_bound.max(if *bound > 0.0 { error / bound } else { 0.0 });
     }
     let count = case.samples.len();
-    println!("{title}: {count} samples, off by up to {largest:.2e}, {of_bound:.2} of the bound");
+    println!("{title}: {count} samples, errors up to {largest:.2e}, {of_bound:.2} of the bound");
 }
 
-/// The answers of one language on one adapter, `width` for each sample; none where the language has no compiler here.
+/// The results of one language on one adapter, `width` floats per sample; none if the compiler of the language is not installed.
 fn run(gpu: &Gpu, language: Language, stage: Stage, case: &Case, width: usize) -> Option<Vec<f32>> {
-    let module = gpu.module(language, stage, &text(language, stage, case, width))?;
+    let module = gpu.module(language, stage, &source_text(language, stage, case, width))?;
     let threads =
         case.samples.len().next_multiple_of(if stage == Stage::Compute { WORKGROUP } else { 4 * QUADS });
     let mut words = case.samples.concat();
@@ -123,8 +124,8 @@ fn draw(
     let mut pass = gpu.begin_pass(encoder, &target);
     pass.set_pipeline(&pipeline);
     pass.set_bind_group(0, &gpu.bind_group(&pipeline.get_bind_group_layout(0), &buffers), &[]);
-    // The target is a quarter of the viewport, so that no triangle is clipped: where two meet, pixels of one quad would be in both,
-    // and those that a triangle does not cover may load nothing for its derivatives.
+    // The target is a quarter of the viewport, so that one triangle covers it. At an edge between two triangles, both would compute a quad,
+    // and the derivatives of pixels outside a triangle are unspecified.
     pass.set_viewport(0.0, 0.0, (2 * width) as f32, (2 * height) as f32, 0.0, 1.0);
     pass.draw(0..3, 0..1);
 }
@@ -133,7 +134,7 @@ fn small(count: usize) -> u32 {
     count.try_into().expect("fewer samples")
 }
 
-fn text(language: Language, stage: Stage, case: &Case, width: usize) -> String {
+fn source_text(language: Language, stage: Stage, case: &Case, width: usize) -> String {
     let prelude = match language {
         Language::Wgsl => include_str!("prelude/kernel.wgsl"),
         Language::Glsl => include_str!("prelude/kernel.glsl"),

@@ -1,4 +1,4 @@
-//! The three languages: their files, and compiling them.
+//! The three languages of the library: reads their files and compiles them.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -29,7 +29,7 @@ pub enum Stage {
     Fragment,
 }
 
-/// The themes of the library, each after those that it needs.
+/// The files of the library, each after the files that it requires.
 const THEMES: &[&str] = &[
     "frame",
     "encodings",
@@ -42,7 +42,7 @@ const THEMES: &[&str] = &[
     "derivatives",
 ];
 
-/// All files of a language in one text; `derivatives`, which only fragment shaders can have, on demand.
+/// All files of a language, concatenated. Only fragment shaders can have `derivatives`.
 pub fn library(language: Language, stage: Stage) -> String {
     let of_stage = |theme: &&str| stage == Stage::Fragment || *theme != "derivatives";
     let files = THEMES.iter().copied().filter(|theme| of_stage(theme));
@@ -59,10 +59,10 @@ fn folder() -> PathBuf {
 }
 
 impl Language {
-    /// All of them.
+    /// All languages.
     pub const ALL: [Self; 3] = [Self::Wgsl, Self::Glsl, Self::Hlsl];
 
-    /// The folder's name, and the files' ending.
+    /// The name of the folder, and the extension of its files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Wgsl => "wgsl",
@@ -71,7 +71,7 @@ impl Language {
         }
     }
 
-    /// A whole shader, entry point `main`, as wgpu takes it; none where the compiler is not there.
+    /// The source of a shader with the entry point `main`; none if its compiler is not installed.
     pub fn source(self, stage: Stage, text: &str) -> Option<ShaderSource<'static>> {
         match self {
             Self::Wgsl => Some(ShaderSource::Wgsl(text.to_owned().into())),
@@ -92,7 +92,7 @@ impl Language {
     }
 }
 
-/// True where `glslangValidator` is installed. Where it is not, says so once, and fails in continuous integration.
+/// Whether `glslangValidator` is installed. If it is not, prints once that tests are skipped, or fails in continuous integration.
 pub fn glslang_is_there() -> bool {
     static IS_THERE: OnceLock<bool> = OnceLock::new();
     *IS_THERE.get_or_init(|| {
@@ -100,13 +100,13 @@ pub fn glslang_is_there() -> bool {
         let is_there =
             command.arg("--version").stdout(Stdio::null()).status().is_ok_and(|status| status.success());
         if !is_there {
-            cannot_run("glslangValidator is not installed (Debian: glslang-tools)");
+            skip_tests("glslangValidator is not installed (Debian: glslang-tools)");
         }
         is_there
     })
 }
 
-/// Compiles a text with glslangValidator, to SPIR-V if the options ask for it. Errors: what the compiler says.
+/// Compiles a shader with glslangValidator, to SPIR-V with the option -V. Errors: the messages of the compiler.
 pub fn glslang(stage: Stage, options: &[&str], text: &str) -> Result<Vec<u8>, String> {
     let compile = || -> std::io::Result<(process::Output, Vec<u8>)> {
         let folder = tempfile::tempdir()?;
@@ -124,8 +124,8 @@ pub fn glslang(stage: Stage, options: &[&str], text: &str) -> Result<Vec<u8>, St
     if output.status.success() { Ok(code) } else { Err(String::from_utf8_lossy(&output.stdout).into_owned()) }
 }
 
-/// Says on standard output that something is skipped, and why; in continuous integration that is a failure.
-pub(crate) fn cannot_run(why: &str) {
-    assert!(std::env::var_os("CI").is_none(), "{why}");
-    writeln!(std::io::stdout(), "skipped: {why}").expect("standard output");
+/// Prints that tests are skipped. Panics in continuous integration.
+pub(crate) fn skip_tests(reason: &str) {
+    assert!(std::env::var_os("CI").is_none(), "{reason}");
+    writeln!(std::io::stdout(), "skipped: {reason}").expect("standard output");
 }

@@ -1,12 +1,13 @@
-//! The shader library, compiled and executed: what its tests share.
+//! Compiles the functions of `shaders/` in WGSL, GLSL and HLSL, and runs them on the Vulkan adapters of this machine. The tests compare
+//! the results with the core or with double precision.
 
-mod gpu;
+mod adapters;
 mod kernel;
 mod language;
 pub mod picture;
 pub mod samples;
 pub mod vector;
 
-pub use gpu::{Gpu, gpus};
+pub use adapters::{Gpu, gpus};
 pub use kernel::{Case, Expected, check, check_in_quads};
 pub use language::{Language, Stage, glslang, glslang_is_there, library};

@@ -1,37 +1,37 @@
-//! Numbers to try, and the distance that arithmetic of a GPU may keep.
+//! Random samples, and the rounding error that GPUs are allowed.
 
-use crate::vector::{cross, doubles, length, singles, unit};
+use crate::vector::{D3, cross, doubles, length, singles, unit};
 
-/// One unit in the last place of 1. Bounds count in it: WGSL and Vulkan let a sum or product be off by 1, a quotient by 2.5, a root by
-/// 4.5 of them; contracting a product and a sum into one operation only takes from that.
+/// One ulp of 1, the unit of all bounds. WGSL and Vulkan allow errors of 1 ulp for sums and products, 2.5 for quotients and 4.5 for square
+/// roots. Fused multiplications and additions have smaller errors.
 pub const ULP: f64 = f32::EPSILON as f64;
 
-/// A repeatable sequence of numbers.
+/// A deterministic sequence of random numbers.
 pub struct Random(u64);
 
 impl Random {
-    /// The sequence of this number.
+    /// The sequence of a seed.
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
-    /// Any word.
+    /// A random word.
     pub fn word(&mut self) -> u32 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 32) as u32
     }
 
-    /// In [-1, 1).
+    /// A number in [-1, 1).
     pub fn number(&mut self) -> f32 {
         self.word() as i32 as f32 / 2f32.powi(31)
     }
 
-    /// In [0, 1).
+    /// A number in [0, 1).
     pub fn fraction(&mut self) -> f32 {
         0.5 + 0.5 * self.number()
     }
 
-    /// Any direction.
+    /// A random unit vector.
     pub fn direction(&mut self) -> [f32; 3] {
         loop {
             let v = [self.number(), self.number(), self.number()];
@@ -41,7 +41,7 @@ impl Random {
         }
     }
 
-    /// A unit normal and a tangent, unit and perpendicular to it, with a sign.
+    /// A unit normal, and a unit tangent perpendicular to it with a sign.
     pub fn frame(&mut self) -> ([f32; 3], [f32; 4]) {
         let normal = self.direction();
         let [x, y, z] = loop {
@@ -54,22 +54,27 @@ impl Random {
     }
 }
 
-/// Floats as the words of a sample.
+/// The bits of floats.
 pub fn bits(floats: &[f32]) -> Vec<u32> {
     floats.iter().map(|float| float.to_bits()).collect()
 }
 
-/// `N` floats of a sample, from the word at `start` on.
+/// `N` floats of a sample, starting at word `start`.
 pub fn floats<const N: usize>(sample: &[u32], start: usize) -> [f32; N] {
     std::array::from_fn(|k| f32::from_bits(sample[start + k]))
 }
 
-/// `N` integers of a sample, from its first word on.
+/// Three vectors of a sample, starting at word `start`.
+pub fn columns(sample: &[u32], start: usize) -> [D3; 3] {
+    [0, 3, 6].map(|k| doubles(floats(sample, start + k)))
+}
+
+/// The first `N` words of a sample as integers.
 pub fn integers<const N: usize>(sample: &[u32]) -> [i32; N] {
     std::array::from_fn(|k| sample[k] as i32)
 }
 
-/// `count` samples of floats.
+/// `count` random samples of floats.
 pub fn many(count: usize, seed: u64, sample: impl Fn(&mut Random) -> Vec<f32>) -> Vec<Vec<u32>> {
     let mut random = Random::new(seed);
     (0..count).map(|_| bits(&sample(&mut random))).collect()

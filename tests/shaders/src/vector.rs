@@ -1,16 +1,14 @@
-//! Vectors in double precision, for answers that are not the core's.
-
-use crate::samples::floats;
+//! Vectors in double precision, for expected results that the core does not compute.
 
 /// A vector.
 pub type D3 = [f64; 3];
 
-/// The same numbers.
+/// Converts floats to double precision.
 pub fn doubles<const N: usize>(v: [f32; N]) -> [f64; N] {
     v.map(f64::from)
 }
 
-/// The nearest floats.
+/// Rounds to floats.
 pub fn singles<const N: usize>(v: [f64; N]) -> [f32; N] {
     v.map(|x| x as f32)
 }
@@ -35,17 +33,12 @@ pub fn scale(s: f64, v: D3) -> D3 {
     v.map(|x| s * x)
 }
 
-/// The vector along `v` of length 1.
+/// The unit vector along `v`.
 pub fn unit(v: D3) -> D3 {
     scale(1.0 / length(v), v)
 }
 
-/// Three vectors from nine words of a sample.
-pub fn columns(sample: &[u32], start: usize) -> [D3; 3] {
-    [0, 3, 6].map(|k| doubles(floats(sample, start + k)))
-}
-
-/// The columns' sum, weighted by the components of `v`: a matrix times a vector.
+/// The product of a matrix, given by its columns, and a vector.
 pub fn product(columns: [D3; 3], v: D3) -> D3 {
     [0, 1, 2].map(|k| columns[0][k] * v[0] + columns[1][k] * v[1] + columns[2][k] * v[2])
 }

@@ -1,4 +1,4 @@
-//! Decoders of the shader library against darboux::encode.
+//! Compares the decoders of the shader library with darboux::encode.
 
 use darboux::encode::{
     frame_from_quaternion, frame_to_quaternion, normal_from_octahedral, tangent_from_diamond,
@@ -36,7 +36,7 @@ fn words_come_apart() {
     });
 }
 
-/// A quotient.
+/// Bound: a quotient.
 #[test]
 fn snorm() {
     let codes = |range: std::ops::RangeInclusive<i32>| {
@@ -64,7 +64,7 @@ fn snorm() {
     });
 }
 
-/// Exact integers, then 3 for the squares' sum, half of it after the root, 4.5 for that, 2.5 and 1 to make it unit; 2.5 for the CPU's own.
+/// Bound: exact integers, 3 ulp for the sum of squares, halved by the square root, plus 4.5, plus 2.5 and 1 to normalise, plus 2.5 on the CPU.
 #[test]
 fn octahedral() {
     let grid = |largest: i32| {
@@ -85,8 +85,8 @@ fn octahedral() {
     });
 }
 
-/// The perpendiculars' components are off by up to 6.5, their sum by 8.5; it is at least 1 / sqrt(2) long, so making it unit turns that
-/// into 2 sqrt(3) sqrt(2) 8.5 and adds 9.
+/// Bound: the components of the perpendicular vectors have errors up to 6.5 ulp, their sum 8.5. Its length is at least 1 / sqrt(2), so
+/// normalising gives 2 sqrt(3) sqrt(2) 8.5 + 9.
 #[test]
 fn diamond() {
     let mut random = Random::new(2);
@@ -105,8 +105,8 @@ fn diamond() {
     });
 }
 
-/// 4 for the squares' sum and 2.5 for the quotient; the sums that it multiplies are at most half of that sum, off by 2, and the
-/// last product and sum by 2; half of all that for the CPU.
+/// Bound: 4 ulp for the sum of squares and 2.5 for the quotient; the sums that it multiplies are at most half of that sum, with an error of
+/// 2 ulp; 2 for the last product and sum; half of the total for the CPU.
 #[test]
 fn quaternion() {
     let mut random = Random::new(3);

@@ -1,4 +1,4 @@
-//! Every file of the library, compiled for every version of every language that it is for.
+//! Compiles every file of the library for every supported version of its language.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -58,7 +58,7 @@ fn glslang_takes_glsl_and_hlsl() {
     }
 }
 
-/// The functions and structures that a text defines, in order.
+/// The names of the functions and structures that a file defines, in order.
 fn defined(text: &str, language: Language) -> Vec<String> {
     let starts_definition = |line: &&str| match language {
         Language::Wgsl => line.starts_with("fn ") || line.starts_with("struct "),
@@ -93,7 +93,7 @@ fn no_file_is_left_out() {
     }
 }
 
-/// By a test, or by a function that one is.
+/// A test calls it, or a function that a test calls does.
 #[test]
 fn every_function_is_executed() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests");

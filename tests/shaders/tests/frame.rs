@@ -1,13 +1,13 @@
-//! Frames at vertices and pixels, against double precision.
+//! Compares frames at vertices and pixels with double precision.
 
 use darboux::encode::tangent_from_diamond;
-use darboux_shader_tests::samples::{Random, ULP, bits, floats, many};
-use darboux_shader_tests::vector::{D3, columns, cross, dot, doubles, length, product, scale, unit};
+use darboux_shader_tests::samples::{Random, ULP, bits, columns, floats, many};
+use darboux_shader_tests::vector::{D3, cross, dot, doubles, length, product, scale, unit};
 use darboux_shader_tests::{Case, check};
 
 const COUNT: usize = 1 << 15;
 
-/// A normal and a tangent as interpolation leaves them between two vertices with one sign.
+/// A normal and a tangent, interpolated between two vertices with one sign.
 fn interpolated(random: &mut Random) -> Vec<f32> {
     let t = random.fraction();
     let ((n, a), (m, b)) = (random.frame(), random.frame());
@@ -15,7 +15,7 @@ fn interpolated(random: &mut Random) -> Vec<f32> {
     pairs.map(|(a, b)| (1.0 - t) * a + t * b).chain([a[3]]).collect()
 }
 
-/// Three vectors up to 1 long, near no plane.
+/// Three vectors of length at most 1, far from coplanar.
 fn skewed(random: &mut Random) -> Vec<f32> {
     loop {
         let size = 0.2 + 0.8 * random.fraction();
@@ -32,7 +32,7 @@ fn bitangent(sample: &[u32]) -> D3 {
     scale(f32::from_bits(sample[6]).into(), cross(normal, tangent))
 }
 
-/// Two products of at most 1 and their difference.
+/// Bound: two products of at most 1, and their difference.
 #[test]
 fn bitangents() {
     check(&Case {
@@ -62,7 +62,7 @@ fn columns_keep_their_places() {
     });
 }
 
-/// The perpendiculars are where places 0 and 1 of the diamond are; bounds as for it.
+/// The perpendicular vectors are the positions 0 and 1 of the diamond encoding, with its bound.
 #[test]
 fn perpendiculars() {
     check(&Case {
@@ -80,7 +80,7 @@ fn perpendiculars() {
     });
 }
 
-/// 3 for the sum of squares, halved by the root, 4.5 for that, 2.5 and 1.
+/// Bound: 3 ulp for the sum of squares, halved by the square root, plus 4.5, 2.5 and 1.
 #[test]
 fn unit_vectors() {
     let mut samples =
@@ -108,7 +108,7 @@ fn in_plane(normal: D3, v: D3) -> D3 {
     [0, 1, 2].map(|k| v[k] - along * normal[k])
 }
 
-/// What is left of a unit vector is off by up to 6 in each component.
+/// Bound: each component of the projected unit vector has an error up to 6 ulp.
 #[test]
 fn directions_in_the_plane() {
     check(&Case {
@@ -134,7 +134,7 @@ fn directions_in_the_plane() {
     });
 }
 
-/// The normal is off by 10; in its plane, a vector then by twice that and 6.
+/// Bound: the normal has an error of 10 ulp, so a vector in its plane has twice that plus 6.
 #[test]
 fn orthonormal_frames() {
     check(&Case {
@@ -154,7 +154,7 @@ fn orthonormal_frames() {
     });
 }
 
-/// Sums of three products: off by 5 times the largest that they can be.
+/// Bound: a sum of three products has an error of 5 ulp of its largest possible value.
 #[test]
 fn into_tangent_space_and_out() {
     let samples = || many(COUNT, 10, |random| [skewed(random), random.direction().to_vec()].concat());

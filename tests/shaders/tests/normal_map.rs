@@ -1,16 +1,16 @@
-//! Texels of normal maps, against the core; blends, against rotations and sums of slopes in double precision.
+//! Compares decoded texels with the core, and blends with rotations and sums of slopes in double precision.
 
 use darboux::TexelLayout;
 use darboux_shader_tests::samples::{Random, ULP, bits, floats, many};
 use darboux_shader_tests::vector::{D3, cross, dot, doubles, unit};
 use darboux_shader_tests::{Case, check};
 
-/// 8-bit texels: all values of each channel.
+/// 8-bit texels with all values of each channel.
 fn bytes() -> impl Iterator<Item = [u8; 3]> {
     (0..=255).map(|c: u8| [c, c.wrapping_mul(77).wrapping_add(5), 255 - c])
 }
 
-/// As a sampler gives them: the nearest floats.
+/// Texels as a sampler returns them: the nearest floats.
 fn sampled<T: Copy + Into<f64>>(texel: &[T], largest: T) -> Vec<u32> {
     bits(&texel.iter().map(|&c| (c.into() / largest.into()) as f32).collect::<Vec<_>>())
 }
@@ -19,7 +19,7 @@ fn texel<const N: usize>(sample: &[u32], largest: f32) -> [u16; N] {
     floats(sample, 0).map(|c: f32| (c * largest).round() as u16)
 }
 
-/// Rounded twice, at most 2 before the difference.
+/// Bound: two roundings of values up to 2.
 #[test]
 fn three_channels() {
     check(&Case {
@@ -42,7 +42,7 @@ fn three_channels() {
     });
 }
 
-/// The square of z is off by 10, so z by that over 2 z, or by its root.
+/// Bound: the square of z has an error of 10 ulp, so z has that divided by 2 z, or its square root.
 #[test]
 fn two_channels() {
     let mut random = Random::new(1);
@@ -79,13 +79,13 @@ fn intensity() {
     });
 }
 
-/// A base and a detail, both facing out of the surface.
+/// A base and a detail normal, both pointing away from the surface.
 fn pair(random: &mut Random) -> Vec<f32> {
     let facing_out = |[x, y, z]: [f32; 3]| [x, y, z.abs()];
     [facing_out(random.direction()), facing_out(random.direction())].concat()
 }
 
-/// `v` turned as (0, 0, 1) is turned to the unit `to` the short way (O. Rodrigues, 1840).
+/// Rotates `v` by the shortest rotation from (0, 0, 1) to the unit vector `to` (O. Rodrigues, 1840).
 fn turned(to: D3, v: D3) -> D3 {
     let up = [0.0, 0.0, 1.0];
     let axis = cross(up, to);
@@ -99,7 +99,7 @@ fn turned(to: D3, v: D3) -> D3 {
     [0, 1, 2].map(|k| cosine * v[k] + sine * across[k] + along * axis[k])
 }
 
-/// The dot product is at most 2 and off by 6, the quotient by 3 of it, the last product of at most 4 and the difference by 12.
+/// Bound: the dot product is at most 2 with an error of 6 ulp, the quotient 3, the last product of at most 4 and the difference 12.
 #[test]
 fn reoriented_detail() {
     check(&Case {
@@ -113,7 +113,7 @@ fn reoriented_detail() {
     });
 }
 
-/// Slopes add in full where both are flat; UDN takes the base's height alone.
+/// The slopes of flat normals add up. UDN uses only the z of the base.
 #[test]
 fn added_slopes() {
     let [x, y, z] = [0, 1, 2]

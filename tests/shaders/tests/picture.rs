@@ -1,9 +1,9 @@
-//! Plates by the CPU and by GPUs.
+//! Compares the plates that the CPU and GPUs draw.
 
 use darboux_shader_tests::gpus;
 use darboux_shader_tests::picture::{Encoding, draw_on_cpu, draw_on_gpu};
 
-/// One channel in fifty at most, and by one step: interpolation and arithmetic differ in their last bits only.
+/// At most one channel in fifty differs, by one step, because interpolation and arithmetic differ only in their last bits.
 #[test]
 fn plates_are_the_same_on_cpu_and_gpu() {
     for gpu in gpus() {

@@ -1,20 +1,20 @@
-//! What follows from a frame: anisotropy, triplanar projection, parallax, displacement. Against geometry in double precision.
+//! Compares anisotropy, triplanar mapping, parallax mapping and displacement with geometry in double precision.
 
-use darboux_shader_tests::samples::{Random, ULP, bits, floats, many};
-use darboux_shader_tests::vector::{D3, columns, cross, dot, doubles, length, product, scale, unit};
+use darboux_shader_tests::samples::{Random, ULP, bits, columns, floats, many};
+use darboux_shader_tests::vector::{D3, cross, dot, doubles, length, product, scale, unit};
 use darboux_shader_tests::{Case, check};
 
 const COUNT: usize = 1 << 14;
 
-/// An orthonormal frame of either sign, as columns.
+/// An orthonormal frame with either sign, as columns.
 fn orthonormal(random: &mut Random) -> Vec<f32> {
     let (normal, [x, y, z, w]) = random.frame();
     let bitangent = scale(w.into(), cross(doubles(normal), doubles([x, y, z])));
     [&[x, y, z][..], &bitangent.map(|x| x as f32), &normal].concat()
 }
 
-/// The direction at the sum of two angles, seen from the side where the bitangent is to the left of the tangent. The samples' sines
-/// and cosines are rounded: 2; the sums and vectors add 10, making them unit 10, and the bitangent 4 and the normal's own.
+/// The direction at the sum of two angles. Bound: 2 ulp for the rounded sines and cosines of the samples, 10 for sums and vectors, 10 for
+/// normalising, 4 for the bitangent, and the error of the normal.
 #[test]
 fn anisotropy() {
     let sample = |random: &mut Random| {
@@ -38,7 +38,7 @@ fn anisotropy() {
 
 #[test]
 fn projections_are_upright_on_every_side_and_none_is_mirrored() {
-    // Seen from outside, u goes right and v up; on the top up is -z, on the bottom z.
+    // Seen from outside, u points right and v up. On the top up is -z, on the bottom z.
     let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let minus = |v: D3| v.map(|component| 0.0 - component);
     let sides = [("x", minus(z), y), ("y", x, minus(z)), ("z", x, y)];
@@ -62,13 +62,13 @@ fn projections_are_upright_on_every_side_and_none_is_mirrored() {
     }
 }
 
-/// A power x^s is off by 5 |s log2 x| x^s from its logarithm and by 3 x^s, or by 4 s x^s near 1; then a sum and a quotient.
+/// Bound: a power x^s has errors of 5 |s log2 x| x^s from its logarithm and 3 x^s, or 4 s x^s near 1; then a sum and a quotient.
 #[test]
 fn triplanar_weights() {
     check(&Case {
         name: "triplanar_weights",
         body: "got3(0u, triplanar_weights(given3(0u), given1(3u)));",
-        // Up to 8, and so sharp that all powers would vanish.
+        // Sharpness up to 8, and one for which all powers would underflow.
         samples: many(COUNT, 2, |random| {
             let sharpness = if random.number() < 0.0 { 1.0 + 7.0 * random.fraction() } else { 1000.0 };
             [&random.direction()[..], &[sharpness]].concat()
@@ -82,7 +82,7 @@ fn triplanar_weights() {
     });
 }
 
-/// The whiteout blend by its usual swizzles.
+/// The whiteout blend in its usual form with swizzles.
 fn whiteout_on_sides(n: D3, [x, y, z]: [D3; 3]) -> [D3; 3] {
     let side = n.map(|component| if component < 0.0 { -1.0 } else { 1.0 });
     [
@@ -110,7 +110,7 @@ fn triplanar_normals() {
         expected: &|sample| {
             let [normal, weights] = [0, 3].map(|start| doubles(floats(sample, start)));
             let sum = product(whiteout_on_sides(normal, columns(sample, 6)), weights);
-            // Each term is at most 1.5 and off by 6.
+            // Each term is at most 1.5, with an error of 6 ulp.
             (unit(sum).to_vec(), (2.0 * 3f64.sqrt() * 12.0 / length(sum) + 10.0) * ULP)
         },
     });
@@ -122,7 +122,7 @@ fn triplanar_normals() {
     });
 }
 
-/// A view from above the surface, and the uvs per length along both axes.
+/// A view direction above the surface, and the UVs per length along both axes.
 fn view(random: &mut Random) -> Vec<f32> {
     loop {
         let [x, y, z] = random.direction();
@@ -132,7 +132,7 @@ fn view(random: &mut Random) -> Vec<f32> {
     }
 }
 
-/// The ray from the eye through the origin of the surface, on below it.
+/// The view ray, which passes through the origin of the surface and continues below it.
 #[test]
 fn parallax_follows_the_ray() {
     check(&Case {
@@ -169,7 +169,7 @@ fn parallax_follows_the_ray() {
     });
 }
 
-/// On a slope, one interpolation finds the meeting point of the two lines.
+/// On a linear slope, one interpolation finds the exact intersection.
 #[test]
 fn parallax_hits_a_slope() {
     let sample = |random: &mut Random| {
@@ -183,7 +183,7 @@ fn parallax_hits_a_slope() {
         samples: many(COUNT, 7, sample),
         expected: &|sample| {
             let [t, gap, next, next_gap, at] = doubles(floats(sample, 0));
-            // The gaps come rounded by up to one step of 5; steps too short to tell give either end.
+            // The gaps are rounded by up to 5 ulp. If the step is too short to distinguish its ends, either end is correct.
             let rounding = (next - t) * 5.0 / (gap - next_gap);
             (vec![at], if gap - next_gap > 1e-4 { (8.0 + 2.0 * rounding) * ULP } else { next - t + ULP })
         },
@@ -196,7 +196,7 @@ fn parallax_hits_a_slope() {
     });
 }
 
-/// A plane with waves along both axes of its frame: the displaced points' differences.
+/// A plane with waves along both axes of its frame, compared with the differences of displaced points.
 #[test]
 fn displacement_of_a_plane() {
     let sample = |random: &mut Random| {
@@ -213,7 +213,7 @@ fn displacement_of_a_plane() {
             let [tangent, bitangent] = [point(1.0, 0.0), point(0.0, 1.0)];
             let normal = unit(cross(tangent, bitangent));
             let side = dot(normal, frame[2]).signum();
-            // The frame's own columns are rounded: 2 for each of the three parts of the normal.
+            // The columns of the frame are rounded: 2 ulp for each of the three terms of the normal.
             ([tangent, bitangent, scale(side, normal)].concat(), 64.0 * ULP)
         },
     });

@@ -1,4 +1,4 @@
-//! Frames under matrices and skins, against darboux::Transform.
+//! Compares transformed frames, by matrices and skins, with darboux::Transform.
 
 use darboux::Transform;
 use darboux_shader_tests::samples::{Random, ULP, bits, floats, many};
@@ -8,7 +8,7 @@ use darboux_shader_tests::{Case, check};
 const FRAME: &str =
     "got_vertex_frame(0u, transformed_frame(frame_transform(given_map(0u)), given_vertex_frame(9u)));";
 
-/// Columns that scale by 0.1 to 10 along axes of their own, shear and, for every other, mirror.
+/// A matrix that scales by 0.1 to 10 along random axes and shears. Every other one mirrors.
 fn matrix(random: &mut Random) -> Vec<f32> {
     loop {
         let columns = [(); 3].map(|()| {
@@ -31,8 +31,8 @@ fn singles(sample: &[u32], start: usize) -> [[f32; 3]; 3] {
     [0, 3, 6].map(|k| floats(sample, start + k))
 }
 
-/// What the core makes of the frame at `start`, and how far arithmetic may be from it. The matrix' components, at most 1, are off by
-/// `of_matrix`; a cofactor then by four times that and 4, an image by 3 of either; what is made unit, by twice its error over its length.
+/// The frame at `start`, transformed by the core, with a bound. The elements of the matrix, at most 1, have an error of `of_matrix`; a
+/// cofactor has four times that plus 4 ulp, an image 3 of either; a normalised vector has twice its error divided by its length.
 fn answer(
     transform: &Transform,
     columns: [D3; 3],
@@ -84,7 +84,7 @@ fn frames_under_matrices() {
     });
 }
 
-/// The mean of three bones, each of which may mirror, where it is no smaller than a quarter of them.
+/// The mean of three bones, each of which may mirror, if it is at least a quarter of their size.
 #[test]
 fn frames_under_skins() {
     let weights = [0.5f32, 0.3, 0.2];
@@ -116,7 +116,7 @@ fn frames_under_skins() {
         samples,
         expected: &|sample| {
             let bones = [0, 9, 18].map(|start| singles(sample, start)).into_iter().zip(weights);
-            // Three products, each at most four times the blend's largest, and their sums.
+            // Three products, each at most four times the largest element of the blend, and their sums.
             answer(&Transform::blended(bones), blend(sample), sample, 27, 4.0 * 6.0 + 4.0)
         },
     });

@@ -7,6 +7,7 @@ use darboux::{Mesh, TangentOptions, Tangents};
 use darboux_gpu::{AdapterKind, Gpu, GpuTangents, MikkTSpace};
 
 use super::adapter::Adapter;
+use super::driver_messages::without_driver_messages;
 
 /// The fastest adapter, with its compute pipelines compiled.
 pub struct OpenGpu {
@@ -21,7 +22,7 @@ pub struct OpenGpu {
 pub fn open() -> Result<&'static OpenGpu, String> {
     static OPENED: OnceLock<Result<OpenGpu, String>> = OnceLock::new();
     let open = || {
-        let gpu = pollster::block_on(Gpu::open())?;
+        let gpu = without_driver_messages(|| pollster::block_on(Gpu::open()))?;
         let pipelines = Mutex::new(MikkTSpace::new(&gpu)?);
         let is_software_unreported = AtomicBool::new(gpu.kind() == AdapterKind::Software);
         Ok(OpenGpu { name: gpu.name, is_software_unreported, pipelines })
@@ -66,5 +67,7 @@ pub fn adapters() -> Vec<Adapter> {
         driver: summary.driver,
         largest_binding: summary.largest_binding,
     };
-    pollster::block_on(Gpu::list()).into_iter().map(describe).collect()
+    let list = || Ok::<_, std::convert::Infallible>(pollster::block_on(Gpu::list()));
+    let Ok(adapters) = without_driver_messages(list);
+    adapters.into_iter().map(describe).collect()
 }

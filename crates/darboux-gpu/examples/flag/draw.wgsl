@@ -1,4 +1,4 @@
-// A flag with a relief in its normal map, lit from above.
+// Draws a flag with a relief in its normal map, lit from above.
 
 struct Corner {
     @builtin(position) place: vec4f,
@@ -21,7 +21,7 @@ fn place_vertex(
     return Corner(place, normal, tangent, uv);
 }
 
-// The height of the relief: rings about the seam, furrows beside them, a hem.
+// The height of the relief: rings around the mirrored edge, furrows beside them, and a border.
 fn height(uv: vec2f) -> f32 {
     let ring = length(vec2f(uv.x * 1.5, uv.y * 2.0 - 1.0));
     let rings = 0.06 * smoothstep(-0.4, 0.4, sin(18.0 * ring)) * smoothstep(0.93, 0.87, ring);
@@ -32,12 +32,12 @@ fn height(uv: vec2f) -> f32 {
 
 @fragment
 fn shade(corner: Corner, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
-    // What a baker would have put into the map.
+    // The normal that a baked map would have.
     let step = 1.0 / 1024.0;
     let u = (height(corner.uv + vec2f(step, 0.0)) - height(corner.uv - vec2f(step, 0.0))) / (2.0 * step);
     let v = (height(corner.uv + vec2f(0.0, step)) - height(corner.uv - vec2f(0.0, step))) / (2.0 * step);
     let texel = normalize(vec3f(-u, -v, 1.0));
-    // As MikkTSpace asks: interpolated, not normalized, the bitangent made here.
+    // As MikkTSpace requires: interpolated vectors without normalisation, and the bitangent computed here.
     let bitangent = corner.tangent.w * cross(corner.normal, corner.tangent.xyz);
     let side = select(-1.0, 1.0, is_front);
     let normal = side * normalize(texel.x * corner.tangent.xyz + texel.y * bitangent + texel.z * corner.normal);

@@ -1,20 +1,20 @@
-//! What any program that draws has: pipelines, a target with depth, reading back.
+//! The pipelines and textures of the example, and reading the picture back.
 
 use darboux_gpu::Gpu;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{Buffer, BufferUsages, CommandEncoder, ComputePipeline, RenderPipeline, Texture, TextureFormat};
 
-/// Pixels.
+/// The size of the picture in pixels.
 pub const WIDTH: u32 = 768;
 pub const HEIGHT: u32 = 336;
-/// Parts of the picture, across and down.
+/// The number of pictures per row and per column.
 const PARTS: [u32; 2] = [3, 2];
 const SAMPLES: u32 = 4;
 const COLOR: TextureFormat = TextureFormat::Rgba8UnormSrgb;
 const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 const PAPER: wgpu::Color = wgpu::Color { r: 0.86, g: 0.89, b: 0.92, a: 1.0 };
 
-/// Moves and draws flags.
+/// Moves and draws the vertices of flags.
 pub struct Painter<'a> {
     gpu: &'a Gpu,
     wave: ComputePipeline,
@@ -54,7 +54,7 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// Records where the vertices are at `time`.
+    /// Records the motion of the vertices to `time`.
     pub fn wave(&self, encoder: &mut CommandEncoder, time: f32, at_rest: &Buffer, vertices: &Buffer) {
         let device = &self.gpu.device;
         let time = device.create_buffer_init(&BufferInitDescriptor {
@@ -79,7 +79,7 @@ impl<'a> Painter<'a> {
         pass.dispatch_workgroups((at_rest.size() as u32 / 12).div_ceil(64), 1, 1);
     }
 
-    /// Records drawing a flag into one part of the picture; the first clears it all.
+    /// Records the drawing of a flag into one part of the picture. The first part clears the picture.
     pub fn draw(&self, encoder: &mut CommandEncoder, [column, row]: [u32; 2], vertices: &Buffer) {
         let is_first = [column, row] == [0, 0];
         let load = |clear: wgpu::LoadOp<wgpu::Color>| if is_first { clear } else { wgpu::LoadOp::Load };
@@ -112,7 +112,7 @@ impl<'a> Painter<'a> {
         pass.draw_indexed(0..self.index_count, 0, 0..1);
     }
 
-    /// Submits all that was recorded and reads the picture.
+    /// Submits the commands and reads the picture.
     pub fn finish(&self, mut encoder: CommandEncoder) -> Vec<u8> {
         let read = self.gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("pixels"),
@@ -129,7 +129,7 @@ impl<'a> Painter<'a> {
         );
         self.gpu.queue.submit([encoder.finish()]);
         read.map_async(wgpu::MapMode::Read, .., |result| result.expect("a buffer that can be mapped"));
-        self.gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("a device that goes on");
+        self.gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("a working device");
         let pixels = read.get_mapped_range(..).expect("a mapped buffer");
         pixels.to_vec()
     }

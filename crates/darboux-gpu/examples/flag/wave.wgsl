@@ -1,9 +1,9 @@
-// Moves the vertices of a flag: what skinning, morphing or a simulation would do.
+// Moves the vertices of a flag. A real program would use skinning, morphing or a simulation.
 
 @group(0) @binding(0) var<uniform> time: f32;
-// Three floats each.
+// Three floats per vertex.
 @group(0) @binding(1) var<storage, read> at_rest: array<f32>;
-// Twelve floats each: position, normal, UV, tangent.
+// Twelve floats per vertex: position, normal, UV, tangent.
 @group(0) @binding(2) var<storage, read_write> vertices: array<f32>;
 
 @compute @workgroup_size(64)

@@ -1,20 +1,20 @@
-//! How long work takes on the device, and until it is done.
+//! Measures the time of commands on the device, and the wall time until they are done.
 
 use std::time::Instant;
 
 use darboux_gpu::Gpu;
 use wgpu::{Buffer, BufferDescriptor, BufferUsages, CommandEncoder, Features, QuerySet};
 
-/// Medians of milliseconds.
+/// Medians in milliseconds.
 #[derive(Clone, Copy)]
 pub struct Times {
-    /// Between time stamps on the device; none where it has no clock.
+    /// The time between timestamps on the device; none if it does not support timestamps.
     pub device: Option<f64>,
-    /// From recording to the end of waiting.
+    /// The time from recording until the device has finished.
     pub wall: f64,
 }
 
-/// A device and its clock.
+/// A device with its timestamp queries.
 pub struct Clock<'a> {
     gpu: &'a Gpu,
     stamps: Option<QuerySet>,
@@ -50,7 +50,7 @@ impl<'a> Clock<'a> {
         }
     }
 
-    /// Records, submits and waits, once for nothing and then for the medians.
+    /// Records, submits and waits, once to warm up and then for the medians.
     pub fn time(&self, record: impl Fn(&mut CommandEncoder)) -> Times {
         self.once(&record);
         let (mut device, mut wall) = (Vec::new(), Vec::new());
@@ -75,14 +75,14 @@ impl<'a> Clock<'a> {
             encoder.copy_buffer_to_buffer(&self.resolved, 0, &self.read, 0, 16);
         }
         self.gpu.queue.submit([encoder.finish()]);
-        self.gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("a device that goes on");
+        self.gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("a working device");
         let wall = start.elapsed().as_secs_f64() * 1e3;
         Times { device: self.stamps.as_ref().map(|_| self.stamped()), wall }
     }
 
     fn stamped(&self) -> f64 {
         self.read.map_async(wgpu::MapMode::Read, .., |result| result.expect("a buffer that can be mapped"));
-        self.gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("a device that goes on");
+        self.gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("a working device");
         let bytes = self.read.get_mapped_range(..).expect("a mapped buffer").to_vec();
         self.read.unmap();
         let [start, end] = [0, 8].map(|at| {
@@ -92,7 +92,7 @@ impl<'a> Clock<'a> {
         end.saturating_sub(start) as f64 * f64::from(self.gpu.queue.get_timestamp_period()) * 1e-6
     }
 
-    /// Milliseconds of work on the CPU, as [`Clock::time`].
+    /// Measures work on the CPU, as [`Clock::time`] does on the device.
     pub fn time_cpu(&self, mut work: impl FnMut()) -> Times {
         work();
         let mut once = || {
@@ -100,7 +100,7 @@ impl<'a> Clock<'a> {
             work();
             start.elapsed().as_secs_f64() * 1e3
         };
-        // What takes seconds need not be repeated as often.
+        // Work on the CPU may take seconds, so it is repeated less often.
         let rounds = self.rounds.min(5);
         Times { device: None, wall: median((0..rounds).map(|_| once()).collect()) }
     }

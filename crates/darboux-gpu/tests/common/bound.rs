@@ -1,33 +1,34 @@
-//! How far from the exact answer a frame may be, from what WGSL promises of arithmetic.
+//! Bounds of the rounding errors of frames of the method `Average`, derived from the guarantees of WGSL.
 //!
-//! With u = 2^-24: sums and products are off by u, quotients by 2.5 ulp (5 u), roots, as reciprocals of reciprocal roots, by 4.5 ulp
-//! (9 u); contraction only takes from that. A dP/du times the UV area, dv2 e1 - dv1 e2, passes four roundings: it is off by 4 u M, M =
-//! |dv2| |e1| + |dv1| |e2|. To make a vector unit doubles its relative error at most and adds less than 20 u.
+//! With u = 2^-24, sums and products have relative errors of u, quotients of 2.5 ulp (5 u), and square roots, which WGSL defines as
+//! reciprocals of reciprocal roots, of 4.5 ulp (9 u). Fused operations have smaller errors. dP/du times the UV area, dv2 e1 - dv1 e2, has
+//! four roundings and an error of 4 u M, where M = |dv2| |e1| + |dv1| |e2|. Normalising a vector at most doubles its relative error and
+//! adds less than 20 u.
 
 use darboux_tests::OwnedMesh;
 
 pub const U: f64 = 1.0 / (1 << 24) as f64;
-/// Of making a vector unit.
+/// The error of normalising a vector.
 const UNIT: f64 = 20.0 * U;
-/// Beyond these, and below their reciprocals, squares or cross products may overflow or vanish.
+/// Above this, and below its reciprocal, squares and cross products may overflow or underflow.
 const LARGEST: f64 = 1e15;
-/// A larger bound says nothing.
+/// Larger bounds are useless.
 pub const USEFUL: f64 = 0.1;
 
 type V3 = [f64; 3];
 
-/// What is known about the frame of a vertex.
+/// What the exact computation determines about the frame of a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Known {
-    /// The sign, and how far off tangent and bitangent may be.
+    /// The sign, and bounds for tangent and bitangent.
     Frame { sign: f32, tangent: f64, bitangent: f64 },
-    /// That it has no triangles with a direction.
+    /// The vertex has no triangle with a direction.
     Without,
-    /// Nothing: a decision or a direction is within rounding of something else.
+    /// Nothing, because rounding may change a decision or a direction.
     Unsure,
 }
 
-/// A sum of directions, and how far it is off.
+/// A sum of directions, and the bound of its error.
 #[derive(Clone, Copy, Default)]
 struct Sum {
     value: V3,
@@ -53,7 +54,7 @@ enum Triangle {
     Adds { side: usize, tangent: (V3, f64), bitangent: (V3, f64) },
 }
 
-/// What is known of every vertex of a mesh of triangles.
+/// The determined frame of every vertex of a triangle mesh.
 pub fn known(mesh: &OwnedMesh) -> Vec<Known> {
     let mut vertices = vec![Vertex::default(); mesh.positions.len()];
     for face in mesh.face_list() {
@@ -80,7 +81,7 @@ impl Sum {
         self.error += error + U * length(self.value);
     }
 
-    /// The error of the direction in the plane of `normal`, whose own direction is off by [`UNIT`].
+    /// The error of the direction in the plane of `normal`, which itself has an error of [`UNIT`].
     fn in_plane(&self, normal: V3) -> f64 {
         let along = dot(self.value, normal);
         let rest = [0, 1, 2].map(|i| self.value[i] - along * normal[i]);
@@ -100,7 +101,7 @@ impl Vertex {
         }
         let normal_size = length(normal);
         let is_plain = normal_size == 0.0 || (1.0 / LARGEST..LARGEST).contains(&normal_size);
-        // An absent normal leaves the sum as it is.
+        // Without a normal the sum is not projected.
         let normal = if normal_size > 0.0 { normal.map(|x| x / normal_size) } else { [0.0; 3] };
         let [tangent, bitangent] = [&side.tangent, &side.bitangent].map(|sum| sum.in_plane(normal));
         let cancels = length(side.tangent.value) < 3e-5 * side.count;
@@ -138,12 +139,12 @@ fn triangle(mesh: &OwnedMesh, vertices: [usize; 3]) -> Triangle {
     Triangle::Adds { side: usize::from(area < 0.0), tangent, bitangent }
 }
 
-/// As shaders compute it: without contraction, so that UVs in one line have none.
+/// The area as the shader computes it, without fused operations, so that it is exactly 0 for collinear UVs.
 fn area_in_floats([a, b, c]: [[f32; 2]; 3]) -> f32 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// x a - y b: its direction with the error that floats make, and its length.
+/// The direction of x a - y b with its error in floats, and its length.
 fn derivative([x, y]: [f64; 2], a: V3, b: V3) -> ((V3, f64), f64) {
     let value = [0, 1, 2].map(|i| x * a[i] - y * b[i]);
     let size = length(value);

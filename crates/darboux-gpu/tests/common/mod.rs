@@ -1,6 +1,6 @@
-//! Meshes into buffers of any layout, and what comes back.
+//! Packs meshes into buffers of any layout, runs `Average` on them and reads the results. Shared by all test files.
 
-#![allow(dead_code, reason = "every test file uses its part")]
+#![allow(dead_code, reason = "every test file uses only a part")]
 
 pub mod bound;
 pub mod plan_bound;
@@ -17,7 +17,7 @@ use darboux_tests::{FaceSizes, OwnedMesh};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{Buffer, BufferUsages, IndexFormat};
 
-/// Every adapter's device. Where there are none, says so once, and fails in continuous integration.
+/// The devices of all adapters. Without adapters, prints once that tests are skipped, or fails in continuous integration.
 pub fn gpus() -> &'static [Gpu] {
     static GPUS: OnceLock<Vec<Gpu>> = OnceLock::new();
     GPUS.get_or_init(|| {
@@ -30,16 +30,16 @@ pub fn gpus() -> &'static [Gpu] {
     })
 }
 
-/// MikkTSpace for every adapter, compiled once.
+/// MikkTSpace on every adapter, compiled once.
 pub fn kernels() -> &'static [MikkTSpace] {
     static KERNELS: OnceLock<Vec<MikkTSpace>> = OnceLock::new();
     KERNELS.get_or_init(|| gpus().iter().map(|gpu| MikkTSpace::new(gpu).expect("valid shaders")).collect())
 }
 
-/// What a word holds before anybody writes it.
+/// The initial value of words that a test expects to be written or unchanged.
 pub const UNTOUCHED: u32 = 0xdead_beef;
 
-/// A mesh in words, and how it is laid out.
+/// The words of a mesh, and their layout.
 #[derive(Clone)]
 pub struct Packed {
     pub vertices: Vec<u32>,
@@ -48,15 +48,15 @@ pub struct Packed {
     pub indices: Vec<u32>,
 }
 
-/// A vertex of 14 floats as engines have it: position, UV, normal, tangent, bitangent, the vectors 12 bytes each.
+/// A typical vertex of 14 floats: position, UV, normal, tangent, bitangent.
 pub const ENGINE: VertexLayout = VertexLayout { stride: 56, position: 0, uv: 12, normal: 20 };
-/// The places of the last two.
+/// The tangent and bitangent of [`ENGINE`].
 pub const ENGINE_FRAME: FrameLayout = FrameLayout { tangent: 32, bitangent: Some(44), sign: None };
-/// Frames of their own: tangent and sign, bitangent.
+/// Frames in a separate buffer: tangent, sign, bitangent.
 pub const APART: FrameLayout = FrameLayout { tangent: 0, bitangent: Some(16), sign: Some(12) };
 pub const APART_STRIDE: u32 = 28;
 
-/// Lays a mesh out. Faces of more than three corners become triangles around their first.
+/// Packs a mesh. Faces with more than three corners become triangle fans.
 pub fn pack(mesh: &OwnedMesh, layout: VertexLayout) -> Packed {
     let count = mesh.positions.len();
     let stride = layout.stride as usize / 4;
@@ -84,7 +84,7 @@ pub fn triangles(mesh: &OwnedMesh) -> Vec<Vec<u32>> {
     mesh.face_list().into_iter().flat_map(around_first).collect()
 }
 
-/// The same with triangles alone, indexed.
+/// The mesh as indexed triangles.
 pub fn triangulated(mesh: &OwnedMesh) -> OwnedMesh {
     let faces = triangles(mesh);
     let mut mesh = mesh.clone().with_face_list(&faces);
@@ -92,21 +92,21 @@ pub fn triangulated(mesh: &OwnedMesh) -> OwnedMesh {
     mesh
 }
 
-/// Where frames are asked for.
+/// Where frames are written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Place {
     InPlace(FrameLayout),
     Apart,
 }
 
-/// All words of the destination after a run, and the counts.
+/// The words of the destination after a run, and the counts.
 #[derive(Debug, PartialEq)]
 pub struct Found {
     pub words: Vec<u32>,
     pub counts: [u32; 3],
 }
 
-/// Words in a buffer.
+/// A buffer with these words.
 pub fn buffer(gpu: &Gpu, words: &[u32], usage: BufferUsages) -> Buffer {
     let contents = bytes(words);
     gpu.device.create_buffer_init(&BufferInitDescriptor { label: None, contents: &contents, usage })
@@ -124,7 +124,7 @@ pub fn run(gpu: &Gpu, search: Search, packed: &Packed, place: Place) -> Found {
     run_with(gpu, search, packed, (&indices, IndexFormat::Uint32, 0, count), place)
 }
 
-/// Runs with indices of any form: their buffer, width, first and number.
+/// Runs with any indices: their buffer, format, first index and count.
 pub fn run_with(
     gpu: &Gpu,
     search: Search,
@@ -154,13 +154,13 @@ pub fn run_with(
     read(gpu, &average, written)
 }
 
-/// Compiled once per search, for the only device most machines have.
+/// `Average`, compiled once per adapter and search.
 fn average(gpu: &Gpu, search: Search) -> Average {
     static COMPILED: OnceLock<Vec<[Average; 2]>> = OnceLock::new();
     let both =
         |gpu: &Gpu| [Search::BruteForce, Search::Adjacency].map(|search| Average::new(&gpu.device, search));
     let compiled = COMPILED.get_or_init(|| gpus().iter().map(both).collect());
-    let at = gpus().iter().position(|other| other.device == gpu.device).expect("one of all");
+    let at = gpus().iter().position(|other| other.device == gpu.device).expect("an adapter of the list");
     compiled[at][usize::from(search == Search::Adjacency)].clone()
 }
 
@@ -177,15 +177,15 @@ fn read(gpu: &Gpu, average: &AverageOfMesh, written: &Buffer) -> Found {
     Found { words: words_of(gpu, &words), counts: [counts[0], counts[1], counts[2]] }
 }
 
-/// The words of a buffer that can be mapped, once all submitted work is done.
+/// Waits for all submitted work and returns the words of a mappable buffer.
 pub fn words_of(gpu: &Gpu, buffer: &Buffer) -> Vec<u32> {
     buffer.map_async(wgpu::MapMode::Read, .., |result| result.expect("a buffer that can be mapped"));
-    gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("a device that goes on");
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("a working device");
     let bytes = buffer.get_mapped_range(..).expect("a mapped buffer");
     bytes.as_chunks().0.iter().map(|bytes| u32::from_le_bytes(*bytes)).collect()
 }
 
-/// A frame of a vertex: tangent, sign, bitangent.
+/// The frame of a vertex: tangent, sign, bitangent.
 pub type GpuFrame = ([f32; 3], f32, [f32; 3]);
 
 /// The frames of a run with [`Place::Apart`].

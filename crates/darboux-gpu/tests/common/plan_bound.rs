@@ -1,10 +1,10 @@
-//! How far from the exact answer a plan's fast tangent may be, from what WGSL promises of arithmetic.
+//! Bounds of the rounding errors of tangents of plans in fast precision, derived from the guarantees of WGSL.
 //!
-//! With u = 2^-24, as in bound.rs: a dP/du is off by 4 u M, M = |dv2| |e1| + |dv1| |e2|; to make a vector unit doubles its relative error and
-//! adds 20 u; the part of a unit vector in the plane of the normal, of length r, is off by 60 u besides, so its direction by
-//! D = (2 e + 120 u) / r + 20 u where e is the vector's own error. A corner's cosine is off by C = D + D' + 3 u, its angle w by
-//! A = C / sin w or sqrt(2 C), whichever is less, and 1e-6 for the arccosine. A sum of n terms w s is off by the sum of w D + A, and n u
-//! times the sum of w for the additions; its direction by twice that over its length, and 20 u.
+//! With u = 2^-24, as in bound.rs: dP/du has an error of 4 u M, where M = |dv2| |e1| + |dv1| |e2|. Normalising a vector doubles its relative
+//! error and adds 20 u. Projecting a unit vector with error e into the plane of the normal, where it has length r, adds 60 u, so its
+//! direction has an error of D = (2 e + 120 u) / r + 20 u. The cosine of a corner has an error of C = D + D' + 3 u, its angle w of
+//! A = min(C / sin w, sqrt(2 C)) + 1e-6, where the last term is for the arccosine. A sum of n terms w s has an error of the sum of w D + A,
+//! plus n u times the sum of w for the additions. Its direction has twice that error divided by its length, plus 20 u.
 
 use darboux::internal::stage_arrays::Stages;
 use darboux_tests::OwnedMesh;
@@ -13,10 +13,10 @@ use super::bound::{U, dot, length, sub};
 
 type V3 = [f64; 3];
 
-/// Beyond these and below their reciprocals squares may overflow or vanish.
+/// Above this, and below its reciprocal, squares may overflow or underflow.
 const LARGEST: f64 = 1e15;
 
-/// The bound of every sum; none where it would be larger than a tenth.
+/// The bound of every sum; none if it is larger than 0.1.
 pub fn bounds(base: &Stages, moved: &OwnedMesh) -> Vec<Option<f64>> {
     let starts = [0].into_iter().chain(base.sums.ends.iter().copied());
     let sum = |(start, (&end, &vertex)): (u32, (&u32, &u32))| {
@@ -33,7 +33,7 @@ pub fn bounds(base: &Stages, moved: &OwnedMesh) -> Vec<Option<f64>> {
     starts.zip(base.sums.ends.iter().zip(&base.sums.vertices)).map(sum).collect()
 }
 
-/// What a corner adds: its direction, the error of that, its weight, the error of that.
+/// The term of a corner: its direction, the error of the direction, its weight, the error of the weight.
 type Term = (V3, f64, f64, f64);
 
 fn of_terms(terms: &[Term]) -> Option<f64> {
@@ -72,7 +72,7 @@ fn term(mesh: &OwnedMesh, vertices: [usize; 3], k: usize, normal: V3) -> Option<
     Some((direction, off, angle, 2.0 * weight_off + 1e-6))
 }
 
-/// The direction of `v` in the plane of `normal`, and its error where `v` is off by `off` of its length.
+/// The direction of `v` in the plane of `normal`, and its error. `off`: the relative error of `v`.
 fn in_plane(normal: V3, v: V3, off: f64) -> Option<(V3, f64)> {
     let v = v.map(|x| x / length(v));
     let along = dot(normal, v);

@@ -1,4 +1,4 @@
-//! Plans run once.
+//! Runs plans once, and reads their results.
 
 use darboux::{MikktOptions, Mode, TangentOptions};
 use darboux_gpu::{Attribute, Gpu, GpuError, MovingMesh, Plan, Planner, TangentsPer};
@@ -7,7 +7,7 @@ use wgpu::BufferUsages;
 
 use super::{UNTOUCHED, buffer, words_of};
 
-/// What a plan writes: four words per corner or vertex, its counts, and those of its check, which is of triangles alone.
+/// The results of a plan: four words per corner or vertex, its counts, and the counts of its check, which exists only for triangles.
 #[derive(Debug, PartialEq)]
 pub struct Found {
     pub words: Vec<u32>,
@@ -15,7 +15,7 @@ pub struct Found {
     pub changes: [u32; 5],
 }
 
-/// Runs a plan of `base` on `moved`, in buffers of their own.
+/// Runs a plan of `base` on the moved mesh `moved`, with one buffer per attribute.
 pub fn run(
     planner: &Planner,
     gpu: &Gpu,
@@ -63,6 +63,6 @@ pub fn record(gpu: &Gpu, plan: &Plan, moving: &MovingMesh<'_>) -> Found {
     }
     gpu.queue.submit([encoder.finish()]);
     let [words, counts, changes] = results.map(|result| words_of(gpu, &result));
-    let fixed = "as many words";
+    let fixed = "the number of counts";
     Found { words, counts: counts.try_into().expect(fixed), changes: changes.try_into().expect(fixed) }
 }

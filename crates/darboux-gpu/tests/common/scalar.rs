@@ -1,11 +1,11 @@
-//! Functions of numbers, on many samples at once.
+//! Runs WGSL functions of single numbers on many samples at once.
 
 use darboux_gpu::Gpu;
 use wgpu::{BufferUsages, ComputePipelineDescriptor, ShaderModuleDescriptor, ShaderSource};
 
 use super::{buffer, words_of};
 
-/// Between the files and the body: samples of `GIVEN` words, answers of `GOT`.
+/// The source after the tested files. A sample has `GIVEN` words, a result `GOT` words.
 const PRELUDE: &str = "
 @group(0) @binding(0) var<storage, read> given: array<u32>;
 @group(0) @binding(1) var<storage, read_write> got: array<u32>;
@@ -26,10 +26,10 @@ fn main(@builtin(global_invocation_id) thread: vec3u, @builtin(num_workgroups) g
 }
 ";
 
-/// Samples that a run takes at most.
+/// The most samples per dispatch.
 const BATCH: usize = 1 << 20;
 
-/// Runs `body`, which reads `given[at]`... and writes `got[into]`..., on samples of `N` words; `M` words come of each.
+/// Runs `body` on samples of `N` words, with results of `M` words. It reads `given[at]`, ... and writes `got[into]`, ...
 pub fn map<const N: usize, const M: usize>(
     gpu: &Gpu,
     files: &[&str],

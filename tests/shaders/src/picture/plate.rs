@@ -1,37 +1,37 @@
-//! The plate: its vertices and its normal map.
+//! The vertices and the normal map of the plate.
 
 use darboux::encode::{
     frame_to_quaternion, normal_from_octahedral, normal_to_octahedral, tangent_to_diamond,
     tangent_to_octahedral, tangent_to_snorm8, tangent_to_snorm10, tangent_to_snorm16,
 };
 
-use super::{Encoding, SIDE};
+use crate::picture::encoding::{Encoding, SIDE};
 use crate::vector::{cross, doubles, singles, unit};
 
-/// Texels across: the right half of the plate has the left half's.
+/// The width of the normal map in texels. Both halves of the plate use the same texels.
 pub const MAP_WIDTH: usize = SIDE / 2;
 
 /// A corner of one of the quads.
 #[derive(Clone, Copy)]
 pub struct Vertex {
-    /// From -1 to 1, rightwards and upwards.
+    /// The position, from -1 to 1. x points right, y up.
     pub position: [f32; 2],
-    /// In the map, from 0 to 1, v upwards.
+    /// The UV, from 0 to 1. v points up.
     pub uv: [f32; 2],
-    /// Unit.
+    /// A unit vector.
     pub normal: [f32; 3],
-    /// Unit, and the sign.
+    /// A unit vector and the sign.
     pub tangent: [f32; 4],
 }
 
-/// Corners of the quads' triangles: the left quad's, then the right one's.
+/// The corners of the triangles of the left quad, then of the right quad.
 pub const TRIANGLES: [[usize; 3]; 4] = [[0, 1, 2], [2, 1, 3], [4, 5, 6], [6, 5, 7]];
 
-/// The corners of the left quad, u rightwards, then those of the right one, u leftwards.
+/// The corners of the left quad, where u points right, then of the right quad, where u points left.
 pub fn vertices() -> Vec<Vertex> {
     let corner = |x: f32, y: f32, w: f32| {
         let normal = unit(doubles([0.5 * x, 0.5 * y, 1.0]));
-        // What is perpendicular to the normal and to y, u's direction in the plane of the normal.
+        // The vector perpendicular to the normal and to y: the direction of u in the plane of the normal.
         let right = unit(cross([0.0, 1.0, 0.0], normal));
         let [a, b, c] = singles(right).map(|component| w * component);
         let uv = [1.0 - x.abs(), (1.0 + y) / 2.0];
@@ -43,7 +43,7 @@ pub fn vertices() -> Vec<Vertex> {
     [quad(-1.0, 1.0), quad(0.0, -1.0)].concat()
 }
 
-/// Domes in rows, as 8-bit texels, the topmost row first.
+/// A grid of domes as 8-bit texels, top row first.
 pub fn normal_map() -> Vec<[u8; 4]> {
     let dome = SIDE as f32 / 4.0;
     let texel = |column: usize, row: usize| {
@@ -58,7 +58,7 @@ pub fn normal_map() -> Vec<[u8; 4]> {
     (0..SIDE).flat_map(|row| (0..MAP_WIDTH).map(move |column| texel(column, row))).collect()
 }
 
-/// The tangent, or the frame, in four words at most, little-endian as it lies in a vertex buffer.
+/// The encoded tangent or frame as bytes of a vertex buffer, little-endian, at most four words.
 pub fn code(encoding: Encoding, vertex: &Vertex) -> Vec<u8> {
     let Vertex { normal, tangent, .. } = *vertex;
     let shorts = |code: &[i16]| code.iter().flat_map(|short| short.to_le_bytes()).collect();

@@ -19,7 +19,7 @@ fn vertex(
 
 @group(0) @binding(0) var map: texture_2d<f32>;
 
-// Copper under a lamp at the upper left.
+// The colour of copper, lit from the upper left.
 fn lit(normal: vec3f) -> vec3f {
     let diffuse = max(dot(normal, normalize(vec3f(-1.0, 1.0, 1.0))), 0.0);
     let shine = 0.6 * pow(max(dot(normal, normalize(vec3f(-1.0, 1.0, 2.732))), 0.0), 16.0);

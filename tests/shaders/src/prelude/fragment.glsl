@@ -1,7 +1,7 @@
 layout(location = 0) out vec4 color;
 vec2 place_;
 
-// What grows by the vector at k from pixel to pixel rightwards, and by the next one downwards.
+// A value that changes by the vector at k per pixel to the right, and by the next vector per pixel down.
 vec2 spread2(uint k) { return place_.x * given2(k) + place_.y * given2(k + 2u); }
 vec3 spread3(uint k) { return place_.x * given3(k) + place_.y * given3(k + 3u); }
 

@@ -1,6 +1,6 @@
 static float2 place_;
 
-// What grows by the vector at k from pixel to pixel rightwards, and by the next one downwards.
+// A value that changes by the vector at k per pixel to the right, and by the next vector per pixel down.
 float2 spread2(uint k) { return place_.x * given2(k) + place_.y * given2(k + 2u); }
 float3 spread3(uint k) { return place_.x * given3(k) + place_.y * given3(k + 3u); }
 

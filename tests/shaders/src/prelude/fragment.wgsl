@@ -1,6 +1,6 @@
 var<private> place_: vec2f;
 
-// What grows by the vector at k from pixel to pixel rightwards, and by the next one downwards.
+// A value that changes by the vector at k per pixel to the right, and by the next vector per pixel down.
 fn spread2(k: u32) -> vec2f { return place_.x * given2(k) + place_.y * given2(k + 2u); }
 fn spread3(k: u32) -> vec3f { return place_.x * given3(k) + place_.y * given3(k + 3u); }
 

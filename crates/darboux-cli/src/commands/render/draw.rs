@@ -16,6 +16,7 @@ use super::arguments::{
 };
 use super::legend::Legend;
 use crate::documents::{load, refuse_used};
+use crate::gpu::without_driver_messages;
 use crate::heat_scale::{ENDS, FLIP, RAMP};
 use crate::inputs::Input;
 use crate::json::{VERSION, to_json};
@@ -111,7 +112,7 @@ fn draw(arguments: &RenderArguments) -> Result<RenderReport, String> {
         }
         None => (model, None),
     };
-    let gpu = pollster::block_on(Gpu::open()).map_err(no_adapter)?;
+    let gpu = without_driver_messages(|| pollster::block_on(Gpu::open())).map_err(no_adapter)?;
     let picture = picture(arguments, source, &gpu, &model, other.as_ref()).map_err(|error| match error {
         RenderError::Nothing | RenderError::TooMany { .. } => format!("{name}: {error}"),
         error => error.to_string(),

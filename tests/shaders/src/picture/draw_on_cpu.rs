@@ -1,4 +1,4 @@
-//! The plate by the CPU: what the shaders of `gpu.rs` do, with the core's functions.
+//! Draws the plate on the CPU, with the functions of the core instead of those of the shaders.
 
 use darboux::TexelLayout;
 use darboux::encode::{
@@ -8,11 +8,11 @@ use darboux::encode::{
     tangent_to_snorm16,
 };
 
-use super::plate::{MAP_WIDTH, TRIANGLES, Vertex, normal_map, vertices};
-use super::{Encoding, Plate, SIDE};
+use crate::picture::encoding::{Encoding, Plate, SIDE};
+use crate::picture::plate::{MAP_WIDTH, TRIANGLES, Vertex, normal_map, vertices};
 use crate::vector::{D3, cross, dot, doubles, product, scale, unit};
 
-/// The plate of an encoding.
+/// Draws the plate of an encoding.
 pub fn draw(encoding: Encoding) -> Plate {
     let vertices: Vec<Vertex> = vertices().into_iter().map(|vertex| decoded(encoding, vertex)).collect();
     let map = normal_map();
@@ -46,15 +46,15 @@ fn decoded(encoding: Encoding, vertex: Vertex) -> Vertex {
     Vertex { normal, tangent, ..vertex }
 }
 
-/// The weights of a triangle's corners at a place.
-fn weights(corners: &[Vertex; 3], place: [f64; 2]) -> [f64; 3] {
+/// The barycentric coordinates of a point in a triangle.
+fn weights(corners: &[Vertex; 3], point: [f64; 2]) -> [f64; 3] {
     let [a, b, c] = corners.map(|corner| corner.position.map(f64::from));
     let area =
         |p: [f64; 2], q: [f64; 2], r: [f64; 2]| (q[0] - p[0]) * (r[1] - p[1]) - (r[0] - p[0]) * (q[1] - p[1]);
-    [area(place, b, c), area(a, place, c), area(a, b, place)].map(|part| part / area(a, b, c))
+    [area(point, b, c), area(a, point, c), area(a, b, point)].map(|part| part / area(a, b, c))
 }
 
-/// A pixel: the texel's normal in the interpolated frame, lit.
+/// The colour of a pixel: the normal of the texel in the interpolated frame, lit.
 fn shaded(map: &[[u8; 4]], corners: &[Vertex; 3], weights: [f64; 3]) -> [u8; 4] {
     let mix = |component: &dyn Fn(&Vertex) -> f32| -> f64 {
         corners.iter().zip(weights).map(|(corner, weight)| weight * f64::from(component(corner))).sum()
@@ -71,7 +71,7 @@ fn shaded(map: &[[u8; 4]], corners: &[Vertex; 3], weights: [f64; 3]) -> [u8; 4] 
     [r, g, b, 1.0].map(|channel| (channel.clamp(0.0, 1.0) * 255.0).round() as u8)
 }
 
-/// Copper under a lamp at the upper left.
+/// The colour of copper, lit from the upper left.
 fn lit(normal: D3) -> D3 {
     let (light, half) = (unit([-1.0, 1.0, 1.0]), unit([-1.0, 1.0, 2.732]));
     let diffuse = dot(normal, light).max(0.0);

@@ -1,4 +1,4 @@
-//! The plate by a GPU: the library's functions in a vertex and a fragment shader.
+//! Draws the plate on a GPU, with the functions of the library in a vertex and a fragment shader.
 
 use darboux::encode::normal_to_octahedral;
 use wgpu::VertexFormat::{
@@ -7,15 +7,15 @@ use wgpu::VertexFormat::{
 use wgpu::util::{BufferInitDescriptor, DeviceExt, TextureDataOrder};
 use wgpu::{BufferUsages, VertexAttribute, VertexBufferLayout, VertexStepMode};
 
-use super::plate::{MAP_WIDTH, TRIANGLES, code, normal_map, vertices};
-use super::{Encoding, Plate, SIDE};
-use crate::gpu::{FORMAT, Gpu};
+use crate::adapters::{FORMAT, Gpu};
 use crate::language::{Language, Stage, library};
+use crate::picture::encoding::{Encoding, Plate, SIDE};
+use crate::picture::plate::{MAP_WIDTH, TRIANGLES, code, normal_map, vertices};
 
-/// Bytes of a vertex: position, UV, normal, octahedral normal, and room for the longest code.
+/// Bytes per vertex: position, UV, normal, octahedral normal, and the longest code.
 const STRIDE: u64 = 8 + 8 + 12 + 4 + 16;
 
-/// The plate of an encoding.
+/// Draws the plate of an encoding.
 pub fn draw(gpu: &Gpu, encoding: Encoding) -> Plate {
     let (format, code_type, decoded) = fetched(encoding);
     let text = include_str!("plate.wgsl").replace("CODE", code_type).replace("VERTEX_FRAME", decoded);

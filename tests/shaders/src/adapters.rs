@@ -1,18 +1,18 @@
-//! Adapters: all that Vulkan has here, software ones included.
+//! Opens all Vulkan adapters of this machine, including software ones, and wraps the wgpu calls of the tests.
 
 use std::sync::OnceLock;
 
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{Backends, BufferUsages, Instance, InstanceDescriptor, ShaderModule, ShaderModuleDescriptor};
 
-use crate::language::{Language, Stage, cannot_run};
+use crate::language::{Language, Stage, skip_tests};
 
-/// Of targets.
+/// The format of render targets.
 pub(crate) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
-/// A device of an adapter.
+/// An adapter and its device.
 pub struct Gpu {
-    /// The adapter, in words.
+    /// The name of the adapter.
     pub name: String,
     /// The device.
     pub device: wgpu::Device,
@@ -20,13 +20,13 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
 }
 
-/// Every adapter's device. Where there are none, says so once, and fails in continuous integration.
+/// The devices of all adapters. Without adapters, prints once that tests are skipped, or fails in continuous integration.
 pub fn gpus() -> &'static [Gpu] {
     static GPUS: OnceLock<Vec<Gpu>> = OnceLock::new();
     GPUS.get_or_init(|| {
         let gpus = pollster::block_on(open_all());
         if gpus.is_empty() {
-            cannot_run("no Vulkan adapter (Debian: mesa-vulkan-drivers, libvulkan1)");
+            skip_tests("no Vulkan adapter (Debian: mesa-vulkan-drivers, libvulkan1)");
         }
         gpus
     })
@@ -49,7 +49,7 @@ async fn open_all() -> Vec<Gpu> {
 }
 
 impl Gpu {
-    /// The module of a whole shader; none where its compiler is not there.
+    /// Compiles a shader; none if the compiler of the language is not installed.
     pub fn module(&self, language: Language, stage: Stage, text: &str) -> Option<ShaderModule> {
         let source = language.source(stage, text)?;
         Some(
@@ -57,21 +57,21 @@ impl Gpu {
         )
     }
 
-    /// A buffer with these words in it.
+    /// A buffer with these words.
     pub fn buffer(&self, words: &[u32], usage: BufferUsages) -> wgpu::Buffer {
         let contents: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
         self.device.create_buffer_init(&BufferInitDescriptor { label: None, contents: &contents, usage })
     }
 
-    /// The words of a buffer that can be mapped, once all submitted work is done.
+    /// Waits for all submitted work and returns the words of a mappable buffer.
     pub fn words(&self, buffer: &wgpu::Buffer) -> Vec<u32> {
         buffer.map_async(wgpu::MapMode::Read, .., |result| result.expect("a buffer that can be mapped"));
-        self.device.poll(wgpu::PollType::wait_indefinitely()).expect("a device that goes on");
+        self.device.poll(wgpu::PollType::wait_indefinitely()).expect("a working device");
         let bytes = buffer.get_mapped_range(..).expect("a mapped buffer");
         bytes.as_chunks().0.iter().map(|bytes| u32::from_le_bytes(*bytes)).collect()
     }
 
-    /// A bind group of whole buffers, at bindings 0, 1...
+    /// A bind group of buffers, at the bindings 0, 1, ...
     pub fn bind_group(&self, layout: &wgpu::BindGroupLayout, buffers: &[&wgpu::Buffer]) -> wgpu::BindGroup {
         let entries: Vec<_> = (0..)
             .zip(buffers)
@@ -80,7 +80,7 @@ impl Gpu {
         self.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
     }
 
-    /// A pipeline that draws triangles into a [`Gpu::target`], of the modules' only entry points.
+    /// A pipeline that draws triangles into a [`Gpu::target`]. Each module has one entry point.
     pub fn render_pipeline(
         &self,
         vertex: &ShaderModule,
@@ -110,7 +110,7 @@ impl Gpu {
         })
     }
 
-    /// A picture to draw into, four bytes per pixel.
+    /// A render target with four bytes per pixel.
     pub fn target(&self, [width, height]: [u32; 2]) -> wgpu::Texture {
         self.device.create_texture(&wgpu::TextureDescriptor {
             label: None,
@@ -124,7 +124,7 @@ impl Gpu {
         })
     }
 
-    /// A pass that draws into a cleared target.
+    /// Begins a pass that clears the target and draws into it.
     pub fn begin_pass<'a>(
         &self,
         encoder: &'a mut wgpu::CommandEncoder,
@@ -142,7 +142,7 @@ impl Gpu {
         })
     }
 
-    /// Submits what draws into a target, and reads its pixels, row by row.
+    /// Submits the commands and reads the pixels of the target, row by row.
     pub fn pixels(&self, mut encoder: wgpu::CommandEncoder, target: &wgpu::Texture) -> Vec<[u8; 4]> {
         let (width, height) = (target.width(), target.height());
         let row = (4 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
