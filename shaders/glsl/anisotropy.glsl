@@ -2,14 +2,14 @@
 precision highp float;
 precision highp int;
 
-// The frame of anisotropic highlights (glTF's KHR_materials_anisotropy).
-// Needs frame.
+// The tangent frame of anisotropic highlights (KHR_materials_anisotropy of glTF).
+// Requires frame.
 
 // An orthonormal frame whose tangent points along the grooves.
 //
-// frame: any; its normal may be that of a normal map already. direction: red and green of the anisotropy texture, 2 c - 1;
-// (1, 0) without one. rotation: cosine and sine of anisotropyRotation, which turns from the tangent towards the bitangent.
-// Highlights are the same on both sides of the grooves: the bitangent is cross(normal, tangent), whatever the frame's sign.
+// frame: any frame; its normal may already include a normal map. direction: 2 c - 1 of the red and green channels of the anisotropy
+// texture; (1, 0) without one. rotation: the cosine and sine of anisotropyRotation, which rotates from the tangent to the bitangent.
+// Highlights are symmetric about the grooves, so the bitangent is cross(normal, tangent), whatever the sign of the frame.
 TangentFrame anisotropic_frame(TangentFrame frame, vec2 direction, vec2 rotation) {
     float along = rotation.x * direction.x - rotation.y * direction.y;
     float across = rotation.y * direction.x + rotation.x * direction.y;

@@ -2,21 +2,22 @@
 precision highp float;
 precision highp int;
 
-// Frames from screen-space derivatives, where a mesh has no tangents. Fragment shaders only, and only where all pixels of the
-// draw go: no branch that depends on the pixel. Needs frame.
+// Tangent frames from screen-space derivatives, for meshes without tangents. Only for fragment shaders, in uniform control flow: not
+// inside a branch that depends on the pixel. Requires frame.
 //
-// position and normal in one space, whichever; uv as the map is sampled. Bitangents point towards increasing v: where the map's green
-// leans towards decreasing v, as in glTF, give -v. The results do not depend on which way screens count y, on mirrored UVs, on
-// the face's side or on the scale of the space. They are constant over flat triangles, so facets show where vertex tangents would be smooth.
+// position and normal: in any space, but both in the same. uv: as the map is sampled. Bitangents point towards increasing v; if the
+// green channel of the map points towards decreasing v, as in glTF, pass -v. The results do not depend on the direction of the screen's
+// y axis, on mirrored UVs, on the side of the face or on the scale of the space. They are constant over flat triangles, so facets are
+// visible where vertex tangents would be smooth.
 
-// A tangent as a vertex would have it: unit, along increasing u in the plane of the unit normal, and the sign. What MikkTSpace gives for
-// the triangle alone: the nearest to maps that were baked for it.
+// A tangent as a vertex stores it: a unit vector along increasing u in the plane of the unit normal, and the sign. It is the tangent that
+// MikkTSpace gives for the triangle alone, so it fits maps that were baked with MikkTSpace best.
 vec4 tangent_from_derivatives(vec3 normal, vec3 position, vec2 uv) {
     vec3 position_x = dFdx(position);
     vec3 position_y = dFdy(position);
     vec2 uv_x = dFdx(uv);
     vec2 uv_y = dFdy(uv);
-    // The derivatives of position by u and by v, both times the UV map's determinant, of which the sign matters.
+    // The derivatives of position by u and by v, times the determinant of the UV map, of which only the sign matters.
     float determinant = uv_x.x * uv_y.y - uv_y.x * uv_x.y;
     float orientation = 1.0;
     if (determinant < 0.0) {
@@ -32,15 +33,16 @@ vec4 tangent_from_derivatives(vec3 normal, vec3 position, vec2 uv) {
     return vec4(tangent, w);
 }
 
-// The frame that heights want: tangent and bitangent along the gradients of u and of v, in the plane of the unit normal, the longer of
-// them made unit: where a map is stretched one way, its bumps are flatter that way. Not perpendicular to each other where UVs are sheared.
-// Source: C. Schueler, "Normal Mapping without Precomputed Tangents", 2013; we take the sign from the normal.
+// The frame for height maps: tangent and bitangent along the gradients of u and v in the plane of the unit normal, scaled so that the
+// longer one is a unit vector. Where a map is stretched in one direction, its bumps are flatter in that direction. With sheared UVs the
+// two are not perpendicular.
+// Source: C. Schueler, "Normal Mapping without Precomputed Tangents", 2013. Unlike there, the sign comes from the normal.
 TangentFrame cotangent_frame_from_derivatives(vec3 normal, vec3 position, vec2 uv) {
     vec3 position_x = dFdx(position);
     vec3 position_y = dFdy(position);
     vec2 uv_x = dFdx(uv);
     vec2 uv_y = dFdy(uv);
-    // Times the determinant of the screen's map, of which the sign matters.
+    // Times the determinant of the map to the screen, of which only the sign matters.
     vec3 dual_x = cross(position_y, normal);
     vec3 dual_y = cross(normal, position_x);
     float orientation = 1.0;

@@ -2,18 +2,18 @@
 precision highp float;
 precision highp int;
 
-// Displacement of vertices along the frame.
-// Needs frame.
+// Displaces vertices in their tangent frame.
+// Requires frame.
 
-// A position moved by a vector of tangent space: (0, 0, h) for a height map.
+// The position displaced by a vector in tangent space: (0, 0, h) for a height map.
 vec3 displaced_position(vec3 position, TangentFrame frame, vec3 displacement) {
     return position + from_tangent_space(frame, displacement);
 }
 
-// The frame of the displaced surface: its vectors tilted by the slopes of the heights; not made unit, but the normal is.
+// The frame of the displaced surface. The normal is a unit vector, tangent and bitangent are not normalised.
 //
-// frame: orthonormal, of either sign. slopes: height gained per unit of length along the tangent and along the bitangent. Exact on flat
-// surfaces; on bent ones it leaves out that heights stretch the surface, as is usual.
+// frame: orthonormal, with either sign. slopes: the increase of height per unit of length along the tangent and along the bitangent.
+// Exact on flat surfaces; on curved surfaces it ignores, as usual, that displacement stretches the surface.
 // Source: J. Blinn, "Simulation of Wrinkled Surfaces", SIGGRAPH 1978.
 TangentFrame displaced_frame(TangentFrame frame, vec2 slopes) {
     TangentFrame out_frame;

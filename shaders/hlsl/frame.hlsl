@@ -1,23 +1,23 @@
 // Generated from shaders/wgsl/frame.wgsl by `cargo xtask gen`.
 
-// Frames at vertices and pixels. All other files need this one.
+// Tangent frames at vertices and pixels. All other files require this one.
 //
 // A tangent is a unit vector xyz and the sign w of its bitangent, w * cross(normal, xyz), as in MikkTSpace and glTF.
 
-// What a vertex holds: the unit normal, and the tangent.
+// The frame that a vertex stores: the unit normal and the tangent.
 struct VertexFrame {
     float3 normal;
     float4 tangent;
 };
 
-// Where tangent space's x, y and z point: the columns of the matrix from tangent space to the space of the normal.
+// The columns of the matrix from tangent space to the space of the normal: the directions of the axes x, y and z of tangent space.
 struct TangentFrame {
     float3 tangent;
     float3 bitangent;
     float3 normal;
 };
 
-// The vector along v of length 1; `otherwise` where v is zero.
+// The unit vector along v; `otherwise` if v is zero.
 float3 unit_or(float3 v, float3 otherwise) {
     float size = sqrt(dot(v, v));
     if (size > 0.0) {
@@ -26,8 +26,8 @@ float3 unit_or(float3 v, float3 otherwise) {
     return otherwise;
 }
 
-// The unit vector that with `second_perpendicular` and the unit normal makes a right-handed frame.
-// Source: T. Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017; -0 counts as +0.
+// A unit vector that, with `second_perpendicular` and the unit normal, forms a right-handed frame.
+// Source: T. Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017. Here -0 counts as +0.
 float3 first_perpendicular(float3 normal) {
     float side = 1.0;
     if (normal.z < 0.0) {
@@ -38,7 +38,7 @@ float3 first_perpendicular(float3 normal) {
     return float3(1.0 + side * normal.x * normal.x * a, side * b, -side * normal.x);
 }
 
-// The other vector of `first_perpendicular`.
+// The second vector of the frame. See `first_perpendicular`.
 float3 second_perpendicular(float3 normal) {
     float side = 1.0;
     if (normal.z < 0.0) {
@@ -49,7 +49,7 @@ float3 second_perpendicular(float3 normal) {
     return float3(b, side + normal.y * normal.y * a, -normal.y);
 }
 
-// The unit direction of v in the plane of the unit normal; a perpendicular of the normal where only rounding error is left of v.
+// The unit vector along the part of v perpendicular to the unit normal. If only rounding error is left, any perpendicular vector.
 float3 unit_in_plane(float3 normal, float3 v) {
     float3 rest = v - dot(normal, v) * normal;
     float size = sqrt(dot(rest, rest));
@@ -59,15 +59,15 @@ float3 unit_in_plane(float3 normal, float3 v) {
     return first_perpendicular(normal);
 }
 
-// The bitangent, where it is not stored: at the vertex or at the pixel, whichever the baker of the map did.
+// The bitangent. Compute it at the vertices or at the pixels, as the baker of the normal map does.
 float3 bitangent_of(float3 normal, float4 tangent) {
     return tangent.w * cross(normal, tangent.xyz);
 }
 
-// The frame, its bitangent rebuilt here.
+// The frame, with the bitangent computed here.
 //
-// At a pixel: give the vectors as interpolation leaves them, shorter than 1. MikkTSpace wants them so; the normal in the map was
-// baked against that very frame, and `normal_to_surface` makes the result unit.
+// At a pixel: pass the interpolated vectors without normalising them, as MikkTSpace requires. The normal map was baked with exactly this
+// frame, and `normal_to_surface` normalises the result.
 TangentFrame tangent_frame(float3 normal, float4 tangent) {
     TangentFrame frame;
     frame.tangent = tangent.xyz;
@@ -76,7 +76,7 @@ TangentFrame tangent_frame(float3 normal, float4 tangent) {
     return frame;
 }
 
-// The frame of a pixel whose bitangent was rebuilt at the vertices and interpolated, for maps that were baked so.
+// The frame of a pixel whose bitangent was computed at the vertices and interpolated, for maps that were baked in this way.
 TangentFrame tangent_frame_with_bitangent(float3 normal, float3 tangent, float3 bitangent) {
     TangentFrame frame;
     frame.tangent = tangent;
@@ -85,7 +85,7 @@ TangentFrame tangent_frame_with_bitangent(float3 normal, float3 tangent, float3 
     return frame;
 }
 
-// An orthonormal frame around the unit normal alone, for surfaces without UVs: which way its tangent points means nothing.
+// An orthonormal frame for the unit normal alone, for surfaces without UVs. The direction of its tangent has no meaning.
 TangentFrame tangent_frame_of_normal(float3 normal) {
     TangentFrame frame;
     frame.tangent = first_perpendicular(normal);
@@ -94,7 +94,7 @@ TangentFrame tangent_frame_of_normal(float3 normal) {
     return frame;
 }
 
-// The frame with each vector made unit, angles between them kept: what three.js and many engines do with interpolated vectors.
+// The frame with each vector normalised, and their angles unchanged. three.js and many engines do this with interpolated vectors.
 TangentFrame normalized_frame(TangentFrame frame) {
     TangentFrame out_frame;
     out_frame.tangent = unit_or(frame.tangent, frame.tangent);
@@ -103,8 +103,8 @@ TangentFrame normalized_frame(TangentFrame frame) {
     return out_frame;
 }
 
-// The frame made orthonormal around its normal, the bitangent on the side where it was: for what needs true angles, such as
-// anisotropic highlights. Not for normal maps.
+// The frame made orthonormal, with the direction of the normal and the sign of the bitangent unchanged. For effects that need right
+// angles, such as anisotropic highlights. Do not use it for normal maps.
 TangentFrame orthonormal_frame(TangentFrame frame) {
     TangentFrame out_frame;
     out_frame.normal = unit_or(frame.normal, frame.normal);
@@ -116,20 +116,20 @@ TangentFrame orthonormal_frame(TangentFrame frame) {
     return out_frame;
 }
 
-// A vector of tangent space in the space of the frame.
+// Transforms a vector from tangent space to the space of the frame.
 float3 from_tangent_space(TangentFrame frame, float3 v) {
     return v.x * frame.tangent + v.y * frame.bitangent + v.z * frame.normal;
 }
 
-// The unit normal of the surface, from a normal of tangent space.
+// The unit normal of the surface for a normal in tangent space.
 float3 normal_to_surface(TangentFrame frame, float3 normal) {
     return unit_or(from_tangent_space(frame, normal), frame.normal);
 }
 
-// A direction, such as that to a light or to the eye, in tangent space; not made unit.
+// Transforms a direction, such as that to a light or to the eye, to tangent space. The result is not normalised.
 //
-// The inverse of `from_tangent_space` if the frame is orthonormal. In any frame, its dot product with a normal of tangent space is that
-// of the direction with `from_tangent_space` of the normal: light in tangent space, or normals in the scene's, give the same.
+// It is the inverse of `from_tangent_space` if the frame is orthonormal. In any frame, dot(to_tangent_space(d), n) equals
+// dot(d, from_tangent_space(n)): lighting in tangent space gives the same result as lighting in the scene.
 float3 to_tangent_space(TangentFrame frame, float3 direction) {
     return float3(dot(direction, frame.tangent), dot(direction, frame.bitangent), dot(direction, frame.normal));
 }

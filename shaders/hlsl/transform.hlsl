@@ -1,26 +1,26 @@
 // Generated from shaders/wgsl/transform.wgsl by `cargo xtask gen`.
 
-// Frames under transforms: node matrices, mirrored and unevenly scaled ones included, and skins (darboux::Transform).
-// Needs frame.
+// Transforms frames by the matrices of nodes, which may mirror and scale non-uniformly, and by skins (darboux::Transform).
+// Requires frame.
 //
-// A tangent goes by the matrix, a normal by its inverse transpose, and a mirror changes the sign w. For one node, all of
-// `FrameTransform` can be made once on the CPU; for a skin, each vertex makes its own.
+// A tangent is transformed by the matrix, a normal by its inverse transpose, and a matrix that mirrors negates the sign w. For a node, the
+// CPU can compute `FrameTransform` once; for a skin, each vertex computes its own.
 
-// Where a matrix takes the x, y and z directions: m[0].xyz, m[1].xyz, m[2].xyz in WGSL and GLSL, and in HLSL where vectors are
-// transformed by mul(v, m); m._m00_m10_m20, m._m01_m11_m21, m._m02_m12_m22 where by mul(m, v). Translation does not matter.
+// The images of the x, y and z axes under a matrix: m[0].xyz, m[1].xyz, m[2].xyz in WGSL and GLSL, and in HLSL if vectors are transformed
+// by mul(v, m); m._m00_m10_m20, m._m01_m11_m21, m._m02_m12_m22 in HLSL with mul(m, v). Translation does not matter.
 struct LinearMap {
     float3 x;
     float3 y;
     float3 z;
 };
 
-// A matrix made ready for frames.
+// A matrix, prepared to transform frames.
 struct FrameTransform {
-    // The matrix, scaled.
+    // The scaled matrix.
     LinearMap map;
-    // Its cofactors: the inverse transpose times the determinant.
+    // Its cofactor matrix: the inverse transpose times the determinant.
     LinearMap cofactors;
-    // -1 where it mirrors, which turns the winding of faces as well; else 1.
+    // -1 if the matrix mirrors, which also reverses the winding of faces; otherwise 1.
     float orientation;
 };
 
@@ -32,13 +32,13 @@ LinearMap linear_map(float3 x, float3 y, float3 z) {
     return map;
 }
 
-// The map of no bones yet, for `with_bone`.
+// A zero map, to which `with_bone` adds bones.
 LinearMap linear_map_of_no_bones() {
     float3 zero = float3(0.0, 0.0, 0.0);
     return linear_map(zero, zero, zero);
 }
 
-// Linear blend skinning, one bone after the other.
+// Linear blend skinning: adds one bone.
 LinearMap with_bone(LinearMap sum, LinearMap bone, float weight) {
     return linear_map(sum.x + weight * bone.x, sum.y + weight * bone.y, sum.z + weight * bone.z);
 }
@@ -47,7 +47,7 @@ float3 mapped(LinearMap map, float3 v) {
     return v.x * map.x + v.y * map.y + v.z * map.z;
 }
 
-// The matrix is first scaled to have 1 as its largest component, so that its products neither overflow nor vanish.
+// The matrix is first scaled so that its largest element is 1. So its products neither overflow nor underflow.
 FrameTransform frame_transform(LinearMap map) {
     float3 larger = max(max(abs(map.x), abs(map.y)), abs(map.z));
     float largest = max(max(larger.x, larger.y), larger.z);
@@ -67,12 +67,12 @@ FrameTransform frame_transform(LinearMap map) {
     return transform;
 }
 
-// The unit normal of the transformed surface, on the same side of it. One that the transform leaves no direction stays as it is.
+// The unit normal of the transformed surface, on the same side. If the transform makes it zero, the normal is returned unchanged.
 float3 transformed_normal(FrameTransform transform, float3 normal) {
     return unit_or(transform.orientation * mapped(transform.cofactors, normal), normal);
 }
 
-// The unit normal and the unit tangent, perpendicular to it, of the transformed surface.
+// The unit normal of the transformed surface, and the unit tangent perpendicular to it.
 VertexFrame transformed_frame(FrameTransform transform, VertexFrame frame) {
     VertexFrame out_frame;
     out_frame.normal = transformed_normal(transform, frame.normal);
