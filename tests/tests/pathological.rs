@@ -28,6 +28,21 @@ fn bundled_fan(count: usize) -> OwnedMesh {
     mesh
 }
 
+/// A fan on a circle whose UVs turn by a pseudo-random angle from triangle to triangle: tangents in all directions, many of them opposite.
+fn turning_fan(count: usize) -> OwnedMesh {
+    let mut mesh = families::fan(count, true);
+    mesh.uvs[0] = [0.0; 2];
+    let mut turn = 0.0f64;
+    for (i, (position, uv)) in mesh.positions.iter_mut().zip(&mut mesh.uvs).enumerate().skip(1) {
+        let (y, x) = (i as f64 / count as f64 * std::f64::consts::TAU).sin_cos();
+        *position = [x as f32, y as f32, 0.0];
+        let (v, u) = turn.sin_cos();
+        *uv = [u as f32, v as f32];
+        turn += (i as f64 * 0.754_877_666_246_692_8).fract() * 2.95;
+    }
+    mesh
+}
+
 fn assert_exact(what: &str, mesh: &OwnedMesh) {
     let expected = engine::reference(mesh, 180.0);
     let options = TangentOptions::from(MikktOptions::new().with_mode(Mode::Reference));
@@ -42,6 +57,7 @@ fn small_ones_are_exact() {
     assert_exact("polar fan", &families::fan(1_000, true));
     assert_exact("scattered fan", &scattered_fan(1_000));
     assert_exact("bundled fan", &bundled_fan(1_000));
+    assert_exact("turning fan", &turning_fan(4_000));
     assert_exact("lone degenerates", &lone_degenerates(40, 500));
     assert_exact("one position", &families::unwelded_fan(1_000));
 }

@@ -3,22 +3,24 @@
 //! Let P be the prefix sum of all terms, and R the sum of the terms before the same index without the excluded ones. If P and R have the
 //! same sign and exponent, they differ by a whole number d of ulps. Adding the next term to both keeps that difference, because rounding to
 //! a multiple of an ulp commutes with adding d ulps, with two exceptions:
-//! - P was rounded from a tie, to the even neighbour: then an odd d rounds R the other way;
+//! - P was rounded from a tie, to the even neighbour. With an odd d, R is rounded from a tie in the other direction, also to its even
+//!   neighbour: d changes by one and is even from there on, so that no later tie changes it;
 //! - R leaves the exponent, where ulps have another size.
 //!
-//! So we store per block of terms the largest ulp offset that stays constant over the block:
+//! So we store per block of terms the range of offsets that keep R in the exponent, and the change of odd offsets at the first tie:
 //!
 //! ```text
-//! block: max_below, max_above = distance of P's extremes to the ends of their exponent, in ulps; must_be_even = a tie occurs
+//! block: max_below, max_above = distance of P's extremes to the ends of their exponent, in ulps
+//!        tie_shift = +1 if P's first tie was rounded down, -1 if up, 0 without a tie
 //! sum_without(excluded):
 //!     R = P before the first excluded term
 //!     between excluded terms, from each index on:
 //!         d = ulps between R and P
-//!         take the longest block that allows d: R = P at the block's end + d ulps
+//!         take the longest block whose range contains d: R = P at the block's end + d ulps, + tie_shift if d is odd
 //!         otherwise add one term to R
 //! ```
 //!
-//! R = P (d = 0) is allowed by every block.
+//! R = P (d = 0) is in the range of every block.
 
 use std::ops::Range;
 
@@ -106,21 +108,20 @@ impl PrefixSums {
 
     /// Adds the longest block that begins at `at`, ends by `limit` and allows the offset of `sum`. Returns its end, or `at`.
     fn skip(&self, sum: &mut TermLanes, at: usize, limit: usize) -> usize {
-        let (mut end, mut length) = (at, SHORTEST);
+        let (mut longest, mut length) = (None, SHORTEST);
         if !at.is_multiple_of(length) || at + length > limit {
-            return end;
+            return at;
         }
         let offsets = sum.ulps_from(&self.sums[at]);
         for blocks in &self.levels {
             if !at.is_multiple_of(length) || at + length > limit || !blocks[at / length].allows(&offsets) {
                 break;
             }
-            end = at + length;
+            longest = Some((&blocks[at / length], at + length));
             length *= RADIX;
         }
-        if end > at {
-            *sum = self.sums[end].plus_ulps(&offsets);
-        }
+        let Some((block, end)) = longest else { return at };
+        *sum = self.sums[end].plus_ulps(&block.shifted(&offsets));
         end
     }
 }
@@ -149,20 +150,20 @@ impl TermLanes {
     }
 }
 
-/// The ulp offsets from the prefix sums that stay constant over a block, per lane.
+/// What happens to ulp offsets from the prefix sums over a block, per lane.
 #[derive(Clone, Copy, Debug)]
 struct SkipBlock {
-    /// The largest negative offset, as a positive number.
+    /// The largest allowed negative offset, as a positive number.
     max_below: [i32; LANES],
-    /// The largest positive offset.
+    /// The largest allowed positive offset.
     max_above: [i32; LANES],
-    /// 1 where the offset must be even, else 0.
-    must_be_even: [i32; LANES],
+    /// The change of odd offsets at the first tie, or 0.
+    tie_shift: [i32; LANES],
 }
 
 impl SkipBlock {
     fn new(sums: &[TermLanes], terms: &[Option<TermLanes>]) -> Self {
-        let mut block = Self { max_below: [0; LANES], max_above: [0; LANES], must_be_even: [0; LANES] };
+        let mut block = Self { max_below: [0; LANES], max_above: [0; LANES], tie_shift: [0; LANES] };
         for lane in 0..LANES {
             let steps = sums
                 .windows(2)
@@ -174,11 +175,12 @@ impl SkipBlock {
             if least >> 23 != most >> 23 || !f32::from_bits(least).is_normal() {
                 continue;
             }
-            // One ulp less than the distance: a sum with fraction zero can be rounded from below, where ulps are smaller.
-            block.max_below[lane] = ((least & FRACTION).cast_signed() - 1).max(0);
-            block.max_above[lane] = (FRACTION - (most & FRACTION)).cast_signed();
-            block.must_be_even[lane] =
-                i32::from(steps.into_iter().any(|[before, term, after]| is_tie(before, term, after)));
+            // One ulp less than the distance, because a tie may shift the offset; and one ulp less below, because a sum with fraction zero
+            // can be rounded from below, where ulps are smaller.
+            block.max_below[lane] = ((least & FRACTION).cast_signed() - 2).max(0);
+            block.max_above[lane] = ((FRACTION - (most & FRACTION)).cast_signed() - 1).max(0);
+            let shifts = steps.into_iter().map(|[before, term, after]| tie_shift(before, term, after));
+            block.tie_shift[lane] = shifts.into_iter().find(|&shift| shift != 0).unwrap_or(0);
         }
         block
     }
@@ -189,10 +191,18 @@ impl SkipBlock {
             for lane in 0..LANES {
                 all.max_below[lane] = all.max_below[lane].min(part.max_below[lane]);
                 all.max_above[lane] = all.max_above[lane].min(part.max_above[lane]);
-                all.must_be_even[lane] |= part.must_be_even[lane];
+                if all.tie_shift[lane] == 0 {
+                    all.tie_shift[lane] = part.tie_shift[lane];
+                }
             }
         }
         all
+    }
+
+    /// The offsets at the end of the block.
+    #[inline]
+    fn shifted(&self, offsets: &[i32; LANES]) -> [i32; LANES] {
+        std::array::from_fn(|lane| offsets[lane] + (offsets[lane] & 1) * self.tie_shift[lane])
     }
 
     /// No branches, so that it vectorises.
@@ -200,9 +210,7 @@ impl SkipBlock {
     fn allows(&self, offsets: &[i32; LANES]) -> bool {
         (0..LANES).fold(true, |all, lane| {
             let d = offsets[lane];
-            all & (-self.max_below[lane] <= d)
-                & (d <= self.max_above[lane])
-                & (d & self.must_be_even[lane] == 0)
+            all & (-self.max_below[lane] <= d) & (d <= self.max_above[lane])
         })
     }
 }
@@ -210,14 +218,23 @@ impl SkipBlock {
 /// The fraction bits of an `f32`.
 const FRACTION: u32 = 0x7f_ffff;
 
-/// True when `before + term` lay halfway between `after`, its rounded value, and another float of the same exponent.
+/// The change of an odd offset where `before + term` lay halfway between `after`, its rounded value, and another float of the same
+/// exponent: +1 where the magnitude was rounded down, -1 where it was rounded up. 0 without a tie.
 ///
 /// The rounding error is exact (D. E. Knuth, "The Art of Computer Programming", volume 2, theorem 4.2.2 B).
-fn is_tie(before: f32, term: f32, after: f32) -> bool {
+fn tie_shift(before: f32, term: f32, after: f32) -> i32 {
     let added = after - before;
     let error = (before - (after - added)) + (term - added);
     let ulp = f32::from_bits(after.to_bits() & !FRACTION | 1) - f32::from_bits(after.to_bits() & !FRACTION);
-    2.0 * error.abs() == ulp.abs()
+    let is_tie = 2.0 * error.abs() == ulp.abs();
+    let was_rounded_down = error.is_sign_positive() == after.is_sign_positive();
+    if !is_tie {
+        0
+    } else if was_rounded_down {
+        1
+    } else {
+        -1
+    }
 }
 
 #[cfg(test)]
