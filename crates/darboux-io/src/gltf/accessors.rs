@@ -9,36 +9,36 @@ use super::stored_elements::{self, IndexList, StoredElements};
 use crate::Error;
 use crate::error::Fault;
 
-/// Accessors without a buffer view may have this many elements even where no accessor with one has as many.
+/// An accessor without a buffer view may have this many elements even if no accessor with one has as many.
 const MAX_ZEROS: usize = 1 << 16;
 
 impl Document {
-    /// The values of an accessor as floats: normalised integers as fractions, other integers as numbers, sparse elements in
-    /// place, zeros without a buffer view. Borrowed from the file where it has them so.
+    /// The elements of an accessor as vectors of floats. Normalised integers become fractions, other integers become numbers, sparse
+    /// elements are in place, and an accessor without a buffer view is zero. Borrowed from the file if its layout permits.
     ///
-    /// Errors: another number of components than `N`; bytes that are not there.
+    /// Errors: the accessor does not have `N` components; its bytes are outside the buffer.
     pub fn vectors<const N: usize>(&self, accessor: usize) -> Result<Cow<'_, [[f32; N]]>, Error> {
         self.find_vectors(accessor).map_err(|fault| fault.in_file(self.name()))
     }
 
-    /// As [`Document::vectors`], copied.
+    /// As [`Document::vectors`], as a copy.
     pub fn read_vectors<const N: usize>(&self, accessor: usize) -> Result<Vec<[f32; N]>, Error> {
         self.vectors(accessor).map(Cow::into_owned)
     }
 
-    /// The values of an accessor of unsigned integers, borrowed from the file where it has them so.
+    /// The values of an accessor of unsigned integers, borrowed from the file if its layout permits.
     ///
-    /// Errors: another type; bytes that are not there.
+    /// Errors: the accessor has another type; its bytes are outside the buffer.
     pub fn indices(&self, accessor: usize) -> Result<IndexList<'_>, Error> {
         self.find_indices(accessor).map_err(|fault| fault.in_file(self.name()))
     }
 
-    /// As [`Document::indices`], copied and widened.
+    /// As [`Document::indices`], as a copy of 32-bit integers.
     pub fn read_indices(&self, accessor: usize) -> Result<Vec<u32>, Error> {
         self.indices(accessor).map(IndexList::widened)
     }
 
-    /// The elements of an accessor as bytes, to gather and to write again. Errors: bytes that are not there.
+    /// The elements of an accessor as bytes. Errors: its bytes are outside the buffer.
     pub fn read_elements(&self, accessor: usize) -> Result<Elements, Error> {
         self.elements(accessor).map_err(|fault| fault.in_file(self.name()))
     }
@@ -58,11 +58,15 @@ impl Document {
         let accessor = self.accessor(index)?;
         let at = |member| format!("accessors[{index}].{member}");
         if accessor.element_type != ElementType::Scalar {
-            let problem = format!("is {}; indices must be SCALAR", accessor.element_type.name());
+            let problem =
+                format!("is {}; indices must be SCALAR; export the file again", accessor.element_type.name());
             return Err(Fault::invalid(at("type"), problem));
         }
         IndexList::new(self.stored(index)?, accessor.component_type).ok_or_else(|| {
-            Fault::invalid(at("componentType"), "is signed or float; indices must be unsigned")
+            Fault::invalid(
+                at("componentType"),
+                "is signed or float; indices must be unsigned: export the file again",
+            )
         })
     }
 
@@ -81,7 +85,7 @@ impl Document {
         Ok(Elements { bytes, count, component_type, element_type, normalized })
     }
 
-    /// The elements of an accessor where they are, sparse ones in place.
+    /// The elements of an accessor in the file, or a copy with sparse elements in place.
     fn stored(&self, index: usize) -> Result<StoredElements<'_>, Fault> {
         let accessor = self.accessor(index)?;
         let Accessor { component_type, element_type, count, .. } = *accessor;
@@ -133,7 +137,9 @@ impl Document {
         for (i, (place, value)) in places.widened().into_iter().zip(values.chunks_exact(size)).enumerate() {
             let place = place as usize;
             if place < next || place >= count {
-                let problem = format!("index {place} at place {i} does not increase or is not below {count}");
+                let problem = format!(
+                    "index {place} at place {i} is not greater than the one before, or not below {count}; export the file again"
+                );
                 return Err(Fault::invalid(format!("{at}.indices"), problem));
             }
             bytes[place * size..(place + 1) * size].copy_from_slice(value);
@@ -149,11 +155,14 @@ impl Document {
         let size = indices.component_type.size();
         let layout = ElementLayout { offset: indices.byte_offset, count: sparse.count, size, stride: None };
         IndexList::new(elements_in_view(bytes, layout, &at)?, indices.component_type).ok_or_else(|| {
-            Fault::invalid(format!("{at}.componentType"), "is signed or float; indices must be unsigned")
+            Fault::invalid(
+                format!("{at}.componentType"),
+                "is signed or float; indices must be unsigned: export the file again",
+            )
         })
     }
 
-    /// How many zeros an accessor without a buffer view may stand for: as many as another has real elements.
+    /// The most elements of an accessor without a buffer view: as many as the largest accessor with one has.
     fn most_zeros(&self) -> usize {
         *self.backed_count.get_or_init(|| {
             let backed = self.accessors().iter().filter(|accessor| self.is_backed(accessor));
@@ -171,7 +180,7 @@ impl Document {
     }
 }
 
-/// Where elements lie in a buffer view.
+/// The layout of elements in a buffer view.
 struct ElementLayout {
     offset: usize,
     count: usize,
@@ -180,7 +189,7 @@ struct ElementLayout {
 }
 
 impl ElementLayout {
-    /// The first byte after the last element, unless that overflows or elements overlap.
+    /// The offset after the last element; none if that overflows, or if elements overlap.
     fn end(&self) -> Option<usize> {
         let stride = self.stride.unwrap_or(self.size);
         let steps = self.count.saturating_sub(1);
@@ -189,7 +198,7 @@ impl ElementLayout {
     }
 }
 
-/// The elements in `view`.
+/// The elements of a buffer view. `at` is the JSON path of the accessor.
 fn elements_in_view<'a>(
     view: &'a [u8],
     layout: ElementLayout,

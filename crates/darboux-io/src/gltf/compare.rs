@@ -1,4 +1,4 @@
-//! The tangents of two documents of one model, corner by corner.
+//! Pairs the tangents of two documents of one model, corner by corner.
 
 use super::primitives::corners::{PrimitiveCorners, triangle_count};
 use super::primitives::limits;
@@ -11,37 +11,37 @@ use crate::Error;
 /// A primitive of both documents.
 #[derive(Clone, Debug)]
 pub struct Pair {
-    /// Which one: mesh and primitive have the same numbers in both.
+    /// The primitive. Mesh and primitive have the same indices in both documents.
     pub name: PrimitiveName,
-    /// Its corners, or why there is nothing to compare.
+    /// The corners, or the reason why they cannot be compared.
     pub corners: Result<PairedCorners, Unpaired>,
 }
 
-/// A primitive without tangents on both sides.
+/// The reason why a primitive cannot be compared.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unpaired {
-    /// Why, as a sentence.
+    /// The reason, as a sentence.
     pub reason: String,
-    /// Whether one side has tangents.
+    /// Whether exactly one of the documents has tangents.
     pub is_one_sided: bool,
 }
 
 /// The corners of a primitive, three per triangle, in the order of the files.
 #[derive(Clone, Debug, Default)]
 pub struct PairedCorners {
-    /// Positions in the first document.
+    /// The positions in the first document.
     pub positions: Vec<[f32; 3]>,
-    /// UVs in the first document, of the set that its tangents follow; none where it has no such set.
+    /// The UVs in the first document, of the set that its tangents follow, if it has that set.
     pub uvs: Option<Vec<[f32; 2]>>,
-    /// Tangents of both.
+    /// The tangents of both documents.
     pub tangents: [Vec<[f32; 4]>; 2],
-    /// How many corners have another position in the second document.
+    /// The number of corners with another position in the second document.
     pub moved: usize,
 }
 
-/// Pairs the primitives of two documents by the numbers of mesh and primitive. Compressed documents are decompressed.
+/// Pairs the primitives of two documents by the indices of mesh and primitive. Compressed documents are decompressed.
 ///
-/// Errors: other numbers of meshes, primitives or corners; broken data behind a primitive with tangents.
+/// Errors: different numbers of meshes, primitives or corners; invalid data of a primitive with tangents.
 pub fn pair_tangents(a: &mut Document, b: &mut Document) -> Result<Vec<Pair>, Error> {
     for document in [&mut *a, &mut *b] {
         if document.is_compressed() {
@@ -60,7 +60,7 @@ pub fn pair_tangents(a: &mut Document, b: &mut Document) -> Result<Vec<Pair>, Er
     select(a, &options)?.candidates.iter().map(|candidate| pair(a, b, candidate)).collect()
 }
 
-/// The triangles of every primitive with tangents, as its accessors claim them.
+/// The number of triangles of every primitive with tangents, by the counts of its accessors.
 fn triangle_counts(document: &Document) -> impl Iterator<Item = usize> {
     let primitives = document.meshes().iter().flat_map(|mesh| &mesh.primitives).filter(|p| has_tangents(p));
     primitives.filter_map(|primitive| triangle_count(document, primitive))
@@ -96,7 +96,7 @@ fn pair(a: &Document, b: &Document, candidate: &Candidate) -> Result<Pair, Error
     Ok(Pair { corners: Ok(PairedCorners { positions, uvs, tangents, moved }), name: name.clone() })
 }
 
-/// Why there is nothing to compare, if there is nothing.
+/// The reason why two primitives cannot be compared, if there is one.
 fn unpaired([a, b]: [&Document; 2], [first, second]: [&schema::Primitive; 2]) -> Option<Unpaired> {
     let reason = match (has_tangents(first), has_tangents(second)) {
         (true, true) if TriangleMode::from_mode(first.mode).is_some() => return None,

@@ -1,8 +1,8 @@
-//! The vertex data of a document in another convention.
+//! Converts the vertex data of a document to another convention.
 //!
-//! A glTF file is in glTF's convention, so one that is right needs no conversion. There are two uses: a file whose writer copied the
-//! numbers of another convention is put right, and numbers are prepared for a program that copies them out of the file as they are.
-//! In between, and after the second, the file says one thing and means another; `asset.extras.darboux_convention` says what.
+//! A valid glTF file is in glTF's convention. There are two uses of conversion: to repair a file whose writer stored numbers of another
+//! convention, and to prepare numbers for a program that reads them without conversion. Files that are not in glTF's convention are marked
+//! by `asset.extras.darboux_convention`.
 
 mod attributes;
 mod axes;
@@ -25,11 +25,11 @@ use axes::AxisChange;
 use faces::FaceReverser;
 use scene::SceneConverter;
 
-/// Converts the vertex data of every primitive: positions, normals, tangents, UVs, morph targets, the winding of triangles; and where
-/// the axes differ, the transforms of nodes, skins, instances and animations, in documents without meshes too.
+/// Converts the vertex data of every primitive: positions, normals, tangents, UVs, morph targets and the winding of triangles. If the axes
+/// differ, the transforms of nodes, skins, instances and animations are converted too.
 ///
-/// Images, cameras and lights stay as they are; warnings name them. Accessors that change become floats. Errors: a document that says
-/// that it is in another convention than `from`; animations of what cannot stand in other axes; broken data. After an error the document may be half done: drop it.
+/// Images, cameras and lights are not converted; warnings name them. Accessors that change become floats. Errors: a document that is marked
+/// with a convention other than `from`; animations that cannot be converted; invalid data. After an error the document is unspecified: drop it.
 pub fn convert_vertices(
     document: &mut Document,
     from: Convention,
@@ -50,7 +50,7 @@ pub fn convert_vertices(
                 SceneConverter::new(&accessors, AxisChange::new(from, to)).convert(document)?;
         }
     }
-    // What nothing changes in is as well in the other convention; where it never said so, there is nothing to say now.
+    // A document without changes is in both conventions, and needs no mark unless it has one.
     if summary.has_changes() || document.has_note() {
         document.set_convention(to)?;
     }

@@ -283,7 +283,7 @@ impl Document {
         let elements = new.elements;
         let size = elements.element_size();
         assert_eq!(elements.bytes.len(), elements.count * size, "bytes are not whole elements");
-        let places = new.sparse.then(|| elements.worth_storing()).flatten();
+        let places = new.sparse.then(|| elements.sparse_indices()).flatten();
         let (buffer_view, sparse) = match places {
             Some(places) if places.is_empty() => (None, None),
             Some(places) => (None, Some(Box::new(self.push_sparse(&elements, &places)))),

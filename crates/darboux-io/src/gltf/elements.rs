@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::json_text;
 use super::schema::{Accessor, ComponentType, ElementType, Sparse};
 
-/// The elements of an accessor as stored, one after the other; sparse elements are in place.
+/// The elements of an accessor as bytes, one after the other, with sparse elements in place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Elements {
     /// `count` elements of [`Elements::element_size`] bytes, little-endian.
@@ -18,18 +18,18 @@ pub struct Elements {
     pub component_type: ComponentType,
     /// The components of each element.
     pub element_type: ElementType,
-    /// Whether integers stand for [0, 1] or [-1, 1].
+    /// Whether integers encode [0, 1] or [-1, 1].
     pub normalized: bool,
 }
 
 impl Elements {
-    /// Bytes per element; matrices keep the padding of their columns.
+    /// Bytes per element, with the padding of matrix columns.
     pub fn element_size(&self) -> usize {
         self.element_type.size(self.component_type)
     }
 
-    /// The places of the elements that are not zero, if storing only those takes fewer bytes.
-    pub(super) fn worth_storing(&self) -> Option<Vec<u32>> {
+    /// The indices of the elements that are not zero, if a sparse accessor of them takes fewer bytes.
+    pub(super) fn sparse_indices(&self) -> Option<Vec<u32>> {
         let size = self.element_size();
         let elements = self.bytes.chunks_exact(size).enumerate();
         let places = elements.filter(|(_, element)| element.iter().any(|&byte| byte != 0));
@@ -37,7 +37,7 @@ impl Elements {
         (places.len() * (4 + size) < self.bytes.len()).then_some(places)
     }
 
-    /// The least and the greatest finite value of every component; none where a component has no finite value.
+    /// The least and the greatest finite value of every component; none if a component has no finite value.
     pub(super) fn bounds(&self) -> Option<Bounds> {
         let (columns, rows) = self.element_type.shape();
         let (size, column_size) = (self.component_type.size(), self.element_size() / columns);
@@ -52,13 +52,13 @@ impl Elements {
                 }
             }
         }
-        let known = bounds.iter().all(|(min, max)| min <= max);
-        known.then(|| bounds.into_iter().unzip())
+        let has_all = bounds.iter().all(|(min, max)| min <= max);
+        has_all.then(|| bounds.into_iter().unzip())
     }
 }
 
 impl ComponentType {
-    /// The number that `bytes` store, not normalised.
+    /// The number in `bytes`, without normalisation.
     fn value(self, bytes: &[u8]) -> f64 {
         let word = bytes.iter().rev().fold(0u32, |word, &byte| word << 8 | u32::from(byte));
         match self {
@@ -73,34 +73,34 @@ impl ComponentType {
 /// The least and the greatest value of every component.
 pub(super) type Bounds = (Vec<f64>, Vec<f64>);
 
-/// An accessor to append, with its bytes. The layout is that of [`Elements`]; alignment is the document's matter.
+/// An accessor to append to a document, which aligns its elements.
 #[derive(Clone, Debug)]
 pub struct NewAccessor {
     /// The elements.
     pub elements: Elements,
-    /// What the elements are for: vertex attributes or indices.
+    /// The use of the elements.
     pub target: Target,
-    /// Whether `min` and `max` are written, as they must be for positions. Non-finite values are left out of them.
+    /// Writes `min` and `max`, which positions must have. Values that are not finite are ignored.
     pub bounds: bool,
-    /// Whether only the elements that are not zero may be stored, where that takes fewer bytes.
+    /// Permits a sparse accessor, if that takes fewer bytes.
     pub sparse: bool,
-    /// An accessor whose name, extras and extensions are copied.
+    /// The accessor whose name, extras and extensions are copied.
     pub like: Option<usize>,
 }
 
-/// What a buffer view is for.
+/// The use of a buffer view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
     /// Vertex attributes and morph targets: elements start at multiples of four bytes.
     Vertices,
     /// Indices: tightly packed.
     Indices,
-    /// Keyframes, matrices, whatever is not of primitives: tightly packed.
+    /// Keyframes, matrices and other data: tightly packed.
     Other,
 }
 
 impl Target {
-    /// glTF's number, where it has one.
+    /// The constant of glTF, if there is one.
     pub(super) fn code(self) -> Option<u32> {
         match self {
             Self::Vertices => Some(34962),
@@ -109,7 +109,7 @@ impl Target {
         }
     }
 
-    /// Bytes from one element of `size` bytes to the next.
+    /// The stride of elements of `size` bytes.
     pub(super) fn stride(self, size: usize) -> usize {
         match self {
             Self::Vertices => size.next_multiple_of(4),
@@ -119,7 +119,7 @@ impl Target {
 }
 
 impl Accessor {
-    /// The JSON of a new accessor with some `bounds`, described `like` another.
+    /// The JSON of a new accessor, with the name, extras and extensions of `like`.
     pub(super) fn to_json(&self, bounds: Option<Bounds>, like: Option<&Accessor>) -> String {
         let mut text = "{".to_owned();
         if let Some(view) = self.buffer_view {

@@ -1,4 +1,4 @@
-//! What a document holds, per primitive, without changing it.
+//! Describes every primitive of a document: its attributes, and the tangents that it could have.
 
 use darboux::{Context, Convention, CornerTangents};
 use serde::Serialize;
@@ -13,41 +13,41 @@ use super::tangents::{Counts, TangentsOptions, select_readable};
 use super::{Document, PrimitiveName};
 use crate::Error;
 
-/// What [`inspect`] finds out about a primitive.
+/// The result of [`inspect`] for a primitive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PrimitiveInfo {
-    /// Which one.
+    /// The primitive.
     #[serde(flatten)]
     pub name: PrimitiveName,
-    /// `TRIANGLES`, `TRIANGLE_STRIP`, `POINTS` and so on.
+    /// The mode: `TRIANGLES`, `TRIANGLE_STRIP`, `POINTS` and so on.
     pub mode: &'static str,
-    /// The length of its vertex attributes.
+    /// The number of vertices.
     pub vertices: usize,
-    /// Its attributes, as the file names them.
+    /// The semantics of its attributes.
     pub attributes: Vec<String>,
     /// The number of morph targets.
     pub morph_targets: usize,
-    /// The UV set that its tangents follow: n of `TEXCOORD_n`.
+    /// The UV set n of `TEXCOORD_n` that its tangents follow.
     pub uv_set: usize,
-    /// Why this one: the texture that names it, or that none does.
+    /// The reason for this set: the texture that uses it, or that no texture does.
     pub uv_reason: String,
     /// Whether it has tangents.
     pub has_tangents: bool,
     /// Whether its material uses tangents.
     pub needs_tangents: bool,
-    /// Why tangents cannot be computed, as a sentence; none where they can.
+    /// The reason why tangents cannot be computed, as a sentence; none if they can.
     pub ineligible: Option<String>,
-    /// Triangles whose texture is mirrored.
+    /// The number of triangles whose texture is mirrored.
     pub mirrored_triangles: usize,
-    /// Its triangles, and what computing their tangents meets.
+    /// Counts of its triangles and of degenerate data.
     #[serde(flatten)]
     pub counts: Counts,
 }
 
-/// Looks at every primitive of the document, computing the tangents that it could have without writing them.
+/// Describes every primitive of a document. The tangents that it could have are computed and not written.
 ///
-/// Compressed documents are decompressed. Errors: broken data behind a primitive that can have tangents.
+/// A compressed document is decompressed. Errors: invalid data of a primitive that can have tangents.
 pub fn inspect(document: &mut Document) -> Result<Vec<PrimitiveInfo>, Error> {
     let options = TangentsOptions { overwrite: true, ..TangentsOptions::default() };
     let selection = select_readable(document, &options)?;
@@ -73,7 +73,7 @@ pub fn inspect(document: &mut Document) -> Result<Vec<PrimitiveInfo>, Error> {
     Ok(infos)
 }
 
-/// What the JSON says about a primitive.
+/// The description of a primitive by its JSON.
 fn describe(document: &Document, candidate: &Candidate) -> PrimitiveInfo {
     let name = candidate.name.clone();
     let primitive = &document.meshes()[name.mesh].primitives[name.primitive];
@@ -102,7 +102,7 @@ fn describe(document: &Document, candidate: &Candidate) -> PrimitiveInfo {
     }
 }
 
-/// Triangles whose sign says that they show their texture mirrored.
+/// Counts triangles whose sign is that of a mirrored texture.
 fn mirrored_triangles(tangents: &CornerTangents) -> usize {
     let to_gltf = Convention::GLTF.generated().to(Convention::GLTF);
     let triangles = tangents.per_corner().as_chunks::<3>().0.iter();

@@ -1,6 +1,6 @@
-//! Edits of JSON as text: what is not named by an edit keeps its exact spelling, numbers, order and white space included.
+//! Edits JSON as text. Everything outside an edit keeps its spelling: numbers, order and white space.
 //!
-//! Values are skipped over, never parsed: neither their depth nor their content matters.
+//! Values are skipped and never parsed, so that neither their depth nor their content matters.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -10,9 +10,9 @@ use serde::Deserializer as _;
 use serde::de::{MapAccess, Visitor};
 use serde_json::value::RawValue;
 
-/// `object` with its member `key` set to the JSON `value`, or without the member. A new member becomes the last.
+/// Sets the member `key` of an object to the JSON text `value`, or removes it. A new member becomes the last.
 ///
-/// Errors: `object` is not the text of a JSON object.
+/// Errors: `object` is not a JSON object.
 pub fn set_member(object: &str, key: &str, value: Option<&str>) -> serde_json::Result<String> {
     let members = members(object)?;
     let found = members.iter().position(|member| member.is(key));
@@ -28,20 +28,20 @@ pub fn set_member(object: &str, key: &str, value: Option<&str>) -> serde_json::R
     Ok(splice(object, range, &new))
 }
 
-/// The text of the member `key`, where `object` has it.
+/// The text of the member `key` of an object, if there is one.
 pub fn member<'a>(object: &'a str, key: &str) -> serde_json::Result<Option<&'a str>> {
     let found = members(object)?.into_iter().find(|member| member.is(key));
     Ok(found.map(|member| &object[member.value]))
 }
 
-/// The keys of `object`, as decoded text.
+/// The keys of an object, with escapes decoded.
 pub fn keys(object: &str) -> serde_json::Result<Vec<String>> {
     members(object)?.iter().map(|member| serde_json::from_str(member.key_text)).collect()
 }
 
-/// `array` with some elements replaced and others appended.
+/// Replaces some elements of an array, by index, and appends others.
 ///
-/// Errors: `array` is not the text of a JSON array.
+/// Errors: `array` is not a JSON array.
 pub fn edit_array(
     array: &str,
     replaced: &BTreeMap<usize, String>,
@@ -81,9 +81,9 @@ pub fn edit_array(
     Ok(out)
 }
 
-/// `array` without some elements; none where nothing is left.
+/// Removes some elements of an array; none if no element is left.
 ///
-/// Errors: `array` is not the text of a JSON array.
+/// Errors: `array` is not a JSON array.
 pub fn without_elements(array: &str, removed: &BTreeSet<usize>) -> serde_json::Result<Option<String>> {
     let elements: Vec<&RawValue> = serde_json::from_str(array)?;
     let ranges: Vec<_> = elements.iter().map(|element| range_in(array, element.get())).collect();
@@ -94,17 +94,17 @@ pub fn without_elements(array: &str, removed: &BTreeSet<usize>) -> serde_json::R
         out.push_str(&array[before]);
         out.push_str(&array[range.clone()]);
     }
-    let is_left = !out.is_empty();
+    let has_elements = !out.is_empty();
     out.push_str(&array[last.end..]);
-    Ok(is_left.then_some(out))
+    Ok(has_elements.then_some(out))
 }
 
-/// `text` as a JSON string.
+/// A text as a JSON string.
 pub fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }
 
-/// A member of an object: where its key and value are.
+/// The ranges of a member's key and value in the text of its object.
 struct ObjectMember<'a> {
     key_text: &'a str,
     key: Range<usize>,
@@ -149,13 +149,13 @@ impl<'de> Visitor<'de> for MembersVisitor<'de> {
     }
 }
 
-/// Where `part`, a slice of `text`, lies in it.
+/// The range of `part`, which is a slice of `text`.
 pub fn range_in(text: &str, part: &str) -> Range<usize> {
     let start = part.as_ptr() as usize - text.as_ptr() as usize;
     start..start + part.len()
 }
 
-/// What to cut to remove a member with one of its commas.
+/// The range to cut so that a member is removed with one comma.
 fn removal(members: &[ObjectMember<'_>], at: usize) -> Range<usize> {
     match (at.checked_sub(1), members.get(at + 1)) {
         (_, Some(next)) => members[at].key.start..next.key.start,
@@ -164,7 +164,7 @@ fn removal(members: &[ObjectMember<'_>], at: usize) -> Range<usize> {
     }
 }
 
-/// Where `new` goes as the last of `items`, and with which comma and white space.
+/// The position of `new` after the last of `items`, and the text to insert with its comma and white space.
 fn insertion(
     text: &str,
     items: impl DoubleEndedIterator<Item = Range<usize>>,
@@ -179,7 +179,7 @@ fn insertion(
     }
 }
 
-/// The white space right before `at`, which lays out what follows like its neighbour.
+/// The white space before an offset, with which a new neighbour is laid out alike.
 fn space_before(text: &str, at: usize) -> &str {
     let before = &text[..at];
     &before[before.trim_end_matches([' ', '\t', '\r', '\n']).len()..]

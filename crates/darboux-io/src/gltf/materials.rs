@@ -1,4 +1,4 @@
-//! Materials and images, as far as a picture needs them.
+//! The appearance of materials and the bytes of images, for renderers.
 
 use std::borrow::Cow;
 use std::fs;
@@ -13,21 +13,21 @@ use super::tangents::uv::{UvChoice, UvTransform};
 use crate::Error;
 use crate::error::Fault;
 
-/// How a material looks.
+/// The appearance of a material: the parts that a simple renderer needs.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Appearance {
-    /// Linear red, green, blue, and alpha.
+    /// The base colour: linear red, green and blue, and alpha.
     pub base_color: [f32; 4],
-    /// Its texture, in sRGB.
+    /// The texture of the base colour, in sRGB.
     pub base_texture: Option<TextureUse>,
     /// The normal map.
     pub normal_texture: Option<TextureUse>,
-    /// How far the normal map leans.
+    /// The scale of the normal map's x and y.
     pub normal_scale: f32,
-    /// What alpha means.
+    /// The use of alpha.
     pub alpha: Alpha,
-    /// The UV set that tangents follow: n of `TEXCOORD_n`.
+    /// The UV set n of `TEXCOORD_n` that tangents follow.
     pub tangent_uv_set: usize,
 }
 
@@ -44,47 +44,47 @@ impl Default for Appearance {
     }
 }
 
-/// What the alpha of a material's base colour means.
+/// The use of a base colour's alpha.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Alpha {
-    /// Nothing.
+    /// Alpha is ignored.
     Opaque,
-    /// What is below is not there.
+    /// Texels with a smaller alpha are discarded.
     Mask(f32),
-    /// How much covers what is behind.
+    /// Alpha is the coverage.
     Blend,
 }
 
-/// A texture where a material uses it.
+/// A texture of a material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureUse {
-    /// The index of the image: glTF's own, or else that of an extension for WebP, AVIF or KTX 2; none where there is none of these.
+    /// The index of the image: the texture's source, or else the source of an extension for WebP, AVIF or KTX 2.
     pub image: Option<usize>,
-    /// n of `TEXCOORD_n`.
+    /// The UV set n of `TEXCOORD_n`.
     pub uv_set: usize,
-    /// What UVs beyond the image show, along u and v.
+    /// The wrapping modes along u and v.
     pub wrap: [Wrap; 2],
-    /// Whether texels stay squares where they are large.
+    /// Whether magnification uses the nearest texel.
     pub is_nearest: bool,
     transform: Option<UvTransform>,
 }
 
 impl TextureUse {
-    /// Where a UV of the set meets the image, after `KHR_texture_transform`.
+    /// Applies `KHR_texture_transform` to a UV.
     pub fn place(&self, uv: [f32; 2]) -> [f32; 2] {
         self.transform.map_or(uv, |transform| transform.apply(uv))
     }
 }
 
-/// What UVs beyond an image show.
+/// The wrapping mode of UVs outside [0, 1].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Wrap {
-    /// The image again.
+    /// The image is repeated.
     #[default]
     Repeat,
-    /// The image again, every other one mirrored.
+    /// The image is repeated, every second time mirrored.
     Mirror,
-    /// Its edge.
+    /// The texels at the edge continue.
     Clamp,
 }
 
@@ -140,7 +140,7 @@ struct Texture {
     extensions: TextureExtensions,
 }
 
-/// Where images of other formats are.
+/// The extensions for other image formats.
 #[derive(Default, Deserialize)]
 #[serde(remote = "Self")]
 struct TextureExtensions {
@@ -159,7 +159,7 @@ struct ImageSource {
 }
 
 impl Texture {
-    /// The image that most programs can decode.
+    /// The image in the most common of its formats.
     fn image(&self) -> Option<usize> {
         let TextureExtensions { webp, avif, ktx2 } = &self.extensions;
         let others = [webp, avif, ktx2].into_iter().flatten();
@@ -184,7 +184,7 @@ fn one() -> f32 {
 }
 
 impl Document {
-    /// How every material looks. Errors: textures, samplers or images that do not exist.
+    /// The appearance of every material. Errors: textures, samplers or images that do not exist.
     pub fn appearances(&self) -> Result<Vec<Appearance>, Error> {
         let appearances = || -> Result<Vec<Appearance>, Fault> {
             let all: StoredMaterials = self.parsed()?;
@@ -249,7 +249,7 @@ impl Document {
         })
     }
 
-    /// The bytes of an image file, whatever its format. Errors: none there, or none that may be read.
+    /// The content of an image file of any format. Errors: the image has no content, or its file may not be read.
     pub fn image_bytes(&self, index: usize) -> Result<Cow<'_, [u8]>, Error> {
         self.find_image(index).map_err(|fault| fault.in_file(self.name()))
     }
@@ -279,7 +279,7 @@ impl Document {
     }
 }
 
-/// OpenGL's numbers, which glTF uses.
+/// Constants of OpenGL, which glTF uses.
 const NEAREST: u32 = 9728;
 const CLAMP_TO_EDGE: u32 = 33071;
 const MIRRORED_REPEAT: u32 = 33648;

@@ -1,4 +1,10 @@
-//! Normals into a document: chosen, computed mesh by mesh, split, morphed and written, with everything else left as it is.
+//! Adds normals to the primitives of a document and keeps everything else.
+//!
+//! ```text
+//! select    which primitives get normals
+//! compute   normals per corner, mesh by mesh, at rest and for every morph target
+//! write     splits the vertices of each accessor of positions jointly, and writes new accessors
+//! ```
 
 mod compute;
 mod options;
@@ -21,10 +27,11 @@ use crate::Error;
 use compute::ShadedPrimitive;
 use select::{Selection, select};
 
-/// Gives every triangle primitive its normals. Primitives of one mesh are shaded as one surface.
+/// Adds normals to every triangle primitive. The primitives of one mesh are shaded as one surface.
 ///
-/// Tangents that belonged to other normals, or to none, are taken out. Morph targets that move positions get normal offsets. Nothing
-/// to do is success. Errors: broken data behind a primitive that gets normals. After an error the document may be half done: drop it.
+/// Tangents that belonged to other normals are removed. Morph targets with position offsets get normal offsets. A document with nothing to
+/// do stays unchanged. Errors: invalid data of a primitive that gets normals; more corners than the memory limit permits. After an error the
+/// document is unspecified: drop it.
 pub fn add_normals(
     document: &mut Document,
     options: &NormalsOptions,
@@ -61,7 +68,7 @@ pub fn add_normals_with(
     Ok(summary)
 }
 
-/// Chooses the primitives, decompressing the document where that is needed to read them.
+/// Selects the primitives. A compressed document is decompressed if any is selected.
 fn select_readable(document: &mut Document, options: &NormalsOptions) -> Result<Selection, Error> {
     let selection = select(document, options)?;
     if selection.chosen().next().is_none() || !document.is_compressed() {

@@ -1,4 +1,6 @@
-//! Objects that are objects: serde's structs can also be read from arrays, by position, which glTF does not mean.
+//! Rejects arrays where glTF requires objects.
+//!
+//! Structs that derive `Deserialize` can also be read from arrays, member by member, which glTF does not permit.
 
 use std::fmt;
 
@@ -17,7 +19,7 @@ macro_rules! read_from_objects {
 }
 pub(super) use read_from_objects;
 
-/// A deserializer of structs that accepts nothing but maps.
+/// A deserializer of structs that accepts maps only.
 pub struct ObjectOnly<D>(pub D);
 
 impl<'de, D: Deserializer<'de>> Deserializer<'de> for ObjectOnly<D> {

@@ -1,7 +1,7 @@
-//! What is written: where the bytes of every buffer go, and the JSON that says so.
+//! The layout of an output: the destination of every buffer's bytes, and the JSON with the new offsets.
 //!
-//! A *binary* is a place for bytes: the binary chunk of a GLB, or a new file beside a `.gltf`. A GLB has one binary, into which all
-//! buffers move; a `.gltf` has one for each buffer that was in memory only. Buffer views follow their buffers.
+//! A *binary output* is the binary chunk of a GLB, or a new file beside a `.gltf`. A GLB has one, to which all buffers are moved; a
+//! `.gltf` has one for each buffer that was in memory only. Buffer views move with their buffers.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
@@ -17,7 +17,7 @@ use super::segments::Segment;
 use super::unused_data::UnusedData;
 use crate::error::Fault;
 
-/// Bytes to be written as one.
+/// The segments of a binary chunk, or of a new file.
 #[derive(Debug, Default)]
 pub struct BinaryOutput<'a> {
     pub segments: Vec<Segment<'a>>,
@@ -25,21 +25,21 @@ pub struct BinaryOutput<'a> {
 }
 
 impl<'a> BinaryOutput<'a> {
-    /// Appends bytes at the next multiple of four; gives their offset.
+    /// Appends bytes at the next multiple of four. Returns their offset.
     fn push(&mut self, bytes: Segment<'a>) -> usize {
         let offset = self.align();
         self.append(bytes);
         offset
     }
 
-    /// Appends the parts of one buffer, the first at the next multiple of four; gives its offset.
+    /// Appends the parts of a buffer, the first at the next multiple of four. Returns its offset.
     fn push_parts(&mut self, parts: &[&'a [u8]]) -> usize {
         let offset = self.align();
         parts.iter().for_each(|part| self.append(Segment::Borrowed(part)));
         offset
     }
 
-    /// Pads to a multiple of four; gives the length.
+    /// Pads to a multiple of four. Returns the length.
     fn align(&mut self) -> usize {
         let padding = self.length.next_multiple_of(4) - self.length;
         self.append(Segment::Borrowed(&[0; 4][..padding]));
@@ -55,29 +55,29 @@ impl<'a> BinaryOutput<'a> {
 /// A buffer of the output.
 #[derive(Debug)]
 struct OutputBuffer {
-    /// The buffer whose JSON it keeps.
+    /// The input buffer whose JSON is kept.
     source: Option<usize>,
     content: BufferContent,
 }
 
 #[derive(Debug)]
 enum BufferContent {
-    /// As before.
+    /// The bytes stay where they are.
     Kept,
-    /// A binary.
+    /// The binary output with this index.
     Binary(usize),
     /// A `data:` URI.
     DataUri,
 }
 
-/// A place in the output's buffers.
+/// The start of an input buffer in an output buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct BufferPlace {
     output_buffer: usize,
     offset: usize,
 }
 
-/// An image that moves into the GLB.
+/// An image file that is embedded in the GLB.
 #[derive(Debug)]
 struct EmbeddedImage {
     index: usize,
@@ -85,26 +85,26 @@ struct EmbeddedImage {
     media_type: String,
 }
 
-/// Where everything goes.
+/// The layout of an output.
 #[derive(Debug)]
 pub struct OutputLayout<'a> {
     document: &'a Document,
     pub binaries: Vec<BinaryOutput<'a>>,
     output_buffers: Vec<OutputBuffer>,
-    /// By buffer of the input.
+    /// The new start of each input buffer.
     places: Vec<BufferPlace>,
-    /// What the output does without.
+    /// The data that is not written.
     pub unused_data: UnusedData,
-    /// The buffer view JSON of new data and of images.
+    /// The JSON of the buffer views of new data and images.
     new_views: Vec<String>,
     images: Vec<EmbeddedImage>,
 }
 
 impl<'a> OutputLayout<'a> {
-    /// Everything in one GLB: buffers of one binary, images in buffer views.
+    /// The layout of a GLB: all buffers in the binary chunk, images in buffer views.
     ///
-    /// Buffers with extras or extensions of their own, beyond the first, become `data:` URIs so that these survive. Buffers
-    /// without bytes in reach stay as they are, behind the binary.
+    /// Buffers after the first that have extras or extensions become `data:` URIs, so that these are kept. Buffers without bytes keep
+    /// their JSON and follow the binary chunk.
     pub fn glb(document: &'a Document) -> Result<Self, Fault> {
         let mut layout = Self::empty(document)?;
         let texts = document.buffer_texts().map_err(broken)?;
@@ -149,7 +149,8 @@ impl<'a> OutputLayout<'a> {
         Ok(layout)
     }
 
-    /// Buffers as they are; those that were only in memory, or in files of ours, get binaries, and new bytes follow the first of these.
+    /// The layout of a `.gltf`. Buffers keep their files; those that were in memory only, or in files that an earlier run made, get new
+    /// files. New bytes are appended to the first of these.
     pub fn gltf(document: &'a Document) -> Result<Self, Fault> {
         let mut layout = Self::empty(document)?;
         for (i, store) in
@@ -210,14 +211,14 @@ impl<'a> OutputLayout<'a> {
         }
     }
 
-    /// Moves images from files into the binary. Images that are missing, remote or of unknown type stay where they are.
+    /// Embeds image files. References to images that are missing, remote or of unknown type are kept.
     fn push_images(&mut self, binary: &mut BinaryOutput<'a>) -> Result<(), Fault> {
         let document = self.document;
-        let mut known: HashMap<PathBuf, Option<(usize, &str)>> = HashMap::new();
+        let mut embedded: HashMap<PathBuf, Option<(usize, &str)>> = HashMap::new();
         for (index, image) in document.root.images.iter().enumerate() {
             let reference = image.uri.as_deref().map(|uri| document.resources.resolve(uri));
             let Some(Ok(UriTarget::File(located))) = reference else { continue };
-            let stored = match known.get(&located.path) {
+            let stored = match embedded.get(&located.path) {
                 Some(stored) => *stored,
                 None => {
                     let bytes = document.resources.bytes(&located.path).map_err(|error| {
@@ -231,7 +232,7 @@ impl<'a> OutputLayout<'a> {
                         ));
                         (document.root.buffer_views.len() + self.new_views.len() - 1, kind)
                     });
-                    known.insert(located.path, stored);
+                    embedded.insert(located.path, stored);
                     stored
                 }
             };
@@ -243,8 +244,8 @@ impl<'a> OutputLayout<'a> {
         Ok(())
     }
 
-    /// The JSON. `binary_uris`: the URI of each binary, none in a GLB. `renamed`: new URIs of files that are copied under another
-    /// name, by where they are.
+    /// The JSON of the output. `binary_uris` are the URIs of the binary outputs, none in a GLB. `renamed` maps the paths of files that
+    /// were copied under another name to their new URIs.
     pub fn json(&self, binary_uris: &[String], renamed: &HashMap<PathBuf, String>) -> Result<String, Fault> {
         let edits = &self.document.edits;
         let mut root = self.document.text().to_owned();
@@ -294,7 +295,7 @@ impl<'a> OutputLayout<'a> {
         edit_array(views, &edited, &self.new_views)
     }
 
-    /// A buffer view, and every extension of it that names a buffer of its own, after the move.
+    /// The JSON of a buffer view after the move, with every extension that refers to a buffer.
     fn moved_view(&self, view: &str) -> serde_json::Result<String> {
         let mut moved = self.moved(view)?;
         if let Some(extensions) = member(view, "extensions")? {
@@ -310,7 +311,7 @@ impl<'a> OutputLayout<'a> {
         Ok(moved)
     }
 
-    /// An object with `buffer` and `byteOffset` after the move.
+    /// The JSON of an object with `buffer` and `byteOffset` after the move.
     fn moved(&self, range: &str) -> serde_json::Result<String> {
         let number = |key| Ok(member(range, key)?.and_then(|text| text.parse::<usize>().ok()));
         let Some(buffer) = number("buffer")? else { return Ok(range.to_owned()) };
@@ -367,8 +368,8 @@ impl<'a> OutputLayout<'a> {
         binary_uris: &[String],
         renamed: &HashMap<PathBuf, String>,
     ) -> serde_json::Result<String> {
-        let ours = format!("{{\"name\":{}}}", Buffer::OUR_NAME);
-        let new = if binary_uris.is_empty() { "{}" } else { &ours };
+        let new_file = format!("{{\"name\":{}}}", Buffer::OUR_NAME);
+        let new = if binary_uris.is_empty() { "{}" } else { &new_file };
         let text = output_buffer.source.map_or(new, |source| texts[source].as_str());
         match (&output_buffer.content, output_buffer.source) {
             (BufferContent::Binary(binary), _) => {
@@ -432,7 +433,7 @@ impl<'a> OutputLayout<'a> {
 }
 
 impl Document {
-    /// The array of meshes with the edits of their primitives.
+    /// The JSON array of meshes with edited primitives.
     pub(super) fn edited_meshes(&self, meshes: &str) -> serde_json::Result<String> {
         let mut by_mesh: BTreeMap<usize, BTreeMap<usize, String>> = BTreeMap::new();
         for (&(mesh, primitive), text) in &self.edits.primitives {
@@ -448,7 +449,7 @@ impl Document {
         edit_array(meshes, &edited, &[])
     }
 
-    /// The JSON of every buffer, edits included.
+    /// The JSON of every buffer, with edits.
     fn buffer_texts(&self) -> serde_json::Result<Vec<String>> {
         let array = member(self.text(), "buffers")?.unwrap_or("[]");
         let texts: Vec<&RawValue> = serde_json::from_str(array)?;
@@ -459,7 +460,7 @@ impl Document {
     }
 }
 
-/// Whether a buffer's JSON says nothing that is lost when it is merged into another.
+/// Whether a buffer can be merged into another without loss of JSON members.
 fn is_plain(buffer: &str) -> serde_json::Result<bool> {
     Ok(keys(buffer)?.iter().all(|key| ["uri", "byteLength", "name"].contains(&key.as_str())))
 }

@@ -1,10 +1,10 @@
 //! Progress of a long operation on a document.
 
-/// How far [`add_tangents`] is.
+/// How much of an operation is done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
-    /// Triangles computed.
+    /// The units done: triangles or primitives.
     pub done: usize,
-    /// Triangles to compute.
+    /// The units in total.
     pub total: usize,
 }

@@ -1,4 +1,4 @@
-//! Where the meshes of the scene are, and their poses.
+//! Finds the meshes of the scene with the transforms, morph weights and skins of their nodes.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -10,33 +10,33 @@ use super::schema::Attributes;
 use crate::Error;
 use crate::error::Fault;
 
-/// The columns of a matrix for column vectors.
+/// A matrix in columns, for column vectors.
 type Matrix = [[f64; 4]; 4];
 
 const IDENTITY: Matrix =
     [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
-/// Small files can ask for any number: their nodes have the same instances again and again.
+/// The most places of meshes. Nodes may share instances, so that a small file can ask for any number.
 const MOST_PLACES: usize = 1 << 20;
 
-/// What the scene shows.
+/// The meshes and skins of the scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlacedMeshes {
     /// The meshes of all nodes.
     pub meshes: Vec<PlacedMesh>,
-    /// Of every skin the matrices of its joints, from the mesh as it was bound to the scene; empty for skins that nothing has.
+    /// The joint matrices of every skin, from the bind pose of the mesh to the scene; empty for unused skins.
     pub skins: Vec<Vec<[[f64; 4]; 4]>>,
 }
 
-/// A mesh where a node places it.
+/// A mesh of a node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedMesh {
     /// The index of the mesh.
     pub mesh: usize,
-    /// From the mesh to the scene: the columns of a matrix for every place, several with `EXT_mesh_gpu_instancing`. Skins place meshes
-    /// themselves, at one identity.
+    /// The transforms from the mesh to the scene, in columns: one per instance of `EXT_mesh_gpu_instancing`, otherwise one. The identity
+    /// for a skinned mesh.
     pub matrices: Vec<[[f64; 4]; 4]>,
-    /// The weights of morph targets; none where all are zero.
+    /// The weights of morph targets; empty if all are zero.
     pub weights: Vec<f64>,
     /// The index of the skin that moves its vertices.
     pub skin: Option<usize>,
@@ -59,7 +59,7 @@ struct Scenes {
     skins: Vec<Skin>,
 }
 
-/// The weights of a mesh's morph targets, where its node has none.
+/// The default weights of a mesh's morph targets.
 #[derive(Deserialize)]
 #[serde(remote = "Self")]
 struct Weights {
@@ -100,7 +100,7 @@ struct NodeExtensions {
     instancing: Option<Instancing>,
 }
 
-/// Accessors of every instance's translation, rotation and scale.
+/// The accessors of the instances' translations, rotations and scales.
 #[derive(Deserialize)]
 #[serde(remote = "Self")]
 struct Instancing {
@@ -124,10 +124,11 @@ fn no_scale() -> [f64; 3] {
 }
 
 impl Document {
-    /// The meshes of the scene that is shown first, in its pose, with all their nodes say; animations rest.
+    /// The meshes of the default scene, without animation.
     ///
-    /// A document without scenes shows all nodes, one without nodes all meshes. Compressed documents must be
-    /// [decompressed](Document::decompress) first. Errors: nodes, joints or matrices that are not there; nodes with several parents.
+    /// A document without scenes has all nodes in its scene, one without nodes all meshes. Compressed documents must be
+    /// [decompressed](Document::decompress) first. Errors: joints outside the scene, missing matrices, nodes with several parents, more
+    /// than 2^20 instances.
     pub fn placed_meshes(&self) -> Result<PlacedMeshes, Error> {
         let scenes: Scenes = self.parsed().map_err(|fault: Fault| fault.in_file(self.name()))?;
         let nodes = placed_nodes(&scenes).map_err(|fault| fault.in_file(self.name()))?;
@@ -154,7 +155,7 @@ impl Document {
         Ok(placed)
     }
 
-    /// The mesh of a node, if it has one, with what the node says of it.
+    /// The mesh of a node, if it has one, with the node's transform, weights and skin.
     fn place_node(&self, scenes: &Scenes, index: usize, matrix: Matrix) -> Result<Option<PlacedMesh>, Error> {
         let node = &scenes.nodes[index];
         let Some(mesh) = node.mesh else { return Ok(None) };
@@ -177,7 +178,7 @@ impl Document {
         Ok(Some(place(mesh, node.skin, node.weights.as_ref().unwrap_or(&own.weights), matrices)))
     }
 
-    /// The matrices of a skin's joints. `at`: its path. `nodes`: where the scene has nodes, by index.
+    /// The joint matrices of a skin. `at` is its JSON path; `nodes` has the transforms of the nodes in the scene, by index.
     fn joints(&self, skin: &Skin, at: &str, nodes: &HashMap<usize, Matrix>) -> Result<Vec<Matrix>, Error> {
         let inverses = skin.inverse_bind_matrices.map(|accessor| self.vectors::<16>(accessor)).transpose()?;
         let joint = |(place, joint): (usize, &usize)| {
@@ -193,7 +194,7 @@ impl Document {
         skin.joints.iter().enumerate().map(joint).collect()
     }
 
-    /// Where instances are, seen from their node. `at`: its path.
+    /// The transforms of instances relative to their node, whose JSON path is `at`.
     fn instances(&self, instancing: &Instancing, at: &str) -> Result<Vec<Matrix>, Error> {
         let accessor = |name: &str| instancing.attributes.get(name).copied();
         let translations = accessor("TRANSLATION").map(|found| self.vectors::<3>(found)).transpose()?;
@@ -204,7 +205,7 @@ impl Document {
             rotations.as_ref().map(|r| r.len()),
             scales.as_ref().map(|s| s.len()),
         ];
-        // Without attributes that place them there is one, at the node.
+        // Without transforms there is one instance, at the node.
         let count = lens.into_iter().flatten().next().unwrap_or(1);
         if lens.into_iter().flatten().any(|len| len != count) {
             let problem = "its instances have different numbers of translations, rotations and scales";
@@ -220,14 +221,14 @@ impl Document {
     }
 }
 
-/// The nodes of the scene that is shown first, parents before children, and where they are in it.
+/// The nodes of the default scene with their transforms, parents before children.
 fn placed_nodes(Scenes { scene, scenes, nodes, .. }: &Scenes) -> Result<Vec<(usize, Matrix)>, Fault> {
     if nodes.is_empty() {
         return Ok(Vec::new());
     }
     let roots = match scenes.get(*scene) {
         Some(scene) => scene.nodes.clone(),
-        None if scenes.is_empty() => orphans(nodes),
+        None if scenes.is_empty() => root_nodes(nodes),
         None => {
             let problem = format!("scene {scene} does not exist: there are {}", scenes.len());
             return Err(Fault::invalid("scene", format!("{problem}; export the file again")));
@@ -256,8 +257,8 @@ fn place(mesh: usize, skin: Option<usize>, weights: &[f64], matrices: Vec<Matrix
     PlacedMesh { mesh, matrices, skin, weights: if is_morphed { weights.to_vec() } else { Vec::new() } }
 }
 
-/// The nodes that are no children.
-fn orphans(nodes: &[Node]) -> Vec<usize> {
+/// The nodes without a parent.
+fn root_nodes(nodes: &[Node]) -> Vec<usize> {
     let mut is_child = vec![false; nodes.len()];
     for &child in nodes.iter().flat_map(|node| &node.children) {
         if let Some(is_child) = is_child.get_mut(child) {
@@ -268,7 +269,7 @@ fn orphans(nodes: &[Node]) -> Vec<usize> {
 }
 
 impl Node {
-    /// From the node to its parent.
+    /// The transform from the node to its parent.
     fn matrix(&self) -> Matrix {
         self.matrix.map_or_else(|| transform(self.translation, self.rotation, self.scale), columns)
     }
@@ -278,14 +279,14 @@ fn columns(numbers: [f64; 16]) -> Matrix {
     [0, 1, 2, 3].map(|column| [0, 1, 2, 3].map(|row| numbers[4 * column + row]))
 }
 
-/// Translation times rotation times scale.
+/// The matrix of a translation, a rotation and a scale.
 fn transform(translation: [f64; 3], [x, y, z, w]: [f64; 4], scale: [f64; 3]) -> Matrix {
-    let turned = [
+    let rotated = [
         [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)],
         [2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)],
         [2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y)],
     ];
-    let [a, b, c] = [0, 1, 2].map(|i| turned[i].map(|part| part * scale[i]));
+    let [a, b, c] = [0, 1, 2].map(|i| rotated[i].map(|part| part * scale[i]));
     let column = |[x, y, z]: [f64; 3], w| [x, y, z, w];
     [column(a, 0.0), column(b, 0.0), column(c, 0.0), column(translation, 1.0)]
 }

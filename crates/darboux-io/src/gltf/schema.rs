@@ -1,6 +1,4 @@
-//! The parts of glTF's JSON that are read as values. What is not here is never parsed, only kept as text.
-//!
-//! Indices are plain numbers: whether they name anything is checked where they are used.
+//! The parts of glTF's JSON that are parsed. All other parts are kept as text.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +13,7 @@ read_from_objects! {
     Sparse, SparseIndices, SparseValues, BufferView, BufferViewExtensions, Meshopt, Buffer, Image,
 }
 
-/// The top level.
+/// The root object.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub(super) struct Root {
@@ -34,49 +32,49 @@ pub(super) struct Root {
     pub images: Vec<Image>,
 }
 
-/// What the file says about itself.
+/// The metadata of a file.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(remote = "Self")]
 pub(super) struct Asset {
     pub version: String,
 }
 
-/// Just the version, for files whose other contents make no sense.
+/// The version alone, for files whose other content cannot be parsed.
 #[derive(Debug, Deserialize)]
 #[serde(remote = "Self")]
 pub(super) struct Probe {
     pub asset: Asset,
 }
 
-/// A mesh: its primitives.
+/// A mesh: a list of primitives.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
 #[serde(remote = "Self")]
 pub struct Mesh {
-    /// Its name, where it has one.
+    /// The name, if there is one.
     pub name: Option<String>,
-    /// The parts, each with a material of its own.
+    /// The primitives, each with its own material.
     pub primitives: Vec<Primitive>,
 }
 
-/// Semantics such as `POSITION` or `TEXCOORD_1`, with the accessor of each.
+/// The accessor of each semantic, such as `POSITION` or `TEXCOORD_1`.
 pub type Attributes = BTreeMap<String, usize>;
 
-/// A part of a mesh that is drawn at once.
+/// A part of a mesh that is drawn with one material.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
 #[serde(remote = "Self")]
 pub struct Primitive {
     /// Vertex attributes.
     pub attributes: Attributes,
-    /// The accessor of the indices; without, corner i is vertex i.
+    /// The accessor of the indices. Without one, corner i is vertex i.
     pub indices: Option<usize>,
     /// The material.
     pub material: Option<usize>,
-    /// The topology: 4 triangles, 5 strip, 6 fan; below, points and lines.
+    /// The topology: 0 to 3 for points and lines, 4 for triangles, 5 for strips, 6 for fans.
     #[serde(default = "triangles")]
     pub mode: u32,
-    /// Morph targets: offsets of attributes.
+    /// The morph targets: accessors of attribute offsets.
     #[serde(default)]
     pub targets: Vec<Attributes>,
     /// Extensions that change how the primitive is stored.
@@ -88,7 +86,7 @@ fn triangles() -> u32 {
     4
 }
 
-/// The extensions of a primitive that are understood.
+/// The supported extensions of a primitive.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[non_exhaustive]
 #[serde(remote = "Self")]
@@ -96,7 +94,7 @@ pub struct PrimitiveExtensions {
     /// Draco compression.
     #[serde(rename = "KHR_draco_mesh_compression")]
     pub draco: Option<Draco>,
-    /// Materials that may take the place of the primitive's own.
+    /// Materials that can replace the primitive's own.
     #[serde(rename = "KHR_materials_variants")]
     pub variants: Option<Variants>,
 }
@@ -106,12 +104,12 @@ pub struct PrimitiveExtensions {
 #[non_exhaustive]
 #[serde(remote = "Self")]
 pub struct Variants {
-    /// Which material in which variants.
+    /// The materials of the variants.
     #[serde(default)]
     pub mappings: Vec<VariantMapping>,
 }
 
-/// A material for some variants.
+/// The material of some variants.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
 #[serde(remote = "Self")]
@@ -127,18 +125,18 @@ pub struct VariantMapping {
 pub struct Draco {
     /// The buffer view with the compressed bytes.
     pub buffer_view: usize,
-    /// The compressed attributes: semantic and Draco's unique id.
+    /// Draco's identifier of each compressed attribute, by semantic.
     pub attributes: BTreeMap<String, u32>,
 }
 
-/// A material, as far as it says which UVs tangents must follow.
+/// The parts of a material that decide which UVs its tangents follow.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[non_exhaustive]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub struct Material {
     /// The normal map.
     pub normal_texture: Option<Box<TextureInfo>>,
-    /// Extensions with normal maps or anisotropy.
+    /// The extensions that use tangents.
     #[serde(default)]
     pub extensions: Option<Box<MaterialExtensions>>,
 }
@@ -148,7 +146,7 @@ pub struct Material {
 #[non_exhaustive]
 #[serde(remote = "Self")]
 pub struct MaterialExtensions {
-    /// A clear coat, which may have a normal map.
+    /// A clear coat.
     #[serde(rename = "KHR_materials_clearcoat")]
     pub clearcoat: Option<Clearcoat>,
     /// Anisotropy.
@@ -170,24 +168,24 @@ pub struct Clearcoat {
 #[non_exhaustive]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub struct Anisotropy {
-    /// The map of directions and strength.
+    /// The map of anisotropy directions and strengths.
     pub anisotropy_texture: Option<TextureInfo>,
 }
 
-/// A use of a texture.
+/// A texture of a material.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub struct TextureInfo {
-    /// The UV set: n of `TEXCOORD_n`, unless the transform overrides it.
+    /// The UV set n of `TEXCOORD_n`, unless the transform overrides it.
     #[serde(default)]
     pub tex_coord: usize,
-    /// Extensions of the use.
+    /// The supported extensions.
     #[serde(default)]
     pub extensions: TextureInfoExtensions,
 }
 
-/// The extensions of a use of a texture that are understood.
+/// The supported extensions of a material's texture.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[non_exhaustive]
 #[serde(remote = "Self")]
@@ -202,13 +200,13 @@ pub struct TextureInfoExtensions {
 #[non_exhaustive]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub struct TextureTransform {
-    /// Offset in units of the texture.
+    /// The offset in units of the texture.
     #[serde(default)]
     pub offset: [f32; 2],
-    /// Rotation in radians, counter-clockwise around the UV origin.
+    /// The rotation in radians, counter-clockwise around the UV origin.
     #[serde(default)]
     pub rotation: f32,
-    /// Scale per axis.
+    /// The scale per axis.
     #[serde(default = "ones")]
     pub scale: [f32; 2],
     /// The UV set that overrides [`TextureInfo::tex_coord`].
@@ -219,19 +217,19 @@ fn ones() -> [f32; 2] {
     [1.0; 2]
 }
 
-/// A typed view of bytes.
+/// A typed view of a buffer view's bytes.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub struct Accessor {
-    /// The buffer view; without, all values are zero.
+    /// The buffer view. Without one, all values are zero.
     pub buffer_view: Option<usize>,
     /// The first byte within the view.
     #[serde(default)]
     pub byte_offset: usize,
     /// The type of each component.
     pub component_type: ComponentType,
-    /// Whether integers stand for [0, 1] or [-1, 1].
+    /// Whether integers encode [0, 1] or [-1, 1].
     #[serde(default)]
     pub normalized: bool,
     /// The number of elements.
@@ -239,18 +237,18 @@ pub struct Accessor {
     /// The components of each element.
     #[serde(rename = "type")]
     pub element_type: ElementType,
-    /// Elements that replace others.
+    /// The elements that replace those of the buffer view.
     pub sparse: Option<Box<Sparse>>,
-    /// Its name, as JSON text.
+    /// The name, as JSON text.
     pub(super) name: Option<Box<RawValue>>,
-    /// Its extras, as JSON text.
+    /// The extras, as JSON text.
     pub(super) extras: Option<Box<RawValue>>,
-    /// Its extensions, as JSON text.
+    /// The extensions, as JSON text.
     pub(super) extensions: Option<Box<RawValue>>,
 }
 
 impl Accessor {
-    /// The members that describe the accessor to people and programs, as key and JSON text.
+    /// The keys and JSON texts of the members that describe the accessor.
     pub(super) fn descriptions(&self) -> impl Iterator<Item = (&'static str, &str)> {
         [("name", &self.name), ("extras", &self.extras), ("extensions", &self.extensions)]
             .into_iter()
@@ -263,15 +261,15 @@ impl Accessor {
 #[non_exhaustive]
 #[serde(remote = "Self")]
 pub struct Sparse {
-    /// How many.
+    /// The number of elements.
     pub count: usize,
-    /// Which.
+    /// The indices of the elements.
     pub indices: SparseIndices,
-    /// Their values.
+    /// The values of the elements.
     pub values: SparseValues,
 }
 
-/// Where the indices of a sparse accessor are.
+/// The location of a sparse accessor's indices.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
 #[serde(remote = "Self", rename_all = "camelCase")]
@@ -285,7 +283,7 @@ pub struct SparseIndices {
     pub component_type: ComponentType,
 }
 
-/// Where the values of a sparse accessor are.
+/// The location of a sparse accessor's values.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
 #[serde(remote = "Self", rename_all = "camelCase")]
@@ -311,17 +309,17 @@ pub struct BufferView {
     pub byte_length: usize,
     /// Bytes from one element to the next, for interleaved vertex attributes.
     pub byte_stride: Option<usize>,
-    /// Compression of the range.
+    /// The supported extensions.
     #[serde(default)]
     pub extensions: BufferViewExtensions,
 }
 
-/// The extensions of a buffer view that are understood.
+/// The supported extensions of a buffer view.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[non_exhaustive]
 #[serde(remote = "Self")]
 pub struct BufferViewExtensions {
-    /// meshoptimizer's compression, under either of its names.
+    /// Compression by meshoptimizer, under either name of the extension.
     #[serde(rename = "EXT_meshopt_compression", alias = "KHR_meshopt_compression")]
     pub meshopt: Option<Box<Meshopt>>,
 }
@@ -333,14 +331,14 @@ pub struct BufferViewExtensions {
 pub struct Meshopt {
     /// The buffer with the compressed bytes.
     pub buffer: usize,
-    /// The first of them.
+    /// The first compressed byte within the buffer.
     #[serde(default)]
     pub byte_offset: usize,
-    /// Their number.
+    /// The number of compressed bytes.
     pub byte_length: usize,
     /// Bytes per decoded element.
     pub byte_stride: usize,
-    /// Decoded elements.
+    /// The number of decoded elements.
     pub count: usize,
     /// `ATTRIBUTES`, `TRIANGLES` or `INDICES`.
     pub mode: String,
@@ -349,24 +347,24 @@ pub struct Meshopt {
     pub filter: Option<String>,
 }
 
-/// Bytes: the GLB's own chunk, a `data:` URI or a file.
+/// A buffer: the GLB's binary chunk, a `data:` URI or a file.
 #[derive(Clone, Debug, Deserialize)]
 #[non_exhaustive]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub struct Buffer {
-    /// Where the bytes are; without, the GLB's chunk.
+    /// The URI of the bytes. Without one, they are in the GLB's binary chunk.
     pub uri: Option<String>,
     /// The number of bytes.
     pub byte_length: usize,
-    /// Its name, as JSON text.
+    /// The name, as JSON text.
     pub(super) name: Option<Box<RawValue>>,
 }
 
 impl Buffer {
-    /// What buffers are named that are made for new data of a `.gltf`, so that later runs know them.
+    /// The name of buffers made for new data of a `.gltf`, by which later runs recognise them.
     pub(super) const OUR_NAME: &str = "\"darboux\"";
 
-    /// Whether the buffer was made for new data.
+    /// Whether an earlier run made the buffer for new data.
     pub(super) fn is_ours(&self) -> bool {
         self.name.as_ref().is_some_and(|name| name.get() == Self::OUR_NAME)
     }
@@ -377,29 +375,29 @@ impl Buffer {
 #[non_exhaustive]
 #[serde(remote = "Self", rename_all = "camelCase")]
 pub struct Image {
-    /// Where the image is; without, in a buffer view.
+    /// The URI of the image. Without one, it is in a buffer view.
     pub uri: Option<String>,
-    /// That buffer view.
+    /// The buffer view of the image.
     pub buffer_view: Option<usize>,
-    /// What it is.
+    /// The media type.
     pub mime_type: Option<String>,
 }
 
-/// The type of a component, by glTF's number.
+/// The type of a component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(try_from = "u32")]
 pub enum ComponentType {
-    /// 5120.
+    /// 5120: signed, 8 bits.
     I8,
-    /// 5121.
+    /// 5121: unsigned, 8 bits.
     U8,
-    /// 5122.
+    /// 5122: signed, 16 bits.
     I16,
-    /// 5123.
+    /// 5123: unsigned, 16 bits.
     U16,
-    /// 5125.
+    /// 5125: unsigned, 32 bits.
     U32,
-    /// 5126.
+    /// 5126: float, 32 bits.
     F32,
 }
 
@@ -413,7 +411,7 @@ impl ComponentType {
         }
     }
 
-    /// glTF's number.
+    /// The constant of glTF.
     pub fn code(self) -> u32 {
         match self {
             Self::I8 => 5120,
@@ -437,28 +435,28 @@ impl TryFrom<u32> for ComponentType {
     }
 }
 
-/// The components of an element.
+/// The number and arrangement of an element's components.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "UPPERCASE")]
 pub enum ElementType {
-    /// One.
+    /// One component.
     Scalar,
-    /// Two.
+    /// Two components.
     Vec2,
-    /// Three.
+    /// Three components.
     Vec3,
-    /// Four.
+    /// Four components.
     Vec4,
-    /// Two columns of two.
+    /// A matrix of two columns.
     Mat2,
-    /// Three columns of three.
+    /// A matrix of three columns.
     Mat3,
-    /// Four columns of four.
+    /// A matrix of four columns.
     Mat4,
 }
 
 impl ElementType {
-    /// glTF's name.
+    /// The name in glTF.
     pub fn name(self) -> &'static str {
         match self {
             Self::Scalar => "SCALAR",
@@ -471,7 +469,7 @@ impl ElementType {
         }
     }
 
-    /// Columns, and components per column.
+    /// The number of columns, and of components per column.
     pub(super) fn shape(self) -> (usize, usize) {
         match self {
             Self::Scalar => (1, 1),

@@ -1,4 +1,4 @@
-//! Values out of stored elements: borrowed where the file has them as they are used, else decoded in bulk.
+//! Converts the stored elements of an accessor to floats and indices, or borrows them if the file has them in that form.
 
 use std::borrow::Cow;
 
@@ -7,10 +7,10 @@ use darboux::Indices;
 
 use super::ComponentType;
 
-/// The elements of an accessor as they lie in the file, every number about them checked.
+/// The elements of an accessor in a buffer view, with checked offsets.
 #[derive(Debug)]
 pub(super) struct StoredElements<'a> {
-    /// From the first byte of the first element to the last of the last.
+    /// The bytes from the start of the first element to the end of the last one.
     pub bytes: Cow<'a, [u8]>,
     /// Bytes per element.
     pub size: usize,
@@ -19,7 +19,7 @@ pub(super) struct StoredElements<'a> {
 }
 
 impl<'a> StoredElements<'a> {
-    /// The elements one after the other.
+    /// The elements without gaps.
     pub fn packed(self) -> Cow<'a, [u8]> {
         let Self { bytes, size, stride } = self;
         if stride == size {
@@ -30,7 +30,7 @@ impl<'a> StoredElements<'a> {
         packed.into()
     }
 
-    /// The elements as values of the machine, where the file has them so.
+    /// The elements as values of `T`, if they have its size, alignment and byte order.
     fn borrowed<T: Pod>(&self) -> Option<&'a [T]> {
         let fits = cfg!(target_endian = "little") && self.stride == self.size && self.size == size_of::<T>();
         match self.bytes {
@@ -50,7 +50,7 @@ impl<'a> StoredElements<'a> {
     }
 }
 
-/// Elements of `N` components as floats; normalised integers as fractions (glTF 2.0, 3.11).
+/// Elements of `N` components as floats. Normalised integers become fractions (glTF 2.0, 3.11).
 pub(super) fn vectors<const N: usize>(
     stored: StoredElements<'_>,
     kind: ComponentType,
@@ -76,17 +76,17 @@ pub(super) fn vectors<const N: usize>(
     vectors.into()
 }
 
-/// Indices, as wide as the file has them; bytes are widened.
+/// A list of indices with the width of the file; 8-bit indices are widened to 16 bits.
 #[derive(Clone, Debug)]
 pub enum IndexList<'a> {
-    /// Of 8 or 16 bits.
+    /// Indices of 8 or 16 bits.
     U16(Cow<'a, [u16]>),
-    /// Of 32 bits.
+    /// Indices of 32 bits.
     U32(Cow<'a, [u32]>),
 }
 
 impl<'a> IndexList<'a> {
-    /// The values of unsigned integers; none for other types.
+    /// The indices in `stored`; none if the component type is signed or float.
     pub(super) fn new(stored: StoredElements<'a>, kind: ComponentType) -> Option<Self> {
         let flat = |list: Vec<[u16; 1]>| Self::U16(list.into_flattened().into());
         match kind {
@@ -111,12 +111,12 @@ impl<'a> IndexList<'a> {
         }
     }
 
-    /// Whether there are none.
+    /// Whether the list is empty.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The indices as a mesh takes them.
+    /// The indices as an argument of mesh functions.
     pub fn as_indices(&self) -> Indices<'_> {
         match self {
             Self::U16(list) => Indices::U16(list),
@@ -124,7 +124,7 @@ impl<'a> IndexList<'a> {
         }
     }
 
-    /// The indices, all of 32 bits.
+    /// The indices as 32-bit integers.
     pub fn widened(self) -> Vec<u32> {
         match self {
             Self::U16(list) => list.iter().map(|&index| index.into()).collect(),
@@ -132,15 +132,15 @@ impl<'a> IndexList<'a> {
         }
     }
 
-    /// Cuts the list in two at `at`, which is not past its end; the second part is copied.
+    /// Shortens the list to `at` indices, at most its length. Returns a copy of the others.
     pub(super) fn split_off(&mut self, at: usize) -> Vec<u32> {
         match self {
-            Self::U16(list) => cut(list, at).into_iter().map(u32::from).collect(),
-            Self::U32(list) => cut(list, at),
+            Self::U16(list) => split_off(list, at).into_iter().map(u32::from).collect(),
+            Self::U32(list) => split_off(list, at),
         }
     }
 
-    /// Every index.
+    /// An iterator over the indices.
     pub(super) fn iter(&self) -> Box<dyn Iterator<Item = u32> + '_> {
         match self {
             Self::U16(list) => Box::new(list.iter().map(|&index| index.into())),
@@ -149,8 +149,8 @@ impl<'a> IndexList<'a> {
     }
 }
 
-/// Shortens `list` to `at` elements; gives the others.
-fn cut<T: Copy>(list: &mut Cow<'_, [T]>, at: usize) -> Vec<T> {
+/// Shortens `list` to `at` elements. Returns the others.
+fn split_off<T: Copy>(list: &mut Cow<'_, [T]>, at: usize) -> Vec<T> {
     match list {
         Cow::Borrowed(all) => {
             let (kept, rest) = all.split_at(at);

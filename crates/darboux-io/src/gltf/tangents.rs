@@ -1,4 +1,13 @@
-//! Tangents into a document: chosen, shared, computed, split, morphed and written, with everything else left as it is.
+//! Adds tangents to the primitives of a document and keeps everything else.
+//!
+//! ```text
+//! select    which primitives get tangents, and from which accessors
+//! groups    primitives over the same vertices are processed together, and equal index lists once
+//! compute   tangents per corner
+//! split     vertices whose corners have different tangents are duplicated
+//! morph     tangent offsets of morph targets
+//! write     new accessors, and primitives that refer to them
+//! ```
 
 pub(super) mod compute;
 mod encoding;
@@ -32,10 +41,10 @@ use select::{Selection, Verdict};
 use split::Split;
 use write::{GroupAccessors, TangentWriter};
 
-/// Gives every triangle primitive that has positions, normals and UVs its tangents.
+/// Adds tangents to every triangle primitive that has positions, normals and UVs.
 ///
-/// Nothing to do is success: the document stays unchanged. Errors: broken data behind a primitive that gets tangents; with
-/// [`TangentsOptions::strict`], unusable vertex data. After an error the document may be half done: drop it.
+/// A document without such primitives stays unchanged. Errors: invalid data of a primitive that gets tangents; more corners than the
+/// memory limit permits; with [`TangentsOptions::strict`], unusable vertex data. After an error the document is unspecified: drop it.
 pub fn add_tangents(
     document: &mut Document,
     options: &TangentsOptions,
@@ -65,14 +74,14 @@ pub fn add_tangents_with(
     let mut run = Run { selection, accessors, options, generate, progress, at, context, summary };
     let mut written = HashMap::new();
     for group in &groups {
-        let field = run.field(document, group)?;
-        written.extend(run.write(document, group, field)?);
+        let tangents = run.group_tangents(document, group)?;
+        written.extend(run.write(document, group, tangents)?);
     }
     run.summary.warnings.extend(document.unused_data_warning());
     Ok(run.summarize(written))
 }
 
-/// Chooses the primitives, decompressing the document where that is needed to read them.
+/// Selects the primitives. A compressed document is decompressed if any is selected.
 pub(super) fn select_readable(
     document: &mut Document,
     options: &TangentsOptions,
@@ -85,11 +94,11 @@ pub(super) fn select_readable(
     select::select(document, options)
 }
 
-/// The tangents of a group, to be written: nothing here is of the document.
+/// The tangents of a group before they are written. They borrow nothing from the document.
 struct GroupTangents {
     reports: Vec<Report>,
     split: Split,
-    /// The index list of each job; none where the old one serves.
+    /// The new index list of each job; none if the old one is kept.
     lists: Vec<Option<Vec<u32>>>,
     offsets: Vec<(Morph, Offsets)>,
 }
@@ -107,7 +116,7 @@ struct Run<'a, 'g> {
 }
 
 impl Run<'_, '_> {
-    fn field(&mut self, document: &Document, group: &Group) -> Result<GroupTangents, Error> {
+    fn group_tangents(&mut self, document: &Document, group: &Group) -> Result<GroupTangents, Error> {
         let mut vertices = Vertices::read(document, group)?;
         let morphs = morph::morphs(document, &self.accessors, group, &self.selection, self.options);
         let results = self.compute(document, group, &mut vertices, &morphs)?;
@@ -118,7 +127,7 @@ impl Run<'_, '_> {
         Ok(GroupTangents { reports, split, lists, offsets })
     }
 
-    /// The JSON path of the first primitive with `job`.
+    /// The JSON path of the first primitive with this job.
     fn path(&self, job: &Job) -> String {
         self.selection.candidates[job.first].name.path()
     }
@@ -154,7 +163,7 @@ impl Run<'_, '_> {
         if keeps_them && unusable > 0 {
             let name = &self.selection.candidates[job.first].name;
             self.summary.warnings.push(format!(
-                "{name}: {unusable} corners have an unusable tangent, as the reference has it; validators will complain"
+                "{name}: {unusable} corners have an unusable tangent, as in the reference implementation; validators will report them"
             ));
         }
     }
@@ -164,8 +173,8 @@ impl Run<'_, '_> {
         if merged > 0 {
             let name = &self.selection.candidates[job.first].name;
             self.summary.warnings.push(format!(
-                "{name}: {merged} vertices on mirrored seams have one tangent for both sides, as this method has it; \
-                 normal maps break there"
+                "{name}: {merged} vertices on mirrored seams have one tangent for both sides with this method; \
+                 normal maps are wrong there"
             ));
         }
     }
@@ -208,7 +217,7 @@ impl Run<'_, '_> {
         Ok(offsets)
     }
 
-    /// Writes the members of `group`. Returns what was written for each candidate.
+    /// Writes the tangents of a group. Returns a report for each candidate.
     fn write(
         &mut self,
         document: &mut Document,

@@ -1,6 +1,12 @@
-//! What edits leave without a use: accessors, buffer views and bytes that something named in the input and nothing names now.
+//! Finds accessors, buffer views and bytes that the input referred to and that nothing refers to after the edits, and removes them.
 //!
-//! What nothing named in the input stays: it is not ours to judge.
+//! Data that the input itself did not refer to is kept.
+//!
+//! ```text
+//! unused accessors = accessors referred to before the edits - accessors referred to after them
+//! unused views     = views of these accessors               - views that anything else refers to
+//! unused bytes     = ranges of these views                  - ranges of all other views
+//! ```
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -10,14 +16,15 @@ use super::json_text::{edit_array, member, set_member, without_elements};
 use super::references::{IndexReference, ReferenceKind, references, unknown_extension};
 use super::schema::{BufferView, Meshopt};
 
-/// What an output can do without.
+/// The data that the output does not need.
 #[derive(Debug, Default)]
 pub struct UnusedData {
-    /// New ones follow those of the input.
+    /// Indices of accessors. New accessors follow those of the input.
     accessors: BTreeSet<usize>,
     views: BTreeSet<usize>,
+    /// Buffers without any used byte.
     buffers: BTreeSet<usize>,
-    /// Of each buffer, ascending.
+    /// The unused ranges of each buffer, in ascending order.
     unused_ranges: Vec<Vec<UnusedRange>>,
 }
 
@@ -25,21 +32,21 @@ pub struct UnusedData {
 #[derive(Clone, Debug)]
 struct UnusedRange {
     range: Range<usize>,
-    /// The length of all unused_ranges up to the end of this one.
+    /// The total length of all unused ranges up to the end of this one.
     total: usize,
 }
 
-/// Bytes move by multiples of this, so that what was aligned stays so.
+/// Bytes move by multiples of this number, so that alignment is kept.
 const ALIGNMENT: usize = 16;
 
 impl UnusedData {
-    /// What `document` can do without; nothing where that is not certain.
+    /// The unused data of a document; nothing if an unknown extension might refer to it.
     pub fn of(document: &Document) -> serde_json::Result<Self> {
         let found = if document.is_changed() { Self::find(document)? } else { None };
         Ok(found.filter(|_| unknown_extension(document.text()).is_none()).unwrap_or_default())
     }
 
-    /// As [`UnusedData::of`], whatever extensions there are. None: some references cannot be read.
+    /// As [`UnusedData::of`], without regard to extensions. None: some references cannot be read.
     fn find(document: &Document) -> serde_json::Result<Option<Self>> {
         let (before, after) = (references(document.text()), references(&edited(document)?));
         let (Some(before), Some(after)) = (before, after) else { return Ok(None) };
@@ -61,22 +68,22 @@ impl UnusedData {
         Ok(Some(unused_data))
     }
 
-    /// Whether a buffer of the input goes.
+    /// Whether a buffer of the input is removed.
     pub fn has_buffer(&self, buffer: usize) -> bool {
         self.buffers.contains(&buffer)
     }
 
-    /// Whether a new buffer view goes, by its place among the new ones.
+    /// Whether a new buffer view is removed, by its index among the new ones.
     pub fn has_new_view(&self, document: &Document, place: usize) -> bool {
         self.views.contains(&(document.root.buffer_views.len() + place))
     }
 
-    /// Whether parts of a buffer go.
+    /// Whether parts of a buffer are removed.
     pub fn has_unused_ranges(&self, buffer: usize) -> bool {
         self.unused_ranges.get(buffer).is_some_and(|unused_ranges| !unused_ranges.is_empty())
     }
 
-    /// The parts of the content of a buffer that stay.
+    /// The parts of a buffer that are kept.
     pub fn kept<'a>(&self, buffer: usize, bytes: &'a [u8]) -> Vec<&'a [u8]> {
         if self.has_buffer(buffer) {
             return Vec::new();
@@ -87,20 +94,20 @@ impl UnusedData {
         starts.zip(ends).map(|(start, end)| &bytes[start..end]).filter(|part| !part.is_empty()).collect()
     }
 
-    /// Where a byte of a buffer is without the unused_ranges before it.
+    /// The offset of a byte after the unused ranges before it are removed.
     pub fn moved(&self, buffer: usize, offset: usize) -> usize {
         let unused_ranges = self.unused_ranges.get(buffer).map_or(&[][..], Vec::as_slice);
         let before = unused_ranges.partition_point(|unused| unused.range.end <= offset);
         offset - before.checked_sub(1).map_or(0, |last| unused_ranges[last].total)
     }
 
-    /// The root object without what goes, with the numbers of what stays.
+    /// The JSON of the root object without the unused accessors and buffer views, with references renumbered.
     pub fn cleared(&self, root: String) -> serde_json::Result<String> {
         if self.accessors.is_empty() && self.views.is_empty() {
             return Ok(root);
         }
         let references = references(&root);
-        let references = references.ok_or_else(|| serde::de::Error::custom("a reference is no number"))?;
+        let references = references.ok_or_else(|| serde::de::Error::custom("a reference is not an index"))?;
         let mut cleared = self.renumbered(&root, references);
         for (key, dead) in [("accessors", &self.accessors), ("bufferViews", &self.views)] {
             if let Some(array) = member(&cleared, key)? {
@@ -133,7 +140,7 @@ impl UnusedData {
 }
 
 impl Document {
-    /// Why what edits leave without a use stays in the file, if it does, in a sentence; once.
+    /// A warning if unused data is kept because an unknown extension might refer to it. Returned once per document.
     pub(super) fn unused_data_warning(&mut self) -> Option<String> {
         let extension = unknown_extension(self.text()).filter(|_| !self.edits.is_unused_data_reported)?;
         let unused_data = UnusedData::find(self).ok().flatten()?;
@@ -143,13 +150,13 @@ impl Document {
         self.edits.is_unused_data_reported = is_there;
         is_there.then(|| {
             format!(
-                "data that is no longer used stays in the file: {extension} may refer to it by its number"
+                "data that is no longer used is kept in the file: the extension {extension} may refer to it"
             )
         })
     }
 }
 
-/// The root object with the edits that change who names what.
+/// The JSON of the root object with all edits of references.
 fn edited(document: &Document) -> serde_json::Result<String> {
     let edits = &document.edits;
     let mut root = document.text().to_owned();
@@ -205,14 +212,14 @@ fn unused_views(
     &used - &live
 }
 
-/// The ranges of a buffer that buffer views name.
+/// The ranges of a buffer that buffer views refer to.
 #[derive(Clone, Default)]
 struct BufferUses {
     live: Vec<Range<usize>>,
     dead: Vec<Range<usize>>,
 }
 
-/// How each buffer of the input is used. `stored`: the buffer views as the file has them; `dead`: those that go.
+/// The uses of each buffer of the input. `stored` are the buffer views of the file, `dead` are those that are removed.
 fn uses(document: &Document, stored: &[BufferView], dead: &BTreeSet<usize>) -> Vec<BufferUses> {
     let mut uses = vec![BufferUses::default(); document.root.buffers.len()];
     for (number, (old, new)) in stored.iter().zip(&document.root.buffer_views).enumerate() {
@@ -232,7 +239,7 @@ fn uses(document: &Document, stored: &[BufferView], dead: &BTreeSet<usize>) -> V
 }
 
 impl BufferUses {
-    /// What the dead ranges cover and the live ones do not, below `length`, in whole grains.
+    /// The parts of dead ranges outside live ones, below `length`, in multiples of [`ALIGNMENT`].
     fn unused_ranges(self, length: usize) -> Vec<UnusedRange> {
         let live = merged_ranges(self.live);
         let (mut unused_ranges, mut total) = (Vec::new(), 0);
@@ -252,7 +259,7 @@ impl BufferUses {
     }
 }
 
-/// Ranges joined where they touch, ascending.
+/// Joins ranges that touch. The result is in ascending order.
 fn merged_ranges(mut ranges: Vec<Range<usize>>) -> Vec<Range<usize>> {
     ranges.sort_unstable_by_key(|range| range.start);
     let mut merged_ranges: Vec<Range<usize>> = Vec::new();

@@ -1,4 +1,4 @@
-//! Vertex attributes and morph targets, each accessor once.
+//! Converts vertex attributes and morph targets, each accessor once.
 
 use std::collections::HashMap;
 
@@ -16,16 +16,16 @@ use crate::gltf::{ComponentType, Document, ElementType, Elements, NewAccessor, T
 pub struct AttributeConverter<'a> {
     accessors: &'a CanonicalAccessors,
     conversion: Conversion,
-    /// The kinds that change.
+    /// The kinds of attributes that change.
     changed: Vec<AttributeKind>,
-    turns: bool,
-    /// Whether tangents change otherwise than by their axes.
+    changes_axes: bool,
+    /// Whether tangents change in other ways than by their axes.
     changes_tangents: bool,
-    /// New accessors, by the old one and what it holds.
+    /// New accessors, by the old one and its kind.
     made: HashMap<(usize, AttributeKind), usize>,
 }
 
-/// What an attribute holds.
+/// The kind of an attribute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum AttributeKind {
     Position,
@@ -37,7 +37,7 @@ enum AttributeKind {
 }
 
 impl AttributeKind {
-    /// None for what no convention changes.
+    /// The kind of a semantic; none if no conversion changes it.
     fn of(semantic: &str, is_offset: bool) -> Option<Self> {
         match (semantic, is_offset) {
             ("POSITION", _) => Some(Self::Position),
@@ -54,22 +54,22 @@ impl AttributeKind {
 impl<'a> AttributeConverter<'a> {
     pub fn new(accessors: &'a CanonicalAccessors, from: Convention, to: Convention) -> Self {
         let conversion = from.to(to);
-        let turns = from.axes != to.axes;
+        let changes_axes = from.axes != to.axes;
         let mut changed = Vec::new();
-        if turns {
+        if changes_axes {
             changed.extend([AttributeKind::Position, AttributeKind::Normal]);
         }
         let changes_tangents = conversion.inverts_red() || conversion.tangent([0.0, 0.0, 0.0, 1.0])[3] < 0.0;
-        if turns || changes_tangents {
+        if changes_axes || changes_tangents {
             changed.extend([AttributeKind::Tangent, AttributeKind::TangentOffset]);
         }
         if from.uv_origin != to.uv_origin {
             changed.extend([AttributeKind::Uv, AttributeKind::UvOffset]);
         }
-        Self { accessors, conversion, changed, turns, changes_tangents, made: HashMap::new() }
+        Self { accessors, conversion, changed, changes_axes, changes_tangents, made: HashMap::new() }
     }
 
-    /// Converts a primitive; says whether anything changed.
+    /// Converts a primitive. Returns whether anything changed.
     pub fn convert(&mut self, document: &mut Document, mesh: usize, place: usize) -> Result<bool, Error> {
         let primitive = document.meshes()[mesh].primitives[place].clone();
         let new = self.converted(document, &primitive.attributes, false)?;
@@ -90,7 +90,7 @@ impl<'a> AttributeConverter<'a> {
         Ok(true)
     }
 
-    /// Notes what changed in all primitives.
+    /// Adds the changes of all primitives to a summary.
     pub fn sum_up(&self, summary: &mut ConversionSummary) {
         for (_, kind) in self.made.keys() {
             let (is_uv, is_tangent) = (
@@ -98,12 +98,12 @@ impl<'a> AttributeConverter<'a> {
                 matches!(kind, AttributeKind::Tangent | AttributeKind::TangentOffset),
             );
             summary.uvs_flipped |= is_uv;
-            summary.axes_changed |= self.turns && !is_uv;
+            summary.axes_changed |= self.changes_axes && !is_uv;
             summary.tangents_changed |= self.changes_tangents && is_tangent;
         }
     }
 
-    /// The accessors that take the place of others.
+    /// The new accessors of the attributes that change.
     fn converted(
         &mut self,
         document: &mut Document,
@@ -142,7 +142,7 @@ impl<'a> AttributeConverter<'a> {
             AttributeKind::Uv => {
                 floats(ElementType::Vec2, document.read_vectors(old)?, |uv| conversion.uv(uv))
             }
-            // v becomes 1 - v: what is added to v is taken from 1 - v.
+            // v becomes 1 - v, so that an offset of v becomes its negative.
             AttributeKind::UvOffset => {
                 floats(ElementType::Vec2, document.read_vectors(old)?, |[u, v]| [u, -v])
             }
@@ -156,7 +156,7 @@ impl<'a> AttributeConverter<'a> {
     }
 }
 
-/// Floats, changed one by one.
+/// Elements of floats: `vectors`, each changed by a function.
 pub fn floats<const N: usize>(
     element_type: ElementType,
     vectors: Vec<[f32; N]>,
@@ -172,7 +172,7 @@ pub fn floats<const N: usize>(
     }
 }
 
-/// Sparse accessors leave out what has no bit set.
+/// Turns -0 into 0, since sparse accessors omit elements whose bits are all zero.
 fn without_negative_zeros(mut elements: Elements) -> Elements {
     for bytes in elements.bytes.as_chunks_mut::<4>().0 {
         *bytes = (f32::from_le_bytes(*bytes) + 0.0).to_le_bytes();

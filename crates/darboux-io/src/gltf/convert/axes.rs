@@ -1,17 +1,17 @@
-//! A change of axes as numbers, in double precision for what JSON spells.
+//! A change of axes, applied to vectors, rotations, scales and matrices in single precision (accessors) or double precision (JSON).
 
 use std::ops::{Add, Mul};
 
 use darboux::Convention;
 
-/// Per new axis the old axis and the sign; whether the hand changes.
+/// The old axis and the sign of every new axis, and whether the handedness changes.
 #[derive(Clone, Copy, Debug)]
 pub struct AxisChange {
     axes: [(usize, f64); 3],
-    changes_hand: bool,
+    changes_handedness: bool,
 }
 
-/// `f32` of accessors, `f64` of JSON.
+/// A floating-point type: `f32` for accessors, `f64` for JSON.
 pub trait Number: Copy + From<f32> + Mul<Output = Self> + Add<Output = Self> {}
 
 impl Number for f32 {}
@@ -19,30 +19,30 @@ impl Number for f64 {}
 
 impl AxisChange {
     pub fn new(from: Convention, to: Convention) -> Self {
-        // Where the numbers of the axes go says everything.
+        // The converted axis numbers tell the source of every axis.
         let axes =
             from.to(to).vector([1.0, 2.0, 3.0]).map(|axis| (axis.abs() as usize - 1, axis.signum().into()));
-        Self { axes, changes_hand: from.axes.handedness() != to.axes.handedness() }
+        Self { axes, changes_handedness: from.axes.handedness() != to.axes.handedness() }
     }
 
-    /// A translation.
+    /// Converts a translation.
     pub fn vector<N: Number>(&self, vector: [N; 3]) -> [N; 3] {
         self.axes.map(|(axis, sign)| signed(sign, vector[axis]))
     }
 
-    /// Factors along the axes.
+    /// Converts scale factors along the axes.
     pub fn scale<N: Number>(&self, scale: [N; 3]) -> [N; 3] {
         self.axes.map(|(axis, _)| scale[axis])
     }
 
-    /// A unit quaternion, w last: its axis is a vector, and turns the other way about it where the hand changes.
+    /// Converts a unit quaternion, w last. Its axis is converted as a vector, and the angle is negated if the handedness changes.
     pub fn rotation<N: Number>(&self, [x, y, z, w]: [N; 4]) -> [N; 4] {
-        let hand = if self.changes_hand { -1.0 } else { 1.0 };
+        let hand = if self.changes_handedness { -1.0 } else { 1.0 };
         let [x, y, z] = self.vector([x, y, z]).map(|component| signed(hand, component));
         [x, y, z, w]
     }
 
-    /// A matrix of four columns that maps vectors of old axes to such: C M C^-1.
+    /// Converts a matrix M of four columns: C M C^-1, where C is the change of axes.
     pub fn matrix<N: Number>(&self, matrix: [N; 16]) -> [N; 16] {
         let whole = |axis: usize| self.axes.get(axis).copied().unwrap_or((3, 1.0));
         std::array::from_fn(|at| {
@@ -52,7 +52,7 @@ impl AxisChange {
     }
 }
 
-/// Exact, and no negative zeros, which read oddly in JSON.
+/// Multiplies by a sign, exactly, and turns -0 into 0 for the JSON.
 fn signed<N: Number>(sign: f64, number: N) -> N {
     N::from(sign as f32) * number + N::from(0.0)
 }
@@ -67,7 +67,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_turned_maps_turned_vectors_to_turned_vectors() {
+    fn converted_transforms_map_converted_vectors_to_converted_vectors() {
         // A quarter turn about z, then a move; as a matrix and as a quaternion.
         let matrix = [0.0, 1.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 4.0, 5.0, 6.0, 1.0];
         let (half, point) = (0.5f64.sqrt(), [1.0, 2.0, 3.0]);

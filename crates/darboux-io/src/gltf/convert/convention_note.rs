@@ -1,4 +1,4 @@
-//! What stands around vertex data: the convention that a file names, and what a conversion leaves behind.
+//! The mark of a convention in `asset.extras`, and warnings about data that a conversion does not change.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,12 +11,12 @@ use crate::gltf::Document;
 use crate::gltf::json_text::{keys, member, quoted, set_member};
 use crate::gltf::schema::Material;
 
-/// The member of `asset.extras` that names a convention.
+/// The member of `asset.extras` with the name of a convention.
 const MEMBER: &str = "darboux_convention";
 
 impl Document {
-    /// The convention that vertex data is in: glTF's, as it should be, unless [`convert_vertices`](crate::gltf::convert_vertices) noted
-    /// another one in `asset.extras.darboux_convention`. Errors: a note that names none.
+    /// The convention of the vertex data: glTF's, unless [`convert_vertices`](crate::gltf::convert_vertices) has marked another one in
+    /// `asset.extras.darboux_convention`. Errors: the mark is not a convention.
     pub fn convention(&self) -> Result<Convention, Error> {
         Ok(self.noted_convention()?.unwrap_or(Convention::GLTF))
     }
@@ -25,9 +25,9 @@ impl Document {
         let Some(note) = self.note() else { return Ok(None) };
         let name: Result<String, _> = serde_json::from_str(note);
         let convention = name
-            .map_err(|_| format!("{note} is no text"))
+            .map_err(|_| format!("{note} is not a string"))
             .and_then(|name| name.parse().map_err(|error: darboux::ConventionError| error.to_string()));
-        let advice = "a newer version may know it; take the note out if it is wrong";
+        let advice = "a newer version may support it; remove the member if it is wrong";
         let named = |problem| self.invalid(format!("asset.extras.{MEMBER}"), format!("{problem}; {advice}"));
         convention.map(Some).map_err(named)
     }
@@ -36,25 +36,23 @@ impl Document {
         member(member(self.asset_text()?, "extras").ok()??, MEMBER).ok()?
     }
 
-    /// Whether it says which convention it is in.
+    /// Whether the document is marked with a convention.
     pub(super) fn has_note(&self) -> bool {
         self.note().is_some()
     }
 
-    /// Errors: a document that says that it is in another convention.
+    /// Checks that the document is not marked with another convention.
     pub(super) fn check_convention(&self, from: Convention) -> Result<(), Error> {
         match self.noted_convention()? {
             Some(noted) if noted != from => {
-                let problem = format!("says \"{noted}\"; convert it from that");
+                let problem = format!("is \"{noted}\"; convert from that convention");
                 Err(self.invalid(format!("asset.extras.{MEMBER}"), problem))
             }
             _ => Ok(()),
         }
     }
 
-    /// Notes the convention that vertex data is in, or takes the note out where it is glTF's.
-    ///
-    /// Errors: `asset.extras` that is no object.
+    /// Marks the document with a convention, or removes the mark for glTF's. Errors: `asset.extras` is not an object.
     pub(super) fn set_convention(&mut self, convention: Convention) -> Result<(), Error> {
         let name = (convention != Convention::GLTF).then(|| quoted(&convention.to_string()));
         if name.as_deref() == self.note() {
@@ -70,7 +68,7 @@ impl Document {
         let noted = noted.map_err(|_: serde_json::Error| {
             self.invalid(
                 "asset.extras",
-                format!("is no object, so that {MEMBER} cannot be noted; take it out"),
+                format!("is not an object, so that {MEMBER} cannot be stored; remove it"),
             )
         })?;
         self.edits.asset = Some(noted);
@@ -85,7 +83,7 @@ impl Document {
     }
 }
 
-/// The parts of a file that other axes leave behind.
+/// The parts of a file that a change of axes does not convert.
 #[derive(Deserialize)]
 struct SceneParts {
     #[serde(default)]
@@ -103,7 +101,7 @@ struct NodeParts {
     extensions: BTreeMap<String, IgnoredAny>,
 }
 
-/// Extensions of nodes or of the file that hold no vectors, or whose vectors are converted or spoken of.
+/// Extensions of nodes or of the file without vectors, or whose vectors are converted or named in other warnings.
 const WITHOUT_VECTORS: [&str; 9] = [
     "EXT_instance_features",
     "EXT_mesh_gpu_instancing",
@@ -116,8 +114,8 @@ const WITHOUT_VECTORS: [&str; 9] = [
     "MSFT_lod",
 ];
 
-/// What a document's other axes leave behind.
-fn left_behind(scene: &SceneParts) -> Vec<String> {
+/// Warnings about data that a change of axes does not convert.
+fn axis_warnings(scene: &SceneParts) -> Vec<String> {
     let mut warnings = Vec::new();
     let looks =
         |node: &NodeParts| node.camera.is_some() || node.extensions.contains_key("KHR_lights_punctual");
@@ -129,12 +127,12 @@ fn left_behind(scene: &SceneParts) -> Vec<String> {
         names.map(String::as_str).filter(|name| !WITHOUT_VECTORS.contains(name)).collect();
     if !names.is_empty() {
         let names = names.into_iter().collect::<Vec<_>>().join(", ");
-        warnings.push(format!("vectors in {names}, if there are any, stay in the old axes"));
+        warnings.push(format!("vectors in {names}, if there are any, keep the old axes"));
     }
     warnings
 }
 
-/// What must change too, or be looked at.
+/// Warnings about data that must be converted by other means, or checked.
 pub fn warnings(document: &Document, from: Convention, to: Convention) -> Vec<String> {
     let mut warnings = Vec::new();
     let conversion = from.to(to);
@@ -149,18 +147,20 @@ pub fn warnings(document: &Document, from: Convention, to: Convention) -> Vec<St
         let names: Vec<String> = materials.map(|(index, _)| format!("materials[{index}]")).collect();
         if !names.is_empty() {
             let names = names.join(", ");
-            warnings.push(format!("the normal maps of {names} are as they were; convert these images too"));
+            warnings.push(format!("the normal maps of {names} were not converted; convert these images too"));
         }
     }
-    // A file whose scene cannot be read is refused where it is converted.
+    // A file whose scene cannot be parsed is refused by the conversion.
     let Ok(scene) = serde_json::from_str::<SceneParts>(document.text()) else { return warnings };
     if from.uv_origin != to.uv_origin
         && scene.extensions_used.iter().any(|name| name == "KHR_texture_transform")
     {
-        warnings.push("KHR_texture_transform still counts v from the top; look at its materials".to_owned());
+        warnings.push(
+            "KHR_texture_transform still counts v from the top; check the materials that use it".to_owned(),
+        );
     }
     if from.axes != to.axes {
-        warnings.extend(left_behind(&scene));
+        warnings.extend(axis_warnings(&scene));
     }
     warnings
 }

@@ -1,4 +1,4 @@
-//! Triangles wound the other way, each list of indices once.
+//! Reverses the winding of triangles, each index list once.
 
 use std::collections::HashMap;
 
@@ -12,16 +12,16 @@ use crate::gltf::primitives::limits;
 use crate::gltf::primitives::triangles::TriangleMode;
 use crate::gltf::{Document, NewAccessor, Target};
 
-/// Reverses faces.
+/// Reverses faces of primitives.
 pub struct FaceReverser<'a> {
     accessors: &'a CanonicalAccessors,
     conversion: Conversion,
     reverses: bool,
-    /// New indices, by the old accessor or the number of vertices, and the topology.
+    /// The accessors of new indices, by the source of the corners and the mode.
     made: HashMap<(CornerSource, TriangleMode), usize>,
 }
 
-/// Where corners come from.
+/// The source of corners: an accessor of indices, or a number of vertices without indices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum CornerSource {
     Indices(usize),
@@ -34,7 +34,7 @@ impl<'a> FaceReverser<'a> {
         Self { accessors, conversion: from.to(to), reverses, made: HashMap::new() }
     }
 
-    /// Reverses the triangles of a primitive; says whether there are any to reverse. Strips and fans become lists.
+    /// Reverses the triangles of a primitive. Returns whether it has any. Strips and fans become triangle lists.
     pub fn convert(&mut self, document: &mut Document, mesh: usize, place: usize) -> Result<bool, Error> {
         let primitive = &document.meshes()[mesh].primitives[place];
         let Some(topology) = TriangleMode::from_mode(primitive.mode).filter(|_| self.reverses) else {

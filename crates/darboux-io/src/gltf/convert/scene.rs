@@ -1,4 +1,4 @@
-//! Nodes, skins and animations in other axes.
+//! Converts nodes, skins, instances and animations to other axes.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -15,15 +15,15 @@ use crate::gltf::primitives::canonical::CanonicalAccessors;
 use crate::gltf::primitives::limits;
 use crate::gltf::{Document, ElementType, NewAccessor, Target};
 
-/// Turns everything that places meshes.
+/// Converts the transforms of a scene.
 pub struct SceneConverter<'a> {
     accessors: &'a CanonicalAccessors,
-    turn: AxisChange,
-    /// New accessors, by the old one and what it holds.
+    change: AxisChange,
+    /// New accessors, by the old one and its kind.
     made: HashMap<(usize, TransformKind), usize>,
 }
 
-/// What an accessor holds.
+/// The kind of a transform.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum TransformKind {
     Translation,
@@ -44,11 +44,11 @@ impl TransformKind {
 }
 
 impl<'a> SceneConverter<'a> {
-    pub fn new(accessors: &'a CanonicalAccessors, turn: AxisChange) -> Self {
-        Self { accessors, turn, made: HashMap::new() }
+    pub fn new(accessors: &'a CanonicalAccessors, change: AxisChange) -> Self {
+        Self { accessors, change, made: HashMap::new() }
     }
 
-    /// Says whether anything changed. Errors: what glTF does not allow there; animations of other properties than a node's
+    /// Converts all transforms. Returns whether anything changed. Errors: invalid JSON; animations of properties other than transforms
     /// (`KHR_animation_pointer`).
     pub fn convert(&mut self, document: &mut Document) -> Result<bool, Error> {
         let nodes = self.each(document, "nodes", Self::node)?;
@@ -57,7 +57,7 @@ impl<'a> SceneConverter<'a> {
         Ok(nodes || skins || animations)
     }
 
-    /// Edits every element of an array of the root object, after the edits that it has; says whether one changed.
+    /// Edits every element of an array of the root object, on top of earlier edits. Returns whether one changed.
     fn each(
         &mut self,
         document: &mut Document,
@@ -83,16 +83,16 @@ impl<'a> SceneConverter<'a> {
     }
 
     fn node(&mut self, document: &mut Document, at: &str, text: &str) -> Result<String, Error> {
-        let turn = self.turn;
+        let change = self.change;
         let mut new = text.to_owned();
-        edit_numbers(document, at, &mut new, "matrix", |matrix| turn.matrix::<f64>(matrix))?;
-        edit_numbers(document, at, &mut new, "translation", |vector| turn.vector::<f64>(vector))?;
-        edit_numbers(document, at, &mut new, "rotation", |rotation| turn.rotation::<f64>(rotation))?;
-        edit_numbers(document, at, &mut new, "scale", |scale| turn.scale::<f64>(scale))?;
+        edit_numbers(document, at, &mut new, "matrix", |matrix| change.matrix::<f64>(matrix))?;
+        edit_numbers(document, at, &mut new, "translation", |vector| change.vector::<f64>(vector))?;
+        edit_numbers(document, at, &mut new, "rotation", |rotation| change.rotation::<f64>(rotation))?;
+        edit_numbers(document, at, &mut new, "scale", |scale| change.scale::<f64>(scale))?;
         self.instances(document, at, new)
     }
 
-    /// The transforms of `EXT_mesh_gpu_instancing`.
+    /// Converts the transforms of `EXT_mesh_gpu_instancing`.
     fn instances(&mut self, document: &mut Document, at: &str, node: String) -> Result<String, Error> {
         const PATH: [&str; 3] = ["extensions", "EXT_mesh_gpu_instancing", "attributes"];
         let Some(attributes) = nested(&node, &PATH) else { return Ok(node) };
@@ -126,7 +126,9 @@ impl<'a> SceneConverter<'a> {
             let at = format!("{at}.channels[{index}]");
             let unsupported = |problem: &str| Err(Fault::unsupported(&at, problem).in_file(document.name()));
             if !["translation", "rotation", "scale", "weights"].contains(&target.path.as_str()) {
-                return unsupported("animates something that cannot stand in other axes; take it out");
+                return unsupported(
+                    "animates a property that cannot be converted to other axes; remove the channel",
+                );
             }
             let kind = TransformKind::of(&target.path);
             if kinds.insert(*sampler, kind).is_some_and(|other| other != kind) {
@@ -155,19 +157,19 @@ impl<'a> SceneConverter<'a> {
         if let Some(&made) = self.made.get(&key) {
             return Ok(made);
         }
-        let turn = self.turn;
+        let change = self.change;
         let elements = match kind {
             TransformKind::Translation => {
-                floats(ElementType::Vec3, document.read_vectors(old)?, |v| turn.vector::<f32>(v))
+                floats(ElementType::Vec3, document.read_vectors(old)?, |v| change.vector::<f32>(v))
             }
             TransformKind::Rotation => {
-                floats(ElementType::Vec4, document.read_vectors(old)?, |q| turn.rotation::<f32>(q))
+                floats(ElementType::Vec4, document.read_vectors(old)?, |q| change.rotation::<f32>(q))
             }
             TransformKind::Scale => {
-                floats(ElementType::Vec3, document.read_vectors(old)?, |s| turn.scale::<f32>(s))
+                floats(ElementType::Vec3, document.read_vectors(old)?, |s| change.scale::<f32>(s))
             }
             TransformKind::Matrix => {
-                floats(ElementType::Mat4, document.read_vectors(old)?, |m| turn.matrix::<f32>(m))
+                floats(ElementType::Mat4, document.read_vectors(old)?, |m| change.matrix::<f32>(m))
             }
         };
         let (target, like) = (Target::Other, Some(old));
@@ -201,7 +203,7 @@ struct AnimationSampler {
     output: usize,
 }
 
-/// Replaces a member that is an array of so many numbers, where the object has it.
+/// Changes a member that is an array of `N` numbers, if the object has it.
 fn edit_numbers<const N: usize>(
     document: &Document,
     at: &str,
@@ -223,7 +225,7 @@ fn edit_numbers<const N: usize>(
     Ok(())
 }
 
-/// The value at a path of members.
+/// The text of the value at a path of members, if there is one.
 fn nested<'a>(object: &'a str, path: &[&str]) -> Option<&'a str> {
     path.iter().try_fold(object, |object, key| member(object, key).ok()?)
 }

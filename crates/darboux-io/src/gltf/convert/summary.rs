@@ -2,21 +2,21 @@
 
 use serde::Serialize;
 
-/// What [`convert_vertices`](super::convert_vertices) did to a document: only what it did, not what other documents would have had changed.
+/// The changes that [`convert_vertices`](super::convert_vertices) made to a document.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct ConversionSummary {
-    /// Primitives that changed.
+    /// The number of primitives that changed.
     pub primitives: usize,
-    /// Whether vectors, or nodes, got other axes.
+    /// Whether vectors or nodes have other axes.
     pub axes_changed: bool,
-    /// Whether v runs the other way.
+    /// Whether v was flipped.
     pub uvs_flipped: bool,
-    /// Whether fronts are wound the other way.
+    /// Whether the winding of faces was reversed.
     pub faces_reversed: bool,
-    /// Whether tangents point the other way, or their signs changed.
+    /// Whether tangents were inverted, or their signs changed.
     pub tangents_changed: bool,
-    /// What a user should look at, one sentence each. Reports have them beside this.
+    /// Warnings, one sentence each. They are not part of the serialized form.
     #[serde(skip)]
     pub warnings: Vec<String>,
 }

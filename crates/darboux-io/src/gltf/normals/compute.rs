@@ -1,4 +1,4 @@
-//! The normals of corners, mesh by mesh: at rest, and moved by every morph target.
+//! Computes the normals of corners, mesh by mesh: at rest, and for every morph target.
 
 use std::collections::HashMap;
 use std::hash::Hash;
@@ -15,44 +15,44 @@ use crate::gltf::primitives::limits;
 use crate::gltf::schema::Attributes;
 use crate::gltf::{Document, PrimitiveName, Progress};
 
-/// A primitive that gets normals.
+/// A primitive and its new normals.
 #[derive(Debug)]
 pub struct ShadedPrimitive {
-    /// Its place in the selection.
+    /// The index in the selection.
     pub candidate: usize,
     pub name: PrimitiveName,
-    /// The accessor of positions: the first that reads them.
+    /// The accessor of positions, canonical.
     pub position: usize,
     pub chosen: Chosen,
-    /// The vertices of all whole triangles, three each.
+    /// The vertices of all complete triangles, three per triangle.
     pub corners: Vec<u32>,
-    /// Indices after the last whole triangle.
+    /// The indices after the last complete triangle.
     pub rest: Vec<u32>,
-    /// One per corner.
+    /// One normal per corner.
     pub normals: Vec<[f32; 3]>,
-    /// One per morph target.
+    /// The changes by each morph target.
     pub moves: Vec<Option<MovedNormals>>,
-    /// Of the whole mesh.
+    /// The report of the whole mesh.
     pub report: NormalReport,
 }
 
-/// What a morph target does to normals.
+/// The change of normals by a morph target.
 #[derive(Debug)]
 pub struct MovedNormals {
-    /// The accessor of position offsets: the first that reads them.
+    /// The accessor of position offsets, canonical.
     pub accessor: usize,
-    /// The accessor of normal offsets that the target has, if any.
+    /// The target's own accessor of normal offsets, if any.
     pub old: Option<usize>,
-    /// Corners whose normal changes, and by how much.
+    /// The corners whose normal changes, with the offsets.
     pub offsets: Vec<(usize, [f32; 3])>,
 }
 
-/// How much more work than at rest all morph targets of a document may ask for.
+/// The morph targets of a document may take this many times the work of the mesh at rest.
 const MOVED_LIMIT: usize = 4;
 
-/// Computes the normals of every chosen primitive, the primitives of a mesh jointly.
+/// Computes the normals of every chosen primitive, those of one mesh jointly.
 ///
-/// Errors: indices out of range, offsets of another number than positions, accessors that cannot be read.
+/// Errors: indices out of range, accessors that cannot be read.
 pub fn shade(
     document: &Document,
     accessors: &CanonicalAccessors,
@@ -111,7 +111,7 @@ fn part(
     })
 }
 
-/// Reads vectors; the last ones stay in memory, as primitives in a row often share them.
+/// Reads accessors and caches the last one, since consecutive primitives often share it.
 struct Reader<'a> {
     document: &'a Document,
     last: Option<(usize, Vec<[f32; 3]>)>,
@@ -125,7 +125,7 @@ impl Reader<'_> {
         Ok(self.last.as_ref().map_or(&[], |last| &last.1))
     }
 
-    /// The vectors at the corners of `part`. Errors: an index out of range.
+    /// Appends the vectors at the corners of a primitive to `out`. Errors: an index out of range.
     fn at_corners(
         &mut self,
         part: &ShadedPrimitive,
@@ -148,7 +148,7 @@ impl Reader<'_> {
     }
 }
 
-/// Sets the normals and moves of the parts of one mesh.
+/// Computes the normals of one mesh.
 fn shade_mesh(
     reader: &mut Reader<'_>,
     parts: &mut [ShadedPrimitive],
@@ -173,21 +173,21 @@ fn shade_mesh(
     move_mesh(reader, parts, &positions, &numbered(fans), (options, context))
 }
 
-/// The vertex of every corner, counted from zero: one for all at a position, or one for each of the index lists.
+/// The welded vertex of every corner, numbered from zero: one per position, or one per vertex of an accessor.
 fn welded(parts: &[ShadedPrimitive], positions: &[[f32; 3]], seams: SmoothingSeams) -> Vec<u32> {
     let mut welded = Vec::with_capacity(positions.len());
     // Each vertex of an accessor is looked up once, however many corners it has.
-    let mut known: HashMap<usize, Vec<Option<u32>>> = HashMap::new();
+    let mut number_of_vertex: HashMap<usize, Vec<Option<u32>>> = HashMap::new();
     let mut at_position = HashMap::new();
     let mut count = 0;
     for part in parts {
-        let known = known.entry(part.position).or_default();
+        let numbers = number_of_vertex.entry(part.position).or_default();
         for &vertex in &part.corners {
             let vertex = vertex as usize;
-            if known.len() <= vertex {
-                known.resize(vertex + 1, None);
+            if numbers.len() <= vertex {
+                numbers.resize(vertex + 1, None);
             }
-            let number = *known[vertex].get_or_insert_with(|| match seams {
+            let number = *numbers[vertex].get_or_insert_with(|| match seams {
                 SmoothingSeams::Ignored => {
                     *at_position.entry(bits(positions[welded.len()])).or_insert_with(|| next(&mut count))
                 }
@@ -199,13 +199,13 @@ fn welded(parts: &[ShadedPrimitive], positions: &[[f32; 3]], seams: SmoothingSea
     welded
 }
 
-/// The number, and one more from then on.
+/// Returns a counter and increments it.
 fn next(count: &mut u32) -> u32 {
     *count += 1;
     *count - 1
 }
 
-/// Evaluates every morph target in the fans of the mesh at rest.
+/// Evaluates every morph target. Corners that share a normal at rest share one when moved.
 fn move_mesh(
     reader: &mut Reader<'_>,
     parts: &mut [ShadedPrimitive],
@@ -247,7 +247,7 @@ fn move_mesh(
     Ok(())
 }
 
-/// Normals of corners that lie at `positions`; smooth ones are those of their vertices.
+/// The normals of corners at `positions`. Smooth normals are shared by the corners of a vertex.
 fn normals(
     document: &Document,
     parts: &[ShadedPrimitive],
@@ -265,7 +265,7 @@ fn normals(
             for (&vertex, &position) in vertex_of_corner.iter().zip(positions).rev() {
                 of_vertex[vertex as usize] = position;
             }
-            // Which corners are one vertex is decided here, across primitives.
+            // Corners were welded above, across primitives.
             let options = options.with_seams(SmoothingSeams::Respected);
             let indices = Indices::U32(vertex_of_corner);
             generate_normals_with(&of_vertex, indices, Faces::Triangles, &options, context)
@@ -277,7 +277,7 @@ fn normals(
         .map_err(|error| document.mesh_error(path, error))
 }
 
-/// Equal keys get equal numbers, counted from zero in the order in which they are met.
+/// Numbers keys from zero in the order of first occurrence.
 fn numbered<K: Eq + Hash>(keys: impl Iterator<Item = K>) -> Vec<u32> {
     let mut numbers = HashMap::new();
     keys.map(|key| {
@@ -287,7 +287,7 @@ fn numbered<K: Eq + Hash>(keys: impl Iterator<Item = K>) -> Vec<u32> {
     .collect()
 }
 
-/// Equal for equal vectors: both zeros are one.
+/// The bits of a vector, equal for equal vectors: -0 becomes 0.
 fn bits(vector: [f32; 3]) -> [u32; 3] {
     vector.map(|x| (x + 0.0).to_bits())
 }

@@ -2,11 +2,11 @@
 
 use darboux::NormalOptions;
 
-/// What [`add_normals`](super::add_normals) does. The default gives smooth normals to the triangle primitives that have none.
+/// Options of [`add_normals`](super::add_normals). The default adds smooth normals to triangle primitives without normals.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NormalsOptions {
-    /// How normals are made.
+    /// How normals are computed.
     pub normals: NormalOptions,
-    /// Replace normals that exist.
+    /// Replaces existing normals.
     pub overwrite: bool,
 }

@@ -1,4 +1,4 @@
-//! Which primitives get normals, and why the others do not.
+//! Selects the primitives that get normals, with a reason for each of the others.
 
 use super::options::NormalsOptions;
 use super::summary::{NormalsOutcome, WrittenNormals};
@@ -8,30 +8,31 @@ use crate::gltf::primitives::triangles::{TriangleMode, mode_name};
 use crate::gltf::schema::Primitive;
 use crate::gltf::{Document, PrimitiveName};
 
-/// Every primitive of a document, in its order, with what is to be done.
+/// Every primitive of a document, in its order, with a verdict.
 #[derive(Debug)]
 pub struct Selection {
     pub candidates: Vec<Candidate>,
 }
 
-/// A primitive and what is to be done with it.
+/// A primitive and the verdict on it.
 #[derive(Debug)]
 pub struct Candidate {
     pub name: PrimitiveName,
     pub verdict: Verdict,
 }
 
-/// What is to be done with a primitive.
+/// Whether a primitive gets normals.
 #[derive(Debug)]
 pub enum Verdict {
+    /// The primitive gets normals.
     Chosen(Chosen),
-    /// It keeps those it has, for a reason.
+    /// The primitive keeps its normals, for a reason.
     Kept(String),
-    /// It is left alone, for a reason.
+    /// The primitive gets no normals, for a reason.
     Skipped(String),
 }
 
-/// What normals are computed from.
+/// The input of a computation of normals.
 #[derive(Clone, Copy, Debug)]
 pub struct Chosen {
     pub position: usize,
@@ -47,7 +48,7 @@ impl Chosen {
 }
 
 impl Verdict {
-    /// The outcome; `written` says what became of a chosen one.
+    /// The outcome. `written` gives the report of a chosen primitive.
     pub fn outcome(self, written: impl FnOnce() -> WrittenNormals) -> NormalsOutcome {
         match self {
             Self::Chosen(_) => NormalsOutcome::Written(written()),
@@ -58,7 +59,7 @@ impl Verdict {
 }
 
 impl Selection {
-    /// The candidates that get normals, with their places.
+    /// The candidates that get normals, with their indices.
     pub fn chosen(&self) -> impl Iterator<Item = (usize, &Chosen)> {
         self.candidates.iter().enumerate().filter_map(|(place, candidate)| match &candidate.verdict {
             Verdict::Chosen(chosen) => Some((place, chosen)),
@@ -67,7 +68,7 @@ impl Selection {
     }
 }
 
-/// Looks at every primitive. Errors: accessors that do not exist, modes that are none.
+/// Selects primitives. Errors: accessors that do not exist, unknown modes.
 pub fn select(document: &Document, options: &NormalsOptions) -> Result<Selection, Error> {
     let mut candidates = Vec::new();
     for (index, mesh) in document.meshes().iter().enumerate() {
@@ -88,7 +89,7 @@ fn judge(
 ) -> Result<Verdict, Error> {
     let skipped = |reason: &str| Ok(Verdict::Skipped(reason.to_owned()));
     let Some(mode) = mode_name(primitive.mode) else {
-        let problem = format!("{} is no mode; use 0 to 6", primitive.mode);
+        let problem = format!("{} is not a mode; use 0 to 6", primitive.mode);
         return Err(document.invalid(format!("{}.mode", name.path()), problem));
     };
     let Some(topology) = TriangleMode::from_mode(primitive.mode) else {
@@ -105,7 +106,7 @@ fn judge(
         primitive.indices.map_or(Ok(vertex_count), |indices| element_count(document, indices))?;
     let chosen = Chosen { position, indices: primitive.indices, topology, index_count };
     if chosen.triangle_count() == 0 {
-        skipped("it has no whole triangle")
+        skipped("it has no complete triangle")
     } else {
         Ok(Verdict::Chosen(chosen))
     }

@@ -1,18 +1,18 @@
-//! What was done: per primitive, in the order of the file.
+//! The report of [`add_normals`](super::add_normals): per primitive, in the order of the file.
 
 use serde::Serialize;
 
 use crate::gltf::PrimitiveName;
 
-/// What [`add_normals`](super::add_normals) did to a document.
+/// The result of [`add_normals`](super::add_normals).
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct NormalsSummary {
     /// Every primitive of the document, in its order.
     pub primitives: Vec<PrimitiveNormals>,
-    /// What a user should look at, one sentence each.
+    /// Warnings, one sentence each.
     pub warnings: Vec<String>,
-    /// How many primitives got normals.
+    /// The number of primitives that got normals.
     pub written: usize,
 }
 
@@ -23,33 +23,33 @@ impl NormalsSummary {
     }
 }
 
-/// What happened to one primitive.
+/// The result for one primitive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PrimitiveNormals {
-    /// Which one.
+    /// The primitive.
     #[serde(flatten)]
     pub name: PrimitiveName,
-    /// What was done.
+    /// The outcome.
     #[serde(flatten)]
     pub outcome: NormalsOutcome,
 }
 
-/// What was done to a primitive, and why.
+/// Whether a primitive got normals, and the reason if not.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "outcome", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum NormalsOutcome {
-    /// It has new normals.
+    /// The primitive got normals.
     Written(WrittenNormals),
-    /// It had normals, which stay.
+    /// The primitive had normals, which are kept.
     Kept {
-        /// Why, as a sentence.
+        /// The reason, as a sentence.
         reason: String,
     },
-    /// It was left alone.
+    /// The primitive got no normals.
     Skipped {
-        /// Why, as a sentence.
+        /// The reason, as a sentence.
         reason: String,
     },
 }
@@ -58,24 +58,24 @@ pub enum NormalsOutcome {
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct WrittenNormals {
-    /// Whether normals that were there before were replaced.
+    /// Whether existing normals were replaced.
     pub replaced: bool,
-    /// Whether tangents were taken out, which belonged to other normals.
+    /// Whether tangents were removed, since they belonged to other normals.
     pub tangents_removed: bool,
-    /// The length of its vertex attributes before. Primitives may share them.
+    /// The number of vertices before. Primitives may share them.
     pub vertices_before: usize,
-    /// The length of its vertex attributes now.
+    /// The number of vertices after splitting.
     pub vertices_after: usize,
-    /// Morph targets that got normal offsets.
+    /// The number of morph targets that got normal offsets.
     pub morph_targets: usize,
-    /// Corners of morphed meshes whose normal differs from that of the vertex that they share; summed over targets.
+    /// Corners of morphed meshes whose normal differs from that of their shared vertex, summed over targets.
     pub conflicting_corners: usize,
-    /// Triangles.
+    /// The number of triangles.
     pub triangles: usize,
-    /// Triangles without an area, or with values that are not finite; those of the whole mesh.
+    /// Triangles of the whole mesh without an area, or with values that are not finite.
     pub degenerate_triangles: usize,
-    /// Corners whose faces' normals cancel or are missing; those of the whole mesh.
+    /// Corners of the whole mesh whose face normals cancel or are missing.
     pub repaired_corners: usize,
-    /// Edges at which smooth shading stops for their angle; those of the whole mesh.
+    /// Edges of the whole mesh at which smooth shading is interrupted because of their angle.
     pub creased_edges: usize,
 }

@@ -1,4 +1,4 @@
-//! Into the document: the vertices of one accessor of positions, split jointly for all primitives over them.
+//! Writes normals into a document. The vertices of one accessor of positions are split jointly for all its primitives.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -15,7 +15,7 @@ use crate::gltf::primitives::{foreign_extensions, limits};
 use crate::gltf::schema::{Attributes, Primitive};
 use crate::gltf::{Document, ElementType, NewAccessor, Target};
 
-/// Writes the normals of `parts`, all of them over the accessor `position`. Returns what was written for each candidate.
+/// Writes the normals of primitives over the accessor `position`. Returns a report for each candidate.
 pub fn write(
     document: &mut Document,
     accessors: &CanonicalAccessors,
@@ -74,21 +74,21 @@ struct NormalWriter<'a> {
     split: &'a NormalSplit,
     /// The accessor of the normals.
     normals: usize,
-    /// Whether an accessor that was there has the elements of one of ours.
+    /// Whether an old and a new accessor have the same elements.
     same: HashMap<[usize; 2], bool>,
     appended: Appended<'a>,
-    /// Accessors of normal offsets, by that of position offsets.
+    /// The accessors of normal offsets, by that of position offsets.
     offsets: HashMap<usize, usize>,
-    /// By candidate, the corners whose offset is not that of their vertex.
+    /// The number of corners, by candidate, whose offset differs from that of their vertex.
     conflicting: HashMap<usize, usize>,
-    /// An accessor of offsets that move nothing.
+    /// An accessor of zero offsets.
     zeros: Option<usize>,
-    /// New indices: the old accessor, the vertices of the corners, the new accessor.
+    /// New index lists: the old accessor, the vertices of the corners, and the new accessor.
     indices: Vec<(Option<usize>, &'a [u32], usize)>,
 }
 
 impl<'a> NormalWriter<'a> {
-    /// Writes the normal offsets of every morph target, one accessor of position offsets after the other.
+    /// Writes the normal offsets of every accessor of position offsets.
     fn push_offsets(&mut self, document: &mut Document, parts: &[&ShadedPrimitive]) -> Result<(), Error> {
         let mut moves_of_accessor: BTreeMap<usize, Vec<(&ShadedPrimitive, usize, &MovedNormals)>> =
             BTreeMap::new();
@@ -102,7 +102,7 @@ impl<'a> NormalWriter<'a> {
         for (accessor, moves) in moves_of_accessor {
             let old = moves.first().and_then(|(.., moved)| moved.old);
             let mut offsets = vec![[0.0; 3]; self.split.normal_of_vertex.len()];
-            // The first corner that moves decides for its vertex.
+            // The first corner with an offset decides for its vertex, so that corners are written in reverse order.
             for &(_, first, moved) in moves.iter().rev() {
                 for &(corner, offset) in moved.offsets.iter().rev() {
                     offsets[self.split.indices[first + corner] as usize] = offset;
@@ -158,7 +158,7 @@ impl<'a> NormalWriter<'a> {
         Ok(self.written(part, &primitive, keeps_tangents))
     }
 
-    /// Whether attributes have these normals, if any, already: then their tangents belong to them.
+    /// Whether attributes have these normals, if any, already, so that their tangents can be kept.
     fn is_same(&mut self, document: &Document, old: &Attributes, normals: Option<usize>) -> bool {
         if self.appended.is_needed() {
             return false;
@@ -187,7 +187,7 @@ impl<'a> NormalWriter<'a> {
         }
     }
 
-    /// `old` with the appended vertices, without tangents unless they are kept, and with `normals` in place of its own, if given.
+    /// The attributes `old` with the appended vertices, without tangents unless they are kept, and with `normals`, if given.
     fn attributes(
         &mut self,
         document: &mut Document,
@@ -217,7 +217,7 @@ impl<'a> NormalWriter<'a> {
         Ok(new)
     }
 
-    /// Normal offsets for a target that had nothing but tangent offsets: a target must not be empty.
+    /// Zero offsets for a target that had tangent offsets only, since a target must not be empty.
     fn zeros(&mut self, document: &mut Document) -> usize {
         let count = self.split.normal_of_vertex.len();
         *self.zeros.get_or_insert_with(|| {
@@ -225,7 +225,7 @@ impl<'a> NormalWriter<'a> {
         })
     }
 
-    /// The accessor of new indices; none where the old ones, or their absence, serve.
+    /// The accessor of new indices; none if no new ones are needed.
     fn indices(
         &mut self,
         document: &mut Document,
@@ -236,8 +236,8 @@ impl<'a> NormalWriter<'a> {
         if !self.appended.is_needed() || (old.is_some() && part.corners == corners) {
             return None;
         }
-        let known = self.indices.iter().find(|known| known.0 == old && known.1 == corners);
-        if let Some(&(_, _, accessor)) = known {
+        let same = self.indices.iter().find(|list| list.0 == old && list.1 == corners);
+        if let Some(&(_, _, accessor)) = same {
             return Some(accessor);
         }
         let kind = old.and_then(|old| document.accessors().get(old)).map(|old| old.component_type);
@@ -249,7 +249,7 @@ impl<'a> NormalWriter<'a> {
     }
 }
 
-/// How many corners have another offset than their vertices.
+/// Counts the corners whose offset differs from that of their vertex.
 fn conflicts(vertices: &[u32], moved: &MovedNormals, offsets: &[[f32; 3]]) -> usize {
     let mut own = moved.offsets.iter().peekable();
     let corners = vertices.iter().enumerate().filter(|&(corner, &vertex)| {
@@ -259,7 +259,7 @@ fn conflicts(vertices: &[u32], moved: &MovedNormals, offsets: &[[f32; 3]]) -> us
     corners.count()
 }
 
-/// Makes the members of a JSON object be `attributes`; those that it has stay in their order.
+/// Replaces the members of a JSON object by `attributes`. Members that exist keep their order.
 fn replace(json: Option<&mut Value>, attributes: &Attributes) {
     let Some(json) = json else { return };
     if let Some(members) = json.as_object_mut() {

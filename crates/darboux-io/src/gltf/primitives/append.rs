@@ -1,4 +1,4 @@
-//! Vertices appended to those that a primitive has, and what must follow them. Accessors that exist are never changed.
+//! Appends vertices to the attributes of primitives. Existing accessors are never changed: longer copies take their place.
 
 use std::collections::HashMap;
 
@@ -10,35 +10,35 @@ use crate::Error;
 use crate::gltf::schema::Attributes;
 use crate::gltf::{ComponentType, Document, ElementType, Elements, NewAccessor, Target};
 
-/// Attributes with the appended vertices, each made when it is asked for first.
+/// Accessors with appended vertices, each made on first use.
 #[derive(Debug)]
 pub struct Appended<'a> {
     accessors: &'a CanonicalAccessors,
     copies: &'a [u32],
     old_count: usize,
-    /// By the old accessor and whether there are bounds.
+    /// The new accessors, by the old one and whether it has bounds.
     made: HashMap<(usize, bool), usize>,
 }
 
 impl<'a> Appended<'a> {
-    /// `copies`: the old vertex that each appended one copies, below `old_count`.
+    /// `copies` has the old vertex, below `old_count`, that each appended vertex is a copy of.
     pub fn new(accessors: &'a CanonicalAccessors, copies: &'a [u32], old_count: usize) -> Self {
         Self { accessors, copies, old_count, made: HashMap::new() }
     }
 
-    /// Whether there are appended vertices.
+    /// Whether there are vertices to append.
     pub fn is_needed(&self) -> bool {
         !self.copies.is_empty()
     }
 
-    /// The number of vertices before.
+    /// The number of old vertices.
     pub fn old_count(&self) -> usize {
         self.old_count
     }
 
-    /// An accessor with the elements of `old` and the appended vertices, bit for bit. `at` is the JSON path that refers to `old`.
+    /// An accessor with the elements of `old` and of the appended vertices, bit for bit. `at` is the JSON path that refers to `old`.
     ///
-    /// Errors: an accessor that does not exist or has another number of elements than there are vertices.
+    /// Errors: the accessor does not exist, or does not have one element per vertex.
     pub fn accessor(
         &mut self,
         document: &mut Document,
@@ -76,7 +76,8 @@ impl<'a> Appended<'a> {
     }
 }
 
-/// Appends an accessor of floats, one element per vertex; without the zeros, if `sparse`. In place of `old`, which stays if it has them.
+/// Appends an accessor of floats, one element per vertex, sparse if that is permitted and shorter. Returns `old` if it has the same
+/// elements.
 pub fn push_vectors<const N: usize>(
     document: &mut Document,
     old: Option<usize>,
@@ -95,12 +96,12 @@ pub fn push_vectors<const N: usize>(
     document.push_in_place_of(old, NewAccessor { elements, target, bounds: false, sparse, like: None })
 }
 
-/// Whether an accessor leaves out zeros, so that what follows it should do the same.
+/// Whether an accessor has no buffer view, so that its copies should be sparse too.
 pub fn is_sparse(document: &Document, accessor: usize) -> bool {
     document.accessors().get(accessor).is_some_and(|accessor| accessor.buffer_view.is_none())
 }
 
-/// Sets members of a JSON object to accessors.
+/// Sets the attributes in a JSON object.
 pub fn set_attributes(json: Option<&mut Value>, attributes: &Attributes) {
     let Some(json) = json.and_then(Value::as_object_mut) else { return };
     for (semantic, &accessor) in attributes {
@@ -108,8 +109,9 @@ pub fn set_attributes(json: Option<&mut Value>, attributes: &Attributes) {
     }
 }
 
-/// Indices of the type they had, or the next one that holds them; of 16 bits where there were none. The greatest number of a
-/// type is no index: it restarts primitives (glTF 2.0, 3.7.2.1).
+/// An index list of the old component type, or the next larger one that holds all indices; of at least 16 bits if there was none.
+///
+/// The greatest number of a type is not a valid index: it restarts primitives (glTF 2.0, 3.7.2.1).
 pub fn index_elements(old: Option<ComponentType>, indices: Vec<u32>) -> Elements {
     let greatest = indices.iter().copied().max().unwrap_or(0);
     let least = match old {

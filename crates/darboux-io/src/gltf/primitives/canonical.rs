@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use crate::gltf::Document;
 use crate::gltf::schema::Accessor;
 
-/// One accessor for all that read the same bytes in the same way: some exporters write an accessor per primitive.
+/// The first of all accessors that read the same bytes in the same way. Some exporters write one per primitive.
 #[derive(Debug)]
 pub struct CanonicalAccessors(Vec<usize>);
 
@@ -17,13 +17,13 @@ impl CanonicalAccessors {
         Self(accessors.map(|(index, accessor)| *first.entry(reading(accessor)).or_insert(index)).collect())
     }
 
-    /// The first accessor that reads what `accessor` reads. Accessors that do not exist are their own.
+    /// The first accessor that reads the same as `accessor`; `accessor` itself if it does not exist.
     pub fn of(&self, accessor: usize) -> usize {
         self.0.get(accessor).copied().unwrap_or(accessor)
     }
 }
 
-/// All that decides what an accessor reads.
+/// Everything that decides which values an accessor reads.
 fn reading(accessor: &Accessor) -> impl Eq + std::hash::Hash {
     let sparse = accessor.sparse.as_deref().map(|sparse| {
         let (indices, values) = (&sparse.indices, &sparse.values);

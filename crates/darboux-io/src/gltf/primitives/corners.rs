@@ -1,4 +1,4 @@
-//! The corners of a primitive's triangles, and attributes at each of them.
+//! The corners of a primitive's triangles, and its attributes at each corner.
 
 use darboux::MeshError;
 
@@ -9,7 +9,7 @@ use crate::Error;
 use crate::gltf::Document;
 use crate::gltf::schema::{self, Attributes};
 
-/// The corners of all whole triangles of a primitive, three each, in the order of the file; strips and fans cut up.
+/// The corners of a primitive's triangles, three per triangle, in the order of the file. Strips and fans are converted to triangles.
 #[derive(Debug)]
 pub struct PrimitiveCorners<'a> {
     document: &'a Document,
@@ -19,7 +19,7 @@ pub struct PrimitiveCorners<'a> {
 }
 
 impl<'a> PrimitiveCorners<'a> {
-    /// The corners; none of points and lines. Errors: broken indices.
+    /// The corners of a primitive; none for points and lines. Errors: invalid indices.
     pub(in crate::gltf) fn find(
         document: &'a Document,
         name: &PrimitiveName,
@@ -40,31 +40,31 @@ impl<'a> PrimitiveCorners<'a> {
         &self.name
     }
 
-    /// The index of its material, if it has one.
+    /// The index of the material, if there is one.
     pub fn material(&self) -> Option<usize> {
         self.primitive.material
     }
 
-    /// Their number.
+    /// The number of corners.
     pub fn len(&self) -> usize {
         self.vertices.len()
     }
 
-    /// Whether there are none.
+    /// Whether there are no corners.
     pub fn is_empty(&self) -> bool {
         self.vertices.is_empty()
     }
 
-    /// An attribute at every corner, as floats; none where the primitive does not have it.
+    /// The values of an attribute at every corner, as floats; none if the primitive does not have it.
     ///
-    /// `semantic`: as the file names it, such as `TEXCOORD_0`. Errors: broken data; an index out of range.
+    /// `semantic` is the name of the attribute, such as `TEXCOORD_0`. Errors: invalid data; an index out of range.
     pub fn vectors<const N: usize>(&self, semantic: &str) -> Result<Option<Vec<[f32; N]>>, Error> {
         self.gathered(&self.primitive.attributes, semantic)
     }
 
-    /// The offsets of an attribute by a morph target at every corner; none where the target does not move it.
+    /// The offsets of an attribute by a morph target at every corner; none if the target does not change it.
     ///
-    /// `target`: its index. `semantic`, errors: as of [`PrimitiveCorners::vectors`].
+    /// `target` is the index of the morph target. Errors: as [`PrimitiveCorners::vectors`].
     pub fn offsets(&self, target: usize, semantic: &str) -> Result<Option<Vec<[f32; 3]>>, Error> {
         let target = self.primitive.targets.get(target);
         target.map_or(Ok(None), |target| self.gathered(target, semantic))
@@ -92,7 +92,7 @@ impl<'a> PrimitiveCorners<'a> {
 impl Document {
     /// The corners of every primitive that has triangles. Compressed documents must be [decompressed](Document::decompress) first.
     ///
-    /// Errors: broken indices; more corners than a file of this size can mean.
+    /// Errors: invalid indices; more corners than the memory limit permits.
     pub fn corners(&self) -> Result<Vec<PrimitiveCorners<'_>>, Error> {
         let primitives = || self.meshes().iter().flat_map(|mesh| &mesh.primitives);
         limits::check_triangles(self, primitives().filter_map(|primitive| triangle_count(self, primitive)))?;
@@ -107,7 +107,7 @@ impl Document {
     }
 }
 
-/// The triangles of a primitive, as its accessors claim them; none of points and lines.
+/// The number of triangles of a primitive, by the counts of its accessors; none for points and lines.
 pub fn triangle_count(document: &Document, primitive: &schema::Primitive) -> Option<usize> {
     let source = primitive.indices.or_else(|| primitive.attributes.get("POSITION").copied());
     let count = source.and_then(|accessor| document.accessors().get(accessor)).map_or(0, |found| found.count);

@@ -1,4 +1,4 @@
-//! Extensions of a primitive that a split may leave behind.
+//! Finds extensions of a primitive that refer to vertices and are not updated when vertices are split.
 
 use std::collections::BTreeMap;
 
@@ -14,12 +14,12 @@ struct Primitive {
     extensions: BTreeMap<String, Value>,
 }
 
-/// Those that name materials, textures, or attributes that are extended, or that depend on the order of triangles only.
+/// Extensions that refer to materials, textures or attributes, or depend on the order of triangles only.
 const UNAFFECTED: [&str; 4] =
     ["KHR_materials_variants", "KHR_draco_mesh_compression", "EXT_structural_metadata", "FB_ngon_encoding"];
 
-/// The extensions in the JSON text of a primitive that may refer to vertices, by their number or in accessors of their own.
-fn left_behind(primitive: &str) -> Vec<String> {
+/// The extensions in the JSON of a primitive that may refer to vertices, by index or through accessors.
+fn affected_extensions(primitive: &str) -> Vec<String> {
     let Ok(Primitive { extensions }) = serde_json::from_str(primitive) else { return Vec::new() };
     let affected = extensions.into_iter().filter(|(name, json)| match name.as_str() {
         "EXT_mesh_features" => numbers_vertices(json),
@@ -28,22 +28,22 @@ fn left_behind(primitive: &str) -> Vec<String> {
     affected.map(|(name, _)| name).collect()
 }
 
-/// What a user should know where vertices of `name` are split.
+/// The warning about extensions of a primitive whose vertices are split, if there are any.
 pub fn warning(document: &Document, name: &PrimitiveName) -> Option<String> {
-    let extensions = left_behind(document.primitive_text(name.mesh, name.primitive)?);
+    let extensions = affected_extensions(document.primitive_text(name.mesh, name.primitive)?);
     (!extensions.is_empty()).then(|| {
         let names = extensions.join(", ");
-        format!("{name}: vertices were split, which {names} may not expect; it was left as it is")
+        format!("{name}: vertices were split, but {names} may refer to the old ones; check the model if you use it")
     })
 }
 
-/// Whether a feature of `EXT_mesh_features` is the number of a vertex: it has neither an attribute nor a texture.
+/// Whether a feature of `EXT_mesh_features` is identified by the vertex index: it has neither an attribute nor a texture.
 fn numbers_vertices(json: &Value) -> bool {
     let features = json.get("featureIds").and_then(Value::as_array).into_iter().flatten();
     features.into_iter().any(|feature| feature.get("attribute").is_none() && feature.get("texture").is_none())
 }
 
-/// Whether `json` has a member, at any depth, that names accessors.
+/// Whether `json` has a member, at any depth, that may refer to accessors.
 fn mentions_vertices(json: &Value) -> bool {
     match json {
         Value::Object(members) => members.iter().any(|(key, value)| {
@@ -57,7 +57,7 @@ fn mentions_vertices(json: &Value) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::left_behind;
+    use super::affected_extensions;
 
     #[test]
     fn extensions_with_vertices_of_their_own_are_named() {
@@ -67,14 +67,14 @@ mod tests {
             "EXT_structural_metadata":{"propertyAttributes":[0]},
             "VENDOR_deep":{"a":[{"accessor":1}]},
             "VENDOR_other":{"strength":1}}}"#;
-        assert_eq!(left_behind(primitive), ["CESIUM_primitive_outline", "VENDOR_deep"]);
+        assert_eq!(affected_extensions(primitive), ["CESIUM_primitive_outline", "VENDOR_deep"]);
     }
 
     #[test]
     fn features_by_vertex_number_are_named() {
         let with = |feature: &str| {
             let ids = format!(r#"{{"featureIds":[{{"featureCount":4{feature}}}]}}"#);
-            left_behind(&format!(r#"{{"extensions":{{"EXT_mesh_features":{ids}}}}}"#))
+            affected_extensions(&format!(r#"{{"extensions":{{"EXT_mesh_features":{ids}}}}}"#))
         };
         assert_eq!(with(""), ["EXT_mesh_features"]);
         assert_eq!(with(r#","attribute":0"#), [] as [String; 0]);

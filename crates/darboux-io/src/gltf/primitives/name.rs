@@ -4,19 +4,19 @@ use std::fmt;
 
 use serde::Serialize;
 
-/// A primitive, as messages and reports name it: `meshes[2].primitives[0] "Body"`.
+/// A primitive in messages and reports: `meshes[2].primitives[0] "Body"`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PrimitiveName {
     /// The index of the mesh.
     pub mesh: usize,
-    /// The name of the mesh, where it has one.
+    /// The name of the mesh, if there is one.
     pub mesh_name: Option<String>,
     /// The index of the primitive in the mesh.
     pub primitive: usize,
 }
 
 impl PrimitiveName {
-    /// The JSON path: `meshes[2].primitives[0]`.
+    /// The JSON path, such as `meshes[2].primitives[0]`.
     pub fn path(&self) -> String {
         format!("meshes[{}].primitives[{}]", self.mesh, self.primitive)
     }

@@ -1,18 +1,18 @@
-//! Triangles out of strips and fans.
+//! Converts strips and fans to triangles.
 
-/// How corners make triangles (glTF 2.0, 3.7.2.1).
+/// How indices form triangles (glTF 2.0, 3.7.2.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum TriangleMode {
-    /// Three corners each.
+    /// Every three indices are a triangle.
     Triangles,
-    /// Every corner with the two after it; every other triangle is turned round.
+    /// Every index and the two after it are a triangle. Every second triangle is reversed.
     Strip,
-    /// Every two corners with the first of all.
+    /// Every index after the first, the one after it, and the first are a triangle.
     Fan,
 }
 
 impl TriangleMode {
-    /// The topology with glTF's number, if it makes triangles.
+    /// The mode with this constant of glTF; none for points and lines.
     pub fn from_mode(mode: u32) -> Option<Self> {
         match mode {
             4 => Some(Self::Triangles),
@@ -22,7 +22,7 @@ impl TriangleMode {
         }
     }
 
-    /// How many triangles an index list of `length` makes.
+    /// The number of triangles of `length` indices.
     pub fn triangle_count(self, length: usize) -> usize {
         match self {
             Self::Triangles => length / 3,
@@ -30,7 +30,7 @@ impl TriangleMode {
         }
     }
 
-    /// How many of `length` indices belong to whole triangles.
+    /// The number of indices, of `length`, that belong to complete triangles.
     pub fn whole(self, length: usize) -> usize {
         match self {
             Self::Triangles => length - length % 3,
@@ -38,21 +38,21 @@ impl TriangleMode {
         }
     }
 
-    /// The corners of the triangles that `indices` make, three each.
+    /// The corners of the triangles, three per triangle.
     pub fn corners(self, indices: Vec<u32>) -> Vec<u32> {
         let windows = indices.windows(3);
         match self {
             Self::Triangles => indices,
             Self::Strip => {
-                let turned = windows.enumerate();
-                turned.flat_map(|(i, w)| [w[0], w[1 + i % 2], w[2 - i % 2]]).collect()
+                let numbered = windows.enumerate();
+                numbered.flat_map(|(i, w)| [w[0], w[1 + i % 2], w[2 - i % 2]]).collect()
             }
             Self::Fan => windows.flat_map(|w| [w[1], w[2], indices[0]]).collect(),
         }
     }
 }
 
-/// glTF's name of a mode, if it has one.
+/// The name of a mode in glTF; none if there is no such mode.
 pub fn mode_name(mode: u32) -> Option<&'static str> {
     let names = ["POINTS", "LINES", "LINE_LOOP", "LINE_STRIP", "TRIANGLES", "TRIANGLE_STRIP", "TRIANGLE_FAN"];
     names.get(mode as usize).copied()

@@ -1,4 +1,4 @@
-//! The tangents of one group: read its vertices once, then compute each job in time of its own corners.
+//! Computes the tangents of one group. Its vertices are read once; each job takes time proportional to its corners.
 
 use std::borrow::Cow;
 use std::mem;
@@ -17,19 +17,19 @@ use crate::gltf::{Document, IndexList};
 /// One vector per vertex.
 type Vectors<'a> = Cow<'a, [[f32; 3]]>;
 
-/// The vertices of a group, and moved ones while morph targets are evaluated.
+/// The vertices of a group. While a morph target is evaluated, they are the moved ones.
 #[derive(Debug)]
 pub struct Vertices<'a> {
     pub positions: Vectors<'a>,
     pub normals: Vectors<'a>,
-    /// The UVs before any transform; none where no job has one.
+    /// The UVs without a texture transform; none if no job has a transform.
     stored_uvs: Option<Cow<'a, [[f32; 2]]>>,
-    /// The UVs that the job at hand sees. Where it has no corner they may be another's.
+    /// The UVs of the current job. Those of vertices outside it are unspecified.
     uvs: Cow<'a, [[f32; 2]]>,
 }
 
 impl<'a> Vertices<'a> {
-    /// Reads what the accessors of `group` hold.
+    /// Reads the accessors of a group.
     pub fn read(document: &'a Document, group: &Group) -> Result<Self, Error> {
         let positions = document.vectors(group.position)?;
         let uvs = match group.uv {
@@ -45,13 +45,13 @@ impl<'a> Vertices<'a> {
         })
     }
 
-    /// Moves the vertices. Returns the positions and normals that they had.
+    /// Replaces positions and normals. Returns the previous ones.
     pub fn replace(&mut self, positions: Vectors<'a>, normals: Vectors<'a>) -> (Vectors<'a>, Vectors<'a>) {
         (mem::replace(&mut self.positions, positions), mem::replace(&mut self.normals, normals))
     }
 
-    /// The mesh of `job` over `corners`, its transform applied to the vertices that it uses, and to no other, so that many
-    /// jobs on a large buffer stay cheap.
+    /// The mesh of a job. Its texture transform is applied to the vertices that it uses only, so that many jobs over a large buffer take
+    /// linear time.
     pub fn mesh<'m>(
         &'m mut self,
         document: &Document,
@@ -74,14 +74,14 @@ impl<'a> Vertices<'a> {
 /// The result of one job.
 #[derive(Debug)]
 pub struct JobResult<'a> {
-    /// The vertices of all whole triangles, three each.
+    /// The vertices of all complete triangles, three per triangle.
     pub corners: IndexList<'a>,
-    /// Indices after the last whole triangle.
+    /// The indices after the last complete triangle.
     pub rest: Vec<u32>,
-    /// In the convention that they are generated in.
+    /// The tangents in the convention of generation.
     pub tangents: CornerTangents,
     pub report: Report,
-    /// What evaluates morph targets, if there are any.
+    /// The plan that evaluates morph targets, if there are any.
     pub plan: Option<Plan>,
 }
 
@@ -93,7 +93,7 @@ pub fn on_cpu(mesh: &Mesh<'_>, options: &TangentOptions, context: &mut Context) 
     generate_tangents_with(mesh, options, context).map_err(|error| error.to_string())
 }
 
-/// Computes a job. `at` is the JSON path of a primitive that it belongs to; with `morphs` it is kept ready for morph targets.
+/// Computes a job. `at` is the JSON path of its first primitive. With `morphs`, the result has a plan for morph targets.
 ///
 /// Errors: indices out of range, attributes of different lengths; with [`TangentsOptions::strict`], unusable data.
 pub fn compute_job<'a>(
@@ -140,7 +140,7 @@ fn indices<'a>(document: &'a Document, job: &Job, vertex_count: usize) -> Result
 
 fn refuse_unusable(document: &Document, at: &str, report: &Report) -> Result<(), Error> {
     let refused = |count: usize, what: &str| {
-        let advice = "mend the model, or run without strict";
+        let advice = "repair the model, or run without strict";
         Err(document.invalid(at, format!("{count} corners have {what}; {advice}")))
     };
     match (report.non_finite_corners, report.repaired_corners) {

@@ -1,23 +1,24 @@
-//! How tangents are stored: what glTF permits.
+//! The encodings of tangents that glTF permits.
 
 use darboux::encode::{tangent_from_snorm8, tangent_from_snorm16, tangent_to_snorm8, tangent_to_snorm16};
 
 use crate::gltf::{ComponentType, ElementType, Elements};
 
-/// The forms that a `TANGENT` accessor can have (glTF 2.0, 3.7.2.1; `KHR_mesh_quantization`).
+/// The encoding of a `TANGENT` accessor (glTF 2.0, 3.7.2.1; `KHR_mesh_quantization`).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum TangentEncoding {
     /// Floats: 16 bytes per vertex, exact.
     #[default]
     F32x4,
-    /// Normalized 16-bit integers: 8 bytes, directions turn by up to 0.0016 degrees. Needs `KHR_mesh_quantization`.
+    /// Normalised 16-bit integers: 8 bytes per vertex, directions change by up to 0.0016 degrees. Needs `KHR_mesh_quantization`.
     Snorm16x4,
-    /// Normalized 8-bit integers: 4 bytes, directions turn by up to 0.40 degrees. Needs `KHR_mesh_quantization`.
+    /// Normalised 8-bit integers: 4 bytes per vertex, directions change by up to 0.40 degrees. Needs `KHR_mesh_quantization`.
     Snorm8x4,
 }
 
 impl TangentEncoding {
-    /// The tangent that a reader gets. Rounding comes before splitting, so that no vertex is split for what is not stored.
+    /// The tangent that a reader decodes. Tangents are rounded before splitting, so that no vertex is split for differences that are not
+    /// stored.
     pub(super) fn rounded(self, tangent: [f32; 4]) -> [f32; 4] {
         match self {
             Self::F32x4 => tangent,
@@ -26,12 +27,12 @@ impl TangentEncoding {
         }
     }
 
-    /// The extension that files with it need.
+    /// The extension that the encoding needs.
     pub(super) fn extension(self) -> Option<&'static str> {
         (self != Self::F32x4).then_some("KHR_mesh_quantization")
     }
 
-    /// Tangents as they are stored.
+    /// The tangents as elements of an accessor.
     pub(super) fn elements(self, tangents: &[[f32; 4]]) -> Elements {
         let stored = tangents.iter();
         let (component_type, bytes) = match self {

@@ -1,4 +1,4 @@
-//! What primitives have in common, so that it is computed, split and written once.
+//! Groups primitives over the same vertices, so that shared data is computed, split and written once.
 
 use std::collections::HashMap;
 
@@ -7,42 +7,42 @@ use super::uv::UvTransform;
 use crate::gltf::primitives::canonical::CanonicalAccessors;
 use crate::gltf::primitives::triangles::TriangleMode;
 
-/// Primitives over the same positions, normals and UVs: they are split jointly and share one `TANGENT` accessor.
+/// Primitives over the same positions, normals and UVs. They are split jointly and share one `TANGENT` accessor.
 ///
-/// Every other attribute and morph target of a member follows the group's split. A primitive that uses another UV set is in
-/// another group, and gets copies of its own.
+/// All other attributes and morph targets of the members are split in the same way. A primitive with another UV set belongs to another
+/// group, and gets its own copies.
 #[derive(Debug)]
 pub struct Group {
     pub position: usize,
     pub normal: usize,
     pub uv: Option<usize>,
-    /// The different things to compute.
+    /// The different jobs.
     pub jobs: Vec<Job>,
     /// The primitives, in the order of the file.
     pub members: Vec<GroupMember>,
 }
 
-/// Tangents to compute: the same for all primitives with these indices.
+/// The computation for all primitives with the same indices, mode and texture transform.
 #[derive(Debug)]
 pub struct Job {
     pub indices: Option<usize>,
     pub topology: TriangleMode,
     pub transform: Option<UvTransform>,
     pub triangle_count: usize,
-    /// The place in the selection of the first primitive with it.
+    /// The index in the selection of the first primitive with this job.
     pub first: usize,
 }
 
 /// A primitive of a group.
 #[derive(Debug)]
 pub struct GroupMember {
-    /// Its place in the selection.
+    /// The index in the selection.
     pub candidate: usize,
-    /// Its place in [`Group::jobs`].
+    /// The index in [`Group::jobs`].
     pub job: usize,
 }
 
-/// Sorts primitives into groups, in the order in which each group is met first.
+/// Groups primitives. Groups are in the order of their first primitives.
 pub fn group<'a>(
     accessors: &CanonicalAccessors,
     chosen: impl Iterator<Item = (usize, &'a Chosen)>,

@@ -1,4 +1,4 @@
-//! Tangent offsets of morph targets: the base's groups evaluated on base + target, minus the base.
+//! Computes tangent offsets of morph targets: tangents of base + target in the groups of the base, minus the tangents of the base.
 
 use std::collections::HashMap;
 use std::ops::Add;
@@ -15,7 +15,7 @@ use crate::gltf::Document;
 use crate::gltf::primitives::canonical::CanonicalAccessors;
 use crate::gltf::schema::Attributes;
 
-/// What moves vertices: accessors of position and of normal offsets.
+/// The accessors of position and normal offsets of a morph target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Movement {
     position: Option<usize>,
@@ -28,9 +28,9 @@ impl Movement {
         self.position.into_iter().chain(self.normal)
     }
 
-    /// What moves vertices in `target`, if tangent offsets are to be written for it.
+    /// The movement of a morph target; none if it gets no tangent offsets.
     ///
-    /// Offsets that exist stay unless they are to be replaced; targets that move neither positions nor normals need none.
+    /// Existing offsets are kept unless they are to be replaced. Targets without position and normal offsets need none.
     pub fn of(
         accessors: &CanonicalAccessors,
         target: &Attributes,
@@ -43,19 +43,19 @@ impl Movement {
     }
 }
 
-/// A movement and what it moves.
+/// A movement and the jobs that it affects.
 #[derive(Debug)]
 pub struct Morph {
     pub movement: Movement,
-    /// The accessor of tangent offsets that the first such target has, if any.
+    /// The accessor of tangent offsets of the first target with this movement, if any.
     pub old: Option<usize>,
-    /// The JSON path of a target that has it.
+    /// The JSON path of the first target with this movement.
     at: String,
-    /// The jobs of the primitives that have it.
+    /// The jobs of primitives with this movement.
     pub jobs: Vec<usize>,
 }
 
-/// The different movements of a group, in the order in which each is met first.
+/// The different movements of a group, in the order of their first targets.
 pub fn morphs(
     document: &Document,
     accessors: &CanonicalAccessors,
@@ -83,20 +83,20 @@ pub fn morphs(
     morphs
 }
 
-/// Tangent offsets, one per vertex after splitting, and what does not fit them.
+/// Tangent offsets, one per vertex after splitting, and counts of corners that they do not fit.
 #[derive(Debug)]
 pub struct Offsets {
     pub of_vertex: Vec<[f32; 3]>,
-    /// One for each of [`Morph::jobs`].
+    /// Counts for each of [`Morph::jobs`].
     pub misfits: Vec<Misfits>,
 }
 
-/// Corners of a morphed job whose tangent is not what a user may expect.
+/// Corners of a morphed job whose tangent differs from that of a fresh computation.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Misfits {
-    /// Those that a fresh run would give another tangent.
+    /// Corners to which a computation without the groups of the base would give another tangent.
     pub regrouped: usize,
-    /// Those whose vertex, shared with corners of the same base tangent, has another offset.
+    /// Corners whose offset differs from that of their vertex, which corners with the same base tangent share.
     pub conflicting: usize,
 }
 
@@ -110,9 +110,9 @@ impl Add for Misfits {
     }
 }
 
-/// Evaluates `morph` on the jobs that it moves.
+/// Evaluates a movement for its jobs.
 ///
-/// Errors: offsets of another number than vertices; with [`TangentsOptions::strict`], offsets that are not finite.
+/// Errors: the number of offsets is not that of vertices; with [`TangentsOptions::strict`], offsets that are not finite.
 pub fn offsets(
     document: &Document,
     morph: &Morph,
@@ -132,20 +132,20 @@ pub fn offsets(
     for &job in &morph.jobs {
         let result = &results[job];
         let mesh = vertices.mesh(document, &morph.at, &group.jobs[job], &result.corners)?;
-        let plan = result.plan.as_ref().expect("jobs that move are computed with one");
+        let plan = result.plan.as_ref().expect("jobs with morph targets have a plan");
         let in_document = |error| document.mesh_error(&morph.at, error);
         let evaluated = plan.evaluate_with(&mesh, context).map_err(in_document)?;
         let regrouped = plan.count_regrouped_with(&mesh, context).map_err(in_document)?;
         let tangents = evaluated.per_corner().iter().zip(result.tangents.per_corner());
         let corners = split.vertices(job, result).zip(tangents);
-        let conflicting = corners.filter(|&(vertex, (moved, base))| !field.hold(vertex, moved, base)).count();
+        let conflicting = corners.filter(|&(vertex, (moved, base))| !field.set(vertex, moved, base)).count();
         misfits.push(Misfits { regrouped, conflicting });
     }
     vertices.replace(base.0, base.1);
     Ok(Offsets { of_vertex: field.offsets, misfits })
 }
 
-/// The base plus the offsets of an accessor, where there is one. `at` is the JSON path of the target.
+/// The base plus the offsets of an accessor, if there is one. `at` is the JSON path of the target.
 fn moved(
     document: &Document,
     at: &str,
@@ -163,28 +163,28 @@ fn moved(
     let infinite = offsets.iter().filter(|offset| !offset.iter().all(|x| x.is_finite())).count();
     if strict && infinite > 0 {
         let problem = format!("{infinite} offsets of accessor {accessor} are not finite");
-        return Err(document.invalid(at, format!("{problem}; mend the model, or run without strict")));
+        return Err(document.invalid(at, format!("{problem}; repair the model, or run without strict")));
     }
     Ok(base.iter().zip(&*offsets).map(|(base, by)| std::array::from_fn(|i| base[i] + by[i])).collect())
 }
 
-/// One offset per vertex; the first corner that asks decides.
+/// One offset per vertex, set by the first corner of the vertex.
 struct OffsetField {
     offsets: Vec<[f32; 3]>,
-    held: Vec<bool>,
+    is_set: Vec<bool>,
 }
 
 impl OffsetField {
     fn new(vertex_count: usize) -> Self {
-        Self { offsets: vec![[0.0; 3]; vertex_count], held: vec![false; vertex_count] }
+        Self { offsets: vec![[0.0; 3]; vertex_count], is_set: vec![false; vertex_count] }
     }
 
-    /// Sets the offset of `vertex` if none is set. Returns whether the corner has the vertex's offset.
-    fn hold(&mut self, vertex: u32, moved: &[f32; 4], base: &[f32; 4]) -> bool {
+    /// Sets the offset of a vertex unless it is set. Returns whether the corner's offset is that of the vertex.
+    fn set(&mut self, vertex: u32, moved: &[f32; 4], base: &[f32; 4]) -> bool {
         let vertex = vertex as usize;
         let offset = std::array::from_fn(|i| moved[i] - base[i]);
-        if !self.held[vertex] {
-            self.held[vertex] = true;
+        if !self.is_set[vertex] {
+            self.is_set[vertex] = true;
             self.offsets[vertex] = offset;
         }
         self.offsets[vertex] == offset

@@ -4,19 +4,19 @@ use darboux::TangentOptions;
 
 use super::encoding::TangentEncoding;
 
-/// What [`add_tangents`](super::add_tangents) does. The default is right for today's renderers: every triangle primitive that has no tangents yet.
+/// Options of [`add_tangents`](super::add_tangents). The default adds MikkTSpace tangents to every triangle primitive without tangents.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TangentsOptions {
     /// How tangents are computed.
     pub tangents: TangentOptions,
     /// How tangents are stored.
     pub encoding: TangentEncoding,
-    /// Replace tangents that exist.
+    /// Replaces existing tangents.
     pub overwrite: bool,
-    /// Only primitives whose material uses tangents.
+    /// Selects only primitives whose material uses tangents.
     pub only_needed: bool,
-    /// Refuse documents with non-finite vertex data or corners that have no usable tangent.
+    /// Refuses vertex data that is not finite, and corners without a usable tangent.
     pub strict: bool,
-    /// Transform the UVs by `KHR_texture_transform` first. The specification takes them as stored.
+    /// Applies `KHR_texture_transform` to the UVs first. The specification uses the stored UVs.
     pub apply_texture_transform: bool,
 }

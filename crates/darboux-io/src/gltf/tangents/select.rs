@@ -1,4 +1,4 @@
-//! Which primitives get tangents, and why the others do not.
+//! Selects the primitives that get tangents, with a reason for each of the others.
 
 use std::collections::BTreeSet;
 
@@ -6,21 +6,21 @@ use darboux::Method;
 
 use super::options::TangentsOptions;
 use super::summary::NO_NORMAL;
-use super::uv::{UvChoice, UvTransform, needs_tangents, turns_tangents};
+use super::uv::{UvChoice, UvTransform, changes_directions, needs_tangents};
 use crate::Error;
 use crate::gltf::primitives::element_count;
 use crate::gltf::primitives::triangles::{TriangleMode, mode_name};
 use crate::gltf::schema::{Material, Primitive};
 use crate::gltf::{Document, PrimitiveName};
 
-/// Every primitive of a document, in its order, with what is to be done.
+/// Every primitive of a document, in its order, with a verdict.
 #[derive(Debug)]
 pub struct Selection {
     pub candidates: Vec<Candidate>,
     pub warnings: Vec<String>,
 }
 
-/// A primitive and what is to be done with it.
+/// A primitive and the verdict on it.
 #[derive(Debug)]
 pub struct Candidate {
     pub name: PrimitiveName,
@@ -29,23 +29,23 @@ pub struct Candidate {
     pub verdict: Verdict,
 }
 
-/// What is to be done with a primitive.
+/// Whether a primitive gets tangents.
 #[derive(Debug)]
 pub enum Verdict {
-    /// It gets tangents.
+    /// The primitive gets tangents.
     Chosen(Chosen),
-    /// It keeps those it has, for a reason.
+    /// The primitive keeps its tangents, for a reason.
     Kept(String),
-    /// It is left alone, for a reason.
+    /// The primitive gets no tangents, for a reason.
     Skipped(String),
 }
 
-/// What tangents are computed from: accessors and how they are read.
+/// The input of a computation of tangents.
 #[derive(Clone, Debug)]
 pub struct Chosen {
     pub position: usize,
     pub normal: usize,
-    /// None where the method needs none, and there are none.
+    /// None if the method needs no UVs and there are none.
     pub uv: Option<usize>,
     pub indices: Option<usize>,
     pub topology: TriangleMode,
@@ -55,24 +55,24 @@ pub struct Chosen {
 }
 
 impl Candidate {
-    /// The UV set that its tangents follow, if they follow one, and why this one.
+    /// The UV set that the tangents follow, if any, and the reason for it.
     pub fn uv_set_and_reason(&self) -> (Option<usize>, String) {
         match &self.verdict {
             Verdict::Chosen(Chosen { uv: None, .. }) => {
-                (None, "there is none, and this method needs none".into())
+                (None, "the primitive has none, and this method needs none".into())
             }
             _ => (Some(self.uv.set), self.uv.reason.clone()),
         }
     }
 
-    /// Whether it gets tangents in place of others.
+    /// Whether its tangents are replaced.
     pub fn replaces(&self) -> bool {
         matches!(&self.verdict, Verdict::Chosen(chosen) if chosen.replaces)
     }
 }
 
 impl Selection {
-    /// The candidates that get tangents, with their places.
+    /// The candidates that get tangents, with their indices.
     pub fn chosen(&self) -> impl Iterator<Item = (usize, &Chosen)> {
         self.candidates.iter().enumerate().filter_map(|(place, candidate)| match &candidate.verdict {
             Verdict::Chosen(chosen) => Some((place, chosen)),
@@ -86,7 +86,7 @@ impl Selection {
     }
 }
 
-/// Looks at every primitive. Errors: materials or accessors that do not exist.
+/// Selects primitives. Errors: materials or accessors that do not exist, unknown modes.
 pub fn select(document: &Document, options: &TangentsOptions) -> Result<Selection, Error> {
     let mut warnings = Warnings::default();
     let mut candidates = Vec::new();
@@ -120,7 +120,7 @@ fn candidate(
     Ok(Candidate { name, uv, needs_tangents, verdict })
 }
 
-/// The materials that a primitive can have: its own, then those of its variants.
+/// The materials of a primitive: its own, then those of its variants.
 fn materials_of<'a>(
     document: &'a Document,
     name: &PrimitiveName,
@@ -150,7 +150,7 @@ fn judge(
     let attribute = |semantic: &str| primitive.attributes.get(semantic).copied();
     let skipped = |reason: &str| Ok(Verdict::Skipped(reason.to_owned()));
     let Some(mode) = mode_name(primitive.mode) else {
-        let problem = format!("{} is no mode; use 0 to 6", primitive.mode);
+        let problem = format!("{} is not a mode; use 0 to 6", primitive.mode);
         return Err(document.invalid(format!("{}.mode", name.path()), problem));
     };
     let Some(topology) = TriangleMode::from_mode(primitive.mode) else {
@@ -175,7 +175,7 @@ fn judge(
     let index_count =
         primitive.indices.map_or(Ok(vertex_count), |indices| element_count(document, indices))?;
     if topology.triangle_count(index_count) == 0 {
-        return skipped("it has no whole triangle");
+        return skipped("it has no complete triangle");
     }
     let transform = uv.transform.as_ref().filter(|_| options.apply_texture_transform);
     Ok(Verdict::Chosen(Chosen {
@@ -198,7 +198,7 @@ fn missing_uv(primitive: &Primitive, uv: &UvChoice) -> String {
     }
 }
 
-/// What a user should look at. What concerns a material is said once, not for each of its primitives.
+/// Warnings about selected primitives. A warning about a material is given once, not for each of its primitives.
 #[derive(Default)]
 struct Warnings {
     sentences: Vec<String>,
@@ -217,11 +217,11 @@ impl Warnings {
     }
 
     fn transform(&mut self, uv: &UvChoice, options: &TangentsOptions) {
-        let turns = uv.transform.as_ref().is_some_and(turns_tangents);
-        if turns && !options.apply_texture_transform && self.transformed.insert(uv.reason.clone()) {
+        let changes = uv.transform.as_ref().is_some_and(changes_directions);
+        if changes && !options.apply_texture_transform && self.transformed.insert(uv.reason.clone()) {
             self.sentences.push(format!(
                 "{}: KHR_texture_transform rotates or mirrors its UVs; the tangents follow the stored UVs, as the \
-                 specification says; for renderers that expect transformed ones choose apply-texture-transform",
+                 specification says; for renderers that transform them first, use --apply-texture-transform",
                 uv.reason
             ));
         }
@@ -231,7 +231,7 @@ impl Warnings {
         let over = chosen.index_count % 3;
         if chosen.topology == TriangleMode::Triangles && over != 0 {
             self.sentences.push(format!(
-                "{name}: its last {over} of {} corners make no triangle; they stay, without tangents of their own",
+                "{name}: its last {over} of {} corners do not form a triangle; they are kept, without tangents of their own",
                 chosen.index_count
             ));
         }

@@ -1,4 +1,4 @@
-//! The split of one group: which vertices are appended, and what each corner uses then.
+//! Splits the vertices of one group: vertices whose corners have different tangents are duplicated.
 
 use std::mem;
 
@@ -9,20 +9,20 @@ use super::groups::{Group, Job};
 use crate::Error;
 use crate::gltf::Document;
 
-/// The vertices of a group after splitting: the old ones in their places, then copies of some.
+/// The vertices of a group after splitting: the old ones at their indices, then copies of some.
 #[derive(Debug)]
 pub struct Split {
     /// The tangent of every vertex.
     pub tangents: Vec<[f32; 4]>,
-    /// The old vertex that each appended one copies.
+    /// The old vertex that each appended vertex is a copy of.
     pub copies: Vec<u32>,
-    /// For each job the vertices of its corners, where they are not the old ones; until [`Split::take_lists`].
+    /// The vertices of each job's corners, unless they are the old ones. Empty after [`Split::take_lists`].
     corners: Vec<Option<Vec<u32>>>,
 }
 
-/// Splits the results of `group`, one per job, jointly.
+/// Splits the results of a group's jobs jointly.
 ///
-/// Errors: more vertices than 32-bit indices can tell apart. `at` is the JSON path of the group's first primitive.
+/// `at` is the JSON path of the group's first primitive. Errors: more vertices than 32-bit indices can address.
 pub fn split(
     document: &Document,
     at: &str,
@@ -47,17 +47,17 @@ pub fn split(
 }
 
 impl Split {
-    /// The number of vertices now.
+    /// The number of vertices after splitting.
     pub fn vertex_count(&self) -> usize {
         self.tangents.len()
     }
 
-    /// The number of vertices before.
+    /// The number of vertices before splitting.
     pub fn old_vertex_count(&self) -> usize {
         self.tangents.len() - self.copies.len()
     }
 
-    /// The index list of each job; none where the old one serves.
+    /// The new index list of each job; none if the old one is kept.
     pub fn take_lists(&mut self, group: &Group, results: &[JobResult<'_>]) -> Vec<Option<Vec<u32>>> {
         let is_needed = self.is_needed();
         let unindexed = |job: &Job| is_needed && job.indices.is_none();
@@ -82,7 +82,7 @@ impl Split {
         }
     }
 
-    /// Whether there are vertices that were not there before.
+    /// Whether any vertex was duplicated.
     pub fn is_needed(&self) -> bool {
         !self.copies.is_empty()
     }

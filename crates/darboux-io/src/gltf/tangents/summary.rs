@@ -1,22 +1,22 @@
-//! What was done: per primitive, in the order of the file, and in total.
+//! The report of [`add_tangents`](super::add_tangents): per primitive, in the order of the file, and in total.
 
 use darboux::Report;
 use serde::Serialize;
 
 use crate::gltf::PrimitiveName;
 
-/// Why a primitive without normals is left alone.
+/// The reason why a primitive without normals gets no tangents.
 pub(super) const NO_NORMAL: &str = "it has no NORMAL, which tangents need";
 
-/// What [`add_tangents`](super::add_tangents) did to a document.
+/// The result of [`add_tangents`](super::add_tangents).
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Summary {
     /// Every primitive of the document, in its order.
     pub primitives: Vec<PrimitiveSummary>,
-    /// What a user should look at, one sentence each.
+    /// Warnings, one sentence each.
     pub warnings: Vec<String>,
-    /// The sums.
+    /// Sums over all primitives.
     pub totals: Totals,
 }
 
@@ -34,33 +34,33 @@ impl Summary {
     }
 }
 
-/// What happened to one primitive.
+/// The result for one primitive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PrimitiveSummary {
-    /// Which one.
+    /// The primitive.
     #[serde(flatten)]
     pub name: PrimitiveName,
-    /// What was done.
+    /// The outcome.
     #[serde(flatten)]
     pub outcome: Outcome,
 }
 
-/// What was done to a primitive, and why.
+/// Whether a primitive got tangents, and the reason if not.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "outcome", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Outcome {
-    /// It has tangents now.
+    /// The primitive got tangents.
     Written(Written),
-    /// It had tangents, which stay.
+    /// The primitive had tangents, which are kept.
     Kept {
-        /// Why, as a sentence.
+        /// The reason, as a sentence.
         reason: String,
     },
-    /// It was left alone.
+    /// The primitive got no tangents.
     Skipped {
-        /// Why, as a sentence.
+        /// The reason, as a sentence.
         reason: String,
     },
 }
@@ -69,23 +69,23 @@ pub enum Outcome {
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Written {
-    /// The UV set: n of `TEXCOORD_n`; none where there are no UVs and the method needs none.
+    /// The UV set n of `TEXCOORD_n`; none if there are no UVs and the method needs none.
     pub uv_set: Option<usize>,
-    /// Why this one: the texture that names it, or that none does.
+    /// The reason for this set: the texture that uses it, or that no texture does.
     pub uv_reason: String,
-    /// Whether tangents that were there before were replaced.
+    /// Whether existing tangents were replaced.
     pub replaced: bool,
-    /// The length of its vertex attributes before. Primitives may share them.
+    /// The number of vertices before. Primitives may share them.
     pub vertices_before: usize,
-    /// The length of its vertex attributes now.
+    /// The number of vertices after splitting.
     pub vertices_after: usize,
-    /// Morph targets that got tangent offsets.
+    /// The number of morph targets that got tangent offsets.
     pub morph_targets: usize,
-    /// Corners of morphed meshes that a fresh run would give other tangents than the base's groups do; summed over targets.
+    /// Corners of morphed meshes to which a computation without the groups of the base would give other tangents, summed over targets.
     pub regrouped_corners: usize,
-    /// Corners of morphed meshes whose tangent differs from that of the vertex which they share; summed over targets.
+    /// Corners of morphed meshes whose tangent differs from that of their shared vertex, summed over targets.
     pub conflicting_corners: usize,
-    /// What was met on the way.
+    /// Counts of triangles and of degenerate data.
     #[serde(flatten)]
     pub counts: Counts,
 }
@@ -94,7 +94,7 @@ pub struct Written {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct Counts {
-    /// Triangles.
+    /// The number of triangles.
     pub triangles: usize,
     /// Triangles with two equal positions.
     pub degenerate_triangles: usize,
@@ -102,7 +102,7 @@ pub struct Counts {
     pub uv_degenerate_triangles: usize,
     /// Corners with a NaN or an infinity in position, normal or UV.
     pub non_finite_corners: usize,
-    /// Corners whose reference tangent is unusable and, but for [`darboux::Mode::Reference`], was replaced.
+    /// Corners whose tangent by the reference algorithm is unusable. It was replaced, except with [`darboux::Mode::Reference`].
     pub repaired_corners: usize,
     /// Triangles whose corners carry both signs.
     pub mixed_sign_triangles: usize,
@@ -110,7 +110,8 @@ pub struct Counts {
     pub mirrored_edges: usize,
     /// Vertices that need more than one tangent.
     pub split_vertices: usize,
-    /// Vertices on mirrored seams that have one tangent for both sides: [`darboux::Method::LengyelPerVertex`] breaks them.
+    /// Vertices on mirrored seams with one tangent for both sides, which is wrong for one of them
+    /// ([`darboux::Method::LengyelPerVertex`]).
     pub merged_vertices: usize,
 }
 
@@ -130,22 +131,22 @@ impl From<Report> for Counts {
     }
 }
 
-/// Sums over a document. What primitives share is counted once.
+/// Sums over a document. Data that primitives share is counted once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct Totals {
-    /// Primitives that have tangents now.
+    /// Primitives that got tangents.
     pub written: usize,
-    /// Primitives that keep tangents they had.
+    /// Primitives that kept their tangents.
     pub kept: usize,
-    /// Primitives left alone.
+    /// Primitives that got no tangents.
     pub skipped: usize,
-    /// Of these, primitives that have positions but no normals.
+    /// Skipped primitives that have positions but no normals.
     pub without_normals: usize,
-    /// Triangles computed.
+    /// Triangles whose tangents were computed.
     pub triangles: usize,
-    /// Vertices before, of the vertex buffers that got tangents.
+    /// Vertices, before splitting, in vertex buffers that got tangents.
     pub vertices_before: usize,
-    /// Vertices now, of the same.
+    /// Vertices of the same buffers after splitting.
     pub vertices_after: usize,
 }

@@ -1,20 +1,20 @@
-//! Which UVs tangents follow, and how a texture moves them.
+//! Chooses the UV set that tangents follow, and applies texture transforms.
 
 use crate::gltf::schema::{Material, TextureInfo, TextureTransform};
 
 /// The UVs that a primitive's tangents follow.
 #[derive(Clone, Debug)]
 pub struct UvChoice {
-    /// n of `TEXCOORD_n`.
+    /// The UV set n of `TEXCOORD_n`.
     pub set: usize,
-    /// What names this set.
+    /// The texture that uses the set, or that none does.
     pub reason: String,
-    /// The transform of the texture that names it.
+    /// The transform of that texture.
     pub transform: Option<TextureTransform>,
 }
 
 impl UvChoice {
-    /// The choice for `material`, whose index is `index`; none where no texture of it uses tangents.
+    /// The choice for the material with an index; none if no texture of it uses tangents.
     pub fn of(material: &Material, index: usize) -> Option<Self> {
         let (texture, info) = tangent_texture(material)?;
         let transform = info.extensions.transform.clone();
@@ -29,8 +29,8 @@ impl Default for UvChoice {
     }
 }
 
-/// The texture whose UVs the tangents of `material` follow, with its name: glTF 2.0 (3.9.3) asks for the normal map's, and the
-/// extensions follow it where there is one.
+/// The texture whose UVs the tangents of a material follow, and its name: the normal map (glTF 2.0, 3.9.3), or else the textures of
+/// extensions.
 fn tangent_texture(material: &Material) -> Option<(&'static str, &TextureInfo)> {
     let extensions = material.extensions.as_deref();
     let clearcoat = || extensions?.clearcoat.as_ref()?.clearcoat_normal_texture.as_ref();
@@ -41,15 +41,15 @@ fn tangent_texture(material: &Material) -> Option<(&'static str, &TextureInfo)> 
         .or_else(|| anisotropy().map(|info| ("anisotropyTexture", info)))
 }
 
-/// Whether `material` looks different without tangents.
+/// Whether a material uses tangents.
 pub fn needs_tangents(material: &Material) -> bool {
     let anisotropic =
         material.extensions.as_deref().is_some_and(|extensions| extensions.anisotropy.is_some());
     anisotropic || tangent_texture(material).is_some()
 }
 
-/// Whether tangents of the transformed UVs point elsewhere than those of the stored ones.
-pub fn turns_tangents(transform: &TextureTransform) -> bool {
+/// Whether a transform changes the directions of tangents.
+pub fn changes_directions(transform: &TextureTransform) -> bool {
     transform.rotation != 0.0 || transform.scale.iter().any(|&scale| scale < 0.0)
 }
 
@@ -63,7 +63,7 @@ pub struct UvTransform {
 }
 
 impl UvTransform {
-    /// The transform, unless it leaves all UVs as they are.
+    /// The transform; none if it is the identity.
     pub fn new(transform: &TextureTransform) -> Option<Self> {
         let TextureTransform { offset, rotation, scale, .. } = *transform;
         let (sin, cos) = f64::from(rotation).sin_cos();
@@ -73,15 +73,15 @@ impl UvTransform {
 
     /// Scales, then rotates, then offsets, each in f32.
     ///
-    /// Counter-clockwise as seen with v pointing down the image, as the text of the extension and its renderers have it; the
-    /// sign in the extension's GLSL listing is known to be wrong (KhronosGroup/glTF, issue 1563).
+    /// The rotation is counter-clockwise with v pointing down the image, as in the text of the extension and in renderers. The sign in the
+    /// extension's GLSL listing is wrong (KhronosGroup/glTF, issue 1563).
     pub fn apply(&self, uv: [f32; 2]) -> [f32; 2] {
         let (u, v) = (self.scale[0] * uv[0], self.scale[1] * uv[1]);
         let rotated = [self.cos * u + self.sin * v, self.cos * v - self.sin * u];
         [rotated[0] + self.offset[0], rotated[1] + self.offset[1]]
     }
 
-    /// The bits, to tell transforms apart.
+    /// The bits of all numbers, for exact comparison.
     pub fn bits(&self) -> [u32; 6] {
         let Self { offset, cos, sin, scale } = *self;
         [offset[0], offset[1], cos, sin, scale[0], scale[1]].map(f32::to_bits)

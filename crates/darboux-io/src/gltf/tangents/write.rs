@@ -1,4 +1,4 @@
-//! Into the document: new accessors, and primitives that refer to them. Accessors that exist are never changed.
+//! Writes tangents into a document: new accessors, and primitives that refer to them. Existing accessors are never changed.
 
 use std::collections::HashMap;
 
@@ -17,7 +17,8 @@ use crate::gltf::primitives::triangles::TriangleMode;
 use crate::gltf::schema::Attributes;
 use crate::gltf::{Document, NewAccessor, Target};
 
-/// Appends an accessor of tangents, one per vertex, and declares the extension that it needs. In place of `old`, which stays if it has them.
+/// Appends an accessor of tangents, one per vertex, and declares the extension of its encoding. Returns `old` if it has the same
+/// elements.
 pub fn push_tangents(
     document: &mut Document,
     old: Option<usize>,
@@ -30,11 +31,11 @@ pub fn push_tangents(
     document.push_in_place_of(old, NewAccessor { elements, target, bounds: false, sparse: false, like: None })
 }
 
-/// What the primitives of a group refer to.
+/// The new accessors of a group.
 #[derive(Debug)]
 pub struct GroupAccessors<'a> {
     pub split: &'a Split,
-    /// The index list of each job; none where the old one serves.
+    /// The new index list of each job; none if the old one is kept.
     pub lists: Vec<Option<Vec<u32>>>,
     /// The accessor of the tangents.
     pub tangents: usize,
@@ -42,7 +43,7 @@ pub struct GroupAccessors<'a> {
     pub offsets: HashMap<Movement, usize>,
 }
 
-/// Writes the members of one group. What they share is written when the first of them needs it.
+/// Writes the members of one group. Shared accessors are made on first use.
 #[derive(Debug)]
 pub struct TangentWriter<'a> {
     accessors: &'a CanonicalAccessors,
@@ -50,12 +51,12 @@ pub struct TangentWriter<'a> {
     group: &'a Group,
     results: GroupAccessors<'a>,
     appended: Appended<'a>,
-    /// New indices, by job.
+    /// The accessors of new indices, by job.
     indices: HashMap<usize, usize>,
 }
 
 impl<'a> TangentWriter<'a> {
-    /// A writer that has written nothing yet.
+    /// A writer without any accessor yet.
     pub fn new(
         accessors: &'a CanonicalAccessors,
         options: &'a TangentsOptions,
@@ -66,9 +67,9 @@ impl<'a> TangentWriter<'a> {
         Self { accessors, options, group, results, appended, indices: HashMap::new() }
     }
 
-    /// Gives a primitive its tangents. Returns the movements of its targets that got tangent offsets.
+    /// Writes the tangents of a primitive. Returns the movements of its targets that got tangent offsets.
     ///
-    /// Errors: attributes that must be extended and do not exist, or have another number of elements than positions.
+    /// Errors: an attribute that must be extended does not exist, or does not have one element per vertex.
     pub fn write(
         &mut self,
         document: &mut Document,
@@ -106,7 +107,7 @@ impl<'a> TangentWriter<'a> {
         Ok(morphed)
     }
 
-    /// `old` with the appended vertices, if there are any, and with `tangents`, if given. `at` is its JSON path.
+    /// The attributes `old` with the appended vertices, if any, and with `tangents`, if given. `at` is their JSON path.
     fn attributes(
         &mut self,
         document: &mut Document,
@@ -131,7 +132,7 @@ impl<'a> TangentWriter<'a> {
         Ok(new)
     }
 
-    /// The accessor of new indices for a job; none where the old ones, or their absence, serve.
+    /// The accessor of new indices for a job; none if it needs no new ones.
     fn indices(&mut self, document: &mut Document, job: usize) -> Result<Option<usize>, Error> {
         if let Some(&indices) = self.indices.get(&job) {
             return Ok(Some(indices));
