@@ -103,7 +103,7 @@ fn a_model_leaves_gltfs_convention_only_when_told_and_says_so() {
         assert!(run.stderr.contains("darboux convert --from unity --to gltf "), "{}", run.stderr);
     }
     let run = convert(&out, "unreal", "gltf", &[]).exits(1);
-    assert!(run.stderr.contains("says \"unity\"; convert it from that"), "{}", run.stderr);
+    assert!(run.stderr.contains("is \"unity\"; convert from that convention"), "{}", run.stderr);
 }
 
 #[test]

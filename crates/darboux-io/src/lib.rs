@@ -1,7 +1,27 @@
-//! Files to arrays and back: glTF and GLB, changed only where tangents require it; normal maps in PNG.
+//! Reads 3D model files, gives their vertex data as arrays, adds tangents and normals, and writes the files back.
 //!
-//! [`gltf::Document`] reads a file, gives the values behind its accessors, takes edits, and writes everything else back as
-//! it was.
+//! - [`gltf`]: glTF 2.0 and GLB. [`gltf::Document`] is a file that can be edited; everything that is not edited is kept. Functions add
+//!   [tangents](gltf::add_tangents) and [normals](gltf::add_normals), [convert](gltf::convert_vertices) conventions,
+//!   [inspect](gltf::inspect) and [compare](gltf::pair_tangents) files.
+//! - [`image`]: normal maps in PNG; textures in PNG, JPEG and WebP (feature `textures`).
+//! - [`obj`]: Wavefront OBJ (feature `obj`).
+//!
+//! Files come from anywhere, so every number in them is checked, and a [`MemoryLimit`] bounds what a small file can ask for.
+//!
+//! ```
+//! use std::path::Path;
+//!
+//! use darboux_io::SaveOptions;
+//! use darboux_io::gltf::{Document, LoadOptions, TangentsOptions, add_tangents};
+//!
+//! # let input = Path::new("../../assets/NormalTangentTest/NormalTangentTest.glb");
+//! # let output = &std::env::temp_dir().join("darboux-io.example.glb");
+//! let mut document = Document::open(input, &LoadOptions::default())?;
+//! let summary = add_tangents(&mut document, &TangentsOptions::default(), &mut |_| {})?;
+//! println!("{} primitives got tangents", summary.totals.written);
+//! document.save(output, &SaveOptions { force: true, ..SaveOptions::default() })?;
+//! # Ok::<(), darboux_io::Error>(())
+//! ```
 
 mod error;
 pub mod gltf;
@@ -15,3 +35,8 @@ pub use error::Error;
 pub use memory_limit::MemoryLimit;
 pub use paths::{FileKind, readable};
 pub use staging::{RunId, SaveOptions};
+
+/// The examples of docs/io.md compile and run.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/io.md")]
+struct IoPage;

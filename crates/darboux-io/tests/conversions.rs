@@ -122,7 +122,10 @@ fn a_file_remembers_its_convention() {
     convert(&mut document, Convention::GLTF, Convention::UNITY);
     assert_eq!(document.convention().expect("a convention"), Convention::UNITY);
     let sentence = refusal(&mut document, Convention::GLTF, Convention::BLENDER);
-    assert_eq!(sentence, "test.glb: asset.extras.darboux_convention: says \"unity\"; convert it from that");
+    assert_eq!(
+        sentence,
+        "test.glb: asset.extras.darboux_convention: is \"unity\"; convert from that convention"
+    );
 }
 
 #[test]
@@ -141,7 +144,7 @@ fn any_convention_can_be_noted_and_none_is_guessed() {
         })
     };
     for (note, part) in
-        [(json!("quake"), "\"quake\" is not a convention; begin with"), (json!(7), "7 is no text; ")]
+        [(json!("quake"), "\"quake\" is not a convention; begin with"), (json!(7), "7 is not a string; ")]
     {
         let mut document = noted(note);
         let sentence = refusal(&mut document, Convention::UNITY, Convention::GLTF);
@@ -334,7 +337,7 @@ fn what_cannot_stand_in_other_axes_is_refused() {
     let animation =
         |channels: &[Value]| json!([{"samplers": [{"input": 0, "output": 0}], "channels": channels}]);
     let cases = [
-        ("animations", animation(&[channel("pointer")]), "animations[0].channels[0]: animates something"),
+        ("animations", animation(&[channel("pointer")]), "animations[0].channels[0]: animates a property"),
         (
             "animations",
             animation(&[channel("scale"), channel("translation")]),

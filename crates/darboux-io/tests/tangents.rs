@@ -211,7 +211,7 @@ fn primitives_that_cannot_have_tangents_are_left_alone_and_named() {
         "it has no NORMAL, which tangents need",
         "it has no TEXCOORD_0, which tangents need",
         "it has no TEXCOORD_1, which its tangents must follow (normalTexture of materials[0])",
-        "it has no whole triangle",
+        "it has no complete triangle",
     ];
     for (place, expected) in reasons.into_iter().enumerate() {
         assert_eq!(reason(&summary, place), expected);
@@ -424,7 +424,7 @@ fn strict_refuses_what_the_default_repairs() {
     let mut infinite = square();
     infinite.uvs[1] = [f32::INFINITY, 0.0];
     let sentence = "test.gltf: meshes[0].primitives[0]: 1 corners have a position, normal or UV that is not finite; \
-                    mend the model, or run without strict";
+                    repair the model, or run without strict";
     assert_eq!(error(&infinite).as_deref(), Some(sentence));
     let mut collapsed = square();
     collapsed.normals = vec![[1.0, 0.0, 0.0]; 4];
@@ -477,7 +477,7 @@ fn broken_primitives_are_errors_that_name_them() {
         "{material}"
     );
     let mode = error(|_, primitive| primitive["mode"] = 9.into());
-    assert!(mode.starts_with("test.gltf: meshes[0].primitives[0].mode: 9 is no mode"), "{mode}");
+    assert!(mode.starts_with("test.gltf: meshes[0].primitives[0].mode: 9 is not a mode"), "{mode}");
     let wrong = error(|_, primitive| {
         primitive["attributes"]["TEXCOORD_0"] = primitive["attributes"]["NORMAL"].clone()
     });
