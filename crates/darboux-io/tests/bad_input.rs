@@ -138,7 +138,7 @@ fn sparse_accessors() {
     refused(read_with(1, &at("count"), json!(5)), "sparse.count: 5 is more than the accessor's count of 4");
     refused(
         read_with(1, &at("indices/byteOffset"), json!(0)),
-        "sparse.indices: index 0 at place 1 does not increase",
+        "sparse.indices: index 0 at place 1 is not greater than the one before",
     );
     refused(read_with(1, &at("indices/byteOffset"), json!(7)), "sparse.indices: 2 elements");
     refused(
@@ -147,7 +147,7 @@ fn sparse_accessors() {
     );
     refused(read_with(1, &at("indices/bufferView"), json!(1)), "sparse.indices.bufferView: buffer view 1");
     refused(read_with(1, &at("values/byteOffset"), json!(6)), "sparse.values: 2 elements");
-    refused(read_with(1, "/accessors/1/count", json!(2)), "is not below 2");
+    refused(read_with(1, "/accessors/1/count", json!(2)), "not below 2");
 }
 
 #[test]
