@@ -108,7 +108,7 @@ use crate::tangents::fast::schedule::find_windows;
 use crate::tangents::fast::second_pass::SecondPass;
 pub(crate) use crate::tangents::fast::state::FastPath;
 use crate::tangents::fast::state::triangle_list;
-use crate::tangents::fast::worker::Worker;
+use crate::tangents::fast::worker::{Findings, Worker};
 use crate::tangents::options::{MikktOptions, Mode};
 
 impl FastPath {
@@ -187,12 +187,11 @@ impl FastPath {
     /// True when the bounds of all vertices are certainly those of the used ones. A copy of another vertex counts as unused, and lies
     /// where that one lies.
     fn bounds_are_of_used_vertices(&self) -> bool {
-        let unused = self.workers.iter().map(|worker| &worker.findings.unused);
-        let count: usize = unused.clone().map(|unused| unused.unread + unused.count).sum();
-        let mut with_bounds = unused.clone().filter(|unused| unused.count > 0);
-        count == self.weld.copies
-            || unused.clone().all(|unused| unused.unread == 0)
-                && with_bounds.all(|unused| unused.are_inside(&self.weld.bounds))
+        let findings = self.workers.iter().map(|worker| &worker.findings);
+        let unused: usize = findings.clone().map(|findings| findings.unread + findings.unused).sum();
+        let are_inside =
+            |findings: &Findings| findings.unread == 0 && findings.unused_are_inside(&self.weld.bounds);
+        unused == self.weld.copies || findings.clone().all(are_inside)
     }
 
     /// Makes vertices undecided whose triangles may differ by the threshold.

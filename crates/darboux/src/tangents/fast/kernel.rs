@@ -15,38 +15,35 @@ use crate::tangents::fast::proof::{
 /// Triangles per block.
 pub(crate) const BLOCK_SIZE: usize = if cfg!(small_limits) { 2 } else { 64 };
 
-/// One value for each triangle of a block.
-type PerTriangle<T> = [T; BLOCK_SIZE];
-
-/// The arrays of one block. Arrays of three have one element per corner.
+/// The arrays of one block, with one element per triangle. The outer arrays of three have one element per corner or per coordinate.
 #[derive(Debug)]
 pub(crate) struct TriangleBlock {
     /// The vertices of each triangle.
-    pub vertex: [PerTriangle<u32>; 3],
+    pub vertex: [[u32; BLOCK_SIZE]; 3],
     /// The records of these vertices as they lie in memory, in two halves.
-    pub packed: [[PerTriangle<[f32; 4]>; 2]; 3],
+    pub packed: [[[[f32; 4]; BLOCK_SIZE]; 2]; 3],
     /// The records, one array per component.
-    record: [[PerTriangle<f32>; 8]; 3],
+    record: [[[f32; BLOCK_SIZE]; 8]; 3],
     /// First the cosines, then the angles of the corners.
-    angle: [PerTriangle<f32>; 3],
+    angle: [[f32; BLOCK_SIZE]; 3],
     /// The unit vector along dP/du.
-    s: [PerTriangle<f32>; 3],
+    s: [[f32; BLOCK_SIZE]; 3],
     /// The unit vector along dP/dv.
-    t: [PerTriangle<f32>; 3],
+    t: [[f32; BLOCK_SIZE]; 3],
     /// The lengths of dP/du and dP/dv.
-    magnitude: [PerTriangle<f32>; 2],
+    magnitude: [[f32; BLOCK_SIZE]; 2],
     /// [`marks`] that all three corners have.
-    face_marks: PerTriangle<u32>,
+    face_marks: [u32; BLOCK_SIZE],
     /// The weighted tangent of each corner.
-    term: [[PerTriangle<f32>; 3]; 3],
+    term: [[[f32; BLOCK_SIZE]; 3]; 3],
     /// The marks of each corner.
-    pub marks: [PerTriangle<u32>; 3],
+    pub marks: [[u32; BLOCK_SIZE]; 3],
     /// The weighted tangent as it is added to the vertex, and whether the corner's wedge holds the ray +u (0 or 1).
-    pub sum: [PerTriangle<[f32; 4]>; 3],
+    pub sum: [[[f32; 4]; BLOCK_SIZE]; 3],
     /// What each corner adds to the lengths of its vertex's derivatives.
-    pub magnitude_sum: [PerTriangle<[f32; 2]>; 3],
+    pub magnitude_sum: [[[f32; 2]; BLOCK_SIZE]; 3],
     /// What each corner adds to its vertex's fingerprint.
-    pub fingerprint: [PerTriangle<[u32; 4]>; 3],
+    pub fingerprint: [[[u32; 4]; BLOCK_SIZE]; 3],
     fingerprint_key: [u32; 2],
 }
 

@@ -132,7 +132,7 @@ impl Pass for Discover<'_> {
             let is_usable = tangents.is_usable[i] != 0;
             let sign = decided_sign(marks, vertex.sum[3], vertex.fingerprint, is_usable);
             if sign.is_nan() {
-                findings.unused.note(vertex.position());
+                findings.note_unused(vertex.position());
             }
             let undecided = if sign == UNDECIDED { flags::IS_UNDECIDED } else { 0 };
             let in_tail = if self.tail.contain(vertex.position()) { flags::IN_TAIL } else { 0 };

@@ -27,7 +27,7 @@ pub(crate) fn run<P: Pass>(
     let corner = |window: usize| input.list.corners_of(first_window..window).len();
     worker.begin(vertices_to_read(input, partition));
     let (mut finished, mut written) = (own.start.max(worker.first), first_window);
-    worker.findings.unused.unread = finished - own.start;
+    worker.findings.unread = finished - own.start;
     for at in first_window..partition.end_window {
         if input.limits.is_cancelled() {
             break;
@@ -55,7 +55,7 @@ pub(crate) fn run<P: Pass>(
             written += 1;
         }
     }
-    worker.findings.unused.unread += own.end.saturating_sub(finished);
+    worker.findings.unread += own.end.saturating_sub(finished);
 }
 
 /// The vertices of all windows that a partition adds.

@@ -62,40 +62,34 @@ impl Worker {
 /// What a thread finds when it finishes vertices.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Findings {
-    pub unused: UnusedVertices,
-    /// All tangents that a plan keeps need no repair.
+    /// The number of vertices that no window uses, and which were never read.
+    pub unread: usize,
+    /// The number of vertices that were read and that no triangle uses.
+    pub unused: usize,
+    /// The bounds of the latter.
+    unused_bounds: Option<Bounds>,
+    /// True while all tangents with a planned sign need no repair.
     pub all_usable: bool,
 }
 
 impl Default for Findings {
     fn default() -> Self {
-        Self { unused: UnusedVertices::default(), all_usable: true }
+        Self { unread: 0, unused: 0, unused_bounds: None, all_usable: true }
     }
 }
 
-/// The vertices that no triangle uses.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct UnusedVertices {
-    /// How many vertices were not even read.
-    pub unread: usize,
-    /// How many others there are.
-    pub count: usize,
-    /// The bounds of these others.
-    bounds: Option<Bounds>,
-}
-
-impl UnusedVertices {
+impl Findings {
     #[cold]
-    pub fn note(&mut self, position: [f32; 3]) {
-        let bounds = self.bounds.unwrap_or(Bounds { min: position, max: position });
-        self.bounds = Some(Bounds::of(bounds.min, [bounds.max, position].into_iter()));
-        self.count += 1;
+    pub fn note_unused(&mut self, position: [f32; 3]) {
+        let bounds = self.unused_bounds.unwrap_or(Bounds { min: position, max: position });
+        self.unused_bounds = Some(Bounds::of(bounds.min, [bounds.max, position].into_iter()));
+        self.unused += 1;
     }
 
-    /// True when all vertices that were read lie inside the bounds of all vertices, which are then the bounds of the used ones.
-    pub fn are_inside(&self, all: &Bounds) -> bool {
+    /// True when all unused vertices that were read lie inside the bounds of all vertices, which then are the bounds of the used ones.
+    pub fn unused_are_inside(&self, all: &Bounds) -> bool {
         let inside =
             |bounds: Bounds| (0..3).all(|i| bounds.min[i] > all.min[i] && bounds.max[i] < all.max[i]);
-        self.bounds.is_none_or(inside)
+        self.unused_bounds.is_none_or(inside)
     }
 }
