@@ -82,7 +82,12 @@ impl TailCells {
     /// True for positions in these cells.
     #[inline(always)]
     pub fn contain(&self, position: [f32; 3]) -> bool {
-        let along = position[self.cells.axis];
+        let [x, y, z] = position;
+        let along = match self.cells.axis {
+            0 => x,
+            1 => y,
+            _ => z,
+        };
         (along >= self.low) & (along <= self.high) && self.is_in_wanted_cell(position)
     }
 

@@ -130,7 +130,7 @@ impl Pass for Discover<'_> {
     fn finish(self, range: &mut VertexRange<'_>, tangents: &TangentBlock, findings: &mut Findings) {
         for (i, (vertex, &marks)) in range.vertices.iter_mut().zip(&*range.marks).enumerate() {
             let is_usable = tangents.is_usable[i] != 0;
-            let sign = decided_sign(marks, vertex.sum[3], vertex.fingerprint, is_usable);
+            let sign = decided_sign(marks, vertex.sum[3], &vertex.fingerprint, is_usable);
             if sign.is_nan() {
                 findings.note_unused(vertex.position());
             }

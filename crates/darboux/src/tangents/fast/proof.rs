@@ -107,9 +107,10 @@ pub(crate) fn difference(a: [u32; 4], b: [u32; 4]) -> [u32; 4] {
 /// The tangent sign of a vertex to which all corners have been added: [`UNDECIDED`] where a test fails, NaN where no triangle uses the
 /// vertex.
 ///
-/// `found`: the vertex's marks. `first_ray_count`: how many wedges hold the ray +u. `is_usable`: the tangent needs no repair.
+/// `found`: the vertex's marks. `first_ray_count`: how many wedges hold the ray +u. `fingerprint`: a reference, because a copy on the
+/// stack, written in pieces and read as a whole, stalls the processor. `is_usable`: the tangent needs no repair.
 #[inline(always)]
-pub(crate) fn decided_sign(found: u32, first_ray_count: f32, fingerprint: [u32; 4], is_usable: bool) -> f32 {
+pub(crate) fn decided_sign(found: u32, first_ray_count: f32, fingerprint: &[u32; 4], is_usable: bool) -> f32 {
     let decided = is_usable & is_one_subgroup(found) && is_one_fan(found, first_ray_count, fingerprint);
     match found & (marks::PRESERVES | marks::MIRRORS) {
         0 => f32::NAN,
@@ -136,11 +137,11 @@ fn is_one_subgroup(found: u32) -> bool {
 /// zero when all triangles lie in closed loops, and the difference of two vertices when there is one open row besides. Every closed
 /// loop of triangles of one orientation turns about the vertex in UV space at least once and crosses every ray.
 #[inline(always)]
-fn is_one_fan(found: u32, first_ray_count: f32, fingerprint: [u32; 4]) -> bool {
-    if fingerprint == [0; 4] {
+fn is_one_fan(found: u32, first_ray_count: f32, fingerprint: &[u32; 4]) -> bool {
+    if *fingerprint == [0; 4] {
         first_ray_count == 1.0
     } else {
-        found & marks::RAYS != marks::RAYS && is_difference_of_two(fingerprint)
+        found & marks::RAYS != marks::RAYS && is_difference_of_two(*fingerprint)
     }
 }
 
