@@ -7,13 +7,14 @@ use std::time::Instant;
 use crate::python::WithoutPython;
 use crate::run::{Outcome, program, root, run, shown, works};
 use crate::validate::WithoutNpm;
-use crate::{dist_js, dist_viewer, doc_blocks, generated, layers, packages, python, validate};
+use crate::{default_build, dist_js, dist_viewer, doc_blocks, generated, layers, packages, python, validate};
 
 type Step = (&'static str, fn() -> Outcome);
 
 const QUICK: &[Step] = &[
     ("format", || run(&mut program("cargo fmt --all --check"))),
     ("clippy", || run(&mut program("cargo clippy --quiet --workspace --all-targets -- -D warnings"))),
+    ("default build", default_build::check),
     ("docs", || run(program("cargo doc --quiet --workspace --no-deps").env("RUSTDOCFLAGS", "-Dwarnings"))),
     ("layers", layers::check),
     ("generated files", generated::compare),

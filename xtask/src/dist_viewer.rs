@@ -48,7 +48,7 @@ pub fn test(without: WithoutNpm) -> Outcome {
         );
         return Ok(());
     }
-    run(&mut program("cargo build --quiet --package darboux-cli"))?;
+    run(&mut program("cargo build --quiet --package darboux-cli --features full"))?;
     let command = target_folder()?.join("debug/darboux");
     run(program("npm test --silent").current_dir(viewer()).env("CHROMIUM", browser).env("DARBOUX", command))
 }

@@ -3,6 +3,7 @@
 mod api;
 mod bench;
 mod ci;
+mod default_build;
 mod dist_c;
 mod dist_js;
 mod dist_viewer;

@@ -32,7 +32,7 @@ pub fn all_models(without_npm: WithoutNpm) -> Outcome {
         };
     }
     install()?;
-    run(&mut program("cargo build --quiet --package darboux-cli"))?;
+    run(&mut program("cargo build --quiet --package darboux-cli --features full"))?;
     MODELS.iter().enumerate().try_for_each(|(number, folder)| check(folder, number))
 }
 

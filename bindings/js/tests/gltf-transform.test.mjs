@@ -21,7 +21,7 @@ const io = new NodeIO().setLogger(silent).registerExtensions(ALL_EXTENSIONS);
 const work = mkdtempSync(join(tmpdir(), 'darboux-'));
 after(() => rmSync(work, { recursive: true }));
 
-const words = ['run', '--quiet', '--package', 'darboux-cli', '--', 'tangents', '--overwrite', '--quiet', '-o'];
+const words = ['run', '--quiet', '--package', 'darboux-cli', '--features', 'full', '--', 'tangents', '--overwrite', '--quiet', '-o'];
 const MODELS = [
   'Fox/Fox.glb', 'Morphing/morphing.gltf', 'NormalTangentTest/NormalTangentTest.glb', 'TwoSidedPlane/TwoSidedPlane.gltf',
   'made/degenerate.gltf', 'made/shared-vertices-two-uv-sets.gltf', 'made/skinned-morphed-mirrored.gltf',

@@ -1,4 +1,7 @@
 //! Runs a subcommand that writes files: plans the jobs, processes them on several threads, prints messages and the report.
+//!
+//! The results of a file do not depend on the other files, and messages and reports come in the order of the inputs. So the output is the
+//! same for every number of threads.
 
 pub mod command;
 mod journal;
@@ -7,7 +10,7 @@ mod one_file;
 pub mod plan;
 pub mod report;
 
-use std::iter;
+use std::num::NonZero;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
@@ -16,13 +19,16 @@ use std::time::Instant;
 use crate::inputs::{SearchMode, UsageError, find_inputs};
 use crate::json::to_json;
 use crate::terminal::{Messages, stdout_is_terminal, write_stdout};
-use crate::text::counted;
+use crate::text::{counted, nonzero_counts};
 use crate::{exit, interrupt};
 use command::FileCommand;
 use journal::Journal;
 use one_file::{FinishedFile, JournalEntry, process_file};
 use plan::{Job, Output, OutputRules, plan_jobs};
 use report::{BatchReport, FileReport, Status};
+
+/// With more files than this, each file gets one line.
+const MAX_DETAILED_FILES: usize = 10;
 
 /// Runs a command and returns its exit code.
 pub fn run<W: FileCommand>(command: &W) -> u8 {
@@ -52,7 +58,7 @@ pub fn run<W: FileCommand>(command: &W) -> u8 {
     match reports {
         Ok(reports) => {
             let files = found.failed.into_iter().map(FileReport::not_searched).chain(reports).collect();
-            finish::<W>(BatchReport::new(W::NAME, files), command.messages().json, &messages, start)
+            finish(command, BatchReport::new(W::NAME, files), &messages, start)
         }
         Err(sentence) => {
             messages.error(&sentence);
@@ -68,43 +74,89 @@ fn refuse_terminal(jobs: Vec<Job>) -> Result<Vec<Job>, UsageError> {
     Ok(jobs)
 }
 
-/// Processes the files on `--jobs` threads. The messages and the journal record of a file are written when the file is finished; the
-/// reports are in the order of the jobs.
+/// Processes the files on several threads. Journal records are written when a file is finished; messages and reports come in the order of
+/// the jobs.
 fn process_all<W: FileCommand>(
     command: &W,
     jobs: &[Job],
     journal: Option<&Journal>,
     messages: &Messages,
 ) -> Result<Vec<FileReport<W::Summary>>, String> {
-    let workers = usize::from(command.files().jobs.get()).min(jobs.len());
     let next = AtomicUsize::new(0);
-    let mut reports: Vec<Option<FileReport<W::Summary>>> = jobs.iter().map(|_| None).collect();
+    let process_next = || {
+        let index = next.fetch_add(1, Ordering::Relaxed);
+        let job = jobs.get(index)?;
+        Some((index, process_file(command, job, journal_entry(journal, job), messages)))
+    };
+    let finished = jobs.iter().map(|_| None).collect();
+    let mut results =
+        Results::<W> { journal, messages, brief: is_brief(command, jobs.len()), finished, printed: 0 };
     thread::scope(|scope| {
         let (sender, receiver) = mpsc::channel();
-        for _ in 0..workers {
-            let (sender, next) = (sender.clone(), &next);
-            scope.spawn(move || {
-                let take = || next.fetch_add(1, Ordering::Relaxed);
-                let jobs = iter::repeat_with(take).map_while(|at| Some((at, jobs.get(at)?)));
-                for (at, job) in jobs {
-                    let finished = process_file(command, job, journal_entry(journal, job), messages);
-                    // The receiver is dropped when the journal cannot be written.
-                    if sender.send((at, finished)).is_err() {
-                        break;
-                    }
-                }
-            });
+        let mut workers = 0;
+        while workers < worker_count(command, jobs.len()) {
+            let (sender, process_next) = (sender.clone(), &process_next);
+            // The receiver is dropped when the journal cannot be written.
+            let work = move || while process_next().is_some_and(|finished| sender.send(finished).is_ok()) {};
+            if thread::Builder::new().spawn_scoped(scope, work).is_err() {
+                break;
+            }
+            workers += 1;
         }
         drop(sender);
-        for (at, FinishedFile { report, record }) in receiver {
-            if let (Some(journal), Some(record)) = (journal, record) {
-                journal.add(&record)?;
-            }
-            print_file::<W>(&report, messages);
-            reports[at] = Some(report);
+        for (index, finished) in receiver {
+            results.add(index, finished)?;
         }
-        Ok(reports.into_iter().flatten().collect())
+        Ok(())
     })
+    .and_then(|()| {
+        // Without any worker, as where no thread can be started, this thread processes the files.
+        while let Some((index, finished)) = process_next() {
+            results.add(index, finished)?;
+        }
+        Ok(results.into_reports())
+    })
+}
+
+/// The number of threads: one per core unless `--jobs` says otherwise.
+fn worker_count(command: &impl FileCommand, jobs: usize) -> usize {
+    let cores = || thread::available_parallelism().map_or(1, NonZero::get);
+    command.files().jobs.map_or_else(cores, |jobs| usize::from(jobs.get())).min(jobs)
+}
+
+/// Whether each file gets one line.
+fn is_brief(command: &impl FileCommand, files: usize) -> bool {
+    files > MAX_DETAILED_FILES && !command.files().verbose
+}
+
+/// Collects finished files, which arrive in any order, and prints them in the order of the jobs.
+struct Results<'a, W: FileCommand> {
+    journal: Option<&'a Journal>,
+    messages: &'a Messages,
+    brief: bool,
+    /// The reports in the order of the jobs; `None` for a file that is not finished.
+    finished: Vec<Option<FileReport<W::Summary>>>,
+    /// The number of leading reports that were printed.
+    printed: usize,
+}
+
+impl<W: FileCommand> Results<'_, W> {
+    fn add(&mut self, index: usize, file: FinishedFile<W::Summary>) -> Result<(), String> {
+        let FinishedFile { report, record } = file;
+        if let (Some(journal), Some(record)) = (self.journal, record) {
+            journal.add(&record)?;
+        }
+        self.finished[index] = Some(report);
+        while let Some(Some(report)) = self.finished.get(self.printed) {
+            print_file::<W>(report, self.brief, self.messages);
+            self.printed += 1;
+        }
+        Ok(())
+    }
+
+    fn into_reports(self) -> Vec<FileReport<W::Summary>> {
+        self.finished.into_iter().flatten().collect()
+    }
 }
 
 /// The journal's entry for a job.
@@ -117,40 +169,47 @@ fn journal_entry<'a>(journal: Option<&'a Journal>, job: &Job) -> Option<JournalE
     Some(JournalEntry { folder: journal.folder(), record })
 }
 
-/// Prints what was done to a file.
-fn print_file<W: FileCommand>(report: &FileReport<W::Summary>, messages: &Messages) {
+/// Prints what was done to a file. `brief`: in one line, with the number of warnings.
+fn print_file<W: FileCommand>(report: &FileReport<W::Summary>, brief: bool, messages: &Messages) {
     let (Some(output), FileReport { input, summary, .. }) = (&report.output, report) else { return };
     let Some(summary) = summary.this_run() else { return messages.say(&format!("{input}: up to date")) };
-    match report.status {
-        Status::Copied => messages.say(&format!("{input} -> {output}: nothing changes, a copy")),
-        Status::Written if input != output => messages.say(&format!("{input} -> {output}")),
-        Status::Untouched => messages.say(&format!("{input}: nothing changes, left as it was")),
-        _ => messages.say(input),
+    let outcome = match report.status {
+        Status::Copied => format!("{input} -> {output}: unchanged copy"),
+        Status::Written if input != output => format!("{input} -> {output}"),
+        Status::Untouched => format!("{input}: unchanged, not written"),
+        _ => input.clone(),
+    };
+    let warnings = W::warnings(summary);
+    if brief {
+        let separator = if report.status == Status::Written { ": " } else { ", " };
+        let total = W::total(std::slice::from_ref(report));
+        let warnings = nonzero_counts([(warnings.len(), "warning", "warnings")]);
+        return messages.say(&format!("{outcome}{separator}{total}{warnings}"));
     }
+    messages.say(&outcome);
     W::lines(summary).iter().for_each(|line| messages.say(&format!("  {line}")));
-    W::warnings(summary).iter().for_each(|warning| messages.warn(&format!("{input}: {warning}")));
+    warnings.iter().for_each(|warning| messages.warn(&format!("{input}: {warning}")));
 }
 
+/// Prints errors, the totals and the report; returns the exit code.
 fn finish<W: FileCommand>(
+    command: &W,
     report: BatchReport<W::Summary>,
-    json: bool,
     messages: &Messages,
     start: Instant,
 ) -> u8 {
-    for error in report.files.iter().filter_map(|file| file.error.as_ref()) {
-        messages.error(error);
-    }
+    let brief = is_brief(command, report.files.len());
+    report.files.iter().filter_map(|file| file.error.as_ref()).for_each(|error| messages.error(error));
     let totals = &report.totals;
     if totals.failed < totals.files || totals.files > 1 {
         let done = counted(totals.files - totals.failed, "file", "files");
-        let failed = match totals.failed {
-            0 => String::new(),
-            failed => format!(", {} failed", counted(failed, "file", "files")),
-        };
+        let failed = nonzero_counts([(totals.failed, "file failed", "files failed")]);
         let seconds = start.elapsed().as_secs_f32();
-        messages.say(&format!("{} in {done}{failed}; {seconds:.2} s", W::total(&report.files)));
+        let total = W::total(&report.files);
+        let warnings = hidden_warnings(command, &report, brief);
+        messages.summary(&format!("{total} in {done}{failed}; {seconds:.2} s{warnings}"));
     }
-    if json {
+    if command.messages().json {
         let written = to_json(&report).map_err(std::io::Error::from).and_then(|text| write_stdout(&text));
         if let Err(error) = written {
             messages.error(&format!("the report cannot be written: {error}"));
@@ -158,4 +217,14 @@ fn finish<W: FileCommand>(
         }
     }
     if report.totals.failed > 0 { exit::FAILED } else { exit::DONE }
+}
+
+/// The number of warnings that were not printed.
+fn hidden_warnings<W: FileCommand>(command: &W, report: &BatchReport<W::Summary>, brief: bool) -> String {
+    let summaries = report.files.iter().filter_map(|file| file.summary.this_run());
+    let count: usize = summaries.map(|summary| W::warnings(summary).len()).sum();
+    if count == 0 || !(brief || command.messages().quiet) {
+        return String::new();
+    }
+    format!("; {}, which --verbose prints", counted(count, "warning", "warnings"))
 }

@@ -1,8 +1,9 @@
-//! The one definition of the command line. Help, man pages, completions and docs/cli.md are generated from it.
+//! The definition of the command line: the program and its subcommands. Help, man pages, completions and docs/cli.md are generated from it.
 
 use clap::{Parser, Subcommand};
 
 use crate::commands::compare::arguments::{self as compare, CompareArguments};
+use crate::commands::completions::arguments::{self as completions, CompletionsArguments};
 use crate::commands::convert::arguments::{self as convert, ConvertArguments};
 #[cfg(feature = "gpu")]
 use crate::commands::devices::arguments::{self as devices, DevicesArguments};
@@ -16,24 +17,24 @@ use crate::commands::tangents::arguments::{self as tangents, TangentsArguments};
 #[cfg(feature = "view")]
 use crate::commands::view::arguments::{self as view, ViewArguments};
 
-/// Tangents for normal-mapped glTF models: MikkTSpace bit for bit, seams split
+/// Computes tangents for normal-mapped glTF models
 #[derive(Debug, Parser)]
 #[command(name = "darboux", version, about, long_about = LONG_ABOUT, arg_required_else_help = true, max_term_width = 100)]
 pub struct Arguments {
-    /// What to do
+    /// The subcommand
     #[command(subcommand)]
     pub command: Command,
 }
 
 const LONG_ABOUT: &str = "\
-Tangents for normal-mapped glTF models: MikkTSpace bit for bit, seams split.
+Computes tangents for normal-mapped glTF models, exactly as MikkTSpace defines them, and splits vertices at mirrored UV seams.
 
-A normal map looks right only when the renderer's tangents are the baker's. Darboux computes MikkTSpace tangents, \
-as bakers do, and writes them into .gltf and .glb files without changing anything else.
+A normal map looks right only if the renderer uses the tangents of the program that baked it, and most bakers use MikkTSpace. Darboux writes \
+these tangents into .gltf and .glb files and changes nothing else.
 
-Messages go to standard error. Exit codes: 0 done (nothing to do included), 1 an input is bad or a file failed, \
-2 wrong usage, 3 compared files are further apart than asked for. Ctrl-C, SIGTERM and SIGHUP let a file be finished that is being \
-written, then end the command with 128 plus the number of the signal.";
+Messages go to standard error, results to standard output. Exit codes: 0 done (also if there was nothing to do), 1 an input is bad or a file \
+failed, 2 wrong usage, 3 compared files differ by more than the tolerance. After Ctrl-C, SIGTERM or SIGHUP the file that is being written \
+is completed first.";
 
 /// The subcommands.
 #[derive(Debug, Subcommand)]
@@ -53,25 +54,28 @@ pub enum Command {
     )]
     Convert(ConvertArguments),
     /// Compare the tangents of two files, or of a file and a method
-    #[command(long_about = compare::ABOUT, after_long_help = compare::EXAMPLES)]
+    #[command(override_usage = compare::USAGE, long_about = compare::ABOUT, after_long_help = compare::EXAMPLES)]
     Compare(CompareArguments),
-    /// Show what each primitive holds and what its tangents would meet
+    /// Show the contents of each primitive and the difficulties for its tangents
     #[command(long_about = inspect::ABOUT, after_long_help = inspect::EXAMPLES)]
     Inspect(InspectArguments),
     /// Draw a model or its tangents into a PNG
     #[cfg(feature = "gpu")]
     #[command(long_about = render::ABOUT, after_long_help = render::EXAMPLES)]
     Render(RenderArguments),
-    /// Show a model in the browser, with its tangents
+    /// Show a model and its tangents in the browser
     #[cfg(feature = "view")]
     #[command(long_about = view::ABOUT, after_long_help = view::EXAMPLES)]
     View(ViewArguments),
-    /// Say which method of computing tangents is for what
+    /// Explain the methods of computing tangents
     Methods,
     /// List the adapters that can compute tangents
     #[cfg(feature = "gpu")]
     #[command(long_about = devices::ABOUT)]
     Devices(DevicesArguments),
+    /// Print the completion script of a shell
+    #[command(long_about = completions::ABOUT, after_long_help = completions::EXAMPLES)]
+    Completions(CompletionsArguments),
     #[cfg(not(feature = "gpu"))]
     #[command(hide = true)]
     Render(MissingArguments),

@@ -1,6 +1,7 @@
 //! The subcommands: each has its arguments in `arguments.rs` and its entry point beside it.
 
 pub mod compare;
+pub mod completions;
 pub mod convert;
 #[cfg(feature = "gpu")]
 pub mod devices;

@@ -13,6 +13,7 @@ use crate::inputs::Input;
 use crate::interrupt;
 use crate::options::files::FileOptions;
 use crate::options::reading::ReadOptions;
+use crate::text::command_line;
 
 /// Reads a document and refuses one whose vertices are not in glTF's convention.
 pub fn load(input: &Input, reading: &ReadOptions) -> Result<Document, String> {
@@ -21,12 +22,11 @@ pub fn load(input: &Input, reading: &ReadOptions) -> Result<Document, String> {
     if convention == Convention::GLTF {
         return Ok(document);
     }
-    let others: Vec<&str> = convention.names().skip(1).collect();
-    let others =
-        if others.is_empty() { String::new() } else { format!(" (that of {}, too)", others.join(" and ")) };
-    Err(format!(
-        "{input}: its vertices are in the convention {convention}{others}; first run darboux convert --from {convention} --to gltf {input}"
-    ))
+    let (name, from) = (input.to_string(), convention.to_string());
+    let names: Vec<&str> = convention.names().skip(1).collect();
+    let names = if names.is_empty() { String::new() } else { format!(" (also called {})", names.join(", ")) };
+    let repair = command_line(&["convert", "--from", &from, "--to", "gltf"], &[&name]);
+    Err(format!("{name}: its vertices are in the convention {from}{names}; first run: {repair}"))
 }
 
 /// Reads a document in any convention. Standard input has no folder, so its buffers must be embedded.
@@ -34,7 +34,7 @@ pub fn load_any(input: &Input, reading: &ReadOptions) -> Result<Document, String
     let document = match input {
         Input::File(path) if path.is_file() && is_other_format(path) => {
             return Err(format!(
-                "{input}: only glTF files are read here; export it as .glb from the program that made it (darboux view and darboux render show an OBJ as it is)"
+                "{input}: this command reads glTF files only; export the model as .glb (darboux view and darboux render also read OBJ)"
             ));
         }
         Input::File(path) => reading.open(path),
@@ -95,7 +95,7 @@ pub fn save(
 pub fn refuse_used(path: &Path, documents: [&Document; 2]) -> Result<(), String> {
     match documents.into_iter().find(|document| document.uses_file(path)) {
         Some(document) => {
-            Err(format!("{}: is a file that {} uses; name another file", path.display(), document.name()))
+            Err(format!("{}: is used by {}; choose another name", path.display(), document.name()))
         }
         None => Ok(()),
     }

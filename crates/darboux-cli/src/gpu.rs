@@ -10,8 +10,8 @@ mod driver_messages;
 mod present;
 
 #[cfg(not(feature = "gpu"))]
-pub use absent::{OpenGpu, open};
+pub use absent::{OpenGpu, open, open_early};
 #[cfg(feature = "gpu")]
 pub use driver_messages::without_driver_messages;
 #[cfg(feature = "gpu")]
-pub use present::{OpenGpu, adapters, open};
+pub use present::{OpenGpu, adapters, open, open_early};

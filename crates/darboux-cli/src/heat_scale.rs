@@ -1,11 +1,11 @@
 //! The colour scale of angles in heat maps and rendered pictures: logarithmic, from violet to yellow.
 
-/// The scale's ends in degrees; it is logarithmic between them.
+/// The ends of the scale in degrees; it is logarithmic between them.
 pub const ENDS: [f64; 2] = [0.01, 180.0];
-/// Where the scale has ticks, in degrees.
+/// The ticks of the scale in degrees.
 pub const TICKS: [f64; 4] = [0.1, 1.0, 10.0, 100.0];
 
-/// From least to greatest: nine colours of viridis (N. Smith and S. van der Walt, 2015, CC0), which grow lighter evenly.
+/// The colours from the smallest to the largest angle: nine of viridis (N. Smith and S. van der Walt, 2015, CC0), whose lightness increases evenly.
 pub const RAMP: [[u8; 3]; 9] = [
     [68, 1, 84],
     [71, 44, 122],
@@ -18,17 +18,17 @@ pub const RAMP: [[u8; 3]; 9] = [
     [253, 231, 37],
 ];
 const TICK: [u8; 3] = [255, 255, 255];
-/// A flipped sign, whatever the angle.
+/// The colour of opposite signs, at any angle.
 pub const FLIP: [u8; 3] = [230, 40, 40];
 
-/// A row of the scale, from its first colour to its last, with ticks.
+/// One row of the scale in a picture: its colours and ticks.
 pub fn row(width: usize) -> Vec<[u8; 3]> {
     let last = width.saturating_sub(1).max(1) as f64;
     let ticks = TICKS.map(|tick| (scale_position(tick) * last).round() as usize);
     (0..width).map(|x| if ticks.contains(&x) { TICK } else { ramp(x as f64 / last) }).collect()
 }
 
-/// Where an angle is on the scale, from 0 to 1.
+/// The position of an angle on the scale, from 0 to 1.
 pub fn scale_position(degrees: f64) -> f64 {
     let [from, to] = ENDS;
     ((degrees.max(from) / from).ln() / (to / from).ln()).min(1.0)

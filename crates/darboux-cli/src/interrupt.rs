@@ -1,56 +1,55 @@
-//! Ctrl-C, and whatever else asks the process to end: a file that is being written is finished or withdrawn first, so that nothing half-written stays behind.
+//! Ctrl-C, SIGTERM and SIGHUP: the process ends after the file that is being written is complete, so that no partial file remains.
 
-use std::process::exit;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 static WRITING: Mutex<()> = Mutex::new(());
 
-/// The exit code of a program that a signal ended is this and the signal's number.
-const ENDED_BY: i32 = 128;
-
-/// From now on Ctrl-C, SIGTERM and SIGHUP wait for [`writing`]'s guard before the process ends.
+/// From now on Ctrl-C, SIGTERM and SIGHUP wait for the guard of [`writing`]; then the signal's default action ends the process.
 ///
-/// Each of them only where nobody else decides: a parent that has it ignored, as `nohup` does, or the program that the command runs inside.
+/// A signal that is ignored, as under `nohup`, or that the program around this library handles, stays as it is.
 #[cfg(unix)]
 pub fn wait_for_writes() {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
+    use signal_hook::low_level::emulate_default_handler;
 
-    let ours = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|&signal| ends_the_process(signal));
-    // Where the system refuses, they end the process at once.
-    let Ok(mut signals) = Signals::new(ours) else { return };
-    std::thread::spawn(move || {
+    let unhandled = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|&signal| has_default_action(signal));
+    // If the system refuses, the signals end the process at once.
+    let Ok(mut signals) = Signals::new(unhandled) else { return };
+    let wait = move || {
         if let Some(signal) = signals.forever().next() {
             let _guard = writing();
-            exit(ENDED_BY + signal);
+            let _the_process_has_ended = emulate_default_handler(signal);
         }
-    });
+    };
+    let _signals_end_the_process_at_once = std::thread::Builder::new().spawn(wait);
 }
 
 /// Whether a signal is neither ignored nor handled.
 #[cfg(unix)]
-#[expect(unsafe_code, reason = "only the C library tells")]
-fn ends_the_process(signal: libc::c_int) -> bool {
+#[expect(unsafe_code, reason = "the current action can only be read with the C library")]
+fn has_default_action(signal: libc::c_int) -> bool {
     let mut action = std::mem::MaybeUninit::<libc::sigaction>::uninit();
-    // SAFETY: no action is given, so that none is changed; the present one is there where the call succeeds.
+    // SAFETY: the new action is null, so no action is changed; `action` is initialised if the call succeeds.
     unsafe {
         libc::sigaction(signal, std::ptr::null(), action.as_mut_ptr()) == 0
             && action.assume_init().sa_sigaction == libc::SIG_DFL
     }
 }
 
-/// From now on Ctrl-C waits for [`writing`]'s guard before the process ends.
+/// From now on Ctrl-C waits for the guard of [`writing`] before the process ends.
 #[cfg(not(unix))]
 pub fn wait_for_writes() {
-    const SIGINT: i32 = 2;
-    // A handler may be there already when the command runs inside another program; then that one decides.
+    /// The exit code of a program that Ctrl-C ended.
+    const INTERRUPTED: i32 = 130;
+    // A handler of the program around this library stays.
     let _already_set = ctrlc::try_set_handler(|| {
         let _guard = writing();
-        exit(ENDED_BY + SIGINT);
+        std::process::exit(INTERRUPTED);
     });
 }
 
-/// Held while files are written.
+/// The guard to hold while a file is written.
 pub fn writing() -> MutexGuard<'static, ()> {
     WRITING.lock().unwrap_or_else(PoisonError::into_inner)
 }

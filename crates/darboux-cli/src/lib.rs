@@ -12,10 +12,12 @@ mod interrupt;
 mod json;
 mod options;
 mod paths;
+mod regular_file;
 mod terminal;
 mod text;
 
 use std::ffi::OsString;
+use std::io::Write;
 
 use clap::Parser;
 
@@ -31,7 +33,8 @@ pub fn run<A>(arguments: impl IntoIterator<Item = A>) -> u8
 where
     A: Into<OsString> + Clone,
 {
-    match Arguments::try_parse_from(arguments) {
+    let arguments: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
+    match Arguments::try_parse_from(&arguments) {
         Ok(arguments) => match &arguments.command {
             Command::Tangents(arguments) => batch::run(arguments),
             Command::Normals(arguments) => batch::run(arguments),
@@ -39,6 +42,7 @@ where
             Command::Compare(arguments) => commands::compare::run(arguments),
             Command::Inspect(arguments) => commands::inspect::run(arguments),
             Command::Methods => commands::methods::run(),
+            Command::Completions(arguments) => commands::completions::run(arguments),
             #[cfg(feature = "gpu")]
             Command::Render(arguments) => commands::render::run(arguments),
             #[cfg(feature = "view")]
@@ -52,9 +56,14 @@ where
             #[cfg(not(feature = "gpu"))]
             Command::Devices(_) => commands::missing::run("devices", "full"),
         },
-        Err(help_or_error) => {
-            let _closed_is_no_fault = help_or_error.print();
-            if help_or_error.use_stderr() { exit::USAGE } else { exit::DONE }
+        Err(error) if error.use_stderr() => {
+            let text = text::with_printable_arguments(error.render().ansi().to_string(), &arguments);
+            let _closed_is_no_fault = write!(anstream::stderr(), "{text}");
+            exit::USAGE
+        }
+        Err(help) => {
+            let _closed_is_no_fault = help.print();
+            exit::DONE
         }
     }
 }

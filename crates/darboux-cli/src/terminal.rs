@@ -1,4 +1,4 @@
-//! What people read, on standard error; what programs read, on standard output.
+//! Messages and a progress bar on standard error; results on standard output.
 
 use std::cell::Cell;
 use std::io::{self, ErrorKind, IsTerminal, Write};
@@ -8,29 +8,29 @@ use std::time::Duration;
 use anstyle::{AnsiColor, Style};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// Messages to a person. They are coloured on a terminal unless NO_COLOR is set; a closed standard error is no fault.
+use crate::text::{printable, sentence};
+
+/// Prints messages. They are coloured on a terminal unless NO_COLOR is set; a closed standard error is ignored.
 pub struct Messages {
     quiet: bool,
     progress: ProgressBar,
 }
 
-/// How far the work on a file is. Dropped, it is at the end.
+/// The progress on one file; dropping it marks the file as finished.
 pub struct FileProgress<'a> {
     progress: &'a ProgressBar,
-    /// The file's.
-    bytes: u64,
-    /// Of these, those that are done.
-    done: Cell<u64>,
+    byte_length: u64,
+    finished_bytes: Cell<u64>,
 }
 
-/// After this time there is a progress bar.
-const LONG_WORK: Duration = Duration::from_millis(700);
+/// The progress bar appears after this time.
+const PROGRESS_DELAY: Duration = Duration::from_millis(700);
 
-/// The time between its frames.
+/// The time between two frames of the progress bar.
 const FRAME: Duration = Duration::from_millis(200);
 
 impl Messages {
-    /// `quiet`: errors only, no progress.
+    /// `quiet`: print errors and the summary only, and no progress bar.
     pub fn new(quiet: bool) -> Self {
         let progress = ProgressBar::with_draw_target(Some(0), ProgressDrawTarget::hidden());
         let style = ProgressStyle::with_template("{bar:30} {percent:>3} % {elapsed} {wide_msg}");
@@ -38,15 +38,15 @@ impl Messages {
         Self { quiet, progress }
     }
 
-    /// Announces work on inputs of so many bytes, against which progress is shown if it takes long.
-    pub fn start(&self, bytes: u64) {
-        self.progress.set_length(bytes);
+    /// Starts the progress bar; inputs of `byte_length` bytes in total are 100 %.
+    pub fn start(&self, byte_length: u64) {
+        self.progress.set_length(byte_length);
         if self.quiet {
             return;
         }
         let progress = self.progress.clone();
         let show = move || {
-            thread::sleep(LONG_WORK);
+            thread::sleep(PROGRESS_DELAY);
             if !progress.is_finished() {
                 progress.set_draw_target(ProgressDrawTarget::stderr());
                 progress.enable_steady_tick(FRAME);
@@ -55,37 +55,43 @@ impl Messages {
         let _work_goes_on_without = thread::Builder::new().spawn(show);
     }
 
-    /// Begins the work on a file of so many bytes.
-    pub fn file(&self, name: &str, bytes: u64) -> FileProgress<'_> {
-        self.progress.set_message(name.to_owned());
-        FileProgress { progress: &self.progress, bytes, done: Cell::new(0) }
+    /// Starts the progress of one file.
+    pub fn file(&self, name: &str, byte_length: u64) -> FileProgress<'_> {
+        self.progress.set_message(printable(name).into_owned());
+        FileProgress { progress: &self.progress, byte_length, finished_bytes: Cell::new(0) }
     }
 
-    /// Takes the progress bar away.
+    /// Removes the progress bar.
     pub fn end_progress(&self) {
         self.progress.finish_and_clear();
     }
 
-    /// What was done.
+    /// Prints what was done.
     pub fn say(&self, text: &str) {
         if !self.quiet {
-            self.print("", Style::new(), text);
+            self.summary(text);
         }
     }
 
-    /// What is odd.
+    /// Prints what was done, with `--quiet` as well.
+    pub fn summary(&self, text: &str) {
+        self.print("", Style::new(), text);
+    }
+
+    /// Prints a warning.
     pub fn warn(&self, text: &str) {
         if !self.quiet {
             self.print("warning: ", AnsiColor::Yellow.on_default().bold(), text);
         }
     }
 
-    /// What is wrong.
+    /// Prints an error.
     pub fn error(&self, text: &str) {
         self.print("error: ", AnsiColor::Red.on_default().bold(), text);
     }
 
     fn print(&self, label: &str, style: Style, text: &str) {
+        let text = sentence(text);
         self.progress.suspend(|| {
             let _closed_is_no_fault = writeln!(anstream::stderr(), "{style}{label}{style:#}{text}");
         });
@@ -93,10 +99,10 @@ impl Messages {
 }
 
 impl FileProgress<'_> {
-    /// The file is done to this part.
-    pub fn set(&self, done: usize, total: usize) {
-        let done = (self.bytes as f64 * done as f64 / total.max(1) as f64) as u64;
-        self.progress.inc(done.saturating_sub(self.done.replace(done)));
+    /// `finished` of `total` units of this file are finished.
+    pub fn set(&self, finished: usize, total: usize) {
+        let bytes = (self.byte_length as f64 * finished as f64 / total.max(1) as f64) as u64;
+        self.progress.inc(bytes.saturating_sub(self.finished_bytes.replace(bytes)));
     }
 }
 
@@ -106,7 +112,7 @@ impl Drop for FileProgress<'_> {
     }
 }
 
-/// Writes all of `bytes` to standard output. A closed pipe is no fault: its reader has what it wanted.
+/// Writes all of `bytes` to standard output. A closed pipe is no error: its reader has read enough.
 pub fn write_stdout(bytes: &[u8]) -> io::Result<()> {
     let mut stdout = io::stdout().lock();
     match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
@@ -115,7 +121,7 @@ pub fn write_stdout(bytes: &[u8]) -> io::Result<()> {
     }
 }
 
-/// True when standard output is a terminal.
+/// Whether standard output is a terminal.
 pub fn stdout_is_terminal() -> bool {
     io::stdout().is_terminal()
 }

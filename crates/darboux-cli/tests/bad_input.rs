@@ -197,7 +197,7 @@ fn another_format_is_called_so() {
     for command in ["tangents", "inspect", "normals"] {
         let run = darboux(&[command, text(&model)]).exits(1);
         assert!(
-            run.stderr.contains("model.OBJ: only glTF files are read here; export it as .glb"),
+            run.stderr.contains("model.OBJ: this command reads glTF files only; export the model as .glb"),
             "{}",
             run.stderr
         );

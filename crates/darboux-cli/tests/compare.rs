@@ -75,18 +75,19 @@ fn people_read_numbers_bars_and_places() {
         "23,322 corners: ",
         "weighted by area",
         " | ####",
-        "the worst places",
+        "the worst corners",
         ", triangle ",
         ", corner ",
         ", at (",
-        "the tangents are not the same: 18,478 of 23,322 corners have others",
+        "the tangents differ from those of the second file: 18,478 of 23,322 corners differ by more than 0.01 degrees or in the sign w, the other 4,844 agree\n",
     ] {
         assert!(said.contains(part), "{part:?} is not in {said}");
     }
     assert_eq!(said.lines().filter(|line| line.contains(", triangle ")).count(), 2);
     let itself = darboux(&["compare", text(&first), "--method", "mikktspace"]).exits(0).stdout;
     assert!(
-        String::from_utf8_lossy(&itself).ends_with("the tangents are those of mikktspace, bit for bit\n")
+        String::from_utf8_lossy(&itself)
+            .ends_with("the tangents are identical to those of mikktspace, bit for bit\n")
     );
 }
 
@@ -122,7 +123,7 @@ fn files_of_different_models_are_refused_in_one_sentence() {
     let run = darboux(&["compare", text(&asset(MODEL)), text(&asset(MODEL))]).exits(1);
     assert!(
         run.stderr
-            .contains("NormalTangentTest.glb: has no tangents to compare; make some: darboux tangents "),
+            .contains("NormalTangentTest.glb: has no tangents to compare; to add them: darboux tangents "),
         "{}",
         run.stderr
     );
@@ -137,7 +138,7 @@ fn the_heat_map_is_a_picture_and_replaces_nothing_unasked() {
     let arguments = ["compare", text(&first), text(&second), "--heat-map", text(&map)];
     let run = darboux(&arguments).exits(0);
     let said = String::from_utf8(run.stdout).expect("UTF-8");
-    assert!(said.contains("map.png: from violet"), "{said}");
+    assert!(said.contains("map.png: colours from violet"), "{said}");
     let image = darboux_io::image::PngImage::open(&map, darboux_io::MemoryLimit::default()).expect("a PNG");
     assert_eq!((image.size(), image.channels()), ([1024, 1056], "rgb"));
     let before = fs::read(&map).expect("the map");
@@ -181,7 +182,7 @@ fn a_heat_map_replaces_no_file_of_the_inputs() {
     for map in [&normal_map, &other] {
         let arguments = ["compare", text(&plane), "--method", "face", "--force", "--heat-map", text(map)];
         let run = darboux(&arguments).exits(1);
-        assert!(run.stderr.contains("is a file that") && run.stderr.lines().count() == 1, "{}", run.stderr);
+        assert!(run.stderr.contains("is used by") && run.stderr.lines().count() == 1, "{}", run.stderr);
     }
     assert!(fs::read(&normal_map).expect("the normal map") == before);
 }
@@ -208,4 +209,28 @@ fn zero_tangents_are_seen() {
         said.contains("corners without an angle\n") && said.contains("\n  no angle: meshes[0]"),
         "{said}"
     );
+}
+
+/// A file whose signs are all opposite, as other conventions of v have them.
+#[test]
+fn opposite_signs_everywhere_are_said_in_a_sentence() {
+    let (folder, first, _) = two();
+    let mut bytes = fs::read(&first).expect("a model");
+    let json = common::glb_json(&bytes);
+    let number = |value: &Value| value.as_u64().expect("a number") as usize;
+    let accessor = &json["accessors"][number(&json["meshes"][0]["primitives"][0]["attributes"]["TANGENT"])];
+    let view = &json["bufferViews"][number(&accessor["bufferView"])];
+    assert!(view["byteStride"].is_null());
+    let json_length = u32::from_le_bytes(bytes[12..16].try_into().expect("four bytes")) as usize;
+    let start = 20 + json_length + 8 + view["byteOffset"].as_u64().unwrap_or(0) as usize;
+    for vertex in 0..number(&accessor["count"]) {
+        bytes[start + vertex * 16 + 15] ^= 0x80;
+    }
+    let opposite = folder.path().join("opposite.glb");
+    fs::write(&opposite, bytes).expect("a file");
+    let run = darboux(&["compare", text(&opposite), "--method", "mikktspace"]).exits(0);
+    let said = String::from_utf8(run.stdout).expect("UTF-8");
+    let verdict = "the tangents differ from those of mikktspace: the sign w is opposite at all 23,322 corners and the directions agree to 0.01 \
+                   degrees, as for UVs whose v axis is inverted; to replace them: darboux tangents --overwrite --method mikktspace ";
+    assert!(said.contains(verdict), "{said}");
 }

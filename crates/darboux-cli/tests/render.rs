@@ -267,20 +267,21 @@ fn bad_objs_are_sentences() {
 #[test]
 fn bad_arguments_are_usage() {
     let wrong = [
-        (&["--size", "100"][..], "not a size"),
-        (&["--size", "0x-1"], "not a size"),
-        (&["--camera", "30"], "not two or three numbers"),
+        (&["--size", "100"][..], "a size of at least 1x1"),
+        (&["--size", "0x-1"], "a size of at least 1x1"),
+        (&["--size", "0x0"], "a size of at least 1x1"),
+        (&["--camera", "30"], "expected two or three numbers"),
         (&["--camera", "30,100"], "-90 to 90"),
         (&["--camera", "30,NaN"], "-90 to 90"),
         (&["--camera", "30,20,0"], "0.01 to 1000"),
         (&["--background", "+12345"], "six hexadecimal digits"),
-        (&["--tangents", "best"], "neither file, derivatives nor a method"),
+        (&["--tangents", "best"], "expected file, derivatives or a method"),
         (&["--view", "angle"], "--against"),
-        (&["--against", "lengyel"], "--against is for --view angle and for --split"),
-        (&["--split", "50"], "--split shows twice the same"),
-        (&["--view", "angle", "--against", "lengyel", "--split", "50"], "leave --split out"),
-        (&["--split", "101"], "not a number from 0 to 100"),
-        (&["--length", "NaN"], "not a number from 0 to 100"),
+        (&["--against", "lengyel"], "--against needs --view angle or --split"),
+        (&["--split", "50"], "--split needs --against or --mistakes"),
+        (&["--view", "angle", "--against", "lengyel", "--split", "50"], "remove --split"),
+        (&["--split", "101"], "expected a number from 0 to 100"),
+        (&["--length", "NaN"], "expected a number from 0 to 100"),
         (&["--lines", "tangent,up"], "possible values"),
         (&["--mistakes", "u"], "possible values"),
         (&["--view", "sideways"], "possible values"),
@@ -308,7 +309,7 @@ fn bad_inputs_are_sentences_and_leave_nothing() {
         ("circle.gltf", "a.png", "nodes[0]: is in the scene twice"),
         ("lost.gltf", "a.png", "nodes[0].mesh: mesh 3 does not exist"),
         ("none.gltf", "a.png", "nodes[0].children[0]: node 7 does not exist"),
-        ("NormalTangentTest.glb", "a.jpg", "name it .png"),
+        ("NormalTangentTest.glb", "a.jpg", "must end in .png"),
         ("missing.glb", "a.png", "cannot be read"),
     ];
     for (model, output, problem) in cases {
@@ -318,7 +319,7 @@ fn bad_inputs_are_sentences_and_leave_nothing() {
     let of_file = ["--tangents", "file"];
     let all = ["render", text(&at("NormalTangentTest.glb")), "-o", text(&at("a.png"))].map(str::to_owned);
     let all: Vec<&str> = all.iter().map(String::as_str).chain(of_file).collect();
-    assert!(darboux(&all).exits(1).stderr.contains("has no tangents; name a method"));
+    assert!(darboux(&all).exits(1).stderr.contains("has no tangents; choose a method"));
     assert_eq!(names_in(folder.path()), before);
 }
 
@@ -328,6 +329,6 @@ fn without_an_adapter_nothing_is_drawn() {
     let folder = tempfile::tempdir().expect("a folder");
     let (model, output) = (asset(MODEL), folder.path().join("a.png"));
     let failed = darboux_without_adapters(&["render", text(&model), "-o", text(&output)]).exits(1);
-    assert!(failed.stderr.contains("no adapter was found to draw with"), "{}", failed.stderr);
+    assert!(failed.stderr.contains("no graphics adapter was found"), "{}", failed.stderr);
     assert!(names_in(folder.path()).is_empty());
 }

@@ -18,7 +18,7 @@ fn keys(value: &Value) -> Vec<&str> {
 fn the_tangents_report_has_the_documented_fields() {
     let folder = folder_with(&[SEAM, MODES]);
     let run = darboux(&["tangents", text(folder.path()), "--json", "--quiet"]).exits(0);
-    assert!(run.stderr.is_empty(), "{}", run.stderr);
+    assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
     let report = run.json();
     assert_eq!(keys(&report), ["command", "version", "files", "totals"]);
     assert_eq!(keys(&report["totals"]), ["files", "written", "copied", "untouched", "up_to_date", "failed"]);
@@ -132,15 +132,15 @@ fn inspect_shows_a_line_per_primitive() {
     assert!(run.stderr.is_empty());
     let rows: Vec<Vec<&str>> = table
         .lines()
-        .filter(|line| line.starts_with("0.") && !line.contains(':'))
+        .filter(|line| line.starts_with("0."))
         .map(|line| line.split_whitespace().collect())
         .collect();
     assert_eq!(rows.len(), 7);
-    assert_eq!(rows[1], ["0.1", "10", "8", "strip", "0", "1", "0", "2", "needed", "NORMAL", "POSITION"]);
-    assert_eq!(rows[6][1], "fox1");
-    assert!(table.contains("0.0: it has no NORMAL"), "{table}");
+    assert_eq!(rows[1], ["0.1", "10", "8", "strip", "0", "1", "0", "2", "needed"]);
+    assert!(table.contains("\n     \"fox1\" "), "{table}");
+    assert!(table.contains("\n     no tangents: it has no NORMAL"), "{table}");
     let widest = table.lines().map(|line| line.chars().count()).max();
-    assert!(widest <= Some(100), "{table}");
+    assert!(widest <= Some(80), "{table}");
 }
 
 #[test]
@@ -188,4 +188,91 @@ fn a_reader_that_stops_early_is_no_fault() {
         assert_eq!(output.status.code(), Some(0), "{arguments:?}: {stderr}");
         assert!(!stderr.contains("panicked") && !stderr.contains("error"), "{stderr}");
     }
+}
+
+/// The names of outputs in messages, in their order.
+fn outputs_in(stderr: &str) -> Vec<&str> {
+    stderr.lines().filter_map(|line| line.split_once(" -> ")?.1.split(':').next()).collect()
+}
+
+#[test]
+fn many_files_get_one_line_each_in_the_order_of_their_names() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let names: Vec<String> = (0..11).map(|number| format!("{number:02}.gltf")).collect();
+    for name in &names {
+        std::fs::copy(asset(MODES), folder.path().join(name)).expect("a copy");
+    }
+    let run = |more: &[&str]| {
+        darboux(&[&["tangents", text(folder.path()), "--force"], more].concat()).exits(0).stderr
+    };
+    let brief = run(&["--jobs", "4"]);
+    assert_eq!(brief.lines().count(), 12, "{brief}");
+    let expected: Vec<String> =
+        names.iter().map(|name| text(&folder.path().join(name)).replace(".gltf", ".tangents.gltf")).collect();
+    assert_eq!(outputs_in(&brief), expected);
+    assert!(
+        brief
+            .lines()
+            .next()
+            .is_some_and(|line| line.contains(": 3 primitives got tangents, 0 kept, 3 skipped"))
+    );
+    let all = run(&["--verbose"]);
+    assert!(
+        all.contains("meshes[0].primitives[3]: skipped: its mode is LINE_STRIP") && all.lines().count() > 60
+    );
+    let quiet = run(&["--quiet"]);
+    assert!(quiet.starts_with("33 primitives got tangents, 0 kept, 33 skipped in 11 files; "), "{quiet}");
+    assert_eq!(quiet.lines().count(), 1);
+}
+
+#[test]
+#[cfg(unix)]
+fn names_from_files_cannot_forge_messages() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let at = |name: &str| folder.path().join(name);
+    std::fs::copy(asset(SEAM), at("a\u{1b}[31m\nerror: b.gltf")).expect("a copy");
+    std::fs::write(
+        at("mode.gltf"),
+        r#"{"asset":{"version":"2.0"},"accessors":[{"type":"\u001b]0;x\u0007\nerror: y"}]}"#,
+    )
+    .expect("a file");
+    let bare = at("-it's $bare.glb");
+    std::fs::copy(asset("NormalTangentTest/NormalTangentTest.glb"), &bare).expect("a copy");
+    let inspected = darboux(&["inspect", text(folder.path())]).exits(1);
+    let forged = at("a\u{1b}[31m\nerror: b.gltf");
+    let compared = darboux(&["compare", text(&forged), text(&forged)]).exits(1);
+    let refused = darboux(&["tangents", "--mode", "a\u{1b}[31m\nerror: b"]).exits(2);
+    let said = [
+        String::from_utf8_lossy(&inspected.stdout).into_owned(),
+        inspected.stderr,
+        compared.stderr,
+        refused.stderr,
+    ];
+    for said in &said {
+        assert!(!said.contains(['\u{1b}', '\u{7}']) && !said.contains("\nerror: "), "{said:?}");
+    }
+    assert!(
+        said[0].contains(r"a\u{1b}[31m\nerror: b.gltf") && said[3].contains(r"\u{1b}[31m\nerror: b"),
+        "{said:?}"
+    );
+    let suggested = std::process::Command::new(env!("CARGO_BIN_EXE_darboux"))
+        .args(["compare", "--", "-it's $bare.glb", "-it's $bare.glb"])
+        .current_dir(folder.path())
+        .output()
+        .expect("the command runs");
+    let suggested = String::from_utf8_lossy(&suggested.stderr).into_owned();
+    assert!(suggested.ends_with("to add them: darboux tangents -- '-it'\\''s $bare.glb'\n"), "{suggested}");
+}
+
+#[test]
+fn completions_complete_every_subcommand() {
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let script = String::from_utf8(darboux(&["completions", shell]).exits(0).stdout).expect("UTF-8");
+        for subcommand in
+            ["tangents", "normals", "convert", "compare", "inspect", "render", "view", "methods", "devices"]
+        {
+            assert!(script.contains(subcommand), "{shell}: {subcommand}");
+        }
+    }
+    darboux(&["completions", "tcsh"]).exits(2);
 }

@@ -288,6 +288,29 @@ fn orders_and_answers_of_nobody_are_refused() {
         Library::open(std::slice::from_ref(&models), &out.join("other"), &options).err().expect("refused")
     };
     assert_eq!(refused(&["--best"]), "unexpected argument '--best' found");
-    assert!(refused(&["--method", "area", "--threshold", "3"]).contains("--threshold belongs to"));
+    assert!(refused(&["--method", "area", "--threshold", "3"]).contains("--threshold needs"));
     assert!(refused(&["-o", "x.glb"]).contains("cannot be used with"));
+}
+
+/// A journal that another program put there must neither block the command nor lead it out of the folder.
+#[test]
+#[cfg(unix)]
+fn a_journal_that_is_no_regular_file_is_refused() {
+    let (folder, models, out) = library();
+    let journal = out.join(JOURNAL);
+    fs::create_dir(&out).expect("a folder");
+    let outside = folder.path().join("outside");
+    fs::write(&outside, "").expect("a file");
+    let made = Command::new("mkfifo").arg(&journal).status().expect("mkfifo");
+    assert!(made.success());
+    let refused = || {
+        let run = darboux(&["tangents", text(&models), "--out-dir", text(&out), "--resume"]).exits(1);
+        assert!(run.stderr.contains("the journal cannot be opened"), "{}", run.stderr);
+    };
+    refused();
+    fs::remove_file(&journal).expect("the FIFO");
+    std::os::unix::fs::symlink(&outside, &journal).expect("a link");
+    refused();
+    assert_eq!(fs::read(&outside).expect("a file"), b"");
+    assert_eq!(names_in(&out), [JOURNAL]);
 }

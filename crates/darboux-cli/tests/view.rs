@@ -177,7 +177,7 @@ fn what_is_no_model_is_refused_in_a_sentence() {
     let cases = [
         ("no-such.glb", "cannot be read"),
         (".", "it is a folder; name a file in it"),
-        ("index.html", "cannot be shown"),
+        ("index.html", "cannot show this format"),
         ("empty.glb", "empty.glb: "),
         ("start.glb", "start.glb: "),
         ("cut.glb", "cut.glb: "),
@@ -189,5 +189,69 @@ fn what_is_no_model_is_refused_in_a_sentence() {
         let run = darboux(&["view", "--no-open", "--page", &at(""), &at(model)]).exits(1);
         assert!(run.stderr.contains(said) && run.stderr.lines().count() == 1, "{model}: {}", run.stderr);
         assert!(run.stdout.is_empty(), "{model}: no address");
+    }
+}
+
+/// Connections that send nothing, too much, too slowly or lies, each without the secret.
+fn hostile_requests() -> Vec<Vec<u8>> {
+    let get = |more: &str| format!("GET / HTTP/1.1\r\nHost: x\r\n{more}").into_bytes();
+    vec![
+        Vec::new(),
+        b"G".to_vec(),
+        get(""),
+        get("Content-Length: 18446744073709551615\r\n\r\n"),
+        get("Content-Length: 1000000000000\r\n\r\nx"),
+        get("Content-Length: 10\r\nExpect: 100-continue\r\n\r\n"),
+        get("Transfer-Encoding: chunked\r\n\r\nffffffffffffffff\r\n"),
+        get(&format!("X: {}\r\n\r\n", "x".repeat(1 << 20))),
+        get(&"X: y\r\n".repeat(100_000)),
+        [get("\r\n"), get("\r\n"), get("\r\n")].concat(),
+        vec![0; 1 << 16],
+    ]
+}
+
+#[test]
+fn hostile_connections_neither_block_the_page_nor_fill_the_memory() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let viewer = Viewer::start(folder.path(), &asset("made/draco.glb"));
+    let (host, secret) = viewer.parts();
+    let requests = hostile_requests();
+    let connections: Vec<TcpStream> = (0..200)
+        .map(|number| {
+            let mut stream = TcpStream::connect(host).expect("a connection");
+            stream.set_write_timeout(Some(std::time::Duration::from_millis(200))).expect("a timeout");
+            // The server may close the connection before it has everything.
+            let _refused = stream.write_all(&requests[number % requests.len()]);
+            stream
+        })
+        .collect();
+    let start = std::time::Instant::now();
+    assert_eq!(viewer.get(host, &format!("/{secret}/")), (200, b"the page".to_vec()));
+    assert!(start.elapsed() < std::time::Duration::from_secs(5), "{:?}", start.elapsed());
+    if cfg!(target_os = "linux") {
+        let status = fs::read_to_string(format!("/proc/{}/status", viewer.child.id())).expect("Linux");
+        let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")?.trim().strip_suffix(" kB"));
+        let peak: u64 = peak.and_then(|size| size.trim().parse().ok()).expect("a size");
+        assert!(peak < 200 << 10, "{peak} kB");
+    }
+    drop(connections);
+}
+
+#[test]
+#[cfg(unix)]
+fn a_link_or_a_fifo_in_place_of_a_page_file_is_not_served() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::create_dir(folder.path().join("page")).expect("a folder");
+    let at = |name: &str| folder.path().join("page").join(name);
+    fs::write(folder.path().join("private"), "x").expect("a file");
+    ["a.js", "b.js"].iter().for_each(|name| fs::write(at(name), "1").expect("a file"));
+    let viewer = Viewer::start(&folder.path().join("page"), &asset("made/draco.glb"));
+    let (host, secret) = viewer.parts();
+    assert_eq!(viewer.get(host, &format!("/{secret}/a.js")).0, 200);
+    ["a.js", "b.js"].iter().for_each(|name| fs::remove_file(at(name)).expect("a file"));
+    std::os::unix::fs::symlink("../private", at("a.js")).expect("a link");
+    assert!(Command::new("mkfifo").arg(at("b.js")).status().expect("mkfifo").success());
+    for name in ["a.js", "b.js"] {
+        assert_eq!(viewer.get(host, &format!("/{secret}/{name}")).0, 404, "{name}");
     }
 }

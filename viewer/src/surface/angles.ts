@@ -6,10 +6,14 @@ export const NO_ANGLE = -1;
 /** In place of an angle at the corners of a face where the signs differ. */
 export const FLIPPED = 1000;
 
-/** The angle in degrees between the tangents of each corner, or one of the values above. */
+/** The angle in degrees between the tangents of each corner, whatever their signs, or {@link NO_ANGLE}. `darboux compare` reports the same. */
+export function cornerAngles(a: Float32Array, b: Float32Array): Float32Array<ArrayBuffer> {
+  return Float32Array.from({ length: a.length / 4 }, (_, corner) => angle(a, b, corner * 4));
+}
+
+/** Like {@link cornerAngles}, with {@link FLIPPED} at all corners of a face with different signs at any corner. */
 export function angles(a: Float32Array, b: Float32Array): Float32Array<ArrayBuffer> {
-  const out = new Float32Array(a.length / 4);
-  for (let corner = 0; corner < out.length; corner++) out[corner] = angle(a, b, corner * 4);
+  const out = cornerAngles(a, b);
   for (let face = 0; face < out.length; face += 3) {
     const differs = [0, 1, 2].some((i) => a[(face + i) * 4 + 3] * b[(face + i) * 4 + 3] < 0);
     if (differs) out.fill(FLIPPED, face, face + 3);

@@ -2,7 +2,7 @@
 
 import { generateTangents } from 'darboux';
 
-import { angles, FLIPPED } from './angles';
+import { cornerAngles } from './angles';
 import { edgePairsOf, mirroredEdges } from './mirrored-edges';
 import { computedTangents, tangentsFrom } from './sources';
 import type { Surface } from './surface';
@@ -80,8 +80,8 @@ function checkFileTangents(surface: Surface, file: Float32Array, fresh: Float32A
   add('not-finite', corners.filter((corner) => !Number.isFinite(length(corner) + file[corner * 4 + 3])));
   add('not-unit', corners.filter((corner) => isUsable(corner) && Math.abs(length(corner) - 1) > UNIT_TOLERANCE));
   add('bad-sign', corners.filter((corner) => Math.abs(file[corner * 4 + 3]) !== 1));
-  const between = angles(file, fresh);
-  const apart = corners.filter((corner) => between[corner] > SAME_DEGREES && between[corner] < FLIPPED);
+  const between = cornerAngles(file, fresh);
+  const apart = corners.filter((corner) => between[corner] > SAME_DEGREES);
   apart.sort((a, b) => between[b] - between[a]);
   add('differs', apart, between[apart[0]]);
   add('flipped', corners.filter((corner) => file[corner * 4 + 3] * fresh[corner * 4 + 3] < 0));

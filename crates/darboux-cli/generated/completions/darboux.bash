@@ -19,6 +19,9 @@ _darboux() {
             darboux,compare)
                 cmd="darboux__subcmd__compare"
                 ;;
+            darboux,completions)
+                cmd="darboux__subcmd__completions"
+                ;;
             darboux,convert)
                 cmd="darboux__subcmd__convert"
                 ;;
@@ -50,7 +53,7 @@ _darboux() {
 
     case "${cmd}" in
         darboux)
-            opts="-h -V --help --version tangents normals convert compare inspect render view methods devices"
+            opts="-h -V --help --version tangents normals convert compare inspect render view methods devices completions"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -97,8 +100,22 @@ _darboux() {
             COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
             return 0
             ;;
+        darboux__subcmd__completions)
+            opts="-h --help bash elvish fish powershell zsh"
+            if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
+                COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+                return 0
+            fi
+            case "${prev}" in
+                *)
+                    COMPREPLY=()
+                    ;;
+            esac
+            COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
+            return 0
+            ;;
         darboux__subcmd__convert)
-            opts="-q -o -h --out-dir --in-place --force --resume --jobs --allow-outside --memory-limit --from --to --layout --to-layout --raw --json --quiet --output --help"
+            opts="-v -q -o -h --out-dir --in-place --force --resume --jobs --verbose --allow-outside --memory-limit --from --to --layout --to-layout --raw --json --quiet --output --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -194,7 +211,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__normals)
-            opts="-o -q -h --output --out-dir --in-place --force --resume --jobs --allow-outside --memory-limit --normals --weight --respect-seams --overwrite --json --quiet --help"
+            opts="-o -v -q -h --output --out-dir --in-place --force --resume --jobs --verbose --allow-outside --memory-limit --normals --weight --respect-seams --overwrite --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -310,7 +327,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__tangents)
-            opts="-o -q -h --output --out-dir --in-place --force --resume --jobs --allow-outside --memory-limit --method --mode --threshold --device --normals --encoding --overwrite --only-needed --apply-texture-transform --strict --json --quiet --help"
+            opts="-o -v -q -h --output --out-dir --in-place --force --resume --jobs --verbose --allow-outside --memory-limit --method --mode --threshold --device --normals --encoding --overwrite --only-needed --apply-texture-transform --strict --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0

@@ -19,6 +19,7 @@ use walkdir::WalkDir;
 
 use crate::json::VERSION;
 use crate::paths::canonical;
+use crate::regular_file::{Links, open_regular};
 
 const NAME: &str = "darboux-journal.jsonl";
 
@@ -75,15 +76,15 @@ fn content_of(input: &Path, reading: &ReadOptions) -> Result<String, (PathBuf, i
     let files = document.map_or_else(|_| vec![input.to_owned()], |document| document.source_files());
     let mut all = blake3::Hasher::new();
     for file in files {
-        let hash = hash_of(&file).map_err(|error| (file, error))?;
+        let hash = hash_of(&file, Links::Follow).map_err(|error| (file, error))?;
         all.update(hash.as_bytes());
     }
     Ok(all.finalize().to_hex().to_string())
 }
 
-fn hash_of(file: &Path) -> io::Result<blake3::Hash> {
+fn hash_of(file: &Path, links: Links) -> io::Result<blake3::Hash> {
     let mut hasher = blake3::Hasher::new();
-    hasher.update_reader(File::open(file)?)?;
+    hasher.update_reader(open_regular(file, OpenOptions::new().read(true), links)?)?;
     Ok(hasher.finalize())
 }
 
@@ -103,8 +104,8 @@ impl Record {
             return Ok(None);
         };
         let hashed = |(name, path): (String, &String)| {
-            let hash =
-                hash_of(Path::new(path)).map_err(|error| format!("{path}: cannot be read again: {error}"))?;
+            let hash = hash_of(Path::new(path), Links::Follow)
+                .map_err(|error| format!("{path}: cannot be read again: {error}"))?;
             Ok((name, hash.to_hex().to_string()))
         };
         let files = names.into_iter().zip(written).map(hashed).collect::<Result<_, String>>()?;
@@ -119,7 +120,9 @@ impl Record {
     pub fn is_up_to_date(&self, origin: &Origin, folder: &Path) -> bool {
         let is_unchanged = |(path, hash): &(String, String)| {
             let is_inside = Path::new(path).is_relative();
-            is_inside && hash_of(&folder.join(path)).is_ok_and(|found| found.to_hex().as_str() == hash)
+            is_inside
+                && hash_of(&folder.join(path), Links::Follow)
+                    .is_ok_and(|found| found.to_hex().as_str() == hash)
         };
         self.origin == *origin && self.files.iter().all(is_unchanged)
     }
@@ -139,9 +142,16 @@ impl Journal {
     /// Errors: another process has the journal open; it cannot be read or written.
     pub fn open(folder: &Path, run: RunId) -> Result<Self, String> {
         let path = folder.join(NAME);
-        let failed = |error: io::Error| format!("{}: cannot be opened: {error}", path.display());
+        let failed = |error: io::Error| {
+            format!(
+                "{}: the journal cannot be opened: {error}; remove it, or choose another folder",
+                path.display()
+            )
+        };
         fs::create_dir_all(folder).map_err(failed)?;
-        let mut file = OpenOptions::new().read(true).append(true).create(true).open(&path).map_err(failed)?;
+        let mut options = OpenOptions::new();
+        let mut file = open_regular(&path, options.read(true).append(true).create(true), Links::Refuse)
+            .map_err(failed)?;
         // A file system without locks gives no protection against a second run.
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
             return Err(format!(

@@ -18,18 +18,19 @@ use crate::inputs::Input;
 use crate::json::{VERSION, to_json};
 use crate::paths::{is_png, refuse_missing_folder};
 use crate::terminal::{FileProgress, Messages, write_stdout};
+use crate::text::command_line;
 use crate::{exit, interrupt};
 use arguments::CompareArguments;
 use heat_map::HeatMap;
 use report::{CompareReport, Verdict};
 use statistics::{ComparedPrimitive, Statistics};
 
-/// Runs the command; gives its exit code.
+/// Runs the command and returns its exit code.
 pub fn run(arguments: &CompareArguments) -> u8 {
     let messages = Messages::new(arguments.messages.quiet);
     let inputs = [Some(&arguments.first), arguments.second.as_ref()];
     if inputs.into_iter().flatten().any(|path| path == Path::new("-")) {
-        messages.error("standard input cannot be compared; save it to a file");
+        messages.error("standard input cannot be compared; save it to a file first");
         return exit::USAGE;
     }
     if let Err(sentence) = arguments.heat_map.as_deref().map_or(Ok(()), refuse_missing_folder) {
@@ -50,7 +51,7 @@ pub fn run(arguments: &CompareArguments) -> u8 {
     let text = match (arguments.messages.json, arguments.messages.quiet) {
         (true, _) => to_json(&report).map_err(std::io::Error::from),
         (false, true) => Ok(Vec::new()),
-        (false, false) => Ok(text::described(&report).into_bytes()),
+        (false, false) => Ok(text::describe(&report).into_bytes()),
     };
     if let Err(error) = text.and_then(|text| write_stdout(&text)) {
         messages.error(&format!("the comparison cannot be written: {error}"));
@@ -59,22 +60,22 @@ pub fn run(arguments: &CompareArguments) -> u8 {
     if report.within_tolerance == Some(false) { exit::DIFFERENT } else { exit::DONE }
 }
 
-/// Reads both, compares, draws. Errors are one sentence each.
+/// Reads both sides, compares them and draws the heat map. Errors are one sentence each.
 fn compare(arguments: &CompareArguments, messages: &Messages) -> Result<CompareReport, String> {
     if let Some(path) = arguments.heat_map.as_ref().filter(|path| path.exists() && !arguments.force) {
-        return Err(format!("{}: exists; use --force to replace it, or name another file", path.display()));
+        return Err(format!("{}: exists; use --force to replace it, or choose another name", path.display()));
     }
     if let Some(path) = arguments.heat_map.as_ref().filter(|path| !is_png(path)) {
-        return Err(format!("{}: the heat map is a PNG; name it .png", path.display()));
+        return Err(format!("{}: the heat map is a PNG; its name must end in .png", path.display()));
     }
     let other = arguments.second.as_ref().unwrap_or(&arguments.first);
     let inputs = [&arguments.first, other].map(|path| Input::File(path.clone()));
     messages.start(inputs.iter().map(Input::byte_length).sum());
-    let begun = |input: &Input| messages.file(&input.to_string(), input.byte_length());
-    let progress = begun(&inputs[0]);
+    let progress_of = |input: &Input| messages.file(&input.to_string(), input.byte_length());
+    let progress = progress_of(&inputs[0]);
     let mut first = load(&inputs[0], &arguments.reading)?;
     drop(progress);
-    let progress = begun(&inputs[1]);
+    let progress = progress_of(&inputs[1]);
     let mut second = load(&inputs[1], &arguments.reading)?;
     if let Some(path) = &arguments.heat_map {
         refuse_used(path, [&first, &second])?;
@@ -83,11 +84,11 @@ fn compare(arguments: &CompareArguments, messages: &Messages) -> Result<CompareR
         give_tangents(&mut second, method.into(), &progress)?;
     }
     drop(progress);
-    let told = |document: &Document| -> Vec<String> {
+    let warnings_of = |document: &Document| -> Vec<String> {
         document.warnings().iter().map(|warning| format!("{}: {warning}", document.name())).collect()
     };
-    let mut warnings = told(&first);
-    warnings.extend(arguments.second.iter().flat_map(|_| told(&second)));
+    let mut warnings = warnings_of(&first);
+    warnings.extend(arguments.second.iter().flat_map(|_| warnings_of(&second)));
     let pairs = pair_tangents(&mut first, &mut second).map_err(|error| error.to_string())?;
     warnings.extend(moved(&pairs));
     let primitives: Vec<ComparedPrimitive> = pairs.iter().map(ComparedPrimitive::new).collect();
@@ -117,7 +118,7 @@ fn compare(arguments: &CompareArguments, messages: &Messages) -> Result<CompareR
     })
 }
 
-/// Says which file has no tangents, or that no primitive has them in both.
+/// The error if no primitive has tangents on both sides: names the file without tangents.
 fn nothing_to_compare(documents: [&Document; 2]) -> String {
     let has_tangents = |document: &Document| {
         let mut primitives = document.meshes().iter().flat_map(|mesh| &mesh.primitives);
@@ -126,11 +127,12 @@ fn nothing_to_compare(documents: [&Document; 2]) -> String {
     match documents.into_iter().find(|document| !has_tangents(document)) {
         Some(document) => {
             let name = document.name();
-            format!("{name}: has no tangents to compare; make some: darboux tangents {name}")
+            let repair = command_line(&["tangents"], &[name]);
+            format!("{name}: has no tangents to compare; to add them: {repair}")
         }
         None => {
             let [first, second] = documents.map(Document::name);
-            format!("{first}: no triangles have tangents both here and in {second}")
+            format!("{first}: no primitive has tangents both here and in {second}")
         }
     }
 }
@@ -147,14 +149,14 @@ fn give_tangents(
     add_tangents(document, &options, &mut on_progress).map(drop).map_err(|error| error.to_string())
 }
 
-/// A warning for each primitive whose corners are elsewhere in the second file.
+/// A warning for each primitive whose corners have other positions in the second file.
 fn moved(pairs: &[Pair]) -> impl Iterator<Item = String> {
     let moved = pairs.iter().filter_map(|pair| {
         let moved = pair.corners.as_ref().ok()?.moved;
         (moved > 0).then_some((&pair.name, moved))
     });
     moved.map(|(name, moved)| {
-        format!("{name}: {moved} corners are elsewhere in the second file; is it the same model, in the same order?")
+        format!("{name}: {moved} corners have other positions in the second file; check that both are the same model with corners in the same order")
     })
 }
 
@@ -165,7 +167,7 @@ fn draw(pairs: &[Pair], path: &Path, force: bool, warnings: &mut Vec<String>) ->
     }
     if map.too_large() > 0 {
         warnings.push(format!(
-            "{}: of {} triangles only the corners are drawn: their UVs span more than the map, or there are too many",
+            "{}: only the corners of {} triangles are drawn: their UVs span more than the map, or there are too many triangles",
             path.display(),
             map.too_large()
         ));

@@ -69,7 +69,7 @@ impl FileCommand for ConvertArguments {
     fn check(&self) -> Result<(), UsageError> {
         match self.files.inputs.iter().find(|input| input.is_dir()) {
             Some(folder) => Err(UsageError(format!(
-                "{} is a folder, and not every image in it is a normal map; name the files",
+                "{} is a folder, and not every image in it is a normal map; name the files instead",
                 folder.display()
             ))),
             None => Ok(()),
@@ -105,10 +105,9 @@ impl FileCommand for ConvertArguments {
             Input::File(path) if is_png(path) || starts_as_png(path) => {
                 self.image(PngImage::open(path, limit).map_err(sentence)?, &job.output)
             }
-            Input::File(path) if FileKind::of(path) == Some(FileKind::OtherImage) => Err(format!(
-                "{}: only PNG files are converted, which keep every texel; save it as one",
-                path.display()
-            )),
+            Input::File(path) if FileKind::of(path) == Some(FileKind::OtherImage) => {
+                Err(format!("{}: only PNG images can be converted; save it as a PNG first", path.display()))
+            }
             Input::File(_) => self.model(load_any(&job.input, &self.files.reading)?, job, progress),
         }
     }
@@ -175,7 +174,7 @@ impl ConvertArguments {
                 Ok((status, Vec::new()))
             }
             Output::File(path) if !is_png(path) => {
-                Err(format!("{output}: the input is an image; name it .png"))
+                Err(format!("{output}: the input is an image; the name of the output must end in .png"))
             }
             Output::File(_) if self.files.in_place && !image.is_changed() => {
                 Ok((Status::Untouched, Vec::new()))
@@ -197,7 +196,7 @@ impl ConvertArguments {
         let (from, to) = (&self.from, &self.to);
         if to.convention != Convention::GLTF && !self.raw {
             return Err(format!(
-                "{}: a glTF file must be in glTF's convention; convert --to gltf, or use --raw if a program copies its numbers as they are",
+                "{}: a glTF file must be in glTF's convention; use --to gltf, or --raw for a program that uses the numbers as they are",
                 job.input
             ));
         }
@@ -208,7 +207,7 @@ impl ConvertArguments {
         warnings.append(&mut summary.warnings);
         if document.convention().map_err(|error| error.to_string())? != Convention::GLTF {
             warnings.push(format!(
-                "the output holds the numbers of {}: no viewer of glTF shows it right",
+                "the output is in the convention of {}: no viewer of glTF shows it correctly",
                 to.name
             ));
         }
@@ -236,9 +235,9 @@ fn describe_image(image: &ImageSummary) -> String {
 
 fn describe_model(model: &ConversionSummary) -> String {
     let done = [
-        (model.axes_changed, "other axes"),
-        (model.uvs_flipped, "v turned round"),
-        (model.faces_reversed, "triangles reversed"),
+        (model.axes_changed, "axes changed"),
+        (model.uvs_flipped, "v inverted"),
+        (model.faces_reversed, "winding reversed"),
         (model.tangents_changed, "tangents or their signs changed"),
     ];
     format!("{} changed: {}", counted(model.primitives, "primitive", "primitives"), list_changes(done))
@@ -248,7 +247,7 @@ fn describe_model(model: &ConversionSummary) -> String {
 fn list_changes<const N: usize>(done: [(bool, &str); N]) -> String {
     let done: Vec<&str> = done.into_iter().filter(|done| done.0).map(|done| done.1).collect();
     if done.is_empty() {
-        "nothing in it differs between these conventions".to_owned()
+        "the conventions do not differ in anything it contains".to_owned()
     } else {
         done.join(", ")
     }

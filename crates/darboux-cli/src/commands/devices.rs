@@ -44,7 +44,7 @@ fn describe(adapters: &[Adapter]) -> String {
     adapters.iter().fold(String::new(), |mut text, adapter| {
         let Adapter { name, kind, backend, driver, largest_binding, triangle_limit, problem } = adapter;
         let usability = match problem {
-            None => format!("usable, {} triangles at once", HumanCount(*triangle_limit)),
+            None => format!("usable, {} triangles per dispatch", HumanCount(*triangle_limit)),
             Some(problem) => format!("not usable: {problem}"),
         };
         let binding = HumanBytes(*largest_binding);

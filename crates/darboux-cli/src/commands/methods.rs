@@ -1,20 +1,20 @@
-//! `darboux methods`.
+//! `darboux methods`: explains the methods of computing tangents.
 
 use crate::exit;
 use crate::terminal::{Messages, write_stdout};
 
-/// The choice in ten lines.
+/// The explanation.
 const CHOICE: &str = "\
-A normal map stores directions relative to the tangents of its baker: use the method that it was baked with.
-  mikktspace          what bakers and engines use (Blender, Substance, Marmoset, xNormal, Unity, Unreal, glTF): the default
-  angle-area          no baked map: UVs followed best, slivers and bevels count little; tiling maps, anisotropy, hair
-  lengyel             sums of dP/du as long as they are, mirrored seams split: for renderers that compute this themselves
-  lengyel-per-vertex  as three.js computeTangents and many tutorials: nothing splits, so mirrored seams break (counted)
-  average             the mean of the triangles' tangents, all alike: for engines that gather it on the GPU
-  area                the mean weighted by area: large faces decide
-  face                each face's own dP/du, not smoothed: flat shading, measuring
-  from-normal         any perpendicular of the normal, whatever the UVs: for sampling, never for normal maps
-`darboux compare model.glb --method NAME` shows how far two choices are apart; docs/algorithms/methods.md in its source derives them.
+A normal map stores directions relative to the tangents of the program that baked it: use the method of that program.
+  mikktspace          the standard of bakers and engines (Blender, Substance, Marmoset, xNormal, Unity, Unreal, glTF); the default
+  angle-area          follows the UVs most closely; for surfaces without a baked map: tiling maps, anisotropy, hair
+  lengyel             the sum of dP/du, not normalised, split at mirrored seams; for renderers that compute the same
+  lengyel-per-vertex  the same without splits, as in three.js and many tutorials; wrong at mirrored seams, which are counted
+  average             the mean of the triangles' tangents; for engines that compute it on the GPU
+  area                the mean weighted by area: large faces dominate
+  face                the dP/du of each face, not smoothed; for flat shading and measurements
+  from-normal         any direction perpendicular to the normal, independent of UVs; for sampling, not for normal maps
+`darboux compare model.glb --method NAME` shows how much two methods differ; docs/algorithms/methods.md derives them.
 ";
 
 /// Runs the command and returns its exit code.

@@ -15,6 +15,7 @@ use crate::batch::plan::Job;
 use crate::batch::report::{FileReport, Status};
 use crate::commands::normals::describe_normals;
 use crate::documents::{load, save};
+use crate::gpu::open_early;
 use crate::inputs::{UsageError, output_suffix};
 use crate::options::files::FileOptions;
 use crate::options::messages::MessageOptions;
@@ -44,15 +45,16 @@ impl FileCommand for TangentsArguments {
     }
 
     fn check(&self) -> Result<(), UsageError> {
-        let belongs_to_mikktspace = [
+        let mikktspace_options = [
             ("--threshold", self.threshold != MikktOptions::new().threshold),
             ("--mode", self.mode != Mode::default()),
             ("--device gpu", self.device == Device::Gpu),
         ];
-        match belongs_to_mikktspace.iter().find(|(_, is_set)| *is_set) {
+        match mikktspace_options.iter().find(|(_, is_set)| *is_set) {
             Some((option, _)) if self.method != MethodName::MikkTSpace => {
-                Err(UsageError(format!("{option} belongs to --method mikktspace; leave one of them out")))
+                Err(UsageError(format!("{option} needs --method mikktspace; remove one of them")))
             }
+            _ if self.device == Device::Gpu => open_early().map_err(UsageError),
             _ => Ok(()),
         }
     }

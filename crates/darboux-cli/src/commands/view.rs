@@ -6,20 +6,21 @@ mod model;
 mod page;
 mod server;
 
+use std::convert::Infallible;
 use std::fmt::Write as _;
 
 use crate::exit;
 use crate::terminal::{Messages, write_stdout};
 use arguments::ViewArguments;
-use model::Model;
+use model::ServedModel;
 use page::Page;
 use server::Server;
 
-/// Runs the command until it is interrupted; gives its exit code where it cannot begin.
+/// Serves until the process is interrupted; returns the exit code if the server cannot start.
 pub fn run(arguments: &ViewArguments) -> u8 {
     let messages = Messages::new(false);
     match serve(arguments, &messages) {
-        Ok(()) => exit::DONE,
+        Ok(never) => match never {},
         Err(sentence) => {
             messages.error(&sentence);
             exit::FAILED
@@ -27,31 +28,28 @@ pub fn run(arguments: &ViewArguments) -> u8 {
     }
 }
 
-fn serve(arguments: &ViewArguments, messages: &Messages) -> Result<(), String> {
+fn serve(arguments: &ViewArguments, messages: &Messages) -> Result<Infallible, String> {
     let model = arguments
         .model
         .as_deref()
-        .map(|path| Model::find(path, arguments.reading.load_options()))
+        .map(|path| ServedModel::find(path, arguments.reading.load_options()))
         .transpose()?;
     let page = Page::find(arguments.page.as_deref())?;
     let server = Server::start(page, model, secret()?)?;
     let address = server.address();
     write_stdout(format!("{address}\n").as_bytes())
         .map_err(|error| format!("the address cannot be written: {error}"))?;
-    if !arguments.no_open
-        && let Err(error) = open::that_detached(address)
-    {
-        messages.warn(&format!("no browser opens ({error}); open the address yourself"));
+    if !arguments.no_open && open::that_detached(address).is_err() {
+        messages.warn("no browser could be opened; open the address above in one");
     }
-    messages.say("Ctrl-C ends the viewer");
-    server.run();
-    Ok(())
+    messages.say("press Ctrl-C to end the viewer");
+    server.run()
 }
 
-/// What a page of another origin cannot guess: 128 random bits in hexadecimal.
+/// 128 random bits in hexadecimal, which pages of other origins cannot guess.
 fn secret() -> Result<String, String> {
     let mut bytes = [0; 16];
-    getrandom::fill(&mut bytes).map_err(|error| format!("the system gives no random numbers: {error}"))?;
+    getrandom::fill(&mut bytes).map_err(|error| format!("the system returned no random numbers: {error}"))?;
     Ok(bytes.iter().fold(String::new(), |mut text, byte| {
         let _never_fails = write!(text, "{byte:02x}");
         text

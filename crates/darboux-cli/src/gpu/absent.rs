@@ -18,6 +18,11 @@ pub fn open() -> Result<&'static OpenGpu, String> {
     Err(missing_feature("--device gpu", "full"))
 }
 
+/// Fails with the command line that installs GPU support.
+pub fn open_early() -> Result<(), String> {
+    open().map(drop)
+}
+
 impl OpenGpu {
     /// Cannot be called.
     pub fn generate(&self, _: &Mesh<'_>, _: &TangentOptions, _: &mut Tangents) -> Result<usize, String> {

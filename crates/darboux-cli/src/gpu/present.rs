@@ -31,6 +31,12 @@ pub fn open() -> Result<&'static OpenGpu, String> {
     opened.as_ref().map_err(Clone::clone)
 }
 
+/// Opens the adapter before other threads print, because standard error is redirected meanwhile. [`open`] returns the errors.
+pub fn open_early() -> Result<(), String> {
+    let _returned_by_open = open();
+    Ok(())
+}
+
 impl OpenGpu {
     /// A GPU whose device was lost; `None` without an adapter.
     #[cfg(test)]

@@ -17,18 +17,18 @@ pub struct FileOptions {
     #[arg(required = true, value_name = "INPUT")]
     pub inputs: Vec<PathBuf>,
 
-    /// Output file for a single input, in a folder that exists; - is standard output, as GLB
+    /// Output file for a single input, in an existing folder; - is standard output, as GLB
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub output: Option<PathBuf>,
 
-    /// Folder for all outputs, made if missing; they have the names of their inputs, and an input folder's structure is kept
+    /// Folder for all outputs, created if missing; outputs keep the names of their inputs and the structure of input folders
     #[arg(long, value_name = "FOLDER", help_heading = "Output")]
     pub out_dir: Option<PathBuf>,
 
     /// Replace each input by its output
     ///
-    /// The new file is written beside the old one and renamed when it is complete. New data of a .gltf goes to a .bin file of its own,
-    /// and no file is removed. A file in which nothing changes is not touched.
+    /// The new file is written beside the old one and renamed when it is complete. New data of a .gltf goes to a new .bin file, and no
+    /// file is removed. A file in which nothing changes is not touched.
     #[arg(long, help_heading = "Output")]
     pub in_place: bool,
 
@@ -36,16 +36,22 @@ pub struct FileOptions {
     #[arg(long, help_heading = "Output")]
     pub force: bool,
 
-    /// Leave out inputs whose output in --out-dir is up to date, and replace those that are not
+    /// Process only the inputs whose output in --out-dir is missing or out of date
     ///
-    /// Up to date is what was made of the same content by the same options. FOLDER/darboux-journal.jsonl tells, to which each file
-    /// is added as it is done: run the same command again, and a run that was stopped goes on.
+    /// An output is up to date if it was made from the same content with the same options. FOLDER/darboux-journal.jsonl records this for
+    /// each finished file. So the same command continues a run that was stopped.
     #[arg(long, requires = "out_dir", help_heading = "Output")]
     pub resume: bool,
 
-    /// How many files are worked on at the same time
-    #[arg(long, value_name = "NUMBER", default_value = "1", value_parser = jobs, help_heading = "Output")]
-    pub jobs: NonZero<u16>,
+    /// How many files are processed at the same time; by default one per processor core
+    ///
+    /// The results, and the order of messages, are the same for every number. Each file needs memory of its own.
+    #[arg(long, value_name = "NUMBER", value_parser = jobs, help_heading = "Output")]
+    pub jobs: Option<NonZero<u16>>,
+
+    /// Print every primitive and warning; without it, more than 10 files get one line each
+    #[arg(short, long, conflicts_with = "quiet", help_heading = "Messages")]
+    pub verbose: bool,
 
     #[command(flatten, next_help_heading = "Input")]
     pub reading: ReadOptions,
@@ -62,11 +68,11 @@ fn new_run() -> RunId {
 }
 
 fn jobs(text: &str) -> Result<NonZero<u16>, &'static str> {
-    text.parse().map_err(|_| "not a number from 1 to 65535")
+    text.parse().map_err(|_| "expected a number from 1 to 65535")
 }
 
 impl FileOptions {
-    /// Whether an output may take the place of a file that exists.
+    /// Whether an output may replace an existing file.
     pub fn may_replace(&self) -> bool {
         self.force || self.in_place || self.resume
     }

@@ -9,7 +9,7 @@ pub struct MessageOptions {
     #[arg(long, help_heading = "Messages")]
     pub json: bool,
 
-    /// Print errors only
+    /// Print errors only; commands that write files also print one line with the totals
     #[arg(short, long, help_heading = "Messages")]
     pub quiet: bool,
 }

@@ -9,19 +9,19 @@ pub enum MethodName {
     #[default]
     #[value(name = "mikktspace")]
     MikkTSpace,
-    /// Weighted by angle and area: follows the UVs best where no baked map asks for MikkTSpace
+    /// Weighted by angle and area: follows the UVs most closely, for surfaces without a baked normal map
     AngleArea,
-    /// Sums of dP/du, one per UV orientation
+    /// The sum of dP/du, separate for each UV orientation
     Lengyel,
-    /// Sums of dP/du, one per vertex, as three.js and many tutorials: breaks mirrored seams
+    /// The sum of dP/du per vertex, as in three.js and many tutorials: wrong at mirrored seams
     LengyelPerVertex,
-    /// Mean of the triangles' tangents
+    /// The mean of the triangles' tangents
     Average,
-    /// Mean weighted by area
+    /// The mean of the triangles' tangents, weighted by area
     Area,
-    /// Each face its own: exact, not smooth
+    /// One tangent per face, not smoothed
     Face,
-    /// Any perpendicular of the normal; needs no UVs, and says nothing about them
+    /// Any direction perpendicular to the normal, independent of UVs
     FromNormal,
 }
 

@@ -1,4 +1,4 @@
-//! Options of reading a model: which files may be read, and how much memory that may take.
+//! The options for reading a model: which files may be read, and how much memory reading may use.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ pub struct ReadOptions {
     #[arg(long)]
     pub allow_outside: bool,
 
-    /// The most memory that a file may ask for; without it, 256 MiB and 64 times the size of the file
+    /// The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file
     #[arg(long, value_name = "MIB")]
     pub memory_limit: Option<u32>,
 }

@@ -13,7 +13,7 @@ pub enum ShadingChoice {
 }
 
 impl ShadingChoice {
-    /// The options of the core.
+    /// The options of the library.
     pub fn options(self) -> NormalOptions {
         let smooth = NormalOptions::default();
         match self {
@@ -24,19 +24,19 @@ impl ShadingChoice {
     }
 }
 
-/// The normals that tangents are computed with.
+/// `--normals` of `darboux tangents`: whether normals are generated first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NormalsChoice {
     Keep,
-    Make(ShadingChoice),
+    Generate(ShadingChoice),
 }
 
 impl NormalsChoice {
-    /// The options of the core, unless normals stay as they are.
+    /// The options of the library; `None` if no normals are generated.
     pub fn options(self) -> Option<NormalOptions> {
         match self {
             Self::Keep => None,
-            Self::Make(shading) => Some(shading.options()),
+            Self::Generate(shading) => Some(shading.options()),
         }
     }
 }
@@ -47,16 +47,16 @@ pub fn shading(text: &str) -> Result<ShadingChoice, String> {
         ("flat", _) => Ok(ShadingChoice::Flat),
         ("smooth", _) => Ok(ShadingChoice::Smooth),
         (_, Some(Ok(degrees))) => Ok(ShadingChoice::Crease(degrees)),
-        (_, Some(Err(_))) => Err("a crease has 0 to 180 degrees, as in crease=30".into()),
-        _ => Err("choose flat, smooth or crease=DEG".into()),
+        (_, Some(Err(_))) => Err("expected an angle of 0 to 180 degrees, as in crease=30".into()),
+        _ => Err("expected flat, smooth or crease=DEG".into()),
     }
 }
 
-/// A shading, or "keep".
+/// Parses a shading or "keep".
 pub fn normals_choice(text: &str) -> Result<NormalsChoice, String> {
     if text == "keep" {
         return Ok(NormalsChoice::Keep);
     }
-    let made = shading(text).map(NormalsChoice::Make);
-    made.map_err(|problem| problem.replace("choose flat", "choose keep, flat"))
+    let made = shading(text).map(NormalsChoice::Generate);
+    made.map_err(|problem| problem.replace("expected flat", "expected keep, flat"))
 }

@@ -12,20 +12,25 @@ use crate::options::reading::ReadOptions;
 pub const ABOUT: &str = "\
 Compare the tangents of two files of one model, or of a file with those of a method.
 
-Corner by corner: the angles between tangents (least, median, 95th percentile, greatest, mean, mean weighted by area), flipped \
-signs, a histogram, and the worst places. Vertices may be split differently in the two files; corners must be the same, in the \
-same order. Primitives are matched by the numbers of mesh and primitive.
+Prints, over all corners, the angles between the tangents (minimum, median, 95th percentile, maximum, mean, mean weighted by area), the number \
+of opposite signs w, a histogram of the angles, and the worst corners. An angle is between the directions of two tangents, whatever their signs. \
+The two files may split vertices differently, but must have the same corners in the same order. Primitives are matched by the indices of mesh and \
+primitive.
 
-Exit codes: 0 compared, 1 a file is bad or they are of different models, 2 wrong usage, 3 compared, and further apart than --tolerance.";
+Exit codes: 0 compared, 1 a file is bad or the models differ, 2 wrong usage, 3 the difference is larger than --tolerance.";
+
+pub const USAGE: &str = "\
+darboux compare [OPTIONS] <A> <B>
+       darboux compare [OPTIONS] <A> --method <NAME>";
 
 pub const EXAMPLES: &str = "\
 Examples:
-  darboux compare exported.glb model.tangents.glb       whose tangents are these?
-  darboux compare model.glb --method mikktspace         are they MikkTSpace's? exact, if all are identical
-  darboux compare a.glb b.glb --heat-map worst.png      where, over the UV layout
-  darboux compare a.glb b.glb --tolerance 0.1 --quiet   in a script: exit code 3 if not";
+  darboux compare exported.glb model.tangents.glb       do two files have the same tangents?
+  darboux compare model.glb --method mikktspace         are the tangents MikkTSpace's, bit for bit?
+  darboux compare a.glb b.glb --heat-map worst.png      where do they differ? a picture of the UV layout
+  darboux compare a.glb b.glb --tolerance 0.1 --quiet   for scripts: exit code 3 if they differ by more";
 
-/// `darboux compare`.
+/// Which tangents are compared, and what is reported.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("with").args(["second", "method"]).required(true))]
 pub struct CompareArguments {
@@ -37,15 +42,15 @@ pub struct CompareArguments {
     #[arg(value_name = "B")]
     pub second: Option<PathBuf>,
 
-    /// Compare A with the tangents that this method gives it; `darboux methods` lists them
+    /// Compare A with the tangents that this method computes for A; `darboux methods` lists the methods
     #[arg(long, value_enum, value_name = "NAME")]
     pub method: Option<MethodName>,
 
-    /// How many of the worst places are listed
+    /// How many of the worst corners are listed
     #[arg(long, value_name = "COUNT", default_value_t = 5)]
     pub worst: usize,
 
-    /// Exit with 3 if an angle is greater than so many degrees, a sign is flipped, or tangents are missing on one side
+    /// Exit with 3 if an angle is larger than this, a sign w is opposite, or one side lacks tangents
     #[arg(long, value_name = "DEGREES", value_parser = degrees::<f64>, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
 

@@ -1,4 +1,4 @@
-//! Angles drawn over the UV layout.
+//! Draws the angles between tangents over the UV layout, one colour per texel.
 
 use darboux::CornerDifference;
 use darboux_io::Error;
@@ -8,35 +8,36 @@ use darboux_io::image::PngImage;
 use super::statistics::differences;
 use crate::heat_scale::{ENDS, FLIP, ramp, row, scale_position};
 
-/// Texels across and down the UV square.
+/// The width and height of the UV square in texels.
 const SIZE: usize = 1024;
-/// Rows of black, then rows of the scale, below it.
+/// The height in texels of the black gap below the UV square.
 const GAP: usize = 8;
+/// The height in texels of the colour scale below the gap.
 const SCALE: usize = 24;
 
 const BACKGROUND: [u8; 3] = [16, 16, 16];
-/// How many texels are looked at before only corners are drawn: some seconds.
+/// After visiting this many texels, which takes some seconds, only the corners of triangles are drawn.
 const MOST_TEXELS: u64 = 1 << 30;
 
-/// The UV square [0, 1], v down, as glTF's images lie; triangles elsewhere are moved there by whole numbers.
+/// The UV square [0, 1] with v down, as in glTF images. Triangles outside it are moved into it by whole numbers.
 pub struct HeatMap {
-    /// Per texel the worst of what lies there: none, an angle in degrees, or infinity for a flipped sign.
+    /// The largest value per texel: an angle in degrees, or infinity for an opposite sign. `None` for an empty texel.
     worst: Vec<Option<f64>>,
-    looked_at: u64,
+    visited_texels: u64,
     too_large: usize,
 }
 
 impl HeatMap {
     pub fn new() -> Self {
-        Self { worst: vec![None; SIZE * SIZE], looked_at: 0, too_large: 0 }
+        Self { worst: vec![None; SIZE * SIZE], visited_texels: 0, too_large: 0 }
     }
 
-    /// Triangles of which only the corners are drawn.
+    /// The number of triangles of which only the corners are drawn.
     pub fn too_large(&self) -> usize {
         self.too_large
     }
 
-    /// Draws the triangles of a primitive; without UVs, nothing.
+    /// Draws the triangles of a primitive. A primitive without UVs is not drawn.
     pub fn draw(&mut self, corners: &PairedCorners) {
         let uvs = corners.uvs.as_deref().unwrap_or_default().as_chunks::<3>().0;
         let differences: Vec<CornerDifference> = differences(corners).collect();
@@ -52,21 +53,21 @@ impl HeatMap {
             return;
         }
         let least = [0, 1].map(|i| uvs.iter().map(|uv| uv[i]).fold(f64::INFINITY, f64::min));
-        // In texels, whose centres are at halves, from the tile in which the triangle begins.
+        // The corners in texels, relative to the tile of the smallest coordinates. The centres of texels are at halves.
         let points = uvs.map(|uv| [0, 1].map(|i| (uv[i] - least[i].floor()) * SIZE as f64));
-        // Triangles that are smaller than a texel may lie between all centres.
+        // A triangle smaller than a texel may cover no centre, so its corners are drawn as well.
         for (point, value) in points.iter().zip(values) {
             self.mark(point.map(|x| x as usize), value);
         }
         let [from, to] = bounds(points);
         let texels = ((to[0] - from[0]) * (to[1] - from[1])) as u64;
         if (0..2).any(|i| to[i] - from[i] > SIZE as f64)
-            || self.looked_at.saturating_add(texels) > MOST_TEXELS
+            || self.visited_texels.saturating_add(texels) > MOST_TEXELS
         {
             self.too_large += 1;
             return;
         }
-        self.looked_at += texels;
+        self.visited_texels += texels;
         for y in from[1] as usize..to[1] as usize {
             for x in from[0] as usize..to[0] as usize {
                 if let Some(weights) = weights(points, [x as f64 + 0.5, y as f64 + 0.5]) {
@@ -77,13 +78,13 @@ impl HeatMap {
         }
     }
 
-    /// Marks a texel, in whichever tile it is; the worst stays.
+    /// Draws a texel of any tile; the largest value stays.
     fn mark(&mut self, [x, y]: [usize; 2], value: f64) {
         let texel = &mut self.worst[y % SIZE * SIZE + x % SIZE];
         *texel = Some(texel.map_or(value, |worst| worst.max(value)));
     }
 
-    /// The picture, the scale below it.
+    /// The picture with the colour scale below it.
     pub fn image(&self, name: &str) -> Result<PngImage, Error> {
         let mut texels: Vec<[u8; 3]> =
             self.worst.iter().map(|worst| worst.map_or(BACKGROUND, colour)).collect();
@@ -94,12 +95,12 @@ impl HeatMap {
     }
 }
 
-/// The angle; without one nothing where both are identical, and as far off as can be where they are not.
+/// The angle. Without an angle: 0 for identical tangents, the largest angle for others.
 fn value(difference: CornerDifference) -> f64 {
     difference.angle.unwrap_or(if difference.is_identical { 0.0 } else { ENDS[1] })
 }
 
-/// The texels that a triangle may touch, from and to, in whole numbers.
+/// The bounding box of a triangle in whole texels: minimum and maximum.
 fn bounds(points: [[f64; 2]; 3]) -> [[f64; 2]; 2] {
     let fold =
         |i: usize, start: f64, f: fn(f64, f64) -> f64| points.iter().map(|point| point[i]).fold(start, f);
@@ -109,7 +110,7 @@ fn bounds(points: [[f64; 2]; 3]) -> [[f64; 2]; 2] {
     ]
 }
 
-/// The barycentric coordinates of a point in the triangle, its edges included; none outside, or without an area.
+/// The barycentric coordinates of a point inside the triangle or on its edges; `None` outside and for triangles without area.
 fn weights([p, q, r]: [[f64; 2]; 3], at: [f64; 2]) -> Option<[f64; 3]> {
     let area =
         |a: [f64; 2], b: [f64; 2], c: [f64; 2]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);

@@ -6,31 +6,31 @@ use darboux::{CornerDifference, HISTOGRAM_ENDS, measure_tangents, triangle_area}
 use darboux_io::gltf::{Pair, PairedCorners, PrimitiveName};
 use serde::Serialize;
 
-/// Degrees up to which angles may be another order of sums, or fewer bits.
+/// Angles up to this, in degrees, may come from rounding or compression.
 pub const ROUNDING: f64 = 0.01;
 
-/// How two sets of tangents differ; angles in degrees.
+/// How two sets of tangents differ. Angles are in degrees.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Statistics {
     pub corners: usize,
     pub identical: usize,
     pub sign_flips: usize,
     pub without_angle: usize,
-    /// Corners without an angle that are not identical either.
+    /// Corners without an angle that are not identical: their difference is unknown.
     pub unknown: usize,
-    /// Corners further apart than [`ROUNDING`]: by the angle, the sign, or unknown.
+    /// Corners whose angle exceeds [`ROUNDING`], whose signs are opposite, or whose difference is unknown.
     pub different: usize,
     pub min: f64,
     pub median: f64,
     pub p95: f64,
     pub max: f64,
     pub mean: f64,
-    /// Every corner counts a third of its triangle.
+    /// The mean angle; the weight of a corner is a third of its triangle's area.
     pub area_weighted_mean: f64,
     pub histogram: Vec<Bin>,
 }
 
-/// The corners whose angle is at most `up_to`, and above that of the bin before.
+/// The number of corners whose angle is at most `up_to` and above that of the previous bin.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Bin {
     pub up_to: f64,
@@ -38,7 +38,7 @@ pub struct Bin {
 }
 
 impl Statistics {
-    /// Of several primitives together.
+    /// The statistics of several primitives together.
     pub fn of<'a>(primitives: impl Iterator<Item = &'a PairedCorners>) -> Self {
         let (mut tangents, mut others) = (Vec::new(), Vec::new());
         let (mut sum, mut area, mut unknown, mut different) = (0.0, 0.0, 0, 0);
@@ -69,13 +69,13 @@ impl Statistics {
         }
     }
 
-    /// Whether no angle is greater, no sign flipped, and nothing unknown.
+    /// Whether no angle is larger, no sign is opposite and no difference is unknown.
     pub fn is_within(&self, degrees: f64) -> bool {
         self.max <= degrees && self.sign_flips == 0 && self.unknown == 0
     }
 }
 
-/// Corner by corner, how the tangents differ.
+/// The difference at each corner.
 pub fn differences(corners: &PairedCorners) -> impl Iterator<Item = CornerDifference> {
     let [tangents, others] = &corners.tangents;
     tangents.iter().zip(others).map(|(a, b)| CornerDifference::between(*a, *b))
@@ -85,7 +85,7 @@ fn is_more_than_rounding(difference: &CornerDifference) -> bool {
     difference.flips_sign || difference.is_unknown() || difference.angle > Some(ROUNDING)
 }
 
-/// The sum of the corners' angles times a third of their triangles' areas, and the sum of these areas.
+/// Returns the sum of angle times weight and the sum of the weights; the weight of a corner is a third of its triangle's area.
 fn area_weighted(corners: &PairedCorners) -> (f64, f64) {
     let thirds = corners.positions.as_chunks::<3>().0.iter().flat_map(|&triangle| {
         let third = triangle_area(triangle) / 3.0;
@@ -101,12 +101,12 @@ fn area_weighted(corners: &PairedCorners) -> (f64, f64) {
     (sum, total)
 }
 
-/// One primitive of the report.
+/// The comparison of one primitive.
 #[derive(Serialize)]
 pub struct ComparedPrimitive {
     #[serde(flatten)]
     pub name: PrimitiveName,
-    /// Why there is nothing to compare.
+    /// Why the primitive was not compared.
     pub reason: Option<String>,
     #[serde(flatten)]
     pub statistics: Option<Statistics>,
@@ -120,22 +120,22 @@ impl ComparedPrimitive {
     }
 }
 
-/// A corner that is far off.
+/// One of the corners that differ most.
 #[derive(Clone, Debug, Serialize)]
 pub struct WorstCorner {
     #[serde(flatten)]
     pub name: PrimitiveName,
-    /// The triangle in its primitive.
+    /// The index of the triangle in its primitive.
     pub triangle: usize,
-    /// Its corner: 0, 1 or 2.
+    /// The corner of the triangle: 0, 1 or 2.
     pub corner: usize,
     pub position: Option<[f32; 3]>,
-    /// None where a tangent is zero or not finite.
+    /// `None` if a tangent is zero or not finite.
     pub angle: Option<f64>,
     pub sign_flip: bool,
 }
 
-/// The worst places, one corner for each position: flipped signs first, then what has no angle, then by the angle.
+/// Finds the corners that differ most, one per position: opposite signs first, then corners without an angle, then the largest angles.
 pub fn worst(pairs: &[Pair], count: usize) -> Vec<WorstCorner> {
     let mut all = Vec::new();
     for (number, pair) in pairs.iter().enumerate() {

@@ -10,56 +10,56 @@ use crate::options::messages::MessageOptions;
 pub const ABOUT: &str = "\
 Convert normal maps and models between conventions.
 
-Normal maps (PNG, 8 or 16 bits): red and green are inverted where the conventions differ, to the bit, so that converting back gives the \
-first texels. Channels can be moved (DXT5nm's ag, two-channel rg); those that hold nothing of the vector keep what they hold, unless one \
-moves into them. Chunks stay, but for palettes, profiles and the like that do not fit other channels. A warning names images that do not \
-look like normal maps.
+Normal maps (PNG, 8 or 16 bits): red and green are inverted where the conventions differ. This is exact, so that converting back restores the \
+original texels. --layout and --to-layout move the vector to other channels (DXT5nm uses ag, two-channel maps use rg); a channel that holds no \
+part of the vector keeps its values unless a component moves into it. Metadata chunks are kept, except for palettes, colour profiles and others that \
+do not fit the new channels. A warning names images that do not look like normal maps.
 
-Models: positions, normals, tangents, UVs, morph targets and the winding of triangles change; where axes differ, nodes, skins and \
-animations too. A glTF file must be in glTF's convention, so this puts files right whose writer copied the numbers of another one \
-(--to gltf). For a program that copies numbers out of the file as they are, --raw allows any --to; such a file is no right glTF until \
-it is converted back, says so in asset.extras, and other commands refuse it. Images, cameras and lights stay; warnings name them.
+Models: positions, normals, tangents, UVs, morph targets and the winding of triangles are converted; if the axes differ, nodes, skins and \
+animations too. A glTF file must be in glTF's convention, so this repairs files whose writer copied the numbers of another convention (--to gltf). \
+For programs that use the numbers of a file as they are, --raw allows any --to; such a file is no valid glTF until it is converted back. It names its \
+convention in asset.extras, and the other commands refuse it. Images, cameras and lights are not converted; warnings name them.
 
-A convention is a name, and what differs from it, separated by commas: gltf,green=down. What can differ: axes=-x/y/z (right, up, front), \
-fronts=ccw or cw, v0=bottom or top, red=right or left, green=up or down, w=n-cross-t or t-cross-n. \
-docs/conventions.md in Darboux's source defines them all. Without -o, --out-dir or --in-place the output is named by its convention: brick.png \
-becomes brick.directx.png, or brick.converted.png where a name is not all of it.";
+A convention is a preset, optionally followed by differences after commas: gltf,green=down. The differences are: axes=-x/y/z (right, up, front), \
+fronts=ccw or cw, v0=bottom or top, red=right or left, green=up or down, w=n-cross-t or t-cross-n. docs/conventions.md in the source of Darboux \
+defines them. Without -o, --out-dir or --in-place the output is named after its convention: brick.png becomes brick.directx.png, or \
+brick.converted.png if the convention is not a preset.";
 
 pub const EXAMPLES: &str = "\
 Examples:
-  darboux convert brick_n.png --from opengl --to directx      green inverted: brick_n.directx.png
-  darboux convert *_n.png --from unreal --to gltf --in-place  a set of normal maps
+  darboux convert brick_n.png --from opengl --to directx      inverts green, writes brick_n.directx.png
+  darboux convert *_n.png --from unreal --to gltf --in-place  many normal maps
   darboux convert n.png --from gltf --to gltf --layout ag --to-layout rgb
-                                                              unpacked, z rebuilt
-  darboux convert exported.glb --from unity --to gltf         a file that holds Unity's numbers, put right
-  darboux convert model.glb --from gltf --to unreal --raw     numbers for a loader of one's own";
+                                                              unpacks two channels and computes z
+  darboux convert exported.glb --from unity --to gltf         repairs a file with Unity's numbers
+  darboux convert model.glb --from gltf --to unreal --raw     for a loader that expects Unreal's numbers";
 
-pub const OUTPUT: &str = "Output file for a single input, in a folder that exists; - is standard output";
+pub const OUTPUT: &str = "Output file for a single input, in an existing folder; - is standard output";
 pub const INPUTS: &str = "Normal maps (.png) and models (.gltf, .glb, .vrm); - is standard input";
 
-/// `darboux convert`.
+/// The conventions and channel layouts of the input and the output.
 #[derive(Debug, Args)]
 pub struct ConvertArguments {
     #[command(flatten)]
     pub files: FileOptions,
 
-    /// The convention that the files are in
+    /// The convention of the inputs
     #[arg(long, value_name = "CONVENTION", value_parser = ConventionParser, help_heading = "Conversion")]
     pub from: NamedConvention,
 
-    /// The convention that they shall be in
+    /// The convention of the outputs
     #[arg(long, value_name = "CONVENTION", value_parser = ConventionParser, help_heading = "Conversion")]
     pub to: NamedConvention,
 
-    /// Channels of a normal map's x, y and, where it is stored, z, in this order: rgb, rg, ag, la, ...
+    /// The channels of x, y and, if stored, z of a normal map: rgb, rg, ag, la, ...
     #[arg(long, value_name = "LETTERS", default_value_t = Channels::RGB, help_heading = "Conversion")]
     pub layout: Channels,
 
-    /// Channels that they shall be in; the same unless given. A z that was not stored is rebuilt
+    /// The channels in the output; by default those of --layout. A z that is not stored is computed from x and y
     #[arg(long, value_name = "LETTERS", help_heading = "Conversion")]
     pub to_layout: Option<Channels>,
 
-    /// Let a model leave glTF's convention: for programs that copy its numbers as they are
+    /// Allow models in other conventions than glTF's, for programs that use the numbers as they are
     #[arg(long, help_heading = "Conversion")]
     pub raw: bool,
 

@@ -3,12 +3,12 @@
 use clap::Args;
 
 pub const ABOUT: &str = "\
-List the adapters that `darboux tangents --device gpu` can use, software ones included.
+List the graphics adapters that `darboux tangents --device gpu` can use, including software adapters.
 
-That command takes the one which the system calls the fastest. By the largest buffer that its shaders can reach, an adapter computes a \
-number of triangles at once; larger meshes are cut into pieces.";
+`darboux tangents` uses the adapter that the system ranks as the fastest. The largest buffer that shaders can access limits the number of triangles \
+per dispatch; larger meshes are processed in parts.";
 
-/// `darboux devices`.
+/// The format of the list.
 #[derive(Debug, Args)]
 pub struct DevicesArguments {
     /// Print a JSON report to standard output

@@ -8,10 +8,11 @@ use crate::options::messages::MessageOptions;
 use crate::options::reading::ReadOptions;
 
 pub const ABOUT: &str = "\
-Show what each primitive holds and what its tangents would meet.
+Show the contents of each primitive and the difficulties for its tangents. No file is written.
 
-One line per primitive: vertices, triangles, attributes, the UV set that tangents belong to, vertices that must be split, \
-edges where the UVs mirror, degenerate triangles (in space and in UVs), and whether it has tangents. Nothing is written.";
+For each primitive: the number of vertices and triangles, the UV set that its tangents follow, the edges between mirrored and unmirrored \
+UVs, degenerate triangles (of positions, and of UVs alone), the vertices that tangents would split, whether it has tangents, and its attributes. \
+In the column of tangents, `needed` means that the material uses tangents and the file has none.";
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -19,7 +20,7 @@ Examples:
   darboux inspect models/*.gltf
   darboux inspect model.glb --json | jq '.files[].primitives[] | select(.mirrored_edges > 0)'";
 
-/// `darboux inspect`.
+/// Which files are inspected.
 #[derive(Debug, Args)]
 pub struct InspectArguments {
     /// Files (.gltf, .glb, .vrm) and folders; - is standard input

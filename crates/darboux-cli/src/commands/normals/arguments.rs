@@ -10,40 +10,40 @@ use crate::options::shading::{ShadingChoice, shading};
 pub const ABOUT: &str = "\
 Add normals to glTF and GLB files.
 
-Every triangle primitive without normals gets some; with --overwrite all get new ones. Primitives of one mesh are shaded as one \
-surface: vertices at equal positions are one, so that UV seams and material borders do not show. Vertices are split where corners \
-need different normals (flat shading, creases); skins, colours, UV sets and morph targets follow. Tangents of the old normals are \
-taken out: run darboux tangents afterwards, or use its --normals. Everything else stays as it was.
+Every triangle primitive without normals gets normals; with --overwrite all primitives get new ones. The primitives of a mesh are shaded as one \
+surface: vertices at equal positions count as one, so that UV seams and material borders are invisible. Vertices are split where their corners \
+need different normals (flat shading, creases); skins, colours, UV sets and morph targets are split with them. Tangents that belong to replaced \
+normals are removed: run darboux tangents afterwards, or use its option --normals. The rest of the file does not change.
 
-Without -o, --out-dir or --in-place the output lies beside its input: model.glb becomes model.normals.glb.";
+Without -o, --out-dir or --in-place the output is written beside its input: model.glb becomes model.normals.glb.";
 
 pub const EXAMPLES: &str = "\
 Examples:
   darboux normals scan.glb                               smooth everywhere
   darboux normals part.glb --normals crease=30           hard edges above 30 degrees
   darboux normals part.glb --normals crease=30 --weight angle-area
-                                                         bevels bend, wide faces stay flat
-  darboux normals level.glb --overwrite --normals flat   as if there were none";
+                                                         round bevels, flat wide faces
+  darboux normals level.glb --overwrite --normals flat   replace existing normals";
 
-/// `darboux normals`.
+/// Which normals are generated.
 #[derive(Debug, Args)]
 pub struct NormalsArguments {
     #[command(flatten)]
     pub files: FileOptions,
 
-    /// flat, smooth, or crease=DEG: smooth but for edges that are sharper than so many degrees
+    /// flat, smooth, or crease=DEG: smooth except at edges sharper than DEG degrees
     #[arg(long, value_name = "SHADING", default_value = "smooth", value_parser = shading, help_heading = "Normals")]
     pub normals: ShadingChoice,
 
-    /// How much each face counts at a vertex of a smooth surface
+    /// The weight of each face at a smooth vertex
     #[arg(long, value_enum, default_value_t, help_heading = "Normals")]
     pub weight: Weight,
 
-    /// Vertices stay apart where the index list has them apart, at equal positions too
+    /// Do not smooth across vertices with different indices, even at equal positions
     #[arg(long, help_heading = "Normals")]
     pub respect_seams: bool,
 
-    /// Replace normals that exist; without it such primitives are kept
+    /// Replace existing normals; without it they are kept
     #[arg(long, help_heading = "Normals")]
     pub overwrite: bool,
 
@@ -52,22 +52,22 @@ pub struct NormalsArguments {
 }
 
 impl NormalsArguments {
-    /// The options of the core.
+    /// The options of the library.
     pub fn shading(&self) -> NormalOptions {
         let seams = if self.respect_seams { SmoothingSeams::Respected } else { SmoothingSeams::Ignored };
         self.normals.options().with_weight(self.weight.into()).with_seams(seams)
     }
 }
 
-/// `--weight`: [`NormalWeight`] as people type it.
+/// `--weight`: the names of [`NormalWeight`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Weight {
-    /// The angle of its corner: independent of how a flat surface is cut
+    /// The angle of its corner: independent of the triangulation of flat surfaces
     #[default]
     Angle,
     /// Its area
     Area,
-    /// Both: wide faces stay flat beside bevels
+    /// Angle times area: wide faces stay flat beside bevels
     AngleArea,
 }
 

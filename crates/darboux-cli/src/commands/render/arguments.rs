@@ -11,11 +11,11 @@ use crate::options::reading::ReadOptions;
 pub const ABOUT: &str = "\
 Draw a model or its tangents into a PNG, without a window.
 
-The views are those of `darboux view`, by the same names: what the surface is painted with, vectors as lines, mirrored seams, the UV \
-layout, two sources side by side, and mistakes. The scene is drawn in its pose: nodes, mirrors included, skins, morph targets and instances; \
-animations rest. Parts without a normal map are shaded with a pattern of domes, so that wrong tangents show.
+The views are those of `darboux view`, with the same names: colours on the surface, vectors as lines, mirrored seams, the UV layout, two sources \
+of tangents side by side, and typical mistakes. The scene is drawn in its rest pose, with nodes, skins, morph targets and instances. Parts without a \
+normal map get a pattern of domes, on which wrong tangents are visible.
 
-Drawing needs an adapter, as `darboux devices` lists them; software ones such as Mesa's lavapipe do.";
+Drawing needs a graphics adapter; `darboux devices` lists them. Software adapters such as Mesa's lavapipe work.";
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -28,32 +28,32 @@ Examples:
   darboux render model.glb -o shield.png --mesh Shield
   darboux render model.glb -o back.png --camera 180,10,1.5 --size 1920x1080";
 
-/// `darboux render`.
+/// What is drawn, and how.
 #[derive(Debug, Args)]
 pub struct RenderArguments {
     /// A model (.gltf, .glb, .vrm, .obj)
     #[arg(value_name = "MODEL")]
     pub model: PathBuf,
 
-    /// The picture
+    /// The picture, in an existing folder
     #[arg(short, long, value_name = "PNG")]
     pub output: PathBuf,
 
-    /// What the surface is painted with
+    /// What the colours of the surface show
     #[arg(long, value_enum, value_name = "VIEW", default_value_t)]
     pub view: ViewChoice,
 
-    /// Whose tangents: file, derivatives (what shaders do that have none), or a method, as `darboux methods` lists them
+    /// The source of the tangents: file, derivatives (as shaders without tangents derive them), or a method; `darboux methods` lists the methods
     ///
-    /// Without it those of the file, and MikkTSpace's where it has none.
+    /// The default is the file's tangents, or MikkTSpace if the file has none.
     #[arg(long, value_name = "SOURCE", value_parser = source)]
     pub tangents: Option<TangentSource>,
 
-    /// The other tangents: what --view angle compares with, and what --split shows on the right
+    /// The second source of tangents, for --view angle and for the right side of --split
     #[arg(long, value_name = "SOURCE", value_parser = source, required_if_eq_any([("view", "angle"), ("view", "heat")]))]
     pub against: Option<TangentSource>,
 
-    /// Show --tangents left of so many percent of the width, and --against right of them; or the same there, with --mistakes
+    /// Divide the picture at this percentage of its width: --tangents on the left; --against, or --mistakes, on the right
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pub split: Option<f64>,
 
@@ -61,31 +61,31 @@ pub struct RenderArguments {
     #[arg(long, value_enum, value_name = "VECTORS", value_delimiter = ',')]
     pub lines: Vec<VectorLines>,
 
-    /// Length of lines, in percent of the model's radius
+    /// The length of the lines, in percent of the model's radius
     #[arg(long, value_name = "PERCENT", default_value = "2", value_parser = percent)]
     pub length: f64,
 
-    /// Draw the edges across which the sign changes: where a texture meets its mirror image
+    /// Draw mirrored seams: the edges across which the sign w changes
     #[arg(long)]
     pub seams: bool,
 
-    /// Draw the UV layout in the surface's colours (signs where it is shaded), v down
+    /// Draw the UV layout in the colours of the surface (in those of the sign for the shaded view), v down
     #[arg(long, value_enum, value_name = "PLACE")]
     pub layout: Option<LayoutPlacement>,
 
-    /// Do this wrong; right of --split, or everywhere
+    /// Make these mistakes, on the right of --split or in the whole picture
     #[arg(long, value_enum, value_name = "MISTAKES", value_delimiter = ',')]
     pub mistakes: Vec<MistakeChoice>,
 
-    /// Draw this mesh alone: its name, or else its index; several times for several
+    /// Draw only this mesh, given by its name or index; can be repeated
     #[arg(long, value_name = "MESH", allow_hyphen_values = true)]
     pub mesh: Vec<String>,
 
-    /// Pixels across and down
+    /// Width and height in pixels, at least 1x1
     #[arg(long, value_name = "WxH", default_value = "1024x768", value_parser = size)]
     pub size: [u32; 2],
 
-    /// Degrees around the model (0 is its front), degrees above the horizon, and how many times nearer than all of it in view
+    /// Degrees around the model (0 is its front), degrees above the horizon, and the magnification (1 shows the whole model)
     #[arg(
         long,
         value_name = "YAW,PITCH[,ZOOM]",
@@ -99,7 +99,7 @@ pub struct RenderArguments {
     #[arg(long, value_name = "RRGGBB", default_value = "eceff1", value_parser = color)]
     pub background: [u8; 3],
 
-    /// Leave out what explains the colours, and the names of both sides
+    /// Draw no legend and no names of the two sides
     #[arg(long)]
     pub no_legend: bool,
 
@@ -117,18 +117,18 @@ pub struct RenderArguments {
 /// `--view`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum ViewChoice {
-    /// The surface with its base colour and normal map, lit from above right
+    /// The surface with its base colour and normal map, lit from the upper right
     #[default]
     Shaded,
-    /// Tangents as colours, 0.5 + 0.5 of each component in the scene
+    /// Tangents as colours: 0.5 + 0.5 times each component, in scene space
     Tangent,
-    /// Bitangents, likewise
+    /// Bitangents in the same colours
     Bitangent,
-    /// Normals of the mesh, likewise
+    /// Normals of the mesh in the same colours
     Normal,
-    /// The sign w: blue 1, orange -1
+    /// The sign w: blue for 1, orange for -1
     Sign,
-    /// The angle between --tangents and --against, from 0.01 to 180 degrees; red where signs differ
+    /// The angle between --tangents and --against, from 0.01 to 180 degrees; red where the signs are opposite
     #[value(alias = "heat")]
     Angle,
 }
@@ -147,18 +147,18 @@ pub enum VectorLines {
 /// `--layout`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum LayoutPlacement {
-    /// Over the lower right corner
+    /// In the lower right corner
     Corner,
-    /// In place of the model
+    /// Instead of the model
     Alone,
 }
 
 /// `--mistakes`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum MistakeChoice {
-    /// Flip the normal map's green channel
+    /// Invert the green channel of normal maps
     Green,
-    /// Flip the sign of tangents
+    /// Invert the sign w of tangents
     W,
     /// Sample images at 1 - v
     V,
@@ -167,16 +167,16 @@ pub enum MistakeChoice {
 /// `--tangents` and `--against`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TangentSource {
-    /// What the file has.
+    /// The tangents in the file.
     File,
-    /// What shaders derive.
+    /// Tangents that shaders derive per pixel.
     Derivatives,
-    /// What a method computes.
+    /// The tangents of a method.
     Method(MethodName),
 }
 
 impl TangentSource {
-    /// As it is typed.
+    /// The name on the command line.
     pub fn name(self) -> String {
         match self {
             Self::File => "file".to_owned(),
@@ -189,7 +189,8 @@ impl TangentSource {
 }
 
 fn source(text: &str) -> Result<TangentSource, String> {
-    let unknown = |_| "neither file, derivatives nor a method; `darboux methods` lists them".to_owned();
+    let unknown =
+        |_| "expected file, derivatives or a method; `darboux methods` lists the methods".to_owned();
     match text {
         "file" => Ok(TangentSource::File),
         "derivatives" => Ok(TangentSource::Derivatives),
@@ -199,13 +200,13 @@ fn source(text: &str) -> Result<TangentSource, String> {
 
 fn percent(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|number| (0.0..=100.0).contains(number));
-    number.ok_or_else(|| "not a number from 0 to 100".to_owned())
+    number.ok_or_else(|| "expected a number from 0 to 100".to_owned())
 }
 
 fn size(text: &str) -> Result<[u32; 2], String> {
-    let sides =
-        text.split_once('x').and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
-    sides.ok_or_else(|| "not a size such as 1024x768".to_owned())
+    let side = |text: &str| text.parse().ok().filter(|side| *side > 0);
+    let sides = text.split_once('x').and_then(|(width, height)| Some([side(width)?, side(height)?]));
+    sides.ok_or_else(|| "expected a size of at least 1x1, such as 1024x768".to_owned())
 }
 
 fn camera(text: &str) -> Result<[f64; 3], String> {
@@ -213,13 +214,13 @@ fn camera(text: &str) -> Result<[f64; 3], String> {
     let (yaw, pitch, zoom) = match parts.as_deref() {
         Some(&[yaw, pitch]) => (yaw, pitch, 1.0),
         Some(&[yaw, pitch, zoom]) => (yaw, pitch, zoom),
-        _ => return Err("not two or three numbers such as 30,20 or 30,20,1.5".to_owned()),
+        _ => return Err("expected two or three numbers such as 30,20 or 30,20,1.5".to_owned()),
     };
     if !((-360.0..=360.0).contains(&yaw)
         && (-90.0..=90.0).contains(&pitch)
         && (0.01..=1000.0).contains(&zoom))
     {
-        return Err("not from -360 to 360, -90 to 90 and 0.01 to 1000".to_owned());
+        return Err("expected -360 to 360, -90 to 90 and 0.01 to 1000".to_owned());
     }
     Ok([yaw, pitch, zoom])
 }
@@ -228,6 +229,7 @@ fn color(text: &str) -> Result<[u8; 3], String> {
     let digits = text.strip_prefix('#').unwrap_or(text);
     let is_color = digits.len() == 6 && digits.bytes().all(|digit| digit.is_ascii_hexdigit());
     let number = u32::from_str_radix(digits, 16).ok().filter(|_| is_color);
-    let [_, r, g, b] = number.ok_or("not a colour of six hexadecimal digits such as eceff1")?.to_be_bytes();
+    let [_, r, g, b] =
+        number.ok_or("expected a colour of six hexadecimal digits such as eceff1")?.to_be_bytes();
     Ok([r, g, b])
 }

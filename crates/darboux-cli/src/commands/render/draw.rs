@@ -26,7 +26,7 @@ use crate::terminal::{Messages, write_stdout};
 use crate::text::counted;
 use crate::{exit, interrupt};
 
-/// What `darboux render --json` prints.
+/// The JSON report. json.md documents its fields.
 #[derive(Serialize)]
 struct RenderReport {
     command: &'static str,
@@ -40,14 +40,14 @@ struct RenderReport {
     warnings: Vec<String>,
 }
 
-/// Runs the command; gives its exit code.
+/// Runs the command and returns its exit code.
 pub fn run(arguments: &RenderArguments) -> u8 {
     let messages = Messages::new(arguments.messages.quiet);
     if arguments.model == Path::new("-") {
-        messages.error("a model on standard input cannot be drawn; save it to a file");
+        messages.error("a model on standard input cannot be drawn; save it to a file first");
         return exit::USAGE;
     }
-    let refused = refuse_missing_folder(&arguments.output).and_then(|()| refuse_useless(arguments));
+    let refused = refuse_missing_folder(&arguments.output).and_then(|()| refuse_contradictions(arguments));
     if let Err(sentence) = refused {
         messages.error(&sentence);
         return exit::USAGE;
@@ -75,25 +75,25 @@ pub fn run(arguments: &RenderArguments) -> u8 {
     exit::DONE
 }
 
-/// Says which arguments would change nothing, or cannot be meant.
-fn refuse_useless(arguments: &RenderArguments) -> Result<(), String> {
+/// Refuses arguments that contradict each other or have no effect.
+fn refuse_contradictions(arguments: &RenderArguments) -> Result<(), String> {
     let RenderArguments { view, against, split, mistakes, output, .. } = arguments;
     if output.is_dir() {
-        return Err(format!("{} is a folder; name a file in it", output.display()));
+        return Err(format!("{} is a folder; choose a file in it", output.display()));
     }
     if against.is_some() && *view != ViewChoice::Angle && split.is_none() {
-        return Err("--against is for --view angle and for --split, and neither is there".to_owned());
+        return Err("--against needs --view angle or --split; add one of them".to_owned());
     }
     if split.is_some() && *view == ViewChoice::Angle {
-        return Err("--view angle is one picture of two sources; leave --split out".to_owned());
+        return Err("--view angle compares two sources in one picture; remove --split".to_owned());
     }
     if split.is_some() && against.is_none() && mistakes.is_empty() {
-        return Err("--split shows twice the same: give --against or --mistakes, too".to_owned());
+        return Err("--split needs --against or --mistakes; without them both sides are the same".to_owned());
     }
     Ok(())
 }
 
-/// Reads, draws, writes. Errors are one sentence each.
+/// Reads the model, draws it and writes the picture. Errors are one sentence each.
 fn draw(arguments: &RenderArguments) -> Result<RenderReport, String> {
     let RenderArguments { model: path, output, view, size, .. } = arguments;
     check_output(output, arguments.force)?;
@@ -140,7 +140,7 @@ fn draw(arguments: &RenderArguments) -> Result<RenderReport, String> {
     })
 }
 
-/// What is drawn of a document with the tangents of a source.
+/// The chosen meshes of a document as a model to draw.
 fn model<'a>(
     arguments: &RenderArguments,
     document: &'a mut Document,
@@ -152,7 +152,7 @@ fn model<'a>(
     Ok(if source == Some(TangentSource::Derivatives) { model.derived() } else { model })
 }
 
-/// Draws the model, and what explains it.
+/// Draws the model and the legend.
 fn picture(
     arguments: &RenderArguments,
     source: TangentSource,
@@ -175,27 +175,27 @@ fn picture(
     Ok(picture)
 }
 
-/// Says what is wrong with the output before any work.
+/// Refuses an output that exists or is no PNG, before any work.
 fn check_output(path: &Path, force: bool) -> Result<(), String> {
     if path.exists() && !force {
-        return Err(format!("{}: exists; use --force to replace it, or name another file", path.display()));
+        return Err(format!("{}: exists; use --force to replace it, or choose another name", path.display()));
     }
     if !is_png(path) {
-        return Err(format!("{}: the picture is a PNG; name it .png", path.display()));
+        return Err(format!("{}: the picture is a PNG; its name must end in .png", path.display()));
     }
     Ok(())
 }
 
-/// The model with tangents.
+/// A document with tangents.
 struct LoadedModel {
     document: Document,
-    /// Whose tangents these are.
+    /// The source of the tangents.
     source: TangentSource,
-    /// What is odd about the file: sentences.
+    /// Warnings about the file, one sentence each.
     warnings: Vec<String>,
 }
 
-/// Reads the model with the tangents of a source. Triangles without normals get flat ones, as glTF asks of renderers.
+/// Reads the model with the tangents of a source. Triangles without normals get flat ones, as the glTF specification asks of renderers.
 fn open(arguments: &RenderArguments, source: Option<TangentSource>) -> Result<LoadedModel, String> {
     let sentence = |error: darboux_io::Error| error.to_string();
     let is_obj = arguments.model.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj"));
@@ -218,9 +218,7 @@ fn open(arguments: &RenderArguments, source: Option<TangentSource>) -> Result<Lo
     let tangents = match source {
         Some(TangentSource::File) if of_file != TangentSource::File => {
             let name = document.name();
-            return Err(format!(
-                "{name}: has no tangents; name a method in place of file, as in --tangents mikktspace"
-            ));
+            return Err(format!("{name}: has no tangents; choose a method, as in --tangents mikktspace"));
         }
         Some(source @ (TangentSource::File | TangentSource::Derivatives)) => {
             return Ok(LoadedModel { document, source, warnings });
@@ -235,7 +233,7 @@ fn open(arguments: &RenderArguments, source: Option<TangentSource>) -> Result<Lo
     Ok(LoadedModel { document, source: source.unwrap_or(of_file), warnings })
 }
 
-/// The meshes that names and indices mean. The error is a sentence.
+/// Returns the indices of meshes given by name or index. The error is one sentence.
 fn chosen(document: &Document, words: &[String]) -> Result<Vec<usize>, String> {
     let meshes = document.meshes();
     let mut chosen = Vec::new();
@@ -251,15 +249,18 @@ fn chosen(document: &Document, words: &[String]) -> Result<Vec<usize>, String> {
     Ok(chosen)
 }
 
-/// More names than this help nobody.
-const MOST_NAMES: usize = 8;
+/// The number of mesh names in an error message.
+const NAMES_IN_ERROR: usize = 8;
 
 fn no_mesh(document: &Document, word: &str) -> String {
     let names: Vec<&str> =
-        document.meshes().iter().filter_map(|mesh| mesh.name.as_deref()).take(MOST_NAMES).collect();
+        document.meshes().iter().filter_map(|mesh| mesh.name.as_deref()).take(NAMES_IN_ERROR).collect();
     let names = if names.is_empty() { String::new() } else { format!(", such as {}", names.join(", ")) };
     let count = counted(document.meshes().len(), "mesh", "meshes");
-    format!("{}: has no mesh {word}; name one of its {count}{names}, or an index from 0", document.name())
+    format!(
+        "{}: has no mesh {word}; use the name of one of its {count}{names}, or an index from 0",
+        document.name()
+    )
 }
 
 fn has_tangents(document: &Document) -> bool {
@@ -297,7 +298,7 @@ fn options(arguments: &RenderArguments) -> RenderOptions {
     }
 }
 
-/// Warnings name their file.
+/// Adds the file name to a warning that lacks it.
 fn with_name(name: &str, warning: String) -> String {
     if warning.starts_with(name) { warning } else { format!("{name}: {warning}") }
 }
@@ -305,7 +306,7 @@ fn with_name(name: &str, warning: String) -> String {
 fn no_adapter(error: GpuError) -> String {
     match error {
         GpuError::NoAdapter => {
-            "no adapter was found to draw with: install a Vulkan, Metal or Direct3D 12 driver; Mesa's lavapipe draws without a GPU"
+            "no graphics adapter was found; install a driver for Vulkan, Metal or Direct3D 12 (Mesa's lavapipe works without a GPU)"
                 .to_owned()
         }
         error => error.to_string(),

@@ -1,4 +1,4 @@
-//! What explains the colours of a picture, below it, and the names of its sides.
+//! The legend below a picture, which explains its colours, and the names of its two sides.
 
 use std::convert::Infallible;
 
@@ -19,34 +19,34 @@ const FONT: &MonoFont<'_> = &FONT_6X13;
 const LETTER: u32 = FONT.character_size.width;
 const LINE: u32 = FONT.character_size.height;
 
-/// Pixels around and between things.
+/// The space in pixels around and between the parts of the legend.
 const GAP: u32 = 8;
-/// Rows of the scale's colours, and the side of a colour's square.
+/// The height of the colour scale and of the squares of colour, in pixels.
 const BAR: u32 = 10;
-/// A narrower scale has no room for its labels.
+/// The minimum width of the scale in pixels; its labels overlap in a narrower one.
 const NARROWEST_SCALE: u32 = 150;
-/// Pictures that are not so many times as high have none.
+/// A picture lower than this multiple of the legend gets no legend.
 const LEAST_PART: u32 = 6;
-/// The scale's labels, in degrees, as the viewer has them.
+/// The labels of the scale in degrees, the same as in the viewer.
 const LABELS: [f64; 5] = [0.01, 0.1, 1.0, 10.0, 180.0];
 
-/// A colour, and what it means.
+/// A colour and its meaning.
 type Key = ([u8; 3], &'static str);
 
-/// The rows below a picture that explain it.
+/// The legend of a picture.
 pub struct Legend {
     keys: Vec<Key>,
     has_scale: bool,
-    /// Left and right of a part of the width.
+    /// The names of the left and the right side, and the position of the divide as a fraction of the width.
     names: Option<([String; 2], f64)>,
-    /// None where there is nothing to explain, or no room.
+    /// The height in pixels; 0 without a legend.
     rows: u32,
     ink: Rgb888,
     paper: [u8; 3],
 }
 
 impl Legend {
-    /// What there is to explain. `source`: whose tangents are drawn, on the left.
+    /// The legend for these arguments. `source`: the source of the tangents on the left.
     pub fn of(arguments: &RenderArguments, source: TangentSource, options: &RenderOptions) -> Self {
         let mut keys = colors_of(options);
         let lines = &options.lines;
@@ -58,26 +58,26 @@ impl Legend {
         let [width, height] = options.size;
         let needed = if has_scale { BAR + LINE + 2 * GAP } else { LINE + GAP };
         let needed = if keys.is_empty() { 0 } else { needed };
-        let has_room =
+        let fits =
             !arguments.no_legend && height >= LEAST_PART * needed && width >= NARROWEST_SCALE + 2 * GAP;
         let light: u32 = options.background.iter().map(|&channel| u32::from(channel)).sum();
         Self {
             keys,
             has_scale,
-            names: names_of(arguments, source).filter(|_| has_room),
-            rows: if has_room { needed } else { 0 },
+            names: names_of(arguments, source).filter(|_| fits),
+            rows: if fits { needed } else { 0 },
             ink: if light > 3 * 128 { Rgb888::BLACK } else { Rgb888::WHITE },
             paper: options.background,
         }
     }
 
-    /// The options of the picture that is above it.
+    /// The options of the picture above the legend.
     pub fn above(&self, options: &RenderOptions) -> RenderOptions {
         let [width, height] = options.size;
         RenderOptions { size: [width, height - self.rows], ..options.clone() }
     }
 
-    /// Adds itself to the picture.
+    /// Draws the legend into the picture.
     pub fn add(&self, picture: &mut Picture) {
         let [width, height] = picture.size;
         picture.size = [width, height + self.rows];
@@ -97,12 +97,12 @@ impl Legend {
         let mut keys = self.keys.as_slice();
         let mut left = GAP;
         if self.has_scale {
-            let mut room = width.saturating_sub(2 * GAP + widths(keys));
-            if room < NARROWEST_SCALE {
-                (keys, room) = (&[], width - 2 * GAP);
+            let mut available = width.saturating_sub(2 * GAP + widths(keys));
+            if available < NARROWEST_SCALE {
+                (keys, available) = (&[], width - 2 * GAP);
             }
-            self.scale(&mut canvas, [left, height + GAP], room);
-            left += room + 2 * GAP;
+            self.scale(&mut canvas, [left, height + GAP], available);
+            left += available + 2 * GAP;
         }
         for &(color, meaning) in keys {
             let [square, text] = [[left, top + (LINE - BAR) / 2], [left + BAR + GAP / 2, top]];
@@ -112,7 +112,7 @@ impl Legend {
         }
     }
 
-    /// Draws the scale of angles with its labels.
+    /// Draws the scale of angles and its labels.
     fn scale(&self, canvas: &mut Canvas<'_>, [left, top]: [u32; 2], width: u32) {
         for (column, color) in (left..).zip(row(width as usize)) {
             canvas.fill([column, top], [1, BAR], color);
@@ -133,10 +133,10 @@ impl Legend {
     }
 }
 
-/// What the colours of a view mean.
+/// The meaning of the colours of a view.
 fn colors_of(options: &RenderOptions) -> Vec<Key> {
     match options.view {
-        View::Angle => vec![(options.heat.flip, "signs differ"), (options.heat.none, "no tangent")],
+        View::Angle => vec![(options.heat.flip, "opposite signs"), (options.heat.none, "no tangent")],
         View::Tangent | View::Bitangent | View::Normal => {
             vec![([255, 128, 128], "+x"), ([128, 255, 128], "+y"), ([128, 128, 255], "+z")]
         }
@@ -145,7 +145,7 @@ fn colors_of(options: &RenderOptions) -> Vec<Key> {
     }
 }
 
-/// What is left and right of `--split`.
+/// The names of the sides of `--split`.
 fn names_of(arguments: &RenderArguments, source: TangentSource) -> Option<([String; 2], f64)> {
     let flipped =
         |mistake: &MistakeChoice| Some(format!("{} flipped", mistake.to_possible_value()?.get_name()));
@@ -163,7 +163,7 @@ fn widths(keys: &[Key]) -> u32 {
     keys.iter().map(|(_, meaning)| key_width(meaning)).sum()
 }
 
-/// Pixels to draw on.
+/// The pixels of a picture.
 struct Canvas<'a> {
     width: u32,
     pixels: &'a mut [[u8; 3]],
@@ -176,7 +176,7 @@ impl Canvas<'_> {
         }
     }
 
-    /// What lies outside is left out.
+    /// Sets a pixel; pixels outside the picture are ignored.
     fn put(&mut self, column: u32, row: u32, color: [u8; 3]) {
         let at = row as usize * self.width as usize + column as usize;
         if let Some(pixel) = self.pixels.get_mut(at).filter(|_| column < self.width) {

@@ -14,30 +14,30 @@ pub const ABOUT: &str = "\
 Add tangents to glTF and GLB files.
 
 Every triangle primitive with positions, normals and UVs gets MikkTSpace tangents for the UV set that its normal map uses. \
-Vertices are split where corners need different tangents (mirrored seams); skins, colours, UV sets and morph targets \
-follow. Everything else stays as it was. A primitive that gets no tangents is named with its reason; a file with \
-nothing to do is copied.
+Vertices are split where their corners need different tangents, as at mirrored seams; skins, colours, UV sets and morph targets \
+are split with them. The rest of the file does not change. The command names each primitive that gets no tangents, with the reason; a file \
+without changes is copied.
 
-Without -o, --out-dir or --in-place the output lies beside its input: model.glb becomes model.tangents.glb. The output's \
-extension decides the container: .glb embeds everything, .gltf writes its buffer beside it and brings images along.
+Without -o, --out-dir or --in-place the output is written beside its input: model.glb becomes model.tangents.glb. The extension of the \
+output selects the container: .glb contains everything, .gltf gets its buffer and images as files beside it.
 
-Folders are searched for .gltf, .glb and .vrm, inner folders included. Names like model.tangents.glb are left out \
-there, as they are outputs, and so is the folder of --out-dir; give such a file by name to use it.";
+Folders are searched for .gltf, .glb and .vrm files, subfolders included. Files named like outputs (model.tangents.glb) and the folder of \
+--out-dir are skipped in this search; name such a file to process it.";
 
 pub const EXAMPLES: &str = "\
 Examples:
   darboux tangents model.glb                        writes model.tangents.glb
-  darboux tangents model.gltf -o model.glb          the same into one file
-  darboux tangents models --out-dir out             a whole folder, its structure kept
-  darboux tangents models --out-dir out --resume    what an earlier run left to do
+  darboux tangents model.gltf -o model.glb          everything in one file
+  darboux tangents models --out-dir out             a folder and its subfolders
+  darboux tangents models --out-dir out --resume    only what is missing or out of date
   darboux tangents models --in-place --only-needed  only where materials use tangents
-  darboux tangents a.glb --overwrite --json         replace old tangents, report as JSON
-  darboux tangents a.glb --encoding snorm8x4        in a quarter of the bytes
+  darboux tangents a.glb --overwrite --json         replace tangents, report as JSON
+  darboux tangents a.glb --encoding snorm8x4        a quarter of the size
   darboux tangents a.glb --device gpu               the same bits, computed on a GPU
-  darboux tangents scan.glb --normals smooth        normals first
-  curl -s URL | darboux tangents - > model.glb      from a pipe into a file";
+  darboux tangents scan.glb --normals smooth        generate normals first
+  curl -s URL | darboux tangents - > model.glb      from a pipe to a file";
 
-/// `darboux tangents`.
+/// Which tangents are computed, and how they are stored.
 #[derive(Debug, Args)]
 pub struct TangentsArguments {
     #[command(flatten)]
@@ -49,13 +49,14 @@ pub struct TangentsArguments {
     #[arg(long, value_enum, value_name = "NAME", default_value_t, help_heading = "Tangents")]
     pub method: MethodName,
 
-    /// Which defects of the MikkTSpace reference to keep
+    /// Which defects of the MikkTSpace reference implementation are kept
     #[arg(long, value_enum, default_value_t, help_heading = "Tangents")]
     pub mode: Mode,
 
-    /// Split tangents of faces whose directions differ by this many degrees or more
+    /// Split the tangents of faces whose directions differ by this angle or more, in degrees
     ///
-    /// Bakers use 180: tangents are split only where they must be. Only mikktspace has a threshold.
+    /// Bakers use 180, which splits tangents only where UVs are mirrored or separate. Only mikktspace has a threshold. Below 180 the faces around
+    /// a vertex are compared in pairs: a vertex with very many faces (tens of thousands) takes a time that grows with their square.
     #[arg(
         long,
         value_name = "DEGREES",
@@ -66,17 +67,18 @@ pub struct TangentsArguments {
     )]
     pub threshold: f32,
 
-    /// What computes the tangents: the bits are the same
+    /// The device that computes the tangents; all devices give the same bits
     ///
-    /// auto takes the CPU: no measurement shows yet that a GPU is quicker once models have been read and sent to it. Where yours is, set
-    /// DARBOUX_GPU_TRIANGLES to the triangles of a mesh from which on it is: auto then takes the GPU for these, and the CPU with a warning
-    /// where it fails. gpu computes MikkTSpace there, and leaves to the CPU what is rare; `darboux devices` lists the adapters.
+    /// auto is the CPU, because transfers to a GPU took longer than they saved in all measurements so far. If your GPU is faster, set the
+    /// environment variable DARBOUX_GPU_TRIANGLES to a number of triangles: auto then uses the GPU for meshes with at least this many, and falls
+    /// back to the CPU with a warning if the GPU fails. gpu requires --method mikktspace; the CPU still computes rare cases. `darboux devices` lists
+    /// the adapters.
     #[arg(long, value_enum, value_name = "DEVICE", default_value_t, help_heading = "Tangents")]
     pub device: Device,
 
-    /// keep normals as they are, or first make those that are missing: flat, smooth or crease=DEG
+    /// Generate missing normals first: flat, smooth or crease=DEG (smooth except at edges sharper than DEG degrees); keep generates none
     ///
-    /// With --overwrite all normals are made anew. `darboux normals` has more options.
+    /// With --overwrite existing normals are replaced as well. `darboux normals` has more options.
     #[arg(
         long,
         value_name = "SHADING",
@@ -86,10 +88,10 @@ pub struct TangentsArguments {
     )]
     pub normals: NormalsChoice,
 
-    /// How tangents are stored: f32x4 (16 bytes), snorm16x4 (8) or snorm8x4 (4)
+    /// How tangents are stored: f32x4 (16 bytes), snorm16x4 (8 bytes) or snorm8x4 (4 bytes)
     ///
-    /// Integers turn a direction by up to 0.0016 and 0.40 degrees, and need KHR_mesh_quantization, which the file then requires
-    /// of its readers. glTF has no other encodings.
+    /// snorm16x4 has an error of up to 0.0016 degrees, snorm8x4 of up to 0.40 degrees. Both make the file require the extension
+    /// KHR_mesh_quantization. glTF has no other encodings.
     #[arg(
         long,
         value_name = "NAME",
@@ -100,22 +102,22 @@ pub struct TangentsArguments {
     )]
     pub encoding: TangentEncoding,
 
-    /// Replace tangents that exist, and with --normals normals; without it such primitives are kept
+    /// Replace existing tangents, and with --normals existing normals; without it they are kept
     #[arg(long, help_heading = "Tangents")]
     pub overwrite: bool,
 
-    /// Only primitives whose material uses tangents (normal map, clearcoat normal map, anisotropy)
+    /// Process only primitives whose material uses tangents (normal map, clearcoat normal map, anisotropy)
     #[arg(long, help_heading = "Tangents")]
     pub only_needed: bool,
 
     /// Apply KHR_texture_transform to the UVs first
     ///
-    /// The specification asks for tangents of the UVs as stored, which is the default. Some renderers expect tangents of
-    /// the transformed UVs; the two differ where a transform rotates or mirrors, and then a warning says so.
+    /// The default follows the specification: tangents belong to the stored UVs. Some renderers expect tangents of the transformed UVs. The two
+    /// differ if a transform rotates or mirrors, which a warning reports.
     #[arg(long, help_heading = "Tangents")]
     pub apply_texture_transform: bool,
 
-    /// Refuse files with non-finite vertex data or corners that have no usable tangent
+    /// Fail for files with non-finite vertex data or with corners that have no usable tangent
     #[arg(long, help_heading = "Input")]
     pub strict: bool,
 
@@ -126,24 +128,24 @@ pub struct TangentsArguments {
 /// `--device`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Device {
-    /// The quicker one, as far as was measured: the CPU
+    /// The CPU, unless DARBOUX_GPU_TRIANGLES is set
     #[default]
     Auto,
-    /// The CPU, on all its threads
+    /// The CPU, with all its cores
     Cpu,
-    /// The fastest adapter; without one, or where it fails, files fail
+    /// The fastest GPU; a file fails if there is none or if the GPU fails
     Gpu,
 }
 
-/// `--mode`: [`darboux::Mode`] as people type it.
+/// `--mode`: the names of [`darboux::Mode`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Mode {
-    /// Every bit of the reference, zero-length and non-finite tangents included
+    /// The bits of the reference, including zero-length and non-finite tangents
     Reference,
-    /// The reference's bits where they are usable, a unit tangent elsewhere
+    /// The bits of the reference where its tangent is usable, a unit tangent elsewhere
     #[default]
     Repaired,
-    /// As repaired, with all edges matched and one sign per triangle
+    /// Like repaired, with all edges matched and one sign per triangle
     Corrected,
 }
 
@@ -157,7 +159,7 @@ impl From<Mode> for darboux::Mode {
     }
 }
 
-/// Encodings of the library that a glTF file has no place for, by the names that people may try.
+/// Encodings of the library that glTF does not support.
 const NOT_GLTF: [&str; 4] = ["snorm10", "octahedral", "diamond", "quaternion"];
 
 fn encoding_parser() -> impl TypedValueParser<Value = TangentEncoding> {
@@ -167,6 +169,6 @@ fn encoding_parser() -> impl TypedValueParser<Value = TangentEncoding> {
         "f32x4" => Ok(TangentEncoding::F32x4),
         "snorm16x4" => Ok(TangentEncoding::Snorm16x4),
         "snorm8x4" => Ok(TangentEncoding::Snorm8x4),
-        _ => Err("a glTF file cannot hold such tangents; it can hold f32x4, snorm16x4 and snorm8x4"),
+        _ => Err("glTF does not support this encoding; it can hold f32x4, snorm16x4 and snorm8x4"),
     })
 }

@@ -8,32 +8,32 @@ use super::arguments::Device;
 use super::summary::DeviceReport;
 use crate::gpu::{self, OpenGpu};
 
-/// What computes the tangents of one file.
+/// The device that computes the tangents of one file.
 pub struct TangentDevice {
     device: Device,
-    /// The GPU, once it is wanted.
+    /// The GPU; `None` until it is first needed.
     opened: Option<Result<&'static OpenGpu, String>>,
-    /// From this many triangles on [`Device::Auto`] wants it.
-    least_for_gpu: usize,
+    /// [`Device::Auto`] uses the GPU for meshes with at least this many triangles.
+    gpu_threshold: usize,
     corners_of_gpu: usize,
-    /// Why the CPU did what the GPU was to do.
+    /// Why the CPU computed tangents instead of the GPU.
     fault: Option<String>,
 }
 
-/// Set by those who have measured from how many triangles on their GPU is the quicker one.
-const LEAST_FOR_GPU: &str = "DARBOUX_GPU_TRIANGLES";
+/// The environment variable with the number of triangles from which [`Device::Auto`] uses the GPU.
+const THRESHOLD_VARIABLE: &str = "DARBOUX_GPU_TRIANGLES";
 
 impl TangentDevice {
-    /// Errors: there is no GPU, and one is asked for; the environment has no number where there is to be one.
+    /// Errors: `device` is [`Device::Gpu`] and no GPU can be used; the environment variable is not a number.
     pub fn new(device: Device) -> Result<Self, String> {
         let opened = (device == Device::Gpu).then(gpu::open);
         if let Some(Err(why)) = opened {
             return Err(why);
         }
-        Ok(Self { device, opened, least_for_gpu: least_for_gpu()?, corners_of_gpu: 0, fault: None })
+        Ok(Self { device, opened, gpu_threshold: gpu_threshold()?, corners_of_gpu: 0, fault: None })
     }
 
-    /// As [`generate_tangents_with`]. Errors: what stops the GPU, where that is asked for; else the CPU does the work.
+    /// As [`generate_tangents_with`]. Errors: the GPU fails and `device` is [`Device::Gpu`]; otherwise the CPU takes over.
     pub fn generate(
         &mut self,
         mesh: &Mesh<'_>,
@@ -51,7 +51,7 @@ impl TangentDevice {
 
     fn wants_gpu(&self, mesh: &Mesh<'_>, options: &TangentOptions) -> bool {
         let is_mikktspace = matches!(options.method, Method::MikkTSpace(_));
-        let is_large = mesh.face_count() >= self.least_for_gpu;
+        let is_large = mesh.face_count() >= self.gpu_threshold;
         match self.device {
             Device::Cpu => false,
             Device::Gpu => true,
@@ -66,18 +66,18 @@ impl TangentDevice {
         Ok(tangents)
     }
 
-    /// What a user should know of it, in a sentence: why the CPU did the GPU's work; that the GPU is software, once for all files.
+    /// A warning if the CPU replaced the GPU, or, once per process, if the GPU is software.
     pub fn warning(&self) -> Option<String> {
         if let Some(why) = &self.fault {
-            return Some(format!("the CPU computed what the GPU was to compute: {why}"));
+            return Some(format!("the CPU computed the tangents because the GPU failed: {why}"));
         }
         let Some(Ok(OpenGpu { name, is_software_unreported, .. })) = &self.opened else { return None };
         is_software_unreported
             .swap(false, Ordering::Relaxed)
-            .then(|| format!("{name} is software: --device cpu gives the same bits sooner"))
+            .then(|| format!("{name} is a software adapter; --device cpu gives the same bits in less time"))
     }
 
-    /// `corners`: all that were computed, those of morphed meshes, which the CPU does, included.
+    /// `corners`: the number of computed corners, including those of morphed meshes, which the CPU always computes.
     pub fn report(&self, corners: usize) -> DeviceReport {
         match &self.opened {
             Some(Ok(opened)) => DeviceReport {
@@ -91,13 +91,13 @@ impl TangentDevice {
     }
 }
 
-/// Errors: the environment has something else than a number.
-fn least_for_gpu() -> Result<usize, String> {
-    let Some(given) = std::env::var_os(LEAST_FOR_GPU) else { return Ok(usize::MAX) };
+/// Reads the environment variable. Errors: it is set and not a number.
+fn gpu_threshold() -> Result<usize, String> {
+    let Some(given) = std::env::var_os(THRESHOLD_VARIABLE) else { return Ok(usize::MAX) };
     let number = given.to_str().and_then(|text| text.parse().ok());
     number.ok_or_else(|| {
         let given = given.display();
-        format!("{LEAST_FOR_GPU} is {given}: set it to a number of triangles, or to nothing")
+        format!("{THRESHOLD_VARIABLE} is {given}: set it to a number of triangles, or unset it")
     })
 }
 
@@ -105,17 +105,17 @@ fn least_for_gpu() -> Result<usize, String> {
 mod tests {
     use super::*;
 
-    /// A GPU that has just been lost; none without an adapter.
+    /// A GPU whose device was lost; `None` without an adapter.
     fn lost() -> Option<&'static OpenGpu> {
         Some(Box::leak(Box::new(OpenGpu::lost()?)))
     }
 
     fn tangent_device(device: Device, opened: &'static OpenGpu) -> TangentDevice {
-        TangentDevice { device, opened: Some(Ok(opened)), least_for_gpu: 1, corners_of_gpu: 0, fault: None }
+        TangentDevice { device, opened: Some(Ok(opened)), gpu_threshold: 1, corners_of_gpu: 0, fault: None }
     }
 
     #[test]
-    fn where_a_gpu_is_lost_auto_takes_the_cpu_and_says_so() {
+    fn auto_falls_back_to_the_cpu_with_a_warning() {
         let Some(opened) = lost() else { return };
         let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
         let uvs = positions.map(|[x, y, _]| [x, y]);
@@ -127,7 +127,7 @@ mod tests {
         assert_eq!(made.corners.per_corner(), [[1.0, 0.0, 0.0, 1.0]; 3]);
         let warning = auto.warning().expect("a sentence");
         assert!(
-            warning.starts_with("the CPU computed what the GPU was to compute: the GPU was lost"),
+            warning.starts_with("the CPU computed the tangents because the GPU failed: the GPU was lost"),
             "{warning}"
         );
         assert_eq!(auto.report(3).corners_of_cpu, 3);

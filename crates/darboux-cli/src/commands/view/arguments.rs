@@ -7,23 +7,23 @@ use clap::Args;
 use crate::options::reading::ReadOptions;
 
 pub const ABOUT: &str = "\
-Show a model in the browser: normal-mapped, split between two sources of tangents, with its frames, signs, seams and a report.
+Show a model in the browser: its normal map lit with the tangents of two sources side by side, its frames, signs and seams, and a report.
 
-The page and the model are served to this machine alone, at a random port, to whoever knows the address that is printed; nothing leaves \
-the machine. Ctrl-C ends it. Without a model the page opens with a sample, and takes models that are dropped onto it.
+The page and the model are served on a random port of this machine, and only under the printed address, which contains a secret; nothing \
+leaves the machine. Ctrl-C ends the viewer. Without a model the page shows a sample. Models can be dropped onto the page.
 
-The page's files are made by `cargo xtask dist-viewer`; they are looked for in the folder viewer beside this program, then where it was \
-built.";
+`cargo xtask dist-viewer` builds the page's files. The command looks for them in the folder `viewer` beside this program, then in the \
+source folder of this program.";
 
 pub const EXAMPLES: &str = "\
 Examples:
   darboux view model.glb
-  darboux view model.gltf --no-open   print the address only, for a browser of your choice";
+  darboux view model.gltf --no-open   only print the address";
 
-/// `darboux view`.
+/// What is shown, and how.
 #[derive(Debug, Args)]
 pub struct ViewArguments {
-    /// A model: .gltf, .glb, .vrm or .obj
+    /// A model (.gltf, .glb, .vrm, .obj)
     #[arg(value_name = "MODEL")]
     pub model: Option<PathBuf>,
 

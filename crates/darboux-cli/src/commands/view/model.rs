@@ -1,38 +1,46 @@
-//! The model that the page shows.
+//! The model that the viewer's page shows, as files for the server.
 
-use std::fs;
+use std::fs::OpenOptions;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use darboux_io::gltf::{Document, LoadOptions, inspect};
 use darboux_io::obj::{Companion, companions};
 use darboux_io::readable;
 
-/// A model, read anew whenever the page asks for it.
-pub struct Model {
+use crate::regular_file::{Links, open_regular};
+
+/// A model, which is read again at every request.
+pub struct ServedModel {
     path: PathBuf,
-    kind: Kind,
+    kind: ModelKind,
     options: LoadOptions,
 }
 
-enum Kind {
+enum ModelKind {
     Gltf,
-    /// With what it refers to.
+    /// An OBJ with the material libraries and textures that it refers to.
     Obj(Vec<Companion>),
 }
 
-impl Model {
-    /// Reads the model once, so that a broken one is known before there is a page. Errors: no such file, another format, broken data.
+impl ServedModel {
+    /// Reads the model once, so that a broken file is reported before the server starts. Errors: the file cannot be read, has another format or
+    /// is broken.
     pub fn find(path: &Path, options: LoadOptions) -> Result<Self, String> {
         let shown = path.display();
         readable(path).map_err(|error| error.to_string())?;
         let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
         let kind = match extension.to_str() {
-            Some("gltf" | "glb" | "vrm") => Kind::Gltf,
-            Some("obj") => Kind::Obj(companions(path).map_err(|error| error.to_string())?),
-            _ => return Err(format!("{shown}: cannot be shown; give a .gltf, .glb, .vrm or .obj")),
+            Some("gltf" | "glb" | "vrm") => ModelKind::Gltf,
+            Some("obj") => ModelKind::Obj(companions(path).map_err(|error| error.to_string())?),
+            _ => {
+                return Err(format!(
+                    "{shown}: the viewer cannot show this format; use a .gltf, .glb, .vrm or .obj file"
+                ));
+            }
         };
         let model = Self { path: path.to_owned(), kind, options };
-        if let Kind::Gltf = model.kind {
+        if let ModelKind::Gltf = model.kind {
             model
                 .open()
                 .and_then(|mut document| inspect(&mut document))
@@ -41,35 +49,43 @@ impl Model {
         Ok(model)
     }
 
-    /// The names of what is sent: the model's, ending in what it is sent as, then what an OBJ refers to.
+    /// The names of the files that are sent: the model with the extension that it is sent as, then the companions of an OBJ.
     pub fn names(&self) -> Vec<String> {
         let name = self.path.file_name().unwrap_or_default();
         match &self.kind {
-            Kind::Gltf => vec![Path::new(name).with_extension("glb").to_string_lossy().into_owned()],
-            Kind::Obj(companions) => {
+            ModelKind::Gltf => vec![Path::new(name).with_extension("glb").to_string_lossy().into_owned()],
+            ModelKind::Obj(companions) => {
                 let names = companions.iter().map(|companion| companion.name.clone());
                 [name.to_string_lossy().into_owned()].into_iter().chain(names).collect()
             }
         }
     }
 
-    /// What is sent under the name at a place of [`Model::names`]; none past their end. An OBJ and what it refers to are sent as they are,
-    /// all else as a GLB that holds its buffers and images. Errors: a sentence about the file.
-    pub fn read(&self, at: usize) -> Option<Result<Vec<u8>, String>> {
-        let as_it_is = |path: &Path| {
-            fs::read(path).map_err(|error| format!("{}: cannot be read: {error}", path.display()))
+    /// The content of the file with an index in [`ServedModel::names`]; `None` for an index past the end. An OBJ and its companions are sent
+    /// unchanged; a glTF file is sent as a GLB with its buffers and images. Errors: one sentence about the file.
+    pub fn read(&self, index: usize) -> Option<Result<Vec<u8>, String>> {
+        let unchanged = |path: &Path| {
+            read_regular(path).map_err(|error| format!("{}: cannot be read: {error}", path.display()))
         };
-        match (&self.kind, at) {
-            (Kind::Gltf, 0) => {
+        match (&self.kind, index) {
+            (ModelKind::Gltf, 0) => {
                 Some(self.open().and_then(|document| document.to_glb()).map_err(|error| error.to_string()))
             }
-            (Kind::Gltf, _) => None,
-            (Kind::Obj(_), 0) => Some(as_it_is(&self.path)),
-            (Kind::Obj(companions), at) => companions.get(at - 1).map(|companion| as_it_is(&companion.path)),
+            (ModelKind::Gltf, _) => None,
+            (ModelKind::Obj(_), 0) => Some(unchanged(&self.path)),
+            (ModelKind::Obj(companions), index) => {
+                companions.get(index - 1).map(|companion| unchanged(&companion.path))
+            }
         }
     }
 
     fn open(&self) -> Result<Document, darboux_io::Error> {
         Document::open(&self.path, &self.options)
     }
+}
+
+fn read_regular(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    open_regular(path, OpenOptions::new().read(true), Links::Follow)?.read_to_end(&mut bytes)?;
+    Ok(bytes)
 }

@@ -1,38 +1,46 @@
-//! The files of the viewer's page.
+//! Finds and reads the files of the viewer's page.
 
 use std::collections::HashMap;
-use std::fs;
+use std::fs::OpenOptions;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use walkdir::WalkDir;
 
-/// The page: its files by their path below its folder, with `/` between parts. Nothing else in the folder's surroundings can be asked for.
+use crate::regular_file::{Links, open_regular};
+
+/// The files of the page by their path relative to the page's folder, with `/` on every system. No other file is served.
 pub struct Page {
     files: HashMap<String, PathBuf>,
 }
 
 impl Page {
-    /// Finds the page in `folder`, or in its usual places. Errors: it has not been made.
+    /// Finds the page in `folder`, or beside the program and in its source folder. Errors: the page was not built.
     pub fn find(folder: Option<&Path>) -> Result<Self, String> {
-        let places = folder.map_or_else(usual_places, |folder| vec![folder.to_owned()]);
+        let folders = folder.map_or_else(default_folders, |folder| vec![folder.to_owned()]);
         let is_page = |folder: &&PathBuf| folder.join("index.html").is_file();
-        let found = places.iter().find(is_page).ok_or_else(|| {
-            let places: Vec<_> = places.iter().map(|place| place.display().to_string()).collect();
-            let places = places.join(" and ");
-            format!("the viewer's page is not in {places}; make it with `cargo xtask dist-viewer` (needs node and npm)")
+        let found = folders.iter().find(is_page).ok_or_else(|| {
+            let folders: Vec<_> = folders.iter().map(|folder| folder.display().to_string()).collect();
+            let folders = folders.join(" or ");
+            format!("the viewer's page was not found in {folders}; build it with `cargo xtask dist-viewer`, which needs Node.js, or name its folder with --page")
         })?;
         Ok(Self { files: files_in(found) })
     }
 
-    /// The media type and content of a file. None: there is no such file.
+    /// The media type and content of a file; `None` if the page has no such regular file.
     pub fn read(&self, name: &str) -> Option<(&'static str, Vec<u8>)> {
         let path = self.files.get(name)?;
-        Some((media_type(path), fs::read(path).ok()?))
+        let mut bytes = Vec::new();
+        open_regular(path, OpenOptions::new().read(true), Links::Refuse)
+            .ok()?
+            .read_to_end(&mut bytes)
+            .ok()?;
+        Some((media_type(path), bytes))
     }
 }
 
-/// Beside this program, and in the sources that it was built from.
-fn usual_places() -> Vec<PathBuf> {
+/// The folder `viewer` beside this program, and the build output in the source folder of this program.
+fn default_folders() -> Vec<PathBuf> {
     let program = std::env::current_exe().ok();
     let beside = program.as_deref().and_then(Path::parent).map(|folder| folder.join("viewer"));
     let sources =
@@ -69,16 +77,16 @@ fn media_type(path: &Path) -> &'static str {
 mod tests {
     use std::path::Component;
 
-    use super::usual_places;
+    use super::default_folders;
 
     #[test]
-    fn places_are_named_as_people_look_them_up() {
-        let places = usual_places();
-        assert_eq!(places.len(), 2);
-        for place in places {
+    fn default_folders_are_absolute_and_normalised() {
+        let folders = default_folders();
+        assert_eq!(folders.len(), 2);
+        for folder in folders {
             assert!(
-                place.is_absolute() && !place.components().any(|part| part == Component::ParentDir),
-                "{place:?}"
+                folder.is_absolute() && !folder.components().any(|part| part == Component::ParentDir),
+                "{folder:?}"
             );
         }
     }

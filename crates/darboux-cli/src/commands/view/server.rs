@@ -1,123 +1,199 @@
-//! Serves the page and the model to this machine.
+//! The web server of the viewer: serves the page and the model to browsers on this machine.
+//!
+//! It listens on the loopback address only. A request must name that address in `Host` and begin its path with a random secret, so that pages
+//! of other origins cannot read the model. Nothing that a client sends is stored: request bodies are not read, headers have a maximum size,
+//! and every connection has a time limit and carries one request.
 
+use std::convert::Infallible;
 use std::io;
-use std::net::{Ipv4Addr, SocketAddr};
+use std::net::{Ipv4Addr, SocketAddr, TcpListener as StdListener};
+use std::sync::Arc;
+use std::time::Duration;
 
-use tiny_http::{Header, Method, Request, Response};
+use http_body_util::Full;
+use hyper::body::{Bytes, Incoming};
+use hyper::header::{CACHE_CONTROL, CONTENT_TYPE, HOST, HeaderValue, X_CONTENT_TYPE_OPTIONS};
+use hyper::http::request::Parts;
+use hyper::server::conn::http1;
+use hyper::service::service_fn;
+use hyper::{Method, Request, Response, StatusCode};
+use hyper_util::rt::{TokioIo, TokioTimer};
+use tokio::net::{TcpListener, TcpStream};
+use tokio::sync::Semaphore;
+use tokio::{runtime, task, time};
 
-use super::model::Model;
+use super::model::ServedModel;
 use super::page::Page;
 
-/// A server on a random port of the loopback address, behind a secret in the path.
+/// More connections than this at the same time are closed at once.
+const MAX_CONNECTIONS: usize = 1024;
+/// The maximum size in bytes of a request's line and headers.
+const MAX_HEAD: usize = 16 << 10;
+/// The maximum number of headers.
+const MAX_HEADERS: usize = 64;
+/// The time in which the headers must arrive.
+const HEAD_TIMEOUT: Duration = Duration::from_secs(10);
+/// The time after which a connection is closed.
+const CONNECTION_TIMEOUT: Duration = Duration::from_secs(120);
+/// The pause after the system refuses a connection, for example because too many files are open.
+const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
+
+/// A server on a random port of the loopback address.
 pub struct Server {
-    inner: tiny_http::Server,
+    listener: StdListener,
+    site: Arc<Site>,
+}
+
+/// What is served, and to whom.
+struct Site {
     page: Page,
-    model: Option<Model>,
-    /// The port's address, as browsers name it in `Host`.
+    model: Option<ServedModel>,
+    /// The server's address, as browsers send it in `Host`.
     host: String,
     secret: String,
 }
 
-/// A status, a media type and a body.
-type Answer = (u16, &'static str, Vec<u8>);
+/// Status, media type and body of a response.
+type Answer = (StatusCode, &'static str, Vec<u8>);
 
 const TEXT: &str = "text/plain; charset=utf-8";
 
 impl Server {
-    /// Errors: no port can be opened.
-    pub fn start(page: Page, model: Option<Model>, secret: String) -> Result<Self, String> {
-        let inner = tiny_http::Server::http(SocketAddr::from((Ipv4Addr::LOCALHOST, 0)))
-            .map_err(|error| format!("no port can be opened: {error}"))?;
-        let host = inner.server_addr().to_string();
-        Ok(Self { inner, page, model, host, secret })
+    /// Opens a port. Errors: the system refuses one.
+    pub fn start(page: Page, model: Option<ServedModel>, secret: String) -> Result<Self, String> {
+        let failed = |error: io::Error| format!("no port can be opened: {error}");
+        let listener = StdListener::bind(SocketAddr::from((Ipv4Addr::LOCALHOST, 0))).map_err(failed)?;
+        listener.set_nonblocking(true).map_err(failed)?;
+        let host = listener.local_addr().map_err(failed)?.to_string();
+        Ok(Self { listener, site: Arc::new(Site { page, model, host, secret }) })
     }
 
-    /// Where the page is.
+    /// The address of the page.
     pub fn address(&self) -> String {
-        let Self { host, secret, model, .. } = self;
-        let query =
-            model.iter().flat_map(Model::names).take(1).map(|name| format!("?model={}", in_query(&name)));
-        format!("http://{host}/{secret}/{}", query.collect::<String>())
+        let Site { host, secret, model, .. } = &*self.site;
+        let name = model.iter().flat_map(ServedModel::names).next();
+        let query = name.map_or(String::new(), |name| format!("?model={}", percent_encoded(&name)));
+        format!("http://{host}/{secret}/{query}")
     }
 
-    /// Answers, for ever.
-    pub fn run(&self) {
-        for request in self.inner.incoming_requests() {
-            let (status, kind, body) = self.answer(&request);
-            let response =
-                Response::from_data(body).with_status_code(status).with_chunked_threshold(usize::MAX);
-            let headers = [
-                ("Content-Type", kind),
-                ("Cache-Control", "no-store"),
-                ("X-Content-Type-Options", "nosniff"),
-            ];
-            let response = headers.into_iter().filter_map(header).fold(response, Response::with_header);
-            let _gone_is_no_fault: io::Result<()> = request.respond(response);
-        }
+    /// Serves until the process ends. Errors: the system refuses what the server needs.
+    pub fn run(self) -> Result<Infallible, String> {
+        let failed = |error: io::Error| format!("the server cannot run: {error}");
+        let runtime = runtime::Builder::new_current_thread().enable_all().build().map_err(failed)?;
+        runtime.block_on(async {
+            let listener = TcpListener::from_std(self.listener).map_err(failed)?;
+            let slots = Arc::new(Semaphore::new(MAX_CONNECTIONS));
+            loop {
+                let Ok((stream, _)) = listener.accept().await else {
+                    time::sleep(ACCEPT_PAUSE).await;
+                    continue;
+                };
+                // Dropping the stream closes the connection.
+                let Ok(slot) = slots.clone().try_acquire_owned() else { continue };
+                let site = self.site.clone();
+                task::spawn(async move {
+                    site.serve(stream).await;
+                    drop(slot);
+                });
+            }
+        })
+    }
+}
+
+impl Site {
+    /// Answers the one request of a connection.
+    async fn serve(self: Arc<Self>, stream: TcpStream) {
+        let service = service_fn(move |request| {
+            let site = self.clone();
+            async move { Ok::<_, Infallible>(site.respond(request).await) }
+        });
+        let connection = http1::Builder::new()
+            .timer(TokioTimer::new())
+            .header_read_timeout(HEAD_TIMEOUT)
+            .max_buf_size(MAX_HEAD)
+            .max_headers(MAX_HEADERS)
+            .keep_alive(false)
+            .serve_connection(TokioIo::new(stream), service);
+        let _client_may_be_gone = time::timeout(CONNECTION_TIMEOUT, connection).await;
     }
 
-    fn answer(&self, request: &Request) -> Answer {
-        if !self.is_ours(request) {
-            return (403, TEXT, b"the address that darboux view printed is needed, whole".to_vec());
+    async fn respond(self: Arc<Self>, request: Request<Incoming>) -> Response<Full<Bytes>> {
+        let (head, _unread_body) = request.into_parts();
+        // Files are read on another thread, so that other connections go on.
+        let answer = task::spawn_blocking(move || self.answer(&head)).await;
+        let (status, media_type, body) = answer
+            .unwrap_or_else(|_| (StatusCode::INTERNAL_SERVER_ERROR, TEXT, b"the request failed".to_vec()));
+        let mut response = Response::new(Full::new(Bytes::from(body)));
+        *response.status_mut() = status;
+        let headers = response.headers_mut();
+        headers.insert(CONTENT_TYPE, HeaderValue::from_static(media_type));
+        headers.insert(CACHE_CONTROL, HeaderValue::from_static("no-store"));
+        headers.insert(X_CONTENT_TYPE_OPTIONS, HeaderValue::from_static("nosniff"));
+        response
+    }
+
+    fn answer(&self, head: &Parts) -> Answer {
+        let host = head.headers.get(HOST).map(HeaderValue::as_bytes);
+        let path = head.uri.path();
+        let below = path.strip_prefix('/').and_then(|path| path.strip_prefix(self.secret.as_str()));
+        let Some(name) =
+            below.and_then(|below| below.strip_prefix('/')).filter(|_| host == Some(self.host.as_bytes()))
+        else {
+            return (
+                StatusCode::FORBIDDEN,
+                TEXT,
+                b"use the whole address that darboux view printed".to_vec(),
+            );
+        };
+        if !matches!(head.method, Method::GET | Method::HEAD) {
+            return (StatusCode::METHOD_NOT_ALLOWED, TEXT, b"only GET is supported".to_vec());
         }
-        if !matches!(request.method(), Method::Get | Method::Head) {
-            return (405, TEXT, b"only GET".to_vec());
-        }
-        let path = request.url().split('?').next().unwrap_or_default();
-        match path.get(self.secret.len() + 2..).unwrap_or_default() {
-            "" => self.file("index.html"),
-            "model" => self.names(),
+        match name {
+            "" => self.page_file("index.html"),
+            "model" => self.model_names(),
             name => match name.strip_prefix("model/") {
-                Some(at) => self.model(at),
-                None => self.file(name),
+                Some(index) => self.model_file(index),
+                None => self.page_file(name),
             },
         }
     }
 
-    /// Whether the request has the secret, and names this machine: another host that resolves to it is not meant.
-    fn is_ours(&self, request: &Request) -> bool {
-        let host = request.headers().iter().find(|header| header.field.equiv("Host"));
-        let is_host = host.is_some_and(|header| header.value.as_str() == self.host);
-        let below = request.url().strip_prefix('/').and_then(|url| url.strip_prefix(self.secret.as_str()));
-        is_host && below.is_some_and(|below| below.starts_with('/'))
-    }
-
-    fn file(&self, name: &str) -> Answer {
+    fn page_file(&self, name: &str) -> Answer {
         match self.page.read(name) {
-            Some((kind, bytes)) => (200, kind, bytes),
-            None => (404, TEXT, b"no such file".to_vec()),
+            Some((media_type, bytes)) => (StatusCode::OK, media_type, bytes),
+            None => not_found("there is no such file"),
         }
     }
 
-    /// The names of the model's files, as a list in JSON.
-    fn names(&self) -> Answer {
+    /// The names of the model's files as a JSON array.
+    fn model_names(&self) -> Answer {
         let names = self.model.as_ref().map(|model| serde_json::to_vec(&model.names()));
         match names {
-            Some(Ok(names)) => (200, "application/json", names),
-            _ => (404, TEXT, b"no model was named".to_vec()),
+            Some(Ok(names)) => (StatusCode::OK, "application/json", names),
+            _ => not_found("darboux view was started without a model"),
         }
     }
 
-    /// The file whose name is at a place of that list.
-    fn model(&self, at: &str) -> Answer {
-        let read = self.model.as_ref().zip(at.parse().ok()).and_then(|(model, at)| model.read(at));
+    /// The file with an index in that array.
+    fn model_file(&self, index: &str) -> Answer {
+        let read = self.model.as_ref().zip(index.parse().ok()).and_then(|(model, index)| model.read(index));
         match read {
-            Some(Ok(bytes)) => (200, "application/octet-stream", bytes),
-            Some(Err(sentence)) => (422, TEXT, sentence.into_bytes()),
-            None => (404, TEXT, b"no such file".to_vec()),
+            Some(Ok(bytes)) => (StatusCode::OK, "application/octet-stream", bytes),
+            Some(Err(sentence)) => (StatusCode::UNPROCESSABLE_ENTITY, TEXT, sentence.into_bytes()),
+            None => not_found("there is no such file"),
         }
     }
 }
 
-fn header((name, value): (&str, &str)) -> Option<Header> {
-    Header::from_bytes(name, value).ok()
+fn not_found(sentence: &str) -> Answer {
+    (StatusCode::NOT_FOUND, TEXT, sentence.into())
 }
 
-/// A text in the query of an address: all but letters, digits and a few signs as their bytes.
-fn in_query(text: &str) -> String {
-    let one = |byte: u8| match byte {
+/// Encodes a text for the query of an address: every byte except letters, digits and `.-_` becomes %XX.
+fn percent_encoded(text: &str) -> String {
+    let encode = |byte: u8| match byte {
         b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'.' | b'-' | b'_' => char::from(byte).to_string(),
         _ => format!("%{byte:02X}"),
     };
-    text.bytes().map(one).collect()
+    text.bytes().map(encode).collect()
 }

@@ -1,0 +1,41 @@
+//! The command as a newcomer builds it: the README's first command in a build folder of its own, and the messages about missing features.
+
+use std::path::Path;
+use std::process::Command;
+use std::time::Instant;
+
+use crate::run::{Outcome, program, run, shown, target_folder};
+
+const MODEL: &str = "assets/NormalTangentTest/NormalTangentTest.glb";
+/// What the command prints about a subcommand or option that this build lacks.
+const INSTALL: &str = "cargo install --path crates/darboux-cli --features full";
+/// Command lines that need other features.
+const MISSING: [&str; 4] =
+    ["render a.glb -o a.png --view tangent", "view --no-open", "devices --json", "tangents a.glb --device gpu"];
+
+/// Builds the command without optional features, writes tangents with it, and prints how long both took.
+///
+/// Errors: a warning; a failed run; a message that does not say how to install the missing feature.
+pub fn check() -> Outcome {
+    run(&mut program("cargo clippy --quiet --package darboux-cli -- -D warnings"))?;
+    let folder = target_folder()?.join("default-build");
+    let start = Instant::now();
+    let mut first = program("cargo run --quiet --release --target-dir");
+    first.arg(&folder).args(["--", "tangents", MODEL, "--force", "-o"]).arg(folder.join("model.glb"));
+    run(&mut first)?;
+    println!("built and ran in {:.0} s", start.elapsed().as_secs_f32());
+    let darboux = folder.join("release/darboux");
+    MISSING.iter().try_for_each(|line| refuses(&darboux, line))
+}
+
+/// Errors: the command does not end with exit code 2 and one line that contains [`INSTALL`].
+fn refuses(darboux: &Path, line: &str) -> Outcome {
+    let mut command = Command::new(darboux);
+    command.args(line.split(' '));
+    let output = command.output().map_err(|error| format!("{} cannot start: {error}", shown(&command)))?;
+    let message = String::from_utf8_lossy(&output.stderr);
+    if output.status.code() == Some(2) && message.lines().count() == 1 && message.contains(INSTALL) {
+        return Ok(());
+    }
+    Err(format!("{} must say how to install the feature; it prints: {message}", shown(&command)))
+}
