@@ -130,3 +130,10 @@ fn software_is_told_once_and_nothing_else_is() {
         usize::from(all)
     );
 }
+
+#[test]
+fn messages_of_drivers_are_not_printed() {
+    // Mesa prints a line to standard error for this value.
+    let run = darboux_with(&[("XDG_RUNTIME_DIR", "")], &["devices"]);
+    assert!(!run.stderr.contains("XDG_RUNTIME_DIR"), "{}", run.stderr);
+}
