@@ -35,7 +35,7 @@ pub enum PlanRefusal {
     TooManyMembers {
         /// A lower bound of the number of members.
         members: usize,
-        /// The largest number.
+        /// The limit.
         limit: usize,
     },
 }

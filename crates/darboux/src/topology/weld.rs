@@ -7,10 +7,11 @@
 //! ```text
 //! sort the corners into 2048 cells along the longest axis of the bounding box (stable)
 //! for each cell, recursively:
-//!     if no float lies strictly between the ends of the corners' longest axis:
+//!     if the middle of the corners' longest axis is not finite: weld nothing
+//!     if no float lies strictly between the ends of that axis:
 //!         this is a final range: weld its corners, each to the first equal one
 //!     else:
-//!         partition the corners at the middle of that axis, exchanging from both ends as quicksort does
+//!         partition the corners at the middle, exchanging from both ends as quicksort does
 //!         continue with both parts
 //! ```
 //!
