@@ -33,6 +33,9 @@ test('the page opens with a sample and reports its faults', async () => {
   const report = await viewer.report();
   assert.deepEqual(Object.keys(report).sort(), ['differs', 'flipped', 'mixed', 'seams']);
   assert.match(report.seams, /^24 mirrored edges: Shield$/);
+  // The numbers of `darboux compare` for this file and the same with new tangents.
+  assert.match(report.differs, /^281 corners differ from a fresh run, by up to 146\.3°: Shield$/);
+  assert.match(report.flipped, /^71 corners /);
   assert.equal(await viewer.page.inputValue('#left'), 'file');
 });
 

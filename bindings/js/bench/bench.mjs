@@ -1,4 +1,4 @@
-// `npm run bench`: every engine in Node.js (processor time) and in headless Chromium (wall time), nanoseconds per triangle.
+// `npm run bench`: times every engine in Node.js (processor time) and in headless Chromium (wall time), in nanoseconds per triangle.
 
 import { fileURLToPath } from 'node:url';
 import { open } from '../tests/browser/open.mjs';
@@ -6,7 +6,7 @@ import { measure } from './engines.mjs';
 
 const ROUNDS = 9;
 
-/** Milliseconds of the processor, all threads of the process. */
+/** The processor time of all threads of the process, in milliseconds. */
 function processorTime() {
   const { user, system } = process.cpuUsage();
   return (user + system) / 1000;

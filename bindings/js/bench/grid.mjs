@@ -1,6 +1,6 @@
 // The mesh of the benchmark.
 
-/** Positions, normals, UVs and indices of a wavy grid of columns by rows squares. */
+/** The positions, normals, UVs and indices of a wavy grid of columns by rows squares. */
 export function grid(columns, rows) {
   const count = (columns + 1) * (rows + 1);
   const [positions, normals, uvs] = [3, 3, 2].map((width) => new Float32Array(width * count));

@@ -1,4 +1,4 @@
-// The examples of README.md run, and make what they say.
+// The examples of README.md run and give the documented results.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -7,7 +7,7 @@ import { test } from 'node:test';
 const readme = readFileSync(new URL('../README.md', import.meta.url), 'utf8');
 const examples = [...readme.matchAll(/```js\n([^]*?)```/g)].map(([, code]) => code);
 
-/** Runs an example as a module, which finds the package from anywhere, and gives the variables that are asked for. */
+/** Runs an example as a module and returns some of its variables. */
 async function run(example, variables) {
   const code = examples[example].replaceAll(/from '([^']*)'/g, (_, name) => `from ${JSON.stringify(import.meta.resolve(name))}`);
   return import(`data:text/javascript,${encodeURIComponent(`${code}\nexport { ${variables} };`)}`);

@@ -31,12 +31,12 @@ test('the corpus has the bits of the native library', { skip }, async () => {
   }
 });
 
-test('mirrored squares are lit alike with tangents of every adapter and with derivatives', { skip }, async () => {
+test('mirrored squares have the same shading with the tangents of every adapter and with derivatives', { skip }, async () => {
   const names = await page.evaluate(() => Object.keys(tested.mirroredSquares));
   assert.equal(names.length, 7);
   for (const name of names) {
     const { left, right, takesTangents } = await page.evaluate((name) => tested.mirroredSquares[name](), name);
-    // The texel says 0.6 along u, which mirrors, and 0.48 up the image.
+    // The texel's normal is 0.6 along u, which is mirrored, and 0.48 up the image.
     const up = name.endsWith('v up') ? 0.48 : -0.48;
     const isClose = (found, expected) => found.every((x, at) => Math.abs(x - expected[at]) < 0.02);
     assert.ok(isClose(left, [-0.6, up, 0.64]), `${name}, left: ${left}`);
@@ -52,7 +52,7 @@ test('MeshStandardMaterial uses the tangents, not derivatives', { skip }, async 
   assert.ok(found.fromTurned > found.drawn / 2, JSON.stringify(found));
 });
 
-test('WebGPU finds the tangents of the CPU', { skip }, async (context) => {
+test('tangents on WebGPU are those of the CPU', { skip }, async (context) => {
   for (const format of ['uint32', 'uint16']) {
     const found = await page.evaluate((format) => tested.averages(format), format);
     if (!found) return context.skip('this Chromium has no WebGPU adapter');
@@ -73,7 +73,7 @@ test('plans on WebGPU have the bits of those on the CPU', { skip }, async (conte
   }
 });
 
-test('plans on WebGPU count what they leave to the CPU', { skip }, async (context) => {
+test('plans on WebGPU count the tangents that the CPU must compute', { skip }, async (context) => {
   const found = await page.evaluate(() => tested.plans('corner', {}, 'waves', 2 ** -70)); // too small for floats to be exact
   if (!found) return context.skip('this Chromium has no WebGPU adapter');
   assert.deepEqual(found.errors, []);
@@ -101,4 +101,4 @@ test('200 plans live side by side', { skip }, async () => {
   assert.equal(length, 2400);
 });
 
-test('nothing failed unheard', { skip }, () => assert.deepEqual(faults, []));
+test('the page logged no error', { skip }, () => assert.deepEqual(faults, []));

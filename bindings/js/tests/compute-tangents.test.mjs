@@ -8,7 +8,7 @@ import { grid, mirrored } from './meshes.mjs';
 
 await ready;
 
-/** The tangents of three.js and ours, corner after corner. */
+/** The tangents of three.js and of Darboux, per corner. */
 function both([positions, normals, uvs, indices]) {
   const geometry = new THREE.BufferGeometry();
   const attributes = { position: [positions, 3], normal: [normals, 3], uv: [uvs, 2] };
@@ -24,12 +24,12 @@ function arrays(geometry) {
   return [positions, normals, uvs, Uint32Array.from(geometry.index.array)];
 }
 
-test('where nothing is degenerate both agree to rounding, and in every sign', () => {
+test('without degenerate triangles both agree to rounding, and in every sign', () => {
   const knot = new THREE.TorusKnotGeometry(1, 0.3, 64, 12);
   for (const mesh of [grid(20, 15), arrays(knot), arrays(new THREE.TorusGeometry(2, 0.7, 12, 24))]) {
     const { theirs, ours } = both(mesh);
     assert.equal(ours.length, theirs.length);
-    // A few dozen roundings of 6e-8, times the 10 by which thin triangles multiply errors: three.js computes in double precision.
+    // A few dozen roundings of 6e-8, times 10 for thin triangles: three.js computes in double precision.
     const worst = ours.reduce((most, x, at) => Math.max(most, Math.abs(x - theirs[at])), 0);
     assert.ok(worst < 2.4e-5, `${worst}`);
   }

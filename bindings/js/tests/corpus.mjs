@@ -1,4 +1,4 @@
-// The collected meshes, and what the native library makes of them.
+// The meshes of the corpus and the results of the native library.
 
 import { execFileSync } from 'node:child_process';
 
@@ -17,10 +17,10 @@ export const corpus = lines.map((line) => {
   };
 });
 
-/** The bits of floats, those of all NaNs alike. */
+/** The bits of floats, with one value for all NaNs. */
 export const bits = (values) => Array.from(new Uint32Array(Float32Array.from(values).buffer), canonical);
 
 const canonical = (bits) => ((bits & 0x7fffffff) > 0x7f800000 ? 0x7fc00000 : bits);
 
-/** The bits that the native library wrote, likewise. */
+/** The bits that the native library wrote, with one value for all NaNs. */
 export const native = (words) => words.map(canonical);

@@ -1,3 +1,5 @@
+// `darboux`: every function, its bits, arguments and errors.
+
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import * as esm from 'darboux';
@@ -106,10 +108,10 @@ for (const [name, darboux] of Object.entries(forms)) {
   });
 }
 
-/** Numbers, both zeros alike. */
+/** Numbers, with -0 as 0. */
 const values = (floats) => Array.from(floats, (x) => x + 0);
 
-/** Unit tangents of both signs, and unit normals at right angles to them. */
+/** Unit tangents of both signs, and perpendicular unit normals. */
 function directions(count) {
   const [tangents, normals] = [new Float32Array(4 * count), new Float32Array(3 * count)];
   for (let at = 0; at < count; at++) {

@@ -1,18 +1,18 @@
-// What the tests of both entries share.
+// Loads an entry in all its forms: ES module, CommonJS, and without SIMD.
 
 import { createRequire } from 'node:module';
 
 const require = createRequire(import.meta.url);
 const { compile } = WebAssembly;
 
-/** A module of the package in all its forms, loaded one after the other. */
+/** The forms of an entry, loaded one after the other. */
 export async function formsOf(entry) {
   const forms = { 'ES module': await import(entry), CommonJS: require(entry) };
   for (const form of Object.values(forms)) await form.ready;
   return { ...forms, scalar: await withoutSimd(entry) };
 }
 
-/** The module again, with a compiler that knows no SIMD. */
+/** The entry in an environment whose WebAssembly compiler refuses SIMD. */
 async function withoutSimd(entry) {
   let calls = 0;
   WebAssembly.compile = async (bytes) => {

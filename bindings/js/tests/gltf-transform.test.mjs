@@ -1,4 +1,4 @@
-// `darboux/gltf-transform` with glTF-Transform itself; its files against the Khronos validator and the `darboux` command.
+// `darboux/gltf-transform`: its files against glTF-Transform's own function, the Khronos validator and the `darboux` command.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -28,7 +28,7 @@ const MODELS = [
   'made/strips-fans-lines-points.gltf',
 ];
 
-/** Every primitive's attributes and targets, corner by corner. */
+/** The attributes and targets of every primitive, per corner. */
 function contents(document) {
   const primitives = document.getRoot().listMeshes().flatMap((mesh) => mesh.listPrimitives());
   return primitives.map((primitive) => {
@@ -39,7 +39,7 @@ function contents(document) {
   });
 }
 
-/** The vertex of each corner of triangles, else of each element. */
+/** The vertex of each corner of triangles, or of each element of other primitives. */
 function corners(primitive) {
   const count = primitive.getAttribute('POSITION').getCount();
   const list = Array.from(primitive.getIndices()?.getArray() ?? { length: count }, (vertex, at) => vertex ?? at);
@@ -54,7 +54,7 @@ function ofCorners(accessor, list) {
   return list.map((vertex) => Array.from(accessor.getArray().subarray(width * vertex, width * vertex + width)));
 }
 
-/** The kinds of errors that the validator finds. */
+/** The codes of the validator's errors. */
 async function errors(bytes, externalResourceFunction) {
   const { issues } = await validator.validateBytes(bytes, { maxIssues: 0, externalResourceFunction });
   return new Set(issues.messages.filter(({ severity }) => severity === 0).map(({ code }) => code));
@@ -103,7 +103,7 @@ test('unindexed primitives have the bytes of glTF-Transform\'s own function, cal
   assert.equal(tangents().name, theirTangents({ generateTangents() {} }).name);
 });
 
-test('at a mirrored seam vertices are copied; accessors that nothing uses any more go', async () => {
+test('at a mirrored seam vertices are copied, and unused accessors are removed', async () => {
   const { made, primitive } = document();
   await made.transform(tangents());
   assert.equal(primitive.getAttribute('POSITION').getCount(), 8);
@@ -113,7 +113,7 @@ test('at a mirrored seam vertices are copied; accessors that nothing uses any mo
   assert.equal(made.getRoot().listAccessors().length, 5);
 });
 
-test('quantised values count as what they stand for', async () => {
+test('quantised values are dequantised', async () => {
   const { made, primitive, accessor } = document();
   const codes = (semantic, Kind, scale) => Kind.from(primitive.getAttribute(semantic).getArray(), (x) => x * scale);
   const normals = accessor('VEC3', codes('NORMAL', Int8Array, 127)).setNormalized(true);
@@ -126,7 +126,7 @@ test('quantised values count as what they stand for', async () => {
   assert.deepEqual([0, 7].map((vertex) => tangent.getElement(vertex, [])), [[-1, 0, 0, 1], [1, 0, 0, -1]]);
 });
 
-test('primitives over one vertex buffer go on sharing it', async () => {
+test('primitives keep sharing a vertex buffer', async () => {
   const { made, primitive, accessor } = document();
   const all = primitive.getIndices();
   const [left, right] = [all.getArray().slice(0, 6), all.getArray().slice(6)];
@@ -156,7 +156,7 @@ test('the UV set is the normal texture\'s, or that of its transform', async () =
   assert.deepEqual(primitive.getAttribute('TANGENT').getElement(0, []), [-1, 0, 0, 1]);
 });
 
-test('tangents that are there stay unless overwritten; targets of two primitives are told apart', async () => {
+test('existing tangents are kept unless overwritten; shared targets are cloned', async () => {
   const { made, primitive, accessor } = document();
   const kept = accessor('VEC4', new Float32Array(24).fill(0.5));
   primitive.setAttribute('TANGENT', kept);
@@ -173,7 +173,7 @@ test('tangents that are there stay unless overwritten; targets of two primitives
   assert.deepEqual([...(await errors(await io.writeBinary(made)))], []);
 });
 
-test('what is wrong is said with the primitive\'s name, and nothing has changed', async () => {
+test('errors name the primitive and leave the document unchanged', async () => {
   const { made, primitive } = document();
   primitive.getIndices().setArray(Uint16Array.of(0, 1, 6));
   await assert.rejects(made.transform(tangents()), {

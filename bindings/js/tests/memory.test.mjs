@@ -1,7 +1,9 @@
+// The memory of WebAssembly: no leaks, freed after large meshes, and usable after running out.
+
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-/** The memories of all instances. */
+/** The memory of every instance. */
 const memories = [];
 const { instantiate, Instance } = WebAssembly;
 WebAssembly.instantiate = async (...given) => kept(await instantiate(...given));

@@ -1,6 +1,6 @@
 // Small meshes: positions, normals, UVs and indices.
 
-/** A square. */
+/** A unit square of two triangles. */
 export const square = () => [
   new Float32Array([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]),
   new Float32Array([0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1]),
@@ -8,7 +8,7 @@ export const square = () => [
   new Uint16Array([0, 1, 2, 0, 2, 3]),
 ];
 
-/** Two squares side by side, whose UVs mirror where they meet, at x = 0. */
+/** Two squares side by side with UVs mirrored at x = 0. */
 export const mirrored = () => [
   new Float32Array([-1, 0, 0, 0, 0, 0, 0, 1, 0, -1, 1, 0, 1, 0, 0, 1, 1, 0]),
   new Float32Array(18).map((_, at) => (at % 3 === 2 ? 1 : 0)),
@@ -16,7 +16,7 @@ export const mirrored = () => [
   new Uint16Array([0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2]),
 ];
 
-/** A wavy grid of columns by rows squares, and one vertex more that nothing uses. */
+/** A wavy grid of columns by rows squares, and one unused vertex. */
 export function grid(columns, rows) {
   const vertices = Array.from({ length: (columns + 1) * (rows + 1) }, (_, at) => [at % (columns + 1), Math.floor(at / (columns + 1))]);
   const unit = (v) => v.map((x) => x / Math.hypot(...v));
@@ -31,14 +31,14 @@ export function grid(columns, rows) {
   return [Float32Array.of(...positions, 0, 0, 0), Float32Array.of(...normals, 0, 0, 1), Float32Array.of(...uvs, 0, 0), Uint32Array.from(indices)];
 }
 
-/** A grid with UVs that mirror in stripes. */
+/** A grid with UVs mirrored in stripes. */
 export function seams() {
   const mesh = grid(60, 40);
   mesh[2] = mesh[2].map((x, at) => (at % 2 ? x : Math.abs((8 * x) % 2 - 1)));
   return mesh;
 }
 
-/** Random triangles between few places, some of them degenerate. */
+/** Random triangles between a few positions, some of them degenerate. */
 export function soup(triangles, seed) {
   let state = seed;
   const below = (n) => (state = (Math.imul(state, 1_664_525) + 1_013_904_223) >>> 0) % n;
@@ -47,7 +47,7 @@ export function soup(triangles, seed) {
   return [floats(3), floats(3), floats(2), Uint32Array.from({ length: 3 * triangles }, () => (below(2 ** 31) >>> 8) % places)];
 }
 
-/** A grid some of whose triangles have two equal corners, and some UVs without area. */
+/** A grid with some degenerate triangles and some triangles without UV area. */
 export function degenerates() {
   const mesh = grid(40, 30);
   const [, , uvs, indices] = mesh;

@@ -1,10 +1,12 @@
+// Plans: their memory, and GPU plans.
+
 import assert from 'node:assert/strict';
 import { setFlagsFromString } from 'node:v8';
 import { test } from 'node:test';
 import { runInNewContext } from 'node:vm';
 import { mirrored, square } from './meshes.mjs';
 
-/** The memories of all instances. */
+/** The memory of every instance. */
 const memories = [];
 const { Instance } = WebAssembly;
 WebAssembly.Instance = function (module) {
@@ -31,7 +33,7 @@ test('10,000 plans that are disposed of leave no memory behind', () => {
   assert.equal(memories.length, 1);
 });
 
-test('nor do plans that are garbage', async () => {
+test('plans that are garbage-collected leave no memory behind', async () => {
   setFlagsFromString('--expose-gc');
   const collect = runInNewContext('gc');
   const some = async () => {
@@ -43,11 +45,11 @@ test('nor do plans that are garbage', async () => {
   await some();
   const before = memories[0].buffer.byteLength;
   for (let at = 0; at < 5; at++) await some();
-  // When garbage is seen differs from run to run; 5,000 plans that stay would take over 5 MB.
+  // The time of garbage collection varies. 5,000 plans that stay would take over 5 MB.
   assert.ok(memories[0].buffer.byteLength - before < 1 << 20);
 });
 
-test('plans do not disturb each other', () => {
+test('plans are independent of each other', () => {
   const first = plan();
   const second = new Plan(positions.map((_, at) => at), normals.fill(1), mesh[2].map((_, at) => at * at), Uint16Array.of(0, 1, 2));
   const before = second.evaluate(positions.map((_, at) => 2 * at), normals);
@@ -59,7 +61,7 @@ test('plans do not disturb each other', () => {
   assert.throws(() => first.evaluate(positions, normals), /^Error: the plan has been disposed of; make another$/);
 });
 
-test('a mesh too large for WebAssembly takes its plan along, and the next is made', { timeout: 60_000 }, () => {
+test('after a mesh too large for WebAssembly the next plan is made', { timeout: 60_000 }, () => {
   const kept = plan();
   const vertices = new Float32Array(3 * 120_000_000);
   assert.throws(() => new Plan(vertices, vertices, new Float32Array(2 * 120_000_000)), { name: 'RangeError', message: /^the mesh needs more memory / });
@@ -68,7 +70,7 @@ test('a mesh too large for WebAssembly takes its plan along, and the next is mad
   plan();
 });
 
-test('the topology for shaders is that of the mesh', () => {
+test('the GPU plan of a mesh has its topology', () => {
   const topology = planTopology(...square());
   assert.deepEqual([topology.vertexCount, topology.cornerCount, topology.triangleCount, topology.sumCount, topology.splitVertices], [4, 6, 2, 4, 0]);
   assert.deepEqual(Array.from(topology.sumOfCorner), Array.from(square()[3], (vertex) => topology.sumOfVertex[vertex]));

@@ -1,3 +1,5 @@
+// `darboux/tangents`: bits, arguments and errors.
+
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import * as esm from 'darboux/tangents';

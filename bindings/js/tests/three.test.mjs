@@ -25,13 +25,13 @@ function geometry([positions, normals, uvs, indices]) {
 /** A torus knot has no degenerate triangles and no seam that mirrors. */
 const knot = () => new THREE.TorusKnotGeometry(1, 0.3, 40, 8);
 
-/** What each corner has, in the order of the index list. */
+/** The values of an attribute per corner, in the order of the index. */
 function ofCorners(geometry, name) {
   const { array } = geometry.toNonIndexed().getAttribute(name);
   return Array.from(array);
 }
 
-test('computeMikkTSpaceTangents takes the module, and writes what it writes with its own', () => {
+test('computeMikkTSpaceTangents has the same result with this module as with its own', () => {
   assert.equal(darboux.isReady, true);
   const [ours, expected] = [darboux, { isReady: true, generateTangents: theirs }].map((module) => computeMikkTSpaceTangents(knot(), module));
   assert.deepEqual(ours.getAttribute('tangent').array, expected.getAttribute('tangent').array);
@@ -46,12 +46,12 @@ test('an indexed geometry stays indexed and its corners have the tangents of thr
     computeMikkTSpaceTangents(expected, darboux, negateSign);
     assert.deepEqual(ofCorners(ours, 'tangent'), Array.from(expected.getAttribute('tangent').array));
     assert.deepEqual(ofCorners(ours, 'position'), Array.from(expected.getAttribute('position').array));
-    // No vertex was needed beyond the old ones.
+    // No vertex was copied.
     assert.equal(ours.getAttribute('tangent').count, before);
   }
 });
 
-test('at a mirrored seam vertices are copied, and everything follows', () => {
+test('at a mirrored seam vertices are copied with all their attributes', () => {
   const split = geometry(mirrored());
   const names = ['position', 'normal', 'uv', 'skinIndex', 'skinWeight', 'color'];
   split.setAttribute('skinIndex', attribute(Uint16Array.from({ length: 24 }, (_, at) => at), 4));
@@ -113,7 +113,7 @@ test('interleaved and quantised geometry has the tangents of its values', () => 
   assert.deepEqual(Array.from(tangent.array, (x) => x / 32767), Array.from(plain.getAttribute('tangent').array));
 });
 
-test('options choose UVs and method', () => {
+test('options select UVs and method', () => {
   const [positions, normals, uvs, indices] = mirrored();
   const other = geometry([positions, normals, new Float32Array(uvs.length), indices]);
   other.setAttribute('uv1', attribute(uvs, 2));
@@ -121,13 +121,13 @@ test('options choose UVs and method', () => {
   assert.deepEqual(other.getAttribute('tangent').array.slice(0, 4), Float32Array.of(-1, 0, 0, 1));
 });
 
-test('without an index every vertex has its own', () => {
+test('without an index every vertex has its own tangent', () => {
   const expanded = geometry(mirrored()).toNonIndexed();
   computeTangents(expanded);
   assert.deepEqual([expanded.index, expanded.getAttribute('tangent').count], [null, 12]);
 });
 
-test('what is missing is said', () => {
+test('missing attributes are named', () => {
   const bare = new THREE.BufferGeometry().setAttribute('position', attribute(new Float32Array(9), 3));
   assert.throws(() => computeTangents(bare), /^Error: the geometry has no attribute 'normal'; /);
   const far = geometry(mirrored());

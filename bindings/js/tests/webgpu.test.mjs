@@ -28,7 +28,7 @@ before(async () => {
 
 after(() => browser?.close());
 
-/** A test that needs an adapter. */
+/** A test that is skipped without an adapter. */
 const onGpu = (name, work) =>
   test(name, { skip }, (context) => (hasAdapter ? work() : context.skip('this Chromium has no WebGPU adapter')));
 
@@ -93,7 +93,7 @@ onGpu('the example of the README', async () => {
   assert.deepEqual([cornersOfCpu, triangles], [0, 2]);
 });
 
-test('without an adapter there is a sentence', async () => {
+test('without an adapter the error says what to do', async () => {
   const message = async (navigator) => {
     Object.defineProperty(globalThis, 'navigator', { value: navigator, configurable: true });
     return openDevice().catch((error) => error.message);
@@ -103,9 +103,9 @@ test('without an adapter there is a sentence', async () => {
   assert.equal(await message({ gpu: { requestAdapter: async () => null } }), `no GPU adapter was found: install a driver, ${cure}`);
 });
 
-test('CommonJS loads the shaders when they are asked for', async () => {
+test('CommonJS loads the shaders at the first call', async () => {
   const { generateTangents } = createRequire(import.meta.url)('darboux/webgpu');
   await assert.rejects(generateTangents({}), { name: 'TypeError', message: 'device must be a GPUDevice, as openDevice returns it' });
 });
 
-test('nothing failed unheard', { skip }, () => assert.deepEqual(faults, []));
+test('the page logged no error', { skip }, () => assert.deepEqual(faults, []));

@@ -1,6 +1,6 @@
-// WebGPU in a page.
+// A WebGPU device for tests that run in a page.
 
-/** A device of WebGPU, its errors, and buffers of it; none where there is no adapter. */
+/** A WebGPU device with a list of its errors and functions for its buffers; null without an adapter. */
 export async function gpu() {
   const adapter = await navigator.gpu?.requestAdapter();
   if (!adapter) return null;

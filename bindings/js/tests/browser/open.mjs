@@ -1,4 +1,4 @@
-// A page of headless Chromium with a module in it.
+// Opens a page of headless Chromium with a bundled module.
 
 import { existsSync } from 'node:fs';
 import { basename } from 'node:path';
@@ -11,13 +11,13 @@ const FLAGS = [
   '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--enable-unsafe-webgpu',
 ];
 
-/** The path in CHROMIUM, or where Debian has it. */
+/** The browser: the environment variable CHROMIUM, or the path of Debian. */
 const executablePath = process.env.CHROMIUM ?? '/usr/bin/chromium';
 
-/** Why there can be no page, if so. Continuous integration has to have one. */
+/** The reason to skip tests without a browser. Continuous integration must have one. */
 export const skip = existsSync(executablePath) || process.env.CI !== undefined ? false : `there is no Chromium at ${executablePath}`;
 
-/** Modules of the tests' own, imported as 'text:NAME'. */
+/** Modules that tests pass as text, imported as 'text:NAME'. */
 const ofTexts = (texts) => ({
   name: 'texts',
   setup: (build) => {
@@ -26,7 +26,7 @@ const ofTexts = (texts) => ({
   },
 });
 
-/** Bundles a module, opens a page, and has the module there as `tested`. */
+/** Bundles a module and opens a page in which it is the global `tested`. */
 export async function open(module, texts = {}) {
   const { outputFiles } = await build({
     entryPoints: [module],

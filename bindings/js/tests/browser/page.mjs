@@ -1,4 +1,4 @@
-// What tests/browser.test.mjs runs in the page.
+// The functions that tests/browser.test.mjs calls in the page.
 
 import { Document, WebIO } from '@gltf-transform/core';
 import * as darboux from 'darboux';
@@ -17,7 +17,7 @@ export const { Plan } = darboux;
 
 const SIZE = 64;
 
-/** What every texel of the normal map says, three's way: x 0.6, y 0.48, z 0.64. */
+/** The normal of every texel of the normal map, in three.js's convention: x 0.6, y 0.48, z 0.64. */
 const TEXEL = [0.6, 0.48, 0.64].map((x) => Math.round(255 * (x / 2 + 0.5)));
 
 function geometry([positions, normals, uvs, indices]) {
@@ -35,7 +35,7 @@ function normalMap() {
 
 let renderer;
 
-/** The pixels of a geometry seen from the front, and whether its shader takes tangents. */
+/** Draws a geometry from the front. Returns its pixels, and whether the shader uses tangents. */
 function render(geometry, material) {
   renderer ??= new THREE.WebGLRenderer({ antialias: false });
   const scene = new THREE.Scene().add(new THREE.Mesh(geometry, material));
@@ -54,7 +54,7 @@ function render(geometry, material) {
   return { pixels, takesTangents: gl.getShaderSource(vertexShader).includes('#define USE_TANGENT') };
 }
 
-/** The normals that are drawn left and right of the seam, and whether the shader takes tangents. */
+/** The normals that are drawn left and right of the mirrored edge, and whether the shader uses tangents. */
 function sides(geometry, normalScale = [1, 1]) {
   const material = new THREE.MeshNormalMaterial({ normalMap: normalMap(), normalScale: new THREE.Vector2(...normalScale) });
   const { pixels, takesTangents } = render(geometry, material);
@@ -91,7 +91,7 @@ export const mirroredSquares = {
   },
 };
 
-/** A file with the mirrored squares. */
+/** A glTF of the mirrored squares. */
 async function glb(transforms) {
   const document = new Document();
   const buffer = document.createBuffer();
@@ -110,7 +110,7 @@ async function loaded(bytes) {
   return scene.getObjectByProperty('isMesh', true);
 }
 
-/** How many pixels of a coarse sphere with a normal map differ from those that derivatives give, and from those of turned tangents. */
+/** For a coarse sphere with a normal map, the number of pixels that differ from those with derivatives, and from those with rotated tangents. */
 export function standardMaterial() {
   const sphere = () => new THREE.SphereGeometry(0.9, 12, 8);
   const turned = computeTangents(sphere(), { negateSign: false });
@@ -129,7 +129,7 @@ export function standardMaterial() {
   };
 }
 
-/** Tangents of a grid by WebGPU and by the CPU, per vertex, with one vertex more that nothing uses; none where there is no adapter. */
+/** Tangents per vertex of a grid with one unused vertex, by WebGPU and by the CPU; null without an adapter. */
 export async function averages(indexFormat) {
   const found = await gpu();
   if (!found) return null;
@@ -151,7 +151,7 @@ export async function averages(indexFormat) {
   return { errors, counts: Array.from(counts), difference: darboux.measureTangents(ours, ofCorner) };
 }
 
-/** A grid that moves and shrinks, and its plans: how many corners have other bits on WebGPU than on the CPU. */
+/** Plans a grid that moves and shrinks. Returns the number of corners with other bits on WebGPU than on the CPU. */
 export async function plans(per, options, name, scale = 1) {
   const found = await gpu();
   if (!found) return null;
@@ -161,7 +161,7 @@ export async function plans(per, options, name, scale = 1) {
   const moved = positions.map((x, at) => scale * (x + (at % 3 === 2 ? Math.sin(positions[at - 2] / 3) : 0)));
   const vertexCount = positions.length / 3;
   const outputs = per === 'corner' ? indices.length : vertexCount;
-  // Positions, normals and, where vertices have tangents, these, in one buffer.
+  // One buffer for positions, normals and, where there is one tangent per vertex, tangents.
   const vertices = new Float32Array(10 * vertexCount);
   for (let at = 0; at < vertexCount; at++) {
     vertices.set(moved.subarray(3 * at, 3 * at + 3), 10 * at);
@@ -181,7 +181,7 @@ export async function plans(per, options, name, scale = 1) {
   return { errors, counts: Array.from(counts), corners: indices.length, differing };
 }
 
-/** What a plan says of buffers that do not fit. */
+/** The errors of a plan for buffers that do not fit. */
 export async function refusals() {
   const found = await gpu();
   if (!found) return null;

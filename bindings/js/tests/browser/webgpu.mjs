@@ -1,4 +1,4 @@
-// What tests/webgpu.test.mjs runs in the page.
+// The functions that tests/webgpu.test.mjs calls in the page.
 
 import * as darboux from 'darboux';
 import { generateTangents, openDevice } from 'darboux/webgpu';
@@ -7,10 +7,10 @@ import { gpu } from './gpu.mjs';
 
 export const { ready } = darboux;
 
-/** The example of the package's README; its device and what it computes. */
+/** The example of the package's README, with its device and its results. */
 export const example = () => import('text:example');
 
-/** Whether there is an adapter. */
+/** Whether the browser has an adapter. */
 export const hasAdapter = async () => Boolean(await navigator.gpu?.requestAdapter());
 
 let opened;
@@ -35,12 +35,12 @@ const MESHES = {
   endless: () => scaled(Infinity, grid(3, 2)),
 };
 
-/** Bits, those of all NaNs alike. */
+/** The bits of floats, with one value for all NaNs. */
 const bits = (floats) => new Uint32Array(floats.map((x) => (Number.isNaN(x) ? NaN : x)).buffer);
 
 const differing = (a, b) => (a.length === b.length ? a.reduce((sum, x, at) => sum + (x !== b[at]), 0) : Infinity);
 
-/** How a mesh fares on both sides. */
+/** Compares a mesh on WebGPU and on the CPU. */
 async function compared(mesh, options) {
   const [positions, normals, uvs, indices] = mesh;
   const { tangents, report, ...counts } = await generateTangents(await device(), positions, normals, uvs, indices, { ...options, returnReport: true });
@@ -51,7 +51,7 @@ async function compared(mesh, options) {
 
 export const onBothSides = (name, options) => compared(MESHES[name](), options);
 
-/** Faces as the triangles that one gets by fanning them. */
+/** Faces as fans of triangles. */
 function triangles(indices, sizes) {
   let start = 0;
   return Uint32Array.from(sizes.flatMap((size) => {
@@ -61,7 +61,7 @@ function triangles(indices, sizes) {
   }));
 }
 
-/** Words of a mesh's arrays: what WebGPU makes of it, and how its triangles fare on both sides. */
+/** Takes the bits of a mesh's arrays. Returns the result of WebGPU, and the comparison of its triangles on both sides. */
 export async function ofWords([words, indices], { faces, ...options }) {
   const floats = words.map((array) => new Float32Array(Uint32Array.from(array).buffer));
   const all = faces.every((size) => size === 3) ? 3 : Uint32Array.from(faces);
@@ -69,7 +69,7 @@ export async function ofWords([words, indices], { faces, ...options }) {
   return { tangents: Array.from(new Uint32Array(tangents.buffer)), inTriangles: await compared([...floats, triangles(indices, faces)], options) };
 }
 
-/** Whether buffers of the caller's have what is returned, and nothing else. */
+/** Whether the caller's buffers hold the returned tangents and nothing else. */
 export async function intoBuffers(names) {
   const { device, errors, filled, read } = await gpu();
   const found = [];
@@ -85,7 +85,7 @@ export async function intoBuffers(names) {
   return { found, errors };
 }
 
-/** What it says of what does not fit. */
+/** The errors for arguments that do not fit. */
 export async function refusals() {
   const { device, errors, filled } = await gpu();
   const [positions, normals, uvs, indices] = mirrored();
