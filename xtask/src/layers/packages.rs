@@ -16,7 +16,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("darboux-c", &["darboux", "darboux-tests"]),
     ("darboux-mikktspace", &["darboux"]),
     ("darboux-js", &["darboux"]),
-    ("darboux-viewer", &["darboux-io"]),
+    ("darboux-viewer", &["darboux", "darboux-io"]),
     ("darboux-python", &["darboux", "darboux-io", "darboux-cli"]),
     ("darboux-tests", &["darboux", "darboux-io", "darboux-cli"]),
     ("darboux-shader-tests", &["darboux"]),
