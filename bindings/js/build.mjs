@@ -88,7 +88,7 @@ async function shrink(entry, form) {
     // Functions sorted by name lie beside those of the same module, which compresses better.
     const passes = ['-O3', '--one-caller-inline-max-function-size=0', '--reorder-functions-by-name'];
     await run('wasm-opt', ...features, ...passes, '--strip-debug', '--strip-producers', '--strip-target-features', path, '-o', path);
-    writeFileSync(deflatedPath(path), await zopfli.deflateAsync(readFileSync(path), { numiterations: 5 }));
+    writeFileSync(deflatedPath(path), await zopfli.deflateAsync(readFileSync(path), { numiterations: 5, blocksplittingmax: 40 }));
   });
   writeFileSync(keyPath, key);
 }

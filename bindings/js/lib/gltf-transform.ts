@@ -8,7 +8,7 @@ import { generateTangents, Plan, ready, splitVertices } from './darboux.js';
 import { disposeUnused, floats, gathered, indexArray } from './gltf/accessors.js';
 import { groupPrimitives, type Group, type Job, type Morph } from './gltf/groups.js';
 import { selectPrimitives, TRIANGLES } from './gltf/selection.js';
-import { choice, optionsOf } from './core/checks.js';
+import { choice } from './core/checks.js';
 import type { TangentOptions, VertexSplit } from './types.js';
 
 /** Options of {@link tangents}. */
@@ -34,7 +34,7 @@ const MODES = ['repaired', 'corrected'] as const;
  * @throws RangeError where lengths do not fit together or an index is out of range. The message names the primitive.
  */
 export function tangents(options?: TangentsOptions | null): Transform {
-  const { overwrite, generateTangents: _, ...computation } = optionsOf(options);
+  const { overwrite, generateTangents: _, ...computation } = options ?? {};
   choice('mode', computation.mode, MODES, 'repaired');
   const transform = async (document: Document): Promise<void> => {
     await ready;

@@ -9,7 +9,6 @@ import {
   type GLBufferAttribute,
   type TypedArray,
 } from 'three';
-import { optionsOf } from './core/checks.js';
 import { generateTangents, ready, splitVertices } from './darboux.js';
 import type { Indices, TangentOptions } from './types.js';
 
@@ -49,7 +48,7 @@ type Attribute = BufferAttribute | InterleavedBufferAttribute;
  * @throws Error without position, normal or UVs; RangeError where lengths do not fit together or an index is out of range.
  */
 export function computeTangents<G extends BufferGeometry>(geometry: G, options?: ComputeTangentsOptions | null): G {
-  const { negateSign, uv, ...rest } = optionsOf(options);
+  const { negateSign, uv, ...rest } = options ?? {};
   const normal = attribute(geometry, 'normal');
   const arrays = [floats(attribute(geometry, 'position'), 3), floats(normal, 3), floats(attribute(geometry, uv ?? 'uv'), 2)] as const;
   const index = geometry.index && integers(geometry.index.array);
