@@ -1,4 +1,4 @@
-//! A mesh behind the callbacks that the reference and its ports ask for.
+//! Implements the callback interface of mikktspace.c and its Rust ports for a mesh in memory.
 
 use darboux_tests::{FaceSizes, OwnedMesh};
 
@@ -13,7 +13,7 @@ pub struct Callbacks<'a> {
 }
 
 impl<'a> Callbacks<'a> {
-    /// Makes `tangents` as long as the mesh has corners.
+    /// Resizes `tangents` to one element per corner.
     pub fn new(mesh: &'a OwnedMesh, tangents: &'a mut Vec<Tangent>) -> Self {
         tangents.resize(mesh.corner_count(), [0.0; 4]);
         let size = if mesh.faces == FaceSizes::Quads { 4 } else { 3 };
@@ -25,7 +25,7 @@ impl<'a> Callbacks<'a> {
     }
 }
 
-/// The part of the three traits that differs in nothing but names.
+/// The callbacks that the three traits share, apart from their names.
 macro_rules! read {
     ($faces:ident, $corners:ident, $position:ident, $normal:ident, $uv:ident) => {
         fn $faces(&self) -> usize {

@@ -1,9 +1,9 @@
-//! Every engine's answer against the reference's, before anything is timed.
+//! Compares every engine's result with the reference's before anything is timed.
 
 use crate::engines::Method;
 use crate::run::Tangent;
 
-/// What an engine's answer is worth, as the table says it. Errors: it is not what the engine claims.
+/// Compares a result with the reference's and returns the text for the table. Errors: the result is not what the engine claims.
 pub fn verdict(method: Method, expected: &[Tangent], found: &[Tangent]) -> Result<String, String> {
     if found.len() != expected.len() {
         return Err(format!("{} tangents for {} corners", found.len(), expected.len()));
@@ -29,7 +29,7 @@ fn difference(expected: &[Tangent], found: &[Tangent]) -> String {
     format!("{percent:.2} % of corners differ, at most {} degrees{signs}", rounded(angle))
 }
 
-/// Two digits or so, whatever the size.
+/// Formats an angle with about two significant digits.
 fn rounded(angle: f64) -> String {
     if angle == 0.0 || angle >= 0.1 { format!("{angle:.1}") } else { format!("{angle:.1e}") }
 }

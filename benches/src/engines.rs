@@ -1,4 +1,4 @@
-//! The engines: for each, how it is called, and the one-sentence facts that the table tells of it.
+//! The list of engines: how each is called, its version, threads and claim.
 
 use std::hint::black_box;
 use std::path::Path;
@@ -14,28 +14,28 @@ use crate::lengyel::lengyel;
 use crate::node;
 use crate::run::{Run, Tangent, Time};
 
-/// What an engine claims to compute, and so what it is checked for.
+/// What an engine claims to compute. Its result is checked accordingly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// MikkTSpace, or nearly: the table says how nearly.
+    /// MikkTSpace, exactly or approximately; the table shows the differences.
     MikkTSpace,
-    /// Another method, whose tangents point much the same way.
+    /// Another method, whose tangents have similar directions.
     Other,
-    /// No method: a limit.
+    /// No tangents: a lower bound for the time.
     Copy,
 }
 
-/// An implementation, ready to be started on a mesh.
+/// An implementation that can be started on a mesh.
 pub struct Engine {
-    /// What the table calls it.
+    /// Its name in the table.
     pub name: &'static str,
     /// The version that Cargo.toml or node/package.json pins.
     pub version: &'static str,
-    /// How many threads it uses.
+    /// The number of threads that it uses.
     pub threads: usize,
     /// What it computes.
     pub method: Method,
-    /// Whether it takes quads as they are.
+    /// True if it accepts quads.
     quads: bool,
     start: Start,
 }
@@ -48,7 +48,7 @@ enum Start {
 /// The engine that every other is compared with.
 pub const REFERENCE: &str = "mikktspace.c";
 
-/// meshoptimizer in its default mode, the other engine that ratios are given to.
+/// meshoptimizer in its default mode, the second engine that ratios are computed for.
 pub const MESHOPT: &str = "meshopt";
 
 /// The engines in the table's order, the reference first.
@@ -83,7 +83,7 @@ pub fn all() -> Vec<Engine> {
     engines
 }
 
-/// Darboux in the forms worth telling apart. The output of each is the reference's, bit for bit.
+/// The configurations of Darboux. Each returns the bits of the reference.
 fn ours() -> Vec<Engine> {
     let version = env!("CARGO_PKG_VERSION");
     let threads = available_threads();
@@ -103,17 +103,17 @@ fn ours() -> Vec<Engine> {
     ]
 }
 
-/// How many threads the machine runs at once.
+/// The number of hardware threads.
 fn available_threads() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// The reference's own answer, repairs left out.
+/// Options that give the reference's result, without repairs.
 fn exact() -> TangentOptions {
     MikktOptions::new().with_mode(Mode::Reference).into()
 }
 
-/// Darboux with memory kept between calls.
+/// Darboux with memory that is reused between calls.
 fn kept(mesh: &OwnedMesh, mut context: Context) -> Box<dyn Run + '_> {
     let view = mesh.view();
     per_corner(mesh, move |out| {
@@ -175,7 +175,7 @@ fn in_node(name: &'static str, version: &'static str, method: Method) -> Engine 
     Engine { name, version, threads: 1, method, quads: false, start: Start::Node }
 }
 
-/// A call that fills an output, which is kept between calls.
+/// An engine that fills an output array, which is reused between calls.
 struct Native<'a, O, F> {
     mesh: &'a OwnedMesh,
     per_vertex: bool,
@@ -216,12 +216,12 @@ impl<O, F: FnMut(&mut O)> Run for Native<'_, O, F> {
     }
 }
 
-/// The crate's interface gives a new list at each call.
+/// The crate's interface returns a new list at each call.
 fn meshopt(mesh: &OwnedMesh, options: meshopt::TangentOptions) -> Vec<Tangent> {
     meshopt::generate_tangents(mesh.indices.as_deref(), &mesh.positions, &mesh.normals, &mesh.uvs, options)
 }
 
-/// Copies all that an engine must read and as much as it must write.
+/// Copies as many bytes as an engine must read and write.
 fn copy(mesh: &OwnedMesh, input: &mut OwnedMesh, from: &mut Vec<Tangent>, out: &mut Vec<Tangent>) {
     from.resize(mesh.corner_count(), [0.0; 4]);
     out.resize(mesh.corner_count(), [0.0; 4]);
@@ -237,7 +237,7 @@ fn copy(mesh: &OwnedMesh, input: &mut OwnedMesh, from: &mut Vec<Tangent>, out: &
 
 #[cfg(test)]
 mod tests {
-    /// The versions in the table are those that were built.
+    /// The versions in the table match the built ones.
     #[test]
     fn versions_are_those_of_the_lock_files() {
         let cargo = include_str!("../../Cargo.lock");

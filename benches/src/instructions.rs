@@ -1,4 +1,4 @@
-//! Instructions per triangle, counted by callgrind: the figure that a noisy machine does not move.
+//! Counts instructions per triangle with callgrind. Unlike times, the counts do not depend on other programs.
 
 use std::process::Command;
 
@@ -16,7 +16,7 @@ pub struct Counts {
     pub of_mesh: Vec<Option<f64>>,
 }
 
-/// Counts each engine that runs in this process. Errors: there is no valgrind.
+/// Counts every engine that runs in this process. Errors: valgrind is not installed.
 pub fn count(engines: &[Engine]) -> Result<Vec<Counts>, String> {
     let found = Command::new("valgrind").arg("--version").output();
     found.map_err(|error| format!("valgrind is needed to count instructions and cannot start: {error}"))?;
@@ -25,7 +25,7 @@ pub fn count(engines: &[Engine]) -> Result<Vec<Counts>, String> {
     Ok(native.map(|engine| Counts { engine: engine.name, of_mesh: of_mesh(engine) }).collect())
 }
 
-/// The difference of three calls and one, so that neither making the mesh nor the first call's set-up counts.
+/// The difference between three calls and one, so that creating the mesh and the set-up of the first call do not count.
 fn per_triangle(engine: &str, mesh: &str) -> Option<f64> {
     eprintln!("counting {engine} on {mesh}");
     let triangles = meshes::make(mesh, Size::Quick)?.triangles();

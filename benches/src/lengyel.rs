@@ -1,5 +1,5 @@
-//! Lengyel's method (Foundations of Game Engine Development, volume 2, listing 7.4) without anything around it: the least
-//! that per-vertex tangents can cost.
+//! Lengyel's method (Foundations of Game Engine Development, volume 2, listing 7.4) as a plain loop: a lower bound for the
+//! cost of tangents per vertex.
 
 use darboux_tests::OwnedMesh;
 

@@ -39,19 +39,19 @@ struct Arguments {
     /// Count instructions per triangle with callgrind instead.
     #[arg(long)]
     instructions: bool,
-    /// Where FlightHelmet and other large models lie.
+    /// Folder with FlightHelmet and other large models.
     #[arg(long, value_name = "FOLDER", default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/assets"))]
     models: PathBuf,
-    /// What the record calls this machine instead of its processor's name.
+    /// Name of this machine in the record, instead of its processor's name.
     #[arg(long, value_name = "NAME")]
     machine: Option<String>,
-    /// Where the packages of node/package.json are installed.
+    /// Folder with the installed packages of node/package.json.
     #[arg(long, hide = true)]
     node: Option<PathBuf>,
-    /// Print the memory of one call: what a child process does.
+    /// Print the memory of one call (used for child processes).
     #[arg(long, hide = true)]
     only_memory: bool,
-    /// Call so often and print nothing: what a child process does.
+    /// Make this number of calls and print nothing (used for child processes).
     #[arg(long, hide = true)]
     only_calls: Option<usize>,
 }
@@ -61,7 +61,7 @@ const DEEP_STACK: usize = 1 << 30;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    // Engines of one thread meet this pool, the others bring their own.
+    // Single-threaded engines run in this pool; the others create their own.
     rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("no pool has started before");
     let deep = std::thread::Builder::new().stack_size(DEEP_STACK);
     let thread = deep.spawn(move || run(&arguments)).expect("a thread starts");
@@ -91,7 +91,7 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     time(arguments, engines, &meshes)
 }
 
-/// The meshes asked for, all where none is named. Errors: a name that no mesh has.
+/// The meshes with these names, or all if there are none. Errors: unknown names.
 fn select_meshes(arguments: &Arguments) -> Result<Vec<Named>, String> {
     let size = if arguments.quick { Size::Quick } else { Size::Full };
     let all = arguments.meshes.is_empty();

@@ -1,4 +1,4 @@
-//! How much memory an engine needs besides input and output: by the resident peak of a child process that runs it once.
+//! Measures the memory that an engine needs besides input and output: the peak resident memory of a child process that runs it once.
 //!
 //! Allocations are counted by the kernel, so that C and Rust are measured alike.
 
@@ -11,20 +11,20 @@ use darboux_tests::OwnedMesh;
 use crate::engines::Engine;
 use crate::run::Tangent;
 
-/// Bytes that one call of an engine needs, measured in a child process; none where the system cannot tell.
+/// The bytes that one call of an engine needs, measured in a child process; `None` if the system does not report them.
 pub fn of_a_child(engine: &str, mesh: &str, quick: bool, models: &Path) -> Option<f64> {
     let mut command = Command::new(std::env::current_exe().ok()?);
     command.args(["--engines", engine, "--meshes", mesh, "--only-memory", "--models"]).arg(models);
     if quick {
         command.arg("--quick");
     }
-    // What is freed goes back to the system at once, or the mesh's making would leave room that the engine then uses unseen.
+    // Freed memory returns to the system at once. Otherwise the engine could reuse memory from creating the mesh, and it would not be counted.
     command.env("GLIBC_TUNABLES", "glibc.malloc.mmap_threshold=65536:glibc.malloc.trim_threshold=65536");
     let output = command.output().ok()?;
     String::from_utf8(output.stdout).ok()?.trim().parse().ok()
 }
 
-/// What the child does: runs the engine once and gives the bytes by which the peak rose, less the output's.
+/// The child process: runs the engine once and returns the growth of the peak in bytes, without the output.
 pub fn of_this_process(engine: &Engine, mesh: &OwnedMesh) -> Option<f64> {
     let mut run = engine.start(mesh, None).ok()?;
     // Resets the peak (Linux, Documentation/filesystems/proc.rst).

@@ -1,4 +1,4 @@
-//! The benchmark's meshes: made from fixed formulas and seeds, or read from models.
+//! The meshes of the benchmark: generated from formulas and fixed seeds, or read from models.
 
 use std::collections::HashSet;
 use std::f32::consts::{PI, TAU};
@@ -6,7 +6,7 @@ use std::path::Path;
 
 use darboux_tests::{Dice, FaceSizes, OwnedMesh, families, models};
 
-/// How large the made meshes are.
+/// The size of the generated meshes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Size {
     /// A million triangles.
@@ -15,7 +15,7 @@ pub enum Size {
     Quick,
 }
 
-/// A mesh and what the table calls it.
+/// A mesh and its name in the table.
 #[derive(Debug)]
 pub struct Named {
     /// Its name.
@@ -50,7 +50,7 @@ const MAKERS: &[(&str, Maker)] = &[
     ("one-position", |size| families::unwelded_fan(size.count(20_000))),
 ];
 
-/// The model that is measured whole, whatever its primitives' sizes.
+/// The model of which all primitives are measured, whatever their size.
 const HELMET: &str = "FlightHelmet";
 
 /// Primitives of other models need more triangles than this.
@@ -68,12 +68,12 @@ impl Size {
     }
 }
 
-/// The names of the made meshes.
+/// The names of the generated meshes.
 pub fn made() -> impl Iterator<Item = &'static str> {
     MAKERS.iter().map(|maker| maker.0)
 }
 
-/// The made mesh of this name.
+/// The generated mesh with this name.
 pub fn make(name: &str, size: Size) -> Option<Named> {
     let (_, maker) = MAKERS.iter().find(|maker| maker.0 == name)?;
     Some(Named { name: name.into(), mesh: maker(size) })
@@ -92,7 +92,7 @@ pub fn real(folder: &Path) -> Vec<Named> {
         let large = primitives.into_iter().filter(|(_, mesh)| is_wanted(mesh));
         found.extend(large.map(|(number, mesh)| Named { name: format!("{stem}:{number}"), mesh }));
     }
-    // A model may lie there in more than one container.
+    // A model may exist in several containers (.gltf and .glb).
     let mut names = HashSet::new();
     found.retain(|mesh| names.insert(mesh.name.clone()));
     found
@@ -124,7 +124,7 @@ fn grid(width: usize, height: usize) -> OwnedMesh {
     OwnedMesh { indices: Some(cells(width, height)), ..mesh }
 }
 
-/// The quads that a mesh's triangles are halves of, cut from the first corner to the third.
+/// Joins pairs of triangles into quads. The triangles must be split from the first corner to the third.
 fn quads(mesh: OwnedMesh) -> OwnedMesh {
     let halves: &[[u32; 6]] = mesh.indices.as_deref().map_or(&[], |list| list.as_chunks().0);
     let corners = halves.iter().flat_map(|&[a, b, c, _, _, d]| [a, b, c, d]).collect();
@@ -156,7 +156,7 @@ fn sphere(rings: usize, segments: usize) -> OwnedMesh {
 }
 
 /// `count` pieces of 50 triangles on a surface, every second one with mirrored UVs, their triangles and vertices shuffled:
-/// the worst case of a cache.
+/// the worst case for caches.
 fn charts(count: usize) -> OwnedMesh {
     const SIDE: usize = 5;
     let columns = (count as f32).sqrt().ceil() as usize;
@@ -191,7 +191,7 @@ fn shuffled(mesh: &OwnedMesh, corners: &[u32], dice: &mut Dice<'_>) -> OwnedMesh
     OwnedMesh { indices: Some(corners), ..result }
 }
 
-/// Fisher and Yates's shuffle. The dice know 16 bits at a time, hence two draws.
+/// Fisher-Yates shuffle. The generator returns 16 bits per draw, so each index takes two draws.
 fn shuffle<T>(list: &mut [T], dice: &mut Dice<'_>) {
     for last in (1..list.len()).rev() {
         let draw = dice.below(1 << 16) << 16 | dice.below(1 << 16);

@@ -1,4 +1,4 @@
-//! Engines that run in node: a child process per engine and mesh, which `node/peers.mjs` explains.
+//! Engines that run in Node.js: one child process per engine and mesh. `node/peers.mjs` defines the protocol.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
@@ -84,7 +84,7 @@ impl Run for Child {
 
 impl Drop for Child {
     fn drop(&mut self) {
-        // It may have ended by itself, which is as good.
+        // The process may already have ended.
         _ = self.process.kill();
         _ = self.process.wait();
     }

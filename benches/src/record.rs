@@ -1,4 +1,4 @@
-//! `benches/record/<machine>/<date>.csv`: what a full run leaves for later comparison.
+//! Writes the results of a full run to `benches/record/<machine>/<date>.csv`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,14 +12,14 @@ use crate::rounds::{Row, times_over};
 const HEADER: &str = "date,commit,mesh,triangles,engine,version,threads,rounds,cpu_ns_min,cpu_ns_median,wall_ns_min,\
                       wall_ns_median,times_mikktspace_c,times_meshopt,extra_bytes,answer";
 
-/// Writes the rows of a full run; gives the file.
+/// Writes the rows of a full run and returns the file's path.
 pub fn timings(rows: &[Row], machine: Option<&str>) -> Result<PathBuf, String> {
     let (date, commit) = (date(), commit());
     let lines = rows.iter().map(|row| format!("{date},{commit},{}", line(rows, row)));
     write(machine, &format!("{date}.csv"), HEADER, lines)
 }
 
-/// Writes instruction counts; gives the file.
+/// Writes instruction counts and returns the file's path.
 pub fn instructions(rows: &[Counts], machine: Option<&str>) -> Result<PathBuf, String> {
     let (date, commit) = (date(), commit());
     let lines = rows.iter().flat_map(|row| {
@@ -86,7 +86,7 @@ fn date() -> String {
     time::OffsetDateTime::now_utc().date().to_string()
 }
 
-/// What is checked out, marked where files have changed since; "unknown" outside git.
+/// The commit that is checked out, with a mark if files have changed since; "unknown" outside git.
 fn commit() -> String {
     let mut command = Command::new("git");
     command.args(["describe", "--always", "--dirty", "--abbrev=10"]).current_dir(env!("CARGO_MANIFEST_DIR"));

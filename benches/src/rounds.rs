@@ -1,4 +1,4 @@
-//! Measuring one mesh: every engine is checked, then all take turns, round by round.
+//! Measures one mesh: checks every engine, then times all engines in turns, round by round.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use crate::memory;
 use crate::meshes::Named;
 use crate::run::{Run, Tangent, Time};
 
-/// What the measuring of one engine on one mesh gave.
+/// The measurements of one engine on one mesh.
 pub struct Row {
     /// The mesh's name.
     pub mesh: String,
@@ -22,11 +22,11 @@ pub struct Row {
     pub version: &'static str,
     /// How many threads it used.
     pub threads: usize,
-    /// Nanoseconds per triangle, one entry per round; none where the engine failed.
+    /// Nanoseconds per triangle, one entry per round; empty if the engine failed.
     pub rounds: Vec<Time>,
-    /// Bytes per triangle besides input and output, where they can be known.
+    /// Bytes per triangle besides input and output, if they can be measured.
     pub extra_bytes: Option<f64>,
-    /// What the answer is worth, or how the engine failed.
+    /// The comparison with the reference, or the reason of the failure.
     pub answer: String,
 }
 
@@ -51,14 +51,14 @@ impl Row {
         Some([*times.first()?, times[times.len() / 2]])
     }
 
-    /// Minimum and median of the time that counts: the processor's for one thread, for it does not contain what else the
-    /// machine does; the clock's for several.
+    /// Minimum and median of the relevant time: processor time for one thread, because it does not contain what else the
+    /// machine does; wall time for several threads.
     pub fn time(&self) -> Option<[f64; 2]> {
         if self.threads == 1 { self.spread(|time| time.cpu) } else { self.spread(|time| time.wall) }
     }
 }
 
-/// Rounds of an engine that takes so many seconds to answer: the slow ones get fewer, the slowest keep their first answer's time.
+/// The number of rounds of an engine whose first call took this many seconds. Slow engines get fewer; the slowest keep the time of the first call.
 const FEWER: [(f64, usize); 2] = [(10.0, 1), (3.0, 3)];
 
 /// A round of a fast engine on a small mesh is as many calls as take this many nanoseconds.
@@ -101,13 +101,13 @@ pub fn measure(named: &Named, engines: &[Engine], rounds: usize, node: Option<&P
     rows
 }
 
-/// The reference's answer.
+/// The reference's result.
 fn expected(mesh: &OwnedMesh) -> Vec<Tangent> {
     let frames = darboux_tests::engine::reference(mesh, 180.0);
     frames.iter().map(|frame| frame.map_or([1.0, 0.0, 0.0, -1.0], |frame| frame.tangent_and_sign())).collect()
 }
 
-/// Starts an engine, runs it once and judges its answer.
+/// Starts an engine, runs it once and checks its result.
 fn start<'a>(
     engine: &'a Engine,
     mesh: &'a OwnedMesh,
@@ -139,7 +139,7 @@ impl Runner<'_> {
     }
 }
 
-/// On smaller meshes the pages of code that a call touches first would count for more than its data.
+/// On smaller meshes, code pages touched by the first call would count more than data.
 const LARGE: usize = 20_000;
 
 /// Fills in the memory of the rows on large meshes whose engines run in this process.
@@ -163,7 +163,7 @@ pub fn times_over(rows: &[Row], engine: &str, row: &Row) -> Option<f64> {
     Some(other.time()?[1] / row.time()?[1])
 }
 
-/// The engines of these names in the table's order, all where none is named. Errors: a name that no engine has.
+/// The engines with these names in the order of the table, or all if there are none. Errors: unknown names.
 pub fn select(names: &[String]) -> Result<Vec<Engine>, String> {
     let all = engines::all();
     if let Some(unknown) = names.iter().find(|name| !all.iter().any(|engine| engine.name == *name)) {

@@ -1,4 +1,4 @@
-//! The table that a person reads.
+//! Formats results as tables for people.
 
 use comfy_table::{CellAlignment, Table, presets};
 
@@ -20,7 +20,7 @@ const HEADER: [&str; 11] = [
     "answer",
 ];
 
-/// One line per row; an empty cell where nothing is known.
+/// One line per row; unknown values give empty cells.
 pub fn table(rows: &[Row]) -> Table {
     let mut table = empty(&HEADER);
     for row in rows {
