@@ -1,4 +1,4 @@
-//! Any bytes as a file: an error or tangents, never a panic, and what is written reads again.
+//! Fuzzes files: any bytes give an error or tangents, never a panic, and every written file can be read again.
 
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! Any bytes as a small odd mesh: every engine gives the reference's bits, and every mode keeps its promises.
+//! Fuzzes meshes: every engine returns the reference's bits, and every mode keeps its invariants.
 
 #![no_main]
 

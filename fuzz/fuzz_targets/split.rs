@@ -1,4 +1,4 @@
-//! Any bytes as a small odd mesh: through splitting every corner keeps its vertex and its tangent, with the fewest vertices.
+//! Fuzzes splitting: every corner keeps its vertex data and its tangent, with the smallest number of vertices.
 
 #![no_main]
 

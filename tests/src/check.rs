@@ -1,4 +1,4 @@
-//! What must hold for every answer, whatever the mesh.
+//! Invariants that must hold for every result on every mesh.
 
 use std::collections::HashSet;
 
@@ -10,7 +10,7 @@ use darboux::{
 
 use crate::{Case, OwnedMesh, engine};
 
-/// The first promise that any mode breaks on a case.
+/// Checks all modes on a case and returns the first violation.
 pub fn all_modes(case: &Case) -> Result<(), String> {
     let Case { mesh, threshold } = case;
     let reference = engine::reference(mesh, *threshold);
@@ -47,7 +47,7 @@ pub fn all_modes(case: &Case) -> Result<(), String> {
     Ok(())
 }
 
-/// The first promise of splitting and of plans that is broken on a case.
+/// Checks splitting and plans on a case and returns the first violation.
 pub fn split_and_plan(case: &Case) -> Result<(), String> {
     let mesh = case.mesh.view();
     let options = TangentOptions::from(MikktOptions::new().with_threshold(case.threshold));
@@ -94,13 +94,13 @@ fn tangent_bits(frame: &Frame) -> [u32; 4] {
     frame.tangent_and_sign().map(|x| if x.is_nan() { f32::NAN } else { x }.to_bits())
 }
 
-/// Where the reference's own result is good enough to keep: finite, of unit length, not along a normal that is not zero.
+/// True if the reference's result is usable: finite, unit length, and not along the normal (unless that is zero).
 pub fn usable(frame: &Frame, normal: [f32; 3]) -> bool {
     let unit = (length(frame.tangent) - 1.0).abs() < 1e-3;
     unit && (is_zero(normal) || cosine(frame.tangent, normal).abs() < 0.999)
 }
 
-/// The first thing wrong with `frames` (one per corner, unsupported faces included), if any.
+/// Checks `frames` (one per corner, unsupported faces included) and returns the first violation.
 ///
 /// In every mode signs are +1 or -1; but for [`Mode::Reference`] tangents are usable; in [`Mode::Corrected`] a face has one
 /// sign. `reference`, where given, are the reference's frames: what is usable there must come out unchanged in
@@ -144,7 +144,7 @@ pub fn check_frames(
     if mode == Mode::Corrected { one_sign_per_face(mesh, frames) } else { Ok(()) }
 }
 
-/// [`usable`], but for what rounding may do to a value at the limit.
+/// [`usable`] with a margin for rounding at the limits.
 fn almost_usable(frame: &Frame, normal: [f32; 3]) -> bool {
     let unit = (length(frame.tangent) - 1.0).abs() < 1.001e-3;
     unit && (!is_direction(normal) || cosine(frame.tangent, normal).abs() < 0.99901)

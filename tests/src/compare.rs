@@ -1,4 +1,4 @@
-//! Frames compared as bits, NaN equal to NaN, and differences told so that they can be replayed.
+//! Compares frames as bits, with NaN equal to NaN, and reports differences with the mesh that reproduces them.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use darboux::Frame;
 
 use crate::OwnedMesh;
 
-/// Where two engines disagree.
+/// A difference between two results.
 #[derive(Clone, Debug)]
 pub struct Difference {
     /// The number of corners that differ.
@@ -25,7 +25,7 @@ pub fn bits(frame: &Frame) -> [u32; 9] {
     [tx, ty, tz, bx, by, bz, s, t, frame.sign].map(|x| if x.is_nan() { f32::NAN } else { x }.to_bits())
 }
 
-/// The difference between two answers, if there is one.
+/// The difference between two results, if any.
 pub fn first_difference(expected: &[Option<Frame>], found: &[Option<Frame>]) -> Option<Difference> {
     assert_eq!(expected.len(), found.len(), "answers about meshes of different size");
     let differs = |corner: &usize| expected[*corner].as_ref().map(bits) != found[*corner].as_ref().map(bits);
@@ -42,7 +42,7 @@ impl fmt::Display for Difference {
     }
 }
 
-/// Panics where two answers differ, with the mesh in corpus form.
+/// Panics if two results differ, with the mesh in the corpus format.
 #[track_caller]
 pub fn assert_equal(
     what: &str,

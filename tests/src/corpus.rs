@@ -1,4 +1,4 @@
-//! The collected meshes: one behaviour each, with a sentence that says which.
+//! Reads the corpus: small meshes for one behaviour each, with a title that says which.
 //!
 //! A file of `corpus/` starts with its title in a comment, then `thresholds` and a list of degrees, then the mesh in the form
 //! of [`OwnedMesh::from_text`].
@@ -12,7 +12,7 @@ use crate::OwnedMesh;
 pub struct Specimen {
     /// The file's name without extension.
     pub name: String,
-    /// What it shows.
+    /// Its title: the behaviour that it shows.
     pub title: String,
     /// The thresholds to run it with, in degrees.
     pub thresholds: Vec<f32>,
@@ -39,7 +39,7 @@ impl Specimen {
     }
 }
 
-/// Every specimen of `corpus/`, by name. Panics on a file that does not read: the corpus is part of the tests.
+/// All meshes of `corpus/`, sorted by name. Panics on an unreadable file, because the corpus is part of the tests.
 pub fn corpus() -> Vec<Specimen> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus");
     let mut specimens: Vec<Specimen> = fs::read_dir(&folder)

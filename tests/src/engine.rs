@@ -1,4 +1,4 @@
-//! Implementations under one roof: each takes a mesh, a threshold and a mode and gives one frame per corner.
+//! A common interface to all implementations: a mesh, a threshold and a mode in, one frame per corner out.
 
 use darboux::internal::stage_arrays;
 use darboux::internal::width_limit::{self, WidthLimit};
@@ -11,10 +11,10 @@ use crate::OwnedMesh;
 
 /// An implementation of MikkTSpace.
 pub trait Engine: Sync {
-    /// What reports call it.
+    /// Its name in messages.
     fn name(&self) -> &'static str;
 
-    /// One frame per corner, none for the corners of faces that MikkTSpace does not define. None at all where the engine
+    /// One frame per corner, `None` for the corners of unsupported faces. The whole result is `None` if the engine
     /// does not have `mode`.
     fn run(&self, mesh: &OwnedMesh, threshold: f32, mode: Mode) -> Option<Vec<Option<Frame>>>;
 }
@@ -44,10 +44,10 @@ impl Engine for Reference {
     }
 }
 
-/// The library, by one of its ways to whole frames.
+/// The library, through one of its functions that return whole frames.
 pub struct Darboux(&'static str, fn(&Mesh<'_>, &MikktOptions) -> Frames);
 
-/// The way that users go.
+/// The public entry point.
 pub const DARBOUX: Darboux = Darboux("darboux", |mesh, options| generate_frames(mesh, &(*options).into()));
 
 impl Engine for Darboux {
@@ -85,9 +85,9 @@ impl Engine for DarbouxTangents {
     }
 }
 
-/// What mikktspace.c gives: none for corners that it does not write.
+/// The result of mikktspace.c; `None` for corners that it does not write.
 ///
-/// The C recurses over a vertex's faces and over its sorts: large meshes get a thread with the stack for it.
+/// mikktspace.c recurses over the faces of a vertex and in its sorts, so large meshes need a thread with a large stack.
 pub fn reference(mesh: &OwnedMesh, threshold: f32) -> Vec<Option<Frame>> {
     const SMALL: usize = 1 << 12;
     if mesh.corner_count() <= SMALL {

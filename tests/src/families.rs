@@ -1,4 +1,4 @@
-//! Regular meshes, as modellers make them.
+//! Generates regular meshes: grids, spheres, fans, boxes.
 
 use std::f32::consts::{PI, TAU};
 
@@ -84,7 +84,7 @@ pub fn strip(count: usize) -> OwnedMesh {
     mesh.with_face_list(&faces)
 }
 
-/// A Möbius band of `count` quads: no winding makes it consistent.
+/// A Möbius band of `count` quads, which cannot be oriented consistently.
 pub fn moebius(count: usize, quads: bool) -> OwnedMesh {
     let mut mesh = OwnedMesh::default();
     for i in 0..count {
@@ -137,7 +137,7 @@ pub fn unwelded_fan(count: usize) -> OwnedMesh {
     mesh
 }
 
-/// `mesh` and `count` further triangles of two equal corners each, which touch nothing.
+/// `mesh` with `count` additional triangles, each with two equal corners and not connected to anything.
 pub fn with_lone_degenerates(mut mesh: OwnedMesh, count: usize) -> OwnedMesh {
     let mut faces = mesh.face_list();
     for i in 0..count {
@@ -157,7 +157,7 @@ fn push_quad(faces: &mut Vec<Vec<u32>>, [a, b, c, d]: [u32; 4], quads: bool) {
     }
 }
 
-/// Sine and cosine, rounded from double precision: the same on every platform, whose own differ in the last bit.
+/// Sine and cosine in single precision, rounded from double precision. The single-precision functions of platforms differ in the last bit.
 fn sin_cos(angle: f32) -> (f32, f32) {
     let (sin, cos) = f64::from(angle).sin_cos();
     (sin as f32, cos as f32)

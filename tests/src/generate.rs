@@ -1,11 +1,11 @@
-//! Random meshes from small palettes, so that what is rare in models is common here: equal and almost equal values, both
+//! Generates random meshes from small sets of values, so that cases that are rare in models are common: equal and almost equal values, both
 //! zeros, repeated vertices and faces, edges of many faces, collapsed and mirrored UVs, mixed face sizes, extreme scales.
 //!
-//! Everything is drawn from a [`Dice`], which is a seed in tests and a fuzzer's bytes in fuzzing: one generator for both.
+//! A [`Dice`] makes all choices, from a seed in tests and from the fuzzer's bytes in fuzzing.
 
 use crate::{FaceSizes, OwnedMesh, families};
 
-/// Where choices come from. The same source gives the same mesh, always.
+/// A source of random choices. The same source always gives the same mesh.
 pub struct Dice<'a>(Source<'a>);
 
 enum Source<'a> {
@@ -19,7 +19,7 @@ impl<'a> Dice<'a> {
         Self(Source::Seed(seed))
     }
 
-    /// Choices from bytes; zeros once they are used up.
+    /// Choices from bytes, followed by zeros.
     pub fn from_bytes(bytes: &'a [u8]) -> Self {
         Self(Source::Bytes(bytes.iter()))
     }
@@ -74,7 +74,7 @@ pub struct Case {
     pub threshold: f32,
 }
 
-/// Thresholds that matter: the default first; none, some, beyond a half turn, below zero, not a number.
+/// Interesting thresholds: the default, zero, usual values, above 180, negative, NaN.
 pub const THRESHOLDS: [f32; 20] = [
     180.0,
     180.0,
@@ -99,7 +99,7 @@ pub const THRESHOLDS: [f32; 20] = [
 ];
 
 impl Case {
-    /// A mesh of up to some sixty faces.
+    /// A mesh of up to about sixty faces.
     pub fn draw(dice: &mut Dice) -> Self {
         let threshold = dice.pick(&THRESHOLDS);
         let mut mesh = match dice.below(8) {
@@ -127,7 +127,7 @@ impl Case {
     }
 }
 
-/// Where coordinates come from.
+/// The set of values that coordinates are drawn from.
 #[derive(Clone, Copy)]
 enum Palette {
     Uniform,
@@ -151,7 +151,7 @@ const SPREAD: &[f32] = &[0.0, 1e-20, 1e-10, -1e-5, 1.0, -1e5, 1e10, 1e20];
 const OVERFLOWING: &[f32] = &[0.0, 1.0, f32::MAX, f32::MIN, 1.7e38, 1.8e38, -1.75e38, 3e38];
 const NON_FINITE: &[f32] = &[0.0, -0.0, 1.0, -1.0, 0.5, f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
 
-/// Palettes by how often they should be met: ordinary numbers most.
+/// Palettes with their frequencies; ordinary numbers are the most frequent.
 const PALETTES: [Palette; 20] = [
     Palette::Uniform,
     Palette::Uniform,
@@ -198,7 +198,7 @@ fn soup(dice: &mut Dice) -> OwnedMesh {
     let free = dice.one_in(2);
     let mut mesh = OwnedMesh::default();
     for i in 0..3 + dice.below(10) {
-        // Tied UVs give coherent charts, free ones break every edge.
+        // UVs tied to vertices give connected charts; free UVs separate the triangles at every edge.
         let position = if free { dice.below(positions.len()) } else { i % positions.len() };
         let uv = if free { dice.below(uvs.len()) } else { position % uvs.len() };
         mesh.push((positions[position], normals[dice.below(normals.len())], uvs[uv]));
@@ -232,7 +232,7 @@ fn unit(v: [f32; 3]) -> [f32; 3] {
     if length > 0.0 { v.map(|x| x / length) } else { v }
 }
 
-/// A regular mesh after a few accidents.
+/// A regular mesh with a few random defects.
 fn damaged_family(dice: &mut Dice) -> OwnedMesh {
     let quads = dice.one_in(2);
     let (width, height) = (1 + dice.below(5), 1 + dice.below(4));
@@ -305,7 +305,7 @@ fn damage_faces(dice: &mut Dice, mesh: &mut OwnedMesh) {
     *mesh = std::mem::take(mesh).with_face_list(&faces);
 }
 
-/// Many faces on few edges, both ways round, in an order that sorting has to undo; some are quads.
+/// Many faces that share few edges, in both orientations and in random order; some are quads.
 fn crowded_edges(dice: &mut Dice) -> OwnedMesh {
     let mut mesh = OwnedMesh::default();
     let spokes = 3 + dice.below(6) as u32;
@@ -328,7 +328,7 @@ fn crowded_edges(dice: &mut Dice) -> OwnedMesh {
     mesh.with_face_list(&faces)
 }
 
-/// Puts faces that MikkTSpace does not define between the others, often before the first.
+/// Inserts faces with unsupported corner counts, often before the first face.
 fn insert_unsupported_faces(dice: &mut Dice, mesh: &mut OwnedMesh) {
     let mut faces = mesh.face_list();
     for _ in 0..1 + dice.below(3) {

@@ -1,7 +1,7 @@
-//! What judges the rest of the workspace: engines, comparators, generators and the corpus.
+//! The test harness of the workspace: engines, comparators, generators and the corpus.
 //!
-//! [`engine`] runs one mesh through one implementation, [`compare`] judges the answers, [`generate`] makes meshes from a seed
-//! or from a fuzzer's bytes, [`corpus`] reads the collected ones, [`shrink`] makes a failing one small enough to join them.
+//! [`engine`] runs one mesh through one implementation, [`compare`] compares results, [`generate`] makes meshes from a seed
+//! or from a fuzzer's bytes, [`corpus`] reads the collected meshes, [`shrink`] shrinks a failing mesh to a new corpus file.
 
 pub mod check;
 pub mod compare;
@@ -20,7 +20,7 @@ pub use engine::{Engine, engines};
 pub use generate::{Case, Dice};
 pub use mesh::{FaceSizes, OwnedMesh};
 
-/// All methods, in the order of C's numbers for them.
+/// All methods, in the order of their numbers in C.
 pub const METHODS: [darboux::Method; 8] = {
     use darboux::{Method, MikktOptions};
     [

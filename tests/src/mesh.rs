@@ -2,7 +2,7 @@
 
 use darboux::{Faces, Indices, Mesh};
 
-/// How the corners of an [`OwnedMesh`] make faces.
+/// The corner counts of the faces of an [`OwnedMesh`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum FaceSizes {
     /// Three corners each.
@@ -14,7 +14,7 @@ pub enum FaceSizes {
     Mixed(Vec<u32>),
 }
 
-/// A mesh with arrays of its own, valid by construction of its makers: [`OwnedMesh::view`] panics otherwise.
+/// A mesh that owns its arrays. [`OwnedMesh::view`] panics if they are not valid.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OwnedMesh {
     /// V by 3.
@@ -23,9 +23,9 @@ pub struct OwnedMesh {
     pub normals: Vec<[f32; 3]>,
     /// V by 2.
     pub uvs: Vec<[f32; 2]>,
-    /// The vertex of each corner, or none where corner i is vertex i.
+    /// The vertex of each corner; `None` if corner i is vertex i.
     pub indices: Option<Vec<u32>>,
-    /// How corners make faces.
+    /// The corner counts of faces.
     pub faces: FaceSizes,
 }
 
@@ -33,7 +33,7 @@ pub struct OwnedMesh {
 pub type Vertex = ([f32; 3], [f32; 3], [f32; 2]);
 
 impl OwnedMesh {
-    /// The mesh as the library sees it.
+    /// The mesh as a view for the library.
     pub fn view(&self) -> Mesh<'_> {
         let indices = self.indices.as_ref().map_or(Indices::Unindexed, Indices::from);
         let faces = match &self.faces {
@@ -44,7 +44,7 @@ impl OwnedMesh {
         Mesh::with_faces(&self.positions, &self.normals, &self.uvs, indices, faces).expect("a valid mesh")
     }
 
-    /// Adds a vertex and gives its number.
+    /// Adds a vertex and returns its number.
     pub fn push(&mut self, (position, normal, uv): Vertex) -> u32 {
         self.positions.push(position);
         self.normals.push(normal);
@@ -88,7 +88,7 @@ impl OwnedMesh {
         self.face_sizes().into_iter().map(face).collect()
     }
 
-    /// The same vertices with other faces.
+    /// A mesh with the same vertices and other faces.
     pub fn with_face_list(mut self, faces: &[Vec<u32>]) -> Self {
         self.indices = Some(faces.concat());
         self.faces = if faces.iter().all(|face| face.len() == 3) {
@@ -101,7 +101,7 @@ impl OwnedMesh {
         self
     }
 
-    /// The same corners with a vertex each.
+    /// The mesh without indices: every corner gets a vertex of its own.
     pub fn unindexed(&self) -> Self {
         let mut mesh = Self { faces: self.faces.clone(), ..Self::default() };
         for corner in 0..self.corner_count() {
@@ -116,7 +116,7 @@ impl OwnedMesh {
         self.face_sizes().into_iter().flat_map(supported).collect()
     }
 
-    /// With vertices moved: some a little, some onto others, some to nowhere.
+    /// The mesh with moved vertices: some move a little, some onto others, some become non-finite.
     pub fn moved(&self, seed: usize) -> Self {
         let mut moved = self.clone();
         let count = self.positions.len();

@@ -1,4 +1,4 @@
-//! Models on disk as meshes.
+//! Reads model files as meshes.
 
 use std::path::{Path, PathBuf};
 
@@ -21,7 +21,7 @@ pub fn models(folder: &Path) -> Vec<PathBuf> {
         .collect()
 }
 
-/// The triangles of a primitive, where it is a triangle list with all that tangents need.
+/// The mesh of a primitive, if it is a triangle list with positions, normals and UVs.
 fn mesh(document: &Document, primitive: &Primitive) -> Option<OwnedMesh> {
     let accessor = |semantic: &str| primitive.attributes.get(semantic).copied();
     let (position, normal, uv) = (accessor("POSITION")?, accessor("NORMAL")?, accessor("TEXCOORD_0")?);
@@ -39,7 +39,7 @@ fn mesh(document: &Document, primitive: &Primitive) -> Option<OwnedMesh> {
     (primitive.mode == 4 && whole && in_range).then_some(mesh)
 }
 
-/// The primitives of a model that are triangle lists with all that tangents need, and their numbers; none of a file that cannot be read.
+/// The primitives of a model that are triangle lists with positions, normals and UVs, and their numbers; empty if the file cannot be read.
 pub fn meshes(path: &Path) -> Vec<(usize, OwnedMesh)> {
     let Ok(mut document) = Document::open(path, &LoadOptions::default()) else { return Vec::new() };
     if document.decompress().is_err() {

@@ -1,10 +1,10 @@
-//! Making a failing mesh small: removes and simplifies while it goes on failing.
+//! Shrinks a failing mesh: removes and simplifies parts as long as it still fails.
 
 use crate::{Case, OwnedMesh};
 
 /// The smallest case found that still `fails`, with only the vertices it uses.
 ///
-/// Tries, until nothing helps: each face away, each vertex merged into an earlier one, each number replaced by a simpler one.
+/// Repeats until nothing changes: remove a face, merge a vertex into an earlier one, replace a number by a simpler one.
 pub fn shrink(case: &Case, fails: impl Fn(&Case) -> bool) -> Case {
     let mut best = case.clone();
     loop {

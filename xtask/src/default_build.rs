@@ -10,8 +10,12 @@ const MODEL: &str = "assets/NormalTangentTest/NormalTangentTest.glb";
 /// What the command prints about a subcommand or option that this build lacks.
 const INSTALL: &str = "cargo install --path crates/darboux-cli --features full";
 /// Command lines that need other features.
-const MISSING: [&str; 4] =
-    ["render a.glb -o a.png --view tangent", "view --no-open", "devices --json", "tangents a.glb --device gpu"];
+const MISSING: [&str; 4] = [
+    "render a.glb -o a.png --view tangent",
+    "view --no-open",
+    "devices --json",
+    "tangents a.glb --device gpu",
+];
 
 /// Builds the command without optional features, writes tangents with it, and prints how long both took.
 ///

@@ -1,4 +1,4 @@
-//! Writes what the core makes of every specimen, as lines of JSON, for tests of bindings to other languages: floats as their bits.
+//! Prints the core's results for every corpus mesh as lines of JSON, with floats as bits, for tests of the bindings to other languages.
 
 use darboux::{
     Mesh, Method, MikktOptions, Mode, Plan, TangentOptions, Tangents, generate_frames, generate_tangents,
@@ -6,7 +6,7 @@ use darboux::{
 };
 use darboux_tests::corpus::{Specimen, corpus};
 
-/// The other methods, by their names in languages without enums.
+/// The other methods and their names as strings.
 const METHODS: &[(&str, Method)] = &[
     ("angle-area", Method::AngleArea),
     ("lengyel", Method::Lengyel),
@@ -67,7 +67,7 @@ fn line(Specimen { name, mesh, .. }: &Specimen, mikkt: MikktOptions) -> String {
     format!("{{{}}}", members.join(", "))
 }
 
-/// What the other methods make of the mesh.
+/// The results of the other methods.
 fn methods(mesh: &Mesh<'_>) -> String {
     let of = |&(name, method): &(&str, Method)| {
         format!("{name:?}: {}", bits(generate_tangents(mesh, &method.into()).corners.per_corner()))
@@ -75,7 +75,7 @@ fn methods(mesh: &Mesh<'_>) -> String {
     format!("{{{}}}", METHODS.iter().map(of).collect::<Vec<_>>().join(", "))
 }
 
-/// The positions, bent.
+/// The positions of a bent mesh.
 fn moved(positions: &[[f32; 3]]) -> Vec<[f32; 3]> {
     positions.iter().map(|&[x, y, z]| [x, y + 0.25 * x * x, z - 0.5 * y]).collect()
 }

@@ -1,4 +1,4 @@
-//! Times the core on grids of two to a million triangles, for bindings to other languages to be compared with.
+//! Times the core on grids of two to a million triangles, for comparison with the bindings to other languages.
 //!
 //! Writes each grid's arrays into a folder of its number of triangles below the folder that is its argument, and prints the least time
 //! of each call in milliseconds as JSON. `RAYON_NUM_THREADS` sets the number of threads.
@@ -50,7 +50,7 @@ fn times(mesh: &OwnedMesh, triangles: usize) -> String {
     format!("{{\"fresh\": {fresh}, \"into\": {into}, \"split\": {split}}}")
 }
 
-/// The least of 15 times, in milliseconds a call.
+/// The minimum of 15 times, in milliseconds per call.
 fn least(calls: usize, mut call: impl FnMut()) -> f64 {
     let time = |_| {
         let start = Instant::now();
