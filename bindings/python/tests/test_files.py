@@ -27,6 +27,23 @@ def test_process_writes_what_the_command_writes(tmp_path: Path) -> None:
     assert by_library.read_bytes() == by_command.read_bytes()
 
 
+@pytest.mark.parametrize("model", [MODEL, ROOT / "assets/Fox/Fox.glb"])
+@pytest.mark.parametrize("normals", ["keep", "flat", "smooth", "crease=30"])
+@pytest.mark.parametrize("overwrite", [False, True])
+def test_normals_mean_what_they_mean_to_the_command(tmp_path: Path, model: Path, normals: str, overwrite: bool) -> None:
+    by_library, by_command = tmp_path / "library.glb", tmp_path / "command.glb"
+    darboux.process(model, by_library, normals=normals, overwrite=overwrite)
+    command = [sys.executable, "-m", "darboux", "tangents", str(model), "-o", str(by_command), "--normals", normals]
+    subprocess.run(command + ["--overwrite"] * overwrite, check=True, capture_output=True)
+    assert by_library.read_bytes() == by_command.read_bytes()
+
+
+@pytest.mark.parametrize("normals", ["sharp", "crease", "crease=", "crease=x"])
+def test_other_normals_are_refused(normals: str) -> None:
+    with pytest.raises(ValueError, match="it must be 'keep', 'flat', 'smooth' or 'crease=DEGREES'"):
+        darboux.process(MODEL, normals=normals)
+
+
 def test_the_documents_arrays_give_the_same_tangents(tmp_path: Path) -> None:
     document = darboux.load(MODEL)
     before = document.arrays(0, 0)

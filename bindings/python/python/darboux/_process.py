@@ -2,7 +2,7 @@
 
 import os
 from pathlib import Path
-from typing import Any, Callable, Dict, Literal, Optional, Union
+from typing import Any, Callable, Dict, Optional, Union
 
 from ._darboux import load, save
 
@@ -13,7 +13,7 @@ def process(
     path: PathLike,
     output: Optional[PathLike] = None,
     *,
-    normals: Optional[Literal["flat", "smooth"]] = None,
+    normals: str = "keep",
     force: bool = False,
     allow_outside: bool = False,
     progress: Optional[Callable[[int, int], object]] = None,
@@ -27,8 +27,9 @@ def process(
         The input.
     output : path-like, optional
         Without, model.glb becomes model.tangents.glb beside it.
-    normals : str, optional
-        'flat' or 'smooth' makes new normals first, in place of all that exist.
+    normals : str
+        'flat', 'smooth' or 'crease=30' first generates missing normals, and with `overwrite` replaces existing ones. 'keep' generates
+        none.
     force : bool
         Replace an output that exists.
     allow_outside : bool
@@ -51,11 +52,25 @@ def process(
     path = Path(path)
     document = load(path, allow_outside=allow_outside)
     warnings = list(document.warnings)
-    if normals is not None:
-        warnings += document.add_normals(shading=normals, overwrite=True)["warnings"]
+    if normals != "keep":
+        made = document.add_normals(**_normal_options(normals), overwrite=options.get("overwrite", False))
+        warnings += made["warnings"]
     summary = document.add_tangents(progress=progress, **options)
     summary["warnings"] = warnings + summary["warnings"]
     if output is None:
         output = path.with_name(f"{path.stem}.tangents{path.suffix}")
     summary["files_written"] = save(document, output, force=force)
     return summary
+
+
+def _normal_options(normals: str) -> Dict[str, Any]:
+    """The arguments of Document.add_normals for the command's `--normals`."""
+    if normals in ("flat", "smooth"):
+        return {"shading": normals}
+    name, _, degrees = normals.partition("=")
+    try:
+        if name == "crease":
+            return {"crease": float(degrees)}
+    except ValueError:
+        pass
+    raise ValueError(f"normals is {normals!r}; it must be 'keep', 'flat', 'smooth' or 'crease=DEGREES'")
