@@ -27,9 +27,7 @@ use crate::CornerTangents;
 use crate::Mesh;
 use crate::MeshError;
 use crate::exec::limits::RunLimits;
-use crate::math::cosine_of_degrees;
 
-use crate::tangents::fast::LARGEST_COSINE;
 pub use crate::tangents::frames::{
     LentFrames, generate_frames, generate_frames_with, lend_frames, write_frames,
 };
@@ -128,7 +126,7 @@ fn mikktspace_of_corners(
     memory: &mut TangentMemory,
     out: &mut [[f32; 4]],
 ) -> Report {
-    if fast_path_applies(options) && memory.fast.run(mesh, options, limits, out) {
+    if memory.fast.run(mesh, options, limits, out) {
         if limits.is_cancelled() {
             Report::default()
         } else {
@@ -137,9 +135,4 @@ fn mikktspace_of_corners(
     } else {
         method::mikktspace(mesh, options, limits, out)
     }
-}
-
-/// False where the angular threshold is so small that nearly all vertices would go through the general path anyway.
-fn fast_path_applies(options: &MikktOptions) -> bool {
-    cosine_of_degrees(options.threshold) < LARGEST_COSINE
 }

@@ -98,7 +98,7 @@ use crate::topology::weld::Bounds;
 
 use crate::exec::limits::RunLimits;
 use crate::exec::threads;
-pub(crate) use crate::tangents::fast::angle_bounds::LARGEST_COSINE;
+use crate::tangents::fast::angle_bounds::LARGEST_COSINE;
 use crate::tangents::fast::edge_tail::TailCells;
 use crate::tangents::fast::passes::{Discover, PassInput};
 pub use crate::tangents::fast::proof::UNDECIDED;
@@ -116,7 +116,7 @@ impl FastPath {
     /// [`UNDECIDED`].
     ///
     /// Returns false where the fast path does not apply: faces of other than 3 or 4 corners, values that only the reference's order
-    /// welds. The tangents are unspecified after cancellation.
+    /// welds, thresholds so small that nearly all vertices would be undecided. The tangents are unspecified after cancellation.
     pub fn run(
         &mut self,
         mesh: &Mesh<'_>,
@@ -136,6 +136,10 @@ impl FastPath {
         limits: RunLimits<'_>,
         out: &mut [[f32; 4]],
     ) -> Option<()> {
+        let threshold_cosine = cosine_of_degrees(options.threshold);
+        if threshold_cosine >= LARGEST_COSINE || threshold_cosine.is_nan() {
+            return None;
+        }
         self.split.split(mesh, limits.width, self.workers.len())?;
         self.weld.weld(mesh, limits.width, &mut self.workers)?;
         if limits.is_cancelled() {
@@ -149,7 +153,6 @@ impl FastPath {
         if options.mode != Mode::Corrected && !limits.is_cancelled() {
             self.search_last_edges(mesh, tail, out);
         }
-        let threshold_cosine = cosine_of_degrees(options.threshold);
         if threshold_cosine > -1.0 && !limits.is_cancelled() {
             self.apply_threshold(mesh, threshold_cosine, limits, out);
         }

@@ -13,7 +13,6 @@ use crate::tangents::Method;
 use crate::tangents::Report;
 use crate::tangents::TangentOptions;
 use crate::tangents::fast::{FastPath, UNDECIDED, triangle_count};
-use crate::tangents::fast_path_applies;
 use crate::tangents::memory::{FrameMemory, TangentMemory};
 use crate::tangents::method;
 use crate::tangents::output::{Output, fill};
@@ -201,9 +200,6 @@ fn run_fast(
     memory: &mut TangentMemory,
 ) -> Option<Report> {
     let Method::MikkTSpace(options) = &options.method else { return None };
-    if !fast_path_applies(options) {
-        return None;
-    }
     let TangentMemory { fast, frames: FrameMemory { tangents, decided, frames }, .. } = memory;
     frames.clear();
     tangents.resize(mesh.corner_count(), [0.0; 4]);

@@ -13,7 +13,6 @@ use crate::tangents::TangentOptions;
 use crate::tangents::Tangents;
 use crate::tangents::angle_area;
 use crate::tangents::fast::{FastPath, FastPlan, triangle_count};
-use crate::tangents::fast_path_applies;
 use crate::tangents::memory::TangentMemory;
 use crate::tangents::mikktspace::{GroupedMesh, default_frames};
 use crate::tangents::submesh::UndecidedFaces;
@@ -57,7 +56,7 @@ impl Planned {
         let mut base = Tangents::default();
         base.corners.0.resize(mesh.corner_count(), [0.0; 4]);
         let mut fast = FastPath::default();
-        if !fast_path_applies(options) || !fast.run(mesh, options, limits, &mut base.corners.0) {
+        if !fast.run(mesh, options, limits, &mut base.corners.0) {
             let Some(topology) = GroupedMesh::new(mesh, options, limits) else {
                 return (Self::Nothing, base);
             };
