@@ -1,6 +1,6 @@
-//! What `darboux tangents` does on an indexed grid, phase by phase, against copying the files.
+//! Measures the phases of `darboux tangents` on an indexed grid, against copying its files.
 //!
-//! `cargo run --release -p darboux-io --features darboux/parallel --example measure -- FOLDER [QUADS PER SIDE]`: the least of some runs, wall time.
+//! `cargo run --release -p darboux-io --features darboux/parallel --example measure -- FOLDER [QUADS PER SIDE]`. Prints the least wall time of several runs.
 //! The grid (708 quads per side: a million triangles) and its output stay in FOLDER, for `/usr/bin/time -v darboux tangents`.
 
 use std::fs;

@@ -1,4 +1,12 @@
-//! glTF 2.0 and GLB: a document that is read, edited in place and written back with everything else untouched.
+//! glTF 2.0 and GLB: documents that are read, edited, and written with everything else preserved.
+//!
+//! ```text
+//! document, container, resources, schema, references   reading: the JSON, the buffers, checks
+//! accessors, stored_elements, elements                 accessors as arrays, and arrays as accessors
+//! tangents/, normals/, convert/, compression/          operations on documents; primitives/ is what they share
+//! inspect, compare, scene, materials                   descriptions of documents
+//! json_text, output_layout, unused_data, save          writing: edited text, offsets, removal of unused data, files
+//! ```
 
 mod accessors;
 mod compare;

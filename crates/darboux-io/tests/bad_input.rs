@@ -1,4 +1,4 @@
-//! What bad input gets: one sentence that says where, and neither a panic nor a lot of memory.
+//! Invalid input gives one sentence with its place, without a panic or much memory.
 
 use std::fs;
 use std::path::Path;
@@ -151,7 +151,7 @@ fn sparse_accessors() {
 }
 
 #[test]
-fn zeros_do_not_cost_what_they_claim() {
+fn accessors_without_bytes_are_limited() {
     let mut json = good();
     json["accessors"][0] = json!({"componentType": 5126, "count": 1u64 << 40, "type": "MAT4"});
     refused(
@@ -217,7 +217,7 @@ fn files_outside_the_folder_are_not_read() {
 
 #[cfg(unix)]
 #[test]
-fn links_and_devices_are_no_way_out() {
+fn links_and_devices_outside_the_folder_are_refused() {
     use std::os::unix::fs::symlink;
     let folder = tempfile::tempdir().unwrap();
     let inside = folder.path().join("in");
@@ -235,7 +235,7 @@ fn links_and_devices_are_no_way_out() {
 }
 
 #[test]
-fn images_outside_are_left_alone() {
+fn references_to_images_outside_the_folder_are_kept() {
     let folder = tempfile::tempdir().unwrap();
     fs::create_dir(folder.path().join("in")).unwrap();
     fs::write(folder.path().join("secret.png"), b"\x89PNG secret").unwrap();

@@ -1,4 +1,4 @@
-//! Compressed documents: decoded data is what was compressed, the extensions go, and broken streams are refused.
+//! Compressed documents: decoded data equals the original, extensions are removed, and damaged streams are errors.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! Vertex data between conventions.
+//! Conversion of vertex data between conventions.
 
 mod support;
 
@@ -67,7 +67,7 @@ fn every_preset_comes_back_to_the_bit() {
 
 /// The arrays of a converted file are a mesh of that convention: its tangents are those that the mesh has there.
 #[test]
-fn converted_numbers_mean_in_their_convention_what_they_meant() {
+fn converted_data_describes_the_same_surface() {
     for (name, there) in Convention::PRESETS {
         let mut document = model(|_| {});
         convert(&mut document, Convention::GLTF, there);
@@ -129,7 +129,7 @@ fn a_file_remembers_its_convention() {
 }
 
 #[test]
-fn any_convention_can_be_noted_and_none_is_guessed() {
+fn marks_of_conventions_are_written_and_checked() {
     let custom: Convention = "gltf,green=down,w=t-cross-n,fronts=cw".parse().expect("a convention");
     let mut document = model(|_| {});
     let before = contents(&document);
@@ -164,7 +164,7 @@ fn any_convention_can_be_noted_and_none_is_guessed() {
 }
 
 #[test]
-fn only_what_happened_is_told() {
+fn summaries_list_actual_changes_only() {
     let told = |document: &mut Document, from: &str, to: &str| {
         let [from, to] = [from, to].map(|name| name.parse().expect("a convention"));
         let summary = convert(document, from, to);
@@ -289,7 +289,7 @@ fn places(document: &Document, points: &[[f32; 3]]) -> Vec<[f32; 3]> {
 }
 
 #[test]
-fn scenes_stand_where_they_stood() {
+fn scene_transforms_place_meshes_as_before() {
     let points = [[0.0, 0.0, 0.0], [1.0, 2.0, 3.0], [-0.5, 0.25, 4.0]];
     for (name, there) in Convention::PRESETS {
         let conversion = Convention::GLTF.to(there);
@@ -332,7 +332,7 @@ fn instances_are_turned() {
 }
 
 #[test]
-fn what_cannot_stand_in_other_axes_is_refused() {
+fn transforms_that_cannot_be_converted_are_errors() {
     let channel = |path: &str| json!({"sampler": 0, "target": {"node": 0, "path": path}});
     let animation =
         |channels: &[Value]| json!([{"samplers": [{"input": 0, "output": 0}], "channels": channels}]);
@@ -361,7 +361,7 @@ fn what_cannot_stand_in_other_axes_is_refused() {
 }
 
 #[test]
-fn what_else_must_change_is_said() {
+fn unconverted_data_is_a_warning() {
     let build = || {
         model(|builder| {
             builder.material(json!({"normalTexture": {"index": 0}}));

@@ -1,4 +1,4 @@
-//! Damaged files under every operation: an error or a result that reads again, never a panic.
+//! Damaged files under every operation give an error or a readable result, never a panic.
 
 mod support;
 

@@ -1,4 +1,4 @@
-//! Decoded values are those of other decoders, and decoding does not trust what a document says about itself.
+//! Decoded values equal those of other decoders, and declared sizes are checked.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! Documents: what is read, what an edit changes, and what stays as it was.
+//! Documents: reading, edits, and everything that edits keep.
 
 use std::borrow::Cow;
 use std::fs;
@@ -105,7 +105,7 @@ fn independent(glb: &[u8]) -> (Vec<[f32; 3]>, Vec<u32>, Vec<[f32; 4]>) {
 }
 
 #[test]
-fn an_edit_leaves_the_rest_of_the_text_alone() {
+fn an_edit_keeps_the_rest_of_the_text() {
     let mut document = parse(&odd()).unwrap();
     assert!(!document.is_changed());
     add_tangents(&mut document);
@@ -191,7 +191,7 @@ fn a_glb_becomes_a_gltf_with_a_bin_and_back() {
 }
 
 #[test]
-fn values_are_read_as_they_are_meant() {
+fn values_of_every_component_type_are_read() {
     // 0: interleaved normalised i8 VEC3 with a stride of 4; 12: u16 VEC2; 20: sparse indices 1, 2; 24: sparse values.
     let mut bytes = vec![127u8, 0x81, 0x80, 9, 0, 64, 1, 9, 0, 0, 0, 9];
     bytes.extend([1u8, 0, 2, 0, 0xff, 0xff, 0, 1, 1, 0, 2, 0]);
@@ -407,7 +407,7 @@ fn a_failure_leaves_nothing_behind() {
 }
 
 #[test]
-fn several_buffers_become_one_and_keep_what_they_say() {
+fn several_buffers_are_merged_and_keep_their_members() {
     let text = r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":1,"uri":"data:,a"},
         {"byteLength":2,"uri":"https://example.org/x.bin"},{"byteLength":1,"uri":"data:,c","extras":7},
         {"byteLength":3,"uri":"data:,def"}],"bufferViews":[{"buffer":0,"byteLength":1},{"buffer":1,"byteLength":2},

@@ -1,4 +1,4 @@
-//! Normal maps in PNG files.
+//! Normal maps in PNG files: conversion, and chunks that are kept.
 
 use darboux::Convention;
 use darboux_io::MemoryLimit;
@@ -108,7 +108,7 @@ fn only_green_changes() {
 }
 
 #[test]
-fn other_chunks_stay_where_they_are() {
+fn other_chunks_are_kept() {
     let file = png(ColorType::Rgb, BitDepth::Eight);
     let there = converted(&file, Convention::GLTF, Convention::UNREAL, "rgb", "rgb");
     let [before, after] = [&file, &there].map(|file| {
@@ -184,7 +184,7 @@ fn vectors_move_to_other_channels_and_back() {
 }
 
 #[test]
-fn what_cannot_be_converted_to_the_bit_is_refused_with_a_reason() {
+fn unsupported_images_are_errors() {
     let cases: [(Vec<u8>, &str); 6] = [
         (png(ColorType::Grayscale, BitDepth::Eight), "one channel"),
         (b"GIF89a".to_vec(), "not a PNG"),

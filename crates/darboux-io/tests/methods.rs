@@ -1,4 +1,4 @@
-//! Methods other than MikkTSpace, and tangents in fewer bytes.
+//! Methods other than MikkTSpace, and smaller encodings of tangents.
 
 mod support;
 
@@ -100,7 +100,7 @@ fn morph_targets_follow_the_method_of_the_base() {
 }
 
 #[test]
-fn integers_hold_tangents_to_their_bounds_and_declare_what_they_need() {
+fn integer_encodings_keep_their_error_bounds_and_declare_their_extension() {
     let vertices = bent();
     let exact = tangents(&vertices, &TangentOptions::default());
     let cases = [(TangentEncoding::Snorm16x4, 5122, 0.0016f64), (TangentEncoding::Snorm8x4, 5120, 0.40)];

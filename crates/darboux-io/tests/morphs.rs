@@ -1,4 +1,4 @@
-//! Morph targets: tangent offsets, and targets that follow a split.
+//! Morph targets: tangent offsets, and targets of split vertices.
 
 mod support;
 
@@ -204,7 +204,7 @@ fn one_movement_of_several_primitives_is_evaluated_once() {
 }
 
 #[test]
-fn what_a_fresh_grouping_would_do_otherwise_is_counted() {
+fn corners_with_another_group_after_morphing_are_counted() {
     // The target turns the right square's texture by moving it behind the left one.
     let vertices = continuous();
     let fold: Vec<_> = vertices.positions.iter().map(|p| [-2.0 * p[0].max(0.0), 0.0, 0.0]).collect();

@@ -1,4 +1,4 @@
-//! Normals into documents.
+//! Adding normals to documents.
 
 mod support;
 
@@ -61,7 +61,7 @@ fn expected(positions: &[[f32; 3]], indices: &[u16], options: &NormalOptions) ->
 }
 
 #[test]
-fn normals_are_the_cores_and_split_only_where_they_must() {
+fn normals_equal_the_cores_and_split_few_vertices() {
     for (normals, vertices) in [(crease(180.0), 6), (crease(30.0), 8), (flat(), 8)] {
         let mut document = bend(|_, _| {});
         let summary = run(&mut document, &options(normals));
@@ -75,7 +75,7 @@ fn normals_are_the_cores_and_split_only_where_they_must() {
 }
 
 #[test]
-fn what_a_vertex_has_follows_it() {
+fn split_vertices_keep_all_attributes() {
     let colours: Vec<[f32; 4]> = (0..6).map(|i| [i as f32, 0.5, 0.25, 1.0]).collect();
     let mut document = bend(|builder, primitive| {
         primitive["attributes"]["COLOR_0"] = builder.vectors(&colours).into();
@@ -119,7 +119,7 @@ fn shared_vertices_stay_shared() {
 }
 
 #[test]
-fn normals_that_exist_are_kept_unless_they_are_to_be_replaced_and_then_tangents_go() {
+fn existing_normals_are_kept_and_replaced_ones_lose_their_tangents() {
     let mut builder = Builder::new();
     let mut leaning = square();
     leaning.normals.fill([0.0, 0.6, 0.8]);
@@ -171,7 +171,7 @@ fn tangents_stay_with_normals_that_stay_in_any_accessor() {
 }
 
 #[test]
-fn morph_targets_get_the_normals_of_what_they_make() {
+fn morph_targets_get_offsets_to_the_normals_of_the_moved_mesh() {
     let mut moved = BEND;
     moved[3] = [0.0, 1.0, 0.25];
     let offsets: Vec<[f32; 3]> =

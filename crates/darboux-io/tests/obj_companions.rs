@@ -27,3 +27,12 @@ fn lines_longer_than_paths_are_ignored() {
     assert_eq!(names(60_000), ["a.mtl"]);
     assert!(names_of(&format!("mtllib {}a.mtl", " - ".repeat(60_000)), "", &["a.mtl"]).is_empty());
 }
+
+/// Every line would be looked up at every one of its words, which takes minutes.
+#[test]
+fn libraries_of_many_words_are_looked_up_to_a_limit() {
+    let line = |i: usize| format!("map_Kd {i} {}a.png\n", "- ".repeat(1500));
+    let library: String = (0..1000).map(line).collect();
+    let names = names_of(&"mtllib a.mtl\n".repeat(1000), &library, &["a.mtl", "a.png"]);
+    assert_eq!(names, ["a.png", "a.mtl"]);
+}

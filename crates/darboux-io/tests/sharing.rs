@@ -1,4 +1,4 @@
-//! What primitives share stays shared: computed once, split jointly, written once.
+//! Data that primitives share is computed once, split jointly and written once.
 
 mod support;
 

@@ -1,4 +1,4 @@
-//! Tangents into documents: which primitives, which UVs, what a split carries, what stays.
+//! Adding tangents to documents: selection of primitives and UVs, splitting of vertices, data that is kept.
 
 mod support;
 
@@ -181,7 +181,7 @@ fn tangents_follow_the_set_that_is_named() {
 }
 
 #[test]
-fn primitives_that_cannot_have_tangents_are_left_alone_and_named() {
+fn primitives_without_tangents_are_listed_with_a_reason() {
     let mut builder = Builder::new();
     let attributes = square().attributes(&mut builder);
     let without = |semantic: &str| {
@@ -407,7 +407,7 @@ fn quantised_vertices_are_read_as_their_values() {
 }
 
 #[test]
-fn strict_refuses_what_the_default_repairs() {
+fn strict_refuses_data_that_the_default_repairs() {
     let strict = TangentsOptions { strict: true, ..Default::default() };
     let build = |vertices: &Vertices| {
         let mut builder = Builder::new();
@@ -485,7 +485,7 @@ fn broken_primitives_are_errors_that_name_them() {
 }
 
 #[test]
-fn attributes_of_another_length_are_errors_where_they_must_be_extended() {
+fn attributes_of_another_length_are_errors_when_vertices_split() {
     let mut builder = Builder::new();
     let mut attributes = butterfly().attributes(&mut builder);
     attributes["COLOR_0"] = builder.vectors(&[[1.0; 3]; 5]).into();
@@ -498,7 +498,7 @@ fn attributes_of_another_length_are_errors_where_they_must_be_extended() {
 }
 
 #[test]
-fn extensions_that_a_split_leaves_behind_are_named() {
+fn extensions_that_refer_to_split_vertices_are_a_warning() {
     let mut builder = Builder::new();
     let attributes = butterfly().attributes(&mut builder);
     let indices = builder.indices(&BOTH);

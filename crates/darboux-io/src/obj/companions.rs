@@ -1,5 +1,7 @@
 //! Finds the files that an OBJ refers to: its material libraries, and the textures that these name.
 
+use std::cell::{Cell, RefCell};
+use std::collections::{HashMap, HashSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -8,6 +10,9 @@ use crate::error::Fault;
 
 /// References in longer lines are ignored: no path has more bytes, and a reference may begin at every word of a line.
 const LONGEST_LINE: usize = 4096;
+
+/// The most paths that are looked up for one OBJ. Every word of a library may be a path, and each lookup asks the operating system.
+const MOST_LOOKUPS: usize = 100_000;
 
 /// What is wrong with a file without faces.
 pub const NO_FACES: &str = "has no faces; is it an OBJ? Export it again";
@@ -37,18 +42,16 @@ pub fn companions(path: &Path) -> Result<Vec<Companion>, Error> {
     if !has_faces {
         return Err(Fault::invalid("", NO_FACES).in_file(&path.display().to_string()));
     }
-    let folder = folder_of(path)?;
-    let mut companions = Vec::new();
-    for library in library_lines.into_iter().flat_map(|line| libraries_of(&folder, line)) {
-        if companions.contains(&library) {
+    let lookup = FileLookup::new(folder_of(path)?);
+    let (mut companions, mut seen) = (Vec::new(), HashSet::new());
+    for library in library_lines.into_iter().flat_map(|line| lookup.libraries(line)) {
+        if !seen.insert(library.path.clone()) {
             continue;
         }
-        for texture in fs::read(&library.path).iter().flat_map(|text| textures(&folder, &library.name, text))
-        {
-            if !companions.contains(&texture) {
-                companions.push(texture);
-            }
-        }
+        let text = fs::read(&library.path).unwrap_or_default();
+        let maps = statements(&text).filter(|(word, _)| is_texture(word));
+        let textures = maps.filter_map(|(_, line)| lookup.texture(&library.name, line));
+        companions.extend(textures.filter(|texture| seen.insert(texture.path.clone())));
         companions.push(library);
     }
     Ok(companions)
@@ -60,30 +63,53 @@ pub fn folder_of(path: &Path) -> Result<PathBuf, Error> {
     parent.canonicalize().map_err(|source| Error::Read { file: parent.to_owned(), source })
 }
 
-/// The libraries that a `mtllib` line names: one whose name may contain spaces, or several.
-pub fn libraries_of(folder: &Path, line: &[u8]) -> Vec<Companion> {
-    if line.len() > LONGEST_LINE {
-        return Vec::new();
-    }
-    let words = || line.split(u8::is_ascii_whitespace).filter_map(|word| inside(folder, "", word));
-    inside(folder, "", line).map_or_else(|| words().collect(), |library| vec![library])
+/// Looks up the files that lines refer to, each distinct line once.
+pub struct FileLookup {
+    folder: PathBuf,
+    libraries: RefCell<HashMap<Vec<u8>, Vec<Companion>>>,
+    textures: RefCell<HashMap<(String, Vec<u8>), Option<Companion>>>,
+    /// The number of paths that may still be looked up.
+    left: Cell<usize>,
 }
 
-/// The textures of a material library.
-fn textures(folder: &Path, library: &str, text: &[u8]) -> Vec<Companion> {
-    let maps = statements(text).filter(|(word, _)| is_texture(word));
-    maps.filter_map(|(_, line)| texture(folder, library, line)).collect()
-}
-
-/// The texture that a statement of a material library names.
-///
-/// Options may stand before the name, and the name may contain spaces, so the longest end of the line that names a file is taken.
-pub fn texture(folder: &Path, library: &str, line: &[u8]) -> Option<Companion> {
-    if line.len() > LONGEST_LINE {
-        return None;
+impl FileLookup {
+    /// Files are looked up in `folder`, links resolved.
+    pub fn new(folder: PathBuf) -> Self {
+        let (libraries, textures) = Default::default();
+        Self { folder, libraries, textures, left: Cell::new(MOST_LOOKUPS) }
     }
-    let starts = line.iter().enumerate().filter(|&(i, _)| i == 0 || line[i - 1].is_ascii_whitespace());
-    starts.map(|(i, _)| &line[i..]).find_map(|end| inside(folder, library, end))
+
+    /// The libraries that a `mtllib` line names: one whose name may contain spaces, or several.
+    pub fn libraries(&self, line: &[u8]) -> Vec<Companion> {
+        if line.len() > LONGEST_LINE {
+            return Vec::new();
+        }
+        let find = || {
+            let words = line.split(u8::is_ascii_whitespace).filter_map(|word| self.find("", word));
+            self.find("", line).map_or_else(|| words.collect(), |library| vec![library])
+        };
+        self.libraries.borrow_mut().entry(line.to_owned()).or_insert_with(find).clone()
+    }
+
+    /// The texture that a statement of a material library names.
+    ///
+    /// Options may stand before the name, and the name may contain spaces, so the longest end of the line that names a file is taken.
+    pub fn texture(&self, library: &str, line: &[u8]) -> Option<Companion> {
+        if line.len() > LONGEST_LINE {
+            return None;
+        }
+        let find = || {
+            let is_start = |&i: &usize| i == 0 || line[i - 1].is_ascii_whitespace();
+            (0..line.len()).filter(is_start).find_map(|start| self.find(library, &line[start..]))
+        };
+        self.textures.borrow_mut().entry((library.to_owned(), line.to_owned())).or_insert_with(find).clone()
+    }
+
+    /// The file that `reference` names, relative to the file `base`; none unless it is a file in the folder or below, links followed.
+    fn find(&self, base: &str, reference: &[u8]) -> Option<Companion> {
+        self.left.set(self.left.get().checked_sub(1)?);
+        inside(&self.folder, base, reference)
+    }
 }
 
 fn is_texture(word: &[u8]) -> bool {

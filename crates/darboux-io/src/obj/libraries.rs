@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use tobj::LoadError;
 
-use super::companions::{libraries_of, texture};
+use super::companions::FileLookup;
 
 /// A material of a library.
 pub struct LibraryMaterial {
@@ -24,7 +24,7 @@ pub struct LibraryMaterial {
 
 /// The libraries that an OBJ names, loaded while the parser meets their names. Each library is loaded once.
 pub struct MaterialLibraries {
-    folder: PathBuf,
+    lookup: FileLookup,
     loaded: RefCell<HashSet<PathBuf>>,
     /// All materials in the order of loading, which is the order of the parser's material indices.
     materials: RefCell<Vec<LibraryMaterial>>,
@@ -35,7 +35,7 @@ impl MaterialLibraries {
     /// Libraries are looked up in `folder`, links resolved.
     pub fn new(folder: PathBuf) -> Self {
         Self {
-            folder,
+            lookup: FileLookup::new(folder),
             loaded: RefCell::default(),
             materials: RefCell::default(),
             warnings: RefCell::default(),
@@ -51,7 +51,7 @@ impl MaterialLibraries {
     pub fn load(&self, line: &Path) -> (Vec<tobj::Material>, HashMap<String, usize>) {
         let line = line.to_string_lossy();
         let mut materials = Vec::new();
-        let libraries = libraries_of(&self.folder, line.as_bytes());
+        let libraries = self.lookup.libraries(line.as_bytes());
         if libraries.is_empty() {
             self.warn(format!("{line} is not in the model's folder; its materials are left out"));
         }
@@ -75,7 +75,7 @@ impl MaterialLibraries {
     fn locate(&self, library: &str, material: &tobj::Material) -> LibraryMaterial {
         let located = |line: Option<&String>| {
             let line = line?;
-            let file = texture(&self.folder, library, line.as_bytes());
+            let file = self.lookup.texture(library, line.as_bytes());
             if file.is_none() {
                 self.warn(format!("{library}: {line} is not in the model's folder; the texture is left out"));
             }

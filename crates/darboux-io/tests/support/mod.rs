@@ -1,4 +1,4 @@
-//! Tiny documents built in code, and an independent reader of what became of them.
+//! Builds tiny documents, and reads results with an independent crate.
 #![allow(dead_code, reason = "every test binary uses its own part")]
 
 use darboux::{Convention, Mesh, TangentOptions, generate_tangents};

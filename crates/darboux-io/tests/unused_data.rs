@@ -1,4 +1,4 @@
-//! What edits leave without a use goes, with its bytes; what had no use in the input stays, and every number follows.
+//! Data that edits leave unused is removed, data that the input did not use is kept, and references are renumbered.
 
 mod support;
 
@@ -79,7 +79,7 @@ fn replaced_accessors_go_with_their_views_and_bytes() {
 }
 
 #[test]
-fn what_had_no_use_in_the_input_stays_to_the_byte() {
+fn data_that_the_input_did_not_use_is_kept() {
     let mut builder = Builder::new();
     let first = builder.vectors(&[[1.5f32, 2.5, 3.5]; 3]);
     let attributes = butterfly().attributes(&mut builder);
@@ -96,7 +96,7 @@ fn what_had_no_use_in_the_input_stays_to_the_byte() {
 }
 
 #[test]
-fn numbers_follow_wherever_they_stand() {
+fn all_references_are_renumbered() {
     let mut builder = Builder::new();
     let attributes = butterfly().attributes(&mut builder);
     let indices = builder.indices(&BOTH);
@@ -164,7 +164,7 @@ fn an_unknown_extension_keeps_the_numbers_and_is_named() {
 }
 
 #[test]
-fn compressed_bytes_go_when_they_are_decoded() {
+fn compressed_bytes_are_removed_after_decoding() {
     for name in ["draco.glb", "meshopt.glb"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/made").join(name);
         let input = parts(&std::fs::read(&path).unwrap());
@@ -250,7 +250,7 @@ const NOTHING: &[PathBuf] = &[];
 
 /// Not even where what an earlier run replaced must stay.
 #[test]
-fn a_run_in_place_that_gives_what_is_there_leaves_the_files_as_they_are() {
+fn a_second_run_in_place_changes_nothing() {
     let (mut json, chunk) = morphing_with_unknown_extension();
     let folder = tempfile::tempdir().unwrap();
     let [gltf, glb] = ["model.gltf", "model.glb"].map(|name| folder.path().join(name));
