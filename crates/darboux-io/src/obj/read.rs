@@ -22,6 +22,9 @@ pub struct ObjModel {
     pub warnings: Vec<String>,
 }
 
+/// The estimate for an object or group: one mesh, one node, and up to four accessors and buffer views.
+const BYTES_PER_OBJECT: usize = 16 << 10;
+
 /// Reads an OBJ with the material libraries and textures in its folder or below.
 ///
 /// Polygons become triangles; points and lines are left out. Errors: a file that cannot be read, is not an OBJ, or has no faces; more
@@ -40,7 +43,7 @@ pub fn read(path: &Path, memory_limit: MemoryLimit) -> Result<ObjModel, Error> {
         .map_err(|error| invalid(format!("is not a valid OBJ ({error}); export it again")))?;
 
     let limit = memory_limit.for_size(bytes.len());
-    if models.len().saturating_mul(memory_limit::BYTES_PER_PRIMITIVE) > limit {
+    if models.len().saturating_mul(BYTES_PER_OBJECT) > limit {
         let what = format!("has {} objects and groups, which need", models.len());
         return Err(Fault::unsupported("", memory_limit::exceeded(&what, limit)).in_file(&shown));
     }
