@@ -63,11 +63,14 @@ pub fn folder_of(path: &Path) -> Result<PathBuf, Error> {
     parent.canonicalize().map_err(|source| Error::Read { file: parent.to_owned(), source })
 }
 
+/// The name of a library, and a line of it.
+type TextureLine = (String, Vec<u8>);
+
 /// Looks up the files that lines refer to, each distinct line once.
 pub struct FileLookup {
     folder: PathBuf,
     libraries: RefCell<HashMap<Vec<u8>, Vec<Companion>>>,
-    textures: RefCell<HashMap<(String, Vec<u8>), Option<Companion>>>,
+    textures: RefCell<HashMap<TextureLine, Option<Companion>>>,
     /// The number of paths that may still be looked up.
     left: Cell<usize>,
 }
