@@ -71,7 +71,7 @@ test('compressed, strips, several UV sets, skins and morph targets', async () =>
 
 test('what three.js cannot read is said', async () => {
   await viewer.give('files', [asset('made/quantised-sparse.glb')]);
-  assert.match(await viewer.text('error'), /three\.js does not read sparse data/);
+  assert.match(await viewer.text('error'), /three\.js does not read sparse accessors/);
 });
 
 test('an OBJ, and what is saved of it', async () => {
@@ -149,7 +149,7 @@ test('a coloured bump map of an OBJ is its normal map, and a grey one is said', 
     assert.equal(status, quiet);
   }
   const [, status] = await shown('map_Bump heights.png');
-  assert.match(status, /the bump map of plane is grey, so it holds heights, which are not shown/);
+  assert.match(status, /the bump map of plane is grey, so it is a height map, which is not shown/);
   assert.equal(await viewer.text('error'), '');
 });
 
@@ -169,7 +169,7 @@ test('the repaired GLB is the command\'s, and has no faults', { skip: !DARBOUX &
   writeFileSync(shield, Buffer.from(await (await fetch(`${server.address}shield.glb`)).arrayBuffer()));
   const { name, bytes } = await viewer.download('#save-model');
   assert.equal(name, 'shield.tangents.glb');
-  assert.match(await viewer.text('status'), /^Tangents written to 1 primitive, 0 left alone/);
+  assert.match(await viewer.text('status'), /^Tangents written to 1 primitive, 0 skipped/);
   const ours = join(folder, 'ours.glb');
   execFileSync(DARBOUX, ['tangents', '--overwrite', '--quiet', shield, '-o', ours]);
   assert.ok(bytes.equals(readFileSync(ours)), 'the same bytes');
