@@ -35,7 +35,7 @@ const CALLS: &[fn(&mut Caller<'_>)] = &[
     programs,
     matrices,
     skins,
-    scratches,
+    contexts,
 ];
 
 /// Memory that is larger than this is not there.
@@ -176,13 +176,13 @@ impl<'a> Caller<'a> {
         if self.dice.one_in(16) { self.count() } else { corners }
     }
 
-    fn options(&mut self, scratch: *mut darboux_scratch) -> darboux_tangent_options {
+    fn options(&mut self, context: *mut darboux_context) -> darboux_tangent_options {
         darboux_tangent_options {
             size: self.size::<darboux_tangent_options>(),
             method: self.code(8),
             mode: self.code(3),
             threshold: if self.dice.one_in(4) { self.dice.any_float() } else { 0.0 },
-            scratch,
+            context,
         }
     }
 
@@ -305,8 +305,8 @@ fn plans(caller: &mut Caller<'_>) {
     unsafe {
         caller.check(NOTHING, || darboux_plan_create(&mesh, &options, &mut plan));
         caller.check(base, || darboux_plan_base(plan, base.data, base.count, base.stride, null_mut()));
-        let scratch = null_mut();
-        caller.check(out, || darboux_plan_evaluate(plan, &moved, scratch, out.data, out.count, out.stride));
+        let context = null_mut();
+        caller.check(out, || darboux_plan_evaluate(plan, &moved, context, out.data, out.count, out.stride));
         caller.check(NOTHING, || darboux_plan_count_regrouped(plan, &moved, &mut regrouped));
         darboux_plan_free(plan);
     }
@@ -486,14 +486,14 @@ fn skins(caller: &mut Caller<'_>) {
     caller.check(out, || unsafe { darboux_skin_frames(&skin, &arrays) });
 }
 
-/// One scratch for several meshes.
-fn scratches(caller: &mut Caller<'_>) {
-    let mut scratch = null_mut();
-    // SAFETY: `scratch` may be written; it is freed last.
-    caller.check(NOTHING, || unsafe { darboux_scratch_create(1, &mut scratch) });
+/// One context for several meshes.
+fn contexts(caller: &mut Caller<'_>) {
+    let mut context = null_mut();
+    // SAFETY: `context` may be written; it is freed last.
+    caller.check(NOTHING, || unsafe { darboux_context_create(1, &mut context) });
     for _ in 0..3 {
         let (mesh, corners) = caller.mesh();
-        let options = caller.options(scratch);
+        let options = caller.options(context);
         let count = caller.matching(corners);
         let out = caller.out::<f32>(count, 16);
         // SAFETY: as above.
@@ -501,8 +501,8 @@ fn scratches(caller: &mut Caller<'_>) {
             darboux_generate_tangents(&mesh, &options, out.data, out.count, out.stride, null_mut())
         });
     }
-    // SAFETY: from `darboux_scratch_create`.
-    unsafe { darboux_scratch_free(scratch) };
+    // SAFETY: from `darboux_context_create`.
+    unsafe { darboux_context_free(context) };
 }
 
 const NOTHING: Array<u8> = Array { data: null_mut(), count: 0, stride: 0 };

@@ -22,7 +22,7 @@
 /// What a call came to. darboux_last_error has a sentence on every error.
 ///
 /// Degenerate triangles and values that are not finite are not errors: reports count them. After an error other than
-/// DARBOUX_STATUS_INTERNAL nothing was written.
+/// DARBOUX_STATUS_INTERNAL and DARBOUX_STATUS_CANCELLED nothing was written.
 enum darboux_status
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -56,6 +56,8 @@ enum darboux_status
   DARBOUX_STATUS_AXES = 12,
   /// Threads cannot be started.
   DARBOUX_STATUS_THREADS = 13,
+  /// The context was cancelled; the output array is unspecified.
+  DARBOUX_STATUS_CANCELLED = 14,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -381,21 +383,22 @@ typedef uint32_t darboux_program;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+/// Reused memory, threads for large meshes, and a cancellation flag.
+///
+/// Many meshes that are computed with one context allocate as one. A context may be used by one thread at a time, except for
+/// darboux_context_cancel, which any thread may call.
+typedef struct darboux_context darboux_context;
+
 /// The weld, groups and subgroups of one mesh, kept to evaluate MikkTSpace tangents again after its vertices moved.
 ///
 /// Nothing of the mesh's memory is kept. Several threads may use one plan at once.
 typedef struct darboux_plan darboux_plan;
 
-/// Memory that calls keep from one to the next, so that many meshes allocate as one, and threads for large meshes.
-///
-/// One thread at a time may use it.
-typedef struct darboux_scratch darboux_scratch;
-
 /// A mesh in the caller's memory: V vertices in arrays of any stride, and C corners (vertices of faces) in face order.
 ///
 /// Set `size` to sizeof(darboux_mesh), or to 0, which stands for version 0.1's size; all fields that are left zero are absent. Nothing
 /// is kept after a call. Positions, normals and UVs may have any values and any alignment; what lies between the elements is not read.
-/// Strides are in bytes; 0 stands for packed. At most 2^31 vertices and 2^30 - 1 corners.
+/// Strides are in bytes; 0 stands for packed. At most 2^30 - 1 vertices and 2^30 - 1 corners.
 typedef struct darboux_mesh {
   /// sizeof(darboux_mesh).
   size_t size;
@@ -439,8 +442,8 @@ typedef struct darboux_tangent_options {
   /// Angular threshold in degrees, MikkTSpace's alone: faces around a vertex share a tangent while their tangents and their bitangents
   /// differ by less. 0 stands for 180, which is what bakers use; 0.001 has the bits of a threshold of zero.
   float threshold;
-  /// Memory and threads of earlier calls to use again, or null: the call runs on the calling thread. One thread at a time may use it.
-  struct darboux_scratch *scratch;
+  /// A context with reused memory and threads, or null: then the call runs on the calling thread with memory of its own.
+  struct darboux_context *context;
 } darboux_tangent_options;
 
 /// What was met on the way. Quads count as the two triangles that they are split into.
@@ -672,16 +675,23 @@ const char *darboux_last_error(void);
 /// Returns the library's version, such as "0.1.0".
 const char *darboux_version(void);
 
-/// Makes an empty scratch, which grows to what the largest mesh needs.
+/// Makes an empty context, whose memory grows to what the largest mesh needs.
 ///
-/// `threads`: how many threads large meshes get, the same bits from any number: 1 for the calling thread alone; more are started now,
-/// and wait while there is nothing to do; 0 for as many as the machine has. `scratch`: receives it, for darboux_scratch_free.
-/// Errors: null; threads that cannot be started.
-darboux_status darboux_scratch_create(size_t threads,
-                                      struct darboux_scratch **scratch);
+/// `threads`: how many threads large meshes use; results are the same bits for any number. 1: the calling thread alone. More: so many
+/// threads start now, and sleep between calls. 0: as many as the machine has. `context`: receives the context, for
+/// darboux_context_free. Errors: null; threads that cannot be started.
+darboux_status darboux_context_create(size_t threads,
+                                      struct darboux_context **context);
 
-/// Frees a scratch, when its threads have ended; nothing where it is null.
-void darboux_scratch_free(struct darboux_scratch *scratch);
+/// Cancels the call that runs with the context, and all later ones, which return DARBOUX_STATUS_CANCELLED, until
+/// darboux_context_resume. Any thread may call it. After a cancelled call the output array is unspecified. Errors: null.
+darboux_status darboux_context_cancel(const struct darboux_context *context);
+
+/// Lets the calls after darboux_context_cancel run again. Errors: null.
+darboux_status darboux_context_resume(const struct darboux_context *context);
+
+/// Frees a context after its threads have ended. Does nothing where it is null.
+void darboux_context_free(struct darboux_context *context);
 
 /// Computes the tangent of every corner.
 ///
@@ -739,7 +749,7 @@ void darboux_normal_split_free(struct darboux_normal_split *split);
 
 /// Computes a mesh's tangents and keeps its topology.
 ///
-/// `mesh`, `options`: as for darboux_generate_tangents; of a scratch the threads alone are used. `plan`: receives the plan, for darboux_plan_free.
+/// `mesh`, `options`: as for darboux_generate_tangents; of a context the threads alone are used. `plan`: receives the plan, for darboux_plan_free.
 /// Errors: what darboux_status lists.
 darboux_status darboux_plan_create(const struct darboux_mesh *mesh,
                                    const struct darboux_tangent_options *options,
@@ -759,11 +769,11 @@ darboux_status darboux_plan_base(const struct darboux_plan *plan,
 
 /// Computes the tangents of the moved mesh in the plan's groups and subgroups; signs stay the plan's.
 ///
-/// `mesh`: same faces, indices and UVs as the plan's, other positions and normals. `scratch`: memory and threads of earlier calls to use
+/// `mesh`: same faces, indices and UVs as the plan's, other positions and normals. `context`: memory and threads of earlier calls to use
 /// again, or null. `tangents`, `tangent_count`, `tangent_stride`: as for darboux_generate_tangents. Errors: those of the mesh; another number of corners or vertices than the plan's.
 darboux_status darboux_plan_evaluate(const struct darboux_plan *plan,
                                      const struct darboux_mesh *mesh,
-                                     struct darboux_scratch *scratch,
+                                     const struct darboux_context *context,
                                      float *tangents,
                                      size_t tangent_count,
                                      size_t tangent_stride);
@@ -966,7 +976,7 @@ darboux_status darboux_skin_frames(const struct darboux_skin *skin,
 /// Has all of the library's memory come from the caller's functions.
 ///
 /// Call it before any other function of the library: memory that was taken elsewhere could not be given back. `allocate`,
-/// `deallocate`: called from any thread that calls the library and from the threads of every scratch that was made with more than one,
+/// `deallocate`: called from any thread that calls the library and from the threads of every context that was made with more than one,
 /// several at once. `context`: passed to them.
 /// Errors: null; the library has memory already.
 darboux_status darboux_set_allocator(darboux_allocate allocate,

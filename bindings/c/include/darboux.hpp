@@ -221,18 +221,22 @@ template <class T, auto Free>
 using owner = std::unique_ptr<T, deleter<Free>>;
 }  // namespace detail
 
-/// Memory and threads that calls keep from one to the next: options.scratch = scratch.get().
-class scratch {
+/// Reused memory, threads for large meshes, and a cancellation flag: options.context = context.get().
+class context {
  public:
-  explicit scratch(std::size_t threads = 1) {
-    darboux_scratch *made = nullptr;
-    check(darboux_scratch_create(threads, &made));
+  explicit context(std::size_t threads = 1) {
+    darboux_context *made = nullptr;
+    check(darboux_context_create(threads, &made));
     held_.reset(made);
   }
-  darboux_scratch *get() const noexcept { return held_.get(); }
+  darboux_context *get() const noexcept { return held_.get(); }
+
+  /// Cancels the running call and all later ones, until resume(). Any thread may call it.
+  void cancel() const { check(darboux_context_cancel(get())); }
+  void resume() const { check(darboux_context_resume(get())); }
 
  private:
-  detail::owner<darboux_scratch, darboux_scratch_free> held_;
+  detail::owner<darboux_context, darboux_context_free> held_;
 };
 
 /// As the other generate_tangents, into the caller's array of one tangent per corner.
@@ -326,10 +330,10 @@ class plan {
     return report;
   }
 
-  /// The tangents of the moved mesh into `out`, one per corner; `scratch` may be null.
-  void evaluate(const mesh &moved, strided<float, 4> out, const scratch *scratch = nullptr) const {
+  /// The tangents of the moved mesh into `out`, one per corner; `context` may be null.
+  void evaluate(const mesh &moved, strided<float, 4> out, const context *context = nullptr) const {
     const darboux_mesh view = moved.view();
-    darboux_scratch *kept = scratch == nullptr ? nullptr : scratch->get();
+    darboux_context *kept = context == nullptr ? nullptr : context->get();
     check(darboux_plan_evaluate(held_.get(), &view, kept, out.data(), out.size(), out.stride()));
   }
 

@@ -20,7 +20,7 @@ pub type darboux_deallocate =
 /// Has all of the library's memory come from the caller's functions.
 ///
 /// Call it before any other function of the library: memory that was taken elsewhere could not be given back. `allocate`,
-/// `deallocate`: called from any thread that calls the library and from the threads of every scratch that was made with more than one,
+/// `deallocate`: called from any thread that calls the library and from the threads of every context that was made with more than one,
 /// several at once. `context`: passed to them.
 /// Errors: null; the library has memory already.
 #[unsafe(no_mangle)]

@@ -19,7 +19,7 @@ mod status;
 
 mod mesh;
 
-mod scratch;
+mod context;
 
 mod tangents;
 
@@ -41,13 +41,16 @@ mod allocator;
 
 pub use allocator::*;
 pub use codes::*;
+pub use context::{
+    darboux_context, darboux_context_cancel, darboux_context_create, darboux_context_free,
+    darboux_context_resume,
+};
 pub use convention::*;
 pub use encode::*;
 pub use measure::*;
 pub use mesh::darboux_mesh;
 pub use normals::*;
 pub use plan::*;
-pub use scratch::{darboux_scratch, darboux_scratch_create, darboux_scratch_free};
 pub use split::*;
 pub use status::{darboux_last_error, darboux_status, darboux_version};
 pub use tangents::*;

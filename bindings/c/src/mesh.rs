@@ -12,7 +12,7 @@ use crate::status::{Error, darboux_status};
 ///
 /// Set `size` to sizeof(darboux_mesh), or to 0, which stands for version 0.1's size; all fields that are left zero are absent. Nothing
 /// is kept after a call. Positions, normals and UVs may have any values and any alignment; what lies between the elements is not read.
-/// Strides are in bytes; 0 stands for packed. At most 2^31 vertices and 2^30 - 1 corners.
+/// Strides are in bytes; 0 stands for packed. At most 2^30 - 1 vertices and 2^30 - 1 corners.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct darboux_mesh {
@@ -53,9 +53,6 @@ unsafe impl Versioned for darboux_mesh {
     const FIRST_SIZE: usize = pointers::size_through::<Self, usize>(offset_of!(Self, face_count));
 }
 
-/// Vertices beyond this could not be split within 32 bits.
-const MAX_VERTICES: usize = 1 << 31;
-
 /// The mesh at `mesh`.
 ///
 /// # Safety
@@ -64,7 +61,7 @@ const MAX_VERTICES: usize = 1 << 31;
 pub(crate) unsafe fn view<'a>(mesh: *const darboux_mesh) -> Result<Mesh<'a>, Error> {
     // SAFETY: as of this function.
     unsafe {
-        let mesh = read(mesh)?;
+        let mesh = pointers::read(mesh)?;
         let count = mesh.vertex_count;
         let normals = pointers::strided("normals", mesh.normals, count, mesh.normal_stride)?;
         let uvs = pointers::strided("uvs", mesh.uvs, count, mesh.uv_stride)?;
@@ -80,24 +77,11 @@ pub(crate) unsafe fn view<'a>(mesh: *const darboux_mesh) -> Result<Mesh<'a>, Err
 pub(crate) unsafe fn bare<'a>(mesh: *const darboux_mesh) -> Result<Mesh<'a>, Error> {
     // SAFETY: as of this function.
     unsafe {
-        let mesh = read(mesh)?;
+        let mesh = pointers::read(mesh)?;
         let count = mesh.vertex_count;
         let (normals, uvs) = (Strided::repeated(&[0.0; 3], count), Strided::repeated(&[0.0; 2], count));
         Ok(Mesh::with_faces(mesh.positions()?, normals, uvs, mesh.indices()?, mesh.faces()?)?)
     }
-}
-
-/// # Safety
-///
-/// As of [`view`].
-unsafe fn read(mesh: *const darboux_mesh) -> Result<darboux_mesh, Error> {
-    // SAFETY: as of this function.
-    let mesh = unsafe { pointers::read(mesh) }?;
-    if mesh.vertex_count > MAX_VERTICES {
-        let message = format!("{} vertices are too many: the limit is {MAX_VERTICES}", mesh.vertex_count);
-        return Err(Error::new(darboux_status::TooLarge, message));
-    }
-    Ok(mesh)
 }
 
 impl darboux_mesh {

@@ -2,9 +2,9 @@
 
 use darboux::{Context, Plan};
 
+use crate::context::{self, darboux_context};
 use crate::mesh::{self, darboux_mesh};
 use crate::pointers::{Output, Receiver, hand_out, held, take_back};
-use crate::scratch::{self, darboux_scratch};
 use crate::status::{call, darboux_status};
 use crate::tangents::{darboux_report, darboux_tangent_options, options};
 
@@ -17,7 +17,7 @@ pub struct darboux_plan {
 
 /// Computes a mesh's tangents and keeps its topology.
 ///
-/// `mesh`, `options`: as for darboux_generate_tangents; of a scratch the threads alone are used. `plan`: receives the plan, for darboux_plan_free.
+/// `mesh`, `options`: as for darboux_generate_tangents; of a context the threads alone are used. `plan`: receives the plan, for darboux_plan_free.
 /// Errors: what darboux_status lists.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_plan_create(
@@ -27,10 +27,9 @@ pub unsafe extern "C" fn darboux_plan_create(
 ) -> darboux_status {
     let make = || {
         // SAFETY: every pointer is as the documentation above says.
-        let (mesh, (options, scratch)) = unsafe { (mesh::view(mesh)?, self::options(options)?) };
-        let context = &mut Context::new();
-        let plan = scratch::run(scratch.as_deref(), mesh.corner_count(), context, |context| {
-            Plan::new_with(&mesh, &options, context)
+        let (mesh, (options, context)) = unsafe { (mesh::view(mesh)?, self::options(options)?) };
+        let plan = context::run(context, mesh.corner_count(), |memory| {
+            Plan::new_with(&mesh, &options, &memory.context)
         })?;
         Ok(darboux_plan { plan })
     };
@@ -74,27 +73,27 @@ pub unsafe extern "C" fn darboux_plan_base(
 
 /// Computes the tangents of the moved mesh in the plan's groups and subgroups; signs stay the plan's.
 ///
-/// `mesh`: same faces, indices and UVs as the plan's, other positions and normals. `scratch`: memory and threads of earlier calls to use
+/// `mesh`: same faces, indices and UVs as the plan's, other positions and normals. `context`: memory and threads of earlier calls to use
 /// again, or null. `tangents`, `tangent_count`, `tangent_stride`: as for darboux_generate_tangents. Errors: those of the mesh; another number of corners or vertices than the plan's.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_plan_evaluate(
     plan: *const darboux_plan,
     mesh: *const darboux_mesh,
-    scratch: *mut darboux_scratch,
+    context: *const darboux_context,
     tangents: *mut f32,
     tangent_count: usize,
     tangent_stride: usize,
 ) -> darboux_status {
     call(|| {
         // SAFETY: every pointer is as the documentation above says.
-        let (plan, mesh, scratch, out) = unsafe {
+        let (plan, mesh, context, out) = unsafe {
             let mesh = mesh::view(mesh)?;
             let corners = mesh.corner_count();
             let out = Output::expecting(corners, "tangents", tangents.cast(), tangent_count, tangent_stride)?;
-            (held("plan", plan)?, mesh, scratch.as_mut(), out)
+            (held("plan", plan)?, mesh, context.as_ref(), out)
         };
         let run = |memory: &mut _, corners: &mut _| plan.plan.write_tangents(&mesh, memory, corners);
-        scratch::fill(scratch, out, run)
+        context::fill(context, out, run)
     })
 }
 

@@ -204,7 +204,15 @@ pub(crate) struct Output<T> {
     element: PhantomData<T>,
 }
 
+// SAFETY: nobody else uses the array until the output is gone, so that any one thread may write it.
+unsafe impl<T: Send> Send for Output<T> {}
+
 impl<T: Copy> Output<T> {
+    /// The number of elements.
+    pub fn len(&self) -> usize {
+        self.count
+    }
+
     /// An array of `count` elements, `stride` bytes apart (0: packed). Errors as of [`strided`].
     ///
     /// # Safety
@@ -233,7 +241,7 @@ impl<T: Copy> Output<T> {
         unsafe { Self::new(what, data, count, stride) }
     }
 
-    /// Has `write` fill the array, if it lies as a slice does, or `memory`, from where the elements are copied.
+    /// Calls `write` with the array where it is packed and aligned; else with `memory`, and copies the elements from there.
     pub fn fill<R>(
         self,
         memory: &mut Vec<T>,
@@ -244,7 +252,9 @@ impl<T: Copy> Output<T> {
     {
         let first = self.data.cast::<T>();
         if self.count > 0 && self.stride == size_of::<T>() && first.is_aligned() {
-            // SAFETY: not null, aligned, not longer than memory can be, and as of `new`.
+            // SAFETY: as of `new`; the memory holds as many elements.
+            unsafe { initialize(first, self.count) };
+            // SAFETY: not null, aligned, initialised, not longer than memory can be, and as of `new`.
             return write(unsafe { std::slice::from_raw_parts_mut(first, self.count) });
         }
         memory.resize(self.count, T::default());
@@ -273,6 +283,28 @@ impl<T: Copy> Output<T> {
         assert!(at < self.count);
         // SAFETY: within the array, whose size was computed without overflow.
         unsafe { self.data.add(at * self.stride).cast::<T>().write_unaligned(value) }
+    }
+}
+
+/// Makes memory that the caller may never have written valid for a `&mut [T]`, at no cost where there is inline assembly.
+///
+/// Rust forbids references to uninitialised memory. To the compiler the empty assembly block may write any bytes behind its pointer, so
+/// that the memory counts as initialised; in the machine it has some bytes anyway.
+///
+/// # Safety
+///
+/// `first` points to `count` elements that may be written, and every bit pattern is a `T`.
+unsafe fn initialize<T>(first: *mut T, count: usize) {
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    {
+        _ = count;
+        // SAFETY: the block is empty; what it could write may be written.
+        unsafe { std::arch::asm!("/* {0} */", in(reg) first, options(nostack, preserves_flags)) };
+    }
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    // SAFETY: as of this function; zeros are a value.
+    unsafe {
+        first.write_bytes(0, count);
     }
 }
 

@@ -9,7 +9,7 @@ use darboux::MeshError;
 /// What a call came to. darboux_last_error has a sentence on every error.
 ///
 /// Degenerate triangles and values that are not finite are not errors: reports count them. After an error other than
-/// DARBOUX_STATUS_INTERNAL nothing was written.
+/// DARBOUX_STATUS_INTERNAL and DARBOUX_STATUS_CANCELLED nothing was written.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum darboux_status {
@@ -41,6 +41,8 @@ pub enum darboux_status {
     Axes = 12,
     /// Threads cannot be started.
     Threads = 13,
+    /// The context was cancelled; the output array is unspecified.
+    Cancelled = 14,
 }
 
 /// An error on its way to the border.
@@ -63,6 +65,7 @@ impl From<MeshError> for Error {
             MeshError::PartialFace { .. } | MeshError::FaceSizes { .. } => darboux_status::Faces,
             MeshError::StrideTooSmall { .. } => darboux_status::Stride,
             MeshError::TooManyCorners { .. } | MeshError::TooManyVertices { .. } => darboux_status::TooLarge,
+            MeshError::Cancelled => darboux_status::Cancelled,
             _ => darboux_status::Length,
         };
         Self::new(status, error.to_string())

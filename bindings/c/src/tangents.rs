@@ -2,12 +2,14 @@
 
 use std::mem::offset_of;
 
-use darboux::{Frame, LentFrames, Method, MikktOptions, Report, TangentOptions, lend_frames, write_tangents};
+use darboux::{
+    Frame, LentFrames, MeshError, Method, MikktOptions, Report, TangentOptions, lend_frames, write_tangents,
+};
 
 use crate::codes::{self, darboux_method, darboux_mode};
+use crate::context::{self, darboux_context};
 use crate::mesh::{self, darboux_mesh};
 use crate::pointers::{self, Output, Receiver, Versioned};
-use crate::scratch::{self, darboux_scratch};
 use crate::status::{Error, call, darboux_status};
 
 /// What darboux_generate_tangents does. All zeros are the defaults, which are right for normal maps from today's bakers.
@@ -23,14 +25,14 @@ pub struct darboux_tangent_options {
     /// Angular threshold in degrees, MikkTSpace's alone: faces around a vertex share a tangent while their tangents and their bitangents
     /// differ by less. 0 stands for 180, which is what bakers use; 0.001 has the bits of a threshold of zero.
     pub threshold: f32,
-    /// Memory and threads of earlier calls to use again, or null: the call runs on the calling thread. One thread at a time may use it.
-    pub scratch: *mut darboux_scratch,
+    /// A context with reused memory and threads, or null: then the call runs on the calling thread with memory of its own.
+    pub context: *mut darboux_context,
 }
 
 // SAFETY: `repr(C)`, the size first, zeros and a null pointer.
 unsafe impl Versioned for darboux_tangent_options {
     const NAME: &str = "darboux_tangent_options";
-    const FIRST_SIZE: usize = pointers::size_through::<Self, *mut darboux_scratch>(offset_of!(Self, scratch));
+    const FIRST_SIZE: usize = pointers::size_through::<Self, *mut darboux_context>(offset_of!(Self, context));
 }
 
 /// What was met on the way. Quads count as the two triangles that they are split into.
@@ -106,25 +108,25 @@ impl From<Frame> for darboux_frame {
     }
 }
 
-/// The options at `options`, and the scratch in them.
+/// The options at `options`, and the context in them.
 ///
 /// # Safety
 ///
 /// `options` is as [`darboux_tangent_options`] says, or null.
 pub(crate) unsafe fn options<'a>(
     options: *const darboux_tangent_options,
-) -> Result<(TangentOptions, Option<&'a mut darboux_scratch>), Error> {
+) -> Result<(TangentOptions, Option<&'a darboux_context>), Error> {
     // SAFETY: as of this function.
     let options = unsafe { pointers::read_or_zeros(options) }?;
-    // SAFETY: null or from `darboux_scratch_create`, and no other thread's for now.
-    let scratch = unsafe { options.scratch.as_mut() };
+    // SAFETY: null or from `darboux_context_create`, and not freed.
+    let context = unsafe { options.context.as_ref() };
     let mut mikkt = MikktOptions::new().with_mode(codes::mode(options.mode)?);
     if options.threshold != 0.0 {
         mikkt = mikkt.with_threshold(options.threshold);
     }
     match codes::method(options.method)? {
-        Method::MikkTSpace(_) => Ok((mikkt.into(), scratch)),
-        other if mikkt == MikktOptions::new() => Ok((other.into(), scratch)),
+        Method::MikkTSpace(_) => Ok((mikkt.into(), context)),
+        other if mikkt == MikktOptions::new() => Ok((other.into(), context)),
         _ => {
             let message =
                 "mode and threshold belong to DARBOUX_METHOD_MIKKTSPACE; leave them 0 with other methods";
@@ -152,14 +154,14 @@ pub unsafe extern "C" fn darboux_generate_tangents(
 ) -> darboux_status {
     call(|| {
         // SAFETY: every pointer is as the documentation above says. The mesh is read before the output is written.
-        let (mesh, (options, scratch), report, out) = unsafe {
+        let (mesh, (options, context), report, out) = unsafe {
             let mesh = mesh::view(mesh)?;
             let corners = mesh.corner_count();
             let out = Output::expecting(corners, "tangents", tangents.cast(), tangent_count, tangent_stride)?;
             (mesh, self::options(options)?, Receiver::optional(report)?, out)
         };
         let run = |memory: &mut _, corners: &mut _| write_tangents(&mesh, &options, memory, corners);
-        let report_of_run = scratch::fill(scratch, out, run)?;
+        let report_of_run = context::fill(context, out, run)?;
         if let Some(report) = report {
             report.put(report_of_run.into());
         }
@@ -182,19 +184,16 @@ pub unsafe extern "C" fn darboux_generate_frames(
 ) -> darboux_status {
     call(|| {
         // SAFETY: every pointer is as the documentation above says. The mesh is read before the output is written.
-        let (mesh, (options, scratch), report, out) = unsafe {
+        let (mesh, (options, context), report, out) = unsafe {
             let mesh = mesh::view(mesh)?;
             let corners = mesh.corner_count();
             let out = Output::expecting(corners, "frames", frames.cast(), frame_count, frame_stride)?;
             (mesh, self::options(options)?, Receiver::optional(report)?, out)
         };
-        let report_of_run = scratch::lend(scratch, |kept, memory| {
-            let corners = mesh.corner_count();
-            let frames = scratch::run(Some(kept), corners, &mut memory.context, |context| {
-                lend_frames(&mesh, &options, context)
-            })?;
+        let report_of_run = context::run(context, mesh.corner_count(), move |memory| {
+            let frames = lend_frames(&mesh, &options, &mut memory.context)?;
             write(&frames, &out);
-            Ok::<_, Error>(frames.report())
+            Ok::<_, MeshError>(frames.report())
         })?;
         if let Some(report) = report {
             report.put(report_of_run.into());

@@ -232,16 +232,18 @@ impl<'a> Mesh<'a> {
                 return Err(MeshError::LengthMismatch { what, expected: vertices, found });
             }
         }
-        let corner_count = match indices {
-            Indices::Unindexed => vertices,
-            Indices::U16(list) => in_range(list, vertices)?,
-            Indices::U32(list) => in_range(list, vertices)?,
-        };
+        let corner_count = indices.corner_count(vertices);
         if corner_count > MAX_CORNERS {
             return Err(MeshError::TooManyCorners { corners: corner_count, limit: MAX_CORNERS });
         }
         if vertices > MAX_VERTICES {
             return Err(MeshError::TooManyVertices { vertices, limit: MAX_VERTICES });
+        }
+        // Only now, so that no list beyond the limit is read.
+        match indices {
+            Indices::Unindexed => {}
+            Indices::U16(list) => check_range(list, vertices)?,
+            Indices::U32(list) => check_range(list, vertices)?,
         }
         let mesh = Self { positions, normals, uvs, indices, faces, corner_count };
         mesh.check_faces()?;
@@ -355,10 +357,10 @@ impl<'a> Mesh<'a> {
     }
 }
 
-/// The number of indices, when all are below `vertices`.
-fn in_range<I: Copy + Into<u32>>(list: &[I], vertices: usize) -> Result<usize, MeshError> {
+/// Errors: an index that is not below `vertices`.
+fn check_range<I: Copy + Into<u32>>(list: &[I], vertices: usize) -> Result<(), MeshError> {
     match list.iter().position(|&index| index.into() as usize >= vertices) {
-        None => Ok(list.len()),
+        None => Ok(()),
         Some(at) => Err(MeshError::IndexOutOfRange { at, index: list[at].into(), vertices }),
     }
 }

@@ -32,7 +32,7 @@ pub fn empty_mesh() -> darboux_mesh {
 }
 
 pub fn default_options() -> darboux_tangent_options {
-    darboux_tangent_options { size: 0, method: 0, mode: 0, threshold: 0.0, scratch: null_mut() }
+    darboux_tangent_options { size: 0, method: 0, mode: 0, threshold: 0.0, context: null_mut() }
 }
 
 /// The mesh as C has it, with packed arrays.
@@ -239,17 +239,17 @@ fn tangents_go_into_the_vertices() {
 
 #[test]
 fn a_scratch_does_not_show() {
-    let mut scratch = null_mut();
-    // SAFETY: `scratch` may be written.
-    ok(unsafe { darboux_scratch_create(1, &mut scratch) });
+    let mut context = null_mut();
+    // SAFETY: `context` may be written.
+    ok(unsafe { darboux_context_create(1, &mut context) });
     for mesh in meshes(200) {
         let count = mesh.corner_count();
         let expected = tangents(&packed(&mesh), &default_options(), count).0;
-        let options = darboux_tangent_options { scratch, ..default_options() };
+        let options = darboux_tangent_options { context, ..default_options() };
         assert_eq!(bits(&tangents(&packed(&mesh), &options, count).0), bits(&expected));
     }
-    // SAFETY: from `darboux_scratch_create`.
-    unsafe { darboux_scratch_free(scratch) };
+    // SAFETY: from `darboux_context_create`.
+    unsafe { darboux_context_free(context) };
 }
 
 #[test]

@@ -1,4 +1,4 @@
-/* All memory comes from the caller's allocator, and goes back to it: on one thread, on many of the caller's, and on a scratch's own. */
+/* All memory comes from the caller's allocator, and goes back to it: on one thread, on many of the caller's, and on a context's own. */
 
 #define _POSIX_C_SOURCE 200809L
 
@@ -48,7 +48,7 @@ static void expect(int holds, const char *what) {
   exit(EXIT_FAILURE);
 }
 
-/* Large enough for a scratch to share it among its threads. */
+/* Large enough for a context to share it among its threads. */
 enum { SIDE = 130, VERTICES = (SIDE + 1) * (SIDE + 1), CORNERS = 6 * SIDE * SIDE, THREADS = 4 };
 
 static Counter counter = {PTHREAD_MUTEX_INITIALIZER, 0, 0};
@@ -111,12 +111,12 @@ int main(void) {
   expect(counter.bytes == 0, "threads that ended have left memory");
   for (int i = 1; i < THREADS; i++) expect(memcmp(tangents[0], tangents[i], sizeof tangents[0]) == 0, "other tangents");
 
-  expect(darboux_scratch_create(3, &options.scratch) == DARBOUX_STATUS_OK, "no scratch");
+  expect(darboux_context_create(3, &options.context) == DARBOUX_STATUS_OK, "no context");
   memset(tangents[1], 0, sizeof tangents[1]);
   expect(darboux_generate_tangents(&mesh, &options, tangents[1][0], CORNERS, 0, NULL) == DARBOUX_STATUS_OK, "no tangents");
-  expect(memcmp(tangents[0], tangents[1], sizeof tangents[0]) == 0, "other tangents on a scratch's threads");
-  darboux_scratch_free(options.scratch);
-  expect(counter.bytes < 64 * 1024, "a scratch has left more than bookkeeping");
+  expect(memcmp(tangents[0], tangents[1], sizeof tangents[0]) == 0, "other tangents on a context's threads");
+  darboux_context_free(options.context);
+  expect(counter.bytes < 64 * 1024, "a context has left more than bookkeeping");
 
   expect(darboux_set_allocator(take, give, &counter) == DARBOUX_STATUS_TOO_LATE, "the allocator was taken twice");
   expect(strstr(darboux_last_error(), "before any other call") != NULL, "no message");

@@ -102,7 +102,7 @@ fn handles_and_results_may_be_null() {
         // SAFETY: as above.
         unsafe { darboux_plan_create(&view, null(), null_mut()) },
         // SAFETY: as above.
-        unsafe { darboux_scratch_create(1, null_mut()) },
+        unsafe { darboux_context_create(1, null_mut()) },
         // SAFETY: as above.
         unsafe { darboux_plan_base(null(), &mut float, 1, 0, null_mut()) },
         // SAFETY: as above.
@@ -118,7 +118,7 @@ fn handles_and_results_may_be_null() {
     // SAFETY: freeing nothing does nothing.
     unsafe {
         darboux_plan_free(null_mut());
-        darboux_scratch_free(null_mut());
+        darboux_context_free(null_mut());
         darboux_vertex_split_free(null_mut());
         darboux_normal_split_free(null_mut());
     }

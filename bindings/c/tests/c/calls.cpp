@@ -78,11 +78,11 @@ static void tangents() {
   expect((split.tangent_of_vertex()[7] == darboux::tangent{1, 0, 0, 1}), "tangent of a new vertex");
 
   darboux_tangent_options options = {};
-  darboux::scratch scratch;
-  options.scratch = scratch.get();
+  darboux::context context;
+  options.context = context.get();
   options.method = DARBOUX_METHOD_FROM_NORMAL;
   for (int round = 0; round < 3; round++) {
-    expect(darboux::generate_tangents(mesh, options).corners.size() == 12, "with a scratch");
+    expect(darboux::generate_tangents(mesh, options).corners.size() == 12, "with a context");
   }
 
   // Without indices tangents go straight into the vertices, between what the mesh reads.

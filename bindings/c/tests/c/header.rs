@@ -39,7 +39,7 @@ facts_of_structs! {
         size, vertex_count, positions, position_stride, normals, normal_stride, uvs, uv_stride, indices_u32, indices_u16,
         index_count, faces, face_sizes, face_count,
     }
-    darboux_tangent_options { size, method, mode, threshold, scratch }
+    darboux_tangent_options { size, method, mode, threshold, context }
     darboux_report {
         size, triangles, unsupported_faces, degenerate_triangles, uv_degenerate_triangles, non_finite_corners,
         repaired_corners, mixed_sign_faces, mirrored_edges, split_vertices, merged_vertices,

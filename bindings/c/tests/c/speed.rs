@@ -77,8 +77,8 @@ fn speed_over_rust() {
                 .expect("one tangent per corner");
         });
         let mut options = default_options();
-        // SAFETY: the scratch may be written.
-        assert_eq!(unsafe { darboux_scratch_create(1, &mut options.scratch) }, darboux_status::Ok);
+        // SAFETY: the context may be written.
+        assert_eq!(unsafe { darboux_context_create(1, &mut options.context) }, darboux_status::Ok);
         let mut out = vec![[0.0f32; 4]; count];
         let c = least(rounds, || {
             // SAFETY: all pointers are to arrays of the lengths given.
@@ -98,8 +98,8 @@ fn speed_over_rust() {
                 darboux_vertex_split_free(split);
             }
         });
-        // SAFETY: from `darboux_scratch_create`.
-        unsafe { darboux_scratch_free(options.scratch) };
+        // SAFETY: from `darboux_context_create`.
+        unsafe { darboux_context_free(options.context) };
         print(&format!(
             "{name}: tangents Rust {rust:.0} ns, C {c:.0} ns; splits Rust {rust_split:.0} ns, C {c_split:.0} ns"
         ));

@@ -1,4 +1,4 @@
-/* Threads are started when a scratch is made that asks for them, and by nothing else; they end with it, and never show in the bits. */
+/* Threads are started when a context is made that asks for them, and by nothing else; they end with it, and never show in the bits. */
 
 #define _POSIX_C_SOURCE 200809L
 
@@ -63,27 +63,27 @@ int main(void) {
   check(darboux_plan_create(&mesh, NULL, &plan));
   check(darboux_plan_evaluate(plan, &mesh, NULL, together[0], CORNERS, 0));
   expect(memcmp(alone, together, sizeof alone) == 0, "the plan differs");
-  check(darboux_scratch_create(1, &options.scratch));
+  check(darboux_context_create(1, &options.context));
   check(darboux_generate_tangents(&mesh, &options, together[0], CORNERS, 0, NULL));
-  darboux_scratch_free(options.scratch);
+  darboux_context_free(options.context);
   expect(thread_count() == 1, "a thread was started");
 
-  check(darboux_scratch_create(3, &options.scratch));
+  check(darboux_context_create(3, &options.context));
   expect(thread_count() == 4, "not three threads");
   for (int round = 0; round < 20; round++) {
     memset(together, 0, sizeof together);
     check(darboux_generate_tangents(&mesh, &options, together[0], CORNERS, 0, NULL));
     expect(memcmp(alone, together, sizeof alone) == 0, "the number of threads shows");
     memset(together, 0, sizeof together);
-    check(darboux_plan_evaluate(plan, &mesh, options.scratch, together[0], CORNERS, 0));
+    check(darboux_plan_evaluate(plan, &mesh, options.context, together[0], CORNERS, 0));
     expect(memcmp(alone, together, sizeof alone) == 0, "the number of threads shows in the plan");
   }
-  darboux_scratch_free(options.scratch);
-  expect(thread_count() == 1, "threads outlive their scratch");
+  darboux_context_free(options.context);
+  expect(thread_count() == 1, "threads outlive their context");
   darboux_plan_free(plan);
 
-  expect(darboux_scratch_create(100000, &options.scratch) == DARBOUX_STATUS_THREADS, "too many threads");
-  check(darboux_scratch_create(0, &options.scratch));
-  darboux_scratch_free(options.scratch);
+  expect(darboux_context_create(100000, &options.context) == DARBOUX_STATUS_THREADS, "too many threads");
+  check(darboux_context_create(0, &options.context));
+  darboux_context_free(options.context);
   return EXIT_SUCCESS;
 }
