@@ -35,6 +35,11 @@ pub const METHODS: [darboux::Method; 8] = {
     ]
 };
 
+/// The examples of docs/rust.md run.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/rust.md")]
+struct RustPage;
+
 /// The README's example runs.
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
