@@ -61,7 +61,7 @@ unsafe impl Versioned for darboux_mesh {
 pub(crate) unsafe fn view<'a>(mesh: *const darboux_mesh) -> Result<Mesh<'a>, Error> {
     // SAFETY: as of this function.
     unsafe {
-        let mesh = pointers::read(mesh)?;
+        let mesh = read(mesh)?;
         let count = mesh.vertex_count;
         let normals = pointers::strided("normals", mesh.normals, count, mesh.normal_stride)?;
         let uvs = pointers::strided("uvs", mesh.uvs, count, mesh.uv_stride)?;
@@ -77,11 +77,30 @@ pub(crate) unsafe fn view<'a>(mesh: *const darboux_mesh) -> Result<Mesh<'a>, Err
 pub(crate) unsafe fn bare<'a>(mesh: *const darboux_mesh) -> Result<Mesh<'a>, Error> {
     // SAFETY: as of this function.
     unsafe {
-        let mesh = pointers::read(mesh)?;
+        let mesh = read(mesh)?;
         let count = mesh.vertex_count;
         let (normals, uvs) = (Strided::repeated(&[0.0; 3], count), Strided::repeated(&[0.0; 2], count));
         Ok(Mesh::with_faces(mesh.positions()?, normals, uvs, mesh.indices()?, mesh.faces()?)?)
     }
+}
+
+/// The largest number of vertices, as of the core; checked before the arrays are measured, for a message about the count.
+const MAX_VERTICES: usize = (1 << 30) - 1;
+
+/// # Safety
+///
+/// As of [`view`].
+unsafe fn read(mesh: *const darboux_mesh) -> Result<darboux_mesh, Error> {
+    // SAFETY: as of this function.
+    let mesh = unsafe { pointers::read(mesh) }?;
+    if mesh.vertex_count > MAX_VERTICES {
+        let message = format!(
+            "{} vertices are too many: the limit is {MAX_VERTICES}; split the mesh",
+            mesh.vertex_count
+        );
+        return Err(Error::new(darboux_status::TooLarge, message));
+    }
+    Ok(mesh)
 }
 
 impl darboux_mesh {

@@ -77,7 +77,7 @@ facts_of_enums! {
         Ok = "OK", NullPointer = "NULL_POINTER", StructSize = "STRUCT_SIZE", UnknownValue = "UNKNOWN_VALUE",
         Stride = "STRIDE", Alignment = "ALIGNMENT", TooLarge = "TOO_LARGE", Length = "LENGTH", Index = "INDEX",
         Faces = "FACES", TooLate = "TOO_LATE", Internal = "INTERNAL", Axes = "AXES",
-        Threads = "THREADS",
+        Threads = "THREADS", Cancelled = "CANCELLED",
     }
     MethodCode as "DARBOUX_METHOD" {
         Mikktspace = "MIKKTSPACE", AngleArea = "ANGLE_AREA", Lengyel = "LENGYEL", LengyelPerVertex = "LENGYEL_PER_VERTEX",
