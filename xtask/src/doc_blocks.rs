@@ -11,11 +11,11 @@ mod blocks;
 mod sandbox;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use crate::run::{Outcome, files_below, root};
-use blocks::{Block, Page};
+use blocks::Page;
 use sandbox::Sandbox;
 
 /// Pages outside `docs`.
@@ -119,23 +119,4 @@ fn is_doctest(page: &str) -> Outcome {
             "{page}: no library includes this page as documentation, so that its Rust blocks are not tested"
         ))
     }
-}
-
-/// The text of blocks in page order, in one program whose line numbers are those of the page.
-fn at_their_lines(blocks: &[&Block]) -> String {
-    let mut text = String::new();
-    let mut line = 1;
-    for block in blocks {
-        while line < block.line {
-            text.push('\n');
-            line += 1;
-        }
-        text += &block.text;
-        line += block.text.matches('\n').count();
-    }
-    text
-}
-
-fn write(path: &Path, text: &str) -> Outcome {
-    fs::write(path, text).map_err(|error| format!("{} cannot be written: {error}", path.display()))
 }

@@ -9,18 +9,11 @@ mod metadata;
 mod npm;
 mod python;
 mod semver;
+mod work;
 
-use std::fs;
-use std::path::PathBuf;
 use std::time::Instant;
 
-use crate::run::{Outcome, target_folder};
-
-/// The version of all packages.
-const VERSION: &str = env!("CARGO_PKG_VERSION");
-
-/// The oldest supported compiler.
-const RUST_VERSION: &str = env!("CARGO_PKG_RUST_VERSION");
+use crate::run::Outcome;
 
 type Step = (&'static str, &'static str, fn() -> Outcome);
 
@@ -63,21 +56,4 @@ pub fn check(words: &[&str]) -> Outcome {
         println!("--- {name}: ok, {:.1} s\n", start.elapsed().as_secs_f32());
     }
     Ok(())
-}
-
-/// An empty folder below cargo's target folder.
-fn empty_folder(name: &str) -> Result<PathBuf, String> {
-    let folder = target_folder()?.join("release").join(name);
-    if folder.exists() {
-        fs::remove_dir_all(&folder)
-            .map_err(|error| format!("{} cannot be removed: {error}", folder.display()))?;
-    }
-    fs::create_dir_all(&folder).map_err(|error| format!("{} cannot be made: {error}", folder.display()))?;
-    Ok(folder)
-}
-
-/// Prints the path and size of a finished package.
-fn print_size(package: &std::path::Path) {
-    let bytes = fs::metadata(package).map_or(0, |file| file.len());
-    println!("{} ({} kB)", package.display(), bytes / 1000);
 }

@@ -67,6 +67,21 @@ pub fn parse(name: &str, text: &str) -> Result<Page, String> {
     Ok(page)
 }
 
+/// The text of blocks in page order, in one program whose line numbers are those of the page.
+pub fn at_their_lines(blocks: &[&Block]) -> String {
+    let mut text = String::new();
+    let mut line = 1;
+    for block in blocks {
+        while line < block.line {
+            text.push('\n');
+            line += 1;
+        }
+        text += &block.text;
+        line += block.text.matches('\n').count();
+    }
+    text
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

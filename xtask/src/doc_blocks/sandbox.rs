@@ -4,8 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::blocks::{Block, Page};
-use super::{at_their_lines, write};
+use super::blocks::{Block, Page, at_their_lines};
 use crate::python;
 use crate::run::{Outcome, files_below, program, root, run, shown, target_folder, works};
 
@@ -204,4 +203,8 @@ fn copy(from: &Path, to: &Path) -> Outcome {
 
 fn make(folder: &Path) -> Outcome {
     fs::create_dir_all(folder).map_err(|error| format!("{} cannot be made: {error}", folder.display()))
+}
+
+fn write(path: &Path, text: &str) -> Outcome {
+    fs::write(path, text).map_err(|error| format!("{} cannot be written: {error}", path.display()))
 }

@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use super::{VERSION, empty_folder, print_size};
+use super::work::{VERSION, empty_folder, print_size};
 use crate::dist_c;
 use crate::run::{Outcome, run};
 

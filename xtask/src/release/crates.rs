@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use super::metadata::{name, published};
-use super::{RUST_VERSION, VERSION, empty_folder, print_size};
+use super::work::{RUST_VERSION, VERSION, empty_folder, print_size};
 use crate::doc_blocks;
 use crate::run::{Outcome, program, root, run, target_folder};
 

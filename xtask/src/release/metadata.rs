@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::VERSION;
+use super::work::VERSION;
 use crate::run::{Outcome, output_of, program, root};
 
 /// Errors: a field, a README or the changelog's section for this version is missing.

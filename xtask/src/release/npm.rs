@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::{VERSION, empty_folder, print_size};
+use super::work::{VERSION, empty_folder, print_size};
 use crate::run::{Outcome, program, run};
 use crate::{dist_js, doc_blocks};
 

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{empty_folder, print_size};
+use super::work::{empty_folder, print_size};
 use crate::python;
 use crate::run::{Outcome, files_below, run};
 

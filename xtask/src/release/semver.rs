@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 use std::fs;
 
-use super::VERSION;
+use super::work::VERSION;
 use crate::api;
 use crate::run::{Outcome, output_of, program, root};
 
