@@ -8,20 +8,21 @@ use crate::api;
 use crate::run::{Outcome, files_below, program, root, run};
 use crate::shaders;
 
-/// Where generated files lie. Folders hold nothing else.
+/// The files and folders that are generated. Such a folder holds nothing else.
 const PLACES: &[&str] = &[
     "docs/cli.md",
     "crates/darboux-cli/generated",
     "bindings/c/include/darboux.h",
     "shaders/glsl",
     "shaders/hlsl",
+    shaders::RENDER_COPIES,
     "docs/api",
 ];
 
-/// Packages, and their examples that write them below the folder that they are given.
+/// Packages and the examples in them that write generated files below a given folder.
 const WRITERS: &[(&str, &str)] = &[("darboux-cli", "pages"), ("darboux-c", "header")];
 
-/// Writes all generated files in their places.
+/// Writes all generated files into the repository.
 pub fn write() -> Outcome {
     for place in PLACES {
         remove(&root().join(place))?;
@@ -63,7 +64,7 @@ fn remove(path: &Path) -> Outcome {
     }
 }
 
-/// All files in the places below `base`, by their path below it.
+/// All generated files below `base`, by their path below it.
 fn read(base: &Path) -> Result<BTreeMap<PathBuf, Vec<u8>>, String> {
     let mut contents = BTreeMap::new();
     for place in PLACES {

@@ -45,7 +45,13 @@ const BUILT_IN: &[[&str; 3]] = &[
     ["sqrt", "sqrt", "sqrt"],
 ];
 
-/// Writes `shaders/glsl` and `shaders/hlsl` below `base`.
+/// Copies of WGSL files for darboux-render, because a package on crates.io holds no files from outside of its folder.
+pub const RENDER_COPIES: &str = "crates/darboux-render/shader_library";
+
+/// The files that darboux-render includes.
+const COPIED: &[&str] = &["derivatives", "frame", "normal_map", "transform"];
+
+/// Writes `shaders/glsl`, `shaders/hlsl` and the copies for darboux-render below `base`.
 pub fn write(base: &Path) -> Outcome {
     let mut names = Vec::new();
     let mut sources = Vec::new();
@@ -62,6 +68,10 @@ pub fn write(base: &Path) -> Outcome {
                 .map_err(|fault| format!("shaders/wgsl/{theme}.wgsl: {fault}"))?;
             let text = format!("{}\n{translated}", head(theme, language));
             write_file(&base.join("shaders").join(name).join(format!("{theme}.{name}")), &text)?;
+        }
+        if COPIED.contains(&theme.as_str()) {
+            let origin = format!("// Generated from shaders/wgsl/{theme}.wgsl by `cargo xtask gen`.\n\n");
+            write_file(&base.join(RENDER_COPIES).join(theme).with_extension("wgsl"), &(origin + text))?;
         }
     }
     Ok(())

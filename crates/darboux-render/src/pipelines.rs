@@ -13,10 +13,10 @@ use crate::uniforms::Instance;
 use crate::vertex::{Segment, SurfaceVertex};
 
 const SURFACES: &str = concat!(
-    include_str!("../../../shaders/wgsl/frame.wgsl"),
-    include_str!("../../../shaders/wgsl/normal_map.wgsl"),
-    include_str!("../../../shaders/wgsl/transform.wgsl"),
-    include_str!("../../../shaders/wgsl/derivatives.wgsl"),
+    include_str!("../shader_library/frame.wgsl"),
+    include_str!("../shader_library/normal_map.wgsl"),
+    include_str!("../shader_library/transform.wgsl"),
+    include_str!("../shader_library/derivatives.wgsl"),
     include_str!("surface.wgsl"),
 );
 const LINES: &str = include_str!("lines.wgsl");
