@@ -1,4 +1,4 @@
-//! `cargo xtask <task>`: everything a person or CI runs.
+//! `cargo xtask <task>`: every check, generator, measurement and package that a person or CI runs.
 
 mod api;
 mod bench;
@@ -26,21 +26,30 @@ use std::process::ExitCode;
 const USAGE: &str = "\
 usage: cargo xtask <task>
 
-  ci [--full]   what must hold before a change lands; --full adds what is long
-  gen           write the generated files (command-line reference, man pages, completions, darboux.h, shaders)
-  layers        check which packages import which, and that files import each other without cycles
-  docs [PAGE]   run every code block of the documentation twice
-  validate      check the command's outputs for all models with independent tools (needs node and npm)
-  bench [...]   time every engine on every mesh; see bench --help
-  bench --gpu   time everything on every adapter: [--quick] [TRIANGLES ...]
-  gpu [...]     on a machine with a GPU: its tests, report and times, recorded in benches/record/gpu: [pack] [--out FOLDER]
-                [devices] [tests] [command] [report] [times] [long] [options of bench --gpu]
-  dist-c        make the folder for users of C and C++; its path is the last line (Linux: needs ld, objcopy, nm and ar)
-  dist-js       make the folder of the npm package; its path is the last line (needs node, npm and rustup)
-  dist-viewer   make the viewer's page, which darboux view serves; its folder is the last line (needs what dist-js needs)
-  dist-python   build the Python wheel; its folder is the last line (needs python3 with venv, and the network)
-  acos          compare acos with the platform's on every float of [-1, 1]
-  arm           the tests of bits on 64-bit Arm, emulated (Debian: needs gcc and g++ for aarch64-linux-gnu, qemu-user; rustup)";
+checks
+  ci [--full]      run the checks that must pass before a change lands; --full adds those that take long
+  layers           check which packages import which, and that the files of a package import each other without cycles
+  docs [PAGE ...]  run the code blocks of the documentation, twice
+  validate         check the command's outputs for all models with independent tools (needs node and npm)
+  acos             compare the core's acos with the platform's on every float of [-1, 1]
+  arm              run the tests of bits on emulated 64-bit Arm (Debian: needs gcc and g++ for aarch64-linux-gnu, qemu-user; rustup)
+
+generated files
+  gen              write them: command-line reference, man pages, completions, darboux.h, shaders, lists of the public API
+
+measurements
+  bench [...]      time every engine on every mesh; options: bench --help
+  bench --gpu      time everything on every adapter: [--quick] [TRIANGLES ...]
+  gpu [...]        on a machine with a GPU: record its tests, report and times in benches/record/gpu:
+                   [pack] [--out FOLDER] [devices] [tests] [command] [report] [times] [long] [options of bench --gpu]
+
+packages (the path is the last line of the output)
+  dist-c           make the folder for users of C and C++ (Linux: needs ld, objcopy, nm and ar)
+  dist-js          make the folder of the npm package (needs node, npm and rustup)
+  dist-viewer      make the viewer's page, which darboux view serves (needs what dist-js needs)
+  dist-python      build the Python wheel (needs python3 with venv, and the network)
+  release --check [--since TAG] [metadata] [msrv] [crates] [c] [python] [npm]
+                   make all packages, install each into an empty folder and run its example; TAG: compare the public API";
 
 fn main() -> ExitCode {
     if let Some(folder) = std::env::var_os(api::EXPAND_INTO) {
