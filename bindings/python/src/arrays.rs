@@ -1,4 +1,4 @@
-//! numpy arrays as the core reads them: borrowed where they lie as they are used, else copied once.
+//! Converts numpy arrays for the core: borrows the memory if type and layout allow it, copies it otherwise.
 
 use std::borrow::Cow;
 
@@ -8,18 +8,18 @@ use numpy::{Element, PyArray1, PyArray2, PyArrayDyn, PyReadonlyArrayDyn, PyUntyp
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-/// `N` floats per row, in numpy's memory or copied.
+/// Rows of `N` floats, in numpy's memory or copied.
 pub enum Rows<'py, const N: usize> {
     /// float32, packed.
     Packed(PyReadonlyArrayDyn<'py, f32>),
-    /// float32 rows somewhere in a packed array of anything.
+    /// float32 rows with a stride, in a packed array of any type.
     Within { bytes: PyReadonlyArrayDyn<'py, u8>, offset: usize, stride: usize, len: usize },
-    /// Of another type or layout before.
+    /// Copied, because type or layout differed.
     Copied(Vec<f32>),
 }
 
 impl<'py, const N: usize> Rows<'py, N> {
-    /// The rows of `value`, shape (V, N), any real numbers. `name` is what messages call it.
+    /// The rows of `value`, shape (V, N), any real numbers. `name` is its name in messages.
     pub fn new(name: &str, letter: &str, value: &Bound<'py, PyAny>) -> PyResult<Self> {
         let array = array_of(name, value)?;
         if array.ndim() != 2 || array.shape()[1] != N {
@@ -40,7 +40,7 @@ impl<'py, const N: usize> Rows<'py, N> {
                 return Ok(within);
             }
         } else if array.dtype().itemsize() == 8 && array.dtype().kind() == b'f' {
-            // numpy would warn of what becomes infinite.
+            // numpy would warn about values that become infinite.
             let doubles = packed::<f64>(&array)?;
             let doubles = doubles.as_slice()?;
             return Ok(Self::Copied(value.py().detach(|| doubles.iter().map(|&x| x as f32).collect())));
@@ -48,7 +48,7 @@ impl<'py, const N: usize> Rows<'py, N> {
         Ok(Self::Packed(packed(&array)?))
     }
 
-    /// Rows at equal distances in the packed array that owns their memory; none where they lie otherwise.
+    /// Rows with a constant stride in the packed array that owns the memory; `None` for other layouts.
     fn within(rows: &Bound<'py, PyArrayDyn<f32>>) -> PyResult<Option<Self>> {
         let &[stride, step] = rows.strides() else { return Ok(None) };
         let Ok(stride) = usize::try_from(stride) else { return Ok(None) };
@@ -65,7 +65,7 @@ impl<'py, const N: usize> Rows<'py, N> {
         Ok(lies_within.then_some(Self::Within { bytes: bytes.try_readonly()?, offset, stride, len }))
     }
 
-    /// The rows as the core takes them.
+    /// The rows as a strided slice for the core.
     pub fn view(&self) -> PyResult<Strided<'_, N>> {
         let strided = match self {
             Self::Packed(array) => Strided::from_floats(array.as_slice()?, N, 0),
@@ -78,7 +78,7 @@ impl<'py, const N: usize> Rows<'py, N> {
         strided.map_err(|error| PyValueError::new_err(error.to_string()))
     }
 
-    /// The rows one after the other, copied only where they do not lie so.
+    /// The rows packed; copied only if they are not packed already.
     pub fn packed(&self) -> PyResult<Cow<'_, [[f32; N]]>> {
         Ok(match self {
             Self::Packed(array) => Cow::Borrowed(array.as_slice()?.as_chunks().0),
@@ -91,7 +91,7 @@ impl<'py, const N: usize> Rows<'py, N> {
     }
 }
 
-/// The bytes of the array at the end of the chain of bases, if that array is packed and can be seen as bytes.
+/// The bytes of the array that owns the memory (the end of the chain of `base`), if that array is packed and readable as bytes.
 fn owner_bytes<'py>(array: &Bound<'py, PyUntypedArray>) -> PyResult<Option<Bound<'py, PyArrayDyn<u8>>>> {
     let mut owner = array.clone();
     while let Ok(base) = owner.getattr("base")?.cast_into::<PyUntypedArray>() {
@@ -104,7 +104,7 @@ fn owner_bytes<'py>(array: &Bound<'py, PyUntypedArray>) -> PyResult<Option<Bound
     Ok(bytes.cast_into().ok())
 }
 
-/// `value` as an array; what is none goes through numpy.asarray.
+/// `value` as an array, converted by numpy.asarray if it is not one.
 pub fn array_of<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyUntypedArray>> {
     if let Ok(array) = value.cast::<PyUntypedArray>() {
         return Ok(array.clone());
@@ -135,7 +135,7 @@ fn is_packed<T: Element>(array: &Bound<'_, PyArrayDyn<T>>) -> bool {
     array.is_c_contiguous() && array.is_aligned()
 }
 
-/// A list of numbers as numpy prints shapes.
+/// Formats a shape as numpy does.
 pub fn shape_text(shape: &[usize]) -> String {
     match shape {
         [one] => format!("({one},)"),
@@ -143,7 +143,7 @@ pub fn shape_text(shape: &[usize]) -> String {
     }
 }
 
-/// The error that `name` should hold `what` and does not.
+/// The error for an argument `name` that does not hold `what`.
 pub fn wrong_type(name: &str, what: &str, array: &Bound<'_, PyUntypedArray>) -> PyErr {
     PyTypeError::new_err(format!("{name} must hold {what}, not {}", array.dtype()))
 }

@@ -1,4 +1,4 @@
-//! Options that Python names by strings.
+//! Parses the options that Python passes as strings.
 
 use darboux::{Method, MikktOptions, Mode, TangentOptions};
 use pyo3::exceptions::PyValueError;
@@ -49,7 +49,7 @@ pub fn tangent_options(method: &str, mode: &str, threshold: f32) -> PyResult<Tan
     }
 }
 
-/// Whether a fan may take time in the square of its number of triangles.
+/// True if a fan can take quadratic time in its number of triangles.
 pub fn is_slow(options: &TangentOptions) -> bool {
     matches!(options.method, Method::MikkTSpace(mikkt) if mikkt.threshold < MikktOptions::new().threshold)
 }

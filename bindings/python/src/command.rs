@@ -1,4 +1,4 @@
-//! The command line.
+//! Runs the command line program from Python.
 
 use std::ffi::OsString;
 
@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 /// Parameters
 /// ----------
 /// arguments : list of str
-///     The first is the program's name.
+///     The first element is the program's name.
 #[pyfunction]
 pub fn run(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
     py.detach(|| darboux_cli::run(arguments))

@@ -1,4 +1,4 @@
-//! Vertex data from one program's convention to another's.
+//! Converts vertex data between the conventions of programs.
 
 use darboux::{Convention, Conversion};
 use numpy::PyArray1;
@@ -16,31 +16,31 @@ pub fn convention(what: &str, name: &str) -> PyResult<Convention> {
     choice(what, name, &Convention::PRESETS)
 }
 
-/// Convert vertex data from one convention to another. The surface, its texture and its light stay as they are.
+/// Convert vertex data from one convention to another. The surface, its texture and its lighting do not change.
 ///
-/// Tangents of generate_tangents are in no program's convention yet: their w says where v runs, whatever v means. Give the convention of
-/// the mesh as source and `generated=True`. Even from 'gltf' to 'gltf' that negates w, as v runs down there.
+/// The w of tangents from generate_tangents is MikkTSpace's sign, which is not yet in any program's convention. For these, pass the convention of
+/// the mesh as source, and `generated=True`. Even from 'gltf' to 'gltf' this negates w, because v points down in glTF.
 ///
 /// Parameters
 /// ----------
 /// source, target : str
 ///     One of CONVENTIONS.
 /// positions, normals : (V, 3) array_like, optional
-///     Or offsets of morph targets.
+///     Vectors; offsets of morph targets are converted in the same way.
 /// uvs : (V, 2) array_like, optional
 /// indices : (C,), (F, 3) or (F, 4) array_like of integers, optional
-///     Faces are reversed, but for their first corner, where fronts are wound the other way.
+///     All corners of a face but the first are reversed if the order of front faces differs.
 /// tangents : (V, 4) array_like, optional
 ///     One per vertex.
 /// faces : 3, 4 or (F,) array_like of integers, optional
 ///     As for generate_tangents.
 /// generated : bool
-///     The tangents are those of generate_tangents for a mesh in the source's convention.
+///     True if the tangents come from generate_tangents on a mesh in the source convention.
 ///
 /// Returns
 /// -------
 /// Converted
-///     New arrays, None for what was not given; and whether the normal map's red and green must be inverted.
+///     New arrays, None for missing arguments; and whether the red and green channels of the normal map must be inverted.
 ///
 /// Raises
 /// ------
@@ -91,7 +91,7 @@ fn mapped<'py, const N: usize>(
     Ok(Some(rows_array(py, converted)?.into_any()))
 }
 
-/// Indices in the shape they came in, face by face.
+/// Indices grouped by face, in their original shape.
 fn converted_indices<'py>(
     py: Python<'py>,
     indices: &Bound<'py, PyAny>,
@@ -109,7 +109,7 @@ fn converted_indices<'py>(
     Ok(PyArray1::from_vec(py, list).reshape(indices.shape)?.into_any())
 }
 
-/// Face by face. Errors: faces that do not add up to the corners, in one sentence.
+/// Groups corners by face. Errors: the face sizes do not add up to the number of corners.
 fn convert_faces(list: &mut [u32], sizes: &FaceSizes, change: &Conversion) -> Result<(), String> {
     let corners = list.len();
     let sizes: Box<dyn Iterator<Item = usize> + '_> = match sizes {

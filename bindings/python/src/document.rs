@@ -1,4 +1,4 @@
-//! Files: glTF and GLB through darboux-io.
+//! glTF and GLB documents, read and written by darboux-io.
 
 use std::path::PathBuf;
 use std::sync::mpsc::Sender;
@@ -24,15 +24,15 @@ const ENCODINGS: &[(&str, TangentEncoding)] = &[
     ("snorm8x4", TangentEncoding::Snorm8x4),
 ];
 
-/// A glTF document in memory: read by load, edited by its methods, written by save. What no method changes is kept as it is.
+/// A glTF document in memory: read by load, edited by its methods, written by save. Everything that no method changes stays as it was.
 #[pyclass(module = "darboux")]
 pub struct Document {
     document: gltf::Document,
-    /// An edit began and did not end well: nobody may take what is here for its result.
+    /// True after an edit that failed or was cancelled: the document is incomplete and must not be used.
     is_half_done: bool,
 }
 
-/// Read a .glb or .gltf file and the buffers that it names.
+/// Read a .glb or .gltf file and its buffers.
 ///
 /// Parameters
 /// ----------
@@ -45,7 +45,7 @@ pub struct Document {
 /// OSError
 ///     The file cannot be read.
 /// ValueError
-///     It is broken or cannot be processed faithfully: one sentence says where.
+///     The file is broken or cannot be processed without loss; the message says where.
 #[pyfunction]
 #[pyo3(signature = (path, *, allow_outside=false))]
 pub fn load(py: Python<'_>, path: PathBuf, allow_outside: bool) -> PyResult<Document> {
@@ -60,9 +60,9 @@ pub fn load(py: Python<'_>, path: PathBuf, allow_outside: bool) -> PyResult<Docu
 /// ----------
 /// data : bytes
 /// name : str
-///     Stands for the file in messages.
+///     The name of the file in messages.
 /// base : path-like, optional
-///     The folder of external files. Without, buffers must be embedded, and images stay where they are.
+///     The folder of external files. Without it, buffers must be embedded, and references to images stay as they are.
 ///
 /// Raises
 /// ------
@@ -76,12 +76,12 @@ pub fn loads(py: Python<'_>, data: Vec<u8>, name: &str, base: Option<PathBuf>) -
     Ok(Document { document: document.map_err(file_error)?, is_half_done: false })
 }
 
-/// Give a document as the bytes of a GLB that holds all its buffers and images, but for remote and missing ones.
+/// Return a document as the bytes of a GLB with all its buffers and images, except remote and missing ones.
 ///
 /// Raises
 /// ------
 /// OSError, ValueError
-///     Files that cannot be read; more than 4 GiB.
+///     A referenced file cannot be read; the result exceeds 4 GiB.
 #[pyfunction]
 pub fn dumps<'py>(py: Python<'py>, document: PyRef<'py, Document>) -> PyResult<Bound<'py, PyBytes>> {
     let document = document.whole()?;
@@ -89,13 +89,13 @@ pub fn dumps<'py>(py: Python<'py>, document: PyRef<'py, Document>) -> PyResult<B
     Ok(PyBytes::new(py, &bytes))
 }
 
-/// Write a document; the extension decides the container, .glb or .gltf with a .bin beside it.
+/// Write a document. The extension selects the container: .glb, or .gltf with a .bin beside it.
 ///
 /// Parameters
 /// ----------
 /// document : Document
 /// path : path-like
-///     Missing folders are made. Never the document's own input.
+///     Missing folders are created. The document's own input is refused.
 /// force : bool
 ///     Replace a file that exists.
 ///
@@ -107,7 +107,7 @@ pub fn dumps<'py>(py: Python<'py>, document: PyRef<'py, Document>) -> PyResult<B
 /// Raises
 /// ------
 /// OSError, ValueError
-///     After an error nothing is left behind.
+///     Nothing is written after an error.
 #[pyfunction]
 #[pyo3(signature = (document, path, *, force=false))]
 pub fn save(
@@ -122,13 +122,13 @@ pub fn save(
 
 #[pymethods]
 impl Document {
-    /// Whether anything differs from the file that was read.
+    /// True if the document differs from the file that was read.
     #[getter]
     fn is_changed(&self) -> bool {
         self.document.is_changed()
     }
 
-    /// What is odd but not an error, such as missing images: one sentence each.
+    /// Warnings, one sentence each, such as missing images.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.document.warnings().to_vec()
@@ -149,15 +149,15 @@ impl Document {
     /// Returns
     /// -------
     /// dict
-    ///     Per attribute, such as 'POSITION', a float32 array with a row per vertex, normalised integers as fractions; 'indices', (C,)
-    ///     uint32, where there are some.
+    ///     Per attribute, such as 'POSITION', a float32 array with one row per vertex (normalized integers are decoded); 'indices', (C,)
+    ///     uint32, if the primitive has indices.
     ///
     /// Raises
     /// ------
     /// IndexError
     ///     No such primitive.
     /// ValueError
-    ///     The bytes behind an attribute are not there.
+    ///     The data of an attribute is missing.
     #[pyo3(signature = (mesh=0, primitive=0))]
     fn arrays<'py>(
         &self,
@@ -184,14 +184,14 @@ impl Document {
         Ok(arrays)
     }
 
-    /// Look at every primitive, and compute the tangents that it could have without writing them.
+    /// Report on every primitive, and compute the tangents that it could have without writing them.
     ///
     /// Compressed documents are decompressed.
     ///
     /// Returns
     /// -------
     /// list of dict
-    ///     As the reports of `darboux inspect --json`.
+    ///     The same as the reports of `darboux inspect --json`.
     fn inspect<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.whole()?;
         let document = &mut self.document;
@@ -199,9 +199,9 @@ impl Document {
         python_of(py, &infos.map_err(file_error)?)
     }
 
-    /// Give every triangle primitive that has positions, normals and UVs its tangents; vertices are split where they must be.
+    /// Add tangents to every triangle primitive that has positions, normals and UVs. Vertices are split where their corners need different tangents.
     ///
-    /// After Ctrl-C or an error on the way the document refuses all work: load it again.
+    /// After Ctrl-C or an error the document is unusable: load it again.
     ///
     /// Parameters
     /// ----------
@@ -218,17 +218,17 @@ impl Document {
     /// apply_texture_transform : bool
     ///     Transform UVs by KHR_texture_transform first.
     /// progress : callable, optional
-    ///     Called with the triangles done and their total, after each primitive.
+    ///     Called after each primitive with the number of processed triangles and their total.
     ///
     /// Returns
     /// -------
     /// dict
-    ///     'primitives': what was done to each and what was met; 'warnings'; 'totals'.
+    ///     'primitives': one report per primitive; 'warnings'; 'totals'.
     ///
     /// Raises
     /// ------
     /// ValueError
-    ///     Broken data behind a primitive that gets tangents.
+    ///     The data of a primitive that needs tangents is broken.
     #[pyo3(signature = (
         *, method="mikktspace", mode="repaired", threshold=180.0, encoding="f32x4", overwrite=false, only_needed=false,
         strict=false, apply_texture_transform=false, progress=None
@@ -260,9 +260,9 @@ impl Document {
         })
     }
 
-    /// Give every triangle primitive its normals; primitives of one mesh are shaded as one surface.
+    /// Add normals to every triangle primitive. All primitives of a mesh are shaded as one surface.
     ///
-    /// After Ctrl-C or an error on the way the document refuses all work: load it again.
+    /// After Ctrl-C or an error the document is unusable: load it again.
     ///
     /// Parameters
     /// ----------
@@ -271,12 +271,12 @@ impl Document {
     /// overwrite : bool
     ///     Replace normals that exist.
     /// progress : callable, optional
-    ///     Called with the triangles done and their total.
+    ///     Called with the number of processed triangles and their total.
     ///
     /// Returns
     /// -------
     /// dict
-    ///     'primitives': what was done to each and what was met; 'warnings'; 'written'.
+    ///     'primitives': one report per primitive; 'warnings'; 'written'.
     #[pyo3(signature = (
         *, shading="smooth", weight="angle", crease=180.0, seams="ignored", overwrite=false, progress=None
     ))]
@@ -300,8 +300,8 @@ impl Document {
 
     /// Convert the vertex data of every primitive from one convention to another.
     ///
-    /// A glTF file is in glTF's convention, so one that is right needs no conversion: this is for files whose writer copied the numbers of
-    /// another convention, and for programs that copy them out. After Ctrl-C or an error on the way the document refuses all work: load it
+    /// A correct glTF file is in glTF's convention and needs no conversion. This is for files whose writer copied the numbers of
+    /// another convention, and for programs that read the numbers without converting them. After Ctrl-C or an error the document is unusable: load it
     /// again.
     ///
     /// Parameters
@@ -309,12 +309,12 @@ impl Document {
     /// source, target : str
     ///     One of CONVENTIONS.
     /// progress : callable, optional
-    ///     Called with the primitives done and their total.
+    ///     Called with the number of processed primitives and their total.
     ///
     /// Returns
     /// -------
     /// dict
-    ///     What was changed.
+    ///     The numbers of changed items.
     #[pyo3(signature = (source, target, *, progress=None))]
     fn convert<'py>(
         &mut self,
@@ -331,7 +331,7 @@ impl Document {
 }
 
 impl Document {
-    /// The document, unless an edit left it half done.
+    /// The document. Errors: an earlier edit was interrupted.
     fn whole(&self) -> PyResult<&gltf::Document> {
         if self.is_half_done {
             let sentence =
@@ -355,7 +355,7 @@ impl Document {
         py.detach(|| self.document.read_vectors(accessor)).map_err(file_error)
     }
 
-    /// Edits the document without the GIL and gives the summary as Python's own types.
+    /// Edits the document without the GIL and returns the summary as plain Python objects.
     fn edit<'py, S: Serialize + Send>(
         &mut self,
         py: Python<'py>,
@@ -376,7 +376,7 @@ impl Document {
         self.is_half_done = true;
         let (document, cancel) = (&mut self.document, &Cancel::new());
         let work = move |sender: &Sender<Progress>| {
-            // The listener stays until the sender is gone.
+            // The receiver lives until the sender is dropped.
             let mut report = |progress| _ = sender.send(progress);
             edit(document, &mut Context::new().with_cancel(cancel), &mut report)
         };
@@ -391,19 +391,19 @@ impl Document {
     }
 }
 
-/// Plain Python data of what serde writes.
+/// Converts a serialisable value to plain Python objects.
 fn python_of<'py>(py: Python<'py>, value: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
     let text = serde_json::to_string(value).map_err(|error| PyValueError::new_err(error.to_string()))?;
     py.import("json")?.call_method1("loads", (text,))
 }
 
-/// The sentence of darboux-io: an OSError where the system refuses, otherwise a ValueError.
+/// Converts an error of darboux-io: an OSError for errors of the operating system, otherwise a ValueError.
 fn file_error(error: darboux_io::Error) -> PyErr {
     let sentence = error.to_string();
     match error {
         darboux_io::Error::Read { source, .. } | darboux_io::Error::Write { source, .. } => {
             match source.raw_os_error() {
-                // Python picks the class by the number: FileNotFoundError, PermissionError.
+                // Python selects the subclass by errno: FileNotFoundError, PermissionError.
                 Some(number) => PyOSError::new_err((number, sentence)),
                 None => PyOSError::new_err(sentence),
             }

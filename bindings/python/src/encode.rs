@@ -1,4 +1,4 @@
-//! Tangents and normals in fewer bytes, and back: `darboux.encode`.
+//! `darboux.encode`: encodes tangents and normals in fewer bytes, and decodes them.
 
 use darboux::encode;
 use numpy::prelude::*;
@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 
 use crate::arrays::{Rows, array_of, packed, rows_array, shape_text, wrong_type};
 
-/// `N` integers per row, of just the type that the encoding has.
+/// `N` integers per row, of exactly the encoding's type.
 struct Codes<'py, T: Element, const N: usize>(PyReadonlyArrayDyn<'py, T>);
 
 impl<T: Element, const N: usize> Codes<'_, T, N> {
@@ -41,12 +41,12 @@ fn rows<'py, const N: usize>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<
     Rows::new(name, "C", value)
 }
 
-/// What `change` makes of each row, without the GIL.
+/// Applies `change` to each row, without the GIL.
 fn mapped<A: Copy + Sync, B: Send>(py: Python<'_>, rows: &[A], change: impl Fn(A) -> B + Sync) -> Vec<B> {
     py.detach(|| rows.iter().map(|&row| change(row)).collect())
 }
 
-/// What `change` makes of each normal and what belongs to it, without the GIL. Errors: arrays of different lengths.
+/// Applies `change` to each normal and its partner row, without the GIL. Errors: the arrays differ in length.
 fn mapped_pairs<A: Copy + Sync, B: Send>(
     py: Python<'_>,
     normals: &[[f32; 3]],
@@ -80,27 +80,27 @@ macro_rules! encodings {
 }
 
 encodings! {
-    /// (C, 4) float32 to (C, 4) int8; directions turn by up to 0.40 degrees.
+    /// (C, 4) float32 to (C, 4) int8; error up to 0.40 degrees.
     fn tangent_to_snorm8(tangents: [f32; 4]) -> [i8; 4];
-    /// (C, 4) int8 to (C, 4) float32, not made unit.
+    /// (C, 4) int8 to (C, 4) float32, not normalised.
     fn tangent_from_snorm8(codes: [i8; 4]) -> [f32; 4];
-    /// (C, 4) float32 to (C, 4) int16; directions turn by up to 0.0016 degrees.
+    /// (C, 4) float32 to (C, 4) int16; error up to 0.0016 degrees.
     fn tangent_to_snorm16(tangents: [f32; 4]) -> [i16; 4];
-    /// (C, 4) int16 to (C, 4) float32, not made unit.
+    /// (C, 4) int16 to (C, 4) float32, not normalised.
     fn tangent_from_snorm16(codes: [i16; 4]) -> [f32; 4];
-    /// (C, 4) float32 to (C,) uint32, A2B10G10R10_SNORM; directions turn by up to 0.098 degrees.
+    /// (C, 4) float32 to (C,) uint32, A2B10G10R10_SNORM; error up to 0.098 degrees.
     fn tangent_to_snorm10(tangents: [f32; 4]) -> [u32; 1];
-    /// (C, 4) float32 to (C, 2) int16, the sign in the lowest bit of y; directions turn by up to 0.0057 degrees.
+    /// (C, 4) float32 to (C, 2) int16, the sign in the lowest bit of y; error up to 0.0057 degrees.
     fn tangent_to_octahedral(tangents: [f32; 4]) -> [i16; 2];
     /// (C, 2) int16 to (C, 4) float32.
     fn tangent_from_octahedral(codes: [i16; 2]) -> [f32; 4];
-    /// (C, 3) float32 to (C, 2) int16; directions turn by up to 0.0038 degrees.
+    /// (C, 3) float32 to (C, 2) int16; error up to 0.0038 degrees.
     fn normal_to_octahedral(normals: [f32; 3]) -> [i16; 2];
     /// (C, 2) int16 to (C, 3) float32.
     fn normal_from_octahedral(codes: [i16; 2]) -> [f32; 3];
 }
 
-/// (C,) uint32 to (C, 4) float32, not made unit.
+/// (C,) uint32 to (C, 4) float32, not normalised.
 #[pyfunction]
 pub fn tangent_from_snorm10<'py>(py: Python<'py>, codes: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let codes = self::codes::<u32, 1>(codes)?;
@@ -108,9 +108,9 @@ pub fn tangent_from_snorm10<'py>(py: Python<'py>, codes: &Bound<'py, PyAny>) -> 
     Ok(rows_array(py, tangents)?.into_any())
 }
 
-/// (C, 3) and (C, 4) float32 to (C,) uint16: the place around the normal, which must be the bits that the decoder will be given.
+/// (C, 3) and (C, 4) float32 to (C,) uint16: the angle around the normal. The decoder must get exactly the same normal.
 ///
-/// Directions turn by up to 0.0071 degrees.
+/// The error is up to 0.0071 degrees.
 #[pyfunction]
 pub fn tangent_to_diamond<'py>(
     py: Python<'py>,
@@ -123,7 +123,7 @@ pub fn tangent_to_diamond<'py>(
     Ok(PyArray1::from_vec(py, codes).into_any())
 }
 
-/// (C, 3) float32, the bits that the encoder was given, and (C,) uint16 to (C, 4) float32.
+/// (C, 3) float32, exactly the normals given to the encoder, and (C,) uint16 to (C, 4) float32.
 #[pyfunction]
 pub fn tangent_from_diamond<'py>(
     py: Python<'py>,
@@ -136,7 +136,7 @@ pub fn tangent_from_diamond<'py>(
     Ok(rows_array(py, tangents)?.into_any())
 }
 
-/// (C, 3) and (C, 4) float32 to (C, 4) int16: the whole frame as a quaternion; directions turn by up to 0.0047 degrees.
+/// (C, 3) and (C, 4) float32 to (C, 4) int16: the whole frame as a quaternion; error up to 0.0047 degrees.
 #[pyfunction]
 pub fn frame_to_quaternion<'py>(
     py: Python<'py>,

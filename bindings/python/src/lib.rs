@@ -1,6 +1,6 @@
 //! The Python package: numpy arrays in, numpy arrays out, the GIL released in between.
 //!
-//! What is here becomes `darboux._darboux`; `python/darboux` gives it to users, with the named tuples that results are made of
+//! This crate becomes `darboux._darboux`. `python/darboux` re-exports it with the named tuples of results
 //! and the adapters to other packages. Doc comments of functions are their Python docstrings.
 
 mod arrays;

@@ -1,4 +1,4 @@
-//! Batches: what darboux-cli makes of many files, with the processes left to Python.
+//! Batches of files: darboux-cli plans and records the work, and Python runs the worker processes.
 
 use std::path::PathBuf;
 
@@ -8,21 +8,21 @@ use pyo3::prelude::*;
 use crate::numbers::Threads;
 use crate::threads::limited;
 
-/// Models on their way into a folder of outputs: an order per file, and the journal that takes the answers.
+/// A batch of models with one output folder: one order per file, and the journal that records the answers.
 ///
 /// Parameters
 /// ----------
 /// inputs : list of path-like
 ///     Files and folders.
 /// folder : path-like
-///     Of outputs. While the library is open no other run can write there.
+///     The output folder. No other run can write there while the library is open.
 /// options : list of str
-///     Of `darboux tangents`.
+///     Options of `darboux tangents`.
 ///
 /// Raises
 /// ------
 /// ValueError
-///     What the command refuses; another run that writes there.
+///     The command refuses the options; another run uses the folder.
 #[pyclass(frozen, module = "darboux._darboux")]
 pub struct Library(darboux_cli::Library);
 
@@ -33,36 +33,36 @@ impl Library {
         darboux_cli::Library::open(&inputs, &folder, &options).map(Self).map_err(PyValueError::new_err)
     }
 
-    /// An order per file, JSON.
+    /// One order per file, as JSON.
     #[getter]
     fn orders(&self) -> Vec<String> {
         self.0.orders().to_vec()
     }
 
-    /// The reports of places that could not be searched, JSON.
+    /// Reports of folders that could not be searched, as JSON.
     #[getter]
     fn failed(&self) -> Vec<String> {
         self.0.failed().to_vec()
     }
 
-    /// Note an answer in the journal.
+    /// Record an answer in the journal.
     fn take(&self, answer: &str) -> PyResult<()> {
         self.0.take(answer).map_err(PyValueError::new_err)
     }
 
-    /// Remove what killed workers left half-written, and let other runs write there. No worker may be at work.
+    /// Remove unfinished files of killed workers and release the folder. No worker may be running.
     fn close(&self) -> PyResult<()> {
         self.0.close().map_err(PyValueError::new_err)
     }
 }
 
-/// Do what an order says with so many threads; return the answer.
+/// Process an order with this number of threads; return the answer.
 #[pyfunction]
 pub fn carry_out(py: Python<'_>, order: &str, threads: Threads) -> PyResult<String> {
     limited(py, threads, || darboux_cli::carry_out(order))?.map_err(PyValueError::new_err)
 }
 
-/// The answer to an order whose worker was lost for that reason.
+/// The answer for an order whose worker was lost for the given reason.
 #[pyfunction]
 pub fn give_up(order: &str, reason: &str) -> PyResult<String> {
     darboux_cli::give_up(order, reason).map_err(PyValueError::new_err)

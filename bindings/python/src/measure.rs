@@ -1,4 +1,4 @@
-//! How far tangents are apart, and how well they follow the UVs.
+//! Measures differences between tangents, and how well tangents follow the UVs.
 
 use darboux::{Context, Mesh, Strided};
 use numpy::PyArray1;
@@ -25,7 +25,7 @@ use crate::threads::cancellable;
 /// Raises
 /// ------
 /// TypeError, ValueError
-///     As generate_tangents; another number of corners.
+///     As for generate_tangents; the number of corners differs.
 #[pyfunction]
 pub fn measure_tangents<'py>(
     py: Python<'py>,
@@ -63,7 +63,7 @@ pub fn measure_tangents<'py>(
 /// tangents : (C, 4) array_like
 ///     One per corner.
 /// faces : 3, 4 or (F,) array_like of integers, optional
-///     As for generate_tangents; quads count as the halves of diagonal 0-2.
+///     As for generate_tangents; quads are split along the diagonal 0-2.
 ///
 /// Returns
 /// -------
@@ -73,7 +73,7 @@ pub fn measure_tangents<'py>(
 /// Raises
 /// ------
 /// TypeError, ValueError
-///     As generate_tangents; another number of corners.
+///     As for generate_tangents; the number of corners differs.
 #[pyfunction]
 #[pyo3(signature = (positions, uvs, indices, tangents, *, faces=None))]
 pub fn measure_uv_fidelity<'py>(

@@ -1,4 +1,4 @@
-//! The mesh of a call: arrays that stay borrowed while the core reads them.
+//! The mesh arguments of a call: arrays that stay borrowed while the core reads them.
 
 use std::fmt::Display;
 
@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 
 use crate::arrays::{Rows, array_of, packed, shape_text, wrong_type};
 
-/// The arrays of a mesh, as Python gave them.
+/// The array arguments of a mesh.
 pub struct MeshArrays<'py> {
     positions: Rows<'py, 3>,
     normals: Rows<'py, 3>,
@@ -35,7 +35,7 @@ impl<'py> MeshArrays<'py> {
         Ok(Self { positions, normals, uvs, indices, faces })
     }
 
-    /// The mesh that the core works on.
+    /// The mesh as a view for the core.
     pub fn view(&self) -> PyResult<Mesh<'_>> {
         let (positions, normals, uvs) = (self.positions.view()?, self.normals.view()?, self.uvs.view()?);
         Mesh::with_faces(positions, normals, uvs, self.indices.view()?, self.faces.view())
@@ -43,12 +43,12 @@ impl<'py> MeshArrays<'py> {
     }
 }
 
-/// The sentence of the core as a ValueError.
+/// Converts an error of the core to a ValueError.
 pub fn value_error(error: MeshError) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 
-/// A copy of indices; none where corner i is vertex i.
+/// A copy of the indices; `None` if corner i is vertex i.
 pub fn owned(indices: Indices<'_>) -> Option<Vec<u32>> {
     match indices {
         Indices::Unindexed => None,
@@ -57,10 +57,10 @@ pub fn owned(indices: Indices<'_>) -> Option<Vec<u32>> {
     }
 }
 
-/// Indices: in numpy's memory where they are uint16 or uint32 and packed, else copied.
+/// Indices: borrowed from numpy if they are packed uint16 or uint32, otherwise copied.
 pub struct IndexArray<'py> {
     list: IndexList<'py>,
-    /// The shape they came in.
+    /// Their shape in Python.
     pub shape: Vec<usize>,
 }
 
@@ -72,7 +72,7 @@ enum IndexList<'py> {
 }
 
 impl<'py> IndexArray<'py> {
-    /// Indices of shape (C,), (F, 3) or (F, 4), of any integer type; none where corner i is vertex i.
+    /// Indices of shape (C,), (F, 3) or (F, 4), of any integer type; `None` if corner i is vertex i.
     pub fn new(value: Option<&Bound<'py, PyAny>>) -> PyResult<Self> {
         let Some(value) = value else { return Ok(Self { list: IndexList::Absent, shape: Vec::new() }) };
         let array = array_of("indices", value)?;
@@ -86,7 +86,7 @@ impl<'py> IndexArray<'py> {
         Ok(Self { list: IndexList::new(&array)?, shape })
     }
 
-    /// The number of corners, if indices say so.
+    /// The number of corners, if there are indices.
     pub fn len(&self) -> Option<usize> {
         (!matches!(self.list, IndexList::Absent)).then(|| self.shape.iter().product())
     }
@@ -108,7 +108,7 @@ impl<'py> IndexList<'py> {
             (b'u', 2) => Self::U16(packed(array)?),
             (b'u', 4) => Self::U32(packed(array)?),
             (b'u' | b'i', _) => Self::Copied(unsigned("indices", array)?),
-            // An empty list is one of floats, as numpy sees it.
+            // numpy converts an empty list to floats.
             _ if array.is_empty() => Self::Copied(Vec::new()),
             _ => return Err(wrong_type("indices", "integers", array)),
         })
@@ -125,7 +125,7 @@ fn unsigned(name: &str, array: &Bound<'_, PyUntypedArray>) -> PyResult<Vec<u32>>
     }
 }
 
-/// `bits` of a negative number are those of a large one.
+/// Negative numbers become large ones, which the core refuses.
 fn narrowed<T: Element + Copy + Display + Sync>(
     name: &str,
     array: &Bound<'_, PyUntypedArray>,
@@ -146,7 +146,7 @@ fn narrowed<T: Element + Copy + Display + Sync>(
     }
 }
 
-/// How many corners faces have.
+/// The corner counts of faces.
 pub enum FaceSizes {
     Triangles,
     Quads,
@@ -177,7 +177,7 @@ impl FaceSizes {
             return Ok(Self::Mixed(Vec::new()));
         }
         let sizes = unsigned("faces", &array)?;
-        // The core is faster where it knows that faces are equal. Counts that do not add up are its to refuse.
+        // The core is faster if all faces have the same size. It also checks that the counts add up.
         let corners = indices.len().unwrap_or(vertex_count);
         let all_are =
             |size: u32| corners == sizes.len() * size as usize && sizes.iter().all(|&it| it == size);

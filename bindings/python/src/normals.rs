@@ -1,4 +1,4 @@
-//! Normals of corners.
+//! Computes normals per corner.
 
 use darboux::{Context, NormalOptions, NormalWeight, Shading, SmoothingSeams};
 use pyo3::exceptions::PyValueError;
@@ -33,14 +33,14 @@ pub fn normal_options(shading: &str, weight: &str, crease: f32, seams: &str) -> 
 
 /// Compute a unit normal for every corner.
 ///
-/// These are not vertex normals: split_normals gives vertices and new indices. Faces wind counter-clockwise seen from where their normal
+/// The result is per corner, not per vertex: split_normals returns vertices and new indices. Faces are counter-clockwise seen from the side to which their normal
 /// points.
 ///
 /// Parameters
 /// ----------
 /// positions : (V, 3) array_like
 /// indices : (C,), (F, 3) or (F, 4) array_like of integers, optional
-///     The vertex of each corner. Without, every vertex is a corner of its own.
+///     The vertex of each corner. Without indices, every vertex is a corner of its own.
 /// faces : 3, 4 or (F,) array_like of integers, optional
 ///     Corners per face, of any size from 3 on. Without, indices of shape (F, 4) are quads, all else triangles.
 /// shading : str
@@ -50,7 +50,7 @@ pub fn normal_options(shading: &str, weight: &str, crease: f32, seams: &str) -> 
 /// crease : float
 ///     Degrees: smooth shading stops at edges whose faces' normals differ by more.
 /// seams : str
-///     'ignored': vertices at equal positions are one; 'respected': distinct vertices have distinct normals.
+///     'ignored': vertices at equal positions share normals; 'respected': only vertices of the index list do.
 /// return_report : bool
 ///     Return (normals, NormalReport).
 ///
@@ -61,7 +61,7 @@ pub fn normal_options(shading: &str, weight: &str, crease: f32, seams: &str) -> 
 /// Raises
 /// ------
 /// TypeError, ValueError
-///     As generate_tangents.
+///     As for generate_tangents.
 #[pyfunction]
 #[pyo3(signature = (
     positions, indices=None, *, faces=None, shading="smooth", weight="angle", crease=180.0, seams="ignored",

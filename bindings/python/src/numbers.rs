@@ -1,23 +1,23 @@
-//! Numbers that a caller may have made up, and in which range they must be.
+//! Checks the ranges of numbers that callers pass.
 
 use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-/// Of threads: it must not exhaust the machine.
+/// The largest number of threads; more could exhaust the machine.
 const MOST_THREADS: i64 = 1024;
 
-/// How many threads work is done on.
+/// A number of threads.
 #[derive(Clone, Copy)]
 pub struct Threads(pub usize);
 
 impl Threads {
-    /// Of so many as a caller may have left out: 0 stands for as many as the machine has.
+    /// From an optional argument; 0 stands for the number of hardware threads.
     pub fn or_all(threads: Option<Self>) -> usize {
         threads.map_or(0, |Threads(number)| number)
     }
 }
 
-/// How many vertices a mesh has.
+/// A number of vertices.
 #[derive(Clone, Copy)]
 pub struct VertexCount(pub usize);
 
@@ -37,7 +37,7 @@ impl<'py> FromPyObject<'_, 'py> for VertexCount {
     }
 }
 
-/// An angle: infinite where it is larger than any float, which its reader refuses.
+/// An angle. Numbers beyond the range of floats become infinite, which later checks refuse.
 pub fn degrees(value: &Bound<'_, PyAny>) -> PyResult<f32> {
     match value.extract::<f64>() {
         Err(error) if error.is_instance_of::<PyOverflowError>(value.py()) => Ok(f32::INFINITY),
@@ -45,7 +45,7 @@ pub fn degrees(value: &Bound<'_, PyAny>) -> PyResult<f32> {
     }
 }
 
-/// A whole number of a range. Errors: a TypeError for what is none, a ValueError for one elsewhere.
+/// An integer in a range. Errors: TypeError if it is not an integer, ValueError if it is out of range.
 fn whole(name: &str, value: &Bound<'_, PyAny>, least: i64, most: i64) -> PyResult<usize> {
     match value.extract::<i64>() {
         Ok(number) if (least..=most).contains(&number) => return Ok(number as usize),
@@ -58,7 +58,7 @@ fn whole(name: &str, value: &Bound<'_, PyAny>, least: i64, most: i64) -> PyResul
     Err(PyValueError::new_err(format!("{name} is {value}; it must be from {least} to {most}")))
 }
 
-/// A place in a list: the nearest that can be written where the number is larger than any. Errors: a TypeError for what is no whole number.
+/// An index into a list, clamped to the range of the type. Errors: TypeError if it is not an integer.
 pub fn place(value: &Bound<'_, PyAny>) -> PyResult<i64> {
     match value.extract::<i64>() {
         Err(error) if error.is_instance_of::<PyOverflowError>(value.py()) => {

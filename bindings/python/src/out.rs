@@ -1,4 +1,4 @@
-//! Arrays that results are written into: the caller's own, or new ones.
+//! Output arrays: the caller's or new ones.
 
 use numpy::prelude::*;
 use numpy::{PyArray2, PyReadwriteArray2, PyUntypedArray};
@@ -7,11 +7,11 @@ use pyo3::prelude::*;
 
 use crate::arrays::{shape_text, wrong_type};
 
-/// Where one tangent per corner goes.
+/// The destination of the tangents, one per corner.
 pub enum Target<'py> {
-    /// Written where it lies.
+    /// Written in place.
     Direct(Bound<'py, PyArray2<f32>>),
-    /// Written into the new array first, as the caller's is not packed, or overlaps what is read.
+    /// Written into a new array first and copied, because the caller's array is not packed or overlaps the input.
     Copied { to: Bound<'py, PyUntypedArray>, from: Bound<'py, PyArray2<f32>> },
 }
 
@@ -43,7 +43,7 @@ impl<'py> Target<'py> {
         }
     }
 
-    /// Writes, and gives the caller's array or the new one. `write` is given one tangent per corner to fill.
+    /// Calls `write` with a slice of one tangent per corner, and returns the caller's array or the new one.
     pub fn fill<R>(
         self,
         py: Python<'py>,
@@ -63,7 +63,7 @@ impl<'py> Target<'py> {
     }
 }
 
-/// A new array of shape (rows, columns). numpy asks the system for large pages, which are cheaper to get than many small ones.
+/// A new array of shape (rows, columns). numpy requests large pages from the system, which is faster than many small ones.
 pub fn fresh(py: Python<'_>, rows: usize, columns: usize) -> PyResult<Bound<'_, PyArray2<f32>>> {
     let made = py.import("numpy")?.call_method1("empty", ((rows, columns), numpy::dtype::<f32>(py)))?;
     Ok(made.cast_into()?)

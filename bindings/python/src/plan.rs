@@ -1,4 +1,4 @@
-//! Topology once, evaluate often.
+//! Plans: compute the topology once, evaluate tangents often.
 
 use std::sync::Mutex;
 
@@ -15,8 +15,8 @@ use crate::threads::cancellable;
 
 /// The weld, groups and subgroups of one mesh, kept to evaluate tangents again after its vertices moved.
 ///
-/// Methods other than 'mikktspace' have no groups: they run afresh, but for the signs.
-/// Nothing of the arrays is kept but copies of UVs and indices. Several threads may use one plan at once.
+/// Methods other than 'mikktspace' and 'angle-area' keep only the signs and compute everything else again.
+/// The plan keeps copies of UVs and indices, and no reference to the arrays. Several threads may use a plan at the same time.
 ///
 /// Parameters
 /// ----------
@@ -29,11 +29,11 @@ pub struct Plan {
     indices: Option<Vec<u32>>,
     faces: FaceSizes,
     is_slow: bool,
-    /// Memory that evaluations keep from one to the next. Two at once do not share it.
+    /// Memory that evaluations reuse. Simultaneous evaluations do not share it.
     context: Mutex<Context>,
 }
 
-/// The vertices of a mesh that moved.
+/// The vertices of a moved mesh.
 struct Moved<'py> {
     positions: Rows<'py, 3>,
     normals: Rows<'py, 3>,
@@ -47,7 +47,7 @@ impl<'py> Moved<'py> {
 }
 
 impl Plan {
-    /// The mesh with these positions and normals. Errors: those of a mesh.
+    /// The mesh with these positions and normals. Errors: the arrays do not fit.
     fn moved<'a>(&'a self, moved: &'a Moved<'_>) -> PyResult<Mesh<'a>> {
         let indices = self.indices.as_ref().map_or(Indices::Unindexed, Indices::from);
         let (positions, normals) = (moved.positions.view()?, moved.normals.view()?);
@@ -88,27 +88,27 @@ impl Plan {
         Ok(Self { plan, uvs, indices, faces: arrays.faces, is_slow, context: Mutex::default() })
     }
 
-    /// The tangents of the mesh that the plan was made of: a new (C, 4) float32 array, as generate_tangents gives it.
+    /// The tangents of the plan's own mesh: a new (C, 4) float32 array, the same as from generate_tangents.
     #[getter]
     fn base<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let tangents = py.detach(|| self.plan.base().corners.per_corner().to_vec());
         Ok(rows_array(py, tangents)?.into_any())
     }
 
-    /// What was met on the way.
+    /// The report on the plan's own mesh.
     #[getter]
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         results::report(py, &self.plan.base().report)
     }
 
-    /// Compute the tangents of the moved mesh in the base's groups and subgroups; signs stay the base's.
+    /// Compute the tangents of the moved mesh with the groups, subgroups and signs of the plan.
     ///
     /// Parameters
     /// ----------
     /// positions, normals : (V, 3) array_like
-    ///     Of the same vertices.
+    ///     Of the moved vertices, in the same order.
     /// threads, out
-    ///     As for generate_tangents. With `out`, and unless tangents meet what is rare, nothing is allocated.
+    ///     As for generate_tangents. With `out`, nothing is allocated unless some vertices need the exact stages.
     ///
     /// Returns
     /// -------
@@ -117,7 +117,7 @@ impl Plan {
     /// Raises
     /// ------
     /// TypeError, ValueError
-    ///     As generate_tangents; another number of vertices.
+    ///     As for generate_tangents; the number of vertices differs.
     #[pyo3(signature = (positions, normals, *, threads=None, out=None))]
     fn evaluate<'py>(
         &self,
@@ -138,7 +138,7 @@ impl Plan {
         filled.map(|(tangents, ())| tangents)
     }
 
-    /// Count the corners that a fresh run on the moved mesh would give another tangent (other bits) than evaluate does.
+    /// Count the corners for which a new run on the moved mesh gives other bits than evaluate.
     fn count_regrouped(
         &self,
         py: Python<'_>,

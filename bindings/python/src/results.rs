@@ -1,15 +1,15 @@
-//! Results as the named tuples of `darboux._results`.
+//! Converts results to the named tuples of `darboux._results`.
 
 use darboux::Report;
 use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
 
-/// The named tuple `name` of `fields`.
+/// A named tuple of type `name` with these fields.
 pub fn named<'py>(py: Python<'py>, name: &str, fields: impl PyCallArgs<'py>) -> PyResult<Bound<'py, PyAny>> {
     py.import("darboux._results")?.getattr(name)?.call1(fields)
 }
 
-/// What was met on the way.
+/// The report as a named tuple.
 pub fn report<'py>(py: Python<'py>, report: &Report) -> PyResult<Bound<'py, PyAny>> {
     let fields = (
         report.triangles,

@@ -1,4 +1,4 @@
-//! Corner values back to an indexed mesh.
+//! Splits vertices, so that values per corner become values per vertex of an indexed mesh.
 
 use darboux::{CornerNormalsRef, CornerTangentsRef, Faces, Mesh, MeshError, Strided};
 use numpy::PyArray1;
@@ -11,19 +11,19 @@ use crate::mesh::{IndexArray, value_error};
 use crate::numbers::VertexCount;
 use crate::results::named;
 
-/// Split the vertices whose corners need different tangents, as few as correctness allows.
+/// Split the vertices whose corners need different tangents, into as few vertices as possible.
 ///
-/// One vertex per distinct pair of old vertex and tangent (all four floats compared as bits). Old vertices keep their number, further
-/// ones come after them. Gather every other attribute with the source table: new = old[split.source_of_vertex].
+/// One vertex per distinct pair of old vertex and tangent (all four floats compared as bits). Old vertices keep their number, new
+/// ones come after them. Copy all other attributes with the source table: new = old[split.source_of_vertex].
 ///
 /// Parameters
 /// ----------
 /// indices : (C,), (F, 3) or (F, 4) array_like of integers
 ///     The vertex of each corner.
 /// tangents : (C, 4) array_like
-///     One per corner, as generate_tangents gives them.
+///     One per corner, from generate_tangents.
 /// vertex_count : int
-///     V, used or not.
+///     V, the number of vertices, including unused ones.
 ///
 /// Returns
 /// -------
@@ -33,7 +33,7 @@ use crate::results::named;
 /// Raises
 /// ------
 /// TypeError, ValueError
-///     As generate_tangents; tangents of another number of corners.
+///     As for generate_tangents; the number of tangents differs from the number of corners.
 #[pyfunction]
 pub fn split_vertices<'py>(
     py: Python<'py>,
@@ -49,7 +49,7 @@ pub fn split_vertices<'py>(
     check_corners(&indices, "tangents", tangents.len())?;
     let list = indices.view()?;
     let split = py.detach(|| {
-        // Splitting asks for numbers alone: of vertices, and of corners in one large face.
+        // Splitting needs only the vertex count and the corners, here as one large face.
         let (nothing, uvs) =
             (Strided::repeated(&[0.0; 3], vertex_count), Strided::repeated(&[0.0; 2], vertex_count));
         let size = [tangents.len() as u32];
@@ -72,9 +72,9 @@ pub fn split_vertices<'py>(
 /// indices : (C,), (F, 3) or (F, 4) array_like of integers
 ///     The vertex of each corner.
 /// normals : (C, 3) array_like
-///     One per corner, as generate_normals gives them.
+///     One per corner, from generate_normals.
 /// vertex_count : int
-///     V, used or not.
+///     V, the number of vertices, including unused ones.
 ///
 /// Returns
 /// -------
@@ -84,7 +84,7 @@ pub fn split_vertices<'py>(
 /// Raises
 /// ------
 /// TypeError, ValueError
-///     As generate_tangents; normals of another number of corners.
+///     As for generate_tangents; the number of normals differs from the number of corners.
 #[pyfunction]
 pub fn split_normals<'py>(
     py: Python<'py>,
@@ -110,9 +110,9 @@ pub fn split_normals<'py>(
     named(py, "NormalSplit", fields)
 }
 
-/// A number that a caller made up must not end the process: the tables of this many vertices have to fit. Errors: they do not.
+/// Checks that tables for this many vertices can be allocated, so that a wrong count does not abort the process. Errors: they cannot.
 fn check_room(vertex_count: usize) -> PyResult<()> {
-    // A tangent, its source and a link.
+    // Bytes per vertex: a tangent, its source and a link.
     if Vec::<[u32; 6]>::new().try_reserve_exact(vertex_count).is_ok() {
         return Ok(());
     }
@@ -121,7 +121,7 @@ fn check_room(vertex_count: usize) -> PyResult<()> {
     )))
 }
 
-/// Errors: values of another number of corners.
+/// Errors: the number of values differs from the number of corners.
 fn check_corners(indices: &IndexArray<'_>, what: &'static str, found: usize) -> PyResult<()> {
     match indices.len() {
         Some(expected) if expected != found => {

@@ -1,4 +1,4 @@
-//! Tangents of corners.
+//! Computes tangents per corner.
 
 use std::sync::Mutex;
 
@@ -16,34 +16,34 @@ use crate::threads::cancellable;
 
 /// Compute the tangent of every corner: unit xyz and the sign w, bitangent = w * cross(normal, xyz).
 ///
-/// These are not vertex tangents. Corners of one vertex may disagree (at mirrored seams they do), so they cannot be written
-/// through the mesh's indices: split_vertices gives vertices and new indices. Without indices they are the vertices' own.
+/// The result is per corner, not per vertex. Corners of one vertex can have different tangents (at mirrored seams they do), so they cannot be written
+/// through the mesh's indices: split_vertices returns vertices and new indices. Without indices, corners are vertices.
 ///
 /// Parameters
 /// ----------
 /// positions, normals : (V, 3) array_like
-///     Any real numbers; computed in float32. Normals are used as given, which should be unit length.
+///     Any real type; computed in float32. Normals should have unit length; they are used as given.
 /// uvs : (V, 2) array_like
 /// indices : (C,), (F, 3) or (F, 4) array_like of integers, optional
 ///     The vertex of each corner. Without, every vertex is a corner of its own.
 /// faces : 3, 4 or (F,) array_like of integers, optional
-///     Corners per face. Without, indices of shape (F, 4) are quads, all else triangles. Faces of other sizes get tangents from their
-///     normals alone and are counted.
+///     Corners per face. By default indices of shape (F, 4) are quads and all others triangles. Faces with more corners get tangents from their
+///     normals only, and are counted.
 /// method : str
 ///     'mikktspace', which bakers use, 'angle-area', 'lengyel', 'lengyel-per-vertex', 'average', 'area', 'face' or 'from-normal'.
 /// mode : str
-///     'reference': every bit of mikktspace.c, its defects included; 'repaired': the same but for unusable tangents;
-///     'corrected': its known defects corrected as well.
+///     For 'mikktspace'. 'reference': the bits of mikktspace.c, its defects included; 'repaired': the same, with unusable tangents replaced;
+///     'corrected': repaired, and the known defects corrected.
 /// threshold : float
-///     mikktspace's alone: faces around a vertex share a tangent while their tangents and bitangents differ by less.
+///     For 'mikktspace', in degrees: faces around a vertex share a tangent if their tangents and bitangents differ by less.
 /// full : bool
 ///     Return Frames instead: tangent, bitangent and magnitude.
 /// threads : int, optional
-///     How many threads large meshes use; all of the machine by default. The result is the same for any number.
+///     The number of threads for large meshes; by default all hardware threads. The result does not depend on it.
 /// out : (C, 4) float32 array, optional
-///     Written and returned. Calls with `out` keep their working memory for the next.
+///     The result is written here and returned. Calls with `out` reuse their working memory.
 /// return_report : bool
-///     Return (result, Report): what was met on the way, non-finite and degenerate input above all.
+///     Return (result, Report). The report counts non-finite and degenerate input and more.
 ///
 /// Returns
 /// -------

@@ -1,6 +1,6 @@
-//! Work without the GIL, on as many threads as asked for.
+//! Runs work without the GIL, on the requested number of threads.
 //!
-//! The pools are ours, by process: a child that Python forked has none of its parent's threads, so work for the parent's pool would
+//! Each process has thread pools of its own: a forked child has none of its parent's threads, so work for the parent's pool would
 //! wait forever.
 
 use std::collections::HashMap;
@@ -16,7 +16,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use crate::mesh::value_error;
 use crate::numbers::Threads;
 
-/// The pools of a process by their number of threads; 0 stands for as many as the machine has.
+/// The pools of a process, by number of threads; 0 stands for the number of hardware threads.
 struct Pools {
     process: u32,
     by_threads: HashMap<usize, Arc<ThreadPool>>,
@@ -24,10 +24,10 @@ struct Pools {
 
 static POOLS: Mutex<Option<Pools>> = Mutex::new(None);
 
-/// Meshes of fewer corners are worth no second thread: they are done where they are, which saves waking one.
+/// Meshes with fewer corners run on the calling thread, because waking a pool costs more than it gains.
 const FEWEST_CORNERS: usize = 3 << 14;
 
-/// Does `work` without the GIL on so many threads.
+/// Runs `work` without the GIL on this number of threads.
 pub fn limited<R: Send>(
     py: Python<'_>,
     Threads(threads): Threads,
@@ -37,12 +37,12 @@ pub fn limited<R: Send>(
     Ok(py.detach(|| pool.install(work)))
 }
 
-/// The pool of this process with so many threads; 0 stands for as many as the machine has. The GIL is held, so nobody forks while the lock is.
+/// The pool of this process with this number of threads; 0 stands for the number of hardware threads. The GIL is held, so no fork can happen while the lock is held.
 fn pool(threads: usize) -> PyResult<Arc<ThreadPool>> {
     let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
     let process = std::process::id();
     if pools.as_ref().is_some_and(|pools| pools.process != process) {
-        // To drop the parent's would be to wait for threads that are not here.
+        // Dropping the parent's pools would wait for threads that do not exist in this process.
         std::mem::forget(pools.take());
     }
     let pools = pools.get_or_insert_with(|| Pools { process, by_threads: HashMap::new() });
@@ -59,8 +59,8 @@ fn pool(threads: usize) -> PyResult<Arc<ThreadPool>> {
     Ok(pool)
 }
 
-/// Does `work` over so many corners without the GIL, with `context`. Ctrl-C cancels it. `is_slow`: it may take time in the square of
-/// its size.
+/// Runs `work` on this number of corners without the GIL, with `context`. Ctrl-C cancels it. `is_slow`: the work may take quadratic
+/// time.
 pub fn cancellable<R: Send>(
     py: Python<'_>,
     threads: Option<Threads>,
@@ -80,12 +80,12 @@ pub fn cancellable<R: Send>(
     attended(py, Threads::or_all(threads), work, |()| Ok(()), || cancel.cancel())?.map_err(value_error)
 }
 
-/// How often Python is asked for Ctrl-C while work goes on elsewhere.
+/// The interval between checks for Ctrl-C while another thread works.
 const PATIENCE: Duration = Duration::from_millis(50);
 
-/// Does `work` on a pool without the GIL, while this thread waits: it gives what work sends to `receive`, and takes Ctrl-C.
+/// Runs `work` on a pool without the GIL. This thread waits, passes messages of the work to `receive`, and checks for Ctrl-C.
 ///
-/// After Ctrl-C, or an error of `receive`, `stop` is called and the work's end waited for; its result is dropped. `threads`: as for [`pool`].
+/// After Ctrl-C or an error of `receive`, it calls `stop` and waits for the work to end; the result is dropped. `threads`: as for [`pool`].
 pub fn attended<M: Send, R: Send>(
     py: Python<'_>,
     threads: usize,
