@@ -1,4 +1,4 @@
-"""Many files: what is done with each, and what comes of all."""
+"""Batches: adds tangents to many files with worker processes, Ray or Dask, and collects the report."""
 
 import json
 import os
@@ -37,8 +37,8 @@ def batch(
 ) -> Dict[str, Any]:
     """Add tangents to many glTF and GLB files, as `darboux tangents FILES --out-dir OUT --resume` does, in many processes.
 
-    A batch that was stopped goes on when it is called again: files whose output was made of the same content by the same options are left
-    as they are, others are replaced. Outputs are whole or not there, whatever is killed. A file that fails is reported and stops nothing.
+    A batch that was stopped continues when it is called again: outputs made from the same content with the same options are kept,
+    others are replaced. Outputs are complete or absent, even if a process is killed. A file that fails is reported, and the others go on.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def _arguments(options: Dict[str, Any]) -> Iterator[str]:
 def _carried_out(
     library: Library, engine: Engine, retries: int, progress: Union[bool, Callable[[int, int], object]]
 ) -> List[Dict[str, Any]]:
-    """The reports of all files, in the order of the orders."""
+    """The reports of all files, in the order of the inputs."""
     orders = library.orders
     reports: List[Dict[str, Any]] = [{} for _ in orders]
     tries = [0] * len(orders)
@@ -132,7 +132,7 @@ def _carried_out(
 
 
 def _reason(error: Exception) -> str:
-    """One sentence. Clusters put a traceback before it, whose last line tells most; a lost worker's first line does."""
+    """Reduces an error to one sentence: the last line of a traceback from a cluster, or the first line about a lost worker."""
     lines = [line.strip() for line in str(error).splitlines() if line.strip()] or [type(error).__name__]
     return f"its worker was lost: {lines[0]}" if isinstance(error, Lost) else f"its worker raised an error: {lines[-1]}"
 
@@ -145,14 +145,14 @@ def _report(files: List[Dict[str, Any]]) -> Dict[str, Any]:
 
 
 def _write(path: Path, report: Dict[str, Any]) -> None:
-    """Whole or not at all."""
+    """Writes a file completely or not at all."""
     unfinished = path.with_name(f".darboux-{path.name}")
     unfinished.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
     os.replace(unfinished, path)
 
 
 class _Bar:
-    """Tells how many files are done."""
+    """Reports how many files are done."""
 
     def __init__(self, total: int, progress: Union[bool, Callable[[int, int], object]]) -> None:
         self.done, self.total = 0, total

@@ -1,4 +1,4 @@
-"""Where the files of a batch are worked on: processes of this machine, Ray, Dask."""
+"""Engines that process the files of a batch: local processes, Ray, Dask."""
 
 import os
 import subprocess
@@ -12,7 +12,7 @@ from typing import Any, Callable, Dict, List, Optional, Protocol, Tuple, Union
 from ._darboux import carry_out
 
 Ended = Tuple[int, Union[str, Exception]]
-"""The number of an order, and its answer or why there is none."""
+"""The number of an order, and its answer or the reason why there is none."""
 
 
 class Lost(Exception):
@@ -20,17 +20,17 @@ class Lost(Exception):
 
 
 class Engine(Protocol):
-    """Carries out orders. Once it is left nobody works on them any more: local workers and Ray's are ended, Dask's finish what they were
-    handed."""
+    """Processes orders. When the context ends, local workers and Ray's workers are stopped; Dask's workers finish their current
+    orders."""
 
     capacity: int
-    """The orders that it is worth starting at the same time."""
+    """The number of orders to start at the same time."""
 
     def start(self, number: int, order: str) -> None:
-        """Begin with an order."""
+        """Start an order."""
 
     def wait(self) -> Ended:
-        """The next order that has ended."""
+        """Wait for the next order that ends."""
         ...
 
     def __enter__(self) -> "Engine": ...
@@ -39,7 +39,7 @@ class Engine(Protocol):
 
 
 def carry_out_alone(order: str) -> str:
-    """What workers of a cluster do: one processor each, as the cluster hands them out."""
+    """The work of a cluster's workers, on one processor each."""
     return carry_out(order, 1)
 
 
@@ -52,7 +52,7 @@ main({threads})
 
 
 class Local:
-    """Processes of this machine, each with a thread here that waits for it. Whoever kills one costs its file one try, and no other."""
+    """Local worker processes, each with a waiting thread in this process. A killed worker costs only its own file one try."""
 
     def __init__(self, workers: Optional[int]) -> None:
         processors = os.cpu_count() or 1
@@ -152,7 +152,7 @@ class Ray:
 
 
 PATIENCE = 60
-"""Seconds for Dask's workers to end what they were handed by a batch that ends early."""
+"""Seconds that a batch that ends early waits for Dask's workers to finish."""
 
 
 class Dask:

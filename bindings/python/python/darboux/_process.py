@@ -1,4 +1,4 @@
-"""One file, from reading to writing."""
+"""Processes one file: reads it, adds normals and tangents, writes it."""
 
 import os
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What functions return. V vertices before, W after splitting; C corners."""
+"""The named tuples that functions return. V: vertices before splitting, W: after splitting, C: corners."""
 
 from typing import List, NamedTuple, Optional, Tuple
 
@@ -21,12 +21,12 @@ class Frames(NamedTuple):
 
 
 class Report(NamedTuple):
-    """What was met on the way. Quads count as the two triangles that they are split into."""
+    """The counts of a run. Quads count as the two triangles that they are split into."""
 
     triangles: int
     """Triangles, quad halves included."""
     unsupported_faces: int
-    """Faces of other than 3 or 4 corners; they have tangents from their normals alone."""
+    """Faces with other than 3 or 4 corners; their tangents come from their normals only."""
     degenerate_triangles: int
     """Triangles with two equal positions."""
     uv_degenerate_triangles: int
