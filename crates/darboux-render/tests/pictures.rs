@@ -242,7 +242,10 @@ fn instances_are_drawn_at_their_places() {
 #[test]
 fn invalid_poses_are_errors() {
     let cases = [
-        (Quad { node: r#""skin":1"#, ..Quad::default() }, "nodes[0]: skin 1 does not exist: there are 0"),
+        (
+            Quad { node: r#""skin":1"#, ..Quad::default() },
+            "nodes[0].skin: skin 1 does not exist: there are 0",
+        ),
         (skinned(",{}"), ""),
         (
             Quad {
@@ -253,6 +256,10 @@ fn invalid_poses_are_errors() {
         ),
         (
             Quad { file: r#","skins":[{"joints":[0,4]}]"#, ..skinned(",{}") },
+            "skins[0].joints[1]: node 4 does not exist: there are 2",
+        ),
+        (
+            Quad { file: r#","skins":[{"joints":[0,2]}]"#, ..skinned(",{},{}") },
             "skins[0].joints[1]: is not in the scene",
         ),
         (
@@ -268,9 +275,8 @@ fn invalid_poses_are_errors() {
         ),
     ];
     for (quad, expected) in cases {
-        let mut document = document(&quad);
-        let error =
-            Model::read(&mut document).map(|_| ()).err().map(|error| error.to_string()).unwrap_or_default();
+        let read = common::load(&quad).and_then(|mut document| Model::read(&mut document).map(|_| ()));
+        let error = read.err().map(|error| error.to_string()).unwrap_or_default();
         assert!(
             error.contains(expected) && error.is_empty() == expected.is_empty(),
             "{error} in place of {expected}"

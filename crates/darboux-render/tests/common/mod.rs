@@ -161,7 +161,12 @@ pub fn file_of(image: &image::DynamicImage, format: image::ImageFormat) -> Vec<u
 }
 
 pub fn document(quad: &Quad) -> Document {
-    Document::from_bytes("quad", quad.glb(), None, &LoadOptions::default()).expect("a document")
+    load(quad).expect("a document")
+}
+
+/// Loads the file of a quad. Errors: invalid references.
+pub fn load(quad: &Quad) -> Result<Document, darboux_io::Error> {
+    Document::from_bytes("quad", quad.glb(), None, &LoadOptions::default())
 }
 
 /// The adapter that wgpu prefers, opened once; none if there is no adapter.
