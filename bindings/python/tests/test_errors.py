@@ -62,6 +62,7 @@ BAD = [
     ({"threshold": NAN}, ValueError, "threshold is NaN; it must be a number of degrees"),
     ({"threshold": "90"}, TypeError, ""),
     ({"threshold": 90, "method": "face"}, ValueError, "threshold belongs to method='mikktspace'"),
+    ({"mode": "reference", "method": "face"}, ValueError, "mode belongs to method='mikktspace'"),
     ({"threads": 0}, ValueError, "threads is 0; it must be from 1 to 1024"),
     ({"threads": -1}, ValueError, "threads is -1"),
     ({"threads": 10**9}, ValueError, "threads is 1000000000"),
@@ -87,7 +88,7 @@ def test_bad_arguments(changes: Dict[str, Any], kind: Any, sentence: str, sheet:
 def test_bad_splits() -> None:
     mesh = grid(2, 2)
     tangents = darboux.generate_tangents(*mesh.arrays)
-    with pytest.raises(ValueError, match="23 corners where the mesh has 24"):
+    with pytest.raises(ValueError, match="23 tangents were passed but the mesh has 24 corners; pass one per corner"):
         darboux.split_vertices(mesh.indices, tangents[:-1], 9)
     with pytest.raises(ValueError, match="index 8 at place 20 is out of range"):
         darboux.split_vertices(mesh.indices, tangents, 8)

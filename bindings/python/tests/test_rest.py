@@ -31,7 +31,7 @@ def test_bad_normals() -> None:
         darboux.generate_normals(FLAT, QUAD, crease=float("inf"))
     with pytest.raises(ValueError, match="index 3 at place 3 is out of range"):
         darboux.generate_normals(FLAT[:3], QUAD)
-    with pytest.raises(ValueError, match="11 corners where the mesh has 12"):
+    with pytest.raises(ValueError, match="11 normals were passed but the mesh has 12 corners"):
         darboux.split_normals([0] * 12, np.zeros((11, 3)), 1)
 
 
@@ -48,7 +48,7 @@ def test_measures(sheet: Mesh) -> None:
     assert other.histogram.sum() == len(tangents)
     fidelity = darboux.measure_uv_fidelity(FLAT, FLAT[:, :2], QUAD, [[1, 0, 0, 1]] * 4)
     assert fidelity == (0, 0, 1, 0)
-    with pytest.raises(ValueError, match="5 corners where the mesh has 4"):
+    with pytest.raises(ValueError, match="5 tangents were passed but the mesh has 4 corners"):
         darboux.measure_uv_fidelity(FLAT, FLAT[:, :2], QUAD, np.zeros((5, 4)))
 
 

@@ -67,6 +67,7 @@ export function tangentOptions(options: types.TangentOptions | null | undefined)
   const method = choice('method', given.method, METHODS, 'mikktspace');
   const mode = choice('mode', given.mode, MODES, 'repaired');
   const threshold = degrees('threshold', given.threshold);
+  if (method && mode !== MODES.indexOf('repaired')) throw new RangeError("mode belongs to the method 'mikktspace'; leave one of them out");
   if (method && threshold !== 180) throw new RangeError("threshold belongs to the method 'mikktspace'; leave one of them out");
   return [mode, threshold, method];
 }

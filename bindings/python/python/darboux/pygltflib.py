@@ -1,5 +1,6 @@
 """Tangents for pygltflib."""
 
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +10,7 @@ from ._darboux import dumps, loads
 
 
 def add_tangents(gltf: pygltflib.GLTF2, **options: Any) -> pygltflib.GLTF2:
-    """Give a document with the tangents that it lacks; the argument stays as it is.
+    """Return a copy of a document with the tangents that it lacks. Warns of primitives without normals, which get none.
 
     Parameters
     ----------
@@ -30,7 +31,10 @@ def add_tangents(gltf: pygltflib.GLTF2, **options: Any) -> pygltflib.GLTF2:
     """
     folder = getattr(gltf, "_path", None)
     document = loads(b"".join(gltf.save_to_bytes()), name="<GLTF2>", base=Path(folder) if folder else None)
-    document.add_tangents(**options)
+    lacking = document.add_tangents(**options)["totals"]["without_normals"]
+    if lacking:
+        sentence = "primitives have no normals, which tangents need; add normals first, with Document.add_normals for example"
+        warnings.warn(f"{lacking} {sentence}", stacklevel=2)
     made = pygltflib.GLTF2.load_from_bytes(dumps(document))
     assert made is not None
     return made
