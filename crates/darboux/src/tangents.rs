@@ -5,6 +5,7 @@ mod face;
 pub(crate) mod fast;
 mod frames;
 mod from_normal;
+mod generate;
 pub(crate) mod memory;
 mod mesh_slices;
 mod method;
@@ -22,37 +23,17 @@ mod uv_derivatives;
 mod vertex_sums;
 
 use crate::Context;
-use crate::CornerFrames;
-use crate::CornerTangents;
 use crate::Mesh;
 use crate::MeshError;
-use crate::exec::limits::RunLimits;
 
 pub use crate::tangents::frames::{
-    LentFrames, generate_frames, generate_frames_with, lend_frames, write_frames,
+    Frames, LentFrames, generate_frames, generate_frames_with, lend_frames, write_frames,
 };
-use crate::tangents::memory::TangentMemory;
+pub use crate::tangents::generate::Tangents;
+use crate::tangents::generate::{generate, run};
 pub(crate) use crate::tangents::method_plan::Planned;
 pub use crate::tangents::options::{Method, MikktOptions, Mode, TangentOptions};
 pub use crate::tangents::report::Report;
-
-/// The tangents of corners and the report of the run.
-#[derive(Clone, Debug, Default)]
-pub struct Tangents {
-    /// One tangent per corner.
-    pub corners: CornerTangents,
-    /// Counts of what the run met.
-    pub report: Report,
-}
-
-/// The frames of corners and the report of the run.
-#[derive(Clone, Debug, Default)]
-pub struct Frames {
-    /// One frame per corner.
-    pub corners: CornerFrames,
-    /// Counts of what the run met.
-    pub report: Report,
-}
 
 /// Computes the tangent of every corner.
 pub fn generate_tangents(mesh: &Mesh<'_>, options: &TangentOptions) -> Tangents {
@@ -88,51 +69,4 @@ pub fn write_tangents(
     let (limits, memory) = context.limits_and_memory();
     let report = run(mesh, options, limits, memory, corners);
     limits.check().map(|()| report)
-}
-
-/// The tangents are unspecified after cancellation.
-#[inline(always)]
-fn generate(
-    mesh: &Mesh<'_>,
-    options: &TangentOptions,
-    limits: RunLimits<'_>,
-    memory: &mut TangentMemory,
-) -> Tangents {
-    let mut tangents = Tangents::default();
-    tangents.corners.0.resize(mesh.corner_count(), [0.0; 4]);
-    tangents.report = run(mesh, options, limits, memory, &mut tangents.corners.0);
-    tangents
-}
-
-/// Chooses the method in the caller's code, so that a program whose method is constant links no other.
-#[inline(always)]
-fn run(
-    mesh: &Mesh<'_>,
-    options: &TangentOptions,
-    limits: RunLimits<'_>,
-    memory: &mut TangentMemory,
-    out: &mut [[f32; 4]],
-) -> Report {
-    match options.method {
-        Method::MikkTSpace(options) => mikktspace_of_corners(mesh, &options, limits, memory, out),
-        method => method::run(mesh, method, limits, &mut memory.sums, out),
-    }
-}
-
-fn mikktspace_of_corners(
-    mesh: &Mesh<'_>,
-    options: &MikktOptions,
-    limits: RunLimits<'_>,
-    memory: &mut TangentMemory,
-    out: &mut [[f32; 4]],
-) -> Report {
-    if memory.fast.run(mesh, options, limits, out) {
-        if limits.is_cancelled() {
-            Report::default()
-        } else {
-            submesh::decide(mesh, options, &memory.fast, limits, out)
-        }
-    } else {
-        method::mikktspace(mesh, options, limits, out)
-    }
 }

@@ -8,7 +8,6 @@ use crate::MeshError;
 
 use crate::exec::limits::RunLimits;
 use crate::exec::threads::{self, split_range, split_slice};
-use crate::tangents::Frames;
 use crate::tangents::Method;
 use crate::tangents::Report;
 use crate::tangents::TangentOptions;
@@ -17,6 +16,15 @@ use crate::tangents::memory::{FrameMemory, TangentMemory};
 use crate::tangents::method;
 use crate::tangents::output::{Output, fill};
 use crate::tangents::submesh;
+
+/// The frames of corners and the report of the run.
+#[derive(Clone, Debug, Default)]
+pub struct Frames {
+    /// One frame per corner.
+    pub corners: CornerFrames,
+    /// Counts of what the run met.
+    pub report: Report,
+}
 
 /// Computes the frame of every corner: tangent, bitangent, magnitudes, sign.
 pub fn generate_frames(mesh: &Mesh<'_>, options: &TangentOptions) -> Frames {

@@ -10,13 +10,12 @@ use crate::exec::limits::RunLimits;
 use crate::tangents::Method;
 use crate::tangents::MikktOptions;
 use crate::tangents::TangentOptions;
-use crate::tangents::Tangents;
 use crate::tangents::angle_area;
 use crate::tangents::fast::{FastPath, FastPlan, triangle_count};
+use crate::tangents::generate::{Tangents, generate, run};
 use crate::tangents::memory::TangentMemory;
 use crate::tangents::mikktspace::{GroupedMesh, default_frames};
 use crate::tangents::submesh::UndecidedFaces;
-use crate::tangents::{generate, run};
 
 /// What is known beforehand.
 #[derive(Debug)]
