@@ -1,4 +1,4 @@
-//! Enumerations that callers pass. They arrive as plain numbers, since a number that is no variant must be an error.
+//! Enumerations of the C interface. Callers pass them as `uint32_t`, so that an invalid value is an error instead of undefined behaviour.
 
 use darboux::{
     Axis, BitangentDirection, Convention, Method, Mode, NormalWeight, Shading, SignRule, SmoothingSeams,
@@ -7,25 +7,25 @@ use darboux::{
 
 use crate::status::{Error, darboux_status};
 
-/// How tangents are computed. Normal maps need the method that they were baked with, nearly always the default.
+/// How tangents are computed. A normal map needs the method that it was baked with, nearly always the default.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MethodCode {
-    /// The standard of bakers and renderers.
+    /// The standard of bakers and renderers: sums of unit tangents weighted by corner angles, over welded vertices.
     Mikktspace = 0,
-    /// MikkTSpace's groups with weights of corner angle times area, where no baked map asks for another.
+    /// MikkTSpace's groups with weights of corner angle times area. The choice where no baked map requires another method.
     AngleArea = 1,
-    /// Per vertex and UV orientation the sum of dP/du, as long as they are.
+    /// The sum of dP/du per vertex and UV orientation, not normalised (Lengyel 2001).
     Lengyel = 2,
-    /// As LENGYEL with one sum per vertex: mirrored seams break, nothing splits.
+    /// As LENGYEL with one sum per vertex. Mirrored seams break. No vertex is split.
     LengyelPerVertex = 3,
-    /// Per vertex and UV orientation the mean of the unit tangents.
+    /// The mean of the unit tangents per vertex and UV orientation.
     Average = 4,
-    /// Per vertex and UV orientation the mean of the unit tangents, weighted by area.
+    /// The mean of the unit tangents per vertex and UV orientation, weighted by area.
     Area = 5,
-    /// Per face dP/du itself: exact on each, not smooth.
+    /// dP/du of each face: exact on each face, not smooth.
     Face = 6,
-    /// A perpendicular of the normal, without any UVs.
+    /// A perpendicular of the normal. UVs are ignored.
     FromNormal = 7,
 }
 
@@ -33,7 +33,7 @@ pub enum MethodCode {
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ModeCode {
-    /// Every bit of the reference where its result is usable, a unit tangent perpendicular to the normal elsewhere.
+    /// Every bit of the reference where its result is usable; elsewhere a unit tangent perpendicular to the normal.
     Repaired = 0,
     /// Every bit of the reference, its defects included: zero-length tangents, tangents along the normal, NaN.
     Reference = 1,
@@ -41,23 +41,23 @@ pub enum ModeCode {
     Corrected = 2,
 }
 
-/// How corners make faces.
+/// How corners are grouped into faces.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FacesCode {
-    /// Three corners each.
+    /// Three corners per face.
     Triangles = 0,
-    /// Four corners each.
+    /// Four corners per face.
     Quads = 1,
     /// `face_sizes` holds the corner count of each face.
     Mixed = 2,
 }
 
-/// Flat or smooth.
+/// Flat or smooth shading.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ShadingCode {
-    /// Corners around a vertex share the weighted mean of their faces' normals, but for creases.
+    /// Corners of a vertex share the weighted mean of their faces' normals, except across creases.
     Smooth = 0,
     /// Every corner has its face's normal.
     Flat = 1,
@@ -67,37 +67,37 @@ pub enum ShadingCode {
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NormalWeightCode {
-    /// The angle of its corner there: independent of how a flat surface is cut.
+    /// The angle of the face's corner. The result does not depend on the triangulation of flat surfaces.
     Angle = 0,
-    /// Its area.
+    /// The area of the face.
     Area = 1,
-    /// Both multiplied: wide faces stay flat beside bevels.
+    /// Angle times area. Wide faces stay flat beside bevels.
     AngleArea = 2,
 }
 
-/// What keeps vertices apart while normals are smoothed.
+/// The treatment of vertices at equal positions while normals are smoothed.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SmoothingSeamsCode {
-    /// Nothing: vertices at equal positions are one.
+    /// Vertices at equal positions are merged, so that UV seams are not visible in the shading.
     Ignored = 0,
-    /// The index list: distinct vertices have distinct normals.
+    /// Distinct vertices have distinct normals.
     Respected = 1,
 }
 
-/// Tangents in fewer bytes. The largest error of a direction is given in degrees; the sign is exact in all of them.
+/// Compressed formats of tangents. Each comment gives the largest error of a direction, in degrees. The sign is exact in all formats.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TangentEncodingCode {
-    /// `int8_t[4]`, c / 127. 0.40 degrees.
+    /// `int8_t[4]`: components times 127, rounded. 0.40 degrees.
     Snorm8 = 0,
-    /// `uint32_t`: ten bits each for x (the lowest), y and z, two for w. 0.098 degrees.
+    /// `uint32_t`: ten bits each for x (the lowest bits), y and z, two bits for w. 0.098 degrees.
     Snorm10 = 1,
-    /// `int16_t[4]`, c / 32767. 0.0016 degrees.
+    /// `int16_t[4]`: components times 32767, rounded. 0.0016 degrees.
     Snorm16 = 2,
-    /// `int16_t[2]`: a point of the unfolded octahedron; the lowest bit of y is the sign. 0.0057 degrees.
+    /// `int16_t[2]`: octahedral map; the lowest bit of y is the sign. 0.0057 degrees.
     Octahedral = 3,
-    /// `uint16_t`: the place around the normal, which the decoder is given too; the lowest bit is the sign. 0.0071 degrees.
+    /// `uint16_t`: the angle around the normal; the lowest bit is the sign. The decoder needs the same normal. 0.0071 degrees.
     Diamond = 4,
 }
 
@@ -105,7 +105,7 @@ pub enum TangentEncodingCode {
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AxisCode {
-    /// As in glTF: right is -x, up is y, front is z.
+    /// As in glTF: right is -x, up is +y, front is +z.
     Default = 0,
     /// Along x.
     X = 1,
@@ -121,47 +121,48 @@ pub enum AxisCode {
     MinusZ = 6,
 }
 
-/// The order of a face's corners, seen from the side that its normal points to, as the eye sees it and not as the numbers say.
+/// The winding of front faces, as seen on the screen from the side that the normal points to.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WindingCode {
-    /// Against the clock.
+    /// Counter-clockwise.
     CounterClockwise = 0,
-    /// With the clock.
+    /// Clockwise.
     Clockwise = 1,
 }
 
-/// Where in the picture v = 0 is. u always runs to the right.
+/// The origin of UVs in the image. u always points to the right.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UvOriginCode {
-    /// v runs down.
+    /// v = 0 is the top; v points down.
     TopLeft = 0,
-    /// v runs up.
+    /// v = 0 is the bottom; v points up.
     BottomLeft = 1,
 }
 
-/// Where the tangent points on the surface, and more red leans the normal: a direction in the picture that lies on it.
+/// The direction of the tangent, as a direction in the texture image. More red tilts the normal in this direction.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TangentDirectionCode {
-    /// To the picture's right.
+    /// To the right of the image.
     Right = 0,
-    /// To the picture's left.
+    /// To the left of the image.
     Left = 1,
 }
 
-/// Where the bitangent that a shader rebuilds points on the surface, and more green leans the normal: a direction in the picture.
+/// The direction of the bitangent that a shader rebuilds, as a direction in the texture image. More green tilts the normal in this
+/// direction.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BitangentDirectionCode {
-    /// To the picture's top ("OpenGL", Y+).
+    /// To the top of the image ("OpenGL", Y+).
     Up = 0,
-    /// To the picture's bottom ("DirectX", Y-).
+    /// To the bottom of the image ("DirectX", Y-).
     Down = 1,
 }
 
-/// How a shader rebuilds the bitangent from normal, tangent and sign, by numbers.
+/// The formula by which a shader rebuilds the bitangent from normal, tangent and sign, applied to coordinates of either handedness.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SignRuleCode {
@@ -171,13 +172,13 @@ pub enum SignRuleCode {
     TangentCrossNormal = 1,
 }
 
-/// Programs whose conventions are known.
+/// Programs with a preset convention. docs/conventions.md gives the sources.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ProgramCode {
     /// glTF 2.0.
     Gltf = 0,
-    /// OpenGL, as is usual with it.
+    /// OpenGL, with the common practice for what OpenGL does not define.
     Opengl = 1,
     /// Direct3D.
     Directx = 2,
@@ -189,7 +190,7 @@ pub enum ProgramCode {
     Unreal = 5,
     /// Godot 4.
     Godot = 6,
-    /// three.js, but for the glTF files that it loads.
+    /// three.js. Use GLTF for the glTF files that it loads.
     Threejs = 7,
     /// Maya.
     Maya = 8,
@@ -197,36 +198,36 @@ pub enum ProgramCode {
     Max = 9,
 }
 
-/// A [`MethodCode`].
+/// The value of a [`MethodCode`].
 pub type darboux_method = u32;
-/// A [`ModeCode`].
+/// The value of a [`ModeCode`].
 pub type darboux_mode = u32;
-/// A [`FacesCode`].
+/// The value of a [`FacesCode`].
 pub type darboux_faces = u32;
-/// A [`ShadingCode`].
+/// The value of a [`ShadingCode`].
 pub type darboux_shading = u32;
-/// A [`NormalWeightCode`].
+/// The value of a [`NormalWeightCode`].
 pub type darboux_normal_weight = u32;
-/// A [`SmoothingSeamsCode`].
+/// The value of a [`SmoothingSeamsCode`].
 pub type darboux_smoothing_seams = u32;
-/// A [`TangentEncodingCode`].
+/// The value of a [`TangentEncodingCode`].
 pub type darboux_tangent_encoding = u32;
-/// An [`AxisCode`].
+/// The value of an [`AxisCode`].
 pub type darboux_axis = u32;
-/// A [`WindingCode`].
+/// The value of a [`WindingCode`].
 pub type darboux_winding = u32;
-/// A [`UvOriginCode`].
+/// The value of a [`UvOriginCode`].
 pub type darboux_uv_origin = u32;
-/// A [`TangentDirectionCode`].
+/// The value of a [`TangentDirectionCode`].
 pub type darboux_tangent_direction = u32;
-/// A [`BitangentDirectionCode`].
+/// The value of a [`BitangentDirectionCode`].
 pub type darboux_bitangent_direction = u32;
-/// A [`SignRuleCode`].
+/// The value of a [`SignRuleCode`].
 pub type darboux_sign_rule = u32;
-/// A [`ProgramCode`].
+/// The value of a [`ProgramCode`].
 pub type darboux_program = u32;
 
-/// The variant of each listed code. Errors: a number that is none of them.
+/// Defines a function that converts a number to a value of the core. Errors: a number that is not in the list.
 macro_rules! from_code {
     ($name:ident, $what:literal, $codes:ident => $target:ty { $($code:ident => $value:expr),* $(,)? }) => {
         pub(crate) fn $name(code: u32) -> Result<$target, Error> {

@@ -1,4 +1,4 @@
-//! What numbers mean, and the change from one meaning to another.
+//! Conventions in C: presets of programs, and conversion of arrays from one convention to another.
 
 use std::mem::offset_of;
 
@@ -14,31 +14,31 @@ use crate::codes::{
 use crate::pointers::{self, Output, Receiver, Versioned, copied, slice};
 use crate::status::{Error, call, darboux_status};
 
-/// What the numbers of a mesh and of its normal map mean. All zeros, and a null pointer, are glTF's convention.
+/// The convention of a mesh and of its normal map. NULL or all zeros: glTF.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct darboux_convention {
-    /// sizeof(darboux_convention), or 0, which stands for version 0.1's size.
+    /// sizeof(darboux_convention). 0: the size in version 0.1.
     pub size: usize,
-    /// Where a model's own right hand points. Right, up and front are three different axes.
+    /// The axis that the model's right points along. Right, up and front must be three different axes.
     pub right: darboux_axis,
-    /// Where its head points.
+    /// The axis that the model's top points along.
     pub up: darboux_axis,
-    /// Where it looks.
+    /// The axis that the model's front points along.
     pub front: darboux_axis,
-    /// How fronts of faces are wound.
+    /// The winding of front faces.
     pub winding: darboux_winding,
-    /// Where v = 0 is.
+    /// The origin of UVs.
     pub uv_origin: darboux_uv_origin,
-    /// Where tangents, and red, point.
+    /// The direction of tangents and of red.
     pub tangent: darboux_tangent_direction,
-    /// Where bitangents, and green, point.
+    /// The direction of bitangents and of green.
     pub bitangent: darboux_bitangent_direction,
-    /// What w means.
+    /// The formula of the bitangent.
     pub sign: darboux_sign_rule,
 }
 
-// SAFETY: `repr(C)`, the size first, numbers.
+// SAFETY: `repr(C)`, the size is the first field, all fields are integers.
 unsafe impl Versioned for darboux_convention {
     const NAME: &str = "darboux_convention";
     const FIRST_SIZE: usize = pointers::size_through::<Self, darboux_sign_rule>(offset_of!(Self, sign));
@@ -107,56 +107,60 @@ impl From<Convention> for darboux_convention {
     }
 }
 
+/// Reads both conventions and returns the conversion.
+///
 /// # Safety
 ///
-/// The pointers are as [`darboux_convention`] says, or null.
+/// Each pointer is null or points to a valid [`darboux_convention`].
 unsafe fn conversion(
     from: *const darboux_convention,
     to: *const darboux_convention,
 ) -> Result<Conversion, Error> {
-    // SAFETY: as of this function.
+    // SAFETY: the caller's promise.
     let (from, to) = unsafe { (pointers::read_or_zeros(from)?, pointers::read_or_zeros(to)?) };
     Ok(from.checked()?.to(to.checked()?))
 }
 
-/// Looks up a program's convention.
+/// Looks up the convention of a program.
 ///
-/// `program`: whose. `convention`: receives it. Errors: an unknown program, null.
+/// `program`: the program. `convention`: receives its convention. Errors: an unknown program, a null pointer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_convention_of(
     program: darboux_program,
     convention: *mut darboux_convention,
 ) -> darboux_status {
     call(|| {
-        // SAFETY: `convention` is null or may be written.
+        // SAFETY: `convention` is null or writable.
         let out = unsafe { Receiver::new(convention) }?;
         out.put(codes::program(program)?.into());
         Ok(())
     })
 }
 
-/// Tells in which convention darboux_generate_tangents writes tangents for a mesh in a convention: this one but for the frames.
+/// Computes the convention of the tangents that darboux_generate_tangents writes for a mesh in a given convention.
 ///
-/// MikkTSpace knows no pictures; its sign is that of the UV area. So tangents for glTF, whose v runs down, are converted from what this
-/// gives for glTF to glTF, which negates w. `convention`: the mesh's. `generated`: receives the result. Errors: those of a convention; null.
+/// Axes, winding and UV origin stay. The sign can differ, because MikkTSpace takes it from the UV area and does not consider the UV origin.
+/// For example, tangents generated for a glTF mesh become glTF tangents by darboux_convert_tangents from the result of this function to
+/// glTF, which negates w. `convention`: the mesh's convention; may be NULL for glTF. `generated`: receives the tangents' convention.
+/// Errors: those of darboux_convert_vectors.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_convention_generated(
     convention: *const darboux_convention,
     generated: *mut darboux_convention,
 ) -> darboux_status {
     call(|| {
-        // SAFETY: every pointer is as the documentation above says.
+        // SAFETY: the pointers are as documented above.
         let (convention, out) = unsafe { (pointers::read_or_zeros(convention)?, Receiver::new(generated)?) };
         out.put(convention.checked()?.generated().into());
         Ok(())
     })
 }
 
-/// Writes positions, normals or offsets in another convention. Exact.
+/// Converts positions, normals or offsets from one convention to another. Exact.
 ///
-/// `from`, `to`: the conventions. `count`: the number of elements. `vectors`: `count` by 3. `converted`: room for as many; it may be
-/// `vectors`. Each stride: bytes from one element to the next, 0 for packed.
-/// Errors: an unknown number in a convention, two axes along one line; null, a stride that is too small.
+/// `from`, `to`: the conventions; NULL for glTF. `count`: the number of elements. `vectors`: `count` by 3 floats. `converted`: receives
+/// `count` by 3 floats; may equal `vectors`. Strides: bytes from one element to the next; 0 for packed. Errors: an unknown value in a
+/// convention, two parallel axes, a null pointer, a stride smaller than an element.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_convert_vectors(
     from: *const darboux_convention,
@@ -167,7 +171,7 @@ pub unsafe extern "C" fn darboux_convert_vectors(
     converted: *mut f32,
     converted_stride: usize,
 ) -> darboux_status {
-    // SAFETY: every pointer is as the documentation above says.
+    // SAFETY: the pointers are as documented above.
     call(|| unsafe {
         let conversion = conversion(from, to)?;
         let vectors = copied("vectors", vectors.cast(), count, vector_stride)?;
@@ -177,9 +181,9 @@ pub unsafe extern "C" fn darboux_convert_vectors(
     })
 }
 
-/// Writes tangents in another convention. Exact.
+/// Converts tangents from one convention to another. Exact.
 ///
-/// `tangents`: `count` by 4, xyz and the sign w. Other parameters and errors as for darboux_convert_vectors.
+/// `tangents`: `count` by 4 floats, xyz and the sign w. Other parameters and errors: as for darboux_convert_vectors.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_convert_tangents(
     from: *const darboux_convention,
@@ -190,7 +194,7 @@ pub unsafe extern "C" fn darboux_convert_tangents(
     converted: *mut f32,
     converted_stride: usize,
 ) -> darboux_status {
-    // SAFETY: every pointer is as the documentation above says.
+    // SAFETY: the pointers are as documented above.
     call(|| unsafe {
         let conversion = conversion(from, to)?;
         let tangents = copied("tangents", tangents.cast(), count, tangent_stride)?;
@@ -200,10 +204,10 @@ pub unsafe extern "C" fn darboux_convert_tangents(
     })
 }
 
-/// Writes UVs in another convention: v becomes 1 - v where the origins differ.
+/// Converts UVs from one convention to another: v becomes 1 - v where the origins differ.
 ///
-/// There and back is exact for multiples of 2^-24 in [0, 1], otherwise off by up to the spacing of floats at the larger of 1 and |v|.
-/// `uvs`: `count` by 2. Other parameters and errors as for darboux_convert_vectors.
+/// A round trip is exact for multiples of 2^-24 in [0, 1]; its error for other values is at most one ulp of the larger of 1 and |v|. `uvs`:
+/// `count` by 2 floats. Other parameters and errors: as for darboux_convert_vectors.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_convert_uvs(
     from: *const darboux_convention,
@@ -214,7 +218,7 @@ pub unsafe extern "C" fn darboux_convert_uvs(
     converted: *mut f32,
     converted_stride: usize,
 ) -> darboux_status {
-    // SAFETY: every pointer is as the documentation above says.
+    // SAFETY: the pointers are as documented above.
     call(|| unsafe {
         let conversion = conversion(from, to)?;
         let uvs = copied("uvs", uvs.cast(), count, uv_stride)?;
@@ -224,12 +228,12 @@ pub unsafe extern "C" fn darboux_convert_uvs(
     })
 }
 
-/// Reverses the corners of every face where fronts are wound the other way; the first of each stays. The eye decides: a change of
-/// hands alone reverses nothing.
+/// Reverses the corners of every face where the winding differs. The first corner of each face stays first.
 ///
-/// `from`, `to`: the conventions. `faces`, `face_sizes`, `face_count`: as in darboux_mesh. `corners`: C elements of `corner_size` bytes,
-/// packed, changed in place: the indices, or whatever else lies along the corners. `corner_count`: C.
-/// Errors: those of darboux_convert_vectors; corners that do not make whole faces.
+/// A change of handedness alone reverses nothing, because the winding is defined as seen on the screen. `from`, `to`: the conventions; NULL
+/// for glTF. `faces`, `face_sizes`, `face_count`: as in darboux_mesh. `corners`: C packed elements of `corner_size` bytes, changed in
+/// place: the indices, or any other attribute of corners. `corner_count`: C. `corner_size`: bytes per element. Errors: those of
+/// darboux_convert_vectors; corners that do not make whole faces.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_convert_faces(
     from: *const darboux_convention,
@@ -241,7 +245,7 @@ pub unsafe extern "C" fn darboux_convert_faces(
     corner_count: usize,
     corner_size: usize,
 ) -> darboux_status {
-    // SAFETY: every pointer is as the documentation above says.
+    // SAFETY: the pointers are as documented above.
     call(|| unsafe {
         let conversion = conversion(from, to)?;
         let sizes = match codes::faces(faces)? {
@@ -279,10 +283,10 @@ impl FaceSizes<'_> {
         Err(Error::new(darboux_status::Faces, message))
     }
 
-    /// `corners` are as many as was checked, of `size` bytes each.
+    /// Reverses the corners of every face. `corners`: elements of `size` bytes, whose number [`FaceSizes::check`] accepted.
     fn reverse(&self, conversion: &Conversion, corners: &mut [u8], size: usize) {
         if corners.is_empty() {
-            // Their size may be anything.
+            // Without corners, `size` may be 0 or huge.
             return;
         }
         let (mut order, mut old) = (Vec::new(), Vec::new());
@@ -310,9 +314,10 @@ impl FaceSizes<'_> {
     }
 }
 
-/// Tells which channels of a normal map lean the other way: where they do, c becomes 2^n - 1 - c in every texel of n bits.
+/// Tells which channels of a normal map are inverted: in every texel of n bits, c becomes 2^n - 1 - c.
 ///
-/// `from`, `to`: the conventions. `red`, `green`: receive 1 or 0. Errors: those of darboux_convert_vectors.
+/// `from`, `to`: the conventions; NULL for glTF. `red`, `green`: receive 1 where the channel is inverted, else 0. Errors: those of
+/// darboux_convert_vectors.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_convert_channels(
     from: *const darboux_convention,
@@ -320,7 +325,7 @@ pub unsafe extern "C" fn darboux_convert_channels(
     red: *mut u32,
     green: *mut u32,
 ) -> darboux_status {
-    // SAFETY: every pointer is as the documentation above says.
+    // SAFETY: the pointers are as documented above.
     call(|| unsafe {
         let conversion = conversion(from, to)?;
         let red = Output::new("red", red.cast(), 1, 0)?;

@@ -1,4 +1,4 @@
-//! Tangents and normals in fewer bytes, and back.
+//! Compressed formats of tangents, normals and frames in C: encoders and decoders over strided arrays.
 
 use darboux::encode;
 
@@ -9,15 +9,16 @@ use crate::status::{Error, call, darboux_status};
 type Tangent = [f32; 4];
 type Normal = [f32; 3];
 
-/// Where elements are, and how far apart in bytes (0: packed).
+/// A strided array: its first byte and the stride in bytes (0: packed).
 struct Place(*mut u8, usize);
 
-/// Writes tangents in fewer bytes.
+/// Encodes tangents in a compressed format.
 ///
-/// `encoding`: the form, which says what type `codes` has. `count`: the number of elements of every array. `normals`: `count` by 3, unit
-/// and bit for bit what the decoder will be given; DARBOUX_TANGENT_ENCODING_DIAMOND alone reads them, else null. `tangents`: `count` by
-/// 4, unit xyz and sign w; a w below zero counts as -1, any other as +1. `codes`: room for the result. Each stride: bytes from one
-/// element to the next, 0 for packed. Errors: null, a stride that is too small, an unknown encoding.
+/// `encoding`: the format, which determines the type of `codes`. `count`: the number of elements of every array. `normals`: `count` by 3
+/// floats, unit length, equal bit for bit to the normals at decoding; read for DARBOUX_TANGENT_ENCODING_DIAMOND only, otherwise may be
+/// NULL. `tangents`: `count` by 4 floats, unit xyz and sign w; a w below zero counts as -1, any other value as +1. `codes`: receives
+/// `count` elements. Strides: bytes from one element to the next; 0 for packed. Errors: a null pointer, a stride smaller than an element,
+/// an unknown encoding.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_encode_tangents(
     encoding: darboux_tangent_encoding,
@@ -31,7 +32,7 @@ pub unsafe extern "C" fn darboux_encode_tangents(
 ) -> darboux_status {
     use TangentEncodingCode::{Diamond, Octahedral, Snorm8, Snorm10, Snorm16};
     let to = Place(codes.cast(), code_stride);
-    // SAFETY: every pointer is as the documentation above says.
+    // SAFETY: the pointers are as documented above.
     call(|| unsafe {
         let tangents = copied::<Tangent>("tangents", tangents.cast(), count, tangent_stride)?;
         match codes::tangent_encoding(encoding)? {
@@ -48,9 +49,9 @@ pub unsafe extern "C" fn darboux_encode_tangents(
     })
 }
 
-/// Reads tangents that darboux_encode_tangents wrote; they are unit but in the SNORM forms.
+/// Decodes the tangents that darboux_encode_tangents wrote. They have unit length, except in the SNORM formats.
 ///
-/// Parameters and errors as there, with `codes` read and `tangents` written.
+/// `codes`: read. `tangents`: receives `count` by 4 floats. Other parameters and errors: as for darboux_encode_tangents.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_decode_tangents(
     encoding: darboux_tangent_encoding,
@@ -65,7 +66,7 @@ pub unsafe extern "C" fn darboux_decode_tangents(
     use TangentEncodingCode::{Diamond, Octahedral, Snorm8, Snorm10, Snorm16};
     let to = Place(tangents.cast(), tangent_stride);
     let from = Place(codes.cast_mut().cast(), code_stride);
-    // SAFETY: every pointer is as the documentation above says.
+    // SAFETY: the pointers are as documented above.
     call(|| unsafe {
         match codes::tangent_encoding(encoding)? {
             Snorm8 => convert(count, from.elements(count)?, to, encode::tangent_from_snorm8),
@@ -81,10 +82,10 @@ pub unsafe extern "C" fn darboux_decode_tangents(
     })
 }
 
-/// Writes normals as `int16_t[2]`, a point of the unfolded octahedron. Directions turn by up to 0.0038 degrees.
+/// Encodes normals as `int16_t[2]`, an octahedral map. The largest error is 0.0038 degrees.
 ///
-/// `count`: the number of elements. `normals`: `count` by 3. `codes`: room for `count` by 2. Each stride: bytes from one element to the
-/// next, 0 for packed. Errors: null, a stride that is too small.
+/// `count`: the number of elements. `normals`: `count` by 3 floats. `codes`: receives `count` by 2 integers. Strides: bytes from one
+/// element to the next; 0 for packed. Errors: a null pointer, a stride smaller than an element.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_encode_normals(
     count: usize,
@@ -93,14 +94,14 @@ pub unsafe extern "C" fn darboux_encode_normals(
     codes: *mut i16,
     code_stride: usize,
 ) -> darboux_status {
-    // SAFETY: every pointer is as the documentation above says.
+    // SAFETY: the pointers are as documented above.
     call(|| unsafe {
         let normals = copied("normals", normals.cast(), count, normal_stride)?;
         convert(count, normals, Place(codes.cast(), code_stride), encode::normal_to_octahedral)
     })
 }
 
-/// Reads the unit normals that darboux_encode_normals wrote. Parameters and errors as there.
+/// Decodes the normals that darboux_encode_normals wrote, as unit vectors. Parameters and errors: as for darboux_encode_normals.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_decode_normals(
     count: usize,
@@ -109,17 +110,18 @@ pub unsafe extern "C" fn darboux_decode_normals(
     normals: *mut f32,
     normal_stride: usize,
 ) -> darboux_status {
-    // SAFETY: every pointer is as the documentation above says.
+    // SAFETY: the pointers are as documented above.
     call(|| unsafe {
         let codes = copied("codes", codes.cast(), count, code_stride)?;
         convert(count, codes, Place(normals.cast(), normal_stride), encode::normal_from_octahedral)
     })
 }
 
-/// Writes normals and tangents as `int16_t[4]`, one quaternion, the scalar last. Directions turn by up to 0.0047 degrees.
+/// Encodes normals and tangents as `int16_t[4]`, one quaternion, scalar last. The largest error is 0.0047 degrees.
 ///
-/// `count`: the number of elements. `normals`: `count` by 3, unit. `tangents`: `count` by 4, unit xyz and sign w. `codes`: room for
-/// `count` by 4. Each stride: bytes from one element to the next, 0 for packed. Errors: null, a stride that is too small.
+/// `count`: the number of elements. `normals`: `count` by 3 floats, unit length. `tangents`: `count` by 4 floats, unit xyz and sign w.
+/// `codes`: receives `count` by 4 integers. Strides: bytes from one element to the next; 0 for packed. Errors: a null pointer, a stride
+/// smaller than an element.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_encode_frames(
     count: usize,
@@ -130,7 +132,7 @@ pub unsafe extern "C" fn darboux_encode_frames(
     codes: *mut i16,
     code_stride: usize,
 ) -> darboux_status {
-    // SAFETY: every pointer is as the documentation above says.
+    // SAFETY: the pointers are as documented above.
     call(|| unsafe {
         let normals = copied::<Normal>("normals", normals.cast(), count, normal_stride)?;
         let tangents = copied::<Tangent>("tangents", tangents.cast(), count, tangent_stride)?;
@@ -141,7 +143,7 @@ pub unsafe extern "C" fn darboux_encode_frames(
     })
 }
 
-/// Reads the unit normals and tangents that darboux_encode_frames wrote. Parameters and errors as there.
+/// Decodes the unit normals and tangents that darboux_encode_frames wrote. Parameters and errors: as for darboux_encode_frames.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_decode_frames(
     count: usize,
@@ -152,7 +154,7 @@ pub unsafe extern "C" fn darboux_decode_frames(
     tangents: *mut f32,
     tangent_stride: usize,
 ) -> darboux_status {
-    // SAFETY: every pointer is as the documentation above says; codes are copied before anything is written.
+    // SAFETY: the pointers are as documented above; all codes are read before anything is written.
     call(|| unsafe {
         let codes = copied("codes", codes.cast(), count, code_stride)?;
         let frames: Vec<(Normal, Tangent)> = codes.map(encode::frame_from_quaternion).collect();
@@ -165,27 +167,29 @@ pub unsafe extern "C" fn darboux_decode_frames(
 }
 
 impl Place {
+    /// Iterates over the `count` codes of the array.
+    ///
     /// # Safety
     ///
-    /// As of [`copied`].
+    /// As for [`copied`].
     unsafe fn elements<T: Copy>(self, count: usize) -> Result<impl Iterator<Item = T>, Error> {
-        // SAFETY: as of this function.
+        // SAFETY: the caller's promise.
         unsafe { copied("codes", self.0, count, self.1) }
     }
 }
 
-/// Writes every element as `of` turns it.
+/// Writes `of(element)` for every element of `from`.
 ///
 /// # Safety
 ///
-/// As of [`Output::new`].
+/// As for [`Output::new`].
 unsafe fn convert<From, To: Copy>(
     count: usize,
     from: impl Iterator<Item = From>,
     to: Place,
     of: impl Fn(From) -> To,
 ) -> Result<(), Error> {
-    // SAFETY: as of this function.
+    // SAFETY: the caller's promise.
     let out = unsafe { Output::new("the result", to.0, count, to.1) }?;
     out.write(from.map(of));
     Ok(())

@@ -1,4 +1,4 @@
-//! How far tangents are apart, and how well they follow the UVs.
+//! Quality of tangents in C: comparison of two sets of tangents, and of tangents with the derivatives of the UV map.
 
 use std::mem::offset_of;
 
@@ -8,48 +8,48 @@ use crate::mesh::{self, darboux_mesh};
 use crate::pointers::{self, Receiver, Versioned, gathered, gathered_of_corners};
 use crate::status::{call, darboux_status};
 
-/// How many bins a histogram of angles has.
+/// The number of bins of the histogram of angles.
 pub const DARBOUX_HISTOGRAM_BINS: usize = 10;
-/// How many corners darboux_tangent_difference lists at most.
+/// The maximum number of corners that darboux_tangent_difference lists.
 pub const DARBOUX_WORST_CORNERS: usize = 16;
 
 const _: () = assert!(DARBOUX_HISTOGRAM_BINS == HISTOGRAM_ENDS.len());
 
-/// How two sets of tangents of one mesh differ. Angles are between the xyz of a corner in both, in degrees.
+/// The difference of two sets of tangents of one mesh. Angles are in degrees, between the xyz of one corner in both sets.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct darboux_tangent_difference {
-    /// sizeof(darboux_tangent_difference), set by the caller, or 0, which stands for version 0.1's size.
+    /// sizeof(darboux_tangent_difference), set by the caller. 0: the size in version 0.1.
     pub size: usize,
     /// The number of corners.
     pub corners: usize,
-    /// Corners whose four floats are the same bits, or NaN in both.
+    /// Corners whose four floats have equal bits or are NaN in both sets.
     pub identical: usize,
-    /// Corners whose signs differ.
+    /// Corners whose signs differ: exactly one w is below zero.
     pub sign_flips: usize,
-    /// Corners where a tangent is zero or not finite, so that there is no angle. They are in none of the numbers below.
+    /// Corners without an angle, because a tangent is zero or not finite. The fields below ignore them.
     pub without_angle: usize,
     /// The mean angle.
     pub mean: f64,
     /// The smallest angle.
     pub min: f64,
-    /// The angle that half of the corners do not exceed.
+    /// The median angle.
     pub median: f64,
-    /// The angle that 95 corners in 100 do not exceed.
+    /// The 95th percentile of the angles.
     pub p95: f64,
     /// The largest angle.
     pub max: f64,
-    /// Corners per bin. The bins end at 0, 0.001, 0.01, 0.1, 1, 5, 15, 45, 90 and 180 degrees.
+    /// The number of corners per bin. The bins end at 0, 0.001, 0.01, 0.1, 1, 5, 15, 45, 90 and 180 degrees.
     pub histogram: [usize; DARBOUX_HISTOGRAM_BINS],
-    /// How many of the next two arrays' elements are set.
+    /// The number of elements of `worst_corners` and `worst_angles` that are set.
     pub worst_count: usize,
-    /// The corners with the largest angles, the largest first.
+    /// The corners with the largest angles above zero, in descending order of the angle.
     pub worst_corners: [usize; DARBOUX_WORST_CORNERS],
-    /// Their angles.
+    /// The angles of `worst_corners`.
     pub worst_angles: [f64; DARBOUX_WORST_CORNERS],
 }
 
-// SAFETY: `repr(C)`, the size first, numbers.
+// SAFETY: `repr(C)`, the size is the first field, all fields are numbers.
 unsafe impl Versioned for darboux_tangent_difference {
     const NAME: &str = "darboux_tangent_difference";
     const FIRST_SIZE: usize =
@@ -82,23 +82,23 @@ impl From<TangentDifference> for darboux_tangent_difference {
     }
 }
 
-/// How well tangents follow the UVs: the angle between the tangent as shaders interpolate it and the true dP/du.
+/// The angle between interpolated tangents and dP/du, over the surface.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct darboux_uv_fidelity {
-    /// sizeof(darboux_uv_fidelity), set by the caller, or 0, which stands for version 0.1's size.
+    /// sizeof(darboux_uv_fidelity), set by the caller. 0: the size in version 0.1.
     pub size: usize,
     /// The mean angle over the surface, weighted by area, in degrees.
     pub mean: f64,
     /// The root of the mean square of the angle, in degrees.
     pub root_mean_square: f64,
-    /// The area that was measured.
+    /// The area of the triangles that were measured.
     pub area: f64,
-    /// Triangles that were not: without area, or without a dP/du.
+    /// The number of triangles that were not measured, because they have no area or no dP/du.
     pub left_out: usize,
 }
 
-// SAFETY: `repr(C)`, the size first, numbers.
+// SAFETY: `repr(C)`, the size is the first field, all fields are numbers.
 unsafe impl Versioned for darboux_uv_fidelity {
     const NAME: &str = "darboux_uv_fidelity";
     const FIRST_SIZE: usize = pointers::size_through::<Self, usize>(offset_of!(Self, left_out));
@@ -113,8 +113,9 @@ impl From<UvFidelity> for darboux_uv_fidelity {
 
 /// Compares two sets of tangents, corner by corner.
 ///
-/// `a`, `b`: `count` by 4, of corners of the same mesh in the same order. `a_stride`, `b_stride`: bytes from one tangent to the next,
-/// 0 for packed. `difference`: receives the result. Errors: null, a stride that is too small.
+/// `a`, `b`: `count` by 4 floats, of the corners of one mesh in the same order. `a_stride`, `b_stride`: bytes from one tangent to the next;
+/// 0 for packed. `count`: the number of corners. `difference`: receives the result. Errors: a null pointer, a stride smaller than an
+/// element.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_measure_tangents(
     a: *const f32,
@@ -125,7 +126,7 @@ pub unsafe extern "C" fn darboux_measure_tangents(
     difference: *mut darboux_tangent_difference,
 ) -> darboux_status {
     call(|| {
-        // SAFETY: every pointer is as the documentation above says.
+        // SAFETY: the pointers are as documented above.
         let (out, a, b) = unsafe {
             let a = gathered("a", a.cast(), count, a_stride)?;
             let b = gathered("b", b.cast(), count, b_stride)?;
@@ -138,8 +139,8 @@ pub unsafe extern "C" fn darboux_measure_tangents(
 
 /// Measures tangents against the derivatives of the UV map, over the surface.
 ///
-/// `mesh`: the mesh that the tangents belong to. `tangents`: C by 4. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the
-/// next, 0 for packed. `fidelity`: receives the result. Errors: those of the mesh; another number of tangents.
+/// `mesh`: the mesh of the tangents. `tangents`: C by 4 floats. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the next; 0
+/// for packed. `fidelity`: receives the result. Errors: those of the mesh; another number of tangents than corners.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_measure_uv_fidelity(
     mesh: *const darboux_mesh,
@@ -149,7 +150,7 @@ pub unsafe extern "C" fn darboux_measure_uv_fidelity(
     fidelity: *mut darboux_uv_fidelity,
 ) -> darboux_status {
     call(|| {
-        // SAFETY: every pointer is as the documentation above says.
+        // SAFETY: the pointers are as documented above.
         let (mesh, out, tangents) = unsafe {
             let mesh = mesh::view(mesh)?;
             let corners = mesh.corner_count();

@@ -1,4 +1,4 @@
-//! Normals of corners.
+//! Generated normals in C: flat, or smooth with creases, one per corner.
 
 use std::mem::offset_of;
 
@@ -9,47 +9,48 @@ use crate::mesh::{self, darboux_mesh};
 use crate::pointers::{self, Output, Receiver, Versioned};
 use crate::status::{Error, call, darboux_status};
 
-/// How darboux_generate_normals makes normals. All zeros are the defaults: smooth everywhere, weighted by angle.
+/// Options of darboux_generate_normals. All zeros: smooth everywhere, weighted by angle.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct darboux_normal_options {
-    /// sizeof(darboux_normal_options), or 0, which stands for version 0.1's size.
+    /// sizeof(darboux_normal_options). 0: the size in version 0.1.
     pub size: usize,
-    /// Flat, or smooth. Default: smooth.
+    /// Flat or smooth shading. Default: smooth.
     pub shading: darboux_shading,
-    /// How much each face counts at a vertex, where shading is smooth. Default: its angle there.
+    /// The weight of each face at a vertex, for smooth shading. Default: the angle of the face's corner.
     pub weight: darboux_normal_weight,
-    /// Smooth shading stops at edges whose faces' normals differ by more than this, in degrees. 0 stands for 180: it stops nowhere;
-    /// a negative number stops it at every edge that is not flat.
+    /// The crease angle in degrees: smooth shading stops at edges whose faces' normals differ by more. 0 stands for 180: no creases. With a
+    /// negative value, smooth shading stops at every edge that is not flat.
     pub crease: f32,
-    /// Which vertices are one, where shading is smooth. Default: those at equal positions.
+    /// Whether vertices at equal positions are merged, for smooth shading. Default: they are merged.
     pub seams: darboux_smoothing_seams,
 }
 
-// SAFETY: `repr(C)`, the size first, numbers.
+// SAFETY: `repr(C)`, the size is the first field, all fields are numbers.
 unsafe impl Versioned for darboux_normal_options {
     const NAME: &str = "darboux_normal_options";
     const FIRST_SIZE: usize =
         pointers::size_through::<Self, darboux_smoothing_seams>(offset_of!(Self, seams));
 }
 
-/// What was met on the way.
+/// The counts of a run of darboux_generate_normals.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct darboux_normal_report {
-    /// sizeof(darboux_normal_report), set by the caller, or 0, which stands for version 0.1's size.
+    /// sizeof(darboux_normal_report), set by the caller. 0: the size in version 0.1.
     pub size: usize,
-    /// Faces, degenerate ones included.
+    /// The faces of the mesh, degenerate ones included.
     pub faces: usize,
-    /// Faces without an area, or with values that are not finite. They add nothing.
+    /// Faces without an area or with values that are not finite. They are skipped.
     pub degenerate_faces: usize,
-    /// Corners whose faces' normals cancel or are missing.
+    /// Corners whose faces' normals cancel or are missing. Their normal is that of their face, else the mean at their vertex, else (0, 0,
+    /// 1).
     pub repaired_corners: usize,
-    /// Edges between two faces at which smooth shading stops for their angle.
+    /// Edges between two faces at which smooth shading stops because of the crease angle.
     pub creased_edges: usize,
 }
 
-// SAFETY: `repr(C)`, the size first, integers.
+// SAFETY: `repr(C)`, the size is the first field, all fields are integers.
 unsafe impl Versioned for darboux_normal_report {
     const NAME: &str = "darboux_normal_report";
     const FIRST_SIZE: usize = pointers::size_through::<Self, usize>(offset_of!(Self, creased_edges));
@@ -67,11 +68,11 @@ impl From<NormalReport> for darboux_normal_report {
     }
 }
 
-/// Computes a unit normal for every corner. darboux_split_normals gives vertices.
+/// Computes a unit normal for every corner. darboux_split_normals computes vertices from them.
 ///
-/// `mesh`: positions, indices and faces, of any size from 3 on, counter-clockwise seen from where their normal points. `options`: null
-/// for the defaults. `normals`: room for C by 3 floats. `normal_count`: C. `normal_stride`: bytes from one normal to the next, 0 for
-/// packed. `report`: what was met, or null. Errors: what darboux_status lists.
+/// `mesh`: positions, indices and faces of 3 or more corners, which wind counter-clockwise seen from the side that their normal points to.
+/// `options`: NULL for the defaults. `normals`: receives C by 3 floats. `normal_count`: C. `normal_stride`: bytes from one normal to the
+/// next; 0 for packed. `report`: receives the counts; may be NULL. Errors: those of the mesh; another count than C; see darboux_status.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_generate_normals(
     mesh: *const darboux_mesh,
@@ -82,7 +83,7 @@ pub unsafe extern "C" fn darboux_generate_normals(
     report: *mut darboux_normal_report,
 ) -> darboux_status {
     call(|| {
-        // SAFETY: every pointer is as the documentation above says. The mesh is read before the output is written.
+        // SAFETY: the pointers are as documented above. The mesh is read before the output is written.
         let (mesh, options, report, out) = unsafe {
             let mesh = mesh::bare(mesh)?;
             let corners = mesh.corner_count();
@@ -98,11 +99,13 @@ pub unsafe extern "C" fn darboux_generate_normals(
     })
 }
 
+/// Reads the options.
+///
 /// # Safety
 ///
-/// `options` is as [`darboux_normal_options`] says, or null.
+/// `options` is null or points to a valid [`darboux_normal_options`].
 unsafe fn options(options: *const darboux_normal_options) -> Result<NormalOptions, Error> {
-    // SAFETY: as of this function.
+    // SAFETY: the caller's promise.
     let options = unsafe { pointers::read_or_zeros(options) }?;
     Ok(NormalOptions::new()
         .with_shading(codes::shading(options.shading)?)

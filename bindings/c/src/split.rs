@@ -1,4 +1,4 @@
-//! Corner results to indexed meshes.
+//! Vertex splitting in C: turns tangents or normals of corners into an indexed mesh.
 
 use darboux::{CornerNormalsRef, CornerTangentsRef, NormalSplit, VertexSplit, split_normals, split_vertices};
 
@@ -6,48 +6,49 @@ use crate::mesh::{self, darboux_mesh};
 use crate::pointers::{gathered_of_corners, hand_out, take_back};
 use crate::status::{call, darboux_status};
 
-/// An indexed mesh's vertices after splitting by tangents. The old vertices come first, in their old places.
+/// The vertices of an indexed mesh after splitting by tangents. The old vertices come first and keep their numbers.
 #[repr(C)]
 pub struct darboux_vertex_split {
-    /// The number of new vertices.
+    /// The number of new vertices, old ones included.
     pub vertex_count: usize,
-    /// One tangent per new vertex: unit xyz and sign w. Vertices that no corner uses have (1, 0, 0, 1).
+    /// One tangent per new vertex: unit xyz and sign w. (1, 0, 0, 1) for vertices that no corner uses.
     pub tangent_of_vertex: *const [f32; 4],
-    /// The old vertex that each new vertex copies. Gather any other attribute with it: new[v] = old[source_of_vertex[v]].
+    /// The old vertex that each new vertex copies. All other attributes follow from it: new[v] = old[source_of_vertex[v]].
     pub source_of_vertex: *const u32,
     /// The number of corners.
     pub index_count: usize,
-    /// The new index list, in the old corner order.
+    /// The new index list, one per corner, in the old corner order.
     pub indices: *const u32,
 }
 
-/// An indexed mesh's vertices after splitting by normals. The old vertices come first, in their old places.
+/// The vertices of an indexed mesh after splitting by normals. The old vertices come first and keep their numbers.
 #[repr(C)]
 pub struct darboux_normal_split {
-    /// The number of new vertices.
+    /// The number of new vertices, old ones included.
     pub vertex_count: usize,
-    /// One normal per new vertex. Vertices that no corner uses have (0, 0, 1).
+    /// One normal per new vertex. (0, 0, 1) for vertices that no corner uses.
     pub normal_of_vertex: *const [f32; 3],
-    /// The old vertex that each new vertex copies. Gather any other attribute with it: new[v] = old[source_of_vertex[v]].
+    /// The old vertex that each new vertex copies. All other attributes follow from it: new[v] = old[source_of_vertex[v]].
     pub source_of_vertex: *const u32,
     /// The number of corners.
     pub index_count: usize,
-    /// The new index list, in the old corner order.
+    /// The new index list, one per corner, in the old corner order.
     pub indices: *const u32,
 }
 
-/// What a caller sees, and the arrays that it points into.
+/// The struct that the caller sees, followed by the arrays that its pointers refer to.
 #[repr(C)]
 struct Owned<View, Arrays> {
     view: View,
     arrays: Arrays,
 }
 
-/// Splits the vertices whose corners need different tangents: one vertex per distinct pair of old vertex and tangent, compared as bits.
+/// Splits the vertices whose corners have different tangents.
 ///
-/// `mesh`: the mesh that the tangents belong to. `tangents`: C by 4, as darboux_generate_tangents writes them. `tangent_count`: C.
-/// `tangent_stride`: bytes from one tangent to the next, 0 for packed. `split`: receives the result, for darboux_vertex_split_free.
-/// Errors: those of the mesh; another number of tangents.
+/// Each distinct pair of old vertex and tangent (four floats, compared as bits) becomes one vertex. `mesh`: the mesh of the tangents.
+/// `tangents`: C by 4 floats, as darboux_generate_tangents writes them. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the
+/// next; 0 for packed. `split`: receives the result; free it with darboux_vertex_split_free. Errors: those of the mesh; another number of
+/// tangents than corners.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_split_vertices(
     mesh: *const darboux_mesh,
@@ -57,7 +58,7 @@ pub unsafe extern "C" fn darboux_split_vertices(
     split: *mut *mut darboux_vertex_split,
 ) -> darboux_status {
     let make = || {
-        // SAFETY: every pointer is as the documentation above says.
+        // SAFETY: the pointers are as documented above.
         let (mesh, tangents) = unsafe {
             let mesh = mesh::view(mesh)?;
             let corners = mesh.corner_count();
@@ -67,22 +68,23 @@ pub unsafe extern "C" fn darboux_split_vertices(
         };
         Ok(owned_vertices(split_vertices(&mesh, CornerTangentsRef::from_per_corner(&tangents))?))
     };
-    // SAFETY: `split` is null or may be written; the view is what the owner begins with.
+    // SAFETY: `split` is null or writable; the view is the first field of the allocation.
     call(|| unsafe { hand_out("split", split.cast(), make) })
 }
 
-/// Frees a split; nothing where it is null.
+/// Frees a split. `split`: from darboux_split_vertices; may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_vertex_split_free(split: *mut darboux_vertex_split) {
     // SAFETY: `split` is null or from `darboux_split_vertices`, and no longer used.
     unsafe { take_back(split.cast::<Owned<darboux_vertex_split, VertexSplit>>()) }
 }
 
-/// Splits the vertices whose corners have different normals: one vertex per distinct pair of old vertex and normal, compared as bits.
+/// Splits the vertices whose corners have different normals.
 ///
-/// `mesh`: as for darboux_generate_normals. `normals`: C by 3, as darboux_generate_normals writes them.
-/// `normal_count`: C. `normal_stride`: bytes from one normal to the next, 0 for packed. `split`: receives the result, for
-/// darboux_normal_split_free. Errors: those of the mesh; another number of normals.
+/// Each distinct pair of old vertex and normal (three floats, compared as bits) becomes one vertex. `mesh`: as for
+/// darboux_generate_normals. `normals`: C by 3 floats, as darboux_generate_normals writes them. `normal_count`: C. `normal_stride`: bytes
+/// from one normal to the next; 0 for packed. `split`: receives the result; free it with darboux_normal_split_free. Errors: those of the
+/// mesh; another number of normals than corners.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_split_normals(
     mesh: *const darboux_mesh,
@@ -92,7 +94,7 @@ pub unsafe extern "C" fn darboux_split_normals(
     split: *mut *mut darboux_normal_split,
 ) -> darboux_status {
     let make = || {
-        // SAFETY: every pointer is as the documentation above says.
+        // SAFETY: the pointers are as documented above.
         let (mesh, normals) = unsafe {
             let mesh = mesh::bare(mesh)?;
             let corners = mesh.corner_count();
@@ -106,11 +108,11 @@ pub unsafe extern "C" fn darboux_split_normals(
             CornerNormalsRef::from_per_corner(&normals),
         )?))
     };
-    // SAFETY: `split` is null or may be written; the view is what the owner begins with.
+    // SAFETY: `split` is null or writable; the view is the first field of the allocation.
     call(|| unsafe { hand_out("split", split.cast(), make) })
 }
 
-/// Frees a split; nothing where it is null.
+/// Frees a split. `split`: from darboux_split_normals; may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_normal_split_free(split: *mut darboux_normal_split) {
     // SAFETY: `split` is null or from `darboux_split_normals`, and no longer used.

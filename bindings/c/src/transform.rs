@@ -1,4 +1,4 @@
-//! Frames under node matrices and skins.
+//! Transformation of normals and tangents in C: by a node's matrix, or by the bones of a skin.
 
 use std::mem::offset_of;
 
@@ -10,76 +10,76 @@ use crate::status::{Error, call, darboux_status};
 type Normal = [f32; 3];
 type Tangent = [f32; 4];
 
-/// Where the normals and tangents of vertices are read and written. Strides are in bytes, 0 for packed.
+/// Input and output arrays of normals and tangents, one element per vertex. Strides are in bytes; 0 for packed.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct darboux_frame_arrays {
-    /// sizeof(darboux_frame_arrays), or 0, which stands for version 0.1's size.
+    /// sizeof(darboux_frame_arrays). 0: the size in version 0.1.
     pub size: usize,
     /// The number of elements of every array.
     pub count: usize,
-    /// `count` by 3, unit.
+    /// `count` by 3 floats, unit length.
     pub normals: *const f32,
     /// Bytes from one normal to the next.
     pub normal_stride: usize,
-    /// `count` by 4, unit xyz and the sign w.
+    /// `count` by 4 floats, unit xyz and the sign w.
     pub tangents: *const f32,
     /// Bytes from one tangent to the next.
     pub tangent_stride: usize,
-    /// Room for `count` by 3, unit; it may be `normals`.
+    /// Receives `count` by 3 floats, unit length. May equal `normals`.
     pub out_normals: *mut f32,
-    /// Bytes from one of these to the next.
+    /// Bytes from one output normal to the next.
     pub out_normal_stride: usize,
-    /// Room for `count` by 4, unit and perpendicular to the normals; it may be `tangents`.
+    /// Receives `count` by 4 floats, unit length and perpendicular to the output normals. May equal `tangents`.
     pub out_tangents: *mut f32,
-    /// Bytes from one of these to the next.
+    /// Bytes from one output tangent to the next.
     pub out_tangent_stride: usize,
 }
 
-// SAFETY: `repr(C)`, the size first, numbers and null pointers.
+// SAFETY: `repr(C)`, the size is the first field, all fields are integers or raw pointers.
 unsafe impl Versioned for darboux_frame_arrays {
     const NAME: &str = "darboux_frame_arrays";
     const FIRST_SIZE: usize = pointers::size_through::<Self, usize>(offset_of!(Self, out_tangent_stride));
 }
 
-/// A skin: matrices of bones, and which of them move each vertex.
+/// A skin: the matrices of its bones, and the bones and weights of each vertex.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct darboux_skin {
-    /// sizeof(darboux_skin), or 0, which stands for version 0.1's size.
+    /// sizeof(darboux_skin). 0: the size in version 0.1.
     pub size: usize,
-    /// The matrix of each bone, from the pose of the arrays to where it is now, column by column.
+    /// The matrix of each bone, from the pose of the input arrays to the current pose, column-major.
     pub bones: *const f32,
-    /// How many there are.
+    /// The number of bones.
     pub bone_count: usize,
-    /// Bytes from one matrix to the next. Default: 64, matrices of 4 by 4.
+    /// Bytes from one matrix to the next. 0 stands for 64: 4 by 4 floats.
     pub bone_stride: usize,
-    /// Bytes from one column of a matrix to the next. Default: 16, matrices of 4 by 4.
+    /// Bytes from one column of a matrix to the next. 0 stands for 16: 4 floats.
     pub column_stride: usize,
-    /// How many bones each vertex has, as many as weights.
+    /// The number of bones, and of weights, per vertex.
     pub influence_count: usize,
-    /// `count` by `influence_count`: the bones of each vertex.
+    /// `count` by `influence_count`: the bones of each vertex, as indices below `bone_count`.
     pub joints: *const u16,
-    /// Bytes from one vertex's bones to the next's. Default: packed.
+    /// Bytes from the joints of one vertex to those of the next. 0 for packed.
     pub joint_stride: usize,
-    /// `count` by `influence_count`: their weights.
+    /// `count` by `influence_count` floats: the weight of each joint.
     pub weights: *const f32,
-    /// Bytes from one vertex's weights to the next's. Default: packed.
+    /// Bytes from the weights of one vertex to those of the next. 0 for packed.
     pub weight_stride: usize,
 }
 
-// SAFETY: `repr(C)`, the size first, numbers and null pointers.
+// SAFETY: `repr(C)`, the size is the first field, all fields are integers or raw pointers.
 unsafe impl Versioned for darboux_skin {
     const NAME: &str = "darboux_skin";
     const FIRST_SIZE: usize = pointers::size_through::<Self, usize>(offset_of!(Self, weight_stride));
 }
 
-/// Moves normals and tangents as a node's matrix moves their surface, mirrors and uneven scales included.
+/// Transforms normals and tangents by a node's matrix, which may mirror or scale non-uniformly.
 ///
-/// A normal that the matrix leaves no direction stays as it is; such a tangent becomes a perpendicular of the normal. `matrix`: column by
-/// column; of 4 by 4 the first three of the first three columns count. `column_stride`: bytes from one column to the next, 16 for
-/// matrices of 4 by 4, 0 for packed (3 by 3). `arrays`: normals and tangents. `orientation`: receives -1 where the matrix mirrors, which
-/// turns the winding of faces, else +1; or null. Errors: null, a stride that is too small.
+/// A normal that the matrix maps to zero is not changed. A tangent that the matrix maps to zero becomes a perpendicular of the normal.
+/// `matrix`: column-major; of a 4 by 4 matrix only the upper left 3 by 3 is read. `column_stride`: bytes from one column to the next: 16
+/// for 4 by 4; 0 for packed, 3 by 3. `arrays`: the normals and tangents. `orientation`: receives -1 where the matrix mirrors, which
+/// reverses the winding of faces, else +1; may be NULL. Errors: a null pointer, a stride smaller than an element.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_transform_frames(
     matrix: *const f32,
@@ -87,7 +87,7 @@ pub unsafe extern "C" fn darboux_transform_frames(
     arrays: *const darboux_frame_arrays,
     orientation: *mut f32,
 ) -> darboux_status {
-    // SAFETY: every pointer is as the documentation above says.
+    // SAFETY: the pointers are as documented above.
     call(|| unsafe {
         let mut columns = copied::<[f32; 3]>("matrix", matrix.cast(), 3, column_stride)?;
         let transform = Transform::new([(); 3].map(|()| columns.next().unwrap_or_default()));
@@ -103,17 +103,17 @@ pub unsafe extern "C" fn darboux_transform_frames(
     })
 }
 
-/// Moves normals and tangents as a skin's bones move their surface: each by the weighted mean of its bones' matrices.
+/// Transforms normals and tangents by a skin: each by the weighted mean of its bones' matrices.
 ///
-/// That weights vary over the surface is left out, as everywhere: normals of strongly bent skins are approximate. `skin`: its arrays have
-/// an element per normal. `arrays`: normals and tangents. Errors: null, a stride that is too small; a joint that is none of the bones.
-/// Source: B. Merry et al., "Normal Transformations for Articulated Models", SIGGRAPH Sketches 2006.
+/// The change of the weights over the surface is ignored, as is common practice, so normals of strongly bent skins are approximate. `skin`:
+/// bones, and joints and weights of `count` vertices. `arrays`: the normals and tangents. Errors: a null pointer, a stride smaller than an
+/// element, a joint out of range. Source: B. Merry et al., "Normal Transformations for Articulated Models", SIGGRAPH Sketches 2006.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_skin_frames(
     skin: *const darboux_skin,
     arrays: *const darboux_frame_arrays,
 ) -> darboux_status {
-    // SAFETY: every pointer is as the documentation above says.
+    // SAFETY: the pointers are as documented above.
     call(|| unsafe {
         let arrays = Arrays::new(arrays)?;
         let skin = Skin::new(skin, arrays.count)?;
@@ -124,7 +124,7 @@ pub unsafe extern "C" fn darboux_skin_frames(
 
 type Columns = [[f32; 3]; 3];
 
-/// What a [`darboux_frame_arrays`] describes.
+/// The checked form of [`darboux_frame_arrays`].
 struct Arrays<Normals, Tangents> {
     count: usize,
     normals: Normals,
@@ -136,11 +136,11 @@ struct Arrays<Normals, Tangents> {
 impl Arrays<(), ()> {
     /// # Safety
     ///
-    /// `arrays` and the pointers in it are as [`darboux_frame_arrays`] says.
+    /// `arrays` points to a valid [`darboux_frame_arrays`].
     unsafe fn new(
         arrays: *const darboux_frame_arrays,
     ) -> Result<Arrays<impl Iterator<Item = Normal>, impl Iterator<Item = Tangent>>, Error> {
-        // SAFETY: as of this function.
+        // SAFETY: the caller's promise.
         unsafe {
             let arrays = pointers::read(arrays)?;
             let (normals, tangents) = (arrays.out_normals.cast(), arrays.out_tangents.cast());
@@ -157,7 +157,8 @@ impl Arrays<(), ()> {
 }
 
 impl<Normals: Iterator<Item = Normal>, Tangents: Iterator<Item = Tangent>> Arrays<Normals, Tangents> {
-    /// Writes every frame as `moved` turns it. Each element is read before any of its number is written.
+    /// Writes `moved(vertex, normal, tangent)` for every vertex. Each input element is read before its output element is written, so that
+    /// outputs may equal inputs.
     fn write(self, moved: impl Fn(usize, Normal, Tangent) -> (Normal, Tangent)) {
         for (vertex, (normal, tangent)) in self.normals.zip(self.tangents).enumerate() {
             let (normal, tangent) = moved(vertex, normal, tangent);
@@ -167,7 +168,7 @@ impl<Normals: Iterator<Item = Normal>, Tangents: Iterator<Item = Tangent>> Array
     }
 }
 
-/// What a [`darboux_skin`] describes.
+/// The checked form of [`darboux_skin`].
 struct Skin {
     bones: Vec<Columns>,
     joints: Rows<u16>,
@@ -177,9 +178,9 @@ struct Skin {
 impl Skin {
     /// # Safety
     ///
-    /// `skin` and the pointers in it are as [`darboux_skin`] says, of `count` vertices, until the skin is gone.
+    /// `skin` points to a valid [`darboux_skin`] for `count` vertices, which outlives the result.
     unsafe fn new(skin: *const darboux_skin, count: usize) -> Result<Self, Error> {
-        // SAFETY: as of this function.
+        // SAFETY: the caller's promise.
         let skin = unsafe {
             let skin = pointers::read(skin)?;
             let width = skin.influence_count;
@@ -203,9 +204,11 @@ impl Skin {
     }
 }
 
+/// Copies the upper left 3 by 3 of every bone's matrix.
+///
 /// # Safety
 ///
-/// As of [`Skin::new`].
+/// As for [`Skin::new`].
 unsafe fn bones(skin: &darboux_skin) -> Result<Vec<Columns>, Error> {
     let or = |stride, default| if stride == 0 { default } else { stride };
     let (to_next_bone, to_next_column) = (or(skin.bone_stride, 64), or(skin.column_stride, 16));
@@ -218,7 +221,7 @@ unsafe fn bones(skin: &darboux_skin) -> Result<Vec<Columns>, Error> {
         return Err(Error::new(darboux_status::Stride, message));
     }
     let first = skin.bones.cast::<u8>();
-    // SAFETY: as of this function; a null pointer is refused before it is added to.
+    // SAFETY: the caller's promise; `copied` rejects a null pointer before the offset is dereferenced.
     unsafe {
         let x = copied::<Normal>("bones", first, skin.bone_count, to_next_bone)?;
         let y = copied("bones", first.wrapping_add(to_next_column), skin.bone_count, to_next_bone)?;

@@ -1,6 +1,6 @@
-//! The structs of `include/mikktspace.h`, and calls through their pointers.
+//! The structs of `include/mikktspace.h`, and safe calls of their callbacks.
 //!
-//! Exceptions of C++ pass through: the functions are `C-unwind`.
+//! The callbacks are `extern "C-unwind"`, so that C++ exceptions can pass through them.
 
 use std::ffi::{c_int, c_void};
 
@@ -13,7 +13,7 @@ type SetTangent = unsafe extern "C-unwind" fn(*const Context, *const f32, f32, c
 type SetFrame =
     unsafe extern "C-unwind" fn(*const Context, *const f32, *const f32, f32, f32, c_int, c_int, c_int);
 
-/// SMikkTSpaceInterface.
+/// `SMikkTSpaceInterface`.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct Interface {
@@ -26,14 +26,14 @@ pub struct Interface {
     set_tspace: Option<SetFrame>,
 }
 
-/// SMikkTSpaceContext.
+/// `SMikkTSpaceContext`.
 #[repr(C)]
 pub struct Context {
     interface: *mut Interface,
     user_data: *mut c_void,
 }
 
-/// Callbacks that are all there, and what they are called with.
+/// The callbacks and the context that is passed to them. The callbacks that read the mesh are present.
 pub(crate) struct Caller {
     context: *const Context,
     get_num_faces: GetCount,
@@ -46,13 +46,13 @@ pub(crate) struct Caller {
 }
 
 impl Caller {
-    /// None where a pointer or a callback that is needed is null.
+    /// `None` where `context`, its interface or a callback that reads the mesh is null.
     ///
     /// # Safety
     ///
-    /// `context` and what it points to are as the header says, until the caller is gone.
+    /// `context` and its interface are as the header documents, and stay valid until the caller is dropped.
     pub unsafe fn new(context: *const Context) -> Option<Self> {
-        // SAFETY: as of this function.
+        // SAFETY: the caller's promise.
         let interface = unsafe { context.as_ref()?.interface.as_ref()? };
         Some(Self {
             context,
@@ -66,25 +66,25 @@ impl Caller {
         })
     }
 
-    /// Whether more than tangents and signs are asked for.
+    /// True when whole frames are requested, and not only tangents and signs.
     pub fn wants_frames(&self) -> bool {
         self.set_tspace.is_some()
     }
 
     pub fn face_count(&self) -> c_int {
-        // SAFETY: as of `new`.
+        // SAFETY: the promise of `new`.
         unsafe { (self.get_num_faces)(self.context) }
     }
 
     pub fn face_size(&self, face: c_int) -> c_int {
-        // SAFETY: as of `new`.
+        // SAFETY: the promise of `new`.
         unsafe { (self.get_num_vertices_of_face)(self.context, face) }
     }
 
-    /// Reads position, normal and UV.
+    /// Reads the position, the normal and the UV of a corner into `out`.
     pub fn read_vertex(&self, face: c_int, corner: c_int, out: &mut [f32; 8]) {
         let position = out.as_mut_ptr();
-        // SAFETY: as of `new`; there is room for what each callback writes.
+        // SAFETY: the promise of `new`; `out` has space for all that the callbacks write.
         unsafe {
             (self.get_position)(self.context, position, face, corner);
             (self.get_normal)(self.context, position.add(3), face, corner);
@@ -92,20 +92,20 @@ impl Caller {
         }
     }
 
-    /// The position of the very first corner, and zeros for its normal and UV.
+    /// The position of corner 0 of face 0, with zeros as normal and UV.
     pub fn first_vertex(&self) -> [f32; 8] {
         let mut out = [0.0; 8];
-        // SAFETY: as of `new`; there is room for what the callback writes.
+        // SAFETY: the promise of `new`; `out` has space for what the callback writes.
         unsafe { (self.get_position)(self.context, out.as_mut_ptr(), 0, 0) };
         out
     }
 
-    /// Hands out a whole frame, then its tangent and sign.
+    /// Passes a frame to `m_setTSpace`, then its tangent and sign to `m_setTSpaceBasic`.
     pub fn write(&self, face: c_int, corner: c_int, frame: &Frame) {
         if let Some(set) = self.set_tspace {
             let Frame { tangent, bitangent, magnitude: [s, t], sign } = frame;
             let preserves = c_int::from(*sign > 0.0);
-            // SAFETY: as of `new`; the arrays live for the call.
+            // SAFETY: the promise of `new`; the arrays outlive the call.
             unsafe {
                 set(self.context, tangent.as_ptr(), bitangent.as_ptr(), *s, *t, preserves, face, corner)
             };
@@ -113,10 +113,10 @@ impl Caller {
         self.write_tangent(face, corner, &frame.tangent_and_sign());
     }
 
-    /// Hands out a tangent and its sign.
+    /// Passes a tangent and its sign to `m_setTSpaceBasic`.
     pub fn write_tangent(&self, face: c_int, corner: c_int, tangent: &[f32; 4]) {
         if let Some(set) = self.set_tspace_basic {
-            // SAFETY: as of `new`; the array lives for the call.
+            // SAFETY: the promise of `new`; the array outlives the call.
             unsafe { set(self.context, tangent.as_ptr(), tangent[3], face, corner) };
         }
     }

@@ -1,4 +1,4 @@
-//! What the callbacks know of the mesh, in arrays.
+//! Reads the mesh of the callbacks into arrays, and merges most corners with equal bits into one vertex.
 
 use std::ffi::c_int;
 
@@ -6,28 +6,28 @@ use darboux::{Faces, Indices, Mesh, Strided};
 
 use crate::callbacks::Caller;
 
-/// The corners of the faces of 3 or 4, in order, over vertices of which most are distinct.
+/// The corners of all faces with 3 or 4 corners, in order, as an indexed mesh.
 pub(crate) struct Corners {
-    /// Position, normal, UV.
+    /// The position, normal and UV of each vertex.
     vertices: Vec<[f32; 8]>,
     vertex_of_corner: Vec<u32>,
-    /// How many corners each face has, 0 for those that MikkTSpace does not define.
+    /// The corner count of each face; 0 for faces with other than 3 or 4 corners.
     size_of_face: Vec<u8>,
     kind: Kind,
-    /// 1 where a corner without an answer comes first.
+    /// The number of extra corners at the start of the mesh: 1 where face 0 has other than 3 or 4 corners, else 0.
     skipped: usize,
 }
 
-/// Which faces there are.
+/// The kind of the mesh's faces.
 enum Kind {
     Triangles,
     Quads,
-    /// The sizes of the faces that the mesh has.
+    /// The corner count of each face of the mesh.
     Mixed(Vec<u32>),
 }
 
 impl Corners {
-    /// None without a face of 3 or 4 corners, or without memory.
+    /// Reads the mesh. `None` where no face has 3 or 4 corners, or memory runs out.
     pub fn read(caller: &Caller) -> Option<Self> {
         let size_of_face = read_sizes(caller)?;
         let is_first_undefined = *size_of_face.first()? == 0;
@@ -36,7 +36,7 @@ impl Corners {
         let count = skipped + size_of_face.iter().map(|&size| usize::from(size)).sum::<usize>();
         let mut reader = Reader::new(count)?;
         if is_first_undefined {
-            // The reference's bounds begin at the very first corner, even if it does not count.
+            // The reference's bounding box starts at corner 0 of face 0, even where the face is skipped.
             reader.add(&[caller.first_vertex()]);
         }
         reader.read(caller, &size_of_face);
@@ -44,7 +44,7 @@ impl Corners {
         Some(Self { vertices, vertex_of_corner, size_of_face, kind, skipped })
     }
 
-    /// The mesh of these corners; none where it has too many.
+    /// The mesh of these corners. `None` where there are too many.
     pub fn mesh(&self) -> Option<Mesh<'_>> {
         let faces = match &self.kind {
             Kind::Triangles => Faces::Triangles,
@@ -58,9 +58,9 @@ impl Corners {
         Mesh::with_faces(positions, normals, uvs, Indices::U32(&self.vertex_of_corner), faces).ok()
     }
 
-    /// Hands every corner's answer to `write`, with the face and the place in it.
+    /// Passes the result of every corner to `write`, with the face and the corner's number in the face.
     ///
-    /// `read` is given the number of a corner of the mesh, and writes answers from this one on. None where it gives none.
+    /// `read(first, block)` fills `block` with the results of the mesh's corners from `first` on. `None` where `read` returns `None`.
     pub fn hand_out<T: Copy + Default>(
         &self,
         read: impl Fn(usize, &mut [T]) -> Option<()>,
@@ -81,7 +81,7 @@ impl Corners {
     }
 }
 
-/// None without memory.
+/// Reads the corner count of every face. `None` where memory runs out.
 fn read_sizes(caller: &Caller) -> Option<Vec<u8>> {
     let faces = caller.face_count();
     let mut sizes = Vec::new();
@@ -95,7 +95,7 @@ fn read_sizes(caller: &Caller) -> Option<Vec<u8>> {
 }
 
 impl Kind {
-    /// None without a face of 3 or 4 corners, or without memory.
+    /// `None` where no face has 3 or 4 corners, or memory runs out.
     fn new(size_of_face: &[u8], is_first_undefined: bool) -> Option<Self> {
         match (size_of_face.contains(&3), size_of_face.contains(&4)) {
             (false, false) => None,
@@ -112,24 +112,24 @@ impl Kind {
     }
 }
 
-/// Corners that are read before any of them is looked at, and answers before any is handed out.
+/// The number of corners per block: blocks are read before they are merged, and computed before they are written.
 const BLOCK: usize = 64;
 
-/// Makes most corners with the same bits one vertex again: that takes less time than the core needs for vertices apart.
+/// Merges most corners with equal bits into one vertex. The core needs more time for separate vertices than the merging takes.
 struct Reader {
     vertices: Vec<[f32; 8]>,
     vertex_of_corner: Vec<u32>,
-    /// The last two vertices of each hash, the last first: the upper half of the hash, so that a vertex is only looked at when it is most
-    /// likely the one, and the vertex. Earlier ones are forgotten: their next corner is a vertex of its own.
+    /// A cache of the last two vertices per hash slot, the last one first. An entry is the upper half of the hash and the vertex, so that a
+    /// vertex is compared only where the upper halves match. A corner whose vertex was evicted becomes a new vertex.
     pairs: Vec<[u64; 2]>,
 }
 
 impl Reader {
-    /// None without memory for `count` corners.
+    /// `None` where there is no memory for `count` corners.
     fn new(count: usize) -> Option<Self> {
         let pair_count = (count / 8).next_power_of_two().clamp(1 << 3, 1 << 14);
         let (mut vertices, mut vertex_of_corner, mut pairs) = (Vec::new(), Vec::new(), Vec::new());
-        // Room for the worst: what is not used of it costs nothing.
+        // Reserved for the worst case, in which every corner is a vertex of its own. Unused pages cost nothing.
         vertices.try_reserve_exact(count).ok()?;
         vertex_of_corner.try_reserve_exact(count).ok()?;
         pairs.try_reserve_exact(pair_count).ok()?;
@@ -137,7 +137,7 @@ impl Reader {
         Some(Self { vertices, vertex_of_corner, pairs })
     }
 
-    /// Reads all corners. Block by block: what a callback has just stored in small parts is slow to load in large ones.
+    /// Reads all corners in blocks: loading bytes in wide parts stalls directly after a callback has stored them in narrow parts.
     fn read(&mut self, caller: &Caller, size_of_face: &[u8]) {
         let mut block = [[0.0; 8]; BLOCK + 3];
         let mut filled = 0;
@@ -154,7 +154,7 @@ impl Reader {
         self.add(&block[..filled]);
     }
 
-    /// Adds corners.
+    /// Appends corners to the index list, and new vertices to the vertices.
     fn add(&mut self, corners: &[[f32; 8]]) {
         let mask = self.pairs.len() - 1;
         let vertex = |corner: &[f32; 8]| {
@@ -177,7 +177,7 @@ impl Reader {
     }
 }
 
-/// Two products of 128 bits, folded.
+/// Hashes the bits of a corner: two 128-bit products, whose halves are combined by exclusive or.
 fn hash([x, y, z, nx, ny, nz, u, v]: [u32; 8]) -> u64 {
     let pair = |low, high, seed| (u64::from(high) << 32 | u64::from(low)) ^ seed;
     let product = |a, b| u128::from(a) * u128::from(b);

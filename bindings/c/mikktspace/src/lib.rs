@@ -1,7 +1,7 @@
-//! The functions that `include/mikktspace.h` declares: every bit of mikktspace.c, read and written through the same callbacks.
+//! The functions of `include/mikktspace.h`: the results of mikktspace.c bit for bit, through the same callbacks.
 //!
-//! A call has three parts. Reading and writing call back and cannot panic; callbacks may throw through them, which frees what was read.
-//! Between them the core computes, and calls nobody: what it panics with stays inside.
+//! A call reads the mesh, computes, and writes. Only reading and writing call back; they cannot panic, and a C++ exception that passes
+//! through them frees the arrays. Only the computation can panic; the panic is caught and becomes a result of 0.
 
 #![allow(unsafe_code, reason = "C passes pointers")]
 #![allow(non_snake_case, reason = "functions are called as C calls them")]
@@ -19,22 +19,22 @@ use darboux::{MikktOptions, Mode, TangentOptions, generate_tangents, lend_frames
 use callbacks::{Caller, Context};
 use corners::Corners;
 
-/// As the header says.
+/// As documented in the header.
 #[unsafe(no_mangle)]
 pub unsafe extern "C-unwind" fn genTangSpaceDefault(context: *const Context) -> c_int {
-    // SAFETY: the caller's, as of the header.
+    // SAFETY: the caller's promise, as documented in the header.
     unsafe { genTangSpace(context, 180.0) }
 }
 
-/// As the header says.
+/// As documented in the header.
 #[unsafe(no_mangle)]
 pub unsafe extern "C-unwind" fn genTangSpace(context: *const Context, threshold: f32) -> c_int {
-    // SAFETY: the caller's, as of the header.
+    // SAFETY: the caller's promise, as documented in the header.
     let caller = unsafe { Caller::new(context) };
     c_int::from(caller.is_some_and(|caller| run(&caller, threshold).is_some()))
 }
 
-/// None where there is nothing to compute, no memory for it, or more corners than there can be.
+/// `None` where no face has 3 or 4 corners, memory runs out, or there are too many corners.
 fn run(caller: &Caller, threshold: f32) -> Option<()> {
     let corners = Corners::read(caller)?;
     let options =
@@ -57,12 +57,12 @@ fn run(caller: &Caller, threshold: f32) -> Option<()> {
     }
 }
 
-/// None where it panics.
+/// `None` where `compute` panics or returns `None`.
 fn contained<R>(compute: impl FnOnce() -> Option<R>) -> Option<R> {
     catch_unwind(AssertUnwindSafe(compute)).ok()?
 }
 
-/// Copies as many as there are and fit.
+/// Copies as many elements as both slices hold.
 fn copy<T: Copy>(from: &[T], to: &mut [T]) -> Option<()> {
     from.iter().zip(to).for_each(|(from, to)| *to = *from);
     Some(())
