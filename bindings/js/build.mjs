@@ -77,7 +77,7 @@ const deflatedPath = (path) => `${path}.deflated`;
 /** Shrinks and deflates a module, unless the same module was shrunk before. */
 async function shrink(entry, form) {
   const [source, path] = [join(modules, `${entry}.${form}.wasm`), shrunkPath(entry, form)];
-  const key = createHash('sha256').update(readFileSync(source)).update(readFileSync(fileURLToPath(import.meta.url))).digest('hex');
+  const key = createHash('sha256').update(readFileSync(source)).update(`${FEATURES} ${PANICS} ${trapPanics} ${shrink}`).digest('hex');
   const keyPath = `${path}.key`;
   if (existsSync(keyPath) && readFileSync(keyPath, 'utf8') === key) return;
   mkdirSync(dirname(path), { recursive: true });
@@ -173,10 +173,12 @@ async function bundleEntry(entry) {
 
 async function bundleAdapters() {
   if (!ADAPTERS.length) return;
+  // Most errors of adapters are thrown by their entry, so longer lines, which are smaller, do no harm here.
+  const lineLimit = 400;
   const entryPoints = ADAPTERS.map((adapter) => `${adapter}.ts`);
   const plugins = (extension) => [externalEntries(extension), shaders];
-  await bundle({ format: 'esm', entryPoints: [...entryPoints, ...LAZY_CHUNKS], plugins: plugins('.js') });
-  await bundle({ format: 'cjs', entryPoints, plugins: plugins('.cjs'), outExtension: { '.js': '.cjs' } });
+  await bundle({ format: 'esm', entryPoints: [...entryPoints, ...LAZY_CHUNKS], plugins: plugins('.js'), lineLimit });
+  await bundle({ format: 'cjs', entryPoints, plugins: plugins('.cjs'), outExtension: { '.js': '.cjs' }, lineLimit });
 }
 
 /** Keeps the type declarations that the entries reach, for ES modules and for CommonJS, and deletes the others. */

@@ -34,7 +34,7 @@ const MODES = ['repaired', 'corrected'] as const;
  * @throws RangeError where lengths do not fit together or an index is out of range. The message names the primitive.
  */
 export function tangents(options?: TangentsOptions | null): Transform {
-  const { overwrite, generateTangents: _, ...computation } = options ?? {};
+  const { overwrite = false, generateTangents: _, ...computation } = options ?? {};
   choice('mode', computation.mode, MODES, 'repaired');
   const transform = async (document: Document): Promise<void> => {
     await ready;
@@ -42,8 +42,8 @@ export function tangents(options?: TangentsOptions | null): Transform {
     if (document.hasExtension('KHR_mesh_primitive_restart')) {
       throw new Error('tangents: Missing support for KHR_mesh_primitive_restart.');
     }
-    const selected = selectPrimitives(document, !!overwrite);
-    for (const group of groupPrimitives(selected, !!overwrite)) {
+    const selected = selectPrimitives(document, overwrite);
+    for (const group of groupPrimitives(selected, overwrite)) {
       try {
         addTangents(document, group, computation);
       } catch (error) {

@@ -67,7 +67,7 @@ export function computeTangents<G extends BufferGeometry>(geometry: G, options?:
 function attribute(geometry: BufferGeometry, name: string): Attribute {
   const found = geometry.getAttribute(name) as Attribute | GLBufferAttribute | undefined;
   if (!found) throw new Error(`the geometry has no attribute '${name}'; tangents need positions, normals and UVs`);
-  if (!('array' in found)) throw new Error(`the attribute '${name}' is on the GPU only; tangents need its array`);
+  if (!('array' in found)) throw new Error(`the attribute '${name}' is on the GPU; tangents need its array`);
   return found;
 }
 

@@ -5,7 +5,7 @@ import type { Accessor, TypedArray } from '@gltf-transform/core';
 /** The values of an accessor, dequantised. Errors: the number of elements is not the number of vertices. */
 export function floats(accessor: Accessor, semantic: string, width: number, vertices: number): Float32Array {
   const count = accessor.getCount();
-  if (count !== vertices) throw new RangeError(`${semantic} has ${count} elements but there are ${vertices} vertices; export the file again`);
+  if (count !== vertices) throw new RangeError(`${semantic} has ${count} elements for ${vertices} vertices; export the file again`);
   const array = accessor.getArray();
   if (array instanceof Float32Array) return array;
   const values = new Float32Array(width * count);
