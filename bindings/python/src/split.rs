@@ -3,7 +3,7 @@
 use darboux::{CornerNormalsRef, CornerTangentsRef, Faces, Mesh, MeshError, Strided};
 use numpy::PyArray1;
 use numpy::prelude::*;
-use pyo3::exceptions::PyMemoryError;
+use pyo3::exceptions::{PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::arrays::{Rows, rows_array};
@@ -42,11 +42,11 @@ pub fn split_vertices<'py>(
     vertex_count: VertexCount,
 ) -> PyResult<Bound<'py, PyAny>> {
     let VertexCount(vertex_count) = vertex_count;
-    check_room(vertex_count)?;
     let indices = IndexArray::new(Some(indices))?;
     let tangents = Rows::new("tangents", "C", tangents)?;
     let tangents = tangents.packed()?;
     check_corners(&indices, "tangents", tangents.len())?;
+    check_vertex_count(vertex_count, tangents.len())?;
     let list = indices.view()?;
     let split = py.detach(|| {
         // Splitting needs only the vertex count and the corners, here as one large face.
@@ -93,11 +93,11 @@ pub fn split_normals<'py>(
     vertex_count: VertexCount,
 ) -> PyResult<Bound<'py, PyAny>> {
     let VertexCount(vertex_count) = vertex_count;
-    check_room(vertex_count)?;
     let indices = IndexArray::new(Some(indices))?;
     let normals = Rows::new("normals", "C", normals)?;
     let normals = normals.packed()?;
     check_corners(&indices, "normals", normals.len())?;
+    check_vertex_count(vertex_count, normals.len())?;
     let list = indices.view()?;
     let split = py
         .detach(|| darboux::split_normals(vertex_count, list, CornerNormalsRef::from_per_corner(&normals)))
@@ -110,15 +110,25 @@ pub fn split_normals<'py>(
     named(py, "NormalSplit", fields)
 }
 
-/// Checks that tables for this many vertices can be allocated, so that a wrong count does not abort the process. Errors: they cannot.
-fn check_room(vertex_count: usize) -> PyResult<()> {
+/// Vertex buffers up to this size may belong to any number of corners.
+const MAX_UNUSED_VERTICES: usize = 1 << 24;
+
+/// The largest number of vertices per corner beyond that: results have one row per vertex, and a wrong count must not take all memory.
+const MAX_VERTICES_PER_CORNER: usize = 64;
+
+/// Errors: far more vertices than the corners could use, or more than there is memory for.
+fn check_vertex_count(vertex_count: usize, corners: usize) -> PyResult<()> {
+    if vertex_count > MAX_UNUSED_VERTICES.max(corners.saturating_mul(MAX_VERTICES_PER_CORNER)) {
+        return Err(PyValueError::new_err(format!(
+            "vertex_count is {vertex_count}, more than {MAX_VERTICES_PER_CORNER} times the {corners} corners; \
+             pass the number of vertices of this mesh"
+        )));
+    }
     // Bytes per vertex: a tangent, its source and a link.
     if Vec::<[u32; 6]>::new().try_reserve_exact(vertex_count).is_ok() {
         return Ok(());
     }
-    Err(PyMemoryError::new_err(format!(
-        "vertex_count is {vertex_count}; there is no room for so many vertices"
-    )))
+    Err(PyMemoryError::new_err(format!("vertex_count is {vertex_count}; there is not enough memory")))
 }
 
 /// Errors: the number of values differs from the number of corners.

@@ -97,6 +97,8 @@ def test_bad_splits() -> None:
             darboux.split_vertices(mesh.indices, tangents, count)
         with pytest.raises(ValueError, match=f"vertex_count is {count}"):
             darboux.split_normals(mesh.indices, tangents[:, :3], count)
+    with pytest.raises(ValueError, match="vertex_count is 268435456, more than 64 times the 24 corners"):
+        darboux.split_vertices(mesh.indices, tangents, 2**28)
     with pytest.raises(TypeError, match="vertex_count must be a whole number, not str"):
         darboux.split_vertices(mesh.indices, tangents, "9")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match=r"tangents must have shape \(C, 4\)"):
