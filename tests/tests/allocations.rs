@@ -10,7 +10,7 @@ use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 #[global_allocator]
 static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
-/// How often calls allocate, after the first. The least of several: threads of others may be starting beside one.
+/// The number of allocations of a call after the first: the least of several calls, because other threads may start during one.
 fn allocations_of(mut call: impl FnMut()) -> usize {
     call();
     let count = |_| {
@@ -42,7 +42,7 @@ fn allocations_of_plan(mesh: &Mesh<'_>, method: Method) -> usize {
     allocations_of(|| plan.write_tangents(mesh, &mut context, &mut tangents).expect("the same mesh"))
 }
 
-/// One test alone: others would be counted with it.
+/// The only test of this program, because the allocations of others would be counted too.
 #[test]
 #[cfg_attr(small_limits, ignore = "all meshes are worth threads, and starting these allocates")]
 fn none_for_a_plain_surface() {

@@ -1,4 +1,4 @@
-//! Arrays of the caller's: the same results as in the library's own, and none for an array that does not fit.
+//! Functions that write into the caller's arrays: the same results as those that allocate, and an error for an array of another length.
 
 use darboux::{
     Context, CornerTangentsRef, Frame, MeshError, Method, MikktOptions, Mode, Plan, TangentOptions,
@@ -40,7 +40,7 @@ fn have_the_same_tangents_and_splits() {
     }
 }
 
-/// On one thread and on several, with a context that has had larger and smaller meshes, of every method.
+/// Every method on one thread and on several, with a context that was used for larger and smaller meshes before.
 #[test]
 fn have_the_same_frames() {
     let large = families::grid(97, 97, false, true);

@@ -1,4 +1,4 @@
-//! Work that is told to stop.
+//! Cancellation.
 
 use std::time::Duration;
 
@@ -14,7 +14,7 @@ fn options(threshold: f32) -> TangentOptions {
     TangentOptions::from(MikktOptions::new().with_threshold(threshold))
 }
 
-/// Below 180 degrees a fan costs its size squared: this one would take minutes.
+/// Below 180 degrees a fan takes time quadratic in its size: this one would take minutes.
 fn endless() -> OwnedMesh {
     families::fan(1 << 18, true)
 }
@@ -45,7 +45,7 @@ fn ends_long_runs_of_every_kind() {
     assert_eq!(cancelled(|context| Plan::new_with(view, options, context)), expected);
 }
 
-/// A token is heard where the caller's closure hands the work to the threads of a pool.
+/// A token works also where the caller's closure runs the work on the threads of a pool.
 #[test]
 fn ends_work_that_moves_to_a_pool() {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("a thread pool");

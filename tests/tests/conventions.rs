@@ -1,4 +1,4 @@
-//! Conventions: every pair of presets against a surface that is written down anew in each.
+//! Conventions: conversion between every pair of presets, compared with a triangle that is defined in each of them.
 
 use darboux::{
     Axes, Axis, BitangentDirection, Convention, ConventionError, Handedness, Mesh, SignRule,
@@ -26,7 +26,7 @@ fn triangles() -> [Vec<Corner>; 2] {
     [TRIANGLE.iter().map(plain).collect(), TRIANGLE.iter().map(mirrored).collect()]
 }
 
-/// What a file in one convention says of a triangle.
+/// The values of a triangle in a file of one convention.
 #[derive(Clone, Debug, PartialEq)]
 struct Written {
     positions: Vec<[f32; 3]>,
@@ -55,7 +55,7 @@ fn component(axis: Axis) -> (usize, f32) {
     }
 }
 
-/// Coordinates of what lies so far to the model's right, up and to its front.
+/// The coordinates of a point at given distances to the model's right, up and front.
 fn coordinates(axes: Axes, place: [f32; 3]) -> [f32; 3] {
     let mut out = [0.0; 3];
     for (axis, length) in [axes.right(), axes.up(), axes.front()].into_iter().zip(place) {
@@ -120,7 +120,7 @@ fn converted(written: &Written, from: Convention, to: Convention) -> Written {
     }
 }
 
-/// The presets, and some that differ from them in what presets share.
+/// The presets, and conventions that differ from all of them.
 fn conventions() -> Vec<(String, Convention)> {
     let mut conventions: Vec<_> =
         Convention::PRESETS.into_iter().map(|(name, convention)| (name.to_owned(), convention)).collect();
@@ -222,7 +222,7 @@ fn axes_must_differ() {
     assert_eq!(Axes::new(Axis::Z, Axis::Y, Axis::MinusZ), None);
 }
 
-/// Every convention that there is: 48 ways to stand and 2 of each other choice.
+/// Every convention: 48 systems of axes, and both values of every other choice.
 fn all_conventions() -> Vec<Convention> {
     let axes = [Axis::X, Axis::MinusX, Axis::Y, Axis::MinusY, Axis::Z, Axis::MinusZ];
     let triples = axes.into_iter().flat_map(|a| axes.into_iter().flat_map(move |b| axes.map(|c| [a, b, c])));

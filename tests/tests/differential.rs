@@ -3,7 +3,7 @@
 use darboux::Mode;
 use darboux_tests::{Case, assert_equal, engine, engines, first_difference, shrink};
 
-/// Runs the cases of `seeds`; a difference is made small before it is shown.
+/// Runs the cases of `seeds`. The mesh of a difference is shrunk before it is printed.
 fn sweep(seeds: std::ops::Range<u64>) {
     for seed in seeds {
         let case = Case::from_seed(seed);
@@ -32,7 +32,7 @@ fn random_meshes() {
     sweep(0..50_000);
 }
 
-/// DARBOUX_SWEEP=first..last runs those seeds; a million without it.
+/// Runs the seeds `first..last` of the variable DARBOUX_SWEEP, or a million.
 #[test]
 #[ignore = "long"]
 fn many_random_meshes() {

@@ -1,4 +1,4 @@
-//! Encodings: stated errors, exhaustive decoding, signs, and input without a direction.
+//! Encodings: the documented errors, exhaustive decoding, signs, and input without a direction.
 
 use darboux::encode::{
     frame_from_quaternion, frame_to_quaternion, normal_from_octahedral, normal_to_octahedral,
@@ -59,7 +59,7 @@ fn frames(count: u32, around: u32) -> impl Iterator<Item = (V3, V3)> {
     })
 }
 
-/// The largest angle that a coding turns a tangent by; signs must come back.
+/// The largest angle between a tangent and its decoded code. Checks that the sign is kept.
 fn largest_turn(count: u32, mut there_and_back: impl FnMut([f32; 4]) -> [f32; 4]) -> f64 {
     let mut largest: f64 = 0.0;
     for (i, [x, y, z]) in directions(count).enumerate() {
@@ -71,7 +71,7 @@ fn largest_turn(count: u32, mut there_and_back: impl FnMut([f32; 4]) -> [f32; 4]
     largest
 }
 
-/// Below the stated bound, and near enough to it that the bound says something.
+/// The error is below the documented bound and close to it.
 fn check_bound(largest: f64, stated: f64) {
     assert!(largest < stated && largest > 0.7 * stated, "{largest} degrees, {stated} stated");
 }
@@ -145,7 +145,7 @@ fn every_code_comes_back() {
     }
 }
 
-/// The square's edges are glued in pairs, so points there have twins; all others come back.
+/// Two points on the edge of the square encode one direction, so only inner points are decoded to themselves.
 #[test]
 fn every_point_of_the_octahedral_square_comes_back() {
     for x in (-32767..=32767i16).step_by(61) {

@@ -1,4 +1,4 @@
-//! The harness itself: what it makes, reads and finds.
+//! Tests of the harness: generated meshes, the text format, shrinking.
 
 use darboux_tests::{Case, Dice, OwnedMesh, engine, first_difference, shrink};
 
@@ -13,7 +13,7 @@ fn text_keeps_every_bit() {
     }
 }
 
-/// The generator is worth its name only while what is rare elsewhere is common here.
+/// Cases that are rare in models must be common in generated meshes.
 #[test]
 fn random_meshes_are_odd() {
     const CASES: usize = 3000;

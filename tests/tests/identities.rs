@@ -1,4 +1,4 @@
-//! The same mesh in another layout, or turned or mirrored: the result must follow.
+//! A mesh in another layout, rotated or mirrored: its tangents must be transformed alike.
 
 use darboux::{Faces, Frame, Mesh, MikktOptions, Mode, Strided, TangentOptions, generate_frames};
 use darboux_tests::{Case, OwnedMesh, families};
@@ -16,7 +16,7 @@ fn frames(mesh: &Mesh<'_>, threshold: f32) -> Vec<Frame> {
     .into_per_corner()
 }
 
-/// Position, UV and normal of each vertex in one buffer of 9 floats a vertex, with one that is nobody's.
+/// Position, UV and normal of each vertex in one buffer of 9 floats per vertex, one of which is unused.
 fn interleaved(mesh: &OwnedMesh) -> Vec<f32> {
     let vertex = |v: usize| {
         let (p, n, t) = mesh.vertex(v);
@@ -57,8 +57,7 @@ fn the_layout_of_the_input_does_not_matter() {
     }
 }
 
-/// In `Reference`: a repair is shared by the corners of one vertex, which an unindexed mesh does not tell apart where NaN keeps them
-/// from welding.
+/// In `Reference` only: a repair is shared by the corners of one vertex, and NaN keeps the corners of an unindexed mesh from welding.
 #[test]
 fn indices_do_not_matter() {
     for seed in 0..3_000 {
@@ -85,8 +84,7 @@ fn mirrored_uvs_mirror_the_frames() {
     }
 }
 
-/// Axes renamed in a circle: products are the same, sums come in another order, so the last bits may differ: each of a few dozen
-/// roundings of 6e-8.
+/// Axes permuted cyclically: sums are added in another order, so the last bits may differ by a few dozen roundings of 6e-8.
 #[test]
 fn turned_meshes_have_turned_frames() {
     let turn = |[x, y, z]: [f32; 3]| [z, x, y];

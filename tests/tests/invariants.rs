@@ -1,4 +1,4 @@
-//! What must hold on every mesh, however odd.
+//! Invariants on random meshes.
 
 use darboux_tests::{Case, all_modes, split_and_plan};
 

@@ -1,4 +1,4 @@
-//! Measures of tangents whose answers are known.
+//! Measures of tangents, compared with known values.
 
 use darboux::{
     CornerDifference, HISTOGRAM_ENDS, Method, TangentOptions, generate_tangents, measure_tangents,

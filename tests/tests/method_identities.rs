@@ -1,7 +1,7 @@
-//! A mesh turned, scaled, mirrored, reordered or cut: the frames of every method must follow.
+//! A mesh rotated, scaled, mirrored, reordered or triangulated: the frames of every method must be transformed alike.
 //!
-//! Sums come in another order then, so that last bits differ: each of a few dozen roundings of 6e-8, times the 10 by which thin triangles
-//! multiply errors.
+//! Sums are then added in another order, so that the last bits differ: by a few dozen roundings of 6e-8, which thin triangles multiply by up
+//! to 10.
 
 use darboux::{Frame, Method, TangentOptions, generate_frames};
 use darboux_tests::{METHODS, OwnedMesh, families};
@@ -24,7 +24,7 @@ fn assert_near(what: &str, method: Method, expected: &[Frame], found: &[Frame]) 
     }
 }
 
-/// Meshes without UV seams at which a sum per vertex cancels.
+/// Meshes without UV seams where a sum per vertex would cancel.
 fn meshes() -> [OwnedMesh; 5] {
     [
         families::grid(7, 5, false, false),
@@ -79,7 +79,7 @@ fn mirrored() {
     }
 }
 
-/// Faces in another order, and each beginning at another of its corners; quads, whose diagonal is 0-2 on a tie, at the opposite one.
+/// Faces in another order, each with another first corner. A quad begins at the opposite corner, because a tie cuts it from 0 to 2.
 #[test]
 fn reordered() {
     for method in METHODS {
@@ -128,7 +128,7 @@ fn cut_quads() {
     }
 }
 
-/// What a shader rebuilds, and on the side of the true bitangent wherever normals are on the side of the winding.
+/// The bitangent that a shader computes is on the side of dP/dv wherever normals agree with the winding.
 #[test]
 fn orthogonalized_bitangents() {
     let dot = |a: [f32; 3], b: [f32; 3]| (0..3).map(|i| a[i] * b[i]).sum::<f32>();

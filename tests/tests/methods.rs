@@ -1,9 +1,9 @@
-//! Every method but MikkTSpace against its brute force in double precision, and on odd meshes.
+//! Every method except MikkTSpace, compared with the oracle in double precision, and on degenerate meshes.
 
 use darboux::{Frame, Mesh, Method, Report, TangentOptions, generate_frames, generate_tangents};
 use darboux_tests::{Case, METHODS, OwnedMesh, families, oracle};
 
-/// A method and its brute force.
+/// A method and its oracle.
 type Twin = (Method, fn(&darboux::Mesh<'_>) -> Vec<Option<Frame>>);
 
 const TWINS: [Twin; 7] = [
@@ -36,7 +36,7 @@ fn difference(a: &Frame, b: &Frame) -> f32 {
     pairs.map(|(a, b)| (a - b).abs() / b.abs().max(1.0)).fold((a.sign - b.sign).abs(), f32::max)
 }
 
-/// Regular meshes without anything degenerate.
+/// Regular meshes without degenerate triangles.
 fn regular_meshes() -> Vec<(&'static str, OwnedMesh)> {
     let mut meshes = vec![
         ("sphere", families::sphere(8, 13, false)),
@@ -175,7 +175,7 @@ fn many_random_meshes() {
     sweep(10_000..300_000);
 }
 
-/// A bitangent that the UVs do not give, as dP/dv runs along the normal, is perpendicular to the tangent that the fit leaves.
+/// If dP/dv is along the normal, the bitangent is perpendicular to the fitted tangent.
 #[test]
 fn bitangents_without_a_direction_follow_the_fit() {
     let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 1.0f32]];
@@ -189,7 +189,7 @@ fn bitangents_without_a_direction_follow_the_fit() {
     assert!(dot(frame.bitangent, frame.tangent).abs() < 1e-6, "{frame:?}");
 }
 
-/// A triangle with a NaN has corners that are counted, and is no UV-degenerate one.
+/// The corners of a triangle with NaN are counted; the triangle does not count as UV-degenerate.
 #[test]
 fn what_is_not_finite_is_not_uv_degenerate() {
     for method in METHODS.into_iter().filter(|&method| method != Method::FromNormal) {

@@ -1,4 +1,4 @@
-//! Real models against the reference, bit for bit: the repository's, and a larger set where it lies beside the repository.
+//! Real models compared with the reference, bit for bit: those of the repository, and a larger set beside it if present.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

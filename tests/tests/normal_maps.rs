@@ -2,13 +2,13 @@
 
 use darboux::{BitangentDirection, Convention, TangentDirection, TexelLayout, repack_texels};
 
-/// Every red and green of 8 bits; blue and alpha that depend on both.
+/// Every 8-bit red and green; blue and alpha depend on both.
 fn bytes() -> Vec<[u8; 4]> {
     let texel = |i: u32| [i as u8, (i >> 8) as u8, (i % 251) as u8, (i % 239) as u8];
     (0..65_536).map(texel).collect()
 }
 
-/// Every red of 16 bits.
+/// Every 16-bit red.
 fn words() -> Vec<[u16; 3]> {
     (0..=u16::MAX).map(|x| [x, x.wrapping_mul(40_503), x.rotate_left(5)]).collect()
 }
@@ -38,7 +38,7 @@ fn every_pair_of_conventions_round_trips() {
     }
 }
 
-/// A texel in the other convention leans where it leant: red and green times the tangent's and bitangent's directions stay.
+/// A converted texel has the same direction: red and green times the directions of tangent and bitangent stay the same.
 #[test]
 fn a_texel_leans_the_same_way_on_the_picture() {
     let in_picture = |convention: Convention, [x, y, z]: [f32; 3]| {

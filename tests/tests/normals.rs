@@ -1,4 +1,4 @@
-//! Normals against their brute force, on shapes whose normals are known, and on odd input.
+//! Normals compared with the oracle, on shapes with known normals, and on degenerate input.
 
 use darboux::{
     CornerNormalsRef, Faces, Indices, Mesh, MeshError, NormalOptions, NormalPlan, NormalWeight, Normals,
@@ -78,7 +78,7 @@ fn a_cube_is_flat_or_round() {
     assert_eq!(own.corners, flat.corners, "every side has vertices of its own");
 }
 
-/// The angle's weight does not depend on the cut; the area's does.
+/// Angle weights do not depend on the triangulation; area weights do.
 #[test]
 fn angles_do_not_see_how_a_surface_is_cut() {
     let mesh = families::cube(true);
@@ -157,7 +157,7 @@ fn wrong_structure_is_an_error() {
         .expect_err("two normals for three corners");
 }
 
-/// A mesh without normals: zeros stand for them, and the method of area uses its own.
+/// A mesh whose normals are zero: the area method computes normals itself.
 #[test]
 fn tangents_without_normals() {
     let mesh = families::sphere(8, 12, false);

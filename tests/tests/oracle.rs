@@ -1,4 +1,4 @@
-//! The library against the brute force in double precision, on meshes where no decision hangs on the last bits.
+//! MikkTSpace compared with the oracle in double precision, on meshes where no decision depends on the last bits.
 
 use darboux::{Frame, MikktOptions, Mode, TangentOptions, generate_frames};
 use darboux_tests::{OwnedMesh, families, oracle};

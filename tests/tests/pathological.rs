@@ -19,7 +19,7 @@ fn scattered_fan(count: usize) -> OwnedMesh {
     mesh
 }
 
-/// A fan most of whose members have one of a few directions, some of them opposite.
+/// A fan whose members have one of four directions, some of them opposite.
 fn bundled_fan(count: usize) -> OwnedMesh {
     let mut mesh = families::fan(count, true);
     for (i, position) in mesh.positions.iter_mut().enumerate().skip(1) {

@@ -1,9 +1,9 @@
-//! Plans on meshes that move.
+//! Plans on deformed meshes.
 
 use darboux::{Context, Method, MikktOptions, Mode, Plan, TangentOptions, generate_tangents};
 use darboux_tests::{Case, FaceSizes, OwnedMesh, families};
 
-/// A plan of `base` on `moved`.
+/// The tangents of `moved` by a plan of `base`, as bits.
 fn planned(base: &OwnedMesh, moved: &OwnedMesh, options: &TangentOptions) -> Vec<[u32; 4]> {
     let plan = Plan::new(&base.view(), options);
     let tangents = plan.evaluate(&moved.view()).expect("the same mesh, moved");
@@ -11,7 +11,7 @@ fn planned(base: &OwnedMesh, moved: &OwnedMesh, options: &TangentOptions) -> Vec
     tangents.per_corner().iter().map(|tangent| tangent.map(bits)).collect()
 }
 
-/// With a last face that MikkTSpace does not define: such meshes go through every stage.
+/// The mesh with a pentagon added. MikkTSpace does not support it, so the mesh takes the general path.
 fn with_pentagon(mesh: &OwnedMesh) -> OwnedMesh {
     let mut faces = mesh.face_list();
     faces.push(vec![0; 5]);
@@ -23,7 +23,7 @@ fn is_supported(size: u32) -> bool {
     matches!(size, 3 | 4)
 }
 
-/// Seeds first..last of DARBOUX_SWEEP, or few.
+/// The seeds `first..last` of the variable DARBOUX_SWEEP, or 20,000.
 fn seeds() -> std::ops::Range<u64> {
     let Ok(range) = std::env::var("DARBOUX_SWEEP") else { return 0..20_000 };
     let (first, last) = range.split_once("..").expect("first..last");
@@ -46,7 +46,7 @@ fn every_stage_agrees_with_the_short_way() {
     }
 }
 
-/// Faces are those of the base, whatever comes with the vertices.
+/// A plan uses the faces of its base mesh and ignores those of the deformed mesh.
 #[test]
 fn other_faces_change_nothing() {
     let base = families::grid(3, 2, true, true);
@@ -93,7 +93,7 @@ fn a_waving_surface_keeps_its_groups() {
     }
 }
 
-/// Vertices that fall onto others, or nowhere, change no group: nothing but their own triangles and those around them.
+/// Vertices that coincide with others or are NaN change only their own triangles and their neighbours.
 #[test]
 fn groups_of_angle_and_area_hold_whatever_moves() {
     let options = TangentOptions::from(Method::AngleArea);

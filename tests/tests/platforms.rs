@@ -1,6 +1,6 @@
-//! The same bits on every processor: hashes of what all methods give, as recorded on x86-64.
+//! The same bits on every processor: hashes of the results of all methods, recorded on x86-64.
 //!
-//! Run this on another one to see whether the promise holds there. A change that is meant to change tangents records new ones.
+//! Run this on another processor to check it. A change that is meant to change tangents must record new hashes.
 
 use darboux::{Frame, Method, MikktOptions, Mode, generate_frames, generate_tangents};
 use darboux_tests::{Case, METHODS, OwnedMesh, compare};
@@ -13,7 +13,7 @@ impl Hash {
         self.0 = (self.0 ^ u64::from(word)).wrapping_mul(0x0100_0000_01b3);
     }
 
-    /// Which NaN it is differs from processor to processor.
+    /// Every NaN hashes alike, because the bits of NaN differ between processors.
     fn take_float(&mut self, float: f32) {
         self.take(if float.is_nan() { f32::NAN.to_bits() } else { float.to_bits() });
     }

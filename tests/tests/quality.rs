@@ -1,4 +1,4 @@
-//! How well the tangents of every method follow the UVs of real models, beside those of meshoptimizer.
+//! The angle between tangents and UV derivatives on real models, for every method and for meshoptimizer.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ const METHODS: [Method; 8] = [
     Method::FromNormal,
 ];
 
-/// The names of a row's numbers: meshoptimizer, then [`METHODS`].
+/// The names of the columns: meshoptimizer, then [`METHODS`].
 const COLUMNS: [&str; 9] = [
     "meshoptimizer",
     "angle-area",
@@ -31,11 +31,11 @@ const COLUMNS: [&str; 9] = [
     "from-normal",
 ];
 
-/// The columns that are smooth and follow UVs, which are what angle-area is compared with.
+/// The columns that angle-area is compared with: methods that are smooth and follow UVs.
 const RIVALS: [usize; 6] = [0, 2, 3, 4, 5, 6];
 const ANGLE_AREA: usize = 1;
 
-/// Models on which angle-area and its rivals are all nearer than this, in degrees, are flat: there is nothing to compare.
+/// Models on which all these angles are below this, in degrees, are flat and are not compared.
 const FLAT: f64 = 0.001;
 
 /// The mean angle of every method and of meshoptimizer on a mesh.
@@ -57,7 +57,7 @@ fn measure(mesh: &OwnedMesh) -> Vec<UvFidelity> {
     [theirs].into_iter().chain(ours).collect()
 }
 
-/// The mean angles over all primitives of a model, weighted by area; none where nothing can be measured.
+/// The mean angles over all primitives of a model, weighted by area; `None` if no primitive can be measured.
 fn measure_model(path: &Path) -> Option<[f64; COLUMNS.len()]> {
     let mut sums = [0.0; COLUMNS.len()];
     let mut area = 0.0;

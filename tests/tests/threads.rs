@@ -32,11 +32,11 @@ const MIKKTSPACE: [Method; 3] = [
     Method::MikkTSpace(MikktOptions::new().with_mode(Mode::Corrected)),
 ];
 
-/// The methods that sum, which run on several threads as well.
+/// The summing methods, which also run on several threads.
 const SUMS: [Method; 5] =
     [Method::Lengyel, Method::LengyelPerVertex, Method::Average, Method::Area, Method::AngleArea];
 
-/// Faces over vertices.
+/// Vertices and faces of a mesh.
 #[derive(Clone, Copy)]
 struct Shape<'a> {
     vertices: &'a [[f32; 8]],
@@ -59,7 +59,7 @@ fn for_each_layout(shape: &Shape<'_>, mut take: impl FnMut(&Mesh<'_>)) {
     }
 }
 
-/// Hashes of the tangents and reports in some runs; plans give the same tangents.
+/// The hash of the tangents and reports of some runs. Checks that plans give the same tangents.
 fn hash(shape: &Shape<'_>, runs: &[Method]) -> u64 {
     hash_with(Context::new(), shape, runs)
 }
@@ -87,7 +87,7 @@ fn hash_with(mut context: Context, shape: &Shape<'_>, runs: &[Method]) -> u64 {
     hasher.finish()
 }
 
-/// Hashes of whole frames.
+/// The hash of whole frames.
 fn hash_frames(shape: &Shape<'_>) -> u64 {
     let mut hasher = DefaultHasher::new();
     for_each_layout(shape, |mesh| {
@@ -100,7 +100,7 @@ fn hash_frames(shape: &Shape<'_>) -> u64 {
     hasher.finish()
 }
 
-/// All thread counts give one hash.
+/// Checks that all thread counts give the same hash.
 fn assert_alike(threads: &[usize], hash: impl Fn() -> u64 + Sync) {
     let hash = |&threads: &usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
@@ -110,7 +110,7 @@ fn assert_alike(threads: &[usize], hash: impl Fn() -> u64 + Sync) {
     assert!(hashes.iter().all(|hash| *hash == hashes[0]), "{threads:?}");
 }
 
-/// Pairs of triangles as quads: all of them, or all but every third.
+/// Joins pairs of triangles to quads: all of them, or all but every third.
 fn quads(triangles: &[[u32; 3]], all: bool) -> (Vec<u32>, Vec<u32>) {
     let (mut corners, mut sizes) = (Vec::new(), Vec::new());
     for (at, pair) in triangles.as_chunks().0.iter().enumerate() {
@@ -131,7 +131,7 @@ fn damage(corners: &mut [u32], step: usize) {
     (1..corners.len()).step_by(step).for_each(|at| corners[at] = corners[at - 1]);
 }
 
-/// Threads whose triangles bring no vertices of their own: the end of the list repeats what is in its midst.
+/// Threads that own no vertices: the end of the triangle list repeats its middle.
 #[test]
 fn parts_without_own_vertices() {
     let (vertices, mut triangles) = grid(200, 180);
@@ -143,7 +143,7 @@ fn parts_without_own_vertices() {
     assert_alike(&[1, 4, 7, 8, 9], || hash(&shape, &MIKKTSPACE) ^ hash(&shape, &SUMS));
 }
 
-/// Plans on threads that worked on a larger mesh before, and have no part of this one.
+/// Plans after the same context was used for a larger mesh, so that some worker threads have no part of this mesh.
 #[test]
 fn plans_after_larger_meshes() {
     let ((large, in_order), (small, mut shuffled)) = (grid(300, 300), grid(150, 150));
@@ -170,7 +170,7 @@ fn plans_after_larger_meshes() {
 
 const ONE_TWO_THREE_SIXTEEN: [usize; 4] = [1, 2, 3, 16];
 
-/// A step without a common factor visits every face once.
+/// Shuffles faces: a step that is coprime to their number visits each once.
 fn shuffled<T: Copy>(faces: &[T]) -> Vec<T> {
     (0..faces.len()).map(|at| faces[at * 7919 % faces.len()]).collect()
 }

@@ -26,7 +26,7 @@ fn distance(a: D3, b: D3) -> f64 {
     dot(d, d).sqrt()
 }
 
-/// A bumpy torus whose lines of u and v cross at right angles nowhere in particular.
+/// A bumpy torus whose UV lines are not perpendicular.
 fn surface([u, v]: [f64; 2]) -> D3 {
     let (a, b) = (u + 0.3 * v, v);
     let radius = 2.0 + (0.7 + 0.1 * (3.0 * u).sin()) * b.cos();
@@ -40,7 +40,7 @@ fn derivatives(of: impl Fn([f64; 2]) -> D3, [u, v]: [f64; 2]) -> [D3; 2] {
     [difference([u + step, v], [u - step, v]), difference([u, v + step], [u, v - step])]
 }
 
-/// Outward unit normal, tangent made perpendicular to nothing but the normal, and the sign.
+/// The outward unit normal, the tangent perpendicular to it, and the sign.
 fn frame([du, dv]: [D3; 2], outward: D3) -> (D3, [f64; 4]) {
     let normal = unit(cross(du, dv));
     let normal = if dot(normal, outward) < 0.0 { normal.map(|x| -x) } else { normal };
@@ -62,7 +62,7 @@ impl Random {
         [self.next(), self.next(), self.next()]
     }
 
-    /// Columns of a matrix that scales by 0.1 to 10 along axes of its own, shears and, for every other, mirrors.
+    /// The columns of a random matrix that scales by 0.1 to 10, shears, and mirrors every other time.
     fn matrix(&mut self, mirrors: bool) -> [D3; 3] {
         loop {
             let columns = [self.vector(), self.vector(), self.vector()].map(|column| {

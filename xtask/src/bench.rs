@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use crate::run::{Outcome, program, root, run, works};
 
-/// glibc keeps what is freed, so that no engine pays the kernel for fresh pages at every call, whichever way it allocates.
+/// Makes glibc keep freed memory, so that no engine waits for fresh pages of the kernel, however it allocates.
 const ALLOCATOR: &str =
     "glibc.malloc.arena_max=1:glibc.malloc.mmap_max=0:glibc.malloc.trim_threshold=17179869184";
 

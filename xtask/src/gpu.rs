@@ -1,7 +1,7 @@
-//! `cargo xtask gpu`: all that a machine with a GPU can show, into one folder.
+//! `cargo xtask gpu`: records the tests, comparisons and times of a machine with a GPU in one folder.
 //!
-//! The programs are built first, into a folder with this one: with the repository beside it, that folder is all that a machine without
-//! Rust and without a network needs. Each step is short enough to be run, and cut off, by itself, and writes what it has so far.
+//! The programs are built first, into one folder together with this program. A machine without Rust and without a network needs that
+//! folder and the repository only. Each step can be run alone, and writes its results as it goes.
 
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -10,20 +10,20 @@ use std::process::{Command, Stdio};
 
 use crate::run::{Outcome, files_below, output_of, program, root, shown, target_folder};
 
-/// What is asked for.
+/// The parsed arguments.
 #[derive(Debug, Default, PartialEq)]
 pub struct Wanted<'a> {
-    /// All of [`STEPS`] where none is named.
+    /// The steps to run; all of [`STEPS`] if none is named.
     steps: Vec<&'static Step>,
-    /// Nothing is run.
+    /// Build the programs without running them.
     only_build: bool,
-    /// Where records go.
+    /// The folder for records.
     out: Option<&'a str>,
-    /// They go to the benchmark.
+    /// Arguments of the benchmark.
     options: Vec<&'a str>,
 }
 
-/// Something to run.
+/// A group of programs to run.
 #[derive(Debug, PartialEq)]
 struct Step {
     name: &'static str,
@@ -34,7 +34,7 @@ struct Step {
     is_markdown: bool,
 }
 
-/// Quick ones first.
+/// All steps, quick ones first.
 const STEPS: &[Step] = &[
     step("devices", "The command's list of adapters", "command/darboux", "devices"),
     step("tests", "Tests", "tests", "--show-output"),
@@ -60,7 +60,7 @@ const BUILDS: [(&str, &str); 3] = [
     ("command", "test --no-run --package darboux-cli --test devices"),
     ("examples", "build --package darboux-gpu --example report --example times"),
 ];
-/// In the folder of programs: what they were built from.
+/// The file in the folder of programs that names the commit they were built from.
 const COMMIT: &str = "commit";
 
 impl<'a> Wanted<'a> {
@@ -87,7 +87,7 @@ impl<'a> Wanted<'a> {
     }
 }
 
-/// Builds what this program was not packed with, runs the steps, whichever fails, and writes a file for each. Errors: what failed.
+/// Builds the programs unless this program was packed with them, runs all steps, and writes a file for each. Errors: a step failed.
 pub fn record(wanted: &Wanted<'_>) -> Outcome {
     let packed = std::env::current_exe().ok().and_then(|own| own.parent().map(Path::to_owned));
     let folder = match packed.filter(|folder| folder.join(COMMIT).is_file()) {
@@ -187,7 +187,7 @@ fn executables(messages: &[u8]) -> Vec<(String, PathBuf)> {
     messages.split(|byte| *byte == b'\n').filter_map(executable).collect()
 }
 
-/// The adapters' names, for a folder's.
+/// The adapters' names as a folder name.
 fn adapters(folder: &Path) -> Result<String, String> {
     let mut command = Command::new(folder.join("command/darboux"));
     let text = output_of(command.args(["devices", "--json"]))?;
@@ -202,7 +202,7 @@ fn read(path: &Path) -> Result<String, String> {
     fs::read_to_string(path).map_err(|error| format!("{} cannot be read: {error}", path.display()))
 }
 
-/// Runs a program, passes on what it prints, and gives it, with how it failed if it did. Errors: it cannot start.
+/// Runs a program, prints its output, and returns the lines and, if it failed, its exit status. Errors: it cannot start.
 fn lines_of(command: &mut Command) -> Result<(Vec<String>, Option<String>), String> {
     let fault = |error, command: &Command| format!("{} cannot start: {error}", shown(command));
     let mut child = command.stdout(Stdio::piped()).spawn().map_err(|error| fault(error, command))?;
@@ -213,7 +213,7 @@ fn lines_of(command: &mut Command) -> Result<(Vec<String>, Option<String>), Stri
     Ok((lines, (!status.success()).then(|| status.to_string())))
 }
 
-/// Plain text in Markdown, without what says nothing.
+/// Plain text as Markdown code, without blank lines and lines that only say that tests run.
 fn plain(lines: &[String]) -> Vec<String> {
     let says_something = |line: &&String| !line.is_empty() && !line.starts_with("running ");
     lines.iter().filter(says_something).map(|line| format!("    {line}")).collect()

@@ -1,14 +1,14 @@
-//! What tests need beside Rust, from Debian and Ubuntu.
+//! Packages of Debian and Ubuntu that tests need.
 
 use crate::run::{Outcome, program, run, works};
 
-/// A Vulkan adapter in software, a compiler of HLSL, a browser; what C users build and check with.
+/// A software Vulkan adapter, a compiler for HLSL, a browser, and tools that build and check C programs.
 pub const FOR_TESTS: &str = "chromium cmake glslang-tools libvulkan1 mesa-vulkan-drivers pkg-config valgrind";
 
-/// Compilers for 64-bit Arm, and an emulator of it.
+/// Compilers and an emulator for 64-bit Arm.
 pub const FOR_ARM: &str = "gcc-aarch64-linux-gnu g++-aarch64-linux-gnu qemu-user";
 
-/// In continuous integration, installs what is missing, as root. Elsewhere the tests say what they skip or lack.
+/// In CI, installs missing packages as root. Elsewhere tests print what they skip.
 pub fn install(packages: &str) -> Outcome {
     let is_installed = || works(&mut program(&format!("dpkg --status {packages}")));
     if std::env::var_os("CI").is_none() || is_installed() {

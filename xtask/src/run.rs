@@ -1,9 +1,9 @@
-//! Starting other programs from the repository's root.
+//! Starts other programs in the repository's root.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// Nothing, or one sentence that says what went wrong.
+/// Success, or an error message of one sentence.
 pub type Outcome = Result<(), String>;
 
 /// The repository's root.
@@ -11,7 +11,7 @@ pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("xtask lies in the repository's root")
 }
 
-/// A program to be started in the root: `line` is its name and arguments, separated by spaces.
+/// A command that starts a program in the root. `line` holds its name and arguments, separated by spaces.
 pub fn program(line: &str) -> Command {
     let mut words = line.split_whitespace();
     let mut command = Command::new(words.next().expect("a program's name"));
@@ -25,7 +25,7 @@ pub fn run(command: &mut Command) -> Outcome {
     if status.success() { Ok(()) } else { Err(format!("{} failed ({status})", shown(command))) }
 }
 
-/// Runs a program to its end for what it writes to standard output. Errors as for [`run`].
+/// Runs a program to its end and returns its standard output. Errors: those of [`run`].
 pub fn output_of(command: &mut Command) -> Result<Vec<u8>, String> {
     let output = command
         .stderr(Stdio::inherit())
@@ -38,23 +38,23 @@ pub fn output_of(command: &mut Command) -> Result<Vec<u8>, String> {
     }
 }
 
-/// What a program writes to standard output goes to standard error.
+/// Redirects a program's standard output to standard error.
 pub fn to_stderr(command: &mut Command) -> &mut Command {
     command.stdout(std::io::stderr())
 }
 
-/// True when the program starts and succeeds; what it prints is dropped.
+/// True if the program starts and succeeds. Its output is discarded.
 pub fn works(command: &mut Command) -> bool {
     command.stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok_and(|status| status.success())
 }
 
-/// The command line as a person would type it.
+/// The command line as text.
 pub fn shown(command: &Command) -> String {
     let words = std::iter::once(command.get_program()).chain(command.get_args());
     words.map(|word| word.to_string_lossy()).collect::<Vec<_>>().join(" ")
 }
 
-/// Where cargo builds.
+/// Cargo's target folder.
 pub fn target_folder() -> Result<PathBuf, String> {
     let text = output_of(&mut program("cargo metadata --format-version 1 --no-deps"))?;
     let metadata: serde_json::Value =
@@ -63,7 +63,7 @@ pub fn target_folder() -> Result<PathBuf, String> {
     folder.map(PathBuf::from).ok_or_else(|| "cargo metadata names no target_directory".into())
 }
 
-/// The files at or below a path, sorted; none where nothing is there.
+/// The files at or below a path, sorted; empty if the path does not exist.
 pub fn files_below(path: &Path) -> Result<Vec<PathBuf>, String> {
     let mut files = Vec::new();
     let mut waiting = vec![path.to_path_buf()];

@@ -1,4 +1,4 @@
-//! The command's outputs for all models, checked by tools that are not ours: the Khronos validator and glTF-Transform.
+//! Checks the command's outputs for all models with independent tools: the Khronos validator and glTF-Transform.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -7,19 +7,19 @@ use std::process::Stdio;
 
 use crate::run::{Outcome, files_below, program, root, run, shown, works};
 
-/// What to do on a machine without node or npm.
+/// The behaviour on a machine without node or npm.
 #[derive(Clone, Copy)]
 pub enum WithoutNpm {
-    /// Say so and go on.
+    /// Print that the step is skipped.
     Skip,
-    /// Stop.
+    /// Fail.
     Fail,
 }
 
-/// Folders of models: ours, and a larger set that may lie beside the repository.
+/// Folders of models: that of the repository, and a larger set that may be beside it.
 const MODELS: &[&str] = &["assets", "../shared/assets"];
 
-/// Adds tangents to every model and checks the outputs with validate/check.mjs, which says what is checked.
+/// Adds tangents to every model and checks the outputs with validate/check.mjs.
 pub fn all_models(without_npm: WithoutNpm) -> Outcome {
     if !works(&mut program("npm --version")) || !works(&mut program("node --version")) {
         let message = "node and npm are needed to check the models; install Node.js 20 or newer";
@@ -36,7 +36,7 @@ pub fn all_models(without_npm: WithoutNpm) -> Outcome {
     MODELS.iter().enumerate().try_for_each(|(number, folder)| check(folder, number))
 }
 
-/// Installs the tools at the versions of the lock file, unless they are there.
+/// Installs the tools at the versions of the lock file if they are missing.
 fn install() -> Outcome {
     let folder = root().join("xtask/validate");
     let modified = |name| fs::metadata(folder.join(name)).and_then(|file| file.modified()).ok();
@@ -47,7 +47,7 @@ fn install() -> Outcome {
     run(program("npm ci --no-audit --no-fund --loglevel=error").current_dir(folder))
 }
 
-/// Runs the command on a folder of models and on each model for the other container, and has the outputs checked.
+/// Runs the command on a folder of models, and on each model with output to the other container, and checks all outputs.
 fn check(folder: &str, number: usize) -> Outcome {
     if !root().join(folder).is_dir() {
         println!("skipped: {folder} is absent");
@@ -78,7 +78,7 @@ fn check(folder: &str, number: usize) -> Outcome {
         .map_err(|_| format!("outputs for the models in {folder} are not as they must be; see above"))
 }
 
-/// Runs `darboux tangents --overwrite` with these arguments; gives the file with its report, which also tells of failures.
+/// Runs `darboux tangents --overwrite` with these arguments; returns the path of its JSON report, which also lists failures.
 fn tangents(arguments: &[&OsStr], work: &Path, number: usize) -> Result<PathBuf, String> {
     let mut command = program("target/debug/darboux tangents --overwrite --quiet --json");
     command.args(arguments).stderr(Stdio::null());
