@@ -1,4 +1,4 @@
-//! Memory: the system's, or the caller's own.
+//! The library's allocator: the system's allocator, or functions of the caller.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::UnsafeCell;
@@ -9,20 +9,20 @@ use std::sync::atomic::{AtomicU8, Ordering};
 use crate::pointers::null;
 use crate::status::{Error, call, darboux_status};
 
-/// Gives memory: `size` bytes at a multiple of `alignment`, a power of two. Null ends the program.
+/// Allocates `size` bytes at a multiple of `alignment`, which is a power of two. `context`: the pointer that was passed to
+/// darboux_set_allocator. Where it returns NULL, the library aborts the program.
 pub type darboux_allocate =
     Option<unsafe extern "C" fn(context: *mut c_void, size: usize, alignment: usize) -> *mut c_void>;
 
-/// Takes memory back, with the size and alignment that it was asked for with.
+/// Frees memory. `size`, `alignment`: the values that the memory was allocated with.
 pub type darboux_deallocate =
     Option<unsafe extern "C" fn(context: *mut c_void, memory: *mut c_void, size: usize, alignment: usize)>;
 
-/// Has all of the library's memory come from the caller's functions.
+/// Makes the library allocate all of its memory with the caller's functions.
 ///
-/// Call it before any other function of the library: memory that was taken elsewhere could not be given back. `allocate`,
-/// `deallocate`: called from any thread that calls the library and from the threads of every context that was made with more than one,
-/// several at once. `context`: passed to them.
-/// Errors: null; the library has memory already.
+/// It must be called before any other function of the library, because memory of the system's allocator cannot be freed with the caller's
+/// functions. `allocate`, `deallocate`: called concurrently, from all threads that call the library and from the worker threads of
+/// contexts. `context`: passed to both functions; may be NULL. Errors: a null function; the library has allocated memory already.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_set_allocator(
     allocate: darboux_allocate,
@@ -47,7 +47,7 @@ struct Functions {
 #[global_allocator]
 static ALLOCATOR: Allocator = Allocator { state: AtomicU8::new(UNDECIDED), functions: UnsafeCell::new(None) };
 
-/// Decided once: by the first allocation, or by a caller before it.
+/// Either kind of allocator, chosen once: by darboux_set_allocator, or by the first allocation.
 struct Allocator {
     state: AtomicU8,
     functions: UnsafeCell<Option<Functions>>,
@@ -58,7 +58,7 @@ const BEING_SET: u8 = 1;
 const SYSTEM: u8 = 2;
 const CALLERS: u8 = 3;
 
-// SAFETY: `functions` is written by the one thread that turned the state from UNDECIDED to BEING_SET, and read after CALLERS.
+// SAFETY: `functions` is written only by the thread that changed the state from UNDECIDED to BEING_SET, and read only after CALLERS.
 unsafe impl Sync for Allocator {}
 
 impl Allocator {
@@ -67,24 +67,24 @@ impl Allocator {
             let message = "the library has memory already; set the allocator before any other call";
             return Err(Error::new(darboux_status::TooLate, message.into()));
         }
-        // SAFETY: no other thread reads or writes it in this state.
+        // SAFETY: no other thread reads or writes `functions` in this state.
         unsafe { *self.functions.get() = Some(functions) };
         self.state.store(CALLERS, Ordering::Release);
         Ok(())
     }
 
-    /// Leaves UNDECIDED for `next`. Returns the state that was.
+    /// Changes the state from UNDECIDED to `next`; any other state stays. Returns the previous state.
     fn decide(&self, next: u8) -> u8 {
         let decided = self.state.compare_exchange(UNDECIDED, next, Ordering::Acquire, Ordering::Acquire);
         decided.unwrap_or_else(|state| state)
     }
 
-    /// The caller's functions, if they were set.
+    /// The caller's functions. `None` for the system's allocator.
     fn functions(&self) -> Option<Functions> {
         loop {
             match self.state.load(Ordering::Acquire) {
                 SYSTEM => return None,
-                // SAFETY: written before the state was, and never again.
+                // SAFETY: `functions` was written before the state became CALLERS, and is never written again.
                 CALLERS => return unsafe { *self.functions.get() },
                 BEING_SET => std::hint::spin_loop(),
                 _ => _ = self.decide(SYSTEM),
@@ -93,22 +93,22 @@ impl Allocator {
     }
 }
 
-// SAFETY: either the system's allocator throughout, or the caller's functions, which promise the same.
+// SAFETY: all calls go either to the system's allocator or to the caller's functions, which must meet the same contract.
 unsafe impl GlobalAlloc for Allocator {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         match self.functions() {
-            // SAFETY: as of this function.
+            // SAFETY: the caller's promise.
             None => unsafe { System.alloc(layout) },
-            // SAFETY: the caller promised a function that can be called so.
+            // SAFETY: the caller of `darboux_set_allocator` promised a valid allocation function.
             Some(own) => unsafe { (own.allocate)(own.context, layout.size(), layout.align()).cast() },
         }
     }
 
     unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
         match self.functions() {
-            // SAFETY: as of this function.
+            // SAFETY: the caller's promise.
             None => unsafe { System.dealloc(memory, layout) },
-            // SAFETY: the memory came from `allocate`, as the state never changes.
+            // SAFETY: the memory came from `allocate`, because the state never changes again.
             Some(own) => unsafe {
                 (own.deallocate)(own.context, memory.cast(), layout.size(), layout.align());
             },
@@ -117,13 +117,13 @@ unsafe impl GlobalAlloc for Allocator {
 
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
         if self.functions().is_none() {
-            // SAFETY: as of this function.
+            // SAFETY: the caller's promise.
             return unsafe { System.alloc_zeroed(layout) };
         }
-        // SAFETY: as of this function.
+        // SAFETY: the caller's promise.
         let memory = unsafe { self.alloc(layout) };
         if !memory.is_null() {
-            // SAFETY: as many bytes were asked for.
+            // SAFETY: the allocation has `layout.size()` bytes.
             unsafe { memory.write_bytes(0, layout.size()) };
         }
         memory
@@ -131,16 +131,16 @@ unsafe impl GlobalAlloc for Allocator {
 
     unsafe fn realloc(&self, memory: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         if self.functions().is_none() {
-            // SAFETY: as of this function.
+            // SAFETY: the caller's promise.
             return unsafe { System.realloc(memory, layout, size) };
         }
         let Ok(larger) = Layout::from_size_align(size, layout.align()) else { return null_mut() };
-        // SAFETY: as of this function.
+        // SAFETY: the caller's promise.
         let moved = unsafe { self.alloc(larger) };
         if !moved.is_null() {
-            // SAFETY: both are as long, and new memory overlaps nothing.
+            // SAFETY: both allocations have at least so many bytes, and do not overlap.
             unsafe { moved.copy_from_nonoverlapping(memory, layout.size().min(size)) };
-            // SAFETY: as of this function.
+            // SAFETY: the caller's promise.
             unsafe { self.dealloc(memory, layout) };
         }
         moved

@@ -1,7 +1,7 @@
-//! `darboux_context`: reused memory, a thread pool for large meshes, and a cancellation flag, for one call after the other.
+//! `darboux_context`: reused memory, a thread pool for large meshes, and a cancellation flag.
 //!
-//! A call takes the memory out of the context and puts it back at its end. So a call that panics leaves an empty context, and a second
-//! call at the same time works with memory of its own.
+//! A call takes the memory out of the context and puts it back when it returns. A call that panics therefore leaves an empty context, and a
+//! concurrent call with the same context allocates its own memory.
 
 use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, JoinHandle, available_parallelism};
@@ -14,8 +14,8 @@ use crate::status::{Error, call, darboux_status};
 
 /// Reused memory, threads for large meshes, and a cancellation flag.
 ///
-/// Many meshes that are computed with one context allocate as one. A context may be used by one thread at a time, except for
-/// darboux_context_cancel, which any thread may call.
+/// Calls reuse the memory of the context, and allocate only where a mesh needs more than all meshes before it. One thread at a time may use a
+/// context, except for darboux_context_cancel, which any thread may call.
 #[derive(Default)]
 pub struct darboux_context {
     memory: Mutex<Memory>,
@@ -26,20 +26,20 @@ pub struct darboux_context {
 #[derive(Default)]
 pub(crate) struct Memory {
     pub context: Context,
-    /// Results on their way to output arrays that are not slices.
+    /// Temporary results for output arrays that are not slices.
     tangents: Vec<[f32; 4]>,
 }
 
-/// A thread pool. Its threads have ended when it is dropped, because a program may close the library then.
+/// A thread pool. Dropping it waits until its threads have ended, because the program may unload the library afterwards.
 struct Pool {
     pool: Option<ThreadPool>,
     threads: Vec<JoinHandle<()>>,
 }
 
-/// Meshes of fewer corners are not worth waking a thread.
+/// The smallest number of corners for which threads are used. Waking a thread costs more than smaller meshes save.
 const MIN_CORNERS: usize = 3 << 14;
 
-/// A limit against typing errors, which could exhaust the machine.
+/// The largest number of threads: a limit against typing errors, which could exhaust the machine.
 const MAX_THREADS: usize = 1024;
 
 impl Pool {
@@ -71,15 +71,15 @@ impl Drop for Pool {
         // Tells the threads to end.
         self.pool = None;
         for thread in self.threads.drain(..) {
-            // A panic of a thread was passed on to the call that the thread worked for.
+            // The panic of a thread has been passed on to the call that the thread worked for.
             let _ = thread.join();
         }
     }
 }
 
-/// Runs `work` with the memory, the threads and the cancellation flag of a context; without a context on the calling thread.
+/// Runs `work` with the memory, the threads and the cancellation flag of a context.
 ///
-/// The threads are used from [`MIN_CORNERS`] corners on.
+/// Without a context, and below [`MIN_CORNERS`] corners, `work` runs on the calling thread.
 pub(crate) fn run<R: Send>(
     context: Option<&darboux_context>,
     corners: usize,
@@ -106,7 +106,7 @@ pub(crate) fn run<R: Send>(
     result
 }
 
-/// As [`run`], into a caller's array of one tangent per corner.
+/// As [`run`], with an output array of one tangent per corner.
 pub(crate) fn fill<R: Send>(
     context: Option<&darboux_context>,
     out: Output<[f32; 4]>,
@@ -125,11 +125,11 @@ impl darboux_context {
     }
 }
 
-/// Makes an empty context, whose memory grows to what the largest mesh needs.
+/// Creates an empty context. Its memory grows to the requirement of the largest mesh.
 ///
-/// `threads`: how many threads large meshes use; results are the same bits for any number. 1: the calling thread alone. More: so many
-/// threads start now, and sleep between calls. 0: as many as the machine has. `context`: receives the context, for
-/// darboux_context_free. Errors: null; threads that cannot be started.
+/// `threads`: the number of threads for large meshes; the results have equal bits for any number. 1: the calling thread only. 2 to 1024:
+/// the threads start now and sleep between calls. 0: the number of the machine's hardware threads. `context`: receives the context; free it
+/// with darboux_context_free. Errors: a null pointer; threads cannot be started.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_context_create(
     threads: usize,
@@ -147,12 +147,13 @@ pub unsafe extern "C" fn darboux_context_create(
         let pool = if count > 1 { Some(Pool::start(count)?) } else { None };
         Ok(darboux_context { pool, ..darboux_context::default() })
     };
-    // SAFETY: `context` is null or may be written.
+    // SAFETY: `context` is null or writable.
     call(|| unsafe { pointers::hand_out("context", context, make) })
 }
 
-/// Cancels the call that runs with the context, and all later ones, which return DARBOUX_STATUS_CANCELLED, until
-/// darboux_context_resume. Any thread may call it. After a cancelled call the output array is unspecified. Errors: null.
+/// Cancels the running call of a context and all later ones until darboux_context_resume. Any thread may call it.
+///
+/// Cancelled calls return DARBOUX_STATUS_CANCELLED, and their output arrays are unspecified. Errors: a null pointer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_context_cancel(context: *const darboux_context) -> darboux_status {
     call(|| {
@@ -162,7 +163,7 @@ pub unsafe extern "C" fn darboux_context_cancel(context: *const darboux_context)
     })
 }
 
-/// Lets the calls after darboux_context_cancel run again. Errors: null.
+/// Clears the cancellation flag of a context, so that later calls run. Errors: a null pointer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_context_resume(context: *const darboux_context) -> darboux_status {
     call(|| {
@@ -173,7 +174,7 @@ pub unsafe extern "C" fn darboux_context_resume(context: *const darboux_context)
     })
 }
 
-/// Frees a context after its threads have ended. Does nothing where it is null.
+/// Frees a context after its threads have ended. `context`: from darboux_context_create; may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_context_free(context: *mut darboux_context) {
     // SAFETY: `context` is null or from `darboux_context_create`, and no longer used.

@@ -1,7 +1,7 @@
-//! The C interface. `include/darboux.h` is generated from this crate; the contract of every pointer is what its documentation there says.
+//! The C interface of Darboux. `include/darboux.h` is generated from this crate, and its comments are the contract of every pointer.
 //!
-//! A call reads its structs and pointers into checked views ([`pointers`]), runs the core, and writes what came out. A panic in
-//! [`status::call`] becomes a status; one anywhere else, as while something is freed, ends the program, as running out of memory does.
+//! A call reads its structs and pointers into checked views ([`pointers`]), runs the core, and writes the results. [`status::call`] turns a
+//! panic into a status. A panic outside of it, for example while an object is freed, aborts the program; so does running out of memory.
 
 #![allow(unsafe_code, reason = "C passes pointers")]
 #![allow(non_camel_case_types, reason = "types are called as C calls them")]
@@ -14,7 +14,7 @@
 mod codes;
 mod pointers;
 
-// In the order of the header.
+// The modules are in the order of the header.
 mod status;
 
 mod mesh;

@@ -1,4 +1,4 @@
-//! The mesh that callers describe.
+//! The mesh of the C interface: a struct of pointers, counts and strides, and its conversion to the core's borrowed mesh.
 
 use std::mem::offset_of;
 
@@ -8,58 +8,57 @@ use crate::codes::{self, FacesCode, darboux_faces};
 use crate::pointers::{self, Versioned};
 use crate::status::{Error, darboux_status};
 
-/// A mesh in the caller's memory: V vertices in arrays of any stride, and C corners (vertices of faces) in face order.
+/// A borrowed mesh: V vertices in strided arrays, and C corners (vertices of faces) in face order.
 ///
-/// Set `size` to sizeof(darboux_mesh), or to 0, which stands for version 0.1's size; all fields that are left zero are absent. Nothing
-/// is kept after a call. Positions, normals and UVs may have any values and any alignment; what lies between the elements is not read.
-/// Strides are in bytes; 0 stands for packed. At most 2^30 - 1 vertices and 2^30 - 1 corners.
+/// Fields that are zero are absent. No pointer is used after the call. Positions, normals and UVs may have any values and any alignment;
+/// bytes between the elements are not read. Strides are in bytes; 0 for packed. At most 2^30 - 1 vertices and 2^30 - 1 corners.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct darboux_mesh {
-    /// sizeof(darboux_mesh).
+    /// sizeof(darboux_mesh). 0: the size in version 0.1.
     pub size: usize,
-    /// V.
+    /// V, the number of vertices.
     pub vertex_count: usize,
-    /// V by 3.
+    /// V by 3 floats.
     pub positions: *const f32,
     /// Bytes from one position to the next.
     pub position_stride: usize,
-    /// V by 3, used as given: MikkTSpace expects unit length. Not read where normals are generated.
+    /// V by 3 floats, used as given: MikkTSpace expects unit length. Ignored by functions that generate or split normals.
     pub normals: *const f32,
     /// Bytes from one normal to the next.
     pub normal_stride: usize,
-    /// V by 2. Not read where normals are generated.
+    /// V by 2 floats. Ignored by functions that generate or split normals.
     pub uvs: *const f32,
     /// Bytes from one UV to the next.
     pub uv_stride: usize,
-    /// The vertex of each corner, or null: then `indices_u16` has them, or corner i is vertex i.
+    /// The vertex of each corner, 32 bits. NULL where `indices_u16` is set, and for an unindexed mesh, whose corner i is vertex i.
     pub indices_u32: *const u32,
-    /// The vertex of each corner in 16 bits, or null. Not both.
+    /// The vertex of each corner, 16 bits; or NULL. At most one of both index arrays may be set.
     pub indices_u16: *const u16,
-    /// C, where there are indices; else 0.
+    /// C, the number of indices. 0 for an unindexed mesh.
     pub index_count: usize,
-    /// How corners make faces.
+    /// How corners are grouped into faces.
     pub faces: darboux_faces,
-    /// For DARBOUX_FACES_MIXED the corner count of each face; else null. Faces of other than 3 or 4 corners get tangents from their
-    /// normals alone.
+    /// The corner count of each face for DARBOUX_FACES_MIXED, otherwise ignored. Tangents of faces with other than 3 or 4 corners are
+    /// perpendiculars of the normals.
     pub face_sizes: *const u32,
-    /// How many `face_sizes` there are; else 0.
+    /// The number of `face_sizes`. Ignored except for DARBOUX_FACES_MIXED.
     pub face_count: usize,
 }
 
-// SAFETY: `repr(C)`, the size first, null pointers and zeros.
+// SAFETY: `repr(C)`, the size is the first field, all fields are integers or raw pointers.
 unsafe impl Versioned for darboux_mesh {
     const NAME: &str = "darboux_mesh";
     const FIRST_SIZE: usize = pointers::size_through::<Self, usize>(offset_of!(Self, face_count));
 }
 
-/// The mesh at `mesh`.
+/// Checks a mesh and returns a borrowed view of it.
 ///
 /// # Safety
 ///
-/// `mesh` and the pointers in it are as [`darboux_mesh`] says; nobody changes what they point to while the view is used.
+/// `mesh` points to a valid [`darboux_mesh`], whose arrays do not change while the view is used.
 pub(crate) unsafe fn view<'a>(mesh: *const darboux_mesh) -> Result<Mesh<'a>, Error> {
-    // SAFETY: as of this function.
+    // SAFETY: the caller's promise.
     unsafe {
         let mesh = read(mesh)?;
         let count = mesh.vertex_count;
@@ -69,13 +68,13 @@ pub(crate) unsafe fn view<'a>(mesh: *const darboux_mesh) -> Result<Mesh<'a>, Err
     }
 }
 
-/// As [`view`], of positions, indices and faces alone; normals and UVs are zeros.
+/// As [`view`], of positions, indices and faces only; all normals and UVs are zero.
 ///
 /// # Safety
 ///
-/// As of [`view`].
+/// As for [`view`].
 pub(crate) unsafe fn bare<'a>(mesh: *const darboux_mesh) -> Result<Mesh<'a>, Error> {
-    // SAFETY: as of this function.
+    // SAFETY: the caller's promise.
     unsafe {
         let mesh = read(mesh)?;
         let count = mesh.vertex_count;
@@ -84,14 +83,16 @@ pub(crate) unsafe fn bare<'a>(mesh: *const darboux_mesh) -> Result<Mesh<'a>, Err
     }
 }
 
-/// The largest number of vertices, as of the core; checked before the arrays are measured, for a message about the count.
+/// The largest number of vertices that the core accepts. It is checked before the array sizes, so that the message is about the count.
 const MAX_VERTICES: usize = (1 << 30) - 1;
 
+/// Reads the struct and checks the number of vertices.
+///
 /// # Safety
 ///
-/// As of [`view`].
+/// As for [`view`].
 unsafe fn read(mesh: *const darboux_mesh) -> Result<darboux_mesh, Error> {
-    // SAFETY: as of this function.
+    // SAFETY: the caller's promise.
     let mesh = unsafe { pointers::read(mesh) }?;
     if mesh.vertex_count > MAX_VERTICES {
         let message = format!(
@@ -106,18 +107,18 @@ unsafe fn read(mesh: *const darboux_mesh) -> Result<darboux_mesh, Error> {
 impl darboux_mesh {
     /// # Safety
     ///
-    /// As of [`view`].
+    /// As for [`view`].
     unsafe fn positions<'a>(&self) -> Result<Strided<'a, 3>, Error> {
-        // SAFETY: as of this function.
+        // SAFETY: the caller's promise.
         unsafe { pointers::strided("positions", self.positions, self.vertex_count, self.position_stride) }
     }
 
     /// # Safety
     ///
-    /// As of [`view`].
+    /// As for [`view`].
     unsafe fn indices<'a>(&self) -> Result<Indices<'a>, Error> {
         let fault = |status, message: &str| Err(Error::new(status, message.into()));
-        // SAFETY: as of this function.
+        // SAFETY: the caller's promise.
         unsafe {
             match (self.indices_u32.is_null(), self.indices_u16.is_null()) {
                 (true, true) if self.index_count == 0 => Ok(Indices::Unindexed),
@@ -138,13 +139,13 @@ impl darboux_mesh {
 
     /// # Safety
     ///
-    /// As of [`view`].
+    /// As for [`view`].
     unsafe fn faces<'a>(&self) -> Result<Faces<'a>, Error> {
         match codes::faces(self.faces)? {
             FacesCode::Triangles => Ok(Faces::Triangles),
             FacesCode::Quads => Ok(Faces::Quads),
             FacesCode::Mixed => {
-                // SAFETY: as of this function.
+                // SAFETY: the caller's promise.
                 unsafe { pointers::slice("face_sizes", self.face_sizes, self.face_count) }.map(Faces::Mixed)
             }
         }

@@ -1,4 +1,4 @@
-//! Topology once, evaluate often.
+//! Plans in C: the topology of a mesh is computed once, and tangents are evaluated for any number of deformed copies.
 
 use darboux::{Context, Plan};
 
@@ -8,17 +8,17 @@ use crate::pointers::{Output, Receiver, hand_out, held, take_back};
 use crate::status::{call, darboux_status};
 use crate::tangents::{darboux_report, darboux_tangent_options, options};
 
-/// The weld, groups and subgroups of one mesh, kept to evaluate MikkTSpace tangents again after its vertices moved.
+/// The weld, groups and subgroups of one mesh, for computing its tangents again after its vertices moved.
 ///
-/// Nothing of the mesh's memory is kept. Several threads may use one plan at once.
+/// A plan holds copies of all that it needs from the mesh. Several threads may use one plan at the same time.
 pub struct darboux_plan {
     plan: Plan,
 }
 
-/// Computes a mesh's tangents and keeps its topology.
+/// Computes the tangents of a mesh and a plan for its deformed copies.
 ///
-/// `mesh`, `options`: as for darboux_generate_tangents; of a context the threads alone are used. `plan`: receives the plan, for darboux_plan_free.
-/// Errors: what darboux_status lists.
+/// `mesh`, `options`: as for darboux_generate_tangents, but the memory of a context is not used. `plan`: receives the plan; free it with
+/// darboux_plan_free. Errors: those of darboux_generate_tangents.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_plan_create(
     mesh: *const darboux_mesh,
@@ -26,27 +26,28 @@ pub unsafe extern "C" fn darboux_plan_create(
     plan: *mut *mut darboux_plan,
 ) -> darboux_status {
     let make = || {
-        // SAFETY: every pointer is as the documentation above says.
+        // SAFETY: the pointers are as documented above.
         let (mesh, (options, context)) = unsafe { (mesh::view(mesh)?, self::options(options)?) };
         let plan = context::run(context, mesh.corner_count(), |memory| {
             Plan::new_with(&mesh, &options, &memory.context)
         })?;
         Ok(darboux_plan { plan })
     };
-    // SAFETY: `plan` is null or may be written.
+    // SAFETY: `plan` is null or writable.
     call(|| unsafe { hand_out("plan", plan, make) })
 }
 
-/// Frees a plan; nothing where it is null.
+/// Frees a plan. `plan`: from darboux_plan_create; may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_plan_free(plan: *mut darboux_plan) {
     // SAFETY: `plan` is null or from `darboux_plan_create`, and no longer used.
     unsafe { take_back(plan) }
 }
 
-/// Writes the tangents of the mesh that the plan was made of, as darboux_generate_tangents does.
+/// Writes the tangents of the mesh that the plan was created from: the result of darboux_generate_tangents.
 ///
-/// `tangents`, `tangent_count`, `tangent_stride`, `report`: as there. Errors: null; another number of corners.
+/// `tangents`, `tangent_count`, `tangent_stride`, `report`: as for darboux_generate_tangents. Errors: a null pointer, another count than
+/// the mesh's corners.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_plan_base(
     plan: *const darboux_plan,
@@ -56,7 +57,7 @@ pub unsafe extern "C" fn darboux_plan_base(
     report: *mut darboux_report,
 ) -> darboux_status {
     call(|| {
-        // SAFETY: every pointer is as the documentation above says.
+        // SAFETY: the pointers are as documented above.
         let (base, report, out) = unsafe {
             let base = held("plan", plan)?.plan.base();
             let corners = base.corners.len();
@@ -71,10 +72,11 @@ pub unsafe extern "C" fn darboux_plan_base(
     })
 }
 
-/// Computes the tangents of the moved mesh in the plan's groups and subgroups; signs stay the plan's.
+/// Computes the tangents of a deformed mesh, with the groups, subgroups and signs of the plan.
 ///
-/// `mesh`: same faces, indices and UVs as the plan's, other positions and normals. `context`: memory and threads of earlier calls to use
-/// again, or null. `tangents`, `tangent_count`, `tangent_stride`: as for darboux_generate_tangents. Errors: those of the mesh; another number of corners or vertices than the plan's.
+/// `mesh`: the plan's faces, indices and UVs, with other positions and normals. `context`: reused memory, threads and a cancellation flag;
+/// NULL for the calling thread alone. `tangents`, `tangent_count`, `tangent_stride`: as for darboux_generate_tangents. Errors: those of the
+/// mesh; another number of corners or vertices than the plan's.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_plan_evaluate(
     plan: *const darboux_plan,
@@ -85,7 +87,7 @@ pub unsafe extern "C" fn darboux_plan_evaluate(
     tangent_stride: usize,
 ) -> darboux_status {
     call(|| {
-        // SAFETY: every pointer is as the documentation above says.
+        // SAFETY: the pointers are as documented above.
         let (plan, mesh, context, out) = unsafe {
             let mesh = mesh::view(mesh)?;
             let corners = mesh.corner_count();
@@ -97,9 +99,9 @@ pub unsafe extern "C" fn darboux_plan_evaluate(
     })
 }
 
-/// Counts the corners to which a fresh run on the moved mesh would give another tangent (other bits) than darboux_plan_evaluate.
+/// Counts the corners whose tangents from darboux_plan_evaluate and from darboux_generate_tangents on the deformed mesh differ in bits.
 ///
-/// `mesh`: as there. `count`: receives the number. Errors: as there.
+/// `mesh`: as for darboux_plan_evaluate. `count`: receives the number of corners. Errors: those of darboux_plan_evaluate.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_plan_count_regrouped(
     plan: *const darboux_plan,
@@ -107,7 +109,7 @@ pub unsafe extern "C" fn darboux_plan_count_regrouped(
     count: *mut usize,
 ) -> darboux_status {
     call(|| {
-        // SAFETY: every pointer is as the documentation above says.
+        // SAFETY: the pointers are as documented above.
         let (plan, mesh, out) =
             unsafe { (held("plan", plan)?, mesh::view(mesh)?, Output::new("count", count.cast(), 1, 0)?) };
         let context = &mut Context::new().with_max_threads(1);

@@ -1,6 +1,6 @@
-//! Pointers to checked views: everything that is read or written through a caller's pointer goes through here.
+//! Checked views of the caller's memory. All reads and writes through a caller's pointer are in this file.
 //!
-//! What can be checked is: null, alignment, strides, sizes, that no range wraps around. That memory is as large as a caller says cannot.
+//! Checked are: null pointers, alignment, strides, sizes, and address overflow. The true size of the caller's memory cannot be checked.
 
 use std::borrow::Cow;
 use std::marker::PhantomData;
@@ -10,36 +10,36 @@ use darboux::{MeshError, Strided};
 
 use crate::status::{Error, darboux_status};
 
-/// A struct whose first field is its size, so that programs and libraries of different versions understand each other.
+/// A C struct whose first field is its size, so that programs and libraries of different versions are compatible.
 ///
 /// # Safety
 ///
-/// `repr(C)`, the first field a `usize`, and all zeros are a value.
+/// The struct is `repr(C)`, its first field is a `usize`, and all zeros are a valid value.
 pub(crate) unsafe trait Versioned: Copy {
-    /// What C calls it.
+    /// The name of the struct in C.
     const NAME: &str;
-    /// Its size in the version that introduced it: what a `size` of 0 stands for. Named by that version's last field, so that fields
-    /// which come later do not change it.
+    /// The size of the struct in the version that introduced it, for which a `size` of 0 stands. It is computed from the last field of that
+    /// version, so that later fields do not change it.
     const FIRST_SIZE: usize;
 }
 
-/// The size of a struct that ends with a `Last` at `offset`.
+/// The size of a struct whose last field is a `Last` at `offset`.
 pub(crate) const fn size_through<Struct, Last>(offset: usize) -> usize {
     (offset + size_of::<Last>()).next_multiple_of(align_of::<Struct>())
 }
 
-/// A copy of the struct at `from`, with zeros for fields that the caller's version does not have.
+/// Copies the struct at `from`. Fields that the caller's version lacks become zero.
 ///
-/// A larger one than ours is accepted when what we do not know is zero. Errors: null, a size that is no version's.
+/// A struct larger than this version's is accepted where all additional bytes are zero. Errors: a null pointer, an invalid size.
 ///
 /// # Safety
 ///
-/// `from` is null or points to as many bytes as the size that stands there says, or to the first version's.
+/// `from` is null or points to as many bytes as the struct's size field gives; where it is 0, to [`Versioned::FIRST_SIZE`] bytes.
 pub(crate) unsafe fn read<T: Versioned>(from: *const T) -> Result<T, Error> {
-    // SAFETY: as of this function.
+    // SAFETY: the caller's promise.
     let size = unsafe { size_of_struct(from) }?;
     let mut value = MaybeUninit::<T>::zeroed();
-    // SAFETY: both hold as many bytes, and a local value overlaps nothing of the caller's.
+    // SAFETY: both have at least so many bytes, and a local value does not overlap the caller's memory.
     unsafe {
         from.cast::<u8>().copy_to_nonoverlapping(value.as_mut_ptr().cast(), size.min(size_of::<T>()));
     }
@@ -49,35 +49,37 @@ pub(crate) unsafe fn read<T: Versioned>(from: *const T) -> Result<T, Error> {
         let message = format!("{} has values that this version of the library does not know", T::NAME);
         return Err(Error::new(darboux_status::StructSize, message));
     }
-    // SAFETY: zeros are a value, and so are the fields that the caller set.
+    // SAFETY: zeros are a valid value, and so are the fields that the caller set.
     Ok(unsafe { value.assume_init() })
 }
 
-/// As [`read`], all zeros where `from` is null.
+/// As [`read`]; all zeros where `from` is null.
 ///
 /// # Safety
 ///
-/// As of [`read`].
+/// As for [`read`].
 pub(crate) unsafe fn read_or_zeros<T: Versioned>(from: *const T) -> Result<T, Error> {
     if from.is_null() {
-        // SAFETY: zeros are a value.
+        // SAFETY: zeros are a valid value.
         return Ok(unsafe { MaybeUninit::zeroed().assume_init() });
     }
-    // SAFETY: as of this function.
+    // SAFETY: the caller's promise.
     unsafe { read(from) }
 }
 
-/// No version's struct will be larger: a size beyond it is memory that was never set.
+/// An upper limit for the size of a struct. A larger size field is most likely uninitialised memory.
 const LARGEST_STRUCT: usize = 1 << 12;
 
+/// Reads and checks the size field. 0 stands for [`Versioned::FIRST_SIZE`]. Errors: as for [`read`].
+///
 /// # Safety
 ///
-/// As of [`read`].
+/// As for [`read`].
 unsafe fn size_of_struct<T: Versioned>(at: *const T) -> Result<usize, Error> {
     if at.is_null() {
         return Err(null(T::NAME));
     }
-    // SAFETY: every version begins with its size.
+    // SAFETY: every version of the struct begins with its size.
     let size = unsafe { at.cast::<usize>().read_unaligned() };
     match size {
         0 => Ok(T::FIRST_SIZE),
@@ -89,38 +91,38 @@ unsafe fn size_of_struct<T: Versioned>(at: *const T) -> Result<usize, Error> {
     }
 }
 
-/// A caller's struct that a result goes to.
+/// A caller's struct that receives a result.
 pub(crate) struct Receiver<T> {
     to: *mut T,
     size: usize,
 }
 
 impl<T: Versioned> Receiver<T> {
-    /// Errors: null, a size that is no version's.
+    /// Errors: a null pointer, an invalid size.
     ///
     /// # Safety
     ///
-    /// As of [`read`], and what the pointer points to may be written until the receiver is gone.
+    /// As for [`read`]; the struct stays writable until the receiver is dropped.
     pub unsafe fn new(to: *mut T) -> Result<Self, Error> {
-        // SAFETY: as of this function.
+        // SAFETY: the caller's promise.
         let size = unsafe { size_of_struct(to) }?;
         Ok(Self { to, size: size.min(size_of::<T>()) })
     }
 
-    /// As [`Receiver::new`], none where `to` is null.
+    /// As [`Receiver::new`]; `None` where `to` is null.
     ///
     /// # Safety
     ///
-    /// As of [`Receiver::new`].
+    /// As for [`Receiver::new`].
     pub unsafe fn optional(to: *mut T) -> Result<Option<Self>, Error> {
-        // SAFETY: as of this function.
+        // SAFETY: the caller's promise.
         if to.is_null() { Ok(None) } else { unsafe { Self::new(to) }.map(Some) }
     }
 
-    /// Writes the fields that the caller's version has, but not the size.
+    /// Writes the fields that the caller's version has, except the size.
     pub fn put(self, value: T) {
         const SIZE: usize = size_of::<usize>();
-        // SAFETY: both hold `self.size` bytes, and a local value overlaps nothing of the caller's.
+        // SAFETY: both have `self.size` bytes, and a local value does not overlap the caller's memory.
         unsafe {
             let from = (&raw const value).cast::<u8>().add(SIZE);
             from.copy_to_nonoverlapping(self.to.cast::<u8>().add(SIZE), self.size - SIZE);
@@ -128,11 +130,11 @@ impl<T: Versioned> Receiver<T> {
     }
 }
 
-/// `count` integers at `data`, which may be null where there are none. Errors: null, alignment, too many.
+/// The slice of `count` integers at `data`, which may be null where `count` is 0. Errors: a null pointer, alignment, a size overflow.
 ///
 /// # Safety
 ///
-/// `data` points to as many, which nobody changes while the slice is used.
+/// `data` points to `count` integers, which do not change while the slice is used.
 pub(crate) unsafe fn slice<'a, T>(what: &str, data: *const T, count: usize) -> Result<&'a [T], Error> {
     if count == 0 {
         return Ok(&[]);
@@ -143,15 +145,15 @@ pub(crate) unsafe fn slice<'a, T>(what: &str, data: *const T, count: usize) -> R
         let message = format!("{what} must lie at a multiple of {size} bytes");
         return Err(Error::new(darboux_status::Alignment, message));
     }
-    // SAFETY: not null, aligned, not longer than memory can be, and as of this function.
+    // SAFETY: not null, aligned, no longer than `isize::MAX` bytes; the rest is the caller's promise.
     Ok(unsafe { std::slice::from_raw_parts(data, count) })
 }
 
-/// The bytes of `count` elements of `size` bytes, which may be written. Errors: null, a size of zero, too many.
+/// The bytes of `count` writable elements of `size` bytes. Errors: a null pointer, a size of 0, a size overflow.
 ///
 /// # Safety
 ///
-/// `data` points to as many, which nobody else uses until the slice is gone; all their bytes are set.
+/// `data` points to as many initialised bytes, which are used by nothing else while the slice exists.
 pub(crate) unsafe fn bytes_mut<'a>(
     what: &str,
     data: *mut u8,
@@ -163,17 +165,17 @@ pub(crate) unsafe fn bytes_mut<'a>(
     }
     match bytes(what, data, size, size, count)? {
         0 => Ok(&mut []),
-        // SAFETY: not null, not longer than memory can be, and as of this function.
+        // SAFETY: not null, no longer than `isize::MAX` bytes; the rest is the caller's promise.
         len => Ok(unsafe { std::slice::from_raw_parts_mut(data, len) }),
     }
 }
 
-/// `count` elements of `N` floats, `stride` bytes apart (0: packed), at any alignment. `data` may be null where there are none.
-/// Errors: null, a stride that is too small, too many.
+/// A view of `count` elements of `N` floats, `stride` bytes apart (0: packed), with any alignment. `data` may be null where `count` is 0.
+/// Errors: a null pointer, a stride smaller than an element, a size overflow.
 ///
 /// # Safety
 ///
-/// `data` points to as many, which nobody changes while the view is used. What lies between the elements is not read.
+/// `data` points to as many elements, which do not change while the view is used. Bytes between the elements are not read.
 pub(crate) unsafe fn strided<'a, const N: usize>(
     what: &str,
     data: *const f32,
@@ -187,7 +189,7 @@ pub(crate) unsafe fn strided<'a, const N: usize>(
     let stride = stride_of(what, stride, N * FLOAT)?;
     let len = bytes(what, data.cast(), N * FLOAT, stride, count)?;
     let view = if data.is_aligned() && stride.is_multiple_of(FLOAT) {
-        // SAFETY: not null, aligned, not longer than memory can be, and as of this function.
+        // SAFETY: not null, aligned, no longer than `isize::MAX` bytes; the rest is the caller's promise.
         Strided::from_floats(unsafe { std::slice::from_raw_parts(data, len / FLOAT) }, stride / FLOAT, 0)
     } else {
         // SAFETY: as above; bytes are always aligned.
@@ -196,7 +198,7 @@ pub(crate) unsafe fn strided<'a, const N: usize>(
     Ok(view?)
 }
 
-/// A caller's array that results go to: elements of `T`, `stride` bytes apart, at any alignment.
+/// A caller's array that receives results: elements of type `T`, `stride` bytes apart, with any alignment.
 pub(crate) struct Output<T> {
     data: *mut u8,
     count: usize,
@@ -204,7 +206,7 @@ pub(crate) struct Output<T> {
     element: PhantomData<T>,
 }
 
-// SAFETY: nobody else uses the array until the output is gone, so that any one thread may write it.
+// SAFETY: the array is used by nothing else while the output exists, so any one thread may write it.
 unsafe impl<T: Send> Send for Output<T> {}
 
 impl<T: Copy> Output<T> {
@@ -213,22 +215,22 @@ impl<T: Copy> Output<T> {
         self.count
     }
 
-    /// An array of `count` elements, `stride` bytes apart (0: packed). Errors as of [`strided`].
+    /// An array of `count` elements, `stride` bytes apart (0: packed). Errors: as for [`strided`].
     ///
     /// # Safety
     ///
-    /// `data` points to as many, which nobody else uses until the output is gone; `T` has no padding.
+    /// `data` points to as many elements, which are used by nothing else while the output exists; `T` has no padding.
     pub unsafe fn new(what: &str, data: *mut u8, count: usize, stride: usize) -> Result<Self, Error> {
         let stride = stride_of(what, stride, size_of::<T>())?;
         bytes(what, data, size_of::<T>(), stride, count)?;
         Ok(Self { data, count, stride, element: PhantomData })
     }
 
-    /// As [`Output::new`]. Further error: another count than is expected.
+    /// As [`Output::new`]. Further error: `count` is not `expected`.
     ///
     /// # Safety
     ///
-    /// As of [`Output::new`].
+    /// As for [`Output::new`].
     pub unsafe fn expecting(
         expected: usize,
         what: &str,
@@ -237,11 +239,11 @@ impl<T: Copy> Output<T> {
         stride: usize,
     ) -> Result<Self, Error> {
         one_per_corner(what, count, expected)?;
-        // SAFETY: as of this function.
+        // SAFETY: the caller's promise.
         unsafe { Self::new(what, data, count, stride) }
     }
 
-    /// Calls `write` with the array where it is packed and aligned; else with `memory`, and copies the elements from there.
+    /// Calls `write` with the array where it is packed and aligned; otherwise with `memory`, and copies the elements from there.
     pub fn fill<R>(
         self,
         memory: &mut Vec<T>,
@@ -252,9 +254,9 @@ impl<T: Copy> Output<T> {
     {
         let first = self.data.cast::<T>();
         if self.count > 0 && self.stride == size_of::<T>() && first.is_aligned() {
-            // SAFETY: as of `new`; the memory holds as many elements.
+            // SAFETY: the promise of `new`; the array has `count` elements.
             unsafe { initialize(first, self.count) };
-            // SAFETY: not null, aligned, initialised, not longer than memory can be, and as of `new`.
+            // SAFETY: not null, aligned, initialised, no longer than `isize::MAX` bytes; the rest is the promise of `new`.
             return write(unsafe { std::slice::from_raw_parts_mut(first, self.count) });
         }
         memory.resize(self.count, T::default());
@@ -263,56 +265,56 @@ impl<T: Copy> Output<T> {
         Ok(result)
     }
 
-    /// Writes the elements in order, as many as there is room for; without gaps in one go.
+    /// Writes the first `count` of `values` in order; a packed array with one copy.
     pub fn copy(self, values: &[T]) {
         if self.stride != size_of::<T>() {
             return self.write(values.iter().copied());
         }
         let size = size_of_val(&values[..self.count.min(values.len())]);
-        // SAFETY: within the array, and what is copied is the library's own.
+        // SAFETY: the range is inside the array, and `values` is memory of the library.
         unsafe { self.data.copy_from_nonoverlapping(values.as_ptr().cast(), size) }
     }
 
-    /// Writes the elements in order, as many as there is room for.
+    /// Writes the first `count` of `values` in order.
     pub fn write(self, values: impl IntoIterator<Item = T>) {
         (0..self.count).zip(values).for_each(|(at, value)| self.set(at, value));
     }
 
-    /// Writes one element. Panics beyond the last.
+    /// Writes one element. Panics where `at` is out of range.
     pub fn set(&self, at: usize, value: T) {
         assert!(at < self.count);
-        // SAFETY: within the array, whose size was computed without overflow.
+        // SAFETY: the element is inside the array, whose size was computed without overflow.
         unsafe { self.data.add(at * self.stride).cast::<T>().write_unaligned(value) }
     }
 }
 
-/// Makes memory that the caller may never have written valid for a `&mut [T]`, at no cost where there is inline assembly.
+/// Makes memory that the caller may never have written valid for a `&mut [T]`, without cost on targets with inline assembly.
 ///
-/// Rust forbids references to uninitialised memory. To the compiler the empty assembly block may write any bytes behind its pointer, so
-/// that the memory counts as initialised; in the machine it has some bytes anyway.
+/// Rust forbids references to uninitialised memory. The compiler must assume that the empty assembly block writes to its pointer, so it
+/// treats the memory as initialised. In hardware, the memory holds some bytes in any case.
 ///
 /// # Safety
 ///
-/// `first` points to `count` elements that may be written, and every bit pattern is a `T`.
+/// `first` points to `count` writable elements, and every bit pattern is a valid `T`.
 unsafe fn initialize<T>(first: *mut T, count: usize) {
     #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
     {
         _ = count;
-        // SAFETY: the block is empty; what it could write may be written.
+        // SAFETY: the block is empty, and the memory is writable.
         unsafe { std::arch::asm!("/* {0} */", in(reg) first, options(nostack, preserves_flags)) };
     }
     #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-    // SAFETY: as of this function; zeros are a value.
+    // SAFETY: the caller's promise; zeros are a valid value.
     unsafe {
         first.write_bytes(0, count);
     }
 }
 
-/// The caller's array of `count` elements, copied, `stride` bytes apart (0: packed), at any alignment. Errors as of [`strided`].
+/// Iterates over copies of `count` elements, `stride` bytes apart (0: packed), with any alignment. Errors: as for [`strided`].
 ///
 /// # Safety
 ///
-/// `data` points to as many, of which every bit pattern is a value.
+/// `data` points to as many elements; every bit pattern is a valid `T`.
 pub(crate) unsafe fn copied<T: Copy>(
     what: &str,
     data: *const u8,
@@ -321,15 +323,16 @@ pub(crate) unsafe fn copied<T: Copy>(
 ) -> Result<impl Iterator<Item = T>, Error> {
     let stride = stride_of(what, stride, size_of::<T>())?;
     bytes(what, data, size_of::<T>(), stride, count)?;
-    // SAFETY: within the array, whose size was computed without overflow.
+    // SAFETY: the element is inside the array, whose size was computed without overflow.
     Ok((0..count).map(move |at| unsafe { data.add(at * stride).cast::<T>().read_unaligned() }))
 }
 
-/// A caller's rows of `width` elements, `stride` bytes apart (0: packed), at any alignment. Errors as of [`strided`].
+/// A caller's matrix of `count` rows of `width` elements. Rows are `stride` bytes apart (0: packed), with any alignment. Errors: as for
+/// [`strided`].
 ///
 /// # Safety
 ///
-/// As of [`copied`], until the rows are gone.
+/// As for [`copied`]; the memory stays valid while the rows exist.
 pub(crate) unsafe fn rows<T: Copy>(
     what: &str,
     data: *const T,
@@ -343,7 +346,7 @@ pub(crate) unsafe fn rows<T: Copy>(
     Ok(Rows { data: data.cast(), count, width, stride, element: PhantomData })
 }
 
-/// What [`rows`] gives.
+/// The result of [`rows`].
 pub(crate) struct Rows<T> {
     data: *const u8,
     count: usize,
@@ -353,47 +356,47 @@ pub(crate) struct Rows<T> {
 }
 
 impl<T: Copy> Rows<T> {
-    /// The elements of all rows, row after row.
+    /// Iterates over the elements of all rows, row by row.
     pub fn elements(&self) -> impl Iterator<Item = T> {
         (0..self.count).flat_map(|row| self.row(row))
     }
 
-    /// The elements of one row; none beyond the last.
+    /// Iterates over the elements of one row. Empty where `row` is out of range.
     pub fn row(&self, row: usize) -> impl Iterator<Item = T> {
         let width = if row < self.count { self.width } else { 0 };
-        // SAFETY: within the array, whose size was computed without overflow.
+        // SAFETY: the element is inside the array, whose size was computed without overflow.
         (0..width)
             .map(move |at| unsafe { self.data.add(row * self.stride).cast::<T>().add(at).read_unaligned() })
     }
 }
 
-/// As [`copied`], as a slice: where it lies if it lies so, else copied.
+/// As [`copied`], as a slice: borrowed where the array is packed and aligned, otherwise copied.
 ///
 /// # Safety
 ///
-/// As of [`copied`]; nobody changes what `data` points to while the slice is used.
+/// As for [`copied`]; the elements do not change while the slice is used.
 pub(crate) unsafe fn gathered<'a, T: Copy>(
     what: &str,
     data: *const u8,
     count: usize,
     stride: usize,
 ) -> Result<Cow<'a, [T]>, Error> {
-    // SAFETY: as of this function.
+    // SAFETY: the caller's promise.
     let elements = unsafe { copied(what, data, count, stride) }?;
     let first = data.cast::<T>();
     let is_slice = count > 0 && (stride == 0 || stride == size_of::<T>()) && first.is_aligned();
     if is_slice {
-        // SAFETY: not null, aligned, not longer than memory can be, and as of this function.
+        // SAFETY: not null, aligned, no longer than `isize::MAX` bytes; the rest is the caller's promise.
         return Ok(Cow::Borrowed(unsafe { std::slice::from_raw_parts(first, count) }));
     }
     Ok(elements.collect())
 }
 
-/// As [`gathered`], of a mesh of `corners` corners. Further error: another count.
+/// As [`gathered`], for a mesh of `corners` corners. Further error: `count` is not `corners`.
 ///
 /// # Safety
 ///
-/// As of [`gathered`].
+/// As for [`gathered`].
 pub(crate) unsafe fn gathered_of_corners<'a, T: Copy>(
     corners: usize,
     what: &str,
@@ -402,7 +405,7 @@ pub(crate) unsafe fn gathered_of_corners<'a, T: Copy>(
     stride: usize,
 ) -> Result<Cow<'a, [T]>, Error> {
     one_per_corner(what, count, corners)?;
-    // SAFETY: as of this function.
+    // SAFETY: the caller's promise.
     unsafe { gathered(what, data, count, stride) }
 }
 
@@ -414,11 +417,12 @@ fn one_per_corner(what: &str, count: usize, corners: usize) -> Result<(), Error>
     Err(Error::new(darboux_status::Length, message))
 }
 
-/// A result that the caller holds by a pointer, until it gives it back to be freed.
+/// Allocates the result of `make` and writes its address to `to`. The caller owns the object until [`take_back`]. Errors: null; those of
+/// `make`.
 ///
 /// # Safety
 ///
-/// `to` is null or may be written.
+/// `to` is null or writable.
 pub(crate) unsafe fn hand_out<T>(
     what: &str,
     to: *mut *mut T,
@@ -428,29 +432,29 @@ pub(crate) unsafe fn hand_out<T>(
         return Err(null(what));
     }
     let made = Box::into_raw(Box::new(make()?));
-    // SAFETY: as of this function.
+    // SAFETY: the caller's promise.
     unsafe { to.write(made) };
     Ok(())
 }
 
-/// What [`hand_out`] gave. Errors: null.
+/// A reference to an object from [`hand_out`]. Errors: a null pointer.
 ///
 /// # Safety
 ///
-/// `held` is null or from [`hand_out`], and not yet taken back.
+/// `held` is null or from [`hand_out`], and not freed.
 pub(crate) unsafe fn held<'a, T>(what: &str, held: *const T) -> Result<&'a T, Error> {
-    // SAFETY: as of this function.
+    // SAFETY: the caller's promise.
     unsafe { held.as_ref() }.ok_or_else(|| null(what))
 }
 
-/// Frees what [`hand_out`] gave; nothing where it is null.
+/// Frees an object from [`hand_out`]. Does nothing where the pointer is null.
 ///
 /// # Safety
 ///
-/// As of [`held`]; nobody uses it any more.
+/// As for [`held`]; the object is no longer used.
 pub(crate) unsafe fn take_back<T>(held: *mut T) {
     if !held.is_null() {
-        // SAFETY: as of this function.
+        // SAFETY: the caller's promise.
         drop(unsafe { Box::from_raw(held) });
     }
 }
@@ -459,7 +463,7 @@ pub(crate) fn null(what: &str) -> Error {
     Error::new(darboux_status::NullPointer, format!("{what} is null"))
 }
 
-/// The stride in bytes. Errors: one that is smaller than an element.
+/// The stride in bytes; 0 stands for the size of an element. Errors: a stride smaller than an element.
 fn stride_of(what: &str, stride: usize, element: usize) -> Result<usize, Error> {
     match stride {
         0 => Ok(element),
@@ -471,7 +475,7 @@ fn stride_of(what: &str, stride: usize, element: usize) -> Result<usize, Error> 
     }
 }
 
-/// How many bytes `count` elements take. Errors: null, more than memory can hold.
+/// The size of the array in bytes. Errors: a null pointer, a size overflow.
 fn bytes(what: &str, data: *const u8, element: usize, stride: usize, count: usize) -> Result<usize, Error> {
     if count == 0 {
         return Ok(0);

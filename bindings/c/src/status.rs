@@ -1,4 +1,5 @@
-//! What calls return, and the one place where they end: errors become a status and a message, panics an error.
+//! Status codes and error messages. [`call`] runs every C function: it turns an error into a status and a message, and a panic into an
+//! error.
 
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char};
@@ -6,38 +7,38 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use darboux::MeshError;
 
-/// What a call came to. darboux_last_error has a sentence on every error.
+/// The result of a call. darboux_last_error returns a message for every error.
 ///
-/// Degenerate triangles and values that are not finite are not errors: reports count them. After an error other than
-/// DARBOUX_STATUS_INTERNAL and DARBOUX_STATUS_CANCELLED nothing was written.
+/// Degenerate triangles and values that are not finite are not errors; reports count them. After an error other than
+/// DARBOUX_STATUS_INTERNAL and DARBOUX_STATUS_CANCELLED, nothing has been written to the caller's arrays.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum darboux_status {
-    /// All was done.
+    /// Success.
     Ok = 0,
-    /// A pointer is null where there must be memory.
+    /// A required pointer is null.
     NullPointer = 1,
-    /// A struct's `size` is no version's size, or has values that this version of the library does not know.
+    /// The `size` of a struct is invalid, or the struct has non-zero fields that this version of the library does not support.
     StructSize = 2,
-    /// A number is none of its enumeration, or two fields are set of which one must be null.
+    /// A value is not in its enumeration, or two fields are set of which one must be null.
     UnknownValue = 3,
-    /// A stride is smaller than the element that it steps over.
+    /// A stride is smaller than an element.
     Stride = 4,
-    /// Integers do not lie at a multiple of their size.
+    /// An array of integers is not aligned to the size of its elements.
     Alignment = 5,
-    /// More vertices or corners than 32-bit numbers can count, or more memory than there can be.
+    /// There are too many vertices or corners, or an array would exceed the address space.
     TooLarge = 6,
-    /// A count is not what the mesh or another array asks for.
+    /// A count differs from that of the mesh or of another array.
     Length = 7,
-    /// An index names no vertex.
+    /// An index is out of range.
     Index = 8,
     /// The corners do not make whole faces.
     Faces = 9,
-    /// A call that must come before any other came later.
+    /// The function must be called before any other, and was called later.
     TooLate = 10,
-    /// A defect of the library, which is none of the caller's doing. Please report it with the message.
+    /// A defect of the library, not of the caller. Please report it with the message.
     Internal = 11,
-    /// Two of a convention's axes lie along one line.
+    /// Two axes of a convention are parallel.
     Axes = 12,
     /// Threads cannot be started.
     Threads = 13,
@@ -45,7 +46,7 @@ pub enum darboux_status {
     Cancelled = 14,
 }
 
-/// An error on its way to the border.
+/// An error inside the library, before it becomes a status and a message.
 #[derive(Debug)]
 pub(crate) struct Error {
     status: darboux_status,
@@ -76,7 +77,7 @@ thread_local! {
     static LAST_ERROR: RefCell<CString> = RefCell::default();
 }
 
-/// Runs a call to its status. A panic becomes [`darboux_status::Internal`].
+/// Runs a call and returns its status. A panic becomes [`darboux_status::Internal`].
 pub(crate) fn call(body: impl FnOnce() -> Result<(), Error>) -> darboux_status {
     let panicked = |_| {
         let message = "the library met a defect of its own; the sentence on standard error says where";
@@ -91,22 +92,23 @@ pub(crate) fn call(body: impl FnOnce() -> Result<(), Error>) -> darboux_status {
     }
 }
 
-/// Keeps a message for [`darboux_last_error`]; on a thread that is ending there is no place for it.
+/// Stores the message that [`darboux_last_error`] returns. Does nothing on a thread whose thread-local storage is already destroyed.
 fn keep(message: String) {
     let message = CString::new(message).unwrap_or_default();
     let _ = LAST_ERROR.try_with(|last| last.replace(message));
 }
 
-/// Returns the message of the last error on this thread, one sentence in UTF-8; empty where there was none.
+/// Returns the message of the last error on this thread: one sentence in UTF-8. The empty string where no call has failed yet.
 ///
-/// Valid until this thread's next call that fails, or its end. Calls that succeed leave it as it is.
+/// The pointer is valid until the next call on this thread that fails, or until the thread ends. Calls that succeed do not change the
+/// message.
 #[unsafe(no_mangle)]
 pub extern "C" fn darboux_last_error() -> *const c_char {
     const NONE: &CStr = c"";
     LAST_ERROR.try_with(|last| last.borrow().as_ptr()).unwrap_or(NONE.as_ptr())
 }
 
-/// Returns the library's version, such as "0.1.0".
+/// Returns the library's version, for example "0.1.0".
 #[unsafe(no_mangle)]
 pub extern "C" fn darboux_version() -> *const c_char {
     concat!(env!("CARGO_PKG_VERSION"), "\0").as_ptr().cast()

@@ -1,4 +1,4 @@
-//! Tangents of corners.
+//! Tangent generation in C: tangents or whole frames, one per corner, and a report of the run.
 
 use std::mem::offset_of;
 
@@ -12,58 +12,59 @@ use crate::mesh::{self, darboux_mesh};
 use crate::pointers::{self, Output, Receiver, Versioned};
 use crate::status::{Error, call, darboux_status};
 
-/// What darboux_generate_tangents does. All zeros are the defaults, which are right for normal maps from today's bakers.
+/// Options of darboux_generate_tangents. All zeros are the defaults, which are right for normal maps from today's bakers.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct darboux_tangent_options {
-    /// sizeof(darboux_tangent_options), or 0, which stands for version 0.1's size.
+    /// sizeof(darboux_tangent_options). 0: the size in version 0.1.
     pub size: usize,
     /// The method. Default: MikkTSpace.
     pub method: darboux_method,
-    /// How faithfully defects of the reference are kept. Default: repaired.
+    /// How faithfully defects of the reference are kept. Default: repaired. Must be 0 for all methods but MikkTSpace.
     pub mode: darboux_mode,
-    /// Angular threshold in degrees, MikkTSpace's alone: faces around a vertex share a tangent while their tangents and their bitangents
-    /// differ by less. 0 stands for 180, which is what bakers use; 0.001 has the bits of a threshold of zero.
+    /// The angular threshold of MikkTSpace in degrees: faces around a vertex share a tangent while their tangents and their bitangents
+    /// differ by less. 0 stands for 180, which is what bakers use; for a threshold of zero, pass 0.001, which gives the same bits. Must be
+    /// 0 for all other methods.
     pub threshold: f32,
-    /// A context with reused memory and threads, or null: then the call runs on the calling thread with memory of its own.
+    /// Reused memory, threads and a cancellation flag. NULL: the call runs on the calling thread, and allocates its own memory.
     pub context: *mut darboux_context,
 }
 
-// SAFETY: `repr(C)`, the size first, zeros and a null pointer.
+// SAFETY: `repr(C)`, the size is the first field, all fields are numbers or raw pointers.
 unsafe impl Versioned for darboux_tangent_options {
     const NAME: &str = "darboux_tangent_options";
     const FIRST_SIZE: usize = pointers::size_through::<Self, *mut darboux_context>(offset_of!(Self, context));
 }
 
-/// What was met on the way. Quads count as the two triangles that they are split into.
+/// The counts of a run. Quads count as two triangles.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct darboux_report {
-    /// sizeof(darboux_report), set by the caller, or 0, which stands for version 0.1's size.
+    /// sizeof(darboux_report), set by the caller. 0: the size in version 0.1.
     pub size: usize,
-    /// Triangles, quad halves included.
+    /// The triangles of the mesh, halves of quads included.
     pub triangles: usize,
-    /// Faces of other than 3 or 4 corners; they have tangents from their normals alone.
+    /// Faces of other than 3 or 4 corners. Their tangents are perpendiculars of their normals.
     pub unsupported_faces: usize,
     /// Triangles with two equal positions.
     pub degenerate_triangles: usize,
-    /// Triangles, not degenerate, whose UVs span no area.
+    /// Triangles whose UVs span no area, or too little area for a direction. Degenerate and non-finite triangles are not counted.
     pub uv_degenerate_triangles: usize,
-    /// Corners with a NaN or an infinity in position, normal or UV.
+    /// Corners with NaN or infinity in the position, normal or UV.
     pub non_finite_corners: usize,
-    /// Corners whose reference tangent is absent or unusable. Replaced, but in DARBOUX_MODE_REFERENCE.
+    /// Corners without a usable tangent. Their tangents are replaced, except in DARBOUX_MODE_REFERENCE.
     pub repaired_corners: usize,
-    /// Faces whose corners carry both signs.
+    /// Faces whose corners have both signs.
     pub mixed_sign_faces: usize,
     /// Edges between two triangles of opposite UV orientation.
     pub mirrored_edges: usize,
-    /// Vertices that need more than one tangent: what darboux_split_vertices splits.
+    /// Vertices whose corners have different tangents. darboux_split_vertices splits them.
     pub split_vertices: usize,
-    /// Vertices at which both UV orientations share one tangent: seams that DARBOUX_METHOD_LENGYEL_PER_VERTEX breaks.
+    /// Vertices at which triangles of both UV orientations share one tangent. Zero for all methods but DARBOUX_METHOD_LENGYEL_PER_VERTEX.
     pub merged_vertices: usize,
 }
 
-// SAFETY: `repr(C)`, the size first, integers.
+// SAFETY: `repr(C)`, the size is the first field, all fields are integers.
 unsafe impl Versioned for darboux_report {
     const NAME: &str = "darboux_report";
     const FIRST_SIZE: usize = pointers::size_through::<Self, usize>(offset_of!(Self, merged_vertices));
@@ -87,7 +88,7 @@ impl From<Report> for darboux_report {
     }
 }
 
-/// One corner's whole frame.
+/// The whole frame of one corner.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct darboux_frame {
@@ -97,7 +98,7 @@ pub struct darboux_frame {
     pub bitangent: [f32; 3],
     /// World units per unit of u and per unit of v.
     pub magnitude: [f32; 2],
-    /// +1 where the UV map keeps its orientation, -1 where it mirrors.
+    /// +1 where the UV map preserves orientation, -1 where it mirrors.
     pub sign: f32,
 }
 
@@ -108,17 +109,17 @@ impl From<Frame> for darboux_frame {
     }
 }
 
-/// The options at `options`, and the context in them.
+/// Reads the options, and the context in them.
 ///
 /// # Safety
 ///
-/// `options` is as [`darboux_tangent_options`] says, or null.
+/// `options` is null or points to a valid [`darboux_tangent_options`].
 pub(crate) unsafe fn options<'a>(
     options: *const darboux_tangent_options,
 ) -> Result<(TangentOptions, Option<&'a darboux_context>), Error> {
-    // SAFETY: as of this function.
+    // SAFETY: the caller's promise.
     let options = unsafe { pointers::read_or_zeros(options) }?;
-    // SAFETY: null or from `darboux_context_create`, and not freed.
+    // SAFETY: `context` is null or from `darboux_context_create`, and not freed.
     let context = unsafe { options.context.as_ref() };
     let mut mikkt = MikktOptions::new().with_mode(codes::mode(options.mode)?);
     if options.threshold != 0.0 {
@@ -137,12 +138,12 @@ pub(crate) unsafe fn options<'a>(
 
 /// Computes the tangent of every corner.
 ///
-/// These are not vertex tangents: corners of one vertex may disagree, so they cannot be written through the mesh's indices.
-/// darboux_split_vertices gives vertices and new indices. Where corner i is vertex i they may go straight into the vertices.
-/// `mesh`: normals and UVs must be there. `options`: null for the defaults. `tangents`: room for C by 4 floats, unit xyz and the sign w
-/// (bitangent = w * cross(normal, xyz)), beside the mesh's arrays or, with a stride, between their elements. `tangent_count`: C.
-/// `tangent_stride`: bytes from one tangent to the next, 0 for packed. `report`: what was met, or null.
-/// Errors: what darboux_status lists.
+/// These are not vertex tangents: corners of one vertex can have different tangents, so do not write them through the mesh's index list.
+/// darboux_split_vertices computes vertices and new indices. In an unindexed mesh, corner i is vertex i, so the tangents can be written
+/// into the vertices. `mesh`: normals and UVs are required. `options`: NULL for the defaults. `tangents`: receives C by 4 floats, unit xyz
+/// and the sign w, where bitangent = w * cross(normal, xyz). It must not overlap the mesh's elements, but may lie between them.
+/// `tangent_count`: C. `tangent_stride`: bytes from one tangent to the next; 0 for packed. `report`: receives the counts; may be NULL.
+/// Errors: those of the mesh; another count than C; see darboux_status.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_generate_tangents(
     mesh: *const darboux_mesh,
@@ -153,7 +154,7 @@ pub unsafe extern "C" fn darboux_generate_tangents(
     report: *mut darboux_report,
 ) -> darboux_status {
     call(|| {
-        // SAFETY: every pointer is as the documentation above says. The mesh is read before the output is written.
+        // SAFETY: the pointers are as documented above. The mesh is read before the output is written.
         let (mesh, (options, context), report, out) = unsafe {
             let mesh = mesh::view(mesh)?;
             let corners = mesh.corner_count();
@@ -169,10 +170,10 @@ pub unsafe extern "C" fn darboux_generate_tangents(
     })
 }
 
-/// Computes the whole frame of every corner: tangent, bitangent, magnitudes, sign. Slower than darboux_generate_tangents.
+/// Computes the whole frame of every corner: tangent, bitangent, magnitudes and sign. Slower than darboux_generate_tangents.
 ///
-/// `mesh`, `options`, `report`, errors: as for darboux_generate_tangents. `frames`: room for C frames.
-/// `frame_count`: C. `frame_stride`: bytes from one frame to the next, 0 for packed.
+/// `frames`: receives C frames. `frame_count`: C. `frame_stride`: bytes from one frame to the next; 0 for packed. `mesh`, `options`,
+/// `report` and errors: as for darboux_generate_tangents.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_generate_frames(
     mesh: *const darboux_mesh,
@@ -183,7 +184,7 @@ pub unsafe extern "C" fn darboux_generate_frames(
     report: *mut darboux_report,
 ) -> darboux_status {
     call(|| {
-        // SAFETY: every pointer is as the documentation above says. The mesh is read before the output is written.
+        // SAFETY: the pointers are as documented above. The mesh is read before the output is written.
         let (mesh, (options, context), report, out) = unsafe {
             let mesh = mesh::view(mesh)?;
             let corners = mesh.corner_count();
