@@ -13,10 +13,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/// How many bins a histogram of angles has.
+/// The number of bins of the histogram of angles.
 #define DARBOUX_HISTOGRAM_BINS 10
 
-/// How many corners darboux_tangent_difference lists at most.
+/// The maximum number of corners that darboux_tangent_difference lists.
 #define DARBOUX_WORST_CORNERS 16
 
 /// What a call came to. darboux_last_error has a sentence on every error.
@@ -67,27 +67,27 @@ typedef uint32_t darboux_status;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// How tangents are computed. Normal maps need the method that they were baked with, nearly always the default.
+/// How tangents are computed. A normal map needs the method that it was baked with, nearly always the default.
 enum darboux_method
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /// The standard of bakers and renderers.
+  /// The standard of bakers and renderers: sums of unit tangents weighted by corner angles, over welded vertices.
   DARBOUX_METHOD_MIKKTSPACE = 0,
-  /// MikkTSpace's groups with weights of corner angle times area, where no baked map asks for another.
+  /// MikkTSpace's groups with weights of corner angle times area. The choice where no baked map requires another method.
   DARBOUX_METHOD_ANGLE_AREA = 1,
-  /// Per vertex and UV orientation the sum of dP/du, as long as they are.
+  /// The sum of dP/du per vertex and UV orientation, not normalised (Lengyel 2001).
   DARBOUX_METHOD_LENGYEL = 2,
-  /// As LENGYEL with one sum per vertex: mirrored seams break, nothing splits.
+  /// As LENGYEL with one sum per vertex. Mirrored seams break. No vertex is split.
   DARBOUX_METHOD_LENGYEL_PER_VERTEX = 3,
-  /// Per vertex and UV orientation the mean of the unit tangents.
+  /// The mean of the unit tangents per vertex and UV orientation.
   DARBOUX_METHOD_AVERAGE = 4,
-  /// Per vertex and UV orientation the mean of the unit tangents, weighted by area.
+  /// The mean of the unit tangents per vertex and UV orientation, weighted by area.
   DARBOUX_METHOD_AREA = 5,
-  /// Per face dP/du itself: exact on each, not smooth.
+  /// dP/du of each face: exact on each face, not smooth.
   DARBOUX_METHOD_FACE = 6,
-  /// A perpendicular of the normal, without any UVs.
+  /// A perpendicular of the normal. UVs are ignored.
   DARBOUX_METHOD_FROM_NORMAL = 7,
 };
 #ifndef __cplusplus
@@ -104,7 +104,7 @@ enum darboux_mode
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /// Every bit of the reference where its result is usable, a unit tangent perpendicular to the normal elsewhere.
+  /// Every bit of the reference where its result is usable; elsewhere a unit tangent perpendicular to the normal.
   DARBOUX_MODE_REPAIRED = 0,
   /// Every bit of the reference, its defects included: zero-length tangents, tangents along the normal, NaN.
   DARBOUX_MODE_REFERENCE = 1,
@@ -119,15 +119,15 @@ typedef uint32_t darboux_mode;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// How corners make faces.
+/// How corners are grouped into faces.
 enum darboux_faces
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /// Three corners each.
+  /// Three corners per face.
   DARBOUX_FACES_TRIANGLES = 0,
-  /// Four corners each.
+  /// Four corners per face.
   DARBOUX_FACES_QUADS = 1,
   /// `face_sizes` holds the corner count of each face.
   DARBOUX_FACES_MIXED = 2,
@@ -140,13 +140,13 @@ typedef uint32_t darboux_faces;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// Flat or smooth.
+/// Flat or smooth shading.
 enum darboux_shading
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /// Corners around a vertex share the weighted mean of their faces' normals, but for creases.
+  /// Corners of a vertex share the weighted mean of their faces' normals, except across creases.
   DARBOUX_SHADING_SMOOTH = 0,
   /// Every corner has its face's normal.
   DARBOUX_SHADING_FLAT = 1,
@@ -165,11 +165,11 @@ enum darboux_normal_weight
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /// The angle of its corner there: independent of how a flat surface is cut.
+  /// The angle of the face's corner. The result does not depend on the triangulation of flat surfaces.
   DARBOUX_NORMAL_WEIGHT_ANGLE = 0,
-  /// Its area.
+  /// The area of the face.
   DARBOUX_NORMAL_WEIGHT_AREA = 1,
-  /// Both multiplied: wide faces stay flat beside bevels.
+  /// Angle times area. Wide faces stay flat beside bevels.
   DARBOUX_NORMAL_WEIGHT_ANGLE_AREA = 2,
 };
 #ifndef __cplusplus
@@ -180,15 +180,15 @@ typedef uint32_t darboux_normal_weight;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// What keeps vertices apart while normals are smoothed.
+/// The treatment of vertices at equal positions while normals are smoothed.
 enum darboux_smoothing_seams
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /// Nothing: vertices at equal positions are one.
+  /// Vertices at equal positions are merged, so that UV seams are not visible in the shading.
   DARBOUX_SMOOTHING_SEAMS_IGNORED = 0,
-  /// The index list: distinct vertices have distinct normals.
+  /// Distinct vertices have distinct normals.
   DARBOUX_SMOOTHING_SEAMS_RESPECTED = 1,
 };
 #ifndef __cplusplus
@@ -199,21 +199,21 @@ typedef uint32_t darboux_smoothing_seams;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// Tangents in fewer bytes. The largest error of a direction is given in degrees; the sign is exact in all of them.
+/// Compressed formats of tangents. Each comment gives the largest error of a direction, in degrees. The sign is exact in all formats.
 enum darboux_tangent_encoding
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /// `int8_t[4]`, c / 127. 0.40 degrees.
+  /// `int8_t[4]`: components times 127, rounded. 0.40 degrees.
   DARBOUX_TANGENT_ENCODING_SNORM8 = 0,
-  /// `uint32_t`: ten bits each for x (the lowest), y and z, two for w. 0.098 degrees.
+  /// `uint32_t`: ten bits each for x (the lowest bits), y and z, two bits for w. 0.098 degrees.
   DARBOUX_TANGENT_ENCODING_SNORM10 = 1,
-  /// `int16_t[4]`, c / 32767. 0.0016 degrees.
+  /// `int16_t[4]`: components times 32767, rounded. 0.0016 degrees.
   DARBOUX_TANGENT_ENCODING_SNORM16 = 2,
-  /// `int16_t[2]`: a point of the unfolded octahedron; the lowest bit of y is the sign. 0.0057 degrees.
+  /// `int16_t[2]`: octahedral map; the lowest bit of y is the sign. 0.0057 degrees.
   DARBOUX_TANGENT_ENCODING_OCTAHEDRAL = 3,
-  /// `uint16_t`: the place around the normal, which the decoder is given too; the lowest bit is the sign. 0.0071 degrees.
+  /// `uint16_t`: the angle around the normal; the lowest bit is the sign. The decoder needs the same normal. 0.0071 degrees.
   DARBOUX_TANGENT_ENCODING_DIAMOND = 4,
 };
 #ifndef __cplusplus
@@ -230,7 +230,7 @@ enum darboux_axis
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /// As in glTF: right is -x, up is y, front is z.
+  /// As in glTF: right is -x, up is +y, front is +z.
   DARBOUX_AXIS_DEFAULT = 0,
   /// Along x.
   DARBOUX_AXIS_X = 1,
@@ -253,15 +253,15 @@ typedef uint32_t darboux_axis;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// The order of a face's corners, seen from the side that its normal points to, as the eye sees it and not as the numbers say.
+/// The winding of front faces, as seen on the screen from the side that the normal points to.
 enum darboux_winding
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /// Against the clock.
+  /// Counter-clockwise.
   DARBOUX_WINDING_COUNTER_CLOCKWISE = 0,
-  /// With the clock.
+  /// Clockwise.
   DARBOUX_WINDING_CLOCKWISE = 1,
 };
 #ifndef __cplusplus
@@ -272,15 +272,15 @@ typedef uint32_t darboux_winding;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// Where in the picture v = 0 is. u always runs to the right.
+/// The origin of UVs in the image. u always points to the right.
 enum darboux_uv_origin
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /// v runs down.
+  /// v = 0 is the top; v points down.
   DARBOUX_UV_ORIGIN_TOP_LEFT = 0,
-  /// v runs up.
+  /// v = 0 is the bottom; v points up.
   DARBOUX_UV_ORIGIN_BOTTOM_LEFT = 1,
 };
 #ifndef __cplusplus
@@ -291,15 +291,15 @@ typedef uint32_t darboux_uv_origin;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// Where the tangent points on the surface, and more red leans the normal: a direction in the picture that lies on it.
+/// The direction of the tangent, as a direction in the texture image. More red tilts the normal in this direction.
 enum darboux_tangent_direction
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /// To the picture's right.
+  /// To the right of the image.
   DARBOUX_TANGENT_DIRECTION_RIGHT = 0,
-  /// To the picture's left.
+  /// To the left of the image.
   DARBOUX_TANGENT_DIRECTION_LEFT = 1,
 };
 #ifndef __cplusplus
@@ -310,15 +310,16 @@ typedef uint32_t darboux_tangent_direction;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// Where the bitangent that a shader rebuilds points on the surface, and more green leans the normal: a direction in the picture.
+/// The direction of the bitangent that a shader rebuilds, as a direction in the texture image. More green tilts the normal in this
+/// direction.
 enum darboux_bitangent_direction
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /// To the picture's top ("OpenGL", Y+).
+  /// To the top of the image ("OpenGL", Y+).
   DARBOUX_BITANGENT_DIRECTION_UP = 0,
-  /// To the picture's bottom ("DirectX", Y-).
+  /// To the bottom of the image ("DirectX", Y-).
   DARBOUX_BITANGENT_DIRECTION_DOWN = 1,
 };
 #ifndef __cplusplus
@@ -329,7 +330,7 @@ typedef uint32_t darboux_bitangent_direction;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// How a shader rebuilds the bitangent from normal, tangent and sign, by numbers.
+/// The formula by which a shader rebuilds the bitangent from normal, tangent and sign, applied to coordinates of either handedness.
 enum darboux_sign_rule
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -348,7 +349,7 @@ typedef uint32_t darboux_sign_rule;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-/// Programs whose conventions are known.
+/// Programs with a preset convention. docs/conventions.md gives the sources.
 enum darboux_program
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -356,7 +357,7 @@ enum darboux_program
  {
   /// glTF 2.0.
   DARBOUX_PROGRAM_GLTF = 0,
-  /// OpenGL, as is usual with it.
+  /// OpenGL, with the common practice for what OpenGL does not define.
   DARBOUX_PROGRAM_OPENGL = 1,
   /// Direct3D.
   DARBOUX_PROGRAM_DIRECTX = 2,
@@ -368,7 +369,7 @@ enum darboux_program
   DARBOUX_PROGRAM_UNREAL = 5,
   /// Godot 4.
   DARBOUX_PROGRAM_GODOT = 6,
-  /// three.js, but for the glTF files that it loads.
+  /// three.js. Use GLTF for the glTF files that it loads.
   DARBOUX_PROGRAM_THREEJS = 7,
   /// Maya.
   DARBOUX_PROGRAM_MAYA = 8,
@@ -484,176 +485,177 @@ typedef struct darboux_frame {
   float sign;
 } darboux_frame;
 
-/// An indexed mesh's vertices after splitting by tangents. The old vertices come first, in their old places.
+/// The vertices of an indexed mesh after splitting by tangents. The old vertices come first and keep their numbers.
 typedef struct darboux_vertex_split {
-  /// The number of new vertices.
+  /// The number of new vertices, old ones included.
   size_t vertex_count;
-  /// One tangent per new vertex: unit xyz and sign w. Vertices that no corner uses have (1, 0, 0, 1).
+  /// One tangent per new vertex: unit xyz and sign w. (1, 0, 0, 1) for vertices that no corner uses.
   const float (*tangent_of_vertex)[4];
-  /// The old vertex that each new vertex copies. Gather any other attribute with it: new[v] = old[source_of_vertex[v]].
+  /// The old vertex that each new vertex copies. All other attributes follow from it: new[v] = old[source_of_vertex[v]].
   const uint32_t *source_of_vertex;
   /// The number of corners.
   size_t index_count;
-  /// The new index list, in the old corner order.
+  /// The new index list, one per corner, in the old corner order.
   const uint32_t *indices;
 } darboux_vertex_split;
 
-/// An indexed mesh's vertices after splitting by normals. The old vertices come first, in their old places.
+/// The vertices of an indexed mesh after splitting by normals. The old vertices come first and keep their numbers.
 typedef struct darboux_normal_split {
-  /// The number of new vertices.
+  /// The number of new vertices, old ones included.
   size_t vertex_count;
-  /// One normal per new vertex. Vertices that no corner uses have (0, 0, 1).
+  /// One normal per new vertex. (0, 0, 1) for vertices that no corner uses.
   const float (*normal_of_vertex)[3];
-  /// The old vertex that each new vertex copies. Gather any other attribute with it: new[v] = old[source_of_vertex[v]].
+  /// The old vertex that each new vertex copies. All other attributes follow from it: new[v] = old[source_of_vertex[v]].
   const uint32_t *source_of_vertex;
   /// The number of corners.
   size_t index_count;
-  /// The new index list, in the old corner order.
+  /// The new index list, one per corner, in the old corner order.
   const uint32_t *indices;
 } darboux_normal_split;
 
-/// How darboux_generate_normals makes normals. All zeros are the defaults: smooth everywhere, weighted by angle.
+/// Options of darboux_generate_normals. All zeros: smooth everywhere, weighted by angle.
 typedef struct darboux_normal_options {
-  /// sizeof(darboux_normal_options), or 0, which stands for version 0.1's size.
+  /// sizeof(darboux_normal_options). 0: the size in version 0.1.
   size_t size;
-  /// Flat, or smooth. Default: smooth.
+  /// Flat or smooth shading. Default: smooth.
   darboux_shading shading;
-  /// How much each face counts at a vertex, where shading is smooth. Default: its angle there.
+  /// The weight of each face at a vertex, for smooth shading. Default: the angle of the face's corner.
   darboux_normal_weight weight;
-  /// Smooth shading stops at edges whose faces' normals differ by more than this, in degrees. 0 stands for 180: it stops nowhere;
-  /// a negative number stops it at every edge that is not flat.
+  /// The crease angle in degrees: smooth shading stops at edges whose faces' normals differ by more. 0 stands for 180: no creases. With a
+  /// negative value, smooth shading stops at every edge that is not flat.
   float crease;
-  /// Which vertices are one, where shading is smooth. Default: those at equal positions.
+  /// Whether vertices at equal positions are merged, for smooth shading. Default: they are merged.
   darboux_smoothing_seams seams;
 } darboux_normal_options;
 
-/// What was met on the way.
+/// The counts of a run of darboux_generate_normals.
 typedef struct darboux_normal_report {
-  /// sizeof(darboux_normal_report), set by the caller, or 0, which stands for version 0.1's size.
+  /// sizeof(darboux_normal_report), set by the caller. 0: the size in version 0.1.
   size_t size;
-  /// Faces, degenerate ones included.
+  /// The faces of the mesh, degenerate ones included.
   size_t faces;
-  /// Faces without an area, or with values that are not finite. They add nothing.
+  /// Faces without an area or with values that are not finite. They are skipped.
   size_t degenerate_faces;
-  /// Corners whose faces' normals cancel or are missing.
+  /// Corners whose faces' normals cancel or are missing. Their normal is that of their face, else the mean at their vertex, else (0, 0,
+  /// 1).
   size_t repaired_corners;
-  /// Edges between two faces at which smooth shading stops for their angle.
+  /// Edges between two faces at which smooth shading stops because of the crease angle.
   size_t creased_edges;
 } darboux_normal_report;
 
-/// How two sets of tangents of one mesh differ. Angles are between the xyz of a corner in both, in degrees.
+/// The difference of two sets of tangents of one mesh. Angles are in degrees, between the xyz of one corner in both sets.
 typedef struct darboux_tangent_difference {
-  /// sizeof(darboux_tangent_difference), set by the caller, or 0, which stands for version 0.1's size.
+  /// sizeof(darboux_tangent_difference), set by the caller. 0: the size in version 0.1.
   size_t size;
   /// The number of corners.
   size_t corners;
-  /// Corners whose four floats are the same bits, or NaN in both.
+  /// Corners whose four floats have equal bits or are NaN in both sets.
   size_t identical;
-  /// Corners whose signs differ.
+  /// Corners whose signs differ: exactly one w is below zero.
   size_t sign_flips;
-  /// Corners where a tangent is zero or not finite, so that there is no angle. They are in none of the numbers below.
+  /// Corners without an angle, because a tangent is zero or not finite. The fields below ignore them.
   size_t without_angle;
   /// The mean angle.
   double mean;
   /// The smallest angle.
   double min;
-  /// The angle that half of the corners do not exceed.
+  /// The median angle.
   double median;
-  /// The angle that 95 corners in 100 do not exceed.
+  /// The 95th percentile of the angles.
   double p95;
   /// The largest angle.
   double max;
-  /// Corners per bin. The bins end at 0, 0.001, 0.01, 0.1, 1, 5, 15, 45, 90 and 180 degrees.
+  /// The number of corners per bin. The bins end at 0, 0.001, 0.01, 0.1, 1, 5, 15, 45, 90 and 180 degrees.
   size_t histogram[DARBOUX_HISTOGRAM_BINS];
-  /// How many of the next two arrays' elements are set.
+  /// The number of elements of `worst_corners` and `worst_angles` that are set.
   size_t worst_count;
-  /// The corners with the largest angles, the largest first.
+  /// The corners with the largest angles above zero, in descending order of the angle.
   size_t worst_corners[DARBOUX_WORST_CORNERS];
-  /// Their angles.
+  /// The angles of `worst_corners`.
   double worst_angles[DARBOUX_WORST_CORNERS];
 } darboux_tangent_difference;
 
-/// How well tangents follow the UVs: the angle between the tangent as shaders interpolate it and the true dP/du.
+/// The angle between interpolated tangents and dP/du, over the surface.
 typedef struct darboux_uv_fidelity {
-  /// sizeof(darboux_uv_fidelity), set by the caller, or 0, which stands for version 0.1's size.
+  /// sizeof(darboux_uv_fidelity), set by the caller. 0: the size in version 0.1.
   size_t size;
   /// The mean angle over the surface, weighted by area, in degrees.
   double mean;
   /// The root of the mean square of the angle, in degrees.
   double root_mean_square;
-  /// The area that was measured.
+  /// The area of the triangles that were measured.
   double area;
-  /// Triangles that were not: without area, or without a dP/du.
+  /// The number of triangles that were not measured, because they have no area or no dP/du.
   size_t left_out;
 } darboux_uv_fidelity;
 
-/// What the numbers of a mesh and of its normal map mean. All zeros, and a null pointer, are glTF's convention.
+/// The convention of a mesh and of its normal map. NULL or all zeros: glTF.
 typedef struct darboux_convention {
-  /// sizeof(darboux_convention), or 0, which stands for version 0.1's size.
+  /// sizeof(darboux_convention). 0: the size in version 0.1.
   size_t size;
-  /// Where a model's own right hand points. Right, up and front are three different axes.
+  /// The axis that the model's right points along. Right, up and front must be three different axes.
   darboux_axis right;
-  /// Where its head points.
+  /// The axis that the model's top points along.
   darboux_axis up;
-  /// Where it looks.
+  /// The axis that the model's front points along.
   darboux_axis front;
-  /// How fronts of faces are wound.
+  /// The winding of front faces.
   darboux_winding winding;
-  /// Where v = 0 is.
+  /// The origin of UVs.
   darboux_uv_origin uv_origin;
-  /// Where tangents, and red, point.
+  /// The direction of tangents and of red.
   darboux_tangent_direction tangent;
-  /// Where bitangents, and green, point.
+  /// The direction of bitangents and of green.
   darboux_bitangent_direction bitangent;
-  /// What w means.
+  /// The formula of the bitangent.
   darboux_sign_rule sign;
 } darboux_convention;
 
-/// Where the normals and tangents of vertices are read and written. Strides are in bytes, 0 for packed.
+/// Input and output arrays of normals and tangents, one element per vertex. Strides are in bytes; 0 for packed.
 typedef struct darboux_frame_arrays {
-  /// sizeof(darboux_frame_arrays), or 0, which stands for version 0.1's size.
+  /// sizeof(darboux_frame_arrays). 0: the size in version 0.1.
   size_t size;
   /// The number of elements of every array.
   size_t count;
-  /// `count` by 3, unit.
+  /// `count` by 3 floats, unit length.
   const float *normals;
   /// Bytes from one normal to the next.
   size_t normal_stride;
-  /// `count` by 4, unit xyz and the sign w.
+  /// `count` by 4 floats, unit xyz and the sign w.
   const float *tangents;
   /// Bytes from one tangent to the next.
   size_t tangent_stride;
-  /// Room for `count` by 3, unit; it may be `normals`.
+  /// Receives `count` by 3 floats, unit length. May equal `normals`.
   float *out_normals;
-  /// Bytes from one of these to the next.
+  /// Bytes from one output normal to the next.
   size_t out_normal_stride;
-  /// Room for `count` by 4, unit and perpendicular to the normals; it may be `tangents`.
+  /// Receives `count` by 4 floats, unit length and perpendicular to the output normals. May equal `tangents`.
   float *out_tangents;
-  /// Bytes from one of these to the next.
+  /// Bytes from one output tangent to the next.
   size_t out_tangent_stride;
 } darboux_frame_arrays;
 
-/// A skin: matrices of bones, and which of them move each vertex.
+/// A skin: the matrices of its bones, and the bones and weights of each vertex.
 typedef struct darboux_skin {
-  /// sizeof(darboux_skin), or 0, which stands for version 0.1's size.
+  /// sizeof(darboux_skin). 0: the size in version 0.1.
   size_t size;
-  /// The matrix of each bone, from the pose of the arrays to where it is now, column by column.
+  /// The matrix of each bone, from the pose of the input arrays to the current pose, column-major.
   const float *bones;
-  /// How many there are.
+  /// The number of bones.
   size_t bone_count;
-  /// Bytes from one matrix to the next. Default: 64, matrices of 4 by 4.
+  /// Bytes from one matrix to the next. 0 stands for 64: 4 by 4 floats.
   size_t bone_stride;
-  /// Bytes from one column of a matrix to the next. Default: 16, matrices of 4 by 4.
+  /// Bytes from one column of a matrix to the next. 0 stands for 16: 4 floats.
   size_t column_stride;
-  /// How many bones each vertex has, as many as weights.
+  /// The number of bones, and of weights, per vertex.
   size_t influence_count;
-  /// `count` by `influence_count`: the bones of each vertex.
+  /// `count` by `influence_count`: the bones of each vertex, as indices below `bone_count`.
   const uint16_t *joints;
-  /// Bytes from one vertex's bones to the next's. Default: packed.
+  /// Bytes from the joints of one vertex to those of the next. 0 for packed.
   size_t joint_stride;
-  /// `count` by `influence_count`: their weights.
+  /// `count` by `influence_count` floats: the weight of each joint.
   const float *weights;
-  /// Bytes from one vertex's weights to the next's. Default: packed.
+  /// Bytes from the weights of one vertex to those of the next. 0 for packed.
   size_t weight_stride;
 } darboux_skin;
 
@@ -719,32 +721,34 @@ darboux_status darboux_generate_frames(const struct darboux_mesh *mesh,
                                        size_t frame_stride,
                                        struct darboux_report *report);
 
-/// Splits the vertices whose corners need different tangents: one vertex per distinct pair of old vertex and tangent, compared as bits.
+/// Splits the vertices whose corners have different tangents.
 ///
-/// `mesh`: the mesh that the tangents belong to. `tangents`: C by 4, as darboux_generate_tangents writes them. `tangent_count`: C.
-/// `tangent_stride`: bytes from one tangent to the next, 0 for packed. `split`: receives the result, for darboux_vertex_split_free.
-/// Errors: those of the mesh; another number of tangents.
+/// Each distinct pair of old vertex and tangent (four floats, compared as bits) becomes one vertex. `mesh`: the mesh of the tangents.
+/// `tangents`: C by 4 floats, as darboux_generate_tangents writes them. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the
+/// next; 0 for packed. `split`: receives the result; free it with darboux_vertex_split_free. Errors: those of the mesh; another number of
+/// tangents than corners.
 darboux_status darboux_split_vertices(const struct darboux_mesh *mesh,
                                       const float *tangents,
                                       size_t tangent_count,
                                       size_t tangent_stride,
                                       struct darboux_vertex_split **split);
 
-/// Frees a split; nothing where it is null.
+/// Frees a split. `split`: from darboux_split_vertices; may be NULL.
 void darboux_vertex_split_free(struct darboux_vertex_split *split);
 
-/// Splits the vertices whose corners have different normals: one vertex per distinct pair of old vertex and normal, compared as bits.
+/// Splits the vertices whose corners have different normals.
 ///
-/// `mesh`: as for darboux_generate_normals. `normals`: C by 3, as darboux_generate_normals writes them.
-/// `normal_count`: C. `normal_stride`: bytes from one normal to the next, 0 for packed. `split`: receives the result, for
-/// darboux_normal_split_free. Errors: those of the mesh; another number of normals.
+/// Each distinct pair of old vertex and normal (three floats, compared as bits) becomes one vertex. `mesh`: as for
+/// darboux_generate_normals. `normals`: C by 3 floats, as darboux_generate_normals writes them. `normal_count`: C. `normal_stride`: bytes
+/// from one normal to the next; 0 for packed. `split`: receives the result; free it with darboux_normal_split_free. Errors: those of the
+/// mesh; another number of normals than corners.
 darboux_status darboux_split_normals(const struct darboux_mesh *mesh,
                                      const float *normals,
                                      size_t normal_count,
                                      size_t normal_stride,
                                      struct darboux_normal_split **split);
 
-/// Frees a split; nothing where it is null.
+/// Frees a split. `split`: from darboux_split_normals; may be NULL.
 void darboux_normal_split_free(struct darboux_normal_split *split);
 
 /// Computes a mesh's tangents and keeps its topology.
@@ -785,11 +789,11 @@ darboux_status darboux_plan_count_regrouped(const struct darboux_plan *plan,
                                             const struct darboux_mesh *mesh,
                                             size_t *count);
 
-/// Computes a unit normal for every corner. darboux_split_normals gives vertices.
+/// Computes a unit normal for every corner. darboux_split_normals computes vertices from them.
 ///
-/// `mesh`: positions, indices and faces, of any size from 3 on, counter-clockwise seen from where their normal points. `options`: null
-/// for the defaults. `normals`: room for C by 3 floats. `normal_count`: C. `normal_stride`: bytes from one normal to the next, 0 for
-/// packed. `report`: what was met, or null. Errors: what darboux_status lists.
+/// `mesh`: positions, indices and faces of 3 or more corners, which wind counter-clockwise seen from the side that their normal points to.
+/// `options`: NULL for the defaults. `normals`: receives C by 3 floats. `normal_count`: C. `normal_stride`: bytes from one normal to the
+/// next; 0 for packed. `report`: receives the counts; may be NULL. Errors: those of the mesh; another count than C; see darboux_status.
 darboux_status darboux_generate_normals(const struct darboux_mesh *mesh,
                                         const struct darboux_normal_options *options,
                                         float *normals,
@@ -799,8 +803,9 @@ darboux_status darboux_generate_normals(const struct darboux_mesh *mesh,
 
 /// Compares two sets of tangents, corner by corner.
 ///
-/// `a`, `b`: `count` by 4, of corners of the same mesh in the same order. `a_stride`, `b_stride`: bytes from one tangent to the next,
-/// 0 for packed. `difference`: receives the result. Errors: null, a stride that is too small.
+/// `a`, `b`: `count` by 4 floats, of the corners of one mesh in the same order. `a_stride`, `b_stride`: bytes from one tangent to the next;
+/// 0 for packed. `count`: the number of corners. `difference`: receives the result. Errors: a null pointer, a stride smaller than an
+/// element.
 darboux_status darboux_measure_tangents(const float *a,
                                         size_t a_stride,
                                         const float *b,
@@ -810,20 +815,21 @@ darboux_status darboux_measure_tangents(const float *a,
 
 /// Measures tangents against the derivatives of the UV map, over the surface.
 ///
-/// `mesh`: the mesh that the tangents belong to. `tangents`: C by 4. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the
-/// next, 0 for packed. `fidelity`: receives the result. Errors: those of the mesh; another number of tangents.
+/// `mesh`: the mesh of the tangents. `tangents`: C by 4 floats. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the next; 0
+/// for packed. `fidelity`: receives the result. Errors: those of the mesh; another number of tangents than corners.
 darboux_status darboux_measure_uv_fidelity(const struct darboux_mesh *mesh,
                                            const float *tangents,
                                            size_t tangent_count,
                                            size_t tangent_stride,
                                            struct darboux_uv_fidelity *fidelity);
 
-/// Writes tangents in fewer bytes.
+/// Encodes tangents in a compressed format.
 ///
-/// `encoding`: the form, which says what type `codes` has. `count`: the number of elements of every array. `normals`: `count` by 3, unit
-/// and bit for bit what the decoder will be given; DARBOUX_TANGENT_ENCODING_DIAMOND alone reads them, else null. `tangents`: `count` by
-/// 4, unit xyz and sign w; a w below zero counts as -1, any other as +1. `codes`: room for the result. Each stride: bytes from one
-/// element to the next, 0 for packed. Errors: null, a stride that is too small, an unknown encoding.
+/// `encoding`: the format, which determines the type of `codes`. `count`: the number of elements of every array. `normals`: `count` by 3
+/// floats, unit length, equal bit for bit to the normals at decoding; read for DARBOUX_TANGENT_ENCODING_DIAMOND only, otherwise may be
+/// NULL. `tangents`: `count` by 4 floats, unit xyz and sign w; a w below zero counts as -1, any other value as +1. `codes`: receives
+/// `count` elements. Strides: bytes from one element to the next; 0 for packed. Errors: a null pointer, a stride smaller than an element,
+/// an unknown encoding.
 darboux_status darboux_encode_tangents(darboux_tangent_encoding encoding,
                                        size_t count,
                                        const float *normals,
@@ -833,9 +839,9 @@ darboux_status darboux_encode_tangents(darboux_tangent_encoding encoding,
                                        void *codes,
                                        size_t code_stride);
 
-/// Reads tangents that darboux_encode_tangents wrote; they are unit but in the SNORM forms.
+/// Decodes the tangents that darboux_encode_tangents wrote. They have unit length, except in the SNORM formats.
 ///
-/// Parameters and errors as there, with `codes` read and `tangents` written.
+/// `codes`: read. `tangents`: receives `count` by 4 floats. Other parameters and errors: as for darboux_encode_tangents.
 darboux_status darboux_decode_tangents(darboux_tangent_encoding encoding,
                                        size_t count,
                                        const float *normals,
@@ -845,27 +851,28 @@ darboux_status darboux_decode_tangents(darboux_tangent_encoding encoding,
                                        float *tangents,
                                        size_t tangent_stride);
 
-/// Writes normals as `int16_t[2]`, a point of the unfolded octahedron. Directions turn by up to 0.0038 degrees.
+/// Encodes normals as `int16_t[2]`, an octahedral map. The largest error is 0.0038 degrees.
 ///
-/// `count`: the number of elements. `normals`: `count` by 3. `codes`: room for `count` by 2. Each stride: bytes from one element to the
-/// next, 0 for packed. Errors: null, a stride that is too small.
+/// `count`: the number of elements. `normals`: `count` by 3 floats. `codes`: receives `count` by 2 integers. Strides: bytes from one
+/// element to the next; 0 for packed. Errors: a null pointer, a stride smaller than an element.
 darboux_status darboux_encode_normals(size_t count,
                                       const float *normals,
                                       size_t normal_stride,
                                       int16_t *codes,
                                       size_t code_stride);
 
-/// Reads the unit normals that darboux_encode_normals wrote. Parameters and errors as there.
+/// Decodes the normals that darboux_encode_normals wrote, as unit vectors. Parameters and errors: as for darboux_encode_normals.
 darboux_status darboux_decode_normals(size_t count,
                                       const int16_t *codes,
                                       size_t code_stride,
                                       float *normals,
                                       size_t normal_stride);
 
-/// Writes normals and tangents as `int16_t[4]`, one quaternion, the scalar last. Directions turn by up to 0.0047 degrees.
+/// Encodes normals and tangents as `int16_t[4]`, one quaternion, scalar last. The largest error is 0.0047 degrees.
 ///
-/// `count`: the number of elements. `normals`: `count` by 3, unit. `tangents`: `count` by 4, unit xyz and sign w. `codes`: room for
-/// `count` by 4. Each stride: bytes from one element to the next, 0 for packed. Errors: null, a stride that is too small.
+/// `count`: the number of elements. `normals`: `count` by 3 floats, unit length. `tangents`: `count` by 4 floats, unit xyz and sign w.
+/// `codes`: receives `count` by 4 integers. Strides: bytes from one element to the next; 0 for packed. Errors: a null pointer, a stride
+/// smaller than an element.
 darboux_status darboux_encode_frames(size_t count,
                                      const float *normals,
                                      size_t normal_stride,
@@ -874,7 +881,7 @@ darboux_status darboux_encode_frames(size_t count,
                                      int16_t *codes,
                                      size_t code_stride);
 
-/// Reads the unit normals and tangents that darboux_encode_frames wrote. Parameters and errors as there.
+/// Decodes the unit normals and tangents that darboux_encode_frames wrote. Parameters and errors: as for darboux_encode_frames.
 darboux_status darboux_decode_frames(size_t count,
                                      const int16_t *codes,
                                      size_t code_stride,
@@ -883,23 +890,25 @@ darboux_status darboux_decode_frames(size_t count,
                                      float *tangents,
                                      size_t tangent_stride);
 
-/// Looks up a program's convention.
+/// Looks up the convention of a program.
 ///
-/// `program`: whose. `convention`: receives it. Errors: an unknown program, null.
+/// `program`: the program. `convention`: receives its convention. Errors: an unknown program, a null pointer.
 darboux_status darboux_convention_of(darboux_program program, struct darboux_convention *convention);
 
-/// Tells in which convention darboux_generate_tangents writes tangents for a mesh in a convention: this one but for the frames.
+/// Computes the convention of the tangents that darboux_generate_tangents writes for a mesh in a given convention.
 ///
-/// MikkTSpace knows no pictures; its sign is that of the UV area. So tangents for glTF, whose v runs down, are converted from what this
-/// gives for glTF to glTF, which negates w. `convention`: the mesh's. `generated`: receives the result. Errors: those of a convention; null.
+/// Axes, winding and UV origin stay. The sign can differ, because MikkTSpace takes it from the UV area and does not consider the UV origin.
+/// For example, tangents generated for a glTF mesh become glTF tangents by darboux_convert_tangents from the result of this function to
+/// glTF, which negates w. `convention`: the mesh's convention; may be NULL for glTF. `generated`: receives the tangents' convention.
+/// Errors: those of darboux_convert_vectors.
 darboux_status darboux_convention_generated(const struct darboux_convention *convention,
                                             struct darboux_convention *generated);
 
-/// Writes positions, normals or offsets in another convention. Exact.
+/// Converts positions, normals or offsets from one convention to another. Exact.
 ///
-/// `from`, `to`: the conventions. `count`: the number of elements. `vectors`: `count` by 3. `converted`: room for as many; it may be
-/// `vectors`. Each stride: bytes from one element to the next, 0 for packed.
-/// Errors: an unknown number in a convention, two axes along one line; null, a stride that is too small.
+/// `from`, `to`: the conventions; NULL for glTF. `count`: the number of elements. `vectors`: `count` by 3 floats. `converted`: receives
+/// `count` by 3 floats; may equal `vectors`. Strides: bytes from one element to the next; 0 for packed. Errors: an unknown value in a
+/// convention, two parallel axes, a null pointer, a stride smaller than an element.
 darboux_status darboux_convert_vectors(const struct darboux_convention *from,
                                        const struct darboux_convention *to,
                                        size_t count,
@@ -908,9 +917,9 @@ darboux_status darboux_convert_vectors(const struct darboux_convention *from,
                                        float *converted,
                                        size_t converted_stride);
 
-/// Writes tangents in another convention. Exact.
+/// Converts tangents from one convention to another. Exact.
 ///
-/// `tangents`: `count` by 4, xyz and the sign w. Other parameters and errors as for darboux_convert_vectors.
+/// `tangents`: `count` by 4 floats, xyz and the sign w. Other parameters and errors: as for darboux_convert_vectors.
 darboux_status darboux_convert_tangents(const struct darboux_convention *from,
                                         const struct darboux_convention *to,
                                         size_t count,
@@ -919,10 +928,10 @@ darboux_status darboux_convert_tangents(const struct darboux_convention *from,
                                         float *converted,
                                         size_t converted_stride);
 
-/// Writes UVs in another convention: v becomes 1 - v where the origins differ.
+/// Converts UVs from one convention to another: v becomes 1 - v where the origins differ.
 ///
-/// There and back is exact for multiples of 2^-24 in [0, 1], otherwise off by up to the spacing of floats at the larger of 1 and |v|.
-/// `uvs`: `count` by 2. Other parameters and errors as for darboux_convert_vectors.
+/// A round trip is exact for multiples of 2^-24 in [0, 1]; its error for other values is at most one ulp of the larger of 1 and |v|. `uvs`:
+/// `count` by 2 floats. Other parameters and errors: as for darboux_convert_vectors.
 darboux_status darboux_convert_uvs(const struct darboux_convention *from,
                                    const struct darboux_convention *to,
                                    size_t count,
@@ -931,12 +940,12 @@ darboux_status darboux_convert_uvs(const struct darboux_convention *from,
                                    float *converted,
                                    size_t converted_stride);
 
-/// Reverses the corners of every face where fronts are wound the other way; the first of each stays. The eye decides: a change of
-/// hands alone reverses nothing.
+/// Reverses the corners of every face where the winding differs. The first corner of each face stays first.
 ///
-/// `from`, `to`: the conventions. `faces`, `face_sizes`, `face_count`: as in darboux_mesh. `corners`: C elements of `corner_size` bytes,
-/// packed, changed in place: the indices, or whatever else lies along the corners. `corner_count`: C.
-/// Errors: those of darboux_convert_vectors; corners that do not make whole faces.
+/// A change of handedness alone reverses nothing, because the winding is defined as seen on the screen. `from`, `to`: the conventions; NULL
+/// for glTF. `faces`, `face_sizes`, `face_count`: as in darboux_mesh. `corners`: C packed elements of `corner_size` bytes, changed in
+/// place: the indices, or any other attribute of corners. `corner_count`: C. `corner_size`: bytes per element. Errors: those of
+/// darboux_convert_vectors; corners that do not make whole faces.
 darboux_status darboux_convert_faces(const struct darboux_convention *from,
                                      const struct darboux_convention *to,
                                      darboux_faces faces,
@@ -946,30 +955,31 @@ darboux_status darboux_convert_faces(const struct darboux_convention *from,
                                      size_t corner_count,
                                      size_t corner_size);
 
-/// Tells which channels of a normal map lean the other way: where they do, c becomes 2^n - 1 - c in every texel of n bits.
+/// Tells which channels of a normal map are inverted: in every texel of n bits, c becomes 2^n - 1 - c.
 ///
-/// `from`, `to`: the conventions. `red`, `green`: receive 1 or 0. Errors: those of darboux_convert_vectors.
+/// `from`, `to`: the conventions; NULL for glTF. `red`, `green`: receive 1 where the channel is inverted, else 0. Errors: those of
+/// darboux_convert_vectors.
 darboux_status darboux_convert_channels(const struct darboux_convention *from,
                                         const struct darboux_convention *to,
                                         uint32_t *red,
                                         uint32_t *green);
 
-/// Moves normals and tangents as a node's matrix moves their surface, mirrors and uneven scales included.
+/// Transforms normals and tangents by a node's matrix, which may mirror or scale non-uniformly.
 ///
-/// A normal that the matrix leaves no direction stays as it is; such a tangent becomes a perpendicular of the normal. `matrix`: column by
-/// column; of 4 by 4 the first three of the first three columns count. `column_stride`: bytes from one column to the next, 16 for
-/// matrices of 4 by 4, 0 for packed (3 by 3). `arrays`: normals and tangents. `orientation`: receives -1 where the matrix mirrors, which
-/// turns the winding of faces, else +1; or null. Errors: null, a stride that is too small.
+/// A normal that the matrix maps to zero is not changed. A tangent that the matrix maps to zero becomes a perpendicular of the normal.
+/// `matrix`: column-major; of a 4 by 4 matrix only the upper left 3 by 3 is read. `column_stride`: bytes from one column to the next: 16
+/// for 4 by 4; 0 for packed, 3 by 3. `arrays`: the normals and tangents. `orientation`: receives -1 where the matrix mirrors, which
+/// reverses the winding of faces, else +1; may be NULL. Errors: a null pointer, a stride smaller than an element.
 darboux_status darboux_transform_frames(const float *matrix,
                                         size_t column_stride,
                                         const struct darboux_frame_arrays *arrays,
                                         float *orientation);
 
-/// Moves normals and tangents as a skin's bones move their surface: each by the weighted mean of its bones' matrices.
+/// Transforms normals and tangents by a skin: each by the weighted mean of its bones' matrices.
 ///
-/// That weights vary over the surface is left out, as everywhere: normals of strongly bent skins are approximate. `skin`: its arrays have
-/// an element per normal. `arrays`: normals and tangents. Errors: null, a stride that is too small; a joint that is none of the bones.
-/// Source: B. Merry et al., "Normal Transformations for Articulated Models", SIGGRAPH Sketches 2006.
+/// The change of the weights over the surface is ignored, as is common practice, so normals of strongly bent skins are approximate. `skin`:
+/// bones, and joints and weights of `count` vertices. `arrays`: the normals and tangents. Errors: a null pointer, a stride smaller than an
+/// element, a joint out of range. Source: B. Merry et al., "Normal Transformations for Articulated Models", SIGGRAPH Sketches 2006.
 darboux_status darboux_skin_frames(const struct darboux_skin *skin,
                                    const struct darboux_frame_arrays *arrays);
 
