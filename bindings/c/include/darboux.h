@@ -19,40 +19,40 @@
 /// The maximum number of corners that darboux_tangent_difference lists.
 #define DARBOUX_WORST_CORNERS 16
 
-/// What a call came to. darboux_last_error has a sentence on every error.
+/// The result of a call. darboux_last_error returns a message for every error.
 ///
-/// Degenerate triangles and values that are not finite are not errors: reports count them. After an error other than
-/// DARBOUX_STATUS_INTERNAL and DARBOUX_STATUS_CANCELLED nothing was written.
+/// Degenerate triangles and values that are not finite are not errors; reports count them. After an error other than
+/// DARBOUX_STATUS_INTERNAL and DARBOUX_STATUS_CANCELLED, nothing has been written to the caller's arrays.
 enum darboux_status
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  /// All was done.
+  /// Success.
   DARBOUX_STATUS_OK = 0,
-  /// A pointer is null where there must be memory.
+  /// A required pointer is null.
   DARBOUX_STATUS_NULL_POINTER = 1,
-  /// A struct's `size` is no version's size, or has values that this version of the library does not know.
+  /// The `size` of a struct is invalid, or the struct has non-zero fields that this version of the library does not support.
   DARBOUX_STATUS_STRUCT_SIZE = 2,
-  /// A number is none of its enumeration, or two fields are set of which one must be null.
+  /// A value is not in its enumeration, or two fields are set of which one must be null.
   DARBOUX_STATUS_UNKNOWN_VALUE = 3,
-  /// A stride is smaller than the element that it steps over.
+  /// A stride is smaller than an element.
   DARBOUX_STATUS_STRIDE = 4,
-  /// Integers do not lie at a multiple of their size.
+  /// An array of integers is not aligned to the size of its elements.
   DARBOUX_STATUS_ALIGNMENT = 5,
-  /// More vertices or corners than 32-bit numbers can count, or more memory than there can be.
+  /// There are too many vertices or corners, or an array would exceed the address space.
   DARBOUX_STATUS_TOO_LARGE = 6,
-  /// A count is not what the mesh or another array asks for.
+  /// A count differs from that of the mesh or of another array.
   DARBOUX_STATUS_LENGTH = 7,
-  /// An index names no vertex.
+  /// An index is out of range.
   DARBOUX_STATUS_INDEX = 8,
   /// The corners do not make whole faces.
   DARBOUX_STATUS_FACES = 9,
-  /// A call that must come before any other came later.
+  /// The function must be called before any other, and was called later.
   DARBOUX_STATUS_TOO_LATE = 10,
-  /// A defect of the library, which is none of the caller's doing. Please report it with the message.
+  /// A defect of the library, not of the caller. Please report it with the message.
   DARBOUX_STATUS_INTERNAL = 11,
-  /// Two of a convention's axes lie along one line.
+  /// Two axes of a convention are parallel.
   DARBOUX_STATUS_AXES = 12,
   /// Threads cannot be started.
   DARBOUX_STATUS_THREADS = 13,
@@ -386,94 +386,94 @@ typedef uint32_t darboux_program;
 
 /// Reused memory, threads for large meshes, and a cancellation flag.
 ///
-/// Many meshes that are computed with one context allocate as one. A context may be used by one thread at a time, except for
-/// darboux_context_cancel, which any thread may call.
+/// Calls reuse the memory of the context, and allocate only where a mesh needs more than all meshes before it. One thread at a time may use a
+/// context, except for darboux_context_cancel, which any thread may call.
 typedef struct darboux_context darboux_context;
 
-/// The weld, groups and subgroups of one mesh, kept to evaluate MikkTSpace tangents again after its vertices moved.
+/// The weld, groups and subgroups of one mesh, for computing its tangents again after its vertices moved.
 ///
-/// Nothing of the mesh's memory is kept. Several threads may use one plan at once.
+/// A plan holds copies of all that it needs from the mesh. Several threads may use one plan at the same time.
 typedef struct darboux_plan darboux_plan;
 
-/// A mesh in the caller's memory: V vertices in arrays of any stride, and C corners (vertices of faces) in face order.
+/// A borrowed mesh: V vertices in strided arrays, and C corners (vertices of faces) in face order.
 ///
-/// Set `size` to sizeof(darboux_mesh), or to 0, which stands for version 0.1's size; all fields that are left zero are absent. Nothing
-/// is kept after a call. Positions, normals and UVs may have any values and any alignment; what lies between the elements is not read.
-/// Strides are in bytes; 0 stands for packed. At most 2^30 - 1 vertices and 2^30 - 1 corners.
+/// Fields that are zero are absent. No pointer is used after the call. Positions, normals and UVs may have any values and any alignment;
+/// bytes between the elements are not read. Strides are in bytes; 0 for packed. At most 2^30 - 1 vertices and 2^30 - 1 corners.
 typedef struct darboux_mesh {
-  /// sizeof(darboux_mesh).
+  /// sizeof(darboux_mesh). 0: the size in version 0.1.
   size_t size;
-  /// V.
+  /// V, the number of vertices.
   size_t vertex_count;
-  /// V by 3.
+  /// V by 3 floats.
   const float *positions;
   /// Bytes from one position to the next.
   size_t position_stride;
-  /// V by 3, used as given: MikkTSpace expects unit length. Not read where normals are generated.
+  /// V by 3 floats, used as given: MikkTSpace expects unit length. Ignored by functions that generate or split normals.
   const float *normals;
   /// Bytes from one normal to the next.
   size_t normal_stride;
-  /// V by 2. Not read where normals are generated.
+  /// V by 2 floats. Ignored by functions that generate or split normals.
   const float *uvs;
   /// Bytes from one UV to the next.
   size_t uv_stride;
-  /// The vertex of each corner, or null: then `indices_u16` has them, or corner i is vertex i.
+  /// The vertex of each corner, 32 bits. NULL where `indices_u16` is set, and for an unindexed mesh, whose corner i is vertex i.
   const uint32_t *indices_u32;
-  /// The vertex of each corner in 16 bits, or null. Not both.
+  /// The vertex of each corner, 16 bits; or NULL. At most one of both index arrays may be set.
   const uint16_t *indices_u16;
-  /// C, where there are indices; else 0.
+  /// C, the number of indices. 0 for an unindexed mesh.
   size_t index_count;
-  /// How corners make faces.
+  /// How corners are grouped into faces.
   darboux_faces faces;
-  /// For DARBOUX_FACES_MIXED the corner count of each face; else null. Faces of other than 3 or 4 corners get tangents from their
-  /// normals alone.
+  /// The corner count of each face for DARBOUX_FACES_MIXED, otherwise ignored. Tangents of faces with other than 3 or 4 corners are
+  /// perpendiculars of the normals.
   const uint32_t *face_sizes;
-  /// How many `face_sizes` there are; else 0.
+  /// The number of `face_sizes`. Ignored except for DARBOUX_FACES_MIXED.
   size_t face_count;
 } darboux_mesh;
 
-/// What darboux_generate_tangents does. All zeros are the defaults, which are right for normal maps from today's bakers.
+/// Options of darboux_generate_tangents. All zeros are the defaults, which are right for normal maps from today's bakers.
 typedef struct darboux_tangent_options {
-  /// sizeof(darboux_tangent_options), or 0, which stands for version 0.1's size.
+  /// sizeof(darboux_tangent_options). 0: the size in version 0.1.
   size_t size;
   /// The method. Default: MikkTSpace.
   darboux_method method;
-  /// How faithfully defects of the reference are kept. Default: repaired.
+  /// How faithfully defects of the reference are kept. Default: repaired. Must be 0 for all methods but MikkTSpace.
   darboux_mode mode;
-  /// Angular threshold in degrees, MikkTSpace's alone: faces around a vertex share a tangent while their tangents and their bitangents
-  /// differ by less. 0 stands for 180, which is what bakers use; 0.001 has the bits of a threshold of zero.
+  /// The angular threshold of MikkTSpace in degrees: faces around a vertex share a tangent while their tangents and their bitangents
+  /// differ by less. 0 stands for 180, which is what bakers use; for a threshold of zero, pass 0.001, which gives the same bits. Must be
+  /// 0 for all other methods.
   float threshold;
-  /// A context with reused memory and threads, or null: then the call runs on the calling thread with memory of its own.
+  /// Reused memory, threads and a cancellation flag. NULL: the call runs on the calling thread, and allocates its own memory.
   struct darboux_context *context;
 } darboux_tangent_options;
 
-/// What was met on the way. Quads count as the two triangles that they are split into.
+/// The counts of a run. Quads count as two triangles.
 typedef struct darboux_report {
-  /// sizeof(darboux_report), set by the caller, or 0, which stands for version 0.1's size.
+  /// sizeof(darboux_report), set by the caller. 0: the size in version 0.1.
   size_t size;
-  /// Triangles, quad halves included.
+  /// The triangles of the mesh, halves of quads included.
   size_t triangles;
-  /// Faces of other than 3 or 4 corners; they have tangents from their normals alone.
+  /// Faces of other than 3 or 4 corners. Their tangents are perpendiculars of their normals.
   size_t unsupported_faces;
   /// Triangles with two equal positions.
   size_t degenerate_triangles;
-  /// Triangles, not degenerate, whose UVs span no area.
+  /// Triangles whose UVs span no area, or too little area for a direction. Degenerate and non-finite triangles are not counted.
   size_t uv_degenerate_triangles;
-  /// Corners with a NaN or an infinity in position, normal or UV.
+  /// Corners with NaN or infinity in the position, normal or UV.
   size_t non_finite_corners;
-  /// Corners whose reference tangent is absent or unusable. Replaced, but in DARBOUX_MODE_REFERENCE.
+  /// Corners without a usable tangent. Their tangents are replaced, except in DARBOUX_MODE_REFERENCE.
   size_t repaired_corners;
-  /// Faces whose corners carry both signs.
+  /// Faces whose corners have both signs.
   size_t mixed_sign_faces;
   /// Edges between two triangles of opposite UV orientation.
   size_t mirrored_edges;
-  /// Vertices that need more than one tangent: what darboux_split_vertices splits.
+  /// Vertices whose corners have different tangents. darboux_split_vertices splits them.
   size_t split_vertices;
-  /// Vertices at which both UV orientations share one tangent: seams that DARBOUX_METHOD_LENGYEL_PER_VERTEX breaks.
+  /// Vertices at which triangles of both UV orientations share one tangent. Zero for all methods but DARBOUX_METHOD_LENGYEL_PER_VERTEX.
   size_t merged_vertices;
 } darboux_report;
 
-/// One corner's whole frame.
+/// The whole frame of one corner.
 typedef struct darboux_frame {
   /// The direction of increasing u, unit length, perpendicular to the normal.
   float tangent[3];
@@ -481,7 +481,7 @@ typedef struct darboux_frame {
   float bitangent[3];
   /// World units per unit of u and per unit of v.
   float magnitude[2];
-  /// +1 where the UV map keeps its orientation, -1 where it mirrors.
+  /// +1 where the UV map preserves orientation, -1 where it mirrors.
   float sign;
 } darboux_frame;
 
@@ -659,50 +659,53 @@ typedef struct darboux_skin {
   size_t weight_stride;
 } darboux_skin;
 
-/// Gives memory: `size` bytes at a multiple of `alignment`, a power of two. Null ends the program.
+/// Allocates `size` bytes at a multiple of `alignment`, which is a power of two. `context`: the pointer that was passed to
+/// darboux_set_allocator. Where it returns NULL, the library aborts the program.
 typedef void *(*darboux_allocate)(void *context, size_t size, size_t alignment);
 
-/// Takes memory back, with the size and alignment that it was asked for with.
+/// Frees memory. `size`, `alignment`: the values that the memory was allocated with.
 typedef void (*darboux_deallocate)(void *context, void *memory, size_t size, size_t alignment);
 
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
 
-/// Returns the message of the last error on this thread, one sentence in UTF-8; empty where there was none.
+/// Returns the message of the last error on this thread: one sentence in UTF-8. The empty string where no call has failed yet.
 ///
-/// Valid until this thread's next call that fails, or its end. Calls that succeed leave it as it is.
+/// The pointer is valid until the next call on this thread that fails, or until the thread ends. Calls that succeed do not change the
+/// message.
 const char *darboux_last_error(void);
 
-/// Returns the library's version, such as "0.1.0".
+/// Returns the library's version, for example "0.1.0".
 const char *darboux_version(void);
 
-/// Makes an empty context, whose memory grows to what the largest mesh needs.
+/// Creates an empty context. Its memory grows to the requirement of the largest mesh.
 ///
-/// `threads`: how many threads large meshes use; results are the same bits for any number. 1: the calling thread alone. More: so many
-/// threads start now, and sleep between calls. 0: as many as the machine has. `context`: receives the context, for
-/// darboux_context_free. Errors: null; threads that cannot be started.
+/// `threads`: the number of threads for large meshes; the results have equal bits for any number. 1: the calling thread only. 2 to 1024:
+/// the threads start now and sleep between calls. 0: the number of the machine's hardware threads. `context`: receives the context; free it
+/// with darboux_context_free. Errors: a null pointer; threads cannot be started.
 darboux_status darboux_context_create(size_t threads,
                                       struct darboux_context **context);
 
-/// Cancels the call that runs with the context, and all later ones, which return DARBOUX_STATUS_CANCELLED, until
-/// darboux_context_resume. Any thread may call it. After a cancelled call the output array is unspecified. Errors: null.
+/// Cancels the running call of a context and all later ones until darboux_context_resume. Any thread may call it.
+///
+/// Cancelled calls return DARBOUX_STATUS_CANCELLED, and their output arrays are unspecified. Errors: a null pointer.
 darboux_status darboux_context_cancel(const struct darboux_context *context);
 
-/// Lets the calls after darboux_context_cancel run again. Errors: null.
+/// Clears the cancellation flag of a context, so that later calls run. Errors: a null pointer.
 darboux_status darboux_context_resume(const struct darboux_context *context);
 
-/// Frees a context after its threads have ended. Does nothing where it is null.
+/// Frees a context after its threads have ended. `context`: from darboux_context_create; may be NULL.
 void darboux_context_free(struct darboux_context *context);
 
 /// Computes the tangent of every corner.
 ///
-/// These are not vertex tangents: corners of one vertex may disagree, so they cannot be written through the mesh's indices.
-/// darboux_split_vertices gives vertices and new indices. Where corner i is vertex i they may go straight into the vertices.
-/// `mesh`: normals and UVs must be there. `options`: null for the defaults. `tangents`: room for C by 4 floats, unit xyz and the sign w
-/// (bitangent = w * cross(normal, xyz)), beside the mesh's arrays or, with a stride, between their elements. `tangent_count`: C.
-/// `tangent_stride`: bytes from one tangent to the next, 0 for packed. `report`: what was met, or null.
-/// Errors: what darboux_status lists.
+/// These are not vertex tangents: corners of one vertex can have different tangents, so do not write them through the mesh's index list.
+/// darboux_split_vertices computes vertices and new indices. In an unindexed mesh, corner i is vertex i, so the tangents can be written
+/// into the vertices. `mesh`: normals and UVs are required. `options`: NULL for the defaults. `tangents`: receives C by 4 floats, unit xyz
+/// and the sign w, where bitangent = w * cross(normal, xyz). It must not overlap the mesh's elements, but may lie between them.
+/// `tangent_count`: C. `tangent_stride`: bytes from one tangent to the next; 0 for packed. `report`: receives the counts; may be NULL.
+/// Errors: those of the mesh; another count than C; see darboux_status.
 darboux_status darboux_generate_tangents(const struct darboux_mesh *mesh,
                                          const struct darboux_tangent_options *options,
                                          float *tangents,
@@ -710,10 +713,10 @@ darboux_status darboux_generate_tangents(const struct darboux_mesh *mesh,
                                          size_t tangent_stride,
                                          struct darboux_report *report);
 
-/// Computes the whole frame of every corner: tangent, bitangent, magnitudes, sign. Slower than darboux_generate_tangents.
+/// Computes the whole frame of every corner: tangent, bitangent, magnitudes and sign. Slower than darboux_generate_tangents.
 ///
-/// `mesh`, `options`, `report`, errors: as for darboux_generate_tangents. `frames`: room for C frames.
-/// `frame_count`: C. `frame_stride`: bytes from one frame to the next, 0 for packed.
+/// `frames`: receives C frames. `frame_count`: C. `frame_stride`: bytes from one frame to the next; 0 for packed. `mesh`, `options`,
+/// `report` and errors: as for darboux_generate_tangents.
 darboux_status darboux_generate_frames(const struct darboux_mesh *mesh,
                                        const struct darboux_tangent_options *options,
                                        struct darboux_frame *frames,
@@ -751,30 +754,32 @@ darboux_status darboux_split_normals(const struct darboux_mesh *mesh,
 /// Frees a split. `split`: from darboux_split_normals; may be NULL.
 void darboux_normal_split_free(struct darboux_normal_split *split);
 
-/// Computes a mesh's tangents and keeps its topology.
+/// Computes the tangents of a mesh and a plan for its deformed copies.
 ///
-/// `mesh`, `options`: as for darboux_generate_tangents; of a context the threads alone are used. `plan`: receives the plan, for darboux_plan_free.
-/// Errors: what darboux_status lists.
+/// `mesh`, `options`: as for darboux_generate_tangents, but the memory of a context is not used. `plan`: receives the plan; free it with
+/// darboux_plan_free. Errors: those of darboux_generate_tangents.
 darboux_status darboux_plan_create(const struct darboux_mesh *mesh,
                                    const struct darboux_tangent_options *options,
                                    struct darboux_plan **plan);
 
-/// Frees a plan; nothing where it is null.
+/// Frees a plan. `plan`: from darboux_plan_create; may be NULL.
 void darboux_plan_free(struct darboux_plan *plan);
 
-/// Writes the tangents of the mesh that the plan was made of, as darboux_generate_tangents does.
+/// Writes the tangents of the mesh that the plan was created from: the result of darboux_generate_tangents.
 ///
-/// `tangents`, `tangent_count`, `tangent_stride`, `report`: as there. Errors: null; another number of corners.
+/// `tangents`, `tangent_count`, `tangent_stride`, `report`: as for darboux_generate_tangents. Errors: a null pointer, another count than
+/// the mesh's corners.
 darboux_status darboux_plan_base(const struct darboux_plan *plan,
                                  float *tangents,
                                  size_t tangent_count,
                                  size_t tangent_stride,
                                  struct darboux_report *report);
 
-/// Computes the tangents of the moved mesh in the plan's groups and subgroups; signs stay the plan's.
+/// Computes the tangents of a deformed mesh, with the groups, subgroups and signs of the plan.
 ///
-/// `mesh`: same faces, indices and UVs as the plan's, other positions and normals. `context`: memory and threads of earlier calls to use
-/// again, or null. `tangents`, `tangent_count`, `tangent_stride`: as for darboux_generate_tangents. Errors: those of the mesh; another number of corners or vertices than the plan's.
+/// `mesh`: the plan's faces, indices and UVs, with other positions and normals. `context`: reused memory, threads and a cancellation flag;
+/// NULL for the calling thread alone. `tangents`, `tangent_count`, `tangent_stride`: as for darboux_generate_tangents. Errors: those of the
+/// mesh; another number of corners or vertices than the plan's.
 darboux_status darboux_plan_evaluate(const struct darboux_plan *plan,
                                      const struct darboux_mesh *mesh,
                                      const struct darboux_context *context,
@@ -782,9 +787,9 @@ darboux_status darboux_plan_evaluate(const struct darboux_plan *plan,
                                      size_t tangent_count,
                                      size_t tangent_stride);
 
-/// Counts the corners to which a fresh run on the moved mesh would give another tangent (other bits) than darboux_plan_evaluate.
+/// Counts the corners whose tangents from darboux_plan_evaluate and from darboux_generate_tangents on the deformed mesh differ in bits.
 ///
-/// `mesh`: as there. `count`: receives the number. Errors: as there.
+/// `mesh`: as for darboux_plan_evaluate. `count`: receives the number of corners. Errors: those of darboux_plan_evaluate.
 darboux_status darboux_plan_count_regrouped(const struct darboux_plan *plan,
                                             const struct darboux_mesh *mesh,
                                             size_t *count);
@@ -983,12 +988,11 @@ darboux_status darboux_transform_frames(const float *matrix,
 darboux_status darboux_skin_frames(const struct darboux_skin *skin,
                                    const struct darboux_frame_arrays *arrays);
 
-/// Has all of the library's memory come from the caller's functions.
+/// Makes the library allocate all of its memory with the caller's functions.
 ///
-/// Call it before any other function of the library: memory that was taken elsewhere could not be given back. `allocate`,
-/// `deallocate`: called from any thread that calls the library and from the threads of every context that was made with more than one,
-/// several at once. `context`: passed to them.
-/// Errors: null; the library has memory already.
+/// It must be called before any other function of the library, because memory of the system's allocator cannot be freed with the caller's
+/// functions. `allocate`, `deallocate`: called concurrently, from all threads that call the library and from the worker threads of
+/// contexts. `context`: passed to both functions; may be NULL. Errors: a null function; the library has allocated memory already.
 darboux_status darboux_set_allocator(darboux_allocate allocate,
                                      darboux_deallocate deallocate,
                                      void *context);
