@@ -133,8 +133,8 @@ export class Average {
     const counts = storageBuffer(device, 'counts', 3);
     const named: NamedBuffers = { mesh: layout, vertex_of_corner: indices };
     const steps = this.#adjacency.bind(device, { vertices: vertexCount, triangles: mesh.indexCount / 3 }, named);
-    const [ends, entries] = [named.ends!, named.triangle_of_entry!];
-    const gathering = { 0: layout, 1: indices, 2: mesh.vertices, 3: frames.buffer, 4: counts, 5: ends, 6: entries };
+    const [ends, triangles] = [named.adjacency_ends!, named.adjacent_triangles!];
+    const gathering = { 0: layout, 1: indices, 2: mesh.vertices, 3: frames.buffer, 4: counts, 5: ends, 6: triangles };
     return new AverageOfMesh(counts, steps, dispatchStep(device, this.#gather, gathering, vertexCount));
   }
 }

@@ -78,7 +78,7 @@ onGpu('what does not fit is said', async () => {
     'RangeError: index 6 at place 2 is out of range: there are 6 vertices',
     'RangeError: the tangents need 192 bytes but their buffer has 16',
     'RangeError: the buffer of tangents was made without GPUBufferUsage.COPY_DST',
-    'RangeError: the buffer of wedges needs 201326592 bytes but the device binds 134217728 at most; request a device with larger limits, or compute on the CPU',
+    'RangeError: the buffer of corner_terms needs 201326592 bytes but the device binds 134217728 at most; request a device with larger limits, or compute on the CPU',
     'Error: the GPU was lost: its driver was reset or it was removed; open another device, or compute on the CPU (generateTangents of darboux)',
     [],
   ]);
