@@ -1,6 +1,6 @@
-//! Writes what is generated from the C interface below a folder: bindings/c/include/darboux.h.
+//! Generates `bindings/c/include/darboux.h` from this crate, below the folder of its argument.
 //!
-//! `cargo xtask gen` runs it on the repository's root.
+//! `cargo xtask gen` runs it with the repository's root.
 
 use std::error::Error;
 use std::fs::{create_dir_all, write};

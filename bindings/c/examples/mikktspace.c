@@ -1,4 +1,4 @@
-/* The drop-in: a program that is written for mikktspace.c, and links libdarboux_mikktspace instead. */
+/* A program written for mikktspace.c, which links libdarboux_mikktspace instead. */
 
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* Tangents of a strip of two quads whose texture is mirrored at x = 0, one per corner: those of one vertex may differ. */
+/* Computes one tangent per corner of two quads whose texture is mirrored at x = 0. Corners of one vertex can have different tangents. */
 
 #include <stdio.h>
 

@@ -1,4 +1,4 @@
-/* Tangents for an engine's vertices: four triangles whose UVs are mirrored at x = 0. */
+/* Computes the tangents of an engine's vertex buffer, and splits vertices: four triangles whose UVs are mirrored at x = 0. */
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
-// Darboux for C++17: what darboux.h does, with arrays that know their length, memory that frees itself, and errors that are thrown.
+// Darboux for C++17: a wrapper of darboux.h with array views that carry their size, objects that free themselves, and exceptions.
 //
-// MIT or Apache-2.0, as you choose. Functions carry the names of darboux.h, which says what they compute; here stands what differs.
-// Encodings and skins are called as they stand there.
-// Every function may throw darboux::error, and std::bad_alloc where it returns a vector.
+// MIT or Apache-2.0, as you choose. Functions have the names of darboux.h, where they are documented; comments here give the differences.
+// Encodings and skins have no wrapper: call the functions of darboux.h.
+// Every function can throw darboux::error; functions that return a vector can throw std::bad_alloc.
 
 #ifndef DARBOUX_HPP
 #define DARBOUX_HPP
@@ -21,8 +21,8 @@
 
 namespace darboux {
 
-/// Borrowed elements, one after the other. It becomes a std::span by itself where there is one, and is the same type where there is none,
-/// so that parts of one program may be compiled for different standards.
+/// A view of contiguous elements. It converts to std::span implicitly in C++20. The type is the same in C++17 and C++20, so that parts of
+/// one program may be compiled for different standards.
 template <class T>
 class span {
  public:
@@ -44,12 +44,12 @@ class span {
   std::size_t size_ = 0;
 };
 
-/// Unit xyz and the sign w: bitangent = w * cross(normal, xyz).
+/// A tangent: unit xyz and the sign w, where bitangent = w * cross(normal, xyz).
 using tangent = std::array<float, 4>;
-/// Unit xyz.
+/// A normal: unit xyz.
 using normal = std::array<float, 3>;
 
-/// What a call came to, where it is not DARBOUX_STATUS_OK; what() is a sentence.
+/// The exception of a failed call: its status, and the message of darboux_last_error as what().
 class error : public std::runtime_error {
  public:
   error(darboux_status status, const char *message) : std::runtime_error(message), status_(status) {}
@@ -59,26 +59,26 @@ class error : public std::runtime_error {
   darboux_status status_;
 };
 
-/// Throws where a call of darboux.h failed.
+/// Throws darboux::error unless `status` is DARBOUX_STATUS_OK. For direct calls of darboux.h, on the same thread.
 inline void check(darboux_status status) {
   if (status != DARBOUX_STATUS_OK) throw error(status, darboux_last_error());
 }
 
-/// False for numbers and enumerations that are not floats, and arrays of them; what a class holds cannot be seen.
+/// False for numbers and enumerations other than float, and for arrays of them. True for every class, because its members are not known.
 template <class T, class Scalar = std::remove_cv_t<std::remove_all_extents_t<T>>>
 inline constexpr bool may_be_floats = std::is_same_v<Scalar, float> || !(std::is_arithmetic_v<Scalar> || std::is_enum_v<Scalar>);
 
-/// `N` floats per element, borrowed from any layout. `Float` is `const float` for what is read and `float` for what is written.
+/// A strided view of elements of `N` floats. `Float`: `const float` for inputs, `float` for outputs.
 template <class Float, std::size_t N>
 class strided {
  public:
   constexpr strided() = default;
 
-  /// `size` elements from `data` on, `stride` bytes apart.
+  /// `size` elements, the first at `data`, `stride` bytes apart.
   constexpr strided(Float *data, std::size_t size, std::size_t stride = N * sizeof(float))
       : data_(data), size_(size), stride_(stride) {}
 
-  /// Elements one after the other, of any type of the size of `N` floats: std::array<float, N>, or an engine's own vector.
+  /// A contiguous container of any type of the size of `N` floats: std::array<float, N>, or an engine's vector type.
   template <class Container, class Element = std::remove_pointer_t<decltype(std::data(std::declval<Container &>()))>,
             class = std::enable_if_t<sizeof(Element) == N * sizeof(float) && may_be_floats<Element> &&
                                      std::is_trivially_copyable_v<Element> &&
@@ -86,13 +86,13 @@ class strided {
   strided(Container &&elements)
       : strided(reinterpret_cast<Float *>(std::data(elements)), std::size(elements)) {}
 
-  /// What may be written may be read.
+  /// A view of outputs converts to a view of inputs.
   template <class Other, class = std::enable_if_t<std::is_same_v<const Other, Float>>>
   constexpr strided(const strided<Other, N> &other) : strided(other.data(), other.size(), other.stride()) {}
 
   constexpr Float *data() const { return data_; }
   constexpr std::size_t size() const { return size_; }
-  /// In bytes.
+  /// Bytes from one element to the next.
   constexpr std::size_t stride() const { return stride_; }
 
  private:
@@ -104,7 +104,7 @@ class strided {
 template <std::size_t N>
 using floats = strided<const float, N>;
 
-/// One member of every struct of an array: field(vertices, &Vertex::position). The member is floats: float[3], or a vector of the engine's.
+/// A view of one member of an array of structs: field(vertices, &Vertex::position). The member is float[3], or an engine's vector type.
 template <class Container, class Struct, class Member>
 auto field(Container &&structs, Member Struct::*member) {
   using Element = std::remove_pointer_t<decltype(std::data(structs))>;
@@ -116,7 +116,7 @@ auto field(Container &&structs, Member Struct::*member) {
   return strided<Float, sizeof(Member) / sizeof(float)>(data, std::size(structs), sizeof(Element));
 }
 
-/// The vertex of each corner: borrowed integers of 16 or 32 bits. Without any, corner i is vertex i.
+/// A view of 16-bit or 32-bit indices: the vertex of each corner. Default-constructed: an unindexed mesh, whose corner i is vertex i.
 class index_list {
  public:
   index_list() = default;
@@ -125,7 +125,7 @@ class index_list {
             class Index = std::remove_cv_t<std::remove_pointer_t<decltype(std::data(std::declval<Container &>()))>>,
             class = std::enable_if_t<std::is_same_v<Index, std::uint32_t> || std::is_same_v<Index, std::uint16_t>>>
   index_list(Container &&list) : size_(std::size(list)) {
-    // An empty list is a list all the same: its pointer, which may be null, must say so.
+    // An empty index list differs from no index list, so its pointer must not be null.
     static const Index none = 0;
     const Index *data = size_ == 0 ? &none : std::data(list);
     if constexpr (sizeof(Index) == sizeof *u32_) {
@@ -146,19 +146,19 @@ class index_list {
   std::size_t size_ = 0;
 };
 
-/// A mesh in the caller's memory, as darboux_mesh; arrays may be temporary views, but not temporary vectors.
+/// A borrowed mesh, as darboux_mesh. The members are views: the arrays behind them must outlive the mesh.
 struct mesh {
   floats<3> positions;
   floats<3> normals;
   floats<2> uvs;
   index_list indices;
   darboux_faces faces = DARBOUX_FACES_TRIANGLES;
-  /// For DARBOUX_FACES_MIXED.
+  /// The corner count of each face, for DARBOUX_FACES_MIXED.
   span<const std::uint32_t> face_sizes = {};
 
   std::size_t corner_count() const { return indices.is_present() ? indices.size() : positions.size(); }
 
-  /// For the functions of darboux.h. `normals` and `uvs` may be empty, where they are not read.
+  /// The mesh for the functions of darboux.h. `normals` and `uvs` may be empty for functions that ignore them.
   darboux_mesh view() const {
     const std::size_t count = positions.size();
     if ((normals.size() != 0 && normals.size() != count) || (uvs.size() != 0 && uvs.size() != count)) {
@@ -239,7 +239,7 @@ class context {
   detail::owner<darboux_context, darboux_context_free> held_;
 };
 
-/// As the other generate_tangents, into the caller's array of one tangent per corner.
+/// Computes one tangent per corner and writes it to the caller's array. `out`: as many elements as the mesh has corners.
 inline darboux_report generate_tangents(const mesh &mesh, strided<float, 4> out,
                                         const darboux_tangent_options &options = {}) {
   const darboux_mesh view = mesh.view();
@@ -269,7 +269,7 @@ inline normals generate_normals(const mesh &mesh, const darboux_normal_options &
   return made;
 }
 
-/// An indexed mesh's vertices after splitting by tangents; the old vertices come first.
+/// The vertices of an indexed mesh after splitting by tangents. The old vertices come first and keep their numbers.
 class vertex_split {
  public:
   explicit vertex_split(darboux_vertex_split *made) : held_(made) {}
@@ -291,7 +291,7 @@ inline vertex_split split_vertices(const mesh &mesh, floats<4> tangents) {
   return vertex_split(made);
 }
 
-/// An indexed mesh's vertices after splitting by normals; the old vertices come first.
+/// The vertices of an indexed mesh after splitting by normals. The old vertices come first and keep their numbers.
 class normal_split {
  public:
   explicit normal_split(darboux_normal_split *made) : held_(made) {}
@@ -313,7 +313,7 @@ inline normal_split split_normals(const mesh &mesh, floats<3> normals) {
   return normal_split(made);
 }
 
-/// Topology once, evaluate often.
+/// A plan (darboux_plan): the topology of a mesh, for computing the tangents of its deformed copies.
 class plan {
  public:
   explicit plan(const mesh &mesh, const darboux_tangent_options &options = {}) {
@@ -323,14 +323,14 @@ class plan {
     held_.reset(made);
   }
 
-  /// The tangents of the plan's own mesh into `out`, one per corner.
+  /// Writes the tangents of the mesh that the plan was created from. `out`: one tangent per corner.
   darboux_report base(strided<float, 4> out) const {
     auto report = detail::sized<darboux_report>();
     check(darboux_plan_base(held_.get(), out.data(), out.size(), out.stride(), &report));
     return report;
   }
 
-  /// The tangents of the moved mesh into `out`, one per corner; `context` may be null.
+  /// Computes the tangents of a deformed mesh. `out`: one tangent per corner. `context`: may be null.
   void evaluate(const mesh &moved, strided<float, 4> out, const context *context = nullptr) const {
     const darboux_mesh view = moved.view();
     darboux_context *kept = context == nullptr ? nullptr : context->get();
@@ -368,21 +368,21 @@ inline darboux_uv_fidelity measure_uv_fidelity(const mesh &mesh, floats<4> tange
   return fidelity;
 }
 
-/// A program's convention.
+/// The convention of a program.
 inline darboux_convention convention_of(darboux_program program) {
   auto convention = detail::sized<darboux_convention>();
   check(darboux_convention_of(program, &convention));
   return convention;
 }
 
-/// The convention of generate_tangents for a mesh in this one.
+/// The convention of the tangents that generate_tangents returns for a mesh in `convention`.
 inline darboux_convention generated(const darboux_convention &convention) {
   auto made = detail::sized<darboux_convention>();
   check(darboux_convention_generated(&convention, &made));
   return made;
 }
 
-/// The change from one convention to another. Each array is converted where it is.
+/// The conversion from one convention to another. Arrays are converted in place.
 class conversion {
  public:
   conversion(const darboux_convention &from, const darboux_convention &to) : from_(from), to_(to) {}
@@ -396,7 +396,7 @@ class conversion {
   void uvs(strided<float, 2> in) const {
     check(darboux_convert_uvs(&from_, &to_, in.size(), in.data(), in.stride(), in.data(), in.stride()));
   }
-  /// `corners`: the indices, or whatever else lies along the corners of triangles, or of `faces`.
+  /// Converts the winding. `corners`: the indices, or any other attribute of corners. `sizes`: the corner counts of mixed faces.
   template <class Container, class Element = std::remove_pointer_t<decltype(std::data(std::declval<Container &>()))>,
             class = std::enable_if_t<std::is_trivially_copyable_v<Element>>>
   void faces(Container &&corners, darboux_faces faces = DARBOUX_FACES_TRIANGLES,
@@ -404,7 +404,7 @@ class conversion {
     check(darboux_convert_faces(&from_, &to_, faces, sizes.data(), sizes.size(), std::data(corners),
                                 std::size(corners), sizeof(Element)));
   }
-  /// Whether a normal map's red and green are inverted.
+  /// True for each channel (red, green) of a normal map that is inverted.
   std::array<bool, 2> channels() const {
     std::uint32_t red = 0, green = 0;
     check(darboux_convert_channels(&from_, &to_, &red, &green));
@@ -416,7 +416,7 @@ class conversion {
   darboux_convention to_;
 };
 
-/// Moves normals and tangents where they are, by a matrix of 4 by 4, column by column. Returns -1 where it mirrors, else +1.
+/// Transforms normals and tangents in place. `matrix`: 4 by 4, column-major. Returns -1 where the matrix mirrors, else +1.
 inline float transform_frames(const std::array<float, 16> &matrix, strided<float, 3> normals, strided<float, 4> tangents) {
   if (normals.size() != tangents.size()) throw error(DARBOUX_STATUS_LENGTH, "tangents must be as many as normals");
   auto arrays = detail::sized<darboux_frame_arrays>();
@@ -437,7 +437,7 @@ inline float transform_frames(const std::array<float, 16> &matrix, strided<float
 #endif
 
 #ifdef __cpp_lib_ranges
-/// What a span shows outlives the span, so std::span takes a temporary one, of elements that may be written too.
+/// The elements outlive the span, so that std::span can be constructed from a temporary span.
 template <class T>
 inline constexpr bool std::ranges::enable_borrowed_range<darboux::span<T>> = true;
 #endif

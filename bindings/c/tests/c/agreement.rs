@@ -1,4 +1,4 @@
-//! The functions of `darboux.h` give what the core gives, bit for bit, whatever the layout.
+//! Differential tests: the functions of `darboux.h` return the core's results, bit for bit, for every memory layout.
 
 use std::ffi::CStr;
 use std::ptr::{null, null_mut};
@@ -35,7 +35,7 @@ pub fn default_options() -> darboux_tangent_options {
     darboux_tangent_options { size: 0, method: 0, mode: 0, threshold: 0.0, context: null_mut() }
 }
 
-/// The mesh as C has it, with packed arrays.
+/// The mesh as a C struct with packed arrays.
 pub fn packed(mesh: &OwnedMesh) -> darboux_mesh {
     let mut out = darboux_mesh {
         vertex_count: mesh.positions.len(),
@@ -60,7 +60,7 @@ pub fn packed(mesh: &OwnedMesh) -> darboux_mesh {
 
 #[track_caller]
 pub fn ok(status: darboux_status) {
-    // SAFETY: the message is a string until the next error.
+    // SAFETY: the message is a valid string until the next error.
     assert_eq!(status, darboux_status::Ok, "{:?}", unsafe { CStr::from_ptr(darboux_last_error()) });
 }
 
@@ -69,7 +69,7 @@ pub fn bits<const N: usize>(list: &[[f32; N]]) -> Vec<[u32; N]> {
 }
 
 pub fn zeroed<T>() -> T {
-    // SAFETY: used for structs of numbers only.
+    // SAFETY: used only for structs of numbers, for which zeros are valid.
     unsafe { std::mem::zeroed() }
 }
 
@@ -80,19 +80,19 @@ fn tangents(
 ) -> (Vec<[f32; 4]>, darboux_report) {
     let mut out = vec![[0.0; 4]; corners];
     let mut report: darboux_report = zeroed();
-    // SAFETY: all pointers are to arrays of the lengths given.
+    // SAFETY: all pointers refer to arrays of the given lengths.
     ok(unsafe { darboux_generate_tangents(mesh, options, out.as_mut_ptr().cast(), corners, 0, &mut report) });
     (out, report)
 }
 
-/// Meshes of every kind: the corpus and random ones.
+/// The corpus and `random` random meshes.
 fn meshes(random: u64) -> Vec<OwnedMesh> {
     let mut meshes: Vec<_> = corpus::corpus().into_iter().map(|specimen| specimen.mesh).collect();
     meshes.extend((0..random).map(|seed| Case::from_seed(seed).mesh));
     meshes
 }
 
-/// In the order of C.
+/// The modes in the order of their values in C.
 const MODES: [Mode; 3] = [Mode::Repaired, Mode::Reference, Mode::Corrected];
 
 #[test]
@@ -140,7 +140,7 @@ fn tangents_in_all_methods_and_modes() {
     }
 }
 
-/// A vertex buffer: position, normal, UV and tangent, `stride` bytes apart, from an address that is `shift` bytes off.
+/// A vertex buffer of position, normal, UV and tangent: vertices are `stride` bytes apart, and `shift` bytes off alignment.
 struct Interleaved {
     bytes: Vec<u8>,
     start: usize,
@@ -214,7 +214,7 @@ fn short_indices_are_the_same() {
     }
 }
 
-/// Tangents written between what the mesh reads, and nothing else touched.
+/// Tangents can be written between the other attributes of the vertices. No other byte changes.
 #[test]
 fn tangents_go_into_the_vertices() {
     for mesh in meshes(100) {
@@ -225,7 +225,7 @@ fn tangents_go_into_the_vertices() {
         let before = buffer.bytes.clone();
         let view = buffer.view(&soup);
         let out = buffer.bytes[buffer.start + TANGENT..].as_mut_ptr().cast();
-        // SAFETY: the buffer has room for a tangent in each vertex, and the mesh is in it.
+        // SAFETY: the buffer holds the mesh, and has space for a tangent in each vertex.
         ok(unsafe { darboux_generate_tangents(&view, null(), out, corners, VERTEX + 4, null_mut()) });
         let found: Vec<[f32; 4]> = (0..corners).map(|corner| buffer.tangent(corner)).collect();
         assert_eq!(bits(&found), bits(expected.corners.per_corner()));
@@ -240,7 +240,7 @@ fn tangents_go_into_the_vertices() {
 #[test]
 fn a_scratch_does_not_show() {
     let mut context = null_mut();
-    // SAFETY: `context` may be written.
+    // SAFETY: `context` is writable.
     ok(unsafe { darboux_context_create(1, &mut context) });
     for mesh in meshes(200) {
         let count = mesh.corner_count();
@@ -248,7 +248,7 @@ fn a_scratch_does_not_show() {
         let options = darboux_tangent_options { context, ..default_options() };
         assert_eq!(bits(&tangents(&packed(&mesh), &options, count).0), bits(&expected));
     }
-    // SAFETY: from `darboux_context_create`.
+    // SAFETY: `context` is from `darboux_context_create`.
     unsafe { darboux_context_free(context) };
 }
 
@@ -259,7 +259,7 @@ fn frames() {
         let expected = generate_frames(&mesh.view(), &TangentOptions::default());
         let mut found: Vec<darboux_frame> = vec![zeroed(); count];
         let (view, mut report): (_, darboux_report) = (packed(&mesh), zeroed());
-        // SAFETY: all pointers are to arrays of the lengths given.
+        // SAFETY: all pointers refer to arrays of the given lengths.
         ok(unsafe { darboux_generate_frames(&view, null(), found.as_mut_ptr(), count, 0, &mut report) });
         assert_eq!(report.repaired_corners, expected.report.repaired_corners);
         for (found, expected) in found.iter().zip(expected.corners.per_corner()) {
@@ -279,7 +279,7 @@ fn splits() {
         let expected = split_vertices(&mesh.view(), &corners).expect("its tangents");
         let (view, data, count) = (packed(&mesh), corners.per_corner().as_ptr().cast(), corners.len());
         let mut split = null_mut();
-        // SAFETY: all pointers are to arrays of the lengths given; what comes back is as long as it says until it is freed.
+        // SAFETY: all pointers refer to arrays of the given lengths; the result's arrays have the lengths that it gives, until it is freed.
         unsafe {
             ok(darboux_split_vertices(&view, data, count, 0, &mut split));
             let (found, vertices) = (&*split, (*split).vertex_count);
@@ -295,7 +295,7 @@ fn splits() {
     }
 }
 
-/// Submeshes over one vertex buffer are split by one call over all of their corners, as the core splits them one after the other.
+/// One call with the corners of all submeshes of a vertex buffer splits them as the core's `Splitter` does, submesh by submesh.
 #[test]
 fn submeshes_split_together() {
     let mut count = 0;
@@ -313,7 +313,7 @@ fn submeshes_split_together() {
         }
         let (_, sources) = splitter.finish();
         let (view, mut split) = (packed(&mesh), null_mut());
-        // SAFETY: all pointers are to arrays of the lengths given; what comes back is as long as it says until it is freed.
+        // SAFETY: all pointers refer to arrays of the given lengths; the result's arrays have the lengths that it gives, until it is freed.
         unsafe {
             ok(darboux_split_vertices(&view, tangents.as_ptr().cast(), tangents.len(), 0, &mut split));
             let found = &*split;
@@ -360,7 +360,7 @@ fn normals_and_their_splits() {
         let mut split = null_mut();
         let split_expected =
             split_normals(view.vertex_count(), view.indices(), &expected.corners).expect("its normals");
-        // SAFETY: all pointers are to arrays of the lengths given; what comes back is as long as it says until it is freed.
+        // SAFETY: all pointers refer to arrays of the given lengths; the result's arrays have the lengths that it gives, until it is freed.
         unsafe {
             ok(darboux_generate_normals(&bare, &theirs, found.as_mut_ptr().cast(), count, 0, &mut report));
             ok(darboux_split_normals(&bare, found.as_ptr().cast(), count, 0, &mut split));
@@ -391,7 +391,7 @@ fn plans() {
         let (mut base, mut evaluated) = (vec![[0.0f32; 4]; count], vec![[0.0f32; 4]; count]);
         let (view, moved_view) = (packed(&mesh), packed(&moved));
         let (mut plan, mut regrouped) = (null_mut(), 0);
-        // SAFETY: all pointers are to arrays of the lengths given; the plan is freed last.
+        // SAFETY: all pointers refer to arrays of the given lengths; the plan is freed last.
         unsafe {
             ok(darboux_plan_create(&view, null(), &mut plan));
             ok(darboux_plan_base(plan, base.as_mut_ptr().cast(), count, 0, null_mut()));
@@ -418,7 +418,7 @@ fn measures() {
         let (mut found, mut fidelity): (darboux_tangent_difference, darboux_uv_fidelity) =
             (zeroed(), zeroed());
         let view = packed(&mesh);
-        // SAFETY: all pointers are to arrays of the lengths given.
+        // SAFETY: all pointers refer to arrays of the given lengths.
         unsafe {
             ok(darboux_measure_tangents(a.as_ptr().cast(), 0, b.as_ptr().cast(), 16, a.len(), &mut found));
             ok(darboux_measure_uv_fidelity(&view, a.as_ptr().cast(), a.len(), 0, &mut fidelity));
@@ -450,7 +450,7 @@ fn measures() {
     }
 }
 
-/// Unit tangents and normals that are perpendicular.
+/// Unit normals and perpendicular unit tangents.
 fn unit_frames() -> (Vec<[f32; 3]>, Vec<[f32; 4]>) {
     let sphere = families::sphere(20, 20, false);
     let corners = generate_tangents(&sphere.view(), &TangentOptions::default()).corners;
@@ -459,7 +459,7 @@ fn unit_frames() -> (Vec<[f32; 3]>, Vec<[f32; 4]>) {
     (normals, split.tangent_of_vertex)
 }
 
-/// Encodes and decodes through C, with gaps between the codes, and compares both ways with the core.
+/// Compares encoding and decoding through C, with gaps between the codes, with the core.
 fn check_encoding<Code: Copy + PartialEq + std::fmt::Debug>(
     encoding: TangentEncodingCode,
     to: impl Fn([f32; 3], [f32; 4]) -> Code,
@@ -470,14 +470,14 @@ fn check_encoding<Code: Copy + PartialEq + std::fmt::Debug>(
     let mut codes = vec![0u8; count * stride];
     let mut back = vec![[0.0f32; 4]; count];
     let (n, t) = (normals.as_ptr().cast(), tangents.as_ptr().cast());
-    // SAFETY: all pointers are to arrays of the lengths given.
+    // SAFETY: all pointers refer to arrays of the given lengths.
     unsafe {
         ok(darboux_encode_tangents(encoding as u32, count, n, 0, t, 0, codes.as_mut_ptr().cast(), stride));
         let read = codes.as_ptr().cast();
         ok(darboux_decode_tangents(encoding as u32, count, n, 0, read, stride, back.as_mut_ptr().cast(), 0));
     }
     for (at, (&normal, &tangent)) in normals.iter().zip(&tangents).enumerate() {
-        // SAFETY: a code was written there.
+        // SAFETY: a code was written at this offset.
         let code = unsafe { codes[at * stride..].as_ptr().cast::<Code>().read_unaligned() };
         assert_eq!(code, to(normal, tangent));
         assert_eq!(back[at].map(f32::to_bits), from(normal, code).map(f32::to_bits));
@@ -509,7 +509,7 @@ fn encodings() {
     let (mut short, mut long) = (vec![[0i16; 2]; count], vec![[0i16; 4]; count]);
     let (mut normals_back, mut tangents_back) = (vec![[0.0f32; 3]; count], vec![[0.0f32; 4]; count]);
     let (n, t) = (normals.as_ptr().cast(), tangents.as_ptr().cast());
-    // SAFETY: all pointers are to arrays of the lengths given.
+    // SAFETY: all pointers refer to arrays of the given lengths.
     unsafe {
         ok(darboux_encode_normals(count, n, 0, short.as_mut_ptr().cast(), 0));
         ok(darboux_decode_normals(count, short.as_ptr().cast(), 0, normals_back.as_mut_ptr().cast(), 0));

@@ -1,4 +1,5 @@
-/* All memory comes from the caller's allocator, and goes back to it: on one thread, on many of the caller's, and on a context's own. */
+/* Checks that all memory is allocated and freed with the caller's functions: on one thread, on several threads, and on the worker threads
+ * of a context. */
 
 #define _POSIX_C_SOURCE 200809L
 
@@ -24,7 +25,7 @@ static void count(Counter *counter, long taken, long bytes) {
 
 static void *take(void *context, size_t size, size_t alignment) {
   Counter *counter = (Counter *)context;
-  /* Room for the alignment and, before the memory, for where it began. */
+  /* Space for the alignment, and for a pointer to the start of the allocation in front of the returned memory. */
   char *start = (char *)malloc(size + alignment + sizeof(char *));
   if (start == NULL) return NULL;
   uintptr_t at = ((uintptr_t)start + sizeof(char *) + alignment - 1) / alignment * alignment;
@@ -48,7 +49,7 @@ static void expect(int holds, const char *what) {
   exit(EXIT_FAILURE);
 }
 
-/* Large enough for a context to share it among its threads. */
+/* Large enough for a context to use its threads. */
 enum { SIDE = 130, VERTICES = (SIDE + 1) * (SIDE + 1), CORNERS = 6 * SIDE * SIDE, THREADS = 4 };
 
 static Counter counter = {PTHREAD_MUTEX_INITIALIZER, 0, 0};
@@ -80,7 +81,7 @@ static darboux_mesh make_grid(void) {
 
 static darboux_mesh mesh;
 
-/* All that holds memory, made and given back. */
+/* Creates and frees every object that owns memory. */
 static void *use_everything(void *out) {
   float(*mine)[4] = (float(*)[4])out;
   darboux_vertex_split *split = NULL;

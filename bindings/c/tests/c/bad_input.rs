@@ -1,4 +1,4 @@
-//! Bad input: an error with a sentence, nothing written, no crash.
+//! Invalid input returns an error with a message, writes nothing, and does not crash.
 
 use std::ffi::CStr;
 use std::ptr::{dangling, null, null_mut};
@@ -9,11 +9,11 @@ use darboux_tests::{Dice, OwnedMesh, families};
 use crate::agreement::{default_options, empty_mesh, packed};
 
 fn message() -> String {
-    // SAFETY: a string until the next error.
+    // SAFETY: the message is a valid string until the next error.
     unsafe { CStr::from_ptr(darboux_last_error()) }.to_string_lossy().into_owned()
 }
 
-/// Runs one broken mesh through every function that takes one; all must refuse it for the same reason, and write nothing.
+/// Passes an invalid mesh to every function that takes a mesh. All must return the same status and write nothing.
 #[track_caller]
 fn refused(mesh: &darboux_mesh, status: darboux_status, part: &str) {
     const FILL: u32 = 0x7fc0_1234;
@@ -22,7 +22,7 @@ fn refused(mesh: &darboux_mesh, status: darboux_status, part: &str) {
     let to = out.as_mut_ptr();
     let (mut plan, mut split) = (null_mut(), null_mut());
     let found = [
-        // SAFETY: every call refuses the mesh, so nothing of the output is touched.
+        // SAFETY: every call rejects the mesh, so the output is not accessed.
         unsafe { darboux_generate_tangents(mesh, null(), to, corners, 0, null_mut()) },
         // SAFETY: as above.
         unsafe { darboux_generate_frames(mesh, null(), to.cast(), corners, 0, null_mut()) },
@@ -80,13 +80,13 @@ fn broken_meshes_are_refused() {
             "face_sizes",
         );
     }
-    // SAFETY: nulls are refused.
+    // SAFETY: null pointers are rejected.
     let of_null = unsafe { darboux_generate_tangents(null(), null(), null_mut(), 0, 0, null_mut()) };
     assert_eq!((of_null, message()), (NullPointer, "darboux_mesh is null".into()));
-    // SAFETY: another count than the mesh's is refused.
+    // SAFETY: a count other than the mesh's is rejected.
     let few = unsafe { darboux_generate_tangents(&good, null(), [0.0; 4].as_mut_ptr(), 1, 0, null_mut()) };
     assert_eq!(few, Length);
-    // SAFETY: a null output is refused.
+    // SAFETY: a null output is rejected.
     let none = unsafe { darboux_generate_tangents(&good, null(), null_mut(), count, 0, null_mut()) };
     assert_eq!((none, message()), (NullPointer, "tangents is null".into()));
 }
@@ -97,7 +97,7 @@ fn handles_and_results_may_be_null() {
     let view = packed(&mesh);
     let mut float = 0.0;
     let found = [
-        // SAFETY: nulls are refused.
+        // SAFETY: null pointers are rejected.
         unsafe { darboux_split_vertices(&view, &float, 1, 0, null_mut()) },
         // SAFETY: as above.
         unsafe { darboux_plan_create(&view, null(), null_mut()) },
@@ -115,7 +115,7 @@ fn handles_and_results_may_be_null() {
         unsafe { darboux_set_allocator(None, None, null_mut()) },
     ];
     assert_eq!(found, [darboux_status::NullPointer; 8]);
-    // SAFETY: freeing nothing does nothing.
+    // SAFETY: freeing a null pointer does nothing.
     unsafe {
         darboux_plan_free(null_mut());
         darboux_context_free(null_mut());
@@ -124,7 +124,7 @@ fn handles_and_results_may_be_null() {
     }
 }
 
-/// Structs of other versions: smaller ones are too small, larger ones are fine while what is new in them is zero.
+/// Structs of other versions: smaller ones are rejected; larger ones are accepted where their additional bytes are zero.
 #[test]
 fn struct_sizes() {
     #[repr(C)]
@@ -137,7 +137,7 @@ fn struct_sizes() {
     let count = view.index_count;
     let mut out = vec![[0.0f32; 4]; count];
     let mut run = |options: *const darboux_tangent_options, report: *mut darboux_report| {
-        // SAFETY: all pointers are to what their sizes say.
+        // SAFETY: all pointers refer to structs of the given sizes.
         unsafe { darboux_generate_tangents(&view, options, out.as_mut_ptr().cast(), count, 0, report) }
     };
     let size = size_of::<Later<darboux_tangent_options>>();
@@ -152,7 +152,7 @@ fn struct_sizes() {
             darboux_status::StructSize
         );
     }
-    // SAFETY: numbers only.
+    // SAFETY: all fields are numbers or raw pointers, for which zeros are valid.
     let mut report: Later<darboux_report> = unsafe { std::mem::zeroed() };
     (report.known.size, report.new) = (size_of::<Later<darboux_report>>(), 77);
     assert_eq!(run(null(), (&raw mut report).cast()), darboux_status::Ok);
@@ -160,7 +160,7 @@ fn struct_sizes() {
     assert_eq!(report.known.size, size_of::<Later<darboux_report>>());
 }
 
-/// A random mesh struct over one buffer. None where it claims memory that is not there: that is for the caller to know.
+/// A random mesh struct over one buffer. `None` where an array would exceed the buffer, which the library cannot detect.
 fn random_mesh(dice: &mut Dice<'_>, buffer: &[u32]) -> Option<darboux_mesh> {
     let counts = [0, 1, 3, 4, 5, 12, usize::MAX, usize::MAX / 2, usize::MAX / 3, 1 << 62, (1 << 31) + 1];
     let strides = [0, 1, 7, 8, 11, 12, 13, 16, 48, usize::MAX, usize::MAX / 2, usize::MAX - 11, 1 << 61];
@@ -202,7 +202,7 @@ fn random_mesh(dice: &mut Dice<'_>, buffer: &[u32]) -> Option<darboux_mesh> {
 #[test]
 fn random_structs_do_no_harm() {
     let mut dice = Dice::from_seed(11);
-    // Small numbers: as indices in range now and then, as floats subnormal.
+    // Small integers: often in range as indices, and subnormal as floats.
     let buffer: Vec<u32> = (0..4096).map(|_| dice.below(6) as u32).collect();
     let mut counts = [0usize; 2];
     for _ in 0..300_000 {
@@ -215,13 +215,13 @@ fn random_structs_do_no_harm() {
         let count = if dice.one_in(8) { dice.below(13) } else { corners };
         let mut out = [0.0f32; 64];
         let options = darboux_tangent_options {
-            // Other methods refuse most modes and thresholds.
+            // Other methods reject most modes and thresholds.
             method: if dice.one_in(3) { dice.below(9) as u32 } else { 0 },
             mode: dice.below(4) as u32,
             threshold: dice.any_float(),
             ..default_options()
         };
-        // SAFETY: the mesh lies in the buffer where it is not refused, and has no more than 12 corners then.
+        // SAFETY: a mesh that is accepted lies in the buffer, and has at most 12 corners.
         let status =
             unsafe { darboux_generate_tangents(&mesh, &options, out.as_mut_ptr(), count, 0, null_mut()) };
         assert_ne!(status, darboux_status::Internal);
@@ -234,13 +234,13 @@ fn random_structs_do_no_harm() {
 #[test]
 fn empty_meshes_are_fine() {
     let mesh = empty_mesh();
-    // SAFETY: there is nothing to read or write.
+    // SAFETY: all counts are zero, so nothing is read or written.
     let found = unsafe { darboux_generate_tangents(&mesh, null(), null_mut(), 0, 0, null_mut()) };
     assert_eq!(found, darboux_status::Ok);
     let mut split = null_mut();
     // SAFETY: as above.
     let found = unsafe { darboux_split_vertices(&mesh, null(), 0, 0, &mut split) };
     assert_eq!(found, darboux_status::Ok);
-    // SAFETY: from above.
+    // SAFETY: the object was created above, and is no longer used.
     unsafe { darboux_vertex_split_free(split) };
 }

@@ -1,4 +1,5 @@
-// What mikktspace.h promises of callbacks: which are called, how often, in which order, on which thread, and that they may throw.
+// Checks the promises of mikktspace.h about callbacks: which are called, how often, in which order, on which thread, and that they may
+// throw exceptions.
 
 #include <cstdio>
 #include <cstdlib>
@@ -13,7 +14,7 @@ struct Log {
   std::vector<int> sizes;
   std::string calls;
   std::thread::id thread = std::this_thread::get_id();
-  // The call of this number throws.
+  // The number of the call that throws; -1 for none.
   int throws_at = -1;
   int count = 0;
 
@@ -115,7 +116,7 @@ static void missing() {
 }
 
 static void exceptions() {
-  // Of a triangle and a quad: 1 + 2 counts, 21 reads, 14 writes.
+  // A triangle and a quad: 1 + 2 calls for counts, 21 for reading, 14 for writing.
   const int calls = 1 + 2 + 3 * 7 + 2 * 7;
   for (int call = 0; call < calls; call++) {
     Log log;

@@ -1,4 +1,4 @@
-// Every function of darboux.hpp on a mesh whose answers are known.
+// Calls every function of darboux.hpp on a mesh with known results.
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +42,7 @@ static void expect_error(darboux_status status, const char *part, Call call) {
   expect(false, part);
 }
 
-/// Six vertices, four triangles, UVs mirrored at x = 0.
+/// Six vertices and four triangles, with UVs mirrored at x = 0.
 static std::vector<Vertex> make_vertices() {
   std::vector<Vertex> vertices(6);
   for (int v = 0; v < 6; v++) {
@@ -85,7 +85,7 @@ static void tangents() {
     expect(darboux::generate_tangents(mesh, options).corners.size() == 12, "with a context");
   }
 
-  // Without indices tangents go straight into the vertices, between what the mesh reads.
+  // Without indices, tangents are written into the vertices, between the attributes that the mesh reads.
   std::vector<Vertex> corners;
   for (auto index : INDICES) corners.push_back(vertices[index]);
   darboux::mesh soup = make_mesh(corners);
@@ -187,7 +187,7 @@ static void errors() {
   const std::vector<std::uint32_t> beyond = {0, 1, 6};
   mesh.indices = beyond;
   expect_error(DARBOUX_STATUS_INDEX, "index 6 at place 2", [&] { darboux::generate_tangents(mesh); });
-  // An empty index list is a mesh without faces, not one without indices.
+  // A mesh with an empty index list has no faces. It is not an unindexed mesh.
   const std::vector<std::uint32_t> none;
   mesh.indices = none;
   expect(darboux::generate_tangents(mesh).corners.empty(), "an empty index list");
@@ -196,7 +196,7 @@ static void errors() {
   expect_error(DARBOUX_STATUS_UNKNOWN_VALUE, "9 is no darboux_mode", [&] { darboux::generate_tangents(mesh, options); });
 }
 
-/// Each thread has messages of its own.
+/// Every thread has its own error message.
 static void threads() {
   std::vector<std::thread> running;
   for (std::uint32_t beyond = 6; beyond < 14; beyond++) {

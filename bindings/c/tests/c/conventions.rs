@@ -1,4 +1,4 @@
-//! Conventions, node matrices and skins through C give what the core gives.
+//! Differential tests: conversions of conventions, node matrices and skins through C equal the core's results.
 
 use std::ptr::{null, null_mut};
 
@@ -8,12 +8,12 @@ use darboux_tests::Dice;
 
 use crate::agreement::{bits, ok, zeroed};
 
-/// The preset of each program and, to have every value of every choice, the preset with all but the axes turned round.
+/// The preset of each program, and the preset with every choice but the axes inverted, so that every value of every choice occurs.
 fn conventions() -> Vec<(Convention, darboux_convention)> {
     let mut all = Vec::new();
     for (program, (_, preset)) in (0..).zip(Convention::PRESETS) {
         let mut c: darboux_convention = zeroed();
-        // SAFETY: `c` may be written.
+        // SAFETY: `c` is writable.
         ok(unsafe { darboux_convention_of(program, &mut c) });
         all.push((preset, c));
         let odd = Convention {
@@ -23,7 +23,7 @@ fn conventions() -> Vec<(Convention, darboux_convention)> {
         };
         (c.tangent, c.sign) = (1, 1);
         let mut generated: darboux_convention = zeroed();
-        // SAFETY: `c` may be read, `generated` written.
+        // SAFETY: `c` is readable, and `generated` is writable.
         ok(unsafe { darboux_convention_generated(&c, &mut generated) });
         assert_eq!((generated.tangent, generated.sign), (0, 0));
         c.bitangent = generated.bitangent;
@@ -43,7 +43,7 @@ fn conversions() {
             let mut found = [[0.0f32; 60]; 3];
             let [v, t, u] = found.each_mut().map(|out| out.as_mut_ptr());
             let (mut red, mut green) = (7, 7);
-            // SAFETY: all pointers are to arrays of the lengths given.
+            // SAFETY: all pointers refer to arrays of the given lengths.
             unsafe {
                 ok(darboux_convert_vectors(&c_from, &c_to, 20, vectors.as_ptr(), 0, v, 0));
                 ok(darboux_convert_tangents(&c_from, &c_to, 15, tangents.as_ptr(), 16, t, 0));
@@ -75,7 +75,7 @@ fn faces_are_reversed() {
                 rest = others;
             }
             let (each, corners) = (sizes.as_ptr(), found.as_mut_ptr().cast());
-            // SAFETY: all pointers are to arrays of the lengths given.
+            // SAFETY: all pointers refer to arrays of the given lengths.
             ok(unsafe { darboux_convert_faces(&c_from, &c_to, 2, each, sizes.len(), corners, 13, 2) });
             assert_eq!(found, expected);
             let mut tangents: Vec<[f32; 4]> = (0..6).map(|corner| [corner as f32; 4]).collect();
@@ -89,17 +89,17 @@ fn faces_are_reversed() {
     }
 }
 
-/// A null pointer, zeros and glTF are one.
+/// A null pointer, a struct of zeros and the glTF preset are the same convention.
 #[test]
 fn zeros_are_gltf() {
     let mut gltf: darboux_convention = zeroed();
     let zeros: darboux_convention = zeroed();
-    // SAFETY: `gltf` may be written.
+    // SAFETY: `gltf` is writable.
     ok(unsafe { darboux_convention_of(ProgramCode::Gltf as u32, &mut gltf) });
     for from in [&raw const zeros, null()] {
         let mut tangent = [0.25f32, 0.5, -0.75, -1.0];
         let (t, change) = (tangent.as_mut_ptr(), [0.25f32, 0.5, -0.75, -1.0]);
-        // SAFETY: all pointers are to arrays of the lengths given.
+        // SAFETY: all pointers refer to arrays of the given lengths.
         ok(unsafe { darboux_convert_tangents(from, &gltf, 1, t, 0, t, 0) });
         assert_eq!(tangent, change);
     }
@@ -121,13 +121,13 @@ fn odd_conventions_are_refused() {
     for (convention, status) in odd {
         let mut vector = [1.0f32, 2.0, 3.0];
         let v = vector.as_mut_ptr();
-        // SAFETY: all pointers are to arrays of the lengths given.
+        // SAFETY: all pointers refer to arrays of the given lengths.
         assert_eq!(unsafe { darboux_convert_vectors(&convention, null(), 1, v, 0, v, 0) }, status);
         assert_eq!(vector, [1.0, 2.0, 3.0]);
     }
     let mut corners = [0u32; 4];
     let c = corners.as_mut_ptr().cast();
-    // SAFETY: all pointers are to arrays of the lengths given.
+    // SAFETY: all pointers refer to arrays of the given lengths.
     let found = unsafe {
         [
             darboux_convert_faces(null(), null(), 0, null(), 0, c, 4, 4),
@@ -135,7 +135,7 @@ fn odd_conventions_are_refused() {
             darboux_convert_faces(null(), null(), 1, null(), 0, c, 4, 0),
             darboux_convert_faces(null(), null(), 1, null(), 0, null_mut(), 4, 4),
             darboux_convention_of(10, &mut zeroed()),
-            // No corners: nothing to multiply their size with.
+            // Without corners, their size cannot overflow.
             darboux_convert_faces(null(), null(), 0, null(), 0, null_mut(), 0, usize::MAX),
         ]
     };
@@ -170,7 +170,7 @@ fn matrices() {
         let (mut normals, mut tangents) = frames(&mut dice);
         let expected: Vec<_> = normals.iter().zip(&tangents).map(|(&n, &t)| transform.frame(n, t)).collect();
         let (arrays, mut orientation) = (arrays(&mut normals, &mut tangents), 0.0);
-        // SAFETY: all pointers are to arrays of the lengths given.
+        // SAFETY: all pointers refer to arrays of the given lengths.
         ok(unsafe { darboux_transform_frames(matrix.as_ptr(), 16, &arrays, &mut orientation) });
         assert_eq!(orientation, transform.orientation());
         let (expected_normals, expected_tangents): (Vec<_>, Vec<_>) = expected.into_iter().unzip();
@@ -178,14 +178,14 @@ fn matrices() {
     }
 }
 
-/// An orientation that cannot be written is found before anything is.
+/// An invalid `orientation` pointer is rejected before anything is written.
 #[test]
 fn a_refused_orientation_leaves_the_arrays() {
     let (mut normals, mut tangents) = (vec![[0.0, 0.0, 1.0]], vec![[1.0, 0.0, 0.0, 1.0]]);
     let arrays = arrays(&mut normals, &mut tangents);
     let matrix = [0.0f32, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0];
     let nowhere = std::ptr::without_provenance_mut(usize::MAX - 1);
-    // SAFETY: all pointers are to arrays of the lengths given, but for one that is refused.
+    // SAFETY: all pointers refer to arrays of the given lengths, except for one that is rejected.
     let status = unsafe { darboux_transform_frames(matrix.as_ptr(), 0, &arrays, nowhere) };
     assert_eq!(status, darboux_status::TooLarge);
     assert_eq!((normals, tangents), (vec![[0.0, 0.0, 1.0]], vec![[1.0, 0.0, 0.0, 1.0]]));
@@ -215,7 +215,7 @@ fn skins() {
         };
         let (expected_normals, expected_tangents): (Vec<_>, Vec<_>) = (0..40).map(expected).unzip();
         let arrays = arrays(&mut normals, &mut tangents);
-        // SAFETY: all pointers are to arrays of the lengths given.
+        // SAFETY: all pointers refer to arrays of the given lengths.
         ok(unsafe { darboux_skin_frames(&skin, &arrays) });
         assert_eq!((bits(&normals), bits(&tangents)), (bits(&expected_normals), bits(&expected_tangents)));
         let Some(last) = joints.last_mut() else { continue };

@@ -1,8 +1,8 @@
-/* Runs the meshes of standard input through genTangSpace and writes all that it is told to standard output, call by call.
+/* Passes the meshes of standard input to genTangSpace, and writes the arguments of every setter call to standard output.
  *
- * Built against mikktspace.c and against libdarboux_mikktspace, it must write the same. Each mesh: the number of faces, a bit set of
+ * Built with mikktspace.c and with libdarboux_mikktspace, the output must be equal. Each mesh: the number of faces, a bitmask of
  * the setters (1 basic, 2 full, 4: genTangSpaceDefault), the threshold, the size of each face, and 8 floats per corner: position,
- * normal, UV. Each answer: the calls, the number -1, and what was returned. */
+ * normal, UV. Each result: the calls, the number -1, and the return value. */
 
 #include <stdint.h>
 #include <stdio.h>
@@ -14,13 +14,13 @@
 typedef struct {
   int32_t faces;
   int32_t *sizes;
-  /* Where each face's corners begin. */
+  /* The first corner of each face. */
   const float **corners;
 } Mesh;
 
 static const Mesh *mesh_of(const SMikkTSpaceContext *context) { return (const Mesh *)context->m_pUserData; }
 
-/* What face 0 has at its corner 0 is asked for even where it has no corners: then it is zeros. */
+/* The position of corner 0 of face 0 is requested even where face 0 has no corners. It is zero then. */
 static void copy(const SMikkTSpaceContext *context, float out[], int face, int corner, int first, int count) {
   const Mesh *mesh = mesh_of(context);
   if (corner < mesh->sizes[face]) {

@@ -1,4 +1,4 @@
-//! libdarboux_mikktspace against mikktspace.c: one program, built once with each, writes the same.
+//! Compares libdarboux_mikktspace with mikktspace.c: one program, built with each of them, must produce the same output.
 
 use std::io::Write;
 use std::ops::Range;
@@ -16,7 +16,7 @@ const BASIC: i32 = 1;
 const FULL: i32 = 2;
 const DEFAULT: i32 = 4;
 
-/// A mesh as `drop_in.c` reads it. Sizes may be anything.
+/// A mesh in the input format of `drop_in.c`. Faces may have any number of corners.
 struct Input<'a> {
     mesh: &'a OwnedMesh,
     sizes: Vec<i32>,
@@ -42,7 +42,7 @@ impl<'a> Input<'a> {
     }
 }
 
-/// What `drop_in.c` reads: random meshes for every setter.
+/// The input of `drop_in.c`: random meshes for every combination of setters.
 pub fn a_few_meshes() -> Vec<u8> {
     let mut bytes = Vec::new();
     for (seed, setters) in (0..60).zip([0, BASIC, FULL, BASIC | FULL].into_iter().cycle()) {
@@ -52,7 +52,7 @@ pub fn a_few_meshes() -> Vec<u8> {
     bytes
 }
 
-/// `drop_in.c` with mikktspace.c, and with ours in every way that users may link it; built once.
+/// `drop_in.c`, built once with mikktspace.c and once for each way to link libdarboux_mikktspace.
 fn programs() -> &'static (PathBuf, Vec<PathBuf>) {
     static PROGRAMS: OnceLock<(PathBuf, Vec<PathBuf>)> = OnceLock::new();
     PROGRAMS.get_or_init(build_programs)
@@ -68,7 +68,7 @@ fn build_programs() -> (PathBuf, Vec<PathBuf>) {
         let files = [program.clone()];
         build(&format!("drop_in-{link:?}"), "c99", &files, &["darboux_mikktspace"], link)
     });
-    // As a program that keeps the header it has.
+    // A program may keep the original header.
     let with_their_header = folder().join("drop_in-their-header");
     let mut command = compiler("c99");
     command.arg("-I").arg(&mikktspace).arg(&program).arg(dist().join("lib/libdarboux_mikktspace.a"));
@@ -123,7 +123,7 @@ fn the_larger_set_of_models_is_the_same() {
     }
 }
 
-/// Returns how many primitives were compared.
+/// Returns the number of primitives that were compared.
 fn compare_models(folder: &Path) -> usize {
     if !has("gcc") {
         return usize::MAX;
@@ -182,7 +182,7 @@ fn larger_meshes_are_the_same() {
     assert_same(&inputs.collect::<Vec<_>>());
 }
 
-/// Faces of any number of corners, none and fewer included, first, last and between.
+/// Faces of any number of corners, zero and negative numbers included, at the start, in the middle and at the end.
 #[test]
 fn odd_faces_are_the_same() {
     if !has("gcc") {
@@ -209,7 +209,7 @@ fn odd_faces_are_the_same() {
     assert_same(&inputs);
 }
 
-/// The order, number and thread of callbacks, what is returned, exceptions and many threads: see the program.
+/// Runs `callbacks.cpp`: the order, number and thread of callbacks, return values, exceptions, and concurrent calls.
 #[test]
 fn callbacks_keep_their_promises() {
     if !has("g++") {

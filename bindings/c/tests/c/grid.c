@@ -1,5 +1,5 @@
 /* Times genTangSpaceDefault on a wavy grid of a million triangles, read through callbacks from indexed vertices, and prints nanoseconds
- * of processor time per triangle, least and median of the rounds, and a hash of what was written: grid <rounds> <basic or full>. */
+ * of processor time per triangle, minimum and median of the rounds, and a hash of the results: grid <rounds> <basic or full>. */
 
 #define _POSIX_C_SOURCE 199309L
 

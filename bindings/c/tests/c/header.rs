@@ -1,5 +1,5 @@
-//! `darboux.h` as a C compiler understands it, against the Rust it was generated from and against what was shipped: every
-//! size, offset and number.
+//! ABI tests: every size, offset and constant of `darboux.h`, as a C compiler computes it, equals the value in Rust and the committed
+//! value in `abi.txt`.
 
 use std::collections::HashSet;
 use std::fs;
@@ -12,7 +12,7 @@ use darboux_c::*;
 use crate::agreement::{default_options, empty_mesh};
 use crate::support::{Link, build, folder, has, repository, run, source};
 
-/// A name that C can print a number for, and the number in Rust.
+/// A C expression with an integer value, and its value in Rust.
 type Fact = (String, usize);
 
 macro_rules! facts_of_structs {
@@ -111,7 +111,7 @@ fn header() -> String {
     fs::read_to_string(repository().join("bindings/c/include/darboux.h")).expect("the header")
 }
 
-/// Rust's numbers are those that are committed, and a C compiler's are Rust's.
+/// The values in Rust equal the committed ones, and the values of a C compiler equal those in Rust.
 #[test]
 fn c_and_rust_agree() {
     let sizes = [
@@ -164,7 +164,7 @@ fn c_and_rust_agree() {
     }
 }
 
-/// The lists above have everything that the header has.
+/// The lists above contain every struct, field and constant of the header.
 #[test]
 fn nothing_is_left_out() {
     let header = header();
@@ -187,10 +187,10 @@ fn nothing_is_left_out() {
     assert_eq!(found, listed);
 }
 
-/// What a call comes to that is given a number of some enumeration; all else that it is given is right.
+/// A call whose only variable argument is the value of an enumeration. Returns its status.
 type Asked = fn(u32) -> darboux_status;
 
-/// Every enumeration that callers pass, and all places where they do.
+/// Every enumeration, with all functions and fields that take it.
 const ASKED: &[(&str, Asked)] = &[
     ("DARBOUX_METHOD", |method| tangents(0, darboux_tangent_options { method, ..default_options() })),
     ("DARBOUX_MODE", |mode| tangents(0, darboux_tangent_options { mode, ..default_options() })),
@@ -201,7 +201,7 @@ const ASKED: &[(&str, Asked)] = &[
     ("DARBOUX_TANGENT_ENCODING", |encoding| {
         let (vector, mut code) = ([0.0f32, 0.0, 1.0, 1.0], [0u64]);
         let (from, to) = (vector.as_ptr(), code.as_mut_ptr().cast());
-        // SAFETY: every encoding of one tangent is of 8 bytes at most.
+        // SAFETY: a tangent has at most 8 bytes in every encoding.
         unsafe { darboux_encode_tangents(encoding, 1, from, 0, from, 0, to, 0) }
     }),
     ("DARBOUX_TANGENT_ENCODING", |encoding| {
@@ -221,7 +221,7 @@ const ASKED: &[(&str, Asked)] = &[
     ("DARBOUX_BITANGENT_DIRECTION", |bitangent| convention(|it| it.bitangent = bitangent)),
     ("DARBOUX_SIGN_RULE", |sign| convention(|it| it.sign = sign)),
     ("DARBOUX_PROGRAM", |program| {
-        // SAFETY: the convention may be written.
+        // SAFETY: the convention is writable.
         unsafe { darboux_convention_of(program, &mut no_convention()) }
     }),
 ];
@@ -229,7 +229,7 @@ const ASKED: &[(&str, Asked)] = &[
 const NORMALS: darboux_normal_options =
     darboux_normal_options { size: 0, shading: 0, weight: 0, crease: 0.0, seams: 0 };
 
-/// One face of three, or four, corners.
+/// One face of three or four corners.
 fn one_face(faces: u32, run: impl Fn(&darboux_mesh, usize) -> darboux_status) -> darboux_status {
     let (positions, uvs) = ([[0.0f32; 3]; 4], [[0.0f32; 2]; 4]);
     let corners = if faces == FacesCode::Quads as u32 { 4 } else { 3 };
@@ -251,7 +251,7 @@ fn one_face(faces: u32, run: impl Fn(&darboux_mesh, usize) -> darboux_status) ->
 fn tangents(faces: u32, options: darboux_tangent_options) -> darboux_status {
     one_face(faces, |mesh, corners| {
         let mut out = [[0.0f32; 4]; 4];
-        // SAFETY: all pointers are to arrays of the lengths given.
+        // SAFETY: all pointers refer to arrays of the given lengths.
         unsafe { darboux_generate_tangents(mesh, &options, out.as_mut_ptr().cast(), corners, 0, null_mut()) }
     })
 }
@@ -281,11 +281,11 @@ fn no_convention() -> darboux_convention {
 fn convention(change: impl Fn(&mut darboux_convention)) -> darboux_status {
     let (mut asked, mut out) = (no_convention(), no_convention());
     change(&mut asked);
-    // SAFETY: both are whole, and the second may be written.
+    // SAFETY: both structs are valid, and the second is writable.
     unsafe { darboux_convention_generated(&asked, &mut out) }
 }
 
-/// An axis, or a number that is none, and two that are perpendicular to it and to each other; three defaults.
+/// An axis (or an invalid value) and two axes perpendicular to it and to each other; the default axes for 0.
 fn along(axis: u32) -> (u32, u32, u32) {
     use AxisCode::{Default, X, Y, Z};
     match (axis.max(1) - 1) / 2 {
@@ -296,7 +296,7 @@ fn along(axis: u32) -> (u32, u32, u32) {
     }
 }
 
-/// Every number of every enumeration is taken, and none beyond: no value was forgotten where numbers are read.
+/// Every value of every enumeration is accepted, and the next value is rejected.
 #[test]
 fn every_number_has_a_meaning() {
     let lists: HashSet<String> = facts_of_enums().into_iter().map(|(name, _)| list_of(&name)).collect();
@@ -316,7 +316,7 @@ fn every_number_has_a_meaning() {
     }
 }
 
-/// The enumeration that a constant belongs to.
+/// The enumeration of a constant.
 fn list_of(name: &str) -> String {
     let lists = ASKED.iter().map(|(list, _)| *list).chain(["DARBOUX_STATUS"]);
     let longest = lists.filter(|list| name.starts_with(&format!("{list}_"))).max_by_key(|list| list.len());

@@ -1,4 +1,4 @@
-//! The libraries as C and C++ programs meet them, and the functions of `darboux.h` against the core.
+//! Tests of the C and C++ interfaces: programs that are compiled and linked as users do it, and comparisons with the core.
 
 #![allow(unsafe_code, reason = "C functions are called")]
 

@@ -1,4 +1,4 @@
-//! The examples and other programs, built every way that users build them.
+//! Builds and runs the examples and test programs with CMake, pkg-config and plain compilers, with static and shared libraries.
 
 use std::fs;
 use std::path::PathBuf;
@@ -13,7 +13,7 @@ fn example(name: &str) -> PathBuf {
     dist().join("examples").join(name)
 }
 
-/// Three columns of vertices in two rows, their texture mirrored at the middle column.
+/// Two rows of three vertices. The texture is mirrored at the middle column.
 struct Strip {
     positions: Vec<[f32; 3]>,
     normals: [[f32; 3]; 6],
@@ -26,7 +26,7 @@ fn strip() -> Strip {
     Strip { positions, normals: [[0.0, 0.0, 1.0]; 6], uvs }
 }
 
-/// What `examples/tangents` prints, as the core computes it.
+/// The expected output of `examples/tangents`, computed by the core.
 fn corners() -> String {
     let (strip, quads) = (strip(), [0u32, 1, 4, 3, 1, 2, 5, 4]);
     let (positions, normals, uvs) = (&strip.positions, &strip.normals, &strip.uvs);
@@ -36,7 +36,7 @@ fn corners() -> String {
     lines.map(|(vertex, [x, y, z, w])| format!("vertex {vertex}: {x} {y} {z} {w}\n")).collect()
 }
 
-/// What `examples/vertices` prints, as the core computes it.
+/// The expected output of `examples/vertices`, computed by the core.
 fn vertices() -> String {
     let (strip, indices) = (strip(), [0u16, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4]);
     let mesh = Mesh::triangles(&strip.positions, &strip.normals, &strip.uvs, &indices).expect("a mesh");
@@ -237,7 +237,7 @@ fn threads_are_asked_for() {
     }
 }
 
-/// Memory errors and leaks, in every program that there is but the one that measures.
+/// Checks every program but `grid.c`, which only measures, for memory errors and leaks.
 #[test]
 fn valgrind_finds_nothing() {
     if !has("valgrind") || !has("g++") {

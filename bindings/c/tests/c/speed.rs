@@ -17,11 +17,11 @@ fn print(line: &str) {
     writeln!(std::io::stdout(), "{line}").expect("standard output");
 }
 
-/// Freed memory is kept, so that neither side pays the kernel for fresh pages at every call; and as programs start by default.
+/// Environments of the measured program: the allocator keeps freed memory, so that no call pays for new pages; and the default.
 const ALLOCATORS: [(&str, &str); 2] =
     [("kept", "glibc.malloc.mmap_max=0:glibc.malloc.trim_threshold=17179869184"), ("fresh", "")];
 
-/// The drop-in and mikktspace.c through the same callbacks, in turns; the answers' hashes must be equal.
+/// Times the drop-in and mikktspace.c alternately, with the same callbacks. The hashes of their results must be equal.
 #[test]
 #[ignore = "a measurement"]
 fn speed_through_callbacks() {
@@ -49,7 +49,7 @@ fn speed_through_callbacks() {
     }
 }
 
-/// The least time of a call in nanoseconds.
+/// The minimum time of a call in nanoseconds.
 fn least(rounds: usize, mut call: impl FnMut()) -> f64 {
     let time = |_| {
         let start = Instant::now();
@@ -59,7 +59,7 @@ fn least(rounds: usize, mut call: impl FnMut()) -> f64 {
     (0..rounds).map(time).fold(f64::INFINITY, f64::min)
 }
 
-/// What the C interface costs over Rust, on one thread, with memory kept on both sides.
+/// The overhead of the C interface over Rust, on one thread, with reused memory on both sides.
 #[test]
 #[ignore = "a measurement"]
 fn speed_over_rust() {
@@ -77,11 +77,11 @@ fn speed_over_rust() {
                 .expect("one tangent per corner");
         });
         let mut options = default_options();
-        // SAFETY: the context may be written.
+        // SAFETY: the context is writable.
         assert_eq!(unsafe { darboux_context_create(1, &mut options.context) }, darboux_status::Ok);
         let mut out = vec![[0.0f32; 4]; count];
         let c = least(rounds, || {
-            // SAFETY: all pointers are to arrays of the lengths given.
+            // SAFETY: all pointers refer to arrays of the given lengths.
             let status = unsafe {
                 darboux_generate_tangents(&c_view, &options, out.as_mut_ptr().cast(), count, 0, null_mut())
             };
@@ -92,13 +92,13 @@ fn speed_over_rust() {
         });
         let c_split = least(rounds.min(200), || {
             let mut split = null_mut();
-            // SAFETY: all pointers are to arrays of the lengths given; the split is freed.
+            // SAFETY: all pointers refer to arrays of the given lengths; the split is freed once.
             unsafe {
                 darboux_split_vertices(&c_view, out.as_ptr().cast(), count, 0, &mut split);
                 darboux_vertex_split_free(split);
             }
         });
-        // SAFETY: from `darboux_context_create`.
+        // SAFETY: the context is from `darboux_context_create`.
         unsafe { darboux_context_free(options.context) };
         print(&format!(
             "{name}: tangents Rust {rust:.0} ns, C {c:.0} ns; splits Rust {rust_split:.0} ns, C {c_split:.0} ns"

@@ -1,4 +1,4 @@
-// One program of two standards: what is compiled for C++17 takes spans from what is compiled for C++20.
+// Compiled once for C++17 and once for C++20, and linked into one program: spans pass between both parts.
 
 #include "darboux.hpp"
 

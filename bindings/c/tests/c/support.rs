@@ -1,4 +1,4 @@
-//! The shipped folder, compilers, and programs that are made and run.
+//! Helpers: builds the distribution folder, and compiles, links and runs C and C++ programs.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 
 use serde_json::Value;
 
-/// The folder that `cargo xtask dist-c` makes, made once.
+/// The output folder of `cargo xtask dist-c`, built once per test run.
 pub fn dist() -> &'static Path {
     static FOLDER: OnceLock<PathBuf> = OnceLock::new();
     FOLDER.get_or_init(|| {
@@ -21,12 +21,12 @@ pub fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// A file of this folder.
+/// The path of a file in this folder.
 pub fn source(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/c").join(name)
 }
 
-/// The folder of mikktspace.c, where cargo put the crate that holds it.
+/// The folder of mikktspace.c, inside cargo's copy of the crate that contains it.
 pub fn reference_sources() -> PathBuf {
     let output =
         run(Command::new(env!("CARGO")).args(["metadata", "--format-version=1"]).current_dir(repository()));
@@ -37,7 +37,7 @@ pub fn reference_sources() -> PathBuf {
     Path::new(package["manifest_path"].as_str().expect("a path")).with_file_name("c_code")
 }
 
-/// Whether a program is there to run; says so where it is not. Panics instead where `CI` is set: there nothing may be passed over.
+/// True when a program is installed; otherwise prints that the test is skipped. Panics instead where `CI` is set, so that CI skips nothing.
 #[track_caller]
 pub fn has(program: &str) -> bool {
     let found = Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
@@ -48,7 +48,7 @@ pub fn has(program: &str) -> bool {
     found.is_ok()
 }
 
-/// Runs a program; panics with what it wrote where it fails.
+/// Runs a program and returns its output. Panics with the output where the program fails.
 #[track_caller]
 pub fn run(command: &mut Command) -> Output {
     let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
@@ -57,7 +57,7 @@ pub fn run(command: &mut Command) -> Output {
     output
 }
 
-/// Runs a program that reads `input`.
+/// As [`run`], with `input` on standard input.
 #[track_caller]
 pub fn run_with_input(command: &mut Command, input: &[u8]) -> Output {
     let file = folder().join(format!("input-{:?}", std::thread::current().id()));
@@ -65,12 +65,12 @@ pub fn run_with_input(command: &mut Command, input: &[u8]) -> Output {
     run(command.stdin(std::fs::File::open(&file).expect("the file")))
 }
 
-/// Where programs go.
+/// The folder of the compiled programs.
 pub fn folder() -> &'static Path {
     Path::new(env!("CARGO_TARGET_TMPDIR"))
 }
 
-/// How a program is linked.
+/// Static or shared linking.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Link {
     Shared,
@@ -100,7 +100,7 @@ pub fn build(name: &str, standard: &str, files: &[PathBuf], libraries: &[&str], 
     program
 }
 
-/// gcc or g++ that is strict about a standard.
+/// gcc or g++ with the strict flags of a standard.
 pub fn compiler(standard: &str) -> Command {
     let mut command = Command::new(if standard.starts_with("c++") { "g++" } else { "gcc" });
     command.arg(format!("-std={standard}")).args(["-Wall", "-Wextra", "-pedantic", "-Werror"]);

@@ -1,4 +1,4 @@
-/* Threads are started when a context is made that asks for them, and by nothing else; they end with it, and never show in the bits. */
+/* Checks that only a context with several threads starts threads, that they end with it, and that results do not depend on them. */
 
 #define _POSIX_C_SOURCE 200809L
 
