@@ -1,5 +1,5 @@
-//! Any bytes as a call of the C interface: a status and never a crash, nothing read or written beyond what the structs say, and
-//! nothing written after an error.
+//! Fuzz target: arbitrary bytes select a function of the C interface and its arguments. The call must return a status without a crash, must
+//! read and write only the memory that its arguments describe, and must write nothing after an error.
 
 #![no_main]
 
@@ -12,11 +12,11 @@ use libfuzzer_sys::fuzz_target;
 fuzz_target!(|bytes: &[u8]| {
     let mut caller = Caller { dice: Dice::from_bytes(bytes), blocks: Vec::new(), claims_too_much: false };
     let call = CALLS[caller.dice.below(CALLS.len())];
-    // Its memory is of the size that it claims, but for what is checked below.
+    // Every array has the size that the arguments describe, or `check` skips the call.
     call(&mut caller);
 });
 
-/// Every function but darboux_set_allocator, which ends the fuzzer's watch over memory.
+/// Every function except darboux_set_allocator, after which AddressSanitizer could not check the library's memory.
 const CALLS: &[fn(&mut Caller<'_>)] = &[
     tangents,
     tangents,
@@ -38,18 +38,18 @@ const CALLS: &[fn(&mut Caller<'_>)] = &[
     contexts,
 ];
 
-/// Memory that is larger than this is not there.
+/// The largest array that is allocated, in bytes.
 const ROOM: usize = 1 << 14;
 const FILL: u8 = 0xa5;
 
 struct Caller<'a> {
     dice: Dice<'a>,
     blocks: Vec<Box<[u8]>>,
-    /// The library cannot know that memory is smaller than it is told, so it must not be told.
+    /// True when an array would exceed [`ROOM`]. Such a call is skipped, because the library cannot check the true size of memory.
     claims_too_much: bool,
 }
 
-/// Elements of a caller's array.
+/// A caller's strided array.
 #[derive(Clone, Copy)]
 struct Array<T> {
     data: *mut T,
@@ -62,7 +62,7 @@ impl<'a> Caller<'a> {
         self.dice.pick(&[0, 1, 3, 3, 4, 6, 6, 12, 12, 24, 1 << 31, 1 << 62, usize::MAX / 2, usize::MAX])
     }
 
-    /// Memory for `count` elements of `element` bytes, `stride` apart, of exactly that size; null and odd addresses now and then.
+    /// Allocates exactly the bytes of `count` elements of `element` bytes, `stride` apart. Sometimes returns null or an odd address.
     fn block(&mut self, count: usize, stride: usize, element: usize) -> *mut u8 {
         if self.dice.one_in(24) {
             return null_mut();
@@ -86,7 +86,7 @@ impl<'a> Caller<'a> {
         }
     }
 
-    /// As [`Caller::block`], with values: floats of every kind, or small integers.
+    /// As [`Caller::block`], filled with values: floats of every kind, or small integers.
     fn values<T>(&mut self, count: usize, stride: usize, element: usize, are_floats: bool) -> *mut T {
         let data = self.block(count, stride, element);
         let filled = self.blocks.last_mut().filter(|block| block.as_ptr_range().contains(&data.cast_const()));
@@ -110,19 +110,19 @@ impl<'a> Caller<'a> {
         }
     }
 
-    /// What is read: `count` elements of `width` floats.
+    /// An input array: `count` elements of `width` floats.
     fn floats(&mut self, count: usize, width: usize) -> Array<f32> {
         let stride = self.stride(4 * width);
         Array { data: self.values(count, stride, 4 * width, true), count, stride }
     }
 
-    /// What is written: `count` elements of `element` bytes.
+    /// An output array: `count` elements of `element` bytes.
     fn out<T>(&mut self, count: usize, element: usize) -> Array<T> {
         let stride = self.stride(element);
         Array { data: self.block(count, stride, element).cast(), count, stride }
     }
 
-    /// The size that a struct claims, none larger than it is.
+    /// The value of a struct's size field, at most the true size.
     fn size<T>(&mut self) -> usize {
         if self.dice.one_in(16) {
             self.dice.below(size_of::<T>())
@@ -131,12 +131,12 @@ impl<'a> Caller<'a> {
         }
     }
 
-    /// A number of an enumeration, the default most often.
+    /// A value of an enumeration, most often the default.
     fn code(&mut self, end: usize) -> u32 {
         if self.dice.one_in(2) { 0 } else { self.dice.below(end + 1) as u32 }
     }
 
-    /// A mesh, and its corners as the library counts them.
+    /// A mesh, and its number of corners as the library counts them.
     fn mesh(&mut self) -> (darboux_mesh, usize) {
         let vertex_count = self.count();
         let (positions, normals) = (self.floats(vertex_count, 3), self.floats(vertex_count, 3));
@@ -171,7 +171,7 @@ impl<'a> Caller<'a> {
         (mesh, if is_indexed { index_count } else { vertex_count })
     }
 
-    /// The number of elements that belong to a mesh of so many corners, or another.
+    /// The number of elements for a mesh of so many corners; sometimes another number.
     fn matching(&mut self, corners: usize) -> usize {
         if self.dice.one_in(16) { self.count() } else { corners }
     }
@@ -200,7 +200,7 @@ impl<'a> Caller<'a> {
         }
     }
 
-    /// Makes the call if it can be made, and checks what it came to. `out`: what it writes.
+    /// Makes the call unless an array exceeds [`ROOM`], and checks its result. `out`: the output array.
     fn check<T>(&self, out: Array<T>, call: impl FnOnce() -> darboux_status) {
         if self.claims_too_much {
             return;
@@ -210,7 +210,7 @@ impl<'a> Caller<'a> {
         if status == darboux_status::Ok {
             return;
         }
-        // SAFETY: a string until the next error.
+        // SAFETY: the message is a valid string until the next error.
         assert!(!unsafe { std::ffi::CStr::from_ptr(darboux_last_error()) }.is_empty());
         let written =
             self.blocks.iter().find(|block| block.as_ptr_range().contains(&out.data.cast_const().cast()));
@@ -227,7 +227,7 @@ fn tangents(caller: &mut Caller<'_>) {
     let count = caller.matching(corners);
     let out = caller.out::<f32>(count, 16);
     let mut report = darboux_report { size: caller.size::<darboux_report>(), ..zeroed() };
-    // SAFETY: all memory is as large as the structs say, or `check` makes no call.
+    // SAFETY: all memory is as large as the arguments describe, or `check` skips the call.
     caller.check(out, || unsafe {
         darboux_generate_tangents(&mesh, &options, out.data, out.count, out.stride, &mut report)
     });
@@ -249,7 +249,7 @@ fn splits(caller: &mut Caller<'_>) {
     let count = caller.matching(corners);
     let tangents = caller.floats(count, 4);
     let mut split = null_mut();
-    // SAFETY: as above; what comes back is as long as it says until it is freed.
+    // SAFETY: as above; the result's arrays have the lengths that it gives, until it is freed.
     caller.check(NOTHING, || unsafe {
         let status = darboux_split_vertices(&mesh, tangents.data, count, tangents.stride, &mut split);
         if let Some(made) = split.as_ref() {
@@ -293,7 +293,7 @@ fn normal_splits(caller: &mut Caller<'_>) {
     });
 }
 
-/// A plan, and its evaluation for the same mesh or for another.
+/// Creates a plan, and evaluates it for the same mesh or for another.
 fn plans(caller: &mut Caller<'_>) {
     let (mesh, corners) = caller.mesh();
     let options = caller.options(null_mut());
@@ -429,7 +429,7 @@ fn programs(caller: &mut Caller<'_>) {
     }
 }
 
-/// Normals and tangents, and where moved ones go.
+/// Input and output arrays of normals and tangents.
 fn frame_arrays(caller: &mut Caller<'_>, count: usize) -> (darboux_frame_arrays, Array<f32>) {
     let (normals, tangents) = (caller.floats(count, 3), caller.floats(count, 4));
     let (out_normals, out_tangents) = (caller.out::<f32>(count, 12), caller.out::<f32>(count, 16));
@@ -486,10 +486,10 @@ fn skins(caller: &mut Caller<'_>) {
     caller.check(out, || unsafe { darboux_skin_frames(&skin, &arrays) });
 }
 
-/// One context for several meshes.
+/// Uses one context for several meshes.
 fn contexts(caller: &mut Caller<'_>) {
     let mut context = null_mut();
-    // SAFETY: `context` may be written; it is freed last.
+    // SAFETY: `context` is writable, and is freed last.
     caller.check(NOTHING, || unsafe { darboux_context_create(1, &mut context) });
     for _ in 0..3 {
         let (mesh, corners) = caller.mesh();
@@ -501,13 +501,13 @@ fn contexts(caller: &mut Caller<'_>) {
             darboux_generate_tangents(&mesh, &options, out.data, out.count, out.stride, null_mut())
         });
     }
-    // SAFETY: from `darboux_context_create`.
+    // SAFETY: the context is from `darboux_context_create`.
     unsafe { darboux_context_free(context) };
 }
 
 const NOTHING: Array<u8> = Array { data: null_mut(), count: 0, stride: 0 };
 
 fn zeroed<T>() -> T {
-    // SAFETY: used for structs of numbers only.
+    // SAFETY: used only for structs of numbers, for which zeros are valid.
     unsafe { std::mem::zeroed() }
 }
