@@ -1,6 +1,6 @@
 //! Wavefront OBJ: reads a model with its material libraries and textures as a glTF document.
 //!
-//! [`companions`] lists the files that an OBJ refers to; [`read`] (feature `obj`) reads the model itself.
+//! [`companions`] lists the files that an OBJ refers to; `read` (feature `obj`) reads the model itself.
 
 mod companions;
 #[cfg(feature = "obj")]
