@@ -220,7 +220,7 @@ fn xyz([x, y, z, _]: [f32; 4]) -> V3 {
     [x, y, z]
 }
 
-/// The area of a triangle. `corners`: three positions. Not finite where they are not.
+/// The area of a triangle. `corners`: three positions. The area is not finite where a position is not finite.
 pub fn triangle_area(corners: [[f32; 3]; 3]) -> f64 {
     let [e1, e2] = edges(corners);
     0.5 * length(cross(e1, e2))

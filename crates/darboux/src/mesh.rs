@@ -1,4 +1,4 @@
-//! The borrowed mesh: strided vertex data, indices, faces. Validated once, here; everything behind it trusts it.
+//! The borrowed mesh: strided vertex data, indices, faces. The constructors validate a mesh; all other code relies on that.
 
 use std::fmt;
 use std::ops::Range;

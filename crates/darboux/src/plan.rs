@@ -1,4 +1,4 @@
-//! Topology once, evaluate often.
+//! [`Plan`]: welds and groups a mesh once, and evaluates its tangents again after its vertices moved.
 
 use crate::Context;
 use crate::CornerTangents;
@@ -13,9 +13,9 @@ use crate::tangents::Planned;
 
 /// The weld, groups and subgroups of one mesh, kept to evaluate tangents again after its vertices moved (morph targets, skinning).
 ///
-/// For MikkTSpace on faces of 3 and 4 corners it also keeps a copy of all vertices, 32 bytes each, for when
-/// what is decided fast needs every stage after all: vertices that were welded move apart, tangents collapse.
-/// Of the other methods only [`Method::AngleArea`](crate::Method::AngleArea) has groups to keep; the rest run afresh, but for the signs.
+/// For MikkTSpace on faces of 3 and 4 corners the plan also keeps a copy of all vertices, 32 bytes each. They are needed when the fast path
+/// does not apply to the moved mesh: welded vertices moved apart, or a tangent became zero. Of the other methods only
+/// [`Method::AngleArea`](crate::Method::AngleArea) has groups to keep; the rest compute everything again except the signs.
 #[derive(Debug)]
 pub struct Plan {
     planned: Planned,
@@ -67,7 +67,7 @@ impl FaceList {
 }
 
 impl Plan {
-    /// Computes the base's tangents and keeps its topology.
+    /// Computes the tangents of the base mesh and keeps its topology.
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions) -> Self {
         Self::make(mesh, options, &Context::new())
     }

@@ -1,4 +1,4 @@
-//! Options to method: the entry points of tangent generation.
+//! The entry points of tangent generation, which run the method that the options name.
 
 pub(crate) mod angle_area;
 mod face;

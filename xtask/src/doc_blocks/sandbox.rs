@@ -31,7 +31,7 @@ if [ $status = 3 ]; then exit 0; fi
 exit $status
 "#;
 
-/// `cargo run` and `cargo xtask dist-c` start what is built already; other tasks take too long. Everything else is cargo's.
+/// `cargo run` and `cargo xtask dist-c` start what is built already; other tasks take too long. All other commands run the real cargo.
 const CARGO: &str = r#"#!/bin/sh
 case "$1 $2" in
 "xtask dist-c") exec '@XTASK@' dist-c ;;

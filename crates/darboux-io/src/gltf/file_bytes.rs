@@ -47,7 +47,7 @@ impl FileAccess {
 #[cfg(unix)]
 #[expect(unsafe_code, reason = "another process could change a mapped file")]
 fn map(file: &File) -> Option<FileBytes> {
-    // SAFETY: `FileAccess::mapped` is the only way to here, and its caller has promised that nobody changes the file. The map is only
+    // SAFETY: only `FileAccess::mapped` makes a value that maps, and its caller has promised that no process changes the file. The map is only
     // read, and this crate never writes into a file that exists: outputs are new files, renamed when they are complete.
     let mapped = unsafe { memmap2::Mmap::map(file) }.ok()?;
     (!mapped.is_empty()).then_some(FileBytes::Mapped(mapped))

@@ -1,4 +1,4 @@
-//! LibraryMaterial libraries (MTL): their materials, with the textures located in the model's folder.
+//! Material libraries (MTL): their materials, with the textures located in the model's folder.
 
 use std::cell::RefCell;
 use std::collections::{HashMap, HashSet};

@@ -7,7 +7,7 @@ use crate::MeshError;
 use crate::cancel::Cancel;
 use crate::exec::simd::{Width, WidthLimit};
 
-/// Meshes of fewer triangles are not worth waking another thread.
+/// The fewest triangles per thread: waking a thread costs more time than fewer triangles save.
 const MIN_PER_THREAD: usize = if cfg!(small_limits) { 1 } else { 1 << 13 };
 
 /// Elements between two cancellation checks of a long loop.

@@ -1,4 +1,4 @@
-//! The choice of a method, and where it leads.
+//! Runs the chosen method: one branch per method.
 
 use crate::Mesh;
 

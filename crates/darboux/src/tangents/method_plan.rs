@@ -17,20 +17,21 @@ use crate::tangents::memory::TangentMemory;
 use crate::tangents::mikktspace::{GroupedMesh, default_frames};
 use crate::tangents::submesh::UndecidedFaces;
 
-/// What is known beforehand.
+/// The part of a plan that does not depend on positions and normals.
 #[derive(Debug)]
 pub(crate) enum Planned {
-    /// MikkTSpace on faces of 3 and 4 corners: nearly all vertices are decided.
+    /// MikkTSpace where the fast path applies: it has decided nearly all vertices.
     Fast(Box<Decided>),
-    /// MikkTSpace elsewhere.
+    /// MikkTSpace where the fast path does not apply: the general path has grouped the mesh.
     Stages(Box<GroupedMesh>),
-    /// Angle and area, on the same groups.
+    /// The angle-area method, on the groups of MikkTSpace.
     Groups(Box<angle_area::AngleAreaPlan>),
-    /// Other methods run afresh: they have no groups that were worth keeping.
+    /// The other methods run again for every evaluation, because they have no groups.
     Nothing,
 }
 
-/// Decided vertices, the stages for the others, and the vertices, for when vertices that were decided need the stages after all.
+/// The vertices that the fast path decided, the submesh of the others, and a copy of the mesh's vertices, from which the general path groups the
+/// mesh when a moved mesh invalidates the decisions.
 #[derive(Debug)]
 pub(crate) struct Decided {
     options: MikktOptions,
@@ -41,7 +42,7 @@ pub(crate) struct Decided {
 }
 
 impl Planned {
-    /// Runs on the base, and keeps what does not depend on where vertices are.
+    /// Computes the tangents of the base mesh, and keeps what does not depend on positions and normals.
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, limits: RunLimits<'_>) -> (Self, Tangents) {
         let options = match &options.method {
             Method::MikkTSpace(options) => options,
@@ -172,7 +173,7 @@ impl Vertices {
         }
     }
 
-    /// These as another mesh has them, of the same faces.
+    /// A mesh of these vertices with the faces of `mesh`.
     fn of<'a>(&'a self, mesh: &Mesh<'a>) -> Mesh<'a> {
         let (indices, faces) = (mesh.indices(), mesh.faces());
         let mesh = Mesh::with_faces(&self.positions, &self.normals, &self.uvs, indices, faces);

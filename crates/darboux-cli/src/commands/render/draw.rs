@@ -1,4 +1,4 @@
-//! `darboux render`: draws a model or its tangents into a PNG.
+//! Runs `darboux render`: reads the model, draws it, and writes the PNG.
 
 use std::path::Path;
 

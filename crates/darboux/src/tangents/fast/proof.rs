@@ -131,7 +131,8 @@ fn is_one_subgroup(found: u32) -> bool {
         && has_axis(marks::TANGENT) & has_axis(marks::BITANGENT)
 }
 
-/// True when all triangles are connected by edges at the vertex; wrongly true with a probability below 2^-64.
+/// True when all triangles are connected by edges at the vertex; wrongly true with a probability of 2^-64, or at most 2^-58 where
+/// [`CANDIDATES`] are tried (see the head of `fast.rs`).
 ///
 /// An edge at the vertex that as many triangles leave along as come back along adds nothing to the fingerprint. So the fingerprint is
 /// zero when all triangles lie in closed loops, and the difference of two vertices when there is one open row besides. Every closed
