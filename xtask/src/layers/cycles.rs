@@ -23,7 +23,7 @@ impl Graph {
 
     /// Cycles as text, the shortest first. Removing one edge of each leaves a graph without cycles.
     ///
-    /// After each cycle the edge with the fewest names is removed, and the search begins anew.
+    /// After each cycle the edge with the fewest names is removed, and the search starts again.
     pub fn cycles(&self, file_name: &dyn Fn(&PathBuf) -> String) -> Vec<String> {
         let mut graph = self.clone();
         let mut chains = Vec::new();

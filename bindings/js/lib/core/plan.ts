@@ -27,7 +27,7 @@ const collected = new FinalizationRegistry(free);
 
 /**
  * The weld, groups and subgroups of one mesh, kept to evaluate tangents again after its vertices moved (morph targets, skinning). Methods
- * other than 'mikktspace' run afresh and keep only the signs. Memory is freed by {@link Plan.dispose}, or when the plan is garbage-collected.
+ * other than 'mikktspace' compute everything again and keep only the signs. Memory is freed by {@link Plan.dispose}, or when the plan is garbage-collected.
  */
 export class Plan {
   readonly #vertices: number;

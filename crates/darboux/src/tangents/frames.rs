@@ -1,4 +1,4 @@
-//! Whole frames: tangents first, then what goes with them, and last each corner's from these.
+//! Full frames: computes the tangents, then bitangents and magnitudes per vertex, and combines them per corner when frames are read.
 
 use crate::Context;
 use crate::CornerFrames;
@@ -22,7 +22,7 @@ use crate::tangents::submesh;
 pub struct Frames {
     /// One frame per corner.
     pub corners: CornerFrames,
-    /// Counts of what the run met.
+    /// Counts of unusual geometry in the mesh.
     pub report: Report,
 }
 
@@ -95,7 +95,7 @@ pub struct LentFrames<'a> {
 }
 
 impl LentFrames<'_> {
-    /// Counts of what the run met.
+    /// Counts of unusual geometry in the mesh.
     pub fn report(&self) -> Report {
         self.report
     }

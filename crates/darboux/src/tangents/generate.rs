@@ -14,7 +14,7 @@ use crate::tangents::submesh;
 pub struct Tangents {
     /// One tangent per corner.
     pub corners: CornerTangents,
-    /// Counts of what the run met.
+    /// Counts of unusual geometry in the mesh.
     pub report: Report,
 }
 
