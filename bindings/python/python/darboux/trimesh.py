@@ -1,7 +1,7 @@
 """Tangents for trimesh.
 
-trimesh turns v over when it reads glTF, so that it runs up, and back when it writes. Tangents of UVs that run up are glTF's as they are:
-no sign changes here.
+trimesh flips v when it reads and when it writes glTF, so v points up in memory. For such UVs the sign of MikkTSpace is that of glTF: it is
+not negated here.
 
 >>> scene_or_mesh.export("model.glb", include_normals=True, tree_postprocessor=darboux.trimesh.name_tangents)  # doctest: +SKIP
 """
@@ -33,7 +33,7 @@ def add_tangents(mesh: trimesh.Trimesh, **options: Any) -> VertexSplit:
     Returns
     -------
     VertexSplit
-        For whatever else lies along the vertices.
+        Use its `source_of_vertex` for other arrays with one element per vertex.
 
     Raises
     ------
