@@ -53,12 +53,13 @@ pub fn run<W: FileCommand>(command: &W) -> u8 {
     messages.start(jobs.iter().map(|job| job.input.byte_length()).sum());
     let folder = files.out_dir.as_deref().filter(|_| files.resume);
     let journal = folder.map(|folder| Journal::open(folder, files.run)).transpose();
+    let brief = is_brief(command, jobs.len());
     let reports = journal.and_then(|journal| process_all(command, &jobs, journal.as_ref(), &messages));
     messages.end_progress();
     match reports {
         Ok(reports) => {
             let files = found.failed.into_iter().map(FileReport::not_searched).chain(reports).collect();
-            finish(command, BatchReport::new(W::NAME, files), &messages, start)
+            finish(command, BatchReport::new(W::NAME, files), brief, &messages, start)
         }
         Err(sentence) => {
             messages.error(&sentence);
@@ -191,14 +192,14 @@ fn print_file<W: FileCommand>(report: &FileReport<W::Summary>, brief: bool, mess
     warnings.iter().for_each(|warning| messages.warn(&format!("{input}: {warning}")));
 }
 
-/// Prints errors, the totals and the report; returns the exit code.
+/// Prints errors, the totals and the report; returns the exit code. `brief`: each file was printed in one line.
 fn finish<W: FileCommand>(
     command: &W,
     report: BatchReport<W::Summary>,
+    brief: bool,
     messages: &Messages,
     start: Instant,
 ) -> u8 {
-    let brief = is_brief(command, report.files.len());
     report.files.iter().filter_map(|file| file.error.as_ref()).for_each(|error| messages.error(error));
     let totals = &report.totals;
     if totals.failed < totals.files || totals.files > 1 {

@@ -51,12 +51,21 @@ fn write_square(path: &Path, side: u32) {
     fs::write(path, model.to_string()).expect("a file");
 }
 
-/// Runs the command on little models and then on a large one, which there is too little memory for on the device. The limit comes once
-/// everything is compiled, and that is when the first little model is done.
+/// Runs the command on small models and then on a large one, for which the device has too little memory. The limit is set after all
+/// shaders are compiled, when the first small model is done.
 fn in_little_memory(device: &str, folder: &Path) -> Output {
     let (input, out) = (folder.join("in"), folder.join(device));
     let mut command = program();
-    command.args(["tangents", text(&input), "--out-dir", text(&out), "--overwrite", "--device", device]);
+    command.args([
+        "tangents",
+        text(&input),
+        "--out-dir",
+        text(&out),
+        "--overwrite",
+        "--verbose",
+        "--device",
+        device,
+    ]);
     command.env("DARBOUX_GPU_TRIANGLES", "1").stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().expect("the command starts");
     let id = child.id().to_string();
@@ -101,7 +110,7 @@ fn out_of_memory_the_cpu_takes_over_unless_a_gpu_is_asked_for() {
     fs::create_dir(&input).expect("a folder");
     (0..40).for_each(|k| write_square(&input.join(format!("{k:02}.gltf")), 4));
     write_square(&input.join("last.gltf"), 500);
-    let why = "the GPU has not enough memory for this mesh";
+    let why = "the GPU does not have enough memory for this mesh";
     for (device, code, expected) in [
         ("gpu", 1, format!("last.gltf: meshes[0].primitives[0]: {why}")),
         ("auto", 0, format!("last.gltf: the CPU computed the tangents because the GPU failed: {why}")),

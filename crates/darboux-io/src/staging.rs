@@ -225,8 +225,9 @@ fn remove_abandoned_files(folder: &Path) {
     for path in entries.flatten().map(|entry| entry.path()) {
         let is_regular = || path.symlink_metadata().is_ok_and(|metadata| metadata.is_file());
         if is_temporary(&path) && is_regular() {
-            let file = File::open(&path);
-            if file.is_ok_and(|file| file.try_lock().is_ok()) {
+            let Ok(file) = File::open(&path) else { continue };
+            // The lock is held until the file is removed, so that its writer cannot lock the file in between.
+            if file.try_lock().is_ok() {
                 let _ = fs::remove_file(&path);
             }
         }

@@ -47,12 +47,21 @@ pub fn published() -> Result<Vec<Value>, String> {
         return Err("cargo metadata lists no packages".into());
     };
     packages.retain(|package| package["publish"].is_null());
-    let names: Vec<String> = packages.iter().map(|package| name(package).to_owned()).collect();
-    packages.sort_by_key(|package| {
-        let dependencies = package["dependencies"].as_array().into_iter().flatten();
-        dependencies.filter(|one| names.iter().any(|name| one["name"] == name.as_str())).count()
-    });
-    Ok(packages)
+    let mut ordered = Vec::new();
+    while !packages.is_empty() {
+        let is_ready = |package: &Value| !packages.iter().any(|other| needs(package, other));
+        let next =
+            packages.iter().position(is_ready).ok_or("the packages depend on each other in a cycle")?;
+        ordered.push(packages.remove(next));
+    }
+    Ok(ordered)
+}
+
+/// True if `package` depends on `other`, outside of its tests.
+fn needs(package: &Value, other: &Value) -> bool {
+    let dependencies = package["dependencies"].as_array().into_iter().flatten();
+    let mut names = dependencies.filter(|one| one["kind"] != "dev").map(|one| &one["name"]);
+    names.any(|needed| *needed == other["name"])
 }
 
 /// The name of a package.

@@ -14,7 +14,7 @@ A normal map stores directions relative to the tangents of the program that bake
   area                the mean weighted by area: large faces dominate
   face                the dP/du of each face, not smoothed; for flat shading and measurements
   from-normal         any direction perpendicular to the normal, independent of UVs; for sampling, not for normal maps
-`darboux compare model.glb --method NAME` shows how much two methods differ; docs/algorithms/methods.md derives them.
+`darboux compare model.glb --method NAME` shows how much a file's tangents differ from a method's; docs/algorithms/methods.md derives them.
 ";
 
 /// Runs the command and returns its exit code.

@@ -23,7 +23,7 @@ use crate::options::method::MethodName;
 use crate::terminal::FileProgress;
 use crate::text::{counted, nonzero_counts};
 use arguments::{Device, Mode, TangentsArguments};
-use device::TangentDevice;
+use device::{TangentDevice, may_use_gpu};
 use summary::{DeviceReport, TangentsSummary};
 
 impl FileCommand for TangentsArguments {
@@ -55,6 +55,11 @@ impl FileCommand for TangentsArguments {
                 Err(UsageError(format!("{option} needs --method mikktspace; remove one of them")))
             }
             _ if self.device == Device::Gpu => open_early().map_err(UsageError),
+            // Opening redirects standard error for a moment, so it must not happen beside other work. A failure is reported with the file.
+            _ if self.device == Device::Auto && may_use_gpu() => {
+                _ = open_early();
+                Ok(())
+            }
             _ => Ok(()),
         }
     }

@@ -63,7 +63,12 @@ fn verdict(report: &CompareReport) -> String {
                 let command = command_line(&["tangents", "--overwrite", "--method", method], &[first]);
                 format!("; to replace them: {command}")
             });
-            format!("the tangents differ from {other}: {}{repair}", difference(totals))
+            let tolerance = match report.within_tolerance {
+                Some(true) => "; the largest angle is within --tolerance",
+                Some(false) => "; the largest angle is above --tolerance",
+                None => "",
+            };
+            format!("the tangents differ from {other}: {}{tolerance}{repair}", difference(totals))
         }
     }
 }

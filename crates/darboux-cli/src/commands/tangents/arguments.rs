@@ -69,8 +69,8 @@ pub struct TangentsArguments {
 
     /// The device that computes the tangents; all devices give the same bits
     ///
-    /// auto is the CPU, because transfers to a GPU took longer than they saved in all measurements so far. If your GPU is faster, set the
-    /// environment variable DARBOUX_GPU_TRIANGLES to a number of triangles: auto then uses the GPU for meshes with at least this many, and falls
+    /// auto is the CPU: at best a GPU halves the time of a mesh that comes from a file, and no GPU has been measured yet. If your GPU is
+    /// faster, set the environment variable DARBOUX_GPU_TRIANGLES to a number of triangles: auto then uses the GPU for meshes with at least this many, and falls
     /// back to the CPU with a warning if the GPU fails. gpu requires --method mikktspace; the CPU still computes rare cases. `darboux devices` lists
     /// the adapters.
     #[arg(long, value_enum, value_name = "DEVICE", default_value_t, help_heading = "Tangents")]

@@ -23,6 +23,11 @@ pub struct TangentDevice {
 /// The environment variable with the number of triangles from which [`Device::Auto`] uses the GPU.
 const THRESHOLD_VARIABLE: &str = "DARBOUX_GPU_TRIANGLES";
 
+/// True if [`Device::Auto`] can choose a GPU in this process.
+pub fn may_use_gpu() -> bool {
+    std::env::var_os(THRESHOLD_VARIABLE).is_some()
+}
+
 impl TangentDevice {
     /// Errors: `device` is [`Device::Gpu`] and no GPU can be used; the environment variable is not a number.
     pub fn new(device: Device) -> Result<Self, String> {
