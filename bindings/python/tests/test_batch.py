@@ -79,7 +79,7 @@ def test_failures_are_collected(tmp_path: Path) -> None:
     failed = {Path(file["input"]).name: file for file in report["files"] if file["status"] == "failed"}
     assert sorted(failed) == ["aa.glb", "empty", "nothing.glb"]
     assert failed["aa.glb"]["tries"] == failed["nothing.glb"]["tries"] == 2
-    assert "the folder holds no model" in failed["empty"]["error"]
+    assert "the folder contains no model" in failed["empty"]["error"]
     assert report["totals"]["written"] + report["totals"]["copied"] == 3
     shutil.copy(MODEL, models / "aa.glb")
     assert darboux.batch(models, out, progress=False)["totals"] == {
@@ -126,14 +126,17 @@ def test_one_batch_at_a_time(tmp_path: Path) -> None:
     assert contents(out) == by_command(models, tmp_path / "expected")
 
 
-def test_what_others_write_stays(tmp_path: Path) -> None:
+def test_temporary_files_of_running_programs_stay_and_abandoned_ones_are_removed(tmp_path: Path) -> None:
+    fcntl = pytest.importorskip("fcntl")
     models, out = library(tmp_path), tmp_path / "out"
     out.mkdir()
-    for name in (".darboux-abc123", ".darboux-0123456789abcdef-abc123"):
+    for name in (".darboux-abc123", ".darboux-0123456789abcdef-abc124", ".darboux-notes"):
         (out / name).write_text("half a file")
-    darboux.batch(models, out, progress=False)
-    darboux.batch(models, out, progress=False)
-    assert len(list(out.glob(".darboux-*"))) == 2
+    with open(out / ".darboux-abc123", "rb") as running:
+        fcntl.flock(running, fcntl.LOCK_EX)
+        darboux.batch(models, out, progress=False)
+        darboux.batch(models, out, progress=False)
+    assert sorted(path.name for path in out.glob(".darboux-*")) == [".darboux-abc123", ".darboux-notes"]
 
 
 def test_outputs_that_were_changed_are_made_again(tmp_path: Path) -> None:
