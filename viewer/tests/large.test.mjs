@@ -46,7 +46,7 @@ test('a large model shows progress, and the page answers meanwhile', async () =>
     await viewer.give('files', [join(folder, 'grid.gltf')]);
     assert.deepEqual([await viewer.text('error'), await viewer.text('status')], ['', '199,712 triangles in 1 part']);
     const { said, answered } = await viewer.page.evaluate(() => globalThis.log);
-    const work = ['Reading grid.gltf', 'Opening grid.gltf', 'Computing tangents of mesh_0', 'Looking at mesh_0'];
+    const work = ['Reading grid.gltf', 'Opening grid.gltf', 'Computing tangents of mesh_0', 'Checking mesh_0'];
     assert.deepEqual(said.filter((text) => work.includes(text)), work);
     for (const long of ['Opening grid.gltf', 'Computing tangents of mesh_0']) assert.ok(answered.includes(long), `${long} in ${answered}`);
     assert.match((await viewer.report()).seams, /^316 mirrored edges: /);
