@@ -12,8 +12,9 @@ pub fn check() -> Outcome {
     let wheel = one_file(&python::make_wheel()?, "whl")?;
     print_size(&wheel);
     run_example(&wheel, &work.join("wheel"))?;
-    python::make_source_archive(&work)?;
-    let source = one_file(&work, "gz")?;
+    let archives = work.join("archives");
+    python::make_source_archive(&archives)?;
+    let source = one_file(&archives, "gz")?;
     print_size(&source);
     run_example(&source, &work.join("source"))
 }
