@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use cpu_time::ProcessTime;
 use darboux::internal::width_limit::{self, WidthLimit};
-use darboux::{Context, MikktOptions, Mode, TangentOptions, generate_tangents, write_tangents};
+use darboux::{Context, MikkTSpaceOptions, Mode, TangentOptions, generate_tangents, write_tangents};
 use darboux_tests::{FaceSizes, OwnedMesh};
 
 use crate::callbacks::Callbacks;
@@ -110,7 +110,7 @@ fn available_threads() -> usize {
 
 /// Options that give the reference's result, without repairs.
 fn exact() -> TangentOptions {
-    MikktOptions::new().with_mode(Mode::Reference).into()
+    MikkTSpaceOptions::new().with_mode(Mode::Reference).into()
 }
 
 /// Darboux with memory that is reused between calls.

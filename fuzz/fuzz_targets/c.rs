@@ -176,13 +176,13 @@ impl<'a> Caller<'a> {
         if self.dice.one_in(16) { self.count() } else { corners }
     }
 
-    fn options(&mut self, context: *mut darboux_context) -> darboux_tangent_options {
+    fn options(&mut self) -> darboux_tangent_options {
         darboux_tangent_options {
             size: self.size::<darboux_tangent_options>(),
             method: self.code(8),
             mode: self.code(3),
             threshold: if self.dice.one_in(4) { self.dice.any_float() } else { 0.0 },
-            context,
+            reserved: u32::from(self.dice.one_in(16)),
         }
     }
 
@@ -223,24 +223,24 @@ impl<'a> Caller<'a> {
 
 fn tangents(caller: &mut Caller<'_>) {
     let (mesh, corners) = caller.mesh();
-    let options = caller.options(null_mut());
+    let options = caller.options();
     let count = caller.matching(corners);
     let out = caller.out::<f32>(count, 16);
     let mut report = darboux_report { size: caller.size::<darboux_report>(), ..zeroed() };
     // SAFETY: all memory is as large as the arguments describe, or `check` skips the call.
     caller.check(out, || unsafe {
-        darboux_generate_tangents(&mesh, &options, out.data, out.count, out.stride, &mut report)
+        darboux_generate_tangents(&mesh, &options, null(), out.data, out.count, out.stride, &mut report)
     });
 }
 
 fn frames(caller: &mut Caller<'_>) {
     let (mesh, corners) = caller.mesh();
-    let options = caller.options(null_mut());
+    let options = caller.options();
     let count = caller.matching(corners);
     let out = caller.out::<darboux_frame>(count, size_of::<darboux_frame>());
     // SAFETY: as above.
     caller.check(out, || unsafe {
-        darboux_generate_frames(&mesh, &options, out.data, out.count, out.stride, null_mut())
+        darboux_generate_frames(&mesh, &options, null(), out.data, out.count, out.stride, null_mut())
     });
 }
 
@@ -251,7 +251,7 @@ fn splits(caller: &mut Caller<'_>) {
     let mut split = null_mut();
     // SAFETY: as above; the result's arrays have the lengths that it gives, until it is freed.
     caller.check(NOTHING, || unsafe {
-        let status = darboux_split_vertices(&mesh, tangents.data, count, tangents.stride, &mut split);
+        let status = darboux_split_vertices(&mesh, tangents.data, count, tangents.stride, null(), &mut split);
         if let Some(made) = split.as_ref() {
             let sources = std::slice::from_raw_parts(made.source_of_vertex, made.vertex_count);
             assert!(sources.iter().all(|&source| (source as usize) < mesh.vertex_count));
@@ -276,7 +276,7 @@ fn normals(caller: &mut Caller<'_>) {
     let out = caller.out::<f32>(count, 12);
     // SAFETY: as above.
     caller.check(out, || unsafe {
-        darboux_generate_normals(&mesh, &options, out.data, out.count, out.stride, null_mut())
+        darboux_generate_normals(&mesh, &options, null(), out.data, out.count, out.stride, null_mut())
     });
 }
 
@@ -287,7 +287,7 @@ fn normal_splits(caller: &mut Caller<'_>) {
     let mut split = null_mut();
     // SAFETY: as above.
     caller.check(NOTHING, || unsafe {
-        let status = darboux_split_normals(&mesh, normals.data, count, normals.stride, &mut split);
+        let status = darboux_split_normals(&mesh, normals.data, count, normals.stride, null(), &mut split);
         darboux_normal_split_free(split);
         status
     });
@@ -296,18 +296,17 @@ fn normal_splits(caller: &mut Caller<'_>) {
 /// Creates a plan, and evaluates it for the same mesh or for another.
 fn plans(caller: &mut Caller<'_>) {
     let (mesh, corners) = caller.mesh();
-    let options = caller.options(null_mut());
+    let options = caller.options();
     let (moved, moved_corners) = if caller.dice.one_in(4) { caller.mesh() } else { (mesh, corners) };
     let (count, moved_count) = (caller.matching(corners), caller.matching(moved_corners));
     let (base, out) = (caller.out::<f32>(count, 16), caller.out::<f32>(moved_count, 16));
     let (mut plan, mut regrouped) = (null_mut(), 0);
     // SAFETY: as above; the plan is freed last.
     unsafe {
-        caller.check(NOTHING, || darboux_plan_create(&mesh, &options, &mut plan));
+        caller.check(NOTHING, || darboux_plan_create(&mesh, &options, null(), &mut plan));
         caller.check(base, || darboux_plan_base(plan, base.data, base.count, base.stride, null_mut()));
-        let context = null_mut();
-        caller.check(out, || darboux_plan_evaluate(plan, &moved, context, out.data, out.count, out.stride));
-        caller.check(NOTHING, || darboux_plan_count_regrouped(plan, &moved, &mut regrouped));
+        caller.check(out, || darboux_plan_evaluate(plan, &moved, null(), out.data, out.count, out.stride));
+        caller.check(NOTHING, || darboux_plan_count_regrouped(plan, &moved, null(), &mut regrouped));
         darboux_plan_free(plan);
     }
 }
@@ -319,7 +318,7 @@ fn differences(caller: &mut Caller<'_>) {
     let mut difference = darboux_tangent_difference { size, ..zeroed() };
     // SAFETY: as above.
     caller.check(NOTHING, || unsafe {
-        darboux_measure_tangents(a.data, a.stride, b.data, b.stride, count, &mut difference)
+        darboux_measure_tangents(count, a.data, a.stride, b.data, b.stride, null(), &mut difference)
     });
 }
 
@@ -330,7 +329,7 @@ fn fidelities(caller: &mut Caller<'_>) {
     let mut fidelity = darboux_uv_fidelity { size: caller.size::<darboux_uv_fidelity>(), ..zeroed() };
     // SAFETY: as above.
     caller.check(NOTHING, || unsafe {
-        darboux_measure_uv_fidelity(&mesh, tangents.data, count, tangents.stride, &mut fidelity)
+        darboux_measure_uv_fidelity(&mesh, tangents.data, count, tangents.stride, null(), &mut fidelity)
     });
 }
 
@@ -493,12 +492,12 @@ fn contexts(caller: &mut Caller<'_>) {
     caller.check(NOTHING, || unsafe { darboux_context_create(1, &mut context) });
     for _ in 0..3 {
         let (mesh, corners) = caller.mesh();
-        let options = caller.options(context);
+        let options = caller.options();
         let count = caller.matching(corners);
         let out = caller.out::<f32>(count, 16);
         // SAFETY: as above.
         caller.check(out, || unsafe {
-            darboux_generate_tangents(&mesh, &options, out.data, out.count, out.stride, null_mut())
+            darboux_generate_tangents(&mesh, &options, context, out.data, out.count, out.stride, null_mut())
         });
     }
     // SAFETY: the context is from `darboux_context_create`.

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use darboux::internal::stage_arrays;
 use darboux::{
-    CornerTangents, Frame, Frames, MikktOptions, Mode, Plan, TangentOptions, generate_frames,
+    CornerTangents, Frame, Frames, MikkTSpaceOptions, Mode, Plan, TangentOptions, generate_frames,
     generate_tangents, split_vertices,
 };
 
@@ -22,7 +22,7 @@ pub fn all_modes(case: &Case) -> Result<(), String> {
     };
     let splits = distinct(&mut reference.iter().copied().flatten());
     for mode in [Mode::Reference, Mode::Repaired, Mode::Corrected] {
-        let mikkt = MikktOptions::new().with_mode(mode).with_threshold(*threshold);
+        let mikkt = MikkTSpaceOptions::new().with_mode(mode).with_threshold(*threshold);
         let options = TangentOptions::from(mikkt);
         let Frames { corners, report } = generate_frames(&mesh.view(), &options);
         let tangents = generate_tangents(&mesh.view(), &options);
@@ -50,7 +50,7 @@ pub fn all_modes(case: &Case) -> Result<(), String> {
 /// Checks splitting and plans on a case and returns the first violation.
 pub fn split_and_plan(case: &Case) -> Result<(), String> {
     let mesh = case.mesh.view();
-    let options = TangentOptions::from(MikktOptions::new().with_threshold(case.threshold));
+    let options = TangentOptions::from(MikkTSpaceOptions::new().with_threshold(case.threshold));
     let tangents = generate_tangents(&mesh, &options);
     let (split, corners) = (split_vertices(&mesh, &tangents.corners), tangents.corners.per_corner());
     let split = split.map_err(|error| error.to_string())?;

@@ -3,7 +3,7 @@
 use darboux::internal::stage_arrays;
 use darboux::internal::width_limit::{self, WidthLimit};
 use darboux::{
-    Frame, Frames, Mesh, MikktOptions, Mode, TangentOptions, generate_frames, generate_tangents_with,
+    Frame, Frames, Mesh, MikkTSpaceOptions, Mode, TangentOptions, generate_frames, generate_tangents_with,
 };
 use mikktspace_sys::{MikkTSpaceInterface, gen_tang_space};
 
@@ -45,7 +45,7 @@ impl Engine for Reference {
 }
 
 /// The library, through one of its functions that return whole frames.
-pub struct Darboux(&'static str, fn(&Mesh<'_>, &MikktOptions) -> Frames);
+pub struct Darboux(&'static str, fn(&Mesh<'_>, &MikkTSpaceOptions) -> Frames);
 
 /// The public entry point.
 pub const DARBOUX: Darboux = Darboux("darboux", |mesh, options| generate_frames(mesh, &(*options).into()));
@@ -56,7 +56,7 @@ impl Engine for Darboux {
     }
 
     fn run(&self, mesh: &OwnedMesh, threshold: f32, mode: Mode) -> Option<Vec<Option<Frame>>> {
-        let options = MikktOptions::new().with_mode(mode).with_threshold(threshold);
+        let options = MikkTSpaceOptions::new().with_mode(mode).with_threshold(threshold);
         let frames = (self.1)(&mesh.view(), &options).corners.into_per_corner();
         let supported = mesh.supported_corners();
         Some(frames.into_iter().zip(supported).map(|(frame, supported)| supported.then_some(frame)).collect())
@@ -73,7 +73,8 @@ impl Engine for DarbouxTangents {
 
     fn run(&self, mesh: &OwnedMesh, threshold: f32, mode: Mode) -> Option<Vec<Option<Frame>>> {
         let mut frames = DARBOUX.run(mesh, threshold, mode)?;
-        let options = TangentOptions::from(MikktOptions::new().with_mode(mode).with_threshold(threshold));
+        let options =
+            TangentOptions::from(MikkTSpaceOptions::new().with_mode(mode).with_threshold(threshold));
         let context = &mut width_limit::context(self.1);
         let tangents = generate_tangents_with(&mesh.view(), &options, context).ok()?;
         for (frame, [x, y, z, sign]) in frames.iter_mut().zip(tangents.corners.into_per_corner()) {

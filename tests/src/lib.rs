@@ -22,9 +22,9 @@ pub use mesh::{FaceSizes, OwnedMesh};
 
 /// All methods, in the order of their numbers in C.
 pub const METHODS: [darboux::Method; 8] = {
-    use darboux::{Method, MikktOptions};
+    use darboux::{Method, MikkTSpaceOptions};
     [
-        Method::MikkTSpace(MikktOptions::new()),
+        Method::MikkTSpace(MikkTSpaceOptions::new()),
         Method::AngleArea,
         Method::Lengyel,
         Method::LengyelPerVertex,

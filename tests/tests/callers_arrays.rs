@@ -1,13 +1,16 @@
 //! Functions that write into the caller's arrays: the same results as those that allocate, and an error for an array of another length.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
 use darboux::{
-    Context, CornerTangentsRef, Frame, MeshError, Method, MikktOptions, Mode, Plan, TangentOptions,
-    generate_frames, generate_tangents, lend_frames, split_vertices, write_frames, write_tangents,
+    Context, CornerTangentsRef, Error, Frame, Method, MikkTSpaceOptions, Mode, Plan, TangentOptions,
+    generate_compact_frames, generate_frames, generate_tangents, split_vertices, write_frames,
+    write_tangents,
 };
 use darboux_tests::{OwnedMesh, families};
 
 const METHODS: [Method; 4] = [
-    Method::MikkTSpace(MikktOptions::new().with_mode(Mode::Reference)),
+    Method::MikkTSpace(MikkTSpaceOptions::new().with_mode(Mode::Reference)),
     Method::AngleArea,
     Method::Lengyel,
     Method::Face,
@@ -46,7 +49,7 @@ fn have_the_same_frames() {
     let large = families::grid(97, 97, false, true);
     let mut context = Context::new();
     for mesh in meshes().iter().chain([&large, &families::fan(9, false)]) {
-        let sharp = Method::MikkTSpace(MikktOptions::new().with_threshold(60.0));
+        let sharp = Method::MikkTSpace(MikkTSpaceOptions::new().with_threshold(60.0));
         for method in METHODS.into_iter().chain([Method::default(), sharp]) {
             let options = TangentOptions::from(method);
             let (view, count) = (mesh.view(), mesh.corner_count());
@@ -55,22 +58,21 @@ fn have_the_same_frames() {
             let report = write_frames(&view, &options, &mut context, &mut frames).unwrap();
             assert_eq!((report, &frames[..]), (own.report, own.corners.per_corner()), "{method:?}");
 
-            let lent = lend_frames(&view, &options, &mut context).unwrap();
-            assert_eq!((lent.report(), lent.len()), (own.report, count));
-            for (first, size) in [(0, count), (1, 7), (count - 1, 4), (count, 1), (count + 9, 1)] {
-                let (mut part, there) = (vec![Frame::default(); size], size.min(count.saturating_sub(first)));
-                lent.write(first, &mut part);
-                assert_eq!(
-                    part[..there],
-                    own.corners.per_corner()[first.min(count)..][..there],
-                    "{method:?}"
-                );
-                assert!(part[there..].iter().all(|frame| *frame == Frame::default()));
+            let compact = generate_compact_frames(&view, &options, &mut context).unwrap();
+            assert_eq!((compact.report(), compact.len()), (own.report, count));
+            for (first, size) in [(0, count), (1, 2), (count - 1, 1), (count, 0)] {
+                let mut part = vec![Frame::default(); size];
+                compact.read(first, &mut part);
+                assert_eq!(part, own.corners.per_corner()[first..first + size], "{method:?}");
+            }
+            for (first, size) in [(1, count), (count, 1), (usize::MAX, 1)] {
+                let read = || compact.read(first, &mut vec![Frame::default(); size]);
+                assert!(catch_unwind(AssertUnwindSafe(read)).is_err(), "{first} {size}");
             }
             let (mut tangents, mut bitangents) = (vec![[0.0; 4]; count], vec![[0.0; 3]; count]);
             let mut magnitudes = vec![[0.0; 2]; count];
-            lent.write_apart(&mut tangents, &mut bitangents, &mut magnitudes).unwrap();
-            assert!(lent.write_apart(&mut tangents, &mut bitangents[1..], &mut magnitudes).is_err());
+            compact.read_apart(&mut tangents, &mut bitangents, &mut magnitudes).unwrap();
+            assert!(compact.read_apart(&mut tangents, &mut bitangents[1..], &mut magnitudes).is_err());
             let parts = |frame: &Frame| (frame.tangent_and_sign(), frame.bitangent, frame.magnitude);
             let apart = tangents.into_iter().zip(bitangents).zip(magnitudes).map(|((t, b), m)| (t, b, m));
             assert!(apart.eq(frames.iter().map(parts)), "{method:?}");
@@ -88,14 +90,14 @@ fn of_another_length_are_left_alone() {
         write_tangents(&view, &options, &mut context, &mut corners).map(drop),
         Plan::new(&view, &options).write_tangents(&view, &mut context, &mut corners),
     ] {
-        assert!(matches!(result, Err(MeshError::OutputLength { what: "tangents", .. })), "{result:?}");
+        assert!(matches!(result, Err(Error::OutputLength { what: "tangents", .. })), "{result:?}");
     }
     let result = split_vertices(&view, CornerTangentsRef::from_per_corner(&corners));
-    assert!(matches!(result, Err(MeshError::InputLength { what: "tangents", .. })), "{result:?}");
+    assert!(matches!(result, Err(Error::InputLength { what: "tangents", .. })), "{result:?}");
     assert!(corners.iter().all(|corner| *corner == [7.0; 4]));
     let mut frames = vec![Frame::default(); mesh.corner_count() + 1];
     let result = write_frames(&view, &options, &mut context, &mut frames);
     let expected = mesh.corner_count();
-    let error = MeshError::OutputLength { what: "frames", expected, found: expected + 1 };
+    let error = Error::OutputLength { what: "frames", expected, found: expected + 1 };
     assert_eq!(result, Err(error));
 }

@@ -3,15 +3,15 @@
 use std::time::Duration;
 
 use darboux::{
-    Cancel, Context, CornerNormals, Frame, Mesh, MeshError, MikktOptions, NormalOptions, NormalPlan, Plan,
-    Splitter, TangentOptions, generate_frames_with, generate_normals_with, generate_tangents_with,
-    lend_frames, measure_tangents_with, measure_uv_fidelity_with, split_normals_with, split_vertices_with,
-    write_frames, write_tangents,
+    Cancel, Context, CornerNormals, Error, Frame, Mesh, MikkTSpaceOptions, NormalOptions, NormalPlan, Plan,
+    Splitter, TangentOptions, generate_compact_frames, generate_frames_with, generate_normals_with,
+    generate_tangents_with, measure_tangents_with, measure_uv_fidelity_with, split_normals_with,
+    split_vertices_with, write_frames, write_tangents,
 };
 use darboux_tests::{OwnedMesh, families};
 
 fn options(threshold: f32) -> TangentOptions {
-    TangentOptions::from(MikktOptions::new().with_threshold(threshold))
+    TangentOptions::from(MikkTSpaceOptions::new().with_threshold(threshold))
 }
 
 /// Below 180 degrees a fan takes time quadratic in its size: this one would take minutes.
@@ -20,7 +20,7 @@ fn endless() -> OwnedMesh {
 }
 
 /// Starts work and cancels it soon after.
-fn cancelled<R: Send>(work: impl FnOnce(&mut Context) -> Result<R, MeshError> + Send) -> Option<MeshError> {
+fn cancelled<R: Send>(work: impl FnOnce(&mut Context) -> Result<R, Error> + Send) -> Option<Error> {
     let cancel = Cancel::new();
     let mut context = Context::new().with_cancel(&cancel);
     std::thread::scope(|scope| {
@@ -37,7 +37,7 @@ fn ends_long_runs_of_every_kind() {
     let view = &mesh.view();
     let mut tangents = vec![[0.0; 4]; mesh.corner_count()];
     let mut frames = vec![Frame::default(); mesh.corner_count()];
-    let expected = Some(MeshError::Cancelled);
+    let expected = Some(Error::Cancelled);
     assert_eq!(cancelled(|context| write_tangents(view, options, context, &mut tangents)), expected);
     assert_eq!(cancelled(|context| write_frames(view, options, context, &mut frames)), expected);
     assert_eq!(cancelled(|context| generate_tangents_with(view, options, context)), expected);
@@ -51,7 +51,7 @@ fn ends_work_that_moves_to_a_pool() {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("a thread pool");
     let (mesh, options) = (&endless(), &options(90.0));
     let run = |context: &mut Context| pool.install(|| generate_tangents_with(&mesh.view(), options, context));
-    assert_eq!(cancelled(run), Some(MeshError::Cancelled));
+    assert_eq!(cancelled(run), Some(Error::Cancelled));
 }
 
 /// The result of every function that takes a context.
@@ -60,13 +60,13 @@ fn results(
     mesh: &Mesh<'_>,
     plan: &Plan,
     normals: &NormalPlan,
-) -> Vec<Result<(), MeshError>> {
+) -> Vec<Result<(), Error>> {
     let (options, mut results) = (&options(180.0), Vec::new());
     let tangents = plan.base().corners.per_corner();
     let (mut corners, mut frames) = (tangents.to_vec(), vec![Frame::default(); mesh.corner_count()]);
     results.push(write_tangents(mesh, options, context, &mut corners).map(drop));
     results.push(write_frames(mesh, options, context, &mut frames).map(drop));
-    results.push(lend_frames(mesh, options, context).map(drop));
+    results.push(generate_compact_frames(mesh, options, context).map(drop));
     results.push(generate_tangents_with(mesh, options, context).map(drop));
     results.push(generate_frames_with(mesh, options, context).map(drop));
     results.push(Plan::new_with(mesh, options, context).map(drop));
@@ -104,7 +104,7 @@ fn every_function_returns_that_it_was_cancelled() {
             assert!(results(&mut context, &mesh, &plan, &normals).iter().all(Result::is_ok));
             cancel.cancel();
             let after = results(&mut context, &mesh, &plan, &normals);
-            assert!(after.iter().all(|result| *result == Err(MeshError::Cancelled)), "{after:?}");
+            assert!(after.iter().all(|result| *result == Err(Error::Cancelled)), "{after:?}");
             assert_eq!(after.len(), 17);
             // Other contexts are not concerned, and this one is usable again without the token.
             assert!(results(&mut Context::new(), &mesh, &plan, &normals).iter().all(Result::is_ok));

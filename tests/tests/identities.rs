@@ -1,6 +1,6 @@
 //! A mesh in another layout, rotated or mirrored: its tangents must be transformed alike.
 
-use darboux::{Faces, Frame, Mesh, MikktOptions, Mode, Strided, TangentOptions, generate_frames};
+use darboux::{Faces, Frame, Mesh, MikkTSpaceOptions, Mode, Strided, TangentOptions, generate_frames};
 use darboux_tests::{Case, OwnedMesh, families};
 
 fn bits(frames: &[Frame]) -> Vec<[u32; 9]> {
@@ -10,7 +10,7 @@ fn bits(frames: &[Frame]) -> Vec<[u32; 9]> {
 fn frames(mesh: &Mesh<'_>, threshold: f32) -> Vec<Frame> {
     generate_frames(
         mesh,
-        &TangentOptions::from(MikktOptions::new().with_mode(Mode::Repaired).with_threshold(threshold)),
+        &TangentOptions::from(MikkTSpaceOptions::new().with_mode(Mode::Repaired).with_threshold(threshold)),
     )
     .corners
     .into_per_corner()
@@ -62,8 +62,9 @@ fn the_layout_of_the_input_does_not_matter() {
 fn indices_do_not_matter() {
     for seed in 0..3_000 {
         let Case { mesh, threshold } = Case::from_seed(seed);
-        let options =
-            TangentOptions::from(MikktOptions::new().with_mode(Mode::Reference).with_threshold(threshold));
+        let options = TangentOptions::from(
+            MikkTSpaceOptions::new().with_mode(Mode::Reference).with_threshold(threshold),
+        );
         let [indexed, unindexed] = [&mesh, &mesh.unindexed()]
             .map(|mesh| bits(&generate_frames(&mesh.view(), &options).corners.into_per_corner()));
         assert_eq!(indexed, unindexed, "seed {seed}");

@@ -1,7 +1,7 @@
 //! Measures of tangents, compared with known values.
 
 use darboux::{
-    CornerDifference, HISTOGRAM_ENDS, Method, TangentOptions, generate_tangents, measure_tangents,
+    CornerDifference, Method, TangentDifference, TangentOptions, generate_tangents, measure_tangents,
     measure_uv_fidelity,
 };
 use darboux_tests::{OwnedMesh, families};
@@ -62,7 +62,7 @@ fn what_has_no_angle_is_known_where_it_is_the_same() {
 
 #[test]
 fn every_angle_has_a_bin() {
-    for (bin, end) in HISTOGRAM_ENDS.iter().enumerate().skip(2) {
+    for (bin, end) in TangentDifference::HISTOGRAM_BIN_ENDS.iter().enumerate().skip(2) {
         let found = measure_tangents(&[turned(0.0, 1.0)], &[turned(0.99 * end, 1.0)]).expect("as many");
         assert_eq!(found.histogram[bin], 1, "{end}: {found:?}");
     }
@@ -86,7 +86,7 @@ fn fidelity(mesh: &OwnedMesh, method: Method) -> darboux::UvFidelity {
 fn the_face_s_own_tangents_follow_the_uvs_exactly() {
     for mesh in [families::grid(9, 7, false, true), families::sphere(8, 13, false), families::cube(true)] {
         let found = fidelity(&mesh, Method::Face);
-        assert!(found.root_mean_square < 1e-4 && found.left_out == 0, "{found:?}");
+        assert!(found.root_mean_square < 1e-4 && found.unmeasured_triangles == 0, "{found:?}");
     }
 }
 

@@ -1,8 +1,8 @@
 //! Normals compared with the oracle, on shapes with known normals, and on degenerate input.
 
 use darboux::{
-    CornerNormalsRef, Faces, Indices, Mesh, MeshError, NormalOptions, NormalPlan, NormalWeight, Normals,
-    Shading, SmoothingSeams, generate_normals, split_normals,
+    CornerNormalsRef, Error, Faces, Indices, Mesh, NormalOptions, NormalPlan, NormalWeight, Normals, Shading,
+    SmoothingSeams, generate_normals, split_normals,
 };
 use darboux_tests::{Case, FaceSizes, OwnedMesh, families, oracle};
 
@@ -148,9 +148,9 @@ fn wrong_structure_is_an_error() {
     };
     assert_eq!(
         run(&[0, 1, 3], Faces::Triangles),
-        Err(MeshError::IndexOutOfRange { at: 2, index: 3, vertices: 3 })
+        Err(Error::IndexOutOfRange { at: 2, index: 3, vertices: 3 })
     );
-    assert_eq!(run(&[0, 1], Faces::Triangles), Err(MeshError::PartialFace { corners: 2, size: 3 }));
+    assert_eq!(run(&[0, 1], Faces::Triangles), Err(Error::PartialFace { corners: 2, size: 3 }));
     let empty_faces = run(&[0, 1, 2], Faces::Mixed(&[0, 0, 3, 0])).expect("faces may be empty");
     assert_eq!((empty_faces.faces, empty_faces.degenerate_faces, empty_faces.repaired_corners), (4, 4, 3));
     split_normals(3, &[0u32, 1, 2], CornerNormalsRef::from_per_corner(&[[0.0; 3]; 2]))
@@ -224,5 +224,5 @@ fn plans_refuse_other_meshes() {
     let mesh = families::cube(false);
     let refused = plan(&mesh, &NormalOptions::default()).evaluate(&mesh.positions[1..]).err();
     let (expected, found) = (mesh.positions.len(), mesh.positions.len() - 1);
-    assert_eq!(refused, Some(MeshError::OtherMesh { what: "vertices", expected, found }));
+    assert_eq!(refused, Some(Error::OtherMesh { what: "vertices", expected, found }));
 }

@@ -1,6 +1,6 @@
 //! MikkTSpace compared with the oracle in double precision, on meshes where no decision depends on the last bits.
 
-use darboux::{Frame, MikktOptions, Mode, TangentOptions, generate_frames};
+use darboux::{Frame, MikkTSpaceOptions, Mode, TangentOptions, generate_frames};
 use darboux_tests::{OwnedMesh, families, oracle};
 
 /// Rounding to f32 errs by 6e-8; a derivative is some ten roundings from its input, a sum over at most 16 members some 30 more, and
@@ -10,7 +10,7 @@ const TOLERANCE: f32 = 2.4e-5;
 fn assert_near(what: &str, mesh: &OwnedMesh, threshold: f32) {
     // The brute force matches every edge, as `Corrected` does; nothing here needs a repair.
     let options =
-        TangentOptions::from(MikktOptions::new().with_mode(Mode::Corrected).with_threshold(threshold));
+        TangentOptions::from(MikkTSpaceOptions::new().with_mode(Mode::Corrected).with_threshold(threshold));
     let found = generate_frames(&mesh.view(), &options).corners.into_per_corner();
     let expected = oracle::mikktspace(&mesh.view(), threshold);
     for (corner, (found, expected)) in found.iter().zip(&expected).enumerate() {

@@ -2,7 +2,7 @@
 //!
 //! Their times are measured by `cargo xtask bench --meshes fan,polar-fan,lone-degenerates,one-position`.
 
-use darboux::{MikktOptions, Mode, TangentOptions, generate_frames};
+use darboux::{MikkTSpaceOptions, Mode, TangentOptions, generate_frames};
 use darboux_tests::{OwnedMesh, assert_equal, engine, families};
 
 fn lone_degenerates(cells: usize, count: usize) -> OwnedMesh {
@@ -45,7 +45,7 @@ fn turning_fan(count: usize) -> OwnedMesh {
 
 fn assert_exact(what: &str, mesh: &OwnedMesh) {
     let expected = engine::reference(mesh, 180.0);
-    let options = TangentOptions::from(MikktOptions::new().with_mode(Mode::Reference));
+    let options = TangentOptions::from(MikkTSpaceOptions::new().with_mode(Mode::Reference));
     let found = generate_frames(&mesh.view(), &options).corners.into_per_corner();
     let found: Vec<_> = found.into_iter().map(Some).collect();
     assert_equal(what, mesh, 180.0, &expected, &found);

@@ -1,6 +1,6 @@
 //! Plans on deformed meshes.
 
-use darboux::{Context, Method, MikktOptions, Mode, Plan, TangentOptions, generate_tangents};
+use darboux::{Context, Method, MikkTSpaceOptions, Mode, Plan, TangentOptions, generate_tangents};
 use darboux_tests::{Case, FaceSizes, OwnedMesh, families};
 
 /// The tangents of `moved` by a plan of `base`, as bits.
@@ -36,7 +36,8 @@ fn every_stage_agrees_with_the_short_way() {
         let Case { mesh, threshold } = Case::from_seed(seed);
         if mesh.corner_count() > 0 && mesh.face_sizes().into_iter().all(is_supported) {
             let mode = [Mode::Reference, Mode::Repaired, Mode::Corrected][seed as usize % 3];
-            let options = TangentOptions::from(MikktOptions::new().with_mode(mode).with_threshold(threshold));
+            let options =
+                TangentOptions::from(MikkTSpaceOptions::new().with_mode(mode).with_threshold(threshold));
             let moved = mesh.moved(seed as usize);
             let short = planned(&mesh, &moved, &options);
             let mut long = planned(&with_pentagon(&mesh), &with_pentagon(&moved), &options);

@@ -2,7 +2,7 @@
 //!
 //! Run this on another processor to check it. A change that is meant to change tangents must record new hashes.
 
-use darboux::{Frame, Method, MikktOptions, Mode, generate_frames, generate_tangents};
+use darboux::{Frame, Method, MikkTSpaceOptions, Mode, generate_frames, generate_tangents};
 use darboux_tests::{Case, METHODS, OwnedMesh, compare};
 
 /// FNV-1a of 64 bits, word by word.
@@ -50,7 +50,7 @@ fn frames_of_mikktspace_are_the_same() {
     let meshes = meshes();
     let found = [Mode::Reference, Mode::Repaired, Mode::Corrected].map(|mode| {
         hash(&meshes, |mesh, threshold, hash| {
-            let options = MikktOptions::new().with_mode(mode).with_threshold(threshold);
+            let options = MikkTSpaceOptions::new().with_mode(mode).with_threshold(threshold);
             let frames = generate_frames(&mesh.view(), &options.into());
             frames.corners.per_corner().iter().for_each(|frame| hash.take_frame(frame));
         })

@@ -3,13 +3,15 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use darboux::{Method, MikktOptions, TangentOptions, UvFidelity, generate_tangents, measure_uv_fidelity};
+use darboux::{
+    Method, MikkTSpaceOptions, TangentOptions, UvFidelity, generate_tangents, measure_uv_fidelity,
+};
 use darboux_tests::OwnedMesh;
 use darboux_tests::models::{meshes, models};
 
 const METHODS: [Method; 8] = [
     Method::AngleArea,
-    Method::MikkTSpace(MikktOptions::new()),
+    Method::MikkTSpace(MikkTSpaceOptions::new()),
     Method::Lengyel,
     Method::LengyelPerVertex,
     Method::Average,

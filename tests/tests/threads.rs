@@ -4,7 +4,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use darboux::internal::width_limit::{self, WidthLimit};
 use darboux::{
-    Context, Faces, Indices, Mesh, Method, MikktOptions, Mode, Plan, TangentOptions, generate_frames,
+    Context, Faces, Indices, Mesh, Method, MikkTSpaceOptions, Mode, Plan, TangentOptions, generate_frames,
     generate_tangents, generate_tangents_with,
 };
 
@@ -27,9 +27,9 @@ fn grid(columns: u32, rows: u32) -> (Vec<[f32; 8]>, Vec<[u32; 3]>) {
 
 /// The modes of the fast path.
 const MIKKTSPACE: [Method; 3] = [
-    Method::MikkTSpace(MikktOptions::new().with_mode(Mode::Reference)),
-    Method::MikkTSpace(MikktOptions::new().with_mode(Mode::Repaired)),
-    Method::MikkTSpace(MikktOptions::new().with_mode(Mode::Corrected)),
+    Method::MikkTSpace(MikkTSpaceOptions::new().with_mode(Mode::Reference)),
+    Method::MikkTSpace(MikkTSpaceOptions::new().with_mode(Mode::Repaired)),
+    Method::MikkTSpace(MikkTSpaceOptions::new().with_mode(Mode::Corrected)),
 ];
 
 /// The summing methods, which also run on several threads.
@@ -74,7 +74,7 @@ fn hash_with(mut context: Context, shape: &Shape<'_>, runs: &[Method]) -> u64 {
             corners.iter().for_each(|tangent| tangent.map(f32::to_bits).hash(&mut hasher));
             format!("{:?}", tangents.report).hash(&mut hasher);
             if options == TangentOptions::default() {
-                let split = MikktOptions::new().with_threshold(20.0).into();
+                let split = MikkTSpaceOptions::new().with_threshold(20.0).into();
                 let of_split = generate_tangents(mesh, &split).corners;
                 for (options, corners) in [(options, corners), (split, of_split.per_corner())] {
                     let planned = Plan::new(mesh, &options).evaluate(mesh).expect("the same mesh");

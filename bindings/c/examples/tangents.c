@@ -12,7 +12,7 @@ int main(void) {
   const darboux_mesh mesh = {.vertex_count = 6, .positions = positions[0], .normals = normals[0], .uvs = uvs[0],
                              .indices_u32 = quads, .index_count = 8, .faces = DARBOUX_FACES_QUADS};
   float tangents[8][4];
-  if (darboux_generate_tangents(&mesh, NULL, tangents[0], 8, 0, NULL) != DARBOUX_STATUS_OK) return 1;
+  if (darboux_generate_tangents(&mesh, NULL, NULL, tangents[0], 8, 0, NULL) != DARBOUX_STATUS_OK) return 1;
   for (int corner = 0; corner < 8; corner++) {
     const float *t = tangents[corner];
     printf("vertex %u: %g %g %g %g\n", (unsigned)quads[corner], t[0], t[1], t[2], t[3]);

@@ -39,10 +39,10 @@ int main(void) {
       .index_count = 12,
   };
   float tangents[12][4];
-  check(darboux_generate_tangents(&mesh, NULL, tangents[0], 12, 0, NULL));
+  check(darboux_generate_tangents(&mesh, NULL, NULL, tangents[0], 12, 0, NULL));
 
   darboux_vertex_split *split = NULL;
-  check(darboux_split_vertices(&mesh, tangents[0], 12, 0, &split));
+  check(darboux_split_vertices(&mesh, tangents[0], 12, 0, NULL, &split));
   printf("6 vertices became %u\n", (unsigned)split->vertex_count);
   for (size_t v = 0; v < split->vertex_count; v++) {
     Vertex vertex = vertices[split->source_of_vertex[v]];

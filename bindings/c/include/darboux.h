@@ -443,8 +443,8 @@ typedef struct darboux_tangent_options {
   /// differ by less. 0 stands for 180, which is what bakers use; for a threshold of zero, pass 0.001, which gives the same bits. Must be
   /// 0 for all other methods.
   float threshold;
-  /// Reused memory, threads and a cancellation flag. NULL: the call runs on the calling thread, and allocates its own memory.
-  struct darboux_context *context;
+  /// Must be 0. It is space for an option of a later version.
+  uint32_t reserved;
 } darboux_tangent_options;
 
 /// The counts of a run. Quads count as two triangles.
@@ -586,7 +586,7 @@ typedef struct darboux_uv_fidelity {
   /// The area of the triangles that were measured.
   double area;
   /// The number of triangles that were not measured, because they have no area or no dP/du.
-  size_t left_out;
+  size_t unmeasured_triangles;
 } darboux_uv_fidelity;
 
 /// The convention of a mesh and of its normal map. NULL or all zeros: glTF.
@@ -702,12 +702,13 @@ void darboux_context_free(struct darboux_context *context);
 ///
 /// These are not vertex tangents: corners of one vertex can have different tangents, so do not write them through the mesh's index list.
 /// darboux_split_vertices computes vertices and new indices. In an unindexed mesh, corner i is vertex i, so the tangents can be written
-/// into the vertices. `mesh`: normals and UVs are required. `options`: NULL for the defaults. `tangents`: receives C by 4 floats, unit xyz
-/// and the sign w, where bitangent = w * cross(normal, xyz). It must not overlap the mesh's elements, but may lie between them.
-/// `tangent_count`: C. `tangent_stride`: bytes from one tangent to the next; 0 for packed. `report`: receives the counts; may be NULL.
+/// into the vertices. `mesh`: normals and UVs are required. `options`: NULL for the defaults. `context`: reused memory, threads and a
+/// cancellation flag; NULL for the calling thread alone, with memory of its own. `tangents`: receives C by 4 floats, unit xyz and the sign
+/// w, where bitangent = w * cross(normal, xyz). It must not overlap the mesh's elements, but may lie between them. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the next; 0 for packed. `report`: receives the counts; may be NULL.
 /// Errors: those of the mesh; another count than C; see darboux_status.
 darboux_status darboux_generate_tangents(const struct darboux_mesh *mesh,
                                          const struct darboux_tangent_options *options,
+                                         const struct darboux_context *context,
                                          float *tangents,
                                          size_t tangent_count,
                                          size_t tangent_stride,
@@ -716,9 +717,10 @@ darboux_status darboux_generate_tangents(const struct darboux_mesh *mesh,
 /// Computes the whole frame of every corner: tangent, bitangent, magnitudes and sign. Slower than darboux_generate_tangents.
 ///
 /// `frames`: receives C frames. `frame_count`: C. `frame_stride`: bytes from one frame to the next; 0 for packed. `mesh`, `options`,
-/// `report` and errors: as for darboux_generate_tangents.
+/// `context`, `report` and errors: as for darboux_generate_tangents.
 darboux_status darboux_generate_frames(const struct darboux_mesh *mesh,
                                        const struct darboux_tangent_options *options,
+                                       const struct darboux_context *context,
                                        struct darboux_frame *frames,
                                        size_t frame_count,
                                        size_t frame_stride,
@@ -728,12 +730,13 @@ darboux_status darboux_generate_frames(const struct darboux_mesh *mesh,
 ///
 /// Each distinct pair of old vertex and tangent (four floats, compared as bits) becomes one vertex. `mesh`: the mesh of the tangents.
 /// `tangents`: C by 4 floats, as darboux_generate_tangents writes them. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the
-/// next; 0 for packed. `split`: receives the result; free it with darboux_vertex_split_free. Errors: those of the mesh; another number of
-/// tangents than corners.
+/// next; 0 for packed. `context`: a cancellation flag; may be NULL. `split`: receives the result; free it with darboux_vertex_split_free.
+/// Errors: those of the mesh; another number of tangents than corners.
 darboux_status darboux_split_vertices(const struct darboux_mesh *mesh,
                                       const float *tangents,
                                       size_t tangent_count,
                                       size_t tangent_stride,
+                                      const struct darboux_context *context,
                                       struct darboux_vertex_split **split);
 
 /// Frees a split. `split`: from darboux_split_vertices; may be NULL.
@@ -743,12 +746,13 @@ void darboux_vertex_split_free(struct darboux_vertex_split *split);
 ///
 /// Each distinct pair of old vertex and normal (three floats, compared as bits) becomes one vertex. `mesh`: as for
 /// darboux_generate_normals. `normals`: C by 3 floats, as darboux_generate_normals writes them. `normal_count`: C. `normal_stride`: bytes
-/// from one normal to the next; 0 for packed. `split`: receives the result; free it with darboux_normal_split_free. Errors: those of the
-/// mesh; another number of normals than corners.
+/// from one normal to the next; 0 for packed. `context`: a cancellation flag; may be NULL. `split`: receives the result; free it with
+/// darboux_normal_split_free. Errors: those of the mesh; another number of normals than corners.
 darboux_status darboux_split_normals(const struct darboux_mesh *mesh,
                                      const float *normals,
                                      size_t normal_count,
                                      size_t normal_stride,
+                                     const struct darboux_context *context,
                                      struct darboux_normal_split **split);
 
 /// Frees a split. `split`: from darboux_split_normals; may be NULL.
@@ -756,10 +760,11 @@ void darboux_normal_split_free(struct darboux_normal_split *split);
 
 /// Computes the tangents of a mesh and a plan for its deformed copies.
 ///
-/// `mesh`, `options`: as for darboux_generate_tangents, but the memory of a context is not used. `plan`: receives the plan; free it with
-/// darboux_plan_free. Errors: those of darboux_generate_tangents.
+/// `mesh`, `options`: as for darboux_generate_tangents. `context`: threads and a cancellation flag; NULL for the calling thread alone.
+/// `plan`: receives the plan; free it with darboux_plan_free. Errors: those of darboux_generate_tangents.
 darboux_status darboux_plan_create(const struct darboux_mesh *mesh,
                                    const struct darboux_tangent_options *options,
+                                   const struct darboux_context *context,
                                    struct darboux_plan **plan);
 
 /// Frees a plan. `plan`: from darboux_plan_create; may be NULL.
@@ -789,18 +794,21 @@ darboux_status darboux_plan_evaluate(const struct darboux_plan *plan,
 
 /// Counts the corners whose tangents from darboux_plan_evaluate and from darboux_generate_tangents on the deformed mesh differ in bits.
 ///
-/// `mesh`: as for darboux_plan_evaluate. `count`: receives the number of corners. Errors: those of darboux_plan_evaluate.
+/// `mesh`, `context`: as for darboux_plan_evaluate. `count`: receives the number of corners. Errors: those of darboux_plan_evaluate.
 darboux_status darboux_plan_count_regrouped(const struct darboux_plan *plan,
                                             const struct darboux_mesh *mesh,
+                                            const struct darboux_context *context,
                                             size_t *count);
 
 /// Computes a unit normal for every corner. darboux_split_normals computes vertices from them.
 ///
 /// `mesh`: positions, indices and faces of 3 or more corners, which wind counter-clockwise seen from the side that their normal points to.
-/// `options`: NULL for the defaults. `normals`: receives C by 3 floats. `normal_count`: C. `normal_stride`: bytes from one normal to the
-/// next; 0 for packed. `report`: receives the counts; may be NULL. Errors: those of the mesh; another count than C; see darboux_status.
+/// `options`: NULL for the defaults. `context`: a cancellation flag; may be NULL. `normals`: receives C by 3 floats. `normal_count`: C.
+/// `normal_stride`: bytes from one normal to the next; 0 for packed. `report`: receives the counts; may be NULL. Errors: those of the mesh;
+/// another count than C; see darboux_status.
 darboux_status darboux_generate_normals(const struct darboux_mesh *mesh,
                                         const struct darboux_normal_options *options,
+                                        const struct darboux_context *context,
                                         float *normals,
                                         size_t normal_count,
                                         size_t normal_stride,
@@ -808,24 +816,27 @@ darboux_status darboux_generate_normals(const struct darboux_mesh *mesh,
 
 /// Compares two sets of tangents, corner by corner.
 ///
-/// `a`, `b`: `count` by 4 floats, of the corners of one mesh in the same order. `a_stride`, `b_stride`: bytes from one tangent to the next;
-/// 0 for packed. `count`: the number of corners. `difference`: receives the result. Errors: a null pointer, a stride smaller than an
-/// element.
-darboux_status darboux_measure_tangents(const float *a,
+/// `count`: the number of corners. `a`, `b`: `count` by 4 floats, of the corners of one mesh in the same order. `a_stride`, `b_stride`: bytes
+/// from one tangent to the next; 0 for packed. `context`: a cancellation flag; may be NULL. `difference`: receives the result. Errors: a
+/// null pointer, a stride smaller than an element.
+darboux_status darboux_measure_tangents(size_t count,
+                                        const float *a,
                                         size_t a_stride,
                                         const float *b,
                                         size_t b_stride,
-                                        size_t count,
+                                        const struct darboux_context *context,
                                         struct darboux_tangent_difference *difference);
 
 /// Measures tangents against the derivatives of the UV map, over the surface.
 ///
 /// `mesh`: the mesh of the tangents. `tangents`: C by 4 floats. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the next; 0
-/// for packed. `fidelity`: receives the result. Errors: those of the mesh; another number of tangents than corners.
+/// for packed. `context`: a cancellation flag; may be NULL. `fidelity`: receives the result. Errors: those of the mesh; another number of
+/// tangents than corners.
 darboux_status darboux_measure_uv_fidelity(const struct darboux_mesh *mesh,
                                            const float *tangents,
                                            size_t tangent_count,
                                            size_t tangent_stride,
+                                           const struct darboux_context *context,
                                            struct darboux_uv_fidelity *fidelity);
 
 /// Encodes tangents in a compressed format.

@@ -2,6 +2,7 @@
 //
 // MIT or Apache-2.0, as you choose. Functions have the names of darboux.h, where they are documented; comments here give the differences.
 // Encodings and skins have no wrapper: call the functions of darboux.h.
+// Output arrays come before options and contexts, because these have defaults.
 // Every function can throw darboux::error; functions that return a vector can throw std::bad_alloc.
 
 #ifndef DARBOUX_HPP
@@ -221,7 +222,7 @@ template <class T, auto Free>
 using owner = std::unique_ptr<T, deleter<Free>>;
 }  // namespace detail
 
-/// Reused memory, threads for large meshes, and a cancellation flag: options.context = context.get().
+/// Reused memory, threads for large meshes, and a cancellation flag. Functions take a pointer to it, which may be null.
 class context {
  public:
   explicit context(std::size_t threads = 1) {
@@ -239,33 +240,41 @@ class context {
   detail::owner<darboux_context, darboux_context_free> held_;
 };
 
+namespace detail {
+inline darboux_context *get(const context *context) noexcept { return context == nullptr ? nullptr : context->get(); }
+}  // namespace detail
+
 /// Computes one tangent per corner and writes it to the caller's array. `out`: as many elements as the mesh has corners.
 inline darboux_report generate_tangents(const mesh &mesh, strided<float, 4> out,
-                                        const darboux_tangent_options &options = {}) {
+                                        const darboux_tangent_options &options = {}, const context *context = nullptr) {
   const darboux_mesh view = mesh.view();
   auto report = detail::sized<darboux_report>();
-  check(darboux_generate_tangents(&view, &options, out.data(), out.size(), out.stride(), &report));
+  check(darboux_generate_tangents(&view, &options, detail::get(context), out.data(), out.size(), out.stride(),
+                                  &report));
   return report;
 }
 
-inline tangents generate_tangents(const mesh &mesh, const darboux_tangent_options &options = {}) {
+inline tangents generate_tangents(const mesh &mesh, const darboux_tangent_options &options = {},
+                                  const context *context = nullptr) {
   tangents made = {std::vector<tangent>(mesh.corner_count()), {}};
-  made.report = generate_tangents(mesh, strided<float, 4>(made.corners), options);
+  made.report = generate_tangents(mesh, strided<float, 4>(made.corners), options, context);
   return made;
 }
 
-inline frames generate_frames(const mesh &mesh, const darboux_tangent_options &options = {}) {
+inline frames generate_frames(const mesh &mesh, const darboux_tangent_options &options = {}, const context *context = nullptr) {
   const darboux_mesh view = mesh.view();
   frames made = {std::vector<darboux_frame>(mesh.corner_count()), detail::sized<darboux_report>()};
-  check(darboux_generate_frames(&view, &options, made.corners.data(), made.corners.size(), 0, &made.report));
+  check(darboux_generate_frames(&view, &options, detail::get(context), made.corners.data(), made.corners.size(), 0,
+                                &made.report));
   return made;
 }
 
-inline normals generate_normals(const mesh &mesh, const darboux_normal_options &options = {}) {
+inline normals generate_normals(const mesh &mesh, const darboux_normal_options &options = {},
+                                const context *context = nullptr) {
   const darboux_mesh view = mesh.view();
   normals made = {std::vector<normal>(mesh.corner_count()), detail::sized<darboux_normal_report>()};
   float *out = made.corners.empty() ? nullptr : made.corners.front().data();
-  check(darboux_generate_normals(&view, &options, out, made.corners.size(), 0, &made.report));
+  check(darboux_generate_normals(&view, &options, detail::get(context), out, made.corners.size(), 0, &made.report));
   return made;
 }
 
@@ -284,10 +293,10 @@ class vertex_split {
   detail::owner<darboux_vertex_split, darboux_vertex_split_free> held_;
 };
 
-inline vertex_split split_vertices(const mesh &mesh, floats<4> tangents) {
+inline vertex_split split_vertices(const mesh &mesh, floats<4> tangents, const context *context = nullptr) {
   const darboux_mesh view = mesh.view();
   darboux_vertex_split *made = nullptr;
-  check(darboux_split_vertices(&view, tangents.data(), tangents.size(), tangents.stride(), &made));
+  check(darboux_split_vertices(&view, tangents.data(), tangents.size(), tangents.stride(), detail::get(context), &made));
   return vertex_split(made);
 }
 
@@ -306,20 +315,20 @@ class normal_split {
   detail::owner<darboux_normal_split, darboux_normal_split_free> held_;
 };
 
-inline normal_split split_normals(const mesh &mesh, floats<3> normals) {
+inline normal_split split_normals(const mesh &mesh, floats<3> normals, const context *context = nullptr) {
   const darboux_mesh view = mesh.view();
   darboux_normal_split *made = nullptr;
-  check(darboux_split_normals(&view, normals.data(), normals.size(), normals.stride(), &made));
+  check(darboux_split_normals(&view, normals.data(), normals.size(), normals.stride(), detail::get(context), &made));
   return normal_split(made);
 }
 
 /// A plan (darboux_plan): the topology of a mesh, for computing the tangents of its deformed copies.
 class plan {
  public:
-  explicit plan(const mesh &mesh, const darboux_tangent_options &options = {}) {
+  explicit plan(const mesh &mesh, const darboux_tangent_options &options = {}, const context *context = nullptr) {
     const darboux_mesh view = mesh.view();
     darboux_plan *made = nullptr;
-    check(darboux_plan_create(&view, &options, &made));
+    check(darboux_plan_create(&view, &options, detail::get(context), &made));
     held_.reset(made);
   }
 
@@ -330,23 +339,22 @@ class plan {
     return report;
   }
 
-  /// Computes the tangents of a deformed mesh. `out`: one tangent per corner. `context`: may be null.
+  /// Computes the tangents of a deformed mesh. `out`: one tangent per corner.
   void evaluate(const mesh &moved, strided<float, 4> out, const context *context = nullptr) const {
     const darboux_mesh view = moved.view();
-    darboux_context *kept = context == nullptr ? nullptr : context->get();
-    check(darboux_plan_evaluate(held_.get(), &view, kept, out.data(), out.size(), out.stride()));
+    check(darboux_plan_evaluate(held_.get(), &view, detail::get(context), out.data(), out.size(), out.stride()));
   }
 
-  std::vector<tangent> evaluate(const mesh &moved) const {
+  std::vector<tangent> evaluate(const mesh &moved, const context *context = nullptr) const {
     std::vector<tangent> made(moved.corner_count());
-    evaluate(moved, made);
+    evaluate(moved, made, context);
     return made;
   }
 
-  std::size_t count_regrouped(const mesh &moved) const {
+  std::size_t count_regrouped(const mesh &moved, const context *context = nullptr) const {
     const darboux_mesh view = moved.view();
     std::size_t count = 0;
-    check(darboux_plan_count_regrouped(held_.get(), &view, &count));
+    check(darboux_plan_count_regrouped(held_.get(), &view, detail::get(context), &count));
     return count;
   }
 
@@ -354,17 +362,18 @@ class plan {
   detail::owner<darboux_plan, darboux_plan_free> held_;
 };
 
-inline darboux_tangent_difference measure_tangents(floats<4> a, floats<4> b) {
+inline darboux_tangent_difference measure_tangents(floats<4> a, floats<4> b, const context *context = nullptr) {
   if (a.size() != b.size()) throw error(DARBOUX_STATUS_LENGTH, "both must have as many tangents");
   auto difference = detail::sized<darboux_tangent_difference>();
-  check(darboux_measure_tangents(a.data(), a.stride(), b.data(), b.stride(), a.size(), &difference));
+  check(darboux_measure_tangents(a.size(), a.data(), a.stride(), b.data(), b.stride(), detail::get(context), &difference));
   return difference;
 }
 
-inline darboux_uv_fidelity measure_uv_fidelity(const mesh &mesh, floats<4> tangents) {
+inline darboux_uv_fidelity measure_uv_fidelity(const mesh &mesh, floats<4> tangents, const context *context = nullptr) {
   const darboux_mesh view = mesh.view();
   auto fidelity = detail::sized<darboux_uv_fidelity>();
-  check(darboux_measure_uv_fidelity(&view, tangents.data(), tangents.size(), tangents.stride(), &fidelity));
+  check(darboux_measure_uv_fidelity(&view, tangents.data(), tangents.size(), tangents.stride(), detail::get(context),
+                                    &fidelity));
   return fidelity;
 }
 

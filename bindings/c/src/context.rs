@@ -6,7 +6,7 @@
 use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, JoinHandle, available_parallelism};
 
-use darboux::{Cancel, Context, MeshError};
+use darboux::{Cancel, Context};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::pointers::{self, Output, held};
@@ -110,7 +110,7 @@ pub(crate) fn run<R: Send>(
 pub(crate) fn fill<R: Send>(
     context: Option<&darboux_context>,
     out: Output<[f32; 4]>,
-    work: impl FnOnce(&mut Context, &mut [[f32; 4]]) -> Result<R, MeshError> + Send,
+    work: impl FnOnce(&mut Context, &mut [[f32; 4]]) -> Result<R, darboux::Error> + Send,
 ) -> Result<R, Error> {
     let corners = out.len();
     let filled = run(context, corners, |Memory { context, tangents }| {

@@ -2,8 +2,9 @@
 
 use std::mem::offset_of;
 
-use darboux::{HISTOGRAM_ENDS, TangentDifference, UvFidelity, measure_tangents, measure_uv_fidelity};
+use darboux::{TangentDifference, UvFidelity, measure_tangents_with, measure_uv_fidelity_with};
 
+use crate::context::{self, Memory, darboux_context};
 use crate::mesh::{self, darboux_mesh};
 use crate::pointers::{self, Receiver, Versioned, gathered, gathered_of_corners};
 use crate::status::{call, darboux_status};
@@ -13,7 +14,7 @@ pub const DARBOUX_HISTOGRAM_BINS: usize = 10;
 /// The maximum number of corners that darboux_tangent_difference lists.
 pub const DARBOUX_WORST_CORNERS: usize = 16;
 
-const _: () = assert!(DARBOUX_HISTOGRAM_BINS == HISTOGRAM_ENDS.len());
+const _: () = assert!(DARBOUX_HISTOGRAM_BINS == TangentDifference::HISTOGRAM_BIN_ENDS.len());
 
 /// The difference of two sets of tangents of one mesh. Angles are in degrees, between the xyz of one corner in both sets.
 #[repr(C)]
@@ -95,44 +96,47 @@ pub struct darboux_uv_fidelity {
     /// The area of the triangles that were measured.
     pub area: f64,
     /// The number of triangles that were not measured, because they have no area or no dP/du.
-    pub left_out: usize,
+    pub unmeasured_triangles: usize,
 }
 
 // SAFETY: `repr(C)`, the size is the first field, all fields are numbers.
 unsafe impl Versioned for darboux_uv_fidelity {
     const NAME: &str = "darboux_uv_fidelity";
-    const FIRST_SIZE: usize = pointers::size_through::<Self, usize>(offset_of!(Self, left_out));
+    const FIRST_SIZE: usize = pointers::size_through::<Self, usize>(offset_of!(Self, unmeasured_triangles));
 }
 
 impl From<UvFidelity> for darboux_uv_fidelity {
     fn from(fidelity: UvFidelity) -> Self {
-        let UvFidelity { mean, root_mean_square, area, left_out, .. } = fidelity;
-        Self { size: size_of::<Self>(), mean, root_mean_square, area, left_out }
+        let UvFidelity { mean, root_mean_square, area, unmeasured_triangles, .. } = fidelity;
+        Self { size: size_of::<Self>(), mean, root_mean_square, area, unmeasured_triangles }
     }
 }
 
 /// Compares two sets of tangents, corner by corner.
 ///
-/// `a`, `b`: `count` by 4 floats, of the corners of one mesh in the same order. `a_stride`, `b_stride`: bytes from one tangent to the next;
-/// 0 for packed. `count`: the number of corners. `difference`: receives the result. Errors: a null pointer, a stride smaller than an
-/// element.
+/// `count`: the number of corners. `a`, `b`: `count` by 4 floats, of the corners of one mesh in the same order. `a_stride`, `b_stride`: bytes
+/// from one tangent to the next; 0 for packed. `context`: a cancellation flag; may be NULL. `difference`: receives the result. Errors: a
+/// null pointer, a stride smaller than an element.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_measure_tangents(
+    count: usize,
     a: *const f32,
     a_stride: usize,
     b: *const f32,
     b_stride: usize,
-    count: usize,
+    context: *const darboux_context,
     difference: *mut darboux_tangent_difference,
 ) -> darboux_status {
     call(|| {
         // SAFETY: the pointers are as documented above.
-        let (out, a, b) = unsafe {
+        let (out, context, a, b) = unsafe {
             let a = gathered("a", a.cast(), count, a_stride)?;
             let b = gathered("b", b.cast(), count, b_stride)?;
-            (Receiver::new(difference)?, a, b)
+            (Receiver::new(difference)?, context.as_ref(), a, b)
         };
-        out.put(measure_tangents(&a, &b)?.into());
+        let found =
+            context::run(context, count, |memory| measure_tangents_with(&a, &b, &mut memory.context))?;
+        out.put(found.into());
         Ok(())
     })
 }
@@ -140,25 +144,28 @@ pub unsafe extern "C" fn darboux_measure_tangents(
 /// Measures tangents against the derivatives of the UV map, over the surface.
 ///
 /// `mesh`: the mesh of the tangents. `tangents`: C by 4 floats. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the next; 0
-/// for packed. `fidelity`: receives the result. Errors: those of the mesh; another number of tangents than corners.
+/// for packed. `context`: a cancellation flag; may be NULL. `fidelity`: receives the result. Errors: those of the mesh; another number of
+/// tangents than corners.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_measure_uv_fidelity(
     mesh: *const darboux_mesh,
     tangents: *const f32,
     tangent_count: usize,
     tangent_stride: usize,
+    context: *const darboux_context,
     fidelity: *mut darboux_uv_fidelity,
 ) -> darboux_status {
     call(|| {
         // SAFETY: the pointers are as documented above.
-        let (mesh, out, tangents) = unsafe {
+        let (mesh, out, context, tangents) = unsafe {
             let mesh = mesh::view(mesh)?;
             let corners = mesh.corner_count();
             let tangents =
                 gathered_of_corners(corners, "tangents", tangents.cast(), tangent_count, tangent_stride)?;
-            (mesh, Receiver::new(fidelity)?, tangents)
+            (mesh, Receiver::new(fidelity)?, context.as_ref(), tangents)
         };
-        out.put(measure_uv_fidelity(&mesh, &tangents)?.into());
+        let measure = |memory: &mut Memory| measure_uv_fidelity_with(&mesh, &tangents, &mut memory.context);
+        out.put(context::run(context, mesh.corner_count(), measure)?.into());
         Ok(())
     })
 }

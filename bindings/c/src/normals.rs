@@ -2,9 +2,10 @@
 
 use std::mem::offset_of;
 
-use darboux::{NormalOptions, NormalReport, generate_normals};
+use darboux::{NormalOptions, NormalReport, generate_normals_with};
 
 use crate::codes::{self, darboux_normal_weight, darboux_shading, darboux_smoothing_seams};
+use crate::context::{self, darboux_context};
 use crate::mesh::{self, darboux_mesh};
 use crate::pointers::{self, Output, Receiver, Versioned};
 use crate::status::{Error, call, darboux_status};
@@ -71,12 +72,14 @@ impl From<NormalReport> for darboux_normal_report {
 /// Computes a unit normal for every corner. darboux_split_normals computes vertices from them.
 ///
 /// `mesh`: positions, indices and faces of 3 or more corners, which wind counter-clockwise seen from the side that their normal points to.
-/// `options`: NULL for the defaults. `normals`: receives C by 3 floats. `normal_count`: C. `normal_stride`: bytes from one normal to the
-/// next; 0 for packed. `report`: receives the counts; may be NULL. Errors: those of the mesh; another count than C; see darboux_status.
+/// `options`: NULL for the defaults. `context`: a cancellation flag; may be NULL. `normals`: receives C by 3 floats. `normal_count`: C.
+/// `normal_stride`: bytes from one normal to the next; 0 for packed. `report`: receives the counts; may be NULL. Errors: those of the mesh;
+/// another count than C; see darboux_status.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_generate_normals(
     mesh: *const darboux_mesh,
     options: *const darboux_normal_options,
+    context: *const darboux_context,
     normals: *mut f32,
     normal_count: usize,
     normal_stride: usize,
@@ -84,13 +87,16 @@ pub unsafe extern "C" fn darboux_generate_normals(
 ) -> darboux_status {
     call(|| {
         // SAFETY: the pointers are as documented above. The mesh is read before the output is written.
-        let (mesh, options, report, out) = unsafe {
+        let (mesh, options, context, report, out) = unsafe {
             let mesh = mesh::bare(mesh)?;
             let corners = mesh.corner_count();
             let out = Output::expecting(corners, "normals", normals.cast(), normal_count, normal_stride)?;
-            (mesh, self::options(options)?, Receiver::optional(report)?, out)
+            (mesh, self::options(options)?, context.as_ref(), Receiver::optional(report)?, out)
         };
-        let made = generate_normals(mesh.positions(), mesh.indices(), mesh.faces(), &options)?;
+        let made = context::run(context, mesh.corner_count(), |memory| {
+            let (positions, indices) = (mesh.positions(), mesh.indices());
+            generate_normals_with(positions, indices, mesh.faces(), &options, &mut memory.context)
+        })?;
         out.copy(made.corners.per_corner());
         if let Some(report) = report {
             report.put(made.report.into());

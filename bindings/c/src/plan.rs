@@ -1,8 +1,8 @@
 //! Plans in C: the topology of a mesh is computed once, and tangents are evaluated for any number of deformed copies.
 
-use darboux::{Context, Plan};
+use darboux::Plan;
 
-use crate::context::{self, darboux_context};
+use crate::context::{self, Memory, darboux_context};
 use crate::mesh::{self, darboux_mesh};
 use crate::pointers::{Output, Receiver, hand_out, held, take_back};
 use crate::status::{call, darboux_status};
@@ -17,19 +17,21 @@ pub struct darboux_plan {
 
 /// Computes the tangents of a mesh and a plan for its deformed copies.
 ///
-/// `mesh`, `options`: as for darboux_generate_tangents, but the memory of a context is not used. `plan`: receives the plan; free it with
-/// darboux_plan_free. Errors: those of darboux_generate_tangents.
+/// `mesh`, `options`: as for darboux_generate_tangents. `context`: threads and a cancellation flag; NULL for the calling thread alone.
+/// `plan`: receives the plan; free it with darboux_plan_free. Errors: those of darboux_generate_tangents.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_plan_create(
     mesh: *const darboux_mesh,
     options: *const darboux_tangent_options,
+    context: *const darboux_context,
     plan: *mut *mut darboux_plan,
 ) -> darboux_status {
     let make = || {
         // SAFETY: the pointers are as documented above.
-        let (mesh, (options, context)) = unsafe { (mesh::view(mesh)?, self::options(options)?) };
+        let (mesh, options, context) =
+            unsafe { (mesh::view(mesh)?, self::options(options)?, context.as_ref()) };
         let plan = context::run(context, mesh.corner_count(), |memory| {
-            Plan::new_with(&mesh, &options, &memory.context)
+            Plan::new_with(&mesh, &options, &mut memory.context)
         })?;
         Ok(darboux_plan { plan })
     };
@@ -101,19 +103,22 @@ pub unsafe extern "C" fn darboux_plan_evaluate(
 
 /// Counts the corners whose tangents from darboux_plan_evaluate and from darboux_generate_tangents on the deformed mesh differ in bits.
 ///
-/// `mesh`: as for darboux_plan_evaluate. `count`: receives the number of corners. Errors: those of darboux_plan_evaluate.
+/// `mesh`, `context`: as for darboux_plan_evaluate. `count`: receives the number of corners. Errors: those of darboux_plan_evaluate.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_plan_count_regrouped(
     plan: *const darboux_plan,
     mesh: *const darboux_mesh,
+    context: *const darboux_context,
     count: *mut usize,
 ) -> darboux_status {
     call(|| {
         // SAFETY: the pointers are as documented above.
-        let (plan, mesh, out) =
-            unsafe { (held("plan", plan)?, mesh::view(mesh)?, Output::new("count", count.cast(), 1, 0)?) };
-        let context = &mut Context::new().with_max_threads(1);
-        out.copy(&[plan.plan.count_regrouped_with(&mesh, context)?]);
+        let (plan, mesh, context, out) = unsafe {
+            let out = Output::new("count", count.cast(), 1, 0)?;
+            (held("plan", plan)?, mesh::view(mesh)?, context.as_ref(), out)
+        };
+        let count = |memory: &mut Memory| plan.plan.count_regrouped_with(&mesh, &mut memory.context);
+        out.copy(&[context::run(context, mesh.corner_count(), count)?]);
         Ok(())
     })
 }

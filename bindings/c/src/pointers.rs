@@ -6,7 +6,7 @@ use std::borrow::Cow;
 use std::marker::PhantomData;
 use std::mem::MaybeUninit;
 
-use darboux::{MeshError, Strided};
+use darboux::Strided;
 
 use crate::status::{Error, darboux_status};
 
@@ -247,8 +247,8 @@ impl<T: Copy> Output<T> {
     pub fn fill<R>(
         self,
         memory: &mut Vec<T>,
-        write: impl FnOnce(&mut [T]) -> Result<R, MeshError>,
-    ) -> Result<R, MeshError>
+        write: impl FnOnce(&mut [T]) -> Result<R, darboux::Error>,
+    ) -> Result<R, darboux::Error>
     where
         T: Default,
     {

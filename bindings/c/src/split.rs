@@ -1,7 +1,10 @@
 //! Vertex splitting in C: turns tangents or normals of corners into an indexed mesh.
 
-use darboux::{CornerNormalsRef, CornerTangentsRef, NormalSplit, VertexSplit, split_normals, split_vertices};
+use darboux::{
+    CornerNormalsRef, CornerTangentsRef, NormalSplit, VertexSplit, split_normals_with, split_vertices_with,
+};
 
+use crate::context::{self, darboux_context};
 use crate::mesh::{self, darboux_mesh};
 use crate::pointers::{gathered_of_corners, hand_out, take_back};
 use crate::status::{call, darboux_status};
@@ -47,26 +50,30 @@ struct Owned<View, Arrays> {
 ///
 /// Each distinct pair of old vertex and tangent (four floats, compared as bits) becomes one vertex. `mesh`: the mesh of the tangents.
 /// `tangents`: C by 4 floats, as darboux_generate_tangents writes them. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the
-/// next; 0 for packed. `split`: receives the result; free it with darboux_vertex_split_free. Errors: those of the mesh; another number of
-/// tangents than corners.
+/// next; 0 for packed. `context`: a cancellation flag; may be NULL. `split`: receives the result; free it with darboux_vertex_split_free.
+/// Errors: those of the mesh; another number of tangents than corners.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_split_vertices(
     mesh: *const darboux_mesh,
     tangents: *const f32,
     tangent_count: usize,
     tangent_stride: usize,
+    context: *const darboux_context,
     split: *mut *mut darboux_vertex_split,
 ) -> darboux_status {
     let make = || {
         // SAFETY: the pointers are as documented above.
-        let (mesh, tangents) = unsafe {
+        let (mesh, context, tangents) = unsafe {
             let mesh = mesh::view(mesh)?;
             let corners = mesh.corner_count();
             let tangents =
                 gathered_of_corners(corners, "tangents", tangents.cast(), tangent_count, tangent_stride)?;
-            (mesh, tangents)
+            (mesh, context.as_ref(), tangents)
         };
-        Ok(owned_vertices(split_vertices(&mesh, CornerTangentsRef::from_per_corner(&tangents))?))
+        let split = context::run(context, mesh.corner_count(), |memory| {
+            split_vertices_with(&mesh, CornerTangentsRef::from_per_corner(&tangents), &mut memory.context)
+        })?;
+        Ok(owned_vertices(split))
     };
     // SAFETY: `split` is null or writable; the view is the first field of the allocation.
     call(|| unsafe { hand_out("split", split.cast(), make) })
@@ -83,30 +90,31 @@ pub unsafe extern "C" fn darboux_vertex_split_free(split: *mut darboux_vertex_sp
 ///
 /// Each distinct pair of old vertex and normal (three floats, compared as bits) becomes one vertex. `mesh`: as for
 /// darboux_generate_normals. `normals`: C by 3 floats, as darboux_generate_normals writes them. `normal_count`: C. `normal_stride`: bytes
-/// from one normal to the next; 0 for packed. `split`: receives the result; free it with darboux_normal_split_free. Errors: those of the
-/// mesh; another number of normals than corners.
+/// from one normal to the next; 0 for packed. `context`: a cancellation flag; may be NULL. `split`: receives the result; free it with
+/// darboux_normal_split_free. Errors: those of the mesh; another number of normals than corners.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_split_normals(
     mesh: *const darboux_mesh,
     normals: *const f32,
     normal_count: usize,
     normal_stride: usize,
+    context: *const darboux_context,
     split: *mut *mut darboux_normal_split,
 ) -> darboux_status {
     let make = || {
         // SAFETY: the pointers are as documented above.
-        let (mesh, normals) = unsafe {
+        let (mesh, context, normals) = unsafe {
             let mesh = mesh::bare(mesh)?;
             let corners = mesh.corner_count();
             let normals =
                 gathered_of_corners(corners, "normals", normals.cast(), normal_count, normal_stride)?;
-            (mesh, normals)
+            (mesh, context.as_ref(), normals)
         };
-        Ok(owned_normals(split_normals(
-            mesh.vertex_count(),
-            mesh.indices(),
-            CornerNormalsRef::from_per_corner(&normals),
-        )?))
+        let split = context::run(context, mesh.corner_count(), |memory| {
+            let normals = CornerNormalsRef::from_per_corner(&normals);
+            split_normals_with(mesh.vertex_count(), mesh.indices(), normals, &mut memory.context)
+        })?;
+        Ok(owned_normals(split))
     };
     // SAFETY: `split` is null or writable; the view is the first field of the allocation.
     call(|| unsafe { hand_out("split", split.cast(), make) })

@@ -5,8 +5,6 @@ use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use darboux::MeshError;
-
 /// The result of a call. darboux_last_error returns a message for every error.
 ///
 /// Degenerate triangles and values that are not finite are not errors; reports count them. After an error other than
@@ -59,14 +57,16 @@ impl Error {
     }
 }
 
-impl From<MeshError> for Error {
-    fn from(error: MeshError) -> Self {
+impl From<darboux::Error> for Error {
+    fn from(error: darboux::Error) -> Self {
         let status = match error {
-            MeshError::IndexOutOfRange { .. } => darboux_status::Index,
-            MeshError::PartialFace { .. } | MeshError::FaceSizes { .. } => darboux_status::Faces,
-            MeshError::StrideTooSmall { .. } => darboux_status::Stride,
-            MeshError::TooManyCorners { .. } | MeshError::TooManyVertices { .. } => darboux_status::TooLarge,
-            MeshError::Cancelled => darboux_status::Cancelled,
+            darboux::Error::IndexOutOfRange { .. } => darboux_status::Index,
+            darboux::Error::PartialFace { .. } | darboux::Error::FaceSizes { .. } => darboux_status::Faces,
+            darboux::Error::StrideTooSmall { .. } => darboux_status::Stride,
+            darboux::Error::TooManyCorners { .. } | darboux::Error::TooManyVertices { .. } => {
+                darboux_status::TooLarge
+            }
+            darboux::Error::Cancelled => darboux_status::Cancelled,
             _ => darboux_status::Length,
         };
         Self::new(status, error.to_string())

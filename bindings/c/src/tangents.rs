@@ -3,7 +3,8 @@
 use std::mem::offset_of;
 
 use darboux::{
-    Frame, LentFrames, MeshError, Method, MikktOptions, Report, TangentOptions, lend_frames, write_tangents,
+    CompactFrames, Frame, Method, MikkTSpaceOptions, Report, TangentOptions, generate_compact_frames,
+    write_tangents,
 };
 
 use crate::codes::{self, darboux_method, darboux_mode};
@@ -26,14 +27,14 @@ pub struct darboux_tangent_options {
     /// differ by less. 0 stands for 180, which is what bakers use; for a threshold of zero, pass 0.001, which gives the same bits. Must be
     /// 0 for all other methods.
     pub threshold: f32,
-    /// Reused memory, threads and a cancellation flag. NULL: the call runs on the calling thread, and allocates its own memory.
-    pub context: *mut darboux_context,
+    /// Must be 0. It is space for an option of a later version.
+    pub reserved: u32,
 }
 
-// SAFETY: `repr(C)`, the size is the first field, all fields are numbers or raw pointers.
+// SAFETY: `repr(C)`, the size is the first field, all fields are numbers.
 unsafe impl Versioned for darboux_tangent_options {
     const NAME: &str = "darboux_tangent_options";
-    const FIRST_SIZE: usize = pointers::size_through::<Self, *mut darboux_context>(offset_of!(Self, context));
+    const FIRST_SIZE: usize = pointers::size_through::<Self, u32>(offset_of!(Self, reserved));
 }
 
 /// The counts of a run. Quads count as two triangles.
@@ -109,25 +110,25 @@ impl From<Frame> for darboux_frame {
     }
 }
 
-/// Reads the options, and the context in them.
+/// Reads the options.
 ///
 /// # Safety
 ///
 /// `options` is null or points to a valid [`darboux_tangent_options`].
-pub(crate) unsafe fn options<'a>(
-    options: *const darboux_tangent_options,
-) -> Result<(TangentOptions, Option<&'a darboux_context>), Error> {
+pub(crate) unsafe fn options(options: *const darboux_tangent_options) -> Result<TangentOptions, Error> {
     // SAFETY: the caller's promise.
     let options = unsafe { pointers::read_or_zeros(options) }?;
-    // SAFETY: `context` is null or from `darboux_context_create`, and not freed.
-    let context = unsafe { options.context.as_ref() };
-    let mut mikkt = MikktOptions::new().with_mode(codes::mode(options.mode)?);
+    if options.reserved != 0 {
+        let message = "reserved of darboux_tangent_options is not 0; set it to 0, or use a later version of the library";
+        return Err(Error::new(darboux_status::StructSize, message.into()));
+    }
+    let mut mikkt = MikkTSpaceOptions::new().with_mode(codes::mode(options.mode)?);
     if options.threshold != 0.0 {
         mikkt = mikkt.with_threshold(options.threshold);
     }
     match codes::method(options.method)? {
-        Method::MikkTSpace(_) => Ok((mikkt.into(), context)),
-        other if mikkt == MikktOptions::new() => Ok((other.into(), context)),
+        Method::MikkTSpace(_) => Ok(mikkt.into()),
+        other if mikkt == MikkTSpaceOptions::new() => Ok(other.into()),
         _ => {
             let message =
                 "mode and threshold belong to DARBOUX_METHOD_MIKKTSPACE; leave them 0 with other methods";
@@ -140,14 +141,15 @@ pub(crate) unsafe fn options<'a>(
 ///
 /// These are not vertex tangents: corners of one vertex can have different tangents, so do not write them through the mesh's index list.
 /// darboux_split_vertices computes vertices and new indices. In an unindexed mesh, corner i is vertex i, so the tangents can be written
-/// into the vertices. `mesh`: normals and UVs are required. `options`: NULL for the defaults. `tangents`: receives C by 4 floats, unit xyz
-/// and the sign w, where bitangent = w * cross(normal, xyz). It must not overlap the mesh's elements, but may lie between them.
-/// `tangent_count`: C. `tangent_stride`: bytes from one tangent to the next; 0 for packed. `report`: receives the counts; may be NULL.
+/// into the vertices. `mesh`: normals and UVs are required. `options`: NULL for the defaults. `context`: reused memory, threads and a
+/// cancellation flag; NULL for the calling thread alone, with memory of its own. `tangents`: receives C by 4 floats, unit xyz and the sign
+/// w, where bitangent = w * cross(normal, xyz). It must not overlap the mesh's elements, but may lie between them. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the next; 0 for packed. `report`: receives the counts; may be NULL.
 /// Errors: those of the mesh; another count than C; see darboux_status.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_generate_tangents(
     mesh: *const darboux_mesh,
     options: *const darboux_tangent_options,
+    context: *const darboux_context,
     tangents: *mut f32,
     tangent_count: usize,
     tangent_stride: usize,
@@ -155,11 +157,11 @@ pub unsafe extern "C" fn darboux_generate_tangents(
 ) -> darboux_status {
     call(|| {
         // SAFETY: the pointers are as documented above. The mesh is read before the output is written.
-        let (mesh, (options, context), report, out) = unsafe {
+        let (mesh, options, context, report, out) = unsafe {
             let mesh = mesh::view(mesh)?;
             let corners = mesh.corner_count();
             let out = Output::expecting(corners, "tangents", tangents.cast(), tangent_count, tangent_stride)?;
-            (mesh, self::options(options)?, Receiver::optional(report)?, out)
+            (mesh, self::options(options)?, context.as_ref(), Receiver::optional(report)?, out)
         };
         let run = |memory: &mut _, corners: &mut _| write_tangents(&mesh, &options, memory, corners);
         let report_of_run = context::fill(context, out, run)?;
@@ -173,11 +175,12 @@ pub unsafe extern "C" fn darboux_generate_tangents(
 /// Computes the whole frame of every corner: tangent, bitangent, magnitudes and sign. Slower than darboux_generate_tangents.
 ///
 /// `frames`: receives C frames. `frame_count`: C. `frame_stride`: bytes from one frame to the next; 0 for packed. `mesh`, `options`,
-/// `report` and errors: as for darboux_generate_tangents.
+/// `context`, `report` and errors: as for darboux_generate_tangents.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_generate_frames(
     mesh: *const darboux_mesh,
     options: *const darboux_tangent_options,
+    context: *const darboux_context,
     frames: *mut darboux_frame,
     frame_count: usize,
     frame_stride: usize,
@@ -185,16 +188,16 @@ pub unsafe extern "C" fn darboux_generate_frames(
 ) -> darboux_status {
     call(|| {
         // SAFETY: the pointers are as documented above. The mesh is read before the output is written.
-        let (mesh, (options, context), report, out) = unsafe {
+        let (mesh, options, context, report, out) = unsafe {
             let mesh = mesh::view(mesh)?;
             let corners = mesh.corner_count();
             let out = Output::expecting(corners, "frames", frames.cast(), frame_count, frame_stride)?;
-            (mesh, self::options(options)?, Receiver::optional(report)?, out)
+            (mesh, self::options(options)?, context.as_ref(), Receiver::optional(report)?, out)
         };
         let report_of_run = context::run(context, mesh.corner_count(), move |memory| {
-            let frames = lend_frames(&mesh, &options, &mut memory.context)?;
+            let frames = generate_compact_frames(&mesh, &options, &mut memory.context)?;
             write(&frames, &out);
-            Ok::<_, MeshError>(frames.report())
+            Ok::<_, darboux::Error>(frames.report())
         })?;
         if let Some(report) = report {
             report.put(report_of_run.into());
@@ -203,10 +206,15 @@ pub unsafe extern "C" fn darboux_generate_frames(
     })
 }
 
-fn write(frames: &LentFrames<'_>, out: &Output<darboux_frame>) {
-    let mut block = [Frame::default(); 64];
-    for first in (0..frames.len()).step_by(block.len()) {
-        frames.write(first, &mut block);
-        (first..frames.len()).zip(&block).for_each(|(at, &frame)| out.set(at, frame.into()));
+/// Frames per block of [`write`].
+const BLOCK: usize = 64;
+
+/// Converts the frames block by block.
+fn write(frames: &CompactFrames<'_>, out: &Output<darboux_frame>) {
+    let mut block = [Frame::default(); BLOCK];
+    for first in (0..frames.len()).step_by(BLOCK) {
+        let block = &mut block[..(frames.len() - first).min(BLOCK)];
+        frames.read(first, block);
+        (first..).zip(&*block).for_each(|(at, &frame)| out.set(at, frame.into()));
     }
 }

@@ -1,6 +1,6 @@
 //! Options, which JavaScript passes as numbers: each is a position in a list of names in `lib`.
 
-use darboux::{Method, MikktOptions, Mode, TangentOptions};
+use darboux::{Method, MikkTSpaceOptions, Mode, TangentOptions};
 
 pub fn tangent_options(mode: u32, threshold: f32, method: u32) -> TangentOptions {
     match self::method(method) {
@@ -9,13 +9,13 @@ pub fn tangent_options(mode: u32, threshold: f32, method: u32) -> TangentOptions
     }
 }
 
-pub fn mikkt_options(mode: u32, threshold: f32) -> MikktOptions {
+pub fn mikkt_options(mode: u32, threshold: f32) -> MikkTSpaceOptions {
     let mode = match mode {
         0 => Mode::Reference,
         1 => Mode::Repaired,
         _ => Mode::Corrected,
     };
-    MikktOptions::new().with_mode(mode).with_threshold(threshold)
+    MikkTSpaceOptions::new().with_mode(mode).with_threshold(threshold)
 }
 
 #[cfg(feature = "full")]

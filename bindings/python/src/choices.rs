@@ -1,11 +1,11 @@
 //! Parses the options that Python passes as strings.
 
-use darboux::{Method, MikktOptions, Mode, TangentOptions};
+use darboux::{Method, MikkTSpaceOptions, Mode, TangentOptions};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 const METHODS: &[(&str, Method)] = &[
-    ("mikktspace", Method::MikkTSpace(MikktOptions::new())),
+    ("mikktspace", Method::MikkTSpace(MikkTSpaceOptions::new())),
     ("angle-area", Method::AngleArea),
     ("lengyel", Method::Lengyel),
     ("lengyel-per-vertex", Method::LengyelPerVertex),
@@ -37,7 +37,7 @@ pub fn tangent_options(method: &str, mode: &str, threshold: f32) -> PyResult<Tan
             "threshold is {threshold}; it must be a number of degrees"
         )));
     }
-    let defaults = MikktOptions::new();
+    let defaults = MikkTSpaceOptions::new();
     let belongs_to_mikktspace =
         [("mode", mode != defaults.mode), ("threshold", threshold != defaults.threshold)];
     match (method, belongs_to_mikktspace.iter().find(|(_, is_set)| *is_set)) {
@@ -51,5 +51,5 @@ pub fn tangent_options(method: &str, mode: &str, threshold: f32) -> PyResult<Tan
 
 /// True if a fan can take quadratic time in its number of triangles.
 pub fn is_slow(options: &TangentOptions) -> bool {
-    matches!(options.method, Method::MikkTSpace(mikkt) if mikkt.threshold < MikktOptions::new().threshold)
+    matches!(options.method, Method::MikkTSpace(mikkt) if mikkt.threshold < MikkTSpaceOptions::new().threshold)
 }

@@ -95,5 +95,5 @@ pub fn measure_uv_fidelity<'py>(
         let mesh = Mesh::with_faces(positions, unread, uvs, list, faces.view())?;
         darboux::measure_uv_fidelity_with(&mesh, &tangents, context)
     })?;
-    named(py, "UvFidelity", (found.mean, found.root_mean_square, found.area, found.left_out))
+    named(py, "UvFidelity", (found.mean, found.root_mean_square, found.area, found.unmeasured_triangles))
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use darboux::{Faces, Indices, Mesh, MeshError};
+use darboux::{Faces, Indices, Mesh};
 use numpy::prelude::*;
 use numpy::{Element, PyReadonlyArrayDyn, PyUntypedArray};
 use pyo3::exceptions::PyValueError;
@@ -44,7 +44,7 @@ impl<'py> MeshArrays<'py> {
 }
 
 /// Converts an error of the core to a ValueError.
-pub fn value_error(error: MeshError) -> PyErr {
+pub fn value_error(error: darboux::Error) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 

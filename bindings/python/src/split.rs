@@ -1,6 +1,6 @@
 //! Splits vertices, so that values per corner become values per vertex of an indexed mesh.
 
-use darboux::{CornerNormalsRef, CornerTangentsRef, Faces, Mesh, MeshError, Strided};
+use darboux::{CornerNormalsRef, CornerTangentsRef, Faces, Mesh, Strided};
 use numpy::PyArray1;
 use numpy::prelude::*;
 use pyo3::exceptions::{PyMemoryError, PyValueError};
@@ -135,7 +135,7 @@ fn check_vertex_count(vertex_count: usize, corners: usize) -> PyResult<()> {
 fn check_corners(indices: &IndexArray<'_>, what: &'static str, found: usize) -> PyResult<()> {
     match indices.len() {
         Some(expected) if expected != found => {
-            Err(value_error(MeshError::InputLength { what, expected, found }))
+            Err(value_error(darboux::Error::InputLength { what, expected, found }))
         }
         _ => Ok(()),
     }

@@ -2,7 +2,7 @@
 
 use std::sync::Mutex;
 
-use darboux::{Context, Mesh, TangentOptions, lend_frames};
+use darboux::{Context, Mesh, TangentOptions, generate_compact_frames};
 use numpy::prelude::*;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -137,8 +137,8 @@ fn frames<'py>(
         let bitangents = bitangents.as_slice_mut()?.as_chunks_mut().0;
         let magnitudes = magnitudes.as_slice_mut()?.as_chunks_mut().0;
         let write = |context: &mut Context| {
-            let frames = lend_frames(mesh, options, context)?;
-            frames.write_apart(tangents, bitangents, magnitudes)?;
+            let frames = generate_compact_frames(mesh, options, context)?;
+            frames.read_apart(tangents, bitangents, magnitudes)?;
             Ok(frames.report())
         };
         cancellable(py, threads, (corners, is_slow(options)), &mut Context::new(), write)?

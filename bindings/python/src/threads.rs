@@ -8,7 +8,7 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use darboux::{Cancel, Context, MeshError};
+use darboux::{Cancel, Context};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -66,7 +66,7 @@ pub fn cancellable<R: Send>(
     threads: Option<Threads>,
     (corners, is_slow): (usize, bool),
     context: &mut Context,
-    work: impl FnOnce(&mut Context) -> Result<R, MeshError> + Send,
+    work: impl FnOnce(&mut Context) -> Result<R, darboux::Error> + Send,
 ) -> PyResult<R> {
     if corners < FEWEST_CORNERS && !is_slow {
         context.set_cancel(None);

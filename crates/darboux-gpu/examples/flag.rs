@@ -8,7 +8,7 @@
 #[path = "flag/picture.rs"]
 mod picture;
 
-use darboux::{Mesh, MeshError, TangentOptions, VertexSplit, generate_tangents, split_vertices};
+use darboux::{Error, Mesh, TangentOptions, VertexSplit, generate_tangents, split_vertices};
 use darboux_gpu::{Attribute, Gpu, MovingMesh, Planner, Precision, TangentsPer};
 use picture::{HEIGHT, Painter, WIDTH};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
@@ -76,7 +76,7 @@ struct Flag {
 const SIZE: [usize; 2] = [72, 40];
 
 impl Flag {
-    fn new() -> Result<Self, MeshError> {
+    fn new() -> Result<Self, Error> {
         let [columns, rows] = SIZE;
         let (mut positions, mut uvs, mut indices) = (Vec::new(), Vec::new(), Vec::new());
         for (row, column) in (0..=rows).flat_map(|row| (0..=columns).map(move |column| (row, column))) {
@@ -102,7 +102,7 @@ impl Flag {
         })
     }
 
-    fn mesh(&self) -> Result<Mesh<'_>, MeshError> {
+    fn mesh(&self) -> Result<Mesh<'_>, Error> {
         Mesh::triangles(&self.positions, &self.normals, &self.uvs, &self.split.indices)
     }
 

@@ -4,7 +4,7 @@
 //! difference of a component in ulp, the number of corners with another sign or in another group, and of corners that the CPU computed.
 
 use darboux::internal::stage_arrays::{NONE, Stages};
-use darboux::{Faces, MikktOptions, Mode, TangentOptions, generate_tangents};
+use darboux::{Faces, MikkTSpaceOptions, Mode, TangentOptions, generate_tangents};
 use darboux_gpu::{Gpu, GpuError, MikkTSpace};
 use darboux_tests::{Case, OwnedMesh, corpus, families};
 
@@ -95,7 +95,7 @@ fn ordered(x: f32) -> i64 {
 
 /// The number of corners that are in another group than in the core, at vertices without UV-degenerate triangles.
 fn other_groups(kernels: &MikkTSpace, mesh: &OwnedMesh) -> Result<usize, GpuError> {
-    let options = MikktOptions::new().with_mode(Mode::Corrected);
+    let options = MikkTSpaceOptions::new().with_mode(Mode::Corrected);
     let found = kernels.stage_arrays(&mesh.view(), &options)?;
     let core = Stages::new(&mesh.view(), &options, usize::MAX).expect("no limit");
     let faces = &core.triangulation.good.face;

@@ -9,7 +9,7 @@ use std::error::Error;
 use std::hint::black_box;
 
 use clock::{Clock, Times};
-use darboux::{Context, Method, MikktOptions, TangentOptions, generate_tangents};
+use darboux::{Context, Method, MikkTSpaceOptions, TangentOptions, generate_tangents};
 use darboux_gpu::{
     AdapterKind, Attribute, Average, Destination, FrameLayout, Gpu, GpuError, MeshBuffers, MikkTSpace,
     MovingMesh, Planner, Precision, Search, TangentsPer, VertexLayout,
@@ -193,7 +193,7 @@ impl Bench<'_> {
         let [vertices, triangles] = [uploaded.vertex_count, uploaded.triangle_count].map(u64::from);
         let options = TangentOptions::default();
         let mikktspace = MikkTSpace::new(self.gpu)?;
-        let recorded = mikktspace.recording(&mesh.view(), &MikktOptions::new())?;
+        let recorded = mikktspace.recording(&mesh.view(), &MikkTSpaceOptions::new())?;
         // Vertices, indices and a tangent per corner.
         let bytes = 32 * vertices + 12 * triangles + 48 * triangles;
         let times = self.clock.time(|encoder| recorded.record(encoder));

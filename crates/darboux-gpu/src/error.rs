@@ -33,7 +33,7 @@ pub enum GpuError {
     },
     /// Arguments that do not fit the mesh.
     #[error(transparent)]
-    Mesh(#[from] darboux::MeshError),
+    Mesh(#[from] darboux::Error),
     /// A stride or offset is not a multiple of 4.
     #[error("the stride or offset of the {what} is {bytes} bytes: use a multiple of 4")]
     Unaligned {

@@ -7,7 +7,7 @@ use std::sync::Mutex;
 
 use common::{buffer, gpus, words_of};
 use darboux::internal::stage_arrays::{NONE, Stages};
-use darboux::{Frame, MikktOptions, Mode, generate_frames};
+use darboux::{Frame, MikkTSpaceOptions, Mode, generate_frames};
 use darboux_gpu::Gpu;
 use darboux_gpu::internal::{Arithmetic, Evaluation, EvaluationKernels, GroupedMesh};
 use darboux_tests::{Case, OwnedMesh, corpus, families};
@@ -51,7 +51,7 @@ fn without_sign_of_zero(word: u32) -> u32 {
 impl Batch {
     fn add(&mut self, name: &str, mesh: &OwnedMesh, threshold: f32) {
         let view = mesh.view();
-        let options = MikktOptions::new().with_mode(Mode::Reference).with_threshold(threshold);
+        let options = MikkTSpaceOptions::new().with_mode(Mode::Reference).with_threshold(threshold);
         let stages = Stages::new(&view, &options, LIMIT).expect("small groups");
         let frames = generate_frames(&view, &options.into()).corners;
         let good = &stages.triangulation.good;

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{gpus, kernels, triangulated};
-use darboux::{MikktOptions, Mode, TangentOptions, Tangents, generate_tangents};
+use darboux::{MikkTSpaceOptions, Mode, TangentOptions, Tangents, generate_tangents};
 use darboux_gpu::internal::Arithmetic;
 use darboux_gpu::{CpuFallback, Gpu, GpuError, GpuTangents, MikkTSpace, Splitter};
 use darboux_tests::{Case, OwnedMesh, corpus, families};
@@ -26,7 +26,8 @@ fn check_with(kernels: &[MikkTSpace], name: &str, mesh: &OwnedMesh, threshold: f
     let view = mesh.view();
     for (gpu, kernels) in gpus().iter().zip(kernels) {
         for mode in [Mode::Reference, Mode::Repaired, Mode::Corrected] {
-            let options = TangentOptions::from(MikktOptions::new().with_mode(mode).with_threshold(threshold));
+            let options =
+                TangentOptions::from(MikkTSpaceOptions::new().with_mode(mode).with_threshold(threshold));
             let expected = generate_tangents(&view, &options);
             let found = kernels.generate_tangents(&view, &options);
             let GpuTangents { tangents, cpu_corners, cpu_fallback } =

@@ -4,7 +4,7 @@ mod common;
 
 use common::plans::{Found, run};
 use common::{buffer, gpus, triangulated, words_of};
-use darboux::{Method, MikktOptions, Mode, TangentOptions, generate_tangents, split_vertices};
+use darboux::{Method, MikkTSpaceOptions, Mode, TangentOptions, generate_tangents, split_vertices};
 use darboux_gpu::internal::Arithmetic;
 use darboux_gpu::{Attribute, Gpu, GpuError, MovingMesh, Planner, Precision, TangentsPer};
 use darboux_tests::{Case, FaceSizes, OwnedMesh, families};
@@ -16,7 +16,8 @@ fn bits(tangent: [f32; 4]) -> [u32; 4] {
 
 /// The tangents of the plan of `base` on the moved mesh `moved` by the core, as words.
 fn on_cpu(base: &OwnedMesh, moved: &OwnedMesh, mode: Mode) -> Vec<[u32; 4]> {
-    let plan = darboux::Plan::new(&base.view(), &TangentOptions::from(MikktOptions::new().with_mode(mode)));
+    let plan =
+        darboux::Plan::new(&base.view(), &TangentOptions::from(MikkTSpaceOptions::new().with_mode(mode)));
     let tangents = plan.evaluate(&moved.view()).expect("the same mesh, moved");
     tangents.per_corner().iter().map(|tangent| bits(*tangent)).collect()
 }
@@ -95,7 +96,7 @@ fn moved_quads_have_the_core_s_bits() {
             let (mut planned, mut refused) = (0, 0);
             for (seed, mesh) in quads().into_iter().enumerate() {
                 let mode = [Mode::Reference, Mode::Repaired][seed % 2];
-                let options = TangentOptions::from(MikktOptions::new().with_mode(mode));
+                let options = TangentOptions::from(MikkTSpaceOptions::new().with_mode(mode));
                 match planner.plan(&mesh.view(), &options) {
                     Err(GpuError::HalvesDisagree { corners: 1.. }) => refused += 1,
                     plan => {
@@ -161,7 +162,7 @@ fn a_waving_surface_has_the_bits_of_a_fresh_run() {
 fn a_check_that_finds_nothing_means_a_fresh_run() {
     for gpu in gpus() {
         let planner = Planner::new(&gpu.device, Precision::Exact);
-        let options = TangentOptions::from(MikktOptions::new().with_mode(Mode::Corrected));
+        let options = TangentOptions::from(MikkTSpaceOptions::new().with_mode(Mode::Corrected));
         let (mut unchanged, mut changed) = (0, 0);
         for seed in 0..800 {
             let base = triangulated(&Case::from_seed(seed).mesh);

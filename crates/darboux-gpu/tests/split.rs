@@ -4,7 +4,7 @@ mod common;
 
 use common::gpus;
 use darboux::{
-    CornerTangents, Mesh, MikktOptions, TangentOptions, VertexSplit, generate_tangents, split_vertices,
+    CornerTangents, Mesh, MikkTSpaceOptions, TangentOptions, VertexSplit, generate_tangents, split_vertices,
 };
 use darboux_gpu::{GpuError, Splitter};
 use darboux_tests::{Case, corpus, families};
@@ -46,7 +46,7 @@ fn meshes_are_split_as_by_the_core() {
     let mut appended = 0;
     for (name, mesh) in &meshes {
         for mode in [darboux::Mode::Reference, darboux::Mode::Repaired] {
-            let options = TangentOptions::from(MikktOptions::new().with_mode(mode).with_threshold(30.0));
+            let options = TangentOptions::from(MikkTSpaceOptions::new().with_mode(mode).with_threshold(30.0));
             let tangents = generate_tangents(&mesh.view(), &options).corners;
             appended += check(&splitters, name, &mesh.view(), &tangents);
         }

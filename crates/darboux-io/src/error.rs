@@ -3,8 +3,6 @@
 use std::io;
 use std::path::PathBuf;
 
-use darboux::MeshError;
-
 /// Why a file was not read, processed or written. Its text is one sentence.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -47,7 +45,7 @@ pub enum Error {
         /// The JSON path of the primitive.
         at: String,
         /// What is wrong with the mesh.
-        source: MeshError,
+        source: darboux::Error,
     },
     /// The operating system refuses to read a file.
     #[error("{}: cannot be read: {source}", file.display())]

@@ -2,7 +2,7 @@
 
 mod support;
 
-use darboux::{MikktOptions, Mode, TangentOptions};
+use darboux::{MikkTSpaceOptions, Mode, TangentOptions};
 use darboux_io::gltf::{LoadOptions, Progress, TangentsOptions, add_tangents, inspect};
 use gltf::Semantic;
 use gltf::mesh::Mode as Topology;
@@ -441,7 +441,7 @@ fn unusable_tangents_of_the_reference_are_named() {
     let attributes = vertices.attributes(&mut builder);
     let indices = builder.indices(&SQUARE);
     builder.mesh(&[json!({"attributes": attributes, "indices": indices})]);
-    let tangents = TangentOptions::from(MikktOptions::new().with_mode(Mode::Reference));
+    let tangents = TangentOptions::from(MikkTSpaceOptions::new().with_mode(Mode::Reference));
     let summary = run_with(&mut builder.build(), &TangentsOptions { tangents, ..Default::default() });
     assert!(summary.warnings[0].contains("unusable tangent"), "{:?}", summary.warnings);
 }

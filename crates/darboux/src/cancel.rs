@@ -6,11 +6,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// A cancellation token, shared by its clones.
 ///
 /// Give one clone to a [`Context`](crate::Context) and keep another. After [`Cancel::cancel`] every call with that context returns
-/// [`MeshError::Cancelled`](crate::MeshError::Cancelled), also a call that is already running: it checks the token between its stages
+/// [`Error::Cancelled`](crate::Error::Cancelled), also a call that is already running: it checks the token between its stages
 /// and inside its long loops, on every thread that it uses. A token stays cancelled; make a new one for further work.
 ///
 /// ```
-/// use darboux::{Cancel, Context, Mesh, MeshError, TangentOptions, generate_tangents_with};
+/// use darboux::{Cancel, Context, Mesh, Error, TangentOptions, generate_tangents_with};
 ///
 /// let cancel = Cancel::new();
 /// let mut context = Context::new().with_cancel(&cancel);
@@ -19,8 +19,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 ///
 /// let mesh = Mesh::triangles(&[[0.0; 3]; 3], &[[0.0; 3]; 3], &[[0.0; 2]; 3], &[0u32, 1, 2])?;
 /// let result = generate_tangents_with(&mesh, &TangentOptions::default(), &mut context);
-/// assert_eq!(result.err(), Some(MeshError::Cancelled));
-/// # Ok::<(), MeshError>(())
+/// assert_eq!(result.err(), Some(Error::Cancelled));
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Cancel(Arc<AtomicBool>);

@@ -37,7 +37,7 @@ impl Context {
         Self::default()
     }
 
-    /// This context with a clone of `cancel`: calls return [`MeshError::Cancelled`](crate::MeshError::Cancelled) once it is cancelled.
+    /// This context with a clone of `cancel`: calls return [`Error::Cancelled`](crate::Error::Cancelled) once it is cancelled.
     #[must_use]
     pub fn with_cancel(mut self, cancel: &Cancel) -> Self {
         self.set_cancel(Some(cancel));

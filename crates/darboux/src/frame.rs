@@ -137,6 +137,21 @@ pub struct Frame {
 pub struct CornerFrames(pub(crate) Vec<Frame>);
 
 impl CornerFrames {
+    /// Frames of another program, one per corner, in corner order.
+    pub fn from_per_corner(frames: Vec<Frame>) -> Self {
+        Self(frames)
+    }
+
+    /// The number of corners.
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// True when there are no corners.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// One frame per corner, in corner order. Not in vertex order.
     pub fn per_corner(&self) -> &[Frame] {
         &self.0

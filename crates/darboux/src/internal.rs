@@ -5,5 +5,7 @@ pub mod gpu_resume;
 pub mod stage_arrays;
 pub mod width_limit;
 
+pub use crate::measure::triangle_area;
+
 #[cfg(all(target_family = "wasm", target_os = "unknown"))]
 pub use crate::util::random::seed_random;

@@ -16,12 +16,13 @@
 //! let split = split_vertices(&mesh, &tangents.corners)?;
 //! assert_eq!(split.tangent_of_vertex, [[1.0, 0.0, 0.0, 1.0]; 4]);
 //! assert_eq!(split.indices, [0, 1, 2, 0, 2, 3]);
-//! # Ok::<(), darboux::MeshError>(())
+//! # Ok::<(), darboux::Error>(())
 //! ```
 //!
 //! A function whose time grows with the mesh has a short form, such as [`generate_tangents`], and a form that takes a [`Context`], such as
 //! [`generate_tangents_with`]: the context carries reused memory, a cancellation token and a thread limit. Functions named `write_*` fill
 //! the caller's array. Parameters come in one order: positions, normals, UVs, indices (or a mesh of these), options, context, output.
+//! The context is always `&mut Context`, also where a function does not reuse memory today, so that it can do so in a later version.
 //!
 //! Options, option enums, reports and errors are `#[non_exhaustive]`: they gain fields and variants in minor versions. Options are made by
 //! `new`, `default` or `From` and changed by `with_*` methods. Plain data is exhaustive, so that it can be written and taken apart:
@@ -36,6 +37,7 @@ mod cancel;
 mod context;
 mod convention;
 pub mod encode;
+mod error;
 mod exec;
 mod frame;
 #[doc(hidden)]
@@ -59,22 +61,23 @@ pub use convention::{
     Axes, Axis, BitangentDirection, Convention, ConventionError, Conversion, Handedness, SignRule,
     TangentDirection, UvOrigin, Winding,
 };
+pub use error::Error;
 pub use frame::{CornerFrames, CornerNormals, CornerNormalsRef, CornerTangents, CornerTangentsRef, Frame};
 pub use measure::{
-    CornerDifference, HISTOGRAM_ENDS, TangentDifference, UvFidelity, measure_tangents, measure_tangents_with,
-    measure_uv_fidelity, measure_uv_fidelity_with, triangle_area,
+    CornerDifference, TangentDifference, UvFidelity, measure_tangents, measure_tangents_with,
+    measure_uv_fidelity, measure_uv_fidelity_with,
 };
-pub use mesh::{Faces, Indices, Mesh, MeshError, Strided};
+pub use mesh::{Faces, Indices, Mesh, Strided};
 pub use normal_map::{Channel, TexelLayout, repack_texels};
 pub use normals::{
     NormalOptions, NormalPlan, NormalReport, NormalSplit, NormalWeight, Normals, Shading, SmoothingSeams,
     generate_normals, generate_normals_with, split_normals, split_normals_with,
 };
 pub use plan::Plan;
-pub use split::{Splitter, VertexSplit, split_vertices, split_vertices_with};
+pub use split::{SplitBuffer, Splitter, VertexSplit, split_vertices, split_vertices_with};
 pub use tangents::{
-    Frames, LentFrames, Method, MikktOptions, Mode, Report, TangentOptions, Tangents, generate_frames,
-    generate_frames_with, generate_tangents, generate_tangents_with, lend_frames, write_frames,
-    write_tangents,
+    CompactFrames, Frames, Method, MikkTSpaceOptions, Mode, Report, TangentOptions, Tangents,
+    generate_compact_frames, generate_frames, generate_frames_with, generate_tangents,
+    generate_tangents_with, write_frames, write_tangents,
 };
 pub use transform::Transform;

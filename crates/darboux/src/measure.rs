@@ -1,13 +1,10 @@
 //! Comparison of two sets of tangents, and of tangents with the derivatives of the UV map.
 
 use crate::Context;
+use crate::Error;
 use crate::Mesh;
-use crate::MeshError;
 use crate::math::V3;
 use crate::math_f64::{D3, cross, dot, length, unit};
-
-/// The upper ends of the bins of [`TangentDifference::histogram`], in degrees. A bin excludes the end of the previous bin.
-pub const HISTOGRAM_ENDS: [f64; 10] = [0.0, 0.001, 0.01, 0.1, 1.0, 5.0, 15.0, 45.0, 90.0, 180.0];
 
 /// The maximum length of [`TangentDifference::worst`].
 const WORST: usize = 16;
@@ -34,10 +31,15 @@ pub struct TangentDifference {
     pub p95: f64,
     /// The largest angle.
     pub max: f64,
-    /// The number of corners per bin of [`HISTOGRAM_ENDS`].
-    pub histogram: [usize; HISTOGRAM_ENDS.len()],
+    /// The number of corners per bin of [`TangentDifference::HISTOGRAM_BIN_ENDS`].
+    pub histogram: [usize; 10],
     /// Up to 16 corners with the largest angles above zero, and the angles: descending by angle, then ascending by corner.
     pub worst: Vec<(usize, f64)>,
+}
+
+impl TangentDifference {
+    /// The upper end of each bin of the histogram, in degrees. A bin excludes the end of the previous bin.
+    pub const HISTOGRAM_BIN_ENDS: [f64; 10] = [0.0, 0.001, 0.01, 0.1, 1.0, 5.0, 15.0, 45.0, 90.0, 180.0];
 }
 
 /// The difference of two tangents of one corner.
@@ -72,17 +74,17 @@ impl CornerDifference {
 ///
 /// `a`, `b`: one tangent per corner ([`CornerTangents::per_corner`](crate::CornerTangents::per_corner)) of the same mesh, in the same
 /// convention. Errors: different lengths.
-pub fn measure_tangents(a: &[[f32; 4]], b: &[[f32; 4]]) -> Result<TangentDifference, MeshError> {
-    measure_tangents_with(a, b, &Context::new())
+pub fn measure_tangents(a: &[[f32; 4]], b: &[[f32; 4]]) -> Result<TangentDifference, Error> {
+    measure_tangents_with(a, b, &mut Context::new())
 }
 
 /// As [`measure_tangents`], with a context. Further error: the context's token was cancelled.
 pub fn measure_tangents_with(
     a: &[[f32; 4]],
     b: &[[f32; 4]],
-    context: &Context,
-) -> Result<TangentDifference, MeshError> {
-    MeshError::check_input("tangents", a.len(), b.len())?;
+    context: &mut Context,
+) -> Result<TangentDifference, Error> {
+    Error::check_input("tangents", a.len(), b.len())?;
     let limits = context.limits();
     let mut out = TangentDifference { corners: a.len(), ..TangentDifference::default() };
     let mut angles = Vec::with_capacity(a.len());
@@ -97,7 +99,8 @@ pub fn measure_tangents_with(
         }
     }
     for (_, angle) in &angles {
-        out.histogram[HISTOGRAM_ENDS.partition_point(|end| end < angle).min(HISTOGRAM_ENDS.len() - 1)] += 1;
+        let bin = TangentDifference::HISTOGRAM_BIN_ENDS.partition_point(|end| end < angle);
+        out.histogram[bin.min(out.histogram.len() - 1)] += 1;
     }
     angles.sort_unstable_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
     out.mean = angles.iter().map(|(_, angle)| angle).sum::<f64>() / (angles.len().max(1) as f64);
@@ -125,7 +128,7 @@ pub struct UvFidelity {
     /// The area of the triangles that were measured.
     pub area: f64,
     /// The number of triangles that were not measured, because they have no area or no dP/du.
-    pub left_out: usize,
+    pub unmeasured_triangles: usize,
 }
 
 /// Measures tangents against the derivatives of the UV map.
@@ -133,23 +136,23 @@ pub struct UvFidelity {
 /// Each triangle is sampled at the centres of 16 equal parts. At each sample, the tangents of the three corners are interpolated linearly, and
 /// the angle to the triangle's dP/du is measured. Smooth normals alone cause a part of the angle: tangents are perpendicular to them, while
 /// dP/du lies in the face. Quads are cut from corner 0 to 2. `tangents`: one per corner. Errors: another number of tangents than corners.
-pub fn measure_uv_fidelity(mesh: &Mesh<'_>, tangents: &[[f32; 4]]) -> Result<UvFidelity, MeshError> {
-    measure_uv_fidelity_with(mesh, tangents, &Context::new())
+pub fn measure_uv_fidelity(mesh: &Mesh<'_>, tangents: &[[f32; 4]]) -> Result<UvFidelity, Error> {
+    measure_uv_fidelity_with(mesh, tangents, &mut Context::new())
 }
 
 /// As [`measure_uv_fidelity`], with a context. Further error: the context's token was cancelled.
 pub fn measure_uv_fidelity_with(
     mesh: &Mesh<'_>,
     tangents: &[[f32; 4]],
-    context: &Context,
-) -> Result<UvFidelity, MeshError> {
-    MeshError::check_input("tangents", mesh.corner_count(), tangents.len())?;
+    context: &mut Context,
+) -> Result<UvFidelity, Error> {
+    Error::check_input("tangents", mesh.corner_count(), tangents.len())?;
     let (mut out, limits) = (UvFidelity::default(), context.limits());
     let (mut sum, mut squares) = (0.0, 0.0);
     for (number, triangle) in triangles(mesh).enumerate() {
         limits.check_at(number)?;
         let Some((u_direction, area)) = u_direction_and_area(mesh, triangle) else {
-            out.left_out += 1;
+            out.unmeasured_triangles += 1;
             continue;
         };
         let corners = triangle.map(|corner| xyz(tangents[corner]).map(f64::from));

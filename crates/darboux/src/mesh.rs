@@ -1,7 +1,8 @@
 //! The borrowed mesh: strided vertex data, indices, faces. The constructors validate a mesh; all other code relies on that.
 
-use std::fmt;
 use std::ops::Range;
+
+use crate::Error;
 
 /// `N` floats per vertex, borrowed from any layout: packed arrays, an interleaved vertex buffer, raw bytes.
 ///
@@ -25,7 +26,7 @@ impl<'a, const N: usize> Strided<'a, N> {
     ///
     /// `stride` and `offset` count floats. The length is the number of whole elements that fit. Errors: a stride below `N`;
     /// for packed data (`stride == N`), floats left over at the end.
-    pub fn from_floats(data: &'a [f32], stride: usize, offset: usize) -> Result<Self, MeshError> {
+    pub fn from_floats(data: &'a [f32], stride: usize, offset: usize) -> Result<Self, Error> {
         let len = count(data.len(), stride, offset, N, N)?;
         Ok(Self { source: Source::Floats(data), len, stride, offset })
     }
@@ -33,7 +34,7 @@ impl<'a, const N: usize> Strided<'a, N> {
     /// Reads `N` floats in native byte order from every `stride` bytes of `data`, the first at `offset`.
     ///
     /// `stride` and `offset` count bytes and need no alignment. Errors as for [`Strided::from_floats`].
-    pub fn from_bytes(data: &'a [u8], stride: usize, offset: usize) -> Result<Self, MeshError> {
+    pub fn from_bytes(data: &'a [u8], stride: usize, offset: usize) -> Result<Self, Error> {
         let len = count(data.len(), stride, offset, N * 4, N)?;
         Ok(Self { source: Source::Bytes(data), len, stride, offset })
     }
@@ -85,19 +86,13 @@ impl<'a, const N: usize> Strided<'a, N> {
 }
 
 /// How many elements of `size` units fit, `stride` units apart, from `offset` on.
-fn count(
-    len: usize,
-    stride: usize,
-    offset: usize,
-    size: usize,
-    components: usize,
-) -> Result<usize, MeshError> {
+fn count(len: usize, stride: usize, offset: usize, size: usize, components: usize) -> Result<usize, Error> {
     if stride < size {
-        return Err(MeshError::StrideTooSmall { stride, needed: size });
+        return Err(Error::StrideTooSmall { stride, needed: size });
     }
     let room = len.saturating_sub(offset);
     if stride == size && !room.is_multiple_of(size) {
-        return Err(MeshError::PartialElement { len: room, components });
+        return Err(Error::PartialElement { len: room, components });
     }
     Ok(if room < size { 0 } else { (room - size) / stride + 1 })
 }
@@ -202,7 +197,7 @@ impl<'a> Mesh<'a> {
         normals: impl Into<Strided<'a, 3>>,
         uvs: impl Into<Strided<'a, 2>>,
         indices: impl Into<Indices<'a>>,
-    ) -> Result<Self, MeshError> {
+    ) -> Result<Self, Error> {
         Self::new(positions.into(), normals.into(), uvs.into(), indices.into(), Faces::Triangles)
     }
 
@@ -215,7 +210,7 @@ impl<'a> Mesh<'a> {
         uvs: impl Into<Strided<'a, 2>>,
         indices: impl Into<Indices<'a>>,
         faces: Faces<'a>,
-    ) -> Result<Self, MeshError> {
+    ) -> Result<Self, Error> {
         Self::new(positions.into(), normals.into(), uvs.into(), indices.into(), faces)
     }
 
@@ -225,19 +220,19 @@ impl<'a> Mesh<'a> {
         uvs: Strided<'a, 2>,
         indices: Indices<'a>,
         faces: Faces<'a>,
-    ) -> Result<Self, MeshError> {
+    ) -> Result<Self, Error> {
         let vertices = positions.len();
         for (what, found) in [("normals", normals.len()), ("uvs", uvs.len())] {
             if found != vertices {
-                return Err(MeshError::LengthMismatch { what, expected: vertices, found });
+                return Err(Error::LengthMismatch { what, expected: vertices, found });
             }
         }
         let corner_count = indices.corner_count(vertices);
         if corner_count > MAX_CORNERS {
-            return Err(MeshError::TooManyCorners { corners: corner_count, limit: MAX_CORNERS });
+            return Err(Error::TooManyCorners { corners: corner_count, limit: MAX_CORNERS });
         }
         if vertices > MAX_VERTICES {
-            return Err(MeshError::TooManyVertices { vertices, limit: MAX_VERTICES });
+            return Err(Error::TooManyVertices { vertices, limit: MAX_VERTICES });
         }
         // Only now, so that no list beyond the limit is read.
         match indices {
@@ -271,21 +266,17 @@ impl<'a> Mesh<'a> {
         Mesh { indices, faces, ..*self }
     }
 
-    fn check_faces(&self) -> Result<(), MeshError> {
+    fn check_faces(&self) -> Result<(), Error> {
         let corners = self.corner_count;
         let size = match self.faces {
             Faces::Triangles => 3,
             Faces::Quads => 4,
             Faces::Mixed(sizes) => {
                 let sum: u64 = sizes.iter().map(|&size| u64::from(size)).sum();
-                return if sum == corners as u64 {
-                    Ok(())
-                } else {
-                    Err(MeshError::FaceSizes { sum, corners })
-                };
+                return if sum == corners as u64 { Ok(()) } else { Err(Error::FaceSizes { sum, corners }) };
             }
         };
-        if corners.is_multiple_of(size) { Ok(()) } else { Err(MeshError::PartialFace { corners, size }) }
+        if corners.is_multiple_of(size) { Ok(()) } else { Err(Error::PartialFace { corners, size }) }
     }
 
     /// The number of vertices, used or not.
@@ -358,170 +349,9 @@ impl<'a> Mesh<'a> {
 }
 
 /// Errors: an index that is not below `vertices`.
-fn check_range<I: Copy + Into<u32>>(list: &[I], vertices: usize) -> Result<(), MeshError> {
+fn check_range<I: Copy + Into<u32>>(list: &[I], vertices: usize) -> Result<(), Error> {
     match list.iter().position(|&index| index.into() as usize >= vertices) {
         None => Ok(()),
-        Some(at) => Err(MeshError::IndexOutOfRange { at, index: list[at].into(), vertices }),
+        Some(at) => Err(Error::IndexOutOfRange { at, index: list[at].into(), vertices }),
     }
 }
-
-/// What can be wrong with the structure of a mesh. Degenerate or non-finite values are not errors: reports count them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum MeshError {
-    /// Two per-vertex arrays have different lengths.
-    LengthMismatch {
-        /// Which array.
-        what: &'static str,
-        /// The number of positions.
-        expected: usize,
-        /// The length found.
-        found: usize,
-    },
-    /// An index names no vertex.
-    IndexOutOfRange {
-        /// Its place in the index list.
-        at: usize,
-        /// Its value.
-        index: u32,
-        /// The number of vertices.
-        vertices: usize,
-    },
-    /// The corners do not make whole faces.
-    PartialFace {
-        /// The number of corners.
-        corners: usize,
-        /// Corners per face.
-        size: usize,
-    },
-    /// The sizes of mixed faces do not add up to the number of corners.
-    FaceSizes {
-        /// Their sum.
-        sum: u64,
-        /// The number of corners.
-        corners: usize,
-    },
-    /// A stride is smaller than the element it steps over.
-    StrideTooSmall {
-        /// The stride, in floats or bytes as given.
-        stride: usize,
-        /// The smallest that works.
-        needed: usize,
-    },
-    /// A packed array ends within an element.
-    PartialElement {
-        /// Its length, in floats or bytes as given.
-        len: usize,
-        /// Components per element.
-        components: usize,
-    },
-    /// More corners than 32-bit ids can hold.
-    TooManyCorners {
-        /// The number of corners.
-        corners: usize,
-        /// The largest number that works.
-        limit: usize,
-    },
-    /// More vertices than 32-bit ids can hold.
-    TooManyVertices {
-        /// The number of vertices.
-        vertices: usize,
-        /// The largest number that works.
-        limit: usize,
-    },
-    /// An input array, such as tangents to split, has another length than one element per corner.
-    InputLength {
-        /// What the array holds: "tangents", "normals" or "frames".
-        what: &'static str,
-        /// The number of corners.
-        expected: usize,
-        /// The length found.
-        found: usize,
-    },
-    /// An output array has another length than one element per corner.
-    OutputLength {
-        /// What the array receives: "tangents", "frames", "bitangents" or "magnitudes".
-        what: &'static str,
-        /// The number of corners.
-        expected: usize,
-        /// The length found.
-        found: usize,
-    },
-    /// A plan or a splitter was made for a mesh of another size.
-    OtherMesh {
-        /// What is counted: "corners" or "vertices".
-        what: &'static str,
-        /// The number in the mesh of the plan or the splitter.
-        expected: usize,
-        /// The number in the mesh that was passed.
-        found: usize,
-    },
-    /// The token of the context was cancelled.
-    Cancelled,
-}
-
-impl MeshError {
-    /// Errors: an input array that has not one element per corner.
-    pub(crate) fn check_input(what: &'static str, expected: usize, found: usize) -> Result<(), Self> {
-        if expected == found { Ok(()) } else { Err(Self::InputLength { what, expected, found }) }
-    }
-
-    /// Errors: an output array that has not one element per corner.
-    pub(crate) fn check_output(what: &'static str, expected: usize, found: usize) -> Result<(), Self> {
-        if expected == found { Ok(()) } else { Err(Self::OutputLength { what, expected, found }) }
-    }
-
-    /// Errors: a mesh of another size than the one that a plan or a splitter was made for.
-    pub(crate) fn check_mesh(what: &'static str, expected: usize, found: usize) -> Result<(), Self> {
-        if expected == found { Ok(()) } else { Err(Self::OtherMesh { what, expected, found }) }
-    }
-}
-
-impl fmt::Display for MeshError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            MeshError::LengthMismatch { what, expected, found } => write!(
-                f,
-                "{what} has {found} elements but there are {expected} positions; give one per vertex"
-            ),
-            MeshError::IndexOutOfRange { at, index, vertices } => {
-                write!(f, "index {index} at place {at} is out of range: there are {vertices} vertices")
-            }
-            MeshError::PartialFace { corners, size } => {
-                write!(f, "{corners} corners do not make whole faces of {size}")
-            }
-            MeshError::FaceSizes { sum, corners } => {
-                write!(f, "the face sizes add up to {sum} but there are {corners} corners")
-            }
-            MeshError::StrideTooSmall { stride, needed } => {
-                write!(f, "a stride of {stride} is too small: an element needs {needed}")
-            }
-            MeshError::PartialElement { len, components } => {
-                write!(f, "a length of {len} is not a whole number of {components}-component elements")
-            }
-            MeshError::TooManyCorners { corners, limit } => {
-                write!(f, "{corners} corners are too many: the limit is {limit}; split the mesh")
-            }
-            MeshError::TooManyVertices { vertices, limit } => {
-                write!(f, "{vertices} vertices are too many: the limit is {limit}; split the mesh")
-            }
-            MeshError::InputLength { what, expected, found } => {
-                write!(
-                    f,
-                    "{found} {what} were passed but the mesh has {expected} corners; pass one per corner"
-                )
-            }
-            MeshError::OutputLength { what, expected, found } => write!(
-                f,
-                "the output array of {what} has {found} elements but the mesh has {expected} corners; make it as long as the corners"
-            ),
-            MeshError::OtherMesh { what, expected, found } => write!(
-                f,
-                "the mesh has {found} {what} but this plan or splitter was made for {expected}; make a new one for this mesh"
-            ),
-            MeshError::Cancelled => f.write_str("the call was cancelled; its output is incomplete"),
-        }
-    }
-}
-
-impl std::error::Error for MeshError {}

@@ -15,10 +15,11 @@ use crate::Context;
 use crate::CornerNormals;
 use crate::CornerNormalsRef;
 use crate::CornerTangents;
+use crate::Error;
 use crate::Faces;
 use crate::Indices;
 use crate::Mesh;
-use crate::MeshError;
+use crate::SplitBuffer;
 use crate::Splitter;
 use crate::Strided;
 use crate::exec::limits::RunLimits;
@@ -149,8 +150,8 @@ pub fn generate_normals<'a>(
     indices: impl Into<Indices<'a>>,
     faces: Faces<'a>,
     options: &NormalOptions,
-) -> Result<Normals, MeshError> {
-    generate_normals_with(positions, indices, faces, options, &Context::new())
+) -> Result<Normals, Error> {
+    generate_normals_with(positions, indices, faces, options, &mut Context::new())
 }
 
 /// As [`generate_normals`], with a context. Further error: the context's token was cancelled.
@@ -159,8 +160,8 @@ pub fn generate_normals_with<'a>(
     indices: impl Into<Indices<'a>>,
     faces: Faces<'a>,
     options: &NormalOptions,
-    context: &Context,
-) -> Result<Normals, MeshError> {
+    context: &mut Context,
+) -> Result<Normals, Error> {
     let positions = positions.into();
     NormalPlan::new_with(positions, indices, faces, options, context)?.evaluate_with(positions, context)
 }
@@ -187,8 +188,8 @@ impl NormalPlan {
         indices: impl Into<Indices<'a>>,
         faces: Faces<'a>,
         options: &NormalOptions,
-    ) -> Result<Self, MeshError> {
-        Self::new_with(positions, indices, faces, options, &Context::new())
+    ) -> Result<Self, Error> {
+        Self::new_with(positions, indices, faces, options, &mut Context::new())
     }
 
     /// As [`NormalPlan::new`], with a context. Further error: the context's token was cancelled.
@@ -197,8 +198,8 @@ impl NormalPlan {
         indices: impl Into<Indices<'a>>,
         faces: Faces<'a>,
         options: &NormalOptions,
-        context: &Context,
-    ) -> Result<Self, MeshError> {
+        context: &mut Context,
+    ) -> Result<Self, Error> {
         let (mesh, limits) = (bare_mesh(positions.into(), indices.into(), faces)?, context.limits());
         let vertex_of_corner = vertices_of_corners(&mesh, options.seams, limits)?;
         let (fan_of_corner, creased_edges) = fans_of_corners(&mesh, &vertex_of_corner, options, limits)?;
@@ -221,18 +222,18 @@ impl NormalPlan {
     ///
     /// The result equals that of [`generate_normals`] as long as equal positions stay equal, distinct ones stay distinct, and no edge crosses
     /// the crease angle. `positions`: as many as at planning. Errors: another number of positions.
-    pub fn evaluate<'a>(&self, positions: impl Into<Strided<'a, 3>>) -> Result<Normals, MeshError> {
-        self.evaluate_with(positions, &Context::new())
+    pub fn evaluate<'a>(&self, positions: impl Into<Strided<'a, 3>>) -> Result<Normals, Error> {
+        self.evaluate_with(positions, &mut Context::new())
     }
 
     /// As [`NormalPlan::evaluate`], with a context. Further error: the context's token was cancelled.
     pub fn evaluate_with<'a>(
         &self,
         positions: impl Into<Strided<'a, 3>>,
-        context: &Context,
-    ) -> Result<Normals, MeshError> {
+        context: &mut Context,
+    ) -> Result<Normals, Error> {
         let positions = positions.into();
-        MeshError::check_mesh("vertices", self.vertex_count, positions.len())?;
+        Error::check_mesh("vertices", self.vertex_count, positions.len())?;
         let faces = self.sizes.as_deref().map_or(Faces::Triangles, Faces::Mixed);
         let mesh = bare_mesh(positions, Indices::U32(&self.indices), faces)?;
         let limits = context.limits();
@@ -281,8 +282,8 @@ pub fn split_normals<'a>(
     vertex_count: usize,
     indices: impl Into<Indices<'a>>,
     corners: impl Into<CornerNormalsRef<'a>>,
-) -> Result<NormalSplit, MeshError> {
-    split_normals_with(vertex_count, indices, corners, &Context::new())
+) -> Result<NormalSplit, Error> {
+    split_normals_with(vertex_count, indices, corners, &mut Context::new())
 }
 
 /// As [`split_normals`], with a context. Further error: the context's token was cancelled.
@@ -290,23 +291,23 @@ pub fn split_normals_with<'a>(
     vertex_count: usize,
     indices: impl Into<Indices<'a>>,
     corners: impl Into<CornerNormalsRef<'a>>,
-    context: &Context,
-) -> Result<NormalSplit, MeshError> {
+    context: &mut Context,
+) -> Result<NormalSplit, Error> {
     let CornerNormalsRef(corners) = corners.into();
     let size = [corners.len() as u32];
     let positions = Strided::repeated(&[0.0; 3], vertex_count);
     let indices = indices.into();
     let corner_count = indices.corner_count(vertex_count);
-    MeshError::check_input("normals", corner_count, corners.len())?;
+    Error::check_input("normals", corner_count, corners.len())?;
     let mesh = bare_mesh(positions, indices, Faces::Mixed(&size))?;
     let mut splitter = Splitter::new_with(vertex_count, context);
     // The splitter takes tangents: w = 0 marks used vertices, because unused ones get w = 1.
     let tangents = CornerTangents(corners.iter().map(|&[x, y, z]| [x, y, z, 0.0]).collect());
     let indices = splitter.add(&mesh, &tangents)?;
-    let (of_vertex, source_of_vertex) = splitter.finish();
+    let SplitBuffer { tangent_of_vertex, source_of_vertex } = splitter.finish();
     let normal = |[x, y, z, used]: [f32; 4]| if used == 0.0 { [x, y, z] } else { [0.0, 0.0, 1.0] };
     Ok(NormalSplit {
-        normal_of_vertex: of_vertex.into_iter().map(normal).collect(),
+        normal_of_vertex: tangent_of_vertex.into_iter().map(normal).collect(),
         indices,
         source_of_vertex,
     })
@@ -317,7 +318,7 @@ fn bare_mesh<'a>(
     positions: Strided<'a, 3>,
     indices: Indices<'a>,
     faces: Faces<'a>,
-) -> Result<Mesh<'a>, MeshError> {
+) -> Result<Mesh<'a>, Error> {
     let count = positions.len();
     let (normals, uvs) = (Strided::repeated(&[0.0; 3], count), Strided::repeated(&[0.0; 2], count));
     Mesh::with_faces(positions, normals, uvs, indices, faces)
@@ -348,7 +349,7 @@ impl WeightedNormal {
 }
 
 impl Polygons {
-    fn new(mesh: &Mesh<'_>, limits: RunLimits<'_>) -> Result<Self, MeshError> {
+    fn new(mesh: &Mesh<'_>, limits: RunLimits<'_>) -> Result<Self, Error> {
         let mut polygons = Self {
             face_of_corner: Vec::with_capacity(mesh.corner_count()),
             ends: Vec::with_capacity(mesh.face_count()),
@@ -429,7 +430,7 @@ fn vertices_of_corners(
     mesh: &Mesh<'_>,
     seams: SmoothingSeams,
     limits: RunLimits<'_>,
-) -> Result<Vec<u32>, MeshError> {
+) -> Result<Vec<u32>, Error> {
     let corners = 0..mesh.corner_count();
     if seams == SmoothingSeams::Respected {
         return Ok(corners.map(|corner| mesh.vertex_of_corner(corner) as u32).collect());
@@ -453,7 +454,7 @@ fn fans_of_corners(
     vertex_of_corner: &[u32],
     options: &NormalOptions,
     limits: RunLimits<'_>,
-) -> Result<(Vec<u32>, usize), MeshError> {
+) -> Result<(Vec<u32>, usize), Error> {
     match options.shading {
         Shading::Smooth if options.crease >= 180.0 => Ok((vertex_of_corner.to_vec(), 0)),
         Shading::Flat => Ok((Polygons::new(mesh, limits)?.face_of_corner, 0)),
@@ -469,7 +470,7 @@ fn fans(
     vertex_of_corner: &[u32],
     crease: f32,
     limits: RunLimits<'_>,
-) -> Result<(Vec<u32>, usize), MeshError> {
+) -> Result<(Vec<u32>, usize), Error> {
     let mut creased_edges = 0;
     let least_cosine = f64::from(crease.max(0.0)).to_radians().cos();
     let mut edges: Vec<([u32; 2], u32)> = (0..vertex_of_corner.len())

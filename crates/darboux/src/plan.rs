@@ -2,10 +2,10 @@
 
 use crate::Context;
 use crate::CornerTangents;
+use crate::Error;
 use crate::Faces;
 use crate::Indices;
 use crate::Mesh;
-use crate::MeshError;
 use crate::TangentOptions;
 use crate::Tangents;
 use crate::generate_tangents_with;
@@ -69,17 +69,17 @@ impl FaceList {
 impl Plan {
     /// Computes the tangents of the base mesh and keeps its topology.
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions) -> Self {
-        Self::make(mesh, options, &Context::new())
+        Self::make(mesh, options, &mut Context::new())
     }
 
     /// As [`Plan::new`], with the token and the thread limit of a context. Errors: the token was cancelled.
-    pub fn new_with(mesh: &Mesh<'_>, options: &TangentOptions, context: &Context) -> Result<Self, MeshError> {
+    pub fn new_with(mesh: &Mesh<'_>, options: &TangentOptions, context: &mut Context) -> Result<Self, Error> {
         let plan = Self::make(mesh, options, context);
         context.limits().check().map(|()| plan)
     }
 
     /// The plan is not usable after cancellation.
-    fn make(mesh: &Mesh<'_>, options: &TangentOptions, context: &Context) -> Self {
+    fn make(mesh: &Mesh<'_>, options: &TangentOptions, context: &mut Context) -> Self {
         let (planned, base) = Planned::new(mesh, options, context.limits());
         let faces = FaceList::new(mesh);
         Self { planned, options: *options, vertex_count: mesh.vertex_count(), faces, base }
@@ -95,12 +95,12 @@ impl Plan {
     /// `mesh`: the base's UVs, other positions and normals; faces and indices are taken from the base. Vertices that were welded and
     /// moved apart keep their common frame, but each triangle counts with the positions of its own vertices.
     /// Errors: another number of corners or vertices.
-    pub fn evaluate(&self, mesh: &Mesh<'_>) -> Result<CornerTangents, MeshError> {
+    pub fn evaluate(&self, mesh: &Mesh<'_>) -> Result<CornerTangents, Error> {
         self.evaluate_with(mesh, &mut Context::new())
     }
 
     /// As [`Plan::evaluate`], with a context. Further error: the context's token was cancelled.
-    pub fn evaluate_with(&self, mesh: &Mesh<'_>, context: &mut Context) -> Result<CornerTangents, MeshError> {
+    pub fn evaluate_with(&self, mesh: &Mesh<'_>, context: &mut Context) -> Result<CornerTangents, Error> {
         let mut corners = vec![[0.0; 4]; self.base.corners.len()];
         self.write_tangents(mesh, context, &mut corners)?;
         Ok(CornerTangents(corners))
@@ -117,23 +117,23 @@ impl Plan {
         mesh: &Mesh<'_>,
         context: &mut Context,
         corners: &mut [[f32; 4]],
-    ) -> Result<(), MeshError> {
+    ) -> Result<(), Error> {
         let base = &self.base.corners.0;
-        MeshError::check_mesh("corners", base.len(), mesh.corner_count())?;
-        MeshError::check_output("tangents", base.len(), corners.len())?;
-        MeshError::check_mesh("vertices", self.vertex_count, mesh.vertex_count())?;
+        Error::check_mesh("corners", base.len(), mesh.corner_count())?;
+        Error::check_output("tangents", base.len(), corners.len())?;
+        Error::check_mesh("vertices", self.vertex_count, mesh.vertex_count())?;
         let (limits, memory) = context.limits_and_memory();
         self.planned.evaluate(&self.faces.over(mesh), (&self.options, base), limits, memory, corners);
         limits.check()
     }
 
     /// Counts the corners to which a fresh run on the moved mesh would give another tangent (other bits) than [`Plan::evaluate`].
-    pub fn count_regrouped(&self, mesh: &Mesh<'_>) -> Result<usize, MeshError> {
+    pub fn count_regrouped(&self, mesh: &Mesh<'_>) -> Result<usize, Error> {
         self.count_regrouped_with(mesh, &mut Context::new())
     }
 
     /// As [`Plan::count_regrouped`], with a context. Further error: the context's token was cancelled.
-    pub fn count_regrouped_with(&self, mesh: &Mesh<'_>, context: &mut Context) -> Result<usize, MeshError> {
+    pub fn count_regrouped_with(&self, mesh: &Mesh<'_>, context: &mut Context) -> Result<usize, Error> {
         let planned = self.evaluate_with(mesh, context)?;
         let fresh = generate_tangents_with(mesh, &self.options, context)?.corners;
         let pairs = planned.per_corner().iter().zip(fresh.per_corner());

@@ -8,9 +8,9 @@ use std::collections::HashMap;
 use crate::Context;
 use crate::Convention;
 use crate::CornerTangentsRef;
+use crate::Error;
 use crate::Indices;
 use crate::Mesh;
-use crate::MeshError;
 use crate::cancel::Cancel;
 
 /// The vertices of an indexed mesh after splitting. The old vertices come first and keep their numbers.
@@ -25,6 +25,15 @@ pub struct VertexSplit {
     pub source_of_vertex: Vec<u32>,
 }
 
+/// The vertices of a buffer after several meshes that share it were split. The old vertices come first and keep their numbers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SplitBuffer {
+    /// As [`VertexSplit::tangent_of_vertex`].
+    pub tangent_of_vertex: Vec<[f32; 4]>,
+    /// As [`VertexSplit::source_of_vertex`].
+    pub source_of_vertex: Vec<u32>,
+}
+
 /// Splits the vertices whose corners have different tangents.
 ///
 /// Each distinct pair of old vertex and tangent (four floats, compared as bits) becomes one vertex. Old vertices keep their numbers; new
@@ -33,19 +42,19 @@ pub struct VertexSplit {
 pub fn split_vertices<'a>(
     mesh: &Mesh<'_>,
     corners: impl Into<CornerTangentsRef<'a>>,
-) -> Result<VertexSplit, MeshError> {
-    split_vertices_with(mesh, corners, &Context::new())
+) -> Result<VertexSplit, Error> {
+    split_vertices_with(mesh, corners, &mut Context::new())
 }
 
 /// As [`split_vertices`], with a context. Further error: the context's token was cancelled.
 pub fn split_vertices_with<'a>(
     mesh: &Mesh<'_>,
     corners: impl Into<CornerTangentsRef<'a>>,
-    context: &Context,
-) -> Result<VertexSplit, MeshError> {
+    context: &mut Context,
+) -> Result<VertexSplit, Error> {
     let mut splitter = Splitter::new_with(mesh.vertex_count(), context);
     let indices = splitter.add(mesh, corners)?;
-    let (tangent_of_vertex, source_of_vertex) = splitter.finish();
+    let SplitBuffer { tangent_of_vertex, source_of_vertex } = splitter.finish();
     Ok(VertexSplit { tangent_of_vertex, indices, source_of_vertex })
 }
 
@@ -79,11 +88,12 @@ const LIST_LIMIT: usize = if cfg!(small_limits) { 2 } else { 16 };
 impl Splitter {
     /// A splitter for a buffer of `vertex_count` vertices.
     pub fn new(vertex_count: usize) -> Self {
-        Self::new_with(vertex_count, &Context::new())
+        Self::new_with(vertex_count, &mut Context::new())
     }
 
-    /// As [`Splitter::new`], with a context, whose token cancels [`Splitter::add`] and [`Splitter::add_changes`].
-    pub fn new_with(vertex_count: usize, context: &Context) -> Self {
+    /// As [`Splitter::new`], with the token of a context. The splitter keeps a clone of the token, which cancels [`Splitter::add`] and
+    /// [`Splitter::add_changes`].
+    pub fn new_with(vertex_count: usize, context: &mut Context) -> Self {
         Self {
             cancel: context.limits().cancel.cloned(),
             tangent_of_vertex: vec![[1.0, 0.0, 0.0, 1.0]; vertex_count],
@@ -101,7 +111,7 @@ impl Splitter {
         &mut self,
         mesh: &Mesh<'_>,
         corners: impl Into<CornerTangentsRef<'a>>,
-    ) -> Result<Vec<u32>, MeshError> {
+    ) -> Result<Vec<u32>, Error> {
         let old = |corner| mesh.vertex_of_corner(corner) as u32;
         Ok(self.add_changes(mesh, corners)?.unwrap_or_else(|| (0..mesh.corner_count()).map(old).collect()))
     }
@@ -111,10 +121,10 @@ impl Splitter {
         &mut self,
         mesh: &Mesh<'_>,
         corners: impl Into<CornerTangentsRef<'a>>,
-    ) -> Result<Option<Vec<u32>>, MeshError> {
+    ) -> Result<Option<Vec<u32>>, Error> {
         let CornerTangentsRef(tangents) = corners.into();
-        MeshError::check_input("tangents", mesh.corner_count(), tangents.len())?;
-        MeshError::check_mesh("vertices", self.old_count, mesh.vertex_count())?;
+        Error::check_input("tangents", mesh.corner_count(), tangents.len())?;
+        Error::check_mesh("vertices", self.old_count, mesh.vertex_count())?;
         match mesh.indices() {
             Indices::Unindexed => self.changes(0..tangents.len() as u32, tangents),
             Indices::U16(list) => self.changes(list.iter().map(|&index| index.into()), tangents),
@@ -127,7 +137,7 @@ impl Splitter {
         &mut self,
         old: impl Iterator<Item = u32> + Clone,
         tangents: &[[f32; 4]],
-    ) -> Result<Option<Vec<u32>>, MeshError> {
+    ) -> Result<Option<Vec<u32>>, Error> {
         let Some(first) = self.first_change(old.clone(), tangents)? else { return Ok(None) };
         let mut vertices = Vec::with_capacity(tangents.len());
         vertices.extend(old.clone().take(first));
@@ -144,7 +154,7 @@ impl Splitter {
         &mut self,
         old: impl Iterator<Item = u32>,
         tangents: &[[f32; 4]],
-    ) -> Result<Option<usize>, MeshError> {
+    ) -> Result<Option<usize>, Error> {
         let mut corners = old.zip(tangents);
         for start in (0..tangents.len()).step_by(CHUNK) {
             self.check()?;
@@ -156,12 +166,8 @@ impl Splitter {
         Ok(None)
     }
 
-    fn check(&self) -> Result<(), MeshError> {
-        if self.cancel.as_ref().is_some_and(Cancel::is_cancelled) {
-            Err(MeshError::Cancelled)
-        } else {
-            Ok(())
-        }
+    fn check(&self) -> Result<(), Error> {
+        if self.cancel.as_ref().is_some_and(Cancel::is_cancelled) { Err(Error::Cancelled) } else { Ok(()) }
     }
 
     /// The vertex with source `old` and this tangent: the old vertex, if it has the tangent or none yet; else an appended one.
@@ -212,7 +218,7 @@ impl Splitter {
     }
 
     /// As [`Splitter::finish`], with the tangents converted from one convention to another. Tangents of unused vertices stay (1, 0, 0, 1).
-    pub fn finish_in(mut self, from: Convention, to: Convention) -> (Vec<[f32; 4]>, Vec<u32>) {
+    pub fn finish_in(mut self, from: Convention, to: Convention) -> SplitBuffer {
         let conversion = from.to(to);
         for (tangent, &next) in self.tangent_of_vertex.iter_mut().zip(&self.next_of_vertex) {
             if next != UNUSED {
@@ -222,9 +228,9 @@ impl Splitter {
         self.finish()
     }
 
-    /// Returns `tangent_of_vertex` and `source_of_vertex` of [`VertexSplit`].
-    pub fn finish(self) -> (Vec<[f32; 4]>, Vec<u32>) {
-        (self.tangent_of_vertex, self.source_of_vertex)
+    /// Returns the vertices of the split buffer.
+    pub fn finish(self) -> SplitBuffer {
+        SplitBuffer { tangent_of_vertex: self.tangent_of_vertex, source_of_vertex: self.source_of_vertex }
     }
 }
 
@@ -281,7 +287,7 @@ mod tests {
         let mut found = splitter.add(&mesh(&old[..600]), &CornerTangents(first.to_vec())).unwrap();
         found.extend(splitter.add(&mesh(&old[600..]), &CornerTangents(second.to_vec())).unwrap());
         assert_eq!(splitter.add_changes(&mesh(&[]), &CornerTangents(Vec::new())).unwrap(), None);
-        let (tangent_of_vertex, source_of_vertex) = splitter.finish();
+        let SplitBuffer { tangent_of_vertex, source_of_vertex } = splitter.finish();
         assert_eq!(found, indices);
         assert_eq!(source_of_vertex, sources);
         for (&vertex, tangent) in found.iter().zip(&tangents) {

@@ -23,16 +23,16 @@ mod uv_derivatives;
 mod vertex_sums;
 
 use crate::Context;
+use crate::Error;
 use crate::Mesh;
-use crate::MeshError;
 
 pub use crate::tangents::frames::{
-    Frames, LentFrames, generate_frames, generate_frames_with, lend_frames, write_frames,
+    CompactFrames, Frames, generate_compact_frames, generate_frames, generate_frames_with, write_frames,
 };
 pub use crate::tangents::generate::Tangents;
 use crate::tangents::generate::{generate, run};
 pub(crate) use crate::tangents::method_plan::Planned;
-pub use crate::tangents::options::{Method, MikktOptions, Mode, TangentOptions};
+pub use crate::tangents::options::{Method, MikkTSpaceOptions, Mode, TangentOptions};
 pub use crate::tangents::report::Report;
 
 /// Computes the tangent of every corner.
@@ -47,7 +47,7 @@ pub fn generate_tangents_with(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
     context: &mut Context,
-) -> Result<Tangents, MeshError> {
+) -> Result<Tangents, Error> {
     let (limits, memory) = context.limits_and_memory();
     let tangents = generate(mesh, options, limits, memory);
     limits.check().map(|()| tangents)
@@ -64,8 +64,8 @@ pub fn write_tangents(
     options: &TangentOptions,
     context: &mut Context,
     corners: &mut [[f32; 4]],
-) -> Result<Report, MeshError> {
-    MeshError::check_output("tangents", mesh.corner_count(), corners.len())?;
+) -> Result<Report, Error> {
+    Error::check_output("tangents", mesh.corner_count(), corners.len())?;
     let (limits, memory) = context.limits_and_memory();
     let report = run(mesh, options, limits, memory, corners);
     limits.check().map(|()| report)

@@ -1,8 +1,8 @@
 //! Prints the core's results for every corpus mesh as lines of JSON, with floats as bits, for tests of the bindings to other languages.
 
 use darboux::{
-    Mesh, Method, MikktOptions, Mode, Plan, TangentOptions, Tangents, generate_frames, generate_tangents,
-    split_vertices,
+    Mesh, Method, MikkTSpaceOptions, Mode, Plan, TangentOptions, Tangents, generate_frames,
+    generate_tangents, split_vertices,
 };
 use darboux_tests::corpus::{Specimen, corpus};
 
@@ -23,14 +23,14 @@ fn main() {
             for &threshold in &specimen.thresholds {
                 println!(
                     "{}",
-                    line(&specimen, MikktOptions::new().with_mode(mode).with_threshold(threshold))
+                    line(&specimen, MikkTSpaceOptions::new().with_mode(mode).with_threshold(threshold))
                 );
             }
         }
     }
 }
 
-fn line(Specimen { name, mesh, .. }: &Specimen, mikkt: MikktOptions) -> String {
+fn line(Specimen { name, mesh, .. }: &Specimen, mikkt: MikkTSpaceOptions) -> String {
     let (view, options) = (mesh.view(), &TangentOptions::from(mikkt));
     let Tangents { corners: tangents, report } = generate_tangents(&view, options);
     let frames = generate_frames(&view, options).corners;

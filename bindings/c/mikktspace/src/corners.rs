@@ -60,7 +60,7 @@ impl Corners {
 
     /// Passes the result of every corner to `write`, with the face and the corner's number in the face.
     ///
-    /// `read(first, block)` fills `block` with the results of the mesh's corners from `first` on. `None` where `read` returns `None`.
+    /// `read(first, block)` fills `block` with the results of consecutive corners of the mesh, the first of them `first`. `None` where `read` returns `None`.
     pub fn hand_out<T: Copy + Default>(
         &self,
         read: impl Fn(usize, &mut [T]) -> Option<()>,
@@ -71,7 +71,9 @@ impl Corners {
         for (face, &size) in (0..).zip(&self.size_of_face) {
             for corner in 0..c_int::from(size) {
                 if at % BLOCK == 0 {
-                    read(self.skipped + at, &mut block)?;
+                    let first = self.skipped + at;
+                    let count = (self.vertex_of_corner.len() - first).min(BLOCK);
+                    read(first, &mut block[..count])?;
                 }
                 write(face, corner, &block[at % BLOCK]);
                 at += 1;

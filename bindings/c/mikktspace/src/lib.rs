@@ -14,7 +14,7 @@ mod corners;
 use std::ffi::c_int;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use darboux::{MikktOptions, Mode, TangentOptions, generate_tangents, lend_frames};
+use darboux::{MikkTSpaceOptions, Mode, TangentOptions, generate_compact_frames, generate_tangents};
 
 use callbacks::{Caller, Context};
 use corners::Corners;
@@ -38,14 +38,14 @@ pub unsafe extern "C-unwind" fn genTangSpace(context: *const Context, threshold:
 fn run(caller: &Caller, threshold: f32) -> Option<()> {
     let corners = Corners::read(caller)?;
     let options =
-        TangentOptions::from(MikktOptions::new().with_mode(Mode::Reference).with_threshold(threshold));
+        TangentOptions::from(MikkTSpaceOptions::new().with_mode(Mode::Reference).with_threshold(threshold));
     let mesh = corners.mesh()?;
     if caller.wants_frames() {
         let mut memory = darboux::Context::new();
-        let frames = contained(|| lend_frames(&mesh, &options, &mut memory).ok())?;
+        let frames = contained(|| generate_compact_frames(&mesh, &options, &mut memory).ok())?;
         let read = |first, out: &mut [_]| {
             contained(|| {
-                frames.write(first, out);
+                frames.read(first, out);
                 Some(())
             })
         };
@@ -53,17 +53,15 @@ fn run(caller: &Caller, threshold: f32) -> Option<()> {
     } else {
         let tangents = contained(|| Some(generate_tangents(&mesh, &options).corners.into_per_corner()))?;
         let write = |face, corner, tangent: &_| caller.write_tangent(face, corner, tangent);
-        corners.hand_out(|first, out| copy(tangents.get(first..)?, out), write)
+        let read = |first, out: &mut [_]| {
+            out.copy_from_slice(tangents.get(first..first + out.len())?);
+            Some(())
+        };
+        corners.hand_out(read, write)
     }
 }
 
 /// `None` where `compute` panics or returns `None`.
 fn contained<R>(compute: impl FnOnce() -> Option<R>) -> Option<R> {
     catch_unwind(AssertUnwindSafe(compute)).ok()?
-}
-
-/// Copies as many elements as both slices hold.
-fn copy<T: Copy>(from: &[T], to: &mut [T]) -> Option<()> {
-    from.iter().zip(to).for_each(|(from, to)| *to = *from);
-    Some(())
 }

@@ -87,12 +87,12 @@ static void *use_everything(void *out) {
   darboux_vertex_split *split = NULL;
   darboux_plan *plan = NULL;
   darboux_mesh broken = mesh;
-  expect(darboux_generate_tangents(&mesh, NULL, mine[0], CORNERS, 0, NULL) == DARBOUX_STATUS_OK, "no tangents");
-  expect(darboux_split_vertices(&mesh, mine[0], CORNERS, 0, &split) == DARBOUX_STATUS_OK, "no split");
-  expect(darboux_plan_create(&mesh, NULL, &plan) == DARBOUX_STATUS_OK, "no plan");
+  expect(darboux_generate_tangents(&mesh, NULL, NULL, mine[0], CORNERS, 0, NULL) == DARBOUX_STATUS_OK, "no tangents");
+  expect(darboux_split_vertices(&mesh, mine[0], CORNERS, 0, NULL, &split) == DARBOUX_STATUS_OK, "no split");
+  expect(darboux_plan_create(&mesh, NULL, NULL, &plan) == DARBOUX_STATUS_OK, "no plan");
   expect(split->index_count == CORNERS, "wrong tangents");
   broken.index_count = CORNERS - 1;
-  expect(darboux_generate_tangents(&broken, NULL, mine[0], CORNERS - 1, 0, NULL) == DARBOUX_STATUS_FACES, "not refused");
+  expect(darboux_generate_tangents(&broken, NULL, NULL, mine[0], CORNERS - 1, 0, NULL) == DARBOUX_STATUS_FACES, "not refused");
   expect(darboux_last_error()[0] != 0, "no message");
   darboux_vertex_split_free(split);
   darboux_plan_free(plan);
@@ -101,7 +101,7 @@ static void *use_everything(void *out) {
 
 int main(void) {
   pthread_t threads[THREADS];
-  darboux_tangent_options options = {0};
+  darboux_context *context = NULL;
   mesh = make_grid();
   expect(darboux_set_allocator(take, give, &counter) == DARBOUX_STATUS_OK, "the allocator was not taken");
   for (int i = 0; i < THREADS; i++) {
@@ -112,11 +112,11 @@ int main(void) {
   expect(counter.bytes == 0, "threads that ended have left memory");
   for (int i = 1; i < THREADS; i++) expect(memcmp(tangents[0], tangents[i], sizeof tangents[0]) == 0, "other tangents");
 
-  expect(darboux_context_create(3, &options.context) == DARBOUX_STATUS_OK, "no context");
+  expect(darboux_context_create(3, &context) == DARBOUX_STATUS_OK, "no context");
   memset(tangents[1], 0, sizeof tangents[1]);
-  expect(darboux_generate_tangents(&mesh, &options, tangents[1][0], CORNERS, 0, NULL) == DARBOUX_STATUS_OK, "no tangents");
+  expect(darboux_generate_tangents(&mesh, NULL, context, tangents[1][0], CORNERS, 0, NULL) == DARBOUX_STATUS_OK, "no tangents");
   expect(memcmp(tangents[0], tangents[1], sizeof tangents[0]) == 0, "other tangents on a context's threads");
-  darboux_context_free(options.context);
+  darboux_context_free(context);
   expect(counter.bytes < 64 * 1024, "a context has left more than bookkeeping");
 
   expect(darboux_set_allocator(take, give, &counter) == DARBOUX_STATUS_TOO_LATE, "the allocator was taken twice");

@@ -23,13 +23,13 @@ fn refused(mesh: &darboux_mesh, status: darboux_status, part: &str) {
     let (mut plan, mut split) = (null_mut(), null_mut());
     let found = [
         // SAFETY: every call rejects the mesh, so the output is not accessed.
-        unsafe { darboux_generate_tangents(mesh, null(), to, corners, 0, null_mut()) },
+        unsafe { darboux_generate_tangents(mesh, null(), null(), to, corners, 0, null_mut()) },
         // SAFETY: as above.
-        unsafe { darboux_generate_frames(mesh, null(), to.cast(), corners, 0, null_mut()) },
+        unsafe { darboux_generate_frames(mesh, null(), null(), to.cast(), corners, 0, null_mut()) },
         // SAFETY: as above.
-        unsafe { darboux_split_vertices(mesh, to, corners, 0, &mut split) },
+        unsafe { darboux_split_vertices(mesh, to, corners, 0, null(), &mut split) },
         // SAFETY: as above.
-        unsafe { darboux_plan_create(mesh, null(), &mut plan) },
+        unsafe { darboux_plan_create(mesh, null(), null(), &mut plan) },
     ];
     assert_eq!(found, [status; 4], "{}", message());
     assert!(message().contains(part), "{}", message());
@@ -81,13 +81,14 @@ fn broken_meshes_are_refused() {
         );
     }
     // SAFETY: null pointers are rejected.
-    let of_null = unsafe { darboux_generate_tangents(null(), null(), null_mut(), 0, 0, null_mut()) };
+    let of_null = unsafe { darboux_generate_tangents(null(), null(), null(), null_mut(), 0, 0, null_mut()) };
     assert_eq!((of_null, message()), (NullPointer, "darboux_mesh is null".into()));
     // SAFETY: a count other than the mesh's is rejected.
-    let few = unsafe { darboux_generate_tangents(&good, null(), [0.0; 4].as_mut_ptr(), 1, 0, null_mut()) };
+    let few =
+        unsafe { darboux_generate_tangents(&good, null(), null(), [0.0; 4].as_mut_ptr(), 1, 0, null_mut()) };
     assert_eq!(few, Length);
     // SAFETY: a null output is rejected.
-    let none = unsafe { darboux_generate_tangents(&good, null(), null_mut(), count, 0, null_mut()) };
+    let none = unsafe { darboux_generate_tangents(&good, null(), null(), null_mut(), count, 0, null_mut()) };
     assert_eq!((none, message()), (NullPointer, "tangents is null".into()));
 }
 
@@ -98,15 +99,15 @@ fn handles_and_results_may_be_null() {
     let mut float = 0.0;
     let found = [
         // SAFETY: null pointers are rejected.
-        unsafe { darboux_split_vertices(&view, &float, 1, 0, null_mut()) },
+        unsafe { darboux_split_vertices(&view, &float, 1, 0, null(), null_mut()) },
         // SAFETY: as above.
-        unsafe { darboux_plan_create(&view, null(), null_mut()) },
+        unsafe { darboux_plan_create(&view, null(), null(), null_mut()) },
         // SAFETY: as above.
         unsafe { darboux_context_create(1, null_mut()) },
         // SAFETY: as above.
         unsafe { darboux_plan_base(null(), &mut float, 1, 0, null_mut()) },
         // SAFETY: as above.
-        unsafe { darboux_measure_tangents(null(), 0, null(), 0, 0, null_mut()) },
+        unsafe { darboux_measure_tangents(0, null(), 0, null(), 0, null(), null_mut()) },
         // SAFETY: as above.
         unsafe { darboux_encode_tangents(0, 1, null(), 0, null(), 0, null_mut(), 0) },
         // SAFETY: as above.
@@ -138,7 +139,9 @@ fn struct_sizes() {
     let mut out = vec![[0.0f32; 4]; count];
     let mut run = |options: *const darboux_tangent_options, report: *mut darboux_report| {
         // SAFETY: all pointers refer to structs of the given sizes.
-        unsafe { darboux_generate_tangents(&view, options, out.as_mut_ptr().cast(), count, 0, report) }
+        unsafe {
+            darboux_generate_tangents(&view, options, null(), out.as_mut_ptr().cast(), count, 0, report)
+        }
     };
     let size = size_of::<Later<darboux_tangent_options>>();
     let mut later = Later { known: darboux_tangent_options { size, ..default_options() }, new: 0 };
@@ -222,8 +225,9 @@ fn random_structs_do_no_harm() {
             ..default_options()
         };
         // SAFETY: a mesh that is accepted lies in the buffer, and has at most 12 corners.
-        let status =
-            unsafe { darboux_generate_tangents(&mesh, &options, out.as_mut_ptr(), count, 0, null_mut()) };
+        let status = unsafe {
+            darboux_generate_tangents(&mesh, &options, null(), out.as_mut_ptr(), count, 0, null_mut())
+        };
         assert_ne!(status, darboux_status::Internal);
         assert!(status == darboux_status::Ok || !message().is_empty());
         counts[usize::from(status == darboux_status::Ok)] += 1;
@@ -235,11 +239,11 @@ fn random_structs_do_no_harm() {
 fn empty_meshes_are_fine() {
     let mesh = empty_mesh();
     // SAFETY: all counts are zero, so nothing is read or written.
-    let found = unsafe { darboux_generate_tangents(&mesh, null(), null_mut(), 0, 0, null_mut()) };
+    let found = unsafe { darboux_generate_tangents(&mesh, null(), null(), null_mut(), 0, 0, null_mut()) };
     assert_eq!(found, darboux_status::Ok);
     let mut split = null_mut();
     // SAFETY: as above.
-    let found = unsafe { darboux_split_vertices(&mesh, null(), 0, 0, &mut split) };
+    let found = unsafe { darboux_split_vertices(&mesh, null(), 0, 0, null(), &mut split) };
     assert_eq!(found, darboux_status::Ok);
     // SAFETY: the object was created above, and is no longer used.
     unsafe { darboux_vertex_split_free(split) };

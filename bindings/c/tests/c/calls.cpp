@@ -79,10 +79,9 @@ static void tangents() {
 
   darboux_tangent_options options = {};
   darboux::context context;
-  options.context = context.get();
   options.method = DARBOUX_METHOD_FROM_NORMAL;
   for (int round = 0; round < 3; round++) {
-    expect(darboux::generate_tangents(mesh, options).corners.size() == 12, "with a context");
+    expect(darboux::generate_tangents(mesh, options, &context).corners.size() == 12, "with a context");
   }
 
   // Without indices, tangents are written into the vertices, between the attributes that the mesh reads.

@@ -39,7 +39,7 @@ facts_of_structs! {
         size, vertex_count, positions, position_stride, normals, normal_stride, uvs, uv_stride, indices_u32, indices_u16,
         index_count, faces, face_sizes, face_count,
     }
-    darboux_tangent_options { size, method, mode, threshold, context }
+    darboux_tangent_options { size, method, mode, threshold, reserved }
     darboux_report {
         size, triangles, unsupported_faces, degenerate_triangles, uv_degenerate_triangles, non_finite_corners,
         repaired_corners, mixed_sign_faces, mirrored_edges, split_vertices, merged_vertices,
@@ -53,7 +53,7 @@ facts_of_structs! {
         size, corners, identical, sign_flips, without_angle, mean, min, median, p95, max, histogram, worst_count, worst_corners,
         worst_angles,
     }
-    darboux_uv_fidelity { size, mean, root_mean_square, area, left_out }
+    darboux_uv_fidelity { size, mean, root_mean_square, area, unmeasured_triangles }
     darboux_convention { size, right, up, front, winding, uv_origin, tangent, bitangent, sign }
     darboux_frame_arrays {
         size, count, normals, normal_stride, tangents, tangent_stride, out_normals, out_normal_stride, out_tangents,
@@ -252,7 +252,9 @@ fn tangents(faces: u32, options: darboux_tangent_options) -> darboux_status {
     one_face(faces, |mesh, corners| {
         let mut out = [[0.0f32; 4]; 4];
         // SAFETY: all pointers refer to arrays of the given lengths.
-        unsafe { darboux_generate_tangents(mesh, &options, out.as_mut_ptr().cast(), corners, 0, null_mut()) }
+        unsafe {
+            darboux_generate_tangents(mesh, &options, null(), out.as_mut_ptr().cast(), corners, 0, null_mut())
+        }
     })
 }
 
@@ -260,7 +262,9 @@ fn normals(options: darboux_normal_options) -> darboux_status {
     one_face(0, |mesh, corners| {
         let mut out = [[0.0f32; 3]; 4];
         // SAFETY: as above.
-        unsafe { darboux_generate_normals(mesh, &options, out.as_mut_ptr().cast(), corners, 0, null_mut()) }
+        unsafe {
+            darboux_generate_normals(mesh, &options, null(), out.as_mut_ptr().cast(), corners, 0, null_mut())
+        }
     })
 }
 

@@ -3,14 +3,14 @@
 use std::hint::black_box;
 use std::io::Write;
 use std::process::Command;
-use std::ptr::null_mut;
+use std::ptr::{null, null_mut};
 use std::time::Instant;
 
 use darboux::{Context, CornerTangentsRef, TangentOptions, split_vertices, write_tangents};
 use darboux_c::*;
 use darboux_tests::{OwnedMesh, families};
 
-use crate::agreement::{default_options, packed};
+use crate::agreement::packed;
 use crate::support::{Link, build, folder, has, reference_sources, run, source};
 
 fn print(line: &str) {
@@ -76,14 +76,22 @@ fn speed_over_rust() {
             _ = write_tangents(&view, &TangentOptions::default(), &mut context, &mut tangents)
                 .expect("one tangent per corner");
         });
-        let mut options = default_options();
+        let mut c_context = null_mut();
         // SAFETY: the context is writable.
-        assert_eq!(unsafe { darboux_context_create(1, &mut options.context) }, darboux_status::Ok);
+        assert_eq!(unsafe { darboux_context_create(1, &mut c_context) }, darboux_status::Ok);
         let mut out = vec![[0.0f32; 4]; count];
         let c = least(rounds, || {
             // SAFETY: all pointers refer to arrays of the given lengths.
             let status = unsafe {
-                darboux_generate_tangents(&c_view, &options, out.as_mut_ptr().cast(), count, 0, null_mut())
+                darboux_generate_tangents(
+                    &c_view,
+                    null(),
+                    c_context,
+                    out.as_mut_ptr().cast(),
+                    count,
+                    0,
+                    null_mut(),
+                )
             };
             assert_eq!(status, darboux_status::Ok);
         });
@@ -94,12 +102,12 @@ fn speed_over_rust() {
             let mut split = null_mut();
             // SAFETY: all pointers refer to arrays of the given lengths; the split is freed once.
             unsafe {
-                darboux_split_vertices(&c_view, out.as_ptr().cast(), count, 0, &mut split);
+                darboux_split_vertices(&c_view, out.as_ptr().cast(), count, 0, null(), &mut split);
                 darboux_vertex_split_free(split);
             }
         });
         // SAFETY: the context is from `darboux_context_create`.
-        unsafe { darboux_context_free(options.context) };
+        unsafe { darboux_context_free(c_context) };
         print(&format!(
             "{name}: tangents Rust {rust:.0} ns, C {c:.0} ns; splits Rust {rust_split:.0} ns, C {c_split:.0} ns"
         ));

@@ -57,33 +57,33 @@ static darboux_mesh make_grid(void) {
 
 int main(void) {
   const darboux_mesh mesh = make_grid();
-  darboux_tangent_options options = {0};
+  darboux_context *context = NULL;
   darboux_plan *plan = NULL;
-  check(darboux_generate_tangents(&mesh, NULL, alone[0], CORNERS, 0, NULL));
-  check(darboux_plan_create(&mesh, NULL, &plan));
+  check(darboux_generate_tangents(&mesh, NULL, NULL, alone[0], CORNERS, 0, NULL));
+  check(darboux_plan_create(&mesh, NULL, NULL, &plan));
   check(darboux_plan_evaluate(plan, &mesh, NULL, together[0], CORNERS, 0));
   expect(memcmp(alone, together, sizeof alone) == 0, "the plan differs");
-  check(darboux_context_create(1, &options.context));
-  check(darboux_generate_tangents(&mesh, &options, together[0], CORNERS, 0, NULL));
-  darboux_context_free(options.context);
+  check(darboux_context_create(1, &context));
+  check(darboux_generate_tangents(&mesh, NULL, context, together[0], CORNERS, 0, NULL));
+  darboux_context_free(context);
   expect(thread_count() == 1, "a thread was started");
 
-  check(darboux_context_create(3, &options.context));
+  check(darboux_context_create(3, &context));
   expect(thread_count() == 4, "not three threads");
   for (int round = 0; round < 20; round++) {
     memset(together, 0, sizeof together);
-    check(darboux_generate_tangents(&mesh, &options, together[0], CORNERS, 0, NULL));
+    check(darboux_generate_tangents(&mesh, NULL, context, together[0], CORNERS, 0, NULL));
     expect(memcmp(alone, together, sizeof alone) == 0, "the number of threads shows");
     memset(together, 0, sizeof together);
-    check(darboux_plan_evaluate(plan, &mesh, options.context, together[0], CORNERS, 0));
+    check(darboux_plan_evaluate(plan, &mesh, context, together[0], CORNERS, 0));
     expect(memcmp(alone, together, sizeof alone) == 0, "the number of threads shows in the plan");
   }
-  darboux_context_free(options.context);
+  darboux_context_free(context);
   expect(thread_count() == 1, "threads outlive their context");
   darboux_plan_free(plan);
 
-  expect(darboux_context_create(100000, &options.context) == DARBOUX_STATUS_THREADS, "too many threads");
-  check(darboux_context_create(0, &options.context));
-  darboux_context_free(options.context);
+  expect(darboux_context_create(100000, &context) == DARBOUX_STATUS_THREADS, "too many threads");
+  check(darboux_context_create(0, &context));
+  darboux_context_free(context);
   return EXIT_SUCCESS;
 }

@@ -116,7 +116,7 @@ class UvFidelity(NamedTuple):
     """The root of the mean square of the angle."""
     area: float
     """The area that was measured."""
-    left_out: int
+    unmeasured_triangles: int
     """Triangles that were not: without area, or without a dP/du."""
 
 

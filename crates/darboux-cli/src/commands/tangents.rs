@@ -4,7 +4,7 @@ pub mod arguments;
 mod device;
 pub mod summary;
 
-use darboux::{Context, Mesh, Method, MikktOptions, TangentOptions};
+use darboux::{Context, Mesh, Method, MikkTSpaceOptions, TangentOptions};
 use darboux_io::gltf::{
     NormalsOptions, Outcome, Progress, TangentsOptions, Totals, Written, add_normals, add_tangents_with,
 };
@@ -46,7 +46,7 @@ impl FileCommand for TangentsArguments {
 
     fn check(&self) -> Result<(), UsageError> {
         let mikktspace_options = [
-            ("--threshold", self.threshold != MikktOptions::new().threshold),
+            ("--threshold", self.threshold != MikkTSpaceOptions::new().threshold),
             ("--mode", self.mode != Mode::default()),
             ("--device gpu", self.device == Device::Gpu),
         ];

@@ -10,7 +10,8 @@
 
 use darboux::internal::gpu_resume;
 use darboux::{
-    CornerTangents, Faces, Indices, Mesh, Method, MikktOptions, TangentOptions, Tangents, generate_tangents,
+    CornerTangents, Faces, Indices, Mesh, Method, MikkTSpaceOptions, TangentOptions, Tangents,
+    generate_tangents,
 };
 use wgpu::{CommandEncoder, Device, Queue};
 
@@ -138,7 +139,11 @@ impl MikkTSpace {
 
     /// The arrays between the stages for a mesh of one tile, for tests. Errors as for [`MikkTSpace::generate_tangents`].
     #[doc(hidden)]
-    pub fn stage_arrays(&self, mesh: &Mesh<'_>, options: &MikktOptions) -> Result<StageArrays, GpuError> {
+    pub fn stage_arrays(
+        &self,
+        mesh: &Mesh<'_>,
+        options: &MikkTSpaceOptions,
+    ) -> Result<StageArrays, GpuError> {
         let (device, queue) = (&self.device, &self.queue);
         with_error_scopes(device, || {
             let StageRecording { vertices, tile } = self.single_tile(mesh, options)?;
@@ -167,11 +172,15 @@ impl MikkTSpace {
 
     /// The commands for a mesh of one tile, for benchmarks. Errors as for [`MikkTSpace::generate_tangents`].
     #[doc(hidden)]
-    pub fn recording(&self, mesh: &Mesh<'_>, options: &MikktOptions) -> Result<StageRecording, GpuError> {
+    pub fn recording(
+        &self,
+        mesh: &Mesh<'_>,
+        options: &MikkTSpaceOptions,
+    ) -> Result<StageRecording, GpuError> {
         with_error_scopes(&self.device, || self.single_tile(mesh, options))
     }
 
-    fn single_tile(&self, mesh: &Mesh<'_>, options: &MikktOptions) -> Result<StageRecording, GpuError> {
+    fn single_tile(&self, mesh: &Mesh<'_>, options: &MikkTSpaceOptions) -> Result<StageRecording, GpuError> {
         let (device, programs) = (&self.device, &self.programs);
         let vertices = UploadedVertices::new(device, programs, mesh)?;
         let threshold_cosine = gpu_resume::threshold_cosine(options);
@@ -184,7 +193,7 @@ impl MikkTSpace {
         &self,
         mesh: &Mesh<'_>,
         indices: &[u32],
-        options: &MikktOptions,
+        options: &MikkTSpaceOptions,
     ) -> Result<Option<PartialTangents>, GpuError> {
         let tile_corners = 3 * self.triangles_per_tile()?;
         let threshold_cosine = gpu_resume::threshold_cosine(options);

@@ -1,6 +1,6 @@
 //! Runs plans once, and reads their results.
 
-use darboux::{MikktOptions, Mode, TangentOptions};
+use darboux::{MikkTSpaceOptions, Mode, TangentOptions};
 use darboux_gpu::{Attribute, Gpu, GpuError, MovingMesh, Plan, Planner, TangentsPer};
 use darboux_tests::OwnedMesh;
 use wgpu::BufferUsages;
@@ -23,7 +23,7 @@ pub fn run(
     mode: Mode,
     per: TangentsPer,
 ) -> Found {
-    let options = TangentOptions::from(MikktOptions::new().with_mode(mode));
+    let options = TangentOptions::from(MikkTSpaceOptions::new().with_mode(mode));
     let plan = planner.plan(&base.view(), &options).unwrap_or_else(|error| panic!("{error}"));
     let words = |values: &[[f32; 3]]| values.as_flattened().iter().map(|x| x.to_bits()).collect::<Vec<_>>();
     let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;

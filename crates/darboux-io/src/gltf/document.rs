@@ -4,7 +4,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
-use darboux::MeshError;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::value::RawValue;
@@ -491,7 +490,7 @@ impl Document {
     }
 
     /// The error [`Error::Mesh`] about the primitive at the JSON path `at`.
-    pub fn mesh_error(&self, at: impl Into<String>, source: MeshError) -> Error {
+    pub fn mesh_error(&self, at: impl Into<String>, source: darboux::Error) -> Error {
         Error::Mesh { file: self.name.clone(), at: at.into(), source }
     }
 }

@@ -37,14 +37,14 @@ pub fn add_normals(
     options: &NormalsOptions,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<NormalsSummary, Error> {
-    add_normals_with(document, options, &Context::new(), progress)
+    add_normals_with(document, options, &mut Context::new(), progress)
 }
 
 /// As [`add_normals`], with a context. Further error: the context's token was cancelled.
 pub fn add_normals_with(
     document: &mut Document,
     options: &NormalsOptions,
-    context: &Context,
+    context: &mut Context,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<NormalsSummary, Error> {
     let selection = select_readable(document, options)?;

@@ -3,7 +3,7 @@
 //! A public function takes them from its [`Context`](crate::Context) once and passes the copy to every stage, also to stages that run
 //! on the threads of a pool. Nothing depends on the thread that a stage runs on.
 
-use crate::MeshError;
+use crate::Error;
 use crate::cancel::Cancel;
 use crate::exec::simd::{Width, WidthLimit};
 
@@ -36,13 +36,13 @@ impl RunLimits<'_> {
     }
 
     /// Errors: the call was cancelled.
-    pub fn check(&self) -> Result<(), MeshError> {
-        if self.is_cancelled() { Err(MeshError::Cancelled) } else { Ok(()) }
+    pub fn check(&self) -> Result<(), Error> {
+        if self.is_cancelled() { Err(Error::Cancelled) } else { Ok(()) }
     }
 
     /// As [`RunLimits::check`], for element `index` of a long loop: most elements are not checked.
     #[inline]
-    pub fn check_at(&self, index: usize) -> Result<(), MeshError> {
+    pub fn check_at(&self, index: usize) -> Result<(), Error> {
         if index.is_multiple_of(CHECK_INTERVAL) { self.check() } else { Ok(()) }
     }
 

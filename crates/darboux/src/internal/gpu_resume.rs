@@ -3,7 +3,7 @@
 //! For `darboux-gpu` and the npm package. Not part of the API.
 
 use crate::Mesh;
-use crate::MikktOptions;
+use crate::MikkTSpaceOptions;
 use crate::Report;
 use crate::exec::limits::RunLimits;
 use crate::math::cosine_of_degrees;
@@ -21,7 +21,7 @@ pub use crate::tangents::fast::UNDECIDED;
 /// triangles.
 pub fn complete(
     mesh: &Mesh<'_>,
-    options: &MikktOptions,
+    options: &MikkTSpaceOptions,
     welded: Vec<u32>,
     out: &mut [[f32; 4]],
 ) -> (Report, usize) {
@@ -33,6 +33,6 @@ pub fn complete(
 }
 
 /// The cosine of the threshold. Directions join when their cosines exceed it.
-pub fn threshold_cosine(options: &MikktOptions) -> f32 {
+pub fn threshold_cosine(options: &MikkTSpaceOptions) -> f32 {
     cosine_of_degrees(options.threshold)
 }

@@ -7,7 +7,7 @@ use std::ops::Range;
 use crate::CornerFrames;
 use crate::Frames;
 use crate::Mesh;
-use crate::MikktOptions;
+use crate::MikkTSpaceOptions;
 use crate::exec::limits::RunLimits;
 use crate::math::cosine_of_degrees;
 use crate::topology::neighbours::neighbours;
@@ -60,7 +60,7 @@ pub struct SubgroupSums {
 
 impl Stages {
     /// Runs every exact stage. `None` where the members of all sums would exceed `limit`.
-    pub fn new(mesh: &Mesh<'_>, options: &MikktOptions, limit: usize) -> Option<Self> {
+    pub fn new(mesh: &Mesh<'_>, options: &MikkTSpaceOptions, limit: usize) -> Option<Self> {
         let triangulation = triangulate(mesh);
         let neighbours = neighbours(&triangulation.good, edge_order(options));
         let derivatives = quad_derivatives(&triangulation.good, &WeldedMesh::new(mesh), RunLimits::default());
@@ -81,7 +81,7 @@ impl Stages {
 }
 
 /// As [`crate::generate_frames`], by the exact stages alone.
-pub fn frames(mesh: &Mesh<'_>, options: &MikktOptions) -> Frames {
+pub fn frames(mesh: &Mesh<'_>, options: &MikkTSpaceOptions) -> Frames {
     let limits = RunLimits::default();
     let Some(grouped) = GroupedMesh::new(mesh, options, limits) else { return Frames::default() };
     let (corners, report) = grouped.frames(mesh, limits);

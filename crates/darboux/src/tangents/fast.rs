@@ -109,7 +109,7 @@ use crate::tangents::fast::second_pass::SecondPass;
 pub(crate) use crate::tangents::fast::state::FastPath;
 use crate::tangents::fast::state::triangle_list;
 use crate::tangents::fast::worker::{Findings, Worker};
-use crate::tangents::options::{MikktOptions, Mode};
+use crate::tangents::options::{MikkTSpaceOptions, Mode};
 
 impl FastPath {
     /// Writes the tangents of all decided vertices, and lists the faces with undecided vertices, whose tangents have the sign
@@ -120,7 +120,7 @@ impl FastPath {
     pub fn run(
         &mut self,
         mesh: &Mesh<'_>,
-        options: &MikktOptions,
+        options: &MikkTSpaceOptions,
         limits: RunLimits<'_>,
         out: &mut [[f32; 4]],
     ) -> bool {
@@ -132,7 +132,7 @@ impl FastPath {
     fn run_stages(
         &mut self,
         mesh: &Mesh<'_>,
-        options: &MikktOptions,
+        options: &MikkTSpaceOptions,
         limits: RunLimits<'_>,
         out: &mut [[f32; 4]],
     ) -> Option<()> {

@@ -2,9 +2,9 @@
 
 use crate::Context;
 use crate::CornerFrames;
+use crate::Error;
 use crate::Frame;
 use crate::Mesh;
-use crate::MeshError;
 
 use crate::exec::limits::RunLimits;
 use crate::exec::threads::{self, split_range, split_slice};
@@ -36,7 +36,7 @@ pub fn generate_frames_with(
     mesh: &Mesh<'_>,
     options: &TangentOptions,
     context: &mut Context,
-) -> Result<Frames, MeshError> {
+) -> Result<Frames, Error> {
     let frames = generate(mesh, options, context);
     context.limits().check().map(|()| frames)
 }
@@ -58,19 +58,22 @@ pub fn write_frames(
     options: &TangentOptions,
     context: &mut Context,
     corners: &mut [Frame],
-) -> Result<Report, MeshError> {
-    MeshError::check_output("frames", mesh.corner_count(), corners.len())?;
+) -> Result<Report, Error> {
+    Error::check_output("frames", mesh.corner_count(), corners.len())?;
     let (limits, memory) = context.limits_and_memory();
     let report = run(mesh, options, limits, memory, corners);
     limits.check().map(|()| report)
 }
 
-/// As [`write_frames`], for output arrays of any other layout: the frames stay in the context, in a smaller form, until they are read.
-pub fn lend_frames<'a>(
+/// As [`generate_frames_with`], but the frames stay in the context's memory, in a compact form, until they are read.
+///
+/// It is for output arrays of other layouts than [`Frame`], which [`CompactFrames::read`] fills block by block. Errors: the context's
+/// token was cancelled.
+pub fn generate_compact_frames<'a>(
     mesh: &'a Mesh<'a>,
     options: &TangentOptions,
     context: &'a mut Context,
-) -> Result<LentFrames<'a>, MeshError> {
+) -> Result<CompactFrames<'a>, Error> {
     let (limits, memory) = context.limits_and_memory();
     let report = if let Some(report) = run_fast(mesh, options, limits, memory) {
         report
@@ -81,12 +84,12 @@ pub fn lend_frames<'a>(
         method::run(mesh, options.method, limits, &mut memory.sums, frames)
     };
     limits.check()?;
-    Ok(LentFrames { mesh, fast: &memory.fast, memory: &memory.frames, limits, report })
+    Ok(CompactFrames { mesh, fast: &memory.fast, memory: &memory.frames, limits, report })
 }
 
-/// Frames of corners in the memory of a [`Context`], one per corner, in corner order. Not in vertex order.
+/// Frames of corners, one per corner, in corner order, which is not vertex order. They borrow the memory of a [`Context`].
 #[derive(Clone, Copy, Debug)]
-pub struct LentFrames<'a> {
+pub struct CompactFrames<'a> {
     mesh: &'a Mesh<'a>,
     fast: &'a FastPath,
     memory: &'a FrameMemory,
@@ -94,7 +97,7 @@ pub struct LentFrames<'a> {
     report: Report,
 }
 
-impl LentFrames<'_> {
+impl CompactFrames<'_> {
     /// Counts of unusual geometry in the mesh.
     pub fn report(&self) -> Report {
         self.report
@@ -110,18 +113,23 @@ impl LentFrames<'_> {
         self.len() == 0
     }
 
-    /// Writes the frames of corners from number `first` on, as many as `out` has or there are.
-    pub fn write(&self, first: usize, out: &mut [Frame]) {
+    /// Reads the frames of consecutive corners into `out`, which sets their number. `first`: the first of these corners. Panics where
+    /// `first + out.len()` exceeds the number of corners.
+    pub fn read(&self, first: usize, out: &mut [Frame]) {
+        assert!(
+            first.checked_add(out.len()).is_some_and(|end| end <= self.len()),
+            "{} frames from corner {first} on were requested, but there are {} corners",
+            out.len(),
+            self.len()
+        );
         let Self { mesh, fast, memory: FrameMemory { tangents, decided, frames }, .. } = self;
         if let Some(frames) = frames.get(first..) {
             fill(out, frames.iter().copied());
         }
-        let tangents = tangents.get(first..).unwrap_or_default();
-        let count = tangents.len().min(out.len());
-        if count == 0 {
+        let Some(tangents) = tangents.get(first..) else { return };
+        if tangents.is_empty() || out.is_empty() {
             return;
         }
-        let out = &mut out[..count];
         fast.write_bitangents(mesh, first, out);
         let mut decided = &decided[decided.partition_point(|&(corner, _)| (corner as usize) < first)..];
         for (&[x, y, z, sign], out) in tangents.iter().zip(out) {
@@ -133,18 +141,18 @@ impl LentFrames<'_> {
         }
     }
 
-    /// Writes all frames into three arrays: tangents with their signs, bitangents, magnitudes. Errors: an array of another length than one
+    /// Reads all frames into three arrays: tangents with their signs, bitangents, magnitudes. Errors: an array of another length than one
     /// per corner.
-    pub fn write_apart(
+    pub fn read_apart(
         &self,
         tangents: &mut [[f32; 4]],
         bitangents: &mut [[f32; 3]],
         magnitudes: &mut [[f32; 2]],
-    ) -> Result<(), MeshError> {
+    ) -> Result<(), Error> {
         for (what, len) in
             [("tangents", tangents.len()), ("bitangents", bitangents.len()), ("magnitudes", magnitudes.len())]
         {
-            MeshError::check_output(what, self.len(), len)?;
+            Error::check_output(what, self.len(), len)?;
         }
         let threads = self.limits.thread_count(triangle_count(self.mesh));
         let ranges = split_range(0..self.len(), threads, 1);
@@ -159,7 +167,7 @@ impl LentFrames<'_> {
                 .zip(bitangents.chunks_mut(BLOCK))
                 .zip(magnitudes.chunks_mut(BLOCK));
             for (first, ((tangents, bitangents), magnitudes)) in range.step_by(BLOCK).zip(out) {
-                self.write(first, &mut block[..tangents.len()]);
+                self.read(first, &mut block[..tangents.len()]);
                 for (at, frame) in block[..tangents.len()].iter().enumerate() {
                     tangents[at] = frame.tangent_and_sign();
                     bitangents[at] = frame.bitangent;
@@ -171,7 +179,7 @@ impl LentFrames<'_> {
     }
 }
 
-/// Frames per block of [`LentFrames::write_apart`].
+/// Frames per block of [`CompactFrames::read_apart`].
 const BLOCK: usize = 64;
 
 fn run(
@@ -187,14 +195,14 @@ fn run(
     if limits.is_cancelled() {
         return report;
     }
-    let frames = LentFrames { mesh, fast: &memory.fast, memory: &memory.frames, limits, report };
+    let frames = CompactFrames { mesh, fast: &memory.fast, memory: &memory.frames, limits, report };
     let threads = limits.thread_count(triangle_count(mesh));
     let ranges = split_range(0..out.len(), threads, 1);
     threads::run(
         &mut vec![(); threads],
         ranges.clone().zip(split_slice(out, 0, ranges)),
         |(), (range, out)| {
-            frames.write(range.start, out);
+            frames.read(range.start, out);
         },
     );
     report

@@ -5,7 +5,7 @@ use crate::Mesh;
 use crate::exec::limits::RunLimits;
 use crate::tangents::memory::TangentMemory;
 use crate::tangents::method;
-use crate::tangents::options::{Method, MikktOptions, TangentOptions};
+use crate::tangents::options::{Method, MikkTSpaceOptions, TangentOptions};
 use crate::tangents::report::Report;
 use crate::tangents::submesh;
 
@@ -49,7 +49,7 @@ pub(crate) fn run(
 
 fn mikktspace_of_corners(
     mesh: &Mesh<'_>,
-    options: &MikktOptions,
+    options: &MikkTSpaceOptions,
     limits: RunLimits<'_>,
     memory: &mut TangentMemory,
     out: &mut [[f32; 4]],

@@ -4,7 +4,7 @@ use crate::Mesh;
 
 use crate::exec::limits::RunLimits;
 use crate::exec::threads;
-use crate::tangents::MikktOptions;
+use crate::tangents::MikkTSpaceOptions;
 use crate::tangents::angle_area;
 use crate::tangents::face;
 use crate::tangents::from_normal;
@@ -47,7 +47,7 @@ pub(crate) fn run<O: Output>(
 /// MikkTSpace by its stages.
 pub(crate) fn mikktspace<O: Output>(
     mesh: &Mesh<'_>,
-    options: &MikktOptions,
+    options: &MikkTSpaceOptions,
     limits: RunLimits<'_>,
     corners: &mut [O],
 ) -> Report {

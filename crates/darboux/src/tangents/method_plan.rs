@@ -8,7 +8,7 @@ use crate::Mesh;
 
 use crate::exec::limits::RunLimits;
 use crate::tangents::Method;
-use crate::tangents::MikktOptions;
+use crate::tangents::MikkTSpaceOptions;
 use crate::tangents::TangentOptions;
 use crate::tangents::angle_area;
 use crate::tangents::fast::{FastPath, FastPlan, triangle_count};
@@ -34,7 +34,7 @@ pub(crate) enum Planned {
 /// mesh when a moved mesh invalidates the decisions.
 #[derive(Debug)]
 pub(crate) struct Decided {
-    options: MikktOptions,
+    options: MikkTSpaceOptions,
     fast: FastPlan,
     undecided: Option<UndecidedFaces>,
     base: Vertices,

@@ -29,7 +29,7 @@ use crate::topology::triangles::{Triangles, Triangulation};
 use crate::topology::triangulate::{triangulate, triangulate_welded};
 use crate::util::radix_sort::sort;
 
-use crate::tangents::MikktOptions;
+use crate::tangents::MikkTSpaceOptions;
 use crate::tangents::Mode;
 use crate::tangents::Report;
 use crate::tangents::mikktspace::degenerate::fill_degenerate;
@@ -70,7 +70,7 @@ pub(crate) struct SubmeshWeld<'a> {
 
 impl GroupedMesh {
     /// Triangulates, welds and groups. `None` after cancellation.
-    pub fn new(mesh: &Mesh<'_>, options: &MikktOptions, limits: RunLimits<'_>) -> Option<Self> {
+    pub fn new(mesh: &Mesh<'_>, options: &MikkTSpaceOptions, limits: RunLimits<'_>) -> Option<Self> {
         let triangulation = triangulate(mesh);
         limits.check().ok()?;
         let neighbours = neighbours(&triangulation.good, edge_order(options));
@@ -83,7 +83,7 @@ impl GroupedMesh {
     pub fn of_submesh(
         mesh: &Mesh<'_>,
         weld: &SubmeshWeld<'_>,
-        options: &MikktOptions,
+        options: &MikkTSpaceOptions,
         limits: RunLimits<'_>,
     ) -> Self {
         let triangulation = triangulate_welded(mesh, weld.vertex_of_corner);
@@ -101,7 +101,7 @@ impl GroupedMesh {
         triangulation: Triangulation,
         (neighbours, mut derivatives): (&[[u32; 3]], Vec<Derivative>),
         is_wanted: impl Fn(u32) -> bool,
-        options: &MikktOptions,
+        options: &MikkTSpaceOptions,
     ) -> Self {
         let welded = WeldedMesh::new(mesh);
         let good = &triangulation.good;
@@ -210,7 +210,7 @@ impl GroupedMesh {
 }
 
 /// The edge order that the mode asks for.
-pub(crate) fn edge_order(options: &MikktOptions) -> EdgeOrder {
+pub(crate) fn edge_order(options: &MikkTSpaceOptions) -> EdgeOrder {
     if options.mode == Mode::Corrected { EdgeOrder::Complete } else { EdgeOrder::Reference }
 }
 

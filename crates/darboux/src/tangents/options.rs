@@ -4,10 +4,10 @@
 /// its default options, is right for normal maps from today's bakers.
 ///
 /// ```
-/// use darboux::{Method, MikktOptions, Mode, TangentOptions};
+/// use darboux::{Method, MikkTSpaceOptions, Mode, TangentOptions};
 ///
 /// let standard = TangentOptions::default();
-/// let every_bit = TangentOptions::from(MikktOptions::new().with_mode(Mode::Reference));
+/// let every_bit = TangentOptions::from(MikkTSpaceOptions::new().with_mode(Mode::Reference));
 /// let without_bake = TangentOptions::from(Method::AngleArea);
 /// # assert!(standard != every_bit && every_bit != without_bake);
 /// ```
@@ -24,8 +24,8 @@ impl From<Method> for TangentOptions {
     }
 }
 
-impl From<MikktOptions> for TangentOptions {
-    fn from(options: MikktOptions) -> Self {
+impl From<MikkTSpaceOptions> for TangentOptions {
+    fn from(options: MikkTSpaceOptions) -> Self {
         Self { method: Method::MikkTSpace(options) }
     }
 }
@@ -38,7 +38,7 @@ impl From<MikktOptions> for TangentOptions {
 #[non_exhaustive]
 pub enum Method {
     /// The standard of bakers and renderers: sums of unit tangents weighted by corner angles, over welded vertices.
-    MikkTSpace(MikktOptions),
+    MikkTSpace(MikkTSpaceOptions),
     /// MikkTSpace's groups with weights of corner angle times area: closest to the UVs where the mesh is cut unevenly, so the choice
     /// where no baked map requires another method.
     AngleArea,
@@ -61,12 +61,12 @@ pub enum Method {
 
 impl Default for Method {
     fn default() -> Self {
-        Self::MikkTSpace(MikktOptions::new())
+        Self::MikkTSpace(MikkTSpaceOptions::new())
     }
 }
 
-impl From<MikktOptions> for Method {
-    fn from(options: MikktOptions) -> Self {
+impl From<MikkTSpaceOptions> for Method {
+    fn from(options: MikkTSpaceOptions) -> Self {
         Self::MikkTSpace(options)
     }
 }
@@ -74,7 +74,7 @@ impl From<MikktOptions> for Method {
 /// Options of [`Method::MikkTSpace`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct MikktOptions {
+pub struct MikkTSpaceOptions {
     /// How faithfully defects of the reference are kept. Default: [`Mode::Repaired`].
     pub mode: Mode,
     /// Angular threshold in degrees: faces around a vertex share a tangent while their tangents and their bitangents differ by less.
@@ -82,13 +82,13 @@ pub struct MikktOptions {
     pub threshold: f32,
 }
 
-impl Default for MikktOptions {
+impl Default for MikkTSpaceOptions {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl MikktOptions {
+impl MikkTSpaceOptions {
     /// The defaults.
     pub const fn new() -> Self {
         Self { mode: Mode::Repaired, threshold: 180.0 }

@@ -11,7 +11,7 @@ use crate::Mesh;
 use crate::exec::limits::RunLimits;
 use crate::topology::edge_sort::TriangleEdge;
 
-use crate::tangents::MikktOptions;
+use crate::tangents::MikkTSpaceOptions;
 use crate::tangents::Report;
 use crate::tangents::fast::{FastPath, UNDECIDED, triangle_count};
 use crate::tangents::mikktspace::raw_frames::DEFAULT_FRAME;
@@ -37,7 +37,7 @@ impl UndecidedFaces {
     /// `fast`: the state of the fast path after its run on `mesh`. `tangents`: the output of that run.
     pub fn new(
         mesh: &Mesh<'_>,
-        options: &MikktOptions,
+        options: &MikkTSpaceOptions,
         fast: &FastPath,
         limits: RunLimits<'_>,
         tangents: &[[f32; 4]],
@@ -127,7 +127,7 @@ impl UndecidedFaces {
 /// Writes the tangents of the undecided corners of `out`. Returns the report of the whole mesh.
 pub(crate) fn decide(
     mesh: &Mesh<'_>,
-    options: &MikktOptions,
+    options: &MikkTSpaceOptions,
     fast: &FastPath,
     limits: RunLimits<'_>,
     out: &mut [[f32; 4]],
@@ -140,7 +140,7 @@ pub(crate) fn decide(
 /// As [`decide`], but appends the undecided corners and their full frames to `out`, ascending.
 pub(crate) fn decide_frames(
     mesh: &Mesh<'_>,
-    options: &MikktOptions,
+    options: &MikkTSpaceOptions,
     fast: &FastPath,
     limits: RunLimits<'_>,
     tangents: &[[f32; 4]],

@@ -2,7 +2,8 @@
 
 use std::collections::HashSet;
 
-use darboux::{CornerDifference, HISTOGRAM_ENDS, measure_tangents, triangle_area};
+use darboux::internal::triangle_area;
+use darboux::{CornerDifference, TangentDifference, measure_tangents};
 use darboux_io::gltf::{Pair, PairedCorners, PrimitiveName};
 use serde::Serialize;
 
@@ -51,7 +52,7 @@ impl Statistics {
             different += differences(corners).filter(is_more_than_rounding).count();
         }
         let found = measure_tangents(&tangents, &others).unwrap_or_default();
-        let bins = HISTOGRAM_ENDS.into_iter().zip(found.histogram);
+        let bins = TangentDifference::HISTOGRAM_BIN_ENDS.into_iter().zip(found.histogram);
         Self {
             corners: found.corners,
             identical: found.identical,

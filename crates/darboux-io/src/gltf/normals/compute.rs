@@ -4,8 +4,7 @@ use std::collections::HashMap;
 use std::hash::Hash;
 
 use darboux::{
-    Context, Faces, Indices, MeshError, NormalOptions, NormalReport, Shading, SmoothingSeams,
-    generate_normals_with,
+    Context, Faces, Indices, NormalOptions, NormalReport, Shading, SmoothingSeams, generate_normals_with,
 };
 
 use super::select::{Chosen, Selection};
@@ -57,7 +56,7 @@ pub fn shade(
     document: &Document,
     accessors: &CanonicalAccessors,
     selection: &Selection,
-    (options, context): (&NormalOptions, &Context),
+    (options, context): (&NormalOptions, &mut Context),
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Vec<ShadedPrimitive>, Error> {
     let mut reader = Reader { document, last: None };
@@ -72,7 +71,7 @@ pub fn shade(
     let total = parts.iter().map(|part| part.corners.len() / 3).sum();
     let mut at = Progress { done: 0, total };
     for mesh in parts.chunk_by_mut(|a, b| a.name.mesh == b.name.mesh) {
-        shade_mesh(&mut reader, mesh, (options, context))?;
+        shade_mesh(&mut reader, mesh, (options, &mut *context))?;
         at.done += mesh.iter().map(|part| part.corners.len() / 3).sum::<usize>();
         progress(at);
     }
@@ -141,7 +140,7 @@ impl Reader<'_> {
         match part.corners.get(at) {
             None => Ok(()),
             Some(&index) => {
-                let source = MeshError::IndexOutOfRange { at, index, vertices };
+                let source = darboux::Error::IndexOutOfRange { at, index, vertices };
                 Err(self.document.mesh_error(part.name.path(), source))
             }
         }
@@ -152,7 +151,7 @@ impl Reader<'_> {
 fn shade_mesh(
     reader: &mut Reader<'_>,
     parts: &mut [ShadedPrimitive],
-    (options, context): (&NormalOptions, &Context),
+    (options, context): (&NormalOptions, &mut Context),
 ) -> Result<(), Error> {
     let mut positions = Vec::new();
     for part in parts.iter() {
@@ -160,7 +159,7 @@ fn shade_mesh(
     }
     let vertex_of_corner = welded(parts, &positions, options.seams);
     let (normals, report) =
-        normals(reader.document, parts, &positions, &vertex_of_corner, (options, context))?;
+        normals(reader.document, parts, &positions, &vertex_of_corner, (options, &mut *context))?;
     let mut rest = normals.as_slice();
     for part in parts.iter_mut() {
         let (own, others) = rest.split_at(part.corners.len());
@@ -211,7 +210,7 @@ fn move_mesh(
     parts: &mut [ShadedPrimitive],
     positions: &[[f32; 3]],
     fan_of_corner: &[u32],
-    (options, context): (&NormalOptions, &Context),
+    (options, context): (&NormalOptions, &mut Context),
 ) -> Result<(), Error> {
     let in_fans = options.with_crease(180.0);
     let targets = parts.iter().map(|part| part.moves.len()).max().unwrap_or(0);
@@ -230,7 +229,7 @@ fn move_mesh(
         for (moved, position) in moved.iter_mut().zip(positions) {
             *moved = std::array::from_fn(|i| position[i] + moved[i]);
         }
-        let (normals, _) = normals(reader.document, parts, &moved, fan_of_corner, (&in_fans, context))?;
+        let (normals, _) = normals(reader.document, parts, &moved, fan_of_corner, (&in_fans, &mut *context))?;
         let mut rest = normals.as_slice();
         for part in parts.iter_mut() {
             let (own, others) = rest.split_at(part.corners.len());
@@ -253,7 +252,7 @@ fn normals(
     parts: &[ShadedPrimitive],
     positions: &[[f32; 3]],
     vertex_of_corner: &[u32],
-    (options, context): (&NormalOptions, &Context),
+    (options, context): (&NormalOptions, &mut Context),
 ) -> Result<(Vec<[f32; 3]>, NormalReport), Error> {
     let generated = match options.shading {
         Shading::Flat => {

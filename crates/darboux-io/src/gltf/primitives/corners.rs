@@ -1,7 +1,5 @@
 //! The corners of a primitive's triangles, and its attributes at each corner.
 
-use darboux::MeshError;
-
 use super::name::PrimitiveName;
 use super::triangles::TriangleMode;
 use super::{element_count, limits};
@@ -81,7 +79,7 @@ impl<'a> PrimitiveCorners<'a> {
         let at = |(at, &index): (usize, &u32)| {
             let vector = vectors.get(index as usize).copied();
             vector.ok_or_else(|| {
-                let problem = MeshError::IndexOutOfRange { at, index, vertices };
+                let problem = darboux::Error::IndexOutOfRange { at, index, vertices };
                 self.document.mesh_error(self.name.path(), problem)
             })
         };

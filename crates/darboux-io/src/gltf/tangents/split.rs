@@ -2,7 +2,7 @@
 
 use std::mem;
 
-use darboux::{Convention, Splitter};
+use darboux::{Convention, SplitBuffer, Splitter};
 
 use super::compute::{JobResult, Vertices};
 use super::groups::{Group, Job};
@@ -41,7 +41,8 @@ pub fn split(
         let added = splitter.add_changes(&mesh, &result.tangents);
         corners.push(added.map_err(|error| document.mesh_error(at, error))?);
     }
-    let (tangents, mut copies) = splitter.finish_in(Convention::GLTF.generated(), Convention::GLTF);
+    let SplitBuffer { tangent_of_vertex: tangents, source_of_vertex: mut copies } =
+        splitter.finish_in(Convention::GLTF.generated(), Convention::GLTF);
     copies.drain(..vertices.positions.len());
     Ok(Split { tangents, copies, corners })
 }
