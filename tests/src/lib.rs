@@ -44,3 +44,16 @@ struct RustPage;
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 struct Readme;
+
+/// The Rust blocks of the lessons run.
+#[cfg(doctest)]
+mod lessons {
+    #[doc = include_str!("../../docs/learn/2-two-derivatives.md")]
+    struct TwoDerivatives;
+    #[doc = include_str!("../../docs/learn/4-perpendicular.md")]
+    struct Perpendicular;
+    #[doc = include_str!("../../docs/learn/6-weights.md")]
+    struct Weights;
+    #[doc = include_str!("../../docs/learn/7-mikktspace.md")]
+    struct Mikktspace;
+}

@@ -7,7 +7,9 @@ use std::time::Instant;
 use crate::python::WithoutPython;
 use crate::run::{Outcome, program, root, run, shown, works};
 use crate::validate::WithoutNpm;
-use crate::{default_build, dist_js, dist_viewer, doc_blocks, generated, layers, packages, python, validate};
+use crate::{
+    default_build, dist_js, dist_viewer, doc_blocks, generated, layers, links, packages, python, validate,
+};
 
 type Step = (&'static str, fn() -> Outcome);
 
@@ -17,6 +19,7 @@ const QUICK: &[Step] = &[
     ("default build", default_build::check),
     ("docs", || run(program("cargo doc --quiet --workspace --no-deps").env("RUSTDOCFLAGS", "-Dwarnings"))),
     ("layers", layers::check),
+    ("links", links::check),
     ("generated files", generated::compare),
     ("models", || validate::all_models(without_npm())),
     ("packages", || packages::install(packages::FOR_TESTS)),

@@ -1,6 +1,6 @@
 //! `cargo xtask docs [PAGE ...]`: runs every code block of the documentation.
 //!
-//! Each page gets a folder with sample files. Its blocks run from top to bottom as one shell script, one C, C++ or Python program; a TOML
+//! Each page gets a folder with sample files. Its blocks run from top to bottom as one shell script, one C, C++, Python or JavaScript program; a TOML
 //! block must be a manifest that cargo reads. The page runs twice, because readers repeat commands: a file of the first run must not make
 //! the second fail. Rust blocks are doctests, which `cargo test` runs; here only the `include_str!` that makes them doctests is checked.
 //!
@@ -78,10 +78,10 @@ fn run_page(page: &Page, sandbox: &Sandbox) -> Outcome {
     let of =
         |language: &str| page.blocks.iter().filter(|block| block.language == language).collect::<Vec<_>>();
     for block in &page.blocks {
-        let known = ["sh", "c", "cpp", "python", "toml", "rust"].contains(&block.language.as_str());
+        let known = ["sh", "c", "cpp", "python", "js", "toml", "rust"].contains(&block.language.as_str());
         if !known && !NOT_RUN.contains(&block.language.as_str()) {
             return Err(format!(
-                "{}:{}: nothing runs blocks in \"{}\"; use one of sh, c, cpp, python, toml, rust, text",
+                "{}:{}: nothing runs blocks in \"{}\"; use one of sh, c, cpp, python, js, toml, rust, text",
                 page.name, block.line, block.language
             ));
         }
@@ -96,6 +96,7 @@ fn run_page(page: &Page, sandbox: &Sandbox) -> Outcome {
         sandbox.c_program(page, &of("c"), "c", &folder).map_err(fail)?;
         sandbox.c_program(page, &of("cpp"), "cpp", &folder).map_err(fail)?;
         sandbox.python(page, &of("python"), &folder).map_err(fail)?;
+        sandbox.javascript(page, &of("js"), &folder).map_err(fail)?;
         of("toml").iter().try_for_each(|block| sandbox.manifest(page, block, &folder)).map_err(fail)?;
     }
     Ok(())

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::api;
+use crate::figures;
 use crate::run::{Outcome, files_below, program, root, run};
 use crate::shaders;
 
@@ -17,6 +18,7 @@ const PLACES: &[&str] = &[
     "shaders/hlsl",
     shaders::RENDER_COPIES,
     "docs/api",
+    figures::FOLDER,
 ];
 
 /// Packages and the examples in them that write generated files below a given folder.
@@ -51,6 +53,7 @@ pub fn compare() -> Outcome {
 fn generate(into: &Path) -> Outcome {
     shaders::write(into)?;
     api::write(into)?;
+    figures::write(into)?;
     WRITERS.iter().try_for_each(|(package, example)| {
         run(program("cargo run --quiet").args(["--package", package, "--example", example, "--"]).arg(into))
     })

@@ -8,9 +8,11 @@ mod dist_c;
 mod dist_js;
 mod dist_viewer;
 mod doc_blocks;
+mod figures;
 mod generated;
 mod gpu;
 mod layers;
+mod links;
 mod npm;
 mod packages;
 mod progress;
@@ -29,6 +31,7 @@ usage: cargo xtask <task>
 checks
   ci [--full]      run the checks that must pass before a change lands; --full adds those that take long
   layers           check which packages import which, and that the files of a package import each other without cycles
+  links            check that links between the pages of the documentation lead to files and headings that exist
   docs [PAGE ...]  run the code blocks of the documentation, twice
   validate         check the command's outputs for all models with independent tools (needs node and npm)
   acos             compare the core's acos with the platform's on every float of [-1, 1]
@@ -36,6 +39,7 @@ checks
 
 generated files
   gen              write them: command-line reference, man pages, completions, darboux.h, shaders, lists of the public API
+  figures          write only the figures of docs/learn
 
 measurements
   bench [...]      time every engine on every mesh; options: bench --help
@@ -61,7 +65,9 @@ fn main() -> ExitCode {
         ["ci"] => ci::quick(),
         ["ci", "--full"] => ci::full(),
         ["gen"] => generated::write(),
+        ["figures"] => figures::write(run::root()),
         ["layers"] => layers::check(),
+        ["links"] => links::check(),
         ["release", "--check", ref words @ ..] => release::check(words),
         ["docs", ref pages @ ..] => doc_blocks::run(pages),
         ["validate"] => validate::all_models(validate::WithoutNpm::Fail),

@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 use super::blocks::{Block, Page, at_their_lines};
 use crate::python;
@@ -104,7 +104,7 @@ impl Sandbox {
             None => own.display().to_string(),
         };
         let mut bash = Command::new("bash");
-        bash.arg(&path).current_dir(folder).env("PATH", search).stdin(std::process::Stdio::null());
+        bash.arg(&path).current_dir(folder).env("PATH", search).stdin(Stdio::null());
         quietly(&mut bash)
     }
 
@@ -151,6 +151,20 @@ impl Sandbox {
         let path = folder.with_file_name(page.name.replace('/', "-") + ".py");
         write(&path, &at_their_lines(blocks))?;
         quietly(Command::new(interpreter).arg(path).current_dir(folder))
+    }
+
+    /// Runs JavaScript blocks as one module of Node.js.
+    pub fn javascript(&self, page: &Page, blocks: &[&Block], folder: &Path) -> Outcome {
+        if blocks.is_empty() {
+            return Ok(());
+        }
+        if !works(program("node --version").stdout(Stdio::null())) {
+            println!("skipped: the JavaScript blocks of {} need node", page.name);
+            return Ok(());
+        }
+        let path = folder.with_file_name(page.name.replace('/', "-") + ".mjs");
+        write(&path, &at_their_lines(blocks))?;
+        quietly(Command::new("node").arg(path).current_dir(folder))
     }
 
     /// Has cargo read a TOML block, beside an empty library. A block without `[package]` gets one.

@@ -1,0 +1,154 @@
+//! `cargo xtask links`: links between the pages of the repository lead to files and headings that exist.
+//!
+//! Links to other sites are not followed, so that the check needs no network.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
+
+use crate::run::{Outcome, output_of, program, root};
+
+/// What a page offers to links, and where its own links lead.
+struct Page {
+    /// The identifiers of its headings, as GitHub makes them.
+    headings: BTreeSet<String>,
+    /// The targets of its links and images as they are written.
+    links: Vec<String>,
+}
+
+/// Errors: links that lead nowhere, each with its page.
+pub fn check() -> Outcome {
+    let pages = pages()?;
+    let mut dead = Vec::new();
+    let mut count = 0;
+    for (path, page) in &pages {
+        for link in page.links.iter().filter(|link| !is_elsewhere(link)) {
+            count += 1;
+            if let Some(reason) = fault(path, link, &pages) {
+                dead.push(format!("{}: {link}: {reason}", path.display()));
+            }
+        }
+    }
+    if dead.is_empty() {
+        println!("{count} links of {} pages lead to something", pages.len());
+        return Ok(());
+    }
+    Err(format!("{} links lead nowhere:\n{}", dead.len(), dead.join("\n")))
+}
+
+/// All Markdown files that git knows or would add.
+fn pages() -> Result<BTreeMap<PathBuf, Page>, String> {
+    let listed = output_of(&mut program("git ls-files --cached --others --exclude-standard *.md"))?;
+    let mut pages = BTreeMap::new();
+    for name in String::from_utf8_lossy(&listed).lines() {
+        let path = root().join(name);
+        if path.is_file() {
+            let text =
+                fs::read_to_string(&path).map_err(|error| format!("{name} cannot be read: {error}"))?;
+            pages.insert(PathBuf::from(name), parse(&text));
+        }
+    }
+    Ok(pages)
+}
+
+fn parse(text: &str) -> Page {
+    let mut page = Page { headings: BTreeSet::new(), links: Vec::new() };
+    let mut heading: Option<String> = None;
+    for event in Parser::new_ext(text, Options::ENABLE_TABLES) {
+        match event {
+            Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }) => {
+                page.links.push(dest_url.into_string());
+            }
+            Event::Start(Tag::Heading { .. }) => heading = Some(String::new()),
+            Event::End(TagEnd::Heading(_)) => {
+                let name = identifier(&heading.take().unwrap_or_default());
+                let same = page.headings.iter().filter(|other| is_numbered(other, &name)).count();
+                page.headings.insert(if same == 0 { name } else { format!("{name}-{same}") });
+            }
+            Event::Text(words) | Event::Code(words) => {
+                if let Some(heading) = &mut heading {
+                    heading.push_str(&words);
+                }
+            }
+            _ => {}
+        }
+    }
+    page
+}
+
+/// True if `other` is `name`, or `name` with the number that tells equal headings of a page apart.
+fn is_numbered(other: &str, name: &str) -> bool {
+    let rest = other.strip_prefix(name).map(|rest| rest.strip_prefix('-').unwrap_or(rest));
+    rest.is_some_and(|rest| rest.chars().all(|letter| letter.is_ascii_digit()))
+}
+
+/// The identifier that GitHub gives a heading: lower case, spaces as hyphens, no other punctuation.
+fn identifier(heading: &str) -> String {
+    let kept = |letter: &char| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_');
+    heading
+        .to_lowercase()
+        .chars()
+        .filter(kept)
+        .map(|letter| if letter == ' ' { '-' } else { letter })
+        .collect()
+}
+
+fn is_elsewhere(link: &str) -> bool {
+    link.contains("://") || link.starts_with("mailto:")
+}
+
+/// Why a link of `page` leads nowhere; none if it leads somewhere.
+fn fault(page: &Path, link: &str, pages: &BTreeMap<PathBuf, Page>) -> Option<String> {
+    let (file, heading) = link.split_once('#').map_or((link, None), |(file, heading)| (file, Some(heading)));
+    let folder = page.parent().unwrap_or(Path::new(""));
+    let target = if file.is_empty() { page.to_path_buf() } else { without_dots(&folder.join(file)) };
+    if !root().join(&target).exists() {
+        return Some("there is no such file".into());
+    }
+    let heading = heading.filter(|_| pages.contains_key(&target))?;
+    let is_there = pages[&target].headings.contains(heading);
+    (!is_there).then(|| format!("{} has no such heading", target.display()))
+}
+
+/// The path with `..` resolved by its words alone.
+fn without_dots(path: &Path) -> PathBuf {
+    let mut plain = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::ParentDir => {
+                plain.pop();
+            }
+            Component::CurDir => {}
+            other => plain.push(other),
+        }
+    }
+    plain
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headings_and_links_are_found() {
+        let page =
+            parse("# A b\n[x](c.md#d) ![y](e.png)\n## A b\n\n`# no [z](f)`\n## The `code`, and more\n");
+        assert_eq!(page.links, ["c.md#d", "e.png"]);
+        assert_eq!(page.headings, ["a-b", "a-b-1", "the-code-and-more"].map(String::from).into());
+    }
+
+    #[test]
+    fn dead_links_are_named() {
+        let pages = BTreeMap::from([
+            (PathBuf::from("README.md"), parse("# Top\n")),
+            (PathBuf::from("docs/cli.md"), parse("# Command\n")),
+        ]);
+        let of = |link: &str| fault(Path::new("docs/cli.md"), link, &pages);
+        assert_eq!(of("../README.md#top"), None);
+        assert_eq!(of("#command"), None);
+        assert_eq!(of("../README.md#bottom").as_deref(), Some("README.md has no such heading"));
+        assert_eq!(of("missing.md").as_deref(), Some("there is no such file"));
+    }
+}
