@@ -21,6 +21,8 @@ mod release;
 mod run;
 mod rust_code;
 mod shaders;
+#[cfg(unix)]
+mod soak;
 mod validate;
 
 use std::process::ExitCode;
@@ -34,6 +36,7 @@ checks
   links            check that links between the pages of the documentation lead to files and headings that exist
   docs [PAGE ...]  run the code blocks of the documentation, twice
   validate         check the command's outputs for all models with independent tools (needs node and npm)
+  soak [...]       run the command on damaged and hostile files (Unix); options: soak --help
   acos             compare the core's acos with the platform's on every float of [-1, 1]
   arm              run the tests of bits on emulated 64-bit Arm (Debian: needs gcc and g++ for aarch64-linux-gnu, qemu-user; rustup)
 
@@ -78,6 +81,8 @@ fn main() -> ExitCode {
         ["dist-js"] => dist_js::make(),
         ["dist-viewer"] => dist_viewer::make(),
         ["dist-python"] => python::dist(),
+        #[cfg(unix)]
+        ["soak", ref words @ ..] => soak::run(words),
         ["acos"] => ci::acos(),
         ["arm"] => ci::arm(),
         _ => {

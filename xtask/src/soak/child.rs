@@ -1,0 +1,169 @@
+//! Runs a program within limits of time and memory, and measures both.
+
+use std::fs::{self, File};
+use std::io;
+use std::path::Path;
+use std::process::{Child, Command, ExitStatus};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use rustix::process::{Pid, Signal, kill_process};
+
+/// What a run may take. Beyond it the run is killed.
+#[derive(Clone, Copy)]
+pub struct Limits {
+    /// Time of the processor, over all threads.
+    pub processor: Duration,
+    pub wall: Duration,
+    /// Resident bytes.
+    pub memory: u64,
+}
+
+/// A run that has ended.
+pub struct Ended {
+    pub status: ExitStatus,
+    pub stdout: Vec<u8>,
+    pub stderr: Vec<u8>,
+    pub used: Used,
+    /// The limit for which it was killed.
+    pub over: Option<&'static str>,
+}
+
+/// What a run took.
+#[derive(Clone, Copy, Default)]
+pub struct Used {
+    pub processor: Duration,
+    pub wall: Duration,
+    /// The peak of resident bytes; 0 where the system does not say.
+    pub memory: u64,
+}
+
+/// The longest time between two measurements.
+const PAUSE: Duration = Duration::from_millis(4);
+
+/// Runs a program to its end. Its standard streams are files in `folder`. `signal` is sent after its time. Errors: the program cannot be
+/// started.
+pub fn run(
+    command: &mut Command,
+    folder: &Path,
+    stdin: &[u8],
+    limits: Limits,
+    signal: Option<(Signal, Duration)>,
+) -> io::Result<Ended> {
+    let [input, output, messages] = ["stdin", "stdout", "stderr"].map(|name| folder.join(name));
+    fs::write(&input, stdin)?;
+    command.stdin(File::open(&input)?).stdout(File::create(&output)?).stderr(File::create(&messages)?);
+    let mut child = command.spawn()?;
+    let (status, used, over) = watch(&mut child, limits, signal)?;
+    Ok(Ended { status, stdout: fs::read(&output)?, stderr: fs::read(&messages)?, used, over })
+}
+
+fn watch(
+    child: &mut Child,
+    limits: Limits,
+    mut signal: Option<(Signal, Duration)>,
+) -> io::Result<(ExitStatus, Used, Option<&'static str>)> {
+    let start = Instant::now();
+    let mut used = Used::default();
+    let mut over = None;
+    let mut pause = Duration::from_micros(200);
+    loop {
+        measure(child.id(), &mut used);
+        used.wall = start.elapsed();
+        if let Some(status) = child.try_wait()? {
+            return Ok((status, used, over));
+        }
+        if over.is_none() {
+            over = used.exceeds(limits);
+            if over.is_some() {
+                child.kill()?;
+            }
+        }
+        if let Some((kind, _)) = signal.take_if(|(_, time)| used.wall >= *time) {
+            send(child, kind);
+        }
+        pause = (pause * 2).min(PAUSE);
+        thread::sleep(signal.map_or(pause, |(_, time)| pause.min(time.saturating_sub(used.wall))));
+    }
+}
+
+impl Used {
+    fn exceeds(&self, limits: Limits) -> Option<&'static str> {
+        if self.memory > limits.memory {
+            Some("memory")
+        } else if self.processor > limits.processor || self.wall > limits.wall {
+            Some("time")
+        } else {
+            None
+        }
+    }
+}
+
+/// Sends a signal to a program that may have ended.
+pub fn send(child: &Child, signal: Signal) {
+    if let Some(pid) = i32::try_from(child.id()).ok().and_then(Pid::from_raw) {
+        let _may_have_ended = kill_process(pid, signal);
+    }
+}
+
+/// Updates what a running process has used so far, on systems with /proc.
+pub fn measure(id: u32, used: &mut Used) {
+    if let Ok(status) = fs::read_to_string(format!("/proc/{id}/status")) {
+        let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")?.trim().strip_suffix(" kB"));
+        if let Some(kilobytes) = peak.and_then(|number| number.trim().parse::<u64>().ok()) {
+            used.memory = used.memory.max(kilobytes << 10);
+        }
+    }
+    if let Ok(line) = fs::read_to_string(format!("/proc/{id}/stat")) {
+        used.processor = used.processor.max(processor_time(&line));
+    }
+}
+
+/// The time of user and system in a line of /proc/ID/stat, whose unit is a hundredth of a second on every Linux.
+fn processor_time(line: &str) -> Duration {
+    // The name of the program, in parentheses, may contain spaces.
+    let fields = line.rsplit(')').next().unwrap_or_default().split_whitespace();
+    let ticks: u64 = fields.skip(11).take(2).filter_map(|field| field.parse::<u64>().ok()).sum();
+    Duration::from_millis(10 * ticks)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LIMITS: Limits =
+        Limits { processor: Duration::from_secs(5), wall: Duration::from_millis(300), memory: 1 << 30 };
+
+    fn shell(line: &str, limits: Limits) -> Ended {
+        let folder = tempfile::tempdir().expect("a folder");
+        run(Command::new("sh").args(["-c", line]), folder.path(), b"in", limits, None).expect("a shell")
+    }
+
+    #[test]
+    fn streams_and_status_are_those_of_the_program() {
+        let ended = shell("cat; echo out >&2; exit 3", LIMITS);
+        assert_eq!(
+            (ended.status.code(), &ended.stdout[..], &ended.stderr[..]),
+            (Some(3), &b"in"[..], &b"out\n"[..])
+        );
+        assert!(ended.over.is_none());
+    }
+
+    #[test]
+    fn runs_over_a_limit_are_killed() {
+        assert_eq!(shell("sleep 20", LIMITS).over, Some("time"));
+        if cfg!(target_os = "linux") {
+            let little = Limits { memory: 1, ..LIMITS };
+            assert_eq!(shell("sleep 20", little).over, Some("memory"));
+            let short =
+                Limits { processor: Duration::from_millis(50), wall: Duration::from_secs(20), ..LIMITS };
+            assert_eq!(shell("while :; do :; done", short).over, Some("time"));
+        }
+    }
+
+    #[test]
+    fn the_time_of_a_process_is_read_behind_its_name() {
+        let line = "7 (a b) c) S 1 2 3 4 5 6 7 8 9 10 150 50 0 0";
+        assert_eq!(processor_time(line), Duration::from_secs(2));
+    }
+}

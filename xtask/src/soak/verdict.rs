@@ -1,0 +1,238 @@
+//! What every run must keep: exit codes, messages, inputs, outputs, limits.
+
+use std::os::unix::process::ExitStatusExt;
+use std::path::Path;
+use std::time::Duration;
+
+use super::case::{Case, Content};
+use super::child::{Ended, Limits};
+use super::tree::{Tree, WORK, is_temporary};
+
+/// A promise that was broken.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Finding {
+    pub kind: &'static str,
+    pub detail: String,
+}
+
+/// The memory that every run may take beside four times its input.
+const BASE_MEMORY: u64 = 256 << 20;
+
+/// The most characters of a line of messages: a sentence is cut after 1,000, and its labels and ends come in addition.
+const LONGEST_LINE: usize = 1100;
+
+/// The exit code of a Rust program that panicked.
+const PANIC: i32 = 101;
+
+/// What a run of this case may take.
+pub fn limits(case: &Case) -> Limits {
+    let draws = case.has("render");
+    Limits {
+        processor: Duration::from_secs(if draws { 20 } else { 5 }),
+        wall: Duration::from_secs(60),
+        memory: BASE_MEMORY + 4 * case.input_size(),
+    }
+}
+
+/// Everything that a run broke, by its end, its messages and its files.
+pub fn judge(case: &Case, ended: &Ended, before: &Tree, after: &Tree) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    end(case, ended, &mut findings);
+    if ended.over.is_none() {
+        messages(case, ended, &mut findings);
+        files(case, ended.status.code(), before, after, &mut findings);
+    }
+    findings
+}
+
+fn add(findings: &mut Vec<Finding>, kind: &'static str, detail: impl Into<String>) {
+    findings.push(Finding { kind, detail: detail.into() });
+}
+
+fn end(case: &Case, ended: &Ended, findings: &mut Vec<Finding>) {
+    if let Some(limit) = ended.over {
+        let used = ended.used;
+        let detail = format!(
+            "killed after {:.1} s of the processor, {:.1} s, {} MB for {} bytes of input",
+            used.processor.as_secs_f32(),
+            used.wall.as_secs_f32(),
+            used.memory >> 20,
+            case.input_size()
+        );
+        return add(findings, limit, detail);
+    }
+    match (ended.status.code(), ended.status.signal()) {
+        (Some(PANIC), _) => add(findings, "panic", last_line(&ended.stderr)),
+        (Some(code), _) if !is_expected(case, code) => {
+            add(
+                findings,
+                "exit code",
+                format!("{code} instead of {:?}: {}", case.expected.codes, last_line(&ended.stderr)),
+            );
+        }
+        (None, signal) => {
+            add(findings, "crash", format!("signal {}: {}", signal.unwrap_or(0), last_line(&ended.stderr)))
+        }
+        _ => {}
+    }
+}
+
+/// A comparison exits with 3 where files differ by more than its tolerance.
+fn is_expected(case: &Case, code: i32) -> bool {
+    case.expected.codes.contains(&code) || (code == 3 && case.has("--tolerance"))
+}
+
+fn last_line(bytes: &[u8]) -> String {
+    let text = String::from_utf8_lossy(bytes);
+    text.lines().next_back().unwrap_or_default().chars().take(300).collect()
+}
+
+fn messages(case: &Case, ended: &Ended, findings: &mut Vec<Finding>) {
+    let text = String::from_utf8_lossy(&ended.stderr);
+    if text.contains("this is a defect of darboux") || text.contains("panicked at") {
+        add(findings, "panic", last_line(&ended.stderr));
+    }
+    let controls = |text: &str| text.chars().any(|c| (c.is_control() && c != '\n') || is_direction_mark(c));
+    if controls(&text) {
+        add(findings, "message", format!("control characters: {:?}", last_line(&ended.stderr)));
+    }
+    let writes_text = !case.has("-") || case.has("-o");
+    if writes_text && !is_stdout_a_model(case) && controls(&String::from_utf8_lossy(&ended.stdout)) {
+        add(findings, "message", "control characters on standard output");
+    }
+    if let Some(line) = text.lines().find(|line| line.chars().count() > LONGEST_LINE) {
+        add(findings, "message", format!("a line of {} characters", line.chars().count()));
+    }
+    if !text.contains(case.expected.words) {
+        add(
+            findings,
+            "message",
+            format!("does not say {}: {}", case.expected.words, last_line(&ended.stderr)),
+        );
+    }
+    sentences(case, ended.status.code(), &text, findings);
+}
+
+fn is_direction_mark(c: char) -> bool {
+    matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+fn is_stdout_a_model(case: &Case) -> bool {
+    case.value_of("-o").is_some_and(|output| output == "-") || (case.has("-") && !case.has("-o"))
+}
+
+/// Subcommands that print nothing but warnings and errors to standard error.
+const SILENT: [&str; 3] = ["compare", "inspect", "render"];
+
+fn sentences(case: &Case, code: Option<i32>, text: &str, findings: &mut Vec<Finding>) {
+    let errors = text.lines().filter(|line| line.starts_with("error: ")).count();
+    match code {
+        Some(0) if errors > 0 => {
+            add(findings, "message", format!("exit code 0 with an error: {}", last_line(text.as_bytes())))
+        }
+        Some(1 | 2) if errors == 0 => {
+            add(findings, "message", format!("exit code without an error: {}", last_line(text.as_bytes())));
+        }
+        _ => {}
+    }
+    let is_silent =
+        SILENT.iter().any(|subcommand| case.arguments.first().is_some_and(|first| first == subcommand));
+    let is_labelled = |line: &str| line.starts_with("error: ") || line.starts_with("warning: ");
+    if is_silent
+        && code != Some(2)
+        && let Some(line) = text.lines().find(|line| !is_labelled(line))
+    {
+        add(findings, "message", format!("a line that is neither a warning nor an error: {line}"));
+    }
+}
+
+/// Inputs must be as they were, and a run that failed on its only input must leave nothing.
+fn files(case: &Case, code: Option<i32>, before: &Tree, after: &Tree, findings: &mut Vec<Finding>) {
+    let may_replace = case.has("--in-place") && code == Some(0);
+    for (path, content) in before {
+        let is_outside = !path.starts_with(WORK);
+        if after.get(path) != Some(content) && (is_outside || !(may_replace || may_change(case, path))) {
+            add(findings, "input touched", path.display().to_string());
+        }
+    }
+    for path in after.keys().filter(|path| !before.contains_key(*path)) {
+        if !path.starts_with(WORK) {
+            add(findings, "written outside", path.display().to_string());
+        } else if is_temporary(path) {
+            add(findings, "left behind", path.display().to_string());
+        } else if code != Some(0) && code != Some(3) && !has_several_inputs(before) && !may_change(case, path)
+        {
+            add(findings, "left behind", format!("{} after exit code {code:?}", path.display()));
+        }
+    }
+}
+
+/// A journal grows; with `--in-place` and several inputs some may be replaced before one fails.
+fn may_change(case: &Case, path: &Path) -> bool {
+    path.ends_with("darboux-journal.jsonl") || (case.has("--in-place") && case.has("models"))
+}
+
+fn has_several_inputs(before: &Tree) -> bool {
+    before.keys().any(|path| path.starts_with(Path::new(WORK).join("models")))
+}
+
+/// The files that a run wrote and that must be readable: models and pictures that are new or different.
+pub fn outputs<'a>(before: &'a Tree, after: &'a Tree) -> impl Iterator<Item = (&'a Path, &'a [u8])> {
+    after.iter().filter_map(move |(path, content)| {
+        let extension = path.extension()?.to_str()?;
+        let Content::Bytes(bytes) = content else { return None };
+        let is_output =
+            ["glb", "gltf", "vrm", "png"].contains(&extension) && before.get(path) != Some(content);
+        is_output.then_some((path.as_path(), bytes.as_slice()))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::soak::child::Used;
+
+    fn ended(code: i32, stderr: &str) -> Ended {
+        let status = std::process::ExitStatus::from_raw(code << 8);
+        Ended { status, stdout: Vec::new(), stderr: stderr.into(), used: Used::default(), over: None }
+    }
+
+    fn kinds(case: &Case, ended: &Ended, after: &Tree) -> Vec<&'static str> {
+        let before = Tree::from([("work/a.glb".into(), Content::Bytes(vec![1]))]);
+        judge(case, ended, &before, after).iter().map(|finding| finding.kind).collect()
+    }
+
+    fn tree(files: &[(&str, u8)]) -> Tree {
+        files.iter().map(|&(path, byte)| (path.into(), Content::Bytes(vec![byte]))).collect()
+    }
+
+    #[test]
+    fn a_good_run_has_no_findings() {
+        let case = Case::new(["tangents", "a.glb"]);
+        let after = tree(&[("work/a.glb", 1), ("work/a.tangents.glb", 2)]);
+        assert!(kinds(&case, &ended(0, "a.glb -> a.tangents.glb\n"), &after).is_empty());
+        assert!(kinds(&case, &ended(1, "error: a.glb: x\n"), &tree(&[("work/a.glb", 1)])).is_empty());
+    }
+
+    #[test]
+    fn every_broken_promise_is_found() {
+        let case = Case::new(["inspect", "a.glb"]);
+        let same = tree(&[("work/a.glb", 1)]);
+        for (code, stderr, after, kind) in [
+            (101, "error: x\n", &same, "panic"),
+            (2, "error: x\n", &same, "exit code"),
+            (1, "", &same, "message"),
+            (0, "error: x\n", &same, "message"),
+            (1, "error: a\u{1b}[2J\n", &same, "message"),
+            (1, "error: a\nforged\n", &same, "message"),
+            (1, "error: x\n", &tree(&[("work/a.glb", 2)]), "input touched"),
+            (1, "error: x\n", &tree(&[("work/a.glb", 1), ("work/b.glb", 1)]), "left behind"),
+            (0, "", &tree(&[("work/a.glb", 1), ("work/.darboux-a1B2c3", 1)]), "left behind"),
+            (0, "", &tree(&[("work/a.glb", 1), ("b.glb", 1)]), "written outside"),
+        ] {
+            assert_eq!(kinds(&case, &ended(code, stderr), after), [kind], "{code} {stderr:?}");
+        }
+        let long = ended(1, &format!("error: {}\n", "x".repeat(2000)));
+        assert_eq!(kinds(&case, &long, &same), ["message"]);
+    }
+}
