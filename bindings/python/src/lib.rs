@@ -7,9 +7,9 @@ mod arrays;
 mod choices;
 mod command;
 mod convention;
+mod distributed;
 mod document;
 mod encode;
-mod library;
 mod measure;
 mod mesh;
 mod normals;
@@ -32,6 +32,8 @@ mod _darboux {
     #[pymodule_export]
     use crate::convention::convert;
     #[pymodule_export]
+    use crate::distributed::{DistributedBatch, failed_task, run_task};
+    #[pymodule_export]
     use crate::document::{Document, dumps, load, loads, save};
     #[pymodule_export]
     use crate::encode::{
@@ -40,8 +42,6 @@ mod _darboux {
         tangent_from_snorm16, tangent_to_diamond, tangent_to_octahedral, tangent_to_snorm8,
         tangent_to_snorm10, tangent_to_snorm16,
     };
-    #[pymodule_export]
-    use crate::library::{Library, carry_out, give_up};
     #[pymodule_export]
     use crate::measure::{measure_tangents, measure_uv_fidelity};
     #[pymodule_export]

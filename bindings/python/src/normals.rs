@@ -19,7 +19,7 @@ const WEIGHTS: &[(&str, NormalWeight)] =
 const SEAMS: &[(&str, SmoothingSeams)] =
     &[("ignored", SmoothingSeams::Ignored), ("respected", SmoothingSeams::Respected)];
 
-/// The options of the core. Errors: unknown names; a crease that is no number of degrees.
+/// The options of the core. Errors: unknown names; a crease that is not a number of degrees.
 pub fn normal_options(shading: &str, weight: &str, crease: f32, seams: &str) -> PyResult<NormalOptions> {
     if !crease.is_finite() {
         return Err(PyValueError::new_err(format!("crease is {crease}; it must be a number of degrees")));

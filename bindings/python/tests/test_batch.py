@@ -13,7 +13,7 @@ import darboux
 import pytest
 from conftest import ROOT
 from darboux._batch import _reason
-from darboux._engines import Lost
+from darboux._engines import LostWorker
 
 ASSETS = ROOT / "assets"
 MODEL = ASSETS / "NormalTangentTest/NormalTangentTest.glb"
@@ -97,8 +97,11 @@ def test_bad_batches(tmp_path: Path) -> None:
         darboux.batch(models, out, engine="spark")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="retries must be 0 or more"):
         darboux.batch(models, out, retries=-1)
-    with pytest.raises(ValueError, match="in_place is no option of a batch; there are allow_outside, "):
+    with pytest.raises(ValueError, match="in_place is not an option of a batch; the options are allow_outside, "):
         darboux.batch(models, out, in_place=True)
+    with pytest.raises(FileNotFoundError, match="no such folder or file") as missing:
+        darboux.batch([models, tmp_path / "modles"], out)
+    assert missing.value.filename == str(tmp_path / "modles")
     with pytest.raises(ValueError, match="invalid value 'best' for '--method <NAME>'") as caught:
         darboux.batch(models, out, method="best")
     assert "\n" not in str(caught.value)
@@ -219,7 +222,7 @@ def test_workers_killed_half_way_lose_nothing(tmp_path: Path) -> None:
     assert darboux.batch(models, out, progress=False)["totals"]["up_to_date"] == 23
 
 
-def test_a_file_that_kills_its_worker_is_given_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_file_that_kills_its_worker_is_reported_as_failed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     models, out = library(tmp_path), tmp_path / "out"
     monkeypatch.setattr(
         "darboux._engines.WORKER",
@@ -231,10 +234,10 @@ def test_a_file_that_kills_its_worker_is_given_up(tmp_path: Path, monkeypatch: p
     assert file["error"].endswith("b.glb: its worker was lost: the process ended with code 9")
 
 
-def test_an_error_is_no_lost_worker() -> None:
-    remote = ValueError("ray::carry_out()\n  File x\nValueError: burnt\n")
+def test_an_error_is_not_a_lost_worker() -> None:
+    remote = ValueError("ray::run_task()\n  File x\nValueError: burnt\n")
     assert _reason(remote) == "its worker raised an error: ValueError: burnt"
-    assert _reason(Lost("killed\nby whom")) == "its worker was lost: killed"
+    assert _reason(LostWorker("killed\nby whom")) == "its worker was lost: killed"
     assert _reason(OSError()) == "its worker raised an error: OSError"
 
 

@@ -11,7 +11,7 @@ import pytest
 from darboux import _engines
 from test_batch import by_command, contents, library
 
-PREFIX = "ray::carry_out_alone"
+PREFIX = "ray::run_task_on_one_thread"
 """How Ray names a process while it works on a file."""
 
 
@@ -109,7 +109,7 @@ def doze(seconds: str) -> None:
 
 def test_dask_is_not_waited_for_without_end(monkeypatch: pytest.MonkeyPatch) -> None:
     distributed = pytest.importorskip("distributed")
-    monkeypatch.setattr(_engines, "carry_out_alone", doze)
+    monkeypatch.setattr(_engines, "run_task_on_one_thread", doze)
     monkeypatch.setattr(_engines, "PATIENCE", 1)
     with distributed.LocalCluster(n_workers=1, processes=False, dashboard_address=None) as cluster, distributed.Client(cluster):
         with pytest.warns(RuntimeWarning, match="did not end 1 of the files in 1 seconds"):

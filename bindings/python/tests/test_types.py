@@ -2,16 +2,12 @@
 
 import doctest
 import inspect
-import re
-import shutil
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any, Dict, List
+from typing import List
 
 import darboux
-import pytest
-from conftest import ROOT
 
 PACKAGE = Path(__file__).resolve().parents[1]
 
@@ -33,32 +29,6 @@ def test_the_package_and_its_use_are_typed() -> None:
 
 def test_docstrings_run() -> None:
     assert doctest.testmod(darboux).failed == 0
-
-
-def python_blocks(text: Path) -> List[str]:
-    return re.findall(r"```python\n(.*?)```", text.read_text(), re.DOTALL)
-
-
-def test_the_manuals_examples_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """One after the other, beside a model and a folder of models; without those of packages that are not here."""
-    (tmp_path / "models").mkdir()
-    for place in ("model.glb", "models/one.glb"):
-        shutil.copy(ROOT / "assets/NormalTangentTest/NormalTangentTest.glb", tmp_path / place)
-    monkeypatch.chdir(tmp_path)
-    names: Dict[str, Any] = {}
-    run = 0
-    for block in python_blocks(ROOT / "docs/python.md"):
-        try:
-            exec(block, names)
-            run += 1
-        except ModuleNotFoundError as error:
-            assert error.name in ("open3d", "pygltflib", "trimesh")
-    assert run >= 4
-    assert names["failed"] == []
-    assert (tmp_path / "out/one.glb").exists()
-    exec(python_blocks(PACKAGE / "README.md")[0], names)
-    [block] = python_blocks(ROOT / "README.md")
-    exec(block, names)
 
 
 def printed_by(example: str) -> List[str]:

@@ -4,13 +4,14 @@
 //! same for every number of threads.
 
 pub mod command;
+pub mod distributed;
 mod journal;
-pub mod library;
 mod one_file;
 pub mod plan;
 pub mod report;
 
 use std::num::NonZero;
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
@@ -45,9 +46,8 @@ pub fn run<W: FileCommand>(command: &W) -> u8 {
             return exit::USAGE;
         }
     };
-    if found.skipped > 0 {
-        let skipped = counted(found.skipped, "file", "files");
-        messages.say(&format!("{skipped} skipped: named like outputs of an earlier run"));
+    if let Some(sentence) = skipped_outputs(&found.skipped) {
+        messages.say(&sentence);
     }
     interrupt::wait_for_writes();
     messages.start(jobs.iter().map(|job| job.input.byte_length()).sum());
@@ -66,6 +66,19 @@ pub fn run<W: FileCommand>(command: &W) -> u8 {
             exit::FAILED
         }
     }
+}
+
+/// The message about files of a folder that are named like outputs of earlier runs.
+fn skipped_outputs(skipped: &[PathBuf]) -> Option<String> {
+    let (first, others) = skipped.split_first()?;
+    let others = match others.len() {
+        0 => String::new(),
+        others => format!(" and {}", counted(others, "other file", "other files")),
+    };
+    let first = first.display();
+    Some(format!(
+        "{first}{others} skipped: named like outputs of an earlier run; name such a file to process it"
+    ))
 }
 
 fn refuse_terminal(jobs: Vec<Job>) -> Result<Vec<Job>, UsageError> {

@@ -71,7 +71,7 @@ pub fn save(
     let path = match output {
         Output::Stdout => {
             return match document.write_glb(Path::new(&output.to_string()), io::stdout().lock()) {
-                // A closed pipe is no error: its reader has read enough.
+                // A closed pipe is not an error: its reader has read enough.
                 Err(Error::Write { source, .. }) if source.kind() == ErrorKind::BrokenPipe => {
                     Ok((status, Vec::new()))
                 }

@@ -64,8 +64,8 @@ pub struct FoundInputs {
     pub files: Vec<(Input, Option<PathBuf>)>,
     /// Paths that cannot be searched or hold no model, each with the reason.
     pub failed: Vec<(PathBuf, String)>,
-    /// The number of earlier outputs that were skipped.
-    pub skipped: usize,
+    /// Outputs of earlier runs, which are skipped.
+    pub skipped: Vec<PathBuf>,
 }
 
 /// Refuses standard input together with other inputs.
@@ -78,7 +78,7 @@ pub fn check_stdin(inputs: &[PathBuf]) -> Result<(), UsageError> {
 
 /// Searches the input arguments for models; folders are searched recursively, in the order of names.
 ///
-/// A path that is no folder counts as a file even if it does not exist: reading it reports the error.
+/// A path that is not a folder counts as a file even if it does not exist: reading it reports the error.
 pub fn find_inputs(inputs: &[PathBuf], mode: SearchMode) -> FoundInputs {
     let mut found = FoundInputs::default();
     for path in inputs {
@@ -98,7 +98,7 @@ pub fn find_inputs(inputs: &[PathBuf], mode: SearchMode) -> FoundInputs {
 
 impl FoundInputs {
     fn search(&mut self, folder: &Path, mode: SearchMode) {
-        let before = (self.files.len(), self.skipped, self.failed.len());
+        let before = self.found_count();
         let out_dir = match mode {
             SearchMode::SkipOutputs { out_dir: Some(out_dir) } => Some(canonical(out_dir)),
             _ => None,
@@ -112,7 +112,7 @@ impl FoundInputs {
                 Ok(entry)
                     if matches!(mode, SearchMode::SkipOutputs { .. }) && has_output_name(entry.path()) =>
                 {
-                    self.skipped += 1
+                    self.skipped.push(entry.into_path());
                 }
                 Ok(entry) => self.files.push((Input::File(entry.into_path()), Some(folder.to_path_buf()))),
                 Err(error) => {
@@ -121,10 +121,15 @@ impl FoundInputs {
                 }
             }
         }
-        if before == (self.files.len(), self.skipped, self.failed.len()) {
+        if before == self.found_count() {
             self.failed
                 .push((folder.to_path_buf(), "the folder contains no model (.gltf, .glb, .vrm)".into()));
         }
+    }
+
+    /// The number of paths found, whatever becomes of them.
+    fn found_count(&self) -> usize {
+        self.files.len() + self.skipped.len() + self.failed.len()
     }
 }
 

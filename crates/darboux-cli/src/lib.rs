@@ -21,7 +21,9 @@ use std::io::Write;
 
 use clap::Parser;
 
-pub use batch::library::{Library, carry_out, give_up};
+pub use batch::distributed::{DistributedBatch, failed_task, run_task};
+/// For examples/pages.rs, which writes the reference. Not part of the API, because it shows clap's types.
+#[doc(hidden)]
 pub use command_line::Arguments;
 use command_line::Command;
 
@@ -58,11 +60,11 @@ where
         },
         Err(error) if error.use_stderr() => {
             let text = text::with_printable_arguments(error.render().ansi().to_string(), &arguments);
-            let _closed_is_no_fault = write!(anstream::stderr(), "{text}");
+            let _closed_stderr_is_ignored = write!(anstream::stderr(), "{text}");
             exit::USAGE
         }
         Err(help) => {
-            let _closed_is_no_fault = help.print();
+            let _closed_stdout_is_ignored = help.print();
             exit::DONE
         }
     }

@@ -112,7 +112,7 @@ impl Drop for FileProgress<'_> {
     }
 }
 
-/// Writes all of `bytes` to standard output. A closed pipe is no error: its reader has read enough.
+/// Writes all of `bytes` to standard output. A closed pipe is not an error: its reader has read enough.
 pub fn write_stdout(bytes: &[u8]) -> io::Result<()> {
     let mut stdout = io::stdout().lock();
     match stdout.write_all(bytes).and_then(|()| stdout.flush()) {

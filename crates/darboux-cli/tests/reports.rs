@@ -264,6 +264,17 @@ fn names_from_files_cannot_forge_messages() {
     assert!(suggested.ends_with("to add them: darboux tangents -- '-it'\\''s $bare.glb'\n"), "{suggested}");
 }
 
+/// A primitive without splits of its own says why its number of vertices changes.
+#[test]
+fn vertices_that_primitives_share_are_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("out.glb");
+    let model = asset("made/shared-vertices-two-uv-sets.gltf");
+    let run = darboux(&["tangents", text(&model), "-o", text(&out)]).exits(0);
+    let sharing = "27 vertices shared by 3 primitives became 36";
+    assert_eq!(run.stderr.matches(sharing).count(), 3, "{}", run.stderr);
+}
+
 #[test]
 fn completions_complete_every_subcommand() {
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {

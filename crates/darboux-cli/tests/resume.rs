@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use common::{asset, darboux, names_in, text};
-use darboux_cli::{Library, carry_out, give_up};
+use darboux_cli::{DistributedBatch, failed_task, run_task};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -80,6 +80,25 @@ fn only_what_changed_is_done_again() {
     assert!(!statuses(&other).contains(&"up_to_date"));
     assert_eq!(statuses(&resume(&models, &out, &[], 0)).len(), 3);
     assert_eq!(statuses(&resume(&models, &out, &[], 0)), ["up_to_date"; 3]);
+}
+
+/// Outputs that are made again and again do not make the journal grow, and compacting loses no record.
+#[test]
+fn the_journal_is_compacted() {
+    let (_folder, models, out) = library();
+    resume(&models, &out, &[], 0);
+    let one = models.join("a.glb");
+    for round in 0..20 {
+        let encoding = ["snorm16x4", "snorm8x4"][round % 2];
+        assert_eq!(statuses(&resume(&one, &out, &["--encoding", encoding], 0)), ["written"]);
+    }
+    let journal = fs::read_to_string(out.join(JOURNAL)).expect("the journal");
+    let (runs, records): (Vec<&str>, Vec<&str>) =
+        journal.lines().partition(|line| line.starts_with("{\"run\""));
+    assert_eq!(runs.len(), 21);
+    assert!((3..10).contains(&records.len()), "{} records", records.len());
+    assert!(names_in(&out).iter().all(|name| !name.starts_with(".darboux-")));
+    assert_eq!(statuses(&resume(&models, &out, &[], 0)), ["written", "up_to_date", "up_to_date"]);
 }
 
 /// A folder of outputs may be named in any way, and be moved.
@@ -255,38 +274,40 @@ fn other_processes_can_do_the_work() {
     let (_folder, models, out) = library();
     let inputs = [models.clone(), models.join("nothing.glb")];
     let encoding = ["--encoding".to_owned(), "snorm16x4".to_owned()];
-    let library = Library::open(&inputs, &out, &encoding).expect("a library");
-    assert!(Library::open(&inputs, &out, &[]).err().expect("held").contains("another run"));
-    let statuses = |library: &Library| -> Vec<String> {
-        let answers = library.orders().iter().map(|order| carry_out(order).expect("an answer"));
-        let taken = answers.map(|answer| {
-            library.take(&answer).expect("it is noted");
-            let answer: Value = serde_json::from_str(&answer).expect("JSON");
-            answer["report"]["status"].as_str().expect("a status").to_owned()
+    let batch = DistributedBatch::open(&inputs, &out, &encoding).expect("a batch");
+    assert!(DistributedBatch::open(&inputs, &out, &[]).err().expect("locked").contains("another run"));
+    let statuses = |batch: &DistributedBatch| -> Vec<String> {
+        let results = batch.tasks().iter().map(|task| run_task(task).expect("a result"));
+        let recorded = results.map(|result| {
+            batch.record(&result).expect("it is recorded");
+            let result: Value = serde_json::from_str(&result).expect("JSON");
+            result["report"]["status"].as_str().expect("a status").to_owned()
         });
-        taken.collect()
+        recorded.collect()
     };
-    assert_eq!(statuses(&library), ["written", "copied", "copied", "failed"]);
-    library.close().expect("closed");
-    let again = Library::open(&inputs, &out, &encoding).expect("the library again");
+    assert_eq!(statuses(&batch), ["written", "copied", "copied", "failed"]);
+    batch.close().expect("closed");
+    let again = DistributedBatch::open(&inputs, &out, &encoding).expect("the batch again");
     assert_eq!(statuses(&again), ["up_to_date", "up_to_date", "up_to_date", "failed"]);
-    let lost = give_up(&again.orders()[3], "it was lost").expect("an answer");
+    let lost = failed_task(&again.tasks()[3], "it was lost").expect("a result");
     assert!(lost.contains("nothing.glb: it was lost"), "{lost}");
     drop(again);
     resume(&models, &out, &["--encoding", "snorm16x4"], 0);
 }
 
 #[test]
-fn orders_and_answers_of_nobody_are_refused() {
+fn tasks_and_results_from_elsewhere_are_refused() {
     let (_folder, models, out) = library();
     for text in ["", "{}", "[1]", "{\"report\": 3"] {
-        assert!(carry_out(text).is_err() && give_up(text, "").is_err());
+        assert!(run_task(text).is_err() && failed_task(text, "").is_err());
     }
-    let library = Library::open(std::slice::from_ref(&models), &out, &[]).expect("a library");
-    assert!(library.take("{}").is_err());
+    let batch = DistributedBatch::open(std::slice::from_ref(&models), &out, &[]).expect("a batch");
+    assert!(batch.record("{}").is_err());
     let refused = |options: &[&str]| {
         let options: Vec<String> = options.iter().map(|&option| option.to_owned()).collect();
-        Library::open(std::slice::from_ref(&models), &out.join("other"), &options).err().expect("refused")
+        DistributedBatch::open(std::slice::from_ref(&models), &out.join("other"), &options)
+            .err()
+            .expect("refused")
     };
     assert_eq!(refused(&["--best"]), "unexpected argument '--best' found");
     assert!(refused(&["--method", "area", "--threshold", "3"]).contains("--threshold needs"));
@@ -296,7 +317,7 @@ fn orders_and_answers_of_nobody_are_refused() {
 /// A journal that another program put there must neither block the command nor lead it out of the folder.
 #[test]
 #[cfg(unix)]
-fn a_journal_that_is_no_regular_file_is_refused() {
+fn a_journal_that_is_not_a_regular_file_is_refused() {
     let (folder, models, out) = library();
     let journal = out.join(JOURNAL);
     fs::create_dir(&out).expect("a folder");

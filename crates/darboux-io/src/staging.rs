@@ -156,13 +156,13 @@ const RANDOM_CHARACTERS: usize = 6;
 const PREFIX: &str = ".darboux-";
 
 impl RunId {
-    /// The prefix of the names of this run's temporary files.
-    fn prefix(self) -> String {
+    /// The beginning of the names of this run's temporary files.
+    pub fn temporary_prefix(self) -> String {
         format!("{PREFIX}{self}-")
     }
 
     /// The run that made a temporary file, by the file's name.
-    pub fn that_left(path: &Path) -> Option<Self> {
+    pub fn of_temporary_file(path: &Path) -> Option<Self> {
         let name = path.file_name()?.to_str()?.strip_prefix(PREFIX)?;
         name.split_once('-')?.0.parse().ok()
     }
@@ -184,7 +184,7 @@ impl FromStr for RunId {
 
 /// A locked temporary file with the permissions of an ordinary new file. Errors do not name it, since users do not know it.
 fn new_temporary(folder: &Path, run: Option<RunId>) -> io::Result<NamedTempFile> {
-    let prefix = run.map_or(PREFIX.into(), RunId::prefix);
+    let prefix = run.map_or(PREFIX.into(), RunId::temporary_prefix);
     loop {
         let temporary = tempfile::Builder::new()
             .prefix(&prefix)

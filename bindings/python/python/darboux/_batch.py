@@ -1,15 +1,18 @@
 """Batches: adds tangents to many files with worker processes, Ray or Dask, and collects the report."""
 
+import errno
 import json
 import os
 from pathlib import Path
 from typing import Any, Callable, Dict, Iterator, List, Literal, Optional, Sequence, Union
 
-from ._darboux import Library, __version__, give_up
-from ._engines import ENGINES, Engine, Lost
+from ._darboux import DistributedBatch, __version__, failed_task
+from ._engines import ENGINES, Engine, LostWorker
 from ._process import PathLike
 
 REPORT = "darboux-report.json"
+
+MODEL_EXTENSIONS = (".gltf", ".glb", ".vrm")
 
 OPTIONS = (
     "allow_outside",
@@ -43,7 +46,7 @@ def batch(
     Parameters
     ----------
     files : path-like or sequence of path-like
-        Models, and folders that are searched for models; paths below folders are kept.
+        Models, and folders that are searched for models; paths below folders are kept. A model that cannot be read is reported as failed.
     out : path-like
         The folder of outputs, of the journal, darboux-journal.jsonl, and of the report, darboux-report.json. One batch at a time.
     engine : str
@@ -67,7 +70,9 @@ def batch(
     Raises
     ------
     ValueError
-        Options that are none; two files with one output; another batch that writes there.
+        An option is unknown or has a wrong value; two files would have the same output; another batch writes there.
+    FileNotFoundError
+        A path that is not named like a model does not exist.
     OSError
         The folder cannot be written.
     """
@@ -77,22 +82,30 @@ def batch(
         raise ValueError("retries must be 0 or more, workers 1 or more")
     out = Path(os.path.abspath(out))
     inputs = [files] if isinstance(files, (str, os.PathLike)) else list(files)
-    library = Library([os.path.abspath(path) for path in inputs], out, list(_arguments(options)))
+    paths = [os.path.abspath(path) for path in inputs]
+    _refuse_missing_folders(paths)
+    tasks = DistributedBatch(paths, out, list(_arguments(options)))
     try:
         with ENGINES[engine](workers) as running:
-            done = _carried_out(library, running, retries, progress)
-        report = _report([json.loads(report) for report in library.failed] + done)
+            done = _run_all(tasks, running, retries, progress)
+        report = _report([json.loads(report) for report in tasks.failed] + done)
         # While the folder is locked: the next batch writes its own.
         _write(out / REPORT, report)
     finally:
-        library.close()
+        tasks.close()
     return report
+
+
+def _refuse_missing_folders(paths: Sequence[str]) -> None:
+    for path in paths:
+        if not path.lower().endswith(MODEL_EXTENSIONS) and not os.path.exists(path):
+            raise FileNotFoundError(errno.ENOENT, "there is no such folder or file; check the path", path)
 
 
 def _arguments(options: Dict[str, Any]) -> Iterator[str]:
     for name, value in options.items():
         if name not in OPTIONS:
-            raise ValueError(f"{name} is no option of a batch; there are {', '.join(OPTIONS)}")
+            raise ValueError(f"{name} is not an option of a batch; the options are {', '.join(OPTIONS)}")
         flag = "--" + name.replace("_", "-")
         if value is True:
             yield flag
@@ -100,32 +113,32 @@ def _arguments(options: Dict[str, Any]) -> Iterator[str]:
             yield f"{flag}={value}"
 
 
-def _carried_out(
-    library: Library, engine: Engine, retries: int, progress: Union[bool, Callable[[int, int], object]]
+def _run_all(
+    batch: DistributedBatch, engine: Engine, retries: int, progress: Union[bool, Callable[[int, int], object]]
 ) -> List[Dict[str, Any]]:
     """The reports of all files, in the order of the inputs."""
-    orders = library.orders
-    reports: List[Dict[str, Any]] = [{} for _ in orders]
-    tries = [0] * len(orders)
-    waiting = list(reversed(range(len(orders))))
-    at_work = 0
-    with _Bar(len(orders), progress) as bar:
-        while waiting or at_work:
-            while waiting and at_work < engine.capacity:
+    tasks = batch.tasks
+    reports: List[Dict[str, Any]] = [{} for _ in tasks]
+    tries = [0] * len(tasks)
+    waiting = list(reversed(range(len(tasks))))
+    running = 0
+    with _ProgressBar(len(tasks), progress) as bar:
+        while waiting or running:
+            while waiting and running < engine.capacity:
                 number = waiting.pop()
                 tries[number] += 1
-                engine.start(number, orders[number])
-                at_work += 1
-            number, answer = engine.wait()
-            at_work -= 1
-            if isinstance(answer, Exception):
-                answer = give_up(orders[number], _reason(answer))
-            report = json.loads(answer)["report"]
+                engine.start(number, tasks[number])
+                running += 1
+            number, result = engine.wait()
+            running -= 1
+            if isinstance(result, Exception):
+                result = failed_task(tasks[number], _reason(result))
+            report = json.loads(result)["report"]
             if report["status"] == "failed" and tries[number] <= retries:
-                # Behind all others: what was in the way may be gone by then.
+                # Behind all others: what prevented it may be over by then.
                 waiting.insert(0, number)
                 continue
-            library.take(answer)
+            batch.record(result)
             reports[number] = {**report, "tries": tries[number]}
             bar.step()
     return reports
@@ -134,7 +147,7 @@ def _carried_out(
 def _reason(error: Exception) -> str:
     """Reduces an error to one sentence: the last line of a traceback from a cluster, or the first line about a lost worker."""
     lines = [line.strip() for line in str(error).splitlines() if line.strip()] or [type(error).__name__]
-    return f"its worker was lost: {lines[0]}" if isinstance(error, Lost) else f"its worker raised an error: {lines[-1]}"
+    return f"its worker was lost: {lines[0]}" if isinstance(error, LostWorker) else f"its worker raised an error: {lines[-1]}"
 
 
 def _report(files: List[Dict[str, Any]]) -> Dict[str, Any]:
@@ -151,7 +164,7 @@ def _write(path: Path, report: Dict[str, Any]) -> None:
     os.replace(unfinished, path)
 
 
-class _Bar:
+class _ProgressBar:
     """Reports how many files are done."""
 
     def __init__(self, total: int, progress: Union[bool, Callable[[int, int], object]]) -> None:
@@ -173,7 +186,7 @@ class _Bar:
         if self.bar is not None:
             self.bar.update()
 
-    def __enter__(self) -> "_Bar":
+    def __enter__(self) -> "_ProgressBar":
         return self
 
     def __exit__(self, *_: object) -> None:

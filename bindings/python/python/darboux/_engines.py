@@ -9,28 +9,28 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from queue import SimpleQueue
 from typing import Any, Callable, Dict, List, Optional, Protocol, Tuple, Union
 
-from ._darboux import carry_out
+from ._darboux import run_task
 
 Ended = Tuple[int, Union[str, Exception]]
-"""The number of an order, and its answer or the reason why there is none."""
+"""The number of a task, and its result or the error that prevented one."""
 
 
-class Lost(Exception):
-    """A worker ended before its order did."""
+class LostWorker(Exception):
+    """A worker ended before its task did."""
 
 
 class Engine(Protocol):
-    """Processes orders. When the context ends, local workers and Ray's workers are stopped; Dask's workers finish their current
-    orders."""
+    """Runs tasks. When the context ends, local workers and Ray's workers are stopped; Dask's workers finish their current
+    tasks."""
 
     capacity: int
-    """The number of orders to start at the same time."""
+    """The number of tasks to start at the same time."""
 
-    def start(self, number: int, order: str) -> None:
-        """Start an order."""
+    def start(self, number: int, task: str) -> None:
+        """Start a task."""
 
     def wait(self) -> Ended:
-        """Wait for the next order that ends."""
+        """Wait for the next task that ends."""
         ...
 
     def __enter__(self) -> "Engine": ...
@@ -38,9 +38,9 @@ class Engine(Protocol):
     def __exit__(self, *_: object) -> None: ...
 
 
-def carry_out_alone(order: str) -> str:
-    """The work of a cluster's workers, on one processor each."""
-    return carry_out(order, 1)
+def run_task_on_one_thread(task: str) -> str:
+    """What a cluster's workers run, on one processor each."""
+    return run_task(task, 1)
 
 
 WORKER = """
@@ -66,30 +66,30 @@ class Local:
         self.processes: List["subprocess.Popen[str]"] = []
         self.is_over = False
 
-    def start(self, number: int, order: str) -> None:
+    def start(self, number: int, task: str) -> None:
         def end(future: "Future[str]") -> None:
             error = future.exception()
             self.ended.put((number, error if isinstance(error, Exception) else future.result()))
 
-        self.threads.submit(self._ask, order).add_done_callback(end)
+        self.threads.submit(self._run, task).add_done_callback(end)
 
     def wait(self) -> Ended:
         return self.ended.get()
 
-    def _ask(self, order: str) -> str:
+    def _run(self, task: str) -> str:
         process: "subprocess.Popen[str]" = getattr(self.own, "process", None) or self._process()
         self.own.process = process
         assert process.stdin and process.stdout
         try:
-            process.stdin.write(order + "\n")
+            process.stdin.write(task + "\n")
             process.stdin.flush()
-            answer = process.stdout.readline()
+            result = process.stdout.readline()
         except OSError:
-            answer = ""
-        if not answer.endswith("\n"):
+            result = ""
+        if not result.endswith("\n"):
             self.own.process = None
-            raise Lost(f"the process ended with code {process.wait()}")
-        return answer
+            raise LostWorker(f"the process ended with code {process.wait()}")
+        return result
 
     def _process(self) -> "subprocess.Popen[str]":
         with self.lock:
@@ -123,12 +123,12 @@ class Ray:
         if not ray.is_initialized():
             ray.init()
         self.ray: Any = ray
-        self.task = ray.remote(max_retries=0)(carry_out_alone)
+        self.remote_function = ray.remote(max_retries=0)(run_task_on_one_thread)
         self.capacity = workers or 2 * int(ray.cluster_resources().get("CPU", 1))
         self.numbers: Dict[Any, int] = {}
 
-    def start(self, number: int, order: str) -> None:
-        self.numbers[self.task.remote(order)] = number
+    def start(self, number: int, task: str) -> None:
+        self.numbers[self.remote_function.remote(task)] = number
 
     def wait(self) -> Ended:
         [task], _ = self.ray.wait(list(self.numbers), num_returns=1)
@@ -138,7 +138,7 @@ class Ray:
         except self.ray.exceptions.RayTaskError as error:
             return number, error
         except self.ray.exceptions.RayError as error:
-            return number, Lost(str(error))
+            return number, LostWorker(str(error))
 
     def __enter__(self) -> "Ray":
         return self
@@ -169,8 +169,8 @@ class Dask:
         self.capacity = workers or 2 * max(1, sum(self.client.nthreads().values()))
         self.numbers: Dict[Any, int] = {}
 
-    def start(self, number: int, order: str) -> None:
-        self.numbers[self.client.submit(carry_out_alone, order, pure=False)] = number
+    def start(self, number: int, task: str) -> None:
+        self.numbers[self.client.submit(run_task_on_one_thread, task, pure=False)] = number
 
     def wait(self) -> Ended:
         done, _ = self.first(list(self.numbers), return_when="FIRST_COMPLETED")
@@ -178,7 +178,7 @@ class Dask:
         number = self.numbers.pop(task)
         error = task.exception()
         if isinstance(error, self.killed):
-            return number, Lost(str(error))
+            return number, LostWorker(str(error))
         return number, task.result() if error is None else error
 
     def __enter__(self) -> "Dask":

@@ -5,19 +5,22 @@
 //! files carry the identifier of their run, so that those of killed runs are recognised and removed; no other file is removed. All paths
 //! are relative to the folder, so that the folder can be moved. An output outside the folder (behind a link) is not recorded and is
 //! processed again each time.
+//!
+//! Lines are only appended while a run works. Opening the journal rewrites it without superseded lines once they are the majority.
 
 use std::collections::{HashMap, HashSet};
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-use crate::options::reading::ReadOptions;
 use darboux_io::RunId;
+use same_file::Handle;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use walkdir::WalkDir;
 
 use crate::json::VERSION;
+use crate::options::reading::ReadOptions;
 use crate::paths::canonical;
 use crate::regular_file::{Links, open_regular};
 
@@ -70,7 +73,7 @@ impl Origin {
     }
 }
 
-/// Hashes the hashes of a model and of all files that it refers to, or the file alone if it is no readable model.
+/// Hashes the hashes of a model and of all files that it refers to, or of the file alone if it cannot be read as a model.
 fn content_of(input: &Path, reading: &ReadOptions) -> Result<String, (PathBuf, io::Error)> {
     let document = reading.open(input);
     let files = document.map_or_else(|_| vec![input.to_owned()], |document| document.source_files());
@@ -149,28 +152,54 @@ impl Journal {
             )
         };
         fs::create_dir_all(folder).map_err(failed)?;
-        let mut options = OpenOptions::new();
-        let mut file = open_regular(&path, options.read(true).append(true).create(true), Links::Refuse)
-            .map_err(failed)?;
-        // A file system without locks gives no protection against a second run.
-        if let Err(TryLockError::WouldBlock) = file.try_lock() {
+        let Some(mut file) = open_locked(&path).map_err(failed)? else {
             return Err(format!(
                 "{}: another run is writing there; wait until it ends, or use another folder",
                 folder.display()
             ));
-        }
+        };
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes).map_err(failed)?;
-        if bytes.last().is_some_and(|&last| last != b'\n') {
-            file.write_all(b"\n").map_err(failed)?;
-        }
         let mut journal =
             Self { folder: folder.to_owned(), file, runs: HashSet::new(), records: HashMap::new() };
-        bytes.split(|&byte| byte == b'\n').for_each(|line| journal.read(line));
+        let lines = || bytes.split(|&byte| byte == b'\n').filter(|line| !line.is_empty());
+        lines().for_each(|line| journal.read(line));
         journal.remove_temporary_files()?;
         journal.runs.insert(run);
+        let superseded_lines = lines().count().saturating_sub(journal.runs.len() + journal.records.len());
+        if superseded_lines > journal.records.len() && journal.compact(&path, run).is_ok() {
+            return Ok(journal);
+        }
+        if bytes.last().is_some_and(|&last| last != b'\n') {
+            journal.file.write_all(b"\n").map_err(failed)?;
+        }
         journal.append(&RunStart { run: run.to_string() })?;
         Ok(journal)
+    }
+
+    /// Replaces the file by one that holds each run and each record once. A failure leaves the old file.
+    fn compact(&mut self, path: &Path, run: RunId) -> io::Result<()> {
+        let mut text = Vec::new();
+        let mut runs: Vec<String> = self.runs.iter().map(RunId::to_string).collect();
+        runs.sort();
+        for run in runs {
+            append_line(&mut text, &RunStart { run })?;
+        }
+        let mut records: Vec<&Record> = self.records.values().collect();
+        records.sort_by(|a, b| a.output.cmp(&b.output));
+        for record in records {
+            append_line(&mut text, record)?;
+        }
+        let mut temporary = tempfile::Builder::new()
+            .prefix(&run.temporary_prefix())
+            .make_in(&self.folder, |path| File::create_new(path))?;
+        // Locked before it has the journal's name, so that no other process can open it as its journal.
+        let _without_locks_there_is_no_protection = temporary.as_file().try_lock();
+        temporary.as_file().set_permissions(self.file.metadata()?.permissions())?;
+        temporary.write_all(&text)?;
+        temporary.as_file().sync_all()?;
+        self.file = temporary.persist(path)?;
+        Ok(())
     }
 
     /// Parses a line; a broken line is ignored.
@@ -186,7 +215,8 @@ impl Journal {
 
     /// Removes the temporary files of this run and of earlier ones. No worker may be running.
     pub fn remove_temporary_files(&self) -> Result<(), String> {
-        let is_temporary = |path: &Path| RunId::that_left(path).is_some_and(|run| self.runs.contains(&run));
+        let is_temporary =
+            |path: &Path| RunId::of_temporary_file(path).is_some_and(|run| self.runs.contains(&run));
         for entry in WalkDir::new(&self.folder).into_iter().filter_map(Result::ok) {
             if entry.file_type().is_file() && is_temporary(entry.path()) {
                 let removed = fs::remove_file(entry.path());
@@ -218,12 +248,36 @@ impl Journal {
 
     /// Writes one line.
     fn append(&self, value: &impl Serialize) -> Result<(), String> {
-        let line = serde_json::to_vec(value).map_err(io::Error::from);
-        let written = line.and_then(|mut line| {
-            line.push(b'\n');
-            (&self.file).write_all(&line)
-        });
+        let mut line = Vec::new();
+        let written = append_line(&mut line, value).and_then(|()| (&self.file).write_all(&line));
         let path = self.folder.join(NAME);
         written.map_err(|error| format!("{}: cannot be written: {error}", path.display()))
+    }
+}
+
+/// Appends a value and a line break to `text`.
+fn append_line(text: &mut Vec<u8>, value: &impl Serialize) -> io::Result<()> {
+    serde_json::to_writer(&mut *text, value)?;
+    text.push(b'\n');
+    Ok(())
+}
+
+/// Opens and locks the journal's file; `None` if another process has locked it. A missing file is created. A file system without locks
+/// gives no protection against a second run.
+fn open_locked(path: &Path) -> io::Result<Option<File>> {
+    loop {
+        let mut options = OpenOptions::new();
+        let file = open_regular(path, options.read(true).append(true).create(true), Links::Refuse)?;
+        if let Err(TryLockError::WouldBlock) = file.try_lock() {
+            return Ok(None);
+        }
+        // Between opening and locking, another run may have compacted the journal: then this file has lost its name.
+        let is_current = match Handle::from_path(path) {
+            Ok(named) => named == Handle::from_file(file.try_clone()?)?,
+            Err(error) => error.kind() != io::ErrorKind::NotFound,
+        };
+        if is_current {
+            return Ok(Some(file));
+        }
     }
 }

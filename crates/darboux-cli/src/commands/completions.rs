@@ -2,7 +2,7 @@
 
 pub mod arguments;
 
-use clap::CommandFactory;
+use clap::{Command, CommandFactory};
 use clap_complete::generate;
 
 use crate::command_line::Arguments;
@@ -13,7 +13,7 @@ use arguments::CompletionsArguments;
 /// Runs the command and returns its exit code.
 pub fn run(arguments: &CompletionsArguments) -> u8 {
     let mut script = Vec::new();
-    generate(arguments.shell, &mut Arguments::command(), "darboux", &mut script);
+    generate(arguments.shell, &mut without_hidden(&Arguments::command()), "darboux", &mut script);
     match write_stdout(&script) {
         Ok(()) => exit::DONE,
         Err(error) => {
@@ -21,4 +21,11 @@ pub fn run(arguments: &CompletionsArguments) -> u8 {
             exit::FAILED
         }
     }
+}
+
+/// The command without hidden subcommands, which stand for those that this build lacks.
+fn without_hidden(whole: &Command) -> Command {
+    let visible = whole.get_subcommands().filter(|subcommand| !subcommand.is_hide_set()).cloned();
+    let about = whole.get_about().cloned().unwrap_or_default();
+    Command::new("darboux").version(env!("CARGO_PKG_VERSION")).about(about).subcommands(visible)
 }

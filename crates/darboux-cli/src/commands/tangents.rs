@@ -176,6 +176,9 @@ fn describe(written: &Written) -> String {
         counted(*vertices_before, "vertex", "vertices")
     );
     if vertices_after != vertices_before {
+        if written.sharing_primitives > 1 {
+            text += &format!(" shared by {} primitives", written.sharing_primitives);
+        }
         text += &format!(" became {}", HumanCount(*vertices_after as u64));
     }
     text + &nonzero_counts([

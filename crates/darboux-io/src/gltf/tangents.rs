@@ -256,6 +256,7 @@ impl Run<'_, '_> {
                     uv_set,
                     uv_reason,
                     replaced: candidate.replaces(),
+                    sharing_primitives: group.members.len(),
                     vertices_before: split.old_vertex_count(),
                     vertices_after: split.vertex_count(),
                     morph_targets: morphed.len(),

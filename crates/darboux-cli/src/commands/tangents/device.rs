@@ -17,7 +17,7 @@ pub struct TangentDevice {
     gpu_threshold: usize,
     corners_of_gpu: usize,
     /// Why the CPU computed tangents instead of the GPU.
-    fault: Option<String>,
+    gpu_error: Option<String>,
 }
 
 /// The environment variable with the number of triangles from which [`Device::Auto`] uses the GPU.
@@ -35,7 +35,7 @@ impl TangentDevice {
         if let Some(Err(why)) = opened {
             return Err(why);
         }
-        Ok(Self { device, opened, gpu_threshold: gpu_threshold()?, corners_of_gpu: 0, fault: None })
+        Ok(Self { device, opened, gpu_threshold: gpu_threshold()?, corners_of_gpu: 0, gpu_error: None })
     }
 
     /// As [`generate_tangents_with`]. Errors: the GPU fails and `device` is [`Device::Gpu`]; otherwise the CPU takes over.
@@ -47,7 +47,7 @@ impl TangentDevice {
     ) -> Result<Tangents, String> {
         if self.wants_gpu(mesh, options) {
             match self.generate_on_gpu(mesh, options) {
-                Err(why) if self.device == Device::Auto => self.fault = Some(why),
+                Err(why) if self.device == Device::Auto => self.gpu_error = Some(why),
                 done => return done,
             }
         }
@@ -60,7 +60,7 @@ impl TangentDevice {
         match self.device {
             Device::Cpu => false,
             Device::Gpu => true,
-            Device::Auto => is_mikktspace && is_large && self.fault.is_none(),
+            Device::Auto => is_mikktspace && is_large && self.gpu_error.is_none(),
         }
     }
 
@@ -73,7 +73,7 @@ impl TangentDevice {
 
     /// A warning if the CPU replaced the GPU, or, once per process, if the GPU is software.
     pub fn warning(&self) -> Option<String> {
-        if let Some(why) = &self.fault {
+        if let Some(why) = &self.gpu_error {
             return Some(format!("the CPU computed the tangents because the GPU failed: {why}"));
         }
         let Some(Ok(OpenGpu { name, is_software_unreported, .. })) = &self.opened else { return None };
@@ -116,7 +116,13 @@ mod tests {
     }
 
     fn tangent_device(device: Device, opened: &'static OpenGpu) -> TangentDevice {
-        TangentDevice { device, opened: Some(Ok(opened)), gpu_threshold: 1, corners_of_gpu: 0, fault: None }
+        TangentDevice {
+            device,
+            opened: Some(Ok(opened)),
+            gpu_threshold: 1,
+            corners_of_gpu: 0,
+            gpu_error: None,
+        }
     }
 
     #[test]

@@ -54,7 +54,7 @@ struct Site {
 }
 
 /// Status, media type and body of a response.
-type Answer = (StatusCode, &'static str, Vec<u8>);
+type ResponseParts = (StatusCode, &'static str, Vec<u8>);
 
 const TEXT: &str = "text/plain; charset=utf-8";
 
@@ -101,7 +101,7 @@ impl Server {
 }
 
 impl Site {
-    /// Answers the one request of a connection.
+    /// Responds to the one request of a connection.
     async fn serve(self: Arc<Self>, stream: TcpStream) {
         let service = service_fn(move |request| {
             let site = self.clone();
@@ -120,8 +120,8 @@ impl Site {
     async fn respond(self: Arc<Self>, request: Request<Incoming>) -> Response<Full<Bytes>> {
         let (head, _unread_body) = request.into_parts();
         // Files are read on another thread, so that other connections go on.
-        let answer = task::spawn_blocking(move || self.answer(&head)).await;
-        let (status, media_type, body) = answer
+        let parts = task::spawn_blocking(move || self.response_parts(&head)).await;
+        let (status, media_type, body) = parts
             .unwrap_or_else(|_| (StatusCode::INTERNAL_SERVER_ERROR, TEXT, b"the request failed".to_vec()));
         let mut response = Response::new(Full::new(Bytes::from(body)));
         *response.status_mut() = status;
@@ -132,7 +132,7 @@ impl Site {
         response
     }
 
-    fn answer(&self, head: &Parts) -> Answer {
+    fn response_parts(&self, head: &Parts) -> ResponseParts {
         let host = head.headers.get(HOST).map(HeaderValue::as_bytes);
         let path = head.uri.path();
         let below = path.strip_prefix('/').and_then(|path| path.strip_prefix(self.secret.as_str()));
@@ -158,7 +158,7 @@ impl Site {
         }
     }
 
-    fn page_file(&self, name: &str) -> Answer {
+    fn page_file(&self, name: &str) -> ResponseParts {
         match self.page.read(name) {
             Some((media_type, bytes)) => (StatusCode::OK, media_type, bytes),
             None => not_found("there is no such file"),
@@ -166,7 +166,7 @@ impl Site {
     }
 
     /// The names of the model's files as a JSON array.
-    fn model_names(&self) -> Answer {
+    fn model_names(&self) -> ResponseParts {
         let names = self.model.as_ref().map(|model| serde_json::to_vec(&model.names()));
         match names {
             Some(Ok(names)) => (StatusCode::OK, "application/json", names),
@@ -175,7 +175,7 @@ impl Site {
     }
 
     /// The file with an index in that array.
-    fn model_file(&self, index: &str) -> Answer {
+    fn model_file(&self, index: &str) -> ResponseParts {
         let read = self.model.as_ref().zip(index.parse().ok()).and_then(|(model, index)| model.read(index));
         match read {
             Some(Ok(bytes)) => (StatusCode::OK, "application/octet-stream", bytes),
@@ -185,7 +185,7 @@ impl Site {
     }
 }
 
-fn not_found(sentence: &str) -> Answer {
+fn not_found(sentence: &str) -> ResponseParts {
     (StatusCode::NOT_FOUND, TEXT, sentence.into())
 }
 

@@ -75,7 +75,9 @@ pub struct Written {
     pub uv_reason: String,
     /// Whether existing tangents were replaced.
     pub replaced: bool,
-    /// The number of vertices before. Primitives may share them.
+    /// The number of primitives over the same vertices, this one included. They are split together.
+    pub sharing_primitives: usize,
+    /// The number of vertices before.
     pub vertices_before: usize,
     /// The number of vertices after splitting.
     pub vertices_after: usize,

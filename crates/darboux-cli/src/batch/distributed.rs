@@ -1,7 +1,7 @@
 //! `darboux tangents FILES --out-dir FOLDER --resume` in steps, for programs that distribute the files to their own workers.
 //!
-//! [`Library::open`] returns one order per file. [`carry_out`] turns an order into an answer, in any process on any machine that sees the
-//! same files. [`Library::take`] adds the answer to the journal. Orders, answers and reports are JSON.
+//! [`DistributedBatch::open`] makes one task per file. [`run_task`] processes a task and returns its result, in any process on any machine
+//! that sees the same files. [`DistributedBatch::record`] adds the result to the journal. Tasks, results and reports are JSON.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -22,16 +22,16 @@ use crate::commands::tangents::summary::TangentsSummary;
 use crate::inputs::{Input, SearchMode, find_inputs};
 use crate::terminal::Messages;
 
-/// An output folder with its locked journal, and one order per input file.
-pub struct Library {
+/// An output folder with its locked journal, and one task per input file.
+pub struct DistributedBatch {
     journal: Journal,
-    orders: Vec<String>,
+    tasks: Vec<String>,
     failed: Vec<String>,
 }
 
 /// The work on one file.
 #[derive(Serialize, Deserialize)]
-struct Order {
+struct Task {
     run: u64,
     options: Vec<String>,
     folder: PathBuf,
@@ -40,14 +40,14 @@ struct Order {
     record: Option<Record>,
 }
 
-/// The result of an order. `R` is the type of the report.
+/// The result of a task. `R` is the type of the report.
 #[derive(Serialize, Deserialize)]
-struct Answer<R> {
+struct TaskResult<R> {
     report: R,
     record: Option<Record>,
 }
 
-impl Library {
+impl DistributedBatch {
     /// Finds the models in files and folders, as the command does, and opens the journal of `folder`.
     ///
     /// `options` are command-line options of `darboux tangents`. A path that is not UTF-8 fails alone. Errors, one sentence each: the command
@@ -61,9 +61,9 @@ impl Library {
         let jobs = plan_jobs(&arguments.files, rules, &found).map_err(|usage| usage.0)?;
         let run = arguments.files.run;
         let journal = Journal::open(folder, run)?;
-        let order = |job: &Job| {
+        let task = |job: &Job| {
             let (Input::File(input), Output::File(output)) = (&job.input, &job.output) else { return None };
-            let order = Order {
+            let task = Task {
                 run: run.0,
                 options: options.to_vec(),
                 folder: folder.to_owned(),
@@ -71,27 +71,26 @@ impl Library {
                 output: output.clone(),
                 record: journal.find(output).cloned(),
             };
-            // A path that is not UTF-8 is the only order that JSON cannot hold.
+            // A path that is not UTF-8 is the only part of a task that JSON cannot hold.
             Some(
-                serde_json::to_string(&order)
-                    .map_err(|_| (input.clone(), "the path is not UTF-8".to_owned())),
+                serde_json::to_string(&task).map_err(|_| (input.clone(), "the path is not UTF-8".to_owned())),
             )
         };
-        let (mut orders, mut failed) = (Vec::new(), found.failed);
-        for order in jobs.iter().filter_map(order) {
-            match order {
-                Ok(order) => orders.push(order),
+        let (mut tasks, mut failed) = (Vec::new(), found.failed);
+        for task in jobs.iter().filter_map(task) {
+            match task {
+                Ok(task) => tasks.push(task),
                 Err(failure) => failed.push(failure),
             }
         }
         let failed = failed.into_iter().map(FileReport::<TangentsSummary>::not_searched);
         let failed = failed.map(|report| json(&report)).collect::<Result<_, String>>()?;
-        Ok(Self { journal, orders, failed })
+        Ok(Self { journal, tasks, failed })
     }
 
-    /// One order per file, as JSON.
-    pub fn orders(&self) -> &[String] {
-        &self.orders
+    /// One task per file, as JSON.
+    pub fn tasks(&self) -> &[String] {
+        &self.tasks
     }
 
     /// The reports of paths that cannot be searched, and of files whose path is not UTF-8.
@@ -99,11 +98,11 @@ impl Library {
         &self.failed
     }
 
-    /// Adds an answer to the journal. Errors: the answer was not made by [`carry_out`]; the journal cannot be written.
-    pub fn take(&self, answer: &str) -> Result<(), String> {
-        let answer: Answer<&RawValue> =
-            serde_json::from_str(answer).map_err(|error| format!("the answer cannot be parsed: {error}"))?;
-        answer.record.map_or(Ok(()), |record| self.journal.add(&record))
+    /// Adds the result of a task to the journal. Errors: the result was not made by [`run_task`]; the journal cannot be written.
+    pub fn record(&self, result: &str) -> Result<(), String> {
+        let result: TaskResult<&RawValue> =
+            serde_json::from_str(result).map_err(|error| format!("the result cannot be parsed: {error}"))?;
+        result.record.map_or(Ok(()), |record| self.journal.add(&record))
     }
 
     /// Removes the temporary files of killed workers and unlocks the journal. No worker may be running.
@@ -113,25 +112,28 @@ impl Library {
     }
 }
 
-/// Processes the file of an order; the answer also tells a failure. Errors: the order was not made by [`Library::open`].
-pub fn carry_out(order: &str) -> Result<String, String> {
-    let order: Order =
-        serde_json::from_str(order).map_err(|error| format!("the order cannot be parsed: {error}"))?;
-    let mut arguments = parsed(std::slice::from_ref(&order.input), &order.folder, &order.options)?;
-    arguments.files.run = RunId(order.run);
-    let job = Job { input: Input::File(order.input), output: Output::File(order.output) };
-    let entry = JournalEntry { folder: &order.folder, record: order.record.as_ref() };
+/// Processes the file of a task. The result of a file that fails holds the reason. Errors: the task was not made by
+/// [`DistributedBatch::open`].
+pub fn run_task(task: &str) -> Result<String, String> {
+    let task = parse_task(task)?;
+    let mut arguments = parsed(std::slice::from_ref(&task.input), &task.folder, &task.options)?;
+    arguments.files.run = RunId(task.run);
+    let job = Job { input: Input::File(task.input), output: Output::File(task.output) };
+    let entry = JournalEntry { folder: &task.folder, record: task.record.as_ref() };
     let finished = process_file(&arguments, &job, Some(entry), &Messages::new(true));
-    json(&Answer { report: finished.report, record: finished.record })
+    json(&TaskResult { report: finished.report, record: finished.record })
 }
 
-/// The answer to an order whose worker was lost at every attempt.
-pub fn give_up(order: &str, reason: &str) -> Result<String, String> {
-    let order: Order =
-        serde_json::from_str(order).map_err(|error| format!("the order cannot be parsed: {error}"))?;
-    let input = order.input.display().to_string();
+/// The result of a task that could not be run, for example because its worker was lost at every attempt. Errors: those of [`run_task`].
+pub fn failed_task(task: &str, reason: &str) -> Result<String, String> {
+    let task = parse_task(task)?;
+    let input = task.input.display().to_string();
     let sentence = format!("{input}: {reason}");
-    json(&Answer { report: FileReport::<TangentsSummary>::failed(input, sentence), record: None })
+    json(&TaskResult { report: FileReport::<TangentsSummary>::failed(input, sentence), record: None })
+}
+
+fn parse_task(task: &str) -> Result<Task, String> {
+    serde_json::from_str(task).map_err(|error| format!("the task cannot be parsed: {error}"))
 }
 
 /// Parses the command line. Errors: clap's message in one line.
@@ -173,11 +175,11 @@ mod tests {
         for name in [OsStr::new("good.glb"), OsStr::from_bytes(b"bad\xff.glb")] {
             fs::write(models.join(name), "").unwrap();
         }
-        let library = Library::open(&[models], &folder.path().join("out"), &[]).unwrap();
-        assert_eq!(library.orders().len(), 1);
-        assert!(library.orders()[0].contains("good.glb"));
-        assert_eq!(library.failed().len(), 1);
-        assert!(library.failed()[0].contains("the path is not UTF-8"));
-        library.close().unwrap();
+        let batch = DistributedBatch::open(&[models], &folder.path().join("out"), &[]).unwrap();
+        assert_eq!(batch.tasks().len(), 1);
+        assert!(batch.tasks()[0].contains("good.glb"));
+        assert_eq!(batch.failed().len(), 1);
+        assert!(batch.failed()[0].contains("the path is not UTF-8"));
+        batch.close().unwrap();
     }
 }
