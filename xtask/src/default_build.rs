@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-use crate::run::{Outcome, program, run, shown, target_folder};
+use crate::run::{Outcome, output_of, program, run, shown, target_folder};
 
 const MODEL: &str = "assets/NormalTangentTest/NormalTangentTest.glb";
 /// What the command prints about a subcommand or option that this build lacks.
@@ -29,7 +29,22 @@ pub fn check() -> Outcome {
     run(&mut first)?;
     println!("built and ran in {:.0} s", start.elapsed().as_secs_f32());
     let darboux = folder.join("release/darboux");
-    MISSING.iter().try_for_each(|line| refuses(&darboux, line))
+    MISSING.iter().try_for_each(|line| refuses(&darboux, line))?;
+    completes_no_missing_subcommand(&darboux)
+}
+
+/// Errors: the completions offer a subcommand that this build lacks.
+fn completes_no_missing_subcommand(darboux: &Path) -> Outcome {
+    let script = output_of(Command::new(darboux).args(["completions", "bash"]))?;
+    let script = String::from_utf8_lossy(&script);
+    match ["render", "view", "devices"]
+        .iter()
+        .find(|name| script.contains(&format!("darboux__subcmd__{name}")))
+    {
+        Some(name) => Err(format!("the completions of the default build offer darboux {name}")),
+        None if script.contains("darboux__subcmd__tangents") => Ok(()),
+        None => Err("the completions do not offer darboux tangents".into()),
+    }
 }
 
 /// Errors: the command does not end with exit code 2 and one line that contains [`INSTALL`].

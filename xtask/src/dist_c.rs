@@ -1,11 +1,16 @@
 //! `cargo xtask dist-c`: the folder for users of C and C++, with headers, libraries, CMake and pkg-config files, and examples.
+//!
+//! The two libraries contain the core with different features, so they share nothing. They are built at the same time, each in a target
+//! folder of its own.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::thread;
 use std::time::Instant;
 
-use crate::run::{Outcome, output_of, program, root, run, target_folder};
+use crate::progress::step;
+use crate::run::{Outcome, output_of, program, root, run, target_folder, to_stderr};
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
@@ -75,17 +80,18 @@ pub fn make_folder() -> Result<PathBuf, String> {
         fs::remove_dir_all(&folder)
             .map_err(|error| format!("{} cannot be removed: {error}", folder.display()))?;
     }
-    for (number, library) in LIBRARIES.iter().enumerate() {
-        eprintln!("dist-c: building lib{} ({} of {})", library.shipped, number + 1, LIBRARIES.len());
-        build(library)?;
-        let built = target.join("dist").join(format!("lib{}", library.built));
-        put_shared(library, &built, &folder.join("lib"))?;
-        put_static(library, &built, &folder.join("lib"))?;
-    }
+    eprintln!("dist-c makes the folder for C and C++: {} libraries, each shared and static", LIBRARIES.len());
+    thread::scope(|scope| {
+        let put =
+            |library| put_library(library, &target.join("dist-c").join(library.built), &folder.join("lib"));
+        let threads: Vec<_> = LIBRARIES.iter().map(|library| scope.spawn(move || put(library))).collect();
+        let results = threads.into_iter().map(|thread| thread.join().expect("building does not panic"));
+        results.fold(Ok(()), Outcome::and)
+    })?;
     let ours = root().join("bindings/c");
     FILES.iter().try_for_each(|(from, to)| copy(&ours.join(from), &folder.join(to)))?;
     TEMPLATES.iter().try_for_each(|(from, to)| fill_in(&ours.join(from), &folder.join(to)))?;
-    eprintln!("dist-c: done, {:.1} s", start.elapsed().as_secs_f32());
+    eprintln!("dist-c: done after {:.1} s", start.elapsed().as_secs_f32());
     Ok(folder)
 }
 
@@ -103,16 +109,25 @@ fn shared_name(library: &Library, version: &str) -> String {
     }
 }
 
+/// Builds a library in a target folder and puts its shared and its static form into the shipped folder.
+fn put_library(library: &Library, target: &Path, folder: &Path) -> Outcome {
+    step(&format!("compile lib{}", library.shipped), || build(library, target))?;
+    let built = target.join("dist-c").join(format!("lib{}", library.built));
+    put_shared(library, &built, folder)?;
+    put_static(library, &built, folder)
+}
+
 /// Builds the shared and the static library. The shared one carries the name that loaders look for.
-fn build(library: &Library) -> Outcome {
+fn build(library: &Library, target: &Path) -> Outcome {
     let name = shared_name(library, &series());
     let own_name = if cfg!(target_os = "macos") {
         format!("link-arg=-Wl,-install_name,@rpath/{name}")
     } else {
         format!("link-arg=-Wl,-soname,{name}")
     };
-    let mut cargo = program("cargo rustc --profile dist --lib --crate-type cdylib,staticlib --package");
-    run(cargo.args([library.package, "--", "-C", &own_name]))
+    let mut cargo =
+        program("cargo rustc --quiet --profile dist-c --lib --crate-type cdylib,staticlib --target-dir");
+    run(to_stderr(cargo.arg(target).args(["--package", library.package, "--", "-C", &own_name])))
 }
 
 /// Copies the shared library under its full name, and makes links under the names that loaders and linkers look for.

@@ -76,7 +76,7 @@ impl<'a> Wanted<'a> {
                 _ if word == "--quick" || word.parse::<usize>().is_ok() => wanted.options.push(word),
                 _ => wanted.steps.push(STEPS.iter().find(|step| step.name == word).ok_or_else(|| {
                     let names: Vec<_> = STEPS.iter().map(|step| step.name).collect();
-                    format!("{word} is no step of cargo xtask gpu: these are {}", names.join(", "))
+                    format!("{word} is not a step of cargo xtask gpu; the steps are {}", names.join(", "))
                 })?),
             }
         }
@@ -237,7 +237,7 @@ mod tests {
         assert_eq!(wanted.options, ["--quick", "2000"]);
         assert_eq!(Wanted::new(&[]).expect("fine").steps.len(), STEPS.len());
         assert!(Wanted::new(&["--out"]).is_err());
-        assert!(Wanted::new(&["test"]).is_err_and(|why| why.starts_with("test is no step")));
+        assert!(Wanted::new(&["test"]).is_err_and(|why| why.starts_with("test is not a step")));
     }
 
     #[test]

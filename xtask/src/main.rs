@@ -56,11 +56,12 @@ packages (the path is the last line of the output)
   dist-viewer      make the viewer's page, which darboux view serves (needs what dist-js needs)
   dist-python      build the Python wheel (needs python3 with venv, and the network)
   release --check [--since TAG] [metadata] [msrv] [crates] [c] [python] [npm]
-                   make all packages, install each into an empty folder and run its example; TAG: compare the public API";
+                   make all packages, install each into an empty folder and run its example;
+                   TAG: compare the public API with that of an earlier release";
 
 fn main() -> ExitCode {
-    if let Some(folder) = std::env::var_os(api::EXPAND_INTO) {
-        return api::wrap_compiler(&folder);
+    if std::env::var_os(api::AS_RUSTDOC).is_some() {
+        return api::run_rustdoc();
     }
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();

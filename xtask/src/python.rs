@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::OnceLock;
 
 use crate::run::{Outcome, files_below, program, root, run, target_folder, to_stderr, works};
 
@@ -26,22 +27,24 @@ pub fn test(without: WithoutPython) -> Outcome {
     run(with(&python, "-m pytest --quiet").arg(PACKAGE))
 }
 
-/// An interpreter that has the package, which is installed if it is missing; none where there is no Python that makes environments.
+/// An interpreter that has the package as it is now; none where there is no Python that makes environments.
 pub fn with_package() -> Result<Option<PathBuf>, String> {
     if !works(&mut program("python3 -m venv --help")) {
         return Ok(None);
     }
     let python = environment()?;
-    if !works(with(&python, "-c").arg("import darboux")) {
-        install(&python)?;
-    }
+    install(&python)?;
     Ok(Some(python))
 }
 
-/// Installs the package with what its tests need, in cargo's dev profile.
+/// Installs the package with what its tests need, in cargo's dev profile, once per run of this program.
 fn install(python: &Path) -> Outcome {
-    let package = format!("{PACKAGE}[test]");
-    run(pip(python).args(["--config-settings", "build-args=--profile dev", &package]))
+    static INSTALLED: OnceLock<Outcome> = OnceLock::new();
+    let install = || {
+        let package = format!("{PACKAGE}[test]");
+        run(pip(python).args(["--config-settings", "build-args=--profile dev", &package]))
+    };
+    INSTALLED.get_or_init(install).clone()
 }
 
 /// Installs the wheel into a fresh environment and runs the tests on it.

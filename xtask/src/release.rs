@@ -22,7 +22,7 @@ const STEPS: &[Step] = &[
     ("metadata", "descriptions, keywords, licences, READMEs and the changelog are complete", metadata::check),
     (
         "msrv",
-        "the libraries and the command compile with the oldest supported compiler",
+        "the libraries and the command compile with the oldest supported compiler, without and with all features",
         crates::check_rust_version,
     ),
     (
@@ -43,7 +43,7 @@ pub fn check(words: &[&str]) -> Outcome {
     };
     if let Some(unknown) = names.iter().find(|name| STEPS.iter().all(|step| step.0 != **name)) {
         let all: Vec<&str> = STEPS.iter().map(|step| step.0).collect();
-        return Err(format!("{unknown} is no step of release --check: the steps are {}", all.join(", ")));
+        return Err(format!("{unknown} is not a step of release --check; the steps are {}", all.join(", ")));
     }
     if let Some(tag) = since {
         println!("--- semver: the API against {tag}");

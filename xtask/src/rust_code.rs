@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path as FilePath, PathBuf};
 
 use quote::ToTokens;
-use syn::{Attribute, Expr, ForeignItem, Item, Lit, Meta, Visibility};
+use syn::{Attribute, Expr, ForeignItem, Item, Lit, Meta};
 
 use names::{Names, Path};
 
@@ -32,11 +32,7 @@ pub struct Module {
     folder: PathBuf,
     parent: Option<usize>,
     /// Child modules by name.
-    pub children: BTreeMap<String, usize>,
-    /// Whether it is declared `pub` and not `#[doc(hidden)]`.
-    pub is_public: bool,
-    /// Its items without child modules.
-    pub items: Vec<Item>,
+    children: BTreeMap<String, usize>,
     /// The names that its items define.
     defined: BTreeSet<String>,
     /// The names that its items use.
@@ -87,14 +83,11 @@ impl Crate {
                         }
                         None => self.load_child(&name, &module.attrs, index, read)?,
                     };
-                    let is_public = matches!(module.vis, Visibility::Public(_)) && !is_hidden(&module.attrs);
-                    self.modules[child].is_public = is_public;
                     self.modules[index].children.insert(name, child);
                 }
                 item => {
                     self.modules[index].defined.extend(defined_names(&item));
                     item.to_tokens(&mut code);
-                    self.modules[index].items.push(item);
                 }
             }
         }
@@ -126,11 +119,6 @@ impl Crate {
     /// The module that defines the item that a path leads to, and the item's name. A path is relative to the module `from`.
     pub fn item(&self, from: usize, path: &[String]) -> Option<(usize, String)> {
         self.find_item(from, path, &mut BTreeSet::new())
-    }
-
-    /// The module that a path leads to.
-    pub fn module_at(&self, from: usize, path: &[String]) -> Option<usize> {
-        self.find_module(from, path, &mut BTreeSet::new())
     }
 
     /// [`Crate::item`]. `visited` holds the places where a search is under way.
@@ -186,7 +174,7 @@ impl Crate {
         module.children.get(name).copied().or_else(imported)
     }
 
-    /// [`Crate::module_at`].
+    /// The module that a path leads to. `visited` holds the places where a search is under way.
     fn find_module(
         &self,
         from: usize,
@@ -216,7 +204,7 @@ impl Crate {
         let mut imports = module.names.imports.iter().filter(|(import, _)| import == name);
         imports.find_map(|(_, path)| self.find_item(of, path, visited)).or_else(|| {
             module.names.globs.iter().find_map(|path| {
-                let from = self.module_at(of, path)?;
+                let from = self.find_module(of, path, &mut BTreeSet::new())?;
                 let first_visit = visited.insert((from, vec!["*".to_owned(), name.to_owned()]));
                 first_visit.then(|| self.item_in(from, name, visited)).flatten()
             })
@@ -232,7 +220,7 @@ impl Crate {
 }
 
 /// A name without `r#`.
-pub fn unraw(ident: &proc_macro2::Ident) -> String {
+fn unraw(ident: &proc_macro2::Ident) -> String {
     ident.to_string().trim_start_matches("r#").to_owned()
 }
 
@@ -262,7 +250,7 @@ fn defined_names(item: &Item) -> Vec<String> {
 }
 
 /// The attributes of an item.
-pub fn attributes(item: &Item) -> &[Attribute] {
+fn attributes(item: &Item) -> &[Attribute] {
     match item {
         Item::Const(item) => &item.attrs,
         Item::Enum(item) => &item.attrs,
@@ -288,14 +276,6 @@ fn is_test(attributes: &[Attribute]) -> bool {
             has("test") && !has("not")
         }
         meta => meta.path().is_ident("test"),
-    })
-}
-
-/// True for `#[doc(hidden)]`.
-pub fn is_hidden(attributes: &[Attribute]) -> bool {
-    attributes.iter().any(|attribute| match &attribute.meta {
-        Meta::List(list) => list.path.is_ident("doc") && list.tokens.to_string() == "hidden",
-        _ => false,
     })
 }
 

@@ -22,7 +22,7 @@ const SAMPLES: &[(&str, &str)] = &[
     ("map.png", "assets/TwoSidedPlane/TwoSidedPlane_Normal.png"),
 ];
 
-/// `darboux compare` exits with 3 where files differ, which is no failure of a page. `darboux view` does not end.
+/// The command. `darboux compare` exits with 3 where files differ, which does not make a page fail. `darboux view` does not end.
 const DARBOUX: &str = r#"#!/bin/sh
 if [ "$1" = view ]; then echo "darboux view does not end: mark this block as not run" >&2; exit 1; fi
 '@PROGRAM@' "$@"
@@ -31,15 +31,38 @@ if [ $status = 3 ]; then exit 0; fi
 exit $status
 "#;
 
-/// `cargo run` and `cargo xtask dist-c` start what is built already; other tasks take too long. All other commands run the real cargo.
+/// `cargo run` starts the command that is built already, with the features that the line asks for. `cargo xtask dist-c` runs; other tasks
+/// take too long. All other commands run the real cargo.
 const CARGO: &str = r#"#!/bin/sh
 case "$1 $2" in
 "xtask dist-c") exec '@XTASK@' dist-c ;;
 xtask*) echo "cargo $* takes long: mark this block as not run" >&2; exit 1 ;;
-run*) while [ "$1" != -- ]; do shift; done; shift; exec darboux "$@" ;;
+run*)
+  line="cargo $*"
+  program='@DEFAULT@'
+  while [ $# -gt 0 ] && [ "$1" != -- ]; do
+    case "$1" in
+    run | --release | --quiet) ;;
+    --features) shift; if [ "$1" = full ]; then program='@FULL@'; else program=; fi ;;
+    *) program= ;;
+    esac
+    shift
+  done
+  if [ $# = 0 ] || [ -z "$program" ]; then
+    echo "$line: only cargo run [--release] [--features full] -- ... is run here; change the line, or mark this block as not run" >&2
+    exit 1
+  fi
+  shift
+  exec "$program" "$@" ;;
 esac
 cd '@ROOT@' && exec '@CARGO@' "$@"
 "#;
+
+/// The command as pages call it, with all features.
+const FULL: &str = "programs/darboux";
+
+/// The command with its default features, which only `cargo run` starts.
+const DEFAULT: &str = "darboux-with-default-features";
 
 /// Where pages run.
 pub struct Sandbox {
@@ -48,7 +71,7 @@ pub struct Sandbox {
 }
 
 impl Sandbox {
-    /// Builds the command with all features, and makes an empty folder.
+    /// Builds the command with its default features and with all, and makes an empty folder.
     pub fn new() -> Result<Self, String> {
         let target = target_folder()?;
         let folder = target.join("docs");
@@ -58,13 +81,17 @@ impl Sandbox {
         }
         let programs = folder.join("programs");
         make(&programs)?;
-        run(&mut program("cargo build --quiet --package darboux-cli --all-features"))?;
-        let built = folder.join("darboux");
-        copy(&target.join("debug/darboux"), &built)?;
+        for (name, features) in [(DEFAULT, ""), (FULL, "--all-features")] {
+            run(&mut program(&format!("cargo build --quiet --package darboux-cli {features}")))?;
+            let built = folder.join("built").join(name);
+            copy(&target.join("debug/darboux"), &built)?;
+            script(&folder.join(name), &DARBOUX.replace("@PROGRAM@", &built.display().to_string()))?;
+        }
         let own = std::env::current_exe().map_err(|error| format!("this program is not found: {error}"))?;
-        script(&programs.join("darboux"), &DARBOUX.replace("@PROGRAM@", &built.display().to_string()))?;
         let cargo = CARGO
             .replace("@XTASK@", &own.display().to_string())
+            .replace("@DEFAULT@", &folder.join(DEFAULT).display().to_string())
+            .replace("@FULL@", &folder.join(FULL).display().to_string())
             .replace("@ROOT@", &root().display().to_string())
             .replace("@CARGO@", &std::env::var("CARGO").unwrap_or_else(|_| "cargo".into()));
         script(&programs.join("cargo"), &cargo)?;

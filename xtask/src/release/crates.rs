@@ -9,16 +9,20 @@ use super::work::{RUST_VERSION, VERSION, empty_folder, print_size};
 use crate::doc_blocks;
 use crate::run::{Outcome, program, root, run, target_folder};
 
-/// Checks the published crates with the oldest supported compiler, which rustup installs.
+/// Checks the published crates, without and with their optional features, with the oldest supported compiler, which rustup installs.
 pub fn check_rust_version() -> Outcome {
     run(&mut program(&format!(
         "rustup toolchain install {RUST_VERSION} --profile minimal --no-self-update"
     )))?;
-    let mut cargo = program(&format!("cargo +{RUST_VERSION} check --quiet --target-dir target/rust-version"));
-    for package in published()? {
-        cargo.args(["--package", name(&package)]);
-    }
-    run(&mut cargo)
+    let packages = published()?;
+    ["", "--all-features"].iter().try_for_each(|features| {
+        let line = format!("cargo +{RUST_VERSION} check --quiet --target-dir target/rust-version {features}");
+        let mut cargo = program(&line);
+        for package in &packages {
+            cargo.args(["--package", name(package)]);
+        }
+        run(&mut cargo)
+    })
 }
 
 /// Packages all crates, which has cargo build each from its package, then runs the README's example and the command.

@@ -86,7 +86,7 @@ impl Reader<'_> {
     /// Reads a `use` declaration, a path, or one token that is neither.
     fn step(&mut self) {
         if self.takes("use") {
-            // `use<'a>` in a bound is no import.
+            // `use<'a>` in a bound is not an import.
             if self.peek() != "<" {
                 self.import(&mut Path::new());
             }
