@@ -57,6 +57,7 @@ fn the_tangents_report_has_the_documented_fields() {
     ];
     let mut expected = vec!["mesh", "mesh_name", "primitive", "outcome", "uv_set", "uv_reason", "replaced"];
     expected.extend([
+        "sharing_primitives",
         "vertices_before",
         "vertices_after",
         "morph_targets",
