@@ -2,7 +2,8 @@
 
 #![no_main]
 
-use darboux_io::gltf::{Document, LoadOptions, TangentsOptions, add_tangents, inspect};
+use darboux_io::LoadOptions;
+use darboux_io::gltf::{Document, AddTangentsOptions, add_tangents, inspect};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
@@ -11,7 +12,7 @@ fuzz_target!(|bytes: &[u8]| {
         let _may_be_refused = inspect(&mut document);
     }
     let Ok(mut document) = read(bytes) else { return };
-    let options = TangentsOptions { overwrite: true, ..TangentsOptions::default() };
+    let options = AddTangentsOptions::default().with_overwrite(true);
     if add_tangents(&mut document, &options, &mut |_| {}).is_err() {
         return;
     }

@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use darboux_io::LoadOptions;
 use darboux_io::gltf::schema::Primitive;
-use darboux_io::gltf::{Document, LoadOptions};
+use darboux_io::gltf::{Document, IndexList};
 
 use crate::OwnedMesh;
 
@@ -25,11 +26,12 @@ pub fn models(folder: &Path) -> Vec<PathBuf> {
 fn mesh(document: &Document, primitive: &Primitive) -> Option<OwnedMesh> {
     let accessor = |semantic: &str| primitive.attributes.get(semantic).copied();
     let (position, normal, uv) = (accessor("POSITION")?, accessor("NORMAL")?, accessor("TEXCOORD_0")?);
-    let indices = primitive.indices.map(|indices| document.read_indices(indices)).transpose().ok()?;
+    let indices =
+        primitive.indices.map(|indices| document.indices(indices)).transpose().ok()?.map(IndexList::into_u32);
     let mesh = OwnedMesh {
-        positions: document.read_vectors(position).ok()?,
-        normals: document.read_vectors(normal).ok()?,
-        uvs: document.read_vectors(uv).ok()?,
+        positions: document.vectors(position).ok()?.into_owned(),
+        normals: document.vectors(normal).ok()?.into_owned(),
+        uvs: document.vectors(uv).ok()?.into_owned(),
         indices,
         ..OwnedMesh::default()
     };

@@ -1,11 +1,12 @@
 //! glTF and GLB documents, read and written by darboux-io.
 
+use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::mpsc::Sender;
 
 use darboux::{Cancel, Context};
-use darboux_io::SaveOptions;
-use darboux_io::gltf::{self, LoadOptions, NormalsOptions, Progress, TangentEncoding, TangentsOptions};
+use darboux_io::gltf::{self, AddNormalsOptions, AddTangentsOptions, IndexList, Progress, TangentEncoding};
+use darboux_io::{LoadOptions, MemoryLimit, OptionNames, SaveOptions};
 use pyo3::exceptions::{PyIndexError, PyOSError, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -39,6 +40,8 @@ pub struct Document {
 /// path : path-like
 /// allow_outside : bool
 ///     Also read files outside the document's folder.
+/// memory_limit : int, optional
+///     The most memory for decoding the file and computing from it, in MiB. By default 256 MiB plus 64 times the size of the file.
 ///
 /// Raises
 /// ------
@@ -47,10 +50,15 @@ pub struct Document {
 /// ValueError
 ///     The file is broken or cannot be processed without loss; the message says where.
 #[pyfunction]
-#[pyo3(signature = (path, *, allow_outside=false))]
-pub fn load(py: Python<'_>, path: PathBuf, allow_outside: bool) -> PyResult<Document> {
-    let document =
-        py.detach(|| gltf::Document::open(&path, &LoadOptions { allow_outside, ..LoadOptions::default() }));
+#[pyo3(signature = (path, *, allow_outside=false, memory_limit=None))]
+pub fn load(
+    py: Python<'_>,
+    path: PathBuf,
+    allow_outside: bool,
+    memory_limit: Option<u32>,
+) -> PyResult<Document> {
+    let options = load_options(memory_limit).with_allow_outside(allow_outside);
+    let document = py.detach(|| gltf::Document::open(&path, &options));
     Ok(Document { document: document.map_err(file_error)?, is_half_done: false })
 }
 
@@ -63,17 +71,35 @@ pub fn load(py: Python<'_>, path: PathBuf, allow_outside: bool) -> PyResult<Docu
 ///     The name of the file in messages.
 /// base : path-like, optional
 ///     The folder of external files. Without it, buffers must be embedded, and references to images stay as they are.
+/// memory_limit : int, optional
+///     As in load.
 ///
 /// Raises
 /// ------
 /// OSError, ValueError
 ///     As load.
 #[pyfunction]
-#[pyo3(signature = (data, *, name="<bytes>", base=None))]
-pub fn loads(py: Python<'_>, data: Vec<u8>, name: &str, base: Option<PathBuf>) -> PyResult<Document> {
-    let options = LoadOptions::default();
+#[pyo3(signature = (data, *, name="<bytes>", base=None, memory_limit=None))]
+pub fn loads(
+    py: Python<'_>,
+    data: Vec<u8>,
+    name: &str,
+    base: Option<PathBuf>,
+    memory_limit: Option<u32>,
+) -> PyResult<Document> {
+    let options = load_options(memory_limit);
     let document = py.detach(|| gltf::Document::from_bytes(name, data, base.as_deref(), &options));
     Ok(Document { document: document.map_err(file_error)?, is_half_done: false })
+}
+
+/// The options of the reader, with the names of Python's parameters for messages.
+fn load_options(memory_limit: Option<u32>) -> LoadOptions {
+    let limit = memory_limit.map(|mebibytes| MemoryLimit::bytes(u64::from(mebibytes) << 20));
+    let names = OptionNames::default()
+        .with_memory_limit("memory_limit=")
+        .with_allow_outside("allow_outside=True")
+        .with_apply_texture_transform("apply_texture_transform=True");
+    LoadOptions::default().with_memory_limit(limit.unwrap_or_default()).with_option_names(names)
 }
 
 /// Return a document as the bytes of a GLB with all its buffers and images, except remote and missing ones.
@@ -117,7 +143,7 @@ pub fn save(
     force: bool,
 ) -> PyResult<Vec<PathBuf>> {
     let document = document.whole()?;
-    py.detach(|| document.save(&path, &SaveOptions { force, run: None })).map_err(file_error)
+    py.detach(|| document.save(&path, &SaveOptions::default().with_force(force))).map_err(file_error)
 }
 
 #[pymethods]
@@ -178,7 +204,8 @@ impl Document {
             arrays.set_item(name, self.vectors(py, accessor)?)?;
         }
         if let Some(accessor) = found.indices {
-            let indices = py.detach(|| self.document.read_indices(accessor)).map_err(file_error)?;
+            let indices =
+                py.detach(|| self.document.indices(accessor).map(IndexList::into_u32)).map_err(file_error)?;
             arrays.set_item("indices", numpy::PyArray1::from_vec(py, indices))?;
         }
         Ok(arrays)
@@ -247,16 +274,15 @@ impl Document {
         apply_texture_transform: bool,
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let options = TangentsOptions {
-            tangents: tangent_options(method, mode, threshold)?,
-            encoding: choice("encoding", encoding, ENCODINGS)?,
-            overwrite,
-            only_needed,
-            strict,
-            apply_texture_transform,
-        };
+        let options = AddTangentsOptions::default()
+            .with_tangents(tangent_options(method, mode, threshold)?)
+            .with_encoding(choice("encoding", encoding, ENCODINGS)?)
+            .with_overwrite(overwrite)
+            .with_only_needed(only_needed)
+            .with_strict(strict)
+            .with_apply_texture_transform(apply_texture_transform);
         self.edit(py, progress, |document, context, report| {
-            gltf::add_tangents_with(document, &options, context, &mut gltf::on_cpu, report)
+            gltf::add_tangents_with(document, &options, context, &mut gltf::generate_on_cpu, report)
         })
     }
 
@@ -292,7 +318,7 @@ impl Document {
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let normals = normal_options(shading, weight, crease, seams)?;
-        let options = NormalsOptions { normals, overwrite };
+        let options = AddNormalsOptions::default().with_normals(normals).with_overwrite(overwrite);
         self.edit(py, progress, |document, context, report| {
             gltf::add_normals_with(document, &options, context, report)
         })
@@ -352,7 +378,7 @@ impl Document {
     }
 
     fn read<const N: usize>(&self, py: Python<'_>, accessor: usize) -> PyResult<Vec<[f32; N]>> {
-        py.detach(|| self.document.read_vectors(accessor)).map_err(file_error)
+        py.detach(|| self.document.vectors(accessor).map(Cow::into_owned)).map_err(file_error)
     }
 
     /// Edits the document without the GIL and returns the summary as plain Python objects.

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use common::{Run, asset, darboux, darboux_reading, folder_with, glb_json, names_in, text};
 use darboux::Convention;
-use darboux_io::MemoryLimit;
+use darboux_io::LoadOptions;
 use darboux_io::image::{Channels, PngImage, convert_normal_map};
 use serde_json::Value;
 
@@ -24,7 +24,7 @@ fn names() -> impl Iterator<Item = &'static str> {
 
 /// The texels of a PNG, whatever its compression: they are written anew, inverted.
 fn texels(path: &Path) -> Vec<u8> {
-    let mut image = PngImage::open(path, MemoryLimit::default()).expect("an image");
+    let mut image = PngImage::open(path, &LoadOptions::default()).expect("an image");
     let conversion = Convention::GLTF.to(Convention::UNREAL);
     convert_normal_map(&mut image, &conversion, Channels::RGB, Channels::RGB).expect("a conversion");
     image.to_bytes().expect("a file")

@@ -60,7 +60,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// Prints what the limits of an adapter do not allow. Errors: all other errors.
 fn print_limit(error: Box<dyn Error>) -> Result<(), Box<dyn Error>> {
     match error.downcast_ref() {
-        Some(GpuError::PastLimit { .. }) => println!("skipped: {error}\n"),
+        Some(GpuError::BufferTooLarge { .. }) => println!("skipped: {error}\n"),
         _ => return Err(error),
     }
     Ok(())

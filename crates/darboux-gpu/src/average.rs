@@ -11,6 +11,7 @@ use crate::mikktspace::adjacency::{Adjacency, AdjacencyKernels};
 
 /// How a vertex finds its triangles. Both ways give the same bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Search {
     /// Each vertex tests all triangles. The time is proportional to vertices times triangles, the memory is 64 bytes per vertex.
     BruteForce,

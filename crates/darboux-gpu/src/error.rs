@@ -27,7 +27,7 @@ pub enum GpuError {
     OutOfMemory,
     /// The device reported an error.
     #[error("the GPU reported an error ({reason}): update its driver, or compute on the CPU")]
-    Refused {
+    DeviceError {
         /// The message of the device.
         reason: String,
     },
@@ -36,7 +36,7 @@ pub enum GpuError {
     Mesh(#[from] darboux::Error),
     /// A stride or offset is not a multiple of 4.
     #[error("the stride or offset of the {what} is {bytes} bytes: use a multiple of 4")]
-    Unaligned {
+    UnalignedLayout {
         /// The attribute.
         what: &'static str,
         /// The stride or offset.
@@ -56,7 +56,7 @@ pub enum GpuError {
     },
     /// A buffer is too small.
     #[error("the {what} need a buffer of {needed} bytes, but this one has {found}")]
-    PastBuffer {
+    BufferTooSmall {
         /// The contents of the buffer.
         what: &'static str,
         /// The required byte length.
@@ -66,7 +66,7 @@ pub enum GpuError {
     },
     /// A buffer is larger than the device can bind.
     #[error("the buffer of {what} has {bytes} bytes, but the device binds at most {limit}: split the mesh")]
-    PastLimit {
+    BufferTooLarge {
         /// The contents of the buffer.
         what: &'static str,
         /// The byte length of the buffer.
@@ -76,7 +76,7 @@ pub enum GpuError {
     },
     /// A buffer lacks the usage `STORAGE`.
     #[error("the buffer of {what} was created without BufferUsages::STORAGE: add that usage")]
-    NotStorage {
+    MissingStorageUsage {
         /// The contents of the buffer.
         what: &'static str,
     },
@@ -114,16 +114,16 @@ pub enum GpuError {
         "{corners} corners of quads average the tangents of two triangles, or take the tangent of the other triangle because one is \
          degenerate: plan the triangles that are drawn, or use darboux::Plan"
     )]
-    HalvesDisagree {
+    QuadHalvesDiffer {
         /// The number of such corners.
         corners: usize,
     },
     /// The method of a plan is not MikkTSpace.
     #[error("a plan on a GPU computes MikkTSpace: choose that method, or generate the tangents anew")]
-    OtherMethod,
+    UnsupportedMethod,
     /// Tangents per vertex were requested, but the corners of some vertices have different tangents.
     #[error("{vertices} vertices have several tangents: split them first (split_vertices)")]
-    Unsplit {
+    UnsplitVertices {
         /// The number of such vertices.
         vertices: usize,
     },
@@ -137,7 +137,7 @@ pub enum GpuError {
     },
     /// The buffers have another number of vertices than the plan.
     #[error("the plan has {expected} vertices, but these buffers have {found}: plan this mesh")]
-    OtherMesh {
+    VertexCountMismatch {
         /// The number of vertices of the plan.
         expected: u32,
         /// The number of vertices of the buffers.
@@ -145,11 +145,12 @@ pub enum GpuError {
     },
 }
 
-impl From<PlanRefusal> for GpuError {
-    fn from(reason: PlanRefusal) -> Self {
+impl GpuError {
+    /// The error for a mesh that the core does not plan for a GPU.
+    pub(crate) fn of_refusal(reason: PlanRefusal) -> Self {
         match reason {
-            PlanRefusal::HalvesDisagree { corners } => Self::HalvesDisagree { corners },
-            PlanRefusal::OtherMethod => Self::OtherMethod,
+            PlanRefusal::HalvesDisagree { corners } => Self::QuadHalvesDiffer { corners },
+            PlanRefusal::OtherMethod => Self::UnsupportedMethod,
             PlanRefusal::TooManyMembers { members, limit } => Self::TooManyMembers { members, limit },
         }
     }

@@ -92,7 +92,7 @@ fn a_limit_below_one_triangle_is_an_error() {
     for gpu in small_devices(64) {
         let kernels = MikkTSpace::new(&gpu).expect("valid shaders");
         let refused = kernels.generate_tangents(&mesh.view(), &TangentOptions::default()).err();
-        assert_eq!(refused, Some(GpuError::PastLimit { what: "a triangle", bytes: 96, limit: 64 }));
+        assert_eq!(refused, Some(GpuError::BufferTooLarge { what: "a triangle", bytes: 96, limit: 64 }));
     }
 }
 
@@ -105,10 +105,10 @@ fn buffers_past_small_limits_are_errors() {
         let limit = SMALL_LIMIT;
         let split = Splitter::new(&gpu).expect("valid shaders").split_vertices(&view, &tangents);
         let bytes = 16 * mesh.corner_count() as u64;
-        assert_eq!(split.err(), Some(GpuError::PastLimit { what: "the tangents", bytes, limit }));
+        assert_eq!(split.err(), Some(GpuError::BufferTooLarge { what: "the tangents", bytes, limit }));
         let plan = Planner::new(&gpu.device, Precision::Exact).plan(&view, &options);
         let bytes = 4 * mesh.corner_count() as u64;
-        assert_eq!(plan.err(), Some(GpuError::PastLimit { what: "sums of corners", bytes, limit }));
+        assert_eq!(plan.err(), Some(GpuError::BufferTooLarge { what: "sums of corners", bytes, limit }));
     }
 }
 
@@ -131,7 +131,7 @@ fn an_adjacency_past_a_binding_is_an_error() {
         let refused = Average::new(&gpu.device, Search::Adjacency).of_mesh(&mesh, &frames).err();
         let bytes = 4 * 2_046;
         let what = "the triangles at each vertex";
-        assert_eq!(refused, Some(GpuError::PastLimit { what, bytes, limit: SMALL_LIMIT }));
+        assert_eq!(refused, Some(GpuError::BufferTooLarge { what, bytes, limit: SMALL_LIMIT }));
     }
 }
 

@@ -98,7 +98,7 @@ fn moved_quads_have_the_core_s_bits() {
                 let mode = [Mode::Reference, Mode::Repaired][seed % 2];
                 let options = TangentOptions::from(MikkTSpaceOptions::new().with_mode(mode));
                 match planner.plan(&mesh.view(), &options) {
-                    Err(GpuError::HalvesDisagree { corners: 1.. }) => refused += 1,
+                    Err(GpuError::QuadHalvesDiffer { corners: 1.. }) => refused += 1,
                     plan => {
                         plan.unwrap_or_else(|error| panic!("mesh {seed}: {error}"));
                         let meshes = [&mesh, &mesh.moved(seed)];
@@ -284,9 +284,9 @@ fn what_has_no_plan_is_said() {
         let planner = Planner::new(&gpu.device, Precision::Exact);
         let plan = |mesh: &OwnedMesh, options| planner.plan(&mesh.view(), &options);
         let options = TangentOptions::default();
-        assert_eq!(plan(&halved, options).err(), Some(GpuError::HalvesDisagree { corners: 2 }));
+        assert_eq!(plan(&halved, options).err(), Some(GpuError::QuadHalvesDiffer { corners: 2 }));
         let average = TangentOptions::from(Method::Average);
-        assert_eq!(plan(&grid, average).err(), Some(GpuError::OtherMethod));
+        assert_eq!(plan(&grid, average).err(), Some(GpuError::UnsupportedMethod));
         let floats = buffer(gpu, &vec![0; 4 * grid.positions.len()], BufferUsages::STORAGE);
         let part = |stride| Attribute { buffer: &floats, stride, offset: 0 };
         let [positions, normals, tangents] = [12, 12, 16].map(part);
@@ -301,11 +301,11 @@ fn what_has_no_plan_is_said() {
         let check = of_quads.check_of_buffers(&moving(quads.positions.len() as u32));
         assert_eq!(check.err(), Some(GpuError::NotTriangles));
         let of_seam = plan(&grid, options).expect("a plan").of_buffers(&moving(grid.positions.len() as u32));
-        assert!(matches!(of_seam.err(), Some(GpuError::Unsplit { vertices: 1.. })));
+        assert!(matches!(of_seam.err(), Some(GpuError::UnsplitVertices { vertices: 1.. })));
         let whole = plan(&families::grid(3, 3, false, false), options).expect("a plan");
         assert_eq!(
             whole.of_buffers(&moving(15)).err(),
-            Some(GpuError::OtherMesh { expected: 16, found: 15 })
+            Some(GpuError::VertexCountMismatch { expected: 16, found: 15 })
         );
     }
 }

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use darboux::{Mesh, TangentOptions, generate_tangents};
-use darboux_io::SaveOptions;
-use darboux_io::gltf::{Document, LoadOptions, TangentsOptions, add_tangents};
+use darboux_io::gltf::{AddTangentsOptions, Document, add_tangents};
+use darboux_io::{LoadOptions, SaveOptions};
 
 const RUNS: usize = 9;
 
@@ -24,9 +24,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut phases = Phases::default();
     for _ in 0..RUNS {
         let mut document = phases.time("open", || Document::open(&input, &LoadOptions::default()))?;
-        phases
-            .time("add_tangents", || add_tangents(&mut document, &TangentsOptions::default(), &mut |_| {}))?;
-        phases.time("save", || document.save(&output, &SaveOptions { force: true, run: None }))?;
+        phases.time("add_tangents", || {
+            add_tangents(&mut document, &AddTangentsOptions::default(), &mut |_| {})
+        })?;
+        phases.time("save", || document.save(&output, &SaveOptions::default().with_force(true)))?;
         phases.time("close", || drop(document));
         phases.time("cp of both", || copy_both(&input, &output))?;
         let mesh = Mesh::triangles(&grid.positions, &grid.normals, &grid.uvs, &grid.indices)?;

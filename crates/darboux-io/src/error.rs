@@ -77,6 +77,28 @@ fn prefix(at: &str) -> String {
     if at.is_empty() { String::new() } else { format!("{at}: ") }
 }
 
+/// The most characters of a file's text in a message.
+const LONGEST_QUOTE: usize = 200;
+
+/// Text from a file as a message may show it: without characters that a terminal interprets, and at most 200 characters long.
+pub(crate) fn shortened(text: &str) -> String {
+    let printable = printable(text);
+    match printable.char_indices().nth(LONGEST_QUOTE) {
+        Some((end, _)) => format!("{}...", &printable[..end]),
+        None => printable,
+    }
+}
+
+/// Escapes the characters that a terminal interprets: control characters, line breaks included, and marks of text direction.
+fn printable(text: &str) -> String {
+    let is_unprintable = |c: char| {
+        c.is_control()
+            || matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    };
+    let escape = |c: char| if is_unprintable(c) { c.escape_debug().to_string() } else { c.to_string() };
+    text.chars().map(escape).collect()
+}
+
 /// An error without the name of its file. [`Fault::in_file`] adds the name.
 #[derive(Debug)]
 pub(crate) struct Fault {
@@ -95,17 +117,22 @@ enum FaultKind {
 impl Fault {
     /// The file violates its format at the JSON path `at`; an empty path means the whole file.
     pub fn invalid(at: impl Into<String>, problem: impl Into<String>) -> Self {
-        Self { kind: FaultKind::Invalid, at: at.into(), problem: problem.into() }
+        Self::new(FaultKind::Invalid, &at.into(), &problem.into())
     }
 
     /// The content at `at` is valid, but cannot be processed without loss.
     pub fn unsupported(at: impl Into<String>, problem: impl Into<String>) -> Self {
-        Self { kind: FaultKind::Unsupported, at: at.into(), problem: problem.into() }
+        Self::new(FaultKind::Unsupported, &at.into(), &problem.into())
     }
 
     /// The file that is referred to at `at` cannot be used.
     pub fn resource(at: impl Into<String>, problem: impl Into<String>) -> Self {
-        Self { kind: FaultKind::Resource, at: at.into(), problem: problem.into() }
+        Self::new(FaultKind::Resource, &at.into(), &problem.into())
+    }
+
+    /// A JSON path contains names from the file, and the problem may quote it.
+    fn new(kind: FaultKind, at: &str, problem: &str) -> Self {
+        Self { kind, at: shortened(at), problem: printable(problem) }
     }
 
     /// The error about `file`.

@@ -1,7 +1,8 @@
 //! glTF 2.0 and GLB: documents that are read, edited, and written with everything else preserved.
 //!
 //! ```text
-//! document, container, resources, schema, references   reading: the JSON, the buffers, checks
+//! load, parse, container, buffers, resources, references   reading: the file, the JSON, the buffers, checks
+//! document, edits, edit_document, schema               a document, its edits, and the parts of its JSON
 //! accessors, stored_elements, elements                 accessors as arrays, and arrays as accessors
 //! tangents/, normals/, convert/, compression/          operations on documents; primitives/ is what they share
 //! inspect, compare, scene, materials                   descriptions of documents
@@ -9,19 +10,25 @@
 //! ```
 
 mod accessors;
+mod buffers;
 mod compare;
 mod compression;
 pub(crate) mod container;
 mod convert;
 mod document;
+mod edit_document;
+mod edits;
+mod element_type;
 mod elements;
 mod file_bytes;
 mod inspect;
 mod json_text;
+mod load;
 mod materials;
 mod normals;
 mod objects_only;
 mod output_layout;
+mod parse;
 mod primitives;
 mod progress;
 mod references;
@@ -36,21 +43,21 @@ mod unused_data;
 
 pub use compare::{Pair, PairedCorners, Unpaired, pair_tangents};
 pub use convert::{ConversionSummary, convert_vertices};
-pub use document::{Document, LoadOptions};
+pub use document::Document;
+pub use element_type::{ComponentType, ElementType};
 pub use elements::{Elements, NewAccessor, Target};
 pub use inspect::{PrimitiveInfo, inspect};
 pub use materials::{Alpha, Appearance, TextureUse, Wrap};
 pub use normals::{
-    NormalsOptions, NormalsOutcome, NormalsSummary, PrimitiveNormals, WrittenNormals, add_normals,
+    AddNormalsOptions, NormalsOutcome, NormalsSummary, PrimitiveNormals, WrittenNormals, add_normals,
     add_normals_with,
 };
 pub use primitives::corners::PrimitiveCorners;
 pub use primitives::name::PrimitiveName;
 pub use progress::Progress;
 pub use scene::{PlacedMesh, PlacedMeshes};
-pub use schema::{ComponentType, ElementType};
 pub use stored_elements::IndexList;
 pub use tangents::{
-    Counts, Generate, Outcome, PrimitiveSummary, Summary, TangentEncoding, TangentsOptions, Totals, Written,
-    add_tangents, add_tangents_with, on_cpu,
+    AddTangentsOptions, Generate, PrimitiveTangents, ReportCounts, TangentEncoding, TangentsOutcome,
+    TangentsSummary, TangentsTotals, WrittenTangents, add_tangents, add_tangents_with, generate_on_cpu,
 };

@@ -9,7 +9,7 @@ mod rgba;
 mod srgb;
 
 pub use channels::{Channels, ChannelsError};
-pub use normal_map::{convert_normal_map, count_no_normals};
+pub use normal_map::{convert_normal_map, count_invalid_normals};
 pub use png_image::PngImage;
 #[cfg(feature = "textures")]
 pub use rgba::{DecodeError, DecodeLimits, RgbaImage};

@@ -11,29 +11,31 @@
 //! ```
 //! use std::path::Path;
 //!
-//! use darboux_io::SaveOptions;
-//! use darboux_io::gltf::{Document, LoadOptions, TangentsOptions, add_tangents};
+//! use darboux_io::{LoadOptions, SaveOptions};
+//! use darboux_io::gltf::{Document, AddTangentsOptions, add_tangents};
 //!
 //! # let input = Path::new("../../assets/NormalTangentTest/NormalTangentTest.glb");
 //! # let output = &std::env::temp_dir().join("darboux-io.example.glb");
 //! let mut document = Document::open(input, &LoadOptions::default())?;
-//! let summary = add_tangents(&mut document, &TangentsOptions::default(), &mut |_| {})?;
+//! let summary = add_tangents(&mut document, &AddTangentsOptions::default(), &mut |_| {})?;
 //! println!("{} primitives got tangents", summary.totals.written);
-//! document.save(output, &SaveOptions { force: true, ..SaveOptions::default() })?;
+//! document.save(output, &SaveOptions::default().with_force(true))?;
 //! # Ok::<(), darboux_io::Error>(())
 //! ```
 
 mod error;
 pub mod gltf;
 pub mod image;
+mod load_options;
 mod memory_limit;
 pub mod obj;
 mod paths;
 mod staging;
 
 pub use error::Error;
+pub use load_options::{LoadOptions, OptionNames};
 pub use memory_limit::MemoryLimit;
-pub use paths::{FileKind, readable};
+pub use paths::{FileKind, resolve_input};
 pub use staging::{RunId, SaveOptions};
 
 /// The examples of docs/io.md compile and run.

@@ -28,11 +28,6 @@ impl MemoryLimit {
         Self(Some(bytes))
     }
 
-    /// The limit for a file of `size` bytes.
-    pub(crate) fn for_size(self, size: usize) -> usize {
-        self.for_sizes(size, 0)
-    }
-
     /// The limit for a file of `size` bytes of which `decompressed` bytes were made.
     pub(crate) fn for_sizes(self, size: usize, decompressed: usize) -> usize {
         match self.0 {
@@ -45,10 +40,22 @@ impl MemoryLimit {
     }
 }
 
-/// What is wrong with a file that asks for more than `limit`, and what to do. `what` is a clause such as `decompresses to`.
-pub fn exceeded(what: &str, limit: usize) -> String {
-    let limit = limit.div_ceil(1 << 20);
-    format!(
-        "{what} more than the memory limit of {limit} MiB; if you trust the file, raise the limit (--memory-limit)"
-    )
+/// The memory for one file.
+#[derive(Clone, Copy, Debug)]
+pub struct Budget {
+    /// The most bytes.
+    pub bytes: usize,
+    /// The name of the option that changes the limit.
+    pub option: &'static str,
+}
+
+impl Budget {
+    /// What is wrong with a file that needs more, and what to do. `what` is a clause such as `the file decompresses to`.
+    pub fn exceeded(&self, what: &str) -> String {
+        let limit = self.bytes.div_ceil(1 << 20);
+        let option = self.option;
+        format!(
+            "{what} more than the memory limit of {limit} MiB; if you trust the file, raise the limit ({option})"
+        )
+    }
 }

@@ -10,6 +10,7 @@ use crate::Error;
 
 /// The kind of a file by its extension, in upper or lower case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum FileKind {
     /// `.glb`, and `.vrm`, which has the same format.
     Glb,
@@ -41,7 +42,7 @@ impl FileKind {
 }
 
 /// The regular file to read at `path`, links resolved. Errors: there is no file, or it is not a regular file.
-pub fn readable(path: &Path) -> Result<PathBuf, Error> {
+pub fn resolve_input(path: &Path) -> Result<PathBuf, Error> {
     let failed = |source| Error::Read { file: path.to_owned(), source };
     // Metadata comes first: a piped /dev/stdin links to something without a path.
     let metadata = fs::metadata(path).map_err(failed)?;
@@ -57,7 +58,7 @@ pub fn readable(path: &Path) -> Result<PathBuf, Error> {
 /// The regular file to write at `path`, links resolved. `why_not` gives the reason when an existing file must not be replaced.
 ///
 /// Errors: a broken link; an existing file that is not regular, is read-only, or must not be replaced; an existing file without `force`.
-pub fn writable(
+pub fn resolve_output(
     path: &Path,
     force: bool,
     why_not: impl FnOnce(&Path) -> Option<&'static str>,

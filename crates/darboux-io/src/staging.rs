@@ -39,11 +39,26 @@ struct Staged {
 
 /// How a document or an image is written.
 #[derive(Clone, Copy, Debug, Default)]
+#[non_exhaustive]
 pub struct SaveOptions {
     /// Replaces an existing output. Without it, an existing output is an error.
     pub force: bool,
     /// The run that the file belongs to, if any. Its temporary files are named after it.
     pub run: Option<RunId>,
+}
+
+impl SaveOptions {
+    /// These options with an existing output replaced, or refused.
+    #[must_use]
+    pub const fn with_force(self, force: bool) -> Self {
+        Self { force, ..self }
+    }
+
+    /// These options for a file of a run over many files.
+    #[must_use]
+    pub fn with_run(self, run: impl Into<Option<RunId>>) -> Self {
+        Self { run: run.into(), ..self }
+    }
 }
 
 /// The identifier of a run over many files.

@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use darboux_io::Error;
-use darboux_io::gltf::{Document, LoadOptions};
+use darboux_io::gltf::Document;
+use darboux_io::{Error, LoadOptions};
 use serde_json::{Value, json};
 
 fn parse(bytes: impl Into<Vec<u8>>) -> Result<Document, Error> {
@@ -42,7 +42,29 @@ fn containers() {
         "the chunk at byte 12 says 4294967295 bytes but 4 are left",
     );
     refused(parse(glb_of(&[2, 24, 4, 0x004E_4942], "{}  ")), "the first chunk is not JSON");
-    refused(parse(glb_of(&[2, 24, 4, JSON], "{}\0\0")), "missing field `asset`");
+    let other = "asset.version is missing, so this is not a glTF file; give a .gltf or .glb file";
+    refused(parse(glb_of(&[2, 24, 4, JSON], "{}\0\0")), other);
+    refused(parse(r#"{"asset": {"generator": "x"}, "meshes": 7}"#), other);
+}
+
+#[test]
+fn text_of_the_file_cannot_forge_or_flood_a_message() {
+    let hostile = format!("\\u001b[2J\\nerror: forged \\u202e{}", "x".repeat(70_000));
+    let accessor = format!(r#"{{"componentType":5126,"count":1,"type":"{hostile}"}}"#);
+    for json in [
+        format!(r#"{{"asset":{{"version":"2.0"}},"accessors":[{accessor}]}}"#),
+        format!(r#"{{"asset":{{"version":"{hostile}"}}}}"#),
+        format!(
+            r#"{{"asset":{{"version":"2.0"}},"meshes":[{{"primitives":[{{"attributes":{{"{hostile}":"a"}}}}]}}]}}"#
+        ),
+        format!(
+            r#"{{"asset":{{"version":"2.0"}},"meshes":[{{"primitives":[{{"attributes":{{"{hostile}":7}}}}]}}]}}"#
+        ),
+    ] {
+        let message = parse(json).expect_err("an error").to_string();
+        assert!(message.len() < 800, "{} bytes", message.len());
+        assert!(!message.contains(['\u{1b}', '\n', '\u{202e}']), "{message:?}");
+    }
 }
 
 #[test]
@@ -97,7 +119,7 @@ fn read_with(accessor: usize, pointer: &str, value: Value) -> Result<Vec<u32>, E
     let mut json = good();
     let (parent, member) = pointer.rsplit_once('/').unwrap();
     json.pointer_mut(parent).unwrap()[member] = value;
-    parse(json.to_string())?.read_indices(accessor)
+    parse(json.to_string())?.indices(accessor).map(darboux_io::gltf::IndexList::into_u32)
 }
 
 #[test]
@@ -155,11 +177,11 @@ fn accessors_without_bytes_are_limited() {
     let mut json = good();
     json["accessors"][0] = json!({"componentType": 5126, "count": 1u64 << 40, "type": "MAT4"});
     refused(
-        parse(json.to_string()).unwrap().read_elements(0),
+        parse(json.to_string()).unwrap().elements(0),
         "accessors[0].count: 1099511627776 elements are too many",
     );
     json["accessors"][0]["count"] = json!(1000);
-    assert_eq!(parse(json.to_string()).unwrap().read_elements(0).unwrap().bytes, vec![0; 64_000]);
+    assert_eq!(parse(json.to_string()).unwrap().elements(0).unwrap().bytes, vec![0; 64_000]);
 }
 
 #[test]
@@ -187,7 +209,7 @@ fn open_with(folder: &Path, uri: &str, allow_outside: bool) -> Result<Document, 
     let json = json!({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 1, "uri": uri}]});
     let path = folder.join("a.gltf");
     fs::write(&path, json.to_string()).unwrap();
-    Document::open(&path, &LoadOptions { allow_outside, ..LoadOptions::default() })
+    Document::open(&path, &LoadOptions::default().with_allow_outside(allow_outside))
 }
 
 #[test]
@@ -243,7 +265,7 @@ fn references_to_images_outside_the_folder_are_kept() {
     let path = folder.path().join("in/a.gltf");
     fs::write(&path, json.to_string()).unwrap();
     let read = |allow_outside| {
-        Document::open(&path, &LoadOptions { allow_outside, ..LoadOptions::default() }).unwrap()
+        Document::open(&path, &LoadOptions::default().with_allow_outside(allow_outside)).unwrap()
     };
     assert!(read(false).warnings()[0].contains("images[0].uri: \"../secret.png\" lies outside"));
     assert!(json_of(&read(false).to_glb().unwrap()).contains("../secret.png"));
@@ -261,8 +283,8 @@ fn damage_never_panics() {
             glb[at] = damage;
             if let Ok(document) = parse(glb.clone()) {
                 for accessor in 0..document.accessors().len() {
-                    let _ = document.read_elements(accessor);
-                    let _ = document.read_vectors::<3>(accessor);
+                    let _ = document.elements(accessor);
+                    let _ = document.vectors::<3>(accessor);
                 }
                 let _ = document.to_glb();
             }

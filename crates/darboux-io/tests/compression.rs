@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use darboux_io::Error;
-use darboux_io::gltf::{Document, LoadOptions, TangentsOptions, add_tangents};
+use darboux_io::gltf::{AddTangentsOptions, Document, add_tangents};
+use darboux_io::{Error, LoadOptions};
 use serde_json::{Value, json};
 
 fn asset(name: &str) -> PathBuf {
@@ -26,9 +26,9 @@ fn decompressed(name: &str) -> Document {
 /// Positions and UVs of the corners of a primitive.
 fn corners(document: &Document, primitive: usize) -> Vec<([f32; 3], [f32; 2])> {
     let primitive = &document.meshes()[0].primitives[primitive];
-    let positions = document.read_vectors(primitive.attributes["POSITION"]).unwrap();
-    let uvs = document.read_vectors(primitive.attributes["TEXCOORD_0"]).unwrap();
-    let indices = document.read_indices(primitive.indices.unwrap()).unwrap();
+    let positions = document.vectors(primitive.attributes["POSITION"]).unwrap().into_owned();
+    let uvs = document.vectors(primitive.attributes["TEXCOORD_0"]).unwrap().into_owned();
+    let indices = document.indices(primitive.indices.unwrap()).unwrap().into_u32();
     indices.iter().map(|&i| (positions[i as usize], uvs[i as usize])).collect()
 }
 
@@ -64,7 +64,7 @@ fn draco_primitives_become_plain() {
     let json = json_of(&written);
     assert!(!json.to_string().contains("draco"), "{json}");
     let min: Vec<f64> = serde_json::from_value(json["accessors"][1]["min"].clone()).unwrap();
-    let positions = document.read_vectors::<3>(1).unwrap();
+    let positions = document.vectors::<3>(1).unwrap().into_owned();
     let least = |i: usize| positions.iter().map(|p| p[i]).fold(f32::INFINITY, f32::min);
     assert_eq!(min, [0, 1, 2].map(|i| f64::from(least(i))), "bounds are those of the decoded values");
 }
@@ -162,9 +162,9 @@ fn every_filter() -> Vec<(Vec<u8>, usize, usize, &'static str, &'static str)> {
 fn every_mode_and_filter_decodes_under_both_names() {
     for name in ["EXT_meshopt_compression", "KHR_meshopt_compression"] {
         let document = decode(&compressed(name, &every_filter())).unwrap();
-        assert_eq!(document.read_vectors::<4>(0).unwrap(), VECTORS);
+        assert_eq!(document.vectors::<4>(0).unwrap()[..], VECTORS);
         for accessor in 1..=6 {
-            for (found, vector) in document.read_vectors::<4>(accessor).unwrap().iter().zip(VECTORS) {
+            for (found, vector) in document.vectors::<4>(accessor).unwrap().iter().zip(VECTORS) {
                 let expected = match accessor {
                     4 | 5 => vector.map(f32::abs),
                     6 => [vector[0], vector[1], vector[2], 0.0],
@@ -179,7 +179,7 @@ fn every_mode_and_filter_decodes_under_both_names() {
         for accessor in 7..=10 {
             let wide = accessor % 2 == 0;
             let expected = INDICES.map(|i| if wide { i } else { i.min(3) });
-            assert_eq!(document.read_indices(accessor).unwrap(), expected, "{accessor}");
+            assert_eq!(document.indices(accessor).unwrap().into_u32(), expected, "{accessor}");
         }
         let json = json_of(&document.to_glb().unwrap());
         assert!(!json.to_string().contains("meshopt"), "{json}");
@@ -257,7 +257,7 @@ fn bounds_follow_lossy_filters() {
     json["accessors"][1]["min"] = json!([-9, -9, -9, -9]);
     let document = decode(&json).unwrap();
     let json = json_of(&document.to_glb().unwrap());
-    let vectors = document.read_vectors::<4>(1).unwrap();
+    let vectors = document.vectors::<4>(1).unwrap().into_owned();
     let least = |i: usize| f64::from(vectors.iter().map(|v| v[i]).fold(f32::INFINITY, f32::min));
     assert_eq!(json["accessors"][1]["min"], json!([0, 1, 2, 3].map(least)));
     assert_eq!(json["accessors"][0]["min"], json!([0, -1, -0.60, 0]), "as it was written");
@@ -269,7 +269,7 @@ fn many_views_are_decoded() {
     let (stream, ..) = every_filter().remove(0);
     let json = compressed("EXT_meshopt_compression", &vec![(stream, 3, 16, "ATTRIBUTES", "NONE"); 10_000]);
     let document = decode(&json).unwrap();
-    assert_eq!(document.read_vectors::<4>(9_999).unwrap(), VECTORS);
+    assert_eq!(document.vectors::<4>(9_999).unwrap()[..], VECTORS);
 }
 
 /// Draco with an uncompressed fallback in other order: the fallback is what other attributes of the primitive follow.
@@ -303,7 +303,7 @@ fn uncompressed_fallbacks_are_used() {
 fn tangents_of_compressed_models_are_written_plain() {
     for (model, extension) in [("draco.glb", "draco"), ("meshopt.glb", "meshopt")] {
         let (mut document, decoded) = (open(model), decompressed(model));
-        add_tangents(&mut document, &TangentsOptions::default(), &mut |_| {}).unwrap();
+        add_tangents(&mut document, &AddTangentsOptions::default(), &mut |_| {}).unwrap();
         let written = document.to_glb().unwrap();
         assert!(!json_of(&written).to_string().contains(extension), "{model}");
         let again = Document::from_bytes("again", written, None, &LoadOptions::default()).unwrap();

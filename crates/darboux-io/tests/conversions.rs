@@ -26,7 +26,7 @@ fn model(more: impl FnOnce(&mut Builder)) -> Document {
     more(&mut builder);
     let mut document = builder.build();
     run(&mut document);
-    // Written and read, so that there are no edits yet.
+    // WrittenTangents and read, so that there are no edits yet.
     Document::from_bytes("test.glb", document.to_glb().expect("a GLB"), None, &Default::default())
         .expect("a model")
 }
@@ -35,7 +35,7 @@ fn model(more: impl FnOnce(&mut Builder)) -> Document {
 fn contents(document: &Document) -> (Vec<Vec<u32>>, Vec<u32>) {
     let primitive = &document.meshes()[0].primitives[0];
     let bits = |accessor: usize| -> Vec<u32> {
-        let elements = document.read_elements(accessor).expect("elements");
+        let elements = document.elements(accessor).expect("elements");
         let words = elements.bytes.as_chunks::<4>().0;
         words.iter().map(|&bytes| u32::from_le_bytes(bytes)).collect()
     };
@@ -72,11 +72,12 @@ fn converted_data_describes_the_same_surface() {
         let mut document = model(|_| {});
         convert(&mut document, Convention::GLTF, there);
         let primitive = &document.meshes()[0].primitives[0];
-        let positions = document.read_vectors::<3>(primitive.attributes["POSITION"]).expect("positions");
-        let normals = document.read_vectors::<3>(primitive.attributes["NORMAL"]).expect("normals");
-        let uvs = document.read_vectors::<2>(primitive.attributes["TEXCOORD_0"]).expect("UVs");
-        let tangents = document.read_vectors::<4>(primitive.attributes["TANGENT"]).expect("tangents");
-        let indices = document.read_indices(primitive.indices.expect("indices")).expect("indices");
+        let positions =
+            document.vectors::<3>(primitive.attributes["POSITION"]).expect("positions").into_owned();
+        let normals = document.vectors::<3>(primitive.attributes["NORMAL"]).expect("normals").into_owned();
+        let uvs = document.vectors::<2>(primitive.attributes["TEXCOORD_0"]).expect("UVs").into_owned();
+        let tangents = document.vectors::<4>(primitive.attributes["TANGENT"]).expect("tangents").into_owned();
+        let indices = document.indices(primitive.indices.expect("indices")).expect("indices").into_u32();
         let mesh = Mesh::triangles(&positions, &normals, &uvs, &indices).expect("a mesh");
         let expected = generate_tangents(&mesh, &TangentOptions::default()).corners;
         let expected = expected.converted(there.generated(), there);
@@ -93,7 +94,7 @@ fn offsets_of_morph_targets_are_vectors() {
     let mut document = model(|_| {});
     convert(&mut document, Convention::GLTF, Convention::BLENDER);
     let target = &document.meshes()[0].primitives[0].targets[0];
-    let offsets = document.read_vectors::<3>(target["POSITION"]).expect("offsets");
+    let offsets = document.vectors::<3>(target["POSITION"]).expect("offsets").into_owned();
     assert_eq!(offsets[0], [0.0, -0.25, 0.5]);
 }
 
@@ -325,7 +326,10 @@ fn instances_are_turned() {
     let read = |name: &str| {
         let again =
             Document::from_bytes("test.glb", glb.clone(), None, &Default::default()).expect("a model");
-        again.read_vectors::<3>(attributes[name].as_u64().expect("a number") as usize).expect("vectors")
+        again
+            .vectors::<3>(attributes[name].as_u64().expect("a number") as usize)
+            .expect("vectors")
+            .into_owned()
     };
     assert_eq!(read("TRANSLATION"), [[-1.0, 2.0, 3.0]]);
     assert_eq!(read("_ID"), [[1.0, 2.0, 3.0]]);

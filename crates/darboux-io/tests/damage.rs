@@ -3,8 +3,9 @@
 mod support;
 
 use darboux::{Convention, Method, NormalOptions, Shading, SmoothingSeams, TangentOptions};
+use darboux_io::LoadOptions;
 use darboux_io::gltf::{
-    Document, LoadOptions, NormalsOptions, TangentEncoding, TangentsOptions, add_normals, add_tangents,
+    AddNormalsOptions, AddTangentsOptions, Document, TangentEncoding, add_normals, add_tangents,
     convert_vertices, pair_tangents,
 };
 use serde_json::json;
@@ -44,7 +45,7 @@ fn check_all(bytes: &[u8], good: &[u8]) {
     let flat = NormalOptions::new().with_shading(Shading::Flat);
     let creased = NormalOptions::new().with_crease(20.0).with_seams(SmoothingSeams::Respected);
     for normals in [flat, creased] {
-        let options = NormalsOptions { normals, overwrite: true };
+        let options = AddNormalsOptions::default().with_normals(normals).with_overwrite(true);
         check(bytes, |document| add_normals(document, &options, &mut |_| {}).is_ok());
     }
     check(bytes, |document| {
@@ -52,7 +53,8 @@ fn check_all(bytes: &[u8], good: &[u8]) {
     });
     let tangents = TangentOptions::from(Method::AngleArea);
     let encoding = TangentEncoding::Snorm8x4;
-    let options = TangentsOptions { tangents, encoding, overwrite: true, ..TangentsOptions::default() };
+    let options =
+        AddTangentsOptions::default().with_tangents(tangents).with_encoding(encoding).with_overwrite(true);
     check(bytes, |document| add_tangents(document, &options, &mut |_| {}).is_ok());
     check(bytes, |document| {
         let mut other = parse(good).expect("the good one");

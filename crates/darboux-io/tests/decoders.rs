@@ -4,7 +4,8 @@ use std::path::Path;
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
-use darboux_io::gltf::{Document, LoadOptions};
+use darboux_io::LoadOptions;
+use darboux_io::gltf::Document;
 
 fn open(model: &str) -> Document {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/made").join(model);
@@ -20,13 +21,13 @@ fn hash(bytes: impl Iterator<Item = u8>) -> u64 {
 
 fn attribute<const N: usize>(document: &Document, mesh: usize, primitive: usize, semantic: &str) -> u64 {
     let accessor = document.meshes()[mesh].primitives[primitive].attributes[semantic];
-    let values = document.read_vectors::<N>(accessor).expect("values");
+    let values = document.vectors::<N>(accessor).expect("values");
     hash(values.iter().flatten().flat_map(|value| value.to_le_bytes()))
 }
 
 fn indices(document: &Document, mesh: usize, primitive: usize) -> u64 {
     let accessor = document.meshes()[mesh].primitives[primitive].indices.expect("indexed");
-    hash(document.read_indices(accessor).expect("indices").into_iter().flat_map(u32::to_le_bytes))
+    hash(document.indices(accessor).expect("indices").into_u32().into_iter().flat_map(u32::to_le_bytes))
 }
 
 /// The hashes are of what draco3dgltf 1.5 decodes.

@@ -4,10 +4,8 @@ use std::borrow::Cow;
 use std::fs;
 use std::path::Path;
 
-use darboux_io::gltf::{
-    ComponentType, Document, ElementType, Elements, IndexList, LoadOptions, NewAccessor, Target,
-};
-use darboux_io::{Error, SaveOptions};
+use darboux_io::gltf::{ComponentType, Document, ElementType, Elements, IndexList, NewAccessor, Target};
+use darboux_io::{Error, LoadOptions, SaveOptions};
 use serde_json::json;
 
 /// Odd but valid spelling, members that nothing here knows, and a buffer with one triangle: positions, then indices.
@@ -80,7 +78,7 @@ fn tangents() -> NewAccessor {
     let bytes = [1f32, 0.0, 0.0, -1.0].repeat(3).iter().flat_map(|x| x.to_le_bytes()).collect();
     let (component_type, element_type) = (ComponentType::F32, ElementType::Vec4);
     let elements = Elements { bytes, count: 3, component_type, element_type, normalized: false };
-    NewAccessor { elements, target: Target::Vertices, bounds: false, sparse: false, like: None }
+    NewAccessor::new(elements, Target::Vertices)
 }
 
 fn add_tangents(document: &mut Document) {
@@ -219,16 +217,16 @@ fn values_of_every_component_type_are_read() {
         ],
     });
     let document = parse(&text.to_string()).unwrap();
-    let normals = document.read_vectors::<3>(0).unwrap();
+    let normals = document.vectors::<3>(0).unwrap().into_owned();
     assert_eq!(normals, [[1.0, -1.0, -1.0], [0.0, 64.0 / 127.0, 1.0 / 127.0], [0.0; 3]]);
-    assert_eq!(document.read_elements(0).unwrap().bytes, [127, 0x81, 0x80, 0, 64, 1, 0, 0, 0]);
-    assert_eq!(document.read_vectors::<2>(1).unwrap(), [[1.0, 2.0], [65535.0, 256.0]]);
-    assert_eq!(document.read_vectors::<1>(2).unwrap(), [[0.0], [7.0], [8.0]]);
-    assert_eq!(document.read_indices(3).unwrap(), [1, 2, 65535, 256]);
-    assert_eq!(document.read_vectors::<2>(4).unwrap(), [[0.0; 2]; 2]);
-    assert_eq!(document.read_elements(5).unwrap().element_size(), 8);
-    assert!(document.read_vectors::<2>(0).is_err());
-    assert!(document.read_indices(2).is_err());
+    assert_eq!(document.elements(0).unwrap().bytes, [127, 0x81, 0x80, 0, 64, 1, 0, 0, 0]);
+    assert_eq!(document.vectors::<2>(1).unwrap()[..], [[1.0, 2.0], [65535.0, 256.0]]);
+    assert_eq!(document.vectors::<1>(2).unwrap()[..], [[0.0], [7.0], [8.0]]);
+    assert_eq!(document.indices(3).unwrap().into_u32(), [1, 2, 65535, 256]);
+    assert_eq!(document.vectors::<2>(4).unwrap()[..], [[0.0; 2]; 2]);
+    assert_eq!(document.elements(5).unwrap().element_size(), 8);
+    assert!(document.vectors::<2>(0).is_err());
+    assert!(document.indices(2).is_err());
 }
 
 #[test]
@@ -261,16 +259,16 @@ fn values_are_borrowed_where_the_file_has_them_so() {
         let shorts = document(offset, json!(null), 5123, "SCALAR", 24);
         let list = shorts.indices(0).unwrap();
         assert_eq!(matches!(list, IndexList::U16(Cow::Borrowed(_))), is_borrowed, "{offset}");
-        assert_eq!(list.widened(), (1000..1024).collect::<Vec<_>>());
+        assert_eq!(list.into_u32(), (1000..1024).collect::<Vec<_>>());
         let words = document(offset, json!(null), 5125, "SCALAR", 12);
         let list = words.indices(0).unwrap();
         assert_eq!(matches!(list, IndexList::U32(Cow::Borrowed(_))), is_borrowed, "{offset}");
-        assert_eq!(list.widened(), (100_000..100_012).collect::<Vec<_>>());
+        assert_eq!(list.into_u32(), (100_000..100_012).collect::<Vec<_>>());
     }
     // Interleaved: the last element has no padding.
     let interleaved = document(0, json!(16), 5126, "VEC2", 3);
     assert_eq!(*interleaved.vectors::<2>(0).unwrap(), [[0.5, 1.5], [4.5, 5.5], [8.5, 9.5]]);
-    assert_eq!(interleaved.read_elements(0).unwrap().bytes.len(), 24);
+    assert_eq!(interleaved.elements(0).unwrap().bytes.len(), 24);
 }
 
 #[test]
@@ -283,15 +281,9 @@ fn new_accessors_are_aligned_bounded_and_described() {
         element_type: ElementType::Vec3,
         normalized: true,
     };
-    let new = NewAccessor {
-        elements: elements.clone(),
-        target: Target::Vertices,
-        bounds: true,
-        sparse: false,
-        like: Some(1),
-    };
+    let new = NewAccessor::new(elements.clone(), Target::Vertices).with_bounds(true).with_like(Some(1));
     let index = document.push_accessor(new);
-    assert_eq!(document.read_elements(index).unwrap(), elements);
+    assert_eq!(document.elements(index).unwrap(), elements);
     let written = document.to_glb().unwrap();
     let text = json_of(&written);
     let expected = r#"{"bufferView":2,"componentType":5120,"normalized":true,"count":2,"type":"VEC3","min":[-5.0,2.0,3.0],"max":[1.0,5.0,6.0],"name":"i","extras":1.50}"#;
@@ -340,7 +332,7 @@ fn an_input_with_external_files_is_embedded_or_brought_along() {
     assert!(text.contains(r#"{"uri": "tex%20tures/n.png", "name": "n"}"#), "{text}");
 
     // Once more: what is there already is used again.
-    document.save(&output.join("a.gltf"), &SaveOptions { force: true, run: None }).unwrap();
+    document.save(&output.join("a.gltf"), &SaveOptions::default().with_force(true)).unwrap();
     assert_eq!(names(&output), ["a.bin", "a.gltf", "b 1.bin", "b 1_1.bin", "tex tures"]);
 }
 
@@ -360,14 +352,14 @@ fn in_place_changes_the_document_and_nothing_else() {
     fs::write(folder.path().join("a.bin"), triangle()).unwrap();
     let mut document = Document::open(&path, &LoadOptions::default()).unwrap();
     assert_eq!(document.save_in_place().unwrap(), [] as [std::path::PathBuf; 0]);
-    let refused = document.save(&path, &SaveOptions { force: true, run: None }).unwrap_err();
+    let refused = document.save(&path, &SaveOptions::default().with_force(true)).unwrap_err();
     assert!(refused.to_string().contains("is the input"), "{refused}");
     add_tangents(&mut document);
     document.save_in_place().unwrap();
     assert_eq!(names(folder.path()), ["a.bin", "a.gltf", "a_1.bin"]);
     assert_eq!(fs::read(folder.path().join("a.bin")).unwrap(), triangle());
     let again = Document::open(&path, &LoadOptions::default()).unwrap();
-    assert_eq!(again.read_vectors::<4>(2).unwrap(), [[1.0, 0.0, 0.0, -1.0]; 3]);
+    assert_eq!(again.vectors::<4>(2).unwrap()[..], [[1.0, 0.0, 0.0, -1.0]; 3]);
 }
 
 #[cfg(unix)]
@@ -399,7 +391,7 @@ fn a_failure_leaves_nothing_behind() {
     assert!(document.save(&folder.path().join("out.txt"), &SaveOptions::default()).is_err());
     fs::create_dir_all(folder.path().join("new/out.gltf/x")).unwrap();
     assert!(
-        document.save(&folder.path().join("new/out.gltf"), &SaveOptions { force: true, run: None }).is_err()
+        document.save(&folder.path().join("new/out.gltf"), &SaveOptions::default().with_force(true)).is_err()
     );
     assert_eq!(names(folder.path()), ["new", "out.gltf"]);
     assert_eq!(names(&folder.path().join("new")), ["out.gltf"]);

@@ -1,8 +1,8 @@
 //! Normal maps in PNG files: conversion, and chunks that are kept.
 
 use darboux::Convention;
-use darboux_io::MemoryLimit;
-use darboux_io::image::{Channels, PngImage, convert_normal_map, count_no_normals};
+use darboux_io::LoadOptions;
+use darboux_io::image::{Channels, PngImage, convert_normal_map, count_invalid_normals};
 use png::{BitDepth, ColorType, Encoder};
 
 const SIZE: [u32; 2] = [64, 32];
@@ -39,7 +39,7 @@ fn decoded(file: &[u8]) -> (ColorType, BitDepth, Vec<u8>) {
 }
 
 fn converted(file: &[u8], from: Convention, to: Convention, channels: &str, target: &str) -> Vec<u8> {
-    let mut image = PngImage::from_bytes("test.png", file.to_vec(), MemoryLimit::default()).expect("a PNG");
+    let mut image = PngImage::from_bytes("test.png", file.to_vec(), &LoadOptions::default()).expect("a PNG");
     let [channels, target] = [channels, target].map(|letters| letters.parse::<Channels>().expect("letters"));
     convert_normal_map(&mut image, &from.to(to), channels, target).expect("a conversion");
     image.to_bytes().expect("a file")
@@ -155,8 +155,8 @@ fn photographs_are_told_from_normal_maps() {
     let plane = concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/TwoSidedPlane/TwoSidedPlane_");
     let share = |name: &str, letters: &str| {
         let image =
-            PngImage::open(format!("{plane}{name}.png").as_ref(), MemoryLimit::default()).expect("a PNG");
-        let count = count_no_normals(&image, letters.parse().expect("letters"));
+            PngImage::open(format!("{plane}{name}.png").as_ref(), &LoadOptions::default()).expect("a PNG");
+        let count = count_invalid_normals(&image, letters.parse().expect("letters"));
         count as f64 / f64::from(image.size()[0] * image.size()[1])
     };
     assert!(share("Normal", "rgb") < 0.01 && share("Normal", "rg") < 0.01);
@@ -194,12 +194,13 @@ fn unsupported_images_are_errors() {
         (claiming(0), "not a complete PNG"),
     ];
     for (file, part) in cases {
-        let error =
-            PngImage::from_bytes("test.png", file, MemoryLimit::default()).expect_err("an error").to_string();
+        let error = PngImage::from_bytes("test.png", file, &LoadOptions::default())
+            .expect_err("an error")
+            .to_string();
         assert!(error.starts_with("test.png: ") && error.contains(part), "{error}");
     }
     let mut image =
-        PngImage::from_bytes("test.png", png(ColorType::Rgb, BitDepth::Eight), MemoryLimit::default())
+        PngImage::from_bytes("test.png", png(ColorType::Rgb, BitDepth::Eight), &LoadOptions::default())
             .expect("a PNG");
     let conversion = Convention::GLTF.to(Convention::GLTF);
     let error = convert_normal_map(&mut image, &conversion, "ag".parse().expect("letters"), Channels::RGB);
@@ -228,9 +229,9 @@ fn cut_and_damaged_files_are_errors_or_images_and_never_a_panic() {
     for at in 0..file.len().min(400) {
         let mut damaged = file.clone();
         damaged[at] ^= 0x5A;
-        let _ = PngImage::from_bytes("test.png", damaged, MemoryLimit::default())
+        let _ = PngImage::from_bytes("test.png", damaged, &LoadOptions::default())
             .and_then(|image| image.to_bytes());
-        assert!(PngImage::from_bytes("test.png", file[..at].to_vec(), MemoryLimit::default()).is_err());
+        assert!(PngImage::from_bytes("test.png", file[..at].to_vec(), &LoadOptions::default()).is_err());
     }
 }
 

@@ -1,11 +1,11 @@
 //! Small files that ask for much memory are refused before it is allocated, by a sentence that names the option.
 
-use darboux_io::gltf::{Document, LoadOptions, NormalsOptions, add_normals};
+use darboux_io::gltf::{AddNormalsOptions, Document, add_normals};
 use darboux_io::image::PngImage;
-use darboux_io::{Error, MemoryLimit};
+use darboux_io::{Error, LoadOptions, MemoryLimit};
 use serde_json::json;
 
-const ADVICE: &str = "; if you trust the file, raise the limit (--memory-limit)";
+const ADVICE: &str = "; if you trust the file, raise the limit (LoadOptions::memory_limit)";
 
 /// The error must name the limit and the option.
 #[track_caller]
@@ -33,7 +33,10 @@ fn flat_png(side: u32) -> Vec<u8> {
 fn png_bombs_are_refused() {
     let file = flat_png(1024);
     assert!(file.len() < 50_000, "{}", file.len());
-    let read = |limit| PngImage::from_bytes("flat.png", file.clone(), limit);
+    let read = |limit| {
+        let options = LoadOptions::default().with_memory_limit(limit);
+        PngImage::from_bytes("flat.png", file.clone(), &options)
+    };
     refused(read(MemoryLimit::bytes(16 << 20)), "16 MiB");
     assert!(read(MemoryLimit::default()).is_ok());
 }
@@ -45,7 +48,7 @@ fn lists_of_tiny_primitives_are_refused() {
         format!(r#"{{"asset":{{"version":"2.0"}},"meshes":[{{"primitives":[{primitives}]}}]}}"#)
     };
     let read = |count, memory_limit| {
-        let options = LoadOptions { memory_limit, ..LoadOptions::default() };
+        let options = LoadOptions::default().with_memory_limit(memory_limit);
         Document::from_bytes("many.gltf", text(count).into_bytes(), None, &options)
     };
     refused(read(100_000, MemoryLimit::default()), "366 MiB");
@@ -76,7 +79,7 @@ fn overlapping_strips_are_refused() {
         [&word(text.len()), &b"JSON"[..], text.as_bytes(), &word(data.len()), b"BIN\0", &data].concat();
     let file = [b"glTF", &word(2)[..], &word(12 + chunks.len()), &chunks].concat();
     let mut document = Document::from_bytes("strips.glb", file, None, &LoadOptions::default()).unwrap();
-    refused(add_normals(&mut document, &NormalsOptions::default(), &mut |_| {}), "284 MiB");
+    refused(add_normals(&mut document, &AddNormalsOptions::default(), &mut |_| {}), "284 MiB");
 }
 
 /// Every view names the same stream, so that the file decodes to any size.
@@ -123,7 +126,7 @@ fn objs_of_many_objects_are_refused() {
     let path = folder.path().join("many.obj");
     let objects: String = (0..1000).map(|i| format!("o {i}\nf 1 1 1\n")).collect();
     std::fs::write(&path, format!("v 0 0 0\n{objects}")).unwrap();
-    let read = |limit| darboux_io::obj::read(&path, limit);
+    let read = |limit| darboux_io::obj::read(&path, &LoadOptions::default().with_memory_limit(limit));
     assert!(read(MemoryLimit::default()).is_ok());
     refused(read(MemoryLimit::bytes(1 << 20)), "1 MiB");
 }

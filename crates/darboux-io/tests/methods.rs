@@ -3,13 +3,13 @@
 mod support;
 
 use darboux::{Convention, Mesh, Method, TangentOptions, generate_tangents, measure_tangents};
-use darboux_io::gltf::{TangentEncoding, TangentsOptions};
+use darboux_io::gltf::{AddTangentsOptions, TangentEncoding};
 use serde_json::json;
 use support::{BOTH, Builder, Vertices, butterfly, reason, reread, run_with, wide, written};
 
-fn with_method(method: Method) -> TangentsOptions {
+fn with_method(method: Method) -> AddTangentsOptions {
     let tangents = TangentOptions::from(method);
-    TangentsOptions { tangents, ..TangentsOptions::default() }
+    AddTangentsOptions::default().with_tangents(tangents)
 }
 
 /// The butterfly, bent so that methods differ.
@@ -90,7 +90,7 @@ fn morph_targets_follow_the_method_of_the_base() {
     let options = with_method(Method::Lengyel);
     run_with(&mut document, &options);
     let accessor = document.meshes()[0].primitives[0].targets[0]["TANGENT"];
-    let offsets = document.read_vectors::<3>(accessor).expect("offsets");
+    let offsets = document.vectors::<3>(accessor).expect("offsets").into_owned();
     let [base, moved] = [&vertices, &moved].map(|vertices| tangents(vertices, &options.tangents));
     let of_corner = reread(&document).indices(0, 0);
     for (corner, &vertex) in of_corner.iter().enumerate() {
@@ -110,7 +110,7 @@ fn integer_encodings_keep_their_error_bounds_and_declare_their_extension() {
         builder.mesh(&[json!({"attributes": attributes, "indices": indices})]);
         builder.set("extensionsUsed", json!(["KHR_texture_transform"]));
         let mut document = builder.build();
-        run_with(&mut document, &TangentsOptions { encoding, ..TangentsOptions::default() });
+        run_with(&mut document, &AddTangentsOptions::default().with_encoding(encoding));
         let json: serde_json::Value = {
             let glb = document.to_glb().expect("a GLB");
             let length = u32::from_le_bytes(glb[12..16].try_into().expect("four bytes")) as usize;
@@ -124,8 +124,8 @@ fn integer_encodings_keep_their_error_bounds_and_declare_their_extension() {
         let written = &json["accessors"][written.as_u64().expect("a number") as usize];
         assert_eq!(written["componentType"], component);
         assert_eq!(written["normalized"], true);
-        let stored = document.read_vectors::<4>(accessor).expect("tangents");
-        let corners = document.read_indices(primitive.indices.expect("indices")).expect("indices");
+        let stored = document.vectors::<4>(accessor).expect("tangents").into_owned();
+        let corners = document.indices(primitive.indices.expect("indices")).expect("indices").into_u32();
         for (&vertex, exact) in corners.iter().zip(&exact) {
             let stored = stored[vertex as usize];
             assert_eq!(stored[3], exact[3]);

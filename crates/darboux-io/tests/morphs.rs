@@ -3,7 +3,7 @@
 mod support;
 
 use darboux::{Mesh, Plan, TangentOptions};
-use darboux_io::gltf::{Document, TangentsOptions, add_tangents};
+use darboux_io::gltf::{AddTangentsOptions, Document, add_tangents};
 use serde_json::{Value, json};
 use support::*;
 
@@ -19,7 +19,7 @@ fn document(vertices: &Vertices, indices: &[u16], targets: impl FnOnce(&mut Buil
 /// The tangent offsets of a target, one per vertex.
 fn offsets(document: &Document, target: usize) -> Vec<[f32; 3]> {
     let targets = &document.meshes()[0].primitives[0].targets;
-    document.read_vectors(targets[target]["TANGENT"]).unwrap()
+    document.vectors(targets[target]["TANGENT"]).unwrap().into_owned()
 }
 
 fn add(base: &[[f32; 3]], by: &[[f32; 3]]) -> Vec<[f32; 3]> {
@@ -74,7 +74,7 @@ fn offsets_that_exist_stay_unless_overwritten() {
     assert_eq!(written(&run(&mut kept), 0).morph_targets, 0);
     assert_eq!(offsets(&kept, 0), [[9.0; 3]; 4]);
     let mut replaced = build();
-    let summary = run_with(&mut replaced, &TangentsOptions { overwrite: true, ..Default::default() });
+    let summary = run_with(&mut replaced, &AddTangentsOptions::default().with_overwrite(true));
     assert_eq!(written(&summary, 0).morph_targets, 1);
     assert!(offsets(&replaced, 0).iter().flatten().all(|x| x.abs() <= 1.0));
 }
@@ -154,7 +154,7 @@ fn sparse_targets_are_read_and_follow_a_split() {
     let targets = &document.meshes()[0].primitives[0].targets[0];
     for semantic in ["POSITION", "TANGENT"] {
         let accessor = &document.accessors()[targets[semantic]];
-        assert!(accessor.buffer_view.is_none() && accessor.sparse.is_some(), "{semantic}");
+        assert!(accessor.buffer_view.is_none() && accessor.is_sparse(), "{semantic}");
         assert_eq!(accessor.count, 8);
     }
     let after = reread(&document);
@@ -176,7 +176,7 @@ fn sparse_targets_that_turn_nothing_get_zeros_without_bytes() {
     );
     run(&mut document);
     let accessor = &document.accessors()[document.meshes()[0].primitives[0].targets[0]["TANGENT"]];
-    assert!(accessor.buffer_view.is_none() && accessor.sparse.is_none());
+    assert!(accessor.buffer_view.is_none() && !accessor.is_sparse());
     assert_eq!(offsets(&document, 0), [[0.0; 3]; 4]);
 }
 
@@ -244,7 +244,7 @@ fn broken_offsets_are_errors() {
     let error = |offsets: &[[f32; 3]], strict| {
         let mut document =
             document(&square(), &SQUARE, |builder| json!([{}, {"NORMAL": builder.vectors(offsets)}]));
-        let options = TangentsOptions { strict, ..Default::default() };
+        let options = AddTangentsOptions::default().with_strict(strict);
         add_tangents(&mut document, &options, &mut |_| {}).err().map(|error| error.to_string())
     };
     let short = error(&[[0.0; 3]; 3], false).unwrap();

@@ -4,7 +4,7 @@ mod support;
 
 use darboux::{Faces, Indices, NormalOptions, Shading, generate_normals};
 use darboux_io::gltf::{
-    Document, NormalsOptions, NormalsOutcome, NormalsSummary, WrittenNormals, add_normals,
+    AddNormalsOptions, Document, NormalsOutcome, NormalsSummary, WrittenNormals, add_normals,
 };
 use serde_json::{Value, json};
 use support::{Builder, SQUARE, reread, square, wide};
@@ -14,8 +14,8 @@ const BEND: [[f32; 3]; 6] =
     [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, -1.0], [1.0, 1.0, -1.0]];
 const BENT: [u16; 12] = [0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2];
 
-fn options(normals: NormalOptions) -> NormalsOptions {
-    NormalsOptions { normals, overwrite: false }
+fn options(normals: NormalOptions) -> AddNormalsOptions {
+    AddNormalsOptions::default().with_normals(normals)
 }
 
 fn crease(degrees: f32) -> NormalOptions {
@@ -26,7 +26,7 @@ fn flat() -> NormalOptions {
     NormalOptions::new().with_shading(Shading::Flat)
 }
 
-fn run(document: &mut Document, options: &NormalsOptions) -> NormalsSummary {
+fn run(document: &mut Document, options: &AddNormalsOptions) -> NormalsSummary {
     add_normals(document, options, &mut |_| {}).expect("normals")
 }
 
@@ -50,7 +50,7 @@ fn bend(more: impl FnOnce(&mut Builder, &mut Value)) -> Document {
 /// The normals of all corners of a primitive, in the order of the file.
 fn corner_normals(document: &Document, mesh: usize, place: usize) -> Vec<[f32; 3]> {
     let primitive = &document.meshes()[mesh].primitives[place];
-    let normals = document.read_vectors::<3>(primitive.attributes["NORMAL"]).expect("normals");
+    let normals = document.vectors::<3>(primitive.attributes["NORMAL"]).expect("normals").into_owned();
     reread(document).indices(mesh, place).iter().map(|&vertex| normals[vertex as usize]).collect()
 }
 
@@ -82,7 +82,7 @@ fn split_vertices_keep_all_attributes() {
     });
     run(&mut document, &options(flat()));
     let primitive = &document.meshes()[0].primitives[0];
-    let followed = document.read_vectors::<4>(primitive.attributes["COLOR_0"]).expect("colours");
+    let followed = document.vectors::<4>(primitive.attributes["COLOR_0"]).expect("colours").into_owned();
     let indices = reread(&document).indices(0, 0);
     for (&old, new) in BENT.iter().zip(indices) {
         assert_eq!(followed[new as usize], colours[old as usize]);
@@ -135,17 +135,17 @@ fn existing_normals_are_kept_and_replaced_ones_lose_their_tangents() {
         points,
     ]);
     let mut document = builder.build();
-    let summary = run(&mut document, &NormalsOptions::default());
+    let summary = run(&mut document, &AddNormalsOptions::default());
     assert!(matches!(summary.primitives[0].outcome, NormalsOutcome::Kept { .. }));
     assert!(matches!(summary.primitives[1].outcome, NormalsOutcome::Skipped { .. }));
     assert!(!document.is_changed());
-    let summary = run(&mut document, &NormalsOptions { overwrite: true, ..NormalsOptions::default() });
+    let summary = run(&mut document, &AddNormalsOptions::default().with_overwrite(true));
     assert!(written(&summary, 0).tangents_removed && written(&summary, 0).replaced);
     let primitive = &document.meshes()[0].primitives[0];
     assert!(!primitive.attributes.contains_key("TANGENT"));
     let target = &primitive.targets[0];
     assert_eq!(target.keys().collect::<Vec<_>>(), ["NORMAL"]);
-    assert_eq!(document.read_vectors::<3>(target["NORMAL"]).expect("offsets"), [[0.0; 3]; 4]);
+    assert_eq!(document.vectors::<3>(target["NORMAL"]).expect("offsets")[..], [[0.0; 3]; 4]);
 }
 
 /// Exporters that write accessors per primitive say the same of shared positions in other bytes.
@@ -162,7 +162,7 @@ fn tangents_stay_with_normals_that_stay_in_any_accessor() {
     let primitives = [1.0, 1.0, -1.0].map(&mut with_normals);
     builder.mesh(&primitives);
     let mut document = builder.build();
-    let summary = run(&mut document, &NormalsOptions { overwrite: true, ..NormalsOptions::default() });
+    let summary = run(&mut document, &AddNormalsOptions::default().with_overwrite(true));
     let removed = [0, 1, 2].map(|place| written(&summary, place).tangents_removed);
     assert_eq!(removed, [false, false, true]);
     let has_tangents =
@@ -185,7 +185,7 @@ fn morph_targets_get_offsets_to_the_normals_of_the_moved_mesh() {
         assert_eq!(written(&summary, 0).morph_targets, 1);
         assert_eq!(written(&summary, 0).conflicting_corners, conflicts);
         let primitive = &document.meshes()[0].primitives[0];
-        let found = document.read_vectors::<3>(primitive.targets[0]["NORMAL"]).expect("offsets");
+        let found = document.vectors::<3>(primitive.targets[0]["NORMAL"]).expect("offsets").into_owned();
         let [base, after] = [BEND, moved].map(|positions| expected(&positions, &BENT, &normals));
         let vertices = reread(&document).indices(0, 0);
         let offset = |corner: usize| std::array::from_fn(|i| after[corner][i] - base[corner][i]);
@@ -200,7 +200,7 @@ fn an_index_out_of_range_is_one_sentence() {
     let mut document = bend(|builder, primitive| {
         primitive["indices"] = builder.indices(&[0, 1, 9]).into();
     });
-    let error = add_normals(&mut document, &NormalsOptions::default(), &mut |_| {}).expect_err("an error");
+    let error = add_normals(&mut document, &AddNormalsOptions::default(), &mut |_| {}).expect_err("an error");
     assert_eq!(
         error.to_string(),
         "test.gltf: meshes[0].primitives[0]: index 9 at place 2 is out of range: there are 6 vertices"

@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use darboux_io::MemoryLimit;
+use darboux_io::LoadOptions;
 use darboux_io::gltf::inspect;
 use darboux_io::obj::read;
 
@@ -72,7 +72,7 @@ fn mutated_files_give_models_or_errors() {
         };
         fs::write(&obj, text).unwrap();
         fs::write(&mtl, library).unwrap();
-        match read(&obj, MemoryLimit::default()) {
+        match read(&obj, &LoadOptions::default()) {
             Ok(mut model) => {
                 inspect(&mut model.document).unwrap();
                 models += 1;
@@ -92,7 +92,7 @@ fn warnings(obj: &str, library: &str) -> Vec<String> {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("a.mtl"), library).unwrap();
     fs::write(folder.path().join("a.obj"), format!("mtllib a.mtl\n{obj}")).unwrap();
-    read(&folder.path().join("a.obj"), MemoryLimit::default()).unwrap().warnings
+    read(&folder.path().join("a.obj"), &LoadOptions::default()).unwrap().warnings
 }
 
 #[test]
@@ -128,7 +128,7 @@ fn unreadable_libraries_are_a_warning() {
     fs::set_permissions(&mtl, fs::Permissions::from_mode(0o000)).unwrap();
     // Administrators can read everything.
     let is_readable = fs::read(&mtl).is_ok();
-    let warnings = read(&obj, MemoryLimit::default()).unwrap().warnings;
+    let warnings = read(&obj, &LoadOptions::default()).unwrap().warnings;
     let is_warning = warnings.iter().any(|warning| warning.starts_with("a.mtl: cannot be read: "));
     assert_eq!(is_warning, !is_readable, "{warnings:?}");
 }
@@ -141,6 +141,11 @@ fn repeated_libraries_are_loaded_once() {
     fs::write(folder.path().join("a.mtl"), library).unwrap();
     let obj = format!("{}v 0 0 0\nusemtl a\nf 1 1 1\n", "mtllib a.mtl a.mtl\n".repeat(20));
     fs::write(folder.path().join("a.obj"), obj).unwrap();
-    let model = read(&folder.path().join("a.obj"), MemoryLimit::default()).unwrap();
-    assert_eq!((model.document.materials().len(), model.warnings.len()), (1, 1), "{:?}", model.warnings);
+    let model = read(&folder.path().join("a.obj"), &LoadOptions::default()).unwrap();
+    assert_eq!(
+        (model.document.appearances().unwrap().len(), model.warnings.len()),
+        (1, 1),
+        "{:?}",
+        model.warnings
+    );
 }

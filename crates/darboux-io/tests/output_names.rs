@@ -4,8 +4,8 @@ use std::fs;
 use std::path::Path;
 use std::thread;
 
-use darboux_io::SaveOptions;
-use darboux_io::gltf::{Document, LoadOptions, TangentsOptions, add_tangents};
+use darboux_io::gltf::{AddTangentsOptions, Document, add_tangents};
+use darboux_io::{LoadOptions, SaveOptions};
 
 mod support;
 
@@ -18,7 +18,7 @@ fn document() -> Document {
     let indices = builder.indices(&BOTH);
     builder.mesh(&[serde_json::json!({"attributes": attributes, "indices": indices})]);
     let mut document = builder.build();
-    add_tangents(&mut document, &TangentsOptions::default(), &mut |_| {}).unwrap();
+    add_tangents(&mut document, &AddTangentsOptions::default(), &mut |_| {}).unwrap();
     document
 }
 
@@ -29,7 +29,7 @@ fn survives(path: &Path) {
     assert_eq!(written.len(), 2, "{written:?}");
     let again = Document::open(path, &LoadOptions::default()).unwrap();
     let tangents = again.meshes()[0].primitives[0].attributes["TANGENT"];
-    assert!(again.read_vectors::<4>(tangents).is_ok());
+    assert!(again.vectors::<4>(tangents).is_ok());
 }
 
 #[test]

@@ -2,8 +2,8 @@
 
 mod support;
 
-use darboux_io::MemoryLimit;
-use darboux_io::gltf::{LoadOptions, Progress, TangentsOptions, add_tangents};
+use darboux_io::gltf::{AddTangentsOptions, Progress, add_tangents};
+use darboux_io::{LoadOptions, MemoryLimit};
 use serde_json::{Value, json};
 use support::*;
 
@@ -34,7 +34,7 @@ fn the_same_accessors_are_computed_and_written_once() {
     let before = document.accessors().len();
     let mut steps = Vec::new();
     let summary =
-        add_tangents(&mut document, &TangentsOptions::default(), &mut |step| steps.push(step)).unwrap();
+        add_tangents(&mut document, &AddTangentsOptions::default(), &mut |step| steps.push(step)).unwrap();
 
     assert_eq!(steps, [Progress { done: 4, total: 4 }]);
     assert_eq!((summary.totals.written, summary.totals.triangles), (4, 4));
@@ -136,7 +136,7 @@ fn transforms_of_one_buffer_do_not_mix() {
         .collect();
     builder.mesh(&primitives);
     let mut document = builder.build();
-    run_with(&mut document, &TangentsOptions { apply_texture_transform: true, ..Default::default() });
+    run_with(&mut document, &AddTangentsOptions::default().with_apply_texture_transform(true));
     let after = reread(&document);
     assert_eq!(after.corner_tangents(0, 0), [[1.0, 0.0, 0.0, 1.0]; 6]);
     assert_eq!(after.corner_tangents(0, 1), [[-1.0, 0.0, 0.0, -1.0]; 6]);
@@ -201,9 +201,9 @@ fn overlapping_accessors_cannot_make_the_output_explode() {
             })
             .collect();
         builder.mesh(&primitives);
-        let options = LoadOptions { memory_limit: MemoryLimit::bytes(16 << 20), ..LoadOptions::default() };
+        let options = LoadOptions::default().with_memory_limit(MemoryLimit::bytes(16 << 20));
         let mut document = builder.read(&options).unwrap();
-        let result = add_tangents(&mut document, &TangentsOptions::default(), &mut |_| {});
+        let result = add_tangents(&mut document, &AddTangentsOptions::default(), &mut |_| {});
         result.map(|summary| summary.totals.written).map_err(|error| error.to_string())
     };
     assert_eq!(build(0, 0), Ok(copies));

@@ -3,7 +3,8 @@
 mod support;
 
 use darboux::{MikkTSpaceOptions, Mode, TangentOptions};
-use darboux_io::gltf::{LoadOptions, Progress, TangentsOptions, add_tangents, inspect};
+use darboux_io::LoadOptions;
+use darboux_io::gltf::{AddTangentsOptions, Progress, add_tangents, inspect};
 use gltf::Semantic;
 use gltf::mesh::Mode as Topology;
 use serde_json::json;
@@ -234,7 +235,7 @@ fn tangents_that_exist_are_kept_unless_overwritten() {
     assert_eq!(reason(&summary, 0), "it has tangents already");
 
     let mut replaced = build();
-    let summary = run_with(&mut replaced, &TangentsOptions { overwrite: true, ..Default::default() });
+    let summary = run_with(&mut replaced, &AddTangentsOptions::default().with_overwrite(true));
     assert!(written(&summary, 0).replaced);
     assert_eq!(reread(&replaced).tangents(0, 0), [[1.0, 0.0, 0.0, 1.0]; 4]);
 }
@@ -253,7 +254,7 @@ fn only_needed_leaves_out_materials_without_normal_maps() {
         json!({"attributes": attributes, "material": plain, "extensions": variants}),
     ]);
     let mut document = builder.build();
-    let summary = run_with(&mut document, &TangentsOptions { only_needed: true, ..Default::default() });
+    let summary = run_with(&mut document, &AddTangentsOptions::default().with_only_needed(true));
     assert_eq!((summary.totals.written, summary.totals.skipped), (2, 2));
     assert_eq!(reason(&summary, 0), "its material does not use tangents");
     assert_eq!(reason(&summary, 1), "its material does not use tangents");
@@ -291,7 +292,7 @@ fn texture_transforms_are_applied_only_when_asked_for() {
     };
     let tangent = |transform: serde_json::Value, apply: bool| {
         let mut document = build(transform);
-        let options = TangentsOptions { apply_texture_transform: apply, ..Default::default() };
+        let options = AddTangentsOptions::default().with_apply_texture_transform(apply);
         let warnings = run_with(&mut document, &options).warnings.len();
         let [x, y, z, w] = reread(&document).tangents(0, 0)[0];
         ([x.round(), y.round(), z.round(), w], warnings)
@@ -401,14 +402,14 @@ fn quantised_vertices_are_read_as_their_values() {
     run(&mut document);
     let expected = vertices.expected(&wide(&BOTH));
     let tangents = document.meshes()[0].primitives[0].attributes["TANGENT"];
-    let indices = document.read_indices(document.meshes()[0].primitives[0].indices.unwrap()).unwrap();
-    let tangents = document.read_vectors::<4>(tangents).unwrap();
+    let indices = document.indices(document.meshes()[0].primitives[0].indices.unwrap()).unwrap().into_u32();
+    let tangents = document.vectors::<4>(tangents).unwrap().into_owned();
     assert!(indices.iter().zip(&expected).all(|(&vertex, expected)| tangents[vertex as usize] == *expected));
 }
 
 #[test]
 fn strict_refuses_data_that_the_default_repairs() {
-    let strict = TangentsOptions { strict: true, ..Default::default() };
+    let strict = AddTangentsOptions::default().with_strict(true);
     let build = |vertices: &Vertices| {
         let mut builder = Builder::new();
         let attributes = vertices.attributes(&mut builder);
@@ -442,7 +443,7 @@ fn unusable_tangents_of_the_reference_are_named() {
     let indices = builder.indices(&SQUARE);
     builder.mesh(&[json!({"attributes": attributes, "indices": indices})]);
     let tangents = TangentOptions::from(MikkTSpaceOptions::new().with_mode(Mode::Reference));
-    let summary = run_with(&mut builder.build(), &TangentsOptions { tangents, ..Default::default() });
+    let summary = run_with(&mut builder.build(), &AddTangentsOptions::default().with_tangents(tangents));
     assert!(summary.warnings[0].contains("unusable tangent"), "{:?}", summary.warnings);
 }
 
@@ -454,9 +455,9 @@ fn broken_primitives_are_errors_that_name_them() {
         let mut primitive = json!({"attributes": attributes, "indices": builder.indices(&SQUARE)});
         change(&mut builder, &mut primitive);
         builder.mesh(&[primitive]);
-        let result = builder
-            .read(&LoadOptions::default())
-            .and_then(|mut document| add_tangents(&mut document, &TangentsOptions::default(), &mut |_| {}));
+        let result = builder.read(&LoadOptions::default()).and_then(|mut document| {
+            add_tangents(&mut document, &AddTangentsOptions::default(), &mut |_| {})
+        });
         result.unwrap_err().to_string()
     };
     let out_of_range = error(|builder, primitive| primitive["indices"] = builder.indices(&[0, 1, 4]).into());
@@ -491,7 +492,7 @@ fn attributes_of_another_length_are_errors_when_vertices_split() {
     attributes["COLOR_0"] = builder.vectors(&[[1.0; 3]; 5]).into();
     let indices = builder.indices(&BOTH);
     builder.mesh(&[json!({"attributes": attributes, "indices": indices})]);
-    let error = add_tangents(&mut builder.build(), &TangentsOptions::default(), &mut |_| {}).unwrap_err();
+    let error = add_tangents(&mut builder.build(), &AddTangentsOptions::default(), &mut |_| {}).unwrap_err();
     let sentence =
         "test.gltf: meshes[0].primitives[0].attributes.COLOR_0: accessor 3 has 5 elements for 6 vertices";
     assert!(error.to_string().starts_with(sentence), "{error}");
@@ -519,7 +520,7 @@ fn progress_counts_the_triangles_of_every_job() {
         json!({"attributes": attributes, "indices": left}),
     ]);
     let mut steps = Vec::new();
-    add_tangents(&mut builder.build(), &TangentsOptions::default(), &mut |step| steps.push(step)).unwrap();
+    add_tangents(&mut builder.build(), &AddTangentsOptions::default(), &mut |step| steps.push(step)).unwrap();
     assert_eq!(steps, [Progress { done: 2, total: 6 }, Progress { done: 6, total: 6 }]);
 }
 

@@ -5,10 +5,10 @@ mod support;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use darboux_io::SaveOptions;
 use darboux_io::gltf::{
-    Document, LoadOptions, NormalsOptions, TangentEncoding, TangentsOptions, add_normals, add_tangents,
+    AddNormalsOptions, AddTangentsOptions, Document, TangentEncoding, add_normals, add_tangents,
 };
+use darboux_io::{LoadOptions, SaveOptions};
 use serde_json::{Value, json};
 use support::{BOTH, Builder, butterfly, run, run_with};
 
@@ -169,7 +169,7 @@ fn compressed_bytes_are_removed_after_decoding() {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/made").join(name);
         let input = parts(&std::fs::read(&path).unwrap());
         let mut document = Document::open(&path, &LoadOptions::default()).unwrap();
-        add_tangents(&mut document, &TangentsOptions::default(), &mut |_| {}).unwrap();
+        add_tangents(&mut document, &AddTangentsOptions::default(), &mut |_| {}).unwrap();
         let (json, chunk) = glb(&document);
         assert!(unused(&json).1.is_empty(), "{name}");
         let needed: u64 =
@@ -215,7 +215,7 @@ fn writing_in_place_again_and_again_adds_no_buffers() {
     let original = std::fs::read(folder.path().join("data.bin")).unwrap();
     let again = |encoding| {
         let mut document = Document::open(&path, &LoadOptions::default()).unwrap();
-        let options = TangentsOptions { overwrite: true, encoding, ..TangentsOptions::default() };
+        let options = AddTangentsOptions::default().with_overwrite(true).with_encoding(encoding);
         run_with(&mut document, &options);
         document.save_in_place().unwrap();
         let json: Value = serde_json::from_slice(&std::fs::read(&path).unwrap()).unwrap();
@@ -261,13 +261,13 @@ fn a_second_run_in_place_changes_nothing() {
     std::fs::write(&glb, open(&gltf).to_glb().unwrap()).unwrap();
     let tangents = |path: &Path, encoding| {
         let mut document = open(path);
-        let options = TangentsOptions { overwrite: true, encoding, ..TangentsOptions::default() };
+        let options = AddTangentsOptions::default().with_overwrite(true).with_encoding(encoding);
         run_with(&mut document, &options);
         document.save_in_place().unwrap()
     };
     let normals = |path: &Path| {
         let mut document = open(path);
-        let options = NormalsOptions { overwrite: true, ..NormalsOptions::default() };
+        let options = AddNormalsOptions::default().with_overwrite(true);
         add_normals(&mut document, &options, &mut |_| {}).unwrap();
         document.save_in_place().unwrap()
     };

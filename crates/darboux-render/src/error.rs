@@ -10,10 +10,10 @@ pub enum RenderError {
     #[error(
         "has nothing to draw: it has no triangles with finite positions, or for the UV layout none with finite UVs"
     )]
-    Nothing,
+    NothingToDraw,
     /// The size is outside the limits of the adapter.
     #[error("{adapter:?} cannot draw {} x {} pixels: choose a size from 1 x 1 to {limit} x {limit} with at most {most} pixels in total", .size[0], .size[1])]
-    Size {
+    UnsupportedSize {
         /// The width and height in pixels.
         size: [u32; 2],
         /// The largest width and height.
@@ -27,7 +27,7 @@ pub enum RenderError {
     #[error(
         "its scene has {triangles} triangles, more than the limit of {limit}: render a part of the scene"
     )]
-    TooMany {
+    TooManyTriangles {
         /// The number of triangles.
         triangles: u64,
         /// The limit.
@@ -37,7 +37,7 @@ pub enum RenderError {
     #[error(
         "the adapter does not have enough memory for this model and size: choose a smaller size, or render a part of the scene"
     )]
-    Memory,
+    OutOfMemory,
     /// The device is lost, or reported an error.
     #[error(transparent)]
     Gpu(GpuError),
@@ -46,7 +46,7 @@ pub enum RenderError {
 impl From<GpuError> for RenderError {
     fn from(error: GpuError) -> Self {
         match error {
-            GpuError::OutOfMemory => Self::Memory,
+            GpuError::OutOfMemory => Self::OutOfMemory,
             error => Self::Gpu(error),
         }
     }

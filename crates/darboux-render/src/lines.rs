@@ -114,7 +114,7 @@ mod tests {
     use bytemuck::Zeroable;
 
     use crate::algebra::IDENTITY;
-    use crate::camera::{self, Camera};
+    use crate::camera;
     use crate::heat::HeatScale;
     use crate::options::View;
 
@@ -134,16 +134,10 @@ mod tests {
         let parts = [(); 2].map(|()| Part::of(mirrored(), &[IDENTITY; 3]));
         let transform = camera::flat([[-1.0, 0.0, 0.0], [1.0, 1.0, 0.0]], 1.0);
         let drawn = |limit: usize, tangent: bool| {
-            let options = RenderOptions {
-                view: View::Sign,
-                lines: Lines { tangent, ..Lines::default() },
-                seams: true,
-                layout: None,
-                size: [8; 2],
-                camera: Camera::default(),
-                background: [0; 3],
-                heat: HeatScale { ends: [0.01, 180.0], ramp: [[0; 3]; 9], flip: [0; 3], none: [0; 3] },
-            };
+            let heat = HeatScale { ends: [0.01, 180.0], ramp: [[0; 3]; 9], flip: [0; 3], none: [0; 3] };
+            let options = RenderOptions::new(View::Sign, [8; 2], heat)
+                .with_lines(Lines::default().with_tangent(tangent))
+                .with_seams(true);
             let color = |color: [u8; 3]| color.map(f32::from);
             let (lines, are_all) = segments(&parts, Mistakes::default(), &transform, &options, limit, color);
             (lines.len(), are_all)

@@ -57,7 +57,7 @@ impl<'a> Model<'a> {
             );
             if kept > MAX_POSED_CORNERS {
                 let problem = "has too many poses; render a part of the scene";
-                return Err(document.invalid(corners.name().path(), problem));
+                return Err(invalid(document, corners.name(), problem));
             }
             check_influences(document, &corners, poses)?;
             for (at, pose) in poses.iter().enumerate() {
@@ -206,6 +206,11 @@ fn element_count(document: &Document, corners: &PrimitiveCorners<'_>) -> usize {
     counts.fold(corners.len(), usize::max)
 }
 
+/// The error about a primitive.
+fn invalid(document: &Document, primitive: &PrimitiveName, problem: impl Into<String>) -> Error {
+    Error::Invalid { file: document.name().to_owned(), at: primitive.path(), problem: problem.into() }
+}
+
 /// Errors: the vertices of a skinned primitive have too many joints.
 fn check_influences(
     document: &Document,
@@ -218,7 +223,7 @@ fn check_influences(
     if is_skinned && attributes.contains_key(&format!("JOINTS_{MAX_INFLUENCE_SETS}")) {
         let most = 4 * MAX_INFLUENCE_SETS;
         let problem = format!("has vertices with more than {most} joints; limit them where you export it");
-        return Err(document.invalid(corners.name().path(), problem));
+        return Err(invalid(document, corners.name(), problem));
     }
     Ok(())
 }
@@ -236,7 +241,7 @@ fn read_part(
         None => &none,
         Some(material) => appearances.get(material).ok_or_else(|| {
             let problem = format!("its material {material} does not exist; export the file again");
-            document.invalid(corners.name().path(), problem)
+            invalid(document, corners.name(), problem)
         })?,
     };
     let tangent_uvs = corners.vectors::<2>(&set_name(appearance.tangent_uv_set))?.unwrap_or_default();

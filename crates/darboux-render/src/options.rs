@@ -5,6 +5,7 @@ use crate::heat::HeatScale;
 
 /// What the surface is coloured with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum View {
     /// The lit surface with its normal map. The light comes from the upper right.
     Shaded,
@@ -31,6 +32,7 @@ pub const SEAM_COLOR: [u8; 3] = [255, 77, 216];
 
 /// Common mistakes, which are made on purpose to show their effect.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Mistakes {
     /// Negates the green channel of normal maps.
     pub green: bool,
@@ -40,8 +42,29 @@ pub struct Mistakes {
     pub v: bool,
 }
 
+impl Mistakes {
+    /// These mistakes, with or without a negated green channel.
+    #[must_use]
+    pub fn with_green(self, green: bool) -> Self {
+        Self { green, ..self }
+    }
+
+    /// These mistakes, with or without a negated sign.
+    #[must_use]
+    pub fn with_w(self, w: bool) -> Self {
+        Self { w, ..self }
+    }
+
+    /// These mistakes, with or without images sampled at 1 - v.
+    #[must_use]
+    pub fn with_v(self, v: bool) -> Self {
+        Self { v, ..self }
+    }
+}
+
 /// The vectors that are drawn as lines at every vertex.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Lines {
     /// Draws tangents.
     pub tangent: bool,
@@ -53,8 +76,35 @@ pub struct Lines {
     pub length: f64,
 }
 
+impl Lines {
+    /// These lines, with or without tangents.
+    #[must_use]
+    pub fn with_tangent(self, tangent: bool) -> Self {
+        Self { tangent, ..self }
+    }
+
+    /// These lines, with or without bitangents.
+    #[must_use]
+    pub fn with_bitangent(self, bitangent: bool) -> Self {
+        Self { bitangent, ..self }
+    }
+
+    /// These lines, with or without normals.
+    #[must_use]
+    pub fn with_normal(self, normal: bool) -> Self {
+        Self { normal, ..self }
+    }
+
+    /// These lines with another length, as a fraction of the model's radius.
+    #[must_use]
+    pub fn with_length(self, length: f64) -> Self {
+        Self { length, ..self }
+    }
+}
+
 /// Where the UV layout is drawn. Its u axis points right, its v axis down. Overlapping triangles are translucent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum LayoutPlacement {
     /// Over the lower right corner of the picture, in a square of half its shorter side.
     Corner,
@@ -64,6 +114,7 @@ pub enum LayoutPlacement {
 
 /// How a picture is drawn.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct RenderOptions {
     /// What the surface is coloured with.
     pub view: View,
@@ -81,4 +132,70 @@ pub struct RenderOptions {
     pub background: [u8; 3],
     /// The colours of [`View::Angle`].
     pub heat: HeatScale,
+}
+
+impl RenderOptions {
+    /// A view of the model from the default camera over black, without lines, mirrored edges or UV layout.
+    ///
+    /// `size`: the width and height in pixels. `heat`: the colours of [`View::Angle`].
+    pub fn new(view: View, size: [u32; 2], heat: HeatScale) -> Self {
+        Self {
+            view,
+            lines: Lines::default(),
+            seams: false,
+            layout: None,
+            size,
+            camera: Camera::default(),
+            background: [0; 3],
+            heat,
+        }
+    }
+
+    /// These options with another view.
+    #[must_use]
+    pub fn with_view(self, view: View) -> Self {
+        Self { view, ..self }
+    }
+
+    /// These options with other lines.
+    #[must_use]
+    pub fn with_lines(self, lines: Lines) -> Self {
+        Self { lines, ..self }
+    }
+
+    /// These options with mirrored edges drawn, or not.
+    #[must_use]
+    pub fn with_seams(self, seams: bool) -> Self {
+        Self { seams, ..self }
+    }
+
+    /// These options with the UV layout at another place, or without it.
+    #[must_use]
+    pub fn with_layout(self, layout: Option<LayoutPlacement>) -> Self {
+        Self { layout, ..self }
+    }
+
+    /// These options with another width and height in pixels.
+    #[must_use]
+    pub fn with_size(self, size: [u32; 2]) -> Self {
+        Self { size, ..self }
+    }
+
+    /// These options with another camera.
+    #[must_use]
+    pub fn with_camera(self, camera: Camera) -> Self {
+        Self { camera, ..self }
+    }
+
+    /// These options with another background, in sRGB.
+    #[must_use]
+    pub fn with_background(self, background: [u8; 3]) -> Self {
+        Self { background, ..self }
+    }
+
+    /// These options with other colours of [`View::Angle`].
+    #[must_use]
+    pub fn with_heat(self, heat: HeatScale) -> Self {
+        Self { heat, ..self }
+    }
 }

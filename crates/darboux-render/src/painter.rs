@@ -66,7 +66,7 @@ pub fn paint(
     let sides = drawing.sides();
     let triangles = sides.iter().map(|(side, _)| side.model.triangle_count()).fold(0, u64::saturating_add);
     if triangles > MAX_TRIANGLES {
-        return Err(RenderError::TooMany { triangles, limit: MAX_TRIANGLES });
+        return Err(RenderError::TooManyTriangles { triangles, limit: MAX_TRIANGLES });
     }
     let format = match drawing.view() {
         View::Shaded => TextureFormat::Rgba8UnormSrgb,

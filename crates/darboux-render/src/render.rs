@@ -38,14 +38,15 @@ pub fn render(
     target::check_size(gpu, options.size)?;
     let mut warnings = Vec::new();
     let mut draw = |subject: Subject, size: [u32; 2]| {
-        let transform = view_transform(options, subject, left.model, size).ok_or(RenderError::Nothing)?;
+        let transform =
+            view_transform(options, subject, left.model, size).ok_or(RenderError::NothingToDraw)?;
         let drawing = Drawing { left, right, subject, size, transform, options };
         gpu.with_error_scopes(|| painter::paint(gpu, &drawing, &mut warnings))
     };
     let shows_surface = options.layout != Some(LayoutPlacement::Alone);
     let mut pixels = draw(if shows_surface { Subject::Surface } else { Subject::UvLayout }, options.size)?;
     match Inset::of(options).map(|inset| (draw(Subject::UvLayout, inset.size()), inset)) {
-        Some((Err(RenderError::Nothing), _)) => {
+        Some((Err(RenderError::NothingToDraw), _)) => {
             warnings.push("has no finite UVs, so its UV layout is not drawn".to_owned());
         }
         Some((layout, inset)) => inset.copy_into(&layout?, &mut pixels),

@@ -18,7 +18,7 @@ pub fn check_size(gpu: &Gpu, size: [u32; 2]) -> Result<(), RenderError> {
     if size.iter().all(|&side| (1..=limit).contains(&side)) && pixels <= MAX_PIXELS {
         return Ok(());
     }
-    Err(RenderError::Size { size, limit, most: MAX_PIXELS, adapter: gpu.name.clone() })
+    Err(RenderError::UnsupportedSize { size, limit, most: MAX_PIXELS, adapter: gpu.name.clone() })
 }
 
 /// The multisampled colour and depth textures, and the resolved picture.

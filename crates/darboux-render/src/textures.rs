@@ -81,7 +81,7 @@ impl<'a> Textures<'a> {
         let bytes = self.document.image_bytes(image).map_err(|error| error.to_string())?;
         let message = |problem: String| format!("images[{image}] {problem}");
         let side = self.gpu.device.limits().max_texture_dimension_2d;
-        let limits = DecodeLimits { side, ..DecodeLimits::default() };
+        let limits = DecodeLimits::default().with_max_side(side);
         let decoded = RgbaImage::decode(&bytes, &limits).map_err(|error| message(error.to_string()))?;
         self.texels += decoded.texels.len() as u64;
         if self.texels > MAX_TEXELS {

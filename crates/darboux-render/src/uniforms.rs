@@ -139,7 +139,7 @@ impl Instance {
 
 /// The texture transform of a material: the images of the u and v axes, and of the origin.
 fn axes(used: Option<&TextureUse>) -> ([f32; 4], [f32; 2]) {
-    let transformed = |uv| used.map_or(uv, |used| used.place(uv));
+    let transformed = |uv| used.map_or(uv, |used| used.transform_uv(uv));
     let [origin, [ux, uy], [vx, vy]] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(transformed);
     ([ux - origin[0], uy - origin[1], vx - origin[0], vy - origin[1]], origin)
 }

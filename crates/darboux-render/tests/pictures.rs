@@ -3,7 +3,8 @@
 mod common;
 
 use common::{Quad, document, has_adapter_or_says_so};
-use darboux_io::gltf::{Document, LoadOptions};
+use darboux_io::LoadOptions;
+use darboux_io::gltf::Document;
 use darboux_render::{LayoutPlacement, Mistakes, Model, RenderOptions, Side, View};
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage, Rgba, RgbaImage};
 
@@ -336,7 +337,7 @@ fn heat_is_the_angle() {
 
 /// Options for the UV layout alone.
 fn alone(view: View) -> RenderOptions {
-    RenderOptions { layout: Some(LayoutPlacement::Alone), ..common::options(view) }
+    common::options(view).with_layout(Some(LayoutPlacement::Alone))
 }
 
 /// A colour over the background, with an alpha of 0.6.
@@ -366,13 +367,10 @@ fn layouts_show_where_uvs_are_in_the_colours_of_the_surface() {
     for view in [View::Sign, View::Shaded] {
         assert!(is_about(laid_out(view)[0], through([61, 139, 217])), "{view:?}: {:?}", laid_out(view));
     }
-    let corner = RenderOptions {
-        layout: Some(LayoutPlacement::Corner),
-        size: [200, 200],
-        ..common::options(View::Normal)
-    };
-    let [with, without] = [corner.clone(), RenderOptions { layout: None, ..corner }]
-        .map(|options| common::drawn(&quad, &options).pixels);
+    let corner =
+        common::options(View::Normal).with_layout(Some(LayoutPlacement::Corner)).with_size([200, 200]);
+    let [with, without] =
+        [corner.clone(), corner.with_layout(None)].map(|options| common::drawn(&quad, &options).pixels);
     // The square is 76 pixels wide, 12 pixels from the edges of the picture. UVs lie only in its left half.
     let at = |x: usize, y: usize| [with[200 * y + x], without[200 * y + x]];
     assert!(is_about(at(120, 150)[0], through([128, 128, 255])));
@@ -385,11 +383,8 @@ fn a_model_without_uvs_has_no_layout_beside_it() {
     if !has_adapter_or_says_so() {
         return;
     }
-    let options = RenderOptions {
-        layout: Some(LayoutPlacement::Corner),
-        size: [200, 200],
-        ..common::options(View::Normal)
-    };
+    let options =
+        common::options(View::Normal).with_layout(Some(LayoutPlacement::Corner)).with_size([200, 200]);
     let picture = common::drawn(&Quad { u_scale: f32::NAN, ..Quad::default() }, &options);
     assert_eq!(picture.warnings, ["has no finite UVs, so its UV layout is not drawn"]);
     assert!(is_about(picture.pixels[200 * 150 + 150], [128, 128, 255]));
@@ -406,6 +401,26 @@ fn primitives_of_points_and_lines_are_warned_about() {
         let warnings = common::drawn(&quad, &common::options(View::Normal)).warnings;
         assert_eq!(warnings, ["has 1 primitives of points or lines, which are not drawn"], "mode {mode}");
     }
+}
+
+#[test]
+fn uvs_of_any_size_show_the_mean_of_the_image() {
+    if !has_adapter_or_says_so() {
+        return;
+    }
+    // Columns of black and white texels. Software adapters that filter every repetition below a pixel take minutes for this picture.
+    let image = image::RgbImage::from_fn(64, 64, |x, _| image::Rgb([if x % 2 == 0 { 0 } else { 255 }; 3]));
+    let file = common::file_of(&image.into(), image::ImageFormat::Png);
+    let striped = |u_scale| Quad {
+        u_scale,
+        base: Some((file.clone(), "image/png")),
+        base_sampler: "",
+        ..Quad::default()
+    };
+    let options = common::options(View::Shaded).with_size([256, 256]);
+    let [some, many] =
+        [400.0, 65_535.0].map(|u_scale| common::drawn(&striped(u_scale), &options).pixels[256 * 128 + 64]);
+    assert!(is_about(some, many), "{some:?} {many:?}");
 }
 
 #[test]
@@ -426,7 +441,7 @@ fn what_cannot_be_drawn_is_an_error() {
             .starts_with("has nothing to draw")
     );
     for size in [[0, 64], [64, 1_000_000], [16_384, 16_384]] {
-        let sentence = error_of(&Quad::default(), &RenderOptions { size, ..options.clone() });
+        let sentence = error_of(&Quad::default(), &options.clone().with_size(size));
         assert!(sentence.contains("pixels") && sentence.contains(&size[1].to_string()), "{sentence}");
     }
 }

@@ -41,27 +41,25 @@ fn lines_lead_from_vertices_along_their_vectors() {
     if !has_adapter_or_says_so() {
         return;
     }
-    let none = Lines { length: 0.25, ..Lines::default() };
+    let none = Lines::default().with_length(0.25);
     let quad = Quad { w: [-1.0; 2], ..Quad::default() };
-    let seen = |lines: Lines, color| {
-        extent(&common::drawn(&quad, &RenderOptions { lines, ..plain() }).pixels, color)
-    };
-    let tangents = Lines { tangent: true, ..none };
-    let bitangents = Lines { bitangent: true, ..none };
+    let seen = |lines: Lines, color| extent(&common::drawn(&quad, &plain().with_lines(lines)).pixels, color);
+    let tangents = none.with_tangent(true);
+    let bitangents = none.with_bitangent(true);
     // The vertices are in the columns 1, 32 and 63 and in the rows 1 and 63. The lines are 11 pixels long.
     let [columns, rows] = seen(tangents, LINE_COLORS[0]).expect("tangents");
     assert!(columns[0] >= 1 && rows == [1, 62], "{columns:?} {rows:?}");
     assert_eq!(seen(tangents, LINE_COLORS[1]), None);
     // With w = -1 bitangents point down.
     let crosses = |quad: &Quad, row: usize| {
-        let pixels = common::drawn(quad, &RenderOptions { lines: bitangents, ..plain() }).pixels;
+        let pixels = common::drawn(quad, &plain().with_lines(bitangents)).pixels;
         extent(&pixels[row * SIZE..][..SIZE], LINE_COLORS[1]).is_some()
     };
     assert!(crosses(&quad, 8) && !crosses(&quad, 56));
     let up = Quad::default();
     assert!(crosses(&up, 56) && !crosses(&up, 8) && !crosses(&up, 40));
     // From the side the surface is a line in the middle, and normals point left.
-    let mut side = RenderOptions { lines: Lines { normal: true, ..none }, ..common::options(View::Tangent) };
+    let mut side = common::options(View::Tangent).with_lines(none.with_normal(true));
     side.camera.yaw = 90.0;
     let [columns, _] = extent(&common::drawn(&quad, &side).pixels, LINE_COLORS[2]).expect("normals");
     assert!(columns[1] <= 33 && columns[1] - columns[0] > 4, "{columns:?}");
@@ -73,11 +71,9 @@ fn bitangents_follow_a_wrong_w() {
     if !has_adapter_or_says_so() {
         return;
     }
-    let options =
-        RenderOptions { lines: Lines { bitangent: true, length: 0.25, ..Lines::default() }, ..plain() };
+    let options = plain().with_lines(Lines::default().with_bitangent(true).with_length(0.25));
     let has_lines = |w, row: usize| {
-        let pixels =
-            common::drawn_wrong(&Quad::default(), Mistakes { w, ..Mistakes::default() }, &options).pixels;
+        let pixels = common::drawn_wrong(&Quad::default(), Mistakes::default().with_w(w), &options).pixels;
         extent(&pixels[row * SIZE..][..SIZE], LINE_COLORS[1]).is_some()
     };
     // Bitangents lead from the lower vertices up, or from the upper vertices down.
@@ -90,7 +86,7 @@ fn seams_are_where_the_sign_changes() {
     if !has_adapter_or_says_so() {
         return;
     }
-    let options = RenderOptions { seams: true, ..plain() };
+    let options = plain().with_seams(true);
     let [columns, rows] =
         extent(&common::drawn(&Quad::mirrored(), &options).pixels, SEAM_COLOR).expect("a seam");
     assert!(columns[0] >= 31 && columns[1] <= 33, "{columns:?}");
@@ -156,13 +152,13 @@ fn mistakes_change_the_shading() {
     let options = common::options(View::Shaded);
     let seen = |mistakes| halves(&common::drawn_wrong(&up, mistakes, &options).pixels)[0];
     let (none, right) = (Mistakes::default(), seen(Mistakes::default()));
-    for wrong in [Mistakes { green: true, ..none }, Mistakes { w: true, ..none }] {
+    for wrong in [none.with_green(true), none.with_w(true)] {
         assert!(light(seen(wrong)) + 60 < light(right), "{wrong:?}");
     }
     // Two mistakes cancel out.
-    assert!(is_about(seen(Mistakes { green: true, w: true, v: false }), right));
+    assert!(is_about(seen(Mistakes::default().with_green(true).with_w(true).with_v(false)), right));
     let sign = |mistakes| halves(&common::drawn_wrong(&up, mistakes, &common::options(View::Sign)).pixels)[0];
-    assert!(sign(none)[2] > 190 && sign(Mistakes { w: true, ..none })[0] > 200);
+    assert!(sign(none)[2] > 190 && sign(none.with_w(true))[0] > 200);
 }
 
 #[test]
@@ -177,8 +173,7 @@ fn images_are_upside_down_if_v_is_flipped() {
     let quad = Quad { base: Some((base, "image/png")), ..Quad::default() };
     let upper = |v| {
         let pixels =
-            common::drawn_wrong(&quad, Mistakes { v, ..Mistakes::default() }, &common::options(View::Shaded))
-                .pixels;
+            common::drawn_wrong(&quad, Mistakes::default().with_v(v), &common::options(View::Shaded)).pixels;
         pixels[SIZE / 4 * SIZE + SIZE / 2]
     };
     let [right, wrong] = [upper(false), upper(true)];
@@ -218,7 +213,7 @@ fn models_are_centred_whatever_the_direction_of_the_camera() {
     }
     for [yaw, pitch] in [[0.0, 0.0], [30.0, 20.0], [-60.0, 45.0], [150.0, -30.0]] {
         let camera = darboux_render::Camera { yaw, pitch, zoom: 1.0 };
-        let options = RenderOptions { camera, size: [96, 64], ..plain() };
+        let options = plain().with_camera(camera).with_size([96, 64]);
         // Only one triangle, so the centre of its bounding box is not its own.
         let document = &mut document(&Quad { triangle_count: 1, ..Quad::default() });
         let model = Model::read(document).expect("a model");

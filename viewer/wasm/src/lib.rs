@@ -12,8 +12,8 @@
 use std::cell::RefCell;
 use std::mem::take;
 
-use darboux_io::Error;
-use darboux_io::gltf::{Document, LoadOptions, TangentsOptions, add_tangents, inspect};
+use darboux_io::gltf::{AddTangentsOptions, Document, add_tangents, inspect};
+use darboux_io::{Error, LoadOptions};
 
 /// The inputs and outputs of a call.
 #[derive(Default)]
@@ -88,7 +88,7 @@ pub extern "C" fn check() -> u32 {
 #[unsafe(no_mangle)]
 pub extern "C" fn repair() -> u32 {
     run(|document| {
-        let options = TangentsOptions { overwrite: true, ..TangentsOptions::default() };
+        let options = AddTangentsOptions::default().with_overwrite(true);
         let summary = add_tangents(document, &options, &mut |_| {})?;
         Ok((to_json(&summary), document.to_glb()?))
     })

@@ -18,6 +18,7 @@ OPTIONS = (
     "allow_outside",
     "apply_texture_transform",
     "encoding",
+    "memory_limit",
     "method",
     "mode",
     "normals",
@@ -60,7 +61,7 @@ def batch(
         True: a bar on a terminal, where tqdm is installed. A callable is given the files done and their total, after each.
     **options
         Of the command: method, mode, threshold, normals ('flat', 'smooth', 'crease=30'), encoding, overwrite, only_needed, strict,
-        apply_texture_transform, allow_outside.
+        apply_texture_transform, allow_outside, memory_limit.
 
     Returns
     -------

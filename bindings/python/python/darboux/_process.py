@@ -16,6 +16,7 @@ def process(
     normals: str = "keep",
     force: bool = False,
     allow_outside: bool = False,
+    memory_limit: Optional[int] = None,
     progress: Optional[Callable[[int, int], object]] = None,
     **options: Any,
 ) -> Dict[str, Any]:
@@ -34,6 +35,8 @@ def process(
         Replace an output that exists.
     allow_outside : bool
         Also read files outside the input's folder.
+    memory_limit : int, optional
+        The most memory for the file, in MiB, as in load.
     progress : callable, optional
         Called with the triangles done and their total, after each primitive.
     **options
@@ -50,7 +53,7 @@ def process(
         As load, Document.add_tangents and save.
     """
     path = Path(path)
-    document = load(path, allow_outside=allow_outside)
+    document = load(path, allow_outside=allow_outside, memory_limit=memory_limit)
     warnings = list(document.warnings)
     if normals != "keep":
         made = document.add_normals(**_normal_options(normals), overwrite=options.get("overwrite", False))

@@ -18,7 +18,7 @@ use super::plan::{Job, Output, OutputRules, plan_jobs};
 use super::report::FileReport;
 use crate::command_line::{Arguments, Command};
 use crate::commands::tangents::arguments::TangentsArguments;
-use crate::commands::tangents::summary::TangentsSummary;
+use crate::commands::tangents::summary::TangentsFileSummary;
 use crate::inputs::{Input, SearchMode, find_inputs};
 use crate::terminal::Messages;
 
@@ -83,7 +83,7 @@ impl DistributedBatch {
                 Err(failure) => failed.push(failure),
             }
         }
-        let failed = failed.into_iter().map(FileReport::<TangentsSummary>::not_searched);
+        let failed = failed.into_iter().map(FileReport::<TangentsFileSummary>::not_searched);
         let failed = failed.map(|report| json(&report)).collect::<Result<_, String>>()?;
         Ok(Self { journal, tasks, failed })
     }
@@ -129,7 +129,7 @@ pub fn failed_task(task: &str, reason: &str) -> Result<String, String> {
     let task = parse_task(task)?;
     let input = task.input.display().to_string();
     let sentence = format!("{input}: {reason}");
-    json(&TaskResult { report: FileReport::<TangentsSummary>::failed(input, sentence), record: None })
+    json(&TaskResult { report: FileReport::<TangentsFileSummary>::failed(input, sentence), record: None })
 }
 
 fn parse_task(task: &str) -> Result<Task, String> {

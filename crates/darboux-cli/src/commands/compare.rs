@@ -11,7 +11,7 @@ use std::path::Path;
 use clap::ValueEnum;
 use darboux::TangentOptions;
 use darboux_io::SaveOptions;
-use darboux_io::gltf::{Document, Pair, Progress, TangentsOptions, add_tangents, pair_tangents};
+use darboux_io::gltf::{AddTangentsOptions, Document, Pair, Progress, add_tangents, pair_tangents};
 
 use crate::documents::{load, refuse_used};
 use crate::inputs::Input;
@@ -144,7 +144,7 @@ fn give_tangents(
     progress: &FileProgress<'_>,
 ) -> Result<(), String> {
     let tangents = TangentOptions::from(method);
-    let options = TangentsOptions { tangents, overwrite: true, ..TangentsOptions::default() };
+    let options = AddTangentsOptions::default().with_tangents(tangents).with_overwrite(true);
     let mut on_progress = |Progress { done, total }: Progress| progress.set(done, total);
     add_tangents(document, &options, &mut on_progress).map(drop).map_err(|error| error.to_string())
 }
@@ -174,6 +174,7 @@ fn draw(pairs: &[Pair], path: &Path, force: bool, warnings: &mut Vec<String>) ->
     }
     let _guard = interrupt::writing();
     let image = map.image(&path.display().to_string()).map_err(|error| error.to_string())?;
-    let written = image.save(path, &SaveOptions { force, run: None }).map_err(|error| error.to_string())?;
+    let written =
+        image.save(path, &SaveOptions::default().with_force(force)).map_err(|error| error.to_string())?;
     Ok(written.display().to_string())
 }

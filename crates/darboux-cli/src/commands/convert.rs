@@ -9,7 +9,7 @@ use std::path::Path;
 use darboux::Convention;
 use darboux_io::FileKind;
 use darboux_io::gltf::{ConversionSummary, Document, Progress, convert_vertices};
-use darboux_io::image::{PngImage, convert_normal_map, count_no_normals};
+use darboux_io::image::{PngImage, convert_normal_map, count_invalid_normals};
 use serde::Serialize;
 
 use crate::batch::command::{FileCommand, ProcessedFile};
@@ -87,15 +87,14 @@ impl FileCommand for ConvertArguments {
         progress: &FileProgress<'_>,
     ) -> Result<ProcessedFile<ConvertSummary>, String> {
         let sentence = |error: darboux_io::Error| error.to_string();
-        let limit = self.files.reading.memory_limit();
+        let options = self.files.reading.load_options();
         match &job.input {
             Input::Stdin => {
                 let (name, bytes) = (job.input.to_string(), read_stdin()?);
                 if PngImage::is_png(&bytes) {
                     return self
-                        .image(PngImage::from_bytes(&name, bytes, limit).map_err(sentence)?, &job.output);
+                        .image(PngImage::from_bytes(&name, bytes, &options).map_err(sentence)?, &job.output);
                 }
-                let options = self.files.reading.load_options();
                 self.model(
                     Document::from_bytes(&name, bytes, None, &options).map_err(sentence)?,
                     job,
@@ -103,7 +102,7 @@ impl FileCommand for ConvertArguments {
                 )
             }
             Input::File(path) if is_png(path) || starts_as_png(path) => {
-                self.image(PngImage::open(path, limit).map_err(sentence)?, &job.output)
+                self.image(PngImage::open(path, &options).map_err(sentence)?, &job.output)
             }
             Input::File(path) if FileKind::of(path) == Some(FileKind::OtherImage) => {
                 Err(format!("{}: only PNG images can be converted; save it as a PNG first", path.display()))
@@ -156,7 +155,7 @@ impl ConvertArguments {
     fn warning(&self, image: &PngImage) -> Option<String> {
         let [width, height] = image.size();
         let (texels, odd) =
-            (f64::from(width) * f64::from(height), count_no_normals(image, self.layout) as f64);
+            (f64::from(width) * f64::from(height), count_invalid_normals(image, self.layout) as f64);
         (odd > 0.5 * texels).then(|| {
             let percent = (100.0 * odd / texels).round();
             let layout = self.layout;

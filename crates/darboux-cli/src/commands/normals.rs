@@ -3,7 +3,8 @@
 pub mod arguments;
 
 use darboux_io::gltf::{
-    NormalsOptions, NormalsOutcome, NormalsSummary, PrimitiveNormals, Progress, WrittenNormals, add_normals,
+    AddNormalsOptions, NormalsOutcome, NormalsSummary, PrimitiveNormals, Progress, WrittenNormals,
+    add_normals,
 };
 use indicatif::HumanCount;
 
@@ -75,8 +76,8 @@ impl FileCommand for NormalsArguments {
     }
 }
 
-fn normals_options(arguments: &NormalsArguments) -> NormalsOptions {
-    NormalsOptions { normals: arguments.shading(), overwrite: arguments.overwrite }
+fn normals_options(arguments: &NormalsArguments) -> AddNormalsOptions {
+    AddNormalsOptions::default().with_normals(arguments.shading()).with_overwrite(arguments.overwrite)
 }
 
 /// Warns that tangents were removed: materials may need them.

@@ -6,7 +6,8 @@ pub mod summary;
 
 use darboux::{Context, Mesh, Method, MikkTSpaceOptions, TangentOptions};
 use darboux_io::gltf::{
-    NormalsOptions, Outcome, Progress, TangentsOptions, Totals, Written, add_normals, add_tangents_with,
+    AddNormalsOptions, AddTangentsOptions, Progress, TangentsOutcome, TangentsTotals, WrittenTangents,
+    add_normals, add_tangents_with,
 };
 use indicatif::HumanCount;
 
@@ -24,10 +25,10 @@ use crate::terminal::FileProgress;
 use crate::text::{counted, nonzero_counts};
 use arguments::{Device, Mode, TangentsArguments};
 use device::{TangentDevice, may_use_gpu};
-use summary::{DeviceReport, TangentsSummary};
+use summary::{DeviceReport, TangentsFileSummary};
 
 impl FileCommand for TangentsArguments {
-    type Summary = TangentsSummary;
+    type Summary = TangentsFileSummary;
 
     const NAME: &'static str = "tangents";
     const IMAGES: bool = false;
@@ -72,14 +73,14 @@ impl FileCommand for TangentsArguments {
         &self,
         job: &Job,
         progress: &FileProgress<'_>,
-    ) -> Result<ProcessedFile<TangentsSummary>, String> {
+    ) -> Result<ProcessedFile<TangentsFileSummary>, String> {
         let sentence = |error: darboux_io::Error| error.to_string();
         let mut device = TangentDevice::new(self.device)?;
         let mut document = load(&job.input, &self.files.reading)?;
         let mut warnings = document.warnings().to_vec();
         let mut normals = None;
         if let Some(options) = self.normals.options() {
-            let options = NormalsOptions { normals: options, overwrite: self.overwrite };
+            let options = AddNormalsOptions::default().with_normals(options).with_overwrite(self.overwrite);
             let made = add_normals(&mut document, &options, &mut |_| {}).map_err(sentence)?;
             warnings.extend(made.warnings);
             normals = Some(made.primitives);
@@ -97,17 +98,17 @@ impl FileCommand for TangentsArguments {
         let changed = document.is_changed() && (normals.is_some() || tangents.totals.written > 0);
         let device_report = Some(device.report(3 * tangents.totals.triangles));
         let (status, files_written) = save(&document, &job.output, &self.files, changed)?;
-        let summary = TangentsSummary { normals, device: device_report, tangents };
+        let summary = TangentsFileSummary { normals, device: device_report, tangents };
         Ok(ProcessedFile { status, files_written, summary })
     }
 
-    fn lines(summary: &TangentsSummary) -> Vec<String> {
+    fn lines(summary: &TangentsFileSummary) -> Vec<String> {
         let mut lines = describe_normals(summary.normals.as_deref().unwrap_or_default());
         for primitive in &summary.tangents.primitives {
             let what = match &primitive.outcome {
-                Outcome::Written(written) => describe(written),
-                Outcome::Kept { reason } => format!("kept: {reason}; --overwrite replaces them"),
-                Outcome::Skipped { reason } => format!("skipped: {reason}"),
+                TangentsOutcome::Written(written) => describe(written),
+                TangentsOutcome::Kept { reason } => format!("kept: {reason}; --overwrite replaces them"),
+                TangentsOutcome::Skipped { reason } => format!("skipped: {reason}"),
                 _ => continue,
             };
             lines.push(format!("{}: {what}", primitive.name));
@@ -116,13 +117,13 @@ impl FileCommand for TangentsArguments {
         lines
     }
 
-    fn warnings(summary: &TangentsSummary) -> &[String] {
+    fn warnings(summary: &TangentsFileSummary) -> &[String] {
         &summary.tangents.warnings
     }
 
-    fn total(files: &[FileReport<TangentsSummary>]) -> String {
-        let sum = |of: fn(&Totals) -> usize,
-                   files: &mut dyn Iterator<Item = &FileReport<TangentsSummary>>| {
+    fn total(files: &[FileReport<TangentsFileSummary>]) -> String {
+        let sum = |of: fn(&TangentsTotals) -> usize,
+                   files: &mut dyn Iterator<Item = &FileReport<TangentsFileSummary>>| {
             files.filter_map(|file| Some(of(&file.summary.this_run()?.tangents.totals))).sum::<usize>()
         };
         let (changed, same): (Vec<_>, Vec<_>) = files.iter().partition(|file| file.status == Status::Written);
@@ -147,25 +148,24 @@ fn advice(without_normals: usize) -> Option<String> {
     })
 }
 
-fn options(arguments: &TangentsArguments) -> TangentsOptions {
-    TangentsOptions {
-        tangents: match arguments.method.into() {
+fn options(arguments: &TangentsArguments) -> AddTangentsOptions {
+    AddTangentsOptions::default()
+        .with_tangents(match arguments.method.into() {
             Method::MikkTSpace(options) => {
                 options.with_mode(arguments.mode.into()).with_threshold(arguments.threshold).into()
             }
             method => TangentOptions::from(method),
-        },
-        encoding: arguments.encoding,
-        overwrite: arguments.overwrite,
-        only_needed: arguments.only_needed,
-        strict: arguments.strict,
-        apply_texture_transform: arguments.apply_texture_transform,
-    }
+        })
+        .with_encoding(arguments.encoding)
+        .with_overwrite(arguments.overwrite)
+        .with_only_needed(arguments.only_needed)
+        .with_strict(arguments.strict)
+        .with_apply_texture_transform(arguments.apply_texture_transform)
 }
 
 /// Describes the tangents of a primitive; counts of zero are omitted.
-fn describe(written: &Written) -> String {
-    let Written { counts, vertices_before, vertices_after, .. } = written;
+fn describe(written: &WrittenTangents) -> String {
+    let WrittenTangents { counts, vertices_before, vertices_after, .. } = written;
     let mut text = match written.uv_set {
         Some(set) => format!("TEXCOORD_{set} ({})", written.uv_reason),
         None => format!("no UVs ({})", written.uv_reason),

@@ -79,6 +79,6 @@ impl FileOptions {
 
     /// How outputs are written.
     pub fn save_options(&self) -> SaveOptions {
-        SaveOptions { force: self.may_replace(), run: self.resume.then_some(self.run) }
+        SaveOptions::default().with_force(self.may_replace()).with_run(self.resume.then_some(self.run))
     }
 }

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use clap::Args;
-use darboux_io::gltf::{Document, LoadOptions};
-use darboux_io::{Error, MemoryLimit};
+use darboux_io::gltf::Document;
+use darboux_io::{Error, LoadOptions, MemoryLimit, OptionNames};
 
 /// How a model is read.
 #[derive(Args, Clone, Copy, Debug, Default)]
@@ -19,15 +19,13 @@ pub struct ReadOptions {
 }
 
 impl ReadOptions {
-    /// The limit on memory.
-    pub fn memory_limit(&self) -> MemoryLimit {
-        self.memory_limit
-            .map_or(MemoryLimit::default(), |mebibytes| MemoryLimit::bytes(u64::from(mebibytes) << 20))
-    }
-
     /// The options of the reader.
     pub fn load_options(&self) -> LoadOptions {
-        LoadOptions { allow_outside: self.allow_outside, memory_limit: self.memory_limit() }
+        let limit = self.memory_limit.map(|mebibytes| MemoryLimit::bytes(u64::from(mebibytes) << 20));
+        LoadOptions::default()
+            .with_allow_outside(self.allow_outside)
+            .with_memory_limit(limit.unwrap_or_default())
+            .with_option_names(option_names())
     }
 
     /// Opens a document with its files mapped into memory.
@@ -38,4 +36,12 @@ impl ReadOptions {
         // error. A file that is shortened ends this process by a signal (SIGBUS) before the output is renamed to its name.
         unsafe { Document::open_mapped(path, &self.load_options()) }
     }
+}
+
+/// The names of this command's options in the library's messages.
+fn option_names() -> OptionNames {
+    OptionNames::default()
+        .with_memory_limit("--memory-limit")
+        .with_allow_outside("--allow-outside")
+        .with_apply_texture_transform("--apply-texture-transform")
 }

@@ -24,6 +24,7 @@ pub struct Gpu {
 
 /// The properties that an adapter reports.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct AdapterSummary {
     /// Its name.
     pub name: String,
@@ -39,6 +40,7 @@ pub struct AdapterSummary {
 
 /// The kind of an adapter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum AdapterKind {
     /// A GPU with its own memory.
     Discrete,

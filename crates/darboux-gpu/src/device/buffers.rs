@@ -40,10 +40,10 @@ pub fn largest_buffer(limits: &Limits) -> u64 {
     limits.max_storage_buffer_binding_size.min(limits.max_buffer_size).min(u64::from(u32::MAX))
 }
 
-/// Errors: [`GpuError::PastLimit`] if a buffer of this byte length is larger than [`largest_buffer`].
+/// Errors: [`GpuError::BufferTooLarge`] if a buffer of this byte length is larger than [`largest_buffer`].
 pub fn check_size(device: &Device, what: &'static str, bytes: u64) -> Result<(), GpuError> {
     let limit = largest_buffer(&device.limits());
-    if bytes > limit { Err(GpuError::PastLimit { what, bytes, limit }) } else { Ok(()) }
+    if bytes > limit { Err(GpuError::BufferTooLarge { what, bytes, limit }) } else { Ok(()) }
 }
 
 /// The vertex of every corner of a mesh.

@@ -219,16 +219,16 @@ pub(crate) fn check_fields(
 }
 
 fn check_alignment(what: &'static str, bytes: u32) -> Result<(), GpuError> {
-    if bytes.is_multiple_of(4) { Ok(()) } else { Err(GpuError::Unaligned { what, bytes }) }
+    if bytes.is_multiple_of(4) { Ok(()) } else { Err(GpuError::UnalignedLayout { what, bytes }) }
 }
 
 fn check_buffer(device: &Device, what: &'static str, buffer: &Buffer, needed: u64) -> Result<(), GpuError> {
     let found = buffer.size();
     if needed > found {
-        return Err(GpuError::PastBuffer { what, needed, found });
+        return Err(GpuError::BufferTooSmall { what, needed, found });
     }
     if !buffer.usage().contains(BufferUsages::STORAGE) {
-        return Err(GpuError::NotStorage { what });
+        return Err(GpuError::MissingStorageUsage { what });
     }
     check_size(device, what, found)
 }

@@ -18,6 +18,7 @@ use crate::device::kernel::{Dispatch, compute_pipeline, shader_module};
 
 /// How numbers are rounded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Precision {
     /// As on the CPU: every device gives the same bits.
     #[default]

@@ -25,7 +25,7 @@ pub(crate) fn with_error_scopes<T>(
         None => result,
         Some(wgpu::Error::OutOfMemory { .. }) => Err(GpuError::OutOfMemory),
         // After a device is lost, every call reports an error: the error of `work` says more.
-        Some(error) => result.and(Err(GpuError::Refused { reason: error.to_string() })),
+        Some(error) => result.and(Err(GpuError::DeviceError { reason: error.to_string() })),
     }
 }
 

@@ -39,6 +39,7 @@ const MAX_TILE_SIZE: u32 = if cfg!(small_limits) { 200 } else { (1 << 30) / 3 };
 
 /// The result of [`MikkTSpace::generate_tangents`].
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct GpuTangents {
     /// The tangents and the report of `darboux::generate_tangents`.
     pub tangents: Tangents,
@@ -209,7 +210,7 @@ impl MikkTSpace {
     fn triangles_per_tile(&self) -> Result<usize, GpuError> {
         let limit = largest_buffer(&self.device.limits());
         match (limit / BYTES_PER_TRIANGLE).min(self.tile_size.into()) {
-            0 => Err(GpuError::PastLimit { what: "a triangle", bytes: BYTES_PER_TRIANGLE, limit }),
+            0 => Err(GpuError::BufferTooLarge { what: "a triangle", bytes: BYTES_PER_TRIANGLE, limit }),
             triangles => Ok(triangles as usize),
         }
     }

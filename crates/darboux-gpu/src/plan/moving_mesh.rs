@@ -91,7 +91,7 @@ impl MovingMesh<'_> {
     ) -> Result<(), GpuError> {
         let (expected, found) = (vertex_count, self.vertex_count);
         if expected != found {
-            return Err(GpuError::OtherMesh { expected, found });
+            return Err(GpuError::VertexCountMismatch { expected, found });
         }
         let check = |what, attribute: &Attribute<'_>, count, size| {
             let field = [(what, attribute.offset, size)];

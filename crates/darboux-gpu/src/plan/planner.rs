@@ -119,10 +119,11 @@ impl Planner {
     /// Errors: the method is not MikkTSpace; a corner of a quad averages the tangents of two triangles, or one triangle of a quad is
     /// degenerate; a vertex has too many triangles; a buffer is past a limit of the device.
     pub fn plan(&self, mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Plan, GpuError> {
-        let topology = PlanArrays::new(mesh, options, MAX_ITERATIONS as usize)?;
+        let topology =
+            PlanArrays::new(mesh, options, MAX_ITERATIONS as usize).map_err(GpuError::of_refusal)?;
         let of_corners = self.upload("sums of corners", &topology.sum_of_corner)?;
         let of_vertices = (topology.sum_of_vertex(mesh))
-            .map_err(|vertices| GpuError::Unsplit { vertices })
+            .map_err(|vertices| GpuError::UnsplitVertices { vertices })
             .and_then(|sums| self.upload("sums of vertices", &sums));
         let [vertex_count, corner_count] = [mesh.vertex_count(), mesh.corner_count()].map(|n| n as u32);
         let term_words = 9 * topology.triangle_count;

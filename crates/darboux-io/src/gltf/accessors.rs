@@ -3,8 +3,9 @@
 use std::borrow::Cow;
 
 use super::document::Document;
+use super::element_type::ElementType;
 use super::elements::Elements;
-use super::schema::{Accessor, ElementType, Sparse};
+use super::schema::{Accessor, Sparse};
 use super::stored_elements::{self, IndexList, StoredElements};
 use crate::Error;
 use crate::error::Fault;
@@ -21,11 +22,6 @@ impl Document {
         self.find_vectors(accessor).map_err(|fault| fault.in_file(self.name()))
     }
 
-    /// As [`Document::vectors`], as a copy.
-    pub fn read_vectors<const N: usize>(&self, accessor: usize) -> Result<Vec<[f32; N]>, Error> {
-        self.vectors(accessor).map(Cow::into_owned)
-    }
-
     /// The values of an accessor of unsigned integers, borrowed from the file if its layout permits.
     ///
     /// Errors: the accessor has another type; its bytes are outside the buffer.
@@ -33,14 +29,9 @@ impl Document {
         self.find_indices(accessor).map_err(|fault| fault.in_file(self.name()))
     }
 
-    /// As [`Document::indices`], as a copy of 32-bit integers.
-    pub fn read_indices(&self, accessor: usize) -> Result<Vec<u32>, Error> {
-        self.indices(accessor).map(IndexList::widened)
-    }
-
     /// The elements of an accessor as bytes. Errors: its bytes are outside the buffer.
-    pub fn read_elements(&self, accessor: usize) -> Result<Elements, Error> {
-        self.elements(accessor).map_err(|fault| fault.in_file(self.name()))
+    pub fn elements(&self, accessor: usize) -> Result<Elements, Error> {
+        self.find_elements(accessor).map_err(|fault| fault.in_file(self.name()))
     }
 
     fn find_vectors<const N: usize>(&self, index: usize) -> Result<Cow<'_, [[f32; N]]>, Fault> {
@@ -79,7 +70,7 @@ impl Document {
         })
     }
 
-    pub(super) fn elements(&self, index: usize) -> Result<Elements, Fault> {
+    pub(super) fn find_elements(&self, index: usize) -> Result<Elements, Fault> {
         let Accessor { component_type, element_type, count, normalized, .. } = *self.accessor(index)?;
         let bytes = self.stored(index)?.packed().into_owned();
         Ok(Elements { bytes, count, component_type, element_type, normalized })
@@ -134,7 +125,7 @@ impl Document {
             ElementLayout { offset: sparse.values.byte_offset, count: sparse.count, size, stride: None };
         let values = elements_in_view(values, layout, &at_values)?.packed();
         let mut next = 0;
-        for (i, (place, value)) in places.widened().into_iter().zip(values.chunks_exact(size)).enumerate() {
+        for (i, (place, value)) in places.into_u32().into_iter().zip(values.chunks_exact(size)).enumerate() {
             let place = place as usize;
             if place < next || place >= count {
                 let problem = format!(

@@ -3,8 +3,8 @@
 use super::primitives::corners::{PrimitiveCorners, triangle_count};
 use super::primitives::limits;
 use super::primitives::triangles::{TriangleMode, mode_name};
-use super::tangents::TangentsOptions;
-use super::tangents::select::{Candidate, select};
+use super::tangents::AddTangentsOptions;
+use super::tangents::select::{TangentCandidate, select};
 use super::{Document, PrimitiveName, schema};
 use crate::Error;
 
@@ -56,7 +56,7 @@ pub fn pair_tangents(a: &mut Document, b: &mut Document) -> Result<Vec<Pair>, Er
         let problem = format!("has other meshes or primitives than {}; compare files of one model", a.name());
         return Err(b.invalid("meshes", problem));
     }
-    let options = TangentsOptions { overwrite: true, ..TangentsOptions::default() };
+    let options = AddTangentsOptions::default().with_overwrite(true);
     select(a, &options)?.candidates.iter().map(|candidate| pair(a, b, candidate)).collect()
 }
 
@@ -70,7 +70,7 @@ fn has_tangents(primitive: &schema::Primitive) -> bool {
     primitive.attributes.contains_key("TANGENT")
 }
 
-fn pair(a: &Document, b: &Document, candidate: &Candidate) -> Result<Pair, Error> {
+fn pair(a: &Document, b: &Document, candidate: &TangentCandidate) -> Result<Pair, Error> {
     let name = &candidate.name;
     let [first, second] = [a, b].map(|document| &document.meshes()[name.mesh].primitives[name.primitive]);
     if let Some(unpaired) = unpaired([a, b], [first, second]) {

@@ -13,11 +13,12 @@ use serde_json::Value;
 use serde_json::value::RawValue;
 
 use super::document::Document;
+use super::element_type::ComponentType;
 use super::json_text::{member, set_member};
-use super::schema::{Accessor, ComponentType};
+use super::schema::Accessor;
 use crate::Error;
 use crate::error::Fault;
-use crate::memory_limit;
+use crate::memory_limit::Budget;
 
 impl Document {
     /// Whether the document has compressed data, which [`Document::decompress`] decodes.
@@ -30,11 +31,11 @@ impl Document {
     /// Decodes all compressed meshes and buffer views and removes the extensions. Accessors can be read afterwards only.
     ///
     /// A file's uncompressed fallback data is used if there is any. Errors: a stream that is broken, or does not match its accessors or
-    /// buffer views; more data than [`LoadOptions::memory_limit`](super::LoadOptions::memory_limit) permits.
+    /// buffer views; more data than [`LoadOptions::memory_limit`](crate::LoadOptions::memory_limit) permits.
     pub fn decompress(&mut self) -> Result<(), Error> {
         if self.is_compressed() {
             let limit = self.memory_limit();
-            let mut budget = DecodeBudget { left: limit, limit };
+            let mut budget = DecodeBudget { left: limit.bytes, limit };
             self.decode_all(&mut budget).map_err(|fault| fault.in_file(self.name()))?;
             self.backed_count.take();
         }
@@ -73,7 +74,7 @@ impl Document {
                 count.saturating_mul(element_type.size(component_type)),
                 &format!("accessors[{index}]"),
             )?;
-            let Some((min, max)) = self.elements(index)?.bounds() else { continue };
+            let Some((min, max)) = self.find_elements(index)?.bounds() else { continue };
             let mut new = text.to_owned();
             for (key, old, found) in [("min", stored.min, min), ("max", stored.max, max)] {
                 if old.is_some_and(|old| !same_values(&old, &found, component_type)) {
@@ -107,15 +108,16 @@ fn same_values(a: &[f64], b: &[f64], kind: ComponentType) -> bool {
 /// The bytes that may be decoded.
 struct DecodeBudget {
     left: usize,
-    limit: usize,
+    limit: Budget,
 }
 
 impl DecodeBudget {
     /// Subtracts bytes before they are decoded. Errors: too few are left.
     fn spend(&mut self, bytes: usize, at: &str) -> Result<(), Fault> {
-        self.left = self.left.checked_sub(bytes).ok_or_else(|| {
-            Fault::unsupported(at, memory_limit::exceeded("the file decompresses to", self.limit))
-        })?;
+        self.left = self
+            .left
+            .checked_sub(bytes)
+            .ok_or_else(|| Fault::unsupported(at, self.limit.exceeded("the file decompresses to")))?;
         Ok(())
     }
 }

@@ -4,8 +4,9 @@ use std::fmt::Write as _;
 
 use serde_json::Value;
 
+use super::element_type::{ComponentType, ElementType};
 use super::json_text;
-use super::schema::{Accessor, ComponentType, ElementType, Sparse};
+use super::schema::{Accessor, Sparse};
 
 /// The elements of an accessor as bytes, one after the other, with sparse elements in place.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -75,6 +76,7 @@ pub(super) type Bounds = (Vec<f64>, Vec<f64>);
 
 /// An accessor to append to a document, which aligns its elements.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct NewAccessor {
     /// The elements.
     pub elements: Elements,
@@ -86,6 +88,31 @@ pub struct NewAccessor {
     pub sparse: bool,
     /// The accessor whose name, extras and extensions are copied.
     pub like: Option<usize>,
+}
+
+impl NewAccessor {
+    /// An accessor of these elements, without `min` and `max`, not sparse and without a name.
+    pub const fn new(elements: Elements, target: Target) -> Self {
+        Self { elements, target, bounds: false, sparse: false, like: None }
+    }
+
+    /// This accessor with `min` and `max`, or without.
+    #[must_use]
+    pub fn with_bounds(self, bounds: bool) -> Self {
+        Self { bounds, ..self }
+    }
+
+    /// This accessor, sparse if that takes fewer bytes, or never sparse.
+    #[must_use]
+    pub fn with_sparse(self, sparse: bool) -> Self {
+        Self { sparse, ..self }
+    }
+
+    /// This accessor with the name, extras and extensions of an existing accessor.
+    #[must_use]
+    pub fn with_like(self, like: Option<usize>) -> Self {
+        Self { like, ..self }
+    }
 }
 
 /// The use of a buffer view.

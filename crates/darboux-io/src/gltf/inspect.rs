@@ -8,8 +8,8 @@ use super::primitives::limits;
 use super::primitives::triangles::{TriangleMode, mode_name};
 use super::tangents::compute::{self, Generate, Vertices};
 use super::tangents::groups;
-use super::tangents::select::{Candidate, Verdict};
-use super::tangents::{Counts, TangentsOptions, select_readable};
+use super::tangents::select::{TangentCandidate, TangentVerdict};
+use super::tangents::{AddTangentsOptions, ReportCounts, select_readable};
 use super::{Document, PrimitiveName};
 use crate::Error;
 
@@ -40,16 +40,16 @@ pub struct PrimitiveInfo {
     pub ineligible: Option<String>,
     /// The number of triangles whose texture is mirrored.
     pub mirrored_triangles: usize,
-    /// Counts of its triangles and of degenerate data.
+    /// ReportCounts of its triangles and of degenerate data.
     #[serde(flatten)]
-    pub counts: Counts,
+    pub counts: ReportCounts,
 }
 
 /// Describes every primitive of a document. The tangents that it could have are computed and not written.
 ///
 /// A compressed document is decompressed. Errors: invalid data of a primitive that can have tangents.
 pub fn inspect(document: &mut Document) -> Result<Vec<PrimitiveInfo>, Error> {
-    let options = TangentsOptions { overwrite: true, ..TangentsOptions::default() };
+    let options = AddTangentsOptions::default().with_overwrite(true);
     let selection = select_readable(document, &options)?;
     let groups = groups::group(&CanonicalAccessors::new(document), selection.chosen());
     limits::check_triangles(document, groups::triangle_counts(&groups))?;
@@ -61,8 +61,9 @@ pub fn inspect(document: &mut Document) -> Result<Vec<PrimitiveInfo>, Error> {
         let mut found = Vec::with_capacity(group.jobs.len());
         for job in &group.jobs {
             let at = infos[job.first].name.path();
-            let on_cpu = (&mut compute::on_cpu as &mut Generate<'_>, &mut context);
-            let result = compute::compute_job(document, &at, &mut vertices, job, false, &options, on_cpu)?;
+            let generate_on_cpu = (&mut compute::generate_on_cpu as &mut Generate<'_>, &mut context);
+            let result =
+                compute::compute_job(document, &at, &mut vertices, job, false, &options, generate_on_cpu)?;
             found.push((result.report.into(), mirrored_triangles(&result.tangents)));
         }
         for member in &group.members {
@@ -74,7 +75,7 @@ pub fn inspect(document: &mut Document) -> Result<Vec<PrimitiveInfo>, Error> {
 }
 
 /// The description of a primitive by its JSON.
-fn describe(document: &Document, candidate: &Candidate) -> PrimitiveInfo {
+fn describe(document: &Document, candidate: &TangentCandidate) -> PrimitiveInfo {
     let name = candidate.name.clone();
     let primitive = &document.meshes()[name.mesh].primitives[name.primitive];
     let count = |accessor: usize| document.accessors().get(accessor).map_or(0, |accessor| accessor.count);
@@ -83,8 +84,8 @@ fn describe(document: &Document, candidate: &Candidate) -> PrimitiveInfo {
     let triangles =
         TriangleMode::from_mode(primitive.mode).map_or(0, |topology| topology.triangle_count(corners));
     let ineligible = match &candidate.verdict {
-        Verdict::Chosen(_) => None,
-        Verdict::Kept(reason) | Verdict::Skipped(reason) => Some(reason.clone()),
+        TangentVerdict::Chosen(_) => None,
+        TangentVerdict::Kept(reason) | TangentVerdict::Skipped(reason) => Some(reason.clone()),
     };
     PrimitiveInfo {
         mode: mode_name(primitive.mode).unwrap_or_default(),
@@ -97,12 +98,12 @@ fn describe(document: &Document, candidate: &Candidate) -> PrimitiveInfo {
         needs_tangents: candidate.needs_tangents,
         ineligible,
         mirrored_triangles: 0,
-        counts: Counts { triangles, ..Counts::default() },
+        counts: ReportCounts { triangles, ..ReportCounts::default() },
         name,
     }
 }
 
-/// Counts triangles whose sign is that of a mirrored texture.
+/// ReportCounts triangles whose sign is that of a mirrored texture.
 fn mirrored_triangles(tangents: &CornerTangents) -> usize {
     let to_gltf = Convention::GLTF.generated().to(Convention::GLTF);
     let triangles = tangents.per_corner().as_chunks::<3>().0.iter();

@@ -71,7 +71,7 @@ pub struct TextureUse {
 
 impl TextureUse {
     /// Applies `KHR_texture_transform` to a UV.
-    pub fn place(&self, uv: [f32; 2]) -> [f32; 2] {
+    pub fn transform_uv(&self, uv: [f32; 2]) -> [f32; 2] {
         self.transform.map_or(uv, |transform| transform.apply(uv))
     }
 }

@@ -12,7 +12,7 @@ mod select;
 mod summary;
 mod write;
 
-pub use options::NormalsOptions;
+pub use options::AddNormalsOptions;
 pub use summary::{NormalsOutcome, NormalsSummary, PrimitiveNormals, WrittenNormals};
 
 use std::collections::BTreeMap;
@@ -25,7 +25,7 @@ use super::primitives::canonical::CanonicalAccessors;
 use super::primitives::limits;
 use crate::Error;
 use compute::ShadedPrimitive;
-use select::{Selection, select};
+use select::{NormalSelection, select};
 
 /// Adds normals to every triangle primitive. The primitives of one mesh are shaded as one surface.
 ///
@@ -34,7 +34,7 @@ use select::{Selection, select};
 /// document is unspecified: drop it.
 pub fn add_normals(
     document: &mut Document,
-    options: &NormalsOptions,
+    options: &AddNormalsOptions,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<NormalsSummary, Error> {
     add_normals_with(document, options, &mut Context::new(), progress)
@@ -43,7 +43,7 @@ pub fn add_normals(
 /// As [`add_normals`], with a context. Further error: the context's token was cancelled.
 pub fn add_normals_with(
     document: &mut Document,
-    options: &NormalsOptions,
+    options: &AddNormalsOptions,
     context: &mut Context,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<NormalsSummary, Error> {
@@ -69,7 +69,7 @@ pub fn add_normals_with(
 }
 
 /// Selects the primitives. A compressed document is decompressed if any is selected.
-fn select_readable(document: &mut Document, options: &NormalsOptions) -> Result<Selection, Error> {
+fn select_readable(document: &mut Document, options: &AddNormalsOptions) -> Result<NormalSelection, Error> {
     let selection = select(document, options)?;
     if selection.chosen().next().is_none() || !document.is_compressed() {
         return Ok(selection);

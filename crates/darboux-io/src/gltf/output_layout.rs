@@ -8,7 +8,9 @@ use std::path::PathBuf;
 
 use serde_json::value::RawValue;
 
-use super::document::{BufferSource, Document, NewView};
+use super::buffers::BufferSource;
+use super::document::Document;
+use super::edits::NewView;
 use super::elements::Target;
 use super::json_text::{edit_array, keys, member, quoted, set_member};
 use super::resources::{UriTarget, encode_data_uri, image_type};

@@ -210,25 +210,25 @@ pub fn check(json: &str) -> Result<(), Fault> {
 fn check_animations(json: &str) -> Result<(), Fault> {
     #[derive(Deserialize)]
     struct Animations {
-        animations: Vec<Animation>,
+        animations: Vec<AnimationReferences>,
     }
     #[derive(Deserialize)]
-    struct Animation {
+    struct AnimationReferences {
         #[serde(default)]
-        channels: Vec<Channel>,
+        channels: Vec<SamplerReference>,
         #[serde(default)]
         samplers: Vec<IgnoredAny>,
     }
     #[derive(Deserialize)]
-    struct Channel {
+    struct SamplerReference {
         sampler: usize,
     }
     let parsed: Result<Animations, _> = serde_json::from_str(json);
     let animations = parsed.map_err(|error| {
         Fault::invalid("animations", format!("cannot be read: {error}; export the file again"))
     })?;
-    for (i, Animation { channels, samplers }) in animations.animations.iter().enumerate() {
-        for (k, Channel { sampler }) in channels.iter().enumerate() {
+    for (i, AnimationReferences { channels, samplers }) in animations.animations.iter().enumerate() {
+        for (k, SamplerReference { sampler }) in channels.iter().enumerate() {
             if *sampler >= samplers.len() {
                 let at = format!("animations[{i}].channels[{k}].sampler");
                 let problem = format!("sampler {sampler} does not exist: there are {}", samplers.len());

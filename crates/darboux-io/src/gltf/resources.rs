@@ -17,6 +17,7 @@ use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use percent_encoding::{AsciiSet, CONTROLS, percent_decode_str, utf8_percent_encode};
 
 use super::file_bytes::{FileAccess, FileBytes};
+use crate::LoadOptions;
 
 /// The target of a URI.
 #[derive(Debug)]
@@ -51,16 +52,16 @@ pub struct ResourceFile {
 #[derive(Debug)]
 pub struct Resources {
     base: Option<PathBuf>,
-    allow_outside: bool,
+    options: LoadOptions,
     access: FileAccess,
     opened: HashMap<PathBuf, Arc<ResourceFile>>,
 }
 
 impl Resources {
     /// `base` is the document's folder, if it has one.
-    pub fn new(base: Option<&Path>, allow_outside: bool, access: FileAccess) -> io::Result<Self> {
+    pub fn new(base: Option<&Path>, options: LoadOptions, access: FileAccess) -> io::Result<Self> {
         let base = base.map(Path::canonicalize).transpose()?;
-        Ok(Self { base, allow_outside, access, opened: HashMap::new() })
+        Ok(Self { base, options, access, opened: HashMap::new() })
     }
 
     /// The document's folder, links resolved.
@@ -87,16 +88,16 @@ impl Resources {
         })?;
         let decoded = decoded_path(uri).ok_or_else(|| format!("{shown} is not UTF-8; rename the file"))?;
         let inside = normalised(&decoded);
-        if inside.is_none() && !self.allow_outside {
-            return Err(outside(&shown));
+        if inside.is_none() && !self.options.allow_outside {
+            return Err(self.outside(&shown));
         }
         let joined = base.join(Path::new(&*decoded));
         let path = joined.canonicalize().map_err(|error| match error.kind() {
             io::ErrorKind::NotFound => format!("the file {shown} does not exist; put it beside the document"),
             _ => format!("the file {shown} cannot be opened: {error}"),
         })?;
-        if !path.starts_with(base) && !self.allow_outside {
-            return Err(outside(&shown));
+        if !path.starts_with(base) && !self.options.allow_outside {
+            return Err(self.outside(&shown));
         }
         if !fs::metadata(&path).is_ok_and(|metadata| metadata.is_file()) {
             return Err(format!("{shown} is not a regular file; put a file there"));
@@ -105,6 +106,14 @@ impl Resources {
         let is_outside = inside.is_none();
         let relative = inside.unwrap_or_else(name);
         Ok(LocatedFile { path, relative, is_outside })
+    }
+
+    /// The problem of a file outside the folder.
+    fn outside(&self, shown: &str) -> String {
+        let option = self.options.option_names.allow_outside;
+        format!(
+            "{shown} lies outside the document's folder; move it there, or allow files outside ({option})"
+        )
     }
 
     /// Opens a file once, however often it is asked for.
@@ -122,12 +131,6 @@ impl Resources {
     pub fn bytes(&self, path: &Path) -> io::Result<FileBytes> {
         self.access.open(path)
     }
-}
-
-fn outside(shown: &str) -> String {
-    format!(
-        "{shown} lies outside the document's folder; move it there, or allow files outside (--allow-outside)"
-    )
 }
 
 /// The path that a relative URI spells; none if it is not UTF-8.

@@ -6,8 +6,9 @@ use std::fs::{self, File};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
+use super::buffers::BufferSource;
 use super::container::glb;
-use super::document::{BufferSource, Document};
+use super::document::Document;
 use super::output_layout::OutputLayout;
 use super::resources::{LocatedFile, UriTarget, encode_path, portable};
 use super::segments::{self, Segment};
@@ -56,7 +57,7 @@ impl Document {
         }
         let metadata = fs::metadata(input).map_err(|source| Error::Write { file: input.clone(), source })?;
         paths::refuse_read_only(Path::new(self.name()), &metadata)?;
-        self.write(input, self.container.is_glb, &SaveOptions { force: true, run: None })
+        self.write(input, self.container.is_glb, &SaveOptions::default().with_force(true))
     }
 
     /// The file of a buffer that an earlier run made for new data, if the document has edits: it gets a new file for that buffer. The old
@@ -72,7 +73,7 @@ impl Document {
 
     /// The file to write at `path`, links resolved.
     fn checked_target(&self, path: &Path, options: &SaveOptions) -> Result<PathBuf, Error> {
-        paths::writable(path, options.force, |target| {
+        paths::resolve_output(path, options.force, |target| {
             if self.input.as_deref() == Some(target) {
                 Some("is the input; name another output or write in place")
             } else {

@@ -1,14 +1,17 @@
 //! The parts of glTF's JSON that are parsed. All other parts are kept as text.
+//!
+//! [`Mesh`], [`Primitive`] and [`Accessor`] are what [`Document`](super::Document) shows of the file.
 
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
 use serde_json::value::RawValue;
 
+use super::element_type::{ComponentType, ElementType};
 use super::objects_only::read_from_objects;
 
 read_from_objects! {
-    Root, Asset, Probe, Mesh, Primitive, PrimitiveExtensions, Variants, VariantMapping, Draco, Material,
+    Root, Asset, VersionProbe, AssetProbe, Mesh, Primitive, PrimitiveExtensions, Variants, VariantMapping, Draco, Material,
     MaterialExtensions, Clearcoat, Anisotropy, TextureInfo, TextureInfoExtensions, TextureTransform, Accessor,
     Sparse, SparseIndices, SparseValues, BufferView, BufferViewExtensions, Meshopt, Buffer, Image,
 }
@@ -42,8 +45,15 @@ pub(super) struct Asset {
 /// The version alone, for files whose other content cannot be parsed.
 #[derive(Debug, Deserialize)]
 #[serde(remote = "Self")]
-pub(super) struct Probe {
-    pub asset: Asset,
+pub(super) struct VersionProbe {
+    pub asset: Option<AssetProbe>,
+}
+
+/// The metadata of a file, which may lack the version.
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self")]
+pub(super) struct AssetProbe {
+    pub version: Option<String>,
 }
 
 /// A mesh: a list of primitives.
@@ -79,7 +89,7 @@ pub struct Primitive {
     pub targets: Vec<Attributes>,
     /// Extensions that change how the primitive is stored.
     #[serde(default)]
-    pub extensions: PrimitiveExtensions,
+    pub(super) extensions: PrimitiveExtensions,
 }
 
 fn triangles() -> u32 {
@@ -88,9 +98,8 @@ fn triangles() -> u32 {
 
 /// The supported extensions of a primitive.
 #[derive(Clone, Debug, Default, Deserialize)]
-#[non_exhaustive]
 #[serde(remote = "Self")]
-pub struct PrimitiveExtensions {
+pub(super) struct PrimitiveExtensions {
     /// Draco compression.
     #[serde(rename = "KHR_draco_mesh_compression")]
     pub draco: Option<Draco>,
@@ -101,9 +110,8 @@ pub struct PrimitiveExtensions {
 
 /// `KHR_materials_variants` of a primitive.
 #[derive(Clone, Debug, Deserialize)]
-#[non_exhaustive]
 #[serde(remote = "Self")]
-pub struct Variants {
+pub(super) struct Variants {
     /// The materials of the variants.
     #[serde(default)]
     pub mappings: Vec<VariantMapping>,
@@ -111,18 +119,16 @@ pub struct Variants {
 
 /// The material of some variants.
 #[derive(Clone, Debug, Deserialize)]
-#[non_exhaustive]
 #[serde(remote = "Self")]
-pub struct VariantMapping {
+pub(super) struct VariantMapping {
     /// The material.
     pub material: usize,
 }
 
 /// `KHR_draco_mesh_compression` of a primitive.
 #[derive(Clone, Debug, Deserialize)]
-#[non_exhaustive]
 #[serde(remote = "Self", rename_all = "camelCase")]
-pub struct Draco {
+pub(super) struct Draco {
     /// The buffer view with the compressed bytes.
     pub buffer_view: usize,
     /// Draco's identifier of each compressed attribute, by semantic.
@@ -131,9 +137,8 @@ pub struct Draco {
 
 /// The parts of a material that decide which UVs its tangents follow.
 #[derive(Clone, Debug, Default, Deserialize)]
-#[non_exhaustive]
 #[serde(remote = "Self", rename_all = "camelCase")]
-pub struct Material {
+pub(super) struct Material {
     /// The normal map.
     pub normal_texture: Option<Box<TextureInfo>>,
     /// The extensions that use tangents.
@@ -143,9 +148,8 @@ pub struct Material {
 
 /// The extensions of a material that use tangents.
 #[derive(Clone, Debug, Default, Deserialize)]
-#[non_exhaustive]
 #[serde(remote = "Self")]
-pub struct MaterialExtensions {
+pub(super) struct MaterialExtensions {
     /// A clear coat.
     #[serde(rename = "KHR_materials_clearcoat")]
     pub clearcoat: Option<Clearcoat>,
@@ -156,27 +160,24 @@ pub struct MaterialExtensions {
 
 /// `KHR_materials_clearcoat`.
 #[derive(Clone, Debug, Deserialize)]
-#[non_exhaustive]
 #[serde(remote = "Self", rename_all = "camelCase")]
-pub struct Clearcoat {
+pub(super) struct Clearcoat {
     /// The normal map of the coat.
     pub clearcoat_normal_texture: Option<TextureInfo>,
 }
 
 /// `KHR_materials_anisotropy`.
 #[derive(Clone, Debug, Deserialize)]
-#[non_exhaustive]
 #[serde(remote = "Self", rename_all = "camelCase")]
-pub struct Anisotropy {
+pub(super) struct Anisotropy {
     /// The map of anisotropy directions and strengths.
     pub anisotropy_texture: Option<TextureInfo>,
 }
 
 /// A texture of a material.
 #[derive(Clone, Debug, Deserialize)]
-#[non_exhaustive]
 #[serde(remote = "Self", rename_all = "camelCase")]
-pub struct TextureInfo {
+pub(super) struct TextureInfo {
     /// The UV set n of `TEXCOORD_n`, unless the transform overrides it.
     #[serde(default)]
     pub tex_coord: usize,
@@ -187,9 +188,8 @@ pub struct TextureInfo {
 
 /// The supported extensions of a material's texture.
 #[derive(Clone, Debug, Default, Deserialize)]
-#[non_exhaustive]
 #[serde(remote = "Self")]
-pub struct TextureInfoExtensions {
+pub(super) struct TextureInfoExtensions {
     /// A transform of the UVs.
     #[serde(rename = "KHR_texture_transform")]
     pub transform: Option<TextureTransform>,
@@ -197,9 +197,8 @@ pub struct TextureInfoExtensions {
 
 /// `KHR_texture_transform`: uv' = offset + rotation * scale * uv.
 #[derive(Clone, Debug, Deserialize)]
-#[non_exhaustive]
 #[serde(remote = "Self", rename_all = "camelCase")]
-pub struct TextureTransform {
+pub(super) struct TextureTransform {
     /// The offset in units of the texture.
     #[serde(default)]
     pub offset: [f32; 2],
@@ -238,7 +237,7 @@ pub struct Accessor {
     #[serde(rename = "type")]
     pub element_type: ElementType,
     /// The elements that replace those of the buffer view.
-    pub sparse: Option<Box<Sparse>>,
+    pub(super) sparse: Option<Box<Sparse>>,
     /// The name, as JSON text.
     pub(super) name: Option<Box<RawValue>>,
     /// The extras, as JSON text.
@@ -248,6 +247,11 @@ pub struct Accessor {
 }
 
 impl Accessor {
+    /// Whether some elements are stored apart from the buffer view, by their indices.
+    pub fn is_sparse(&self) -> bool {
+        self.sparse.is_some()
+    }
+
     /// The keys and JSON texts of the members that describe the accessor.
     pub(super) fn descriptions(&self) -> impl Iterator<Item = (&'static str, &str)> {
         [("name", &self.name), ("extras", &self.extras), ("extensions", &self.extensions)]
@@ -258,9 +262,8 @@ impl Accessor {
 
 /// The elements of an accessor that differ from its buffer view.
 #[derive(Clone, Debug, Deserialize)]
-#[non_exhaustive]
 #[serde(remote = "Self")]
-pub struct Sparse {
+pub(super) struct Sparse {
     /// The number of elements.
     pub count: usize,
     /// The indices of the elements.
@@ -271,9 +274,8 @@ pub struct Sparse {
 
 /// The location of a sparse accessor's indices.
 #[derive(Clone, Debug, Deserialize)]
-#[non_exhaustive]
 #[serde(remote = "Self", rename_all = "camelCase")]
-pub struct SparseIndices {
+pub(super) struct SparseIndices {
     /// The buffer view.
     pub buffer_view: usize,
     /// The first byte within the view.
@@ -285,9 +287,8 @@ pub struct SparseIndices {
 
 /// The location of a sparse accessor's values.
 #[derive(Clone, Debug, Deserialize)]
-#[non_exhaustive]
 #[serde(remote = "Self", rename_all = "camelCase")]
-pub struct SparseValues {
+pub(super) struct SparseValues {
     /// The buffer view.
     pub buffer_view: usize,
     /// The first byte within the view.
@@ -297,9 +298,8 @@ pub struct SparseValues {
 
 /// A range of a buffer.
 #[derive(Clone, Debug, Deserialize)]
-#[non_exhaustive]
 #[serde(remote = "Self", rename_all = "camelCase")]
-pub struct BufferView {
+pub(super) struct BufferView {
     /// The buffer.
     pub buffer: usize,
     /// The first byte.
@@ -316,9 +316,8 @@ pub struct BufferView {
 
 /// The supported extensions of a buffer view.
 #[derive(Clone, Debug, Default, Deserialize)]
-#[non_exhaustive]
 #[serde(remote = "Self")]
-pub struct BufferViewExtensions {
+pub(super) struct BufferViewExtensions {
     /// Compression by meshoptimizer, under either name of the extension.
     #[serde(rename = "EXT_meshopt_compression", alias = "KHR_meshopt_compression")]
     pub meshopt: Option<Box<Meshopt>>,
@@ -326,9 +325,8 @@ pub struct BufferViewExtensions {
 
 /// `EXT_meshopt_compression` or `KHR_meshopt_compression` of a buffer view.
 #[derive(Clone, Debug, Deserialize)]
-#[non_exhaustive]
 #[serde(remote = "Self", rename_all = "camelCase")]
-pub struct Meshopt {
+pub(super) struct Meshopt {
     /// The buffer with the compressed bytes.
     pub buffer: usize,
     /// The first compressed byte within the buffer.
@@ -349,9 +347,8 @@ pub struct Meshopt {
 
 /// A buffer: the GLB's binary chunk, a `data:` URI or a file.
 #[derive(Clone, Debug, Deserialize)]
-#[non_exhaustive]
 #[serde(remote = "Self", rename_all = "camelCase")]
-pub struct Buffer {
+pub(super) struct Buffer {
     /// The URI of the bytes. Without one, they are in the GLB's binary chunk.
     pub uri: Option<String>,
     /// The number of bytes.
@@ -372,126 +369,12 @@ impl Buffer {
 
 /// An image.
 #[derive(Clone, Debug, Deserialize)]
-#[non_exhaustive]
 #[serde(remote = "Self", rename_all = "camelCase")]
-pub struct Image {
+pub(super) struct Image {
     /// The URI of the image. Without one, it is in a buffer view.
     pub uri: Option<String>,
     /// The buffer view of the image.
     pub buffer_view: Option<usize>,
     /// The media type.
     pub mime_type: Option<String>,
-}
-
-/// The type of a component.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(try_from = "u32")]
-pub enum ComponentType {
-    /// 5120: signed, 8 bits.
-    I8,
-    /// 5121: unsigned, 8 bits.
-    U8,
-    /// 5122: signed, 16 bits.
-    I16,
-    /// 5123: unsigned, 16 bits.
-    U16,
-    /// 5125: unsigned, 32 bits.
-    U32,
-    /// 5126: float, 32 bits.
-    F32,
-}
-
-impl ComponentType {
-    /// Bytes per component.
-    pub fn size(self) -> usize {
-        match self {
-            Self::I8 | Self::U8 => 1,
-            Self::I16 | Self::U16 => 2,
-            Self::U32 | Self::F32 => 4,
-        }
-    }
-
-    /// The constant of glTF.
-    pub fn code(self) -> u32 {
-        match self {
-            Self::I8 => 5120,
-            Self::U8 => 5121,
-            Self::I16 => 5122,
-            Self::U16 => 5123,
-            Self::U32 => 5125,
-            Self::F32 => 5126,
-        }
-    }
-}
-
-impl TryFrom<u32> for ComponentType {
-    type Error = String;
-
-    fn try_from(code: u32) -> Result<Self, String> {
-        [Self::I8, Self::U8, Self::I16, Self::U16, Self::U32, Self::F32]
-            .into_iter()
-            .find(|kind| kind.code() == code)
-            .ok_or_else(|| format!("{code} is not a component type: use 5120 to 5123, 5125 or 5126"))
-    }
-}
-
-/// The number and arrangement of an element's components.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "UPPERCASE")]
-pub enum ElementType {
-    /// One component.
-    Scalar,
-    /// Two components.
-    Vec2,
-    /// Three components.
-    Vec3,
-    /// Four components.
-    Vec4,
-    /// A matrix of two columns.
-    Mat2,
-    /// A matrix of three columns.
-    Mat3,
-    /// A matrix of four columns.
-    Mat4,
-}
-
-impl ElementType {
-    /// The name in glTF.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Scalar => "SCALAR",
-            Self::Vec2 => "VEC2",
-            Self::Vec3 => "VEC3",
-            Self::Vec4 => "VEC4",
-            Self::Mat2 => "MAT2",
-            Self::Mat3 => "MAT3",
-            Self::Mat4 => "MAT4",
-        }
-    }
-
-    /// The number of columns, and of components per column.
-    pub(super) fn shape(self) -> (usize, usize) {
-        match self {
-            Self::Scalar => (1, 1),
-            Self::Vec2 => (1, 2),
-            Self::Vec3 => (1, 3),
-            Self::Vec4 => (1, 4),
-            Self::Mat2 => (2, 2),
-            Self::Mat3 => (3, 3),
-            Self::Mat4 => (4, 4),
-        }
-    }
-
-    /// The number of components.
-    pub fn components(self) -> usize {
-        let (columns, rows) = self.shape();
-        columns * rows
-    }
-
-    /// Bytes per element. The columns of matrices start at multiples of four bytes.
-    pub fn size(self, component: ComponentType) -> usize {
-        let (columns, rows) = self.shape();
-        let column = rows * component.size();
-        if columns == 1 { column } else { columns * column.next_multiple_of(4) }
-    }
 }

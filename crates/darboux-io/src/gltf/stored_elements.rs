@@ -125,7 +125,7 @@ impl<'a> IndexList<'a> {
     }
 
     /// The indices as 32-bit integers.
-    pub fn widened(self) -> Vec<u32> {
+    pub fn into_u32(self) -> Vec<u32> {
         match self {
             Self::U16(list) => list.iter().map(|&index| index.into()).collect(),
             Self::U32(list) => list.into_owned(),

@@ -20,16 +20,18 @@ mod summary;
 pub(super) mod uv;
 mod write;
 
-pub use compute::{Generate, on_cpu};
+pub use compute::{Generate, generate_on_cpu};
 pub use encoding::TangentEncoding;
-pub use options::TangentsOptions;
-pub use summary::{Counts, Outcome, PrimitiveSummary, Summary, Totals, Written};
+pub use options::AddTangentsOptions;
+pub use summary::{
+    PrimitiveTangents, ReportCounts, TangentsOutcome, TangentsSummary, TangentsTotals, WrittenTangents,
+};
 
 use std::collections::{HashMap, HashSet};
 
 use darboux::{Context, Method, Mode, Report};
 
-use super::primitives::append::{is_sparse, push_vectors};
+use super::primitives::append::{lacks_buffer_view, push_vectors};
 use super::primitives::canonical::CanonicalAccessors;
 use super::primitives::{foreign_extensions, limits};
 use super::{Document, ElementType, Progress};
@@ -37,20 +39,20 @@ use crate::Error;
 use compute::{JobResult, Vertices};
 use groups::{Group, Job};
 use morph::{Misfits, Morph, Movement, Offsets};
-use select::{Selection, Verdict};
+use select::{TangentSelection, TangentVerdict};
 use split::Split;
 use write::{GroupAccessors, TangentWriter};
 
 /// Adds tangents to every triangle primitive that has positions, normals and UVs.
 ///
 /// A document without such primitives stays unchanged. Errors: invalid data of a primitive that gets tangents; more corners than the
-/// memory limit permits; with [`TangentsOptions::strict`], unusable vertex data. After an error the document is unspecified: drop it.
+/// memory limit permits; with [`AddTangentsOptions::strict`], unusable vertex data. After an error the document is unspecified: drop it.
 pub fn add_tangents(
     document: &mut Document,
-    options: &TangentsOptions,
+    options: &AddTangentsOptions,
     progress: &mut dyn FnMut(Progress),
-) -> Result<Summary, Error> {
-    add_tangents_with(document, options, &mut Context::new(), &mut compute::on_cpu, progress)
+) -> Result<TangentsSummary, Error> {
+    add_tangents_with(document, options, &mut Context::new(), &mut compute::generate_on_cpu, progress)
 }
 
 /// As [`add_tangents`], with a context, and with tangents that `generate` computes, for example on a GPU. Tangents of morph targets are
@@ -59,18 +61,18 @@ pub fn add_tangents(
 /// Further errors: those of `generate`; the context's token was cancelled.
 pub fn add_tangents_with(
     document: &mut Document,
-    options: &TangentsOptions,
+    options: &AddTangentsOptions,
     context: &mut Context,
     generate: &mut Generate<'_>,
     progress: &mut dyn FnMut(Progress),
-) -> Result<Summary, Error> {
+) -> Result<TangentsSummary, Error> {
     let selection = select_readable(document, options)?;
     let accessors = CanonicalAccessors::new(document);
     let groups = groups::group(&accessors, selection.chosen());
     limits::check_triangles(document, groups::triangle_counts(&groups))?;
     let total = groups::triangle_counts(&groups).sum();
     let at = Progress { done: 0, total };
-    let summary = Summary::default();
+    let summary = TangentsSummary::default();
     let mut run = Run { selection, accessors, options, generate, progress, at, context, summary };
     let mut written = HashMap::new();
     for group in &groups {
@@ -84,8 +86,8 @@ pub fn add_tangents_with(
 /// Selects the primitives. A compressed document is decompressed if any is selected.
 pub(super) fn select_readable(
     document: &mut Document,
-    options: &TangentsOptions,
-) -> Result<Selection, Error> {
+    options: &AddTangentsOptions,
+) -> Result<TangentSelection, Error> {
     let selection = select::select(document, options)?;
     if selection.is_empty() || !document.is_compressed() {
         return Ok(selection);
@@ -105,14 +107,14 @@ struct GroupTangents {
 
 /// One run of [`add_tangents`].
 struct Run<'a, 'g> {
-    selection: Selection,
+    selection: TangentSelection,
     accessors: CanonicalAccessors,
-    options: &'a TangentsOptions,
+    options: &'a AddTangentsOptions,
     generate: &'a mut Generate<'g>,
     progress: &'a mut dyn FnMut(Progress),
     at: Progress,
     context: &'a mut Context,
-    summary: Summary,
+    summary: TangentsSummary,
 }
 
 impl Run<'_, '_> {
@@ -223,7 +225,7 @@ impl Run<'_, '_> {
         document: &mut Document,
         group: &Group,
         field: GroupTangents,
-    ) -> Result<Vec<(usize, Written)>, Error> {
+    ) -> Result<Vec<(usize, WrittenTangents)>, Error> {
         let GroupTangents { reports, split, lists, offsets } = field;
         let first = &self.selection.candidates[group.members[0].candidate].name;
         let old =
@@ -233,7 +235,7 @@ impl Run<'_, '_> {
         let mut offset_accessors = HashMap::new();
         let mut misfits: HashMap<(Movement, usize), Misfits> = HashMap::new();
         for (Morph { movement, old, jobs, .. }, moved) in offsets {
-            let sparse = movement.accessors().all(|accessor| is_sparse(document, accessor));
+            let sparse = movement.accessors().all(|accessor| lacks_buffer_view(document, accessor));
             let accessor = push_vectors(document, old, ElementType::Vec3, &moved.of_vertex, sparse);
             offset_accessors.insert(movement, accessor);
             misfits.extend(jobs.into_iter().map(|job| (movement, job)).zip(moved.misfits));
@@ -252,7 +254,7 @@ impl Run<'_, '_> {
             let (uv_set, uv_reason) = candidate.uv_set_and_reason();
             written.push((
                 member.candidate,
-                Written {
+                WrittenTangents {
                     uv_set,
                     uv_reason,
                     replaced: candidate.replaces(),
@@ -269,16 +271,18 @@ impl Run<'_, '_> {
         Ok(written)
     }
 
-    fn summarize(self, mut written: HashMap<usize, Written>) -> Summary {
+    fn summarize(self, mut written: HashMap<usize, WrittenTangents>) -> TangentsSummary {
         let Self { selection, mut summary, .. } = self;
         summary.warnings.splice(0..0, selection.warnings);
         for (place, candidate) in selection.candidates.into_iter().enumerate() {
             let outcome = match candidate.verdict {
-                Verdict::Chosen(_) => Outcome::Written(written.remove(&place).unwrap_or_default()),
-                Verdict::Kept(reason) => Outcome::Kept { reason },
-                Verdict::Skipped(reason) => Outcome::Skipped { reason },
+                TangentVerdict::Chosen(_) => {
+                    TangentsOutcome::Written(written.remove(&place).unwrap_or_default())
+                }
+                TangentVerdict::Kept(reason) => TangentsOutcome::Kept { reason },
+                TangentVerdict::Skipped(reason) => TangentsOutcome::Skipped { reason },
             };
-            summary.push(PrimitiveSummary { name: candidate.name, outcome });
+            summary.push(PrimitiveTangents { name: candidate.name, outcome });
         }
         summary
     }

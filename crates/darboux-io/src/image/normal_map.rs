@@ -41,18 +41,18 @@ pub fn convert_normal_map(
     Ok(())
 }
 
-/// Counts the texels without a normal in these channels ([`TexelLayout::holds_normal`]): nearly none in a normal map, most in a
+/// Counts the texels whose channels do not hold a unit normal ([`TexelLayout::holds_normal`]): nearly none in a normal map, most in a
 /// photograph, all if the image does not have the channels.
-pub fn count_no_normals(image: &PngImage, channels: Channels) -> usize {
+pub fn count_invalid_normals(image: &PngImage, channels: Channels) -> usize {
     let indices = channels.indices(image.color);
     match (&image.texels, indices) {
         (_, None) => image.width as usize * image.height as usize,
-        (Texels::Bytes(bytes), Some(indices)) => no_normals(bytes, image.color.samples(), indices),
-        (Texels::Words(words), Some(indices)) => no_normals(words, image.color.samples(), indices),
+        (Texels::Bytes(bytes), Some(indices)) => count_invalid(bytes, image.color.samples(), indices),
+        (Texels::Words(words), Some(indices)) => count_invalid(words, image.color.samples(), indices),
     }
 }
 
-fn no_normals<C: Channel>(channels: &[C], samples: usize, indices: VectorChannels) -> usize {
+fn count_invalid<C: Channel>(channels: &[C], samples: usize, indices: VectorChannels) -> usize {
     fn count<C: Channel, const N: usize>(channels: &[C], indices: VectorChannels) -> usize {
         let layout = layout::<N>(indices);
         channels.as_chunks::<N>().0.iter().filter(|&&texel| !layout.holds_normal(texel)).count()

@@ -8,8 +8,8 @@ use png::{BitDepth, ColorType, Decoder, Encoder, Transformations};
 
 use super::channels;
 use super::chunks::{self, Chunk, Chunks};
+use crate::LoadOptions;
 use crate::error::Fault;
-use crate::memory_limit::{self, MemoryLimit};
 use crate::staging::Staging;
 use crate::{Error, SaveOptions, paths};
 
@@ -47,16 +47,16 @@ const OF_COLOURS: [&[u8; 4]; 4] = [b"PLTE", b"sPLT", b"hIST", b"iCCP"];
 
 impl PngImage {
     /// Reads a PNG. Errors: a file that cannot be read; a file that is not a PNG of a supported kind, or is damaged; more texels than
-    /// `memory_limit` permits.
-    pub fn open(path: &Path, memory_limit: MemoryLimit) -> Result<Self, Error> {
-        let file = paths::readable(path)?;
+    /// [`LoadOptions::memory_limit`] permits.
+    pub fn open(path: &Path, options: &LoadOptions) -> Result<Self, Error> {
+        let file = paths::resolve_input(path)?;
         let bytes = fs::read(file).map_err(|source| Error::Read { file: path.to_owned(), source })?;
-        Self::from_bytes(&path.display().to_string(), bytes, memory_limit)
+        Self::from_bytes(&path.display().to_string(), bytes, options)
     }
 
     /// Reads a PNG from memory. `name` stands for the file in messages. Errors: as [`PngImage::open`].
-    pub fn from_bytes(name: &str, bytes: Vec<u8>, memory_limit: MemoryLimit) -> Result<Self, Error> {
-        Self::decode(name, bytes, memory_limit).map_err(|fault| fault.in_file(name))
+    pub fn from_bytes(name: &str, bytes: Vec<u8>, options: &LoadOptions) -> Result<Self, Error> {
+        Self::decode(name, bytes, options).map_err(|fault| fault.in_file(name))
     }
 
     /// An image of 8-bit RGB texels, row after row, the top row first. Errors: the number of texels is not `width` times `height`.
@@ -72,7 +72,7 @@ impl PngImage {
         bytes.starts_with(&chunks::SIGNATURE)
     }
 
-    fn decode(name: &str, file: Vec<u8>, memory_limit: MemoryLimit) -> Result<Self, Fault> {
+    fn decode(name: &str, file: Vec<u8>, options: &LoadOptions) -> Result<Self, Fault> {
         let broken = |error: png::DecodingError| {
             Fault::invalid("", format!("is not a complete PNG: {error}; save it again"))
         };
@@ -90,10 +90,10 @@ impl PngImage {
             let problem = format!("its data is too short for {width} x {height} texels; save it again");
             return Err(Fault::invalid("", problem));
         }
-        let limit = memory_limit.for_size(file.len());
-        if length.saturating_mul(COPIES) > limit {
+        let limit = options.budget(file.len(), 0);
+        if length.saturating_mul(COPIES) > limit.bytes {
             let what = format!("its {width} x {height} texels need");
-            return Err(Fault::unsupported("", memory_limit::exceeded(&what, limit)));
+            return Err(Fault::unsupported("", limit.exceeded(&what)));
         }
         let mut bytes = vec![0; length];
         reader.next_frame(&mut bytes).map_err(broken)?;
@@ -176,7 +176,7 @@ impl PngImage {
     /// Writes the image. Errors: an existing file without [`SaveOptions::force`], or one that is not regular; a path that cannot be
     /// written. After an error, no file is left.
     pub fn save(&self, path: &Path, options: &SaveOptions) -> Result<PathBuf, Error> {
-        let target = paths::writable(path, options.force, |_| None)?;
+        let target = paths::resolve_output(path, options.force, |_| None)?;
         let bytes = self.to_bytes()?;
         let mut staging = Staging::new(options.run);
         staging.stage(&target, options.force, |file| file.write_all(&bytes))?;

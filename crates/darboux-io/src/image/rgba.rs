@@ -22,19 +22,33 @@ pub struct RgbaImage {
     pub texels: Vec<[u8; 4]>,
 }
 
-/// The largest image that is decoded.
+/// The largest image that is decoded. By default the sides may have 16,384 texels and the image 2^27, which take 512 MiB.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct DecodeLimits {
     /// The largest width and height.
-    pub side: u32,
+    pub max_side: u32,
     /// The most texels.
-    pub texels: u64,
+    pub max_texels: u64,
+}
+
+impl DecodeLimits {
+    /// These limits with another width and height.
+    #[must_use]
+    pub const fn with_max_side(self, max_side: u32) -> Self {
+        Self { max_side, ..self }
+    }
+
+    /// These limits with another number of texels.
+    #[must_use]
+    pub const fn with_max_texels(self, max_texels: u64) -> Self {
+        Self { max_texels, ..self }
+    }
 }
 
 impl Default for DecodeLimits {
-    /// Sides of 16,384 and 2^27 texels, which are 512 MiB.
     fn default() -> Self {
-        Self { side: 1 << 14, texels: 1 << 27 }
+        Self { max_side: 1 << 14, max_texels: 1 << 27 }
     }
 }
 
@@ -120,10 +134,10 @@ fn broken(error: impl std::fmt::Display) -> DecodeError {
 
 /// Checks a size from a header; gives the number of texels.
 fn texel_count(width: usize, height: usize, limits: &DecodeLimits) -> Result<usize, DecodeError> {
-    let side = limits.side as usize;
+    let side = limits.max_side as usize;
     match width.checked_mul(height) {
         _ if width == 0 || height == 0 => Err(DecodeError::Broken("it has no texels".to_owned())),
-        Some(texels) if width <= side && height <= side && texels as u64 <= limits.texels => Ok(texels),
+        Some(texels) if width <= side && height <= side && texels as u64 <= limits.max_texels => Ok(texels),
         _ => Err(DecodeError::TooLarge { width, height }),
     }
 }
@@ -154,7 +168,7 @@ fn decode_png(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeErr
 }
 
 fn decode_jpeg(file: &[u8], limits: &DecodeLimits) -> Result<RgbaImage, DecodeError> {
-    let side = limits.side as usize;
+    let side = limits.max_side as usize;
     let options = DecoderOptions::default().set_strict_mode(false).set_max_width(side).set_max_height(side);
     let mut decoder = JpegDecoder::new_with_options(ZCursor::new(file), options);
     decoder.decode_headers().map_err(broken)?;

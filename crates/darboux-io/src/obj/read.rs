@@ -9,9 +9,9 @@ use super::companions::{self, folder_of};
 use super::document::DocumentBuilder;
 use super::libraries::MaterialLibraries;
 use crate::Error;
+use crate::LoadOptions;
 use crate::error::Fault;
-use crate::gltf::{Document, LoadOptions};
-use crate::memory_limit::{self, MemoryLimit};
+use crate::gltf::Document;
 
 /// An OBJ as a document, and what the document lacks.
 #[derive(Debug)]
@@ -28,24 +28,26 @@ const BYTES_PER_OBJECT: usize = 16 << 10;
 /// Reads an OBJ with the material libraries and textures in its folder or below.
 ///
 /// Polygons become triangles; points and lines are left out. Errors: a file that cannot be read, is not an OBJ, or has no faces; more
-/// objects than `memory_limit` permits; a document larger than a GLB can be.
-pub fn read(path: &Path, memory_limit: MemoryLimit) -> Result<ObjModel, Error> {
+/// objects than [`LoadOptions::memory_limit`] permits; a document larger than a GLB can be.
+pub fn read(path: &Path, options: &LoadOptions) -> Result<ObjModel, Error> {
     let shown = path.display().to_string();
     let invalid = |problem: String| Fault::invalid("", problem).in_file(&shown);
     let libraries = MaterialLibraries::new(folder_of(path)?);
     let bytes = fs::read(path).map_err(|source| Error::Read { file: path.to_owned(), source })?;
     // Comments and names may be in any encoding.
     let text = String::from_utf8_lossy(&bytes);
-    let options =
+    let parser_options =
         tobj::LoadOptions { triangulate: true, single_index: true, ignore_points: true, ignore_lines: true };
     let (models, _) = check_indices(&text)
-        .and_then(|()| tobj::load_obj_buf(&mut text.as_bytes(), &options, |line| Ok(libraries.load(line))))
+        .and_then(|()| {
+            tobj::load_obj_buf(&mut text.as_bytes(), &parser_options, |line| Ok(libraries.load(line)))
+        })
         .map_err(|error| invalid(format!("is not a valid OBJ ({error}); export it again")))?;
 
-    let limit = memory_limit.for_size(bytes.len());
-    if models.len().saturating_mul(BYTES_PER_OBJECT) > limit {
+    let limit = options.budget(bytes.len(), 0);
+    if models.len().saturating_mul(BYTES_PER_OBJECT) > limit.bytes {
         let what = format!("has {} objects and groups, which need", models.len());
-        return Err(Fault::unsupported("", memory_limit::exceeded(&what, limit)).in_file(&shown));
+        return Err(Fault::unsupported("", limit.exceeded(&what)).in_file(&shown));
     }
     let (materials, mut warnings) = libraries.into_parts();
     let mut builder = DocumentBuilder::default();
@@ -57,8 +59,7 @@ pub fn read(path: &Path, memory_limit: MemoryLimit) -> Result<ObjModel, Error> {
     warnings.append(&mut builder.warnings);
     warnings.extend(incomplete_attributes(&models));
     let glb = builder.into_glb().map_err(|fault| fault.in_file(&shown))?;
-    let options = LoadOptions { memory_limit, ..LoadOptions::default() };
-    let document = Document::from_bytes(&shown, glb, None, &options)?;
+    let document = Document::from_bytes(&shown, glb, None, options)?;
     Ok(ObjModel { document, warnings })
 }
 

@@ -2,8 +2,10 @@
 #![allow(dead_code, reason = "every test binary uses its own part")]
 
 use darboux::{Convention, Mesh, TangentOptions, generate_tangents};
-use darboux_io::Error;
-use darboux_io::gltf::{Document, LoadOptions, Outcome, Summary, TangentsOptions, Written, add_tangents};
+use darboux_io::gltf::{
+    AddTangentsOptions, Document, TangentsOutcome, TangentsSummary, WrittenTangents, add_tangents,
+};
+use darboux_io::{Error, LoadOptions};
 use serde_json::{Value, json};
 
 /// A document in the making: one buffer, a buffer view per accessor.
@@ -157,26 +159,26 @@ pub fn wide(indices: &[u16]) -> Vec<u32> {
 }
 
 /// Adds tangents with the default options.
-pub fn run(document: &mut Document) -> Summary {
-    run_with(document, &TangentsOptions::default())
+pub fn run(document: &mut Document) -> TangentsSummary {
+    run_with(document, &AddTangentsOptions::default())
 }
 
-pub fn run_with(document: &mut Document, options: &TangentsOptions) -> Summary {
+pub fn run_with(document: &mut Document, options: &AddTangentsOptions) -> TangentsSummary {
     add_tangents(document, options, &mut |_| {}).unwrap()
 }
 
 /// What was written for the primitive at `place`.
-pub fn written(summary: &Summary, place: usize) -> &Written {
+pub fn written(summary: &TangentsSummary, place: usize) -> &WrittenTangents {
     match &summary.primitives[place].outcome {
-        Outcome::Written(written) => written,
+        TangentsOutcome::Written(written) => written,
         other => panic!("not written: {other:?}"),
     }
 }
 
 /// Why the primitive at `place` was not written.
-pub fn reason(summary: &Summary, place: usize) -> &str {
+pub fn reason(summary: &TangentsSummary, place: usize) -> &str {
     match &summary.primitives[place].outcome {
-        Outcome::Kept { reason } | Outcome::Skipped { reason } => reason,
+        TangentsOutcome::Kept { reason } | TangentsOutcome::Skipped { reason } => reason,
         other => panic!("written: {other:?}"),
     }
 }

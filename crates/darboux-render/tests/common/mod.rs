@@ -4,8 +4,9 @@ use std::io::{Cursor, Write};
 use std::sync::OnceLock;
 
 use darboux_gpu::Gpu;
-use darboux_io::gltf::{Document, LoadOptions};
-use darboux_render::{Camera, HeatScale, Lines, Mistakes, Model, Picture, RenderOptions, Side, View};
+use darboux_io::LoadOptions;
+use darboux_io::gltf::Document;
+use darboux_render::{Camera, HeatScale, Mistakes, Model, Picture, RenderOptions, Side, View};
 
 pub const BACKGROUND: [u8; 3] = [10, 20, 30];
 
@@ -38,6 +39,8 @@ pub struct Quad {
     pub material: &'static str,
     /// The file of the base colour texture and its media type. Without one the base colour is grey.
     pub base: Option<(Vec<u8>, &'static str)>,
+    /// JSON of more members of the base colour texture, each after a comma. Sampler 0 clamps and magnifies to the nearest texel.
+    pub base_sampler: &'static str,
     /// The extension that names the image of the base colour texture; empty if the texture itself names it.
     pub image_extension: &'static str,
 }
@@ -60,6 +63,7 @@ impl Default for Quad {
             file: "",
             material: "",
             base: None,
+            base_sampler: r#","sampler":0"#,
             image_extension: "",
         }
     }
@@ -121,7 +125,7 @@ impl Quad {
             r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0,{node}}}{nodes}]{file},
             "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"NORMAL":1,"TEXCOORD_0":3{tangents}{attributes}}},"material":0{primitive}}}]}}],
             "materials":[{{"normalTexture":{{"index":0}},"pbrMetallicRoughness":{{"baseColorFactor":{factor}{base_texture}}}{material}}}],
-            "textures":[{{"source":0}},{{{base_source},"sampler":0}}],"samplers":[{{"magFilter":9728,"wrapS":33071,"wrapT":33071}}],
+            "textures":[{{"source":0}},{{{base_source}{sampler}}}],"samplers":[{{"magFilter":9728,"wrapS":33071,"wrapT":33071}}],
             "images":[{{"bufferView":1,"mimeType":"image/png"}},{{"bufferView":2,"mimeType":"{kind}"}}],
             "accessors":[{accessors}],
             "bufferViews":[{{"buffer":0,"byteLength":{floats}}},{{"buffer":0,"byteOffset":{floats},"byteLength":{image}}},
@@ -133,6 +137,7 @@ impl Quad {
             primitive = self.primitive,
             file = self.file,
             material = self.material,
+            sampler = self.base_sampler,
             factor = if base.is_empty() { "[0.5,0.5,0.5,1]" } else { "[1,1,1,1]" },
             accessors = accessors.join(","),
             length = bytes.len(),
@@ -192,16 +197,9 @@ pub fn heat() -> HeatScale {
 
 /// Options for a view from the front.
 pub fn options(view: View) -> RenderOptions {
-    RenderOptions {
-        view,
-        lines: Lines::default(),
-        seams: false,
-        layout: None,
-        size: [64, 64],
-        camera: Camera { yaw: 0.0, pitch: 0.0, zoom: 1.0 },
-        background: BACKGROUND,
-        heat: heat(),
-    }
+    RenderOptions::new(view, [64, 64], heat())
+        .with_camera(Camera { yaw: 0.0, pitch: 0.0, zoom: 1.0 })
+        .with_background(BACKGROUND)
 }
 
 /// Draws a model. Panics without an adapter.

@@ -6,7 +6,7 @@ use clap::ValueEnum;
 use darboux::{NormalOptions, Shading, TangentOptions};
 use darboux_gpu::{Gpu, GpuError};
 use darboux_io::SaveOptions;
-use darboux_io::gltf::{Document, NormalsOptions, TangentsOptions, add_normals, add_tangents};
+use darboux_io::gltf::{AddNormalsOptions, AddTangentsOptions, Document, add_normals, add_tangents};
 use darboux_io::image::PngImage;
 use darboux_render::{Camera, HeatScale, Lines, Mistakes, Model, Picture, RenderError, RenderOptions, Side};
 use serde::Serialize;
@@ -114,14 +114,14 @@ fn draw(arguments: &RenderArguments) -> Result<RenderReport, String> {
     };
     let gpu = without_driver_messages(|| pollster::block_on(Gpu::open())).map_err(no_adapter)?;
     let picture = picture(arguments, source, &gpu, &model, other.as_ref()).map_err(|error| match error {
-        RenderError::Nothing | RenderError::TooMany { .. } => format!("{name}: {error}"),
+        RenderError::NothingToDraw | RenderError::TooManyTriangles { .. } => format!("{name}: {error}"),
         error => error.to_string(),
     })?;
     let image = PngImage::from_rgb(&output.display().to_string(), *size, &picture.pixels)
         .map_err(|error| error.to_string())?;
     let _guard = interrupt::writing();
     let written = image
-        .save(output, &SaveOptions { force: arguments.force, run: None })
+        .save(output, &SaveOptions::default().with_force(arguments.force))
         .map_err(|error| error.to_string())?;
     Ok(RenderReport {
         command: "render",
@@ -163,8 +163,10 @@ fn picture(
     let options = options(arguments);
     let legend = Legend::of(arguments, source, &options);
     let has = |mistake| arguments.mistakes.contains(&mistake);
-    let mistakes =
-        Mistakes { green: has(MistakeChoice::Green), w: has(MistakeChoice::W), v: has(MistakeChoice::V) };
+    let mistakes = Mistakes::default()
+        .with_green(has(MistakeChoice::Green))
+        .with_w(has(MistakeChoice::W))
+        .with_v(has(MistakeChoice::V));
     let right = arguments.split.map(|part| {
         let side = Side { model: other.unwrap_or(model), mistakes };
         (side, part / 100.0)
@@ -175,7 +177,7 @@ fn picture(
     Ok(picture)
 }
 
-/// Refuses an output that exists or is no PNG, before any work.
+/// Refuses an output that exists or is not a PNG, before any work.
 fn check_output(path: &Path, force: bool) -> Result<(), String> {
     if path.exists() && !force {
         return Err(format!("{}: exists; use --force to replace it, or choose another name", path.display()));
@@ -201,14 +203,14 @@ fn open(arguments: &RenderArguments, source: Option<TangentSource>) -> Result<Lo
     let is_obj = arguments.model.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj"));
     let (mut document, warnings) = match is_obj {
         true => {
-            let model = darboux_io::obj::read(&arguments.model, arguments.reading.memory_limit())
+            let model = darboux_io::obj::read(&arguments.model, &arguments.reading.load_options())
                 .map_err(sentence)?;
             (model.document, model.warnings)
         }
         false => (load(&Input::File(arguments.model.clone()), &arguments.reading)?, Vec::new()),
     };
     let flat = NormalOptions::new().with_shading(Shading::Flat);
-    let flat = NormalsOptions { normals: flat, ..NormalsOptions::default() };
+    let flat = AddNormalsOptions::default().with_normals(flat);
     add_normals(&mut document, &flat, &mut |_| {}).map_err(sentence)?;
     let of_file = if has_tangents(&document) {
         TangentSource::File
@@ -225,9 +227,9 @@ fn open(arguments: &RenderArguments, source: Option<TangentSource>) -> Result<Lo
         }
         Some(TangentSource::Method(method)) => {
             let tangents = TangentOptions::from(darboux::Method::from(method));
-            TangentsOptions { tangents, overwrite: true, ..TangentsOptions::default() }
+            AddTangentsOptions::default().with_tangents(tangents).with_overwrite(true)
         }
-        None => TangentsOptions::default(),
+        None => AddTangentsOptions::default(),
     };
     add_tangents(&mut document, &tangents, &mut |_| {}).map_err(sentence)?;
     Ok(LoadedModel { document, source: source.unwrap_or(of_file), warnings })
@@ -271,31 +273,30 @@ fn has_tangents(document: &Document) -> bool {
 fn options(arguments: &RenderArguments) -> RenderOptions {
     let [yaw, pitch, zoom] = arguments.camera;
     let draws = |vector| arguments.lines.contains(&vector);
-    RenderOptions {
-        view: match arguments.view {
-            ViewChoice::Shaded => darboux_render::View::Shaded,
-            ViewChoice::Tangent => darboux_render::View::Tangent,
-            ViewChoice::Bitangent => darboux_render::View::Bitangent,
-            ViewChoice::Normal => darboux_render::View::Normal,
-            ViewChoice::Sign => darboux_render::View::Sign,
-            ViewChoice::Angle => darboux_render::View::Angle,
-        },
-        lines: Lines {
-            tangent: draws(VectorLines::Tangent),
-            bitangent: draws(VectorLines::Bitangent),
-            normal: draws(VectorLines::Normal),
-            length: arguments.length / 100.0,
-        },
-        seams: arguments.seams,
-        layout: arguments.layout.map(|layout| match layout {
-            LayoutPlacement::Corner => darboux_render::LayoutPlacement::Corner,
-            LayoutPlacement::Alone => darboux_render::LayoutPlacement::Alone,
-        }),
-        size: arguments.size,
-        camera: Camera { yaw, pitch, zoom },
-        background: arguments.background,
-        heat: HeatScale { ends: ENDS.map(|end| end as f32), ramp: RAMP, flip: FLIP, none: [0; 3] },
-    }
+    let view = match arguments.view {
+        ViewChoice::Shaded => darboux_render::View::Shaded,
+        ViewChoice::Tangent => darboux_render::View::Tangent,
+        ViewChoice::Bitangent => darboux_render::View::Bitangent,
+        ViewChoice::Normal => darboux_render::View::Normal,
+        ViewChoice::Sign => darboux_render::View::Sign,
+        ViewChoice::Angle => darboux_render::View::Angle,
+    };
+    let lines = Lines::default()
+        .with_tangent(draws(VectorLines::Tangent))
+        .with_bitangent(draws(VectorLines::Bitangent))
+        .with_normal(draws(VectorLines::Normal))
+        .with_length(arguments.length / 100.0);
+    let layout = arguments.layout.map(|layout| match layout {
+        LayoutPlacement::Corner => darboux_render::LayoutPlacement::Corner,
+        LayoutPlacement::Alone => darboux_render::LayoutPlacement::Alone,
+    });
+    let heat = HeatScale { ends: ENDS.map(|end| end as f32), ramp: RAMP, flip: FLIP, none: [0; 3] };
+    RenderOptions::new(view, arguments.size, heat)
+        .with_lines(lines)
+        .with_seams(arguments.seams)
+        .with_layout(layout)
+        .with_camera(Camera { yaw, pitch, zoom })
+        .with_background(arguments.background)
 }
 
 /// Adds the file name to a warning that lacks it.

@@ -74,7 +74,7 @@ impl Legend {
     /// The options of the picture above the legend.
     pub fn above(&self, options: &RenderOptions) -> RenderOptions {
         let [width, height] = options.size;
-        RenderOptions { size: [width, height - self.rows], ..options.clone() }
+        options.clone().with_size([width, height - self.rows])
     }
 
     /// Draws the legend into the picture.
@@ -141,7 +141,7 @@ fn colors_of(options: &RenderOptions) -> Vec<Key> {
             vec![([255, 128, 128], "+x"), ([128, 255, 128], "+y"), ([128, 128, 255], "+z")]
         }
         View::Shaded if options.layout.is_none() => Vec::new(),
-        View::Sign | View::Shaded => vec![(SIGN_COLORS[0], "w = 1"), (SIGN_COLORS[1], "w = -1")],
+        _ => vec![(SIGN_COLORS[0], "w = 1"), (SIGN_COLORS[1], "w = -1")],
     }
 }
 

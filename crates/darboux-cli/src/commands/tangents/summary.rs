@@ -1,14 +1,14 @@
 //! The part of a file's report that only `darboux tangents` has. json.md documents its fields.
 
-use darboux_io::gltf::{PrimitiveNormals, Summary};
+use darboux_io::gltf::{PrimitiveNormals, TangentsSummary};
 use indicatif::HumanCount;
 use serde::Serialize;
 
 /// The report of a file.
 #[derive(Default, Serialize)]
-pub struct TangentsSummary {
+pub struct TangentsFileSummary {
     #[serde(flatten)]
-    pub tangents: Summary,
+    pub tangents: TangentsSummary,
     /// What `--normals` did; `None` for `--normals keep`.
     pub normals: Option<Vec<PrimitiveNormals>>,
     /// Which device computed the tangents.

@@ -4,9 +4,10 @@ use std::fs::OpenOptions;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use darboux_io::gltf::{Document, LoadOptions, inspect};
+use darboux_io::LoadOptions;
+use darboux_io::gltf::{Document, inspect};
 use darboux_io::obj::{Companion, companions};
-use darboux_io::readable;
+use darboux_io::resolve_input;
 
 use crate::regular_file::{Links, open_regular};
 
@@ -28,7 +29,7 @@ impl ServedModel {
     /// is broken.
     pub fn find(path: &Path, options: LoadOptions) -> Result<Self, String> {
         let shown = path.display();
-        readable(path).map_err(|error| error.to_string())?;
+        resolve_input(path).map_err(|error| error.to_string())?;
         let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
         let kind = match extension.to_str() {
             Some("gltf" | "glb" | "vrm") => ModelKind::Gltf,

@@ -11,9 +11,10 @@ use serde_json::value::RawValue;
 use super::{DecodeBudget, without_extension};
 use crate::error::Fault;
 use crate::gltf::document::Document;
+use crate::gltf::element_type::{ComponentType, ElementType};
 use crate::gltf::elements::{Elements, Target};
 use crate::gltf::json_text::{member, set_member};
-use crate::gltf::schema::{Accessor, ComponentType, Draco, ElementType, Primitive};
+use crate::gltf::schema::{Accessor, Draco, Primitive};
 
 const NAME: &str = "KHR_draco_mesh_compression";
 

@@ -13,7 +13,8 @@ use serde_json::value::RawValue;
 
 use super::{DecodeBudget, without_extension};
 use crate::error::Fault;
-use crate::gltf::document::{BufferSource, Document};
+use crate::gltf::buffers::BufferSource;
+use crate::gltf::document::Document;
 use crate::gltf::json_text::{member, set_member};
 use crate::gltf::schema::{BufferView, Meshopt};
 

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::summary::ConversionSummary;
 use crate::Error;
-use crate::gltf::primitives::append::{is_sparse, set_attributes};
+use crate::gltf::primitives::append::{lacks_buffer_view, set_attributes};
 use crate::gltf::primitives::canonical::CanonicalAccessors;
 use crate::gltf::schema;
 use crate::gltf::{ComponentType, Document, ElementType, Elements, NewAccessor, Target};
@@ -128,28 +128,27 @@ impl<'a> AttributeConverter<'a> {
         let Self { conversion, .. } = self;
         let elements = match kind {
             AttributeKind::Position | AttributeKind::Normal => {
-                floats(ElementType::Vec3, document.read_vectors(old)?, |vector| conversion.vector(vector))
+                floats(ElementType::Vec3, &document.vectors(old)?, |vector| conversion.vector(vector))
             }
             AttributeKind::Tangent => {
-                floats(ElementType::Vec4, document.read_vectors(old)?, |tangent| conversion.tangent(tangent))
+                floats(ElementType::Vec4, &document.vectors(old)?, |tangent| conversion.tangent(tangent))
             }
             AttributeKind::TangentOffset => {
-                floats(ElementType::Vec3, document.read_vectors(old)?, |[x, y, z]| {
+                floats(ElementType::Vec3, &document.vectors(old)?, |[x, y, z]| {
                     let [x, y, z, _] = conversion.tangent([x, y, z, 0.0]);
                     [x, y, z]
                 })
             }
-            AttributeKind::Uv => {
-                floats(ElementType::Vec2, document.read_vectors(old)?, |uv| conversion.uv(uv))
-            }
+            AttributeKind::Uv => floats(ElementType::Vec2, &document.vectors(old)?, |uv| conversion.uv(uv)),
             // v becomes 1 - v, so that an offset of v becomes its negative.
-            AttributeKind::UvOffset => {
-                floats(ElementType::Vec2, document.read_vectors(old)?, |[u, v]| [u, -v])
-            }
+            AttributeKind::UvOffset => floats(ElementType::Vec2, &document.vectors(old)?, |[u, v]| [u, -v]),
         };
-        let (bounds, sparse) = (kind == AttributeKind::Position, is_sparse(document, old));
+        let (bounds, sparse) = (kind == AttributeKind::Position, lacks_buffer_view(document, old));
         let elements = if sparse { without_negative_zeros(elements) } else { elements };
-        let new = NewAccessor { elements, target: Target::Vertices, bounds, sparse, like: Some(old) };
+        let new = NewAccessor::new(elements, Target::Vertices)
+            .with_bounds(bounds)
+            .with_sparse(sparse)
+            .with_like(Some(old));
         let made = document.push_accessor(new);
         self.made.insert(key, made);
         Ok(made)
@@ -159,7 +158,7 @@ impl<'a> AttributeConverter<'a> {
 /// Elements of floats: `vectors`, each changed by a function.
 pub fn floats<const N: usize>(
     element_type: ElementType,
-    vectors: Vec<[f32; N]>,
+    vectors: &[[f32; N]],
     change: impl Fn([f32; N]) -> [f32; N],
 ) -> Elements {
     let changed = vectors.iter().map(|&vector| change(vector));

@@ -74,7 +74,7 @@ impl<'a> FaceReverser<'a> {
         };
         limits::check_triangles(document, [topology.triangle_count(count)].into_iter())?;
         let mut corners = match old {
-            Some(accessor) => document.read_indices(accessor)?,
+            Some(accessor) => document.indices(accessor)?.into_u32(),
             None => (0..count as u32).collect(),
         };
         let rest = corners.split_off(topology.whole(corners.len()));
@@ -83,7 +83,7 @@ impl<'a> FaceReverser<'a> {
         corners.extend(rest);
         let kind = old.and_then(|old| document.accessors().get(old)).map(|old| old.component_type);
         let elements = index_elements(kind, corners);
-        let new = NewAccessor { elements, target: Target::Indices, bounds: false, sparse: false, like: old };
+        let new = NewAccessor::new(elements, Target::Indices).with_like(old);
         Ok(document.push_accessor(new))
     }
 }

@@ -160,21 +160,20 @@ impl<'a> SceneConverter<'a> {
         let change = self.change;
         let elements = match kind {
             TransformKind::Translation => {
-                floats(ElementType::Vec3, document.read_vectors(old)?, |v| change.vector::<f32>(v))
+                floats(ElementType::Vec3, &document.vectors(old)?, |v| change.vector::<f32>(v))
             }
             TransformKind::Rotation => {
-                floats(ElementType::Vec4, document.read_vectors(old)?, |q| change.rotation::<f32>(q))
+                floats(ElementType::Vec4, &document.vectors(old)?, |q| change.rotation::<f32>(q))
             }
             TransformKind::Scale => {
-                floats(ElementType::Vec3, document.read_vectors(old)?, |s| change.scale::<f32>(s))
+                floats(ElementType::Vec3, &document.vectors(old)?, |s| change.scale::<f32>(s))
             }
             TransformKind::Matrix => {
-                floats(ElementType::Mat4, document.read_vectors(old)?, |m| change.matrix::<f32>(m))
+                floats(ElementType::Mat4, &document.vectors(old)?, |m| change.matrix::<f32>(m))
             }
         };
         let (target, like) = (Target::Other, Some(old));
-        let made =
-            document.push_accessor(NewAccessor { elements, target, bounds: false, sparse: false, like });
+        let made = document.push_accessor(NewAccessor::new(elements, target).with_like(like));
         limits::check_output(document)?;
         self.made.insert(key, made);
         Ok(made)

@@ -7,7 +7,7 @@ use darboux::{
     Context, Faces, Indices, NormalOptions, NormalReport, Shading, SmoothingSeams, generate_normals_with,
 };
 
-use super::select::{Chosen, Selection};
+use super::select::{NormalInput, NormalSelection};
 use crate::Error;
 use crate::gltf::primitives::canonical::CanonicalAccessors;
 use crate::gltf::primitives::limits;
@@ -22,7 +22,7 @@ pub struct ShadedPrimitive {
     pub name: PrimitiveName,
     /// The accessor of positions, canonical.
     pub position: usize,
-    pub chosen: Chosen,
+    pub chosen: NormalInput,
     /// The vertices of all complete triangles, three per triangle.
     pub corners: Vec<u32>,
     /// The indices after the last complete triangle.
@@ -55,7 +55,7 @@ const MOVED_LIMIT: usize = 4;
 pub fn shade(
     document: &Document,
     accessors: &CanonicalAccessors,
-    selection: &Selection,
+    selection: &NormalSelection,
     (options, context): (&NormalOptions, &mut Context),
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Vec<ShadedPrimitive>, Error> {
@@ -83,10 +83,10 @@ fn part(
     accessors: &CanonicalAccessors,
     candidate: usize,
     name: PrimitiveName,
-    chosen: Chosen,
+    chosen: NormalInput,
 ) -> Result<ShadedPrimitive, Error> {
     let mut corners = match chosen.indices {
-        Some(accessor) => document.read_indices(accessor)?,
+        Some(accessor) => document.indices(accessor)?.into_u32(),
         None => (0..chosen.index_count as u32).collect(),
     };
     let rest = corners.split_off(chosen.topology.whole(corners.len()));
@@ -119,7 +119,7 @@ struct Reader<'a> {
 impl Reader<'_> {
     fn vectors(&mut self, accessor: usize) -> Result<&[[f32; 3]], Error> {
         if self.last.as_ref().is_none_or(|last| last.0 != accessor) {
-            self.last = Some((accessor, self.document.read_vectors(accessor)?));
+            self.last = Some((accessor, self.document.vectors(accessor)?.into_owned()));
         }
         Ok(self.last.as_ref().map_or(&[], |last| &last.1))
     }

@@ -1,6 +1,6 @@
 //! Selects the primitives that get normals, with a reason for each of the others.
 
-use super::options::NormalsOptions;
+use super::options::AddNormalsOptions;
 use super::summary::{NormalsOutcome, WrittenNormals};
 use crate::Error;
 use crate::gltf::primitives::element_count;
@@ -10,22 +10,22 @@ use crate::gltf::{Document, PrimitiveName};
 
 /// Every primitive of a document, in its order, with a verdict.
 #[derive(Debug)]
-pub struct Selection {
-    pub candidates: Vec<Candidate>,
+pub struct NormalSelection {
+    pub candidates: Vec<NormalCandidate>,
 }
 
 /// A primitive and the verdict on it.
 #[derive(Debug)]
-pub struct Candidate {
+pub struct NormalCandidate {
     pub name: PrimitiveName,
-    pub verdict: Verdict,
+    pub verdict: NormalVerdict,
 }
 
 /// Whether a primitive gets normals.
 #[derive(Debug)]
-pub enum Verdict {
+pub enum NormalVerdict {
     /// The primitive gets normals.
-    Chosen(Chosen),
+    Chosen(NormalInput),
     /// The primitive keeps its normals, for a reason.
     Kept(String),
     /// The primitive gets no normals, for a reason.
@@ -34,20 +34,20 @@ pub enum Verdict {
 
 /// The input of a computation of normals.
 #[derive(Clone, Copy, Debug)]
-pub struct Chosen {
+pub struct NormalInput {
     pub position: usize,
     pub indices: Option<usize>,
     pub topology: TriangleMode,
     pub index_count: usize,
 }
 
-impl Chosen {
+impl NormalInput {
     pub fn triangle_count(&self) -> usize {
         self.topology.triangle_count(self.index_count)
     }
 }
 
-impl Verdict {
+impl NormalVerdict {
     /// The outcome. `written` gives the report of a chosen primitive.
     pub fn outcome(self, written: impl FnOnce() -> WrittenNormals) -> NormalsOutcome {
         match self {
@@ -58,45 +58,45 @@ impl Verdict {
     }
 }
 
-impl Selection {
+impl NormalSelection {
     /// The candidates that get normals, with their indices.
-    pub fn chosen(&self) -> impl Iterator<Item = (usize, &Chosen)> {
+    pub fn chosen(&self) -> impl Iterator<Item = (usize, &NormalInput)> {
         self.candidates.iter().enumerate().filter_map(|(place, candidate)| match &candidate.verdict {
-            Verdict::Chosen(chosen) => Some((place, chosen)),
-            Verdict::Kept(_) | Verdict::Skipped(_) => None,
+            NormalVerdict::Chosen(chosen) => Some((place, chosen)),
+            NormalVerdict::Kept(_) | NormalVerdict::Skipped(_) => None,
         })
     }
 }
 
 /// Selects primitives. Errors: accessors that do not exist, unknown modes.
-pub fn select(document: &Document, options: &NormalsOptions) -> Result<Selection, Error> {
+pub fn select(document: &Document, options: &AddNormalsOptions) -> Result<NormalSelection, Error> {
     let mut candidates = Vec::new();
     for (index, mesh) in document.meshes().iter().enumerate() {
         for (place, primitive) in mesh.primitives.iter().enumerate() {
             let name = PrimitiveName { mesh: index, mesh_name: mesh.name.clone(), primitive: place };
             let verdict = judge(document, &name, primitive, options)?;
-            candidates.push(Candidate { name, verdict });
+            candidates.push(NormalCandidate { name, verdict });
         }
     }
-    Ok(Selection { candidates })
+    Ok(NormalSelection { candidates })
 }
 
 fn judge(
     document: &Document,
     name: &PrimitiveName,
     primitive: &Primitive,
-    options: &NormalsOptions,
-) -> Result<Verdict, Error> {
-    let skipped = |reason: &str| Ok(Verdict::Skipped(reason.to_owned()));
+    options: &AddNormalsOptions,
+) -> Result<NormalVerdict, Error> {
+    let skipped = |reason: &str| Ok(NormalVerdict::Skipped(reason.to_owned()));
     let Some(mode) = mode_name(primitive.mode) else {
         let problem = format!("{} is not a mode; use 0 to 6", primitive.mode);
         return Err(document.invalid(format!("{}.mode", name.path()), problem));
     };
     let Some(topology) = TriangleMode::from_mode(primitive.mode) else {
-        return Ok(Verdict::Skipped(format!("its mode is {mode}; only triangles get normals")));
+        return Ok(NormalVerdict::Skipped(format!("its mode is {mode}; only triangles get normals")));
     };
     if primitive.attributes.contains_key("NORMAL") && !options.overwrite {
-        return Ok(Verdict::Kept("it has normals already".to_owned()));
+        return Ok(NormalVerdict::Kept("it has normals already".to_owned()));
     }
     let Some(&position) = primitive.attributes.get("POSITION") else {
         return skipped("it has no POSITION, which normals need");
@@ -104,10 +104,10 @@ fn judge(
     let vertex_count = element_count(document, position)?;
     let index_count =
         primitive.indices.map_or(Ok(vertex_count), |indices| element_count(document, indices))?;
-    let chosen = Chosen { position, indices: primitive.indices, topology, index_count };
+    let chosen = NormalInput { position, indices: primitive.indices, topology, index_count };
     if chosen.triangle_count() == 0 {
         skipped("it has no complete triangle")
     } else {
-        Ok(Verdict::Chosen(chosen))
+        Ok(NormalVerdict::Chosen(chosen))
     }
 }

@@ -167,7 +167,7 @@ impl<'a> NormalWriter<'a> {
         let Some(&old) = old.get("NORMAL") else { return false };
         let pair = [self.accessors.of(old), normals];
         *self.same.entry(pair).or_insert_with(|| {
-            let elements = |accessor: usize| document.read_elements(accessor).ok();
+            let elements = |accessor: usize| document.elements(accessor).ok();
             pair[0] == pair[1] || elements(old).is_some_and(|old| elements(normals) == Some(old))
         })
     }
@@ -242,7 +242,7 @@ impl<'a> NormalWriter<'a> {
         }
         let kind = old.and_then(|old| document.accessors().get(old)).map(|old| old.component_type);
         let elements = index_elements(kind, corners.iter().chain(&part.rest).copied().collect());
-        let new = NewAccessor { elements, target: Target::Indices, bounds: false, sparse: false, like: old };
+        let new = NewAccessor::new(elements, Target::Indices).with_like(old);
         let accessor = document.push_accessor(new);
         self.indices.push((old, corners, accessor));
         Some(accessor)

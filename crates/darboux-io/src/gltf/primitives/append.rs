@@ -50,15 +50,18 @@ impl<'a> Appended<'a> {
         if let Some(&made) = self.made.get(&key) {
             return Ok(made);
         }
-        let mut elements = document.read_elements(old)?;
+        let mut elements = document.elements(old)?;
         if elements.count != self.old_count {
             let problem =
                 format!("accessor {old} has {} elements for {} vertices", elements.count, self.old_count);
             return Err(document.invalid(at, format!("{problem}; export the file again")));
         }
         self.extend(&mut elements);
-        let sparse = is_sparse(document, old);
-        let new = NewAccessor { elements, target: Target::Vertices, bounds, sparse, like: Some(old) };
+        let sparse = lacks_buffer_view(document, old);
+        let new = NewAccessor::new(elements, Target::Vertices)
+            .with_bounds(bounds)
+            .with_sparse(sparse)
+            .with_like(Some(old));
         let made = document.push_accessor(new);
         limits::check_output(document)?;
         self.made.insert(key, made);
@@ -93,11 +96,11 @@ pub fn push_vectors<const N: usize>(
         normalized: false,
     };
     let target = Target::Vertices;
-    document.push_in_place_of(old, NewAccessor { elements, target, bounds: false, sparse, like: None })
+    document.push_in_place_of(old, NewAccessor::new(elements, target).with_sparse(sparse))
 }
 
 /// Whether an accessor has no buffer view, so that its copies should be sparse too.
-pub fn is_sparse(document: &Document, accessor: usize) -> bool {
+pub fn lacks_buffer_view(document: &Document, accessor: usize) -> bool {
     document.accessors().get(accessor).is_some_and(|accessor| accessor.buffer_view.is_none())
 }
 

@@ -25,7 +25,7 @@ impl<'a> PrimitiveCorners<'a> {
     ) -> Result<Option<Self>, Error> {
         let Some(topology) = TriangleMode::from_mode(primitive.mode) else { return Ok(None) };
         let mut indices = match (primitive.indices, primitive.attributes.get("POSITION")) {
-            (Some(accessor), _) => document.read_indices(accessor)?,
+            (Some(accessor), _) => document.indices(accessor)?.into_u32(),
             (None, Some(&position)) => (0..element_count(document, position)? as u32).collect(),
             (None, None) => Vec::new(),
         };

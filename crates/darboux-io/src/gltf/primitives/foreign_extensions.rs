@@ -8,8 +8,9 @@ use serde_json::Value;
 use super::name::PrimitiveName;
 use crate::gltf::Document;
 
+/// All extensions of a primitive, by name.
 #[derive(Deserialize)]
-struct Primitive {
+struct AllExtensions {
     #[serde(default)]
     extensions: BTreeMap<String, Value>,
 }
@@ -20,7 +21,7 @@ const UNAFFECTED: [&str; 4] =
 
 /// The extensions in the JSON of a primitive that may refer to vertices, by index or through accessors.
 fn affected_extensions(primitive: &str) -> Vec<String> {
-    let Ok(Primitive { extensions }) = serde_json::from_str(primitive) else { return Vec::new() };
+    let Ok(AllExtensions { extensions }) = serde_json::from_str(primitive) else { return Vec::new() };
     let affected = extensions.into_iter().filter(|(name, json)| match name.as_str() {
         "EXT_mesh_features" => numbers_vertices(json),
         name => !UNAFFECTED.contains(&name) && mentions_vertices(json),

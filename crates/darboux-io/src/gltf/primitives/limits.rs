@@ -5,7 +5,7 @@
 use crate::Error;
 use crate::error::Fault;
 use crate::gltf::Document;
-use crate::memory_limit::{self, BYTES_PER_CORNER};
+use crate::memory_limit::BYTES_PER_CORNER;
 
 /// Checks the corners of triangles that are to be computed, given as triangles per primitive.
 ///
@@ -28,8 +28,8 @@ pub fn check_more_output(document: &Document, bytes: usize) -> Result<(), Error>
 
 fn check(document: &Document, bytes: usize, what: &str) -> Result<(), Error> {
     let limit = document.memory_limit();
-    if bytes <= limit {
+    if bytes <= limit.bytes {
         return Ok(());
     }
-    Err(Fault::unsupported("accessors", memory_limit::exceeded(what, limit)).in_file(document.name()))
+    Err(Fault::unsupported("accessors", limit.exceeded(what)).in_file(document.name()))
 }

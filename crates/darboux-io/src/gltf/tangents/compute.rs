@@ -9,7 +9,7 @@ use darboux::{
 
 use super::encoding::TangentEncoding;
 use super::groups::{Group, Job};
-use super::options::TangentsOptions;
+use super::options::AddTangentsOptions;
 use crate::Error;
 use crate::gltf::primitives::triangles::TriangleMode;
 use crate::gltf::{Document, IndexList};
@@ -89,27 +89,31 @@ pub struct JobResult<'a> {
 pub type Generate<'a> = dyn FnMut(&Mesh<'_>, &TangentOptions, &mut Context) -> Result<Tangents, String> + 'a;
 
 /// [`Generate`] on the CPU.
-pub fn on_cpu(mesh: &Mesh<'_>, options: &TangentOptions, context: &mut Context) -> Result<Tangents, String> {
+pub fn generate_on_cpu(
+    mesh: &Mesh<'_>,
+    options: &TangentOptions,
+    context: &mut Context,
+) -> Result<Tangents, String> {
     generate_tangents_with(mesh, options, context).map_err(|error| error.to_string())
 }
 
 /// Computes a job. `at` is the JSON path of its first primitive. With `morphs`, the result has a plan for morph targets.
 ///
-/// Errors: indices out of range, attributes of different lengths; with [`TangentsOptions::strict`], unusable data.
+/// Errors: indices out of range, attributes of different lengths; with [`AddTangentsOptions::strict`], unusable data.
 pub fn compute_job<'a>(
     document: &'a Document,
     at: &str,
     vertices: &mut Vertices<'_>,
     job: &Job,
     morphs: bool,
-    options: &TangentsOptions,
+    options: &AddTangentsOptions,
     (generate, context): (&mut Generate<'_>, &mut Context),
 ) -> Result<JobResult<'a>, Error> {
     let mut corners = indices(document, job, vertices.positions.len())?;
     let rest = corners.split_off(job.topology.whole(corners.len()));
     let corners = match job.topology {
         TriangleMode::Triangles => corners,
-        other => IndexList::U32(other.corners(corners.widened()).into()),
+        other => IndexList::U32(other.corners(corners.into_u32()).into()),
     };
     let mesh = vertices.mesh(document, at, job, &corners)?;
     let (tangents, plan) = if morphs {

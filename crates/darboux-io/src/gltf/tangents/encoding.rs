@@ -6,6 +6,7 @@ use crate::gltf::{ComponentType, ElementType, Elements};
 
 /// The encoding of a `TANGENT` accessor (glTF 2.0, 3.7.2.1; `KHR_mesh_quantization`).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum TangentEncoding {
     /// Floats: 16 bytes per vertex, exact.
     #[default]

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::select::Chosen;
+use super::select::TangentInput;
 use super::uv::UvTransform;
 use crate::gltf::primitives::canonical::CanonicalAccessors;
 use crate::gltf::primitives::triangles::TriangleMode;
@@ -45,7 +45,7 @@ pub struct GroupMember {
 /// Groups primitives. Groups are in the order of their first primitives.
 pub fn group<'a>(
     accessors: &CanonicalAccessors,
-    chosen: impl Iterator<Item = (usize, &'a Chosen)>,
+    chosen: impl Iterator<Item = (usize, &'a TangentInput)>,
 ) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     let mut group_of = HashMap::new();
@@ -57,7 +57,7 @@ pub fn group<'a>(
             groups.push(Group { position, normal, uv, jobs: Vec::new(), members: Vec::new() });
             groups.len() - 1
         });
-        let Chosen { topology, transform, .. } = *chosen;
+        let TangentInput { topology, transform, .. } = *chosen;
         let indices = chosen.indices.map(|accessor| accessors.of(accessor));
         let jobs = &mut groups[place].jobs;
         let key = (place, indices, topology, transform.map(|transform| transform.bits()));

@@ -7,8 +7,8 @@ use darboux::Context;
 
 use super::compute::{JobResult, Vertices};
 use super::groups::Group;
-use super::options::TangentsOptions;
-use super::select::Selection;
+use super::options::AddTangentsOptions;
+use super::select::TangentSelection;
 use super::split::Split;
 use crate::Error;
 use crate::gltf::Document;
@@ -34,7 +34,7 @@ impl Movement {
     pub fn of(
         accessors: &CanonicalAccessors,
         target: &Attributes,
-        options: &TangentsOptions,
+        options: &AddTangentsOptions,
     ) -> Option<Self> {
         let offsets = |semantic| target.get(semantic).map(|&accessor| accessors.of(accessor));
         let (position, normal) = (offsets("POSITION"), offsets("NORMAL"));
@@ -60,8 +60,8 @@ pub fn morphs(
     document: &Document,
     accessors: &CanonicalAccessors,
     group: &Group,
-    selection: &Selection,
-    options: &TangentsOptions,
+    selection: &TangentSelection,
+    options: &AddTangentsOptions,
 ) -> Vec<Morph> {
     let mut morphs: Vec<Morph> = Vec::new();
     let mut place_of = HashMap::new();
@@ -87,7 +87,7 @@ pub fn morphs(
 #[derive(Debug)]
 pub struct Offsets {
     pub of_vertex: Vec<[f32; 3]>,
-    /// Counts for each of [`Morph::jobs`].
+    /// ReportCounts for each of [`Morph::jobs`].
     pub misfits: Vec<Misfits>,
 }
 
@@ -112,14 +112,14 @@ impl Add for Misfits {
 
 /// Evaluates a movement for its jobs.
 ///
-/// Errors: the number of offsets is not that of vertices; with [`TangentsOptions::strict`], offsets that are not finite.
+/// Errors: the number of offsets is not that of vertices; with [`AddTangentsOptions::strict`], offsets that are not finite.
 pub fn offsets(
     document: &Document,
     morph: &Morph,
     group: &Group,
     vertices: &mut Vertices<'_>,
     (results, split): (&[JobResult<'_>], &Split),
-    options: &TangentsOptions,
+    options: &AddTangentsOptions,
     context: &mut Context,
 ) -> Result<Offsets, Error> {
     let Movement { position, normal } = morph.movement;

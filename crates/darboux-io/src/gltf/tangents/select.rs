@@ -4,36 +4,36 @@ use std::collections::BTreeSet;
 
 use darboux::Method;
 
-use super::options::TangentsOptions;
+use super::options::AddTangentsOptions;
 use super::summary::NO_NORMAL;
 use super::uv::{UvChoice, UvTransform, changes_directions, needs_tangents};
-use crate::Error;
 use crate::gltf::primitives::element_count;
 use crate::gltf::primitives::triangles::{TriangleMode, mode_name};
 use crate::gltf::schema::{Material, Primitive};
 use crate::gltf::{Document, PrimitiveName};
+use crate::{Error, OptionNames};
 
 /// Every primitive of a document, in its order, with a verdict.
 #[derive(Debug)]
-pub struct Selection {
-    pub candidates: Vec<Candidate>,
+pub struct TangentSelection {
+    pub candidates: Vec<TangentCandidate>,
     pub warnings: Vec<String>,
 }
 
 /// A primitive and the verdict on it.
 #[derive(Debug)]
-pub struct Candidate {
+pub struct TangentCandidate {
     pub name: PrimitiveName,
     pub uv: UvChoice,
     pub needs_tangents: bool,
-    pub verdict: Verdict,
+    pub verdict: TangentVerdict,
 }
 
 /// Whether a primitive gets tangents.
 #[derive(Debug)]
-pub enum Verdict {
+pub enum TangentVerdict {
     /// The primitive gets tangents.
-    Chosen(Chosen),
+    Chosen(TangentInput),
     /// The primitive keeps its tangents, for a reason.
     Kept(String),
     /// The primitive gets no tangents, for a reason.
@@ -42,7 +42,7 @@ pub enum Verdict {
 
 /// The input of a computation of tangents.
 #[derive(Clone, Debug)]
-pub struct Chosen {
+pub struct TangentInput {
     pub position: usize,
     pub normal: usize,
     /// None if the method needs no UVs and there are none.
@@ -54,11 +54,11 @@ pub struct Chosen {
     pub replaces: bool,
 }
 
-impl Candidate {
+impl TangentCandidate {
     /// The UV set that the tangents follow, if any, and the reason for it.
     pub fn uv_set_and_reason(&self) -> (Option<usize>, String) {
         match &self.verdict {
-            Verdict::Chosen(Chosen { uv: None, .. }) => {
+            TangentVerdict::Chosen(TangentInput { uv: None, .. }) => {
                 (None, "the primitive has none, and this method needs none".into())
             }
             _ => (Some(self.uv.set), self.uv.reason.clone()),
@@ -67,16 +67,16 @@ impl Candidate {
 
     /// Whether its tangents are replaced.
     pub fn replaces(&self) -> bool {
-        matches!(&self.verdict, Verdict::Chosen(chosen) if chosen.replaces)
+        matches!(&self.verdict, TangentVerdict::Chosen(chosen) if chosen.replaces)
     }
 }
 
-impl Selection {
+impl TangentSelection {
     /// The candidates that get tangents, with their indices.
-    pub fn chosen(&self) -> impl Iterator<Item = (usize, &Chosen)> {
+    pub fn chosen(&self) -> impl Iterator<Item = (usize, &TangentInput)> {
         self.candidates.iter().enumerate().filter_map(|(place, candidate)| match &candidate.verdict {
-            Verdict::Chosen(chosen) => Some((place, chosen)),
-            Verdict::Kept(_) | Verdict::Skipped(_) => None,
+            TangentVerdict::Chosen(chosen) => Some((place, chosen)),
+            TangentVerdict::Kept(_) | TangentVerdict::Skipped(_) => None,
         })
     }
 
@@ -87,7 +87,7 @@ impl Selection {
 }
 
 /// Selects primitives. Errors: materials or accessors that do not exist, unknown modes.
-pub fn select(document: &Document, options: &TangentsOptions) -> Result<Selection, Error> {
+pub fn select(document: &Document, options: &AddTangentsOptions) -> Result<TangentSelection, Error> {
     let mut warnings = Warnings::default();
     let mut candidates = Vec::new();
     for (index, mesh) in document.meshes().iter().enumerate() {
@@ -96,28 +96,28 @@ pub fn select(document: &Document, options: &TangentsOptions) -> Result<Selectio
             candidates.push(candidate(document, name, primitive, options, &mut warnings)?);
         }
     }
-    Ok(Selection { candidates, warnings: warnings.sentences })
+    Ok(TangentSelection { candidates, warnings: warnings.sentences })
 }
 
 fn candidate(
     document: &Document,
     name: PrimitiveName,
     primitive: &Primitive,
-    options: &TangentsOptions,
+    options: &AddTangentsOptions,
     warnings: &mut Warnings,
-) -> Result<Candidate, Error> {
+) -> Result<TangentCandidate, Error> {
     let materials = materials_of(document, &name, primitive)?;
     let choices: Vec<_> =
         materials.iter().filter_map(|&(index, material)| UvChoice::of(material, index)).collect();
     let needs_tangents = materials.iter().any(|(_, material)| needs_tangents(material));
     let uv = choices.first().cloned().unwrap_or_default();
     let verdict = judge(document, &name, primitive, &uv, needs_tangents, options)?;
-    if let Verdict::Chosen(chosen) = &verdict {
+    if let TangentVerdict::Chosen(chosen) = &verdict {
         warnings.variants(&name, &choices);
-        warnings.transform(&uv, options);
+        warnings.transform(&uv, options, document.options.option_names);
         warnings.incomplete(&name, chosen);
     }
-    Ok(Candidate { name, uv, needs_tangents, verdict })
+    Ok(TangentCandidate { name, uv, needs_tangents, verdict })
 }
 
 /// The materials of a primitive: its own, then those of its variants.
@@ -145,20 +145,20 @@ fn judge(
     primitive: &Primitive,
     uv: &UvChoice,
     needs_tangents: bool,
-    options: &TangentsOptions,
-) -> Result<Verdict, Error> {
+    options: &AddTangentsOptions,
+) -> Result<TangentVerdict, Error> {
     let attribute = |semantic: &str| primitive.attributes.get(semantic).copied();
-    let skipped = |reason: &str| Ok(Verdict::Skipped(reason.to_owned()));
+    let skipped = |reason: &str| Ok(TangentVerdict::Skipped(reason.to_owned()));
     let Some(mode) = mode_name(primitive.mode) else {
         let problem = format!("{} is not a mode; use 0 to 6", primitive.mode);
         return Err(document.invalid(format!("{}.mode", name.path()), problem));
     };
     let Some(topology) = TriangleMode::from_mode(primitive.mode) else {
-        return Ok(Verdict::Skipped(format!("its mode is {mode}; only triangles have tangents")));
+        return Ok(TangentVerdict::Skipped(format!("its mode is {mode}; only triangles have tangents")));
     };
     let replaces = attribute("TANGENT").is_some();
     if replaces && !options.overwrite {
-        return Ok(Verdict::Kept("it has tangents already".to_owned()));
+        return Ok(TangentVerdict::Kept("it has tangents already".to_owned()));
     }
     if options.only_needed && !needs_tangents {
         return skipped("its material does not use tangents");
@@ -169,7 +169,7 @@ fn judge(
     let Some(normal) = attribute("NORMAL") else { return skipped(NO_NORMAL) };
     let uv_accessor = attribute(&format!("TEXCOORD_{}", uv.set));
     if uv_accessor.is_none() && options.tangents.method != Method::FromNormal {
-        return Ok(Verdict::Skipped(missing_uv(primitive, uv)));
+        return Ok(TangentVerdict::Skipped(missing_uv(primitive, uv)));
     }
     let vertex_count = element_count(document, position)?;
     let index_count =
@@ -178,7 +178,7 @@ fn judge(
         return skipped("it has no complete triangle");
     }
     let transform = uv.transform.as_ref().filter(|_| options.apply_texture_transform);
-    Ok(Verdict::Chosen(Chosen {
+    Ok(TangentVerdict::Chosen(TangentInput {
         position,
         normal,
         uv: uv_accessor,
@@ -216,18 +216,18 @@ impl Warnings {
         }
     }
 
-    fn transform(&mut self, uv: &UvChoice, options: &TangentsOptions) {
+    fn transform(&mut self, uv: &UvChoice, options: &AddTangentsOptions, names: OptionNames) {
         let changes = uv.transform.as_ref().is_some_and(changes_directions);
         if changes && !options.apply_texture_transform && self.transformed.insert(uv.reason.clone()) {
             self.sentences.push(format!(
                 "{}: KHR_texture_transform rotates or mirrors its UVs; the tangents follow the stored UVs, as the \
-                 specification says; for renderers that transform them first, use --apply-texture-transform",
-                uv.reason
+                 specification says; for renderers that transform them first, use {}",
+                uv.reason, names.apply_texture_transform
             ));
         }
     }
 
-    fn incomplete(&mut self, name: &PrimitiveName, chosen: &Chosen) {
+    fn incomplete(&mut self, name: &PrimitiveName, chosen: &TangentInput) {
         let over = chosen.index_count % 3;
         if chosen.topology == TriangleMode::Triangles && over != 0 {
             self.sentences.push(format!(

@@ -11,24 +11,25 @@ pub(super) const NO_NORMAL: &str = "it has no NORMAL, which tangents need";
 /// The result of [`add_tangents`](super::add_tangents).
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
-pub struct Summary {
+pub struct TangentsSummary {
     /// Every primitive of the document, in its order.
-    pub primitives: Vec<PrimitiveSummary>,
+    pub primitives: Vec<PrimitiveTangents>,
     /// Warnings, one sentence each.
     pub warnings: Vec<String>,
     /// Sums over all primitives.
-    pub totals: Totals,
+    pub totals: TangentsTotals,
 }
 
-impl Summary {
+impl TangentsSummary {
     /// Appends a primitive and counts it.
-    pub(super) fn push(&mut self, primitive: PrimitiveSummary) {
-        let lacks_normals = matches!(&primitive.outcome, Outcome::Skipped { reason } if reason == NO_NORMAL);
+    pub(super) fn push(&mut self, primitive: PrimitiveTangents) {
+        let lacks_normals =
+            matches!(&primitive.outcome, TangentsOutcome::Skipped { reason } if reason == NO_NORMAL);
         self.totals.without_normals += usize::from(lacks_normals);
         *match primitive.outcome {
-            Outcome::Written(_) => &mut self.totals.written,
-            Outcome::Kept { .. } => &mut self.totals.kept,
-            Outcome::Skipped { .. } => &mut self.totals.skipped,
+            TangentsOutcome::Written(_) => &mut self.totals.written,
+            TangentsOutcome::Kept { .. } => &mut self.totals.kept,
+            TangentsOutcome::Skipped { .. } => &mut self.totals.skipped,
         } += 1;
         self.primitives.push(primitive);
     }
@@ -37,22 +38,22 @@ impl Summary {
 /// The result for one primitive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
-pub struct PrimitiveSummary {
+pub struct PrimitiveTangents {
     /// The primitive.
     #[serde(flatten)]
     pub name: PrimitiveName,
     /// The outcome.
     #[serde(flatten)]
-    pub outcome: Outcome,
+    pub outcome: TangentsOutcome,
 }
 
 /// Whether a primitive got tangents, and the reason if not.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "outcome", rename_all = "snake_case")]
 #[non_exhaustive]
-pub enum Outcome {
+pub enum TangentsOutcome {
     /// The primitive got tangents.
-    Written(Written),
+    Written(WrittenTangents),
     /// The primitive had tangents, which are kept.
     Kept {
         /// The reason, as a sentence.
@@ -68,7 +69,7 @@ pub enum Outcome {
 /// The tangents of one primitive.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
-pub struct Written {
+pub struct WrittenTangents {
     /// The UV set n of `TEXCOORD_n`; none if there are no UVs and the method needs none.
     pub uv_set: Option<usize>,
     /// The reason for this set: the texture that uses it, or that no texture does.
@@ -87,15 +88,15 @@ pub struct Written {
     pub regrouped_corners: usize,
     /// Corners of morphed meshes whose tangent differs from that of their shared vertex, summed over targets.
     pub conflicting_corners: usize,
-    /// Counts of triangles and of degenerate data.
+    /// ReportCounts of triangles and of degenerate data.
     #[serde(flatten)]
-    pub counts: Counts,
+    pub counts: ReportCounts,
 }
 
 /// The counts of a [`darboux::Report`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
-pub struct Counts {
+pub struct ReportCounts {
     /// The number of triangles.
     pub triangles: usize,
     /// Triangles with two equal positions.
@@ -117,7 +118,7 @@ pub struct Counts {
     pub merged_vertices: usize,
 }
 
-impl From<Report> for Counts {
+impl From<Report> for ReportCounts {
     fn from(report: Report) -> Self {
         Self {
             triangles: report.triangles,
@@ -136,7 +137,7 @@ impl From<Report> for Counts {
 /// Sums over a document. Data that primitives share is counted once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
-pub struct Totals {
+pub struct TangentsTotals {
     /// Primitives that got tangents.
     pub written: usize,
     /// Primitives that kept their tangents.

@@ -7,8 +7,8 @@ use serde_json::Value;
 use super::encoding::TangentEncoding;
 use super::groups::{Group, GroupMember};
 use super::morph::Movement;
-use super::options::TangentsOptions;
-use super::select::Candidate;
+use super::options::AddTangentsOptions;
+use super::select::TangentCandidate;
 use super::split::Split;
 use crate::Error;
 use crate::gltf::primitives::append::{Appended, index_elements, set_attributes};
@@ -28,7 +28,7 @@ pub fn push_tangents(
     document.require_extensions(encoding.extension());
     let elements = encoding.elements(tangents);
     let target = Target::Vertices;
-    document.push_in_place_of(old, NewAccessor { elements, target, bounds: false, sparse: false, like: None })
+    document.push_in_place_of(old, NewAccessor::new(elements, target))
 }
 
 /// The new accessors of a group.
@@ -47,7 +47,7 @@ pub struct GroupAccessors<'a> {
 #[derive(Debug)]
 pub struct TangentWriter<'a> {
     accessors: &'a CanonicalAccessors,
-    options: &'a TangentsOptions,
+    options: &'a AddTangentsOptions,
     group: &'a Group,
     results: GroupAccessors<'a>,
     appended: Appended<'a>,
@@ -59,7 +59,7 @@ impl<'a> TangentWriter<'a> {
     /// A writer without any accessor yet.
     pub fn new(
         accessors: &'a CanonicalAccessors,
-        options: &'a TangentsOptions,
+        options: &'a AddTangentsOptions,
         group: &'a Group,
         results: GroupAccessors<'a>,
     ) -> Self {
@@ -74,7 +74,7 @@ impl<'a> TangentWriter<'a> {
         &mut self,
         document: &mut Document,
         member: &GroupMember,
-        candidate: &Candidate,
+        candidate: &TangentCandidate,
     ) -> Result<Vec<Movement>, Error> {
         let name = &candidate.name;
         let primitive = document.meshes()[name.mesh].primitives[name.primitive].clone();
@@ -141,7 +141,7 @@ impl<'a> TangentWriter<'a> {
         let old = self.group.jobs[job].indices;
         let kind = old.and_then(|old| document.accessors().get(old)).map(|old| old.component_type);
         let elements = index_elements(kind, list);
-        let new = NewAccessor { elements, target: Target::Indices, bounds: false, sparse: false, like: old };
+        let new = NewAccessor::new(elements, Target::Indices).with_like(old);
         let indices = document.push_accessor(new);
         self.indices.insert(job, indices);
         Ok(Some(indices))

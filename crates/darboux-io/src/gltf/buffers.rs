@@ -1,0 +1,63 @@
+//! Finds the bytes of buffers: the binary chunk of a GLB, files, and `data:` URIs.
+
+use std::sync::Arc;
+
+use super::resources::{ResourceFile, Resources, UriTarget, decode_data_uri};
+use super::schema;
+use crate::error::Fault;
+
+/// The source of a buffer's bytes.
+#[derive(Debug)]
+pub enum BufferSource {
+    /// The GLB's binary chunk.
+    Chunk,
+    /// A file.
+    File(Arc<ResourceFile>),
+    /// A `data:` URI, decoded.
+    Data(Vec<u8>),
+    /// Decompressed bytes of a buffer that had none.
+    #[cfg_attr(not(feature = "meshopt"), expect(dead_code, reason = "only meshopt fills buffers"))]
+    Decoded(Vec<u8>),
+    /// None; the clause says why, and what to do.
+    Absent(&'static str),
+}
+
+/// The source of a buffer. `chunk` is the binary chunk of a GLB.
+///
+/// Errors: a file that cannot be read, or a source that is shorter than the buffer.
+pub fn load_buffer(
+    index: usize,
+    buffer: &schema::Buffer,
+    chunk: Option<&[u8]>,
+    resources: &mut Resources,
+) -> Result<BufferSource, Fault> {
+    let at = || format!("buffers[{index}].uri");
+    let store = match buffer.uri.as_deref().map(|uri| resources.resolve(uri)) {
+        None if index == 0 && chunk.is_some() => BufferSource::Chunk,
+        None => return Ok(BufferSource::Absent("has no bytes; export the file again")),
+        Some(Ok(UriTarget::Remote)) => {
+            return Ok(BufferSource::Absent("is on another machine; download it and refer to the file"));
+        }
+        Some(Ok(UriTarget::Data(data))) => {
+            BufferSource::Data(decode_data_uri(data).map_err(|problem| Fault::invalid(at(), problem))?)
+        }
+        Some(Ok(UriTarget::File(located))) => {
+            let file = resources.open(&located);
+            BufferSource::File(
+                file.map_err(|error| Fault::resource(at(), format!("cannot be read: {error}")))?,
+            )
+        }
+        Some(Err(problem)) => return Err(Fault::resource(at(), problem)),
+    };
+    let available = match &store {
+        BufferSource::File(file) => file.bytes.len(),
+        BufferSource::Data(bytes) => bytes.len(),
+        _ => chunk.unwrap_or_default().len(),
+    };
+    if buffer.byte_length > available {
+        let problem =
+            format!("is {} but there are {available} bytes; export the file again", buffer.byte_length);
+        return Err(Fault::invalid(format!("buffers[{index}].byteLength"), problem));
+    }
+    Ok(store)
+}

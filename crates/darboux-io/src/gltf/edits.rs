@@ -1,0 +1,60 @@
+//! The edits of a document that have not been written yet.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::elements::Target;
+
+/// Edits of the JSON, as the new text of elements by their index, and new bytes.
+#[derive(Debug, Default)]
+pub struct Edits {
+    pub primitives: BTreeMap<(usize, usize), String>,
+    pub accessors: BTreeMap<usize, String>,
+    pub views: BTreeMap<usize, String>,
+    pub buffers: BTreeMap<usize, String>,
+    pub removed_extensions: Vec<&'static str>,
+    pub required_extensions: Vec<&'static str>,
+    pub new_accessors: Vec<String>,
+    pub asset: Option<String>,
+    /// Edited elements of `nodes`, `skins` and `animations`.
+    pub scene: BTreeMap<&'static str, BTreeMap<usize, String>>,
+    /// Accessors that primitives referred to before they were edited.
+    pub formerly_referenced: BTreeSet<usize>,
+    /// Whether a warning about unused data that stays has been given.
+    pub is_unused_data_reported: bool,
+    pub new_views: Vec<NewView>,
+    /// The number of bytes in all new views.
+    pub new_byte_count: usize,
+}
+
+/// A new buffer view and its bytes.
+#[derive(Debug)]
+pub struct NewView {
+    pub bytes: Vec<u8>,
+    pub stride: Option<usize>,
+    pub target: Option<Target>,
+}
+
+impl Edits {
+    /// Whether there are no edits.
+    pub fn is_empty(&self) -> bool {
+        let Self {
+            primitives,
+            accessors,
+            views,
+            buffers,
+            removed_extensions,
+            new_accessors,
+            asset,
+            scene,
+            ..
+        } = self;
+        primitives.is_empty()
+            && accessors.is_empty()
+            && views.is_empty()
+            && buffers.is_empty()
+            && removed_extensions.is_empty()
+            && new_accessors.is_empty()
+            && asset.is_none()
+            && scene.is_empty()
+    }
+}

@@ -1,0 +1,84 @@
+//! The options of every reader: glTF, OBJ and PNG.
+
+use crate::memory_limit::{Budget, MemoryLimit};
+
+/// How a file is read. The default reads files in the folder of the input or below only, with the default memory limit.
+#[derive(Clone, Copy, Debug, Default)]
+#[non_exhaustive]
+pub struct LoadOptions {
+    /// Also reads buffers and images of a glTF outside its folder, through `..`, absolute paths or links.
+    pub allow_outside: bool,
+    /// The most memory that decoding the file, and computing from it, may take.
+    pub memory_limit: MemoryLimit,
+    /// How messages call the options that they advise to change.
+    pub option_names: OptionNames,
+}
+
+/// The names of options in the sentences of errors and warnings. The default names those of this crate, such as
+/// `LoadOptions::memory_limit`; a program that offers these options under other names sets its own, such as `--memory-limit`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct OptionNames {
+    /// The name of [`LoadOptions::memory_limit`].
+    pub memory_limit: &'static str,
+    /// The name of [`LoadOptions::allow_outside`].
+    pub allow_outside: &'static str,
+    /// The name of [`AddTangentsOptions::apply_texture_transform`](crate::gltf::AddTangentsOptions::apply_texture_transform).
+    pub apply_texture_transform: &'static str,
+}
+
+impl Default for OptionNames {
+    fn default() -> Self {
+        Self {
+            memory_limit: "LoadOptions::memory_limit",
+            allow_outside: "LoadOptions::allow_outside",
+            apply_texture_transform: "AddTangentsOptions::apply_texture_transform",
+        }
+    }
+}
+
+impl OptionNames {
+    /// These names with another one for [`OptionNames::memory_limit`].
+    #[must_use]
+    pub const fn with_memory_limit(self, memory_limit: &'static str) -> Self {
+        Self { memory_limit, ..self }
+    }
+
+    /// These names with another one for [`OptionNames::allow_outside`].
+    #[must_use]
+    pub const fn with_allow_outside(self, allow_outside: &'static str) -> Self {
+        Self { allow_outside, ..self }
+    }
+
+    /// These names with another one for [`OptionNames::apply_texture_transform`].
+    #[must_use]
+    pub const fn with_apply_texture_transform(self, apply_texture_transform: &'static str) -> Self {
+        Self { apply_texture_transform, ..self }
+    }
+}
+
+impl LoadOptions {
+    /// These options, also with files outside the input's folder, or not.
+    #[must_use]
+    pub const fn with_allow_outside(self, allow_outside: bool) -> Self {
+        Self { allow_outside, ..self }
+    }
+
+    /// These options with another memory limit.
+    #[must_use]
+    pub const fn with_memory_limit(self, memory_limit: MemoryLimit) -> Self {
+        Self { memory_limit, ..self }
+    }
+
+    /// These options with other names of options in messages.
+    #[must_use]
+    pub const fn with_option_names(self, option_names: OptionNames) -> Self {
+        Self { option_names, ..self }
+    }
+
+    /// The memory for a file of `size` bytes of which `decompressed` bytes were made.
+    pub(crate) fn budget(&self, size: usize, decompressed: usize) -> Budget {
+        let bytes = self.memory_limit.for_sizes(size, decompressed);
+        Budget { bytes, option: self.option_names.memory_limit }
+    }
+}
