@@ -112,7 +112,7 @@ fn shared_name(library: &Library, version: &str) -> String {
 /// Builds a library in a target folder and puts its shared and its static form into the shipped folder.
 fn put_library(library: &Library, target: &Path, folder: &Path) -> Outcome {
     step(&format!("compile lib{}", library.shipped), || build(library, target))?;
-    let built = target.join("dist-c").join(format!("lib{}", library.built));
+    let built = target.join("dist").join(format!("lib{}", library.built));
     put_shared(library, &built, folder)?;
     put_static(library, &built, folder)
 }
@@ -126,7 +126,7 @@ fn build(library: &Library, target: &Path) -> Outcome {
         format!("link-arg=-Wl,-soname,{name}")
     };
     let mut cargo =
-        program("cargo rustc --quiet --profile dist-c --lib --crate-type cdylib,staticlib --target-dir");
+        program("cargo rustc --quiet --profile dist --lib --crate-type cdylib,staticlib --target-dir");
     run(to_stderr(cargo.arg(target).args(["--package", library.package, "--", "-C", &own_name])))
 }
 
