@@ -27,9 +27,10 @@ pub fn check() -> Outcome {
             faults.push(format!("bindings/js/lib/package.json has no {field}"));
         }
     }
-    for readme in ["bindings/python/README.md", "bindings/js/README.md"] {
-        if !root().join(readme).exists() {
-            faults.push(format!("{readme} is missing"));
+    let python_licences = ["bindings/python/LICENSE-MIT", "bindings/python/LICENSE-APACHE"];
+    for file in ["bindings/python/README.md", "bindings/js/README.md"].into_iter().chain(python_licences) {
+        if !root().join(file).exists() {
+            faults.push(format!("{file} is missing"));
         }
     }
     if !has_section(&read("CHANGELOG.md")?) {
@@ -85,6 +86,11 @@ fn crate_faults(package: &Value) -> Vec<String> {
     if package["keywords"].as_array().is_some_and(|keywords| keywords.len() > 5) {
         faults.push(format!("{} has more than the five keywords that crates.io takes", name(package)));
     }
+    // Both licences want their text to go with every copy. They are links, which cargo packages as files.
+    let folder = package["manifest_path"].as_str().map(Path::new).and_then(Path::parent).unwrap_or(root());
+    let licences =
+        ["LICENSE-MIT", "LICENSE-APACHE"].into_iter().filter(|licence| !folder.join(licence).exists());
+    faults.extend(licences.map(|licence| format!("{} has no {licence}", name(package))));
     if package["version"] != VERSION {
         faults.push(format!("{} has another version than {VERSION}", name(package)));
     }
