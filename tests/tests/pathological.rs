@@ -28,6 +28,35 @@ fn bundled_fan(count: usize) -> OwnedMesh {
     mesh
 }
 
+/// A polar fan that goes around its vertex many times.
+fn winding_fan(count: usize) -> OwnedMesh {
+    let mut mesh = families::fan(count, true);
+    for (i, position) in mesh.positions.iter_mut().enumerate().skip(1) {
+        let (y, x) = (i as f32 * 0.0157).sin_cos();
+        let radius = 1.0 + i as f32 / count as f32;
+        *position = [radius * x, radius * y, 0.0];
+    }
+    mesh
+}
+
+/// A turning fan whose edges differ in length by a factor of 3,000, in space and in UV space.
+fn uneven_fan(count: usize) -> OwnedMesh {
+    let mut mesh = turning_fan(count);
+    for (i, (position, uv)) in mesh.positions.iter_mut().zip(&mut mesh.uvs).enumerate().skip(1) {
+        let [a, b] = [0.618_034, 0.414_214].map(|step| (8.0 * (i as f32 * step).fract() - 4.0).exp());
+        *position = position.map(|x| a * x);
+        *uv = uv.map(|x| b * x);
+    }
+    mesh
+}
+
+/// A turning fan whose normal is tilted and not of unit length.
+fn tilted_fan(count: usize) -> OwnedMesh {
+    let mut mesh = turning_fan(count);
+    mesh.normals.fill([0.3, -0.2, 0.9]);
+    mesh
+}
+
 /// A fan on a circle whose UVs turn by a pseudo-random angle from triangle to triangle: tangents in all directions, many of them opposite.
 fn turning_fan(count: usize) -> OwnedMesh {
     let mut mesh = families::fan(count, true);
@@ -57,7 +86,10 @@ fn small_ones_are_exact() {
     assert_exact("polar fan", &families::fan(1_000, true));
     assert_exact("scattered fan", &scattered_fan(1_000));
     assert_exact("bundled fan", &bundled_fan(1_000));
+    assert_exact("winding fan", &winding_fan(1_000));
     assert_exact("turning fan", &turning_fan(4_000));
+    assert_exact("uneven fan", &uneven_fan(4_000));
+    assert_exact("tilted fan", &tilted_fan(2_000));
     assert_exact("lone degenerates", &lone_degenerates(40, 500));
     assert_exact("one position", &families::unwelded_fan(1_000));
 }
@@ -67,6 +99,10 @@ fn small_ones_are_exact() {
 fn large_ones_are_exact() {
     assert_exact("fan of 20,000", &families::fan(20_000, false));
     assert_exact("polar fan of 20,000", &families::fan(20_000, true));
+    assert_exact("scattered fan of 20,000", &scattered_fan(20_000));
+    assert_exact("winding fan of 20,000", &winding_fan(20_000));
+    assert_exact("turning fan of 20,000", &turning_fan(20_000));
+    assert_exact("uneven fan of 20,000", &uneven_fan(20_000));
     assert_exact("20,000 lone degenerates on a grid of 80,000", &lone_degenerates(200, 20_000));
     assert_exact("20,000 on one position", &families::unwelded_fan(20_000));
 }

@@ -2,8 +2,6 @@
 //!
 //! Not part of the API: these types change with the stages.
 
-use std::ops::Range;
-
 use crate::CornerFrames;
 use crate::Frames;
 use crate::Mesh;
@@ -18,6 +16,7 @@ use crate::tangents::mikktspace::derivatives::quad_derivatives;
 use crate::tangents::mikktspace::subgroups::{SubgroupFinder, SubgroupVisitor, included};
 use crate::tangents::mikktspace::welded_mesh::WeldedMesh;
 use crate::tangents::mikktspace::{GroupedMesh, edge_order};
+use crate::util::hash_map::KeyTable;
 
 pub use crate::tangents::mikktspace::degenerate::{CopySource, CornerCopy};
 pub use crate::tangents::mikktspace::derivatives::Derivative;
@@ -100,7 +99,7 @@ impl SubgroupSums {
             collector.members.clear();
             collector.members.extend_from_slice(subgroups.members());
             collector.vertex = good.vertices.as_flattened()[members[0] as usize];
-            subgroups.visit(members, usize::MAX, &mut collector);
+            subgroups.visit(members, &mut collector);
             if collector.is_stopped() {
                 return None;
             }
@@ -119,20 +118,28 @@ struct SumCollector<'a> {
     sums: SubgroupSums,
 }
 
-impl SubgroupVisitor for SumCollector<'_> {
-    /// The number of the sum.
-    type Subgroup = u32;
-
-    fn compute(&mut self, excluded: &[Range<usize>]) -> u32 {
+impl SumCollector<'_> {
+    fn add_sum(&mut self, excluded: &[u32]) -> u32 {
         let has_term = |member: &u32| !self.grouped.base.derivatives[*member as usize / 3].joins_any;
         let members = included(self.members.len(), excluded).map(|at| self.members[at]);
-        self.sums.members.extend(members.filter(has_term));
+        if !self.is_stopped() {
+            self.sums.members.extend(members.filter(has_term));
+        }
         self.sums.ends.push(self.sums.members.len() as u32);
         self.sums.vertices.push(self.vertex);
         self.sums.ends.len() as u32 - 1
     }
+}
 
-    fn write(&mut self, member: u32, &sum: &u32) {
+impl SubgroupVisitor for SumCollector<'_> {
+    /// The number of the sum.
+    type Subgroup = u32;
+
+    fn compute(&mut self, excluded: &KeyTable) -> Vec<u32> {
+        (0..excluded.len()).map(|number| self.add_sum(excluded.key(number))).collect()
+    }
+
+    fn write(&mut self, member: u32, &sum: &u32, _excluded: &[u32]) {
         let corner = self.grouped.triangulation.good.corners.as_flattened()[member as usize];
         let slots = &mut self.sums.of_corner[corner as usize];
         slots[usize::from(slots[0] != NONE)] = sum;

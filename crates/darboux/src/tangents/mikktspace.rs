@@ -12,11 +12,12 @@ pub(crate) mod degenerate;
 pub(crate) mod derivatives;
 pub(crate) mod evaluate;
 pub(crate) mod groups;
-pub(crate) mod prefix_sums;
 pub(crate) mod raw_frames;
 pub(crate) mod repair_corners;
 pub(crate) mod signs;
+pub(crate) mod sorted_sums;
 pub(crate) mod subgroups;
+pub(crate) mod sums_without;
 pub(crate) mod welded_mesh;
 
 use crate::Frame;

@@ -36,7 +36,7 @@ impl<T> InsertionMap<T> {
 
 /// Keys, numbered in insertion order. Open addressing with linear probing.
 #[derive(Debug)]
-struct KeyTable {
+pub(crate) struct KeyTable {
     /// The keys, concatenated.
     words: Vec<u32>,
     /// The end of each key in `words`.
@@ -50,12 +50,25 @@ struct KeyTable {
 const FREE: u32 = u32::MAX;
 
 impl KeyTable {
-    fn new() -> Self {
-        Self { words: Vec::new(), ends: Vec::new(), slots: vec![FREE; 4], factor: random_bits() | 1 }
+    pub fn new() -> Self {
+        Self::with_capacity(2)
+    }
+
+    /// A table that does not grow before it has `count` keys.
+    pub fn with_capacity(count: usize) -> Self {
+        let slots = vec![FREE; (2 * count).next_power_of_two()];
+        Self { words: Vec::new(), ends: Vec::new(), slots, factor: random_bits() | 1 }
+    }
+
+    /// A table of one key without words.
+    pub fn of_empty_key() -> Self {
+        let mut table = Self::with_capacity(1);
+        table.insert(&[]);
+        table
     }
 
     /// The number of a key, which is inserted if it is absent.
-    fn insert(&mut self, key: &[u32]) -> usize {
+    pub fn insert(&mut self, key: &[u32]) -> usize {
         let mut slot = self.slot(key);
         if self.slots[slot] == FREE {
             if 2 * self.ends.len() >= self.slots.len() {
@@ -87,7 +100,18 @@ impl KeyTable {
         }
     }
 
-    fn key(&self, number: usize) -> &[u32] {
+    /// The number of keys.
+    pub fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// The length of all keys together.
+    pub fn word_count(&self) -> usize {
+        self.words.len()
+    }
+
+    /// The key of a number.
+    pub fn key(&self, number: usize) -> &[u32] {
         let start = if number == 0 { 0 } else { self.ends[number - 1] };
         &self.words[start..self.ends[number]]
     }

@@ -1,9 +1,10 @@
-//! Lookup of opposite directions: lists the candidates whose dot product with a given unit vector may be -1.
+//! Lookup of opposite directions: lists the directions whose dot product with a given unit vector is -1 or less.
 //!
-//! Unit vectors are stored in the cells of a cubic grid of 1/256. Vectors opposite to `v` lie in the cells around `-v`.
+//! Unit vectors are stored in the cells of a cubic grid of 1/256. Vectors opposite to `v` lie in the cells around `-v`, and are compared
+//! with it in blocks, without branches.
 
 use crate::math::{V3, dot, scale};
-use crate::util::radix_sort::{pair, second, sort};
+use crate::util::radix_sort::{first, pair, second, sort};
 
 /// An upper bound of |a + b| for unit vectors a and b (|a|^2 within 1e-6 of 1) whose rounded dot product is -1 or less.
 ///
@@ -13,11 +14,18 @@ const REACH: f32 = 1.0 / 512.0;
 /// The inverse of the cell size. A cell is twice the reach, so that a search visits at most two cells along each axis.
 const CELLS_PER_UNIT: f32 = 256.0;
 
+/// The number of directions that are compared at once.
+const BLOCK: usize = 16;
+
 /// Directions, sorted by grid cell.
 #[derive(Debug, Default)]
 pub(crate) struct AntipodeGrid {
-    /// Pairs of cell and index of the direction, sorted. Neighbouring cells along z are adjacent.
-    cells: Vec<u64>,
+    /// The cells that are not empty, and the end of each in the arrays below. Neighbouring cells along z are adjacent.
+    cells: Vec<u32>,
+    ends: Vec<u32>,
+    /// The indices and the coordinates of unit vectors, by cell.
+    indices: Vec<u32>,
+    axes: [Vec<f32>; 3],
     /// The indices of directions that may be opposite to anything: long vectors and NaN.
     irregular: Vec<u32>,
 }
@@ -44,35 +52,45 @@ impl Length {
 }
 
 impl AntipodeGrid {
-    /// `directions`: pairs of index and direction.
-    pub fn new(directions: impl Iterator<Item = (u32, V3)>) -> Self {
+    /// The directions `direction(index)` of `indices`.
+    pub fn new(indices: impl Iterator<Item = u32>, direction: impl Fn(u32) -> V3) -> Self {
         let mut grid = Self::default();
-        for (index, direction) in directions {
+        let mut cells = Vec::new();
+        for index in indices {
+            let direction = direction(index);
             match Length::of(direction) {
-                Length::Unit => grid.cells.push(pair(cell(direction.map(cell_of)), index)),
+                Length::Unit => cells.push(pair(cell(direction.map(cell_of)), index)),
                 Length::Short => {}
                 Length::Irregular => grid.irregular.push(index),
             }
         }
-        sort(&mut grid.cells);
+        sort(&mut cells);
+        for cells in cells.chunk_by(|a, b| first(*a) == first(*b)) {
+            grid.cells.push(first(cells[0]));
+            for index in cells.iter().map(|&cell| second(cell)) {
+                grid.indices.push(index);
+                grid.axes.iter_mut().zip(direction(index)).for_each(|(axis, x)| axis.push(x));
+            }
+            grid.ends.push(grid.indices.len() as u32);
+        }
         grid
     }
 
     /// Calls `visit` with the indices of all directions that may be opposite to `direction`.
     ///
-    /// `None` where every direction is a candidate, or more than `limit` are.
-    pub fn for_each_candidate(&self, direction: V3, limit: usize, mut visit: impl FnMut(u32)) -> Option<()> {
+    /// `None` where every direction may be, or more than `limit` directions would be compared.
+    pub fn for_each_opposite(&self, direction: V3, limit: usize, mut visit: impl FnMut(u32)) -> Option<()> {
         match Length::of(direction) {
             Length::Irregular => return None,
             Length::Short => {}
             Length::Unit => {
                 let mut count = 0;
-                for cells in self.cells_around(scale(-1.0, direction)) {
-                    count += cells.len();
+                for (start, end) in self.ranges_around(scale(-1.0, direction)) {
+                    count += end - start;
                     if count > limit {
                         return None;
                     }
-                    cells.iter().for_each(|&cell| visit(second(cell)));
+                    self.compare(direction, start, end, &mut visit);
                 }
             }
         }
@@ -80,14 +98,29 @@ impl AntipodeGrid {
         Some(())
     }
 
-    /// The entries of the cells within reach of `middle`.
-    fn cells_around(&self, middle: V3) -> impl Iterator<Item = &[u64]> {
+    /// Calls `visit` with the indices of the directions from `start` to `end` whose dot product with `direction` is -1 or less.
+    fn compare(&self, direction: V3, start: usize, end: usize, visit: &mut impl FnMut(u32)) {
+        let [x, y, z] = self.axes.each_ref().map(|axis| &axis[start..end]);
+        for (block, indices) in self.indices[start..end].chunks(BLOCK).enumerate() {
+            let from = block * BLOCK;
+            let [x, y, z] = [x, y, z].map(|axis| &axis[from..from + indices.len()]);
+            let is_opposite = |at: usize| dot(direction, [x[at], y[at], z[at]]) <= -1.0;
+            if (0..indices.len()).fold(false, |any, at| any | is_opposite(at)) {
+                (0..).zip(indices).filter(|(at, _)| is_opposite(*at)).for_each(|(_, &index)| visit(index));
+            }
+        }
+    }
+
+    /// The ranges of directions in the cells within reach of `middle`.
+    fn ranges_around(&self, middle: V3) -> impl Iterator<Item = (usize, usize)> {
         let [[x0, x1], [y0, y1], [z0, z1]] = middle.map(|x| [cell_of(x - REACH), cell_of(x + REACH)]);
         let columns =
             (x0..=x1).flat_map(move |x| (y0..=y1).map(move |y| [cell([x, y, z0]), cell([x, y, z1])]));
-        columns.map(|[first, last]| {
-            let from = &self.cells[self.cells.partition_point(|&cell| cell < pair(first, 0))..];
-            &from[..from.partition_point(|&cell| cell <= pair(last, u32::MAX))]
+        let end_before = |at: usize| if at == 0 { 0 } else { self.ends[at - 1] as usize };
+        columns.map(move |[first, last]| {
+            let from = self.cells.partition_point(|&cell| cell < first);
+            let count = self.cells[from..].iter().take_while(|&&cell| cell <= last).count();
+            (end_before(from), end_before(from + count))
         })
     }
 }
@@ -108,27 +141,25 @@ mod tests {
     use crate::math::normalized_unless_zero;
 
     #[test]
-    fn nothing_opposite_is_missed() {
+    fn all_that_are_opposite_are_found() {
         let circle = |at: u32| {
             let (y, x) = (at as f32 * 0.001_570_796_4).sin_cos();
             normalized_unless_zero([x, 0.6 * y, 0.8 * y])
         };
         let special = [[0.0; 3], [f32::NAN; 3], [-1.1, 0.0, 0.0], [0.5, 0.0, 0.0]];
         let directions: Vec<V3> = (0..4000).map(circle).chain(special).collect();
-        let grid = AntipodeGrid::new((0..).zip(directions.iter().copied()));
-        let (mut apart, mut candidates) = (0, 0);
+        let grid = AntipodeGrid::new(0..4004, |index| directions[index as usize]);
+        let mut count = 0;
         for &direction in &directions[..4000] {
             let mut found = Vec::new();
-            grid.for_each_candidate(direction, usize::MAX, |index| found.push(index))
-                .expect("of unit length");
-            candidates += found.len();
-            for (index, other) in (0..).zip(&directions) {
-                if dot(direction, *other) <= -1.0 {
-                    apart += 1;
-                    assert!(found.contains(&index), "{direction:?} and {other:?}");
-                }
-            }
+            grid.for_each_opposite(direction, usize::MAX, |index| found.push(index)).expect("of unit length");
+            found.sort_unstable();
+            let opposite = |index: &u32| dot(direction, directions[*index as usize]) <= -1.0;
+            let mut expected: Vec<u32> = (0..4000).filter(opposite).collect();
+            count += expected.len();
+            expected.extend([4001, 4002]);
+            assert_eq!(found, expected, "{direction:?}");
         }
-        assert!(apart >= 1000 && candidates < 4000 * 40, "{apart} of {candidates}");
+        assert!(count >= 1000, "{count}");
     }
 }

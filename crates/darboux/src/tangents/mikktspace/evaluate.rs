@@ -8,30 +8,27 @@
 //!         frame = sum, normalised; corner = frame, or the average where the other half of a quad has written it before
 //! ```
 //!
-//! A group whose members all join, which is nearly every group, is summed once. In other groups, prefix sums skip most additions
-//! ([`crate::tangents::mikktspace::prefix_sums`]).
+//! A group whose members all join, which is nearly every group, is summed once. In other groups, the subgroups share most of the work of
+//! their additions ([`crate::tangents::mikktspace::sums_without`]).
 //!
 //! Source: mikktspace.c, `GenerateTSpaces`, `EvalTspace`, `AvgTSpace`. We deviate: the reference lists, sorts and compares the members of
 //! every subgroup; here a subgroup is the list of the members that it excludes.
 
 use std::cell::OnceCell;
-use std::ops::Range;
 
 use crate::Frame;
 use crate::exec::limits::RunLimits;
 use crate::math::{V3, add, angle, direction_in_plane, dot, equal, normalized_unless_zero, scale, sub};
 use crate::topology::triangles::Triangles;
+use crate::util::hash_map::KeyTable;
 
 use crate::tangents::mikktspace::derivatives::Derivative;
 use crate::tangents::mikktspace::groups::Groups;
-use crate::tangents::mikktspace::prefix_sums::{PrefixSums, TermLanes};
 use crate::tangents::mikktspace::raw_frames::RawFrames;
 use crate::tangents::mikktspace::subgroups::{SubgroupFinder, SubgroupVisitor, included};
+use crate::tangents::mikktspace::sums_without::{TermLanes, TermList};
 use crate::tangents::mikktspace::welded_mesh::WeldedMesh;
 use crate::tangents::repair::{is_usable, mean_in_plane};
-
-/// The memory per group for finding members with equal subgroups.
-const CACHE_BYTES: usize = 1 << 24;
 
 /// What evaluation reads besides the groups: the derivatives of all triangles, and the normal of each group's vertex.
 #[derive(Clone, Debug, Default)]
@@ -73,16 +70,16 @@ pub(crate) fn evaluate(
 ) -> RawFrames {
     let corner_count = welded.corner_count();
     let raw = RawFrames { of_corner: initial, mean_of_corner: vec![[0.0; 3]; corner_count] };
-    let (written, sums, tangents) = (vec![false; corner_count], PrefixSums::default(), Vec::new());
+    let (written, terms, tangents) = (vec![false; corner_count], TermList::default(), Vec::new());
     let limits = options.limits;
     let mut evaluator =
-        Evaluator { triangles, values, welded, sums, tangents, sign: 1.0, written, raw, limits };
+        Evaluator { triangles, values, welded, terms, tangents, sign: 1.0, written, raw, limits };
     let mut subgroups = SubgroupFinder::new(options.threshold_cosine);
     for group in (0..groups.len()).take_while(|_| !limits.is_cancelled()) {
         let members = groups.members(group);
         subgroups.load(triangles, members, &membership.derivatives, membership.normal_of_group[group]);
         evaluator.load(subgroups.members(), values.normal_of_group[group], groups.preserves(group));
-        subgroups.visit(members, CACHE_BYTES, &mut evaluator);
+        subgroups.visit(members, &mut evaluator);
     }
     evaluator.raw
 }
@@ -92,7 +89,7 @@ struct Evaluator<'a> {
     values: &'a GroupInputs,
     welded: &'a WeldedMesh<'a>,
     /// The terms of the current group's members, ascending. UV-degenerate members have none.
-    sums: PrefixSums,
+    terms: TermList,
     /// The tangents of the members' triangles, for repairs.
     tangents: Vec<V3>,
     /// The sign of the current group.
@@ -103,10 +100,9 @@ struct Evaluator<'a> {
     limits: RunLimits<'a>,
 }
 
-/// One subgroup's frame, its excluded members, and the mean of its tangents, which is computed when the frame is unusable.
+/// One subgroup's frame, and the mean of its tangents, which is computed when the frame is unusable.
 struct Subgroup {
     frame: Frame,
-    excluded: Vec<Range<usize>>,
     mean: OnceCell<Option<V3>>,
 }
 
@@ -117,7 +113,7 @@ impl Evaluator<'_> {
         self.sign = if preserves { 1.0 } else { -1.0 };
         self.tangents.clear();
         self.tangents.extend(members.iter().map(|member| derivative(member).s));
-        self.sums.load(members.iter().map(|member| {
+        self.terms.load(members.iter().map(|member| {
             let (triangle, k) = (*member as usize / 3, *member as usize % 3);
             let positions = || self.welded.positions(self.triangles, triangle);
             (!derivative(member).joins_any).then(|| term(derivative(member), positions(), k, normal))
@@ -128,14 +124,15 @@ impl Evaluator<'_> {
 impl SubgroupVisitor for Evaluator<'_> {
     type Subgroup = Subgroup;
 
-    fn compute(&mut self, excluded: &[Range<usize>]) -> Subgroup {
-        let frame = frame(&self.sums.sum_without(excluded), self.sign);
-        Subgroup { frame, excluded: excluded.to_vec(), mean: OnceCell::new() }
+    fn compute(&mut self, excluded: &KeyTable) -> Vec<Subgroup> {
+        let sums = self.terms.sums_without(excluded, || self.limits.is_cancelled());
+        let subgroup = |sum| Subgroup { frame: frame(sum, self.sign), mean: OnceCell::new() };
+        sums.iter().map(subgroup).collect()
     }
 
     /// Writes the frame to the member's corner. The corners of a quad's diagonal may be written twice and then have the average. The order
     /// of the writes matters only where both frames differ in nothing but the sign of a zero.
-    fn write(&mut self, member: u32, subgroup: &Subgroup) {
+    fn write(&mut self, member: u32, subgroup: &Subgroup, excluded: &[u32]) {
         let corner = self.triangles.corners.as_flattened()[member as usize];
         let slot = &mut self.raw.of_corner[corner as usize];
         let is_second = std::mem::replace(&mut self.written[corner as usize], true);
@@ -146,8 +143,8 @@ impl SubgroupVisitor for Evaluator<'_> {
         }
         let normal = self.welded.normal(corner);
         if !is_usable(slot.tangent, normal) {
-            let members = || included(self.tangents.len(), &subgroup.excluded);
-            let tangents = || members().filter(|&at| self.sums.has_term(at)).map(|at| self.tangents[at]);
+            let members = || included(self.tangents.len(), excluded);
+            let tangents = || members().filter(|&at| self.terms.has_term(at)).map(|at| self.tangents[at]);
             if let Some(found) = subgroup.mean.get_or_init(|| mean_in_plane(tangents(), normal)) {
                 *mean = *found;
             }

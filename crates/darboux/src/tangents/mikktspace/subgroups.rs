@@ -20,12 +20,9 @@
 //!
 //! Source: mikktspace.c, `GenerateTSpaces`.
 
-use std::ops::Range;
-use std::rc::Rc;
-
 use crate::math::{V3, direction_in_plane, dot};
 use crate::topology::triangles::Triangles;
-use crate::util::hash_map::InsertionMap;
+use crate::util::hash_map::{InsertionMap, KeyTable};
 use crate::util::radix_sort::sort;
 
 use crate::tangents::mikktspace::antipodes::AntipodeGrid;
@@ -34,19 +31,21 @@ use crate::tangents::mikktspace::derivatives::Derivative;
 /// In groups up to this size all pairs are compared, without the test of the mean direction.
 const SMALL_GROUP: usize = 8;
 
-/// An estimate of the bytes that a cached subgroup takes besides its excluded ranges.
-const SUBGROUP_BYTES: usize = 128;
+/// The most distinct subgroups that are computed at once, and the most numbers in the lists of their excluded members: limits of the memory.
+const MAX_SUBGROUPS: usize = if cfg!(small_limits) { 20 } else { 1 << 18 };
+const MAX_WORDS: usize = if cfg!(small_limits) { 200 } else { 1 << 23 };
 
 /// Receives the subgroups of one group.
 pub(crate) trait SubgroupVisitor {
-    /// What is computed once per distinct subgroup.
+    /// What is computed once per subgroup.
     type Subgroup;
 
-    /// Computes the subgroup of all members but `excluded`: ranges of indices into [`SubgroupFinder::members`], ascending and disjoint.
-    fn compute(&mut self, excluded: &[Range<usize>]) -> Self::Subgroup;
+    /// Computes the subgroups of all members but those of each key of `excluded`: the starts and ends of ranges of indices into
+    /// [`SubgroupFinder::members`], ascending and disjoint.
+    fn compute(&mut self, excluded: &KeyTable) -> Vec<Self::Subgroup>;
 
-    /// Assigns a subgroup to a member.
-    fn write(&mut self, member: u32, subgroup: &Self::Subgroup);
+    /// Assigns a subgroup to a member. `excluded`: the key of the subgroup.
+    fn write(&mut self, member: u32, subgroup: &Self::Subgroup, excluded: &[u32]);
 
     /// True ends the visit early.
     fn is_stopped(&self) -> bool;
@@ -104,40 +103,44 @@ impl SubgroupFinder {
         &self.members
     }
 
-    /// Calls `visitor` with the subgroup of every member.
-    ///
-    /// `members`: the loaded members in the order of the writes. `cache_bytes`: the memory for finding members with equal subgroups;
-    /// beyond it, equal subgroups may be computed again.
-    pub fn visit<V: SubgroupVisitor>(&mut self, members: &[u32], cache_bytes: usize, visitor: &mut V) {
-        if self.all_join() {
-            let subgroup = visitor.compute(&[]);
-            members.iter().for_each(|&member| visitor.write(member, &subgroup));
-            return;
+    /// Calls `visitor` with the subgroup of every member. `members`: the loaded members in the order of the writes.
+    pub fn visit<V: SubgroupVisitor>(&mut self, members: &[u32], visitor: &mut V) {
+        let all_join = self.all_join();
+        let mut rest = members;
+        while !rest.is_empty() && !visitor.is_stopped() {
+            let (excluded, subgroup_of_member) = if all_join {
+                (KeyTable::of_empty_key(), vec![0; rest.len()])
+            } else {
+                self.find_subgroups(rest, &*visitor)
+            };
+            let subgroups = visitor.compute(&excluded);
+            for (&member, &number) in rest.iter().zip(&subgroup_of_member) {
+                visitor.write(member, &subgroups[number as usize], excluded.key(number as usize));
+            }
+            rest = &rest[subgroup_of_member.len()..];
         }
-        let mut of_representative: Vec<Option<Rc<V::Subgroup>>> = vec![None; members.len()];
-        let mut of_excluded: InsertionMap<Rc<V::Subgroup>> = InsertionMap::new();
-        let (mut excluded, mut key, mut bytes) = (Vec::new(), Vec::new(), 0);
+    }
+
+    /// The distinct subgroups of the first members, as many as the limits of the memory allow: the excluded ranges of each, and the subgroup
+    /// of each member.
+    fn find_subgroups<V: SubgroupVisitor>(&mut self, members: &[u32], visitor: &V) -> (KeyTable, Vec<u32>) {
+        let mut distinct = KeyTable::with_capacity(members.len().min(MAX_SUBGROUPS));
+        let mut of_member = Vec::new();
+        let mut of_representative = vec![u32::MAX; self.members.len()];
+        let mut excluded = Vec::new();
         for &member in members {
-            if visitor.is_stopped() {
-                return;
+            let is_full = distinct.len() >= MAX_SUBGROUPS || distinct.word_count() >= MAX_WORDS;
+            if is_full || visitor.is_stopped() {
+                break;
             }
             let at = self.representative(self.members.partition_point(|&other| other < member));
-            if let Some(subgroup) = &of_representative[at] {
-                visitor.write(member, subgroup);
-                continue;
+            if of_representative[at] == u32::MAX {
+                self.find_excluded(at, &mut excluded);
+                of_representative[at] = distinct.insert(&excluded) as u32;
             }
-            self.find_excluded(at, &mut excluded);
-            key.clear();
-            key.extend(excluded.iter().flat_map(|gap| [gap.start as u32, gap.end as u32]));
-            let cached = of_excluded.get(&key).map(|subgroup| Rc::clone(subgroup));
-            let subgroup = cached.unwrap_or_else(|| Rc::new(visitor.compute(&excluded)));
-            visitor.write(member, &subgroup);
-            bytes += SUBGROUP_BYTES + 2 * size_of_val(excluded.as_slice());
-            if bytes <= cache_bytes {
-                of_excluded.get_or_insert_with(&key, || Rc::clone(&subgroup));
-                of_representative[at] = Some(subgroup);
-            }
+            of_member.push(of_representative[at]);
         }
+        (distinct, of_member)
     }
 
     /// True when every member joins every other.
@@ -151,8 +154,8 @@ impl SubgroupFinder {
             return true;
         }
         self.antipodes = Some([&self.s, &self.t].map(|axes| {
-            let counted = (0..count).filter(|&at| !self.joins_any[at]);
-            AntipodeGrid::new(counted.map(|at| (at as u32, direction(axes, at))))
+            let counted = (0..count as u32).filter(|&at| !self.joins_any[at as usize]);
+            AntipodeGrid::new(counted, |at| direction(axes, at as usize))
         }));
         self.find_representatives();
         let mut excluded = Vec::new();
@@ -185,17 +188,17 @@ impl SubgroupFinder {
         if self.antipodes.is_some() { self.representative[at] as usize } else { at }
     }
 
-    /// Writes the members that member `at` does not join to `excluded`, ascending.
-    fn find_excluded(&mut self, at: usize, excluded: &mut Vec<Range<usize>>) {
+    /// Writes the starts and ends of the ranges of members that member `at` does not join to `excluded`, ascending.
+    fn find_excluded(&mut self, at: usize, excluded: &mut Vec<u32>) {
         excluded.clear();
         if self.joins_any[at] {
             return;
         }
         if self.find_candidates(at).is_some() {
-            self.candidates.iter().for_each(|&other| push(excluded, other as usize));
+            self.candidates.iter().for_each(|&other| push(excluded, other));
         } else {
             self.compare_with_all(at);
-            let apart = self.joins.iter().enumerate().filter(|(_, joins)| !**joins);
+            let apart = (0..).zip(&self.joins).filter(|(_, joins)| !**joins);
             apart.for_each(|(other, _)| push(excluded, other));
         }
     }
@@ -212,8 +215,8 @@ impl SubgroupFinder {
         };
         // For more candidates than this, comparing with all is faster.
         let limit = self.members.len() / 8;
-        let found = of_s.for_each_candidate(direction(&self.s, at), limit, &mut test);
-        let found = found.and_then(|()| of_t.for_each_candidate(direction(&self.t, at), limit, &mut test));
+        let found = of_s.for_each_opposite(direction(&self.s, at), limit, &mut test);
+        let found = found.and_then(|()| of_t.for_each_opposite(direction(&self.t, at), limit, &mut test));
         sort(&mut apart);
         apart.dedup();
         self.candidates = apart;
@@ -271,10 +274,11 @@ impl SubgroupFinder {
     }
 }
 
-/// The indices below `count` that are not in `excluded`, ascending.
-pub(crate) fn included(count: usize, excluded: &[Range<usize>]) -> impl Iterator<Item = usize> {
-    let starts = [0].into_iter().chain(excluded.iter().map(|gap| gap.end));
-    let ends = excluded.iter().map(|gap| gap.start).chain([count]);
+/// The indices below `count` that are not in `excluded`, ascending. `excluded`: the starts and ends of ranges.
+pub(crate) fn included(count: usize, excluded: &[u32]) -> impl Iterator<Item = usize> {
+    let (gaps, _) = excluded.as_chunks();
+    let starts = [0].into_iter().chain(gaps.iter().map(|[_, end]| *end as usize));
+    let ends = gaps.iter().map(|[start, _]| *start as usize).chain([count]);
     starts.zip(ends).flat_map(|(start, end)| start..end)
 }
 
@@ -283,10 +287,10 @@ fn direction(axes: &[Vec<f32>; 3], at: usize) -> V3 {
     axes.each_ref().map(|x| x[at])
 }
 
-/// Appends an index that is above all of `ranges`.
-fn push(ranges: &mut Vec<Range<usize>>, next: usize) {
+/// Appends an index that is above all of `ranges`, which are starts and ends.
+fn push(ranges: &mut Vec<u32>, next: u32) {
     match ranges.last_mut() {
-        Some(last) if last.end == next => last.end += 1,
-        _ => ranges.push(next..next + 1),
+        Some(end) if *end == next => *end += 1,
+        _ => ranges.extend([next, next + 1]),
     }
 }
