@@ -441,7 +441,8 @@ typedef struct darboux_tangent_options {
   darboux_mode mode;
   /// The angular threshold of MikkTSpace in degrees: faces around a vertex share a tangent while their tangents and their bitangents
   /// differ by less. 0 stands for 180, which is what bakers use; for a threshold of zero, pass 0.001, which gives the same bits. Must be
-  /// 0 for all other methods.
+  /// 0 for all other methods. Below 180 the faces around a vertex are compared in pairs: a vertex with 20,000 faces takes about 2 s, one
+  /// with 100,000 about a minute.
   float threshold;
   /// Must be 0. It is space for an option of a later version.
   uint32_t reserved;

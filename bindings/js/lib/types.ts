@@ -16,7 +16,10 @@ export type Mode = 'reference' | 'repaired' | 'corrected';
 export interface MikkTSpaceOptions {
   /** Default: 'repaired'. */
   mode?: Mode | null;
-  /** Degrees. Faces around a vertex share a tangent if their tangents and bitangents differ by less. Default: 180. */
+  /**
+   * Degrees. Faces around a vertex share a tangent if their tangents and bitangents differ by less. Default: 180. Below 180 the faces
+   * are compared in pairs, which takes a time that grows with the square of their number.
+   */
   threshold?: number | null;
   /** Default: 3. Faces with another number of corners than 3 or 4 get tangents that depend on their normals only. */
   faces?: Faces | null;

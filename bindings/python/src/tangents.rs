@@ -36,6 +36,7 @@ use crate::threads::cancellable;
 ///     'corrected': repaired, and the known defects corrected.
 /// threshold : float
 ///     For 'mikktspace', in degrees: faces around a vertex share a tangent if their tangents and bitangents differ by less.
+///     Below 180 the faces are compared in pairs: a vertex with 20,000 faces takes about 2 s, one with 100,000 about a minute.
 /// full : bool
 ///     Return Frames instead: tangent, bitangent and magnitude.
 /// threads : int, optional

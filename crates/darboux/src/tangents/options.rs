@@ -79,6 +79,9 @@ pub struct MikkTSpaceOptions {
     pub mode: Mode,
     /// Angular threshold in degrees: faces around a vertex share a tangent while their tangents and their bitangents differ by less.
     /// Default: 180, which is what bakers use. Any value is accepted; its cosine is compared.
+    ///
+    /// Below 180 the faces around a vertex are compared in pairs, unless all are near their mean: a vertex with 20,000 faces takes about 2 s,
+    /// one with 100,000 about a minute.
     pub threshold: f32,
 }
 
