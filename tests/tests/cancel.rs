@@ -2,11 +2,13 @@
 
 use std::time::Duration;
 
+use darboux::internal::cancel_checks::{cancel_after, check_count};
+use darboux::internal::gpu_resume;
 use darboux::{
-    Cancel, Context, CornerNormals, Error, Frame, Mesh, MikkTSpaceOptions, NormalOptions, NormalPlan, Plan,
-    Splitter, TangentOptions, generate_compact_frames, generate_frames_with, generate_normals_with,
-    generate_tangents_with, measure_tangents_with, measure_uv_fidelity_with, split_normals_with,
-    split_vertices_with, write_frames, write_tangents,
+    Cancel, Context, CornerNormals, CornerTangentsRef, Error, Frame, Mesh, Method, MikkTSpaceOptions,
+    NormalOptions, NormalPlan, Plan, Splitter, TangentOptions, generate_compact_frames, generate_frames_with,
+    generate_normals_with, generate_tangents_with, measure_tangents_with, measure_uv_fidelity_with,
+    split_normals_with, split_vertices_with, write_frames, write_tangents,
 };
 use darboux_tests::{OwnedMesh, families};
 
@@ -112,6 +114,98 @@ fn every_function_returns_that_it_was_cancelled() {
             assert!(results(&mut context, &mesh, &plan, &normals).iter().all(Result::is_ok));
         });
     }
+}
+
+const METHODS: [Method; 9] = [
+    Method::MikkTSpace(MikkTSpaceOptions::new()),
+    // This threshold leaves nothing to the fast path.
+    Method::MikkTSpace(MikkTSpaceOptions::new().with_threshold(0.0)),
+    Method::AngleArea,
+    Method::Lengyel,
+    Method::LengyelPerVertex,
+    Method::Average,
+    Method::Area,
+    Method::Face,
+    Method::FromNormal,
+];
+
+/// A call of the library with a context.
+type Call<'a> = Box<dyn Fn(&mut Context) -> Result<(), Error> + Sync + 'a>;
+
+/// Every long computation, by every method.
+fn computations<'a>(mesh: &'a Mesh<'a>, plans: &'a [Plan], welded: &'a [u32]) -> Vec<(String, Call<'a>)> {
+    let mut calls: Vec<(String, Call<'a>)> = Vec::new();
+    for (method, plan) in METHODS.into_iter().zip(plans) {
+        let options = TangentOptions::from(method);
+        let mut add = |what: &str, call: Call<'a>| calls.push((format!("{what} {method:?}"), call));
+        add("tangents", Box::new(move |context| generate_tangents_with(mesh, &options, context).map(drop)));
+        add("frames", Box::new(move |context| generate_frames_with(mesh, &options, context).map(drop)));
+        add("plan", Box::new(move |context| Plan::new_with(mesh, &options, context).map(drop)));
+        add("evaluation", Box::new(move |context| plan.evaluate_with(mesh, context).map(drop)));
+    }
+    let mut add = |what: &str, call: Call<'a>| calls.push((what.to_owned(), call));
+    let creased = NormalOptions::new().with_crease(30.0);
+    add(
+        "normals",
+        Box::new(move |context| {
+            let (positions, indices) = (mesh.positions(), mesh.indices());
+            generate_normals_with(positions, indices, mesh.faces(), &creased, context).map(drop)
+        }),
+    );
+    add(
+        "completion of a GPU's run",
+        Box::new(move |context| {
+            let mut out = vec![[0.0, 0.0, 0.0, gpu_resume::UNDECIDED]; mesh.corner_count()];
+            let options = MikkTSpaceOptions::new();
+            gpu_resume::complete(mesh, &options, welded.to_vec(), context, &mut out).map(drop)
+        }),
+    );
+    let tangents = plans[0].base().corners.per_corner();
+    add("comparison", Box::new(move |context| measure_tangents_with(tangents, tangents, context).map(drop)));
+    add("fidelity", Box::new(move |context| measure_uv_fidelity_with(mesh, tangents, context).map(drop)));
+    add(
+        "split",
+        Box::new(move |context| {
+            split_vertices_with(mesh, CornerTangentsRef::from_per_corner(tangents), context).map(drop)
+        }),
+    );
+    calls
+}
+
+/// The time depends on the machine, so this counts checks of the token instead: a call checks it often enough, and once it is cancelled
+/// makes only as many further checks as there are stages and threads.
+#[test]
+fn every_computation_checks_the_token_regularly_and_stops_soon() {
+    const TRIANGLES_PER_CHECK: usize = 1 << 14;
+    const CHECKS_AFTER: usize = 48;
+    let mesh = families::grid(150, 150, false, true);
+    let mesh = &mesh.view();
+    let welded: Vec<u32> = (0..mesh.vertex_count() as u32).collect();
+    let plans = METHODS.map(|method| Plan::new(mesh, &TangentOptions::from(method)));
+    let mut failures = Vec::new();
+    for threads in [1, 3] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
+        for (name, call) in &computations(mesh, &plans, &welded) {
+            let checks_of = |limit| {
+                let cancel = cancel_after(limit);
+                let mut context = Context::new().with_cancel(&cancel).with_max_threads(threads);
+                let result = pool.install(|| call(&mut context));
+                (result, check_count(&cancel))
+            };
+            let (result, all) = checks_of(usize::MAX);
+            if result.is_err() || all < mesh.face_count() / TRIANGLES_PER_CHECK {
+                failures.push(format!("{name}: {all} checks, {result:?}"));
+            }
+            for limit in (0..5).map(|fifths| all * fifths / 5) {
+                let (result, made) = checks_of(limit);
+                if result != Err(Error::Cancelled) || made - limit > CHECKS_AFTER {
+                    failures
+                        .push(format!("{name}: cancelled at {limit} of {all}, {made} checks, {result:?}"));
+                }
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{failures:#?}");
 }
 
 #[test]

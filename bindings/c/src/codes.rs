@@ -234,7 +234,7 @@ macro_rules! from_code {
             $(if code == $codes::$code as u32 {
                 return Ok($value);
             })*
-            Err(Error::new(darboux_status::UnknownValue, format!("{code} is no {}", $what)))
+            Err(Error::new(darboux_status::UnknownValue, format!("{code} is not a value of {}", $what)))
         }
     };
 }

@@ -176,8 +176,8 @@ export interface GpuTangentOptions extends MikkTSpaceOptions {
 /** The result of a run on WebGPU. */
 export interface GpuTangents extends ReportedTangents {
   /** The number of corners that the CPU computed: rare cases, and corners whose last bits the device's floats leave open. */
-  cornersOfCpu: number;
+  cpuCorners: number;
   /** Why the CPU computed all corners: 'faces' that are not triangles, or 'values' that are not finite, huge, or zeros of different signs. Null
    * where it did not. */
-  leftToCpu: 'faces' | 'values' | null;
+  cpuFallback: 'faces' | 'values' | null;
 }

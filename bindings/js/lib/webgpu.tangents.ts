@@ -41,18 +41,18 @@ export async function generateTangents(
   const buffer = options?.buffer;
   const input = gpuResume.checkGpuInput(positions, normals, uvs, indices, options);
   if (buffer) checkOutputBuffer(buffer, indices?.length ?? positions.length / 3);
-  const onCpu = (leftToCpu: GpuTangents['leftToCpu']): GpuTangents => {
+  const onCpu = (cpuFallback: GpuTangents['cpuFallback']): GpuTangents => {
     const result = generateOnCpu(positions, normals, uvs, indices, { ...options, returnReport: true });
-    return { ...result, cornersOfCpu: result.tangents.length / 4, leftToCpu };
+    return { ...result, cpuCorners: result.tangents.length / 4, cpuFallback };
   };
   const onGpu = async (mesh: Mesh): Promise<GpuTangents | null> => {
     const { refused, welded, tangents: started } = await runPasses(device, mesh, buffer);
     if (refused[0]) return null;
-    const { corners: cornersOfCpu, ...result } = gpuResume.complete(positions, normals, uvs, mesh.indices, options, welded, started);
-    return { ...result, cornersOfCpu, leftToCpu: null };
+    const { corners: cpuCorners, ...result } = gpuResume.complete(positions, normals, uvs, mesh.indices, options, welded, started);
+    return { ...result, cpuCorners, cpuFallback: null };
   };
   const result = input ? ((await onGpu({ ...input, positions, normals, uvs })) ?? onCpu('values')) : onCpu('faces');
-  if (buffer && result.cornersOfCpu) device.queue.writeBuffer(buffer, 0, result.tangents);
+  if (buffer && result.cpuCorners) device.queue.writeBuffer(buffer, 0, result.tangents);
   return result;
 }
 

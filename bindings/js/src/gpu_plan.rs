@@ -14,7 +14,7 @@ pub extern "C" fn plan_topology(mode: u32, threshold: f32, max_members: usize) -
         let topology = match PlanArrays::new(&mesh, &tangent_options(mode, threshold, 0), max_members) {
             Ok(topology) => topology,
             Err(PlanRefusal::TooManyMembers { members, .. }) => return members as i32,
-            Err(PlanRefusal::HalvesDisagree { .. } | PlanRefusal::OtherMethod) => return -1,
+            Err(PlanRefusal::QuadHalvesDiffer { .. } | PlanRefusal::OtherMethod) => return -1,
         };
         let (sum_of_vertex, split_vertices) = match topology.sum_of_vertex(&mesh) {
             Ok(sums) => (sums, 0),

@@ -2,7 +2,7 @@
 
 use darboux::internal::gpu_resume;
 
-use crate::arena::with_arena;
+use crate::arena::{Arena, with_arena};
 use crate::options::mikkt_options;
 
 /// The cosine of an angular threshold, which the shaders compare with.
@@ -18,10 +18,13 @@ pub extern "C" fn complete_tangents(mode: u32, threshold: f32) -> i32 {
     with_arena(|arena| {
         let mut tangents = std::mem::take(&mut arena.extras.given_tangents);
         let welded = std::mem::take(&mut arena.extras.welded_vertices);
-        let Some(mesh) = arena.mesh() else { return -1 };
-        let options = mikkt_options(mode, threshold);
-        let (report, corners) = gpu_resume::complete(&mesh, &options, welded, tangents.as_chunks_mut().0);
-        (arena.extras.given_tangents, arena.report) = (tangents, report);
+        let Arena { vertices, surface, report, context, extras, .. } = arena;
+        let Some(mesh) = vertices.mesh(surface) else { return -1 };
+        let (options, out) = (mikkt_options(mode, threshold), tangents.as_chunks_mut().0);
+        let Ok((counts, corners)) = gpu_resume::complete(&mesh, &options, welded, context, out) else {
+            return -1;
+        };
+        (extras.given_tangents, *report) = (tangents, counts);
         corners as i32
     })
 }

@@ -40,12 +40,12 @@ export async function adapters(document: Document, sphere: SphereGeometry): Prom
 
 export async function tangentsOnGpu(buffer: GPUBuffer): Promise<number> {
   const device = await openDevice();
-  const { cornersOfCpu }: GpuTangents = await onGpu(device, floats, floats, floats, null, { returnReport: true });
+  const { cpuCorners }: GpuTangents = await onGpu(device, floats, floats, floats, null, { returnReport: true });
   const tangents: Float32Array<ArrayBuffer> = await onGpu(device, floats, floats, floats, null, { mode: 'corrected', threshold: 60, buffer });
   // @ts-expect-error: shaders have one method
   await onGpu(device, floats, floats, floats, null, { method: 'lengyel' });
   const texts: readonly string[] = shaders.scan;
-  return cornersOfCpu + tangents.length + texts.length;
+  return cpuCorners + tangents.length + texts.length;
 }
 
 export { diamond, largest, loaded, octahedral, sources, tangents };

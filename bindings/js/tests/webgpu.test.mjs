@@ -19,7 +19,7 @@ const faults = [];
 
 before(async () => {
   if (skip) return;
-  const texts = { example: `${example}\nexport { device, tangents, report, cornersOfCpu };` };
+  const texts = { example: `${example}\nexport { device, tangents, report, cpuCorners };` };
   ({ browser, page } = await open(fileURLToPath(new URL('browser/webgpu.mjs', import.meta.url)), texts));
   page.on('pageerror', (error) => faults.push(error.message));
   await page.evaluate(() => tested.ready);
@@ -44,9 +44,9 @@ onGpu('the corpus has the bits of the native library', async () => {
 
 onGpu('meshes have the bits of the CPU, and what it did is counted', async () => {
   const of = async (name, options = {}) => {
-    const { differing, isReported, corners, cornersOfCpu, leftToCpu } = await page.evaluate(([name, options]) => tested.onBothSides(name, options), [name, options]);
+    const { differing, isReported, corners, cpuCorners, cpuFallback } = await page.evaluate(([name, options]) => tested.onBothSides(name, options), [name, options]);
     assert.deepEqual([differing, isReported], [0, true], `${name} ${JSON.stringify(options)}`);
-    return leftToCpu ?? cornersOfCpu / Math.max(corners, 1);
+    return cpuFallback ?? cpuCorners / Math.max(corners, 1);
   };
   for (const name of ['waves', 'waves, indices of 16 bits', 'waves without indices', 'no triangles']) assert.equal(await of(name), 0, name);
   for (const name of ['mirrored squares', 'seams', 'degenerates', 'soup']) {
@@ -85,12 +85,12 @@ onGpu('what does not fit is said', async () => {
 });
 
 onGpu('the example of the README', async () => {
-  const { tangents, cornersOfCpu, triangles } = await page.evaluate(async () => {
-    const { tangents, cornersOfCpu, report } = await tested.example();
-    return { tangents: Array.from(tangents), cornersOfCpu, triangles: report.triangles };
+  const { tangents, cpuCorners, triangles } = await page.evaluate(async () => {
+    const { tangents, cpuCorners, report } = await tested.example();
+    return { tangents: Array.from(tangents), cpuCorners, triangles: report.triangles };
   });
   assert.deepEqual(tangents, Array.from({ length: 6 }, () => [1, 0, 0, 1]).flat());
-  assert.deepEqual([cornersOfCpu, triangles], [0, 2]);
+  assert.deepEqual([cpuCorners, triangles], [0, 2]);
 });
 
 test('without an adapter the error says what to do', async () => {

@@ -99,7 +99,7 @@ fn converted_indices<'py>(
     change: &Conversion,
 ) -> PyResult<Bound<'py, PyAny>> {
     let indices = IndexArray::new(Some(indices))?;
-    let view = indices.view()?;
+    let view = indices.view();
     let sizes = FaceSizes::new(faces, &indices, 0)?;
     let converted = py.detach(|| {
         let mut list = owned(view).unwrap_or_default();

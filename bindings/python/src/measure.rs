@@ -88,7 +88,7 @@ pub fn measure_uv_fidelity<'py>(
     let indices = IndexArray::new(indices)?;
     let tangents = Rows::new("tangents", "C", tangents)?;
     let tangents = tangents.packed()?;
-    let (positions, uvs, list) = (positions.view()?, uvs.view()?, indices.view()?);
+    let (positions, uvs, list) = (positions.view()?, uvs.view()?, indices.view());
     let faces = FaceSizes::new(faces, &indices, positions.len())?;
     let found = cancellable(py, None, (tangents.len(), false), &mut Context::new(), |context| {
         let unread = Strided::repeated(&[0.0; 3], positions.len());

@@ -1,10 +1,10 @@
-//! The mesh arguments of a call: arrays that stay borrowed while the core reads them.
+//! The mesh arguments of a call. Arrays of floats stay borrowed while the core reads them; indices are copied.
 
 use std::fmt::Display;
 
 use darboux::{Faces, Indices, Mesh};
 use numpy::prelude::*;
-use numpy::{Element, PyReadonlyArrayDyn, PyUntypedArray};
+use numpy::{Element, PyUntypedArray};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -15,7 +15,7 @@ pub struct MeshArrays<'py> {
     positions: Rows<'py, 3>,
     normals: Rows<'py, 3>,
     pub uvs: Rows<'py, 2>,
-    indices: IndexArray<'py>,
+    indices: IndexArray,
     pub faces: FaceSizes,
 }
 
@@ -38,8 +38,7 @@ impl<'py> MeshArrays<'py> {
     /// The mesh as a view for the core.
     pub fn view(&self) -> PyResult<Mesh<'_>> {
         let (positions, normals, uvs) = (self.positions.view()?, self.normals.view()?, self.uvs.view()?);
-        Mesh::with_faces(positions, normals, uvs, self.indices.view()?, self.faces.view())
-            .map_err(value_error)
+        Mesh::with_faces(positions, normals, uvs, self.indices.view(), self.faces.view()).map_err(value_error)
     }
 }
 
@@ -57,23 +56,23 @@ pub fn owned(indices: Indices<'_>) -> Option<Vec<u32>> {
     }
 }
 
-/// Indices: borrowed from numpy if they are packed uint16 or uint32, otherwise copied.
-pub struct IndexArray<'py> {
-    list: IndexList<'py>,
+/// A copy of the indices. They are never borrowed: the core checks once that they are in range, and another thread of the program could
+/// change numpy's memory after that.
+pub struct IndexArray {
+    list: IndexList,
     /// Their shape in Python.
     pub shape: Vec<usize>,
 }
 
-enum IndexList<'py> {
+enum IndexList {
     Absent,
-    U16(PyReadonlyArrayDyn<'py, u16>),
-    U32(PyReadonlyArrayDyn<'py, u32>),
-    Copied(Vec<u32>),
+    U16(Vec<u16>),
+    U32(Vec<u32>),
 }
 
-impl<'py> IndexArray<'py> {
+impl IndexArray {
     /// Indices of shape (C,), (F, 3) or (F, 4), of any integer type; `None` if corner i is vertex i.
-    pub fn new(value: Option<&Bound<'py, PyAny>>) -> PyResult<Self> {
+    pub fn new(value: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
         let Some(value) = value else { return Ok(Self { list: IndexList::Absent, shape: Vec::new() }) };
         let array = array_of("indices", value)?;
         let shape = array.shape().to_vec();
@@ -91,28 +90,34 @@ impl<'py> IndexArray<'py> {
         (!matches!(self.list, IndexList::Absent)).then(|| self.shape.iter().product())
     }
 
-    pub fn view(&self) -> PyResult<Indices<'_>> {
-        Ok(match &self.list {
+    pub fn view(&self) -> Indices<'_> {
+        match &self.list {
             IndexList::Absent => Indices::Unindexed,
-            IndexList::U16(array) => Indices::U16(array.as_slice()?),
-            IndexList::U32(array) => Indices::U32(array.as_slice()?),
-            IndexList::Copied(list) => Indices::U32(list),
+            IndexList::U16(list) => Indices::U16(list),
+            IndexList::U32(list) => Indices::U32(list),
+        }
+    }
+}
+
+impl IndexList {
+    fn new(array: &Bound<'_, PyUntypedArray>) -> PyResult<Self> {
+        let dtype = array.dtype();
+        Ok(match (dtype.kind(), dtype.itemsize()) {
+            (b'u', 2) => Self::U16(copied(array)?),
+            (b'u', 4) => Self::U32(copied(array)?),
+            (b'u' | b'i', _) => Self::U32(unsigned("indices", array)?),
+            // numpy converts an empty list to floats.
+            _ if array.is_empty() => Self::U32(Vec::new()),
+            _ => return Err(wrong_type("indices", "integers", array)),
         })
     }
 }
 
-impl<'py> IndexList<'py> {
-    fn new(array: &Bound<'py, PyUntypedArray>) -> PyResult<Self> {
-        let dtype = array.dtype();
-        Ok(match (dtype.kind(), dtype.itemsize()) {
-            (b'u', 2) => Self::U16(packed(array)?),
-            (b'u', 4) => Self::U32(packed(array)?),
-            (b'u' | b'i', _) => Self::Copied(unsigned("indices", array)?),
-            // numpy converts an empty list to floats.
-            _ if array.is_empty() => Self::Copied(Vec::new()),
-            _ => return Err(wrong_type("indices", "integers", array)),
-        })
-    }
+/// A copy of the elements.
+fn copied<T: Element + Copy + Send + Sync>(array: &Bound<'_, PyUntypedArray>) -> PyResult<Vec<T>> {
+    let packed = packed::<T>(array)?;
+    let elements = packed.as_slice()?;
+    Ok(array.py().detach(|| elements.to_vec()))
 }
 
 /// The elements of an array of integers as 32-bit ones.
@@ -140,7 +145,7 @@ fn narrowed<T: Element + Copy + Display + Sync>(
     match array.py().detach(narrow) {
         Ok(narrowed) => Ok(narrowed),
         Err(at) => Err(PyValueError::new_err(format!(
-            "{name} holds {} at place {at}, which is no 32-bit unsigned number",
+            "{name} holds {} at place {at}, which is not a 32-bit unsigned number",
             numbers[at]
         ))),
     }
@@ -158,7 +163,7 @@ impl FaceSizes {
     /// triangles.
     pub fn new(
         value: Option<&Bound<'_, PyAny>>,
-        indices: &IndexArray<'_>,
+        indices: &IndexArray,
         vertex_count: usize,
     ) -> PyResult<Self> {
         let Some(value) = value else {

@@ -82,7 +82,7 @@ pub fn generate_normals<'py>(
     let options = normal_options(shading, weight, crease, seams)?;
     let positions = Rows::<3>::new("positions", "V", positions)?;
     let indices = IndexArray::new(indices)?;
-    let (positions, list) = (positions.view()?, indices.view()?);
+    let (positions, list) = (positions.view()?, indices.view());
     let faces = FaceSizes::new(faces, &indices, positions.len())?;
     let size = (indices.len().unwrap_or(positions.len()), false);
     let generate = |context: &mut Context| {

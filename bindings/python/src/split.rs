@@ -47,7 +47,7 @@ pub fn split_vertices<'py>(
     let tangents = tangents.packed()?;
     check_corners(&indices, "tangents", tangents.len())?;
     check_vertex_count(vertex_count, tangents.len())?;
-    let list = indices.view()?;
+    let list = indices.view();
     let split = py.detach(|| {
         // Splitting needs only the vertex count and the corners, here as one large face.
         let (nothing, uvs) =
@@ -98,7 +98,7 @@ pub fn split_normals<'py>(
     let normals = normals.packed()?;
     check_corners(&indices, "normals", normals.len())?;
     check_vertex_count(vertex_count, normals.len())?;
-    let list = indices.view()?;
+    let list = indices.view();
     let split = py
         .detach(|| darboux::split_normals(vertex_count, list, CornerNormalsRef::from_per_corner(&normals)))
         .map_err(value_error)?;
@@ -132,7 +132,7 @@ fn check_vertex_count(vertex_count: usize, corners: usize) -> PyResult<()> {
 }
 
 /// Errors: the number of values differs from the number of corners.
-fn check_corners(indices: &IndexArray<'_>, what: &'static str, found: usize) -> PyResult<()> {
+fn check_corners(indices: &IndexArray, what: &'static str, found: usize) -> PyResult<()> {
     match indices.len() {
         Some(expected) if expected != found => {
             Err(value_error(darboux::Error::InputLength { what, expected, found }))

@@ -107,6 +107,32 @@ def test_a_call_that_keeps_the_gil_is_seen() -> None:
     assert not lets_others_run(lambda: sorted(range(2000)))
 
 
+@pytest.mark.parametrize("type_of_index", ["u2", "u4"])
+def test_indices_that_another_thread_changes_meanwhile(type_of_index: str) -> None:
+    """A call either returns or refuses the mesh: it reads the indices once, before it checks them."""
+    mesh = grid(120, 120)
+    positions, normals, uvs, indices = mesh.arrays
+    indices = indices.astype(type_of_index)
+    good, bad, done = indices.copy(), np.full_like(indices, np.iinfo(type_of_index).max), threading.Event()
+
+    def change() -> None:
+        while not done.is_set():
+            indices[:] = bad
+            indices[:] = good
+
+    other = threading.Thread(target=change)
+    other.start()
+    try:
+        for _ in range(200):
+            try:
+                darboux.generate_tangents(positions, normals, uvs, indices)
+            except ValueError as error:
+                assert "out of range" in str(error)
+    finally:
+        done.set()
+        other.join()
+
+
 def test_many_threads_get_the_same() -> None:
     mesh = large()
     expected = darboux.generate_tangents(*mesh.arrays).tobytes()

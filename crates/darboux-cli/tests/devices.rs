@@ -31,10 +31,10 @@ fn a_gpu_writes_the_files_of_the_cpu() {
         assert!(cpu == gpu, "{model}");
         assert_eq!((of_cpu["kind"].as_str(), of_gpu["kind"].as_str()), (Some("cpu"), Some("gpu")), "{model}");
         assert!(of_cpu["adapter"].is_null() && of_gpu["adapter"].is_string(), "{model}");
-        assert_eq!(of_cpu["corners_of_cpu"], of_cpu["corners"], "{model}");
+        assert_eq!(of_cpu["cpu_corners"], of_cpu["corners"], "{model}");
         assert_eq!(of_gpu["corners"], of_cpu["corners"], "{model}");
         // A plan on the CPU moves morph targets.
-        let all_on_cpu = of_gpu["corners_of_cpu"] == of_gpu["corners"];
+        let all_on_cpu = of_gpu["cpu_corners"] == of_gpu["corners"];
         assert_eq!(all_on_cpu, model == "made/meshopt.glb", "{model}: {of_gpu}");
     }
 }

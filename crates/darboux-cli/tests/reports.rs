@@ -42,7 +42,7 @@ fn the_tangents_report_has_the_documented_fields() {
         keys(&file["totals"]),
         ["written", "kept", "skipped", "without_normals", "triangles", "vertices_before", "vertices_after"]
     );
-    assert_eq!(keys(&file["device"]), ["kind", "adapter", "corners", "corners_of_cpu"]);
+    assert_eq!(keys(&file["device"]), ["kind", "adapter", "corners", "cpu_corners"]);
     let written = &file["primitives"][0];
     let counts = [
         "triangles",

@@ -149,8 +149,8 @@ impl GpuError {
     /// The error for a mesh that the core does not plan for a GPU.
     pub(crate) fn of_refusal(reason: PlanRefusal) -> Self {
         match reason {
-            PlanRefusal::HalvesDisagree { corners } => Self::QuadHalvesDiffer { corners },
-            PlanRefusal::OtherMethod => Self::UnsupportedMethod,
+            PlanRefusal::QuadHalvesDiffer { corners } => Self::QuadHalvesDiffer { corners },
+            PlanRefusal::OtherMethod => Self::OtherMethod,
             PlanRefusal::TooManyMembers { members, limit } => Self::TooManyMembers { members, limit },
         }
     }

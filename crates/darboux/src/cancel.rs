@@ -1,7 +1,7 @@
 //! A request to stop a running call from another thread.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// A cancellation token, shared by its clones.
 ///
@@ -23,7 +23,21 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Debug, Default)]
-pub struct Cancel(Arc<AtomicBool>);
+pub struct Cancel(Arc<State>);
+
+#[derive(Debug, Default)]
+struct State {
+    is_cancelled: AtomicBool,
+    /// For tests only.
+    countdown: Option<Countdown>,
+}
+
+/// Counts the checks of a token, and cancels it at a given one.
+#[derive(Debug)]
+struct Countdown {
+    checks: AtomicUsize,
+    limit: usize,
+}
 
 impl Cancel {
     /// A token that is not cancelled.
@@ -33,11 +47,27 @@ impl Cancel {
 
     /// Cancels all calls that have a clone of this token. Any thread may call it.
     pub fn cancel(&self) {
-        self.0.store(true, Ordering::Relaxed);
+        self.0.is_cancelled.store(true, Ordering::Relaxed);
     }
 
     /// True once the token was cancelled.
     pub fn is_cancelled(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
+        if let Some(countdown) = &self.0.countdown
+            && countdown.checks.fetch_add(1, Ordering::Relaxed) >= countdown.limit
+        {
+            self.cancel();
+        }
+        self.0.is_cancelled.load(Ordering::Relaxed)
+    }
+
+    /// A token that is cancelled by the check after `limit` checks, for tests.
+    pub(crate) fn after_checks(limit: usize) -> Self {
+        let countdown = Some(Countdown { checks: AtomicUsize::new(0), limit });
+        Self(Arc::new(State { countdown, ..State::default() }))
+    }
+
+    /// The number of checks of a token from [`Cancel::after_checks`]; 0 for other tokens.
+    pub(crate) fn checks(&self) -> usize {
+        self.0.countdown.as_ref().map_or(0, |countdown| countdown.checks.load(Ordering::Relaxed))
     }
 }

@@ -1,5 +1,6 @@
 //! What other crates of this workspace need and users do not. No promise of stability.
 
+pub mod cancel_checks;
 pub mod gpu_plan;
 pub mod gpu_resume;
 pub mod stage_arrays;

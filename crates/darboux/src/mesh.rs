@@ -245,25 +245,12 @@ impl<'a> Mesh<'a> {
         Ok(mesh)
     }
 
-    /// Other faces over the same vertices; `indices` are in range, and as many as the sum of `sizes`.
-    pub(crate) fn with_other_faces<'b>(&self, indices: &'b [u32], sizes: &'b [u32]) -> Mesh<'b>
+    /// Other faces over the same vertices. The caller guarantees that `indices` are in range and make whole faces.
+    pub(crate) fn with_other_faces<'b>(&self, indices: Indices<'b>, faces: Faces<'b>) -> Mesh<'b>
     where
         'a: 'b,
     {
-        Mesh {
-            indices: Indices::U32(indices),
-            faces: Faces::Mixed(sizes),
-            corner_count: indices.len(),
-            ..*self
-        }
-    }
-
-    /// Other faces over the same vertices, with as many corners; indices are in range.
-    pub(crate) fn on_faces<'b>(&self, indices: Indices<'b>, faces: Faces<'b>) -> Mesh<'b>
-    where
-        'a: 'b,
-    {
-        Mesh { indices, faces, ..*self }
+        Mesh { indices, faces, corner_count: indices.corner_count(self.vertex_count()), ..*self }
     }
 
     fn check_faces(&self) -> Result<(), Error> {

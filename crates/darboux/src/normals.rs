@@ -23,6 +23,7 @@ use crate::SplitBuffer;
 use crate::Splitter;
 use crate::Strided;
 use crate::exec::limits::RunLimits;
+use crate::exec::threads;
 use crate::math::angle;
 use crate::math_f64::{D3, cross, dot, length, sub, unit};
 
@@ -241,7 +242,7 @@ impl NormalPlan {
         let fans = polygons.sums(&mesh, &self.fan_of_corner, self.weight, limits);
         let mut repaired_corners = 0;
         let mut vertices = None;
-        let normal = |corner: usize| {
+        let mut normal = |corner: usize| {
             let found = fans[self.fan_of_corner[corner] as usize].direction();
             repaired_corners += usize::from(found.is_none());
             let own = || polygons.normal_of_face[polygons.face_of_corner[corner] as usize];
@@ -251,7 +252,8 @@ impl NormalPlan {
             };
             found.or_else(own).or_else(of_vertex).unwrap_or([0.0, 0.0, 1.0]).map(|x| x as f32)
         };
-        let corners = CornerNormals((0..mesh.corner_count()).map(normal).collect());
+        let mut corners = Vec::with_capacity(mesh.corner_count());
+        limits.parts(0..mesh.corner_count()).for_each(|part| corners.extend(part.map(&mut normal)));
         limits.check()?;
         let report = NormalReport {
             faces: mesh.face_count(),
@@ -259,7 +261,7 @@ impl NormalPlan {
             repaired_corners,
             creased_edges: self.creased_edges,
         };
-        Ok(Normals { corners, report })
+        Ok(Normals { corners: CornerNormals(corners), report })
     }
 }
 
@@ -473,13 +475,14 @@ fn fans(
 ) -> Result<(Vec<u32>, usize), Error> {
     let mut creased_edges = 0;
     let least_cosine = f64::from(crease.max(0.0)).to_radians().cos();
-    let mut edges: Vec<([u32; 2], u32)> = (0..vertex_of_corner.len())
-        .map(|corner| {
-            let ends = [corner, polygons.around(corner)[1]].map(|corner| vertex_of_corner[corner]);
-            ([ends[0].min(ends[1]), ends[0].max(ends[1])], corner as u32)
-        })
-        .collect();
+    let edge = |corner: usize| {
+        let ends = [corner, polygons.around(corner)[1]].map(|corner| vertex_of_corner[corner]);
+        ([ends[0].min(ends[1]), ends[0].max(ends[1])], corner as u32)
+    };
+    let mut edges: Vec<([u32; 2], u32)> = threads::map(limits, vertex_of_corner.len(), edge);
+    limits.check()?;
     edges.sort_unstable();
+    limits.check()?;
     let mut fan_of_corner: Vec<u32> = (0..vertex_of_corner.len() as u32).collect();
     for (at, [(ends, a), (others, b)]) in edges.array_windows().enumerate() {
         limits.check_at(at)?;

@@ -9,16 +9,16 @@ use crate::Mesh;
 use crate::TangentOptions;
 use crate::Tangents;
 use crate::generate_tangents_with;
-use crate::tangents::Planned;
+use crate::tangents::MethodPlan;
 
 /// The weld, groups and subgroups of one mesh, kept to evaluate tangents again after its vertices moved (morph targets, skinning).
 ///
 /// For MikkTSpace on faces of 3 and 4 corners the plan also keeps a copy of all vertices, 32 bytes each. They are needed when the fast path
-/// does not apply to the moved mesh: welded vertices moved apart, or a tangent became zero. Of the other methods only
+/// does not apply to the moved mesh: welded vertices moved apart, or a tangent became zero. Among the other methods, only
 /// [`Method::AngleArea`](crate::Method::AngleArea) has groups to keep; the rest compute everything again except the signs.
 #[derive(Debug)]
 pub struct Plan {
-    planned: Planned,
+    method_plan: MethodPlan,
     options: TangentOptions,
     vertex_count: usize,
     faces: FaceList,
@@ -62,7 +62,7 @@ impl FaceList {
             FaceSizes::Four => Faces::Quads,
             FaceSizes::Mixed(sizes) => Faces::Mixed(sizes),
         };
-        mesh.on_faces(self.indices.as_ref().map_or(Indices::Unindexed, Indices::from), faces)
+        mesh.with_other_faces(self.indices.as_ref().map_or(Indices::Unindexed, Indices::from), faces)
     }
 }
 
@@ -80,9 +80,9 @@ impl Plan {
 
     /// The plan is not usable after cancellation.
     fn make(mesh: &Mesh<'_>, options: &TangentOptions, context: &mut Context) -> Self {
-        let (planned, base) = Planned::new(mesh, options, context.limits());
+        let (method_plan, base) = MethodPlan::new(mesh, options, context.limits());
         let faces = FaceList::new(mesh);
-        Self { planned, options: *options, vertex_count: mesh.vertex_count(), faces, base }
+        Self { method_plan, options: *options, vertex_count: mesh.vertex_count(), faces, base }
     }
 
     /// The base's own tangents, as [`crate::generate_tangents`] gives them.
@@ -123,7 +123,7 @@ impl Plan {
         Error::check_output("tangents", base.len(), corners.len())?;
         Error::check_mesh("vertices", self.vertex_count, mesh.vertex_count())?;
         let (limits, memory) = context.limits_and_memory();
-        self.planned.evaluate(&self.faces.over(mesh), (&self.options, base), limits, memory, corners);
+        self.method_plan.evaluate(&self.faces.over(mesh), (&self.options, base), limits, memory, corners);
         limits.check()
     }
 

@@ -31,7 +31,7 @@ pub use crate::tangents::frames::{
 };
 pub use crate::tangents::generate::Tangents;
 use crate::tangents::generate::{generate, run};
-pub(crate) use crate::tangents::method_plan::Planned;
+pub(crate) use crate::tangents::method_plan::MethodPlan;
 pub use crate::tangents::options::{Method, MikkTSpaceOptions, Mode, TangentOptions};
 pub use crate::tangents::report::Report;
 

@@ -57,7 +57,7 @@ fn broken_meshes_are_refused() {
     refused(&darboux_mesh { position_stride: 11, ..good }, Stride, "stride of positions is 11 bytes");
     refused(&darboux_mesh { normal_stride: 1, ..good }, Stride, "stride of normals is 1 bytes");
     refused(&darboux_mesh { uv_stride: 7, ..good }, Stride, "stride of uvs is 7 bytes");
-    refused(&darboux_mesh { faces: 3, ..good }, UnknownValue, "3 is no darboux_faces");
+    refused(&darboux_mesh { faces: 3, ..good }, UnknownValue, "3 is not a value of darboux_faces");
     refused(&darboux_mesh { indices_u16: dangling(), ..good }, UnknownValue, "both set");
     let odd = good.indices_u32.cast::<u8>().wrapping_add(1).cast();
     refused(&darboux_mesh { indices_u32: odd, ..good }, Alignment, "multiple of 4");

@@ -192,7 +192,7 @@ static void errors() {
   expect(darboux::generate_tangents(mesh).corners.empty(), "an empty index list");
   darboux_tangent_options options = {};
   options.mode = darboux_mode(9);
-  expect_error(DARBOUX_STATUS_UNKNOWN_VALUE, "9 is no darboux_mode", [&] { darboux::generate_tangents(mesh, options); });
+  expect_error(DARBOUX_STATUS_UNKNOWN_VALUE, "9 is not a value of darboux_mode", [&] { darboux::generate_tangents(mesh, options); });
 }
 
 /// Every thread has its own error message.

@@ -10,7 +10,7 @@
 
 use darboux::internal::gpu_resume;
 use darboux::{
-    CornerTangents, Faces, Indices, Mesh, Method, MikkTSpaceOptions, TangentOptions, Tangents,
+    Context, CornerTangents, Faces, Indices, Mesh, Method, MikkTSpaceOptions, TangentOptions, Tangents,
     generate_tangents,
 };
 use wgpu::{CommandEncoder, Device, Queue};
@@ -133,7 +133,9 @@ impl MikkTSpace {
         };
         let indexed = Mesh::triangles(mesh.positions(), mesh.normals(), mesh.uvs(), Indices::U32(&indices));
         let indexed = indexed.expect("the same triangles");
-        let (report, cpu_corners) = gpu_resume::complete(&indexed, mikkt, welded_vertex, &mut tangents);
+        let context = &mut Context::new();
+        let (report, cpu_corners) =
+            gpu_resume::complete(&indexed, mikkt, welded_vertex, context, &mut tangents)?;
         let tangents = Tangents { corners: CornerTangents::from_per_corner(tangents), report };
         Ok(GpuTangents { tangents, cpu_corners, cpu_fallback: None })
     }

@@ -3,6 +3,8 @@
 //! A public function takes them from its [`Context`](crate::Context) once and passes the copy to every stage, also to stages that run
 //! on the threads of a pool. Nothing depends on the thread that a stage runs on.
 
+use std::ops::Range;
+
 use crate::Error;
 use crate::cancel::Cancel;
 use crate::exec::simd::{Width, WidthLimit};
@@ -28,7 +30,7 @@ impl Default for RunLimits<'_> {
     }
 }
 
-impl RunLimits<'_> {
+impl<'a> RunLimits<'a> {
     /// True once the call was cancelled.
     #[inline]
     pub fn is_cancelled(&self) -> bool {
@@ -44,6 +46,13 @@ impl RunLimits<'_> {
     #[inline]
     pub fn check_at(&self, index: usize) -> Result<(), Error> {
         if index.is_multiple_of(CHECK_INTERVAL) { self.check() } else { Ok(()) }
+    }
+
+    /// The consecutive parts of a range. The token is checked before each part; after cancellation there are no further parts.
+    pub fn parts(self, range: Range<usize>) -> impl Iterator<Item = Range<usize>> + use<'a> {
+        let end = range.end;
+        let part = move |start: usize| start..end.min(start + CHECK_INTERVAL);
+        range.step_by(CHECK_INTERVAL).map_while(move |start| (!self.is_cancelled()).then(|| part(start)))
     }
 
     /// How many threads share work of so many triangles: at most as many as the current thread pool has.

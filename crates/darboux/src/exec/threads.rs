@@ -37,11 +37,14 @@ pub(crate) fn run<W: Send, P: Send>(
     }
 }
 
-/// The values of a function for all numbers below `count`, computed on all threads.
+/// The values of a function for all numbers below `count`, computed on all threads. There are fewer after cancellation.
 pub(crate) fn map<T: Send>(limits: RunLimits<'_>, count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let threads = limits.thread_count(count);
     let mut lists: Vec<Vec<T>> = (0..threads).map(|_| Vec::new()).collect();
-    run(&mut lists, split_range(0..count, threads, 1), |list, range| *list = range.map(&of).collect());
+    run(&mut lists, split_range(0..count, threads, 1), |list, range| {
+        list.reserve_exact(range.len());
+        limits.parts(range).for_each(|part| list.extend(part.map(&of)));
+    });
     lists
         .into_iter()
         .reduce(|mut all, mut more| {
@@ -51,27 +54,34 @@ pub(crate) fn map<T: Send>(limits: RunLimits<'_>, count: usize, of: impl Fn(usiz
         .unwrap_or_default()
 }
 
-/// Sets every element to the value of a function for its index, on all threads. A single thread allocates nothing.
+/// Sets every element to the value of a function for its index, on all threads. A single thread allocates nothing. After cancellation the
+/// remaining elements stay as they are.
 pub(crate) fn fill<T: Send>(limits: RunLimits<'_>, slice: &mut [T], of: impl Fn(usize) -> T + Sync) {
     update(limits, slice, |at, element| *element = of(at));
 }
 
-/// Calls a function with the index of every element and the element, on all threads. A single thread allocates nothing.
+/// Calls a function with the index of every element and the element, on all threads. A single thread allocates nothing. After cancellation
+/// the remaining elements are skipped.
 pub(crate) fn update<T: Send>(limits: RunLimits<'_>, slice: &mut [T], with: impl Fn(usize, &mut T) + Sync) {
     let threads = limits.thread_count(slice.len());
     let ranges = split_range(0..slice.len(), threads, 1);
     let jobs = split_slice(slice, 0, ranges.clone()).zip(ranges);
     run(&mut vec![(); threads], jobs, |(), (part, range)| {
-        part.iter_mut().zip(range).for_each(|(element, at)| with(at, element));
+        let first = range.start;
+        for elements in limits.parts(range) {
+            let of_elements = &mut part[elements.start - first..elements.end - first];
+            of_elements.iter_mut().zip(elements).for_each(|(element, at)| with(at, element));
+        }
     });
 }
 
-/// True when a predicate holds for all numbers below `count`, tested on all threads. A single thread allocates nothing.
+/// True when a predicate holds for all numbers below `count`, tested on all threads. A single thread allocates nothing. The result is
+/// unspecified after cancellation.
 pub(crate) fn all(limits: RunLimits<'_>, count: usize, predicate: impl Fn(usize) -> bool + Sync) -> bool {
     let threads = limits.thread_count(count);
     let holds = AtomicBool::new(true);
-    run(&mut vec![(); threads], split_range(0..count, threads, 1), |(), mut range| {
-        if !range.all(&predicate) {
+    run(&mut vec![(); threads], split_range(0..count, threads, 1), |(), range| {
+        if !limits.parts(range).all(|mut part| part.all(&predicate)) {
             holds.store(false, Ordering::Relaxed);
         }
     });

@@ -25,7 +25,7 @@ pub const VERTEX_MASK: u32 = SECOND_FLAG - 1;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlanRefusal {
     /// Some corners of quads have the average of two tangents, or copy a tangent from the other half of the quad by position.
-    HalvesDisagree {
+    QuadHalvesDiffer {
         /// The number of these corners.
         corners: usize,
     },
@@ -78,7 +78,7 @@ impl PlanArrays {
         let stages = Stages::new(mesh, &mikkt, limit).ok_or_else(|| too_many(limit + 1, limit))?;
         match corners_of_both_halves(&stages) {
             0 => {}
-            corners => return Err(PlanRefusal::HalvesDisagree { corners }),
+            corners => return Err(PlanRefusal::QuadHalvesDiffer { corners }),
         }
         let base = generate_tangents(mesh, options).corners;
         let repairs = mikkt.mode != Mode::Reference;

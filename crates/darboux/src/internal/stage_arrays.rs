@@ -60,11 +60,12 @@ pub struct SubgroupSums {
 impl Stages {
     /// Runs every exact stage. `None` where the members of all sums would exceed `limit`.
     pub fn new(mesh: &Mesh<'_>, options: &MikkTSpaceOptions, limit: usize) -> Option<Self> {
-        let triangulation = triangulate(mesh);
-        let neighbours = neighbours(&triangulation.good, edge_order(options));
-        let derivatives = quad_derivatives(&triangulation.good, &WeldedMesh::new(mesh), RunLimits::default());
+        let limits = RunLimits::default();
+        let triangulation = triangulate(mesh, limits);
+        let neighbours = neighbours(&triangulation.good, edge_order(options), limits);
+        let derivatives = quad_derivatives(&triangulation.good, &WeldedMesh::new(mesh), limits);
         let stages = (&neighbours[..], derivatives.clone());
-        let grouped = GroupedMesh::from_stages(mesh, triangulation, stages, |_| true, options);
+        let grouped = GroupedMesh::from_stages(mesh, triangulation, stages, |_| true, (options, limits));
         let threshold_cosine = cosine_of_degrees(options.threshold);
         Some(Self {
             neighbours,

@@ -37,14 +37,15 @@ use crate::tangents::output::Output;
 use crate::tangents::repair::{across, direction, in_plane, mean_in_plane, perpendicular, u_direction_of};
 use crate::tangents::report::count_split_vertices;
 
-/// Runs the method.
+/// Runs the method. The corners are unspecified after cancellation.
 pub(crate) fn run<O: Output>(
     mesh: &Mesh<'_>,
     limits: RunLimits<'_>,
     buffers: &mut GroupBuffers,
     corners: &mut [O],
 ) -> Report {
-    on_pool(mesh, limits, || plan_and_report(mesh, limits, buffers, corners).1)
+    on_pool(mesh, limits, || plan_and_report(mesh, limits, buffers, corners))
+        .map_or_else(Report::default, |(_, report)| report)
 }
 
 /// Runs all stages in one visit of the thread pool.
@@ -52,12 +53,12 @@ fn on_pool<R: Send>(mesh: &Mesh<'_>, limits: RunLimits<'_>, work: impl FnOnce() 
     threads::on_pool(limits.thread_count(mesh.face_count()), work)
 }
 
-/// Computes the plan, the tangents and the report of a mesh.
-pub(crate) fn plan(mesh: &Mesh<'_>, limits: RunLimits<'_>) -> (AngleAreaPlan, Vec<[f32; 4]>, Report) {
+/// Computes the plan, the tangents and the report of a mesh. `None` after cancellation.
+pub(crate) fn plan(mesh: &Mesh<'_>, limits: RunLimits<'_>) -> Option<(AngleAreaPlan, Vec<[f32; 4]>, Report)> {
     let mut corners = vec![Output::EMPTY; mesh.corner_count()];
     let buffers = &mut GroupBuffers::default();
-    let (plan, report) = on_pool(mesh, limits, || plan_and_report(mesh, limits, buffers, &mut corners));
-    (plan, corners, report)
+    let (plan, report) = on_pool(mesh, limits, || plan_and_report(mesh, limits, buffers, &mut corners))?;
+    Some((plan, corners, report))
 }
 
 fn plan_and_report<O: Output>(
@@ -65,12 +66,13 @@ fn plan_and_report<O: Output>(
     limits: RunLimits<'_>,
     buffers: &mut GroupBuffers,
     corners: &mut [O],
-) -> (AngleAreaPlan, Report) {
-    let (plan, mut report) = AngleAreaPlan::new(mesh, limits, buffers);
+) -> Option<(AngleAreaPlan, Report)> {
+    let (plan, mut report) = AngleAreaPlan::new(mesh, limits, buffers)?;
     let slices = MeshSlices::new(mesh);
     report.repaired_corners = plan.frames(&slices, &WeldedMesh::new(mesh), limits, buffers, corners);
-    report.split_vertices = count_split_vertices(mesh, corners);
-    (plan, report)
+    limits.check().ok()?;
+    report.split_vertices = count_split_vertices(mesh, corners, limits);
+    Some((plan, report))
 }
 
 /// The triangulation, the groups and the orientations of a mesh, to evaluate it again after its vertices moved.
@@ -85,25 +87,33 @@ pub(crate) struct AngleAreaPlan {
 }
 
 impl AngleAreaPlan {
-    /// Builds the groups. Leaves the derivatives in `buffers`, and returns the counts that do not depend on evaluation.
-    pub(crate) fn new(mesh: &Mesh<'_>, limits: RunLimits<'_>, buffers: &mut GroupBuffers) -> (Self, Report) {
+    /// Builds the groups. Leaves the derivatives in `buffers`, and returns the counts that do not depend on evaluation. `None` after
+    /// cancellation.
+    pub(crate) fn new(
+        mesh: &Mesh<'_>,
+        limits: RunLimits<'_>,
+        buffers: &mut GroupBuffers,
+    ) -> Option<(Self, Report)> {
         let (slices, welded) = (MeshSlices::new(mesh), WeldedMesh::new(mesh));
-        let triangulation = triangulate(mesh);
+        let triangulation = triangulate(mesh, limits);
         let good = &triangulation.good;
         let mut derivatives = derivatives(good, &welded, limits);
+        limits.check().ok()?;
         derivatives.iter_mut().for_each(skip_unless_finite);
         unify_quads(good, &welded, &mut derivatives);
-        let neighbours = neighbours(good, EdgeOrder::Complete);
+        let neighbours = neighbours(good, EdgeOrder::Complete, limits);
+        limits.check().ok()?;
         let mut report = survey(mesh, &slices, limits);
         report.degenerate_triangles = triangulation.degenerate.len();
         report.uv_degenerate_triangles = count_uv_degenerate(good, &welded, &derivatives);
         report.mirrored_edges = count_mirrored_edges(&neighbours, &derivatives);
         let orientation_of_face = orientation_of_faces(&slices, good, &derivatives);
-        let groups = build_groups(good, &neighbours, |_| true, &mut derivatives);
+        let groups = build_groups(good, &neighbours, |_| true, limits, &mut derivatives);
+        limits.check().ok()?;
         let corner_groups = CornerGroups::new(&slices, &triangulation, &groups);
         let is_skipped = derivatives.iter().map(|derivative| derivative.joins_any).collect();
         buffers.derivatives = derivatives;
-        (Self { triangulation, groups, corner_groups, is_skipped, orientation_of_face }, report)
+        Some((Self { triangulation, groups, corner_groups, is_skipped, orientation_of_face }, report))
     }
 
     /// Writes the frames of the mesh after its vertices moved.
@@ -125,7 +135,8 @@ impl AngleAreaPlan {
         });
     }
 
-    /// Writes the frames of all corners from the derivatives in `buffers`. Returns the number of repaired corners.
+    /// Writes the frames of all corners from the derivatives in `buffers`. Returns the number of repaired corners. Both are unspecified after
+    /// cancellation.
     fn frames<O: Output>(
         &self,
         slices: &MeshSlices<'_>,
@@ -149,7 +160,7 @@ impl AngleAreaPlan {
         frames.resize(self.groups.len(), GroupFrame { frame: Frame::EMPTY, repaired: true });
         let inputs = &*buffers;
         threads::fill(limits, &mut frames, |group| self.frame(group, O::IS_FULL, welded, inputs));
-        grouped.fit(&frames, buffers);
+        grouped.fit(&frames, limits, buffers);
         let inputs = &*buffers;
         threads::update(limits, &mut frames, |group, frame| {
             fit(frame, inputs.normals[group], inputs.residuals[group]);
@@ -159,7 +170,8 @@ impl AngleAreaPlan {
             }
         });
         let groups = (&self.groups, &frames[..]);
-        let repaired = to_corners(slices, &self.corner_groups, groups, &self.orientation_of_face, corners);
+        let repaired =
+            to_corners(slices, limits, &self.corner_groups, groups, &self.orientation_of_face, corners);
         buffers.frames = frames;
         repaired
     }
@@ -304,14 +316,15 @@ impl CornerGroups {
 /// gets a frame from its normal.
 fn to_corners<O: Output>(
     slices: &MeshSlices<'_>,
+    limits: RunLimits<'_>,
     corner_groups: &CornerGroups,
     (groups, frames): (&Groups, &[GroupFrame]),
     preserves: &[Option<bool>],
     corners: &mut [O],
 ) -> usize {
     let mut repaired_corners = 0;
-    for (face, &preserves) in preserves.iter().enumerate() {
-        let range = slices.corners(face);
+    for face in limits.parts(0..preserves.len()).flatten() {
+        let (range, preserves) = (slices.corners(face), preserves[face]);
         let count = |preserves| {
             range.clone().filter(|&c| corner_groups.group(c, preserves, groups).is_some()).count()
         };

@@ -33,9 +33,10 @@ struct Face {
 pub(crate) fn run<O: Output>(mesh: &Mesh<'_>, limits: RunLimits<'_>, corners: &mut [O]) -> Report {
     let slices = MeshSlices::new(mesh);
     let mut report = survey(mesh, &slices, limits);
-    let faces = add_up(&slices, &mut report);
+    let faces = add_up(&slices, limits, &mut report);
     let mut orientations = Vec::with_capacity(faces.len());
-    for (number, face) in faces.iter().enumerate() {
+    for number in limits.parts(0..faces.len()).flatten() {
+        let face = &faces[number];
         let frame = face.frame();
         orientations.push(frame.map_or(Orientation::None, |frame| Orientation::of(frame.sign)));
         let range = slices.corners(number);
@@ -48,18 +49,21 @@ pub(crate) fn run<O: Output>(mesh: &Mesh<'_>, limits: RunLimits<'_>, corners: &m
             None => fill(corners, vertices.iter().map(replacement)),
         }
     }
+    if limits.is_cancelled() {
+        return Report::default();
+    }
     if let Some(of_both) = vertices_of_both(&slices, &orientations) {
         report.mirrored_edges = count_mirrored_edges(&slices, &orientations, &of_both);
     }
-    report.split_vertices = count_split_vertices(mesh, corners);
+    report.split_vertices = count_split_vertices(mesh, corners, limits);
     report
 }
 
-fn add_up(slices: &MeshSlices<'_>, report: &mut Report) -> Vec<Face> {
+fn add_up(slices: &MeshSlices<'_>, limits: RunLimits<'_>, report: &mut Report) -> Vec<Face> {
     let mut faces = vec![Face::default(); slices.face_count()];
     let inputs = slices.triangle_inputs();
-    for (t, &triangle) in inputs.triangles.iter().enumerate() {
-        let (positions, uvs) = inputs.values_of(triangle);
+    for t in limits.parts(0..inputs.triangles.len()).flatten() {
+        let (positions, uvs) = inputs.values_of(inputs.triangles[t]);
         let derivatives = ScaledDerivatives::new(positions, uvs);
         if is_degenerate(slices.values(t).0) {
             report.degenerate_triangles += 1;

@@ -141,6 +141,9 @@ impl FastPath {
             return None;
         }
         self.split.split(mesh, limits.width, self.workers.len())?;
+        if limits.is_cancelled() {
+            return Some(());
+        }
         self.weld.weld(mesh, limits.width, &mut self.workers)?;
         if limits.is_cancelled() {
             return Some(());

@@ -8,6 +8,7 @@ use crate::Mesh;
 use crate::math::V3;
 
 use crate::exec::limits::RunLimits;
+use crate::exec::threads;
 use crate::tangents::Report;
 use crate::tangents::mesh_slices::MeshSlices;
 use crate::tangents::mirrored_edges::survey;
@@ -24,11 +25,17 @@ pub(crate) fn run<O: Output>(mesh: &Mesh<'_>, limits: RunLimits<'_>, corners: &m
         let bitangent = if O::IS_FULL { across(normal, tangent, 1.0) } else { [0.0; 3] };
         O::from_frame(&Frame { tangent, bitangent, magnitude: [1.0; 2], sign: 1.0 })
     };
-    let of_vertex: Vec<O> = slices.normals.iter().map(frame).collect();
+    let of_vertex: Vec<O> = threads::map(limits, slices.normals.len(), |v| frame(&slices.normals[v]));
+    if limits.is_cancelled() {
+        return Report::default();
+    }
     let has_normal: Vec<bool> = slices.normals.iter().map(|&normal| direction(normal).is_some()).collect();
     report.repaired_corners = slices.vertex_of_corner.iter().filter(|&&v| !has_normal[v as usize]).count();
     report.degenerate_triangles =
         (0..slices.triangles().len()).filter(|&t| is_degenerate(slices.values(t).0)).count();
+    if limits.is_cancelled() {
+        return Report::default();
+    }
     fill(corners, slices.vertex_of_corner.iter().map(|&v| of_vertex[v as usize]));
     report
 }

@@ -75,6 +75,9 @@ where
         (SideSums::new(&slices, memory), O::take_buffers(&mut memory.tangents_of_side));
     let report = threads::on_pool(limits.thread_count(slices.triangles().len()), || {
         add_up(&slices, limits, &mut sums);
+        if limits.is_cancelled() {
+            return Report::default();
+        }
         finish::<N, W, O>(mesh, &slices, &mut sums, limits, &mut frames, corners)
     });
     sums.return_to(memory);

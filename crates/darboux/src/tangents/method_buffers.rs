@@ -19,17 +19,17 @@ pub(crate) struct MethodBuffers {
 
 /// Selects the buffer of sums of `N` rows.
 pub(crate) trait SumBuffers<const N: usize> {
-    fn of_side(&mut self) -> &mut [Vec<SumRows<N>>; 2];
+    fn sums_of_side(&mut self) -> &mut [Vec<SumRows<N>>; 2];
 }
 
 impl SumBuffers<2> for MethodBuffers {
-    fn of_side(&mut self) -> &mut [Vec<SumRows<2>>; 2] {
+    fn sums_of_side(&mut self) -> &mut [Vec<SumRows<2>>; 2] {
         &mut self.of_two_rows
     }
 }
 
 impl SumBuffers<3> for MethodBuffers {
-    fn of_side(&mut self) -> &mut [Vec<SumRows<3>>; 2] {
+    fn sums_of_side(&mut self) -> &mut [Vec<SumRows<3>>; 2] {
         &mut self.of_three_rows
     }
 }

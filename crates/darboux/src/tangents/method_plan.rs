@@ -19,7 +19,7 @@ use crate::tangents::submesh::UndecidedFaces;
 
 /// The part of a plan that does not depend on positions and normals.
 #[derive(Debug)]
-pub(crate) enum Planned {
+pub(crate) enum MethodPlan {
     /// MikkTSpace where the fast path applies: it has decided nearly all vertices.
     Fast(Box<Decided>),
     /// MikkTSpace where the fast path does not apply: the general path has grouped the mesh.
@@ -41,13 +41,15 @@ pub(crate) struct Decided {
     stages: OnceLock<GroupedMesh>,
 }
 
-impl Planned {
+impl MethodPlan {
     /// Computes the tangents of the base mesh, and keeps what does not depend on positions and normals.
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, limits: RunLimits<'_>) -> (Self, Tangents) {
         let options = match &options.method {
             Method::MikkTSpace(options) => options,
             Method::AngleArea => {
-                let (plan, tangents, report) = angle_area::plan(mesh, limits);
+                let Some((plan, tangents, report)) = angle_area::plan(mesh, limits) else {
+                    return (Self::Nothing, Tangents::default());
+                };
                 let corners = CornerTangents(tangents);
                 return (Self::Groups(Box::new(plan)), Tangents { corners, report });
             }

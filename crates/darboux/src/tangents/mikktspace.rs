@@ -72,43 +72,50 @@ pub(crate) struct SubmeshWeld<'a> {
 impl GroupedMesh {
     /// Triangulates, welds and groups. `None` after cancellation.
     pub fn new(mesh: &Mesh<'_>, options: &MikkTSpaceOptions, limits: RunLimits<'_>) -> Option<Self> {
-        let triangulation = triangulate(mesh);
+        let triangulation = triangulate(mesh, limits);
         limits.check().ok()?;
-        let neighbours = neighbours(&triangulation.good, edge_order(options));
+        let neighbours = neighbours(&triangulation.good, edge_order(options), limits);
         limits.check().ok()?;
         let derivatives = quad_derivatives(&triangulation.good, &WeldedMesh::new(mesh), limits);
-        Some(Self::from_stages(mesh, triangulation, (&neighbours, derivatives), |_| true, options))
+        limits.check().ok()?;
+        let grouped =
+            Self::from_stages(mesh, triangulation, (&neighbours, derivatives), |_| true, (options, limits));
+        limits.check().ok().map(|()| grouped)
     }
 
-    /// As [`GroupedMesh::new`] for a submesh that is welded already.
+    /// As [`GroupedMesh::new`] for a submesh that is welded already. `None` after cancellation.
     pub fn of_submesh(
         mesh: &Mesh<'_>,
         weld: &SubmeshWeld<'_>,
         options: &MikkTSpaceOptions,
         limits: RunLimits<'_>,
-    ) -> Self {
-        let triangulation = triangulate_welded(mesh, weld.vertex_of_corner);
+    ) -> Option<Self> {
+        let triangulation = triangulate_welded(mesh, weld.vertex_of_corner, limits);
+        limits.check().ok()?;
         let good = &triangulation.good;
-        let mut neighbours = neighbours(good, EdgeOrder::Complete);
+        let mut neighbours = neighbours(good, EdgeOrder::Complete, limits);
         rematch(good, &half_edges(good, weld.tail_runs), &mut neighbours);
         let derivatives = quad_derivatives(good, &WeldedMesh::new(mesh), limits);
+        limits.check().ok()?;
         let is_wanted = |vertex| weld.is_complete[vertex as usize];
-        Self::from_stages(mesh, triangulation, (&neighbours, derivatives), is_wanted, options)
+        let grouped =
+            Self::from_stages(mesh, triangulation, (&neighbours, derivatives), is_wanted, (options, limits));
+        limits.check().ok().map(|()| grouped)
     }
 
-    /// Builds the groups. `is_wanted`: vertices for which it returns false get no group.
+    /// Builds the groups. `is_wanted`: vertices for which it returns false get no group. Groups are absent after cancellation.
     pub fn from_stages(
         mesh: &Mesh<'_>,
         triangulation: Triangulation,
         (neighbours, mut derivatives): (&[[u32; 3]], Vec<Derivative>),
         is_wanted: impl Fn(u32) -> bool,
-        options: &MikkTSpaceOptions,
+        (options, limits): (&MikkTSpaceOptions, RunLimits<'_>),
     ) -> Self {
         let welded = WeldedMesh::new(mesh);
         let good = &triangulation.good;
         let uv_degenerate = count_uv_degenerate(good, &welded, &derivatives);
         let mirrored_edges = count_mirrored_edges(neighbours, &derivatives);
-        let groups = build_groups(good, neighbours, is_wanted, &mut derivatives);
+        let groups = build_groups(good, neighbours, is_wanted, limits, &mut derivatives);
         let base = GroupInputs::new(good, &groups, derivatives, &welded);
         let threshold_cosine = cosine_of_degrees(options.threshold);
         Self {
@@ -147,6 +154,9 @@ impl GroupedMesh {
         let welded = WeldedMesh::moved(mesh);
         let good = &self.triangulation.good;
         let mut moved = derivatives(good, &welded, limits);
+        if limits.is_cancelled() {
+            return (initial, Report::default());
+        }
         for (moved, base) in moved.iter_mut().zip(&self.base.derivatives) {
             (moved.preserves, moved.joins_any) = (base.preserves, base.joins_any);
         }
@@ -177,13 +187,16 @@ impl GroupedMesh {
             unusable = unify_signs(mesh, &self.triangulation, &values.derivatives, &copied, &mixed, &mut raw);
         }
         unusable.extend(self.unusable_corners(mesh, &raw));
+        if limits.is_cancelled() {
+            return (raw.of_corner, Report::default());
+        }
         sort(&mut unusable);
         unusable.dedup();
         report.repaired_corners = unusable.len();
         if self.mode != Mode::Reference {
             repair_corners(mesh, &self.triangulation, &mut raw, &unusable);
         }
-        report.split_vertices = report::count_split_vertices(mesh, &raw.of_corner);
+        report.split_vertices = report::count_split_vertices(mesh, &raw.of_corner, limits);
         (raw.of_corner, report)
     }
 

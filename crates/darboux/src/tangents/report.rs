@@ -1,6 +1,7 @@
 //! [`Report`]: the counts of a run, of degenerate input, repairs and splits.
 
 use crate::Mesh;
+use crate::exec::limits::RunLimits;
 use crate::math::V3;
 use crate::util::hash_map::InsertionMap;
 
@@ -48,18 +49,25 @@ pub(crate) fn count_non_finite_corners(mesh: &Mesh<'_>) -> usize {
     (0..mesh.corner_count()).filter(|&corner| !finite(mesh.vertex_of_corner(corner))).count()
 }
 
-/// The number of vertices whose corners have different tangents, compared as bits. The time depends on the number of corners only.
-pub(crate) fn count_split_vertices<O: Output>(mesh: &Mesh<'_>, corners: &[O]) -> usize {
+/// The number of vertices whose corners have different tangents, compared as bits. The time depends on the number of corners only. The
+/// result is unspecified after cancellation.
+pub(crate) fn count_split_vertices<O: Output>(
+    mesh: &Mesh<'_>,
+    corners: &[O],
+    limits: RunLimits<'_>,
+) -> usize {
     let mut count = 0;
     let mut first = FirstCorners::new(mesh);
-    for corner in 0..mesh.corner_count() {
-        let vertex = mesh.vertex_of_corner(corner);
-        let first = first.of(vertex, corner);
-        let [ours, theirs] = [corner as u32, *first]
-            .map(|corner| corners[(corner & !SPLIT) as usize].tangent().map(f32::to_bits));
-        if ours != theirs && *first & SPLIT == 0 {
-            *first |= SPLIT;
-            count += 1;
+    for part in limits.parts(0..mesh.corner_count()) {
+        for corner in part {
+            let vertex = mesh.vertex_of_corner(corner);
+            let first = first.of(vertex, corner);
+            let [ours, theirs] = [corner as u32, *first]
+                .map(|corner| corners[(corner & !SPLIT) as usize].tangent().map(f32::to_bits));
+            if ours != theirs && *first & SPLIT == 0 {
+                *first |= SPLIT;
+                count += 1;
+            }
         }
     }
     count

@@ -6,7 +6,9 @@
 //! - a UV-degenerate triangle, whose orientation depends on the groups of all its vertices, leaves all of them undecided;
 //! - where a corner of a degenerate triangle copies a decided corner, a face with that corner is there.
 
+use crate::Faces;
 use crate::Frame;
+use crate::Indices;
 use crate::Mesh;
 use crate::exec::limits::RunLimits;
 use crate::topology::edge_sort::TriangleEdge;
@@ -32,7 +34,7 @@ pub(crate) struct UndecidedFaces {
 }
 
 impl UndecidedFaces {
-    /// Collects and groups the undecided faces. `None` where all corners are decided.
+    /// Collects and groups the undecided faces. `None` where all corners are decided, and after cancellation.
     ///
     /// `fast`: the state of the fast path after its run on `mesh`. `tangents`: the output of that run.
     pub fn new(
@@ -60,16 +62,21 @@ impl UndecidedFaces {
             is_complete: &is_complete,
             tail_runs: &tail_runs,
         };
-        let grouped =
-            GroupedMesh::of_submesh(&mesh.with_other_faces(&indices, &sizes), &weld, options, limits);
+        let submesh = mesh.with_other_faces(Indices::U32(&indices), Faces::Mixed(&sizes));
+        let grouped = GroupedMesh::of_submesh(&submesh, &weld, options, limits)?;
         Some(Self { corners, indices, sizes, is_undecided, grouped })
+    }
+
+    /// The undecided faces over the vertices of a mesh.
+    fn submesh<'a>(&'a self, mesh: &Mesh<'a>) -> Mesh<'a> {
+        mesh.with_other_faces(Indices::U32(&self.indices), Faces::Mixed(&self.sizes))
     }
 
     /// Writes the tangents of the undecided corners. Returns the report of the submesh.
     ///
     /// `out`: one tangent per corner of the mesh; decided corners are read.
     pub fn decide(&self, mesh: &Mesh<'_>, limits: RunLimits<'_>, out: &mut [[f32; 4]]) -> Report {
-        let submesh = mesh.with_other_faces(&self.indices, &self.sizes);
+        let submesh = self.submesh(mesh);
         let (frames, report) = self.grouped.frames_from(&submesh, self.initial_frames(out), limits);
         self.write(&frames, |corner, frame| out[corner] = frame.tangent_and_sign());
         report
@@ -85,7 +92,7 @@ impl UndecidedFaces {
         tangents: &[[f32; 4]],
         out: &mut Vec<(u32, Frame)>,
     ) -> Report {
-        let submesh = mesh.with_other_faces(&self.indices, &self.sizes);
+        let submesh = self.submesh(mesh);
         let (frames, report) = self.grouped.frames_from(&submesh, self.initial_frames(tangents), limits);
         self.write(&frames, |corner, frame| out.push((corner as u32, frame)));
         report
@@ -99,7 +106,7 @@ impl UndecidedFaces {
         limits: RunLimits<'_>,
         out: &mut [[f32; 4]],
     ) {
-        let submesh = mesh.with_other_faces(&self.indices, &self.sizes);
+        let submesh = self.submesh(mesh);
         let (frames, _) = self.grouped.frames_of_moved(&submesh, self.initial_frames(out), limits);
         self.write(&frames, |corner, frame| out[corner] = frame.tangent_and_sign());
         for corner in self.corners.iter().map(|&corner| corner as usize) {

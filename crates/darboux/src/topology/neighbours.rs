@@ -16,6 +16,7 @@
 
 use std::collections::VecDeque;
 
+use crate::exec::limits::RunLimits;
 use crate::topology::edge_sort::{NamedTriangles, tail_runs};
 use crate::topology::triangles::{NONE, Triangles};
 use crate::util::radix_sort::{first, pair, second, sort};
@@ -29,14 +30,17 @@ pub(crate) enum EdgeOrder {
     Reference,
 }
 
-/// Finds the neighbour of every triangle across its edges 0-1, 1-2 and 2-0, or [`NONE`].
-pub(crate) fn neighbours(triangles: &Triangles, order: EdgeOrder) -> Vec<[u32; 3]> {
+/// Finds the neighbour of every triangle across its edges 0-1, 1-2 and 2-0, or [`NONE`]. Neighbours are absent after cancellation.
+pub(crate) fn neighbours(triangles: &Triangles, order: EdgeOrder, limits: RunLimits<'_>) -> Vec<[u32; 3]> {
     let mut neighbours = vec![[NONE; 3]; triangles.len()];
     let (mut edges, run_ends) = edges_by_lower_vertex(triangles);
     let tail_start =
         run_ends.iter().rev().map(|&end| end as usize).find(|&end| end < edges.len()).unwrap_or(0);
     let mut start = 0;
-    for end in run_ends.into_iter().map(|end| end as usize) {
+    for (lower, end) in run_ends.into_iter().map(|end| end as usize).enumerate() {
+        if limits.check_at(lower).is_err() {
+            return neighbours;
+        }
         let run = &mut edges[start..end];
         sort(run);
         for same in run.chunk_by(|&a, &b| first(a) == first(b)) {

@@ -6,23 +6,28 @@
 //! Source: mikktspace.c, `GenerateInitialVerticesIndexList` and `DegenPrologue`.
 
 use crate::Mesh;
+use crate::exec::limits::RunLimits;
 use crate::math::{V3, dot, equal, sub};
 use crate::topology::triangles::{Triangles, Triangulation};
 use crate::topology::weld::weld;
 
-/// Triangulates and welds a mesh.
-pub(crate) fn triangulate(mesh: &Mesh<'_>) -> Triangulation {
-    SplitMesh::new(mesh).separate(mesh, |corners| weld(mesh, corners.as_flattened()))
+/// Triangulates and welds a mesh. Triangles are absent after cancellation.
+pub(crate) fn triangulate(mesh: &Mesh<'_>, limits: RunLimits<'_>) -> Triangulation {
+    SplitMesh::new(mesh, limits).separate(mesh, limits, |corners| weld(mesh, corners.as_flattened(), limits))
 }
 
 /// As [`triangulate`] for a mesh that is welded already.
 ///
 /// `vertex_of_corner`: the welded vertex of each corner.
-pub(crate) fn triangulate_welded(mesh: &Mesh<'_>, vertex_of_corner: &[u32]) -> Triangulation {
+pub(crate) fn triangulate_welded(
+    mesh: &Mesh<'_>,
+    vertex_of_corner: &[u32],
+    limits: RunLimits<'_>,
+) -> Triangulation {
     let vertices = |corners: &[[u32; 3]]| -> Vec<u32> {
         corners.as_flattened().iter().map(|&corner| vertex_of_corner[corner as usize]).collect()
     };
-    SplitMesh::new(mesh).separate(mesh, vertices)
+    SplitMesh::new(mesh, limits).separate(mesh, limits, vertices)
 }
 
 /// All triangles of a mesh, degenerate ones included, before welding.
@@ -35,9 +40,12 @@ struct SplitMesh {
 }
 
 impl SplitMesh {
-    fn new(mesh: &Mesh<'_>) -> Self {
+    fn new(mesh: &Mesh<'_>, limits: RunLimits<'_>) -> Self {
         let mut split = Self::default();
         for (face, corners) in mesh.face_ranges().enumerate() {
+            if limits.check_at(face).is_err() {
+                break;
+            }
             let first = corners.start as u32;
             match corners.len() {
                 3 => split.corners.push([first, first + 1, first + 2]),
@@ -53,10 +61,18 @@ impl SplitMesh {
     }
 
     /// Separates degenerate triangles. `weld` returns the welded vertex of every corner of the triangles.
-    fn separate(self, mesh: &Mesh<'_>, weld: impl FnOnce(&[[u32; 3]]) -> Vec<u32>) -> Triangulation {
+    fn separate(
+        self,
+        mesh: &Mesh<'_>,
+        limits: RunLimits<'_>,
+        weld: impl FnOnce(&[[u32; 3]]) -> Vec<u32>,
+    ) -> Triangulation {
         let (mut good, mut degenerate) = (Triangles::default(), Triangles::default());
         let vertices = weld(&self.corners);
         for (t, vertices) in vertices.as_chunks().0.iter().enumerate() {
+            if limits.check_at(t).is_err() {
+                break;
+            }
             let [a, b, c] = vertices.map(|vertex| position(mesh, vertex));
             let is_degenerate = equal(a, b) || equal(a, c) || equal(b, c);
             let list = if is_degenerate { &mut degenerate } else { &mut good };

@@ -19,6 +19,7 @@
 //! ranges go through a hash map.
 
 use crate::Mesh;
+use crate::exec::limits::RunLimits;
 use crate::math::{V3, equal, sub};
 use crate::util::hash_map::InsertionMap;
 use crate::util::radix_sort::{FEW, sort_by_key};
@@ -31,16 +32,16 @@ const SMALL_RANGE: usize = 24;
 
 /// Returns the welded vertex of every entry of `corners`, named by the corner that represents it.
 ///
-/// `corners`: corner numbers in the order of the triangle list, three per triangle.
-pub(crate) fn weld(mesh: &Mesh<'_>, corners: &[u32]) -> Vec<u32> {
+/// `corners`: corner numbers in the order of the triangle list, three per triangle. After cancellation some corners are not merged.
+pub(crate) fn weld(mesh: &Mesh<'_>, corners: &[u32], limits: RunLimits<'_>) -> Vec<u32> {
     let mut vertex_of_entry = corners.to_vec();
     if corners.is_empty() {
         return vertex_of_entry;
     }
     let mut buckets = points_by_cell(mesh, corners);
     let mut welder = Welder { mesh, corners, vertex_of_entry: &mut vertex_of_entry };
-    for points in buckets.iter_mut() {
-        for_each_final_range(points, &|_| true, &mut |points| welder.weld_all(points));
+    for points in buckets.iter_mut().take_while(|_| !limits.is_cancelled()) {
+        for_each_final_range(points, &|_| !limits.is_cancelled(), &mut |points| welder.weld_all(points));
     }
     vertex_of_entry
 }

@@ -1,7 +1,7 @@
 //! Stable sorting by integer keys: insertion sort for short lists, radix sort (least significant byte first) for long ones.
 //!
 //! It replaces the standard library's sort for the sake of code size in the WebAssembly build: the standard sort is ten times as large and
-//! compiled once per element type. It is no slower here, because lists are short, nearly sorted or very long.
+//! compiled once per element type. It is not slower here, because lists are short, nearly sorted or very long.
 
 /// Lists up to this length are sorted by insertion, without a buffer.
 pub(crate) const FEW: usize = if cfg!(small_limits) { 4 } else { 64 };

@@ -89,9 +89,9 @@ impl TangentDevice {
                 kind: "gpu",
                 adapter: Some(opened.name.clone()),
                 corners,
-                corners_of_cpu: corners - self.corners_of_gpu,
+                cpu_corners: corners - self.corners_of_gpu,
             },
-            _ => DeviceReport { kind: "cpu", adapter: None, corners, corners_of_cpu: corners },
+            _ => DeviceReport { kind: "cpu", adapter: None, corners, cpu_corners: corners },
         }
     }
 }
@@ -141,7 +141,7 @@ mod tests {
             warning.starts_with("the CPU computed the tangents because the GPU failed: the GPU was lost"),
             "{warning}"
         );
-        assert_eq!(auto.report(3).corners_of_cpu, 3);
+        assert_eq!(auto.report(3).cpu_corners, 3);
         let asked = run(&mut tangent_device(Device::Gpu, opened)).err();
         assert!(asked.is_some_and(|why| why.starts_with("the GPU was lost")));
     }

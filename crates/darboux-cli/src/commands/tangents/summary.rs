@@ -21,13 +21,13 @@ pub struct DeviceReport {
     pub kind: &'static str,
     pub adapter: Option<String>,
     pub corners: usize,
-    pub corners_of_cpu: usize,
+    pub cpu_corners: usize,
 }
 
 impl DeviceReport {
     /// One line for a terminal; `None` if the CPU computed everything.
     pub fn line(&self) -> Option<String> {
-        let (of_cpu, all) = (HumanCount(self.corners_of_cpu as u64), HumanCount(self.corners as u64));
+        let (of_cpu, all) = (HumanCount(self.cpu_corners as u64), HumanCount(self.corners as u64));
         (self.corners > 0).then_some(())?;
         Some(format!("on {}; {of_cpu} of {all} corners on the CPU", self.adapter.as_ref()?))
     }

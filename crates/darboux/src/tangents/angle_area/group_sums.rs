@@ -134,11 +134,14 @@ impl GroupedTriangles<'_> {
     ///
     /// With barycentric weights w_i on a triangle of area A, the integral of w_i w_j is A/12, or A/6 for i = j, and that of w_i is A/3. So
     /// the residual of corner i is A/3 s - A/12 (t_i + t_0 + t_1 + t_2), and the Jacobi step divides it by the sum of A/6.
-    pub fn fit(&self, frames: &[GroupFrame], buffers: &mut GroupBuffers) {
+    pub fn fit(&self, frames: &[GroupFrame], limits: RunLimits<'_>, buffers: &mut GroupBuffers) {
         let GroupBuffers { derivatives, normals, areas, residuals, .. } = buffers;
         residuals.clear();
         residuals.resize(normals.len(), ([0.0; 3], 0.0));
         for (t, (derivative, doubled)) in derivatives.iter().zip(areas).enumerate() {
+            if limits.check_at(t).is_err() {
+                return;
+            }
             let groups = self.triangles.corners[t].map(|corner| self.group_of_corner[corner as usize]);
             if derivative.joins_any || groups.contains(&NONE) {
                 continue;

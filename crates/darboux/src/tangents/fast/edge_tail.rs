@@ -255,13 +255,13 @@ impl EdgeTail<'_> {
         (!self.is_degenerate(triangle)).then_some(edge)
     }
 
-    /// True for triangles with two equal positions, of which the reference makes no edges.
+    /// True for triangles with two equal positions. The reference ignores their edges.
     pub fn is_degenerate(&self, triangle: [u32; 3]) -> bool {
         are_degenerate(triangle.map(|vertex| self.list.position(vertex)))
     }
 }
 
-/// True for the positions of a triangle two of which are equal.
+/// True where two positions of a triangle are equal.
 pub(crate) fn are_degenerate([a, b, c]: [[f32; 3]; 3]) -> bool {
     a == b || b == c || c == a
 }

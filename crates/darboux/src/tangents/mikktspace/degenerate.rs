@@ -26,7 +26,7 @@ pub struct CornerCopy {
 pub enum CopySource {
     /// This corner: the first good one at the same welded vertex.
     Vertex(u32),
-    /// Of these corners, the good half of the same quad, the first one at the same position, if there is one.
+    /// The first of these corners that lies at the same position, if any does. They are the corners of the good half of the same quad.
     Half([u32; 3]),
 }
 

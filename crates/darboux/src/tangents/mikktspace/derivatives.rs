@@ -25,7 +25,7 @@ pub struct Derivative {
     pub joins_any: bool,
 }
 
-/// Computes the derivatives of every triangle.
+/// Computes the derivatives of every triangle. There are fewer after cancellation.
 pub(crate) fn derivatives(
     triangles: &Triangles,
     welded: &WeldedMesh<'_>,
@@ -105,14 +105,16 @@ pub(crate) fn unify_quads(triangles: &Triangles, welded: &WeldedMesh<'_>, deriva
     }
 }
 
-/// Computes the derivatives of every triangle, with one orientation per quad.
+/// Computes the derivatives of every triangle, with one orientation per quad. There are fewer after cancellation.
 pub(crate) fn quad_derivatives(
     good: &Triangles,
     welded: &WeldedMesh<'_>,
     limits: RunLimits<'_>,
 ) -> Vec<Derivative> {
     let mut derivatives = derivatives(good, welded, limits);
-    unify_quads(good, welded, &mut derivatives);
+    if !limits.is_cancelled() {
+        unify_quads(good, welded, &mut derivatives);
+    }
     derivatives
 }
 

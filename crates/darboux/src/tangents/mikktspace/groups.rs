@@ -11,6 +11,7 @@
 //!
 //! Source: mikktspace.c, `Build4RuleGroups`.
 
+use crate::exec::limits::RunLimits;
 use crate::topology::triangles::{NONE, Triangles};
 
 use crate::tangents::mikktspace::derivatives::Derivative;
@@ -49,16 +50,21 @@ impl Groups {
 /// Builds the groups.
 ///
 /// `is_wanted`: vertices for which it returns false get no group. `derivatives`: receives the orientations that UV-degenerate triangles adopt.
+/// Groups are absent after cancellation.
 pub(crate) fn build_groups(
     triangles: &Triangles,
     neighbours: &[[u32; 3]],
     is_wanted: impl Fn(u32) -> bool,
+    limits: RunLimits<'_>,
     derivatives: &mut [Derivative],
 ) -> Groups {
     let mut groups = Groups::default();
     let mut grouped = vec![[false; 3]; triangles.len()];
     let mut pending = Vec::new();
     for t in 0..triangles.len() {
+        if limits.check_at(t).is_err() {
+            break;
+        }
         for k in 0..3 {
             let (vertex, preserves) = (triangles.vertices[t][k], derivatives[t].preserves);
             if derivatives[t].joins_any || grouped[t][k] || !is_wanted(vertex) {

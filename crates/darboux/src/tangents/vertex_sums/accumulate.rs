@@ -14,7 +14,7 @@ use crate::tangents::vertex_sums::scatter::{scatter_all, thread_ranges};
 use crate::tangents::vertex_sums::side_sums::SideSums;
 use crate::tangents::vertex_sums::weighting::{Weighting, term};
 
-/// Computes all sums. The bits do not depend on the number of threads.
+/// Computes all sums. The bits do not depend on the number of threads. The sums are unspecified after cancellation.
 pub(crate) fn accumulate<const N: usize, W: Weighting<N>>(
     slices: &MeshSlices<'_>,
     limits: RunLimits<'_>,
@@ -31,7 +31,8 @@ pub(crate) fn accumulate<const N: usize, W: Weighting<N>>(
     }
 }
 
-/// The orientation of each face. Of the halves of a quad that are not skipped, the one with the larger UV area decides; on a tie, the first.
+/// The orientation of each face. The orientation of a quad is that of its half with the larger UV area, or of the first half where both areas
+/// are equal. Skipped halves are ignored.
 fn face_orientations<const N: usize, W: Weighting<N>>(
     slices: &MeshSlices<'_>,
     limits: RunLimits<'_>,
@@ -41,7 +42,10 @@ fn face_orientations<const N: usize, W: Weighting<N>>(
     let ranges = split_range(0..of_face.len(), threads, 1);
     let jobs = ranges.clone().zip(split_slice(&mut of_face, 0, ranges));
     threads::run(&mut vec![(); threads], jobs, |(), (faces, of_face)| {
-        set_orientations::<N, W>(slices, faces, of_face);
+        for part in limits.parts(faces.clone()) {
+            let of_part = &mut of_face[part.start - faces.start..part.end - faces.start];
+            set_orientations::<N, W>(slices, part, of_part);
+        }
     });
     of_face
 }

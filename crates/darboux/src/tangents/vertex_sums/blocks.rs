@@ -67,7 +67,7 @@ pub(crate) struct BlockOptions<'a> {
     pub limits: RunLimits<'a>,
 }
 
-/// Runs the term kernel on every block of a range of triangles.
+/// Runs the term kernel on every block of a range of triangles. Returns early after cancellation.
 ///
 /// `add`: called per block with its first triangle, its triangles and its terms. The closure must be `#[inline(always)]`, so that it is
 /// compiled for wide vectors, and must own its slices, so that their addresses stay in registers.
@@ -80,13 +80,14 @@ pub(crate) fn for_each_block<const N: usize, W: Weighting<N>>(
 ) {
     let BlockOptions { orientation_of_face, limits } = options;
     let weighting = PhantomData::<W>;
-    limits.width.run(ForEachBlock { slices, orientation_of_face, range, recorder, add, weighting });
+    limits.width.run(ForEachBlock { slices, orientation_of_face, range, limits, recorder, add, weighting });
 }
 
 struct ForEachBlock<'a, 'b, const N: usize, W, F> {
     slices: &'a MeshSlices<'a>,
     orientation_of_face: Option<&'a [Orientation]>,
     range: Range<usize>,
+    limits: RunLimits<'a>,
     recorder: &'a mut OrientationRecorder<'b>,
     add: F,
     weighting: PhantomData<W>,
@@ -99,10 +100,13 @@ where
 {
     #[inline(always)]
     fn run(self) {
-        let Self { slices, orientation_of_face, range, recorder, mut add, .. } = self;
+        let Self { slices, orientation_of_face, range, limits, recorder, mut add, .. } = self;
         let inputs = slices.triangle_inputs();
         let mut block = TermBlock::<N>::new();
         for first in range.clone().step_by(TERM_BLOCK) {
+            if limits.is_cancelled() {
+                return;
+            }
             let triangles = &inputs.triangles[first..range.end.min(first + TERM_BLOCK)];
             block.set(&inputs, triangles);
             block.evaluate::<W>();

@@ -17,7 +17,6 @@ use crate::Mesh;
 use crate::math::V3;
 
 use crate::exec::limits::RunLimits;
-use crate::exec::simd::Width;
 use crate::exec::threads::{self, split_range, split_slice};
 use crate::math_f64::unit;
 use crate::tangents::mesh_slices::MeshSlices;
@@ -39,7 +38,7 @@ use crate::tangents::vertex_sums::weighting::{SumRows, Weighting, adds};
 /// A vertex, and 0 for preserved or 1 for mirrored UV orientation.
 type Side = (u32, usize);
 
-/// Computes all frames, writes the corners, and returns the report.
+/// Computes all frames, writes the corners, and returns the report. The corners and the report are unspecified after cancellation.
 ///
 /// `frames`: reused buffers of the frames of all vertices, per orientation.
 pub(crate) fn finish<const N: usize, W: Weighting<N>, O: Output>(
@@ -63,14 +62,23 @@ pub(crate) fn finish<const N: usize, W: Weighting<N>, O: Output>(
         report.merged_vertices = if W::SPLITS { 0 } else { count(of_both) };
     }
     let mut missing = frames_of_sides::<N, W, O>(slices, limits, sums, frames);
+    if limits.is_cancelled() {
+        return report;
+    }
     decide_faces::<N, W>(slices, sums, &mut missing);
     missing.sort_unstable();
     missing.dedup();
     if !missing.is_empty() {
         replace::<N, W, O>(slices, sums, &missing, frames);
     }
+    if limits.is_cancelled() {
+        return report;
+    }
     report.repaired_corners = count_corners::<N, W>(slices, &sums.orientation_of_face, &missing);
     to_corners::<N, W, O>(slices, limits, &sums.orientation_of_face, frames, corners);
+    if limits.is_cancelled() {
+        return report;
+    }
     if W::SPLITS {
         if !adds_all {
             of_both = vertices_of_both(slices, &sums.orientation_of_face);
@@ -132,29 +140,29 @@ fn frames_of_sides<const N: usize, W: Weighting<N>, O: Output>(
     let threads = limits.thread_count(slices.triangles().len());
     let mut missing = vec![Vec::new(); threads];
     for (side, frames) in frames.iter_mut().enumerate() {
-        let sums = &sums.of_side[side];
+        let sums = &sums.sums_of_side[side];
         frames.resize(sums.len(), O::EMPTY);
         let ranges = split_range(0..sums.len(), threads, 1);
         let jobs = ranges.clone().zip(split_slice(frames, 0, ranges));
         threads::run(&mut missing, jobs, |missing, (range, frames)| {
-            let place = SideRange { first: range.start, side, width: limits.width };
+            let place = SideRange { first: range.start, side, limits };
             frames_of_side::<N, W, O>(&sums[range.clone()], &slices.normals[range], place, frames, missing);
         });
     }
     missing.concat()
 }
 
-/// The first vertex and the side of consecutive sums, and the vector width of the run.
-struct SideRange {
+/// The first vertex and the side of consecutive sums, and the limits of the run.
+struct SideRange<'a> {
     first: usize,
     side: usize,
-    width: Width,
+    limits: RunLimits<'a>,
 }
 
 fn frames_of_side<const N: usize, W: Weighting<N>, O: Output>(
     sums: &[SumRows<N>],
     normals: &[V3],
-    SideRange { first, side, width }: SideRange,
+    SideRange { first, side, limits }: SideRange<'_>,
     frames: &mut [O],
     missing: &mut Vec<Side>,
 ) {
@@ -162,9 +170,12 @@ fn frames_of_side<const N: usize, W: Weighting<N>, O: Output>(
     let mut block = FrameBlock::new();
     let blocks = sums.chunks(TERM_BLOCK).zip(normals.chunks(TERM_BLOCK)).zip(frames.chunks_mut(TERM_BLOCK));
     for (first, ((sums, normals), frames)) in (first..).step_by(TERM_BLOCK).zip(blocks) {
+        if limits.is_cancelled() {
+            return;
+        }
         if !O::IS_FULL {
             block.set::<N, W>(sums, normals);
-            block.evaluate::<N, W>(sign, width);
+            block.evaluate::<N, W>(sign, limits.width);
             if block.are_sure(sums.len()) {
                 fill(frames, block.tangents.iter().map(|&tangent| O::from_tangent(tangent)));
                 continue;
@@ -231,7 +242,7 @@ fn decide_faces<const N: usize, W: Weighting<N>>(
             continue;
         }
         let vertices = &slices.vertex_of_corner[slices.corners(face)];
-        let used = |v: u32, side: usize| sums.of_side[side].get(v as usize).is_some_and(is_used);
+        let used = |v: u32, side: usize| sums.sums_of_side[side].get(v as usize).is_some_and(is_used);
         let count = |side| vertices.iter().filter(|&&v| used(v, side)).count();
         let side = match orientation {
             _ if !W::SPLITS => 0,
@@ -256,7 +267,7 @@ fn replace<const N: usize, W: Weighting<N>, O: Output>(
 ) {
     let triangles = triangles_around(slices, missing);
     for &(v, side) in missing {
-        let sum = sums.of_side[side].get(v as usize).filter(|sum| is_used(sum));
+        let sum = sums.sums_of_side[side].get(v as usize).filter(|sum| is_used(sum));
         let normal = slices.normals[v as usize];
         let own_normal = || sum.map_or(normal, W::own_normal);
         let normal = if direction(normal).is_some() { normal } else { own_normal() };
@@ -278,12 +289,12 @@ fn replacement<const N: usize, W: Weighting<N>>(
     side: usize,
 ) -> V3 {
     let Some(unit_normal) = direction(normal) else { return [1.0, 0.0, 0.0] };
-    let is_of_side = |t: u32| !W::SPLITS || orientation_of_face[slices.face(t as usize)] as usize == side;
+    let is_on_side = |t: u32| !W::SPLITS || orientation_of_face[slices.face(t as usize)] as usize == side;
     let own = |t: u32| {
         let (positions, uvs) = slices.values(t as usize);
         unit(u_direction_of(positions, uvs))
     };
-    let counted = around.iter().filter(|&&t| is_of_side(t) && adds::<N, W>(slices, t as usize));
+    let counted = around.iter().filter(|&&t| is_on_side(t) && adds::<N, W>(slices, t as usize));
     let directions = counted.filter_map(|&t| own(t));
     let mean = mean_in_plane(directions.map(|direction| direction.map(|x| x as f32)), normal);
     let first = || around.first().and_then(|&t| in_plane(own(t)?, unit_normal));
@@ -321,10 +332,14 @@ fn to_corners<const N: usize, W: Weighting<N>, O: Output>(
         let range = slices.corners_of(faces.clone());
         let vertices = &slices.vertex_of_corner[range.clone()];
         if frames[1].is_empty() {
-            fill(corners, vertices.iter().map(|&v| frames[0][v as usize]));
+            for part in limits.parts(0..vertices.len()) {
+                let values = vertices[part.clone()].iter().map(|&v| frames[0][v as usize]);
+                fill(&mut corners[part], values);
+            }
             return;
         }
-        for (face, &orientation) in faces.clone().zip(&orientation_of_face[faces]) {
+        for face in limits.parts(faces).flatten() {
+            let orientation = orientation_of_face[face];
             let side = &frames[side_of::<N, W>(orientation)];
             let own = slices.corners(face);
             let own = own.start - range.start..own.end - range.start;

@@ -24,6 +24,9 @@ pub(crate) fn gather_all<const N: usize, W: Weighting<N>>(
 ) {
     let (terms, has_mirrored) = terms::<N, W>(slices, options, sums);
     let (triangle_of_entry, ends) = adjacency(slices);
+    if options.limits.is_cancelled() {
+        return;
+    }
     gather((&terms, has_mirrored), (&triangle_of_entry, &ends), options.limits, sums);
 }
 
@@ -98,7 +101,7 @@ fn gather<const N: usize>(
     limits: RunLimits<'_>,
     sums: &mut SideSums<N>,
 ) {
-    let [preserved, mirrored] = &mut sums.of_side;
+    let [preserved, mirrored] = &mut sums.sums_of_side;
     preserved.fill([[0.0; 4]; N]);
     mirrored.resize(if has_mirrored { preserved.len() } else { 0 }, [[0.0; 4]; N]);
     let threads = limits.thread_count(terms.len());
@@ -109,6 +112,9 @@ fn gather<const N: usize>(
     threads::run(&mut vec![(); threads], jobs, |(), ((range, preserved), mirrored)| {
         let mut start = if range.start == 0 { 0 } else { ends[range.start - 1] };
         for (at, &end) in ends[range].iter().enumerate() {
+            if limits.check_at(at).is_err() {
+                return;
+            }
             for &t in &triangle_of_entry[start as usize..end as usize] {
                 let (term, is_mirrored) = &terms[t as usize];
                 accumulate_into(if *is_mirrored { &mut mirrored[at] } else { &mut preserved[at] }, term);

@@ -67,7 +67,7 @@ pub(crate) fn scatter_all<const N: usize, W: Weighting<N>>(
     list: &[ThreadWork],
     sums: &mut SideSums<N>,
 ) {
-    let SideSums { of_side: [preserved, mirrored], orientation_of_face, skipped } = sums;
+    let SideSums { sums_of_side: [preserved, mirrored], orientation_of_face, skipped } = sums;
     let preserved = split_slice(preserved, 0, list.iter().map(|part| part.vertices.clone()));
     let orientations = split_slice(orientation_of_face, 0, list.iter().map(|part| part.own.clone()));
     let mut found: Vec<(Vec<SumRows<N>>, SkippedTriangles)> = vec![Default::default(); list.len()];

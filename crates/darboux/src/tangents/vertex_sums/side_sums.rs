@@ -11,7 +11,7 @@ use crate::tangents::vertex_sums::weighting::SumRows;
 /// The result of accumulation.
 pub(crate) struct SideSums<const N: usize> {
     /// One sum per vertex for each orientation: preserved and mirrored. The mirrored list is empty where no triangle is mirrored.
-    pub of_side: [Vec<SumRows<N>>; 2],
+    pub sums_of_side: [Vec<SumRows<N>>; 2],
     pub orientation_of_face: Vec<Orientation>,
     pub skipped: SkippedTriangles,
 }
@@ -56,12 +56,12 @@ impl<const N: usize> SideSums<N> {
     where
         MethodBuffers: SumBuffers<N>,
     {
-        let mut of_side = std::mem::take(buffers.of_side());
+        let mut sums_of_side = std::mem::take(buffers.sums_of_side());
         let mut orientation_of_face = std::mem::take(&mut buffers.orientation_of_face);
-        of_side[0].resize(slices.positions.len(), [[0.0; 4]; N]);
-        of_side[1].clear();
+        sums_of_side[0].resize(slices.positions.len(), [[0.0; 4]; N]);
+        sums_of_side[1].clear();
         orientation_of_face.resize(slices.triangles().len(), Orientation::None);
-        Self { of_side, orientation_of_face, skipped: SkippedTriangles::default() }
+        Self { sums_of_side, orientation_of_face, skipped: SkippedTriangles::default() }
     }
 
     /// Returns the buffers for the next run.
@@ -69,7 +69,7 @@ impl<const N: usize> SideSums<N> {
     where
         MethodBuffers: SumBuffers<N>,
     {
-        *buffers.of_side() = self.of_side;
+        *buffers.sums_of_side() = self.sums_of_side;
         buffers.orientation_of_face = self.orientation_of_face;
     }
 }

@@ -1,0 +1,13 @@
+//! Tokens that count how often calls check them: for tests of cancellation that depend on work and not on time.
+
+use crate::Cancel;
+
+/// A token that is cancelled by the check after `limit` checks.
+pub fn cancel_after(limit: usize) -> Cancel {
+    Cancel::after_checks(limit)
+}
+
+/// The number of checks of a token from [`cancel_after`].
+pub fn check_count(cancel: &Cancel) -> usize {
+    cancel.checks()
+}
