@@ -150,7 +150,7 @@ impl GpuError {
     pub(crate) fn of_refusal(reason: PlanRefusal) -> Self {
         match reason {
             PlanRefusal::QuadHalvesDiffer { corners } => Self::QuadHalvesDiffer { corners },
-            PlanRefusal::OtherMethod => Self::OtherMethod,
+            PlanRefusal::OtherMethod => Self::UnsupportedMethod,
             PlanRefusal::TooManyMembers { members, limit } => Self::TooManyMembers { members, limit },
         }
     }
