@@ -65,3 +65,8 @@ pub mod internal {
 #[cfg(doctest)]
 #[doc = include_str!("../../../docs/gpu.md")]
 struct GpuPage;
+
+/// The example of README.md compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

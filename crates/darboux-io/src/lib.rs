@@ -42,3 +42,8 @@ pub use staging::{RunId, SaveOptions};
 #[cfg(doctest)]
 #[doc = include_str!("../../../docs/io.md")]
 struct IoPage;
+
+/// The example of README.md compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

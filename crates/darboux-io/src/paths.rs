@@ -2,8 +2,10 @@
 //!
 //! Only regular files are read and written, links resolved: a pipe would block until its other end opens, and a device may never end.
 
-use std::fs;
-use std::io;
+#[cfg(unix)]
+use std::fs::OpenOptions;
+use std::fs::{self, File};
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use crate::Error;
@@ -53,6 +55,55 @@ pub fn resolve_input(path: &Path) -> Result<PathBuf, Error> {
         return Err(failed(io::Error::other("it is not a regular file; save its content as one")));
     }
     path.canonicalize().map_err(failed)
+}
+
+/// Opens a regular file at a path whose links were resolved before.
+///
+/// Another process may have replaced the file since. So the opened file is checked, not the path: errors are a link in the path, and anything
+/// but a regular file, which is not waited for.
+pub fn open_resolved(path: &Path) -> io::Result<File> {
+    let file = open_at_once(path)?;
+    let opened = file.metadata()?;
+    if !opened.is_file() {
+        return Err(io::Error::other("it is not a regular file; save its content as one"));
+    }
+    if path.canonicalize()? != path || !is_same_file(&opened, &fs::symlink_metadata(path)?) {
+        return Err(io::Error::other("it was replaced while it was opened; try again"));
+    }
+    Ok(file)
+}
+
+/// The content of a regular file at a path whose links were resolved before. Errors: those of [`open_resolved`].
+pub fn read_resolved(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    open_resolved(path)?.read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// Opens a file without waiting for the other end of a FIFO. A path that ends in a link is an error.
+#[cfg(unix)]
+fn open_at_once(path: &Path) -> io::Result<File> {
+    use std::os::unix::fs::OpenOptionsExt;
+
+    OpenOptions::new().read(true).custom_flags(libc::O_NOFOLLOW | libc::O_NONBLOCK).open(path)
+}
+
+#[cfg(not(unix))]
+fn open_at_once(path: &Path) -> io::Result<File> {
+    File::open(path)
+}
+
+#[cfg(unix)]
+fn is_same_file(a: &fs::Metadata, b: &fs::Metadata) -> bool {
+    use std::os::unix::fs::MetadataExt;
+
+    (a.dev(), a.ino()) == (b.dev(), b.ino())
+}
+
+/// True: the standard library gives no identity of files here.
+#[cfg(not(unix))]
+fn is_same_file(_: &fs::Metadata, _: &fs::Metadata) -> bool {
+    true
 }
 
 /// The regular file to write at `path`, links resolved. `why_not` gives the reason when an existing file must not be replaced.

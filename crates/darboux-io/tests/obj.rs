@@ -133,6 +133,18 @@ fn unreadable_libraries_are_a_warning() {
     assert_eq!(is_warning, !is_readable, "{warnings:?}");
 }
 
+#[test]
+fn references_that_are_not_looked_up_say_so() {
+    let line = |i: usize| format!("newmtl {i}\nmap_Kd {i} {}a.png\n", "- ".repeat(1500));
+    let library: String = (0..100).map(line).collect();
+    let warnings = warnings("v 0 0 0\nf 1 1 1\n", &library);
+    let counts =
+        ["is not in the model's folder", "was not looked up, because the model names more than 100000 files"]
+            .map(|problem| warnings.iter().filter(|warning| warning.contains(problem)).count());
+    assert_eq!(counts, [66, 34], "{warnings:?}");
+    assert!(warnings.iter().all(|warning| warning.len() < 400));
+}
+
 /// The same library named again and again costs one reading.
 #[test]
 fn repeated_libraries_are_loaded_once() {

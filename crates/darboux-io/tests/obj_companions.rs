@@ -36,3 +36,32 @@ fn libraries_of_many_words_are_looked_up_to_a_limit() {
     let names = names_of(&"mtllib a.mtl\n".repeat(1000), &library, &["a.mtl", "a.png"]);
     assert_eq!(names, ["a.png", "a.mtl"]);
 }
+
+/// A link out of the folder that is put in the place of a file, or of its folder, after the lookup.
+#[test]
+#[cfg(unix)]
+fn companions_that_were_replaced_by_links_are_not_read() {
+    use std::os::unix::fs::symlink;
+
+    let [outside, folder] = [(), ()].map(|()| tempfile::tempdir().unwrap());
+    fs::create_dir(folder.path().join("maps")).unwrap();
+    for secret in ["a.png", "b.png"] {
+        fs::write(outside.path().join(secret), "secret").unwrap();
+    }
+    let path = |name: &str| folder.path().join(name);
+    for file in ["a.png", "maps/b.png"] {
+        fs::write(path(file), "texture").unwrap();
+    }
+    fs::write(path("a.mtl"), "map_Kd a.png\nnorm maps/b.png\n").unwrap();
+    fs::write(path("a.obj"), "mtllib a.mtl\nf 1 2 3\n").unwrap();
+    let found = companions(&path("a.obj")).unwrap();
+    assert_eq!(found.len(), 3);
+    assert!(found.iter().all(|companion| companion.read().is_ok()));
+
+    fs::remove_file(path("a.png")).unwrap();
+    symlink(outside.path().join("a.png"), path("a.png")).unwrap();
+    fs::remove_dir_all(path("maps")).unwrap();
+    symlink(outside.path(), path("maps")).unwrap();
+    let read: Vec<_> = found.iter().filter(|companion| companion.read().is_ok()).collect();
+    assert!(read.len() == 1 && read[0].name == "a.mtl", "{read:?}");
+}

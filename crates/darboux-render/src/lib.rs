@@ -2,6 +2,19 @@
 //!
 //! [`Model::read`] reads a document that has its tangents. [`render`] draws one [`View`] of a model, or of two models side by side.
 //!
+//! ```no_run
+//! # use darboux_gpu::Gpu;
+//! # use darboux_io::gltf::Document;
+//! # use darboux_render::{HeatScale, Mistakes, Model, RenderError, RenderOptions, Side, View, render};
+//! # fn picture(gpu: &Gpu, document: &mut Document, heat: HeatScale) -> Result<(), Box<dyn std::error::Error>> {
+//! let model = Model::read(document)?;
+//! let options = RenderOptions::new(View::Tangent, [800, 600], heat);
+//! let picture = render(gpu, Side { model: &model, mistakes: Mistakes::default() }, None, &options)?;
+//! assert_eq!(picture.pixels.len(), 800 * 600);
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! ```text
 //! options, subject, vertex, part    plain types
 //! pose, model, derivatives, heat    from a document to triangles with tangents and colours
@@ -43,3 +56,8 @@ pub use options::{
     LINE_COLORS, LayoutPlacement, Lines, Mistakes, RenderOptions, SEAM_COLOR, SIGN_COLORS, View,
 };
 pub use render::{Picture, render};
+
+/// The example of README.md compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

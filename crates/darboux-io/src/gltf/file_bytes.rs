@@ -5,6 +5,8 @@ use std::io::{self, Read};
 use std::ops::Deref;
 use std::path::Path;
 
+use crate::paths;
+
 /// The bytes of a file.
 #[derive(Debug)]
 pub enum FileBytes {
@@ -31,9 +33,9 @@ impl FileAccess {
         Self { maps: true }
     }
 
-    /// Opens a file. A file that cannot be mapped is read.
+    /// Opens a file at a path whose links were resolved before. A file that cannot be mapped is read.
     pub fn open(self, path: &Path) -> io::Result<FileBytes> {
-        let mut file = File::open(path)?;
+        let mut file = paths::open_resolved(path)?;
         if let Some(mapped) = Some(&file).filter(|_| self.maps).and_then(map) {
             return Ok(mapped);
         }

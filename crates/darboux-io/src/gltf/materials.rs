@@ -1,7 +1,6 @@
 //! The appearance of materials and the bytes of images, for renderers.
 
 use std::borrow::Cow;
-use std::fs;
 
 use serde::Deserialize;
 
@@ -10,8 +9,8 @@ use super::objects_only::read_from_objects;
 use super::resources::{UriTarget, decode_data_uri};
 use super::schema::{Image, TextureInfoExtensions};
 use super::tangents::uv::{UvChoice, UvTransform};
-use crate::Error;
 use crate::error::Fault;
+use crate::{Error, paths};
 
 /// The appearance of a material: the parts that a simple renderer needs.
 #[derive(Clone, Debug, PartialEq)]
@@ -271,7 +270,7 @@ impl Document {
             Ok(UriTarget::Remote) => {
                 Err(Fault::resource(at, "is on another machine; download it and refer to the file"))
             }
-            Ok(UriTarget::File(located)) => fs::read(&located.path)
+            Ok(UriTarget::File(located)) => paths::read_resolved(&located.path)
                 .map(Cow::Owned)
                 .map_err(|error| Fault::resource(at, format!("cannot be read: {error}"))),
             Err(problem) => Err(Fault::resource(at, problem)),

@@ -161,7 +161,7 @@ impl Document {
             let is_same = |existing: &Path| {
                 Ok(existing.canonicalize()? == file.path || same_files(existing, &file.path)?)
             };
-            let mut source = File::open(&file.path).map_err(failed)?;
+            let mut source = paths::open_resolved(&file.path).map_err(failed)?;
             let copy = |copy: &mut File| io::copy(&mut source, copy).map(drop);
             let relative = names.place(&file.relative, staging, is_same, copy)?;
             if relative != file.relative || file.is_outside {

@@ -1,6 +1,5 @@
 //! PNG files whose texels can be changed. Every other chunk is kept as it was read.
 
-use std::fs;
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
 
@@ -50,7 +49,8 @@ impl PngImage {
     /// [`LoadOptions::memory_limit`] permits.
     pub fn open(path: &Path, options: &LoadOptions) -> Result<Self, Error> {
         let file = paths::resolve_input(path)?;
-        let bytes = fs::read(file).map_err(|source| Error::Read { file: path.to_owned(), source })?;
+        let bytes =
+            paths::read_resolved(&file).map_err(|source| Error::Read { file: path.to_owned(), source })?;
         Self::from_bytes(&path.display().to_string(), bytes, options)
     }
 

@@ -2,11 +2,11 @@
 
 use std::cell::{Cell, RefCell};
 use std::collections::{HashMap, HashSet};
-use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::Error;
 use crate::error::Fault;
+use crate::{Error, paths};
 
 /// References in longer lines are ignored: no path has more bytes, and a reference may begin at every word of a line.
 const LONGEST_LINE: usize = 4096;
@@ -19,6 +19,7 @@ pub const NO_FACES: &str = "has no faces; is it an OBJ? Export it again";
 
 /// A file that an OBJ refers to.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Companion {
     /// The path relative to the folder of the OBJ, its parts separated by `/`.
     pub name: String,
@@ -26,11 +27,20 @@ pub struct Companion {
     pub path: PathBuf,
 }
 
+impl Companion {
+    /// The content of the file. Errors: the file cannot be read; it is no longer a regular file without links in its path.
+    pub fn read(&self) -> io::Result<Vec<u8>> {
+        paths::read_resolved(&self.path)
+    }
+}
+
 /// The libraries and textures that the OBJ at `path` refers to. Files outside its folder and missing files are left out.
 ///
 /// Errors: the file cannot be read; it has no faces.
 pub fn companions(path: &Path) -> Result<Vec<Companion>, Error> {
-    let bytes = fs::read(path).map_err(|source| Error::Read { file: path.to_owned(), source })?;
+    let bytes = paths::resolve_input(path).and_then(|input| {
+        paths::read_resolved(&input).map_err(|source| Error::Read { file: path.to_owned(), source })
+    })?;
     let mut library_lines = Vec::new();
     let mut has_faces = false;
     for (word, rest) in statements(&bytes) {
@@ -48,7 +58,7 @@ pub fn companions(path: &Path) -> Result<Vec<Companion>, Error> {
         if !seen.insert(library.path.clone()) {
             continue;
         }
-        let text = fs::read(&library.path).unwrap_or_default();
+        let text = library.read().unwrap_or_default();
         let maps = statements(&text).filter(|(word, _)| is_texture(word));
         let textures = maps.filter_map(|(_, line)| lookup.texture(&library.name, line));
         companions.extend(textures.filter(|texture| seen.insert(texture.path.clone())));
@@ -106,6 +116,17 @@ impl FileLookup {
             (0..line.len()).filter(is_start).find_map(|start| self.find(library, &line[start..]))
         };
         self.textures.borrow_mut().entry((library.to_owned(), line.to_owned())).or_insert_with(find).clone()
+    }
+
+    /// What is wrong with a reference that was not found: a sentence without its last part.
+    #[cfg(feature = "obj")]
+    pub fn problem(&self, reference: &str) -> String {
+        let shown = crate::error::shortened(reference);
+        if self.left.get() == 0 {
+            format!("{shown:?} was not looked up, because the model names more than {MOST_LOOKUPS} files")
+        } else {
+            format!("{shown:?} is not in the model's folder")
+        }
     }
 
     /// The file that `reference` names, relative to the file `base`; none unless it is a file in the folder or below, links followed.

@@ -1,12 +1,12 @@
 //! Builds a glTF document, as the bytes of a GLB, from the meshes and materials of an OBJ.
 
 use std::collections::HashMap;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde_json::{Value, json};
 use tobj::Model;
 
+use super::companions::Companion;
 use super::libraries::LibraryMaterial;
 use crate::error::Fault;
 use crate::gltf::{ComponentType, ElementType, container, segments};
@@ -32,9 +32,9 @@ impl DocumentBuilder {
         let finite =
             |channel: f32| if channel.is_finite() { f64::from(channel.clamp(0.0, 1.0)) } else { 1.0 };
         let [r, g, b] = material.color.map(|channel| linear_of_srgb(finite(channel)));
-        let color_texture = material.color_texture.as_deref().and_then(|path| self.texture(path));
-        let normal_map = material.normal_texture.as_deref().or_else(|| self.normal_map_in_bump(material));
-        let normal_map = normal_map.and_then(|path| self.texture(path));
+        let color_texture = material.color_texture.as_ref().and_then(|file| self.texture(file));
+        let normal_map = material.normal_texture.as_ref().or_else(|| self.normal_map_in_bump(material));
+        let normal_map = normal_map.and_then(|file| self.texture(file));
         let mut json =
             json!({"name": material.name, "pbrMetallicRoughness": {"baseColorFactor": [r, g, b, 1.0]}});
         if let Some(index) = color_texture {
@@ -47,10 +47,10 @@ impl DocumentBuilder {
     }
 
     /// The bump map of a material, unless its texels are grey, as those of height maps are.
-    fn normal_map_in_bump<'a>(&mut self, material: &'a LibraryMaterial) -> Option<&'a Path> {
-        let path = material.bump_texture.as_deref()?;
+    fn normal_map_in_bump<'a>(&mut self, material: &'a LibraryMaterial) -> Option<&'a Companion> {
+        let file = material.bump_texture.as_ref()?;
         let image =
-            fs::read(path).ok().and_then(|file| RgbaImage::decode(&file, &DecodeLimits::default()).ok());
+            file.read().ok().and_then(|bytes| RgbaImage::decode(&bytes, &DecodeLimits::default()).ok());
         if image.is_some_and(|image| !image.is_colored()) {
             self.warnings.push(format!(
                 "the bump map of {} is grey, so it holds heights and is left out; normal maps are coloured",
@@ -58,25 +58,25 @@ impl DocumentBuilder {
             ));
             return None;
         }
-        Some(path)
+        Some(file)
     }
 
     /// The index of the texture of a file; none when the file cannot be read.
-    fn texture(&mut self, path: &Path) -> Option<usize> {
-        if let Some(&index) = self.image_of_file.get(path) {
+    fn texture(&mut self, file: &Companion) -> Option<usize> {
+        if let Some(&index) = self.image_of_file.get(&file.path) {
             return Some(index);
         }
-        let bytes = match fs::read(path) {
+        let bytes = match file.read() {
             Ok(bytes) => bytes,
             Err(error) => {
-                let path = path.display();
-                self.warnings.push(format!("{path}: cannot be read: {error}; the texture is left out"));
+                self.warnings
+                    .push(format!("{}: cannot be read: {error}; the texture is left out", file.name));
                 return None;
             }
         };
         let view = self.push_view(&bytes);
         self.images.push(json!({"bufferView": view}));
-        self.image_of_file.insert(path.to_owned(), self.images.len() - 1);
+        self.image_of_file.insert(file.path.clone(), self.images.len() - 1);
         Some(self.images.len() - 1)
     }
 

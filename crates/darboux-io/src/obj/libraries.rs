@@ -2,12 +2,11 @@
 
 use std::cell::RefCell;
 use std::collections::{HashMap, HashSet};
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use tobj::LoadError;
 
-use super::companions::FileLookup;
+use super::companions::{Companion, FileLookup};
 
 /// A material of a library.
 pub struct LibraryMaterial {
@@ -15,11 +14,11 @@ pub struct LibraryMaterial {
     /// The statement `Kd`, in sRGB.
     pub color: [f32; 3],
     /// The statement `map_Kd`.
-    pub color_texture: Option<PathBuf>,
+    pub color_texture: Option<Companion>,
     /// The statement `norm`.
-    pub normal_texture: Option<PathBuf>,
+    pub normal_texture: Option<Companion>,
     /// The statements for heights, where many programs write normal maps.
-    pub bump_texture: Option<PathBuf>,
+    pub bump_texture: Option<Companion>,
 }
 
 /// The libraries that an OBJ names, loaded while the parser meets their names. Each library is loaded once.
@@ -53,13 +52,13 @@ impl MaterialLibraries {
         let mut materials = Vec::new();
         let libraries = self.lookup.libraries(line.as_bytes());
         if libraries.is_empty() {
-            self.warn(format!("{line} is not in the model's folder; its materials are left out"));
+            self.warn(format!("{}; its materials are left out", self.lookup.problem(&line)));
         }
         for library in libraries {
             if !self.loaded.borrow_mut().insert(library.path.clone()) {
                 continue;
             }
-            match parse_library(&library.path) {
+            match parse_library(&library) {
                 Ok(parsed) => {
                     let located = parsed.iter().map(|material| self.locate(&library.name, material));
                     self.materials.borrow_mut().extend(located);
@@ -77,9 +76,9 @@ impl MaterialLibraries {
             let line = line?;
             let file = self.lookup.texture(library, line.as_bytes());
             if file.is_none() {
-                self.warn(format!("{library}: {line} is not in the model's folder; the texture is left out"));
+                self.warn(format!("{library}: {}; the texture is left out", self.lookup.problem(line)));
             }
-            Some(file?.path)
+            file
         };
         LibraryMaterial {
             name: material.name.clone(),
@@ -96,9 +95,9 @@ impl MaterialLibraries {
 }
 
 /// The materials of a library. The error is a clause whose subject is the library.
-fn parse_library(path: &Path) -> Result<Vec<tobj::Material>, String> {
+fn parse_library(library: &Companion) -> Result<Vec<tobj::Material>, String> {
     let bytes =
-        fs::read(path).map_err(|error| format!("cannot be read: {error}; its materials are left out"))?;
+        library.read().map_err(|error| format!("cannot be read: {error}; its materials are left out"))?;
     let text = String::from_utf8_lossy(&bytes);
     // The parser panics at colours with one or two numbers.
     let is_whole = |line: &str| {

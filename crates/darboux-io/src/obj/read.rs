@@ -1,6 +1,5 @@
 //! Reads an OBJ: checks its indices, parses it, and hands meshes and materials to the document builder.
 
-use std::fs;
 use std::path::Path;
 
 use tobj::{LoadError, Mesh, Model};
@@ -8,10 +7,9 @@ use tobj::{LoadError, Mesh, Model};
 use super::companions::{self, folder_of};
 use super::document::DocumentBuilder;
 use super::libraries::MaterialLibraries;
-use crate::Error;
-use crate::LoadOptions;
 use crate::error::Fault;
 use crate::gltf::Document;
+use crate::{Error, LoadOptions, paths};
 
 /// An OBJ as a document, and what the document lacks.
 #[derive(Debug)]
@@ -33,7 +31,9 @@ pub fn read(path: &Path, options: &LoadOptions) -> Result<ObjModel, Error> {
     let shown = path.display().to_string();
     let invalid = |problem: String| Fault::invalid("", problem).in_file(&shown);
     let libraries = MaterialLibraries::new(folder_of(path)?);
-    let bytes = fs::read(path).map_err(|source| Error::Read { file: path.to_owned(), source })?;
+    let bytes = paths::resolve_input(path).and_then(|input| {
+        paths::read_resolved(&input).map_err(|source| Error::Read { file: path.to_owned(), source })
+    })?;
     // Comments and names may be in any encoding.
     let text = String::from_utf8_lossy(&bytes);
     let parser_options =

@@ -75,7 +75,9 @@ impl ServedModel {
             (ModelKind::Gltf, _) => None,
             (ModelKind::Obj(_), 0) => Some(unchanged(&self.path)),
             (ModelKind::Obj(companions), index) => {
-                companions.get(index - 1).map(|companion| unchanged(&companion.path))
+                let companion = companions.get(index - 1)?;
+                let shown = companion.path.display();
+                Some(companion.read().map_err(|error| format!("{shown}: cannot be read: {error}")))
             }
         }
     }
