@@ -1,50 +1,107 @@
-//! Reads the corpus: small meshes for one behaviour each, with a title that says which.
+//! Reads the cases of the conformance suite: small meshes for one behaviour each, with what mikktspace.c gives for them.
 //!
-//! A file of `corpus/` starts with its title in a comment, then `thresholds` and a list of degrees, then the mesh in the form
-//! of [`OwnedMesh::from_text`].
+//! `conformance/FORMAT.md` describes the files. Numbers are read from their bits.
 
 use std::{fs, path::Path};
 
-use crate::OwnedMesh;
+use serde_json::Value;
 
-/// One collected mesh.
+use crate::{FaceSizes, OwnedMesh};
+
+/// One case.
 #[derive(Clone, Debug)]
 pub struct Specimen {
     /// The file's name without extension.
     pub name: String,
-    /// Its title: the behaviour that it shows.
-    pub title: String,
-    /// The thresholds to run it with, in degrees.
-    pub thresholds: Vec<f32>,
-    /// The mesh.
+    /// The class: core, seams, quads, thresholds, degenerate, hostile or large.
+    pub class: String,
+    /// The behaviour that it shows, as a sentence.
+    pub shows: String,
+    /// The angular threshold in degrees.
+    pub threshold: f32,
+    /// The mesh, indexed.
     pub mesh: OwnedMesh,
+    /// What mikktspace.c gives; `None` where the file has no expected values, or only their hash.
+    pub expected: Option<Expected>,
+}
+
+/// The results of mikktspace.c, one entry per corner.
+#[derive(Clone, Debug)]
+pub struct Expected {
+    /// Tangent and sign.
+    pub tangents: Vec<[f32; 4]>,
+    /// Bitangent.
+    pub bitangents: Vec<[f32; 3]>,
+    /// The lengths of both before normalisation.
+    pub magnitudes: Vec<[f32; 2]>,
 }
 
 impl Specimen {
-    /// Reads one file's text. The message of an error names the line.
-    pub fn from_text(name: &str, text: &str) -> Result<Self, String> {
-        let title = text.lines().next().and_then(|line| line.strip_prefix("# "));
-        let title = title.ok_or_else(|| format!("{name}: the first line is not a title"))?;
-        let (settings, mesh): (Vec<&str>, Vec<&str>) =
-            text.lines().partition(|line| line.starts_with("thresholds"));
-        let words = settings.iter().flat_map(|line| line.split_whitespace().skip(1));
-        let thresholds: Vec<f32> = words
-            .map(|word| word.parse().map_err(|_| format!("{name}: not a threshold: {word}")))
-            .collect::<Result<_, _>>()?;
-        if thresholds.is_empty() {
-            return Err(format!("{name}: no thresholds"));
+    /// Reads one file's text. `None` for a large case, which has a generator instead of vertices. The message of an error names the case
+    /// and the member.
+    pub fn from_text(name: &str, text: &str) -> Result<Option<Self>, String> {
+        let case: Value = serde_json::from_str(text).map_err(|error| format!("{name}: {error}"))?;
+        if case.get("positions").is_none() {
+            return Ok(None);
         }
-        let mesh = OwnedMesh::from_text(&mesh.join("\n")).map_err(|error| format!("{name}: {error}"))?;
-        Ok(Self { name: name.into(), title: title.into(), thresholds, mesh })
+        Self::read(&case).map(Some).ok_or_else(|| format!("{name} is not a case"))
+    }
+
+    fn read(case: &Value) -> Option<Self> {
+        let text = |key: &str| case[key].as_str().map(str::to_owned);
+        let bits = &case["bits"];
+        let mesh = OwnedMesh {
+            positions: rows(&bits["positions"])?,
+            normals: rows(&bits["normals"])?,
+            uvs: rows(&bits["uvs"])?,
+            indices: Some(integers(&case["indices"])?),
+            faces: FaceSizes::from_list(&integers(&case["faces"])?),
+        };
+        let expected = || {
+            Some(Expected {
+                tangents: rows(&bits["tangents"])?,
+                bitangents: rows(&bits["bitangents"])?,
+                magnitudes: rows(&bits["magnitudes"])?,
+            })
+        };
+        Some(Self {
+            name: text("name")?,
+            class: text("class")?,
+            shows: text("shows")?,
+            threshold: float(&bits["threshold"])?,
+            mesh,
+            expected: expected(),
+        })
     }
 }
 
-/// All meshes of `corpus/`, sorted by name. Panics on an unreadable file, because the corpus is part of the tests.
+fn float(word: &Value) -> Option<f32> {
+    u32::from_str_radix(word.as_str()?, 16).ok().map(f32::from_bits)
+}
+
+fn rows<const N: usize>(list: &Value) -> Option<Vec<[f32; N]>> {
+    let row = |words: &Value| {
+        let numbers: Option<Vec<f32>> = words.as_array()?.iter().map(float).collect();
+        numbers?.try_into().ok()
+    };
+    list.as_array()?.iter().map(row).collect()
+}
+
+fn integers(list: &Value) -> Option<Vec<u32>> {
+    list.as_array()?.iter().map(|number| u32::try_from(number.as_u64()?).ok()).collect()
+}
+
+/// All cases of `conformance/cases` that have vertices, sorted by name. Panics on an unreadable file, because the cases are part of the
+/// tests.
 pub fn corpus() -> Vec<Specimen> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus");
-    let mut specimens: Vec<Specimen> = fs::read_dir(&folder)
+    read_folder(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../conformance/cases"))
+}
+
+/// The cases of a folder that have vertices, sorted by name. Panics on an unreadable file.
+pub fn read_folder(folder: &Path) -> Vec<Specimen> {
+    let mut specimens: Vec<Specimen> = fs::read_dir(folder)
         .unwrap_or_else(|error| panic!("{}: {error}", folder.display()))
-        .map(|entry| {
+        .filter_map(|entry| {
             let path = entry.expect("a readable folder").path();
             let name = path.file_stem().expect("a file name").to_string_lossy().into_owned();
             let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{name}: {error}"));

@@ -14,6 +14,19 @@ pub enum FaceSizes {
     Mixed(Vec<u32>),
 }
 
+impl FaceSizes {
+    /// The simplest form of a list of corner counts.
+    pub fn from_list(sizes: &[u32]) -> Self {
+        if sizes.iter().all(|&size| size == 3) {
+            Self::Triangles
+        } else if sizes.iter().all(|&size| size == 4) {
+            Self::Quads
+        } else {
+            Self::Mixed(sizes.to_vec())
+        }
+    }
+}
+
 /// A mesh that owns its arrays. [`OwnedMesh::view`] panics if they are not valid.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OwnedMesh {
@@ -91,13 +104,7 @@ impl OwnedMesh {
     /// A mesh with the same vertices and other faces.
     pub fn with_face_list(mut self, faces: &[Vec<u32>]) -> Self {
         self.indices = Some(faces.concat());
-        self.faces = if faces.iter().all(|face| face.len() == 3) {
-            FaceSizes::Triangles
-        } else if faces.iter().all(|face| face.len() == 4) {
-            FaceSizes::Quads
-        } else {
-            FaceSizes::Mixed(faces.iter().map(|face| face.len() as u32).collect())
-        };
+        self.faces = FaceSizes::from_list(&faces.iter().map(|face| face.len() as u32).collect::<Vec<_>>());
         self
     }
 

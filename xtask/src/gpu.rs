@@ -98,7 +98,7 @@ pub fn record(wanted: &Wanted<'_>) -> Outcome {
         println!("{}", folder.display());
         return Ok(());
     }
-    if !root().join("tests/corpus").is_dir() {
+    if !root().join("conformance/cases").is_dir() {
         return Err(format!(
             "the tests read the repository at {}, where they were built: put it there, or a link to it",
             root().display()
