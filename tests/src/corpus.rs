@@ -91,9 +91,16 @@ fn integers(list: &Value) -> Option<Vec<u32>> {
     list.as_array()?.iter().map(|number| u32::try_from(number.as_u64()?).ok()).collect()
 }
 
-/// All cases of `conformance/cases` that have vertices, sorted by name. Panics on an unreadable file, because the cases are part of the
-/// tests.
+/// The cases of `conformance/cases` that have faces and vertices, sorted by name: what every engine can take, GPUs included. Panics on an
+/// unreadable file, because the cases are part of the tests.
 pub fn corpus() -> Vec<Specimen> {
+    let mut specimens = all_cases();
+    specimens.retain(|specimen| specimen.mesh.corner_count() > 0);
+    specimens
+}
+
+/// As [`corpus`], with the meshes that have no faces.
+pub fn all_cases() -> Vec<Specimen> {
     read_folder(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../conformance/cases"))
 }
 

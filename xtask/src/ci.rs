@@ -8,7 +8,8 @@ use crate::python::WithoutPython;
 use crate::run::{Outcome, program, root, run, shown, works};
 use crate::validate::WithoutNpm;
 use crate::{
-    default_build, dist_js, dist_viewer, doc_blocks, generated, layers, links, packages, python, validate,
+    conformance, default_build, dist_js, dist_viewer, doc_blocks, generated, layers, links, packages, python,
+    validate,
 };
 
 type Step = (&'static str, fn() -> Outcome);
@@ -25,6 +26,7 @@ const QUICK: &[Step] = &[
     ("packages", || packages::install(packages::FOR_TESTS)),
     ("tests", || test("cargo test --workspace")),
     ("small limits", small_limits),
+    ("conformance suite", conformance::check),
     ("python", || python::test(without_python())),
     ("npm package", || dist_js::test(without_npm())),
     ("code blocks of the documentation", || doc_blocks::run(&[])),
@@ -34,6 +36,7 @@ const QUICK: &[Step] = &[
 const LONG: &[Step] = &[
     ("acos", acos),
     ("small limits, all tests", all_with_small_limits),
+    ("mutations of the conformance suite", conformance::check_mutations),
     ("Arm", arm),
     ("long tests", || test("cargo test --release --workspace -- --ignored --skip acos_exhaustive")),
     ("Python wheel", python::test_wheel),

@@ -3,6 +3,7 @@
 mod api;
 mod bench;
 mod ci;
+mod conformance;
 mod default_build;
 mod dist_c;
 mod dist_js;
@@ -37,6 +38,9 @@ checks
   docs [PAGE ...]  run the code blocks of the documentation, twice
   validate         check the command's outputs for all models with independent tools (needs node and npm)
   soak [...]       run the command on damaged and hostile files (Unix); options: soak --help
+  conformance [NAME ...] | --regenerate | --new [SEEDS]
+                   judge every implementation that this machine can install (conformance/), and rebuild the table and the page;
+                   write the expected values of all cases; propose new cases from a differential run
   acos             compare the core's acos with the platform's on every float of [-1, 1]
   arm              run the tests of bits on emulated 64-bit Arm (Debian: needs gcc and g++ for aarch64-linux-gnu, qemu-user; rustup)
 
@@ -84,6 +88,7 @@ fn main() -> ExitCode {
         ["dist-python"] => python::dist(),
         #[cfg(unix)]
         ["soak", ref words @ ..] => soak::run(words),
+        ["conformance", ref words @ ..] => conformance::task(words),
         ["acos"] => ci::acos(),
         ["arm"] => ci::arm(),
         _ => {

@@ -73,8 +73,7 @@ fn darboux(Specimen { class, mesh, threshold, .. }: &Specimen, mode: Mode) -> St
 
 /// Rows of numbers as JSON; NaN and infinities as strings.
 fn rows<const N: usize>(rows: impl Iterator<Item = [f32; N]>) -> String {
-    let number =
-        |x: &f32| if x.is_finite() { format!("{x:?}") } else { format!("\"{x}\"").to_lowercase() };
+    let number = |x: &f32| if x.is_finite() { format!("{x:?}") } else { format!("\"{x}\"").to_lowercase() };
     let row = |row: [f32; N]| format!("[{}]", row.iter().map(number).collect::<Vec<_>>().join(", "));
     format!("[{}]", rows.map(row).collect::<Vec<_>>().join(",\n"))
 }
