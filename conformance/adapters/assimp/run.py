@@ -5,40 +5,37 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parents[2] / "readers"))
 import assimp_py
 from case import run
-from gltf import check, tangents_per_corner, write_glb
+from gltf import check
 
-FILE = Path(tempfile.mkdtemp()) / "case.glb"
+FILE = Path(tempfile.mkdtemp()) / "case.obj"
 
 
 def compute(case):
+    """Tangents of an OBJ file, whose v points up. assimp keeps one vertex per corner, in the file's order."""
     check(case)
-    write_glb(FILE, case)
+    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in case["positions"]]
+    lines += [f"vn {x!r} {y!r} {z!r}" for x, y, z in case["normals"]]
+    lines += [f"vt {u!r} {v!r}" for u, v in case["uvs"]]
+    corners = [f"{i + 1}/{i + 1}/{i + 1}" for i in case["indices"]]
+    lines += ["f " + " ".join(corners[at : at + 3]) for at in range(0, len(corners), 3)]
+    FILE.write_text("\n".join(lines) + "\n", encoding="ascii")
     scene = assimp_py.import_file(str(FILE), assimp_py.Process_CalcTangentSpace)
-    corners = []
-    for mesh in scene.meshes:
-        size = mesh.num_vertices
-        positions, normals, tangents, bitangents = (rows(values, 3, size) for values in (mesh.vertices, mesh.normals, mesh.tangents, mesh.bitangents))
-        # assimp flips v of glTF files when it reads them.
-        uvs = [(u, 1.0 - v) for u, v, *_ in rows(mesh.texcoords[0], len(memory(mesh.texcoords[0])) // size, size)]
-        signed = [(*t, 1.0 if sign(n, t, b) >= 0.0 else -1.0) if t is not None else None for n, t, b in zip(normals, tangents, bitangents)]
-        corners += [(positions[i], normals[i], uvs[i], signed[i]) for i in memory(mesh.indices)]
-    # With v flipped by the reader the bitangent is MikkTSpace's negated, as in glTF; tangents_per_corner negates it back.
-    return tangents_per_corner(case, corners)
+    mesh = scene.meshes[0]
+    indices = memoryview(mesh.indices).tolist()
+    if mesh.tangents is None or len(indices) != len(case["indices"]):
+        return [(0.0,) * 4] * len(case["indices"])
+    normals, tangents, bitangents = (rows(values) for values in (mesh.normals, mesh.tangents, mesh.bitangents))
+    # assimp's bitangent points down the image, against v.
+    signed = [(*t, 1.0 if handedness(n, t, b) < 0.0 else -1.0) for n, t, b in zip(normals, tangents, bitangents)]
+    return [signed[i] for i in indices]
 
 
-def memory(values):
-    view = memoryview(values)
-    return view.cast("B").cast(view.format).tolist() if view.ndim > 1 else view.tolist()
+def rows(values):
+    flat = memoryview(values).tolist()
+    return [tuple(flat[at : at + 3]) for at in range(0, len(flat), 3)]
 
 
-def rows(values, width, count):
-    if values is None:
-        return [None] * count
-    flat = memory(values)
-    return [tuple(flat[width * i : width * i + width]) for i in range(count)]
-
-
-def sign(n, t, b):
+def handedness(n, t, b):
     return sum((n[(i + 1) % 3] * t[(i + 2) % 3] - n[(i + 2) % 3] * t[(i + 1) % 3]) * b[i] for i in range(3))
 
 

@@ -18,7 +18,8 @@ const METHODS: &[(&str, Method)] = &[
 ];
 
 fn main() {
-    for specimen in corpus() {
+    // JSON has neither NaN nor infinities, so the cases with such thresholds are left to the tests in Rust.
+    for specimen in corpus().into_iter().filter(|specimen| specimen.threshold.is_finite()) {
         for mode in [Mode::Reference, Mode::Repaired, Mode::Corrected] {
             let mikkt = MikkTSpaceOptions::new().with_mode(mode).with_threshold(specimen.threshold);
             println!("{}", line(&specimen, mikkt));

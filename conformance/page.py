@@ -1,0 +1,202 @@
+"""Writes docs/conformance.md and results/index.html from the summaries in results/.
+
+    python3 conformance/page.py            writes both
+    python3 conformance/page.py --check    exit code 1 if they are out of date
+"""
+
+import html
+import json
+import sys
+from pathlib import Path
+
+import casefile
+from judge import CLASSES, LEVELS
+
+HERE = Path(__file__).resolve().parent
+PAGE, TABLE = HERE / "results/index.html", HERE.parent / "docs/conformance.md"
+REFERENCE = "mikktspace-c"
+
+
+def summaries():
+    """The newest summary of every implementation: the reference first, then the others by the share of cases that pass."""
+    newest = {}
+    for path in (HERE / "results").glob("*/*.json"):
+        summary = json.loads(path.read_text(encoding="utf-8"))
+        if (summary["date"], path.name) > newest.get(summary["id"], (("", ""),))[0]:
+            newest[summary["id"]] = ((summary["date"], path.name), summary)
+
+    def rank(summary):
+        shares = tuple(-sum(c["levels"][level] for c in summary["classes"].values()) for level in ("angle", "bits"))
+        return (summary["id"] != REFERENCE, not summary.get("ours"), *shares, summary["name"])
+
+    return sorted((summary for _, summary in newest.values()), key=rank)
+
+
+def cell(own):
+    """Cases that pass at the levels bits, angle and seams, and how many were judged."""
+    judged = own["cases"] - own["skipped"]
+    return "-" if not judged else " ".join(str(own["levels"][level]) for level in LEVELS) + f" / {judged}"
+
+
+def nanoseconds(summary):
+    value = summary.get("ns_per_triangle")
+    return "-" if value is None else f"{value:,.0f}"
+
+
+def markdown(all_of_them):
+    lines = [
+        "# Who computes MikkTSpace",
+        "",
+        "Every implementation that the package registries have, judged by the [conformance suite](../conformance/README.md). Made by",
+        "`cargo xtask conformance`; [the page with pictures](../conformance/results/index.html) shows every failing case.",
+        "",
+        "A cell says how many cases of a class pass at the levels `bits`, `angle` and `seams`, and how many were judged: implementations without",
+        "quads or thresholds skip those cases. The time is processor time per triangle of the case large-terrain (20,000 triangles), the least of five",
+        "runs; files are not timed.",
+        "",
+        "| implementation | version | date | " + " | ".join(CLASSES) + " | ns per triangle |",
+        "|---|---|---|" + "---|" * len(CLASSES) + "--:|",
+    ]
+    for s in all_of_them:
+        name = f"**{s['name']}**" if s.get("ours") else s["name"]
+        cells = [cell(s["classes"][c]) if c in s["classes"] else "-" for c in CLASSES]
+        lines.append(f"| {name} | {s['version']} | {s['date']} | " + " | ".join(cells) + f" | {nanoseconds(s)} |")
+    machines = sorted({s["machine"] for s in all_of_them})
+    lines += ["", f"Machine: {'; '.join(machines)}. What they are installed from: " + "; ".join(f"{s['name']}: {s['package']}" for s in all_of_them) + ".", ""]
+    lines += ["## Reports", ""]
+    lines += [f"- [{title(path)}](../conformance/reports/{path.name})" for path in sorted((HERE / "reports").glob("*.md"))]
+    lines += ["", "## Not in the table", "", "| implementation | reason |", "|---|---|"]
+    lines += [f"| {name} | {reason} |" for name, reason in unavailable()]
+    return "\n".join(lines) + "\n"
+
+
+def title(path):
+    return path.read_text(encoding="utf-8").splitlines()[0].lstrip("# ")
+
+
+def unavailable():
+    return json.loads((HERE / "unavailable.json").read_text(encoding="utf-8"))
+
+
+def page(all_of_them):
+    cases = {case["name"]: case for case in casefile.read_all()}
+    shown = {row["name"] for s in all_of_them for row in s["failing"] if "tangents" in row}
+    geometry = {name: picture_data(cases[name]) for name in sorted(shown)}
+    sentences = {path.stem: json.loads(path.read_text(encoding="utf-8"))["failure"] for path in casefile.CASES.glob("*.json")}
+    data = {
+        "cases": geometry,
+        "sentences": {row["name"]: sentences[row["name"]] for s in all_of_them for row in s["failing"] if row["name"] in sentences},
+        "found": {s["id"]: {row["name"]: row["tangents"] for row in s["failing"] if "tangents" in row} for s in all_of_them},
+    }
+    rows = "\n".join(table_row(s) for s in all_of_them)
+    details = "\n".join(section(s, data["sentences"]) for s in all_of_them if s["failing"])
+    absent = "\n".join(f"<tr><th>{html.escape(name)}</th><td>{html.escape(reason)}</td></tr>" for name, reason in unavailable())
+    heads = "".join(f"<th>{name}</th>" for name in CLASSES)
+    embedded = json.dumps(data, separators=(",", ":")).replace("</", "<\\/")
+    template = (HERE / "page.html").read_text(encoding="utf-8")
+    for key, value in {"HEADS": heads, "ROWS": rows, "DETAILS": details, "ABSENT": absent, "DATA": embedded}.items():
+        template = template.replace(f"<!-- {key} -->", value)
+    return template
+
+
+def table_row(s):
+    cells = "".join(f'<td class="{shade(s["classes"].get(c))}">{cell(s["classes"][c]) if c in s["classes"] else "-"}</td>' for c in CLASSES)
+    name = html.escape(s["name"])
+    name = f'<a href="#{s["id"]}">{name}</a>' if s["failing"] else name
+    return f'<tr><th>{name}<small>{html.escape(s["version"])}, {s["date"]}</small></th>{cells}<td>{nanoseconds(s)}</td></tr>'
+
+
+def shade(own):
+    """The best level at which all judged cases of a class pass."""
+    if not own or own["cases"] == own["skipped"]:
+        return "none"
+    judged = own["cases"] - own["skipped"]
+    return next((level for level in LEVELS if own["levels"][level] == judged), "fails")
+
+
+def section(s, sentences):
+    rows = []
+    by_class = {name: [row for row in s["failing"] if class_of(row["name"]) == name] for name in CLASSES}
+    for name, failing in by_class.items():
+        if failing:
+            inner = "\n".join(failing_case(s["id"], row, sentences) for row in failing)
+            rows.append(f"<details><summary>{name}: {len(failing)} cases differ from the reference</summary>\n{inner}\n</details>")
+    claims = f" Claims: {html.escape(s['claims'])}." if s.get("claims") else ""
+    return f'<section id="{s["id"]}"><h2>{html.escape(s["name"])}</h2><p>{html.escape(s["package"])} {html.escape(s["version"])}.{claims}</p>\n' + "\n".join(rows) + "\n</section>"
+
+
+CLASS_OF = {}
+
+
+def class_of(name):
+    if not CLASS_OF:
+        for path in casefile.CASES.glob("*.json"):
+            CLASS_OF[path.stem] = json.loads(path.read_text(encoding="utf-8"))["class"]
+    return CLASS_OF.get(name)
+
+
+def failing_case(identity, row, sentences):
+    m = row["measures"]
+    numbers = [f"{m['corners'] - m['equal']} of {m['corners']} corners differ"]
+    if m["largest_angle"]:
+        numbers.append(f"up to {m['largest_angle']:.3g}°")
+    numbers += [f"{m[key]} {words}" for key, words in (("wrong_signs", "wrong signs"), ("non_finite", "not finite"), ("zero", "zero"), ("missing_splits", "vertices not split")) if m[key]]
+    level = f"passes {row['levels'][0]}" if row["levels"] else "passes no level"
+    picture = f' data-of="{identity}" data-case="{row["name"]}"' if "tangents" in row else ""
+    return f'<details class="case"{picture}><summary>{row["name"]} <small>{level}</small></summary><p>{html.escape(sentences[row["name"]])}</p><p class="numbers">{", ".join(numbers)}</p></details>'
+
+
+def picture_data(case):
+    """What the page draws: triangles in the plane in which the mesh is largest, normals, UVs and the expected tangents."""
+    corners, first = [], 0
+    for size in case["faces"]:
+        if size in (3, 4):
+            corners += [first, first + 1, first + 2] + ([first, first + 2, first + 3] if size == 4 else [])
+        first += size
+    axes = plane(case["positions"])
+
+    def rounded(rows):
+        return [[round(x, 3) if abs(x) < 1e6 else 0 for x in row] for row in rows]
+
+    points = fitted([[row[axis] for axis in axes] for row in case["positions"]])
+    return {
+        "corners": corners,
+        "indices": case["indices"],
+        "points": rounded(points),
+        "normals": rounded(case["normals"]),
+        "uvs": rounded(fitted(case["uvs"])),
+        "expected": rounded(case["expected"]["tangents"]),
+    }
+
+
+def plane(positions):
+    """The two axes along which the finite positions extend most."""
+    extents = []
+    for axis in range(3):
+        values = [row[axis] for row in positions if abs(row[axis]) < 1e30]
+        extents.append((max(values) - min(values) if values else 0.0, -axis))
+    return sorted(-axis for _, axis in sorted(extents)[1:])
+
+
+def fitted(rows):
+    """Points moved and scaled to the unit square; what is not finite goes to the middle."""
+    finite = [[x for x in column if abs(x) < 1e30] or [0.0] for column in zip(*rows)]
+    lows = [min(column) for column in finite]
+    size = max(max(column) - low for column, low in zip(finite, lows)) or 1.0
+    return [[(x - low) / size if abs(x) < 1e30 else 0.5 for x, low in zip(row, lows)] for row in rows]
+
+
+def main():
+    found = summaries()
+    written = {PAGE: page(found), TABLE: markdown(found)}
+    if "--check" in sys.argv[1:]:
+        old = [path.name for path, text in written.items() if not path.exists() or path.read_text(encoding="utf-8") != text]
+        if old:
+            sys.exit(f"{' and '.join(old)} are out of date: run python3 conformance/page.py")
+        return
+    for path, text in written.items():
+        path.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
