@@ -6,6 +6,7 @@ use std::thread;
 use std::time::Duration;
 
 use anstyle::{AnsiColor, Style};
+use darboux::internal::vertex_progress::VertexProgress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::text::{printable, sentence};
@@ -14,11 +15,14 @@ use crate::text::{printable, sentence};
 pub struct Messages {
     quiet: bool,
     progress: ProgressBar,
+    vertex: VertexProgress,
 }
 
 /// The progress on one file; dropping it marks the file as finished.
 pub struct FileProgress<'a> {
     progress: &'a ProgressBar,
+    /// Progress on a vertex with very many faces, for the tangents of this file.
+    pub vertex: &'a VertexProgress,
     byte_length: u64,
     finished_bytes: Cell<u64>,
 }
@@ -33,9 +37,9 @@ impl Messages {
     /// `quiet`: print errors and the summary only, and no progress bar.
     pub fn new(quiet: bool) -> Self {
         let progress = ProgressBar::with_draw_target(Some(0), ProgressDrawTarget::hidden());
-        let style = ProgressStyle::with_template("{bar:30} {percent:>3} % {elapsed} {wide_msg}");
+        let style = ProgressStyle::with_template("{bar:30} {percent:>3} % {elapsed} {prefix}{wide_msg}");
         progress.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-        Self { quiet, progress }
+        Self { quiet, progress, vertex: VertexProgress::default() }
     }
 
     /// Starts the progress bar; inputs of `byte_length` bytes in total are 100 %.
@@ -44,12 +48,19 @@ impl Messages {
         if self.quiet {
             return;
         }
-        let progress = self.progress.clone();
+        let (progress, vertex) = (self.progress.clone(), self.vertex.clone());
         let show = move || {
             thread::sleep(PROGRESS_DELAY);
             if !progress.is_finished() {
                 progress.set_draw_target(ProgressDrawTarget::stderr());
                 progress.enable_steady_tick(FRAME);
+            }
+            while !progress.is_finished() {
+                let of_vertex = vertex.percent();
+                let prefix =
+                    of_vertex.map(|percent| format!("{percent} % of a vertex with very many faces, "));
+                progress.set_prefix(prefix.unwrap_or_default());
+                thread::sleep(FRAME);
             }
         };
         let _work_goes_on_without = thread::Builder::new().spawn(show);
@@ -58,7 +69,12 @@ impl Messages {
     /// Starts the progress of one file.
     pub fn file(&self, name: &str, byte_length: u64) -> FileProgress<'_> {
         self.progress.set_message(printable(name).into_owned());
-        FileProgress { progress: &self.progress, byte_length, finished_bytes: Cell::new(0) }
+        FileProgress {
+            progress: &self.progress,
+            vertex: &self.vertex,
+            byte_length,
+            finished_bytes: Cell::new(0),
+        }
     }
 
     /// Removes the progress bar.

@@ -3,6 +3,7 @@
 use crate::cancel::Cancel;
 use crate::exec::limits::RunLimits;
 use crate::exec::simd::{Width, WidthLimit};
+use crate::exec::vertex_progress::VertexProgress;
 use crate::tangents::memory::TangentMemory;
 
 /// Reused memory, a cancellation token and a thread limit, for one call after the other.
@@ -18,6 +19,7 @@ pub struct Context {
     cancel: Option<Cancel>,
     max_threads: usize,
     width_limit: WidthLimit,
+    progress: Option<VertexProgress>,
 }
 
 impl Default for Context {
@@ -27,6 +29,7 @@ impl Default for Context {
             cancel: None,
             max_threads: usize::MAX,
             width_limit: WidthLimit::default(),
+            progress: None,
         }
     }
 }
@@ -71,16 +74,29 @@ impl Context {
         self.width_limit = limit;
     }
 
+    /// For the command's progress bar.
+    pub(crate) fn set_vertex_progress(&mut self, progress: &VertexProgress) {
+        self.progress = Some(progress.clone());
+    }
+
     /// The limits of a call.
     pub(crate) fn limits(&self) -> RunLimits<'_> {
-        let width = Width::widest(self.width_limit);
-        RunLimits { cancel: self.cancel.as_ref(), max_threads: self.max_threads, width }
+        RunLimits {
+            cancel: self.cancel.as_ref(),
+            max_threads: self.max_threads,
+            width: Width::widest(self.width_limit),
+            progress: self.progress.as_ref(),
+        }
     }
 
     /// The limits of a call and the memory that it reuses.
     pub(crate) fn limits_and_memory(&mut self) -> (RunLimits<'_>, &mut TangentMemory) {
-        let width = Width::widest(self.width_limit);
-        let limits = RunLimits { cancel: self.cancel.as_ref(), max_threads: self.max_threads, width };
+        let limits = RunLimits {
+            cancel: self.cancel.as_ref(),
+            max_threads: self.max_threads,
+            width: Width::widest(self.width_limit),
+            progress: self.progress.as_ref(),
+        };
         (limits, &mut self.memory)
     }
 }

@@ -3,4 +3,5 @@
 pub(crate) mod limits;
 pub(crate) mod simd;
 pub(crate) mod threads;
+pub(crate) mod vertex_progress;
 pub(crate) mod windows;

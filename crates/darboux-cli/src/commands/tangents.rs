@@ -4,6 +4,7 @@ pub mod arguments;
 mod device;
 pub mod summary;
 
+use darboux::internal::vertex_progress::set_vertex_progress;
 use darboux::{Context, Mesh, Method, MikkTSpaceOptions, TangentOptions};
 use darboux_io::gltf::{
     AddNormalsOptions, AddTangentsOptions, Progress, TangentsOutcome, TangentsTotals, WrittenTangents,
@@ -90,6 +91,7 @@ impl FileCommand for TangentsArguments {
             device.generate(mesh, options, context)
         };
         let context = &mut Context::new();
+        set_vertex_progress(context, progress.vertex);
         let made = add_tangents_with(&mut document, &options(self), context, &mut generate, &mut on_progress);
         let mut tangents = made.map_err(sentence)?;
         tangents.warnings.splice(0..0, warnings);

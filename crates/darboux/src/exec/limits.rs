@@ -1,4 +1,4 @@
-//! The limits of one call: a cancellation request, a number of threads and a vector width.
+//! The limits of one call: a cancellation request, a number of threads and a vector width. The counter of its progress goes with them.
 //!
 //! A public function takes them from its [`Context`](crate::Context) once and passes the copy to every stage, also to stages that run
 //! on the threads of a pool. Nothing depends on the thread that a stage runs on.
@@ -8,6 +8,7 @@ use std::ops::Range;
 use crate::Error;
 use crate::cancel::Cancel;
 use crate::exec::simd::{Width, WidthLimit};
+use crate::exec::vertex_progress::VertexProgress;
 
 /// The fewest triangles per thread: waking a thread costs more time than fewer triangles save.
 const MIN_PER_THREAD: usize = if cfg!(small_limits) { 1 } else { 1 << 13 };
@@ -22,11 +23,13 @@ pub(crate) struct RunLimits<'a> {
     /// At least 1.
     pub max_threads: usize,
     pub width: Width,
+    pub progress: Option<&'a VertexProgress>,
 }
 
 impl Default for RunLimits<'_> {
     fn default() -> Self {
-        Self { cancel: None, max_threads: usize::MAX, width: Width::widest(WidthLimit::default()) }
+        let width = Width::widest(WidthLimit::default());
+        Self { cancel: None, max_threads: usize::MAX, width, progress: None }
     }
 }
 

@@ -30,6 +30,9 @@ use crate::tangents::mikktspace::sums_without::{TermLanes, TermList};
 use crate::tangents::mikktspace::welded_mesh::WeldedMesh;
 use crate::tangents::repair::{is_usable, mean_in_plane};
 
+/// The size from which on the progress on a group is reported.
+const LARGE_GROUP: usize = 1 << 12;
+
 /// What evaluation reads besides the groups: the derivatives of all triangles, and the normal of each group's vertex.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct GroupInputs {
@@ -80,6 +83,9 @@ pub(crate) fn evaluate(
         subgroups.load(triangles, members, &membership.derivatives, membership.normal_of_group[group]);
         evaluator.load(subgroups.members(), values.normal_of_group[group], groups.preserves(group));
         subgroups.visit(members, &mut evaluator);
+        if let Some(progress) = limits.progress {
+            progress.clear();
+        }
     }
     evaluator.raw
 }
@@ -153,6 +159,14 @@ impl SubgroupVisitor for Evaluator<'_> {
 
     fn is_stopped(&self) -> bool {
         self.limits.is_cancelled()
+    }
+
+    fn show_progress(&self, found: usize) {
+        if let Some(progress) = self.limits.progress
+            && self.tangents.len() >= LARGE_GROUP
+        {
+            progress.set(found, self.tangents.len());
+        }
     }
 }
 

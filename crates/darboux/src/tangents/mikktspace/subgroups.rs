@@ -49,6 +49,9 @@ pub(crate) trait SubgroupVisitor {
 
     /// True ends the visit early.
     fn is_stopped(&self) -> bool;
+
+    /// The subgroups of so many members are found.
+    fn show_progress(&self, _found: usize) {}
 }
 
 /// Finds the subgroups of one group at a time. The buffers are reused from group to group.
@@ -111,7 +114,7 @@ impl SubgroupFinder {
             let (excluded, subgroup_of_member) = if all_join {
                 (KeyTable::of_empty_key(), vec![0; rest.len()])
             } else {
-                self.find_subgroups(rest, &*visitor)
+                self.find_subgroups(members, members.len() - rest.len(), &*visitor)
             };
             let subgroups = visitor.compute(&excluded);
             for (&member, &number) in rest.iter().zip(&subgroup_of_member) {
@@ -121,14 +124,20 @@ impl SubgroupFinder {
         }
     }
 
-    /// The distinct subgroups of the first members, as many as the limits of the memory allow: the excluded ranges of each, and the subgroup
-    /// of each member.
-    fn find_subgroups<V: SubgroupVisitor>(&mut self, members: &[u32], visitor: &V) -> (KeyTable, Vec<u32>) {
+    /// The distinct subgroups of the members from `first` on, as many as the limits of the memory allow: the excluded ranges of each, and the
+    /// subgroup of each member.
+    fn find_subgroups<V: SubgroupVisitor>(
+        &mut self,
+        members: &[u32],
+        first: usize,
+        visitor: &V,
+    ) -> (KeyTable, Vec<u32>) {
         let mut distinct = KeyTable::with_capacity(members.len().min(MAX_SUBGROUPS));
         let mut of_member = Vec::new();
         let mut of_representative = vec![u32::MAX; self.members.len()];
         let mut excluded = Vec::new();
-        for &member in members {
+        for (found, &member) in members.iter().enumerate().skip(first) {
+            visitor.show_progress(found);
             let is_full = distinct.len() >= MAX_SUBGROUPS || distinct.word_count() >= MAX_WORDS;
             if is_full || visitor.is_stopped() {
                 break;
