@@ -10,7 +10,7 @@ use crate::{FaceSizes, OwnedMesh};
 
 /// One case.
 #[derive(Clone, Debug)]
-pub struct Specimen {
+pub struct CorpusCase {
     /// The file's name without extension.
     pub name: String,
     /// The class: core, seams, quads, thresholds, degenerate, hostile or large.
@@ -36,7 +36,7 @@ pub struct Expected {
     pub magnitudes: Vec<[f32; 2]>,
 }
 
-impl Specimen {
+impl CorpusCase {
     /// Reads one file's text. `None` for a large case, which has a generator instead of vertices. The message of an error names the case
     /// and the member.
     pub fn from_text(name: &str, text: &str) -> Result<Option<Self>, String> {
@@ -93,28 +93,28 @@ fn integers(list: &Value) -> Option<Vec<u32>> {
 
 /// The cases of `conformance/cases` that have faces and vertices, sorted by name: what every engine can take, GPUs included. Panics on an
 /// unreadable file, because the cases are part of the tests.
-pub fn corpus() -> Vec<Specimen> {
-    let mut specimens = all_cases();
-    specimens.retain(|specimen| specimen.mesh.corner_count() > 0);
-    specimens
+pub fn corpus() -> Vec<CorpusCase> {
+    let mut cases = all_cases();
+    cases.retain(|corpus_case| corpus_case.mesh.corner_count() > 0);
+    cases
 }
 
 /// As [`corpus`], with the meshes that have no faces.
-pub fn all_cases() -> Vec<Specimen> {
+pub fn all_cases() -> Vec<CorpusCase> {
     read_folder(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../conformance/cases"))
 }
 
 /// The cases of a folder that have vertices, sorted by name. Panics on an unreadable file.
-pub fn read_folder(folder: &Path) -> Vec<Specimen> {
-    let mut specimens: Vec<Specimen> = fs::read_dir(folder)
+pub fn read_folder(folder: &Path) -> Vec<CorpusCase> {
+    let mut cases: Vec<CorpusCase> = fs::read_dir(folder)
         .unwrap_or_else(|error| panic!("{}: {error}", folder.display()))
         .filter_map(|entry| {
             let path = entry.expect("a readable folder").path();
             let name = path.file_stem().expect("a file name").to_string_lossy().into_owned();
             let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{name}: {error}"));
-            Specimen::from_text(&name, &text).unwrap_or_else(|error| panic!("{error}"))
+            CorpusCase::from_text(&name, &text).unwrap_or_else(|error| panic!("{error}"))
         })
         .collect();
-    specimens.sort_by(|a, b| a.name.cmp(&b.name));
-    specimens
+    cases.sort_by(|a, b| a.name.cmp(&b.name));
+    cases
 }

@@ -1,13 +1,13 @@
 //! Every engine on every case of the conformance suite, in every mode.
 
 use darboux::{Frame, Mode};
-use darboux_tests::corpus::{Specimen, all_cases};
+use darboux_tests::corpus::{CorpusCase, all_cases};
 use darboux_tests::{Case, all_modes, assert_equal, compare, engine, engines};
 
 /// The suite is compared with mikktspace.c itself, so that a wrong edit of a case is found.
 #[test]
 fn expected_values_are_the_reference_s() {
-    for Specimen { name, mesh, threshold, expected, .. } in all_cases() {
+    for CorpusCase { name, mesh, threshold, expected, .. } in all_cases() {
         let expected = expected.unwrap_or_else(|| panic!("{name} has no expected values"));
         let found = engine::reference(&mesh, threshold);
         assert_eq!(expected.tangents.len(), found.len(), "{name}");
@@ -24,7 +24,7 @@ fn expected_values_are_the_reference_s() {
 #[test]
 fn every_engine_gives_the_reference_s_bits() {
     let corpus = all_cases();
-    for Specimen { name, shows, mesh, threshold, .. } in &corpus {
+    for CorpusCase { name, shows, mesh, threshold, .. } in &corpus {
         let expected = engine::reference(mesh, *threshold);
         for engine in engines() {
             let Some(found) = engine.run(mesh, *threshold, Mode::Reference) else { continue };
@@ -37,7 +37,7 @@ fn every_engine_gives_the_reference_s_bits() {
 
 #[test]
 fn every_mode_keeps_its_promise() {
-    for Specimen { name, shows, mesh, threshold, .. } in all_cases() {
+    for CorpusCase { name, shows, mesh, threshold, .. } in all_cases() {
         let case = Case { mesh, threshold };
         if let Err(broken) = all_modes(&case) {
             panic!("{name} ({shows}), {threshold} degrees: {broken}");

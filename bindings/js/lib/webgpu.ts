@@ -9,7 +9,7 @@ import { PassProgram, type NamedBuffers } from './gpu/pass-program.js';
 import { BUFFER_USAGE, computePipeline, dispatchStep, shaderModule, storageBuffer, type Step } from './gpu/pipelines.js';
 import type { GpuTangentOptions, GpuTangents, Indices } from './types.js';
 
-export { GpuPlan, Planner, PlanOfBuffers } from './gpu/planner.js';
+export { GpuPlan, Planner, BoundPlan } from './gpu/planner.js';
 export type { GpuAttribute, GpuMovingMesh } from './gpu/planner.js';
 export type * from './types.js';
 

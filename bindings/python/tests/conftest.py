@@ -36,7 +36,7 @@ class Mesh:
 
 
 @dataclass
-class Specimen:
+class CorpusCase:
     """A collected mesh, options, and what Rust makes of it."""
 
     options: Dict[str, Any]
@@ -53,7 +53,7 @@ def floats(words: List[int], columns: int) -> np.ndarray:
     return np.array(words, dtype=np.uint32).view(np.float32).reshape(-1, columns)
 
 
-def specimen(line: str) -> Specimen:
+def corpus_case(line: str) -> CorpusCase:
     read = json.loads(line)
     mesh = Mesh(
         floats(read["positions"], 3),
@@ -62,14 +62,14 @@ def specimen(line: str) -> Specimen:
         np.array(read["indices"], dtype=np.uint32),
     )
     options = {"mode": read["mode"], "threshold": read["threshold"]}
-    return Specimen(options, mesh, np.array(read["faces"], dtype=np.uint32), read)
+    return CorpusCase(options, mesh, np.array(read["faces"], dtype=np.uint32), read)
 
 
 @pytest.fixture(scope="session")
-def corpus() -> List[Specimen]:
+def corpus() -> List[CorpusCase]:
     command = ["cargo", "run", "--quiet", "--package", "darboux-tests", "--bin", "corpus"]
     output = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, env=os.environ)
-    return [specimen(line) for line in output.stdout.decode().splitlines()]
+    return [corpus_case(line) for line in output.stdout.decode().splitlines()]
 
 
 def grid(columns: int, rows: int) -> Mesh:

@@ -6,11 +6,11 @@ from typing import Any, Callable, Dict, List
 import darboux
 import numpy as np
 import pytest
-from conftest import Mesh, Specimen, bits, floats, grid
+from conftest import Mesh, CorpusCase, bits, floats, grid
 
 
-def test_corpus_has_the_bits_of_rust(corpus: List[Specimen]) -> None:
-    assert len({specimen.answer["name"] for specimen in corpus}) > 30
+def test_corpus_has_the_bits_of_rust(corpus: List[CorpusCase]) -> None:
+    assert len({corpus_case.answer["name"] for corpus_case in corpus}) > 30
     for case in corpus:
         arguments = case.mesh.arrays
         found, report = darboux.generate_tangents(*arguments, faces=case.faces, return_report=True, **case.options)
@@ -27,7 +27,7 @@ def test_corpus_has_the_bits_of_rust(corpus: List[Specimen]) -> None:
         assert bits(split.tangent_of_vertex) == bits(case.floats("split_tangents", 4))
 
 
-def test_methods_and_plans_have_the_bits_of_rust(corpus: List[Specimen]) -> None:
+def test_methods_and_plans_have_the_bits_of_rust(corpus: List[CorpusCase]) -> None:
     for case in corpus:
         arguments = case.mesh.arrays
         for method, words in case.answer["methods"].items():

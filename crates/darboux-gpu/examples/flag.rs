@@ -54,9 +54,9 @@ pub fn paint(gpu: &Gpu) -> Result<Vec<u8>, Box<dyn std::error::Error>> {
                 tangents: part(32),
                 per: TangentsPer::Vertex,
             };
-            plan.normals_of_buffers(&moving)?.record(&mut encoder);
+            plan.bind_normals(&moving)?.record(&mut encoder);
             if row == 0 {
-                plan.of_buffers(&moving)?.record(&mut encoder);
+                plan.bind(&moving)?.record(&mut encoder);
             }
             painter.draw(&mut encoder, [column as u32, row], &vertices);
         }

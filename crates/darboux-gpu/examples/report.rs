@@ -44,7 +44,7 @@ fn meshes() -> Vec<OwnedMesh> {
         families::moebius(200, false),
         families::with_lone_degenerates(families::grid(30, 30, false, false), 50),
     ];
-    meshes.extend(corpus::corpus().into_iter().map(|specimen| specimen.mesh));
+    meshes.extend(corpus::corpus().into_iter().map(|corpus_case| corpus_case.mesh));
     meshes.extend((0..2_000).map(|seed| Case::from_seed(seed).mesh));
     meshes.retain(|mesh| matches!(mesh.view().faces(), Faces::Triangles) && mesh.corner_count() > 0);
     // Random meshes have few complete triangle fans. Grids with noise have only complete fans, and all kinds of rounding.

@@ -163,15 +163,15 @@ impl Bench<'_> {
         for precision in [Precision::Exact, Precision::Fast] {
             let planner = Planner::new(&self.gpu.device, precision);
             let plan = planner.plan(&mesh.view(), &TangentOptions::default())?;
-            let of_buffers = plan.of_buffers(&moving)?;
-            let times = self.clock.time(|encoder| of_buffers.record(encoder));
+            let bound = plan.bind(&moving)?;
+            let times = self.clock.time(|encoder| bound.record(encoder));
             self.print(&format!("plan, {precision:?}"), uploaded, times, Some(bytes));
             if precision == Precision::Fast {
-                let normals = plan.normals_of_buffers(&moving)?;
+                let normals = plan.bind_normals(&moving)?;
                 let times = self.clock.time(|encoder| normals.record(encoder));
                 let bytes = 24 * vertices + 32 * triangles + 8 * vertices;
                 self.print("normals of a plan", uploaded, times, Some(bytes));
-                let check = plan.check_of_buffers(&moving)?;
+                let check = plan.bind_check(&moving)?;
                 self.print(
                     "check of a plan",
                     uploaded,

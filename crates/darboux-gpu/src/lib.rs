@@ -46,7 +46,7 @@ pub use device::mesh_buffers::{Destination, FrameLayout, MeshBuffers, VertexLayo
 pub use device::precision::Precision;
 pub use error::GpuError;
 pub use mikktspace::generate::{CpuFallback, GpuTangents, MikkTSpace};
-pub use plan::bound_plan::PlanOfBuffers;
+pub use plan::bound_plan::BoundPlan;
 pub use plan::check::PlanCheck;
 pub use plan::moving_mesh::{Attribute, MovingMesh, TangentsPer};
 pub use plan::normals::PlanNormals;

@@ -137,8 +137,8 @@ fn families_agree_with_the_core() {
 #[test]
 fn corpus_agrees_with_the_core() {
     let mut tally = Tally::default();
-    for specimen in corpus::corpus() {
-        check(&specimen.name, &specimen.mesh, &mut tally);
+    for corpus_case in corpus::corpus() {
+        check(&corpus_case.name, &corpus_case.mesh, &mut tally);
     }
     println!("{tally:?}");
     assert!(gpus().is_empty() || tally.compared > 100);

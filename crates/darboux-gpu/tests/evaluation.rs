@@ -240,8 +240,8 @@ fn families_are_as_in_the_core() {
 #[test]
 fn the_corpus_is_as_in_the_core() {
     let mut batch = Batch::default();
-    for specimen in corpus::corpus() {
-        batch.add(&specimen.name, &specimen.mesh, 180.0);
+    for corpus_case in corpus::corpus() {
+        batch.add(&corpus_case.name, &corpus_case.mesh, 180.0);
     }
     batch.check(180.0, ALL);
 }

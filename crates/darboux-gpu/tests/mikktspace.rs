@@ -81,10 +81,10 @@ fn families_have_the_bits_of_the_core() {
 #[test]
 fn corpus_has_the_bits_of_the_core() {
     let mut tally = Tally::default();
-    for specimen in corpus::corpus() {
-        check(&specimen.name, &specimen.mesh, specimen.threshold, &mut tally);
-        let triangles = triangulated(&specimen.mesh);
-        check(&format!("{} in triangles", specimen.name), &triangles, specimen.threshold, &mut tally);
+    for corpus_case in corpus::corpus() {
+        check(&corpus_case.name, &corpus_case.mesh, corpus_case.threshold, &mut tally);
+        let triangles = triangulated(&corpus_case.mesh);
+        check(&format!("{} in triangles", corpus_case.name), &triangles, corpus_case.threshold, &mut tally);
     }
     println!("{tally:?}");
 }

@@ -252,7 +252,7 @@ fn normals_are_nearly_the_core_s() {
                 tangents: part(16, 6 * count),
                 per: TangentsPer::Vertex,
             };
-            let normals = plan.normals_of_buffers(&moving).unwrap_or_else(|error| panic!("{error}"));
+            let normals = plan.bind_normals(&moving).unwrap_or_else(|error| panic!("{error}"));
             let read = buffer(gpu, &vec![0; 10 * count], BufferUsages::MAP_READ | BufferUsages::COPY_DST);
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             normals.record(&mut encoder);
@@ -298,13 +298,13 @@ fn what_has_no_plan_is_said() {
             per: TangentsPer::Vertex,
         };
         let of_quads = plan(&quads, options).expect("a plan");
-        let check = of_quads.check_of_buffers(&moving(quads.positions.len() as u32));
+        let check = of_quads.bind_check(&moving(quads.positions.len() as u32));
         assert_eq!(check.err(), Some(GpuError::NotTriangles));
-        let of_seam = plan(&grid, options).expect("a plan").of_buffers(&moving(grid.positions.len() as u32));
+        let of_seam = plan(&grid, options).expect("a plan").bind(&moving(grid.positions.len() as u32));
         assert!(matches!(of_seam.err(), Some(GpuError::UnsplitVertices { vertices: 1.. })));
         let whole = plan(&families::grid(3, 3, false, false), options).expect("a plan");
         assert_eq!(
-            whole.of_buffers(&moving(15)).err(),
+            whole.bind(&moving(15)).err(),
             Some(GpuError::VertexCountMismatch { expected: 16, found: 15 })
         );
     }

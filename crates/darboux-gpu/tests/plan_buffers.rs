@@ -82,7 +82,7 @@ fn wrong_buffers_are_errors() {
             tangents: Attribute { buffer: &all, stride: 16, offset: 0 },
             per: TangentsPer::Corner,
         };
-        let fault = |moving| match plan.of_buffers(&moving) {
+        let fault = |moving| match plan.bind(&moving) {
             Ok(_) => "none".to_owned(),
             Err(error) => error.to_string(),
         };
@@ -127,7 +127,7 @@ fn tangents_over_positions_are_refused() {
                 tangents: part(offset),
                 per: TangentsPer::Vertex,
             };
-            assert_eq!(plan.of_buffers(&moving).is_ok(), is_right, "tangents at {offset}");
+            assert_eq!(plan.bind(&moving).is_ok(), is_right, "tangents at {offset}");
         }
     }
 }

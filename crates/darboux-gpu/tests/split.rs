@@ -41,7 +41,7 @@ fn meshes_are_split_as_by_the_core() {
         ("polar fan".into(), families::fan(300, true)),
         ("unindexed".into(), families::grid(8, 8, false, false).unindexed()),
     ];
-    meshes.extend(corpus::corpus().into_iter().map(|specimen| (specimen.name, specimen.mesh)));
+    meshes.extend(corpus::corpus().into_iter().map(|corpus_case| (corpus_case.name, corpus_case.mesh)));
     meshes.extend((0..300).map(|seed| (format!("seed {seed}"), Case::from_seed(seed).mesh)));
     let mut appended = 0;
     for (name, mesh) in &meshes {

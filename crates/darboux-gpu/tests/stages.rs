@@ -135,8 +135,8 @@ fn families_have_the_arrays_of_the_core() {
 #[test]
 fn corpus_and_random_meshes_have_the_arrays_of_the_core() {
     let mut tally = Tally::default();
-    for specimen in corpus::corpus() {
-        check(&specimen.name, &triangulated(&specimen.mesh), &mut tally);
+    for corpus_case in corpus::corpus() {
+        check(&corpus_case.name, &triangulated(&corpus_case.mesh), &mut tally);
     }
     for seed in 0..2_000 {
         check(&format!("seed {seed}"), &triangulated(&Case::from_seed(seed).mesh), &mut tally);

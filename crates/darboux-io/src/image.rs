@@ -13,4 +13,4 @@ pub use normal_map::{convert_normal_map, count_invalid_normals};
 pub use png_image::PngImage;
 #[cfg(feature = "textures")]
 pub use rgba::{DecodeError, DecodeLimits, RgbaImage};
-pub use srgb::linear_of_srgb;
+pub use srgb::srgb_to_linear;

@@ -3,7 +3,7 @@
 use bytemuck::Pod;
 use darboux_gpu::Gpu;
 use darboux_io::gltf::Appearance;
-use darboux_io::image::linear_of_srgb;
+use darboux_io::image::srgb_to_linear;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{
     BindGroup, BindGroupDescriptor, BindGroupEntry, BindingResource, Buffer, BufferUsages, CommandEncoder,
@@ -121,7 +121,7 @@ fn color_in(color: [u8; 3], format: TextureFormat) -> [f64; 3] {
         let channel = f64::from(channel) / 255.0;
         match format {
             TextureFormat::Rgba8Unorm => channel,
-            _ => linear_of_srgb(channel),
+            _ => srgb_to_linear(channel),
         }
     })
 }

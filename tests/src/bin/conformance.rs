@@ -8,7 +8,7 @@ use std::time::Instant;
 use std::{env, fs};
 
 use darboux::{Frame, MikkTSpaceOptions, Mode, generate_frames, generate_tangents};
-use darboux_tests::corpus::{Specimen, read_folder};
+use darboux_tests::corpus::{CorpusCase, read_folder};
 use darboux_tests::engine;
 
 /// The repetitions of large cases, of which the fastest counts.
@@ -22,20 +22,20 @@ fn main() {
         _ => panic!("usage: conformance CASES RESULTS [reference|repaired|corrected]"),
     };
     fs::create_dir_all(results).expect("a folder for the results");
-    for specimen in read_folder(Path::new(folder)) {
+    for corpus_case in read_folder(Path::new(folder)) {
         let text = match mode {
-            None => reference(&specimen),
-            Some("reference") => darboux(&specimen, Mode::Reference),
-            Some("repaired") => darboux(&specimen, Mode::Repaired),
-            Some("corrected") => darboux(&specimen, Mode::Corrected),
+            None => reference(&corpus_case),
+            Some("reference") => darboux(&corpus_case, Mode::Reference),
+            Some("repaired") => darboux(&corpus_case, Mode::Repaired),
+            Some("corrected") => darboux(&corpus_case, Mode::Corrected),
             Some(other) => panic!("{other} is not a mode"),
         };
-        let path = Path::new(results).join(&specimen.name).with_extension("json");
+        let path = Path::new(results).join(&corpus_case.name).with_extension("json");
         fs::write(path, text).expect("a result is written");
     }
 }
 
-fn reference(Specimen { mesh, threshold, .. }: &Specimen) -> String {
+fn reference(CorpusCase { mesh, threshold, .. }: &CorpusCase) -> String {
     let unwritten =
         Frame { tangent: [1.0, 0.0, 0.0], bitangent: [0.0, 1.0, 0.0], magnitude: [1.0; 2], sign: -1.0 };
     let start = Instant::now();
@@ -57,7 +57,7 @@ fn reference(Specimen { mesh, threshold, .. }: &Specimen) -> String {
     )
 }
 
-fn darboux(Specimen { class, mesh, threshold, .. }: &Specimen, mode: Mode) -> String {
+fn darboux(CorpusCase { class, mesh, threshold, .. }: &CorpusCase, mode: Mode) -> String {
     let options = MikkTSpaceOptions::new().with_mode(mode).with_threshold(*threshold).into();
     let run = || {
         let start = Instant::now();

@@ -4,7 +4,7 @@ use darboux::{
     Mesh, Method, MikkTSpaceOptions, Mode, Plan, TangentOptions, Tangents, generate_frames,
     generate_tangents, split_vertices,
 };
-use darboux_tests::corpus::{Specimen, corpus};
+use darboux_tests::corpus::{CorpusCase, corpus};
 
 /// The other methods and their names as strings.
 const METHODS: &[(&str, Method)] = &[
@@ -19,15 +19,15 @@ const METHODS: &[(&str, Method)] = &[
 
 fn main() {
     // JSON has neither NaN nor infinities, so the cases with such thresholds are left to the tests in Rust.
-    for specimen in corpus().into_iter().filter(|specimen| specimen.threshold.is_finite()) {
+    for corpus_case in corpus().into_iter().filter(|corpus_case| corpus_case.threshold.is_finite()) {
         for mode in [Mode::Reference, Mode::Repaired, Mode::Corrected] {
-            let mikkt = MikkTSpaceOptions::new().with_mode(mode).with_threshold(specimen.threshold);
-            println!("{}", line(&specimen, mikkt));
+            let mikkt = MikkTSpaceOptions::new().with_mode(mode).with_threshold(corpus_case.threshold);
+            println!("{}", line(&corpus_case, mikkt));
         }
     }
 }
 
-fn line(Specimen { name, mesh, .. }: &Specimen, mikkt: MikkTSpaceOptions) -> String {
+fn line(CorpusCase { name, mesh, .. }: &CorpusCase, mikkt: MikkTSpaceOptions) -> String {
     let (view, options) = (mesh.view(), &TangentOptions::from(mikkt));
     let Tangents { corners: tangents, report } = generate_tangents(&view, options);
     let frames = generate_frames(&view, options).corners;

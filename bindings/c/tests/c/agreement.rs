@@ -89,7 +89,7 @@ fn tangents(
 
 /// The corpus and `random` random meshes.
 fn meshes(random: u64) -> Vec<OwnedMesh> {
-    let mut meshes: Vec<_> = corpus::corpus().into_iter().map(|specimen| specimen.mesh).collect();
+    let mut meshes: Vec<_> = corpus::corpus().into_iter().map(|corpus_case| corpus_case.mesh).collect();
     meshes.extend((0..random).map(|seed| Case::from_seed(seed).mesh));
     meshes
 }

@@ -95,12 +95,12 @@ fn corpus_is_the_same() {
     if !has("gcc") {
         return;
     }
-    let specimens = corpus::corpus();
+    let cases = corpus::corpus();
     let mut inputs = Vec::new();
-    for specimen in &specimens {
+    for corpus_case in &cases {
         for setters in [0, BASIC, FULL, BASIC | FULL] {
-            inputs.push(Input::new(&specimen.mesh, setters, specimen.threshold));
-            inputs.push(Input::new(&specimen.mesh, setters | DEFAULT, 0.0));
+            inputs.push(Input::new(&corpus_case.mesh, setters, corpus_case.threshold));
+            inputs.push(Input::new(&corpus_case.mesh, setters | DEFAULT, 0.0));
         }
     }
     assert_same(&inputs);

@@ -61,7 +61,7 @@ export class Planner {
 
 /**
  * The groups of one mesh on a device. Its tangents can be evaluated wherever its vertices are, bit for bit as by `Plan` of `darboux` where
- * {@link PlanOfBuffers.counts} are 0.
+ * {@link BoundPlan.counts} are 0.
  */
 export class GpuPlan {
   readonly #device: GPUDevice;
@@ -89,7 +89,7 @@ export class GpuPlan {
    * @throws RangeError for strides and offsets that are not multiples of 4, for attributes past the end of their buffer, for tangents that
    * overlap positions or normals, and for tangents per vertex where corners of one vertex have several.
    */
-  ofBuffers(mesh: GpuMovingMesh): PlanOfBuffers {
+  bind(mesh: GpuMovingMesh): BoundPlan {
     const { triangleCount, sumCount, repairs } = this.#topology;
     const sumOfOutput = this.#sumOfOutput(mesh.per);
     checkBuffers(mesh, this.#topology.vertexCount, sumOfOutput.length);
@@ -119,7 +119,7 @@ export class GpuPlan {
       (encoder) => ofSums.copyUnsureCount(encoder, counts, 4),
       (encoder) => encoder.copyBufferToBuffer(repaired, 0, counts, 8, 4),
     ];
-    return new PlanOfBuffers(steps, counts);
+    return new BoundPlan(steps, counts);
   }
 
   #sumOfOutput(per: GpuMovingMesh['per']): Uint32Array {
@@ -139,7 +139,7 @@ export class GpuPlan {
 }
 
 /** A {@link GpuPlan} bound to a caller's buffers. Recording it every frame allocates nothing. */
-export class PlanOfBuffers {
+export class BoundPlan {
   readonly #steps: readonly Step[];
 
   /**

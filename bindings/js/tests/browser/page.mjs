@@ -171,7 +171,7 @@ export async function plans(per, options, name, scale = 1) {
   const part = (offset) => ({ buffer, stride: 40, offset });
   const tangents = per === 'corner' ? { buffer: filled(new Float32Array(4 * outputs)), stride: 16, offset: 0 } : part(24);
   const plan = new Planner(device).plan(darboux.planTopology(...mesh, options));
-  const work = plan.ofBuffers({ positions: part(0), normals: part(12), tangents, per });
+  const work = plan.bind({ positions: part(0), normals: part(12), tangents, per });
   const [words, counts] = await read((encoder) => work.record(encoder), [tangents.buffer, work.counts]);
   const ours = new Float32Array(words.buffer);
   const theirs = new darboux.Plan(...mesh, options).evaluate(moved, normals);
@@ -190,7 +190,7 @@ export async function refusals() {
   const plan = new Planner(found.device).plan(darboux.planTopology(...mirrored()));
   const said = (mesh) => {
     try {
-      plan.ofBuffers({ positions: part(0), normals: part(12), tangents: part(24), per: 'corner', ...mesh });
+      plan.bind({ positions: part(0), normals: part(12), tangents: part(24), per: 'corner', ...mesh });
     } catch (error) {
       return `${error.name}: ${error.message}`;
     }

@@ -18,7 +18,7 @@ use crate::plan::planner::{Layout, Plan, Planner};
 
 /// A [`Plan`] with the buffers of a moving mesh. It can be recorded every frame, without allocation.
 #[derive(Clone, Debug)]
-pub struct PlanOfBuffers {
+pub struct BoundPlan {
     terms: PrecisionDispatch,
     gather: PrecisionDispatch,
     unusable: WorkList,
@@ -36,7 +36,7 @@ impl Plan {
     /// Errors: another number of vertices; an offset or stride that is not a multiple of 4; attributes that overlap or do not lie in their
     /// buffer; a buffer without `BufferUsages::STORAGE` or past a limit of the device; tangents per vertex where the corners of a vertex
     /// have different tangents.
-    pub fn of_buffers(&self, mesh: &MovingMesh<'_>) -> Result<PlanOfBuffers, GpuError> {
+    pub fn bind(&self, mesh: &MovingMesh<'_>) -> Result<BoundPlan, GpuError> {
         let Layout { uniform, sum_of_output, output_count } = &self.layout(mesh)?;
         let Planner { device, terms, gather, repair, write_tangents, .. } = &self.planner;
         let (positions, normals) = (mesh.positions.buffer, mesh.normals.buffer);
@@ -67,7 +67,7 @@ impl Plan {
             [(0, uniform), (1, sum_of_output), (2, &self.tangents), (3, mesh.tangents.buffer)];
         let repair = (self.uniform.repairs == 1)
             .then(|| Dispatch::indirect(device, repair, &repair_buffers, &unusable.buffer));
-        Ok(PlanOfBuffers {
+        Ok(BoundPlan {
             terms: PrecisionDispatch::new(device, terms, &terms_buffers, self.uniform.triangle_count),
             gather: PrecisionDispatch::new(device, gather, &gather_buffers, self.uniform.sum_count),
             repair,
@@ -79,7 +79,7 @@ impl Plan {
     }
 }
 
-impl PlanOfBuffers {
+impl BoundPlan {
     /// Records the tangents for the positions and normals that the buffers hold when the device executes the commands.
     pub fn record(&self, encoder: &mut CommandEncoder) {
         self.unusable.record_clear(encoder);

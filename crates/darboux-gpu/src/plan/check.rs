@@ -18,9 +18,9 @@ pub struct PlanCheck {
 }
 
 impl Plan {
-    /// A check of the buffers that were given to [`Plan::of_buffers`]. Errors: those of that function; the mesh has faces other than
+    /// A check of the buffers that were given to [`Plan::bind`]. Errors: those of that function; the mesh has faces other than
     /// triangles.
-    pub fn check_of_buffers(&self, mesh: &MovingMesh<'_>) -> Result<PlanCheck, GpuError> {
+    pub fn bind_check(&self, mesh: &MovingMesh<'_>) -> Result<PlanCheck, GpuError> {
         if self.has_quads {
             return Err(GpuError::NotTriangles);
         }
@@ -59,7 +59,7 @@ impl Plan {
 }
 
 impl PlanCheck {
-    /// Records the check. Record [`PlanOfBuffers::record`](super::bound_plan::PlanOfBuffers::record) of the same buffers before.
+    /// Records the check. Record [`BoundPlan::record`](super::bound_plan::BoundPlan::record) of the same buffers before.
     pub fn record(&self, encoder: &mut CommandEncoder) {
         encoder.clear_buffer(&self.counts, 0, None);
         encoder.clear_buffer(&self.hash_slots, 0, None);

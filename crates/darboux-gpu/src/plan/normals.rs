@@ -17,11 +17,11 @@ pub struct PlanNormals {
 }
 
 impl Plan {
-    /// Smooth normals in the buffers that were given to [`Plan::of_buffers`], with its errors.
+    /// Smooth normals in the buffers that were given to [`Plan::bind`], with its errors.
     ///
     /// A normal is the mean of the normals of adjacent triangles, weighted by their angles. Vertices share a normal if they had one position
     /// and one normal in the planned mesh. The rounding is the device's.
-    pub fn normals_of_buffers(&self, mesh: &MovingMesh<'_>) -> Result<PlanNormals, GpuError> {
+    pub fn bind_normals(&self, mesh: &MovingMesh<'_>) -> Result<PlanNormals, GpuError> {
         let Layout { uniform, .. } = &self.layout(mesh)?;
         let device = &self.planner.device;
         let group_count = self.normals.group_count;
@@ -48,7 +48,7 @@ impl Plan {
 }
 
 impl PlanNormals {
-    /// Records the normals. Record [`PlanOfBuffers::record`](super::bound_plan::PlanOfBuffers::record) of the same buffers afterwards.
+    /// Records the normals. Record [`BoundPlan::record`](super::bound_plan::BoundPlan::record) of the same buffers afterwards.
     pub fn record(&self, encoder: &mut CommandEncoder) {
         self.sums.record(encoder);
         self.write.record(encoder);

@@ -34,7 +34,7 @@ use crate::plan::shaders::{
 ///     tangents: attribute(32),
 ///     per: TangentsPer::Vertex,
 /// };
-/// let tangents = plan.of_buffers(&moving)?;
+/// let tangents = plan.bind(&moving)?;
 ///
 /// // Every frame, after the pass that moves the vertices:
 /// tangents.record(encoder);
@@ -176,7 +176,7 @@ pub(super) struct Layout {
 }
 
 impl Plan {
-    /// Checks the buffers of `mesh`. Errors: those of [`Plan::of_buffers`].
+    /// Checks the buffers of `mesh`. Errors: those of [`Plan::bind`].
     pub(super) fn layout(&self, mesh: &MovingMesh<'_>) -> Result<Layout, GpuError> {
         let (sum_of_output, output_count) = self.outputs[mesh.per as usize].clone()?;
         let device = &self.planner.device;

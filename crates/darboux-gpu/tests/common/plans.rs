@@ -43,8 +43,8 @@ pub fn run(
 }
 
 pub fn record(gpu: &Gpu, plan: &Plan, moving: &MovingMesh<'_>) -> Found {
-    let run = plan.of_buffers(moving).unwrap_or_else(|error| panic!("{error}"));
-    let check = match plan.check_of_buffers(moving) {
+    let run = plan.bind(moving).unwrap_or_else(|error| panic!("{error}"));
+    let check = match plan.bind_check(moving) {
         Err(GpuError::NotTriangles) => None,
         check => Some(check.unwrap_or_else(|error| panic!("{error}"))),
     };

@@ -370,7 +370,7 @@ impl<'a> OutputLayout<'a> {
         binary_uris: &[String],
         renamed: &HashMap<PathBuf, String>,
     ) -> serde_json::Result<String> {
-        let new_file = format!("{{\"name\":{}}}", Buffer::OUR_NAME);
+        let new_file = format!("{{\"name\":{}}}", Buffer::NAME_FOR_NEW_DATA);
         let new = if binary_uris.is_empty() { "{}" } else { &new_file };
         let text = output_buffer.source.map_or(new, |source| texts[source].as_str());
         match (&output_buffer.content, output_buffer.source) {

@@ -64,7 +64,9 @@ impl Document {
     /// file is kept, since other documents may refer to it.
     pub(super) fn replaced_file(&self, buffer: usize) -> Option<&LocatedFile> {
         match (self.root.buffers.get(buffer), self.buffer_sources.get(buffer)) {
-            (Some(buffer), Some(BufferSource::File(file))) if buffer.is_ours() && self.is_changed() => {
+            (Some(buffer), Some(BufferSource::File(file)))
+                if buffer.was_made_by_darboux() && self.is_changed() =>
+            {
                 Some(&file.located)
             }
             _ => None,

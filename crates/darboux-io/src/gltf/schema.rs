@@ -359,11 +359,11 @@ pub(super) struct Buffer {
 
 impl Buffer {
     /// The name of buffers made for new data of a `.gltf`, by which later runs recognise them.
-    pub(super) const OUR_NAME: &str = "\"darboux\"";
+    pub(super) const NAME_FOR_NEW_DATA: &str = "\"darboux\"";
 
-    /// Whether an earlier run made the buffer for new data.
-    pub(super) fn is_ours(&self) -> bool {
-        self.name.as_ref().is_some_and(|name| name.get() == Self::OUR_NAME)
+    /// True if an earlier run of Darboux made the buffer, for new data.
+    pub(super) fn was_made_by_darboux(&self) -> bool {
+        self.name.as_ref().is_some_and(|name| name.get() == Self::NAME_FOR_NEW_DATA)
     }
 }
 

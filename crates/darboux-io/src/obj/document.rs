@@ -10,7 +10,7 @@ use super::companions::Companion;
 use super::libraries::LibraryMaterial;
 use crate::error::Fault;
 use crate::gltf::{ComponentType, ElementType, container, segments};
-use crate::image::{DecodeLimits, RgbaImage, linear_of_srgb};
+use crate::image::{DecodeLimits, RgbaImage, srgb_to_linear};
 
 /// The lists of a glTF document while they grow, and its binary chunk.
 #[derive(Default)]
@@ -31,7 +31,7 @@ impl DocumentBuilder {
     pub fn add_material(&mut self, material: &LibraryMaterial) {
         let finite =
             |channel: f32| if channel.is_finite() { f64::from(channel.clamp(0.0, 1.0)) } else { 1.0 };
-        let [r, g, b] = material.color.map(|channel| linear_of_srgb(finite(channel)));
+        let [r, g, b] = material.color.map(|channel| srgb_to_linear(finite(channel)));
         let color_texture = material.color_texture.as_ref().and_then(|file| self.texture(file));
         let normal_map = material.normal_texture.as_ref().or_else(|| self.normal_map_in_bump(material));
         let normal_map = normal_map.and_then(|file| self.texture(file));
