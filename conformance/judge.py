@@ -37,7 +37,7 @@ def read_json(path, limit=None):
         size = path.stat().st_size
         if limit is not None and size > limit:
             raise Unusable(f"{path} has {size:,} bytes, more than the {limit:,} that its case can need.")
-        return json.loads(path.read_text(encoding="utf-8"), parse_constant=refuse_constant)
+        return json.loads(path.read_text(encoding="utf-8"), parse_constant=refuse_constant, parse_int=integer)
     except FileNotFoundError:
         raise Unusable(f'{path} is missing; write {{"skipped": "why"}} for a case that you cannot run.') from None
     except OSError as error:
@@ -52,6 +52,11 @@ def read_json(path, limit=None):
 
 def refuse_constant(name):
     raise ValueError(f'{name} is not JSON, write it as the string "nan", "inf" or "-inf"')
+
+
+def integer(text):
+    """-0 is a floating-point zero, as C's printf writes it."""
+    return -0.0 if text == "-0" else int(text)
 
 
 def number(value, where):

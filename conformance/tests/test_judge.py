@@ -153,6 +153,13 @@ class Verdicts(Judged):
         self.write("bumpy-grid", {"tangents": rows})
         self.assertEqual([self.judge(level=level)[0] for level in judge.LEVELS], [1, 0, 0])
 
+    def test_minus_zero_keeps_its_sign(self):
+        case = next(case for case in CASES if case["name"] == "order-of-writes")
+        text = self.right["order-of-writes"].replace("-0.0,", "-0,")
+        self.assertNotEqual(text, self.right["order-of-writes"])
+        self.write(case["name"], text)
+        self.assertEqual(self.judge()[0], 0)
+
     def test_a_turned_tangent_fails_angle(self):
         case = next(case for case in CASES if case["name"] == "square")
         turned = [math.cos(0.01), math.sin(0.01), 0.0]

@@ -16,13 +16,13 @@ pub fn task(words: &[&str]) -> Outcome {
         }
         ["--new", rest @ ..] => {
             compute_reference()?;
-            run(program("python3 conformance/propose.py").arg(tool()?).args(rest))
+            let mut proposer = program("python3 conformance/propose.py");
+            run(proposer.arg(folder("")?).args(rest).env("DARBOUX_TOOL", tool()?))
         }
         names => {
             compute_reference()?;
             let mut runner = program("python3 conformance/run.py");
-            runner.arg(folder("")?).args(names).env("DARBOUX_TOOL", tool()?);
-            run(&mut runner)?;
+            run(runner.arg(folder("")?).args(names).envs(interfaces()?))?;
             run(&mut program("python3 conformance/page.py"))
         }
     }
@@ -56,6 +56,18 @@ fn compute_reference() -> Outcome {
     let cases = folder("cases")?;
     run(program("python3 conformance/generate.py").arg(&cases).arg("--all"))?;
     run(computer()?.arg(cases).arg(folder("reference")?))
+}
+
+/// The environment variables with which the adapters of our own interfaces find them. Interfaces that are not built are left out.
+fn interfaces() -> Result<Vec<(&'static str, PathBuf)>, String> {
+    let target = target_folder()?;
+    let built = [
+        ("DARBOUX_TOOL", tool()?),
+        ("DARBOUX_C", target.join("dist-c/darboux")),
+        ("DARBOUX_PYTHON", target.join("python/bin/python")),
+        ("DARBOUX_NPM", target.join("dist-js/darboux")),
+    ];
+    Ok(built.into_iter().filter(|(_, path)| path.exists()).collect())
 }
 
 /// The program that computes cases with mikktspace.c and with Darboux: `CASES RESULTS [MODE]`.

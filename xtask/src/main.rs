@@ -38,7 +38,7 @@ checks
   docs [PAGE ...]  run the code blocks of the documentation, twice
   validate         check the command's outputs for all models with independent tools (needs node and npm)
   soak [...]       run the command on damaged and hostile files (Unix); options: soak --help
-  conformance [NAME ...] | --regenerate | --new [SEEDS]
+  conformance [ADAPTER ...] | --regenerate | --new A B [MESHES [SEED]]
                    judge every implementation that this machine can install (conformance/), and rebuild the table and the page;
                    write the expected values of all cases; propose new cases from a differential run
   acos             compare the core's acos with the platform's on every float of [-1, 1]
