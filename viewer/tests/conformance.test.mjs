@@ -27,7 +27,7 @@ async function open(options) {
 test('a failing case unfolds with its sentence, numbers and pictures', async () => {
   const { page, faults } = await open({ viewport: { width: 1000, height: 700 } });
   assert.ok((await page.$$('tbody tr')).length > 16);
-  const drawn = await page.$eval('details.case[data-case]', async (details) => {
+  const drawn = await page.$eval('details.case[data-case="mirrored-pair"]', async (details) => {
     details.closest('section > details').open = true;
     details.open = true;
     await new Promise((resolve) => details.addEventListener('toggle', resolve, { once: true }));
