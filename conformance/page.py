@@ -52,7 +52,7 @@ def markdown(all_of_them):
         "",
         "A cell says how many cases of a class pass at the levels `bits`, `angle` and `seams`, and how many were judged: implementations without",
         "quads or thresholds skip those cases. The time is processor time per triangle of the case large-terrain (20,000 triangles), the least of five",
-        "runs; files are not timed.",
+        "runs (Darboux's modes: wall time); files are not timed.",
         "",
         "| implementation | version | date | " + " | ".join(CLASSES) + " | ns per triangle |",
         "|---|---|---|" + "---|" * len(CLASSES) + "--:|",

@@ -44,7 +44,9 @@ def build(case, faces):
         raise ValueError("skip: Blender keeps other faces than the case has")
     layer = mesh.uv_layers.new(name="UVMap")
     layer.data.foreach_set("uv", [x for index in case["indices"] for x in case["uvs"][index]])
-    mesh.normals_split_custom_set([case["normals"][index] for index in case["indices"]])
+    # Free custom normals, as floats per vertex. normals_split_custom_set keeps 16 bits per corner, which differ from face to face.
+    normals = mesh.attributes.new("custom_normal", "FLOAT_VECTOR", "POINT")
+    normals.data.foreach_set("vector", [x for normal in case["normals"] for x in normal])
     bpy.context.scene.collection.objects.link(bpy.data.objects.new("case", mesh))
     return mesh
 
