@@ -46,6 +46,9 @@ struct Soak {
 /// How often `--only` repeats a directed case: with other sizes and options each time.
 const REPETITIONS: u64 = 8;
 
+/// From this number on all cases are directed ones.
+const DIRECTED: u64 = 1 << 32;
+
 /// Errors: a wrong option; what the soak itself needs is refused by the system; there were findings.
 pub fn run(words: &[&str]) -> Outcome {
     let options = Options::parse(words)?;
@@ -82,9 +85,9 @@ impl Soak {
         }
         if let Some(word) = &self.options.only {
             let count = self.directed.len() as u64;
-            let numbers = (0..REPETITIONS * count)
+            let mut numbers = (DIRECTED..DIRECTED + REPETITIONS * count)
                 .filter(|number| self.directed_of(*number).name.contains(word.as_str()));
-            return numbers.into_iter().try_for_each(|number| self.run_case(number, report));
+            return numbers.try_for_each(|number| self.run_case(number, report));
         }
         let mut number = 0;
         while !report.is_over() {
@@ -113,9 +116,9 @@ impl Soak {
         &self.directed[number as usize % self.directed.len()]
     }
 
-    /// The case with a number: first every directed case several times, then mostly damaged files. `None` if this program cannot run it.
+    /// The case with a number: first every directed case, then mostly damaged files. `None` if this program cannot run it.
     fn case(&self, number: u64, random: &mut Random) -> Result<Option<Case>, String> {
-        if number < REPETITIONS * self.directed.len() as u64 {
+        if number < self.directed.len() as u64 || number >= DIRECTED {
             return self.directed_case(self.directed_of(number), random).transpose();
         }
         match random.below(100) {

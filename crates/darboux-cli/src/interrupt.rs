@@ -1,4 +1,5 @@
 //! Ctrl-C, SIGTERM and SIGHUP: the process ends after the file that is being written is complete, so that no partial file remains.
+//! SIGXFSZ, which a file larger than `ulimit -f` causes, becomes an error of the write.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -13,6 +14,7 @@ pub fn wait_for_writes() {
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
 
+    refuse_large_files();
     let unhandled = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|&signal| has_default_action(signal));
     // If the system refuses, the signals end the process at once.
     let Ok(mut signals) = Signals::new(unhandled) else { return };
@@ -23,6 +25,19 @@ pub fn wait_for_writes() {
         }
     };
     let _signals_end_the_process_at_once = std::thread::Builder::new().spawn(wait);
+}
+
+/// Handles SIGXFSZ, whose default action would end the process and leave its temporary file: the write then fails with EFBIG.
+#[cfg(unix)]
+fn refuse_large_files() {
+    use signal_hook::consts::SIGXFSZ;
+    use signal_hook::flag;
+
+    if has_default_action(SIGXFSZ) {
+        let seen = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(false));
+        // If the system refuses, the signal ends the process, and the next run removes the file.
+        let _default_action_stays = flag::register(SIGXFSZ, seen);
+    }
 }
 
 /// Whether a signal is neither ignored nor handled.

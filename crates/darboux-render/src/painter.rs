@@ -1,7 +1,7 @@
 //! Draws both sides of a [`Drawing`] in one render pass.
 
 use bytemuck::Pod;
-use darboux_gpu::Gpu;
+use darboux_gpu::{AdapterKind, Gpu};
 use darboux_io::gltf::Appearance;
 use darboux_io::image::srgb_to_linear;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
@@ -27,6 +27,9 @@ const MAX_CHUNK_CORNERS: usize = 3 << 18;
 
 /// The most triangles. Small files can ask for any number, because many nodes may show one mesh.
 const MAX_TRIANGLES: u64 = 1 << 28;
+
+/// The same for a software adapter, which keeps every triangle of a picture in memory: about 60 bytes each.
+const MAX_SOFTWARE_TRIANGLES: u64 = 1 << 23;
 
 /// The vertex buffers of some triangles of a part.
 struct Chunk {
@@ -65,8 +68,12 @@ pub fn paint(
 ) -> Result<Vec<[u8; 3]>, RenderError> {
     let sides = drawing.sides();
     let triangles = sides.iter().map(|(side, _)| side.model.triangle_count()).fold(0, u64::saturating_add);
-    if triangles > MAX_TRIANGLES {
-        return Err(RenderError::TooManyTriangles { triangles, limit: MAX_TRIANGLES });
+    let limit = match gpu.kind() {
+        AdapterKind::Software => MAX_SOFTWARE_TRIANGLES,
+        _ => MAX_TRIANGLES,
+    };
+    if triangles > limit {
+        return Err(RenderError::TooManyTriangles { triangles, limit });
     }
     let format = match drawing.view() {
         View::Shaded => TextureFormat::Rgba8UnormSrgb,

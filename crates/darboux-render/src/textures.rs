@@ -14,6 +14,12 @@ use crate::mipmaps::halved;
 /// The most texels of all images together. With mip levels they take 1 GiB.
 const MAX_TEXELS: u64 = 200 << 20;
 
+/// What a texel takes of the memory limit: four channels of 8 bits.
+const BYTES_PER_TEXEL: u64 = 4;
+
+/// What a texel takes while it is decoded: four channels of 16 bits.
+const BYTES_WHILE_DECODING: u64 = 8;
+
 /// The meaning of a texture's texels.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Kind {
@@ -44,13 +50,15 @@ pub struct Textures<'a> {
     document: &'a Document,
     /// By image and kind; none for images that cannot be decoded.
     uploaded: HashMap<(Option<usize>, Kind), Option<TextureView>>,
+    /// The texels of all images so far, and the sizes of their files.
     texels: u64,
+    bytes: usize,
     pub warnings: Vec<String>,
 }
 
 impl<'a> Textures<'a> {
     pub fn new(gpu: &'a Gpu, document: &'a Document) -> Self {
-        Self { gpu, document, uploaded: HashMap::new(), texels: 0, warnings: Vec::new() }
+        Self { gpu, document, uploaded: HashMap::new(), texels: 0, bytes: 0, warnings: Vec::new() }
     }
 
     /// The texture that a material uses. If it cannot be decoded, the result is none, and there is a warning.
@@ -80,13 +88,18 @@ impl<'a> Textures<'a> {
         let image = image.ok_or("a texture has no image; export the file again")?;
         let bytes = self.document.image_bytes(image).map_err(|error| error.to_string())?;
         let message = |problem: String| format!("images[{image}] {problem}");
+        let document = self.document;
+        let texels = |size, bytes_per_texel: u64| document.memory_limit_of(size) / bytes_per_texel;
+        let limits = DecodeLimits::default();
+        let max_texels = limits.max_texels.min(texels(bytes.len(), BYTES_WHILE_DECODING));
         let side = self.gpu.device.limits().max_texture_dimension_2d;
-        let limits = DecodeLimits::default().with_max_side(side);
+        let limits = limits.with_max_side(side).with_max_texels(max_texels);
         let decoded = RgbaImage::decode(&bytes, &limits).map_err(|error| message(error.to_string()))?;
         self.texels += decoded.texels.len() as u64;
-        if self.texels > MAX_TEXELS {
+        self.bytes += bytes.len();
+        if self.texels > MAX_TEXELS.min(texels(self.bytes, BYTES_PER_TEXEL)) {
             return Err(message(
-                "and the other images have more than 200 million texels together".to_owned(),
+                "and the other images have too many texels together; make them smaller, or raise the limit (--memory-limit)".to_owned(),
             ));
         }
         Ok(decoded)

@@ -15,8 +15,18 @@ pub struct Finding {
     pub detail: String,
 }
 
-/// The memory that every run may take beside four times its input.
+/// The memory that every run may take, beside a multiple of its input.
 const BASE_MEMORY: u64 = 256 << 20;
+
+/// How often a refused input may fit into the memory that the run takes beside [`BASE_MEMORY`].
+const REFUSED_INPUT: u64 = 4;
+
+/// The same for an input that is read: the default of `--memory-limit`, which bounds what is decoded.
+const READ_INPUT: u64 = 64;
+
+/// What the program itself takes in addition, and an adapter that draws with the processor.
+const PROGRAM: u64 = 64 << 20;
+const ADAPTER: u64 = 512 << 20;
 
 /// The most characters of a line of messages: a sentence is cut after 1,000, and its labels and ends come in addition.
 const LONGEST_LINE: usize = 1100;
@@ -29,8 +39,8 @@ pub fn limits(case: &Case) -> Limits {
     let draws = case.has("render");
     Limits {
         processor: Duration::from_secs(if draws { 20 } else { 5 }),
-        wall: Duration::from_secs(60),
-        memory: BASE_MEMORY + 4 * case.input_size(),
+        wall: Duration::from_secs(120),
+        memory: BASE_MEMORY + READ_INPUT * case.input_size() + PROGRAM + if draws { ADAPTER } else { 0 },
     }
 }
 
@@ -60,6 +70,11 @@ fn end(case: &Case, ended: &Ended, findings: &mut Vec<Finding>) {
             case.input_size()
         );
         return add(findings, limit, detail);
+    }
+    let memory = ended.used.memory;
+    if ended.status.code() == Some(1) && memory > BASE_MEMORY + REFUSED_INPUT * case.input_size() {
+        let detail = format!("{} MB to refuse {} bytes of input", memory >> 20, case.input_size());
+        add(findings, "memory", detail);
     }
     match (ended.status.code(), ended.status.signal()) {
         (Some(PANIC), _) => add(findings, "panic", last_line(&ended.stderr)),
@@ -121,7 +136,7 @@ fn is_stdout_a_model(case: &Case) -> bool {
     case.value_of("-o").is_some_and(|output| output == "-") || (case.has("-") && !case.has("-o"))
 }
 
-/// Subcommands that print nothing but warnings and errors to standard error.
+/// Subcommands that print nothing to standard error but warnings, errors, and what they did with the output.
 const SILENT: [&str; 3] = ["compare", "inspect", "render"];
 
 fn sentences(case: &Case, code: Option<i32>, text: &str, findings: &mut Vec<Finding>) {
@@ -137,7 +152,9 @@ fn sentences(case: &Case, code: Option<i32>, text: &str, findings: &mut Vec<Find
     }
     let is_silent =
         SILENT.iter().any(|subcommand| case.arguments.first().is_some_and(|first| first == subcommand));
-    let is_labelled = |line: &str| line.starts_with("error: ") || line.starts_with("warning: ");
+    let output = case.value_of("-o").map_or("error: ".into(), |output| output.to_string_lossy());
+    let is_labelled =
+        |line: &str| ["error: ", "warning: ", &output].iter().any(|start| line.starts_with(*start));
     if is_silent
         && code != Some(2)
         && let Some(line) = text.lines().find(|line| !is_labelled(line))

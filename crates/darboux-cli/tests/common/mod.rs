@@ -36,11 +36,19 @@ pub fn darboux<A: AsRef<std::ffi::OsStr>>(arguments: &[A]) -> Run {
 
 /// As [`darboux`], with 256 MiB of addresses where the system can limit them: a large allocation ends the command.
 pub fn darboux_with_little_memory<A: AsRef<std::ffi::OsStr>>(arguments: &[A]) -> Run {
+    darboux_with_addresses(256 << 20, arguments)
+}
+
+/// As [`darboux_with_little_memory`], with this many bytes of addresses.
+pub fn darboux_with_addresses<A: AsRef<std::ffi::OsStr>>(bytes: usize, arguments: &[A]) -> Run {
     if !cfg!(target_os = "linux") {
         return darboux(arguments);
     }
     let mut command = Command::new("sh");
-    command.args(["-c", "ulimit -v 262144 && exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_darboux")]);
+    let line = format!("ulimit -v {} && exec \"$0\" \"$@\"", bytes >> 10);
+    // Further arenas of glibc reserve 64 MiB of addresses each, which are no memory.
+    command.env("MALLOC_ARENA_MAX", "1");
+    command.args(["-c", &line, env!("CARGO_BIN_EXE_darboux")]);
     run(command, arguments, b"")
 }
 

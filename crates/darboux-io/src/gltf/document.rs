@@ -59,6 +59,11 @@ impl Document {
         self.options.budget(read, decompressed)
     }
 
+    /// The most bytes that may be decoded from `size` bytes of an image: the memory limit of [`LoadOptions`] for a file of this size.
+    pub fn memory_limit_of(&self, size: usize) -> u64 {
+        self.memory_limit.for_size(size) as u64
+    }
+
     /// The name of the document in messages.
     pub fn name(&self) -> &str {
         &self.name

@@ -32,15 +32,28 @@ fn flat_image(random: &mut Random) -> Case {
     Case::new(words).file("flat.png", flat_png(side)).expects(REFUSED, "--memory-limit")
 }
 
-/// Strips that share one long list of indices.
+/// Strips whose indices are parts of one list, each one index further.
 fn strips(random: &mut Random) -> Case {
+    let (count, length) = (2000, 300_000);
     let mut builder = Builder::default();
-    let position = builder.vectors(&[[0.0f32; 3]; 3]);
-    let indices = builder.indices(&vec![0; 300_000]);
-    let primitive = json!({ "attributes": { "POSITION": position, "TEXCOORD_0": position }, "indices": indices, "mode": 5 });
-    let file = builder.glb(vec![primitive; 2000], Value::Null);
-    let command = random.pick(&["normals", "inspect"]);
-    Case::new([command, "strips.glb"]).file("strips.glb", file)
+    let whole = builder.primitive(&Mesh::square(1.0));
+    let view = builder.view(&vec![0; 4 * (count + length)]);
+    let mut strip = |number: usize| {
+        let mut strip = whole.clone();
+        strip["mode"] = json!(5);
+        strip["indices"] = json!(builder.accessor(json!({
+            "bufferView": view, "byteOffset": 4 * number, "componentType": 5125, "count": length, "type": "SCALAR",
+        })));
+        strip
+    };
+    let strips = (0..count).map(&mut strip).collect();
+    let file = builder.glb(strips, Value::Null);
+    let words: &[&str] = random.pick(&[
+        &["normals", "strips.glb", "--overwrite"],
+        &["tangents", "strips.glb"],
+        &["inspect", "strips.glb"],
+    ]);
+    Case::new(words.iter().copied()).file("strips.glb", file).expects(REFUSED, "--memory-limit")
 }
 
 /// A meshopt stream of vertices that are all zero is itself all zero after its first byte.
@@ -60,23 +73,34 @@ fn meshopt_views(random: &mut Random) -> Case {
         })
     };
     let views = 31;
-    let accessor =
-        |view: usize| json!({ "bufferView": view, "componentType": 5121, "count": 1000, "type": "VEC4" });
+    let accessor = |view: usize| {
+        let kind = if view % 3 == 2 { "VEC2" } else { "VEC3" };
+        json!({ "bufferView": view, "componentType": 5120, "normalized": true, "count": 999, "type": kind })
+    };
+    let primitive = |i: usize| {
+        let attributes = json!({ "POSITION": 3 * i, "NORMAL": 3 * i + 1, "TEXCOORD_0": 3 * i + 2 });
+        json!({ "attributes": attributes })
+    };
+    let extensions = ["EXT_meshopt_compression", "KHR_mesh_quantization"];
     let document = json!({
         "asset": { "version": "2.0" },
-        "extensionsUsed": ["EXT_meshopt_compression"],
-        "extensionsRequired": ["EXT_meshopt_compression"],
+        "extensionsUsed": extensions,
+        "extensionsRequired": extensions,
         "buffers": [
             { "byteLength": stream.len() },
             { "byteLength": views * length, "extensions": { "EXT_meshopt_compression": { "fallback": true } } },
         ],
         "bufferViews": (0..views).map(view).collect::<Vec<_>>(),
         "accessors": (0..views).map(accessor).collect::<Vec<_>>(),
-        "meshes": [{ "primitives": (0..views).map(|i| json!({ "attributes": { "COLOR_0": i } })).collect::<Vec<_>>() }],
+        "meshes": [{ "primitives": (0..views / 3).map(primitive).collect::<Vec<_>>() }],
     });
     let file = glb(document.to_string().as_bytes(), &stream);
-    let command = random.pick(&["tangents", "normals", "inspect"]);
-    Case::new([command, "views.glb"]).file("views.glb", file)
+    let words: &[&str] = random.pick(&[
+        &["tangents", "views.glb"],
+        &["normals", "views.glb", "--overwrite"],
+        &["inspect", "views.glb"],
+    ]);
+    Case::new(words.iter().copied()).file("views.glb", file).expects(REFUSED, "--memory-limit")
 }
 
 fn empty_primitives(random: &mut Random) -> Case {

@@ -52,7 +52,17 @@ fn no_threads(random: &mut Random) -> Case {
     let words: &[&str] = random.pick(&[
         &["tangents", "models", "--out-dir", "out"],
         &["normals", "models", "--out-dir", "out", "--overwrite"],
-        &["convert", "models", "--from", "unity", "--to", "gltf", "--out-dir", "out"],
+        &[
+            "convert",
+            "models/grid0.glb",
+            "models/0.gltf",
+            "--from",
+            "unity",
+            "--to",
+            "gltf",
+            "--out-dir",
+            "out",
+        ],
         &["inspect", "models"],
         &["compare", "models/grid0.glb", "--method", "mikktspace"],
     ]);

@@ -33,8 +33,10 @@ fn fan(random: &mut Random, threshold: &'static str) -> Case {
 }
 
 fn libraries(random: &mut Random) -> Case {
-    let model =
-        format!("{}v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "mtllib a.mtl\n".repeat(1000 + random.below(1000)));
+    let model = format!(
+        "{}v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+        "mtllib a.mtl\n".repeat(10_000 + random.below(10_000))
+    );
     let library = format!("newmtl a\n{}", "map_Kd x.png\n".repeat(1000));
     Case::new(["render", "a.obj", "-o", "picture.png", "--size", "64x48"])
         .file("a.obj", model)

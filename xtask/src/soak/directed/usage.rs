@@ -24,7 +24,6 @@ fn wrong_values(random: &mut Random) -> Case {
         &["convert", "in.glb", "--from", "gltf,axes=1/2/3", "--to", "gltf"],
         &["compare", "in.glb"],
         &["nothing"],
-        &[],
     ]);
     Case::new(words.iter().copied()).file("in.glb", Mesh::square(1.0).glb()).expects(USAGE, "")
 }

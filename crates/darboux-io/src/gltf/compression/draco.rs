@@ -18,6 +18,9 @@ use crate::gltf::schema::{Accessor, Draco, Primitive};
 
 const NAME: &str = "KHR_draco_mesh_compression";
 
+/// What a decoded face takes in memory: three indices of 32 bits.
+const BYTES_PER_FACE: usize = 12;
+
 /// The source of each decoded accessor: the buffer view, and Draco's identifier of the attribute, or none for indices.
 type Sources = HashMap<usize, (usize, Option<u32>)>;
 
@@ -88,6 +91,8 @@ impl Document {
         let mesh = decode(stream, budget.left).map_err(|problem| {
             Fault::invalid(&at, format!("the stream cannot be decoded ({problem}); compress the file again"))
         })?;
+        // The whole stream was decoded, whichever of its accessors are new: this bounds the time of many primitives over one stream.
+        budget.spend(mesh.num_faces().saturating_mul(BYTES_PER_FACE), &at)?;
         for &(index, id) in wanted {
             let accessor = &self.root.accessors[index];
             if accessor.buffer_view.is_some() {

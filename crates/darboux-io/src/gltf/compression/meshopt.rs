@@ -30,84 +30,102 @@ impl Document {
         if self.root.buffer_views.iter().all(|view| view.extensions.meshopt.is_none()) {
             return Ok(views);
         }
-        let mut decoded: BTreeMap<usize, Vec<(usize, Vec<u8>)>> = BTreeMap::new();
+        let mut views_of_buffer: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (i, view) in self.root.buffer_views.iter().enumerate() {
-            let Some(compressed) = &view.extensions.meshopt else { continue };
             let has_fallback =
                 !matches!(self.buffer_sources.get(view.buffer), Some(BufferSource::Absent(_)) | None);
-            if !has_fallback {
-                let at = format!("bufferViews[{i}].extensions");
-                let bytes = self.decode_view(view, compressed, budget, &at)?;
+            if view.extensions.meshopt.is_some() && !has_fallback {
                 views.insert(i);
-                decoded.entry(view.buffer).or_default().push((view.byte_offset, bytes));
+                views_of_buffer.entry(view.buffer).or_default().push(i);
             }
         }
-        for (buffer, ranges) in decoded {
-            self.fill_buffer(buffer, &ranges, budget)?;
+        // All sizes are in the JSON, so that a file that is too large is refused before anything is decoded.
+        let mut lengths = Vec::new();
+        for (&buffer, views) in &views_of_buffer {
+            lengths.push(self.decoded_length(buffer, views, budget)?);
+        }
+        for ((buffer, views), length) in views_of_buffer.into_iter().zip(lengths) {
+            self.fill_buffer(buffer, &views, length)?;
         }
         self.remove_meshopt().map_err(|error| Fault::invalid("bufferViews", error.to_string()))?;
         Ok(views)
     }
 
-    fn decode_view(
+    /// The size of a buffer without bytes into which these views are decoded. Spends the size of the buffer and of each view.
+    fn decoded_length(
         &self,
-        view: &BufferView,
-        compressed: &Meshopt,
-        budget: &mut DecodeBudget,
-        at: &str,
-    ) -> Result<Vec<u8>, Fault> {
-        let Meshopt { buffer, byte_offset, byte_length, byte_stride: stride, count, .. } = *compressed;
-        let broken = |problem: String| Fault::invalid(at, format!("{problem}; compress the file again"));
-        // A copy: the decoder is written in C++, and the bytes of a mapped file could change under it.
-        let stream = &self.buffer_range(buffer, byte_offset, byte_length, at)?.to_vec();
-        let length =
-            count.checked_mul(stride).filter(|&length| length == view.byte_length).ok_or_else(|| {
-                broken(format!(
-                    "{count} elements of {stride} bytes are not the {} bytes of the view",
-                    view.byte_length
-                ))
-            })?;
-        if length > stream.len().saturating_mul(MAX_RATIO) {
-            return Err(broken(format!("{} compressed bytes cannot hold {length}", stream.len())));
-        }
-        budget.spend(length, at)?;
-        let filter = compressed.filter.as_deref().unwrap_or("NONE");
-        decode(&compressed.mode, filter, stride, stream, count).ok_or_else(|| {
-            let mode = &compressed.mode;
-            broken(format!(
-                "the stream is broken, or is not of mode {mode:?} with elements of {stride} bytes and filter {filter:?}"
-            ))
-        })
-    }
-
-    /// Fills a buffer without bytes with decoded ones.
-    fn fill_buffer(
-        &mut self,
         buffer: usize,
-        ranges: &[(usize, Vec<u8>)],
+        views: &[usize],
         budget: &mut DecodeBudget,
-    ) -> Result<(), Fault> {
+    ) -> Result<usize, Fault> {
         let at = format!("buffers[{buffer}]");
         let invalid = |problem: &str| Fault::invalid(&at, format!("{problem}; compress the file again"));
+        let (mut length, mut decoded) = (0, 0usize);
+        for &i in views {
+            let view = &self.root.buffer_views[i];
+            let (byte_offset, byte_length, at) = (view.byte_offset, view.byte_length, view_path(i));
+            if let Some(compressed) = &view.extensions.meshopt {
+                self.stream(view, compressed, &at)?;
+            }
+            budget.spend(byte_length, &at)?;
+            length = length.max(byte_offset.saturating_add(byte_length));
+            decoded = decoded.saturating_add(byte_length);
+        }
         let declared = self.root.buffers.get(buffer).map(|buffer| buffer.byte_length);
-        let ends = ranges.iter().map(|(offset, bytes)| offset.saturating_add(bytes.len()));
-        let length = ends.max().unwrap_or(0);
         if declared.is_none_or(|declared| length > declared) {
             return Err(invalid("is shorter than the buffer views in it, or does not exist"));
         }
-        // The gaps between the decoded ranges have no bytes in the file, so that their size must be limited.
-        let decoded: usize = ranges.iter().map(|(_, bytes)| bytes.len()).sum();
+        // The gaps between the decoded views have no bytes in the file, so that their size must be limited.
         if length > decoded.saturating_mul(2).saturating_add(1 << 16) {
             return Err(invalid("has larger gaps between its buffer views than the views themselves"));
         }
         budget.spend(length, &at)?;
+        Ok(length)
+    }
+
+    /// Fills a buffer without bytes with decoded views.
+    fn fill_buffer(&mut self, buffer: usize, views: &[usize], length: usize) -> Result<(), Fault> {
         let mut content = vec![0; length];
-        for (offset, bytes) in ranges {
-            content[*offset..offset + bytes.len()].copy_from_slice(bytes);
+        for &i in views {
+            let view = &self.root.buffer_views[i];
+            let Some(compressed) = &view.extensions.meshopt else { continue };
+            let bytes = self.decode_view(view, compressed, &view_path(i))?;
+            content[view.byte_offset..][..bytes.len()].copy_from_slice(&bytes);
         }
         self.root.buffers[buffer].byte_length = length;
         self.buffer_sources[buffer] = BufferSource::Decoded(content);
         Ok(())
+    }
+
+    /// The compressed bytes of a view. Errors: they are outside their buffer, or cannot hold the length of the view.
+    fn stream(&self, view: &BufferView, compressed: &Meshopt, at: &str) -> Result<&[u8], Fault> {
+        let Meshopt { buffer, byte_offset, byte_length, byte_stride: stride, count, .. } = *compressed;
+        let broken = |problem: String| Fault::invalid(at, format!("{problem}; compress the file again"));
+        let stream = self.buffer_range(buffer, byte_offset, byte_length, at)?;
+        let length = view.byte_length;
+        if count.checked_mul(stride) != Some(length) {
+            return Err(broken(format!(
+                "{count} elements of {stride} bytes are not the {length} bytes of the view"
+            )));
+        }
+        if length > stream.len().saturating_mul(MAX_RATIO) {
+            return Err(broken(format!("{} compressed bytes cannot hold {length}", stream.len())));
+        }
+        Ok(stream)
+    }
+
+    /// The bytes of a view, as many as its length.
+    fn decode_view(&self, view: &BufferView, compressed: &Meshopt, at: &str) -> Result<Vec<u8>, Fault> {
+        let Meshopt { byte_stride: stride, count, ref mode, .. } = *compressed;
+        // A copy: the decoder is written in C++, and the bytes of a mapped file could change under it.
+        let stream = &self.stream(view, compressed, at)?.to_vec();
+        let filter = compressed.filter.as_deref().unwrap_or("NONE");
+        decode(mode, filter, stride, stream, count).ok_or_else(|| {
+            let problem = format!(
+                "the stream is broken, or is not of mode {mode:?} with elements of {stride} bytes and filter {filter:?}; compress the file again"
+            );
+            Fault::invalid(at, problem)
+        })
     }
 
     /// Removes the extensions from the JSON.
@@ -138,6 +156,10 @@ impl Document {
         self.edits.removed_extensions.extend(NAMES);
         Ok(())
     }
+}
+
+fn view_path(view: usize) -> String {
+    format!("bufferViews[{view}].extensions")
 }
 
 fn without_meshopt(object: &str) -> serde_json::Result<String> {
