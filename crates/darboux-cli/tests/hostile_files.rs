@@ -113,6 +113,18 @@ fn broken_references_are_found_where_there_is_nothing_to_do() {
     }
 }
 
+/// Also where only attributes are converted, or faces reversed.
+#[test]
+fn models_with_indices_of_no_vertex_are_not_converted() {
+    let (json, mut binary) = square();
+    binary[128] = 9;
+    let file = glb(&json, &binary);
+    for from in ["unity", "directx", "blender"] {
+        let words = ["convert", "--from", from, "--to", "gltf"];
+        refused("model.glb", &file, &words, "index 9 at place 0 is out of range");
+    }
+}
+
 /// A model written under any name is one that this command can read again.
 #[test]
 #[cfg(unix)]

@@ -103,6 +103,7 @@ pub fn any(
     for &choice in choices.iter().copied().flatten() {
         line.add(random, program, subcommand, choice);
     }
+    line.remove_contradictions();
     match subcommand {
         "compare" if random.one_in(2) => {
             line.words.retain(|word| word != "--method");
@@ -133,6 +134,17 @@ impl Line {
         self.words.push(option.to_owned());
         if !values.is_empty() {
             self.words.push(random.pick(values).to_owned());
+        }
+    }
+
+    /// Only MikkTSpace has a mode and a threshold.
+    fn remove_contradictions(&mut self) {
+        if self.has("--method") && !self.has("mikktspace") {
+            for option in ["--mode", "--threshold"] {
+                if let Some(at) = self.words.iter().position(|word| word == option) {
+                    self.words.drain(at..at + 2);
+                }
+            }
         }
     }
 

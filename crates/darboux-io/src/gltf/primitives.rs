@@ -4,6 +4,7 @@ pub mod append;
 pub mod canonical;
 pub mod corners;
 pub mod foreign_extensions;
+pub mod index_range;
 pub mod limits;
 pub mod name;
 pub mod triangles;
