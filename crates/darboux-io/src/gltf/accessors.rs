@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::document::Document;
+use super::document::{Document, outside_buffer};
 use super::element_type::ElementType;
 use super::elements::Elements;
 use super::schema::{Accessor, Sparse};
@@ -153,6 +153,27 @@ impl Document {
         })
     }
 
+    /// Checks by the sizes in the JSON that every buffer view lies in its buffer, and the elements of every accessor in its buffer view.
+    pub(super) fn check_sizes(&self) -> Result<(), Fault> {
+        for (i, view) in self.root.buffer_views.iter().enumerate() {
+            let Some(buffer) = self.root.buffers.get(view.buffer) else { continue };
+            let (offset, length) = (view.byte_offset, view.byte_length);
+            if offset.checked_add(length).is_none_or(|end| end > buffer.byte_length) {
+                return Err(outside_buffer(offset, length, buffer.byte_length, &format!("bufferViews[{i}]")));
+            }
+        }
+        for (i, accessor) in self.accessors().iter().enumerate() {
+            let view = accessor.buffer_view.and_then(|view| self.root.buffer_views.get(view));
+            if let Some(view) = view {
+                let size = accessor.element_type.size(accessor.component_type);
+                let Accessor { byte_offset: offset, count, .. } = *accessor;
+                let layout = ElementLayout { offset, count, size, stride: view.byte_stride };
+                end_in_view(view.byte_length, &layout, &format!("accessors[{i}]"))?;
+            }
+        }
+        Ok(())
+    }
+
     /// The most elements of an accessor without a buffer view: as many as the largest accessor with one has.
     fn most_zeros(&self) -> usize {
         *self.backed_count.get_or_init(|| {
@@ -195,18 +216,23 @@ fn elements_in_view<'a>(
     layout: ElementLayout,
     at: &str,
 ) -> Result<StoredElements<'a>, Fault> {
-    let ElementLayout { offset, count, size, stride } = layout;
+    let end = end_in_view(view.len(), &layout, at)?;
+    let ElementLayout { offset, size, stride, .. } = layout;
+    Ok(StoredElements { bytes: view[offset.min(end)..end].into(), size, stride: stride.unwrap_or(size) })
+}
+
+/// The offset after the last element. Errors: the elements overlap, or do not fit a view of `view_length` bytes.
+fn end_in_view(view_length: usize, layout: &ElementLayout, at: &str) -> Result<usize, Fault> {
+    let ElementLayout { offset, count, size, stride } = *layout;
     if let Some(stride) = stride.filter(|&stride| stride < size) {
         let problem =
             format!("its buffer view's byteStride of {stride} is less than an element's {size} bytes");
         return Err(Fault::invalid(at, format!("{problem}; export the file again")));
     }
-    let Some(end) = layout.end().filter(|&end| end <= view.len()) else {
+    layout.end().filter(|&end| end <= view_length).ok_or_else(|| {
         let problem = format!(
-            "{count} elements of {size} bytes from byte {offset} on do not fit its buffer view of {} bytes",
-            view.len()
+            "{count} elements of {size} bytes from byte {offset} on do not fit its buffer view of {view_length} bytes"
         );
-        return Err(Fault::invalid(at, format!("{problem}; export the file again")));
-    };
-    Ok(StoredElements { bytes: view[offset.min(end)..end].into(), size, stride: stride.unwrap_or(size) })
+        Fault::invalid(at, format!("{problem}; export the file again"))
+    })
 }

@@ -61,7 +61,7 @@ impl Document {
 
     /// The most bytes that may be decoded from `size` bytes of an image: the memory limit of [`LoadOptions`] for a file of this size.
     pub fn memory_limit_of(&self, size: usize) -> u64 {
-        self.memory_limit.for_size(size) as u64
+        self.options.budget(size, 0).bytes as u64
     }
 
     /// The name of the document in messages.
@@ -128,13 +128,8 @@ impl Document {
         at: &str,
     ) -> Result<&[u8], Fault> {
         let bytes = self.buffer(buffer, &format!("{at}.buffer"))?;
-        offset.checked_add(length).and_then(|end| bytes.get(offset..end)).ok_or_else(|| {
-            let problem = format!(
-                "{length} bytes from byte {offset} on do not fit the buffer of {} bytes",
-                bytes.len()
-            );
-            Fault::invalid(at, format!("{problem}; export the file again"))
-        })
+        let range = offset.checked_add(length).and_then(|end| bytes.get(offset..end));
+        range.ok_or_else(|| outside_buffer(offset, length, bytes.len(), at))
     }
 
     /// The bytes of a buffer. `at` is the JSON path that refers to it.
@@ -163,4 +158,11 @@ impl Document {
     pub(crate) fn mesh_error(&self, at: impl Into<String>, source: darboux::Error) -> Error {
         Error::Mesh { file: self.name.clone(), at: at.into(), source }
     }
+}
+
+/// The error about a range that does not fit its buffer. `at` is the JSON path of the range.
+pub(super) fn outside_buffer(offset: usize, length: usize, buffer_length: usize, at: &str) -> Fault {
+    let problem =
+        format!("{length} bytes from byte {offset} on do not fit the buffer of {buffer_length} bytes");
+    Fault::invalid(at, format!("{problem}; export the file again"))
 }

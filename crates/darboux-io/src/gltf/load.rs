@@ -112,6 +112,7 @@ impl Document {
             warnings,
         };
         document.check_primitive_count()?;
+        document.check_sizes()?;
         Ok(document)
     }
 

@@ -63,9 +63,7 @@ pub enum DecodeError {
     #[error("is neither PNG nor JPEG nor WebP; convert it to one of them")]
     UnknownFormat,
     /// The image exceeds [`DecodeLimits`].
-    #[error(
-        "has {width} x {height} texels, more than the limit; make it smaller, or raise the limit (--memory-limit)"
-    )]
+    #[error("has {width} x {height} texels, more than the limit; make it smaller, or raise the memory limit")]
     TooLarge {
         /// Texels per row.
         width: usize,
