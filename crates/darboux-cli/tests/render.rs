@@ -282,6 +282,7 @@ fn bad_arguments_are_usage() {
         (&["--view", "angle", "--against", "lengyel", "--split", "50"], "remove --split"),
         (&["--split", "101"], "expected a number from 0 to 100"),
         (&["--length", "NaN"], "expected a number from 0 to 100"),
+        (&["--length", "3"], "--lines <VECTORS>"),
         (&["--lines", "tangent,up"], "possible values"),
         (&["--mistakes", "u"], "possible values"),
         (&["--view", "sideways"], "possible values"),

@@ -69,7 +69,7 @@ const RENDER: &[Choice] = &[
     ("--layout", &["corner", "alone"]),
     ("--mistakes", &["green", "w", "v"]),
     ("--mesh", &["0", "no such mesh"]),
-    ("--camera", &["0,0", "180,-90,0.001", "30,20,1000"]),
+    ("--camera", &["0,0", "180,-90,0.01", "30,20,1000"]),
     ("--no-legend", &[]),
 ];
 

@@ -125,6 +125,7 @@ impl Room<'_> {
         outcome.count(&ended);
         let after = tree::read(self.files)?;
         outcome.temporaries(&after, "the next run");
+        let left = left.into_iter().filter(|(path, _)| !is_temporary(path)).collect();
         outcome.findings.extend(judge(self.case, &ended, &left, &after));
         self.reopen(&before, outcome)
     }

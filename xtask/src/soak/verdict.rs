@@ -107,8 +107,8 @@ fn messages(case: &Case, ended: &Ended, findings: &mut Vec<Finding>) {
     if text.contains("this is a defect of darboux") || text.contains("panicked at") {
         add(findings, "panic", last_line(&ended.stderr));
     }
-    let controls = |text: &str| text.chars().any(|c| (c.is_control() && c != '\n') || is_direction_mark(c));
-    if controls(&text) {
+    let controls = |text: &str| text.chars().any(|c| c.is_control() && c != '\n');
+    if controls(&text) || text.contains(is_direction_mark) {
         add(findings, "message", format!("control characters: {:?}", last_line(&ended.stderr)));
     }
     let writes_text = !case.has("-") || case.has("-o");

@@ -62,7 +62,7 @@ pub struct RenderArguments {
     pub lines: Vec<VectorLines>,
 
     /// The length of the lines, in percent of the model's radius
-    #[arg(long, value_name = "PERCENT", default_value = "2", value_parser = percent)]
+    #[arg(long, value_name = "PERCENT", default_value = "2", value_parser = percent, requires = "lines")]
     pub length: f64,
 
     /// Draw mirrored seams: the edges across which the sign w changes
