@@ -63,15 +63,18 @@ fn shell_word(word: &str) -> String {
     format!("'{}'", word.replace('\'', r"'\''"))
 }
 
-/// Replaces each argument that has control characters by its printable form, in a message that quotes arguments.
-pub fn with_printable_arguments(message: String, arguments: &[impl AsRef<OsStr>]) -> String {
-    arguments.iter().fold(message, |message, argument| {
-        let argument = argument.as_ref().to_string_lossy();
-        match printable(&argument) {
-            Cow::Owned(escaped) => message.replace(&*argument, &escaped),
-            Cow::Borrowed(_) => message,
-        }
-    })
+/// The text of a usage error, coloured, with each argument that has control characters in its printable form.
+pub fn usage_error(error: &clap::Error, arguments: &[impl AsRef<OsStr>]) -> String {
+    let rendered = error.render();
+    let arguments = arguments.iter().map(|argument| argument.as_ref().to_string_lossy());
+    let unprintable: Vec<_> = arguments.filter(|argument| argument.contains(is_unprintable)).collect();
+    if unprintable.is_empty() {
+        return rendered.ansi().to_string();
+    }
+    // Without colours, whose escape sequences an argument may contain.
+    unprintable
+        .iter()
+        .fold(rendered.to_string(), |text, argument| text.replace(&**argument, &printable(argument)))
 }
 
 #[cfg(test)]

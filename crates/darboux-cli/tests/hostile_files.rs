@@ -98,6 +98,9 @@ fn broken_references_are_found_where_there_is_nothing_to_do() {
     for (file, part) in [
         (with(&format!("{primitive}/attributes"), "TANGENT", json!(7)), "accessor 7 does not exist"),
         (with(primitive, "indices", json!(9)), "accessor 9 does not exist"),
+        (with("/accessors/1", "count", json!(3)), "NORMAL: has 3 elements but there are 4 positions"),
+        (with("/accessors/3", "count", json!(60)), "accessors[3]: 60 elements of 4 bytes"),
+        (with("/bufferViews/3", "byteOffset", json!(150)), "bufferViews[3]: 24 bytes from byte 150"),
         (with(primitive, "material", json!(4)), "does not exist"),
         (with("", "nodes", json!([{ "mesh": 3 }])), "does not exist"),
         (with("", "skins", json!([{ "joints": [5] }])), "does not exist"),

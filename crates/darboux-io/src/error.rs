@@ -38,7 +38,7 @@ pub enum Error {
         problem: String,
     },
     /// The vertex data of a primitive is not a valid mesh.
-    #[error("{file}: {}{source}", prefix(at))]
+    #[error("{file}: {}{}", prefix(at), advised(source))]
     Mesh {
         /// The input, as the caller named it.
         file: String,
@@ -71,6 +71,12 @@ pub enum Error {
         /// What is wrong, and what to do.
         problem: String,
     },
+}
+
+/// The sentence about a mesh with what to do: the core does not know that the mesh comes from a file.
+fn advised(source: &darboux::Error) -> String {
+    let text = source.to_string();
+    if text.contains("; ") { text } else { format!("{text}; export the file again") }
 }
 
 fn prefix(at: &str) -> String {

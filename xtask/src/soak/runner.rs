@@ -1,7 +1,7 @@
 //! Runs one case: once, with a signal in between, several times at once, or as a server.
 
 use std::ffi::OsString;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
 use std::{fs, io, thread};
@@ -181,9 +181,9 @@ impl Room<'_> {
             let problem = if path.extension().is_some_and(|extension| extension == "png") {
                 (!png_is_readable(bytes)).then(|| "no readable PNG".to_owned())
             } else {
-                self.inspect(path)?
+                self.inspect(self.files, path)?
             };
-            if let Some(problem) = problem {
+            if let Some(problem) = problem.filter(|_| self.inputs_are_readable().unwrap_or(true)) {
                 outcome
                     .findings
                     .push(Finding { kind: "unreadable", detail: format!("{}: {problem}", path.display()) });
@@ -192,10 +192,28 @@ impl Room<'_> {
         Ok(())
     }
 
+    /// Whether every model of the case can be read. An output of one whose data are wrong may be as wrong.
+    fn inputs_are_readable(&self) -> io::Result<bool> {
+        let inputs = self.streams.join("inputs");
+        tree::make(&inputs, self.case)?;
+        if !self.case.stdin.is_empty() {
+            fs::write(inputs.join(WORK).join("stdin.glb"), &self.case.stdin)?;
+        }
+        let is_model = |path: &&PathBuf| {
+            path.extension().is_some_and(|kind| kind == "glb" || kind == "gltf" || kind == "vrm")
+        };
+        for path in tree::read(&inputs)?.keys().filter(is_model) {
+            if self.inspect(&inputs, path)?.is_some() {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
     /// Why a model cannot be read; `None` if it can.
-    fn inspect(&self, path: &Path) -> io::Result<Option<String>> {
+    fn inspect(&self, folder: &Path, path: &Path) -> io::Result<Option<String>> {
         let mut command = Command::new(&self.program.path);
-        command.args(["inspect", "--quiet"]).current_dir(self.files).env_remove("XDG_RUNTIME_DIR");
+        command.args(["inspect", "--quiet"]).current_dir(folder).env_remove("XDG_RUNTIME_DIR");
         for option in ["--allow-outside", "--memory-limit"] {
             if self.case.has(option) {
                 command.arg(option);

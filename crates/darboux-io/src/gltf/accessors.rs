@@ -153,8 +153,15 @@ impl Document {
         })
     }
 
-    /// Checks by the sizes in the JSON that every buffer view lies in its buffer, and the elements of every accessor in its buffer view.
+    /// Checks by the sizes in the JSON that every buffer view lies in its buffer, the elements of every accessor in its buffer view, and that
+    /// every attribute of a primitive has one element per position.
     pub(super) fn check_sizes(&self) -> Result<(), Fault> {
+        self.check_views()?;
+        self.check_accessors()?;
+        self.check_attributes()
+    }
+
+    fn check_views(&self) -> Result<(), Fault> {
         for (i, view) in self.root.buffer_views.iter().enumerate() {
             let Some(buffer) = self.root.buffers.get(view.buffer) else { continue };
             let (offset, length) = (view.byte_offset, view.byte_length);
@@ -162,6 +169,10 @@ impl Document {
                 return Err(outside_buffer(offset, length, buffer.byte_length, &format!("bufferViews[{i}]")));
             }
         }
+        Ok(())
+    }
+
+    fn check_accessors(&self) -> Result<(), Fault> {
         for (i, accessor) in self.accessors().iter().enumerate() {
             let view = accessor.buffer_view.and_then(|view| self.root.buffer_views.get(view));
             if let Some(view) = view {
@@ -169,6 +180,28 @@ impl Document {
                 let Accessor { byte_offset: offset, count, .. } = *accessor;
                 let layout = ElementLayout { offset, count, size, stride: view.byte_stride };
                 end_in_view(view.byte_length, &layout, &format!("accessors[{i}]"))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn check_attributes(&self) -> Result<(), Fault> {
+        let count = |accessor: usize| self.accessors().get(accessor).map(|accessor| accessor.count);
+        for (mesh, primitives) in self.meshes().iter().enumerate() {
+            for (place, primitive) in primitives.primitives.iter().enumerate() {
+                let Some(vertices) = primitive.attributes.get("POSITION").and_then(|&index| count(index))
+                else {
+                    continue;
+                };
+                for (name, &index) in &primitive.attributes {
+                    if let Some(found) = count(index).filter(|&found| found != vertices) {
+                        let at = format!("meshes[{mesh}].primitives[{place}].attributes.{name}");
+                        let problem = format!(
+                            "has {found} elements but there are {vertices} positions; export the file again"
+                        );
+                        return Err(Fault::invalid(at, problem));
+                    }
+                }
             }
         }
         Ok(())

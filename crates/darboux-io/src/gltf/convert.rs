@@ -18,8 +18,8 @@ use darboux::Convention;
 use super::Document;
 use super::Progress;
 use super::primitives::canonical::CanonicalAccessors;
+use super::primitives::index_range::IndexRanges;
 use super::primitives::limits;
-use super::primitives::vertex_check::VertexCheck;
 use crate::Error;
 use attributes::AttributeConverter;
 use axes::AxisChange;
@@ -68,12 +68,12 @@ fn convert_primitives(
 ) -> Result<(), Error> {
     let mut attributes = AttributeConverter::new(accessors, from, to);
     let mut faces = FaceReverser::new(accessors, from, to);
-    let mut vertices = VertexCheck::default();
+    let mut ranges = IndexRanges::default();
     let counts = document.meshes().iter().map(|mesh| mesh.primitives.len());
     let places = counts.enumerate().flat_map(|(mesh, count)| (0..count).map(move |place| (mesh, place)));
     let places: Vec<(usize, usize)> = places.collect();
     for (done, &(mesh, place)) in places.iter().enumerate() {
-        vertices.check(document, mesh, place)?;
+        ranges.check(document, mesh, place)?;
         let attributes_changed = attributes.convert(document, mesh, place)?;
         let faces_changed = faces.convert(document, mesh, place)?;
         summary.faces_reversed |= faces_changed;

@@ -4,10 +4,10 @@ pub mod append;
 pub mod canonical;
 pub mod corners;
 pub mod foreign_extensions;
+pub mod index_range;
 pub mod limits;
 pub mod name;
 pub mod triangles;
-pub mod vertex_check;
 
 use super::Document;
 use crate::Error;
