@@ -64,7 +64,6 @@ fn no_threads(random: &mut Random) -> Case {
             "out",
         ],
         &["inspect", "models"],
-        &["compare", "models/grid0.glb", "--method", "mikktspace"],
     ]);
     let mut case = with_models(Case::new(words.iter().copied()), 3, 100);
     case.variables.push(("RUST_MIN_STACK", OsString::from((1u64 << 50).to_string())));
