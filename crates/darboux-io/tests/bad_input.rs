@@ -140,7 +140,7 @@ fn accessors() {
     refused(read_with(0, "/accessors/0/type", json!("VEC5")), "accessors[0].type: unknown variant `VEC5`");
     refused(
         read_with(0, "/accessors/0/type", json!("VEC2")),
-        "accessors[0].type: is VEC2; indices must be SCALAR",
+        "accessors[0]: 4 elements of 4 bytes from byte 0 on do not fit its buffer view of 8 bytes",
     );
     refused(read_with(0, "/accessors/0/bufferView", json!(1)), "buffer view 1 does not exist: there are 1");
     refused(read_with(7, "/extras", json!(0)), "accessors[7]: does not exist: there are 2 accessors");

@@ -203,6 +203,6 @@ fn an_index_out_of_range_is_one_sentence() {
     let error = add_normals(&mut document, &AddNormalsOptions::default(), &mut |_| {}).expect_err("an error");
     assert_eq!(
         error.to_string(),
-        "test.gltf: meshes[0].primitives[0]: index 9 at place 2 is out of range: there are 6 vertices"
+        "test.gltf: meshes[0].primitives[0]: index 9 at place 2 is out of range: there are 6 vertices; export the file again"
     );
 }
