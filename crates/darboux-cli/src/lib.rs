@@ -59,7 +59,7 @@ where
             Command::Devices(_) => commands::missing::run("devices", "full"),
         },
         Err(error) if error.use_stderr() => {
-            let text = text::usage_error(&error, &arguments);
+            let text = text::with_printable_arguments(error.render().ansi().to_string(), &arguments);
             let _closed_stderr_is_ignored = write!(anstream::stderr(), "{text}");
             exit::USAGE
         }

@@ -36,12 +36,13 @@ fn is_unprintable(c: char) -> bool {
 
 /// A message as a terminal may show it: [`printable`], and cut where a file's content made it too long to read.
 pub fn sentence(text: &str) -> Cow<'_, str> {
+    let text = printable(text);
     match text.char_indices().nth(MAX_SENTENCE) {
         Some((end, _)) => {
             let rest = text[end..].chars().count();
-            Cow::Owned(format!("{} ... ({rest} more characters)", printable(&text[..end])))
+            Cow::Owned(format!("{} ... ({rest} more characters)", &text[..end]))
         }
-        None => printable(text),
+        None => text,
     }
 }
 
@@ -63,18 +64,15 @@ fn shell_word(word: &str) -> String {
     format!("'{}'", word.replace('\'', r"'\''"))
 }
 
-/// The text of a usage error, coloured, with each argument that has control characters in its printable form.
-pub fn usage_error(error: &clap::Error, arguments: &[impl AsRef<OsStr>]) -> String {
-    let rendered = error.render();
-    let arguments = arguments.iter().map(|argument| argument.as_ref().to_string_lossy());
-    let unprintable: Vec<_> = arguments.filter(|argument| argument.contains(is_unprintable)).collect();
-    if unprintable.is_empty() {
-        return rendered.ansi().to_string();
-    }
-    // Without colours, whose escape sequences an argument may contain.
-    unprintable
-        .iter()
-        .fold(rendered.to_string(), |text, argument| text.replace(&**argument, &printable(argument)))
+/// Replaces each argument that has control characters by its printable form, in a message that quotes arguments.
+pub fn with_printable_arguments(message: String, arguments: &[impl AsRef<OsStr>]) -> String {
+    arguments.iter().fold(message, |message, argument| {
+        let argument = argument.as_ref().to_string_lossy();
+        match printable(&argument) {
+            Cow::Owned(escaped) => message.replace(&*argument, &escaped),
+            Cow::Borrowed(_) => message,
+        }
+    })
 }
 
 #[cfg(test)]
@@ -90,6 +88,7 @@ mod tests {
     #[test]
     fn long_sentences_are_cut() {
         assert_eq!(sentence(&"x".repeat(MAX_SENTENCE)).len(), MAX_SENTENCE);
+        assert!(sentence(&"\n".repeat(70_000)).len() < 2 * MAX_SENTENCE);
         assert!(sentence(&"é".repeat(70_000)).ends_with("é ... (69000 more characters)"));
     }
 

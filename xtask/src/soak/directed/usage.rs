@@ -19,7 +19,7 @@ fn wrong_values(random: &mut Random) -> Case {
     let words: &[&str] = random.pick(&[
         &["tangents", "in.glb", "--threshold", "nan"],
         &["tangents", "in.glb", "--jobs", "0"],
-        &["tangents", "in.glb", "--method", "\u{1b}[31m"],
+        &["tangents", "in.glb", "--method", "a\u{1b}[31m\nerror: b"],
         &["normals", "in.glb", "--normals", "crease=-1"],
         &["convert", "in.glb", "--from", "gltf,axes=1/2/3", "--to", "gltf"],
         &["compare", "in.glb"],
