@@ -9,6 +9,7 @@ pub mod corpus;
 pub mod engine;
 pub mod families;
 pub mod generate;
+pub mod maps;
 pub mod mesh;
 pub mod models;
 pub mod oracle;
@@ -21,7 +22,7 @@ pub use generate::{Case, Dice};
 pub use mesh::{FaceSizes, OwnedMesh};
 
 /// All methods, in the order of their numbers in C.
-pub const METHODS: [darboux::Method; 8] = {
+pub const METHODS: [darboux::Method; 9] = {
     use darboux::{Method, MikkTSpaceOptions};
     [
         Method::MikkTSpace(MikkTSpaceOptions::new()),
@@ -32,6 +33,7 @@ pub const METHODS: [darboux::Method; 8] = {
         Method::Area,
         Method::Face,
         Method::FromNormal,
+        Method::AngleEdge,
     ]
 };
 

@@ -12,7 +12,7 @@ mod normals;
 mod triangles;
 mod vectors;
 
-pub use angle_area::angle_area;
+pub use angle_area::{angle_area, angle_edge};
 pub use methods::{area, average, face, from_normal, lengyel, lengyel_per_vertex};
 pub use mikktspace::mikktspace;
 pub use normals::normals;

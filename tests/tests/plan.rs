@@ -56,7 +56,7 @@ fn other_faces_change_nothing() {
         base.clone().with_face_list(&vec![vec![11, 5, 7]; corners / 3]),
         base.clone().with_face_list(&[vec![11; 2], vec![0; corners - 2]]),
     ];
-    for method in [Method::default(), Method::AngleArea, Method::Lengyel] {
+    for method in [Method::default(), Method::AngleArea, Method::AngleEdge, Method::Lengyel] {
         for base in [base.clone(), OwnedMesh { faces: FaceSizes::Triangles, ..base.clone() }] {
             let options = TangentOptions::from(method);
             let plan = Plan::new(&base.view(), &options);
@@ -74,6 +74,8 @@ fn a_waving_surface_keeps_its_groups() {
         (true, Method::default()),
         (false, Method::AngleArea),
         (true, Method::AngleArea),
+        (false, Method::AngleEdge),
+        (true, Method::AngleEdge),
         (true, Method::Lengyel),
         (true, Method::Average),
     ] {

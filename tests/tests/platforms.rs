@@ -81,6 +81,7 @@ fn tangents_of_every_method_are_the_same() {
         0x0e4d_c130_4346_876a,
         0x6ef5_db72_d1f6_7928,
         0x9aa6_bb5b_dbb5_aaba,
+        0x4f0f_9813_512e_ae49,
     ];
     assert_eq!(found, recorded, "{found:#x?}");
 }

@@ -33,8 +33,14 @@ const MIKKTSPACE: [Method; 3] = [
 ];
 
 /// The summing methods, which also run on several threads.
-const SUMS: [Method; 5] =
-    [Method::Lengyel, Method::LengyelPerVertex, Method::Average, Method::Area, Method::AngleArea];
+const SUMS: [Method; 6] = [
+    Method::Lengyel,
+    Method::LengyelPerVertex,
+    Method::Average,
+    Method::Area,
+    Method::AngleArea,
+    Method::AngleEdge,
+];
 
 /// Vertices and faces of a mesh.
 #[derive(Clone, Copy)]

@@ -27,6 +27,11 @@ pub fn bench_gpu(arguments: &[&str]) -> Outcome {
     run(program(line).args(arguments))
 }
 
+/// `cargo xtask maps`: prints how generated normal maps are judged. `numbers` go to the program.
+pub fn judge_maps(numbers: &[&str]) -> Outcome {
+    run(program("cargo run --quiet --release --package darboux-tests --bin maps --").args(numbers))
+}
+
 /// Installs the packages of benches/node at the versions of its lock file; none on a machine without node and npm.
 fn node_packages() -> Result<Option<PathBuf>, String> {
     if !works(&mut program("npm --version")) || !works(&mut program("node --version")) {

@@ -89,6 +89,8 @@ enum darboux_method
   DARBOUX_METHOD_FACE = 6,
   /// A perpendicular of the normal. UVs are ignored.
   DARBOUX_METHOD_FROM_NORMAL = 7,
+  /// MikkTSpace's groups with weights of corner angle times the lengths of the corner's edges: meshoptimizer's default.
+  DARBOUX_METHOD_ANGLE_EDGE = 8,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

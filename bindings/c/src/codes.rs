@@ -27,6 +27,8 @@ pub enum MethodCode {
     Face = 6,
     /// A perpendicular of the normal. UVs are ignored.
     FromNormal = 7,
+    /// MikkTSpace's groups with weights of corner angle times the lengths of the corner's edges: meshoptimizer's default.
+    AngleEdge = 8,
 }
 
 /// How faithfully defects of mikktspace.c are kept.
@@ -248,6 +250,7 @@ from_code!(method, "darboux_method", MethodCode => Method {
     Area => Method::Area,
     Face => Method::Face,
     FromNormal => Method::FromNormal,
+    AngleEdge => Method::AngleEdge,
 });
 from_code!(mode, "darboux_mode", ModeCode => Mode {
     Repaired => Mode::Repaired,

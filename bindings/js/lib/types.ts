@@ -29,6 +29,7 @@ export interface MikkTSpaceOptions {
 export type Method =
   | 'mikktspace'
   | 'angle-area'
+  | 'angle-edge'
   | 'lengyel'
   | 'lengyel-per-vertex'
   | 'average'

@@ -28,7 +28,8 @@ fn method(code: u32) -> Method {
         4 => Method::Average,
         5 => Method::Area,
         6 => Method::Face,
-        _ => Method::FromNormal,
+        7 => Method::FromNormal,
+        _ => Method::AngleEdge,
     }
 }
 

@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 const METHODS: &[(&str, Method)] = &[
     ("mikktspace", Method::MikkTSpace(MikkTSpaceOptions::new())),
     ("angle-area", Method::AngleArea),
+    ("angle-edge", Method::AngleEdge),
     ("lengyel", Method::Lengyel),
     ("lengyel-per-vertex", Method::LengyelPerVertex),
     ("average", Method::Average),

@@ -15,7 +15,7 @@ use crate::threads::cancellable;
 
 /// The weld, groups and subgroups of one mesh, kept to evaluate tangents again after its vertices moved.
 ///
-/// Methods other than 'mikktspace' and 'angle-area' keep only the signs and compute everything else again.
+/// Methods other than 'mikktspace', 'angle-area' and 'angle-edge' keep only the signs and compute everything else again.
 /// The plan keeps copies of UVs and indices, and no reference to the arrays. Several threads may use a plan at the same time.
 ///
 /// Parameters

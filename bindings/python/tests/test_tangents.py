@@ -169,7 +169,7 @@ def test_values_that_are_not_finite_are_counted(sheet: Mesh) -> None:
 
 
 def test_methods_differ_and_are_unit(sheet: Mesh) -> None:
-    methods = ["mikktspace", "angle-area", "lengyel", "lengyel-per-vertex", "average", "area", "face", "from-normal"]
+    methods = ["mikktspace", "angle-area", "angle-edge", "lengyel", "lengyel-per-vertex", "average", "area", "face", "from-normal"]
     found = [darboux.generate_tangents(*sheet.arrays, method=method) for method in methods]
     assert len({tangents.tobytes() for tangents in found}) == len(methods)
     for tangents in found:

@@ -34,6 +34,7 @@ fn every_method_is_the_cores() {
     let vertices = bent();
     let methods = [
         Method::AngleArea,
+        Method::AngleEdge,
         Method::Lengyel,
         Method::LengyelPerVertex,
         Method::Average,

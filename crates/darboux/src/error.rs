@@ -96,6 +96,15 @@ pub enum Error {
         /// The number in the mesh that was passed.
         found: usize,
     },
+    /// The texels do not fill the image.
+    ImageSize {
+        /// The width of the image.
+        width: usize,
+        /// The height of the image.
+        height: usize,
+        /// The number of texels found.
+        found: usize,
+    },
     /// The token of the context was cancelled.
     Cancelled,
 }
@@ -159,6 +168,9 @@ impl fmt::Display for Error {
                 f,
                 "the mesh has {found} {what} but this plan or splitter was made for {expected}; make a new one for this mesh"
             ),
+            Error::ImageSize { width, height, found } => {
+                write!(f, "{found} texels were passed but the image has {width} x {height}; pass all of them")
+            }
             Error::Cancelled => f.write_str("the call was cancelled; its output is incomplete"),
         }
     }

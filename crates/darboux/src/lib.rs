@@ -49,6 +49,7 @@ mod mesh;
 mod normal_map;
 mod normals;
 mod plan;
+mod recipe;
 mod split;
 mod tangents;
 mod topology;
@@ -68,12 +69,18 @@ pub use measure::{
     measure_uv_fidelity, measure_uv_fidelity_with,
 };
 pub use mesh::{Faces, Indices, Mesh, Strided};
-pub use normal_map::{Channel, TexelLayout, repack_texels};
+pub use normal_map::{
+    Channel, MapJudgement, MapVerdict, NormalMapJudge, SrgbMistake, TexelLayout, judge_normal_map,
+    repack_texels,
+};
 pub use normals::{
     NormalOptions, NormalPlan, NormalReport, NormalSplit, NormalWeight, Normals, Shading, SmoothingSeams,
     generate_normals, generate_normals_with, split_normals, split_normals_with,
 };
 pub use plan::Plan;
+pub use recipe::{
+    Recipe, RecipeMatch, RecipeRounding, RecipeWriting, recognise_recipe, recognise_recipe_with,
+};
 pub use split::{SplitBuffer, Splitter, VertexSplit, split_vertices, split_vertices_with};
 pub use tangents::{
     CompactFrames, Frames, Method, MikkTSpaceOptions, Mode, Report, TangentOptions, Tangents,

@@ -15,7 +15,7 @@ use crate::tangents::MethodPlan;
 ///
 /// For MikkTSpace on faces of 3 and 4 corners the plan also keeps a copy of all vertices, 32 bytes each. They are needed when the fast path
 /// does not apply to the moved mesh: welded vertices moved apart, or a tangent became zero. Among the other methods, only
-/// [`Method::AngleArea`](crate::Method::AngleArea) has groups to keep; the rest compute everything again except the signs.
+/// [`Method::AngleArea`](crate::Method::AngleArea) and [`Method::AngleEdge`](crate::Method::AngleEdge) have groups to keep; the rest compute everything again except the signs.
 #[derive(Debug)]
 pub struct Plan {
     method_plan: MethodPlan,

@@ -5,7 +5,7 @@ mod face;
 pub(crate) mod fast;
 mod frames;
 mod from_normal;
-mod generate;
+pub(crate) mod generate;
 pub(crate) mod memory;
 mod mesh_slices;
 mod method;

@@ -9,6 +9,7 @@ use darboux_tests::corpus::{CorpusCase, corpus};
 /// The other methods and their names as strings.
 const METHODS: &[(&str, Method)] = &[
     ("angle-area", Method::AngleArea),
+    ("angle-edge", Method::AngleEdge),
     ("lengyel", Method::Lengyel),
     ("lengyel-per-vertex", Method::LengyelPerVertex),
     ("average", Method::Average),

@@ -1,4 +1,4 @@
-//! The angle-area method in f64: sums over MikkTSpace's groups, then one fitting step.
+//! The methods angle-area and angle-edge in f64: sums over MikkTSpace's groups; for angle-area, one fitting step.
 
 use darboux::{Frame, Mesh};
 
@@ -10,15 +10,31 @@ use super::vectors::{Vec3, add, cross, dot, flatten, length, normalize, scale, s
 
 /// Like [`Method::AngleArea`](darboux::Method::AngleArea) without repairs: none at corners without a group.
 pub fn angle_area(mesh: &Mesh<'_>) -> Vec<Option<Frame>> {
+    grouped(mesh, |triangle, corners, _| area(triangle, corners), fit)
+}
+
+/// Like [`Method::AngleEdge`](darboux::Method::AngleEdge) without repairs: none at corners without a group.
+pub fn angle_edge(mesh: &Mesh<'_>) -> Vec<Option<Frame>> {
+    grouped(mesh, |_, _, edges| length(edges[0]) * length(edges[1]), |number, _, spaces, _, _| spaces[number])
+}
+
+/// The factor of a triangle's weight beside the angle, from the corner's edges in the tangent plane.
+type Factor = fn(&Triangle, &[Corner], [Vec3; 2]) -> f64;
+
+/// The last step of a group's frame.
+type Finish = fn(usize, Vec3, &[Space], &[Triangle], &[Corner]) -> Space;
+
+fn grouped(mesh: &Mesh<'_>, factor: Factor, finish: Finish) -> Vec<Option<Frame>> {
     let corners = weld(mesh);
     let mut triangles = triangulate(mesh, &corners);
     triangles.retain(|triangle| !is_degenerate(triangle, &corners));
     force_quads_to_agree(&mut triangles, &corners);
     find_neighbours(&mut triangles, &corners);
     let groups = build_groups(&mut triangles, &corners);
-    let spaces: Vec<Space> = groups.iter().map(|group| average(group, &triangles, &corners)).collect();
+    let spaces: Vec<Space> =
+        groups.iter().map(|group| average(group, &triangles, &corners, factor)).collect();
     let fitted: Vec<Space> = (0..groups.len())
-        .map(|number| fit(number, corners[groups[number].vertex].normal, &spaces, &triangles, &corners))
+        .map(|number| finish(number, corners[groups[number].vertex].normal, &spaces, &triangles, &corners))
         .collect();
     let mut frames = vec![None; corners.len()];
     for triangle in &triangles {
@@ -30,8 +46,8 @@ pub fn angle_area(mesh: &Mesh<'_>) -> Vec<Option<Frame>> {
     frames
 }
 
-/// The mean over a group, weighted by angle and area.
-fn average(group: &Group, triangles: &[Triangle], corners: &[Corner]) -> Space {
+/// The mean over a group, weighted by angle and the factor.
+fn average(group: &Group, triangles: &[Triangle], corners: &[Corner], factor: Factor) -> Space {
     let normal = normalize(corners[group.vertex].normal);
     let (mut s, mut t, mut magnitude, mut weights) = ([0.0; 3], [0.0; 3], [0.0; 2], 0.0);
     for triangle in
@@ -40,8 +56,9 @@ fn average(group: &Group, triangles: &[Triangle], corners: &[Corner]) -> Space {
         let i =
             triangle.vertices(corners).iter().position(|&v| v == group.vertex).expect("a member's vertex");
         let [here, next, last] = [i, i + 1, i + 2].map(|j| corners[triangle.corners[j % 3]].position);
-        let [a, b] = [next, last].map(|end| normalize(flatten(sub(end, here), normal)));
-        let weight = dot(a, b).clamp(-1.0, 1.0).acos() * area(triangle, corners);
+        let edges = [next, last].map(|end| flatten(sub(end, here), normal));
+        let [a, b] = edges.map(normalize);
+        let weight = dot(a, b).clamp(-1.0, 1.0).acos() * factor(triangle, corners, edges);
         s = add(s, scale(weight, normalize(flatten(triangle.space.s, normal))));
         t = add(t, scale(weight, normalize(flatten(triangle.space.t, normal))));
         magnitude = [0, 1].map(|i| magnitude[i] + weight * triangle.space.magnitude[i]);

@@ -81,7 +81,7 @@ facts_of_enums! {
     }
     MethodCode as "DARBOUX_METHOD" {
         Mikktspace = "MIKKTSPACE", AngleArea = "ANGLE_AREA", Lengyel = "LENGYEL", LengyelPerVertex = "LENGYEL_PER_VERTEX",
-        Average = "AVERAGE", Area = "AREA", Face = "FACE", FromNormal = "FROM_NORMAL",
+        Average = "AVERAGE", Area = "AREA", Face = "FACE", FromNormal = "FROM_NORMAL", AngleEdge = "ANGLE_EDGE",
     }
     ModeCode as "DARBOUX_MODE" { Repaired = "REPAIRED", Reference = "REFERENCE", Corrected = "CORRECTED" }
     FacesCode as "DARBOUX_FACES" { Triangles = "TRIANGLES", Quads = "QUADS", Mixed = "MIXED" }

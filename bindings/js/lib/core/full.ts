@@ -40,7 +40,9 @@ export interface FullExports extends Exports {
 
 // The position of a name in its list is the code that WebAssembly takes.
 const MODES = ['reference', 'repaired', 'corrected'] as const;
-const METHODS = ['mikktspace', 'angle-area', 'lengyel', 'lengyel-per-vertex', 'average', 'area', 'face', 'from-normal'] as const;
+const METHODS = [
+  'mikktspace', 'angle-area', 'lengyel', 'lengyel-per-vertex', 'average', 'area', 'face', 'from-normal', 'angle-edge',
+] as const;
 
 /** The counts of a report, in the order in which WebAssembly writes them. */
 const COUNTS = [

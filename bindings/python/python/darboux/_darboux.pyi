@@ -20,7 +20,7 @@ _Floats = npt.NDArray[np.float32]
 _Path = Union[str, "os.PathLike[str]"]
 _Progress = Callable[[int, int], object]
 _Method = Literal[
-    "mikktspace", "angle-area", "lengyel", "lengyel-per-vertex", "average", "area", "face", "from-normal"
+    "mikktspace", "angle-area", "angle-edge", "lengyel", "lengyel-per-vertex", "average", "area", "face", "from-normal"
 ]
 _Mode = Literal["reference", "repaired", "corrected"]
 _Shading = Literal["flat", "smooth"]

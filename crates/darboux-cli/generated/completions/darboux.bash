@@ -74,7 +74,7 @@ _darboux() {
             fi
             case "${prev}" in
                 --method)
-                    COMPREPLY=($(compgen -W "mikktspace angle-area lengyel lengyel-per-vertex average area face from-normal" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "mikktspace angle-area angle-edge lengyel lengyel-per-vertex average area face from-normal" -- "${cur}"))
                     return 0
                     ;;
                 --worst)
@@ -354,7 +354,7 @@ _darboux() {
                     return 0
                     ;;
                 --method)
-                    COMPREPLY=($(compgen -W "mikktspace angle-area lengyel lengyel-per-vertex average area face from-normal" -- "${cur}"))
+                    COMPREPLY=($(compgen -W "mikktspace angle-area angle-edge lengyel lengyel-per-vertex average area face from-normal" -- "${cur}"))
                     return 0
                     ;;
                 --mode)

@@ -42,6 +42,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l jobs -d 'Ho
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file' -r
 complete -c darboux -n "__fish_darboux_using_subcommand tangents" -l method -d 'How tangents are computed: as the normal map was baked, so nearly always mikktspace' -r -f -a "mikktspace\t'The standard of bakers and engines'
 angle-area\t'Weighted by angle and area: follows the UVs most closely, for surfaces without a baked normal map'
+angle-edge\t'Weighted by angle and edge lengths, meshoptimizer\'s default'
 lengyel\t'The sum of dP/du, separate for each UV orientation'
 lengyel-per-vertex\t'The sum of dP/du per vertex, as in three.js and many tutorials: wrong at mirrored seams'
 average\t'The mean of the triangles\' tangents'
@@ -126,6 +127,7 @@ complete -c darboux -n "__fish_darboux_using_subcommand convert" -s q -l quiet -
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l method -d 'Compare A with the tangents that this method computes for A; `darboux methods` lists the methods' -r -f -a "mikktspace\t'The standard of bakers and engines'
 angle-area\t'Weighted by angle and area: follows the UVs most closely, for surfaces without a baked normal map'
+angle-edge\t'Weighted by angle and edge lengths, meshoptimizer\'s default'
 lengyel\t'The sum of dP/du, separate for each UV orientation'
 lengyel-per-vertex\t'The sum of dP/du per vertex, as in three.js and many tutorials: wrong at mirrored seams'
 average\t'The mean of the triangles\' tangents'

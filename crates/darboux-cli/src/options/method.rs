@@ -11,6 +11,8 @@ pub enum MethodName {
     MikkTSpace,
     /// Weighted by angle and area: follows the UVs most closely, for surfaces without a baked normal map
     AngleArea,
+    /// Weighted by angle and edge lengths, meshoptimizer's default
+    AngleEdge,
     /// The sum of dP/du, separate for each UV orientation
     Lengyel,
     /// The sum of dP/du per vertex, as in three.js and many tutorials: wrong at mirrored seams
@@ -30,6 +32,7 @@ impl From<MethodName> for darboux::Method {
         match method {
             MethodName::MikkTSpace => Self::default(),
             MethodName::AngleArea => Self::AngleArea,
+            MethodName::AngleEdge => Self::AngleEdge,
             MethodName::Lengyel => Self::Lengyel,
             MethodName::LengyelPerVertex => Self::LengyelPerVertex,
             MethodName::Average => Self::Average,

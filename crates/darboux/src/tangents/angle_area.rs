@@ -1,9 +1,10 @@
-//! The angle-area method: the groups of MikkTSpace, weighted by corner angle times triangle area.
+//! The methods angle-area and angle-edge: the groups of MikkTSpace, weighted by corner angle times triangle area, or times the lengths of the
+//! corner's edges.
 //!
 //! ```text
 //! weld, find neighbours and build groups as MikkTSpace does, with all edges matched and without a threshold
 //! frame of each group = sum of its triangles' dP/du in the tangent plane, weighted by angle times area, in f64
-//! move each tangent a quarter of a Jacobi step towards the least-squares fit of the interpolated tangents
+//! angle-area: move each tangent a quarter of a Jacobi step towards the least-squares fit of the interpolated tangents
 //! orientation of each face; each corner has the frame of its group of that orientation
 //! ```
 //!
@@ -24,7 +25,9 @@ use crate::topology::triangulate::triangulate;
 use crate::exec::limits::RunLimits;
 use crate::exec::threads;
 use crate::tangents::Report;
-use crate::tangents::angle_area::group_sums::{GroupBuffers, GroupFrame, GroupSum, GroupedTriangles};
+use crate::tangents::angle_area::group_sums::{
+    GroupBuffers, GroupFrame, GroupSum, GroupWeight, GroupedTriangles,
+};
 use crate::tangents::mesh_slices::MeshSlices;
 use crate::tangents::mikktspace::derivatives::count_mirrored_edges;
 use crate::tangents::mikktspace::derivatives::{
@@ -40,11 +43,12 @@ use crate::tangents::report::count_split_vertices;
 /// Runs the method. The corners are unspecified after cancellation.
 pub(crate) fn run<O: Output>(
     mesh: &Mesh<'_>,
+    weight: GroupWeight,
     limits: RunLimits<'_>,
     buffers: &mut GroupBuffers,
     corners: &mut [O],
 ) -> Report {
-    on_pool(mesh, limits, || plan_and_report(mesh, limits, buffers, corners))
+    on_pool(mesh, limits, || plan_and_report(mesh, weight, limits, buffers, corners))
         .map_or_else(Report::default, |(_, report)| report)
 }
 
@@ -54,20 +58,26 @@ fn on_pool<R: Send>(mesh: &Mesh<'_>, limits: RunLimits<'_>, work: impl FnOnce() 
 }
 
 /// Computes the plan, the tangents and the report of a mesh. `None` after cancellation.
-pub(crate) fn plan(mesh: &Mesh<'_>, limits: RunLimits<'_>) -> Option<(AngleAreaPlan, Vec<[f32; 4]>, Report)> {
+pub(crate) fn plan(
+    mesh: &Mesh<'_>,
+    weight: GroupWeight,
+    limits: RunLimits<'_>,
+) -> Option<(AngleAreaPlan, Vec<[f32; 4]>, Report)> {
     let mut corners = vec![Output::EMPTY; mesh.corner_count()];
     let buffers = &mut GroupBuffers::default();
-    let (plan, report) = on_pool(mesh, limits, || plan_and_report(mesh, limits, buffers, &mut corners))?;
+    let (plan, report) =
+        on_pool(mesh, limits, || plan_and_report(mesh, weight, limits, buffers, &mut corners))?;
     Some((plan, corners, report))
 }
 
 fn plan_and_report<O: Output>(
     mesh: &Mesh<'_>,
+    weight: GroupWeight,
     limits: RunLimits<'_>,
     buffers: &mut GroupBuffers,
     corners: &mut [O],
 ) -> Option<(AngleAreaPlan, Report)> {
-    let (plan, mut report) = AngleAreaPlan::new(mesh, limits, buffers)?;
+    let (plan, mut report) = AngleAreaPlan::new(mesh, weight, limits, buffers)?;
     let slices = MeshSlices::new(mesh);
     report.repaired_corners = plan.frames(&slices, &WeldedMesh::new(mesh), limits, buffers, corners);
     limits.check().ok()?;
@@ -78,6 +88,7 @@ fn plan_and_report<O: Output>(
 /// The triangulation, the groups and the orientations of a mesh, to evaluate it again after its vertices moved.
 #[derive(Debug)]
 pub(crate) struct AngleAreaPlan {
+    weight: GroupWeight,
     triangulation: Triangulation,
     groups: Groups,
     corner_groups: CornerGroups,
@@ -91,6 +102,7 @@ impl AngleAreaPlan {
     /// cancellation.
     pub(crate) fn new(
         mesh: &Mesh<'_>,
+        weight: GroupWeight,
         limits: RunLimits<'_>,
         buffers: &mut GroupBuffers,
     ) -> Option<(Self, Report)> {
@@ -113,7 +125,7 @@ impl AngleAreaPlan {
         let corner_groups = CornerGroups::new(&slices, &triangulation, &groups);
         let is_skipped = derivatives.iter().map(|derivative| derivative.joins_any).collect();
         buffers.derivatives = derivatives;
-        Some((Self { triangulation, groups, corner_groups, is_skipped, orientation_of_face }, report))
+        Some((Self { weight, triangulation, groups, corner_groups, is_skipped, orientation_of_face }, report))
     }
 
     /// Writes the frames of the mesh after its vertices moved.
@@ -151,6 +163,7 @@ impl AngleAreaPlan {
             welded,
             groups: &self.groups,
             group_of_corner: &self.corner_groups.group_of_corner,
+            weight: self.weight,
         };
         let normal = |group| direction(self.normal_of_vertex(group, welded)).unwrap_or_default();
         buffers.normals.resize(self.groups.len(), [0.0; 3]);
@@ -160,10 +173,15 @@ impl AngleAreaPlan {
         frames.resize(self.groups.len(), GroupFrame { frame: Frame::EMPTY, repaired: true });
         let inputs = &*buffers;
         threads::fill(limits, &mut frames, |group| self.frame(group, O::IS_FULL, welded, inputs));
-        grouped.fit(&frames, limits, buffers);
+        let fits = self.weight == GroupWeight::Area;
+        if fits {
+            grouped.fit(&frames, limits, buffers);
+        }
         let inputs = &*buffers;
         threads::update(limits, &mut frames, |group, frame| {
-            fit(frame, inputs.normals[group], inputs.residuals[group]);
+            if fits {
+                fit(frame, inputs.normals[group], inputs.residuals[group]);
+            }
             if O::IS_FULL && frame.frame.bitangent == Frame::EMPTY.bitangent {
                 let Frame { tangent, sign, .. } = frame.frame;
                 frame.frame.bitangent = across(self.normal_of_vertex(group, welded), tangent, sign);

@@ -6,6 +6,7 @@ use crate::exec::limits::RunLimits;
 use crate::exec::threads;
 use crate::tangents::MikkTSpaceOptions;
 use crate::tangents::angle_area;
+use crate::tangents::angle_area::group_sums::GroupWeight;
 use crate::tangents::face;
 use crate::tangents::from_normal;
 use crate::tangents::mesh_slices::MeshSlices;
@@ -32,7 +33,10 @@ pub(crate) fn run<O: Output>(
 ) -> Report {
     match method {
         Method::MikkTSpace(options) => mikktspace(mesh, &options, limits, corners),
-        Method::AngleArea => angle_area::run(mesh, limits, &mut memory.of_groups, corners),
+        Method::AngleArea => angle_area::run(mesh, GroupWeight::Area, limits, &mut memory.of_groups, corners),
+        Method::AngleEdge => {
+            angle_area::run(mesh, GroupWeight::Edges, limits, &mut memory.of_groups, corners)
+        }
         Method::Lengyel => summed::<2, Lengyel, O>(mesh, limits, accumulate::<2, Lengyel>, memory, corners),
         Method::LengyelPerVertex => {
             summed::<2, LengyelPerVertex, O>(mesh, limits, accumulate::<2, LengyelPerVertex>, memory, corners)

@@ -11,6 +11,7 @@ use crate::tangents::Method;
 use crate::tangents::MikkTSpaceOptions;
 use crate::tangents::TangentOptions;
 use crate::tangents::angle_area;
+use crate::tangents::angle_area::group_sums::GroupWeight;
 use crate::tangents::fast::{FastPath, FastPlan, triangle_count};
 use crate::tangents::generate::{Tangents, generate, run};
 use crate::tangents::memory::TangentMemory;
@@ -24,7 +25,7 @@ pub(crate) enum MethodPlan {
     Fast(Box<Decided>),
     /// MikkTSpace where the fast path does not apply: the general path has grouped the mesh.
     Stages(Box<GroupedMesh>),
-    /// The angle-area method, on the groups of MikkTSpace.
+    /// The methods angle-area and angle-edge, on the groups of MikkTSpace.
     Groups(Box<angle_area::AngleAreaPlan>),
     /// The other methods run again for every evaluation, because they have no groups.
     Nothing,
@@ -46,13 +47,8 @@ impl MethodPlan {
     pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, limits: RunLimits<'_>) -> (Self, Tangents) {
         let options = match &options.method {
             Method::MikkTSpace(options) => options,
-            Method::AngleArea => {
-                let Some((plan, tangents, report)) = angle_area::plan(mesh, limits) else {
-                    return (Self::Nothing, Tangents::default());
-                };
-                let corners = CornerTangents(tangents);
-                return (Self::Groups(Box::new(plan)), Tangents { corners, report });
-            }
+            Method::AngleArea => return Self::groups(mesh, GroupWeight::Area, limits),
+            Method::AngleEdge => return Self::groups(mesh, GroupWeight::Edges, limits),
             _ => return (Self::Nothing, generate(mesh, options, limits, &mut TangentMemory::default())),
         };
         let mut base = Tangents::default();
@@ -86,6 +82,13 @@ impl MethodPlan {
             })),
             base,
         )
+    }
+
+    fn groups(mesh: &Mesh<'_>, weight: GroupWeight, limits: RunLimits<'_>) -> (Self, Tangents) {
+        let Some((plan, tangents, report)) = angle_area::plan(mesh, weight, limits) else {
+            return (Self::Nothing, Tangents::default());
+        };
+        (Self::Groups(Box::new(plan)), Tangents { corners: CornerTangents(tangents), report })
     }
 
     /// Writes the tangents of the moved mesh with the signs of the base's. `base`: what it was planned with, and its tangents.

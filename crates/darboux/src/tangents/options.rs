@@ -42,6 +42,9 @@ pub enum Method {
     /// MikkTSpace's groups with weights of corner angle times area: closest to the UVs where the mesh is cut unevenly, so the choice
     /// where no baked map requires another method.
     AngleArea,
+    /// MikkTSpace's groups with weights of corner angle times the lengths of the corner's edges: the default of meshoptimizer, so that of
+    /// gltfpack and of Godot from 4.6 on.
+    AngleEdge,
     /// The sum of dP/du per vertex and UV orientation, not normalised: triangles with dense UVs weigh more (Lengyel 2001).
     Lengyel,
     /// As `Lengyel` with one sum per vertex, as three.js and many tutorials have it: mirrored seams break, and are counted in

@@ -1,4 +1,5 @@
-//! The sums of the angle-area method: per group, weighted by corner angle and triangle area; and the residuals of the least-squares fit.
+//! The sums of the methods angle-area and angle-edge: per group, weighted by corner angle and by the triangle's area or the corner's edges; and
+//! the residuals of the least-squares fit.
 
 use crate::Frame;
 use crate::math::{V3, angle};
@@ -10,6 +11,15 @@ use crate::math_f64::{D3, add_scaled, cross, dot, length, sub};
 use crate::tangents::mikktspace::derivatives::Derivative;
 use crate::tangents::mikktspace::groups::Groups;
 use crate::tangents::mikktspace::welded_mesh::WeldedMesh;
+
+/// What a triangle's tangent is weighted by at a corner, beside the corner angle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum GroupWeight {
+    /// The area of the triangle.
+    Area,
+    /// The product of the lengths of the corner's two edges in the tangent plane.
+    Edges,
+}
 
 /// The sums of one group.
 #[derive(Clone, Copy, Debug, Default)]
@@ -53,6 +63,7 @@ pub(crate) struct GroupedTriangles<'a> {
     pub welded: &'a WeldedMesh<'a>,
     pub groups: &'a Groups,
     pub group_of_corner: &'a [u32],
+    pub weight: GroupWeight,
 }
 
 impl GroupedTriangles<'_> {
@@ -99,6 +110,10 @@ impl GroupedTriangles<'_> {
         let [a, b, c] = self.positions(t);
         let (ab, bc, ca) = (sub(b, a), sub(c, b), sub(a, c));
         let [of_a, of_b, of_c] = self.corner_normals(t, normals);
+        let area = match self.weight {
+            GroupWeight::Area => Some(area),
+            GroupWeight::Edges => None,
+        };
         // Written out: `map` is not inlined.
         [
             term(derivative.s, [ab, ca], of_a, area),
@@ -159,27 +174,29 @@ impl GroupedTriangles<'_> {
     }
 }
 
-/// The term of a triangle at the corner where `edges[0]` begins and `edges[1]` ends.
+/// The term of a triangle at the corner where `edges[0]` begins and `edges[1]` ends. The weight has the edges' lengths where there is no area.
 #[inline(always)]
-fn term(s: V3, edges: [D3; 2], normal: D3, area: f64) -> [f64; 4] {
+fn term(s: V3, edges: [D3; 2], normal: D3, area: Option<f64>) -> [f64; 4] {
     let [leaving, [x, y, z]] = edges;
-    let weight = angle_in_plane(leaving, [-x, -y, -z], normal) * area;
+    let (angle, lengths) = angle_in_plane(leaving, [-x, -y, -z], normal);
+    let weight = angle * area.unwrap_or(lengths);
     let [x, y, z] = direction_in_plane(s, normal);
     [weight * x, weight * y, weight * z, weight]
 }
 
-/// The angle between the projections of `a` and `b` to the plane of the normal, which is a unit vector or zero. 0 where a projection is
-/// rounding error.
+/// The angle between the projections of `a` and `b` to the plane of the normal, which is a unit vector or zero, and the product of their
+/// lengths. Both are 0 where a projection is rounding error.
 #[inline(always)]
-fn angle_in_plane(a: D3, b: D3, normal: D3) -> f64 {
+fn angle_in_plane(a: D3, b: D3, normal: D3) -> (f64, f64) {
     let (along_a, along_b) = (dot(a, normal), dot(b, normal));
     let (square_a, square_b) = (dot(a, a), dot(b, b));
     let (flat_a, flat_b) = (square_a - along_a * along_a, square_b - along_b * along_b);
     if flat_a > ROUNDING * square_a && flat_b > ROUNDING * square_b {
-        let cosine = (dot(a, b) - along_a * along_b) / (flat_a * flat_b).sqrt();
-        f64::from(angle(cosine as f32))
+        let lengths = (flat_a * flat_b).sqrt();
+        let cosine = (dot(a, b) - along_a * along_b) / lengths;
+        (f64::from(angle(cosine as f32)), lengths)
     } else {
-        0.0
+        (0.0, 0.0)
     }
 }
 

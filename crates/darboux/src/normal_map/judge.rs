@@ -1,0 +1,148 @@
+//! Judges a normal map by its texels: whether it is the slope of a surface, which way its green points, and what else is odd about it.
+//!
+//! The slopes p along u and q along v of a surface are derivatives of one height, so dp/dv = dq/du. A map whose green is inverted stores -q,
+//! and then the two mixed derivatives have opposite signs. The statistic is their correlation c = sum(dp/dv dq/du) / sqrt(sum (dp/dv)^2
+//! sum (dq/du)^2), which does not depend on the scales of u and v: it is positive for OpenGL's maps (green up) and negative for DirectX's.
+//!
+//! Every tile of 16 x 16 texels has a correlation of its own, on the map and on the map halved again and again, because noise and rounding
+//! hide a gentle surface at full size. The mean over the tiles divided by its standard error is the z score of a level. The x and y of the
+//! vectors stand for the slopes: they are bounded, so a step at the border of a chart cannot outvote a surface.
+//!
+//! Exchanged channels keep the sign of c, and show in the energies: for every gradient, dp/du dq/dv and dp/dv dq/du have the same mean
+//! (integrate by parts twice), while the Cauchy-Schwarz inequality bounds that mean by the unmixed derivatives. Mixed derivatives that are
+//! larger than the unmixed ones therefore belong to exchanged channels.
+//!
+//! What the texels cannot show: green and red inverted together, or a map turned by 180 degrees, is the map of the surface with bumps for
+//! dents. Red inverted alone looks as green inverted alone.
+
+mod census;
+mod judgement;
+mod level;
+mod score;
+
+use self::census::Census;
+pub use self::judgement::{MapJudgement, MapVerdict, SrgbMistake};
+use self::level::Level;
+use super::texels::{Channel, TexelLayout};
+use crate::Error;
+use crate::exec::simd::{Task, Width, WidthLimit};
+
+/// Judges a normal map.
+///
+/// `texels`: row after row, the top row first. `size`: width and height. `layout`: the channels of the vector.
+/// Errors: the number of texels is not width times height.
+///
+/// ```
+/// use darboux::{MapVerdict, TexelLayout, judge_normal_map};
+///
+/// // A field of bumps: the height is sin(x / 5) sin(y / 5), and rows count downwards.
+/// let texel = |i: usize| {
+///     let (x, y) = ((i % 128) as f32 / 5.0, (i / 128) as f32 / 5.0);
+///     let normal = [-x.cos() * y.sin() / 5.0, x.sin() * y.cos() / 5.0, 1.0];
+///     normal.map(|x| (127.5 + 127.5 * x / 1.1) as u8)
+/// };
+/// let texels: Vec<[u8; 3]> = (0..128 * 128).map(texel).collect();
+/// let judgement = judge_normal_map(&texels, [128, 128], TexelLayout::RGB)?;
+/// assert_eq!(judgement.verdict, MapVerdict::OpenGl);
+/// # Ok::<(), darboux::Error>(())
+/// ```
+pub fn judge_normal_map<C: Channel, const N: usize>(
+    texels: &[[C; N]],
+    size: [usize; 2],
+    layout: TexelLayout<N>,
+) -> Result<MapJudgement, Error> {
+    let [width, height] = size;
+    if width.checked_mul(height) != Some(texels.len()) {
+        return Err(Error::ImageSize { width, height, found: texels.len() });
+    }
+    let mut judge = NormalMapJudge::new(width, layout);
+    texels.chunks_exact(width.max(1)).for_each(|row| judge.push_row(row));
+    Ok(judge.judgement())
+}
+
+/// Judges a normal map whose rows arrive one after the other, in memory for a few rows.
+#[derive(Debug)]
+pub struct NormalMapJudge<const N: usize> {
+    layout: TexelLayout<N>,
+    width: usize,
+    census: Census,
+    levels: Vec<Level>,
+    /// x, y and z of the current row.
+    row: [Vec<f32>; 3],
+}
+
+impl<const N: usize> NormalMapJudge<N> {
+    /// A judge of a map of this width.
+    pub fn new(width: usize, layout: TexelLayout<N>) -> Self {
+        let widths = std::iter::successors(Some(width), |width| Some(width / 2));
+        let levels = widths.take_while(|&width| width >= level::TILE).map(Level::new).collect();
+        Self { layout, width, census: Census::new(), levels, row: [const { Vec::new() }; 3] }
+    }
+
+    /// Takes the next row. Texels beyond the width are ignored; a shorter row is ignored whole.
+    pub fn push_row<C: Channel>(&mut self, texels: &[[C; N]]) {
+        if let Some(texels) = texels.get(..self.width) {
+            Width::widest(WidthLimit::default()).run(RowTask { judge: self, texels });
+        }
+    }
+
+    /// The judgement on the rows so far.
+    pub fn judgement(&self) -> MapJudgement {
+        let evidence = score::weigh(&self.levels);
+        let mut judgement = self.census.judgement();
+        judgement.correlation = evidence.correlation as f32;
+        judgement.z_score = evidence.z_score as f32;
+        judgement.channel_order = evidence.channel_order as f32;
+        judgement.verdict = match () {
+            () if self.census.is_flat() => MapVerdict::Flat,
+            () if judgement.is_grey() || judgement.is_object_space() || judgement.holds_no_normals() => {
+                MapVerdict::NoGradient
+            }
+            () => evidence.verdict(),
+        };
+        judgement.confidence = match judgement.verdict {
+            MapVerdict::Flat | MapVerdict::NoGradient => 1.0,
+            _ => evidence.confidence() as f32,
+        };
+        judgement
+    }
+}
+
+/// Takes one row, compiled once per vector width.
+struct RowTask<'a, C, const N: usize> {
+    judge: &'a mut NormalMapJudge<N>,
+    texels: &'a [[C; N]],
+}
+
+impl<C: Channel, const N: usize> Task for RowTask<'_, C, N> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { judge, texels } = self;
+        let NormalMapJudge { layout, census, levels, row, .. } = judge;
+        layout.decode_row(texels, row);
+        census.count_codes(texels, *layout);
+        let [x, y, z] = row;
+        census.count_vectors([x, y, z], layout.z.is_some());
+        level::hide_invalid(x, y);
+        level::push(levels, x, y);
+    }
+}
+
+impl<const N: usize> TexelLayout<N> {
+    /// Decodes a row to one array per component.
+    #[inline(always)]
+    fn decode_row<C: Channel>(&self, texels: &[[C; N]], row: &mut [Vec<f32>; 3]) {
+        let [x, y, z] = row;
+        for (out, channel) in [(&mut *x, self.x), (&mut *y, self.y)] {
+            out.clear();
+            out.extend(texels.iter().map(|texel| texel[channel].component_f32()));
+        }
+        z.clear();
+        match self.z {
+            Some(channel) => z.extend(texels.iter().map(|texel| texel[channel].component_f32())),
+            None => {
+                z.extend(x.iter().zip(y).map(|(x, y)| (1.0 - *x * *x - *y * *y).max(0.0).sqrt()));
+            }
+        }
+    }
+}

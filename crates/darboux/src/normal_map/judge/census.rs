@@ -1,0 +1,163 @@
+//! Counts texels: background, lengths, signs of z, greys, and the commonest codes.
+
+use super::judgement::{MapJudgement, MapVerdict};
+use crate::normal_map::texels::{Channel, TexelLayout};
+
+/// Vectors that are summed side by side.
+const LANES: usize = 16;
+
+/// The greatest difference of two codes of a flat map: rounding and dither.
+const FLAT: usize = 2;
+
+/// All components of a black texel are smaller, and those of a white texel are larger than its negation.
+const BLACK: f32 = -0.7;
+
+/// The length of a middle grey texel is smaller.
+const GREY: f32 = 0.12;
+
+#[derive(Debug)]
+pub struct Census {
+    texels: usize,
+    counts: Counts,
+    sums: Sums,
+    z_range: [f32; 2],
+    /// The number of texels of every 8-bit x (low byte) and y (high byte).
+    codes: Vec<u32>,
+}
+
+/// Numbers of texels.
+#[derive(Clone, Copy, Debug, Default)]
+struct Counts {
+    background: usize,
+    not_unit: usize,
+    negative_z: usize,
+    grey: usize,
+    not_normal: usize,
+}
+
+/// Sums of x, y, z and lengths.
+type Sums = [f64; 4];
+
+impl Census {
+    pub fn new() -> Self {
+        let z_range = [f32::INFINITY, f32::NEG_INFINITY];
+        Self { texels: 0, counts: Counts::default(), sums: [0.0; 4], z_range, codes: vec![0; 1 << 16] }
+    }
+
+    /// Counts the codes of x and y.
+    #[inline(always)]
+    pub fn count_codes<C: Channel, const N: usize>(&mut self, texels: &[[C; N]], layout: TexelLayout<N>) {
+        self.texels += texels.len();
+        let code =
+            |texel: &[C; N]| usize::from(texel[layout.x].byte()) | usize::from(texel[layout.y].byte()) << 8;
+        // Runs of equal texels are counted at once: increments of one counter would wait for each other.
+        let mut runs = texels.iter().map(code);
+        let Some(mut last) = runs.next() else { return };
+        let mut length = 1;
+        for code in runs {
+            if code == last {
+                length += 1;
+            } else {
+                self.codes[last] = self.codes[last].saturating_add(length);
+                (last, length) = (code, 1);
+            }
+        }
+        self.codes[last] = self.codes[last].saturating_add(length);
+    }
+
+    /// Counts lengths, signs and greys of a row.
+    #[inline(always)]
+    pub fn count_vectors(&mut self, [x, y, z]: [&[f32]; 3], has_z: bool) {
+        let mut lanes = [[0.0f32; LANES]; 4];
+        let mut counts = [[0u32; LANES]; 5];
+        let mut range = [[f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]];
+        let chunks = x.chunks(LANES).zip(y.chunks(LANES)).zip(z.chunks(LANES));
+        for ((x, y), z) in chunks {
+            let mut vectors = [[f32::NAN; LANES]; 3];
+            for (lanes, values) in vectors.iter_mut().zip([x, y, z]) {
+                lanes[..values.len()].copy_from_slice(values);
+            }
+            let [x, y, z] = vectors;
+            for i in 0..LANES {
+                let length = (x[i] * x[i] + y[i] * y[i] + z[i] * z[i]).sqrt();
+                let differences = (x[i] - y[i]).abs().max((y[i] - z[i]).abs());
+                let is_grey = has_z & (differences <= 3.5 * 2.0 / 255.0);
+                // Compression blends the background with the texels beside it, so all nearly black, white and middle grey texels belong to it.
+                let third = if has_z { z[i] } else { x[i] };
+                let (low, high) = (x[i].min(y[i]).min(third), x[i].max(y[i]).max(third));
+                let is_background = (high < BLACK) | (low > -BLACK) | (length < GREY);
+                // NaN fills the last lanes.
+                let counts_here = !is_background & (length >= 0.0);
+                counts[0][i] += u32::from(is_background);
+                counts[1][i] += u32::from(counts_here & !(0.9..=1.1).contains(&length));
+                counts[2][i] += u32::from(counts_here & has_z & (z[i] < -0.01));
+                counts[3][i] += u32::from(counts_here & is_grey);
+                let is_normal = (0.5..=1.3).contains(&length) & (z[i] >= -0.1);
+                counts[4][i] += u32::from(counts_here & !is_normal);
+                for (lane, value) in lanes.iter_mut().zip([x[i], y[i], z[i], length]) {
+                    lane[i] += if counts_here { value } else { 0.0 };
+                }
+                range[0][i] = range[0][i].min(if counts_here { z[i] } else { f32::INFINITY });
+                range[1][i] = range[1][i].max(if counts_here { z[i] } else { f32::NEG_INFINITY });
+            }
+        }
+        let [background, not_unit, negative_z, grey, not_normal] =
+            counts.map(|lanes| lanes.iter().map(|&count| count as usize).sum::<usize>());
+        self.counts.background += background;
+        self.counts.not_unit += not_unit;
+        self.counts.negative_z += negative_z;
+        self.counts.grey += grey;
+        self.counts.not_normal += not_normal;
+        for (sum, lanes) in self.sums.iter_mut().zip(lanes) {
+            *sum += lanes.iter().map(|&lane| f64::from(lane)).sum::<f64>();
+        }
+        self.z_range[0] = range[0].iter().copied().fold(self.z_range[0], f32::min);
+        self.z_range[1] = range[1].iter().copied().fold(self.z_range[1], f32::max);
+    }
+
+    /// The commonest code among `x` and `y` of a range, and its number. The smallest one of several.
+    fn commonest(&self, range: std::ops::RangeInclusive<usize>) -> ([u8; 2], usize) {
+        let codes = range.clone().flat_map(|y| range.clone().map(move |x| (x, y)));
+        let start = ([0, 0], 0);
+        codes.fold(start, |best, (x, y)| {
+            let count = self.codes[x | y << 8] as usize;
+            if count > best.1 { ([x as u8, y as u8], count) } else { best }
+        })
+    }
+
+    /// Whether all texels but a few have the same code, give or take rounding.
+    pub fn is_flat(&self) -> bool {
+        let ([x, y], _) = self.commonest(0..=255);
+        let around = |code: u8| usize::from(code).saturating_sub(FLAT)..=(usize::from(code) + FLAT).min(255);
+        let near = around(y).flat_map(|y| around(x).map(move |x| self.codes[x | y << 8] as usize));
+        let others = self.texels - near.sum::<usize>().min(self.texels);
+        others <= 16.min(self.texels / 100).max(self.texels / 100_000)
+    }
+
+    /// The counts, without a verdict.
+    pub fn judgement(&self) -> MapJudgement {
+        let vectors = (self.texels - self.counts.background).max(1) as f64;
+        let [x, y, z, length] = self.sums.map(|sum| (sum / vectors) as f32);
+        let (commonest, commonest_count) = self.commonest(0..=255);
+        let (near_flat, near_flat_count) = self.commonest(120..=136);
+        MapJudgement {
+            verdict: MapVerdict::CannotTell,
+            confidence: 0.5,
+            correlation: 0.0,
+            z_score: 0.0,
+            channel_order: 0.0,
+            texels: self.texels,
+            background: self.counts.background,
+            not_unit: self.counts.not_unit,
+            negative_z: self.counts.negative_z,
+            grey: self.counts.grey,
+            not_normal: self.counts.not_normal,
+            mean_length: length,
+            mean: [x, y, z],
+            z_range: if self.z_range[0] <= self.z_range[1] { self.z_range } else { [0.0; 2] },
+            commonest,
+            commonest_count,
+            near_flat: (near_flat_count > 0).then_some(near_flat),
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! The verdict on a normal map and the counts behind it.
+
+/// The smallest z score of a decision.
+pub(super) const DECIDED: f32 = 4.0;
+
+/// The largest channel order of exchanged channels.
+pub(super) const EXCHANGED: f32 = -0.1;
+
+/// What the texels of a normal map say about its green channel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum MapVerdict {
+    /// Green points up, as glTF and OpenGL want it (or red and green are both inverted).
+    OpenGl,
+    /// Green points down, as DirectX wants it (or red is inverted).
+    DirectX,
+    /// The texels are not the slope of a surface: a height or colour map, a map in object space, exchanged channels, noise.
+    NoGradient,
+    /// All texels are the same but for rounding.
+    Flat,
+    /// There is too little evidence.
+    CannotTell,
+}
+
+/// The verdict on a normal map and the counts behind it.
+///
+/// Counts leave out the background: black, white and middle grey texels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct MapJudgement {
+    /// The verdict.
+    pub verdict: MapVerdict,
+    /// For OpenGL and DirectX the probability that the verdict is right, from 0.5 to 1, measured on generated maps; for `CannotTell` that of
+    /// the likelier of the two; 1 for the other verdicts.
+    pub confidence: f32,
+    /// The mean correlation of the tiles where it is clearest, from -1 (DirectX) to 1 (OpenGL).
+    pub correlation: f32,
+    /// The mean correlation divided by its standard error, with the sign of `correlation`.
+    pub z_score: f32,
+    /// Half the logarithm of the unmixed derivatives' energy over that of the mixed ones. Negative for exchanged channels.
+    pub channel_order: f32,
+    /// The texels of the map.
+    pub texels: usize,
+    /// Black, white and middle grey texels.
+    pub background: usize,
+    /// Texels whose length is not in [0.9, 1.1].
+    pub not_unit: usize,
+    /// Texels with z below -1/100. 0 where the layout stores no z.
+    pub negative_z: usize,
+    /// Texels whose three channels differ by at most 3/255. 0 where the layout stores no z.
+    pub grey: usize,
+    /// Texels that cannot be normals of a tangent-space map, however it was filtered: the length is not in [0.5, 1.3], or z is below -0.1.
+    pub not_normal: usize,
+    /// The mean length of the texels.
+    pub mean_length: f32,
+    /// The mean of the texels.
+    pub mean: [f32; 3],
+    /// The smallest and the largest z.
+    pub z_range: [f32; 2],
+    /// The commonest x and y, each as an 8-bit code.
+    pub commonest: [u8; 2],
+    /// The number of texels with the commonest x and y.
+    pub commonest_count: usize,
+    /// The commonest x and y among the codes from 120 to 136; none where no texel has such codes.
+    pub near_flat: Option<[u8; 2]>,
+}
+
+/// A mistake in the handling of the transfer function of sRGB.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SrgbMistake {
+    /// Linear values were encoded: the flat texel is near 188.
+    Encoded,
+    /// Values were decoded that were linear already: the flat texel is near 55.
+    Decoded,
+}
+
+impl MapJudgement {
+    fn share(&self, count: usize) -> f64 {
+        count as f64 / (self.texels - self.background).max(1) as f64
+    }
+
+    /// True for grey maps, such as height maps: 99 % of the texels are grey.
+    pub fn is_grey(&self) -> bool {
+        self.texels > self.background && self.share(self.grey) >= 0.99
+    }
+
+    /// True for maps in object space: unit vectors, of which more than a tenth have a negative z.
+    pub fn is_object_space(&self) -> bool {
+        !self.is_grey() && self.share(self.negative_z) > 0.1 && self.share(self.not_unit) < 0.5
+    }
+
+    /// True where the layout stores z, but the map has one value in that channel and several vectors.
+    pub fn is_two_channel(&self) -> bool {
+        let [low, high] = self.z_range;
+        high - low < 0.02 && self.verdict != MapVerdict::Flat && !self.is_grey()
+    }
+
+    /// True where more than half of the texels cannot be normals.
+    pub fn holds_no_normals(&self) -> bool {
+        self.share(self.not_normal) > 0.5
+    }
+
+    /// True where red and green seem to be exchanged: mixed derivatives have more energy than unmixed ones.
+    pub fn has_exchanged_channels(&self) -> bool {
+        self.verdict == MapVerdict::NoGradient
+            && self.channel_order <= EXCHANGED
+            && self.z_score.abs() >= DECIDED
+    }
+
+    /// The transfer function that was applied once too often, judged by the commonest texel.
+    pub fn srgb_mistake(&self) -> Option<SrgbMistake> {
+        let is_near = |code: u8| self.commonest.iter().all(|&channel| channel.abs_diff(code) <= 3);
+        match () {
+            () if self.is_grey() || self.share(self.commonest_count) < 0.01 => None,
+            () if is_near(188) => Some(SrgbMistake::Encoded),
+            () if is_near(55) => Some(SrgbMistake::Decoded),
+            () => None,
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! One level of the pyramid: the map halved some number of times, with the correlation of every tile.
+
+/// Texels per side of a tile.
+pub const TILE: usize = 16;
+
+/// Differences of neighbouring texels above this are borders of charts.
+const JUMP: f32 = 1.0;
+
+/// Texels that a tile needs to have a correlation.
+const TRUSTED: f32 = (TILE * TILE / 4) as f32;
+
+/// The sums of a tile: dp/dv dq/du, the squares of dp/dv, dq/du, dp/du and dq/dv, and the number of texels.
+const SUMS: usize = 6;
+
+#[derive(Debug)]
+pub struct Level {
+    width: usize,
+    /// The rows pushed.
+    height: usize,
+    /// The last three rows of x and of y, in turn.
+    x: [Vec<f32>; 3],
+    y: [Vec<f32>; 3],
+    /// The sums of every column over the rows of the current tiles.
+    columns: [Vec<f32>; SUMS],
+    /// A row of the next level.
+    half: [Vec<f32>; 2],
+    pub votes: Votes,
+}
+
+/// The correlations of all tiles of a level.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Votes {
+    pub tiles: usize,
+    pub correlations: f64,
+    pub squared_correlations: f64,
+    /// Half the logarithms of the unmixed derivatives' energy over that of the mixed ones.
+    pub orders: f64,
+    /// The squares of all four derivatives, and the number of texels.
+    pub energy: f64,
+    pub texels: f64,
+}
+
+/// Marks texels that are no vectors: longer than 1 in x and y alone. Black and white backgrounds are such texels.
+#[inline(always)]
+pub fn hide_invalid(x: &mut [f32], y: &mut [f32]) {
+    for (x, y) in x.iter_mut().zip(y) {
+        let is_vector = *x * *x + *y * *y <= 1.1;
+        *x = if is_vector { *x } else { f32::NAN };
+        *y = if is_vector { *y } else { f32::NAN };
+    }
+}
+
+/// Pushes a row into the first level and, every second time, the mean of two rows into the next one.
+#[inline(always)]
+pub fn push(levels: &mut [Level], x: &[f32], y: &[f32]) {
+    let Some((first, mut rest)) = levels.split_first_mut() else { return };
+    first.push_row(x, y);
+    let mut above = first;
+    while above.height.is_multiple_of(2) {
+        let Some((next, others)) = rest.split_first_mut() else { return };
+        above.halve();
+        next.push_row(&above.half[0], &above.half[1]);
+        (above, rest) = (next, others);
+    }
+}
+
+impl Level {
+    pub fn new(width: usize) -> Self {
+        let row = || vec![0.0; width];
+        Self {
+            width,
+            height: 0,
+            x: std::array::from_fn(|_| row()),
+            y: std::array::from_fn(|_| row()),
+            columns: std::array::from_fn(|_| row()),
+            half: std::array::from_fn(|_| vec![0.0; width / 2]),
+            votes: Votes::default(),
+        }
+    }
+
+    #[inline(always)]
+    fn push_row(&mut self, x: &[f32], y: &[f32]) {
+        let slot = self.height % 3;
+        self.x[slot].copy_from_slice(&x[..self.width]);
+        self.y[slot].copy_from_slice(&y[..self.width]);
+        self.height += 1;
+        if self.height >= 3 {
+            self.add_middle_row();
+        }
+        if self.height.is_multiple_of(TILE) {
+            self.fold_tiles();
+        }
+    }
+
+    /// Adds the products of the middle one of the last three rows to the columns.
+    #[inline(always)]
+    fn add_middle_row(&mut self) {
+        let [above, middle, below] = [self.height, self.height + 1, self.height + 2].map(|row| row % 3);
+        let length = self.width - 2;
+        let inner = 1..=length;
+        let (x_above, x_below) = (&self.x[above][inner.clone()], &self.x[below][inner.clone()]);
+        let (y_above, y_below) = (&self.y[above][inner.clone()], &self.y[below][inner.clone()]);
+        let (x_left, x_right) = (&self.x[middle][..length], &self.x[middle][2..][..length]);
+        let (y_left, y_right) = (&self.y[middle][..length], &self.y[middle][2..][..length]);
+        let [products, p_v, q_u, p_u, q_v, counts] =
+            self.columns.each_mut().map(|column| &mut column[1..=length]);
+        for i in 0..length {
+            let (a, b) = (x_above[i] - x_below[i], y_right[i] - y_left[i]);
+            let (c, d) = (x_right[i] - x_left[i], y_above[i] - y_below[i]);
+            let is_smooth = (a.abs() <= JUMP) & (b.abs() <= JUMP) & (c.abs() <= JUMP) & (d.abs() <= JUMP);
+            products[i] += if is_smooth { a * b } else { 0.0 };
+            p_v[i] += if is_smooth { a * a } else { 0.0 };
+            q_u[i] += if is_smooth { b * b } else { 0.0 };
+            p_u[i] += if is_smooth { c * c } else { 0.0 };
+            q_v[i] += if is_smooth { d * d } else { 0.0 };
+            counts[i] += if is_smooth { 1.0 } else { 0.0 };
+        }
+    }
+
+    /// Turns the columns into the votes of one row of tiles.
+    #[inline(always)]
+    fn fold_tiles(&mut self) {
+        for tile in 0..self.width / TILE {
+            let columns = tile * TILE..(tile + 1) * TILE;
+            let sums = self.columns.each_ref().map(|sums| sums[columns.clone()].iter().sum::<f32>());
+            self.votes.add(sums);
+        }
+        self.columns.iter_mut().for_each(|sums| sums.fill(0.0));
+    }
+
+    /// The mean of the last two rows and of two texels each.
+    #[inline(always)]
+    fn halve(&mut self) {
+        let [upper, lower] = [self.height + 1, self.height + 2].map(|row| row % 3);
+        for (out, rows) in self.half.iter_mut().zip([&self.x, &self.y]) {
+            let pairs = rows[upper].as_chunks::<2>().0.iter().zip(rows[lower].as_chunks::<2>().0);
+            for (out, (a, b)) in out.iter_mut().zip(pairs) {
+                *out = (a[0] + a[1] + b[0] + b[1]) * 0.25;
+            }
+        }
+    }
+}
+
+impl Votes {
+    fn add(&mut self, [product, p_v, q_u, p_u, q_v, count]: [f32; SUMS]) {
+        let [product, p_v, q_u, p_u, q_v] = [product, p_v, q_u, p_u, q_v].map(f64::from);
+        let (mixed, unmixed) = (p_v * q_u, p_u * q_v);
+        if count < TRUSTED || !(mixed > 0.0) {
+            return;
+        }
+        let correlation = product / mixed.sqrt();
+        self.tiles += 1;
+        self.correlations += correlation;
+        self.squared_correlations += correlation * correlation;
+        // The floor stands for the rounding of texels.
+        self.orders += ((unmixed + 1e-9) / (mixed + 1e-9)).ln() / 2.0;
+        self.energy += p_v + q_u + p_u + q_v;
+        self.texels += f64::from(count);
+    }
+}

@@ -1,0 +1,135 @@
+//! Normal maps are judged rightly: generated maps of every kind, and maps with one known oddity.
+
+use darboux::{
+    Channel, Error, MapJudgement, MapVerdict, NormalMapJudge, SrgbMistake, TexelLayout, judge_normal_map,
+};
+use darboux_tests::maps::damage::Storage;
+use darboux_tests::maps::table::{ConfusionTable, Truth, judge};
+use darboux_tests::maps::{Background, MapCase};
+
+/// A map of bumps without background or damage.
+fn plain() -> MapCase {
+    let mut case = MapCase::new(0, 256);
+    case.storage = Storage::Rounded;
+    case.background = Background::Padded;
+    (case.charts, case.noise, case.slope, case.stretch) = (1, 0.0, 0.3, 1.0);
+    case
+}
+
+fn judged<C: Channel, const N: usize>(texels: &[[C; N]], layout: TexelLayout<N>) -> MapJudgement {
+    judge_normal_map(texels, [256, 256], layout).expect("the map is whole")
+}
+
+/// Every surface, several charts, stretches, kinds of noise and of compression. `cargo xtask maps` judges thousands.
+#[test]
+fn generated_maps_get_the_right_verdict() {
+    let table = ConfusionTable::make(0..27, 256, &Truth::ALL, 1.0);
+    println!("{table}");
+    assert!(table.failures.is_empty(), "{:#?}", table.failures);
+    for (truth, [_, wrong, undecided]) in Truth::ALL.iter().zip(table.counts) {
+        let is_hard = *truth == Truth::Noise;
+        assert!(wrong == 0 && (is_hard || undecided == 0), "{truth:?}: {wrong} wrong, {undecided} undecided");
+    }
+}
+
+/// The statistic is odd: with green inverted exactly, its bits are the same but for the sign.
+#[test]
+fn inverted_green_negates_the_score() {
+    let up = plain().texels(false);
+    let down: Vec<[u8; 3]> = up.iter().map(|&[r, g, b]| [r, 255 - g, b]).collect();
+    let [up, down] = [up, down].map(|texels| judged(&texels, TexelLayout::RGB));
+    assert_eq!((up.verdict, down.verdict), (MapVerdict::OpenGl, MapVerdict::DirectX));
+    assert!((up.z_score + down.z_score).abs() < 0.01 * up.z_score, "{} and {}", up.z_score, down.z_score);
+    assert_eq!(up.confidence, down.confidence);
+}
+
+#[test]
+fn layouts_and_depths_agree() {
+    let texels = plain().texels(false);
+    let whole = judged(&texels, TexelLayout::RGB);
+    let words: Vec<[u16; 3]> = texels.iter().map(|texel| texel.map(|byte| u16::from(byte) * 257)).collect();
+    let two: Vec<[u8; 2]> = texels.iter().map(|&[r, g, _]| [r, g]).collect();
+    let swizzled: Vec<[u8; 4]> = texels.iter().map(|&[r, g, _]| [0, g, 0, r]).collect();
+    let others =
+        [judged(&words, TexelLayout::RGB), judged(&two, TexelLayout::RG), judged(&swizzled, TexelLayout::AG)];
+    for other in others {
+        assert_eq!((other.verdict, other.commonest), (whole.verdict, whole.commonest));
+        assert!((other.z_score / whole.z_score - 1.0).abs() < 0.01);
+    }
+}
+
+#[test]
+fn rows_give_the_same_as_the_whole_map() {
+    let texels = plain().texels(false);
+    let mut judge = NormalMapJudge::new(256, TexelLayout::RGB);
+    texels.chunks(256).for_each(|row| judge.push_row(row));
+    assert_eq!(judge.judgement(), judged(&texels, TexelLayout::RGB));
+}
+
+#[test]
+fn counts_name_what_is_odd() {
+    let healthy = plain().texels(false);
+    let with = |change: fn([f32; 3]) -> [f32; 3]| {
+        let change = |texel: [u8; 3]| {
+            change(texel.map(|byte| f32::from(byte) / 255.0)).map(|x| (255.0 * x).round() as u8)
+        };
+        judged(&healthy.iter().map(|&texel| change(texel)).collect::<Vec<_>>(), TexelLayout::RGB)
+    };
+    let as_it_is = with(|texel| texel);
+    assert_eq!((as_it_is.not_unit, as_it_is.negative_z, as_it_is.grey, as_it_is.background), (0, 0, 0, 0));
+    assert!(!as_it_is.is_grey() && !as_it_is.is_object_space() && !as_it_is.is_two_channel());
+    assert!(as_it_is.srgb_mistake().is_none() && (as_it_is.mean_length - 1.0).abs() < 0.01);
+
+    let shortened = with(|texel| texel.map(|x| 0.5 + 0.6 * (x - 0.5)));
+    assert_eq!(shortened.not_unit, shortened.texels);
+    assert!((shortened.mean_length - 0.6).abs() < 0.01 && !shortened.holds_no_normals());
+    assert_eq!(shortened.verdict, MapVerdict::OpenGl);
+    let downwards = with(|[x, y, z]| [x, y, 1.0 - z]);
+    assert_eq!(downwards.negative_z, downwards.texels);
+    let without_blue = with(|[x, y, _]| [x, y, 1.0]);
+    assert!(without_blue.is_two_channel() && without_blue.verdict == MapVerdict::OpenGl);
+    assert!(with(|[x, ..]| [x; 3]).is_grey());
+    assert!(judge(Truth::ObjectSpace, &plain()).is_object_space());
+    let exchanged = with(|[x, y, z]| [y, x, z]);
+    assert!(exchanged.has_exchanged_channels() && !as_it_is.has_exchanged_channels());
+}
+
+/// Mostly flat maps whose values went through the transfer function of sRGB once too often.
+#[test]
+fn wrong_transfer_functions_show_in_the_flat_texel() {
+    let mut texels = plain().texels(false);
+    texels[..200 * 256].fill([128, 128, 255]);
+    let through = |function: fn(f32) -> f32| {
+        let byte = |byte: u8| (255.0 * function(f32::from(byte) / 255.0)).round() as u8;
+        judged(&texels.iter().map(|texel| texel.map(byte)).collect::<Vec<_>>(), TexelLayout::RGB)
+    };
+    assert_eq!(through(|x| x).srgb_mistake(), None);
+    assert_eq!(through(|x| x.powf(1.0 / 2.2)).srgb_mistake(), Some(SrgbMistake::Encoded));
+    assert_eq!(through(|x| x.powf(2.2)).srgb_mistake(), Some(SrgbMistake::Decoded));
+}
+
+#[test]
+fn the_commonest_near_flat_code_is_found() {
+    let mut texels = plain().texels(false);
+    texels[..100 * 256].fill([126, 130, 255]);
+    texels[100 * 256..250 * 256].fill([0, 0, 0]);
+    let judgement = judged(&texels, TexelLayout::RGB);
+    assert_eq!(judgement.near_flat, Some([126, 130]));
+    assert_eq!(judgement.background, 150 * 256);
+}
+
+/// Nothing, one texel, one row, one column, all values.
+#[test]
+fn small_and_odd_maps_are_judged_too() {
+    for size in [[0, 0], [1, 1], [1000, 1], [1, 1000], [17, 16], [33, 70]] {
+        let texels: Vec<[u8; 3]> =
+            (0..size[0] * size[1]).map(|i| [i as u8, (i >> 3) as u8, (i * 7) as u8]).collect();
+        let judgement = judge_normal_map(&texels, size, TexelLayout::RGB).expect("the map is whole");
+        assert_eq!(judgement.texels, texels.len());
+        assert!(judgement.confidence >= 0.5 && judgement.confidence <= 1.0);
+    }
+    let error =
+        judge_normal_map(&[[0u8; 3]; 5], [2, 2], TexelLayout::RGB).expect_err("five texels are not 2 x 2");
+    assert_eq!(error, Error::ImageSize { width: 2, height: 2, found: 5 });
+    assert!(judge_normal_map(&[[0u8; 3]; 5], [usize::MAX, 2], TexelLayout::RGB).is_err());
+}

@@ -1,0 +1,182 @@
+//! The recipe of tangents is recognised.
+
+use std::path::Path;
+
+use darboux::{
+    CornerTangents, Mesh, Method, MikkTSpaceOptions, Mode, Recipe, RecipeMatch, RecipeRounding,
+    RecipeWriting, TangentOptions, generate_tangents, recognise_recipe,
+};
+use darboux_tests::models::{meshes, models};
+use darboux_tests::{METHODS, OwnedMesh, families};
+
+fn tangents(mesh: &Mesh<'_>, method: Method) -> Vec<[f32; 4]> {
+    generate_tangents(mesh, &TangentOptions::from(method)).corners.into_per_corner()
+}
+
+fn best(mesh: &Mesh<'_>, tangents: &[[f32; 4]]) -> RecipeMatch {
+    recognise_recipe(mesh, tangents).expect("one tangent per corner")[0]
+}
+
+/// Every method that is in the list; the normal alone is no recipe for normal maps.
+fn recipes() -> impl Iterator<Item = Method> {
+    let modes =
+        [Mode::Reference, Mode::Corrected].map(|mode| MikkTSpaceOptions::new().with_mode(mode).into());
+    METHODS.into_iter().filter(|method| *method != Method::FromNormal).chain(modes)
+}
+
+/// The tangents after they were written through the index list by a loop over the corners.
+fn written_through_indices(mesh: &Mesh<'_>, tangents: &[[f32; 4]], first_wins: bool) -> Vec<[f32; 4]> {
+    let mut of_vertex = vec![None; mesh.vertex_count()];
+    for (corner, tangent) in tangents.iter().enumerate() {
+        let slot = &mut of_vertex[mesh.vertex_of_corner(corner)];
+        *slot = if first_wins { slot.or(Some(*tangent)) } else { Some(*tangent) };
+    }
+    (0..tangents.len()).map(|corner| of_vertex[mesh.vertex_of_corner(corner)].expect("written")).collect()
+}
+
+/// Asserts that the best match is `method`, or gives the same bits as it.
+fn assert_recognised(name: &str, mesh: &OwnedMesh) {
+    let view = mesh.view();
+    for method in recipes() {
+        let made = tangents(&view, method);
+        let found = best(&view, &made);
+        assert_eq!(found.identical, made.len(), "{name}: {method:?} found as {found:?}");
+        let again = tangents(&view, found.recipe.method);
+        let again = match found.recipe.writing {
+            RecipeWriting::Corners => again,
+            writing => written_through_indices(&view, &again, writing == RecipeWriting::FirstCorner),
+        };
+        let is_same = found.recipe.flips_v || same_bits(&rounded(&again, found.recipe.rounding), &made);
+        assert!(is_same, "{name}: {method:?} found as {found:?}");
+    }
+}
+
+/// The tangents as a recipe rounds them.
+fn rounded(tangents: &[[f32; 4]], rounding: RecipeRounding) -> Vec<[f32; 4]> {
+    let largest = match rounding {
+        RecipeRounding::Bits8 => 127.0,
+        RecipeRounding::Bits16 => 32767.0,
+        _ => return tangents.to_vec(),
+    };
+    tangents.iter().map(|tangent| tangent.map(|x| (x * largest).round() / largest)).collect()
+}
+
+fn same_bits(a: &[[f32; 4]], b: &[[f32; 4]]) -> bool {
+    let numbers = a.as_flattened().iter().zip(b.as_flattened());
+    a.len() == b.len() && numbers.into_iter().all(|(a, b)| a == b || (a.is_nan() && b.is_nan()))
+}
+
+#[test]
+fn every_recipe_is_recognised_on_regular_meshes() {
+    for mirrored in [false, true] {
+        assert_recognised("grid", &families::grid(9, 7, false, mirrored));
+    }
+    assert_recognised("sphere", &families::sphere(12, 17, false));
+    assert_recognised("Möbius strip", &families::moebius(9, false));
+}
+
+fn assert_recognised_below(folder: &str) {
+    for path in models(&Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)) {
+        for (number, mesh) in meshes(&path) {
+            assert_recognised(&format!("{} {number}", path.display()), &mesh);
+        }
+    }
+}
+
+#[test]
+fn every_recipe_is_recognised_on_the_repository_s_models() {
+    assert_recognised_below("../assets");
+}
+
+#[test]
+#[ignore = "takes a minute: 695,539 triangles with every recipe"]
+fn every_recipe_is_recognised_on_the_larger_set() {
+    assert_recognised_below("../../shared/assets");
+}
+
+#[test]
+fn a_mirrored_seam_that_was_written_through_the_index_list_is_recognised() {
+    let mesh = families::grid(8, 7, false, true);
+    let view = mesh.view();
+    let made = tangents(&view, Method::default());
+    for (first_wins, writing) in [(false, RecipeWriting::LastCorner), (true, RecipeWriting::FirstCorner)] {
+        let written = written_through_indices(&view, &made, first_wins);
+        assert!(!same_bits(&written, &made));
+        let found = best(&view, &written);
+        assert_eq!((found.recipe.writing, found.identical), (writing, written.len()), "{found:?}");
+        assert!(matches!(found.recipe.method, Method::MikkTSpace(_)), "{found:?}");
+    }
+}
+
+#[test]
+fn flipped_v_is_recognised_where_its_rounding_shows() {
+    let mut mesh = families::sphere(12, 17, false);
+    mesh.uvs.iter_mut().for_each(|uv| *uv = [uv[0] * 0.37 + 0.01, uv[1] * 0.71 + 0.003]);
+    let mut flipped = mesh.clone();
+    flipped.uvs.iter_mut().for_each(|uv| uv[1] = 1.0 - uv[1]);
+    let mut made = tangents(&flipped.view(), Method::default());
+    made.iter_mut().for_each(|tangent| tangent[3] = -tangent[3]);
+    assert!(!same_bits(&made, &tangents(&mesh.view(), Method::default())));
+    let found = best(&mesh.view(), &made);
+    let Recipe { method, flips_v, .. } = found.recipe;
+    assert_eq!((method, flips_v, found.identical), (Method::default(), true, made.len()));
+}
+
+/// As gltfpack stores them: signed normalised integers.
+#[test]
+fn quantised_tangents_are_recognised() {
+    let mesh = families::sphere(24, 31, false);
+    let view = mesh.view();
+    for rounding in [RecipeRounding::Bits8, RecipeRounding::Bits16] {
+        for method in [Method::default(), Method::AngleEdge, Method::Lengyel] {
+            let made = rounded(&tangents(&view, method), rounding);
+            let found = best(&view, &made);
+            assert_eq!(
+                (found.recipe.rounding, found.identical),
+                (rounding, made.len()),
+                "{method:?} {found:?}"
+            );
+            let again = rounded(&tangents(&view, found.recipe.method), rounding);
+            assert!(same_bits(&again, &made), "{method:?} found as {found:?}");
+        }
+    }
+}
+
+#[test]
+fn counts_tell_how_far_a_recipe_is() {
+    let mesh = families::sphere(12, 17, false);
+    let view = mesh.view();
+    let turned = |degrees: f32| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let turn = |(corner, [x, y, z, w]): (usize, [f32; 4])| {
+            let normal = view.normals().get(view.vertex_of_corner(corner));
+            let length = normal.iter().map(|x| x * x).sum::<f32>().sqrt();
+            let [a, b, c] = normal.map(|x| x / length);
+            let across = [b * z - c * y, c * x - a * z, a * y - b * x];
+            [cos * x + sin * across[0], cos * y + sin * across[1], cos * z + sin * across[2], w]
+        };
+        let made = tangents(&view, Method::default());
+        best(&view, &made.into_iter().enumerate().map(turn).collect::<Vec<_>>())
+    };
+    let slightly = turned(0.05);
+    assert!(matches!(slightly.recipe.method, Method::MikkTSpace(_)));
+    assert_eq!((slightly.identical, slightly.close, slightly.sign_flips), (0, slightly.corners, 0));
+    assert!((slightly.worst - 0.05).abs() < 0.001, "{slightly:?}");
+    let much = turned(120.0);
+    assert_eq!(much.close, 0);
+    assert!(much.worst > 100.0, "{much:?}");
+}
+
+#[test]
+fn wrong_lengths_and_unusable_tangents_are_handled() {
+    let mesh = families::grid(2, 2, false, false);
+    let view = mesh.view();
+    assert!(recognise_recipe(&view, &[[0.0; 4]; 3]).is_err());
+    for tangent in [[0.0; 4], [f32::NAN; 4], [f32::INFINITY, 0.0, 0.0, 1.0]] {
+        let matches = recognise_recipe(&view, &vec![tangent; view.corner_count()]).expect("one per corner");
+        assert!(matches.iter().all(|found| found.close == 0 && found.worst == 180.0), "{tangent:?}");
+    }
+    let empty = Mesh::triangles(&[[0.0; 3]; 0], &[[0.0; 3]; 0], &[[0.0; 2]; 0], &[0u16; 0])
+        .expect("an empty mesh is one");
+    assert_eq!(best(&empty, CornerTangents::default().per_corner()).corners, 0);
+}
