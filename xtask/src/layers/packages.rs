@@ -12,7 +12,11 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("darboux-io", &["darboux"]),
     ("darboux-gpu", &["darboux", "darboux-tests"]),
     ("darboux-render", &["darboux", "darboux-io", "darboux-gpu"]),
-    ("darboux-cli", &["darboux", "darboux-io", "darboux-gpu", "darboux-render", "darboux-cli"]),
+    ("darboux-check", &["darboux", "darboux-io", "darboux-tests"]),
+    (
+        "darboux-cli",
+        &["darboux", "darboux-io", "darboux-check", "darboux-gpu", "darboux-render", "darboux-cli"],
+    ),
     ("darboux-c", &["darboux", "darboux-tests"]),
     ("darboux-mikktspace", &["darboux"]),
     ("darboux-js", &["darboux"]),

@@ -43,6 +43,11 @@ impl<'a> PrimitiveCorners<'a> {
         self.primitive.material
     }
 
+    /// The vertex of every corner: an index into the primitive's attributes. It can be out of range.
+    pub fn vertices(&self) -> &[u32] {
+        &self.vertices
+    }
+
     /// The number of corners.
     pub fn len(&self) -> usize {
         self.vertices.len()

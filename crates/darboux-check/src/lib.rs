@@ -1,0 +1,34 @@
+//! Finds what is wrong with the tangents, normals, UVs and normal maps of glTF models.
+//!
+//! A *rule* looks at one surface, map or material and returns findings; no rule knows another. [`Code`] lists all findings, with what each
+//! looks like on screen, how it comes about and the cure.
+//!
+//! ```
+//! use std::path::Path;
+//!
+//! use darboux_check::{CheckOptions, check_document};
+//! use darboux_io::LoadOptions;
+//! use darboux_io::gltf::Document;
+//!
+//! let model = Path::new("../../assets/NormalTangentTest/NormalTangentTest.glb");
+//! let mut document = Document::open(model, &LoadOptions::default())?;
+//! for finding in check_document(&mut document, &CheckOptions::default())? {
+//!     println!("{}: {}: {}", finding.place, finding.code, finding.text);
+//! }
+//! # Ok::<(), darboux_io::Error>(())
+//! ```
+
+mod check;
+mod code;
+mod finding;
+mod fit;
+mod map;
+mod rule;
+mod rules;
+mod severity;
+mod surface;
+
+pub use check::{CheckOptions, CheckedMap, check_document, check_map};
+pub use code::Code;
+pub use finding::{Evidence, Finding, Place};
+pub use severity::Severity;

@@ -1,0 +1,176 @@
+//! Rules about the texels of normal maps.
+
+use darboux::{BitangentDirection, MapJudgement, MapVerdict, SrgbMistake};
+
+use crate::code::Code;
+use crate::finding::Finding;
+use crate::map::Map;
+use crate::rule::MapRule;
+
+pub const RULES: &[MapRule] = &[
+    unreadable,
+    height,
+    object_space,
+    srgb,
+    not_normal,
+    two_channel,
+    green_flipped,
+    channels_swapped,
+    not_unit,
+    negative_z,
+    flat_off,
+    flat,
+];
+
+/// The share of texels, in percent, above which vectors are worth a warning.
+const MANY: f64 = 5.0;
+
+fn unreadable(map: &Map) -> Option<Finding> {
+    let problem = map.judgement.as_ref().err()?;
+    Some(Finding::new(Code::MapUnreadable, format!("it {problem}")))
+}
+
+/// The judgement on a map, if it is of any use.
+fn judged(map: &Map) -> Option<&MapJudgement> {
+    map.judgement.as_ref().ok()
+}
+
+/// What a map is when it is no tangent-space map of unit vectors. Later rules ask for `Normals` only, so that each map has one such finding.
+#[derive(PartialEq, Eq)]
+enum Kind {
+    Grey,
+    ObjectSpace,
+    Srgb,
+    TwoChannel,
+    Other,
+    Normals,
+}
+
+fn kind(judgement: &MapJudgement) -> Kind {
+    match () {
+        () if judgement.is_grey() => Kind::Grey,
+        () if judgement.is_two_channel() => Kind::TwoChannel,
+        () if judgement.srgb_mistake().is_some() => Kind::Srgb,
+        () if judgement.is_object_space() => Kind::ObjectSpace,
+        () if judgement.holds_no_normals() && judgement.verdict == MapVerdict::NoGradient => Kind::Other,
+        () => Kind::Normals,
+    }
+}
+
+fn percent(judgement: &MapJudgement, count: usize) -> f64 {
+    100.0 * count as f64 / (judgement.texels - judgement.background).max(1) as f64
+}
+
+fn height(map: &Map) -> Option<Finding> {
+    let judgement = judged(map).filter(|judgement| kind(judgement) == Kind::Grey)?;
+    let share = percent(judgement, judgement.grey);
+    Some(Finding::new(Code::MapHeight, "it is grey").with_count(judgement.grey).with_evidence(
+        "grey texels",
+        share,
+        "%",
+    ))
+}
+
+fn object_space(map: &Map) -> Option<Finding> {
+    let judgement = judged(map).filter(|judgement| kind(judgement) == Kind::ObjectSpace)?;
+    let share = percent(judgement, judgement.negative_z);
+    let finding = Finding::new(Code::MapObjectSpace, "its unit vectors point in all directions");
+    Some(finding.with_count(judgement.negative_z).with_evidence("texels with negative z", share, "%"))
+}
+
+fn srgb(map: &Map) -> Option<Finding> {
+    let judgement = judged(map).filter(|judgement| kind(judgement) == Kind::Srgb)?;
+    let [red, green] = judgement.commonest;
+    let what = match judgement.srgb_mistake()? {
+        SrgbMistake::Encoded => "encoded",
+        SrgbMistake::Decoded => "decoded",
+    };
+    let text = format!(
+        "its commonest texel is {red}, {green} instead of 128, 128: linear values were {what} as sRGB"
+    );
+    Some(Finding::new(Code::MapSrgb, text).with_count(judgement.commonest_count))
+}
+
+fn not_normal(map: &Map) -> Option<Finding> {
+    let judgement = judged(map).filter(|judgement| kind(judgement) == Kind::Other)?;
+    let share = percent(judgement, judgement.not_normal);
+    let finding = Finding::new(Code::MapNotNormal, "most of its texels cannot be normals");
+    Some(finding.with_count(judgement.not_normal).with_evidence("texels that are no normals", share, "%"))
+}
+
+fn two_channel(map: &Map) -> Option<Finding> {
+    judged(map).filter(|judgement| kind(judgement) == Kind::TwoChannel)?;
+    Some(Finding::new(Code::MapTwoChannel, "its blue channel has one value only"))
+}
+
+fn green_flipped(map: &Map) -> Option<Finding> {
+    let judgement =
+        judged(map).filter(|judgement| matches!(kind(judgement), Kind::Normals | Kind::TwoChannel))?;
+    let (flipped, program) = match map.wanted {
+        BitangentDirection::Up => (MapVerdict::DirectX, "DirectX (green down) instead of OpenGL (green up)"),
+        BitangentDirection::Down => (MapVerdict::OpenGl, "OpenGL (green up) instead of DirectX (green down)"),
+    };
+    (judgement.verdict == flipped).then(|| {
+        Finding::new(Code::MapGreenFlipped, format!("it is in the convention of {program}"))
+            .with_evidence("confidence", 100.0 * f64::from(judgement.confidence), "%")
+            .with_evidence("correlation of the mixed derivatives", judgement.correlation.into(), "")
+            .with_evidence("z score", judgement.z_score.into(), "")
+    })
+}
+
+fn channels_swapped(map: &Map) -> Option<Finding> {
+    let judgement = judged(map).filter(|judgement| kind(judgement) == Kind::Normals)?;
+    judgement.has_exchanged_channels().then(|| {
+        Finding::new(
+            Code::MapChannelsSwapped,
+            "its derivatives are those of a map with red and green exchanged",
+        )
+        .with_evidence("order of the channels", judgement.channel_order.into(), "")
+        .with_evidence("z score", judgement.z_score.into(), "")
+    })
+}
+
+fn not_unit(map: &Map) -> Option<Finding> {
+    let judgement = judged(map).filter(|judgement| kind(judgement) == Kind::Normals)?;
+    let share = percent(judgement, judgement.not_unit);
+    (share > MANY).then(|| {
+        Finding::new(Code::MapNotUnit, format!("{} texels are no unit vectors", judgement.not_unit))
+            .with_count(judgement.not_unit)
+            .with_evidence("texels", share, "%")
+            .with_evidence("mean length", judgement.mean_length.into(), "")
+    })
+}
+
+fn negative_z(map: &Map) -> Option<Finding> {
+    let judgement = judged(map).filter(|judgement| kind(judgement) == Kind::Normals)?;
+    let share = percent(judgement, judgement.negative_z);
+    (share > 0.01).then(|| {
+        Finding::new(Code::MapNegativeZ, format!("{} texels point below the surface", judgement.negative_z))
+            .with_count(judgement.negative_z)
+            .with_evidence("texels", share, "%")
+    })
+}
+
+fn flat_off(map: &Map) -> Option<Finding> {
+    let judgement = judged(map).filter(|judgement| kind(judgement) == Kind::Normals)?;
+    let code = judgement.commonest;
+    // Another commonest texel belongs to the surface; 127 is the other nearest code of zero.
+    let is_flat = code.iter().all(|code| (120..=136).contains(code));
+    let is_off = code.iter().any(|code| !(127..=128).contains(code));
+    let share = percent(judgement, judgement.commonest_count);
+    (is_flat && is_off && share > MANY).then(|| {
+        let [red, green] = code;
+        let lean = code.map(|code| (f64::from(code) - 127.5) / 127.5);
+        let degrees = lean[0].hypot(lean[1]).min(1.0).asin().to_degrees();
+        Finding::new(Code::MapFlatOff, format!("its flat texels are {red}, {green} instead of 128, 128"))
+            .with_count(judgement.commonest_count)
+            .with_evidence("angle", degrees, "degrees")
+            .with_evidence("texels", share, "%")
+    })
+}
+
+fn flat(map: &Map) -> Option<Finding> {
+    let judgement = judged(map).filter(|judgement| judgement.verdict == MapVerdict::Flat)?;
+    let is_plain = kind(judgement) == Kind::Normals;
+    is_plain.then(|| Finding::new(Code::MapFlat, "all its texels are the same"))
+}

@@ -1,0 +1,238 @@
+//! Rules about tangents: values, signs, directions, and how they were computed.
+
+use darboux::{Convention, Method, RecipeMatch, recognise_recipe};
+
+use crate::code::Code;
+use crate::finding::Finding;
+use crate::fit::{Difference, Fit, on_mirrored_seams};
+use crate::rule::{Measured, SurfaceRule};
+use crate::severity::Severity;
+use crate::surface::{Surface, dot, indices_where, length, xyz};
+
+pub const RULES: &[SurfaceRule] = &[
+    missing,
+    unused,
+    not_finite,
+    zero,
+    not_unit,
+    not_perpendicular,
+    sign_not_one,
+    shared_across_mirror,
+    sign_mixed,
+    direction_or_sign,
+    other_recipe,
+];
+
+/// How far lengths of tangents may be from 1: 8-bit tangents are up to 0.007 off.
+const UNIT: f64 = 0.02;
+
+/// Degrees from the plane of the normal.
+const LEANING: [f64; 2] = [2.0, 15.0];
+
+fn missing(measured: &Measured<'_>) -> Vec<Finding> {
+    let Surface { needs_tangents, tangents, .. } = measured.surface;
+    let is_missing = *needs_tangents && tangents.is_none();
+    let text = "its material has a normal map, and it has no tangents";
+    is_missing.then(|| Finding::new(Code::TangentMissing, text)).into_iter().collect()
+}
+
+fn unused(measured: &Measured<'_>) -> Vec<Finding> {
+    let Surface { needs_tangents, tangents, positions, .. } = measured.surface;
+    let is_unused = !needs_tangents && tangents.is_some();
+    let finding = || {
+        Finding::new(Code::TangentUnused, "it has tangents, and its material has nothing that reads them")
+            .with_evidence("size", 16.0 * positions.len() as f64, "bytes")
+    };
+    is_unused.then(finding).into_iter().collect()
+}
+
+/// A finding about the vertices whose tangents fulfil a condition.
+fn vertices(
+    surface: &Surface,
+    code: Code,
+    condition: impl Fn([f32; 4]) -> bool,
+    text: impl Fn(usize) -> String,
+) -> Vec<Finding> {
+    let Some(tangents) = &surface.tangents else { return Vec::new() };
+    let found = indices_where(tangents, |tangent| condition(*tangent));
+    if found.is_empty() {
+        return Vec::new();
+    }
+    vec![Finding::new(code, text(found.len())).with_items(&found).with_evidence(
+        "vertices",
+        found.len() as f64,
+        "vertices",
+    )]
+}
+
+fn is_finite(tangent: [f32; 4]) -> bool {
+    tangent.iter().all(|x| x.is_finite())
+}
+
+fn has_length(tangent: [f32; 4]) -> bool {
+    is_finite(tangent) && length(xyz(tangent)) > 0.1
+}
+
+fn not_finite(measured: &Measured<'_>) -> Vec<Finding> {
+    vertices(
+        measured.surface,
+        Code::TangentNotFinite,
+        |tangent| !is_finite(tangent),
+        |count| format!("{count} tangents contain NaN or infinity"),
+    )
+}
+
+fn zero(measured: &Measured<'_>) -> Vec<Finding> {
+    let is_zero = |tangent| is_finite(tangent) && !has_length(tangent);
+    vertices(measured.surface, Code::TangentZero, is_zero, |count| {
+        format!("{count} tangents have length zero")
+    })
+}
+
+fn not_unit(measured: &Measured<'_>) -> Vec<Finding> {
+    let is_other = |tangent| has_length(tangent) && (length(xyz(tangent)) - 1.0).abs() > UNIT;
+    vertices(measured.surface, Code::TangentNotUnit, is_other, |count| {
+        format!("{count} tangents have another length than 1")
+    })
+}
+
+fn sign_not_one(measured: &Measured<'_>) -> Vec<Finding> {
+    let is_other = |tangent: [f32; 4]| is_finite(tangent) && (tangent[3].abs() - 1.0).abs() > 0.01;
+    vertices(measured.surface, Code::TangentSignNotOne, is_other, |count| {
+        format!("{count} tangents have a sign w that is neither 1 nor -1")
+    })
+}
+
+fn not_perpendicular(measured: &Measured<'_>) -> Vec<Finding> {
+    let (Some(tangents), Some(normals)) = (&measured.surface.tangents, &measured.surface.normals) else {
+        return Vec::new();
+    };
+    let angle = |vertex: usize| {
+        let (tangent, normal) = (xyz(tangents[vertex]), normals[vertex]);
+        let sine = dot(tangent, normal) / (length(tangent) * length(normal));
+        if has_length(tangents[vertex]) && sine.is_finite() {
+            sine.abs().min(1.0).asin().to_degrees()
+        } else {
+            0.0
+        }
+    };
+    let angles: Vec<f64> = (0..tangents.len()).map(angle).collect();
+    let found = indices_where(&angles, |angle| *angle > LEANING[0]);
+    if found.is_empty() {
+        return Vec::new();
+    }
+    let worst = angles.iter().copied().fold(0.0, f64::max);
+    let severity = if worst > LEANING[1] { Severity::Error } else { Severity::Warning };
+    let text = format!(
+        "{} tangents are not perpendicular to their normals, by up to {worst:.1} degrees",
+        found.len()
+    );
+    vec![
+        Finding::new(Code::TangentNotPerpendicular, text)
+            .with_items(&found)
+            .with_severity(severity)
+            .with_evidence("largest angle", worst, "degrees"),
+    ]
+}
+
+fn shared_across_mirror(measured: &Measured<'_>) -> Vec<Finding> {
+    let surface = measured.surface;
+    let expected = surface.tangents.as_ref().and_then(|_| surface.expected_tangents(surface.uv_set));
+    let Some(expected) = expected else { return Vec::new() };
+    let found = indices_where(&on_mirrored_seams(surface, &expected), |is_shared| *is_shared);
+    if found.is_empty() {
+        return Vec::new();
+    }
+    let text = format!("{} vertices serve both sides of mirrored UV seams", found.len());
+    vec![Finding::new(Code::TangentSharedAcrossMirror, text).with_items(&found)]
+}
+
+fn sign_mixed(measured: &Measured<'_>) -> Vec<Finding> {
+    let surface = measured.surface;
+    let Some(tangents) = &surface.tangents else { return Vec::new() };
+    let found = surface.triangles_where(|triangle| {
+        let signs = triangle.map(|vertex| tangents[vertex][3] < 0.0);
+        signs != [signs[0]; 3]
+    });
+    if found.is_empty() {
+        return Vec::new();
+    }
+    let text = format!("{} triangles have corners with both signs", found.len());
+    vec![Finding::new(Code::TangentSignMixed, text).with_items(&found)]
+}
+
+/// The rules that one measurement decides: at most one of them is true.
+fn direction_or_sign(measured: &Measured<'_>) -> Vec<Finding> {
+    let Some(Fit { difference, corners, supporting, .. }) = measured.fit else { return Vec::new() };
+    let set = measured.surface.uv_set;
+    let (code, text) = match difference {
+        Difference::None | Difference::Unknown => return Vec::new(),
+        Difference::SignFlipped => (Code::TangentSignFlipped, "all signs w are flipped".to_owned()),
+        Difference::SignFlippedWhereMirrored => {
+            let text = "the signs w are right on one side of the mirrored UVs and flipped on the other";
+            (Code::TangentSignFlippedWhereMirrored, text.to_owned())
+        }
+        Difference::Rotated => (Code::TangentRotated, "the tangents point along v".to_owned()),
+        Difference::Negated => (Code::TangentNegated, "the tangents point against u".to_owned()),
+        Difference::OtherUvSet(other) => {
+            let text =
+                format!("the tangents follow TEXCOORD_{other}, and the normal texture uses TEXCOORD_{set}");
+            (Code::TangentOtherUvSet, text)
+        }
+    };
+    let share = 100.0 * supporting as f64 / corners.max(1) as f64;
+    vec![Finding::new(code, text).with_count(supporting).with_evidence("corners that show it", share, "%")]
+}
+
+fn other_recipe(measured: &Measured<'_>) -> Vec<Finding> {
+    let surface = measured.surface;
+    let is_fit = measured.fit.as_ref().is_some_and(|fit| {
+        matches!(fit.difference, Difference::None | Difference::Unknown) && fit.corners > 0
+    });
+    let (Some(mesh), Some(tangents)) = (surface.mesh(surface.uv_set), surface.corner_tangents()) else {
+        return Vec::new();
+    };
+    if !is_fit || surface.is_wound_against_normals() {
+        return Vec::new();
+    }
+    let to_generated = Convention::GLTF.to(Convention::GLTF.generated());
+    let tangents: Vec<[f32; 4]> = tangents.iter().map(|tangent| to_generated.tangent(*tangent)).collect();
+    let Ok(matches) = recognise_recipe(&mesh, &tangents) else { return Vec::new() };
+    let is_mikktspace = |found: &&RecipeMatch| matches!(found.recipe.method, Method::MikkTSpace(_));
+    let (Some(best), Some(mikktspace)) = (matches.first(), matches.iter().find(is_mikktspace)) else {
+        return Vec::new();
+    };
+    let close = |found: &RecipeMatch| 100.0 * found.close as f64 / found.corners.max(1) as f64;
+    if is_mikktspace(&best) && close(best) >= 99.0 || best.corners == 0 {
+        return Vec::new();
+    }
+    let text = if close(best) >= 90.0 && !is_mikktspace(&best) {
+        format!("the tangents were computed by {}", name(best.recipe.method))
+    } else {
+        "the tangents were computed in a way that is not recognised".to_owned()
+    };
+    let severity = if mikktspace.worst > 0.5 { Severity::Warning } else { Severity::Info };
+    vec![
+        Finding::new(Code::TangentOtherRecipe, text)
+            .with_severity(severity)
+            .with_count(mikktspace.corners - mikktspace.close)
+            .with_evidence("corners within 0.1 degrees of MikkTSpace", close(mikktspace), "%")
+            .with_evidence("largest angle to MikkTSpace", mikktspace.worst, "degrees")
+            .with_evidence("corners within 0.1 degrees of the best recipe", close(best), "%"),
+    ]
+}
+
+/// A method by the programs that use it.
+fn name(method: Method) -> &'static str {
+    match method {
+        Method::MikkTSpace(_) => "MikkTSpace",
+        Method::AngleArea => "sums weighted by angle and area",
+        Method::AngleEdge => "sums weighted by angle and edges (meshoptimizer, gltfpack, Godot 4.6)",
+        Method::Lengyel => "Lengyel's sums, split at mirrored seams",
+        Method::LengyelPerVertex => "Lengyel's sums per vertex (three.js and many tutorials)",
+        Method::Average => "averages of the triangles' tangents",
+        Method::Area => "averages weighted by area",
+        Method::Face => "one tangent per face",
+        _ => "another method",
+    }
+}

@@ -1,0 +1,57 @@
+//! Rules about UVs: the set that the tangents follow.
+
+use crate::code::Code;
+use crate::finding::Finding;
+use crate::rule::{Measured, SurfaceRule};
+use crate::surface::{Surface, cross, length, sub};
+
+pub const RULES: &[SurfaceRule] = &[missing, degenerate, mirrored];
+
+fn missing(measured: &Measured<'_>) -> Vec<Finding> {
+    let Surface { needs_tangents, uv_sets, uv_set, .. } = measured.surface;
+    if !needs_tangents || uv_sets.contains_key(uv_set) {
+        return Vec::new();
+    }
+    vec![Finding::new(
+        Code::UvMissing,
+        format!("its normal texture uses TEXCOORD_{uv_set}, which it does not have"),
+    )]
+}
+
+/// Twice the signed area of a triangle in UV space, with v as stored.
+fn uv_area(uvs: &[[f32; 2]], triangle: [usize; 3]) -> f64 {
+    let [a, b, c] = triangle.map(|vertex| uvs[vertex].map(f64::from));
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+/// Triangles with an area in space and none in UV space.
+fn degenerate(measured: &Measured<'_>) -> Vec<Finding> {
+    let surface = measured.surface;
+    let Some(uvs) = surface.uv_sets.get(&surface.uv_set).filter(|_| surface.needs_tangents) else {
+        return Vec::new();
+    };
+    let found = surface.triangles_where(|triangle| {
+        let [a, b, c] = triangle.map(|vertex| surface.positions[vertex]);
+        uv_area(uvs, triangle) == 0.0 && length(cross(sub(b, a), sub(c, a))) > 0.0
+    });
+    if found.is_empty() {
+        return Vec::new();
+    }
+    let text = format!("{} triangles have no area in TEXCOORD_{}", found.len(), surface.uv_set);
+    vec![Finding::new(Code::UvDegenerate, text).with_items(&found)]
+}
+
+/// Triangles whose UVs turn the other way than glTF's images do.
+fn mirrored(measured: &Measured<'_>) -> Vec<Finding> {
+    let surface = measured.surface;
+    let Some(uvs) = surface.uv_sets.get(&surface.uv_set).filter(|_| surface.needs_tangents) else {
+        return Vec::new();
+    };
+    // glTF's v points down, so an unmirrored triangle has a negative area.
+    let found = surface.triangles_where(|triangle| uv_area(uvs, triangle) > 0.0);
+    if found.is_empty() {
+        return Vec::new();
+    }
+    let text = format!("{} triangles have mirrored UVs", found.len());
+    vec![Finding::new(Code::UvMirrored, text).with_items(&found)]
+}

@@ -1,0 +1,147 @@
+//! [`Surface`]: the data of one primitive, as the rules read it.
+
+use std::collections::BTreeMap;
+
+use darboux::{Convention, Mesh, TangentOptions, generate_tangents};
+use darboux_io::Error;
+use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveInfo};
+
+use crate::finding::Place;
+
+/// A primitive with triangles.
+pub struct Surface {
+    /// Where it is.
+    pub place: Place,
+    /// Whether its material uses tangents.
+    pub needs_tangents: bool,
+    /// The UV set that its tangents follow.
+    pub uv_set: usize,
+    /// The vertex of every corner, three corners per triangle.
+    pub vertex_of_corner: Vec<u32>,
+    pub positions: Vec<[f32; 3]>,
+    pub normals: Option<Vec<[f32; 3]>>,
+    pub tangents: Option<Vec<[f32; 4]>>,
+    /// The UV sets by the n of `TEXCOORD_n`.
+    pub uv_sets: BTreeMap<usize, Vec<[f32; 2]>>,
+}
+
+impl Surface {
+    /// Reads a primitive. Errors: invalid accessors; an index out of range.
+    pub fn read(
+        document: &Document,
+        corners: &PrimitiveCorners<'_>,
+        info: &PrimitiveInfo,
+    ) -> Result<Self, Error> {
+        let name = corners.name();
+        let mut surface = Self {
+            place: Place { primitive: Some(name.clone()), material: corners.material(), ..Place::default() },
+            needs_tangents: info.needs_tangents,
+            uv_set: info.uv_set,
+            vertex_of_corner: corners.vertices().to_vec(),
+            positions: vertices(document, corners, "POSITION")?.unwrap_or_default(),
+            normals: vertices(document, corners, "NORMAL")?,
+            tangents: vertices(document, corners, "TANGENT")?,
+            uv_sets: BTreeMap::new(),
+        };
+        for semantic in document.meshes()[name.mesh].primitives[name.primitive].attributes.keys() {
+            if let Some(set) = semantic.strip_prefix("TEXCOORD_").and_then(|set| set.parse().ok()) {
+                surface.uv_sets.extend(vertices(document, corners, semantic)?.map(|uvs| (set, uvs)));
+            }
+        }
+        surface.make_lengths_equal();
+        Ok(surface)
+    }
+
+    /// Leaves out vertices that not all attributes have. No corner uses them, because every attribute has a value for every corner.
+    fn make_lengths_equal(&mut self) {
+        let lengths = [self.normals.as_ref().map(Vec::len), self.tangents.as_ref().map(Vec::len)];
+        let lengths = lengths.into_iter().flatten().chain(self.uv_sets.values().map(Vec::len));
+        let length = lengths.fold(self.positions.len(), usize::min);
+        self.positions.truncate(length);
+        self.normals.iter_mut().for_each(|normals| normals.truncate(length));
+        self.tangents.iter_mut().for_each(|tangents| tangents.truncate(length));
+        self.uv_sets.values_mut().for_each(|uvs| uvs.truncate(length));
+    }
+
+    /// The mesh with one of its UV sets; none where it has no normals or not that set.
+    pub fn mesh(&self, uv_set: usize) -> Option<Mesh<'_>> {
+        let (normals, uvs) = (self.normals.as_ref()?, self.uv_sets.get(&uv_set)?);
+        Mesh::triangles(&self.positions, normals, uvs, &self.vertex_of_corner).ok()
+    }
+
+    /// MikkTSpace's tangents of all corners in glTF's convention.
+    pub fn expected_tangents(&self, uv_set: usize) -> Option<Vec<[f32; 4]>> {
+        let tangents = generate_tangents(&self.mesh(uv_set)?, &TangentOptions::default()).corners;
+        Some(tangents.converted(Convention::GLTF.generated(), Convention::GLTF).into_per_corner())
+    }
+
+    /// The file's tangent of every corner; none where it has no tangents.
+    pub fn corner_tangents(&self) -> Option<Vec<[f32; 4]>> {
+        let tangents = self.tangents.as_ref()?;
+        Some(self.vertex_of_corner.iter().map(|&vertex| tangents[vertex as usize]).collect())
+    }
+
+    /// The vertices of every triangle.
+    pub fn triangles(&self) -> impl Iterator<Item = [usize; 3]> {
+        self.vertex_of_corner.as_chunks::<3>().0.iter().map(|triangle| triangle.map(|vertex| vertex as usize))
+    }
+
+    /// The triangles whose corners all have normals that point to their back.
+    pub fn triangles_against_normals(&self) -> Vec<usize> {
+        let Some(normals) = &self.normals else { return Vec::new() };
+        self.triangles_where(|triangle| {
+            let [a, b, c] = triangle.map(|vertex| self.positions[vertex]);
+            let front = cross(sub(b, a), sub(c, a));
+            triangle.iter().all(|&vertex| dot(front, normals[vertex]) < 0.0)
+        })
+    }
+
+    /// Whether that is so for most triangles.
+    pub fn is_wound_against_normals(&self) -> bool {
+        6 * self.triangles_against_normals().len() > self.vertex_of_corner.len()
+    }
+
+    /// The indices of the triangles whose vertices fulfil a condition.
+    pub fn triangles_where(&self, mut condition: impl FnMut([usize; 3]) -> bool) -> Vec<usize> {
+        let numbered = self.triangles().enumerate();
+        numbered.filter(|(_, triangle)| condition(*triangle)).map(|(number, _)| number).collect()
+    }
+}
+
+/// The values of an attribute at all vertices. Errors: invalid data; an index of a corner that is out of range.
+fn vertices<const N: usize>(
+    document: &Document,
+    corners: &PrimitiveCorners<'_>,
+    semantic: &str,
+) -> Result<Option<Vec<[f32; N]>>, Error> {
+    let name = corners.name();
+    let attributes = &document.meshes()[name.mesh].primitives[name.primitive].attributes;
+    let Some(&accessor) = attributes.get(semantic) else { return Ok(None) };
+    corners.vectors::<N>(semantic)?;
+    Ok(Some(document.vectors(accessor)?.into_owned()))
+}
+
+/// The indices of the elements that fulfil a condition.
+pub fn indices_where<T>(elements: &[T], condition: impl Fn(&T) -> bool) -> Vec<usize> {
+    elements.iter().enumerate().filter(|(_, element)| condition(element)).map(|(index, _)| index).collect()
+}
+
+pub fn dot(a: [f32; 3], b: [f32; 3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| f64::from(*a) * f64::from(b)).sum()
+}
+
+pub fn length(a: [f32; 3]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+pub fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+pub fn sub(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+pub fn xyz([x, y, z, _]: [f32; 4]) -> [f32; 3] {
+    [x, y, z]
+}
