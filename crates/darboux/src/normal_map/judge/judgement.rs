@@ -30,8 +30,8 @@ pub enum MapVerdict {
 pub struct MapJudgement {
     /// The verdict.
     pub verdict: MapVerdict,
-    /// For OpenGL and DirectX the probability that the verdict is right, from 0.5 to 1, measured on generated maps; for `CannotTell` that of
-    /// the likelier of the two; 1 for the other verdicts.
+    /// For OpenGL and DirectX an estimate of the probability that the verdict is right, from 0.5 to 0.999; for `CannotTell` that of the likelier
+    /// of the two; 1 for the other verdicts. The estimate is provisional: it comes from nearly flat generated maps, not from real ones.
     pub confidence: f32,
     /// The mean correlation of the tiles where it is clearest, from -1 (DirectX) to 1 (OpenGL).
     pub correlation: f32,

@@ -66,8 +66,11 @@ impl Evidence {
         }
     }
 
-    /// The probability that the sign of the z score is right, as measured on nearly flat generated maps (`cargo xtask maps`). It stays below 1
-    /// because compression can have a direction of its own.
+    /// An estimate of the probability that the sign of the z score is right.
+    ///
+    /// The curve is provisional: a logistic function whose steepness was chosen on the generated maps of `cargo xtask maps`, made nearly flat
+    /// (SLOPE 0.03) so that some signs are wrong. It was not fitted to real maps. It stays below 1 because compression can have a direction
+    /// of its own.
     pub fn confidence(&self) -> f64 {
         (1.0 / (1.0 + (-0.9 * self.z_score.abs()).exp())).min(0.999)
     }
