@@ -89,12 +89,12 @@ fn encodings_without_a_place_in_gltf_are_refused_by_naming_those_with_one() {
 #[test]
 fn methods_explains_every_method_that_there_is() {
     let explained = String::from_utf8(darboux(&["methods"]).exits(0).stdout).expect("UTF-8");
-    assert_eq!(explained.lines().count(), 10);
+    assert_eq!(explained.lines().count(), 11);
     let help = String::from_utf8(darboux(&["tangents", "--help"]).exits(0).stdout).expect("UTF-8");
     let listed = help.split("--method <NAME>").nth(1).and_then(|rest| rest.split("[default").next());
     let names = listed.expect("the list").lines().filter_map(|line| line.trim().strip_prefix("- "));
     let names: Vec<&str> = names.filter_map(|line| line.split(':').next()).collect();
-    assert_eq!(names.len(), 8);
+    assert_eq!(names.len(), 9);
     for name in names {
         assert!(explained.contains(&format!("  {name} ")), "{name}");
     }
