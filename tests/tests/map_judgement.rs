@@ -88,6 +88,11 @@ fn counts_name_what_is_odd() {
     assert_eq!(downwards.negative_z, downwards.texels);
     let without_blue = with(|[x, y, _]| [x, y, 1.0]);
     assert!(without_blue.is_two_channel() && without_blue.verdict == MapVerdict::OpenGl);
+    let mut shallow = plain();
+    shallow.slope = 0.02;
+    let shallow = judge(Truth::OpenGl, &shallow);
+    let [low, high] = shallow.z_range;
+    assert!(high - low < 0.02 && !shallow.is_two_channel(), "z from {low} to {high}");
     assert!(with(|[x, ..]| [x; 3]).is_grey());
     assert!(judge(Truth::ObjectSpace, &plain()).is_object_space());
     let exchanged = with(|[x, y, z]| [y, x, z]);

@@ -12,6 +12,7 @@ use crate::shaders;
 /// The files and folders that are generated. Such a folder holds nothing else.
 const PLACES: &[&str] = &[
     "docs/cli.md",
+    "docs/check.md",
     "crates/darboux-cli/generated",
     "bindings/c/include/darboux.h",
     "shaders/glsl",

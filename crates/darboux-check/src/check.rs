@@ -6,11 +6,13 @@ use darboux::{BitangentDirection, MapJudgement};
 use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveCorners, inspect};
 
+use crate::code::Code;
 use crate::finding::{Finding, Place};
 use crate::fit;
 use crate::map::Map;
 use crate::rule::Measured;
 use crate::rules::{MAP_RULES, SURFACE_RULES, TEXTURE_RULES};
+use crate::severity::Severity;
 use crate::surface::Surface;
 
 /// What is checked.
@@ -82,7 +84,17 @@ fn check_surface(surface: &Surface) -> Vec<Finding> {
     let measured = Measured { surface, fit: fit::measure(surface) };
     let rules = SURFACE_RULES.iter().flat_map(|family| family.iter());
     let findings = rules.flat_map(|rule| rule(&measured));
-    findings.map(|finding| Finding { place: surface.place.clone(), ..finding }).collect()
+    let placed = |finding: Finding| {
+        let severity = finding.severity.min(worst_severity(finding.code, surface));
+        Finding { place: surface.place.clone(), severity, ..finding }
+    };
+    findings.map(placed).collect()
+}
+
+/// Tangents that nothing reads make no picture wrong.
+fn worst_severity(code: Code, surface: &Surface) -> Severity {
+    let is_unread = code.name().starts_with("tangent-") && !surface.needs_tangents;
+    if is_unread { Severity::Warning } else { Severity::Error }
 }
 
 /// The primitives that differ in data or material, each with the number of later ones that do not.

@@ -4,7 +4,7 @@
 
 use darboux::CornerDifference;
 
-use crate::surface::{Surface, cross, dot, xyz};
+use crate::surface::{Surface, cross, dot, uv_area, xyz};
 
 /// How the tangents of a file differ from MikkTSpace's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -106,7 +106,7 @@ fn count(surface: &Surface, tangents: &[[f32; 4]], uv_set: usize) -> Option<Coun
     if surface.is_wound_against_normals() {
         expected.iter_mut().for_each(|tangent| tangent[3] = -tangent[3]);
     }
-    let is_shared = on_mirrored_seams(surface, &expected);
+    let is_shared = on_mirrored_seams(surface, uv_set, &expected);
     let mut counts = Counts::default();
     for (corner, (&ours, &theirs)) in expected.iter().zip(tangents).enumerate() {
         let vertex = surface.vertex_of_corner[corner] as usize;
@@ -128,11 +128,18 @@ fn count(surface: &Surface, tangents: &[[f32; 4]], uv_set: usize) -> Option<Coun
     Some(counts)
 }
 
-/// Per vertex whether its corners have both signs.
-pub fn on_mirrored_seams(surface: &Surface, expected: &[[f32; 4]]) -> Vec<bool> {
+/// Per vertex whether its corners have both signs. Triangles without area in the UV set do not count: they show no bumps, and their sign is that of
+/// any neighbour.
+pub fn on_mirrored_seams(surface: &Surface, uv_set: usize, expected: &[[f32; 4]]) -> Vec<bool> {
     let mut seen = vec![[false; 2]; surface.positions.len()];
-    for (&vertex, tangent) in surface.vertex_of_corner.iter().zip(expected) {
-        seen[vertex as usize][usize::from(tangent[3] < 0.0)] = true;
+    let Some(uvs) = surface.uv_sets.get(&uv_set) else { return vec![false; seen.len()] };
+    for (triangle, tangents) in surface.triangles().zip(expected.as_chunks::<3>().0) {
+        if uv_area(uvs, triangle) == 0.0 {
+            continue;
+        }
+        for (vertex, tangent) in triangle.into_iter().zip(tangents) {
+            seen[vertex][usize::from(tangent[3] < 0.0)] = true;
+        }
     }
     seen.into_iter().map(|[positive, negative]| positive && negative).collect()
 }

@@ -121,6 +121,12 @@ fn vertices<const N: usize>(
     Ok(Some(document.vectors(accessor)?.into_owned()))
 }
 
+/// Twice the signed area of a triangle in UV space, with v as stored.
+pub fn uv_area(uvs: &[[f32; 2]], triangle: [usize; 3]) -> f64 {
+    let [a, b, c] = triangle.map(|vertex| uvs[vertex].map(f64::from));
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
 /// The indices of the elements that fulfil a condition.
 pub fn indices_where<T>(elements: &[T], condition: impl Fn(&T) -> bool) -> Vec<usize> {
     elements.iter().enumerate().filter(|(_, element)| condition(element)).map(|(index, _)| index).collect()

@@ -1,4 +1,5 @@
-//! Writes the files that are generated from the definition of the command line into a folder: docs/cli.md, man pages and completions.
+//! Writes the files that are generated from the definition of the command line and from the findings of `darboux check` into a folder:
+//! docs/cli.md, docs/check.md, man pages and completions.
 //!
 //! `cargo xtask gen` runs it on the repository's root.
 
@@ -8,6 +9,7 @@ use std::path::Path;
 
 use clap::{Command, CommandFactory};
 use clap_complete::{Shell, generate_to};
+use darboux_check::Code;
 use darboux_cli::Arguments;
 
 fn main() -> io::Result<()> {
@@ -21,6 +23,7 @@ fn main() -> io::Result<()> {
     write_man_pages(&command, &generated.join("man"))?;
     write_completions(&mut command, &generated.join("completions"))?;
     create_dir_all(root.join("docs"))?;
+    write(root.join("docs/check.md"), findings())?;
     write(root.join("docs/cli.md"), reference(&mut command))
 }
 
@@ -48,6 +51,18 @@ fn reference(command: &mut Command) -> String {
         text += &section(&name, subcommand);
     }
     text + "\n" + include_str!("../src/json.md")
+}
+
+/// Every finding with its explanation.
+fn findings() -> String {
+    let table = Code::ALL
+        .iter()
+        .map(|code| format!("| [`{code}`](#{code}) | {} | {} |\n", code.severity(), code.meaning()));
+    let sections = Code::ALL.iter().map(|code| {
+        let [meaning, looks, cause, cure] = [code.meaning(), code.looks_like(), code.cause(), code.cure()];
+        format!("\n## {code}\n\n{meaning}\n\n*What it looks like:* {looks}\n\n*How it comes about:* {cause}\n\n*Cure:* {cure}\n")
+    });
+    include_str!("check.md").to_owned() + &table.chain(sections).collect::<String>()
 }
 
 fn section(name: &str, command: &mut Command) -> String {

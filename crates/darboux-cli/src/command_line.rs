@@ -2,6 +2,7 @@
 
 use clap::{Parser, Subcommand};
 
+use crate::commands::check::arguments::{self as check, CheckArguments};
 use crate::commands::compare::arguments::{self as compare, CompareArguments};
 use crate::commands::completions::arguments::{self as completions, CompletionsArguments};
 use crate::commands::convert::arguments::{self as convert, ConvertArguments};
@@ -53,6 +54,9 @@ pub enum Command {
         mut_arg("output", |output| output.help(convert::OUTPUT))
     )]
     Convert(ConvertArguments),
+    /// Say what is wrong with models and normal maps
+    #[command(long_about = check::ABOUT, after_long_help = check::EXAMPLES)]
+    Check(CheckArguments),
     /// Compare the tangents of two files, or of a file and a method
     #[command(override_usage = compare::USAGE, long_about = compare::ABOUT, after_long_help = compare::EXAMPLES)]
     Compare(CompareArguments),

@@ -1,5 +1,6 @@
 //! The subcommands: each has its arguments in `arguments.rs` and its entry point beside it.
 
+pub mod check;
 pub mod compare;
 pub mod completions;
 pub mod convert;

@@ -41,6 +41,7 @@ where
             Command::Tangents(arguments) => batch::run(arguments),
             Command::Normals(arguments) => batch::run(arguments),
             Command::Convert(arguments) => batch::run(arguments),
+            Command::Check(arguments) => commands::check::run(arguments),
             Command::Compare(arguments) => commands::compare::run(arguments),
             Command::Inspect(arguments) => commands::inspect::run(arguments),
             Command::Methods => commands::methods::run(),

@@ -139,7 +139,7 @@ fn shared_across_mirror(measured: &Measured<'_>) -> Vec<Finding> {
     let surface = measured.surface;
     let expected = surface.tangents.as_ref().and_then(|_| surface.expected_tangents(surface.uv_set));
     let Some(expected) = expected else { return Vec::new() };
-    let found = indices_where(&on_mirrored_seams(surface, &expected), |is_shared| *is_shared);
+    let found = indices_where(&on_mirrored_seams(surface, surface.uv_set, &expected), |is_shared| *is_shared);
     if found.is_empty() {
         return Vec::new();
     }
@@ -175,8 +175,7 @@ fn direction_or_sign(measured: &Measured<'_>) -> Vec<Finding> {
         Difference::Rotated => (Code::TangentRotated, "the tangents point along v".to_owned()),
         Difference::Negated => (Code::TangentNegated, "the tangents point against u".to_owned()),
         Difference::OtherUvSet(other) => {
-            let text =
-                format!("the tangents follow TEXCOORD_{other}, and the normal texture uses TEXCOORD_{set}");
+            let text = format!("the tangents follow TEXCOORD_{other} instead of TEXCOORD_{set}");
             (Code::TangentOtherUvSet, text)
         }
     };

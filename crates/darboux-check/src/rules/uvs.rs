@@ -3,7 +3,7 @@
 use crate::code::Code;
 use crate::finding::Finding;
 use crate::rule::{Measured, SurfaceRule};
-use crate::surface::{Surface, cross, length, sub};
+use crate::surface::{Surface, cross, length, sub, uv_area};
 
 pub const RULES: &[SurfaceRule] = &[missing, degenerate, mirrored];
 
@@ -16,12 +16,6 @@ fn missing(measured: &Measured<'_>) -> Vec<Finding> {
         Code::UvMissing,
         format!("its normal texture uses TEXCOORD_{uv_set}, which it does not have"),
     )]
-}
-
-/// Twice the signed area of a triangle in UV space, with v as stored.
-fn uv_area(uvs: &[[f32; 2]], triangle: [usize; 3]) -> f64 {
-    let [a, b, c] = triangle.map(|vertex| uvs[vertex].map(f64::from));
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
 /// Triangles with an area in space and none in UV space.

@@ -29,6 +29,7 @@ complete -c darboux -n "__fish_darboux_needs_command" -s V -l version -d 'Print 
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "tangents" -d 'Add tangents to glTF and GLB files'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "normals" -d 'Add normals to glTF and GLB files'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "convert" -d 'Convert normal maps and models between conventions'
+complete -c darboux -n "__fish_darboux_needs_command" -f -a "check" -d 'Say what is wrong with models and normal maps'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "compare" -d 'Compare the tangents of two files, or of a file and a method'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "inspect" -d 'Show the contents of each primitive and the difficulties for its tangents'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "render" -d 'Draw a model or its tangents into a PNG'
@@ -125,6 +126,21 @@ complete -c darboux -n "__fish_darboux_using_subcommand convert" -l raw -d 'Allo
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -s q -l quiet -d 'Print errors only; commands that write files also print one line with the totals'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l explain -d 'Print the meaning of a code and exit' -r
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l only -d 'Report these codes only' -r
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l allow -d 'Do not report these codes' -r
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l fail-on -d 'The severity from which on a finding makes the exit code 1' -r -f -a "error\t'A picture is wrong'
+warning\t'A picture may be wrong'
+never\t'Findings do not change the exit code'"
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l convention -d 'Where the green of normal maps should point' -r -f -a "opengl\t'Green up: glTF, OpenGL, Blender, Unity, Godot'
+directx\t'Green down: DirectX, Unreal'"
+complete -c darboux -n "__fish_darboux_using_subcommand check" -s j -l jobs -d 'The number of files that are checked at the same time; by default one per core' -r
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file' -r
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l no-maps -d 'Do not decode normal maps'
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l json -d 'Write a report as JSON to standard output'
+complete -c darboux -n "__fish_darboux_using_subcommand check" -s q -l quiet -d 'Print errors only; commands that write files also print one line with the totals'
+complete -c darboux -n "__fish_darboux_using_subcommand check" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l method -d 'Compare A with the tangents that this method computes for A; `darboux methods` lists the methods' -r -f -a "mikktspace\t'The standard of bakers and engines'
 angle-area\t'Weighted by angle and area: follows the UVs most closely, for surfaces without a baked normal map'
 angle-edge\t'Weighted by angle and edge lengths, meshoptimizer\'s default'

@@ -90,9 +90,12 @@ impl MapJudgement {
     }
 
     /// True where the layout stores z, but the map has one value in that channel and several vectors.
+    ///
+    /// A shallow map has one value too. There it is close to 1, and the vectors are unit vectors on average.
     pub fn is_two_channel(&self) -> bool {
         let [low, high] = self.z_range;
-        high - low < 0.02 && self.verdict != MapVerdict::Flat && !self.is_grey()
+        let is_shallow = low > 0.9 && (self.mean_length - 1.0).abs() < 0.01;
+        high - low < 0.02 && !is_shallow && self.verdict != MapVerdict::Flat && !self.is_grey()
     }
 
     /// True where more than half of the texels cannot be normals.

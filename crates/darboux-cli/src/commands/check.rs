@@ -1,0 +1,141 @@
+//! `darboux check`: prints what is wrong with models and normal maps.
+
+pub mod arguments;
+mod report;
+mod text;
+
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::{fs, thread};
+
+use darboux_check::{CheckOptions, Finding, check_document, check_map};
+
+use crate::documents::load;
+use crate::exit;
+use crate::inputs::{Input, SearchMode, UsageError, check_stdin, find_inputs};
+use crate::json::{VERSION, to_json};
+use crate::terminal::{Messages, write_stdout};
+use arguments::CheckArguments;
+use report::{CheckReport, CheckedFile, ReportedMap};
+
+/// Runs the command and returns its exit code.
+pub fn run(arguments: &CheckArguments) -> u8 {
+    let messages = Messages::new(arguments.messages.quiet);
+    if let Some(code) = arguments.explain {
+        return print(&messages, text::explain(code).as_bytes(), exit::DONE);
+    }
+    if let Err(UsageError(sentence)) = check_stdin(&arguments.inputs) {
+        messages.error(&sentence);
+        return exit::USAGE;
+    }
+    let found = find_inputs(&arguments.inputs, SearchMode::All);
+    let inputs: Vec<&Input> = found.files.iter().map(|(input, _)| input).collect();
+    let mut files: Vec<CheckedFile> = found
+        .failed
+        .iter()
+        .map(|(path, reason)| failed(path.display().to_string(), format!("{}: {reason}", path.display())))
+        .collect();
+    files.extend(check_all(&inputs, arguments));
+    files.iter().filter_map(|file| file.error.as_ref()).for_each(|error| messages.error(error));
+    let code = exit_code(&files, arguments);
+    let text = match (arguments.messages.json, arguments.messages.quiet) {
+        (true, _) => to_json(&CheckReport { command: "check", version: VERSION, files }),
+        (false, true) => Ok(Vec::new()),
+        (false, false) => {
+            let good = files.iter().filter(|file| file.error.is_none());
+            Ok(good.map(text::describe).collect::<String>().into_bytes())
+        }
+    };
+    match text {
+        Ok(text) => print(&messages, &text, code),
+        Err(error) => {
+            messages.error(&format!("the findings cannot be written: {error}"));
+            exit::FAILED
+        }
+    }
+}
+
+fn print(messages: &Messages, text: &[u8], code: u8) -> u8 {
+    match write_stdout(text) {
+        Ok(()) => code,
+        Err(error) => {
+            messages.error(&format!("the findings cannot be written: {error}"));
+            exit::FAILED
+        }
+    }
+}
+
+fn exit_code(files: &[CheckedFile], arguments: &CheckArguments) -> u8 {
+    let fails = |file: &CheckedFile| {
+        file.error.is_some()
+            || file.findings.iter().any(|finding| arguments.fail_on.includes(finding.severity))
+    };
+    if files.iter().any(fails) { exit::FAILED } else { exit::DONE }
+}
+
+/// Checks files, several at the same time, in the order of the inputs.
+fn check_all(inputs: &[&Input], arguments: &CheckArguments) -> Vec<CheckedFile> {
+    let next = AtomicUsize::new(0);
+    let checked: Vec<OnceLock<CheckedFile>> = inputs.iter().map(|_| OnceLock::new()).collect();
+    let work = || {
+        loop {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            let Some(input) = inputs.get(number) else { return };
+            // Every number is taken once.
+            _ = checked[number].set(check_file(input, arguments));
+        }
+    };
+    let jobs = arguments.jobs.or_else(|| thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
+    thread::scope(|scope| {
+        for _ in 1..jobs.min(inputs.len()) {
+            // Without a further thread, this one does the work.
+            _ = thread::Builder::new().spawn_scoped(scope, work);
+        }
+        work();
+    });
+    checked.into_iter().filter_map(OnceLock::into_inner).collect()
+}
+
+fn check_file(input: &Input, arguments: &CheckArguments) -> CheckedFile {
+    let options =
+        CheckOptions::default().with_green(arguments.convention.into()).with_maps(!arguments.no_maps);
+    let name = input.to_string();
+    let is_reported = |finding: &Finding| {
+        (arguments.only.is_empty() || arguments.only.contains(&finding.code))
+            && !arguments.allow.contains(&finding.code)
+    };
+    let reported = |findings: Vec<Finding>, map: Option<ReportedMap>| CheckedFile {
+        input: name.clone(),
+        error: None,
+        map,
+        findings: findings.into_iter().filter(is_reported).map(Into::into).collect(),
+    };
+    let checked = match input {
+        Input::File(path) if is_image(path) => fs::read(path)
+            .map(|file| {
+                let checked = check_map(&file, &options);
+                reported(checked.findings, checked.judgement.as_ref().map(Into::into))
+            })
+            .map_err(|error| format!("{name}: cannot be read: {error}")),
+        _ => load(input, &arguments.reading)
+            .and_then(|mut document| {
+                check_document(&mut document, &options).map_err(|error| error.to_string())
+            })
+            .map(|findings| reported(findings, None)),
+    };
+    checked.unwrap_or_else(|sentence| failed(name.clone(), sentence))
+}
+
+/// Whether the extension is that of an image.
+fn is_image(path: &Path) -> bool {
+    let is_one_of = |extension: &std::ffi::OsStr| {
+        ["png", "jpg", "jpeg", "webp"].iter().any(|image| extension.eq_ignore_ascii_case(image))
+    };
+    path.extension().is_some_and(is_one_of)
+}
+
+fn failed(input: String, sentence: String) -> CheckedFile {
+    CheckedFile { input, error: Some(sentence), map: None, findings: Vec::new() }
+}

@@ -1,0 +1,90 @@
+//! The JSON report of `darboux check`. json.md documents its fields.
+
+use darboux::{MapJudgement, MapVerdict};
+use darboux_check::{Code, Evidence, Finding, Severity};
+use serde::Serialize;
+
+/// The report of a run.
+#[derive(Serialize)]
+pub struct CheckReport {
+    pub command: &'static str,
+    pub version: &'static str,
+    pub files: Vec<CheckedFile>,
+}
+
+/// The findings in one file, or the error that prevented reading it.
+#[derive(Serialize)]
+pub struct CheckedFile {
+    pub input: String,
+    pub error: Option<String>,
+    pub map: Option<ReportedMap>,
+    pub findings: Vec<ReportedFinding>,
+}
+
+/// The judgement on an image.
+#[derive(Serialize)]
+pub struct ReportedMap {
+    pub verdict: &'static str,
+    pub confidence: f32,
+    pub correlation: f32,
+    pub z_score: f32,
+}
+
+/// A finding.
+#[derive(Serialize)]
+pub struct ReportedFinding {
+    pub code: Code,
+    pub severity: Severity,
+    /// The place in words.
+    #[serde(skip)]
+    pub place: String,
+    pub mesh: Option<usize>,
+    pub mesh_name: Option<String>,
+    pub primitive: Option<usize>,
+    pub same_as: usize,
+    pub material: Option<usize>,
+    pub image: Option<usize>,
+    pub count: usize,
+    pub first: Vec<usize>,
+    pub evidence: Vec<Evidence>,
+    pub text: String,
+    pub looks_like: &'static str,
+    pub cure: &'static str,
+}
+
+impl From<Finding> for ReportedFinding {
+    fn from(finding: Finding) -> Self {
+        let name = finding.place.primitive.as_ref();
+        Self {
+            code: finding.code,
+            severity: finding.severity,
+            place: finding.place.to_string(),
+            mesh: name.map(|name| name.mesh),
+            mesh_name: name.and_then(|name| name.mesh_name.clone()),
+            primitive: name.map(|name| name.primitive),
+            same_as: finding.place.same_as,
+            material: finding.place.material,
+            image: finding.place.image,
+            count: finding.count,
+            first: finding.first,
+            evidence: finding.evidence,
+            text: finding.text,
+            looks_like: finding.code.looks_like(),
+            cure: finding.code.cure(),
+        }
+    }
+}
+
+impl From<&MapJudgement> for ReportedMap {
+    fn from(judgement: &MapJudgement) -> Self {
+        let verdict = match judgement.verdict {
+            MapVerdict::OpenGl => "opengl",
+            MapVerdict::DirectX => "directx",
+            MapVerdict::NoGradient => "no_gradient",
+            MapVerdict::Flat => "flat",
+            _ => "cannot_tell",
+        };
+        let MapJudgement { confidence, correlation, z_score, .. } = *judgement;
+        Self { verdict, confidence, correlation, z_score }
+    }
+}

@@ -1,0 +1,70 @@
+//! The findings as text, grouped by place, and the section of a code.
+
+use darboux_check::{Code, Evidence, Severity};
+
+use super::report::{CheckedFile, ReportedFinding, ReportedMap};
+use crate::text::{counted, printable};
+
+/// The findings in a file.
+pub fn describe(file: &CheckedFile) -> String {
+    let mut text = format!("{}\n", printable(&file.input));
+    if let Some(map) = &file.map {
+        text += &format!("  {}\n", verdict(map));
+    }
+    let mut place = None;
+    for finding in &file.findings {
+        if place != Some(&finding.place) {
+            text += &format!("  {}\n", printable(&finding.place));
+            place = Some(&finding.place);
+        }
+        text += &lines(finding);
+    }
+    let count = |severity| file.findings.iter().filter(|finding| finding.severity == severity).count();
+    let [errors, warnings, infos] = [Severity::Error, Severity::Warning, Severity::Info].map(count);
+    let errors = counted(errors, "error", "errors");
+    let warnings = counted(warnings, "warning", "warnings");
+    text + &format!("  {errors}, {warnings}, {} worth knowing\n", counted(infos, "thing", "things"))
+}
+
+fn verdict(map: &ReportedMap) -> String {
+    let percent = 100.0 * map.confidence;
+    match map.verdict {
+        "opengl" => format!("green points up (OpenGL), {percent:.1} % sure"),
+        "directx" => format!("green points down (DirectX), {percent:.1} % sure"),
+        "flat" => "the map is flat".to_owned(),
+        "no_gradient" => "the texels are not the slope of a surface".to_owned(),
+        _ => "whether green points up or down cannot be told from the texels".to_owned(),
+    }
+}
+
+fn lines(finding: &ReportedFinding) -> String {
+    let mut text = format!("    {:7} {}: {}\n", finding.severity, finding.code, printable(&finding.text));
+    let evidence: Vec<String> = finding.evidence.iter().map(number).collect();
+    if !evidence.is_empty() {
+        text += &format!("            evidence: {}\n", evidence.join("; "));
+    }
+    if finding.severity > Severity::Info {
+        text +=
+            &format!("            looks like: {}\n            cure: {}\n", finding.looks_like, finding.cure);
+    }
+    text
+}
+
+fn number(evidence: &Evidence) -> String {
+    let Evidence { what, value, unit } = evidence;
+    let digits = if value.fract() == 0.0 { 0 } else { 3 };
+    let space = if unit.is_empty() { "" } else { " " };
+    format!("{what} {value:.digits$}{space}{unit}")
+}
+
+/// The section of a code.
+pub fn explain(code: Code) -> String {
+    format!(
+        "{code} ({})\n\n{}\n\nWhat it looks like: {}\n\nHow it comes about: {}\n\nCure: {}\n",
+        code.severity(),
+        code.meaning(),
+        code.looks_like(),
+        code.cause(),
+        code.cure()
+    )
+}
