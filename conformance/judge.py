@@ -298,7 +298,20 @@ def by_class(verdicts):
     return classes
 
 
+def print_failures(failed):
+    """A sentence per failing case. A case named like another failing one with a suffix varies it, and its sentence holds only where that one passes."""
+    bases = [v for v in failed if not any(v["name"].startswith(other["name"] + "-") for other in failed)]
+    for base in bases:
+        variants = [v["name"] for v in failed if v["name"].startswith(base["name"] + "-")]
+        print(f"{base['name']} ({base['class']}): {base['failure']}\n  {summary(base['measures'])}")
+        if variants:
+            print(f"  variants of it fail too, which says more only once it passes: {', '.join(variants)}")
+        print()
+
+
 def print_table(verdicts, level):
+    failed = [verdict for verdict in verdicts if verdict.get("passed") is False]
+    print_failures(failed)
     columns = ("class", "cases", "passed", "skipped", "corners", "equal bits", "wrong angle", "largest", "mean", "wrong sign", "not finite", "zero", "no split", "seconds")
     lines = [columns]
     for name, c in by_class(verdicts).items():
@@ -310,9 +323,6 @@ def print_table(verdicts, level):
     widths = [max(len(str(line[i])) for line in lines) for i in range(len(columns))]
     for line in lines:
         print("  ".join(str(cell).ljust(w) if i == 0 else str(cell).rjust(w) for i, (cell, w) in enumerate(zip(line, widths))))
-    failed = [verdict for verdict in verdicts if verdict.get("passed") is False]
-    for verdict in failed:
-        print(f"\n{verdict['name']} ({verdict['class']}): {verdict['failure']}\n  {summary(verdict['measures'])}")
     judged = sum(verdict["skipped"] is None for verdict in verdicts)
     skipped = f", {len(verdicts) - judged} skipped" if judged < len(verdicts) else ""
     print(f"\n{'FAILED' if failed else 'passed'} at level {level}: {judged - len(failed)} of {judged} cases pass{skipped}")
@@ -355,7 +365,7 @@ def printable(text):
 
 
 def select(folder, only):
-    paths = sorted(folder.glob("*.json"))
+    paths = sorted(folder.glob("*.json"), key=lambda path: path.stem)
     cases = [case for case in map(read_case, paths) if not only or case["class"] in only]
     if not cases:
         raise Unusable(f"{folder} has no cases" + (f" of class {' or '.join(only)}." if only else "."))
@@ -391,4 +401,8 @@ def main(arguments=None):
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    try:
+        sys.exit(main())
+    except BrokenPipeError:  # the reader, such as head, has seen enough
+        sys.stderr.close()
+        sys.exit(1)

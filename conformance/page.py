@@ -15,6 +15,7 @@ from judge import CLASSES, LEVELS
 HERE = Path(__file__).resolve().parent
 PAGE, TABLE = HERE / "results/index.html", HERE.parent / "docs/conformance.md"
 REFERENCE = "mikktspace-c"
+OTHERS = "These do not claim to compute MikkTSpace. A case that fails is no defect of theirs; it says where a map baked with MikkTSpace looks different."
 
 
 def summaries():
@@ -47,20 +48,21 @@ def markdown(all_of_them):
     lines = [
         "# Who computes MikkTSpace",
         "",
-        "Every implementation that the package registries have, judged by the [conformance suite](../conformance/README.md). Made by",
+        "Implementations from package registries, judged by the [conformance suite](../conformance/README.md). Made by",
         "`cargo xtask conformance`; [the page with pictures](../conformance/results/index.html) shows every failing case.",
         "",
         "A cell says how many cases of a class pass at the levels `bits`, `angle` and `seams`, and how many were judged: implementations without",
         "quads or thresholds skip those cases. The time is processor time per triangle of the case large-terrain (20,000 triangles), the least of five",
         "runs (Darboux's modes: wall time); files are not timed.",
         "",
-        "| implementation | version | date | " + " | ".join(CLASSES) + " | ns per triangle |",
-        "|---|---|---|" + "---|" * len(CLASSES) + "--:|",
+        *table([s for s in all_of_them if not is_another_method(s)]),
+        "",
+        "## Other methods, for comparison",
+        "",
+        f"{OTHERS}",
+        "",
+        *table([s for s in all_of_them if is_another_method(s)]),
     ]
-    for s in all_of_them:
-        name = f"**{s['name']}**" if s.get("ours") else s["name"]
-        cells = [cell(s["classes"][c]) if c in s["classes"] else "-" for c in CLASSES]
-        lines.append(f"| {name} | {s['version']} | {s['date']} | " + " | ".join(cells) + f" | {nanoseconds(s)} |")
     machines = sorted({s["machine"] for s in all_of_them})
     lines += ["", f"Machine: {'; '.join(machines)}. What they are installed from: " + "; ".join(f"{s['name']}: {s['package']}" for s in all_of_them) + ".", ""]
     lines += ["## Reports", ""]
@@ -68,6 +70,20 @@ def markdown(all_of_them):
     lines += ["", "## Not in the table", "", "| implementation | reason |", "|---|---|"]
     lines += [f"| {name} | {reason} |" for name, reason in unavailable()]
     return "\n".join(lines) + "\n"
+
+
+def table(some):
+    """The head and the rows of a table in Markdown."""
+    lines = ["| implementation | version | date | " + " | ".join(CLASSES) + " | ns per triangle |", "|---|---|---|" + "---|" * len(CLASSES) + "--:|"]
+    for s in some:
+        name = f"**{s['name']}**" if s.get("ours") else s["name"]
+        cells = [cell(s["classes"][c]) if c in s["classes"] else "-" for c in CLASSES]
+        lines.append(f"| {name} | {s['version']} | {s['date']} | " + " | ".join(cells) + f" | {nanoseconds(s)} |")
+    return lines
+
+
+def is_another_method(summary):
+    return (summary.get("claims") or "").startswith(("another method", "other weights"))
 
 
 def title(path):
@@ -88,7 +104,9 @@ def page(all_of_them):
         "sentences": {row["name"]: sentences[row["name"]] for s in all_of_them for row in s["failing"] if row["name"] in sentences},
         "found": {s["id"]: {row["name"]: row["tangents"] for row in s["failing"] if "tangents" in row} for s in all_of_them},
     }
-    rows = "\n".join(table_row(s) for s in all_of_them)
+    rows = "\n".join(table_row(s) for s in all_of_them if not is_another_method(s))
+    rows += f'\n<tr><th colspan="{len(CLASSES) + 2}">{html.escape(OTHERS)}</th></tr>\n'
+    rows += "\n".join(table_row(s) for s in all_of_them if is_another_method(s))
     details = "\n".join(section(s, data["sentences"]) for s in all_of_them if s["failing"])
     absent = "\n".join(f"<tr><th>{html.escape(name)}</th><td>{html.escape(reason)}</td></tr>" for name, reason in unavailable())
     heads = "".join(f"<th>{name}</th>" for name in CLASSES)

@@ -234,7 +234,7 @@ fn an_obj_is_drawn_with_its_materials() {
     assert!(warnings.contains("the bump map of plane is grey, so it holds heights"), "{warnings}");
     let (_, warnings) = draw("map_Kd lost.png", &[]);
     assert!(
-        warnings.contains("lost.png is not in the model's folder; the texture is left out"),
+        warnings.contains("lost.png\\\" is not in the model's folder; the texture is left out"),
         "{warnings}"
     );
     // Its tangents are along u, and v is up.

@@ -141,7 +141,7 @@ pub fn weights() -> Figure {
     );
     let wedges = [
         Wedge { from: 200.0, to: 290.0, edges: [1.25, 1.25], along_u: direction(0.0) * 1.0 },
-        Wedge { from: 290.0, to: 380.0, edges: [1.25, 0.14], along_u: direction(45.0) * 0.8 },
+        Wedge { from: 290.0, to: 380.0, edges: [1.25, 0.14], along_u: direction(45.0) * 1.0 },
         Wedge { from: 20.0, to: 32.0, edges: [0.14, 1.2], along_u: direction(90.0) * 3.0 },
     ];
     type Weight = fn(&Wedge) -> f64;

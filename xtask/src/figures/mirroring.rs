@@ -109,7 +109,12 @@ pub fn groups() -> Figure {
     for (group, (degrees, way)) in [(90.0, 12.0), (228.0, 186.0), (338.0, 42.0)].into_iter().enumerate() {
         let start = direction(degrees) * 0.46 - direction(way) * 0.17;
         figure.arrow(view.at(start), view.at(start + direction(way) * 0.42), "tangent");
-        figure.label(view.at(direction(degrees) * 0.8), &(group + 1).to_string(), "title", Side::Centre);
+        figure.label(
+            view.at(direction(degrees + 14.0) * 0.78),
+            &(group + 1).to_string(),
+            "title",
+            Side::Centre,
+        );
     }
     for degrees in [20.0, 300.0] {
         for shift in [-1.0, 0.0, 1.0] {

@@ -8,7 +8,7 @@ const CHOICE: &str = "\
 A normal map stores directions relative to the tangents of the program that baked it: use the method of that program.
   mikktspace          the standard of bakers and engines (Blender, Substance, Marmoset, xNormal, Unity, Unreal, glTF); the default
   angle-area          follows the UVs most closely; for surfaces without a baked map: tiling maps, anisotropy, hair
-  angle-edge          the default of meshoptimizer, so of gltfpack -gt and Godot from 4.6 on; for maps shown by them without tangents
+  angle-edge          the default of meshoptimizer, gltfpack -gt and Godot from 4.6 on; to get the tangents that they compute
   lengyel             the sum of dP/du, not normalised, split at mirrored seams; for renderers that compute the same
   lengyel-per-vertex  the same without splits, as in three.js and many tutorials; wrong at mirrored seams, which are counted
   average             the mean of the triangles' tangents; for engines that compute it on the GPU

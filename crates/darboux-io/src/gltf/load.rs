@@ -123,7 +123,14 @@ impl Document {
         if count.saturating_mul(memory_limit::BYTES_PER_PRIMITIVE) <= limit.bytes {
             return Ok(());
         }
-        Err(Fault::unsupported("meshes", limit.exceeded(&format!("has {count} primitives, which need"))))
+        Err(Fault::unsupported(
+            "meshes",
+            limit.exceeded(&format!(
+                "has {count} primitive{}, which need{}",
+                if count == 1 { "" } else { "s" },
+                if count == 1 { "s" } else { "" }
+            )),
+        ))
     }
 }
 
