@@ -1,4 +1,4 @@
-//! Normal maps are judged rightly: generated maps of every kind, and maps with one known oddity.
+//! Normal maps are judged correctly: generated maps of every kind, and maps with one known oddity.
 
 use darboux::{
     Channel, Error, MapJudgement, MapVerdict, NormalMapJudge, SrgbMistake, TexelLayout, judge_normal_map,
@@ -66,6 +66,34 @@ fn rows_give_the_same_as_the_whole_map() {
     assert_eq!(judge.judgement(), judged(&texels, TexelLayout::RGB));
 }
 
+/// The two-channel map is one whose constant blue is wrong, not one whose slopes are gentle.
+#[test]
+fn gentle_slopes_are_not_a_two_channel_map() {
+    let bumps = |degrees: f32, blue: Option<u8>| -> Vec<[u8; 3]> {
+        let slope = degrees.to_radians().tan();
+        let texel = |i: usize| {
+            let (x, y) = ((i % 256) as f32 / 9.0, (i / 256) as f32 / 9.0);
+            let [p, q] = [-slope * x.cos() * y.sin(), slope * x.sin() * y.cos()];
+            let length = (p * p + q * q + 1.0).sqrt();
+            let [r, g, b] = [p, q, 1.0].map(|x| (127.5 + 127.5 * x / length).round() as u8);
+            [r, g, blue.unwrap_or(b)]
+        };
+        (0..256 * 256).map(texel).collect()
+    };
+    for degrees in [2.0, 8.0] {
+        let gentle = judged(&bumps(degrees, None), TexelLayout::RGB);
+        assert_eq!((gentle.verdict, gentle.wrong_z), (MapVerdict::OpenGl, 0));
+        assert!(!gentle.is_two_channel() && gentle.has_z);
+    }
+    for blue in [128, 255] {
+        let wrong = judged(&bumps(16.7, Some(blue)), TexelLayout::RGB);
+        assert!(wrong.is_two_channel(), "{wrong:?}");
+    }
+    let without_blue =
+        judged(&bumps(16.7, Some(0)), TexelLayout::<3>::new(0, 1, None).expect("two channels"));
+    assert!(!without_blue.is_two_channel() && !without_blue.has_z && without_blue.wrong_z == 0);
+}
+
 #[test]
 fn counts_name_what_is_odd() {
     let healthy = plain().texels(false);
@@ -131,6 +159,7 @@ fn small_and_odd_maps_are_judged_too() {
             (0..size[0] * size[1]).map(|i| [i as u8, (i >> 3) as u8, (i * 7) as u8]).collect();
         let judgement = judge_normal_map(&texels, size, TexelLayout::RGB).expect("the map is whole");
         assert_eq!(judgement.texels, texels.len());
+        assert!(!texels.is_empty() || judgement.verdict == MapVerdict::CannotTell);
         assert!(judgement.confidence >= 0.5 && judgement.confidence <= 1.0);
     }
     let error =

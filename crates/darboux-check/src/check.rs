@@ -55,7 +55,7 @@ pub fn check_document(document: &mut Document, options: &CheckOptions) -> Result
     for (corners, same_as) in distinct(document, document.corners()?) {
         let info = infos.iter().find(|info| info.name == *corners.name());
         let Some(info) = info.filter(|_| !corners.is_empty()) else { continue };
-        let mut surface = Surface::read(document, &corners, info)?;
+        let Some(mut surface) = Surface::read(document, &corners, info)? else { continue };
         surface.place.same_as = same_as;
         findings.extend(check_surface(&surface));
     }

@@ -21,46 +21,40 @@ pub struct Surface {
     pub positions: Vec<[f32; 3]>,
     pub normals: Option<Vec<[f32; 3]>>,
     pub tangents: Option<Vec<[f32; 4]>>,
+    /// Bytes per tangent in the file, without padding; 0 where it has none.
+    pub tangent_size: usize,
     /// The UV sets by the n of `TEXCOORD_n`.
     pub uv_sets: BTreeMap<usize, Vec<[f32; 2]>>,
 }
 
 impl Surface {
-    /// Reads a primitive. Errors: invalid accessors; an index out of range.
+    /// Reads a primitive; none where it has no positions. All attributes have as many elements, or the document would not have opened.
+    /// Errors: invalid accessors; an index out of range.
     pub fn read(
         document: &Document,
         corners: &PrimitiveCorners<'_>,
         info: &PrimitiveInfo,
-    ) -> Result<Self, Error> {
+    ) -> Result<Option<Self>, Error> {
+        let Some(positions) = vertices(document, corners, "POSITION")? else { return Ok(None) };
         let name = corners.name();
+        let attributes = &document.meshes()[name.mesh].primitives[name.primitive].attributes;
         let mut surface = Self {
             place: Place { primitive: Some(name.clone()), material: corners.material(), ..Place::default() },
             needs_tangents: info.needs_tangents,
             uv_set: info.uv_set,
             vertex_of_corner: corners.vertices().to_vec(),
-            positions: vertices(document, corners, "POSITION")?.unwrap_or_default(),
+            positions,
             normals: vertices(document, corners, "NORMAL")?,
             tangents: vertices(document, corners, "TANGENT")?,
+            tangent_size: attributes.get("TANGENT").map_or(0, |&accessor| element_size(document, accessor)),
             uv_sets: BTreeMap::new(),
         };
-        for semantic in document.meshes()[name.mesh].primitives[name.primitive].attributes.keys() {
+        for semantic in attributes.keys() {
             if let Some(set) = semantic.strip_prefix("TEXCOORD_").and_then(|set| set.parse().ok()) {
                 surface.uv_sets.extend(vertices(document, corners, semantic)?.map(|uvs| (set, uvs)));
             }
         }
-        surface.make_lengths_equal();
-        Ok(surface)
-    }
-
-    /// Leaves out vertices that not all attributes have. No corner uses them, because every attribute has a value for every corner.
-    fn make_lengths_equal(&mut self) {
-        let lengths = [self.normals.as_ref().map(Vec::len), self.tangents.as_ref().map(Vec::len)];
-        let lengths = lengths.into_iter().flatten().chain(self.uv_sets.values().map(Vec::len));
-        let length = lengths.fold(self.positions.len(), usize::min);
-        self.positions.truncate(length);
-        self.normals.iter_mut().for_each(|normals| normals.truncate(length));
-        self.tangents.iter_mut().for_each(|tangents| tangents.truncate(length));
-        self.uv_sets.values_mut().for_each(|uvs| uvs.truncate(length));
+        Ok(Some(surface))
     }
 
     /// The mesh with one of its UV sets; none where it has no normals or not that set.
@@ -125,6 +119,12 @@ fn vertices<const N: usize>(
 pub fn uv_area(uvs: &[[f32; 2]], triangle: [usize; 3]) -> f64 {
     let [a, b, c] = triangle.map(|vertex| uvs[vertex].map(f64::from));
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+/// Bytes per element of an accessor.
+fn element_size(document: &Document, accessor: usize) -> usize {
+    let accessor = &document.accessors()[accessor];
+    accessor.element_type.size(accessor.component_type)
 }
 
 /// The indices of the elements that fulfil a condition.

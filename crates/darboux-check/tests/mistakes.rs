@@ -5,6 +5,8 @@ mod support;
 use std::collections::BTreeSet;
 
 use darboux_check::{CheckOptions, Code, Finding, Severity, check_document, check_map};
+use darboux_io::LoadOptions;
+use darboux_io::gltf::Document;
 use darboux_tests::maps::table::Truth;
 use support::{Model, healthy_map, healthy_models, png};
 
@@ -209,6 +211,18 @@ fn every_mistake_in_maps_is_named_and_no_other_error() {
         let findings = check_map(&broken, &CheckOptions::default()).findings;
         assert_eq!(codes(&findings, |_| true), BTreeSet::from([Code::MapUnreadable]));
     }
+}
+
+/// Primitives without positions are not drawn.
+#[test]
+fn primitives_without_positions_are_left_out() {
+    let json = r#"{"asset": {"version": "2.0"},
+        "meshes": [{"primitives": [{"attributes": {"NORMAL": 0}, "indices": 1}]}],
+        "accessors": [{"componentType": 5126, "count": 3, "type": "VEC3"},
+            {"componentType": 5125, "count": 3, "type": "SCALAR"}]}"#;
+    let document = Document::from_bytes("normals", json.into(), None, &LoadOptions::default());
+    let findings = check_document(&mut document.expect("a valid document"), &CheckOptions::default());
+    assert_eq!(findings.expect("a valid document"), []);
 }
 
 #[test]

@@ -190,8 +190,12 @@ fn written_to_vertices(
     differs.then(|| (0..tangents.len()).map(|corner| tangents[source(corner)]).collect())
 }
 
-/// The coarsest rounding that all tangents have.
+/// The coarsest rounding that all tangents have. Floats where all components are 0, 1 or -1, which every rounding keeps: they tell nothing,
+/// and floats are compared most strictly.
 fn rounding_of(tangents: &[[f32; 4]]) -> RecipeRounding {
+    if tangents.as_flattened().iter().all(|x| [0.0, 1.0].contains(&x.abs())) {
+        return RecipeRounding::Floats;
+    }
     let is_rounded =
         |rounding| tangents.iter().all(|&tangent| bits(rounded(tangent, rounding)) == bits(tangent));
     let coarser = [RecipeRounding::Bits8, RecipeRounding::Bits16];

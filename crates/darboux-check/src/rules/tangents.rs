@@ -37,11 +37,11 @@ fn missing(measured: &Measured<'_>) -> Vec<Finding> {
 }
 
 fn unused(measured: &Measured<'_>) -> Vec<Finding> {
-    let Surface { needs_tangents, tangents, positions, .. } = measured.surface;
+    let Surface { needs_tangents, tangents, tangent_size, positions, .. } = measured.surface;
     let is_unused = !needs_tangents && tangents.is_some();
     let finding = || {
         Finding::new(Code::TangentUnused, "it has tangents, and its material has nothing that reads them")
-            .with_evidence("size", 16.0 * positions.len() as f64, "bytes")
+            .with_evidence("size", (tangent_size * positions.len()) as f64, "bytes")
     };
     is_unused.then(finding).into_iter().collect()
 }

@@ -76,7 +76,13 @@ impl<const N: usize> NormalMapJudge<N> {
     pub fn new(width: usize, layout: TexelLayout<N>) -> Self {
         let widths = std::iter::successors(Some(width), |width| Some(width / 2));
         let levels = widths.take_while(|&width| width >= level::TILE).map(Level::new).collect();
-        Self { layout, width, census: Census::new(), levels, row: [const { Vec::new() }; 3] }
+        Self {
+            layout,
+            width,
+            census: Census::new(layout.z.is_some()),
+            levels,
+            row: [const { Vec::new() }; 3],
+        }
     }
 
     /// Takes the next row. Texels beyond the width are ignored; a shorter row is ignored whole.
@@ -122,7 +128,7 @@ impl<C: Channel, const N: usize> Task for RowTask<'_, C, N> {
         layout.decode_row(texels, row);
         census.count_codes(texels, *layout);
         let [x, y, z] = row;
-        census.count_vectors([x, y, z], layout.z.is_some());
+        census.count_vectors([x, y, z]);
         level::hide_invalid(x, y);
         level::push(levels, x, y);
     }

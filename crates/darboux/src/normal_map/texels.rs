@@ -104,9 +104,14 @@ impl<const N: usize> TexelLayout<N> {
     /// least -0.1.
     pub fn holds_normal<C: Channel>(&self, texel: [C; N]) -> bool {
         let [x, y, z] = self.vector(texel);
-        let length = (x * x + y * y + z * z).sqrt();
-        (0.5..=1.2).contains(&length) && z >= -0.1
+        can_be_normal((x * x + y * y + z * z).sqrt(), z)
     }
+}
+
+/// Whether a vector of this length and z can be a normal of a tangent-space map.
+#[inline(always)]
+pub(super) fn can_be_normal(length: f32, z: f32) -> bool {
+    (0.5..=1.2).contains(&length) & (z >= -0.1)
 }
 
 impl Conversion {

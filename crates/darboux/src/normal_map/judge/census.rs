@@ -1,7 +1,7 @@
 //! Counts texels: background, lengths, signs of z, greys, and the commonest codes.
 
 use super::judgement::{MapJudgement, MapVerdict};
-use crate::normal_map::texels::{Channel, TexelLayout};
+use crate::normal_map::texels::{Channel, TexelLayout, can_be_normal};
 
 /// Vectors that are summed side by side.
 const LANES: usize = 16;
@@ -12,12 +12,16 @@ const FLAT: usize = 2;
 /// All components of a black texel are smaller, and those of a white texel are larger than its negation.
 const BLACK: f32 = -0.7;
 
+/// The greatest difference between the z of a texel and that of the unit vector with its x and y, for rounding: two codes of 8 bits.
+const WRONG_Z: f32 = 4.0 / 255.0;
+
 /// The length of a middle grey texel is smaller.
 const GREY: f32 = 0.12;
 
 #[derive(Debug)]
 pub struct Census {
     texels: usize,
+    has_z: bool,
     counts: Counts,
     sums: Sums,
     z_range: [f32; 2],
@@ -33,15 +37,17 @@ struct Counts {
     negative_z: usize,
     grey: usize,
     not_normal: usize,
+    wrong_z: usize,
 }
 
 /// Sums of x, y, z and lengths.
 type Sums = [f64; 4];
 
 impl Census {
-    pub fn new() -> Self {
+    /// `has_z`: whether the texels store z.
+    pub fn new(has_z: bool) -> Self {
         let z_range = [f32::INFINITY, f32::NEG_INFINITY];
-        Self { texels: 0, counts: Counts::default(), sums: [0.0; 4], z_range, codes: vec![0; 1 << 16] }
+        Self { texels: 0, has_z, counts: Counts::default(), sums: [0.0; 4], z_range, codes: vec![0; 1 << 16] }
     }
 
     /// Counts the codes of x and y.
@@ -67,9 +73,10 @@ impl Census {
 
     /// Counts lengths, signs and greys of a row.
     #[inline(always)]
-    pub fn count_vectors(&mut self, [x, y, z]: [&[f32]; 3], has_z: bool) {
+    pub fn count_vectors(&mut self, [x, y, z]: [&[f32]; 3]) {
+        let has_z = self.has_z;
         let mut lanes = [[0.0f32; LANES]; 4];
-        let mut counts = [[0u32; LANES]; 5];
+        let mut counts = [[0u32; LANES]; 6];
         let mut range = [[f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]];
         let chunks = x.chunks(LANES).zip(y.chunks(LANES)).zip(z.chunks(LANES));
         for ((x, y), z) in chunks {
@@ -92,8 +99,9 @@ impl Census {
                 counts[1][i] += u32::from(counts_here & !(0.9..=1.1).contains(&length));
                 counts[2][i] += u32::from(counts_here & has_z & (z[i] < -0.01));
                 counts[3][i] += u32::from(counts_here & is_grey);
-                let is_normal = (0.5..=1.3).contains(&length) & (z[i] >= -0.1);
-                counts[4][i] += u32::from(counts_here & !is_normal);
+                counts[4][i] += u32::from(counts_here & !can_be_normal(length, z[i]));
+                let unit_z = (1.0 - x[i] * x[i] - y[i] * y[i]).max(0.0).sqrt();
+                counts[5][i] += u32::from(counts_here & ((z[i] - unit_z).abs() > WRONG_Z));
                 for (lane, value) in lanes.iter_mut().zip([x[i], y[i], z[i], length]) {
                     lane[i] += if counts_here { value } else { 0.0 };
                 }
@@ -101,13 +109,14 @@ impl Census {
                 range[1][i] = range[1][i].max(if counts_here { z[i] } else { f32::NEG_INFINITY });
             }
         }
-        let [background, not_unit, negative_z, grey, not_normal] =
+        let [background, not_unit, negative_z, grey, not_normal, wrong_z] =
             counts.map(|lanes| lanes.iter().map(|&count| count as usize).sum::<usize>());
         self.counts.background += background;
         self.counts.not_unit += not_unit;
         self.counts.negative_z += negative_z;
         self.counts.grey += grey;
         self.counts.not_normal += not_normal;
+        self.counts.wrong_z += wrong_z;
         for (sum, lanes) in self.sums.iter_mut().zip(lanes) {
             *sum += lanes.iter().map(|&lane| f64::from(lane)).sum::<f64>();
         }
@@ -125,13 +134,14 @@ impl Census {
         })
     }
 
-    /// Whether all texels but a few have the same code, give or take rounding.
+    /// Whether x and y of all texels but a few are within [`FLAT`] codes of the commonest ones. A few: 1 % of the texels but at most 16, or
+    /// 0.001 %, whichever is more. False for a map without texels.
     pub fn is_flat(&self) -> bool {
         let ([x, y], _) = self.commonest(0..=255);
         let around = |code: u8| usize::from(code).saturating_sub(FLAT)..=(usize::from(code) + FLAT).min(255);
         let near = around(y).flat_map(|y| around(x).map(move |x| self.codes[x | y << 8] as usize));
         let others = self.texels - near.sum::<usize>().min(self.texels);
-        others <= 16.min(self.texels / 100).max(self.texels / 100_000)
+        self.texels > 0 && others <= 16.min(self.texels / 100).max(self.texels / 100_000)
     }
 
     /// The counts, without a verdict.
@@ -152,6 +162,8 @@ impl Census {
             negative_z: self.counts.negative_z,
             grey: self.counts.grey,
             not_normal: self.counts.not_normal,
+            has_z: self.has_z,
+            wrong_z: self.counts.wrong_z,
             mean_length: length,
             mean: [x, y, z],
             z_range: if self.z_range[0] <= self.z_range[1] { self.z_range } else { [0.0; 2] },

@@ -33,9 +33,12 @@ pub struct MapJudgement {
     /// For OpenGL and DirectX an estimate of the probability that the verdict is right, from 0.5 to 0.999; for `CannotTell` that of the likelier
     /// of the two; 1 for the other verdicts. The estimate is provisional: it comes from nearly flat generated maps, not from real ones.
     pub confidence: f32,
-    /// The mean correlation of the tiles where it is clearest, from -1 (DirectX) to 1 (OpenGL).
+    /// The mean correlation of the tiles, from -1 (DirectX) to 1 (OpenGL), of the map or of one of its halvings: of those whose mean has
+    /// the sign of `z_score`, the one whose mean is largest in units of its standard error.
     pub correlation: f32,
-    /// The mean correlation divided by its standard error, with the sign of `correlation`.
+    /// That mean divided by its standard error; or, where it is larger, such quotients of the map and of its halvings, added and divided by
+    /// the square root of their number. The halvings depend on each other, so large values are less certain than those of a normal
+    /// distribution.
     pub z_score: f32,
     /// Half the logarithm of the unmixed derivatives' energy over that of the mixed ones. Negative for exchanged channels.
     pub channel_order: f32,
@@ -49,13 +52,17 @@ pub struct MapJudgement {
     pub negative_z: usize,
     /// Texels whose three channels differ by at most 3/255. 0 where the layout stores no z.
     pub grey: usize,
-    /// Texels that cannot be normals of a tangent-space map, however it was filtered: the length is not in [0.5, 1.3], or z is below -0.1.
+    /// Texels that cannot be normals of a tangent-space map, however it was filtered: the length is not in [0.5, 1.2], or z is below -0.1.
     pub not_normal: usize,
+    /// Whether the layout stores z.
+    pub has_z: bool,
+    /// Texels whose z differs by more than 4/255 from that of the unit vector with their x and y. 0 where the layout stores no z.
+    pub wrong_z: usize,
     /// The mean length of the texels.
     pub mean_length: f32,
     /// The mean of the texels.
     pub mean: [f32; 3],
-    /// The smallest and the largest z.
+    /// The smallest and the largest z; where the layout stores no z, of the unit vectors with the texels' x and y.
     pub z_range: [f32; 2],
     /// The commonest x and y, each as an 8-bit code.
     pub commonest: [u8; 2],
@@ -89,13 +96,12 @@ impl MapJudgement {
         !self.is_grey() && self.share(self.negative_z) > 0.1 && self.share(self.not_unit) < 0.5
     }
 
-    /// True where the layout stores z, but the map has one value in that channel and several vectors.
-    ///
-    /// A shallow map has one value too. There it is close to 1, and the vectors are unit vectors on average.
+    /// True where the layout stores z, but that channel has one value, which is wrong for more than 1 % of the texels. A map of gentle
+    /// slopes has nearly one value, too, and it is right.
     pub fn is_two_channel(&self) -> bool {
         let [low, high] = self.z_range;
-        let is_shallow = low > 0.9 && (self.mean_length - 1.0).abs() < 0.01;
-        high - low < 0.02 && !is_shallow && self.verdict != MapVerdict::Flat && !self.is_grey()
+        let is_constant = self.has_z && high - low <= 1.0 / 255.0;
+        is_constant && self.share(self.wrong_z) > 0.01 && self.verdict != MapVerdict::Flat && !self.is_grey()
     }
 
     /// True where more than half of the texels cannot be normals.
