@@ -72,6 +72,27 @@ pub fn fan(count: usize, polar: bool) -> OwnedMesh {
     mesh.with_face_list(&faces)
 }
 
+/// A sector of 73 degrees of `count` triangles around one vertex. All tangents are within 89 degrees of each other, from -44 to 44 degrees of
+/// the x axis; some are far from their mean, because the triangles of the last 53 degrees are few and wide. So at a threshold of 90 degrees
+/// all of them join, which neither a bounding box of the tangents nor their mean can show.
+pub fn sector(count: usize) -> OwnedMesh {
+    let mut mesh = OwnedMesh::default();
+    mesh.push(([0.0; 3], UP, [0.0; 2]));
+    let narrow = count - count / 16;
+    for i in 0..=count {
+        let degrees = if i < narrow {
+            20.0 * i as f32 / narrow as f32
+        } else {
+            20.0 + 53.0 * (i - narrow) as f32 / (count - narrow) as f32
+        };
+        let ((y, x), (v, u)) =
+            (sin_cos((44.0 + degrees).to_radians()), sin_cos((2.0 * degrees).to_radians()));
+        mesh.push(([x, y, 0.0], UP, [u, v]));
+    }
+    let faces: Vec<Vec<u32>> = (1..=count as u32).map(|i| vec![0, i, i + 1]).collect();
+    mesh.with_face_list(&faces)
+}
+
 /// A straight band of `count` triangles.
 pub fn strip(count: usize) -> OwnedMesh {
     let mut mesh = OwnedMesh::default();

@@ -172,40 +172,60 @@ fn computations<'a>(mesh: &'a Mesh<'a>, plans: &'a [Plan], welded: &'a [u32]) ->
     calls
 }
 
+/// What is wrong with the checks of a call on up to `threads` threads: it makes fewer than `least`, or more than [`CHECKS_AFTER`] once it is
+/// cancelled.
+fn failures_of(name: &str, call: &Call<'_>, threads: usize, least: usize) -> Vec<String> {
+    const CHECKS_AFTER: usize = 48;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
+    let checks_of = |limit| {
+        let cancel = cancel_after(limit);
+        let mut context = Context::new().with_cancel(&cancel).with_max_threads(threads);
+        let result = pool.install(|| call(&mut context));
+        (result, check_count(&cancel))
+    };
+    let mut failures = Vec::new();
+    let (result, all) = checks_of(usize::MAX);
+    if result.is_err() || all < least {
+        failures.push(format!("{name}: {all} checks, {result:?}"));
+    }
+    for limit in (0..5).map(|fifths| all * fifths / 5) {
+        let (result, made) = checks_of(limit);
+        if result != Err(Error::Cancelled) || made - limit > CHECKS_AFTER {
+            failures.push(format!("{name}: cancelled at {limit} of {all}, {made} checks, {result:?}"));
+        }
+    }
+    failures
+}
+
 /// The time depends on the machine, so this counts checks of the token instead: a call checks it often enough, and once it is cancelled
 /// makes only as many further checks as there are stages and threads.
 #[test]
 fn every_computation_checks_the_token_regularly_and_stops_soon() {
     const TRIANGLES_PER_CHECK: usize = 1 << 14;
-    const CHECKS_AFTER: usize = 48;
     let mesh = families::grid(150, 150, false, true);
     let mesh = &mesh.view();
     let welded: Vec<u32> = (0..mesh.vertex_count() as u32).collect();
     let plans = METHODS.map(|method| Plan::new(mesh, &TangentOptions::from(method)));
     let mut failures = Vec::new();
     for threads in [1, 3] {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
         for (name, call) in &computations(mesh, &plans, &welded) {
-            let checks_of = |limit| {
-                let cancel = cancel_after(limit);
-                let mut context = Context::new().with_cancel(&cancel).with_max_threads(threads);
-                let result = pool.install(|| call(&mut context));
-                (result, check_count(&cancel))
-            };
-            let (result, all) = checks_of(usize::MAX);
-            if result.is_err() || all < mesh.face_count() / TRIANGLES_PER_CHECK {
-                failures.push(format!("{name}: {all} checks, {result:?}"));
-            }
-            for limit in (0..5).map(|fifths| all * fifths / 5) {
-                let (result, made) = checks_of(limit);
-                if result != Err(Error::Cancelled) || made - limit > CHECKS_AFTER {
-                    failures
-                        .push(format!("{name}: cancelled at {limit} of {all}, {made} checks, {result:?}"));
-                }
-            }
+            failures.extend(failures_of(name, call, threads, mesh.face_count() / TRIANGLES_PER_CHECK));
         }
     }
     assert!(failures.is_empty(), "{failures:#?}");
+}
+
+/// Below 180 degrees, all pairs of the triangles at one vertex are compared where some tangent is far from the mean.
+#[test]
+fn a_large_fan_below_180_degrees_checks_the_token_between_its_triangles() {
+    const TRIANGLES_PER_CHECK: usize = 64;
+    let (mesh, options) = (&families::sector(1 << 12), &options(90.0));
+    let mesh = &mesh.view();
+    let call: Call<'_> = Box::new(|context| generate_tangents_with(mesh, options, context).map(drop));
+    let failures = failures_of("sector", &call, 1, mesh.face_count() / TRIANGLES_PER_CHECK);
+    assert!(failures.is_empty(), "{failures:#?}");
+    let plan = Plan::new(mesh, options);
+    assert_eq!(plan.base().report.split_vertices, 0, "all tangents of the vertex join");
 }
 
 #[test]

@@ -21,7 +21,7 @@ pub struct Messages {
 /// The progress on one file; dropping it marks the file as finished.
 pub struct FileProgress<'a> {
     progress: &'a ProgressBar,
-    /// Progress on a vertex with very many faces, for the tangents of this file.
+    /// Progress on a vertex with very many faces. All files share it: it shows one such vertex at a time.
     pub vertex: &'a VertexProgress,
     byte_length: u64,
     finished_bytes: Cell<u64>,

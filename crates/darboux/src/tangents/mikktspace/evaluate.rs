@@ -18,6 +18,7 @@ use std::cell::OnceCell;
 
 use crate::Frame;
 use crate::exec::limits::RunLimits;
+use crate::exec::vertex_progress::VertexProgress;
 use crate::math::{V3, add, angle, direction_in_plane, dot, equal, normalized_unless_zero, scale, sub};
 use crate::topology::triangles::Triangles;
 use crate::util::hash_map::KeyTable;
@@ -83,7 +84,7 @@ pub(crate) fn evaluate(
         subgroups.load(triangles, members, &membership.derivatives, membership.normal_of_group[group]);
         evaluator.load(subgroups.members(), values.normal_of_group[group], groups.preserves(group));
         subgroups.visit(members, &mut evaluator);
-        if let Some(progress) = limits.progress {
+        if let Some(progress) = evaluator.shown_progress() {
             progress.clear();
         }
     }
@@ -113,6 +114,11 @@ struct Subgroup {
 }
 
 impl Evaluator<'_> {
+    /// Where the progress on the current group is reported. Other runs may share it, so small groups leave it alone.
+    fn shown_progress(&self) -> Option<&VertexProgress> {
+        self.limits.progress.filter(|_| self.tangents.len() >= LARGE_GROUP)
+    }
+
     /// Computes the terms of a group's members, which ascend.
     fn load(&mut self, members: &[u32], normal: V3, preserves: bool) {
         let derivative = |&member: &u32| &self.values.derivatives[member as usize / 3];
@@ -162,9 +168,7 @@ impl SubgroupVisitor for Evaluator<'_> {
     }
 
     fn show_progress(&self, found: usize) {
-        if let Some(progress) = self.limits.progress
-            && self.tangents.len() >= LARGE_GROUP
-        {
+        if let Some(progress) = self.shown_progress() {
             progress.set(found, self.tangents.len());
         }
     }

@@ -35,6 +35,9 @@ const SMALL_GROUP: usize = 8;
 const MAX_SUBGROUPS: usize = if cfg!(small_limits) { 20 } else { 1 << 18 };
 const MAX_WORDS: usize = if cfg!(small_limits) { 200 } else { 1 << 23 };
 
+/// The members whose pairs are compared between two checks of the visitor.
+const MEMBERS_PER_CHECK: usize = 64;
+
 /// Receives the subgroups of one group.
 pub(crate) trait SubgroupVisitor {
     /// What is computed once per subgroup.
@@ -108,7 +111,7 @@ impl SubgroupFinder {
 
     /// Calls `visitor` with the subgroup of every member. `members`: the loaded members in the order of the writes.
     pub fn visit<V: SubgroupVisitor>(&mut self, members: &[u32], visitor: &mut V) {
-        let all_join = self.all_join();
+        let all_join = self.all_join(&*visitor);
         let mut rest = members;
         while !rest.is_empty() && !visitor.is_stopped() {
             let (excluded, subgroup_of_member) = if all_join {
@@ -152,12 +155,13 @@ impl SubgroupFinder {
         (distinct, of_member)
     }
 
-    /// True when every member joins every other.
-    fn all_join(&mut self) -> bool {
+    /// True when every member joins every other. False when `visitor` has stopped the visit before that is known.
+    fn all_join<V: SubgroupVisitor>(&mut self, visitor: &V) -> bool {
         let count = self.members.len();
+        let goes_on = |at: usize| !(at + 1).is_multiple_of(MEMBERS_PER_CHECK) || !visitor.is_stopped();
         if count <= SMALL_GROUP || self.threshold_cosine != -1.0 {
             return (count > SMALL_GROUP && self.is_near_mean())
-                || (0..count).all(|a| (a + 1..count).all(|b| self.joins(a, b)));
+                || (0..count).all(|a| goes_on(a) && (a + 1..count).all(|b| self.joins(a, b)));
         }
         if self.is_near_mean() {
             return true;
@@ -169,9 +173,11 @@ impl SubgroupFinder {
         self.find_representatives();
         let mut excluded = Vec::new();
         (0..count).all(|at| {
-            self.representative(at) < at || {
-                self.find_excluded(at, &mut excluded);
-                excluded.is_empty()
+            goes_on(at) && {
+                self.representative(at) < at || {
+                    self.find_excluded(at, &mut excluded);
+                    excluded.is_empty()
+                }
             }
         })
     }
