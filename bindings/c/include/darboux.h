@@ -733,8 +733,8 @@ darboux_status darboux_generate_frames(const struct darboux_mesh *mesh,
 ///
 /// Each distinct pair of old vertex and tangent (four floats, compared as bits) becomes one vertex. `mesh`: the mesh of the tangents.
 /// `tangents`: C by 4 floats, as darboux_generate_tangents writes them. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the
-/// next; 0 for packed. `context`: a cancellation flag; may be NULL. `split`: receives the result; free it with darboux_vertex_split_free.
-/// Errors: those of the mesh; another number of tangents than corners.
+/// next; 0 for packed. `context`: threads and a cancellation flag; NULL for the calling thread alone. `split`: receives the result;
+/// free it with darboux_vertex_split_free. Errors: those of the mesh; another number of tangents than corners.
 darboux_status darboux_split_vertices(const struct darboux_mesh *mesh,
                                       const float *tangents,
                                       size_t tangent_count,
@@ -749,8 +749,8 @@ void darboux_vertex_split_free(struct darboux_vertex_split *split);
 ///
 /// Each distinct pair of old vertex and normal (three floats, compared as bits) becomes one vertex. `mesh`: as for
 /// darboux_generate_normals. `normals`: C by 3 floats, as darboux_generate_normals writes them. `normal_count`: C. `normal_stride`: bytes
-/// from one normal to the next; 0 for packed. `context`: a cancellation flag; may be NULL. `split`: receives the result; free it with
-/// darboux_normal_split_free. Errors: those of the mesh; another number of normals than corners.
+/// from one normal to the next; 0 for packed. `context`: threads and a cancellation flag; NULL for the calling thread alone. `split`: receives
+/// the result; free it with darboux_normal_split_free. Errors: those of the mesh; another number of normals than corners.
 darboux_status darboux_split_normals(const struct darboux_mesh *mesh,
                                      const float *normals,
                                      size_t normal_count,
@@ -806,9 +806,9 @@ darboux_status darboux_plan_count_regrouped(const struct darboux_plan *plan,
 /// Computes a unit normal for every corner. darboux_split_normals computes vertices from them.
 ///
 /// `mesh`: positions, indices and faces of 3 or more corners, which wind counter-clockwise seen from the side that their normal points to.
-/// `options`: NULL for the defaults. `context`: a cancellation flag; may be NULL. `normals`: receives C by 3 floats. `normal_count`: C.
-/// `normal_stride`: bytes from one normal to the next; 0 for packed. `report`: receives the counts; may be NULL. Errors: those of the mesh;
-/// another count than C; see darboux_status.
+/// `options`: NULL for the defaults. `context`: threads and a cancellation flag; NULL for the calling thread alone. `normals`: receives C by
+/// 3 floats. `normal_count`: C. `normal_stride`: bytes from one normal to the next; 0 for packed. `report`: receives the counts; may be
+/// NULL. Errors: those of the mesh; another count than C; see darboux_status.
 darboux_status darboux_generate_normals(const struct darboux_mesh *mesh,
                                         const struct darboux_normal_options *options,
                                         const struct darboux_context *context,
@@ -820,8 +820,8 @@ darboux_status darboux_generate_normals(const struct darboux_mesh *mesh,
 /// Compares two sets of tangents, corner by corner.
 ///
 /// `count`: the number of corners. `a`, `b`: `count` by 4 floats, of the corners of one mesh in the same order. `a_stride`, `b_stride`: bytes
-/// from one tangent to the next; 0 for packed. `context`: a cancellation flag; may be NULL. `difference`: receives the result. Errors: a
-/// null pointer, a stride smaller than an element.
+/// from one tangent to the next; 0 for packed. `context`: threads and a cancellation flag; NULL for the calling thread alone.
+/// `difference`: receives the result. Errors: a null pointer, a stride smaller than an element.
 darboux_status darboux_measure_tangents(size_t count,
                                         const float *a,
                                         size_t a_stride,
@@ -833,8 +833,8 @@ darboux_status darboux_measure_tangents(size_t count,
 /// Measures tangents against the derivatives of the UV map, over the surface.
 ///
 /// `mesh`: the mesh of the tangents. `tangents`: C by 4 floats. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the next; 0
-/// for packed. `context`: a cancellation flag; may be NULL. `fidelity`: receives the result. Errors: those of the mesh; another number of
-/// tangents than corners.
+/// for packed. `context`: threads and a cancellation flag; NULL for the calling thread alone. `fidelity`: receives the
+/// result. Errors: those of the mesh; another number of tangents than corners.
 darboux_status darboux_measure_uv_fidelity(const struct darboux_mesh *mesh,
                                            const float *tangents,
                                            size_t tangent_count,

@@ -115,8 +115,8 @@ impl From<UvFidelity> for darboux_uv_fidelity {
 /// Compares two sets of tangents, corner by corner.
 ///
 /// `count`: the number of corners. `a`, `b`: `count` by 4 floats, of the corners of one mesh in the same order. `a_stride`, `b_stride`: bytes
-/// from one tangent to the next; 0 for packed. `context`: a cancellation flag; may be NULL. `difference`: receives the result. Errors: a
-/// null pointer, a stride smaller than an element.
+/// from one tangent to the next; 0 for packed. `context`: threads and a cancellation flag; NULL for the calling thread alone.
+/// `difference`: receives the result. Errors: a null pointer, a stride smaller than an element.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_measure_tangents(
     count: usize,
@@ -144,8 +144,8 @@ pub unsafe extern "C" fn darboux_measure_tangents(
 /// Measures tangents against the derivatives of the UV map, over the surface.
 ///
 /// `mesh`: the mesh of the tangents. `tangents`: C by 4 floats. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the next; 0
-/// for packed. `context`: a cancellation flag; may be NULL. `fidelity`: receives the result. Errors: those of the mesh; another number of
-/// tangents than corners.
+/// for packed. `context`: threads and a cancellation flag; NULL for the calling thread alone. `fidelity`: receives the
+/// result. Errors: those of the mesh; another number of tangents than corners.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_measure_uv_fidelity(
     mesh: *const darboux_mesh,

@@ -72,9 +72,9 @@ impl From<NormalReport> for darboux_normal_report {
 /// Computes a unit normal for every corner. darboux_split_normals computes vertices from them.
 ///
 /// `mesh`: positions, indices and faces of 3 or more corners, which wind counter-clockwise seen from the side that their normal points to.
-/// `options`: NULL for the defaults. `context`: a cancellation flag; may be NULL. `normals`: receives C by 3 floats. `normal_count`: C.
-/// `normal_stride`: bytes from one normal to the next; 0 for packed. `report`: receives the counts; may be NULL. Errors: those of the mesh;
-/// another count than C; see darboux_status.
+/// `options`: NULL for the defaults. `context`: threads and a cancellation flag; NULL for the calling thread alone. `normals`: receives C by
+/// 3 floats. `normal_count`: C. `normal_stride`: bytes from one normal to the next; 0 for packed. `report`: receives the counts; may be
+/// NULL. Errors: those of the mesh; another count than C; see darboux_status.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_generate_normals(
     mesh: *const darboux_mesh,

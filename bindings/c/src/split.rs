@@ -50,8 +50,8 @@ struct Owned<View, Arrays> {
 ///
 /// Each distinct pair of old vertex and tangent (four floats, compared as bits) becomes one vertex. `mesh`: the mesh of the tangents.
 /// `tangents`: C by 4 floats, as darboux_generate_tangents writes them. `tangent_count`: C. `tangent_stride`: bytes from one tangent to the
-/// next; 0 for packed. `context`: a cancellation flag; may be NULL. `split`: receives the result; free it with darboux_vertex_split_free.
-/// Errors: those of the mesh; another number of tangents than corners.
+/// next; 0 for packed. `context`: threads and a cancellation flag; NULL for the calling thread alone. `split`: receives the result;
+/// free it with darboux_vertex_split_free. Errors: those of the mesh; another number of tangents than corners.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_split_vertices(
     mesh: *const darboux_mesh,
@@ -90,8 +90,8 @@ pub unsafe extern "C" fn darboux_vertex_split_free(split: *mut darboux_vertex_sp
 ///
 /// Each distinct pair of old vertex and normal (three floats, compared as bits) becomes one vertex. `mesh`: as for
 /// darboux_generate_normals. `normals`: C by 3 floats, as darboux_generate_normals writes them. `normal_count`: C. `normal_stride`: bytes
-/// from one normal to the next; 0 for packed. `context`: a cancellation flag; may be NULL. `split`: receives the result; free it with
-/// darboux_normal_split_free. Errors: those of the mesh; another number of normals than corners.
+/// from one normal to the next; 0 for packed. `context`: threads and a cancellation flag; NULL for the calling thread alone. `split`: receives
+/// the result; free it with darboux_normal_split_free. Errors: those of the mesh; another number of normals than corners.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn darboux_split_normals(
     mesh: *const darboux_mesh,

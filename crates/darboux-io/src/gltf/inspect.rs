@@ -40,7 +40,7 @@ pub struct PrimitiveInfo {
     pub ineligible: Option<String>,
     /// The number of triangles whose texture is mirrored.
     pub mirrored_triangles: usize,
-    /// ReportCounts of its triangles and of degenerate data.
+    /// Counts of its triangles and of degenerate data.
     #[serde(flatten)]
     pub counts: ReportCounts,
 }
@@ -103,7 +103,7 @@ fn describe(document: &Document, candidate: &TangentCandidate) -> PrimitiveInfo 
     }
 }
 
-/// ReportCounts triangles whose sign is that of a mirrored texture.
+/// Counts triangles whose sign is that of a mirrored texture.
 fn mirrored_triangles(tangents: &CornerTangents) -> usize {
     let to_gltf = Convention::GLTF.generated().to(Convention::GLTF);
     let triangles = tangents.per_corner().as_chunks::<3>().0.iter();

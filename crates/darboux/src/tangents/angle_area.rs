@@ -3,7 +3,9 @@
 //!
 //! ```text
 //! weld, find neighbours and build groups as MikkTSpace does, with all edges matched and without a threshold
-//! frame of each group = sum of its triangles' dP/du in the tangent plane, weighted by angle times area, in f64
+//! frame of each group = sum of its triangles' dP/du in the tangent plane, weighted, in f64
+//!     angle-area: corner angle times triangle area
+//!     angle-edge: corner angle times the product of the lengths of the corner's two edges in the tangent plane
 //! angle-area: move each tangent a quarter of a Jacobi step towards the least-squares fit of the interpolated tangents
 //! orientation of each face; each corner has the frame of its group of that orientation
 //! ```
@@ -29,9 +31,8 @@ use crate::tangents::angle_area::group_sums::{
     GroupBuffers, GroupFrame, GroupSum, GroupWeight, GroupedTriangles,
 };
 use crate::tangents::mesh_slices::MeshSlices;
-use crate::tangents::mikktspace::derivatives::count_mirrored_edges;
 use crate::tangents::mikktspace::derivatives::{
-    Derivative, count_uv_degenerate, derivatives, derivatives_into, unify_quads,
+    Derivative, count_mirrored_edges, count_uv_degenerate, derivatives, derivatives_into, unify_quads,
 };
 use crate::tangents::mikktspace::groups::{Groups, build_groups};
 use crate::tangents::mikktspace::welded_mesh::WeldedMesh;

@@ -87,7 +87,7 @@ pub fn morphs(
 #[derive(Debug)]
 pub struct Offsets {
     pub of_vertex: Vec<[f32; 3]>,
-    /// ReportCounts for each of [`Morph::jobs`].
+    /// Counts for each of [`Morph::jobs`].
     pub misfits: Vec<Misfits>,
 }
 

@@ -88,7 +88,7 @@ pub struct WrittenTangents {
     pub regrouped_corners: usize,
     /// Corners of morphed meshes whose tangent differs from that of their shared vertex, summed over targets.
     pub conflicting_corners: usize,
-    /// ReportCounts of triangles and of degenerate data.
+    /// Counts of triangles and of degenerate data.
     #[serde(flatten)]
     pub counts: ReportCounts,
 }

@@ -31,8 +31,9 @@ const MAX_DEPARTURES: u32 = 6;
 /// The fraction bits of an `f32`.
 const FRACTION: u32 = 0x7f_ffff;
 
-/// The running sums of many owners: sorted runs, whose lengths at least halve from one to the next, so that there are few of them and a
-/// sum is merged a logarithmic number of times. Sums that have become equal are merged into one; in large fans nine in ten do.
+/// The running sums of many owners: sorted runs, whose lengths when they were made at least halve from one to the next, so that there
+/// are few of them and a sum is merged a logarithmic number of times. Sums that have become equal are merged into one; in large fans nine
+/// in ten do.
 #[derive(Debug)]
 pub(crate) struct SortedSums {
     runs: Vec<Run>,

@@ -28,7 +28,8 @@ pub(crate) struct TermLanes(pub [f32; LANES]);
 /// The number of terms per chunk.
 const CHUNK: usize = if cfg!(small_limits) { 3 } else { 128 };
 
-/// Sorted sums must not overflow. The rounding errors of 2^32 additions cannot make a total of less than this overflow.
+/// Sorted sums must not overflow. Rounding to nearest moves a sum by at most as much as the term, because the sum before the addition is a
+/// float at that distance. So every sum is below twice the total, however many terms there are.
 const MAX_TOTAL: f64 = 1e20;
 
 const NONE: u32 = u32::MAX;
