@@ -20,6 +20,8 @@ for (const [name, darboux] of Object.entries(forms)) {
     for (const { name, arrays, options, answer } of corpus) {
       const tangents = generateTangents(...arrays, options);
       assert.deepEqual(bits(tangents), native(answer.tangents), name);
+      // Splits compare bits, and those of NaN depend on the processor.
+      if (tangents.some(Number.isNaN)) continue;
       const split = splitVertices(arrays[3], tangents, arrays[0].length / 3);
       assert.deepEqual(Array.from(split.indices), answer.split_indices, name);
       assert.deepEqual(Array.from(split.sourceOfVertex), answer.split_sources, name);
