@@ -83,7 +83,7 @@ fn name_of(path: &Path) -> PathBuf {
 
 fn of_corpus() -> Result<Vec<Seed>, String> {
     let mut seeds = Vec::new();
-    for path in files_below(&root().join("tests/corpus"))? {
+    for path in files_below(&root().join("conformance/cases"))? {
         let text = fs::read_to_string(&path)
             .map_err(|error| format!("{} cannot be read: {error}", path.display()))?;
         if let Some(mesh) = corpus::mesh(&text) {
