@@ -1,4 +1,4 @@
-//! What a rule is.
+//! The three kinds of rules: functions that look at one surface, map or texture use and return findings.
 
 use darboux_io::gltf::TextureUse;
 

@@ -1,4 +1,4 @@
-//! Weighs the votes of all levels.
+//! Combines the correlations of all tiles and all levels of a normal map into one score and its confidence.
 
 use super::judgement::{DECIDED, EXCHANGED, MapVerdict};
 use super::level::{Level, Votes};
