@@ -39,13 +39,13 @@ fn node_packages() -> Result<Option<PathBuf>, String> {
         return Ok(None);
     }
     let (from, to) = (root().join("benches/node"), root().join("target/bench-node"));
-    let fault = |error| format!("{} cannot be written: {error}", to.display());
-    fs::create_dir_all(&to).map_err(fault)?;
+    let cannot_write = |error| format!("{} cannot be written: {error}", to.display());
+    fs::create_dir_all(&to).map_err(cannot_write)?;
     let modified = |name| fs::metadata(to.join(name)).and_then(|file| file.modified()).ok();
     for name in ["package.json", "package-lock.json", "peers.mjs"] {
-        let text = fs::read(from.join(name)).map_err(fault)?;
+        let text = fs::read(from.join(name)).map_err(cannot_write)?;
         if fs::read(to.join(name)).ok().as_ref() != Some(&text) {
-            fs::write(to.join(name), text).map_err(fault)?;
+            fs::write(to.join(name), text).map_err(cannot_write)?;
         }
     }
     let installed = modified("node_modules/.package-lock.json");

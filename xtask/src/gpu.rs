@@ -152,14 +152,14 @@ impl Step {
 /// Builds all programs, and this one, into a folder. Errors: cargo fails; files cannot be copied.
 fn build() -> Result<PathBuf, String> {
     let folder = target_folder()?.join("gpu");
-    let fault = |error| format!("{} cannot be written: {error}", folder.display());
+    let cannot_write = |error| format!("{} cannot be written: {error}", folder.display());
     let own = std::env::current_exe().map_err(|error| format!("this program is not found: {error}"))?;
     for (name, line) in BUILDS {
         let into = folder.join(name);
         // A test that is gone must not run again.
         match fs::remove_dir_all(&into) {
-            Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(fault(error)),
-            _ => fs::create_dir_all(&into).map_err(fault)?,
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(cannot_write(error)),
+            _ => fs::create_dir_all(&into).map_err(cannot_write)?,
         }
         let mut command = program("cargo");
         command.args(line.split_whitespace());
@@ -167,13 +167,13 @@ fn build() -> Result<PathBuf, String> {
         command.env("CARGO_PROFILE_BENCH_ROOM_STRIP", "symbols");
         for (target, executable) in executables(&output_of(&mut command)?) {
             let to = into.join(target).with_extension(executable.extension().unwrap_or_default());
-            fs::copy(&executable, to).map_err(fault)?;
+            fs::copy(&executable, to).map_err(cannot_write)?;
         }
     }
     fs::copy(&own, folder.join("xtask").with_extension(own.extension().unwrap_or_default()))
-        .map_err(fault)?;
+        .map_err(cannot_write)?;
     let commit = output_of(&mut program("git describe --always --dirty --abbrev=10"))?;
-    fs::write(folder.join(COMMIT), String::from_utf8_lossy(&commit).trim()).map_err(fault)?;
+    fs::write(folder.join(COMMIT), String::from_utf8_lossy(&commit).trim()).map_err(cannot_write)?;
     Ok(folder)
 }
 
@@ -204,8 +204,8 @@ fn read(path: &Path) -> Result<String, String> {
 
 /// Runs a program, prints its output, and returns the lines and, if it failed, its exit status. Errors: it cannot start.
 fn lines_of(command: &mut Command) -> Result<(Vec<String>, Option<String>), String> {
-    let fault = |error, command: &Command| format!("{} cannot start: {error}", shown(command));
-    let mut child = command.stdout(Stdio::piped()).spawn().map_err(|error| fault(error, command))?;
+    let cannot_start = |error, command: &Command| format!("{} cannot start: {error}", shown(command));
+    let mut child = command.stdout(Stdio::piped()).spawn().map_err(|error| cannot_start(error, command))?;
     let output = child.stdout.take().into_iter();
     let lines = output.flat_map(|output| BufReader::new(output).lines().map_while(Result::ok));
     let lines = lines.inspect(|line| println!("{line}")).collect();

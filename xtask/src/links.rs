@@ -26,7 +26,7 @@ pub fn check() -> Outcome {
     for (path, page) in &pages {
         for link in page.links.iter().filter(|link| !is_elsewhere(link)) {
             count += 1;
-            if let Some(reason) = fault(path, link, &pages) {
+            if let Some(reason) = problem(path, link, &pages) {
                 dead.push(format!("{}: {link}: {reason}", path.display()));
             }
         }
@@ -100,7 +100,7 @@ fn is_elsewhere(link: &str) -> bool {
 }
 
 /// Why a link of `page` leads nowhere; none if it leads somewhere.
-fn fault(page: &Path, link: &str, pages: &BTreeMap<PathBuf, Page>) -> Option<String> {
+fn problem(page: &Path, link: &str, pages: &BTreeMap<PathBuf, Page>) -> Option<String> {
     let (file, heading) = link.split_once('#').map_or((link, None), |(file, heading)| (file, Some(heading)));
     let folder = page.parent().unwrap_or(Path::new(""));
     let target = if file.is_empty() { page.to_path_buf() } else { without_dots(&folder.join(file)) };
@@ -145,7 +145,7 @@ mod tests {
             (PathBuf::from("README.md"), parse("# Top\n")),
             (PathBuf::from("docs/cli.md"), parse("# Command\n")),
         ]);
-        let of = |link: &str| fault(Path::new("docs/cli.md"), link, &pages);
+        let of = |link: &str| problem(Path::new("docs/cli.md"), link, &pages);
         assert_eq!(of("../README.md#top"), None);
         assert_eq!(of("#command"), None);
         assert_eq!(of("../README.md#bottom").as_deref(), Some("README.md has no such heading"));

@@ -68,10 +68,10 @@ pub fn files_below(path: &Path) -> Result<Vec<PathBuf>, String> {
     let mut files = Vec::new();
     let mut waiting = vec![path.to_path_buf()];
     while let Some(path) = waiting.pop() {
-        let fault = |error| format!("{} cannot be read: {error}", path.display());
+        let cannot_read = |error| format!("{} cannot be read: {error}", path.display());
         if path.is_dir() {
-            for entry in std::fs::read_dir(&path).map_err(fault)? {
-                waiting.push(entry.map_err(fault)?.path());
+            for entry in std::fs::read_dir(&path).map_err(cannot_read)? {
+                waiting.push(entry.map_err(cannot_read)?.path());
             }
         } else if path.exists() {
             files.push(path);

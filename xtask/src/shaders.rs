@@ -65,7 +65,7 @@ pub fn write(base: &Path) -> Outcome {
     for (theme, text) in &sources {
         for (language, name) in [(Language::Glsl, "glsl"), (Language::Hlsl, "hlsl")] {
             let translated = translate(text, language, &names)
-                .map_err(|fault| format!("shaders/wgsl/{theme}.wgsl: {fault}"))?;
+                .map_err(|error| format!("shaders/wgsl/{theme}.wgsl: {error}"))?;
             let text = format!("{}\n{translated}", head(theme, language));
             write_file(&base.join("shaders").join(name).join(format!("{theme}.{name}")), &text)?;
         }
@@ -103,7 +103,7 @@ fn translate(text: &str, language: Language, names: &[String]) -> Result<String,
     let mut reader = Reader { tokens: tokens(text), next: 0, line: 1, language, names };
     let mut out = String::new();
     while let Some(token) = reader.take() {
-        out += &reader.piece(token).map_err(|fault| format!("line {}: {fault}", reader.line))?;
+        out += &reader.piece(token).map_err(|error| format!("line {}: {error}", reader.line))?;
     }
     Ok(out)
 }
@@ -275,7 +275,7 @@ mod tests {
 
     #[test]
     fn what_is_outside_the_subset_is_an_error() {
-        for (text, fault) in [
+        for (text, problem) in [
             ("fn f() -> f32 {\n    return fma(1.0, 2.0, 3.0);\n}", "line 2: `fma` is not in the subset"),
             ("fn f() -> f32 {\n    let x = 1.0;\n}", "line 2: `:` expected, found `=`"),
             ("fn f(m: mat3x3f) -> f32 {}", "line 1: `mat3x3f` is not in the subset"),
@@ -283,7 +283,7 @@ mod tests {
             ("struct S { a: f32", "a structure without an end"),
         ] {
             let error = hlsl(text).expect_err("an error");
-            assert!(error.contains(fault), "{error}");
+            assert!(error.contains(problem), "{error}");
         }
     }
 }

@@ -49,11 +49,11 @@ const REPETITIONS: u64 = 8;
 /// From this number on all cases are directed ones.
 const DIRECTED: u64 = 1 << 32;
 
-/// Errors: a wrong option; what the soak itself needs is refused by the system; there were findings.
+/// Errors: a wrong option; what the soak itself needs is refused by the system; a promise was broken.
 pub fn run(words: &[&str]) -> Outcome {
     let options = Options::parse(words)?;
     let base = target_folder()?.join("soak");
-    let keep = options.keep.clone().unwrap_or_else(|| base.join("findings"));
+    let keep = options.keep.clone().unwrap_or_else(|| base.join("broken"));
     let program = Program::find(options.program.as_deref())?;
     let renders = program.can_render();
     let seeds = seeds::all(options.models.as_deref())?;
@@ -72,9 +72,9 @@ pub fn run(words: &[&str]) -> Outcome {
     let _nothing_was_run = fs::remove_dir_all(&soak.folder);
     report.summary();
     result?;
-    match report.findings() {
+    match report.broken() {
         0 => Ok(()),
-        count => Err(format!("{count} findings; the cases are in {}", report.kept_in().display())),
+        count => Err(format!("{count} broken promises; the cases are in {}", report.kept_in().display())),
     }
 }
 

@@ -117,19 +117,19 @@ impl darboux_mesh {
     ///
     /// As for [`view`].
     unsafe fn indices<'a>(&self) -> Result<Indices<'a>, Error> {
-        let fault = |status, message: &str| Err(Error::new(status, message.into()));
+        let error = |status, message: &str| Err(Error::new(status, message.into()));
         // SAFETY: the caller's promise.
         unsafe {
             match (self.indices_u32.is_null(), self.indices_u16.is_null()) {
                 (true, true) if self.index_count == 0 => Ok(Indices::Unindexed),
-                (true, true) => fault(darboux_status::NullPointer, "there is an index_count but no indices"),
+                (true, true) => error(darboux_status::NullPointer, "there is an index_count but no indices"),
                 (false, true) => {
                     pointers::slice("indices_u32", self.indices_u32, self.index_count).map(Indices::U32)
                 }
                 (true, false) => {
                     pointers::slice("indices_u16", self.indices_u16, self.index_count).map(Indices::U16)
                 }
-                (false, false) => fault(
+                (false, false) => error(
                     darboux_status::UnknownValue,
                     "indices_u16 and indices_u32 are both set; set one of them",
                 ),

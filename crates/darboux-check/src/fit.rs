@@ -34,11 +34,11 @@ pub struct Fit {
     pub supporting: usize,
 }
 
-/// The share of the corners that decides.
-const MOST: f64 = 0.9;
+/// The smallest share of the corners that decides.
+const MIN_SHARE: f64 = 0.9;
 
-/// The share of corners with a sign of their own that is tolerated.
-const FEW: f64 = 0.01;
+/// The largest share of corners whose sign may contradict the others.
+const MAX_SIGN_ERRORS: f64 = 0.01;
 
 /// Corners by the direction that is nearest to the file's tangent, and by sign.
 #[derive(Default)]
@@ -63,28 +63,30 @@ pub fn measure(surface: &Surface) -> Option<Fit> {
     if own.corners == 0 {
         return Some(fit(Difference::Unknown, 0));
     }
-    let others = surface.uv_sets.keys().filter(|&&set| set != surface.uv_set && share(own.close) < MOST);
+    let others = surface.uv_sets.keys().filter(|&&set| set != surface.uv_set && share(own.close) < MIN_SHARE);
     for &set in others {
-        if let Some(other) = count(surface, &tangents, set).filter(|other| share(other.close) >= MOST) {
+        if let Some(other) = count(surface, &tangents, set).filter(|other| share(other.close) >= MIN_SHARE) {
             return Some(fit(Difference::OtherUvSet(set), other.close));
         }
     }
-    if share(own.along) >= MOST {
+    if share(own.along) >= MIN_SHARE {
         let difference = by_signs(&own);
         let supporting = if difference == Difference::None { own.along } else { flips };
         return Some(fit(difference, supporting));
     }
     Some(match () {
-        () if share(own.against) >= MOST => fit(Difference::Negated, own.against),
-        () if share(own.across) >= MOST => fit(Difference::Rotated, own.across),
+        () if share(own.against) >= MIN_SHARE => fit(Difference::Negated, own.against),
+        () if share(own.across) >= MIN_SHARE => fit(Difference::Rotated, own.across),
         () => fit(Difference::Unknown, 0),
     })
 }
 
 fn by_signs(counts: &Counts) -> Difference {
-    let is_flipped =
-        |[corners, flips]: [usize; 2]| corners > 0 && flips as f64 >= (1.0 - FEW) * corners as f64;
-    let is_kept = |[corners, flips]: [usize; 2]| corners > 0 && flips as f64 <= FEW * corners as f64;
+    let is_flipped = |[corners, flips]: [usize; 2]| {
+        corners > 0 && flips as f64 >= (1.0 - MAX_SIGN_ERRORS) * corners as f64
+    };
+    let is_kept =
+        |[corners, flips]: [usize; 2]| corners > 0 && flips as f64 <= MAX_SIGN_ERRORS * corners as f64;
     let [unmirrored, mirrored] = counts.signs;
     let is_absent = |[corners, _]: [usize; 2]| corners == 0;
     match () {

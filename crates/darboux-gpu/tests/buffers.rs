@@ -74,7 +74,7 @@ fn mesh(given: &Given) -> MeshBuffers<'_> {
     }
 }
 
-fn fault(gpu: &Gpu, mesh: MeshBuffers<'_>, destination: Destination<'_>) -> String {
+fn error_of(gpu: &Gpu, mesh: MeshBuffers<'_>, destination: Destination<'_>) -> String {
     let average = Average::new(&gpu.device, Search::BruteForce);
     match average.of_mesh(&mesh, &destination) {
         Ok(_) => "none".to_owned(),
@@ -88,7 +88,7 @@ fn wrong_layouts_are_errors() {
         let given = given(gpu, BufferUsages::STORAGE);
         let plain = mesh(&given);
         let in_vertices = |layout| Destination::Vertices(layout);
-        let with = |layout| fault(gpu, MeshBuffers { layout, ..plain }, in_vertices(ENGINE_FRAME));
+        let with = |layout| error_of(gpu, MeshBuffers { layout, ..plain }, in_vertices(ENGINE_FRAME));
         assert_eq!(with(ENGINE), "none");
         assert_eq!(
             with(VertexLayout { stride: 58, ..ENGINE }),
@@ -102,7 +102,7 @@ fn wrong_layouts_are_errors() {
             with(VertexLayout { position: 52, ..ENGINE }),
             "the vertices need a buffer of 568 bytes, but this one has 560"
         );
-        let to = |layout| fault(gpu, plain, in_vertices(layout));
+        let to = |layout| error_of(gpu, plain, in_vertices(layout));
         let onto = |what: &str, offset: u32| {
             format!(
                 "the {what} at byte {offset} of every 56 overlap another attribute or the next element: use another offset or a larger stride"
@@ -115,8 +115,9 @@ fn wrong_layouts_are_errors() {
             to(FrameLayout { tangent: 48, bitangent: None, sign: None }),
             "the vertices need a buffer of 564 bytes, but this one has 560"
         );
-        let apart =
-            |stride, layout| fault(gpu, plain, Destination::Buffer { buffer: &given.frames, stride, layout });
+        let apart = |stride, layout| {
+            error_of(gpu, plain, Destination::Buffer { buffer: &given.frames, stride, layout })
+        };
         assert_eq!(apart(28, APART), "none");
         assert!(apart(16, APART).starts_with("the bitangents at byte 16 of every 16 overlap"));
         assert!(apart(0, APART).starts_with("the tangents at byte 0 of every 0 overlap"));
@@ -130,7 +131,7 @@ fn wrong_buffers_are_errors() {
         let given_here = given(gpu, BufferUsages::STORAGE);
         let plain = mesh(&given_here);
         let frames = Destination::Vertices(ENGINE_FRAME);
-        let with = |mesh| fault(gpu, mesh, frames);
+        let with = |mesh| error_of(gpu, mesh, frames);
         assert_eq!(
             with(MeshBuffers { index_count: 5, ..plain }),
             "5 indices are not a multiple of 3: pass three per triangle"
@@ -145,7 +146,7 @@ fn wrong_buffers_are_errors() {
         assert!(with(most).starts_with("the vertices need a buffer of"));
         let shared = MeshBuffers { indices: plain.vertices, ..plain };
         assert!(with(shared).starts_with("the indices and the vertices are in one buffer"));
-        let to = |buffer| fault(gpu, plain, Destination::Buffer { buffer, stride: 28, layout: APART });
+        let to = |buffer| error_of(gpu, plain, Destination::Buffer { buffer, stride: 28, layout: APART });
         assert!(to(plain.vertices).ends_with("use Destination::Vertices"));
         assert!(to(plain.indices).starts_with("the frames and the indices are in one buffer"));
         let closed = given(gpu, BufferUsages::VERTEX | BufferUsages::INDEX);
@@ -174,7 +175,7 @@ fn buffers_past_the_limits_are_errors() {
         });
         let given = given(gpu, BufferUsages::STORAGE);
         let mesh = MeshBuffers { vertices: &large, ..mesh(&given) };
-        let found = fault(gpu, mesh, Destination::Vertices(ENGINE_FRAME));
+        let found = error_of(gpu, mesh, Destination::Vertices(ENGINE_FRAME));
         assert!(found.contains("the device binds at most"), "{found}");
     }
 }

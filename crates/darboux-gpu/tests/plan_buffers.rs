@@ -64,12 +64,12 @@ fn wrong_buffers_are_errors() {
     let options = TangentOptions::default();
     for gpu in gpus() {
         let planner = Planner::new(&gpu.device, Precision::Exact);
-        let fault = |mesh: &OwnedMesh, options| match planner.plan(&mesh.view(), options) {
+        let error_of = |mesh: &OwnedMesh, options| match planner.plan(&mesh.view(), options) {
             Ok(_) => "none".to_owned(),
             Err(error) => error.to_string(),
         };
         let other = TangentOptions::from(Method::Average);
-        assert!(fault(&mesh, &other).starts_with("a plan on a GPU computes MikkTSpace"));
+        assert!(error_of(&mesh, &other).starts_with("a plan on a GPU computes MikkTSpace"));
         let plan = planner.plan(&mesh.view(), &options).unwrap_or_else(|error| panic!("{error}"));
         let count = mesh.positions.len() as u32;
         let all = interleaved(gpu, &mesh, 10, [0, 3]);
@@ -82,30 +82,33 @@ fn wrong_buffers_are_errors() {
             tangents: Attribute { buffer: &all, stride: 16, offset: 0 },
             per: TangentsPer::Corner,
         };
-        let fault = |moving| match plan.bind(&moving) {
+        let error_of = |moving| match plan.bind(&moving) {
             Ok(_) => "none".to_owned(),
             Err(error) => error.to_string(),
         };
         // The vertices at the mirrored edge have several tangents.
         let per_vertex = MovingMesh { per: TangentsPer::Vertex, tangents: part(24), ..plain };
-        assert_eq!(fault(per_vertex), "4 vertices have several tangents: split them first (split_vertices)");
+        assert_eq!(
+            error_of(per_vertex),
+            "4 vertices have several tangents: split them first (split_vertices)"
+        );
         let of_other = MovingMesh { vertex_count: count + 1, ..plain };
-        assert_eq!(fault(of_other), "the plan has 20 vertices, but these buffers have 21: plan this mesh");
+        assert_eq!(error_of(of_other), "the plan has 20 vertices, but these buffers have 21: plan this mesh");
         let short = "the tangents need a buffer of 1152 bytes, but this one has 880";
-        assert_eq!(fault(plain), short);
+        assert_eq!(error_of(plain), short);
         let tangents = buffer(gpu, &[0; 288], USAGE);
         let tangents = Attribute { buffer: &tangents, stride: 16, offset: 0 };
-        assert_eq!(fault(MovingMesh { tangents, ..plain }), "none");
+        assert_eq!(error_of(MovingMesh { tangents, ..plain }), "none");
         let odd = Attribute { offset: 2, ..plain.normals };
-        let odd = fault(MovingMesh { tangents, normals: odd, ..plain });
+        let odd = error_of(MovingMesh { tangents, normals: odd, ..plain });
         assert_eq!(odd, "the stride or offset of the normals is 2 bytes: use a multiple of 4");
         let closed = Attribute { buffer: &closed, ..plain.positions };
-        let closed = fault(MovingMesh { tangents, positions: closed, ..plain });
+        let closed = error_of(MovingMesh { tangents, positions: closed, ..plain });
         assert_eq!(
             closed,
             "the buffer of positions was created without BufferUsages::STORAGE: add that usage"
         );
-        let narrow = fault(MovingMesh { tangents: Attribute { stride: 12, ..tangents }, ..plain });
+        let narrow = error_of(MovingMesh { tangents: Attribute { stride: 12, ..tangents }, ..plain });
         assert!(narrow.starts_with("the tangents at byte 0 of every 12 overlap"), "{narrow}");
     }
 }

@@ -105,39 +105,39 @@ fn printable(text: &str) -> String {
     text.chars().map(escape).collect()
 }
 
-/// An error without the name of its file. [`Fault::in_file`] adds the name.
+/// An error in the content of a file whose name is not known yet. [`ContentError::in_file`] adds the name.
 #[derive(Debug)]
-pub(crate) struct Fault {
-    kind: FaultKind,
+pub(crate) struct ContentError {
+    kind: ContentErrorKind,
     at: String,
     problem: String,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum FaultKind {
+enum ContentErrorKind {
     Invalid,
     Unsupported,
     Resource,
 }
 
-impl Fault {
+impl ContentError {
     /// The file violates its format at the JSON path `at`; an empty path means the whole file.
     pub fn invalid(at: impl Into<String>, problem: impl Into<String>) -> Self {
-        Self::new(FaultKind::Invalid, &at.into(), &problem.into())
+        Self::new(ContentErrorKind::Invalid, &at.into(), &problem.into())
     }
 
     /// The content at `at` is valid, but cannot be processed without loss.
     pub fn unsupported(at: impl Into<String>, problem: impl Into<String>) -> Self {
-        Self::new(FaultKind::Unsupported, &at.into(), &problem.into())
+        Self::new(ContentErrorKind::Unsupported, &at.into(), &problem.into())
     }
 
     /// The file that is referred to at `at` cannot be used.
     pub fn resource(at: impl Into<String>, problem: impl Into<String>) -> Self {
-        Self::new(FaultKind::Resource, &at.into(), &problem.into())
+        Self::new(ContentErrorKind::Resource, &at.into(), &problem.into())
     }
 
     /// A JSON path contains names from the file, and the problem may quote it.
-    fn new(kind: FaultKind, at: &str, problem: &str) -> Self {
+    fn new(kind: ContentErrorKind, at: &str, problem: &str) -> Self {
         Self { kind, at: shortened(at), problem: printable(problem) }
     }
 
@@ -146,9 +146,9 @@ impl Fault {
         let Self { kind, at, problem } = self;
         let file = file.to_owned();
         match kind {
-            FaultKind::Invalid => Error::Invalid { file, at, problem },
-            FaultKind::Unsupported => Error::Unsupported { file, at, problem },
-            FaultKind::Resource => Error::Resource { file, at, problem },
+            ContentErrorKind::Invalid => Error::Invalid { file, at, problem },
+            ContentErrorKind::Unsupported => Error::Unsupported { file, at, problem },
+            ContentErrorKind::Resource => Error::Resource { file, at, problem },
         }
     }
 }

@@ -281,7 +281,8 @@ fn new_accessors_are_aligned_bounded_and_described() {
         element_type: ElementType::Vec3,
         normalized: true,
     };
-    let new = NewAccessor::new(elements.clone(), Target::Vertices).with_bounds(true).with_like(Some(1));
+    let new =
+        NewAccessor::new(elements.clone(), Target::Vertices).with_bounds(true).with_metadata_of(Some(1));
     let index = document.push_accessor(new);
     assert_eq!(document.elements(index).unwrap(), elements);
     let written = document.to_glb().unwrap();

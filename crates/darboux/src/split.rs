@@ -92,7 +92,7 @@ impl Splitter {
     }
 
     /// As [`Splitter::new`], with the token of a context. The splitter keeps a clone of the token, which cancels [`Splitter::add`] and
-    /// [`Splitter::add_changes`].
+    /// [`Splitter::add_or_keep`].
     pub fn new_with(vertex_count: usize, context: &mut Context) -> Self {
         Self {
             cancel: context.limits().cancel.cloned(),
@@ -113,11 +113,11 @@ impl Splitter {
         corners: impl Into<CornerTangentsRef<'a>>,
     ) -> Result<Vec<u32>, Error> {
         let old = |corner| mesh.vertex_of_corner(corner) as u32;
-        Ok(self.add_changes(mesh, corners)?.unwrap_or_else(|| (0..mesh.corner_count()).map(old).collect()))
+        Ok(self.add_or_keep(mesh, corners)?.unwrap_or_else(|| (0..mesh.corner_count()).map(old).collect()))
     }
 
-    /// As [`Splitter::add`]. `None` where the index list does not change.
-    pub fn add_changes<'a>(
+    /// As [`Splitter::add`]. `None` if the mesh keeps its index list.
+    pub fn add_or_keep<'a>(
         &mut self,
         mesh: &Mesh<'_>,
         corners: impl Into<CornerTangentsRef<'a>>,
@@ -126,14 +126,14 @@ impl Splitter {
         Error::check_input("tangents", mesh.corner_count(), tangents.len())?;
         Error::check_mesh("vertices", self.old_count, mesh.vertex_count())?;
         match mesh.indices() {
-            Indices::Unindexed => self.changes(0..tangents.len() as u32, tangents),
-            Indices::U16(list) => self.changes(list.iter().map(|&index| index.into()), tangents),
-            Indices::U32(list) => self.changes(list.iter().copied(), tangents),
+            Indices::Unindexed => self.new_indices(0..tangents.len() as u32, tangents),
+            Indices::U16(list) => self.new_indices(list.iter().map(|&index| index.into()), tangents),
+            Indices::U32(list) => self.new_indices(list.iter().copied(), tangents),
         }
     }
 
-    /// The vertices of corners with these old vertices. `None` where they are equal.
-    fn changes(
+    /// The vertices of corners with these old vertices. `None` if all corners keep theirs.
+    fn new_indices(
         &mut self,
         old: impl Iterator<Item = u32> + Clone,
         tangents: &[[f32; 4]],
@@ -286,7 +286,7 @@ mod tests {
         let (first, second) = tangents.split_at(600);
         let mut found = splitter.add(&mesh(&old[..600]), &CornerTangents(first.to_vec())).unwrap();
         found.extend(splitter.add(&mesh(&old[600..]), &CornerTangents(second.to_vec())).unwrap());
-        assert_eq!(splitter.add_changes(&mesh(&[]), &CornerTangents(Vec::new())).unwrap(), None);
+        assert_eq!(splitter.add_or_keep(&mesh(&[]), &CornerTangents(Vec::new())).unwrap(), None);
         let SplitBuffer { tangent_of_vertex, source_of_vertex } = splitter.finish();
         assert_eq!(found, indices);
         assert_eq!(source_of_vertex, sources);

@@ -150,8 +150,8 @@ impl ConfusionTable {
             self.confidences.push((confidence, judgement.z_score * up > 0.0));
         }
         if outcome != 0 {
-            let MapJudgement { verdict, z_score, channel_order, .. } = judgement;
-            self.failures.push(format!("{number}: {truth:?} judged {verdict:?}, z score {z_score:.1}, order {channel_order:.2}; {case:?}"));
+            let MapJudgement { verdict, z_score, log_energy_ratio, .. } = judgement;
+            self.failures.push(format!("{number}: {truth:?} judged {verdict:?}, z score {z_score:.1}, log energy ratio {log_energy_ratio:.2}; {case:?}"));
         }
     }
 

@@ -31,7 +31,7 @@ pub fn parse(name: &str, text: &str) -> Result<Page, String> {
     let mut lines = (1..).zip(text.lines());
     let mut reason: Option<String> = None;
     while let Some((number, line)) = lines.next() {
-        let fault = |what: &str| format!("{name}:{number}: {what}");
+        let error = |what: &str| format!("{name}:{number}: {what}");
         let mut body = |end: &str| {
             let mut text = String::new();
             for (_, line) in lines.by_ref() {
@@ -41,12 +41,12 @@ pub fn parse(name: &str, text: &str) -> Result<Page, String> {
                 text += line;
                 text.push('\n');
             }
-            Err(fault("the block has no end"))
+            Err(error("the block has no end"))
         };
         if let Some(marker) = line.strip_prefix(NOT_RUN) {
             let text = marker.trim().trim_end_matches("-->").trim();
             if text.is_empty() {
-                return Err(fault("\"not run\" needs a reason"));
+                return Err(error("\"not run\" needs a reason"));
             }
             reason = Some(text.to_owned());
         } else if let Some(language) = line.strip_prefix(HIDDEN) {
@@ -56,12 +56,12 @@ pub fn parse(name: &str, text: &str) -> Result<Page, String> {
             let language = info.split([',', ' ', '{']).next().unwrap_or_default().to_owned();
             let text = body("```")?;
             match reason.take() {
-                _ if language.is_empty() => return Err(fault("the block names no language")),
+                _ if language.is_empty() => return Err(error("the block names no language")),
                 Some(reason) => page.left_out.push((number, reason)),
                 None => page.blocks.push(Block { language, line: number + 1, text }),
             }
         } else if reason.is_some() && !line.trim().is_empty() {
-            return Err(fault("\"not run\" must stand directly before a block"));
+            return Err(error("\"not run\" must stand directly before a block"));
         }
     }
     Ok(page)

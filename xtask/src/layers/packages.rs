@@ -40,12 +40,12 @@ pub fn all() -> Result<Vec<Value>, String> {
 
 /// Errors: a package imports one that it may not, the core requires a third-party crate, or a package has no row in the table.
 pub fn check(packages: &[Value]) -> Outcome {
-    let faults: Vec<String> = packages.iter().flat_map(faults).collect();
-    if faults.is_empty() {
+    let violations: Vec<String> = packages.iter().flat_map(violations).collect();
+    if violations.is_empty() {
         println!("{} packages import only what they may", packages.len());
         Ok(())
     } else {
-        Err(faults.join("; "))
+        Err(violations.join("; "))
     }
 }
 
@@ -69,16 +69,16 @@ fn of_manifest(manifest: &str) -> Result<Vec<Value>, String> {
     }
 }
 
-fn faults(package: &Value) -> Vec<String> {
+fn violations(package: &Value) -> Vec<String> {
     let name = package["name"].as_str().unwrap_or_default();
     let Some(&(_, allowed)) = MAY_IMPORT.iter().find(|row| row.0 == name) else {
         return vec![format!("{name} has no row in xtask/src/layers/packages.rs")];
     };
     let dependencies = package["dependencies"].as_array().map(Vec::as_slice).unwrap_or_default();
-    dependencies.iter().filter_map(|dependency| fault(name, allowed, dependency)).collect()
+    dependencies.iter().filter_map(|dependency| violation(name, allowed, dependency)).collect()
 }
 
-fn fault(name: &str, allowed: &[&str], dependency: &Value) -> Option<String> {
+fn violation(name: &str, allowed: &[&str], dependency: &Value) -> Option<String> {
     let import = dependency["name"].as_str().unwrap_or_default();
     if MAY_IMPORT.iter().any(|row| row.0 == import) {
         return (!allowed.contains(&import)).then(|| format!("{name} may not import {import}"));

@@ -65,13 +65,13 @@ fn patches(sources: &[(String, PathBuf)]) -> Vec<String> {
 /// Runs the Rust block of the README in a crate of its own.
 fn run_example(work: &Path, sources: &[(String, PathBuf)]) -> Outcome {
     let folder = work.join("example");
-    let fault = |error| format!("{} cannot be written: {error}", folder.display());
-    fs::create_dir_all(folder.join("src")).map_err(fault)?;
+    let cannot_write = |error| format!("{} cannot be written: {error}", folder.display());
+    fs::create_dir_all(folder.join("src")).map_err(cannot_write)?;
     let manifest = format!(
         "[package]\nname = \"example\"\nversion = \"0.0.0\"\nedition = \"2024\"\n[dependencies]\ndarboux = \"{VERSION}\"\n[workspace]\n"
     );
-    fs::write(folder.join("Cargo.toml"), manifest).map_err(fault)?;
-    fs::write(folder.join("src/main.rs"), doc_blocks::first("README.md", "rust")?).map_err(fault)?;
+    fs::write(folder.join("Cargo.toml"), manifest).map_err(cannot_write)?;
+    fs::write(folder.join("src/main.rs"), doc_blocks::first("README.md", "rust")?).map_err(cannot_write)?;
     let used: Vec<_> = sources.iter().filter(|(name, _)| name == "darboux").cloned().collect();
     run(program("cargo run --quiet").args(patches(&used)).current_dir(&folder))
 }

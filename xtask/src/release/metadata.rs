@@ -10,33 +10,33 @@ use crate::run::{Outcome, output_of, program, root};
 
 /// Errors: a field, a README or the changelog's section for this version is missing.
 pub fn check() -> Outcome {
-    let mut faults = Vec::new();
+    let mut problems = Vec::new();
     for package in published()? {
-        faults.extend(crate_faults(&package));
+        problems.extend(crate_problems(&package));
     }
     let pyproject = read("bindings/python/pyproject.toml")?;
     for field in ["description", "readme", "requires-python", "license", "keywords", "classifiers"] {
         if !pyproject.lines().any(|line| line.starts_with(&format!("{field} = "))) {
-            faults.push(format!("bindings/python/pyproject.toml has no {field}"));
+            problems.push(format!("bindings/python/pyproject.toml has no {field}"));
         }
     }
     let npm: Value = serde_json::from_str(&read("bindings/js/lib/package.json")?)
         .map_err(|error| format!("bindings/js/lib/package.json: {error}"))?;
     for field in ["description", "keywords", "license", "exports"] {
         if npm[field].is_null() {
-            faults.push(format!("bindings/js/lib/package.json has no {field}"));
+            problems.push(format!("bindings/js/lib/package.json has no {field}"));
         }
     }
     let python_licences = ["bindings/python/LICENSE-MIT", "bindings/python/LICENSE-APACHE"];
     for file in ["bindings/python/README.md", "bindings/js/README.md"].into_iter().chain(python_licences) {
         if !root().join(file).exists() {
-            faults.push(format!("{file} is missing"));
+            problems.push(format!("{file} is missing"));
         }
     }
     if !has_section(&read("CHANGELOG.md")?) {
-        faults.push(format!("the first section of CHANGELOG.md must be \"## {VERSION}\""));
+        problems.push(format!("the first section of CHANGELOG.md must be \"## {VERSION}\""));
     }
-    if faults.is_empty() { Ok(()) } else { Err(faults.join("; ")) }
+    if problems.is_empty() { Ok(()) } else { Err(problems.join("; ")) }
 }
 
 /// The packages that go to crates.io, in an order in which each comes after those that it needs.
@@ -70,7 +70,7 @@ pub fn name(package: &Value) -> &str {
     package["name"].as_str().unwrap_or_default()
 }
 
-fn crate_faults(package: &Value) -> Vec<String> {
+fn crate_problems(package: &Value) -> Vec<String> {
     let is_missing = |field: &&str| match &package[*field] {
         Value::Null => true,
         Value::Array(list) => list.is_empty(),
@@ -78,23 +78,23 @@ fn crate_faults(package: &Value) -> Vec<String> {
         _ => false,
     };
     let fields = ["description", "license", "readme", "keywords", "categories", "rust_version"];
-    let mut faults: Vec<String> = fields
+    let mut problems: Vec<String> = fields
         .iter()
         .filter(|field| is_missing(field))
         .map(|field| format!("{} has no {field}", name(package)))
         .collect();
     if package["keywords"].as_array().is_some_and(|keywords| keywords.len() > 5) {
-        faults.push(format!("{} has more than the five keywords that crates.io takes", name(package)));
+        problems.push(format!("{} has more than the five keywords that crates.io takes", name(package)));
     }
     // Both licences want their text to go with every copy. They are links, which cargo packages as files.
     let folder = package["manifest_path"].as_str().map(Path::new).and_then(Path::parent).unwrap_or(root());
     let licences =
         ["LICENSE-MIT", "LICENSE-APACHE"].into_iter().filter(|licence| !folder.join(licence).exists());
-    faults.extend(licences.map(|licence| format!("{} has no {licence}", name(package))));
+    problems.extend(licences.map(|licence| format!("{} has no {licence}", name(package))));
     if package["version"] != VERSION {
-        faults.push(format!("{} has another version than {VERSION}", name(package)));
+        problems.push(format!("{} has another version than {VERSION}", name(package)));
     }
-    faults
+    problems
 }
 
 fn has_section(changelog: &str) -> bool {

@@ -9,7 +9,7 @@ usage: cargo xtask soak [--minutes N] [--seed S] [--program PATH] [--models FOLD
   --seed S         where the random numbers start; the same seed gives the same cases; by default 1
   --program PATH   the darboux to run; by default a release build with all features
   --models FOLDER  models to damage, beside those of this repository
-  --keep FOLDER    where cases with findings are kept; by default target/soak/findings
+  --keep FOLDER    where cases that broke a promise are kept; by default target/soak/broken
   --only WORD      run only the directed cases whose name contains this word, eight times each
   --case I         run only the case with this number";
 

@@ -22,7 +22,7 @@ struct Row {
     signals: usize,
     reopened: usize,
     used: Used,
-    findings: BTreeMap<&'static str, usize>,
+    broken: BTreeMap<&'static str, usize>,
 }
 
 /// The counts of a soak.
@@ -30,7 +30,7 @@ pub struct Report {
     start: Instant,
     duration: Duration,
     last_line: Duration,
-    /// Where cases with findings are kept.
+    /// Where cases that broke a promise are kept.
     keep: PathBuf,
     rows: BTreeMap<String, Row>,
     subcommands: BTreeMap<String, usize>,
@@ -81,13 +81,13 @@ impl Report {
         row.used.memory = row.used.memory.max(outcome.used.memory);
         row.used.processor = row.used.processor.max(outcome.used.processor);
         row.used.wall = row.used.wall.max(outcome.used.wall);
-        for finding in &outcome.findings {
-            let count = row.findings.entry(finding.kind).or_default();
+        for promise in &outcome.broken {
+            let count = row.broken.entry(promise.kind).or_default();
             *count += 1;
             if *count <= KEPT {
-                let name = format!("{number}-{}", finding.kind.replace(' ', "-"));
-                println!("{}, {}: {}\n  {reproduce}", case.name, finding.kind, finding.detail.trim_end());
-                keep(&self.keep.join(name), case, &finding.detail, reproduce)?;
+                let name = format!("{number}-{}", promise.kind.replace(' ', "-"));
+                println!("{}, {}: {}\n  {reproduce}", case.name, promise.kind, promise.detail.trim_end());
+                keep(&self.keep.join(name), case, &promise.detail, reproduce)?;
             }
         }
         Ok(())
@@ -98,9 +98,9 @@ impl Report {
         let elapsed = self.start.elapsed();
         if elapsed - self.last_line >= INTERVAL {
             self.last_line = elapsed;
-            let (runs, findings) = (self.runs(), self.findings());
+            let (runs, broken) = (self.runs(), self.broken());
             eprintln!(
-                "  {} of {} s, {runs} runs, {findings} findings",
+                "  {} of {} s, {runs} runs, {broken} broken promises",
                 elapsed.as_secs(),
                 self.duration.as_secs()
             );
@@ -111,24 +111,25 @@ impl Report {
         self.rows.values().map(|row| row.runs).sum()
     }
 
-    /// Where cases with findings are.
+    /// Where cases that broke a promise are.
     pub fn kept_in(&self) -> &Path {
         &self.keep
     }
 
-    pub fn findings(&self) -> usize {
-        self.rows.values().flat_map(|row| row.findings.values()).sum()
+    /// The number of broken promises.
+    pub fn broken(&self) -> usize {
+        self.rows.values().flat_map(|row| row.broken.values()).sum()
     }
 
     /// Prints the tables.
     pub fn summary(&self) {
         println!(
-            "\n{:<42} {:>7} {:>7} {:>7} {:>6} {:>7} {:>8} {:>6} {:>7}  findings",
+            "\n{:<42} {:>7} {:>7} {:>7} {:>6} {:>7} {:>8} {:>6} {:>7}  broken promises",
             "cases", "runs", "exit 0", "exit 1", "other", "signals", "reopened", "MB", "CPU s"
         );
         for (name, row) in &self.rows {
-            let findings: Vec<String> =
-                row.findings.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
+            let broken: Vec<String> =
+                row.broken.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
             println!(
                 "{name:<42} {:>7} {:>7} {:>7} {:>6} {:>7} {:>8} {:>6} {:>7.2}  {}",
                 row.runs,
@@ -139,7 +140,7 @@ impl Report {
                 row.reopened,
                 row.used.memory >> 20,
                 row.used.processor.as_secs_f32(),
-                findings.join(", ")
+                broken.join(", ")
             );
         }
         let subcommands: Vec<String> =
@@ -147,25 +148,26 @@ impl Report {
         println!("\nruns by subcommand: {}", subcommands.join(", "));
         let sum = |count: fn(&Row) -> usize| self.rows.values().map(count).sum::<usize>();
         println!(
-            "{} runs in {:.1} minutes: {} done, {} refused, {} sent a signal; {} outputs read again; {} findings",
+            "{} runs in {:.1} minutes: {} done, {} refused, {} sent a signal; {} outputs read again; {} broken promises",
             self.runs(),
             self.start.elapsed().as_secs_f32() / 60.0,
             sum(|row| row.done),
             sum(|row| row.refused),
             sum(|row| row.signals),
             sum(|row| row.reopened),
-            self.findings()
+            self.broken()
         );
     }
 }
 
 /// Keeps the files of a case, a script that runs it, and what was found.
 fn keep(folder: &Path, case: &Case, detail: &str, reproduce: &str) -> Result<(), String> {
-    let fault = |error: std::io::Error| format!("{} cannot be written: {error}", folder.display());
-    tree::make(folder, case).map_err(fault)?;
-    fs::write(folder.join("found.txt"), format!("{}\n{detail}\n{reproduce}\n", case.name)).map_err(fault)?;
-    fs::write(folder.join("stdin"), &case.stdin).map_err(fault)?;
-    fs::write(folder.join("run.sh"), script(case)).map_err(fault)
+    let cannot_write = |error: std::io::Error| format!("{} cannot be written: {error}", folder.display());
+    tree::make(folder, case).map_err(cannot_write)?;
+    fs::write(folder.join("found.txt"), format!("{}\n{detail}\n{reproduce}\n", case.name))
+        .map_err(cannot_write)?;
+    fs::write(folder.join("stdin"), &case.stdin).map_err(cannot_write)?;
+    fs::write(folder.join("run.sh"), script(case)).map_err(cannot_write)
 }
 
 /// A script that runs the command line in the folder `work` beside it; `$DARBOUX` is the program.
@@ -200,7 +202,7 @@ fn quoted(word: &[u8]) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::soak::verdict::Finding;
+    use crate::soak::verdict::BrokenPromise;
 
     #[test]
     fn a_kept_case_runs_again() {
@@ -208,10 +210,10 @@ mod tests {
         let mut report = Report::new(Duration::ZERO, folder.path().to_owned());
         let mut case = Case::new(["it's $HOME"]).file("a.glb", "x");
         case.shell_limit = Some("ulimit -f 4");
-        let findings = vec![Finding { kind: "left behind", detail: "x".into() }];
-        let outcome = Outcome { codes: vec![Some(1)], findings, ..Outcome::default() };
+        let broken = vec![BrokenPromise { kind: "left behind", detail: "x".into() }];
+        let outcome = Outcome { codes: vec![Some(1)], broken, ..Outcome::default() };
         report.add(&case, 7, &outcome, "cargo xtask soak --case 7").expect("it is kept");
-        assert_eq!((report.findings(), report.runs(), report.is_over()), (1, 1, true));
+        assert_eq!((report.broken(), report.runs(), report.is_over()), (1, 1, true));
         let kept = folder.path().join("7-left-behind");
         assert_eq!(fs::read(kept.join("work/a.glb")).expect("a file"), b"x");
         let output =

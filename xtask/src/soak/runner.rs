@@ -14,7 +14,7 @@ use super::inputs::images::png_is_readable;
 use super::program::Program;
 use super::random::Random;
 use super::tree::{self, Tree, WORK, is_temporary};
-use super::verdict::{Finding, judge, limits, outputs};
+use super::verdict::{BrokenPromise, judge, limits, outputs};
 use super::view;
 
 /// What a case gave.
@@ -28,7 +28,7 @@ pub struct Outcome {
     pub signals: usize,
     /// How many outputs were read again.
     pub reopened: usize,
-    pub findings: Vec<Finding>,
+    pub broken: Vec<BrokenPromise>,
 }
 
 /// The processes of [`Action::Together`].
@@ -57,14 +57,7 @@ pub fn run(program: &Program, case: &Case, random: &mut Random, folder: &Path) -
         Action::View => {
             tree::make(&files, case)?;
             let command = &mut room.command();
-            view::run(
-                command,
-                &streams,
-                case.input_size(),
-                random,
-                &mut outcome.used,
-                &mut outcome.findings,
-            )?;
+            view::run(command, &streams, case.input_size(), random, &mut outcome.used, &mut outcome.broken)?;
             outcome.codes.push(Some(0));
         }
     }
@@ -94,7 +87,7 @@ impl Room<'_> {
         let ended = child::run(&mut self.command(), self.streams, &self.case.stdin, limits(self.case), None)?;
         outcome.count(&ended);
         let after = tree::read(self.files)?;
-        outcome.findings.extend(judge(self.case, &ended, &before, &after));
+        outcome.broken.extend(judge(self.case, &ended, &before, &after));
         if ended.status.success() {
             self.save_stdout(&ended.stdout)?;
         }
@@ -126,7 +119,7 @@ impl Room<'_> {
         let after = tree::read(self.files)?;
         outcome.temporaries(&after, "the next run");
         let left = left.into_iter().filter(|(path, _)| !is_temporary(path)).collect();
-        outcome.findings.extend(judge(self.case, &ended, &left, &after));
+        outcome.broken.extend(judge(self.case, &ended, &left, &after));
         self.reopen(&before, outcome)
     }
 
@@ -151,7 +144,7 @@ impl Room<'_> {
         for ended in ended {
             let ended = ended?;
             outcome.count(&ended);
-            outcome.findings.extend(judge(self.case, &ended, &before, &after));
+            outcome.broken.extend(judge(self.case, &ended, &before, &after));
         }
         self.reopen(&before, outcome)
     }
@@ -184,9 +177,10 @@ impl Room<'_> {
                 self.inspect(self.files, path)?
             };
             if let Some(problem) = problem.filter(|_| self.inputs_are_readable().unwrap_or(true)) {
-                outcome
-                    .findings
-                    .push(Finding { kind: "unreadable", detail: format!("{}: {problem}", path.display()) });
+                outcome.broken.push(BrokenPromise {
+                    kind: "unreadable",
+                    detail: format!("{}: {problem}", path.display()),
+                });
             }
         }
         Ok(())
@@ -242,8 +236,10 @@ impl Outcome {
 
     fn temporaries(&mut self, tree: &Tree, after: &str) {
         for path in tree.keys().filter(|path| is_temporary(path)) {
-            self.findings
-                .push(Finding { kind: "left behind", detail: format!("{} after {after}", path.display()) });
+            self.broken.push(BrokenPromise {
+                kind: "left behind",
+                detail: format!("{} after {after}", path.display()),
+            });
         }
     }
 }

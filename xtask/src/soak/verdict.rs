@@ -10,7 +10,7 @@ use super::tree::{Tree, WORK, is_temporary};
 
 /// A promise that was broken.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Finding {
+pub struct BrokenPromise {
     pub kind: &'static str,
     pub detail: String,
 }
@@ -44,22 +44,22 @@ pub fn limits(case: &Case) -> Limits {
     }
 }
 
-/// Everything that a run broke, by its end, its messages and its files.
-pub fn judge(case: &Case, ended: &Ended, before: &Tree, after: &Tree) -> Vec<Finding> {
-    let mut findings = Vec::new();
-    end(case, ended, &mut findings);
+/// All promises that a run broke, by its end, its messages and its files.
+pub fn judge(case: &Case, ended: &Ended, before: &Tree, after: &Tree) -> Vec<BrokenPromise> {
+    let mut broken = Vec::new();
+    end(case, ended, &mut broken);
     if ended.over.is_none() {
-        messages(case, ended, &mut findings);
-        files(case, ended.status.code(), before, after, &mut findings);
+        messages(case, ended, &mut broken);
+        files(case, ended.status.code(), before, after, &mut broken);
     }
-    findings
+    broken
 }
 
-fn add(findings: &mut Vec<Finding>, kind: &'static str, detail: impl Into<String>) {
-    findings.push(Finding { kind, detail: detail.into() });
+fn add(broken: &mut Vec<BrokenPromise>, kind: &'static str, detail: impl Into<String>) {
+    broken.push(BrokenPromise { kind, detail: detail.into() });
 }
 
-fn end(case: &Case, ended: &Ended, findings: &mut Vec<Finding>) {
+fn end(case: &Case, ended: &Ended, broken: &mut Vec<BrokenPromise>) {
     if let Some(limit) = ended.over {
         let used = ended.used;
         let detail = format!(
@@ -69,24 +69,24 @@ fn end(case: &Case, ended: &Ended, findings: &mut Vec<Finding>) {
             used.memory >> 20,
             case.input_size()
         );
-        return add(findings, limit, detail);
+        return add(broken, limit, detail);
     }
     let memory = ended.used.memory;
     if ended.status.code() == Some(1) && memory > BASE_MEMORY + REFUSED_INPUT * case.input_size() {
         let detail = format!("{} MB to refuse {} bytes of input", memory >> 20, case.input_size());
-        add(findings, "memory", detail);
+        add(broken, "memory", detail);
     }
     match (ended.status.code(), ended.status.signal()) {
-        (Some(PANIC), _) => add(findings, "panic", last_line(&ended.stderr)),
+        (Some(PANIC), _) => add(broken, "panic", last_line(&ended.stderr)),
         (Some(code), _) if !is_expected(case, code) => {
             add(
-                findings,
+                broken,
                 "exit code",
                 format!("{code} instead of {:?}: {}", case.expected.codes, last_line(&ended.stderr)),
             );
         }
         (None, signal) => {
-            add(findings, "crash", format!("signal {}: {}", signal.unwrap_or(0), last_line(&ended.stderr)))
+            add(broken, "crash", format!("signal {}: {}", signal.unwrap_or(0), last_line(&ended.stderr)))
         }
         _ => {}
     }
@@ -102,30 +102,26 @@ fn last_line(bytes: &[u8]) -> String {
     text.lines().next_back().unwrap_or_default().chars().take(300).collect()
 }
 
-fn messages(case: &Case, ended: &Ended, findings: &mut Vec<Finding>) {
+fn messages(case: &Case, ended: &Ended, broken: &mut Vec<BrokenPromise>) {
     let text = String::from_utf8_lossy(&ended.stderr);
     if text.contains("this is a defect of darboux") || text.contains("panicked at") {
-        add(findings, "panic", last_line(&ended.stderr));
+        add(broken, "panic", last_line(&ended.stderr));
     }
     let controls = |text: &str| text.chars().any(|c| c.is_control() && c != '\n');
     if controls(&text) || text.contains(is_direction_mark) {
-        add(findings, "message", format!("control characters: {:?}", last_line(&ended.stderr)));
+        add(broken, "message", format!("control characters: {:?}", last_line(&ended.stderr)));
     }
     let writes_text = !case.has("-") || case.has("-o");
     if writes_text && !is_stdout_a_model(case) && controls(&String::from_utf8_lossy(&ended.stdout)) {
-        add(findings, "message", "control characters on standard output");
+        add(broken, "message", "control characters on standard output");
     }
     if let Some(line) = text.lines().find(|line| line.chars().count() > LONGEST_LINE) {
-        add(findings, "message", format!("a line of {} characters", line.chars().count()));
+        add(broken, "message", format!("a line of {} characters", line.chars().count()));
     }
     if !text.contains(case.expected.words) {
-        add(
-            findings,
-            "message",
-            format!("does not say {}: {}", case.expected.words, last_line(&ended.stderr)),
-        );
+        add(broken, "message", format!("does not say {}: {}", case.expected.words, last_line(&ended.stderr)));
     }
-    sentences(case, ended.status.code(), &text, findings);
+    sentences(case, ended.status.code(), &text, broken);
 }
 
 fn is_direction_mark(c: char) -> bool {
@@ -139,14 +135,14 @@ fn is_stdout_a_model(case: &Case) -> bool {
 /// Subcommands that print nothing to standard error but warnings, errors, and what they did with the output.
 const SILENT: [&str; 3] = ["compare", "inspect", "render"];
 
-fn sentences(case: &Case, code: Option<i32>, text: &str, findings: &mut Vec<Finding>) {
+fn sentences(case: &Case, code: Option<i32>, text: &str, broken: &mut Vec<BrokenPromise>) {
     let errors = text.lines().filter(|line| line.starts_with("error: ")).count();
     match code {
         Some(0) if errors > 0 => {
-            add(findings, "message", format!("exit code 0 with an error: {}", last_line(text.as_bytes())))
+            add(broken, "message", format!("exit code 0 with an error: {}", last_line(text.as_bytes())))
         }
         Some(1 | 2) if errors == 0 => {
-            add(findings, "message", format!("exit code without an error: {}", last_line(text.as_bytes())));
+            add(broken, "message", format!("exit code without an error: {}", last_line(text.as_bytes())));
         }
         _ => {}
     }
@@ -159,27 +155,27 @@ fn sentences(case: &Case, code: Option<i32>, text: &str, findings: &mut Vec<Find
         && code != Some(2)
         && let Some(line) = text.lines().find(|line| !is_labelled(line))
     {
-        add(findings, "message", format!("a line that is neither a warning nor an error: {line}"));
+        add(broken, "message", format!("a line that is neither a warning nor an error: {line}"));
     }
 }
 
 /// Inputs must be as they were, and a run that failed on its only input must leave nothing.
-fn files(case: &Case, code: Option<i32>, before: &Tree, after: &Tree, findings: &mut Vec<Finding>) {
+fn files(case: &Case, code: Option<i32>, before: &Tree, after: &Tree, broken: &mut Vec<BrokenPromise>) {
     let may_replace = case.has("--in-place") && code == Some(0);
     for (path, content) in before {
         let is_outside = !path.starts_with(WORK);
         if after.get(path) != Some(content) && (is_outside || !(may_replace || may_change(case, path))) {
-            add(findings, "input touched", path.display().to_string());
+            add(broken, "input touched", path.display().to_string());
         }
     }
     for path in after.keys().filter(|path| !before.contains_key(*path)) {
         if !path.starts_with(WORK) {
-            add(findings, "written outside", path.display().to_string());
+            add(broken, "written outside", path.display().to_string());
         } else if is_temporary(path) {
-            add(findings, "left behind", path.display().to_string());
+            add(broken, "left behind", path.display().to_string());
         } else if code != Some(0) && code != Some(3) && !has_several_inputs(before) && !may_change(case, path)
         {
-            add(findings, "left behind", format!("{} after exit code {code:?}", path.display()));
+            add(broken, "left behind", format!("{} after exit code {code:?}", path.display()));
         }
     }
 }
@@ -224,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn a_good_run_has_no_findings() {
+    fn a_good_run_breaks_no_promise() {
         let case = Case::new(["tangents", "a.glb"]);
         let after = tree(&[("work/a.glb", 1), ("work/a.tangents.glb", 2)]);
         assert!(kinds(&case, &ended(0, "a.glb -> a.tangents.glb\n"), &after).is_empty());

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use super::child::{Used, measure};
 use super::random::Random;
-use super::verdict::Finding;
+use super::verdict::BrokenPromise;
 
 /// The hostile connections that are open when the page is asked for.
 const CONNECTIONS: usize = 200;
@@ -28,16 +28,16 @@ pub fn run(
     input_size: u64,
     random: &mut Random,
     used: &mut Used,
-    findings: &mut Vec<Finding>,
+    broken: &mut Vec<BrokenPromise>,
 ) -> io::Result<()> {
     let stdout = streams.join("stdout");
     command.stdin(Stdio::null()).stdout(File::create(&stdout)?).stderr(File::create(streams.join("stderr"))?);
     let mut server = command.spawn()?;
     let address = wait_for_address(&mut server, &stdout)?;
     if let Some((host, path)) = address.as_deref().and_then(parts) {
-        attack(&mut server, host, path, random, used, findings)?;
+        attack(&mut server, host, path, random, used, broken)?;
         if used.memory > MEMORY + 4 * input_size {
-            findings.push(Finding {
+            broken.push(BrokenPromise {
                 kind: "memory",
                 detail: format!("the server took {} MB", used.memory >> 20),
             });
@@ -46,7 +46,7 @@ pub fn run(
     let _may_have_ended = server.kill();
     let status = server.wait()?;
     if address.is_none() && status.code() != Some(1) {
-        findings.push(Finding { kind: "server", detail: format!("printed no address ({status})") });
+        broken.push(BrokenPromise { kind: "server", detail: format!("printed no address ({status})") });
     }
     Ok(())
 }
@@ -80,9 +80,9 @@ fn attack(
     path: &str,
     random: &mut Random,
     used: &mut Used,
-    findings: &mut Vec<Finding>,
+    broken: &mut Vec<BrokenPromise>,
 ) -> io::Result<()> {
-    let mut fault = |detail: String| findings.push(Finding { kind: "server", detail });
+    let mut add = |detail: String| broken.push(BrokenPromise { kind: "server", detail });
     let mut connections = Vec::new();
     for _ in 0..CONNECTIONS {
         // A server that has ended refuses connections, which the request for the page reports.
@@ -95,16 +95,16 @@ fn attack(
     for file in ["", "model", "model/0"] {
         match get(host, &format!("{path}{file}")) {
             Ok(200) => {}
-            Ok(status) => fault(format!("/{file} gave status {status}")),
-            Err(error) => fault(format!("/{file} did not arrive: {error}")),
+            Ok(status) => add(format!("/{file} gave status {status}")),
+            Err(error) => add(format!("/{file} did not arrive: {error}")),
         }
     }
     used.wall = start.elapsed();
     if start.elapsed() > PAGE_TIME {
-        fault(format!("the page took {:.1} s", start.elapsed().as_secs_f32()));
+        add(format!("the page took {:.1} s", start.elapsed().as_secs_f32()));
     }
     if let Some(status) = server.try_wait()? {
-        fault(format!("the server ended ({status})"));
+        add(format!("the server ended ({status})"));
     }
     measure(server.id(), used);
     Ok(())

@@ -125,7 +125,7 @@ fn channels_swapped(map: &Map) -> Option<Finding> {
             Code::MapChannelsSwapped,
             "its derivatives are those of a map with red and green exchanged",
         )
-        .with_evidence("order of the channels", judgement.channel_order.into(), "")
+        .with_evidence("half the log of unmixed over mixed energy", judgement.log_energy_ratio.into(), "")
         .with_evidence("z score", judgement.z_score.into(), "")
     })
 }

@@ -8,7 +8,7 @@ use super::elements::Elements;
 use super::schema::{Accessor, Sparse};
 use super::stored_elements::{self, IndexList, StoredElements};
 use crate::Error;
-use crate::error::Fault;
+use crate::error::ContentError;
 
 /// An accessor without a buffer view may have this many elements even if no accessor with one has as many.
 const MAX_ZEROS: usize = 1 << 16;
@@ -19,65 +19,65 @@ impl Document {
     ///
     /// Errors: the accessor does not have `N` components; its bytes are outside the buffer.
     pub fn vectors<const N: usize>(&self, accessor: usize) -> Result<Cow<'_, [[f32; N]]>, Error> {
-        self.find_vectors(accessor).map_err(|fault| fault.in_file(self.name()))
+        self.find_vectors(accessor).map_err(|error| error.in_file(self.name()))
     }
 
     /// The values of an accessor of unsigned integers, borrowed from the file if its layout permits.
     ///
     /// Errors: the accessor has another type; its bytes are outside the buffer.
     pub fn indices(&self, accessor: usize) -> Result<IndexList<'_>, Error> {
-        self.find_indices(accessor).map_err(|fault| fault.in_file(self.name()))
+        self.find_indices(accessor).map_err(|error| error.in_file(self.name()))
     }
 
     /// The elements of an accessor as bytes. Errors: its bytes are outside the buffer.
     pub fn elements(&self, accessor: usize) -> Result<Elements, Error> {
-        self.find_elements(accessor).map_err(|fault| fault.in_file(self.name()))
+        self.find_elements(accessor).map_err(|error| error.in_file(self.name()))
     }
 
-    fn find_vectors<const N: usize>(&self, index: usize) -> Result<Cow<'_, [[f32; N]]>, Fault> {
+    fn find_vectors<const N: usize>(&self, index: usize) -> Result<Cow<'_, [[f32; N]]>, ContentError> {
         let accessor = self.accessor(index)?;
         let kind = accessor.element_type;
         if kind.components() != N || kind == ElementType::Mat2 {
             let problem = format!("is {}; it must have {N} components here", kind.name());
-            return Err(Fault::invalid(format!("accessors[{index}].type"), problem));
+            return Err(ContentError::invalid(format!("accessors[{index}].type"), problem));
         }
         let stored = self.stored(index)?;
         Ok(stored_elements::vectors(stored, accessor.component_type, accessor.normalized))
     }
 
-    fn find_indices(&self, index: usize) -> Result<IndexList<'_>, Fault> {
+    fn find_indices(&self, index: usize) -> Result<IndexList<'_>, ContentError> {
         let accessor = self.accessor(index)?;
         let at = |member| format!("accessors[{index}].{member}");
         if accessor.element_type != ElementType::Scalar {
             let problem =
                 format!("is {}; indices must be SCALAR; export the file again", accessor.element_type.name());
-            return Err(Fault::invalid(at("type"), problem));
+            return Err(ContentError::invalid(at("type"), problem));
         }
         IndexList::new(self.stored(index)?, accessor.component_type).ok_or_else(|| {
-            Fault::invalid(
+            ContentError::invalid(
                 at("componentType"),
                 "is signed or float; indices must be unsigned: export the file again",
             )
         })
     }
 
-    fn accessor(&self, index: usize) -> Result<&Accessor, Fault> {
+    fn accessor(&self, index: usize) -> Result<&Accessor, ContentError> {
         let accessors = self.accessors();
         accessors.get(index).ok_or_else(|| {
             let problem =
                 format!("does not exist: there are {} accessors; export the file again", accessors.len());
-            Fault::invalid(format!("accessors[{index}]"), problem)
+            ContentError::invalid(format!("accessors[{index}]"), problem)
         })
     }
 
-    pub(super) fn find_elements(&self, index: usize) -> Result<Elements, Fault> {
+    pub(super) fn find_elements(&self, index: usize) -> Result<Elements, ContentError> {
         let Accessor { component_type, element_type, count, normalized, .. } = *self.accessor(index)?;
         let bytes = self.stored(index)?.packed().into_owned();
         Ok(Elements { bytes, count, component_type, element_type, normalized })
     }
 
     /// The elements of an accessor in the file, or a copy with sparse elements in place.
-    fn stored(&self, index: usize) -> Result<StoredElements<'_>, Fault> {
+    fn stored(&self, index: usize) -> Result<StoredElements<'_>, ContentError> {
         let accessor = self.accessor(index)?;
         let Accessor { component_type, element_type, count, .. } = *accessor;
         let size = element_type.size(component_type);
@@ -97,7 +97,7 @@ impl Document {
             None => {
                 let problem =
                     format!("{count} elements are too many without a buffer view; export the file again");
-                return Err(Fault::invalid(format!("{at}.count"), problem));
+                return Err(ContentError::invalid(format!("{at}.count"), problem));
             }
         };
         let Some(sparse) = &accessor.sparse else { return Ok(stored) };
@@ -113,10 +113,10 @@ impl Document {
         count: usize,
         size: usize,
         at: &str,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), ContentError> {
         if sparse.count > count {
             let problem = format!("{} is more than the accessor's count of {count}", sparse.count);
-            return Err(Fault::invalid(format!("{at}.count"), problem));
+            return Err(ContentError::invalid(format!("{at}.count"), problem));
         }
         let places = self.sparse_indices(sparse, at)?;
         let at_values = format!("{at}.values");
@@ -131,7 +131,7 @@ impl Document {
                 let problem = format!(
                     "index {place} at place {i} is not greater than the one before, or not below {count}; export the file again"
                 );
-                return Err(Fault::invalid(format!("{at}.indices"), problem));
+                return Err(ContentError::invalid(format!("{at}.indices"), problem));
             }
             bytes[place * size..(place + 1) * size].copy_from_slice(value);
             next = place + 1;
@@ -139,14 +139,14 @@ impl Document {
         Ok(())
     }
 
-    fn sparse_indices(&self, sparse: &Sparse, at: &str) -> Result<IndexList<'_>, Fault> {
+    fn sparse_indices(&self, sparse: &Sparse, at: &str) -> Result<IndexList<'_>, ContentError> {
         let at = format!("{at}.indices");
         let indices = &sparse.indices;
         let (bytes, _) = self.view(indices.buffer_view, &format!("{at}.bufferView"))?;
         let size = indices.component_type.size();
         let layout = ElementLayout { offset: indices.byte_offset, count: sparse.count, size, stride: None };
         IndexList::new(elements_in_view(bytes, layout, &at)?, indices.component_type).ok_or_else(|| {
-            Fault::invalid(
+            ContentError::invalid(
                 format!("{at}.componentType"),
                 "is signed or float; indices must be unsigned: export the file again",
             )
@@ -155,13 +155,13 @@ impl Document {
 
     /// Checks by the sizes in the JSON that every buffer view lies in its buffer, the elements of every accessor in its buffer view, and that
     /// every attribute of a primitive has one element per position.
-    pub(super) fn check_sizes(&self) -> Result<(), Fault> {
+    pub(super) fn check_sizes(&self) -> Result<(), ContentError> {
         self.check_views()?;
         self.check_accessors()?;
         self.check_attributes()
     }
 
-    fn check_views(&self) -> Result<(), Fault> {
+    fn check_views(&self) -> Result<(), ContentError> {
         for (i, view) in self.root.buffer_views.iter().enumerate() {
             let Some(buffer) = self.root.buffers.get(view.buffer) else { continue };
             let (offset, length) = (view.byte_offset, view.byte_length);
@@ -172,7 +172,7 @@ impl Document {
         Ok(())
     }
 
-    fn check_accessors(&self) -> Result<(), Fault> {
+    fn check_accessors(&self) -> Result<(), ContentError> {
         for (i, accessor) in self.accessors().iter().enumerate() {
             let view = accessor.buffer_view.and_then(|view| self.root.buffer_views.get(view));
             if let Some(view) = view {
@@ -185,7 +185,7 @@ impl Document {
         Ok(())
     }
 
-    fn check_attributes(&self) -> Result<(), Fault> {
+    fn check_attributes(&self) -> Result<(), ContentError> {
         let count = |accessor: usize| self.accessors().get(accessor).map(|accessor| accessor.count);
         for (mesh, primitives) in self.meshes().iter().enumerate() {
             for (place, primitive) in primitives.primitives.iter().enumerate() {
@@ -199,7 +199,7 @@ impl Document {
                         let problem = format!(
                             "has {found} elements but there are {vertices} positions; export the file again"
                         );
-                        return Err(Fault::invalid(at, problem));
+                        return Err(ContentError::invalid(at, problem));
                     }
                 }
             }
@@ -248,24 +248,24 @@ fn elements_in_view<'a>(
     view: &'a [u8],
     layout: ElementLayout,
     at: &str,
-) -> Result<StoredElements<'a>, Fault> {
+) -> Result<StoredElements<'a>, ContentError> {
     let end = end_in_view(view.len(), &layout, at)?;
     let ElementLayout { offset, size, stride, .. } = layout;
     Ok(StoredElements { bytes: view[offset.min(end)..end].into(), size, stride: stride.unwrap_or(size) })
 }
 
 /// The offset after the last element. Errors: the elements overlap, or do not fit a view of `view_length` bytes.
-fn end_in_view(view_length: usize, layout: &ElementLayout, at: &str) -> Result<usize, Fault> {
+fn end_in_view(view_length: usize, layout: &ElementLayout, at: &str) -> Result<usize, ContentError> {
     let ElementLayout { offset, count, size, stride } = *layout;
     if let Some(stride) = stride.filter(|&stride| stride < size) {
         let problem =
             format!("its buffer view's byteStride of {stride} is less than an element's {size} bytes");
-        return Err(Fault::invalid(at, format!("{problem}; export the file again")));
+        return Err(ContentError::invalid(at, format!("{problem}; export the file again")));
     }
     layout.end().filter(|&end| end <= view_length).ok_or_else(|| {
         let problem = format!(
             "{count} elements of {size} bytes from byte {offset} on do not fit its buffer view of {view_length} bytes"
         );
-        Fault::invalid(at, format!("{problem}; export the file again"))
+        ContentError::invalid(at, format!("{problem}; export the file again"))
     })
 }

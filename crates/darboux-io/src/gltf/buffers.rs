@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::resources::{ResourceFile, Resources, UriTarget, decode_data_uri};
 use super::schema;
-use crate::error::Fault;
+use crate::error::ContentError;
 
 /// The source of a buffer's bytes.
 #[derive(Debug)]
@@ -30,7 +30,7 @@ pub fn load_buffer(
     buffer: &schema::Buffer,
     chunk: Option<&[u8]>,
     resources: &mut Resources,
-) -> Result<BufferSource, Fault> {
+) -> Result<BufferSource, ContentError> {
     let at = || format!("buffers[{index}].uri");
     let store = match buffer.uri.as_deref().map(|uri| resources.resolve(uri)) {
         None if index == 0 && chunk.is_some() => BufferSource::Chunk,
@@ -39,15 +39,15 @@ pub fn load_buffer(
             return Ok(BufferSource::Absent("is on another machine; download it and refer to the file"));
         }
         Some(Ok(UriTarget::Data(data))) => {
-            BufferSource::Data(decode_data_uri(data).map_err(|problem| Fault::invalid(at(), problem))?)
+            BufferSource::Data(decode_data_uri(data).map_err(|problem| ContentError::invalid(at(), problem))?)
         }
         Some(Ok(UriTarget::File(located))) => {
             let file = resources.open(&located);
             BufferSource::File(
-                file.map_err(|error| Fault::resource(at(), format!("cannot be read: {error}")))?,
+                file.map_err(|error| ContentError::resource(at(), format!("cannot be read: {error}")))?,
             )
         }
-        Some(Err(problem)) => return Err(Fault::resource(at(), problem)),
+        Some(Err(problem)) => return Err(ContentError::resource(at(), problem)),
     };
     let available = match &store {
         BufferSource::File(file) => file.bytes.len(),
@@ -57,7 +57,7 @@ pub fn load_buffer(
     if buffer.byte_length > available {
         let problem =
             format!("is {} but there are {available} bytes; export the file again", buffer.byte_length);
-        return Err(Fault::invalid(format!("buffers[{index}].byteLength"), problem));
+        return Err(ContentError::invalid(format!("buffers[{index}].byteLength"), problem));
     }
     Ok(store)
 }

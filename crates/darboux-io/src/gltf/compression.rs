@@ -17,7 +17,7 @@ use super::element_type::ComponentType;
 use super::json_text::{member, set_member};
 use super::schema::Accessor;
 use crate::Error;
-use crate::error::Fault;
+use crate::error::ContentError;
 use crate::memory_limit::Budget;
 
 impl Document {
@@ -36,13 +36,13 @@ impl Document {
         if self.is_compressed() {
             let limit = self.memory_limit();
             let mut budget = DecodeBudget { left: limit.bytes, limit };
-            self.decode_all(&mut budget).map_err(|fault| fault.in_file(self.name()))?;
+            self.decode_all(&mut budget).map_err(|error| error.in_file(self.name()))?;
             self.backed_count.take();
         }
         Ok(())
     }
 
-    fn decode_all(&mut self, budget: &mut DecodeBudget) -> Result<(), Fault> {
+    fn decode_all(&mut self, budget: &mut DecodeBudget) -> Result<(), ContentError> {
         let views = self.decode_meshopt(budget)?;
         let mut accessors = self.decode_draco(budget)?;
         for (i, accessor) in self.root.accessors.iter().enumerate() {
@@ -58,8 +58,8 @@ impl Document {
         &mut self,
         accessors: &BTreeSet<usize>,
         budget: &mut DecodeBudget,
-    ) -> Result<(), Fault> {
-        let broken = |error: serde_json::Error| Fault::invalid("accessors", error.to_string());
+    ) -> Result<(), ContentError> {
+        let broken = |error: serde_json::Error| ContentError::invalid("accessors", error.to_string());
         let array = member(self.text(), "accessors").map_err(broken)?.unwrap_or("[]");
         let texts: Vec<&RawValue> = serde_json::from_str(array).map_err(broken)?;
         let mut edited = Vec::new();
@@ -113,11 +113,11 @@ struct DecodeBudget {
 
 impl DecodeBudget {
     /// Subtracts bytes before they are decoded. Errors: too few are left.
-    fn spend(&mut self, bytes: usize, at: &str) -> Result<(), Fault> {
+    fn spend(&mut self, bytes: usize, at: &str) -> Result<(), ContentError> {
         self.left = self
             .left
             .checked_sub(bytes)
-            .ok_or_else(|| Fault::unsupported(at, self.limit.exceeded("the file decompresses to")))?;
+            .ok_or_else(|| ContentError::unsupported(at, self.limit.exceeded("the file decompresses to")))?;
         Ok(())
     }
 }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::segments::{self, Segment};
-use crate::error::Fault;
+use crate::error::ContentError;
 
 const MAGIC: &[u8] = b"glTF";
 const JSON: u32 = 0x4E4F_534A;
@@ -30,7 +30,7 @@ impl Container {
     }
 
     /// Finds the parts of a file. Its first bytes decide between the containers.
-    pub fn parse(file: &[u8]) -> Result<Self, Fault> {
+    pub fn parse(file: &[u8]) -> Result<Self, ContentError> {
         if file.starts_with(MAGIC) {
             return parse_glb(file);
         }
@@ -45,18 +45,19 @@ impl Container {
 
 const NEITHER: &str = "is neither glTF nor GLB";
 
-fn unknown_format(what: &str) -> Fault {
-    Fault::invalid("", format!("{what}; give a .gltf or .glb file of glTF 2.0"))
+fn unknown_format(what: &str) -> ContentError {
+    ContentError::invalid("", format!("{what}; give a .gltf or .glb file of glTF 2.0"))
 }
 
-fn parse_glb(file: &[u8]) -> Result<Container, Fault> {
-    let broken = |problem: String| Fault::invalid("", format!("{problem}; export or download it again"));
+fn parse_glb(file: &[u8]) -> Result<Container, ContentError> {
+    let broken =
+        |problem: String| ContentError::invalid("", format!("{problem}; export or download it again"));
     let (Some(version), Some(length)) = (word(file, 4), word(file, 8)) else {
         return Err(broken("is cut off within the GLB header".into()));
     };
     match version {
         2 => {}
-        1 => return Err(Fault::invalid("", "is a GLB of version 1; convert it to glTF 2.0")),
+        1 => return Err(ContentError::invalid("", "is a GLB of version 1; convert it to glTF 2.0")),
         _ => return Err(unknown_format(NEITHER)),
     }
     if length as usize != file.len() {
@@ -105,14 +106,14 @@ pub fn glb<'a>(
     json: String,
     bin: Option<Vec<Segment<'a>>>,
     other_chunks: Vec<(u32, &'a [u8])>,
-) -> Result<Vec<Segment<'a>>, Fault> {
+) -> Result<Vec<Segment<'a>>, ContentError> {
     let mut chunks = vec![(JSON, vec![Segment::Owned(json.into_bytes())], b' ')];
     chunks.extend(bin.map(|segments| (BIN, segments, 0)));
     chunks.extend(other_chunks.into_iter().map(|(kind, chunk)| (kind, vec![Segment::Borrowed(chunk)], 0)));
     let padded = |segments: &[Segment<'_>]| segments::length(segments).next_multiple_of(4);
     let length = 12 + chunks.iter().map(|(_, segments, _)| 8 + padded(segments)).sum::<usize>();
     let too_large =
-        || Fault::unsupported("", format!("{length} bytes are too many for a GLB; write a .gltf"));
+        || ContentError::unsupported("", format!("{length} bytes are too many for a GLB; write a .gltf"));
     let total = u32::try_from(length).map_err(|_| too_large())?;
 
     let mut out = vec![Segment::Owned([MAGIC, &2u32.to_le_bytes(), &total.to_le_bytes()].concat())];

@@ -13,7 +13,7 @@ use super::file_bytes::FileBytes;
 use super::parse;
 use super::resources::Resources;
 use super::schema::{self, Root};
-use crate::error::Fault;
+use crate::error::ContentError;
 use crate::memory_limit::Budget;
 use crate::{Error, LoadOptions};
 
@@ -100,19 +100,19 @@ impl Document {
     }
 
     /// The JSON text as it was read, parsed as another type.
-    pub(super) fn parsed<T: DeserializeOwned>(&self) -> Result<T, Fault> {
+    pub(super) fn parsed<T: DeserializeOwned>(&self) -> Result<T, ContentError> {
         parse::parse(&self.text)
     }
 
     /// The bytes of a buffer view, and its stride. `at` is the JSON path that refers to it.
-    pub(super) fn view(&self, index: usize, at: &str) -> Result<(&[u8], Option<usize>), Fault> {
+    pub(super) fn view(&self, index: usize, at: &str) -> Result<(&[u8], Option<usize>), ContentError> {
         let views = &self.root.buffer_views;
         if let Some(new) = index.checked_sub(views.len()).and_then(|new| self.edits.new_views.get(new)) {
             return Ok((&new.bytes, new.stride));
         }
         let view = views.get(index).ok_or_else(|| {
             let problem = format!("buffer view {index} does not exist: there are {}", views.len());
-            Fault::invalid(at, format!("{problem}; export the file again"))
+            ContentError::invalid(at, format!("{problem}; export the file again"))
         })?;
         let at = format!("bufferViews[{index}]");
         let bytes = self.buffer_range(view.buffer, view.byte_offset, view.byte_length, &at)?;
@@ -126,24 +126,26 @@ impl Document {
         offset: usize,
         length: usize,
         at: &str,
-    ) -> Result<&[u8], Fault> {
+    ) -> Result<&[u8], ContentError> {
         let bytes = self.buffer(buffer, &format!("{at}.buffer"))?;
         let range = offset.checked_add(length).and_then(|end| bytes.get(offset..end));
         range.ok_or_else(|| outside_buffer(offset, length, bytes.len(), at))
     }
 
     /// The bytes of a buffer. `at` is the JSON path that refers to it.
-    pub(super) fn buffer(&self, index: usize, at: &str) -> Result<&[u8], Fault> {
+    pub(super) fn buffer(&self, index: usize, at: &str) -> Result<&[u8], ContentError> {
         let (Some(buffer), Some(store)) = (self.root.buffers.get(index), self.buffer_sources.get(index))
         else {
             let problem = format!("buffer {index} does not exist: there are {}", self.root.buffers.len());
-            return Err(Fault::invalid(at, format!("{problem}; export the file again")));
+            return Err(ContentError::invalid(at, format!("{problem}; export the file again")));
         };
         let bytes = match store {
             BufferSource::Chunk => &self.file[self.container.bin.clone().unwrap_or_default()],
             BufferSource::File(file) => &file.bytes,
             BufferSource::Data(bytes) | BufferSource::Decoded(bytes) => bytes,
-            BufferSource::Absent(why) => return Err(Fault::resource(format!("buffers[{index}]"), *why)),
+            BufferSource::Absent(why) => {
+                return Err(ContentError::resource(format!("buffers[{index}]"), *why));
+            }
         };
         // A source may be longer than its buffer: the GLB's chunk is padded.
         Ok(&bytes[..buffer.byte_length.min(bytes.len())])
@@ -151,7 +153,7 @@ impl Document {
 
     /// The error [`Error::Invalid`] about the JSON path `at`.
     pub(crate) fn invalid(&self, at: impl Into<String>, problem: impl Into<String>) -> Error {
-        Fault::invalid(at, problem).in_file(&self.name)
+        ContentError::invalid(at, problem).in_file(&self.name)
     }
 
     /// The error [`Error::Mesh`] about the primitive at the JSON path `at`.
@@ -161,8 +163,8 @@ impl Document {
 }
 
 /// The error about a range that does not fit its buffer. `at` is the JSON path of the range.
-pub(super) fn outside_buffer(offset: usize, length: usize, buffer_length: usize, at: &str) -> Fault {
+pub(super) fn outside_buffer(offset: usize, length: usize, buffer_length: usize, at: &str) -> ContentError {
     let problem =
         format!("{length} bytes from byte {offset} on do not fit the buffer of {buffer_length} bytes");
-    Fault::invalid(at, format!("{problem}; export the file again"))
+    ContentError::invalid(at, format!("{problem}; export the file again"))
 }

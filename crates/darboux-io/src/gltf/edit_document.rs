@@ -19,10 +19,10 @@ impl Document {
     ///
     /// Panics if `new.elements.bytes` does not have the length of `count` elements.
     pub fn push_accessor(&mut self, new: NewAccessor) -> usize {
-        let like = new.like.and_then(|index| self.root.accessors.get(index)).cloned();
+        let source = new.metadata_of.and_then(|index| self.root.accessors.get(index)).cloned();
         let bounds = new.bounds.then(|| new.elements.bounds()).flatten();
         let stored = self.store(new);
-        self.edits.new_accessors.push(stored.to_json(bounds, like.as_ref()));
+        self.edits.new_accessors.push(stored.to_json(bounds, source.as_ref()));
         if let Some(backed) = self.backed_count.get_mut() {
             *backed = (*backed).max(stored.count);
         }

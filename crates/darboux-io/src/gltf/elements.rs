@@ -87,13 +87,13 @@ pub struct NewAccessor {
     /// Permits a sparse accessor, if that takes fewer bytes.
     pub sparse: bool,
     /// The accessor whose name, extras and extensions are copied.
-    pub like: Option<usize>,
+    pub metadata_of: Option<usize>,
 }
 
 impl NewAccessor {
     /// An accessor of these elements, without `min` and `max`, not sparse and without a name.
     pub const fn new(elements: Elements, target: Target) -> Self {
-        Self { elements, target, bounds: false, sparse: false, like: None }
+        Self { elements, target, bounds: false, sparse: false, metadata_of: None }
     }
 
     /// This accessor with `min` and `max`, or without.
@@ -110,8 +110,8 @@ impl NewAccessor {
 
     /// This accessor with the name, extras and extensions of an existing accessor.
     #[must_use]
-    pub fn with_like(self, like: Option<usize>) -> Self {
-        Self { like, ..self }
+    pub fn with_metadata_of(self, accessor: Option<usize>) -> Self {
+        Self { metadata_of: accessor, ..self }
     }
 }
 
@@ -146,8 +146,8 @@ impl Target {
 }
 
 impl Accessor {
-    /// The JSON of a new accessor, with the name, extras and extensions of `like`.
-    pub(super) fn to_json(&self, bounds: Option<Bounds>, like: Option<&Accessor>) -> String {
+    /// The JSON of a new accessor, with the name, extras and extensions of `metadata_of`.
+    pub(super) fn to_json(&self, bounds: Option<Bounds>, metadata_of: Option<&Accessor>) -> String {
         let mut text = "{".to_owned();
         if let Some(view) = self.buffer_view {
             let _ = write!(text, "\"bufferView\":{view},");
@@ -169,7 +169,7 @@ impl Accessor {
             let _ =
                 write!(text, ",\"sparse\":{{\"count\":{count},\"indices\":{indices},\"values\":{values}}}");
         }
-        for (key, value) in like.map(Accessor::descriptions).into_iter().flatten() {
+        for (key, value) in metadata_of.map(Accessor::descriptions).into_iter().flatten() {
             let _ = write!(text, ",{}:{value}", json_text::quoted(key));
         }
         text.push('}');

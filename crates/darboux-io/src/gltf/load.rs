@@ -12,7 +12,7 @@ use super::parse::parse_root;
 use super::references;
 use super::resources::Resources;
 use super::schema::Root;
-use crate::error::Fault;
+use crate::error::ContentError;
 use crate::memory_limit;
 use crate::{Error, LoadOptions, paths};
 
@@ -69,7 +69,7 @@ impl Document {
     ) -> Result<Self, Error> {
         let resources = Resources::new(base, *options, access)
             .map_err(|source| Error::Read { file: base.unwrap_or(Path::new("")).to_owned(), source })?;
-        Self::parse(name, file, resources, *options).map_err(|fault| fault.in_file(name))
+        Self::parse(name, file, resources, *options).map_err(|error| error.in_file(name))
     }
 
     fn parse(
@@ -77,10 +77,10 @@ impl Document {
         mut file: FileBytes,
         mut resources: Resources,
         options: LoadOptions,
-    ) -> Result<Self, Fault> {
+    ) -> Result<Self, ContentError> {
         let container = Container::parse(&file)?;
         let text = String::from_utf8(file[container.json.clone()].to_vec()).map_err(|error| {
-            Fault::invalid("", format!("the JSON is not UTF-8: {error}; export the file again"))
+            ContentError::invalid("", format!("the JSON is not UTF-8: {error}; export the file again"))
         })?;
         if !container.is_glb {
             file = FileBytes::Read(Vec::new());
@@ -117,13 +117,13 @@ impl Document {
     }
 
     /// Checks that the primitives do not need more memory than the limit.
-    fn check_primitive_count(&self) -> Result<(), Fault> {
+    fn check_primitive_count(&self) -> Result<(), ContentError> {
         let count: usize = self.root.meshes.iter().map(|mesh| mesh.primitives.len()).sum();
         let limit = self.memory_limit();
         if count.saturating_mul(memory_limit::BYTES_PER_PRIMITIVE) <= limit.bytes {
             return Ok(());
         }
-        Err(Fault::unsupported(
+        Err(ContentError::unsupported(
             "meshes",
             limit.exceeded(&format!(
                 "has {count} primitive{}, which need{}",

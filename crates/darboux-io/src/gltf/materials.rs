@@ -9,7 +9,7 @@ use super::objects_only::read_from_objects;
 use super::resources::{UriTarget, decode_data_uri};
 use super::schema::{Image, TextureInfoExtensions};
 use super::tangents::uv::{UvChoice, UvTransform};
-use crate::error::Fault;
+use crate::error::ContentError;
 use crate::{Error, paths};
 
 /// The appearance of a material: the parts that a simple renderer needs.
@@ -185,12 +185,12 @@ fn one() -> f32 {
 impl Document {
     /// The appearance of every material. Errors: textures, samplers or images that do not exist.
     pub fn appearances(&self) -> Result<Vec<Appearance>, Error> {
-        let appearances = || -> Result<Vec<Appearance>, Fault> {
+        let appearances = || -> Result<Vec<Appearance>, ContentError> {
             let all: StoredMaterials = self.parsed()?;
             let appearance = |(index, material)| self.appearance(&all, index, material);
             all.materials.iter().enumerate().map(appearance).collect()
         };
-        appearances().map_err(|fault| fault.in_file(self.name()))
+        appearances().map_err(|error| error.in_file(self.name()))
     }
 
     fn appearance(
@@ -198,7 +198,7 @@ impl Document {
         all: &StoredMaterials,
         index: usize,
         material: &StoredMaterial,
-    ) -> Result<Appearance, Fault> {
+    ) -> Result<Appearance, ContentError> {
         let at = format!("materials[{index}]");
         let texture = |used: &Option<StoredTextureUse>, member: &str| {
             used.as_ref().map(|used| self.texture_use(all, used, &format!("{at}.{member}"))).transpose()
@@ -224,9 +224,9 @@ impl Document {
         all: &StoredMaterials,
         used: &StoredTextureUse,
         at: &str,
-    ) -> Result<TextureUse, Fault> {
+    ) -> Result<TextureUse, ContentError> {
         let missing = |what: &str, index: usize| {
-            Fault::invalid(at, format!("{what} {index} does not exist; export the file again"))
+            ContentError::invalid(at, format!("{what} {index} does not exist; export the file again"))
         };
         let texture = all.textures.get(used.index).ok_or_else(|| missing("texture", used.index))?;
         let none = Sampler::default();
@@ -250,30 +250,30 @@ impl Document {
 
     /// The content of an image file of any format. Errors: the image has no content, or its file may not be read.
     pub fn image_bytes(&self, index: usize) -> Result<Cow<'_, [u8]>, Error> {
-        self.find_image(index).map_err(|fault| fault.in_file(self.name()))
+        self.find_image(index).map_err(|error| error.in_file(self.name()))
     }
 
-    fn find_image(&self, index: usize) -> Result<Cow<'_, [u8]>, Fault> {
+    fn find_image(&self, index: usize) -> Result<Cow<'_, [u8]>, ContentError> {
         let at = format!("images[{index}]");
         let (uri, at) = match self.root.images.get(index) {
             Some(&Image { buffer_view: Some(view), .. }) => {
                 return Ok(self.view(view, &at)?.0.into());
             }
             Some(Image { uri: Some(uri), .. }) => (uri, format!("{at}.uri")),
-            Some(_) => return Err(Fault::invalid(at, "has no content; export the file again")),
-            None => return Err(Fault::invalid(at, "does not exist; export the file again")),
+            Some(_) => return Err(ContentError::invalid(at, "has no content; export the file again")),
+            None => return Err(ContentError::invalid(at, "does not exist; export the file again")),
         };
         match self.resources.resolve(uri) {
             Ok(UriTarget::Data(data)) => {
-                decode_data_uri(data).map(Cow::Owned).map_err(|problem| Fault::invalid(at, problem))
+                decode_data_uri(data).map(Cow::Owned).map_err(|problem| ContentError::invalid(at, problem))
             }
             Ok(UriTarget::Remote) => {
-                Err(Fault::resource(at, "is on another machine; download it and refer to the file"))
+                Err(ContentError::resource(at, "is on another machine; download it and refer to the file"))
             }
             Ok(UriTarget::File(located)) => paths::read_resolved(&located.path)
                 .map(Cow::Owned)
-                .map_err(|error| Fault::resource(at, format!("cannot be read: {error}"))),
-            Err(problem) => Err(Fault::resource(at, problem)),
+                .map_err(|error| ContentError::resource(at, format!("cannot be read: {error}"))),
+            Err(problem) => Err(ContentError::resource(at, problem)),
         }
     }
 }

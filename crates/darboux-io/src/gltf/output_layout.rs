@@ -17,7 +17,7 @@ use super::resources::{UriTarget, encode_data_uri, image_type};
 use super::schema::Buffer;
 use super::segments::Segment;
 use super::unused_data::UnusedData;
-use crate::error::Fault;
+use crate::error::ContentError;
 
 /// The segments of a binary chunk, or of a new file.
 #[derive(Debug, Default)]
@@ -107,7 +107,7 @@ impl<'a> OutputLayout<'a> {
     ///
     /// Buffers after the first that have extras or extensions become `data:` URIs, so that these are kept. Buffers without bytes keep
     /// their JSON and follow the binary chunk.
-    pub fn glb(document: &'a Document) -> Result<Self, Fault> {
+    pub fn glb(document: &'a Document) -> Result<Self, ContentError> {
         let mut layout = Self::empty(document)?;
         let texts = document.buffer_texts().map_err(broken)?;
         let mut binary = BinaryOutput::default();
@@ -153,7 +153,7 @@ impl<'a> OutputLayout<'a> {
 
     /// The layout of a `.gltf`. Buffers keep their files; those that were in memory only, or in files that an earlier run made, get new
     /// files. New bytes are appended to the first of these.
-    pub fn gltf(document: &'a Document) -> Result<Self, Fault> {
+    pub fn gltf(document: &'a Document) -> Result<Self, ContentError> {
         let mut layout = Self::empty(document)?;
         for (i, store) in
             document.buffer_sources.iter().enumerate().filter(|(i, _)| !layout.unused_data.has_buffer(*i))
@@ -190,7 +190,7 @@ impl<'a> OutputLayout<'a> {
         Ok(layout)
     }
 
-    fn empty(document: &'a Document) -> Result<Self, Fault> {
+    fn empty(document: &'a Document) -> Result<Self, ContentError> {
         let unused_data = UnusedData::of(document).map_err(broken)?;
         let places = vec![BufferPlace { output_buffer: 0, offset: 0 }; document.root.buffers.len()];
         let (binaries, output_buffers, new_views, images) = Default::default();
@@ -214,7 +214,7 @@ impl<'a> OutputLayout<'a> {
     }
 
     /// Embeds image files. References to images that are missing, remote or of unknown type are kept.
-    fn push_images(&mut self, binary: &mut BinaryOutput<'a>) -> Result<(), Fault> {
+    fn push_images(&mut self, binary: &mut BinaryOutput<'a>) -> Result<(), ContentError> {
         let document = self.document;
         let mut embedded: HashMap<PathBuf, Option<(usize, &str)>> = HashMap::new();
         for (index, image) in document.root.images.iter().enumerate() {
@@ -224,7 +224,10 @@ impl<'a> OutputLayout<'a> {
                 Some(stored) => *stored,
                 None => {
                     let bytes = document.resources.bytes(&located.path).map_err(|error| {
-                        Fault::resource(format!("images[{index}].uri"), format!("cannot be read: {error}"))
+                        ContentError::resource(
+                            format!("images[{index}].uri"),
+                            format!("cannot be read: {error}"),
+                        )
                     })?;
                     let stored = image_type(&bytes).map(|kind| {
                         let length = bytes.len();
@@ -248,7 +251,11 @@ impl<'a> OutputLayout<'a> {
 
     /// The JSON of the output. `binary_uris` are the URIs of the binary outputs, none in a GLB. `renamed` maps the paths of files that
     /// were copied under another name to their new URIs.
-    pub fn json(&self, binary_uris: &[String], renamed: &HashMap<PathBuf, String>) -> Result<String, Fault> {
+    pub fn json(
+        &self,
+        binary_uris: &[String],
+        renamed: &HashMap<PathBuf, String>,
+    ) -> Result<String, ContentError> {
         let edits = &self.document.edits;
         let mut root = self.document.text().to_owned();
         let mut set =
@@ -467,6 +474,6 @@ fn is_plain(buffer: &str) -> serde_json::Result<bool> {
     Ok(keys(buffer)?.iter().all(|key| ["uri", "byteLength", "name"].contains(&key.as_str())))
 }
 
-fn broken(error: serde_json::Error) -> Fault {
-    Fault::invalid("", format!("the JSON cannot be edited: {error}; export the file again"))
+fn broken(error: serde_json::Error) -> ContentError {
+    ContentError::invalid("", format!("the JSON cannot be edited: {error}; export the file again"))
 }

@@ -10,7 +10,7 @@ use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess,
 use serde_json::value::RawValue;
 
 use super::json_text::range_in;
-use crate::error::Fault;
+use crate::error::ContentError;
 
 /// What a reference refers to. Buffer views are told apart by what refers to them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -184,11 +184,14 @@ pub fn references(json: &str) -> Option<Vec<IndexReference>> {
 }
 
 /// Checks that every reference in the JSON of a document refers to an element that exists.
-pub fn check(json: &str) -> Result<(), Fault> {
+pub fn check(json: &str) -> Result<(), ContentError> {
     let Found { references, counts, .. } = match scan(json) {
         Ok(found) => found,
         Err(Some(offset)) => {
-            return Err(Fault::invalid(path_at(json, offset), "is not an index; export the file again"));
+            return Err(ContentError::invalid(
+                path_at(json, offset),
+                "is not an index; export the file again",
+            ));
         }
         // The same text has been parsed before, so that other failures cannot be.
         Err(None) => return Ok(()),
@@ -200,14 +203,14 @@ pub fn check(json: &str) -> Result<(), Fault> {
         if index >= count && (kind, count) != (ReferenceKind::Scene, 0) {
             let problem =
                 format!("{element} {index} does not exist: there are {count}; export the file again");
-            return Err(Fault::invalid(path_at(json, range.start), problem));
+            return Err(ContentError::invalid(path_at(json, range.start), problem));
         }
     }
     if counts.contains_key("animations") { check_animations(json) } else { Ok(()) }
 }
 
 /// Checks the references of animation channels to the samplers of their own animation.
-fn check_animations(json: &str) -> Result<(), Fault> {
+fn check_animations(json: &str) -> Result<(), ContentError> {
     #[derive(Deserialize)]
     struct Animations {
         animations: Vec<AnimationReferences>,
@@ -225,14 +228,14 @@ fn check_animations(json: &str) -> Result<(), Fault> {
     }
     let parsed: Result<Animations, _> = serde_json::from_str(json);
     let animations = parsed.map_err(|error| {
-        Fault::invalid("animations", format!("cannot be read: {error}; export the file again"))
+        ContentError::invalid("animations", format!("cannot be read: {error}; export the file again"))
     })?;
     for (i, AnimationReferences { channels, samplers }) in animations.animations.iter().enumerate() {
         for (k, SamplerReference { sampler }) in channels.iter().enumerate() {
             if *sampler >= samplers.len() {
                 let at = format!("animations[{i}].channels[{k}].sampler");
                 let problem = format!("sampler {sampler} does not exist: there are {}", samplers.len());
-                return Err(Fault::invalid(at, format!("{problem}; export the file again")));
+                return Err(ContentError::invalid(at, format!("{problem}; export the file again")));
             }
         }
     }
@@ -468,7 +471,7 @@ mod tests {
 
     /// The sentence of the first broken reference.
     fn problem(json: &str) -> Option<String> {
-        check(json).err().map(|fault| fault.in_file("x").to_string())
+        check(json).err().map(|error| error.in_file("x").to_string())
     }
 
     #[test]

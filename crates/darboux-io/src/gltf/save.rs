@@ -12,7 +12,7 @@ use super::document::Document;
 use super::output_layout::OutputLayout;
 use super::resources::{LocatedFile, UriTarget, encode_path, portable};
 use super::segments::{self, Segment};
-use crate::error::Fault;
+use crate::error::ContentError;
 use crate::staging::Staging;
 use crate::{Error, FileKind, SaveOptions, paths};
 
@@ -111,18 +111,18 @@ impl Document {
             let json = layout.json(&[], &HashMap::new())?;
             glb(json, layout.binaries.pop().map(|binary| binary.segments), chunks.collect())
         };
-        segments().map_err(|fault| fault.in_file(self.name()))
+        segments().map_err(|error| error.in_file(self.name()))
     }
 
     /// Writes the files that a `.gltf` needs beside it. Returns its text.
     fn stage_gltf(&self, target: &Path, staging: &mut Staging) -> Result<Vec<Segment<'_>>, Error> {
         if !self.container.other_chunks.is_empty() {
             let problem = "has chunks of unknown type, which a .gltf cannot hold; write a .glb";
-            return Err(Fault::unsupported("", problem).in_file(self.name()));
+            return Err(ContentError::unsupported("", problem).in_file(self.name()));
         }
         let folder = target.parent().unwrap_or(Path::new(""));
         let mut names = FileNames { folder, taken: HashSet::from([target.to_owned()]) };
-        let in_file = |fault: Fault| fault.in_file(self.name());
+        let in_file = |error: ContentError| error.in_file(self.name());
         let layout = OutputLayout::gltf(self).map_err(in_file)?;
         let kept = |buffer| !layout.unused_data.has_buffer(buffer) && self.replaced_file(buffer).is_none();
         let renamed = self.copy_files(&self.files_of(kept), &mut names, staging)?;

@@ -8,7 +8,7 @@ use super::Document;
 use super::objects_only::read_from_objects;
 use super::schema::Attributes;
 use crate::Error;
-use crate::error::Fault;
+use crate::error::ContentError;
 
 /// A matrix in columns, for column vectors.
 type Matrix = [[f64; 4]; 4];
@@ -130,8 +130,8 @@ impl Document {
     /// [decompressed](Document::decompress) first. Errors: joints outside the scene, missing matrices, nodes with several parents, more
     /// than 2^20 instances.
     pub fn placed_meshes(&self) -> Result<PlacedMeshes, Error> {
-        let scenes: Scenes = self.parsed().map_err(|fault: Fault| fault.in_file(self.name()))?;
-        let nodes = placed_nodes(&scenes).map_err(|fault| fault.in_file(self.name()))?;
+        let scenes: Scenes = self.parsed().map_err(|error: ContentError| error.in_file(self.name()))?;
+        let nodes = placed_nodes(&scenes).map_err(|error| error.in_file(self.name()))?;
         let mut placed = PlacedMeshes { meshes: Vec::new(), skins: vec![Vec::new(); scenes.skins.len()] };
         if scenes.nodes.is_empty() {
             let all = scenes.meshes.iter().enumerate();
@@ -222,7 +222,7 @@ impl Document {
 }
 
 /// The nodes of the default scene with their transforms, parents before children.
-fn placed_nodes(Scenes { scene, scenes, nodes, .. }: &Scenes) -> Result<Vec<(usize, Matrix)>, Fault> {
+fn placed_nodes(Scenes { scene, scenes, nodes, .. }: &Scenes) -> Result<Vec<(usize, Matrix)>, ContentError> {
     if nodes.is_empty() {
         return Ok(Vec::new());
     }
@@ -231,7 +231,7 @@ fn placed_nodes(Scenes { scene, scenes, nodes, .. }: &Scenes) -> Result<Vec<(usi
         None if scenes.is_empty() => root_nodes(nodes),
         None => {
             let problem = format!("scene {scene} does not exist: there are {}", scenes.len());
-            return Err(Fault::invalid("scene", format!("{problem}; export the file again")));
+            return Err(ContentError::invalid("scene", format!("{problem}; export the file again")));
         }
     };
     let mut placed = Vec::new();
@@ -240,10 +240,10 @@ fn placed_nodes(Scenes { scene, scenes, nodes, .. }: &Scenes) -> Result<Vec<(usi
     while let Some((index, parent)) = left.pop() {
         let at = || format!("nodes[{index}]");
         let (Some(node), Some(is_placed)) = (nodes.get(index), is_placed.get_mut(index)) else {
-            return Err(Fault::invalid(at(), "does not exist; export the file again"));
+            return Err(ContentError::invalid(at(), "does not exist; export the file again"));
         };
         if std::mem::replace(is_placed, true) {
-            return Err(Fault::invalid(at(), "is in the scene twice; export the file again"));
+            return Err(ContentError::invalid(at(), "is in the scene twice; export the file again"));
         }
         let matrix = product(parent, node.matrix());
         placed.push((index, matrix));

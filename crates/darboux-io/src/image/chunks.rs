@@ -1,6 +1,6 @@
 //! Splits a PNG into its chunks (PNG specification, third edition, section 5).
 
-use crate::error::Fault;
+use crate::error::ContentError;
 
 /// The first bytes of every PNG.
 pub const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
@@ -23,14 +23,14 @@ pub struct Chunks<'a> {
 
 impl<'a> Chunks<'a> {
     /// Splits a file into its chunks. Checksums are not checked. Errors: a file that is not a PNG, or ends within a chunk.
-    pub fn split(file: &'a [u8]) -> Result<Self, Fault> {
+    pub fn split(file: &'a [u8]) -> Result<Self, ContentError> {
         let Some(mut rest) = file.strip_prefix(&SIGNATURE) else {
-            return Err(Fault::invalid("", "is not a PNG; save it as one"));
+            return Err(ContentError::invalid("", "is not a PNG; save it as one"));
         };
         let mut chunks = Vec::new();
         loop {
             let Some((chunk, after)) = first(rest) else {
-                return Err(Fault::invalid("", "ends within a chunk; save it again"));
+                return Err(ContentError::invalid("", "ends within a chunk; save it again"));
             };
             chunks.push(chunk);
             rest = after;

@@ -5,7 +5,7 @@ use darboux::{Channel, Conversion, TexelLayout, repack_texels};
 use super::channels::Channels;
 use super::png_image::{PngImage, Texels};
 use crate::Error;
-use crate::error::Fault;
+use crate::error::ContentError;
 
 /// Converts a normal map in place: inverts red and green as `conversion` requires, and moves the vector from the channels `from` to the
 /// channels `to`.
@@ -23,7 +23,7 @@ pub fn convert_normal_map(
             "has the channels {}, not {from}; name the channels that hold the vector",
             image.channels()
         );
-        return Err(Fault::invalid("", problem).in_file(image.name()));
+        return Err(ContentError::invalid("", problem).in_file(image.name()));
     };
     let color = to.kind(image.color);
     let target = to.indices(color).unwrap_or(indices);

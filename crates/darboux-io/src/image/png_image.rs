@@ -8,7 +8,7 @@ use png::{BitDepth, ColorType, Decoder, Encoder, Transformations};
 use super::channels;
 use super::chunks::{self, Chunk, Chunks};
 use crate::LoadOptions;
-use crate::error::Fault;
+use crate::error::ContentError;
 use crate::staging::Staging;
 use crate::{Error, SaveOptions, paths};
 
@@ -56,13 +56,13 @@ impl PngImage {
 
     /// Reads a PNG from memory. `name` stands for the file in messages. Errors: as [`PngImage::open`].
     pub fn from_bytes(name: &str, bytes: Vec<u8>, options: &LoadOptions) -> Result<Self, Error> {
-        Self::decode(name, bytes, options).map_err(|fault| fault.in_file(name))
+        Self::decode(name, bytes, options).map_err(|error| error.in_file(name))
     }
 
     /// An image of 8-bit RGB texels, row after row, the top row first. Errors: the number of texels is not `width` times `height`.
     pub fn from_rgb(name: &str, [width, height]: [u32; 2], texels: &[[u8; 3]]) -> Result<Self, Error> {
         let texels = Texels::Bytes(texels.as_flattened().to_vec());
-        let file = encoded([width, height], ColorType::Rgb, &texels).map_err(|fault| fault.in_file(name))?;
+        let file = encoded([width, height], ColorType::Rgb, &texels).map_err(|error| error.in_file(name))?;
         let (name, color) = (name.to_owned(), ColorType::Rgb);
         Ok(Self { name, file, width, height, color, texels, is_changed: false })
     }
@@ -72,9 +72,9 @@ impl PngImage {
         bytes.starts_with(&chunks::SIGNATURE)
     }
 
-    fn decode(name: &str, file: Vec<u8>, options: &LoadOptions) -> Result<Self, Fault> {
+    fn decode(name: &str, file: Vec<u8>, options: &LoadOptions) -> Result<Self, ContentError> {
         let broken = |error: png::DecodingError| {
-            Fault::invalid("", format!("is not a complete PNG: {error}; save it again"))
+            ContentError::invalid("", format!("is not a complete PNG: {error}; save it again"))
         };
         let chunks = Chunks::split(&file)?;
         let mut decoder = Decoder::new(Cursor::new(&file));
@@ -88,12 +88,12 @@ impl PngImage {
         let length = reader.output_buffer_size().unwrap_or(usize::MAX);
         if length / DEFLATE_RATIO > chunks.total_of(b"IDAT") {
             let problem = format!("its data is too short for {width} x {height} texels; save it again");
-            return Err(Fault::invalid("", problem));
+            return Err(ContentError::invalid("", problem));
         }
         let limit = options.budget(file.len(), 0);
         if length.saturating_mul(COPIES) > limit.bytes {
             let what = format!("its {width} x {height} texels need");
-            return Err(Fault::unsupported("", limit.exceeded(&what)));
+            return Err(ContentError::unsupported("", limit.exceeded(&what)));
         }
         let mut bytes = vec![0; length];
         reader.next_frame(&mut bytes).map_err(broken)?;
@@ -141,10 +141,10 @@ impl PngImage {
     ///
     /// An interlaced image becomes one that is not. Errors: the texels cannot be encoded.
     pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
-        self.encode().map_err(|fault| fault.in_file(&self.name))
+        self.encode().map_err(|error| error.in_file(&self.name))
     }
 
-    fn encode(&self) -> Result<Vec<u8>, Fault> {
+    fn encode(&self) -> Result<Vec<u8>, ContentError> {
         if !self.is_changed {
             return Ok(self.file.clone());
         }
@@ -186,8 +186,8 @@ impl PngImage {
 }
 
 /// Refuses a PNG that cannot hold a normal map, or not be converted without loss.
-fn refuse_unsupported(color: ColorType, depth: BitDepth, chunks: &Chunks<'_>) -> Result<(), Fault> {
-    let refused = |problem: &str| Err(Fault::unsupported("", problem));
+fn refuse_unsupported(color: ColorType, depth: BitDepth, chunks: &Chunks<'_>) -> Result<(), ContentError> {
+    let refused = |problem: &str| Err(ContentError::unsupported("", problem));
     match (color, depth) {
         (ColorType::Indexed, _) => refused("has a palette; save it as RGB"),
         (ColorType::Grayscale, _) => refused(
@@ -209,7 +209,7 @@ fn refuse_unsupported(color: ColorType, depth: BitDepth, chunks: &Chunks<'_>) ->
 }
 
 /// Encodes texels as a PNG without further chunks.
-fn encoded([width, height]: [u32; 2], color: ColorType, texels: &Texels) -> Result<Vec<u8>, Fault> {
+fn encoded([width, height]: [u32; 2], color: ColorType, texels: &Texels) -> Result<Vec<u8>, ContentError> {
     let mut encoded = Vec::new();
     let mut encoder = Encoder::new(&mut encoded, width, height);
     encoder.set_color(color);
@@ -224,6 +224,8 @@ fn encoded([width, height]: [u32; 2], color: ColorType, texels: &Texels) -> Resu
             encoder.write_header().and_then(|mut writer| writer.write_image_data(&bytes))
         }
     };
-    written.map_err(|error| Fault::unsupported("", format!("cannot be encoded: {error}; check its size")))?;
+    written.map_err(|error| {
+        ContentError::unsupported("", format!("cannot be encoded: {error}; check its size"))
+    })?;
     Ok(encoded)
 }

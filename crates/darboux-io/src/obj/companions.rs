@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::error::Fault;
+use crate::error::ContentError;
 use crate::{Error, paths};
 
 /// References in longer lines are ignored: no path has more bytes, and a reference may begin at every word of a line.
@@ -50,7 +50,7 @@ pub fn companions(path: &Path) -> Result<Vec<Companion>, Error> {
         }
     }
     if !has_faces {
-        return Err(Fault::invalid("", NO_FACES).in_file(&path.display().to_string()));
+        return Err(ContentError::invalid("", NO_FACES).in_file(&path.display().to_string()));
     }
     let lookup = FileLookup::new(folder_of(path)?);
     let (mut companions, mut seen) = (Vec::new(), HashSet::new());

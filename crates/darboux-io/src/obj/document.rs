@@ -8,7 +8,7 @@ use tobj::Model;
 
 use super::companions::Companion;
 use super::libraries::LibraryMaterial;
-use crate::error::Fault;
+use crate::error::ContentError;
 use crate::gltf::{ComponentType, ElementType, container, segments};
 use crate::image::{DecodeLimits, RgbaImage, srgb_to_linear};
 
@@ -135,7 +135,7 @@ impl DocumentBuilder {
     }
 
     /// The document as a GLB. Errors: more than the 4 GiB that a GLB can hold.
-    pub fn into_glb(self) -> Result<Vec<u8>, Fault> {
+    pub fn into_glb(self) -> Result<Vec<u8>, ContentError> {
         let nodes: Vec<Value> = (0..self.meshes.len()).map(|mesh| json!({"mesh": mesh})).collect();
         let textures: Vec<Value> = (0..self.images.len()).map(|image| json!({"source": image})).collect();
         let mut document = json!({

@@ -7,7 +7,7 @@ use tobj::{LoadError, Mesh, Model};
 use super::companions::{self, folder_of};
 use super::document::DocumentBuilder;
 use super::libraries::MaterialLibraries;
-use crate::error::Fault;
+use crate::error::ContentError;
 use crate::gltf::Document;
 use crate::{Error, LoadOptions, paths};
 
@@ -29,7 +29,7 @@ const BYTES_PER_OBJECT: usize = 16 << 10;
 /// objects than [`LoadOptions::memory_limit`] permits; a document larger than a GLB can be.
 pub fn read(path: &Path, options: &LoadOptions) -> Result<ObjModel, Error> {
     let shown = path.display().to_string();
-    let invalid = |problem: String| Fault::invalid("", problem).in_file(&shown);
+    let invalid = |problem: String| ContentError::invalid("", problem).in_file(&shown);
     let libraries = MaterialLibraries::new(folder_of(path)?);
     let bytes = paths::resolve_input(path).and_then(|input| {
         paths::read_resolved(&input).map_err(|source| Error::Read { file: path.to_owned(), source })
@@ -47,7 +47,7 @@ pub fn read(path: &Path, options: &LoadOptions) -> Result<ObjModel, Error> {
     let limit = options.budget(bytes.len(), 0);
     if models.len().saturating_mul(BYTES_PER_OBJECT) > limit.bytes {
         let what = format!("has {} objects and groups, which need", models.len());
-        return Err(Fault::unsupported("", limit.exceeded(&what)).in_file(&shown));
+        return Err(ContentError::unsupported("", limit.exceeded(&what)).in_file(&shown));
     }
     let (materials, mut warnings) = libraries.into_parts();
     let mut builder = DocumentBuilder::default();
@@ -58,7 +58,7 @@ pub fn read(path: &Path, options: &LoadOptions) -> Result<ObjModel, Error> {
     }
     warnings.append(&mut builder.warnings);
     warnings.extend(incomplete_attributes(&models));
-    let glb = builder.into_glb().map_err(|fault| fault.in_file(&shown))?;
+    let glb = builder.into_glb().map_err(|error| error.in_file(&shown))?;
     let document = Document::from_bytes(&shown, glb, None, options)?;
     Ok(ObjModel { document, warnings })
 }

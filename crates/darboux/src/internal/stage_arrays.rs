@@ -134,7 +134,7 @@ impl SumCollector<'_> {
 
 impl SubgroupVisitor for SumCollector<'_> {
     /// The number of the sum.
-    type Subgroup = u32;
+    type Value = u32;
 
     fn compute(&mut self, excluded: &KeyTable) -> Vec<u32> {
         (0..excluded.len()).map(|number| self.add_sum(excluded.key(number))).collect()

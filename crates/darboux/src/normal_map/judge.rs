@@ -15,14 +15,14 @@
 //! What the texels cannot show: green and red inverted together, or a map turned by 180 degrees, is the map of the surface with bumps for
 //! dents. Red inverted alone looks as green inverted alone.
 
-mod census;
 mod judgement;
 mod level;
 mod score;
+mod texel_counts;
 
-use self::census::Census;
 pub use self::judgement::{MapJudgement, MapVerdict, SrgbMistake};
 use self::level::Level;
+use self::texel_counts::TexelCounts;
 use super::texels::{Channel, TexelLayout};
 use crate::Error;
 use crate::exec::simd::{Task, Width, WidthLimit};
@@ -65,7 +65,7 @@ pub fn judge_normal_map<C: Channel, const N: usize>(
 pub struct NormalMapJudge<const N: usize> {
     layout: TexelLayout<N>,
     width: usize,
-    census: Census,
+    texel_counts: TexelCounts,
     levels: Vec<Level>,
     /// x, y and z of the current row.
     row: [Vec<f32>; 3],
@@ -79,7 +79,7 @@ impl<const N: usize> NormalMapJudge<N> {
         Self {
             layout,
             width,
-            census: Census::new(layout.z.is_some()),
+            texel_counts: TexelCounts::new(layout.z.is_some()),
             levels,
             row: [const { Vec::new() }; 3],
         }
@@ -94,13 +94,13 @@ impl<const N: usize> NormalMapJudge<N> {
 
     /// The judgement on the rows so far.
     pub fn judgement(&self) -> MapJudgement {
-        let evidence = score::weigh(&self.levels);
-        let mut judgement = self.census.judgement();
+        let evidence = score::combine_levels(&self.levels);
+        let mut judgement = self.texel_counts.judgement();
         judgement.correlation = evidence.correlation as f32;
         judgement.z_score = evidence.z_score as f32;
-        judgement.channel_order = evidence.channel_order as f32;
+        judgement.log_energy_ratio = evidence.log_energy_ratio as f32;
         judgement.verdict = match () {
-            () if self.census.is_flat() => MapVerdict::Flat,
+            () if self.texel_counts.is_flat() => MapVerdict::Flat,
             () if judgement.is_grey() || judgement.is_object_space() || judgement.holds_no_normals() => {
                 MapVerdict::NoGradient
             }
@@ -124,12 +124,12 @@ impl<C: Channel, const N: usize> Task for RowTask<'_, C, N> {
     #[inline(always)]
     fn run(self) {
         let Self { judge, texels } = self;
-        let NormalMapJudge { layout, census, levels, row, .. } = judge;
+        let NormalMapJudge { layout, texel_counts, levels, row, .. } = judge;
         layout.decode_row(texels, row);
-        census.count_codes(texels, *layout);
+        texel_counts.count_codes(texels, *layout);
         let [x, y, z] = row;
-        census.count_vectors([x, y, z]);
-        level::hide_invalid(x, y);
+        texel_counts.count_vectors([x, y, z]);
+        level::set_invalid_to_nan(x, y);
         level::push(levels, x, y);
     }
 }

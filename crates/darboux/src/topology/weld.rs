@@ -22,7 +22,7 @@ use crate::Mesh;
 use crate::exec::limits::RunLimits;
 use crate::math::{V3, equal, sub};
 use crate::util::hash_map::InsertionMap;
-use crate::util::radix_sort::{FEW, sort_by_key};
+use crate::util::radix_sort::{MAX_INSERTION_SORT, sort_by_key};
 
 /// The number of cells along the longest axis.
 pub(crate) const CELLS: usize = 2048;
@@ -101,7 +101,7 @@ impl CellBuckets {
     /// Replaces the content by `points`, whose entries ascend.
     pub fn sort(&mut self, cells: &Cells, points: &[Point]) {
         // For few points, visiting every cell costs more than comparing.
-        if points.len() > FEW {
+        if points.len() > MAX_INSERTION_SORT {
             return self.sort_by_counting(cells, points);
         }
         self.points.clear();

@@ -3,8 +3,8 @@
 //! It replaces the standard library's sort for the sake of code size in the WebAssembly build: the standard sort is ten times as large and
 //! compiled once per element type. It is not slower here, because lists are short, nearly sorted or very long.
 
-/// Lists up to this length are sorted by insertion, without a buffer.
-pub(crate) const FEW: usize = if cfg!(small_limits) { 4 } else { 64 };
+/// The longest list that is sorted by insertion, without a buffer.
+pub(crate) const MAX_INSERTION_SORT: usize = if cfg!(small_limits) { 4 } else { 64 };
 
 /// Sorts integers.
 pub(crate) fn sort<T: Copy + Into<u64>>(list: &mut [T]) {
@@ -13,10 +13,10 @@ pub(crate) fn sort<T: Copy + Into<u64>>(list: &mut [T]) {
 
 /// Sorts a list by keys (stable).
 ///
-/// `buffer`: scratch memory for lists longer than [`FEW`].
+/// `buffer`: scratch memory for lists longer than [`MAX_INSERTION_SORT`].
 #[inline(never)]
 pub(crate) fn sort_by_key<T: Copy>(list: &mut [T], key: impl Fn(&T) -> u64, buffer: &mut Vec<T>) {
-    if list.len() > FEW {
+    if list.len() > MAX_INSERTION_SORT {
         return sort_by_bytes(list, key, buffer);
     }
     for end in 1..list.len() {
@@ -77,7 +77,7 @@ mod tests {
 
     #[test]
     fn lists_are_sorted_and_equals_keep_their_order() {
-        for count in [0, 1, 5, FEW as u32, 1000] {
+        for count in [0, 1, 5, MAX_INSERTION_SORT as u32, 1000] {
             let random = |at: u32| at.wrapping_mul(2_654_435_761) >> 3;
             let pairs: Vec<u64> =
                 (0..count).map(|at| pair(random(at) % 300_000, random(at + 7) % 3)).collect();

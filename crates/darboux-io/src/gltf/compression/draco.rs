@@ -9,7 +9,7 @@ use ::draco_core::{
 use serde_json::value::RawValue;
 
 use super::{DecodeBudget, without_extension};
-use crate::error::Fault;
+use crate::error::ContentError;
 use crate::gltf::document::Document;
 use crate::gltf::element_type::{ComponentType, ElementType};
 use crate::gltf::elements::{Elements, Target};
@@ -26,7 +26,10 @@ type Sources = HashMap<usize, (usize, Option<u32>)>;
 
 impl Document {
     /// Decodes every compressed primitive. Returns the decoded accessors.
-    pub(super) fn decode_draco(&mut self, budget: &mut DecodeBudget) -> Result<BTreeSet<usize>, Fault> {
+    pub(super) fn decode_draco(
+        &mut self,
+        budget: &mut DecodeBudget,
+    ) -> Result<BTreeSet<usize>, ContentError> {
         let mut sources = Sources::new();
         for mesh in 0..self.root.meshes.len() {
             for i in 0..self.root.meshes[mesh].primitives.len() {
@@ -41,11 +44,12 @@ impl Document {
                 let stripped = without_extension(text, NAME);
                 stripped
                     .and_then(|text| self.replace_primitive(mesh, i, text))
-                    .map_err(|error| Fault::invalid(&at, error.to_string()))?;
+                    .map_err(|error| ContentError::invalid(&at, error.to_string()))?;
             }
         }
         self.edits.removed_extensions.push(NAME);
-        self.store_accessors(&sources).map_err(|error| Fault::invalid("accessors", error.to_string()))?;
+        self.store_accessors(&sources)
+            .map_err(|error| ContentError::invalid("accessors", error.to_string()))?;
         Ok(sources.into_keys().collect())
     }
 
@@ -56,15 +60,15 @@ impl Document {
         draco: &Draco,
         sources: &Sources,
         at: &str,
-    ) -> Result<bool, Fault> {
+    ) -> Result<bool, ContentError> {
         let mut with_data = 0;
         for &(index, id) in wanted {
             let accessor = self.root.accessors.get(index).ok_or_else(|| {
-                Fault::invalid(at, format!("accessor {index} does not exist; export the file again"))
+                ContentError::invalid(at, format!("accessor {index} does not exist; export the file again"))
             })?;
             if sources.get(&index).is_some_and(|source| *source != (draco.buffer_view, id)) {
                 let problem = format!("accessor {index} belongs to two Draco streams; export the file again");
-                return Err(Fault::invalid(at, problem));
+                return Err(ContentError::invalid(at, problem));
             }
             with_data += usize::from(accessor.buffer_view.is_some());
         }
@@ -73,7 +77,7 @@ impl Document {
             && !wanted.iter().any(|(index, _)| sources.contains_key(index))
         {
             let problem = "is compressed in part only, so that the order of its vertices is unknown; export the file again";
-            return Err(Fault::unsupported(at, problem));
+            return Err(ContentError::unsupported(at, problem));
         }
         Ok(with_data == wanted.len())
     }
@@ -85,11 +89,14 @@ impl Document {
         budget: &mut DecodeBudget,
         sources: &mut Sources,
         at: &str,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), ContentError> {
         let at = format!("{at}.extensions.{NAME}");
         let (stream, _) = self.view(draco.buffer_view, &format!("{at}.bufferView"))?;
         let mesh = decode(stream, budget.left).map_err(|problem| {
-            Fault::invalid(&at, format!("the stream cannot be decoded ({problem}); compress the file again"))
+            ContentError::invalid(
+                &at,
+                format!("the stream cannot be decoded ({problem}); compress the file again"),
+            )
         })?;
         // The whole stream was decoded, whichever of its accessors are new: this bounds the time of many primitives over one stream.
         budget.spend(mesh.num_faces().saturating_mul(BYTES_PER_FACE), &at)?;
@@ -103,7 +110,7 @@ impl Document {
                 Some(id) => attribute_elements(&mesh, id, accessor),
             };
             let elements = decoded.map_err(|problem| {
-                Fault::invalid(&at, format!("accessors[{index}]: {problem}; compress the file again"))
+                ContentError::invalid(&at, format!("accessors[{index}]: {problem}; compress the file again"))
             })?;
             budget.spend(elements.bytes.len(), &at)?;
             let target = if id.is_none() { Target::Indices } else { Target::Vertices };
@@ -138,8 +145,9 @@ fn wanted_accessors(
     primitive: &Primitive,
     draco: &Draco,
     at: &str,
-) -> Result<Vec<(usize, Option<u32>)>, Fault> {
-    let unsupported = |problem: &str| Fault::unsupported(at, format!("{problem}; export the file again"));
+) -> Result<Vec<(usize, Option<u32>)>, ContentError> {
+    let unsupported =
+        |problem: &str| ContentError::unsupported(at, format!("{problem}; export the file again"));
     if primitive.mode != 4 {
         return Err(unsupported("is compressed by Draco but is not a triangle list"));
     }
@@ -148,7 +156,10 @@ fn wanted_accessors(
     let mut wanted = vec![(indices, None)];
     for (name, &id) in &draco.attributes {
         let accessor = primitive.attributes.get(name).ok_or_else(|| {
-            Fault::invalid(at, format!("{name} is compressed but is not an attribute; export the file again"))
+            ContentError::invalid(
+                at,
+                format!("{name} is compressed but is not an attribute; export the file again"),
+            )
         })?;
         wanted.push((*accessor, Some(id)));
     }

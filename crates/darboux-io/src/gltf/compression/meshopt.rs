@@ -12,7 +12,7 @@ use ::meshopt as codec;
 use serde_json::value::RawValue;
 
 use super::{DecodeBudget, without_extension};
-use crate::error::Fault;
+use crate::error::ContentError;
 use crate::gltf::buffers::BufferSource;
 use crate::gltf::document::Document;
 use crate::gltf::json_text::{member, set_member};
@@ -25,7 +25,10 @@ const MAX_RATIO: usize = 1024;
 
 impl Document {
     /// Decodes every compressed view without a fallback. Returns the decoded views.
-    pub(super) fn decode_meshopt(&mut self, budget: &mut DecodeBudget) -> Result<BTreeSet<usize>, Fault> {
+    pub(super) fn decode_meshopt(
+        &mut self,
+        budget: &mut DecodeBudget,
+    ) -> Result<BTreeSet<usize>, ContentError> {
         let mut views = BTreeSet::new();
         if self.root.buffer_views.iter().all(|view| view.extensions.meshopt.is_none()) {
             return Ok(views);
@@ -47,7 +50,7 @@ impl Document {
         for ((buffer, views), length) in views_of_buffer.into_iter().zip(lengths) {
             self.fill_buffer(buffer, &views, length)?;
         }
-        self.remove_meshopt().map_err(|error| Fault::invalid("bufferViews", error.to_string()))?;
+        self.remove_meshopt().map_err(|error| ContentError::invalid("bufferViews", error.to_string()))?;
         Ok(views)
     }
 
@@ -57,9 +60,10 @@ impl Document {
         buffer: usize,
         views: &[usize],
         budget: &mut DecodeBudget,
-    ) -> Result<usize, Fault> {
+    ) -> Result<usize, ContentError> {
         let at = format!("buffers[{buffer}]");
-        let invalid = |problem: &str| Fault::invalid(&at, format!("{problem}; compress the file again"));
+        let invalid =
+            |problem: &str| ContentError::invalid(&at, format!("{problem}; compress the file again"));
         let (mut length, mut decoded) = (0, 0usize);
         for &i in views {
             let view = &self.root.buffer_views[i];
@@ -84,7 +88,7 @@ impl Document {
     }
 
     /// Fills a buffer without bytes with decoded views.
-    fn fill_buffer(&mut self, buffer: usize, views: &[usize], length: usize) -> Result<(), Fault> {
+    fn fill_buffer(&mut self, buffer: usize, views: &[usize], length: usize) -> Result<(), ContentError> {
         let mut content = vec![0; length];
         for &i in views {
             let view = &self.root.buffer_views[i];
@@ -98,9 +102,10 @@ impl Document {
     }
 
     /// The compressed bytes of a view. Errors: they are outside their buffer, or cannot hold the length of the view.
-    fn stream(&self, view: &BufferView, compressed: &Meshopt, at: &str) -> Result<&[u8], Fault> {
+    fn stream(&self, view: &BufferView, compressed: &Meshopt, at: &str) -> Result<&[u8], ContentError> {
         let Meshopt { buffer, byte_offset, byte_length, byte_stride: stride, count, .. } = *compressed;
-        let broken = |problem: String| Fault::invalid(at, format!("{problem}; compress the file again"));
+        let broken =
+            |problem: String| ContentError::invalid(at, format!("{problem}; compress the file again"));
         let stream = self.buffer_range(buffer, byte_offset, byte_length, at)?;
         let length = view.byte_length;
         if count.checked_mul(stride) != Some(length) {
@@ -115,7 +120,12 @@ impl Document {
     }
 
     /// The bytes of a view, as many as its length.
-    fn decode_view(&self, view: &BufferView, compressed: &Meshopt, at: &str) -> Result<Vec<u8>, Fault> {
+    fn decode_view(
+        &self,
+        view: &BufferView,
+        compressed: &Meshopt,
+        at: &str,
+    ) -> Result<Vec<u8>, ContentError> {
         let Meshopt { byte_stride: stride, count, ref mode, .. } = *compressed;
         // A copy: the decoder is written in C++, and the bytes of a mapped file could change under it.
         let stream = &self.stream(view, compressed, at)?.to_vec();
@@ -124,7 +134,7 @@ impl Document {
             let problem = format!(
                 "the stream is broken, or is not of mode {mode:?} with elements of {stride} bytes and filter {filter:?}; compress the file again"
             );
-            Fault::invalid(at, problem)
+            ContentError::invalid(at, problem)
         })
     }
 

@@ -148,7 +148,7 @@ impl<'a> AttributeConverter<'a> {
         let new = NewAccessor::new(elements, Target::Vertices)
             .with_bounds(bounds)
             .with_sparse(sparse)
-            .with_like(Some(old));
+            .with_metadata_of(Some(old));
         let made = document.push_accessor(new);
         self.made.insert(key, made);
         Ok(made)

@@ -83,7 +83,7 @@ impl<'a> FaceReverser<'a> {
         corners.extend(rest);
         let kind = old.and_then(|old| document.accessors().get(old)).map(|old| old.component_type);
         let elements = index_elements(kind, corners);
-        let new = NewAccessor::new(elements, Target::Indices).with_like(old);
+        let new = NewAccessor::new(elements, Target::Indices).with_metadata_of(old);
         Ok(document.push_accessor(new))
     }
 }

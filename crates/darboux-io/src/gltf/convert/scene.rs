@@ -9,7 +9,7 @@ use serde_json::value::RawValue;
 use super::attributes::floats;
 use super::axes::AxisChange;
 use crate::Error;
-use crate::error::Fault;
+use crate::error::ContentError;
 use crate::gltf::json_text::{edit_array, member, set_member};
 use crate::gltf::primitives::canonical::CanonicalAccessors;
 use crate::gltf::primitives::limits;
@@ -124,7 +124,8 @@ impl<'a> SceneConverter<'a> {
         let mut kinds: BTreeMap<usize, Option<TransformKind>> = BTreeMap::new();
         for (index, Channel { sampler, target }) in animation.channels.iter().enumerate() {
             let at = format!("{at}.channels[{index}]");
-            let unsupported = |problem: &str| Err(Fault::unsupported(&at, problem).in_file(document.name()));
+            let unsupported =
+                |problem: &str| Err(ContentError::unsupported(&at, problem).in_file(document.name()));
             if !["translation", "rotation", "scale", "weights"].contains(&target.path.as_str()) {
                 return unsupported(
                     "animates a property that cannot be converted to other axes; remove the channel",
@@ -172,8 +173,8 @@ impl<'a> SceneConverter<'a> {
                 floats(ElementType::Mat4, &document.vectors(old)?, |m| change.matrix::<f32>(m))
             }
         };
-        let (target, like) = (Target::Other, Some(old));
-        let made = document.push_accessor(NewAccessor::new(elements, target).with_like(like));
+        let new = NewAccessor::new(elements, Target::Other).with_metadata_of(Some(old));
+        let made = document.push_accessor(new);
         limits::check_output(document)?;
         self.made.insert(key, made);
         Ok(made)

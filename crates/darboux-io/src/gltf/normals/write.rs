@@ -242,7 +242,7 @@ impl<'a> NormalWriter<'a> {
         }
         let kind = old.and_then(|old| document.accessors().get(old)).map(|old| old.component_type);
         let elements = index_elements(kind, corners.iter().chain(&part.rest).copied().collect());
-        let new = NewAccessor::new(elements, Target::Indices).with_like(old);
+        let new = NewAccessor::new(elements, Target::Indices).with_metadata_of(old);
         let accessor = document.push_accessor(new);
         self.indices.push((old, corners, accessor));
         Some(accessor)

@@ -61,7 +61,7 @@ impl<'a> Appended<'a> {
         let new = NewAccessor::new(elements, Target::Vertices)
             .with_bounds(bounds)
             .with_sparse(sparse)
-            .with_like(Some(old));
+            .with_metadata_of(Some(old));
         let made = document.push_accessor(new);
         limits::check_output(document)?;
         self.made.insert(key, made);

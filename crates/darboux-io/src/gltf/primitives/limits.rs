@@ -3,7 +3,7 @@
 //! Accessors may read the same bytes again and again, so that a small file can ask for any amount of work.
 
 use crate::Error;
-use crate::error::Fault;
+use crate::error::ContentError;
 use crate::gltf::Document;
 use crate::memory_limit::BYTES_PER_CORNER;
 
@@ -31,5 +31,5 @@ fn check(document: &Document, bytes: usize, what: &str) -> Result<(), Error> {
     if bytes <= limit.bytes {
         return Ok(());
     }
-    Err(Fault::unsupported("accessors", limit.exceeded(what)).in_file(document.name()))
+    Err(ContentError::unsupported("accessors", limit.exceeded(what)).in_file(document.name()))
 }

@@ -141,7 +141,7 @@ impl<'a> TangentWriter<'a> {
         let old = self.group.jobs[job].indices;
         let kind = old.and_then(|old| document.accessors().get(old)).map(|old| old.component_type);
         let elements = index_elements(kind, list);
-        let new = NewAccessor::new(elements, Target::Indices).with_like(old);
+        let new = NewAccessor::new(elements, Target::Indices).with_metadata_of(old);
         let indices = document.push_accessor(new);
         self.indices.insert(job, indices);
         Ok(Some(indices))

@@ -1,10 +1,10 @@
 //! The verdict on a normal map and the counts behind it.
 
-/// The smallest z score of a decision.
-pub(super) const DECIDED: f32 = 4.0;
+/// The smallest absolute z score that decides between OpenGL and DirectX.
+pub(super) const MIN_Z_SCORE: f32 = 4.0;
 
-/// The largest channel order of exchanged channels.
-pub(super) const EXCHANGED: f32 = -0.1;
+/// The largest log energy ratio of exchanged channels.
+pub(super) const MAX_EXCHANGED_RATIO: f32 = -0.1;
 
 /// What the texels of a normal map say about its green channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -40,8 +40,8 @@ pub struct MapJudgement {
     /// the square root of their number. The halvings depend on each other, so large values are less certain than those of a normal
     /// distribution.
     pub z_score: f32,
-    /// Half the logarithm of the unmixed derivatives' energy over that of the mixed ones. Negative for exchanged channels.
-    pub channel_order: f32,
+    /// Half the natural logarithm of the energy of the unmixed derivatives over that of the mixed ones. Negative for exchanged channels.
+    pub log_energy_ratio: f32,
     /// The texels of the map.
     pub texels: usize,
     /// Black, white and middle grey texels.
@@ -112,8 +112,8 @@ impl MapJudgement {
     /// True where red and green seem to be exchanged: mixed derivatives have more energy than unmixed ones.
     pub fn has_exchanged_channels(&self) -> bool {
         self.verdict == MapVerdict::NoGradient
-            && self.channel_order <= EXCHANGED
-            && self.z_score.abs() >= DECIDED
+            && self.log_energy_ratio <= MAX_EXCHANGED_RATIO
+            && self.z_score.abs() >= MIN_Z_SCORE
     }
 
     /// The transfer function that was applied once too often, judged by the commonest texel.

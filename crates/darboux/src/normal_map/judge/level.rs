@@ -3,14 +3,14 @@
 /// Texels per side of a tile.
 pub const TILE: usize = 16;
 
-/// Differences of neighbouring texels above this are borders of charts.
-const JUMP: f32 = 1.0;
+/// The largest difference of neighbouring texels that do not lie on both sides of a chart's border.
+const MAX_STEP: f32 = 1.0;
 
-/// Texels that a tile needs to have a correlation.
-const TRUSTED: f32 = (TILE * TILE / 4) as f32;
+/// The fewest texels of a tile that has a correlation.
+const MIN_TEXELS: f32 = (TILE * TILE / 4) as f32;
 
 /// The sums of a tile: dp/dv dq/du, the squares of dp/dv, dq/du, dp/du and dq/dv, and the number of texels.
-const SUMS: usize = 6;
+const SUM_COUNT: usize = 6;
 
 #[derive(Debug)]
 pub struct Level {
@@ -21,28 +21,28 @@ pub struct Level {
     x: [Vec<f32>; 3],
     y: [Vec<f32>; 3],
     /// The sums of every column over the rows of the current tiles.
-    columns: [Vec<f32>; SUMS],
+    columns: [Vec<f32>; SUM_COUNT],
     /// A row of the next level.
     half: [Vec<f32>; 2],
-    pub votes: Votes,
+    pub tile_sums: TileSums,
 }
 
-/// The correlations of all tiles of a level.
+/// Sums over the tiles of a level.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Votes {
+pub struct TileSums {
     pub tiles: usize,
     pub correlations: f64,
     pub squared_correlations: f64,
-    /// Half the logarithms of the unmixed derivatives' energy over that of the mixed ones.
-    pub orders: f64,
+    /// Half the logarithm of the energy of the unmixed derivatives over that of the mixed ones.
+    pub log_energy_ratios: f64,
     /// The squares of all four derivatives, and the number of texels.
     pub energy: f64,
     pub texels: f64,
 }
 
-/// Marks texels that are no vectors: longer than 1 in x and y alone. Black and white backgrounds are such texels.
+/// Replaces texels that are no vectors by NaN: x and y alone are longer than 1. Black and white backgrounds are such texels.
 #[inline(always)]
-pub fn hide_invalid(x: &mut [f32], y: &mut [f32]) {
+pub fn set_invalid_to_nan(x: &mut [f32], y: &mut [f32]) {
     for (x, y) in x.iter_mut().zip(y) {
         let is_vector = *x * *x + *y * *y <= 1.1;
         *x = if is_vector { *x } else { f32::NAN };
@@ -74,7 +74,7 @@ impl Level {
             y: std::array::from_fn(|_| row()),
             columns: std::array::from_fn(|_| row()),
             half: std::array::from_fn(|_| vec![0.0; width / 2]),
-            votes: Votes::default(),
+            tile_sums: TileSums::default(),
         }
     }
 
@@ -107,7 +107,8 @@ impl Level {
         for i in 0..length {
             let (a, b) = (x_above[i] - x_below[i], y_right[i] - y_left[i]);
             let (c, d) = (x_right[i] - x_left[i], y_above[i] - y_below[i]);
-            let is_smooth = (a.abs() <= JUMP) & (b.abs() <= JUMP) & (c.abs() <= JUMP) & (d.abs() <= JUMP);
+            let is_smooth =
+                (a.abs() <= MAX_STEP) & (b.abs() <= MAX_STEP) & (c.abs() <= MAX_STEP) & (d.abs() <= MAX_STEP);
             products[i] += if is_smooth { a * b } else { 0.0 };
             p_v[i] += if is_smooth { a * a } else { 0.0 };
             q_u[i] += if is_smooth { b * b } else { 0.0 };
@@ -117,13 +118,13 @@ impl Level {
         }
     }
 
-    /// Turns the columns into the votes of one row of tiles.
+    /// Turns the columns into the sums of one row of tiles.
     #[inline(always)]
     fn fold_tiles(&mut self) {
         for tile in 0..self.width / TILE {
             let columns = tile * TILE..(tile + 1) * TILE;
             let sums = self.columns.each_ref().map(|sums| sums[columns.clone()].iter().sum::<f32>());
-            self.votes.add(sums);
+            self.tile_sums.add(sums);
         }
         self.columns.iter_mut().for_each(|sums| sums.fill(0.0));
     }
@@ -141,11 +142,11 @@ impl Level {
     }
 }
 
-impl Votes {
-    fn add(&mut self, [product, p_v, q_u, p_u, q_v, count]: [f32; SUMS]) {
+impl TileSums {
+    fn add(&mut self, [product, p_v, q_u, p_u, q_v, count]: [f32; SUM_COUNT]) {
         let [product, p_v, q_u, p_u, q_v] = [product, p_v, q_u, p_u, q_v].map(f64::from);
         let (mixed, unmixed) = (p_v * q_u, p_u * q_v);
-        if count < TRUSTED || !(mixed > 0.0) {
+        if count < MIN_TEXELS || !(mixed > 0.0) {
             return;
         }
         let correlation = product / mixed.sqrt();
@@ -153,7 +154,7 @@ impl Votes {
         self.correlations += correlation;
         self.squared_correlations += correlation * correlation;
         // The floor stands for the rounding of texels.
-        self.orders += ((unmixed + 1e-9) / (mixed + 1e-9)).ln() / 2.0;
+        self.log_energy_ratios += ((unmixed + 1e-9) / (mixed + 1e-9)).ln() / 2.0;
         self.energy += p_v + q_u + p_u + q_v;
         self.texels += f64::from(count);
     }

@@ -108,7 +108,7 @@ struct Evaluator<'a> {
 }
 
 /// One subgroup's frame, and the mean of its tangents, which is computed when the frame is unusable.
-struct Subgroup {
+struct SubgroupFrame {
     frame: Frame,
     mean: OnceCell<Option<V3>>,
 }
@@ -134,17 +134,17 @@ impl Evaluator<'_> {
 }
 
 impl SubgroupVisitor for Evaluator<'_> {
-    type Subgroup = Subgroup;
+    type Value = SubgroupFrame;
 
-    fn compute(&mut self, excluded: &KeyTable) -> Vec<Subgroup> {
+    fn compute(&mut self, excluded: &KeyTable) -> Vec<SubgroupFrame> {
         let sums = self.terms.sums_without(excluded, || self.limits.is_cancelled());
-        let subgroup = |sum| Subgroup { frame: frame(sum, self.sign), mean: OnceCell::new() };
+        let subgroup = |sum| SubgroupFrame { frame: frame(sum, self.sign), mean: OnceCell::new() };
         sums.iter().map(subgroup).collect()
     }
 
     /// Writes the frame to the member's corner. The corners of a quad's diagonal may be written twice and then have the average. The order
     /// of the writes matters only where both frames differ in nothing but the sign of a zero.
-    fn write(&mut self, member: u32, subgroup: &Subgroup, excluded: &[u32]) {
+    fn write(&mut self, member: u32, subgroup: &SubgroupFrame, excluded: &[u32]) {
         let corner = self.triangles.corners.as_flattened()[member as usize];
         let slot = &mut self.raw.of_corner[corner as usize];
         let is_second = std::mem::replace(&mut self.written[corner as usize], true);

@@ -22,8 +22,8 @@
 
 use crate::util::radix_sort::sort_by_key;
 
-/// Slices up to this length are added one by one.
-const FEW: usize = if cfg!(small_limits) { 1 } else { 16 };
+/// The longest slice whose sums are advanced one by one.
+const MAX_ONE_BY_ONE: usize = if cfg!(small_limits) { 1 } else { 16 };
 
 /// Sums that left a binade more often than this while terms were added are advanced one by one: they are about to leave again.
 const MAX_DEPARTURES: u32 = 6;
@@ -41,7 +41,7 @@ pub(crate) struct SortedSums {
     place: Vec<(u32, u32)>,
     /// The number of the next run.
     next_number: u32,
-    /// Scratch memory of [`SortedSums::put`] and of merging.
+    /// Scratch memory of [`SortedSums::insert`] and of merging.
     pairs: Vec<(f32, u32)>,
     buffer: Vec<(f32, u32)>,
     spare: Run,
@@ -54,10 +54,11 @@ struct Run {
     sums: Vec<f32>,
     shift: u32,
     have_equal_parity: bool,
-    /// The owners of all sums, and the end of each sum's owners. An owner with another place has taken its sum.
+    /// The owners of all sums, and the end of each sum's owners. The sum of an owner whose place is another one was removed.
     owners: Vec<u32>,
     ends: Vec<u32>,
-    taken: usize,
+    /// The number of owners whose sums were removed.
+    removed: usize,
 }
 
 impl SortedSums {
@@ -79,7 +80,7 @@ impl SortedSums {
     }
 
     /// Stores sums with their owners.
-    pub fn put(&mut self, sums: impl Iterator<Item = (f32, u32)>) {
+    pub fn insert(&mut self, sums: impl Iterator<Item = (f32, u32)>) {
         self.pairs.clear();
         self.pairs.extend(sums);
         if self.pairs.is_empty() {
@@ -98,13 +99,13 @@ impl SortedSums {
     }
 
     /// Removes and returns the sum of an owner. `None` if the owner has none.
-    pub fn take(&mut self, owner: u32) -> Option<f32> {
+    pub fn remove(&mut self, owner: u32) -> Option<f32> {
         let (number, at) = std::mem::take(&mut self.place[owner as usize]);
         let index = self.runs.iter().position(|run| run.number == number)?;
         let run = &mut self.runs[index];
         let sum = run.sum(at as usize);
-        run.taken += 1;
-        if 2 * run.taken > run.owners.len() {
+        run.removed += 1;
+        if 2 * run.removed > run.owners.len() {
             let run = std::mem::take(run);
             self.runs[index] = self.merged(run, Run::default());
         }
@@ -117,10 +118,10 @@ impl SortedSums {
         run
     }
 
-    /// Merges two runs, without the sums that were taken.
+    /// Merges two runs, without the sums that were removed.
     fn merged(&mut self, a: Run, b: Run) -> Run {
         let mut merged = self.new_run();
-        let mut put = |run: &Run, at: usize| {
+        let mut copy = |run: &Run, at: usize| {
             let sum = run.sum(at);
             for &owner in run.owners(at) {
                 let place = &mut self.place[owner as usize];
@@ -133,12 +134,12 @@ impl SortedSums {
         for at in 0..a.sums.len() {
             let sum = a.sum(at);
             while next < b.sums.len() && b.sum(next) < sum {
-                put(&b, next);
+                copy(&b, next);
                 next += 1;
             }
-            put(&a, at);
+            copy(&a, at);
         }
-        (next..b.sums.len()).for_each(|at| put(&b, at));
+        (next..b.sums.len()).for_each(|at| copy(&b, at));
         self.spare = a.cleared();
         merged
     }
@@ -245,7 +246,7 @@ impl<'a> Slice<'a> {
 
 /// Adds `terms`, in order, to every value. `values` ascend, also afterwards. `departures`: how often the values left a binade before.
 fn advance(mut values: &mut [f32], terms: &[f32], departures: u32) {
-    while values.len() > FEW && departures <= MAX_DEPARTURES {
+    while values.len() > MAX_ONE_BY_ONE && departures <= MAX_DEPARTURES {
         let (first, last) = (values[0], values[values.len() - 1]);
         if first.to_bits() == last.to_bits() {
             return values.fill(terms.iter().fold(first, |sum, term| sum + term));
@@ -272,7 +273,7 @@ fn advance_binade(values: &mut [f32], mut terms: &[f32], departures: u32) {
             leaving.iter_mut().for_each(|value| *value += term);
             advance(leaving, rest, departures + 1);
         }
-        if stay.len() <= FEW {
+        if stay.len() <= MAX_ONE_BY_ONE {
             self::shift(stay, shift);
             return add_one_by_one(stay, terms);
         }

@@ -41,19 +41,19 @@ const MEMBERS_PER_CHECK: usize = 64;
 /// Receives the subgroups of one group.
 pub(crate) trait SubgroupVisitor {
     /// What is computed once per subgroup.
-    type Subgroup;
+    type Value;
 
-    /// Computes the subgroups of all members but those of each key of `excluded`: the starts and ends of ranges of indices into
+    /// Computes one value for each subgroup of all members but those of each key of `excluded`: the starts and ends of ranges of indices into
     /// [`SubgroupFinder::members`], ascending and disjoint.
-    fn compute(&mut self, excluded: &KeyTable) -> Vec<Self::Subgroup>;
+    fn compute(&mut self, excluded: &KeyTable) -> Vec<Self::Value>;
 
-    /// Assigns a subgroup to a member. `excluded`: the key of the subgroup.
-    fn write(&mut self, member: u32, subgroup: &Self::Subgroup, excluded: &[u32]);
+    /// Gives a member the value of its subgroup. `excluded`: the key of the subgroup.
+    fn write(&mut self, member: u32, value: &Self::Value, excluded: &[u32]);
 
     /// True ends the visit early.
     fn is_stopped(&self) -> bool;
 
-    /// The subgroups of so many members are found.
+    /// Reports how many members have their subgroup.
     fn show_progress(&self, _found: usize) {}
 }
 
@@ -119,9 +119,9 @@ impl SubgroupFinder {
             } else {
                 self.find_subgroups(members, members.len() - rest.len(), &*visitor)
             };
-            let subgroups = visitor.compute(&excluded);
+            let values = visitor.compute(&excluded);
             for (&member, &number) in rest.iter().zip(&subgroup_of_member) {
-                visitor.write(member, &subgroups[number as usize], excluded.key(number as usize));
+                visitor.write(member, &values[number as usize], excluded.key(number as usize));
             }
             rest = &rest[subgroup_of_member.len()..];
         }

@@ -7,10 +7,10 @@
 //! ```text
 //! for each chunk of terms:
 //!     active = subgroups that exclude a term of the chunk
-//!     take the sums of active subgroups out of the runs
+//!     remove the sums of active subgroups from the runs
 //!     advance all runs by the chunk
 //!     for each active subgroup: add the terms that it does not exclude
-//!     put the sums of active subgroups that add all of the next chunk into the runs
+//!     insert the sums of active subgroups that add all of the next chunk into the runs
 //! ```
 
 use std::ops::Range;
@@ -66,7 +66,9 @@ impl TermList {
             return self.sums_one_by_one(excluded, is_stopped);
         }
         let mut sweep = Sweep::new(&self.terms, excluded);
-        (0..sweep.first_of_chunk.len()).take_while(|_| !is_stopped()).for_each(|chunk| sweep.pass(chunk));
+        (0..sweep.first_of_chunk.len())
+            .take_while(|_| !is_stopped())
+            .for_each(|chunk| sweep.add_chunk(chunk));
         sweep.finish()
     }
 
@@ -174,18 +176,20 @@ impl<'a> Sweep<'a> {
     }
 
     /// Adds the terms of a chunk to all sums.
-    fn pass(&mut self, chunk: usize) {
+    fn add_chunk(&mut self, chunk: usize) {
         let range = chunk * CHUNK..self.terms.len().min((chunk + 1) * CHUNK);
         let active = self.active(chunk);
-        self.take_out(&active);
+        self.move_to_sums(&active);
         let terms = &self.terms[range.clone()];
         for (lane, sums) in &mut self.lanes {
             sums.advance(&terms.iter().map(|term| term.0[*lane]).collect::<Vec<_>>());
         }
-        let leaving: Vec<u32> =
-            active.into_iter().filter(|&subgroup| self.pass_active(subgroup, range.clone())).collect();
+        let leaving: Vec<u32> = active
+            .into_iter()
+            .filter(|&subgroup| self.add_chunk_to_active(subgroup, range.clone()))
+            .collect();
         terms.iter().for_each(|term| self.of_all.add(term));
-        self.put_in(&leaving);
+        self.move_to_lanes(&leaving);
     }
 
     fn active(&self, chunk: usize) -> Vec<u32> {
@@ -195,7 +199,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// Moves the sums of subgroups to `sums`.
-    fn take_out(&mut self, subgroups: &[u32]) {
+    fn move_to_sums(&mut self, subgroups: &[u32]) {
         for &subgroup in subgroups {
             if self.place[subgroup as usize] == SumPlace::OfAll {
                 self.sums[subgroup as usize] = self.of_all;
@@ -204,7 +208,7 @@ impl<'a> Sweep<'a> {
         let in_lanes = |subgroup: &&u32| self.place[**subgroup as usize] == SumPlace::Lanes;
         for (lane, sums) in &mut self.lanes {
             for &subgroup in subgroups.iter().filter(in_lanes) {
-                if let Some(sum) = sums.take(subgroup) {
+                if let Some(sum) = sums.remove(subgroup) {
                     self.sums[subgroup as usize].0[*lane] = sum;
                 }
             }
@@ -213,15 +217,15 @@ impl<'a> Sweep<'a> {
     }
 
     /// Moves the sums of subgroups from `sums` to the lanes.
-    fn put_in(&mut self, subgroups: &[u32]) {
+    fn move_to_lanes(&mut self, subgroups: &[u32]) {
         for (lane, sums) in &mut self.lanes {
-            sums.put(subgroups.iter().map(|&subgroup| (self.sums[subgroup as usize].0[*lane], subgroup)));
+            sums.insert(subgroups.iter().map(|&subgroup| (self.sums[subgroup as usize].0[*lane], subgroup)));
         }
         subgroups.iter().for_each(|&subgroup| self.place[subgroup as usize] = SumPlace::Lanes);
     }
 
     /// Adds the terms of a chunk to the sum of an active subgroup. True when the subgroup adds all terms of the next chunk.
-    fn pass_active(&mut self, subgroup: u32, range: Range<usize>) -> bool {
+    fn add_chunk_to_active(&mut self, subgroup: u32, range: Range<usize>) -> bool {
         let ranges = self.ranges(subgroup);
         self.sums[subgroup as usize].add_without(
             &self.terms[range.clone()],
@@ -242,7 +246,7 @@ impl<'a> Sweep<'a> {
 
     fn finish(mut self) -> Vec<TermLanes> {
         let all: Vec<u32> = (0..self.sums.len() as u32).collect();
-        self.take_out(&all);
+        self.move_to_sums(&all);
         self.sums
     }
 }

@@ -6,32 +6,32 @@ use crate::normal_map::texels::{Channel, TexelLayout, can_be_normal};
 /// Vectors that are summed side by side.
 const LANES: usize = 16;
 
-/// The greatest difference of two codes of a flat map: rounding and dither.
-const FLAT: usize = 2;
+/// The greatest difference between a code of a flat map and its commonest code, for rounding and dither.
+const FLAT_TOLERANCE: usize = 2;
 
 /// All components of a black texel are smaller, and those of a white texel are larger than its negation.
 const BLACK: f32 = -0.7;
 
 /// The greatest difference between the z of a texel and that of the unit vector with its x and y, for rounding: two codes of 8 bits.
-const WRONG_Z: f32 = 4.0 / 255.0;
+const Z_TOLERANCE: f32 = 4.0 / 255.0;
 
 /// The length of a middle grey texel is smaller.
-const GREY: f32 = 0.12;
+const MAX_GREY_LENGTH: f32 = 0.12;
 
 #[derive(Debug)]
-pub struct Census {
+pub struct TexelCounts {
     texels: usize,
     has_z: bool,
-    counts: Counts,
-    sums: Sums,
+    kinds: KindCounts,
+    vector_sums: VectorSums,
     z_range: [f32; 2],
     /// The number of texels of every 8-bit x (low byte) and y (high byte).
     codes: Vec<u32>,
 }
 
-/// Numbers of texels.
+/// Numbers of texels of each kind.
 #[derive(Clone, Copy, Debug, Default)]
-struct Counts {
+struct KindCounts {
     background: usize,
     not_unit: usize,
     negative_z: usize,
@@ -41,13 +41,20 @@ struct Counts {
 }
 
 /// Sums of x, y, z and lengths.
-type Sums = [f64; 4];
+type VectorSums = [f64; 4];
 
-impl Census {
+impl TexelCounts {
     /// `has_z`: whether the texels store z.
     pub fn new(has_z: bool) -> Self {
         let z_range = [f32::INFINITY, f32::NEG_INFINITY];
-        Self { texels: 0, has_z, counts: Counts::default(), sums: [0.0; 4], z_range, codes: vec![0; 1 << 16] }
+        Self {
+            texels: 0,
+            has_z,
+            kinds: KindCounts::default(),
+            vector_sums: [0.0; 4],
+            z_range,
+            codes: vec![0; 1 << 16],
+        }
     }
 
     /// Counts the codes of x and y.
@@ -92,7 +99,7 @@ impl Census {
                 // Compression blends the background with the texels beside it, so all nearly black, white and middle grey texels belong to it.
                 let third = if has_z { z[i] } else { x[i] };
                 let (low, high) = (x[i].min(y[i]).min(third), x[i].max(y[i]).max(third));
-                let is_background = (high < BLACK) | (low > -BLACK) | (length < GREY);
+                let is_background = (high < BLACK) | (low > -BLACK) | (length < MAX_GREY_LENGTH);
                 // NaN fills the last lanes.
                 let counts_here = !is_background & (length >= 0.0);
                 counts[0][i] += u32::from(is_background);
@@ -101,7 +108,7 @@ impl Census {
                 counts[3][i] += u32::from(counts_here & is_grey);
                 counts[4][i] += u32::from(counts_here & !can_be_normal(length, z[i]));
                 let unit_z = (1.0 - x[i] * x[i] - y[i] * y[i]).max(0.0).sqrt();
-                counts[5][i] += u32::from(counts_here & ((z[i] - unit_z).abs() > WRONG_Z));
+                counts[5][i] += u32::from(counts_here & ((z[i] - unit_z).abs() > Z_TOLERANCE));
                 for (lane, value) in lanes.iter_mut().zip([x[i], y[i], z[i], length]) {
                     lane[i] += if counts_here { value } else { 0.0 };
                 }
@@ -111,13 +118,13 @@ impl Census {
         }
         let [background, not_unit, negative_z, grey, not_normal, wrong_z] =
             counts.map(|lanes| lanes.iter().map(|&count| count as usize).sum::<usize>());
-        self.counts.background += background;
-        self.counts.not_unit += not_unit;
-        self.counts.negative_z += negative_z;
-        self.counts.grey += grey;
-        self.counts.not_normal += not_normal;
-        self.counts.wrong_z += wrong_z;
-        for (sum, lanes) in self.sums.iter_mut().zip(lanes) {
+        self.kinds.background += background;
+        self.kinds.not_unit += not_unit;
+        self.kinds.negative_z += negative_z;
+        self.kinds.grey += grey;
+        self.kinds.not_normal += not_normal;
+        self.kinds.wrong_z += wrong_z;
+        for (sum, lanes) in self.vector_sums.iter_mut().zip(lanes) {
             *sum += lanes.iter().map(|&lane| f64::from(lane)).sum::<f64>();
         }
         self.z_range[0] = range[0].iter().copied().fold(self.z_range[0], f32::min);
@@ -134,11 +141,13 @@ impl Census {
         })
     }
 
-    /// Whether x and y of all texels but a few are within [`FLAT`] codes of the commonest ones. A few: 1 % of the texels but at most 16, or
+    /// Whether x and y of all texels but a few are within [`FLAT_TOLERANCE`] codes of the commonest ones. A few: 1 % of the texels but at most 16, or
     /// 0.001 %, whichever is more. False for a map without texels.
     pub fn is_flat(&self) -> bool {
         let ([x, y], _) = self.commonest(0..=255);
-        let around = |code: u8| usize::from(code).saturating_sub(FLAT)..=(usize::from(code) + FLAT).min(255);
+        let around = |code: u8| {
+            usize::from(code).saturating_sub(FLAT_TOLERANCE)..=(usize::from(code) + FLAT_TOLERANCE).min(255)
+        };
         let near = around(y).flat_map(|y| around(x).map(move |x| self.codes[x | y << 8] as usize));
         let others = self.texels - near.sum::<usize>().min(self.texels);
         self.texels > 0 && others <= 16.min(self.texels / 100).max(self.texels / 100_000)
@@ -146,8 +155,8 @@ impl Census {
 
     /// The counts, without a verdict.
     pub fn judgement(&self) -> MapJudgement {
-        let vectors = (self.texels - self.counts.background).max(1) as f64;
-        let [x, y, z, length] = self.sums.map(|sum| (sum / vectors) as f32);
+        let vectors = (self.texels - self.kinds.background).max(1) as f64;
+        let [x, y, z, length] = self.vector_sums.map(|sum| (sum / vectors) as f32);
         let (commonest, commonest_count) = self.commonest(0..=255);
         let (near_flat, near_flat_count) = self.commonest(120..=136);
         MapJudgement {
@@ -155,15 +164,15 @@ impl Census {
             confidence: 0.5,
             correlation: 0.0,
             z_score: 0.0,
-            channel_order: 0.0,
+            log_energy_ratio: 0.0,
             texels: self.texels,
-            background: self.counts.background,
-            not_unit: self.counts.not_unit,
-            negative_z: self.counts.negative_z,
-            grey: self.counts.grey,
-            not_normal: self.counts.not_normal,
+            background: self.kinds.background,
+            not_unit: self.kinds.not_unit,
+            negative_z: self.kinds.negative_z,
+            grey: self.kinds.grey,
+            not_normal: self.kinds.not_normal,
             has_z: self.has_z,
-            wrong_z: self.counts.wrong_z,
+            wrong_z: self.kinds.wrong_z,
             mean_length: length,
             mean: [x, y, z],
             z_range: if self.z_range[0] <= self.z_range[1] { self.z_range } else { [0.0; 2] },
