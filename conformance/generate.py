@@ -185,12 +185,15 @@ def generate(case):
 
 def write_folder(folder, every):
     folder.mkdir(parents=True, exist_ok=True)
+    written = 0
     for path in sorted(casefile.CASES.glob("*.json")):
         case = casefile.read(path)
         if case["class"] == "large":
             casefile.write(folder / path.name, generate(case))
         elif every:
             (folder / path.name).write_bytes(path.read_bytes())
+        written += every or case["class"] == "large"
+    print(f"{written} cases are in {folder}")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
-"""Writes docs/conformance.md and results/index.html from the summaries in results/.
+"""Writes docs/conformance.md, results/index.html and WRONG.md from the summaries in results/.
 
-    python3 conformance/page.py            writes both
+    python3 conformance/page.py            writes them
     python3 conformance/page.py --check    exit code 1 if they are out of date
 """
 
@@ -10,10 +10,11 @@ import sys
 from pathlib import Path
 
 import casefile
+import wrong
 from judge import CLASSES, LEVELS
 
 HERE = Path(__file__).resolve().parent
-PAGE, TABLE = HERE / "results/index.html", HERE.parent / "docs/conformance.md"
+PAGE, TABLE, WRONG = HERE / "results/index.html", HERE.parent / "docs/conformance.md", HERE / "WRONG.md"
 REFERENCE = "mikktspace-c"
 OTHERS = "These do not claim to compute MikkTSpace. A case that fails is no defect of theirs; it says where a map baked with MikkTSpace looks different."
 
@@ -48,8 +49,9 @@ def markdown(all_of_them):
     lines = [
         "# Who computes MikkTSpace",
         "",
-        "Implementations from package registries, judged by the [conformance suite](../conformance/README.md). Made by",
-        "`cargo xtask conformance`; [the page with pictures](../conformance/results/index.html) shows every failing case.",
+        "Implementations from package registries and Debian, judged by the [conformance suite](../conformance/README.md). Made by",
+        "`cargo xtask conformance`; [the page with pictures](../conformance/results/index.html) shows every failing case. Your own code gets a verdict in",
+        "ten minutes and in any language: [how](../conformance/README.md#a-verdict-on-your-code-in-ten-minutes).",
         "",
         "A cell says how many cases of a class pass at the levels `bits`, `angle` and `seams`, and how many were judged: implementations without",
         "quads or thresholds skip those cases. The time is processor time per triangle of the case large-terrain (20,000 triangles), the least of five",
@@ -65,8 +67,8 @@ def markdown(all_of_them):
     ]
     machines = sorted({s["machine"] for s in all_of_them})
     lines += ["", f"Machine: {'; '.join(machines)}. What they are installed from: " + "; ".join(f"{s['name']}: {s['package']}" for s in all_of_them) + ".", ""]
-    lines += ["## Reports", ""]
-    lines += [f"- [{title(path)}](../conformance/reports/{path.name})" for path in sorted((HERE / "reports").glob("*.md"))]
+    lines += ["[WRONG.md](../conformance/WRONG.md) shows that the suite can fail each of them.", "", "## Reports", ""]
+    lines += [f"- [{title(path)}](../conformance/reports/{path.name})" for path in sorted((HERE / "reports").glob("*.md")) if path.name != "README.md"]
     lines += ["", "## Not in the table", "", "| implementation | reason |", "|---|---|"]
     lines += [f"| {name} | {reason} |" for name, reason in unavailable()]
     return "\n".join(lines) + "\n"
@@ -92,6 +94,35 @@ def title(path):
 
 def unavailable():
     return json.loads((HERE / "unavailable.json").read_text(encoding="utf-8"))
+
+
+def wrong_builds(all_of_them):
+    """What wrong.py counted: per implementation and wrong input, the cases that notice it."""
+    heads = [f"{change.name} ({change.noticed_by})" for change in wrong.CHANGES]
+    lines = [
+        "# Wrong builds and wrong inputs",
+        "",
+        "Made by `cargo xtask conformance --wrong` (`python3 conformance/wrong.py`): proof that each adapter reads its cases and that the suite can fail it.",
+        "A cell says how many cases of the class notice what is wrong, of how many that the adapter runs: such a case passes a level less, or more of its",
+        "corners have a wrong sign or a wrong angle. `-`: the adapter runs no case of the class. 0: the mistake changes nothing there, because the",
+        "implementation makes it already (one tangent per vertex, no sign) or is as far from the reference without it.",
+        "",
+        "| wrong input | what is wrong |",
+        "|---|---|",
+        *[f"| {change.name} | {change.sentence} |" for change in wrong.CHANGES],
+        "",
+        "A wrong build is the adapter with one operation of it or of the implementation changed; its `adapter.json` says where.",
+        "",
+        "| implementation | " + " | ".join(heads) + " | wrong build |",
+        "|---|" + "--:|" * len(heads) + "---|",
+    ]
+    for s in all_of_them:
+        proof = s.get("wrong") or {"inputs": {}, "build": None}
+        cells = ["/".join(map(str, proof["inputs"][change.name])) if change.name in proof["inputs"] else "-" for change in wrong.CHANGES]
+        build = proof["build"]
+        cells.append(f"{build['noticed']}/{build['cases']} {build['class']}: {build['what']}" if build else "-")
+        lines.append(f"| {s['name']} {s['version']} | " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
 
 
 def page(all_of_them):
@@ -206,7 +237,7 @@ def fitted(rows):
 
 def main():
     found = summaries()
-    written = {PAGE: page(found), TABLE: markdown(found)}
+    written = {PAGE: page(found), TABLE: markdown(found), WRONG: wrong_builds(found)}
     if "--check" in sys.argv[1:]:
         old = [path.name for path, text in written.items() if not path.exists() or path.read_text(encoding="utf-8") != text]
         if old:

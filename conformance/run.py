@@ -4,7 +4,8 @@
 
 WORK is a folder for what is installed and written; WORK/cases is made if it is missing. NAME: adapters, all if none is given. An adapter
 is a folder of adapters/ with adapter.json and one of: run.mjs and package.json (npm), run.py and requirements.txt (venv and pip),
-Cargo.toml (cargo), Makefile (make). It runs as `ADAPTER [ARGUMENTS] CASES RESULTS`.
+Cargo.toml (cargo), Makefile (make). It runs as `ADAPTER [ARGUMENTS] CASES RESULTS`. In adapter.json, "debian" lists packages of Debian that must
+be installed, "needs" environment variables that must be set, and "wrong" the wrong build of wrong.py.
 """
 
 import contextlib
@@ -13,6 +14,7 @@ import json
 import os
 import platform
 import shutil
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -32,41 +34,73 @@ class Unavailable(Exception):
 
 def call(command, log, **options):
     """Runs a program and appends its output to a file; its failure is the reason why the adapter is unavailable."""
-    with open(log, "ab") as output:
-        try:
-            done = subprocess.run(list(map(str, command)), stdin=subprocess.DEVNULL, stdout=output, stderr=output, timeout=LIMIT, check=False, **options)
-        except FileNotFoundError:
-            raise Unavailable(f"{command[0]} is missing") from None
-        except subprocess.TimeoutExpired:
-            raise Unavailable(f"{Path(command[0]).name} took more than {LIMIT} seconds") from None
-    if done.returncode:
+    with open(log, "ab") as stream:
+        finish(command, log, stdout=stream, stderr=stream, **options)
+
+
+def output(command, log):
+    """What a program prints."""
+    with open(log, "ab") as errors:
+        return finish(command, log, stdout=subprocess.PIPE, stderr=errors)
+
+
+def finish(command, log, **options):
+    """Runs a program to its end. After the time limit it is ended with all programs that it started."""
+    try:
+        program = subprocess.Popen(list(map(str, command)), stdin=subprocess.DEVNULL, start_new_session=True, **options)
+    except FileNotFoundError:
+        raise Unavailable(f"{command[0]} is missing") from None
+    try:
+        printed, _ = program.communicate(timeout=LIMIT)
+    except subprocess.TimeoutExpired:
+        raise Unavailable(f"{Path(command[0]).name} took more than {LIMIT} seconds") from None
+    finally:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(program.pid, signal.SIGKILL)
+        program.wait()
+    if program.returncode:
         lines = Path(log).read_text(encoding="utf-8", errors="replace").strip().splitlines()
-        raise Unavailable(f"{Path(str(command[0])).name} failed ({done.returncode}): {lines[-1][:200] if lines else ''}")
+        raise Unavailable(f"{Path(str(command[0])).name} failed ({program.returncode}): {lines[-1][:200] if lines else ''}")
+    return printed
 
 
 def install(folder, work, log):
     """Copies an adapter to the work folder and installs what it needs; gives the command that starts it."""
     target = work / "adapters" / folder.name
     shutil.copytree(folder, target, dirs_exist_ok=True)
-    if (folder / "package.json").exists():
-        if not (target / "node_modules").exists():
-            call(["npm", "install", "--no-audit", "--no-fund", "--loglevel=error"], log, cwd=target)
-        return ["node", target / "run.mjs"]
-    if (folder / "requirements.txt").exists():
-        python = target / "venv/bin/python"
-        if not (target / "venv/installed").exists():
-            call([sys.executable, "-m", "venv", "--clear", target / "venv"], log)
-            call([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r", target / "requirements.txt"], log)
-            (target / "venv/installed").touch()
-        return [python, target / "run.py"]
-    if (folder / "Cargo.toml").exists():
+    check_debian(json.loads((folder / "adapter.json").read_text(encoding="utf-8")), log)
+    if (folder / "package.json").exists() and not (target / "node_modules").exists():
+        call(["npm", "install", "--no-audit", "--no-fund", "--loglevel=error"], log, cwd=target)
+    if (folder / "requirements.txt").exists() and not (target / "venv/installed").exists():
+        call([sys.executable, "-m", "venv", "--clear", target / "venv"], log)
+        call([target / "venv/bin/python", "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r", target / "requirements.txt"], log)
+        (target / "venv/installed").touch()
+    return start(target, work, log)
+
+
+def start(target, work, log):
+    """Builds an installed adapter where it must be built, and gives the command that starts it."""
+    if (target / "Cargo.toml").exists():
         built = work / "cargo"
         call(["cargo", "build", "--quiet", "--release", "--manifest-path", target / "Cargo.toml", "--target-dir", built], log)
-        return [built / "release" / folder.name]
-    if (folder / "Makefile").exists():
+        return [built / "release" / target.name]
+    if (target / "Makefile").exists():
         call(["make", "--silent", "-C", target], log)
         return [target / "adapter"]
-    return [sys.executable, target / "run.py"]
+    if (target / "package.json").exists():
+        return ["node", target / "run.mjs"]
+    return [target / "venv/bin/python" if (target / "venv").exists() else sys.executable, target / "run.py"]
+
+
+def check_debian(adapter, log):
+    """Packages of Debian are installed by the user; their version must be the one that the adapter names."""
+    for package in adapter.get("debian", []):
+        try:
+            version = output(["dpkg-query", "--show", "--showformat=${Version}", package], log).decode()
+        except Unavailable:
+            version = ""
+        if not version.startswith(adapter["version"]):
+            raise Unavailable(f"it needs version {adapter['version']} of Debian's package {package}: apt-get install {package}")
 
 
 def summarize(adapter, run, cases, results, machine):
@@ -98,18 +132,6 @@ def failure(verdict, case, results):
     return row
 
 
-def wrong_cases(work, cases):
-    """Copies of some cases with u and v exchanged: the same adapter on them must fail when judged by the right ones."""
-    folder = work / "wrong"
-    folder.mkdir(parents=True, exist_ok=True)
-    for case in cases:
-        if case["class"] in ("core", "seams"):
-            wrong = casefile.read(work / "cases" / f"{case['name']}.json")
-            wrong["uvs"] = [[v, u] for u, v in wrong["uvs"]]
-            casefile.write(folder / f"{case['name']}.json", wrong)
-    return folder
-
-
 def run_adapter(folder, work, cases, machine):
     adapter = json.loads((folder / "adapter.json").read_text(encoding="utf-8"))
     log = work / f"{folder.name}.log"
@@ -119,21 +141,23 @@ def run_adapter(folder, work, cases, machine):
             raise Unavailable(f"the environment variable {variable} is not set; cargo xtask conformance sets it")
     command = install(folder, work, log)
     for run in adapter["runs"]:
-        results, wrong = work / "results" / run["id"], work / "results-wrong" / run["id"]
-        for place, source in ((results, work / "cases"), (wrong, wrong_cases(work, cases))):
-            shutil.rmtree(place, ignore_errors=True)
-            call([*command, *run["arguments"], source, place], log, cwd=work)
+        results = work / "results" / run["id"]
+        shutil.rmtree(results, ignore_errors=True)
+        results.parent.mkdir(exist_ok=True)
+        call([*command, *run["arguments"], work / "cases", results], log, cwd=work)
         summary = summarize(adapter, run, cases, results, machine)
-        basic = [case for case in cases if case["class"] in ("core", "seams")]
-        summary["fails_when_wrong"] = sum("seams" not in verdict.get("levels", []) for verdict in judge.judge(basic, wrong, "seams", False))
-        if not summary["fails_when_wrong"]:
-            raise Unavailable("the judge does not notice exchanged UVs: the adapter does not read its cases")
-        file = HERE / "results" / run["id"] / f"{summary['version']}.json"
+        file = summary_file(adapter, run)
+        if file.exists():
+            summary["wrong"] = json.loads(file.read_text(encoding="utf-8")).get("wrong")
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(dumps(summary), encoding="utf-8")
         totals = {level: sum(own["levels"][level] for own in summary["classes"].values()) for level in judge.LEVELS}
         judged = sum(own["cases"] - own["skipped"] for own in summary["classes"].values())
         print(f"{run['name']} {summary['version']}: of {judged} cases " + ", ".join(f"{n} at {level}" for level, n in totals.items()) + f"; {summary.get('ns_per_triangle', '-')} ns per triangle", flush=True)
+
+
+def summary_file(adapter, run):
+    return HERE / "results" / run["id"] / f"{run.get('version', adapter.get('version'))}.json"
 
 
 def dumps(summary):
@@ -151,6 +175,15 @@ def processor():
     return platform.machine()
 
 
+def adapters(names):
+    """The folders of adapters, of all if no name is given."""
+    folders = {path.parent.name: path.parent for path in sorted((HERE / "adapters").glob("*/adapter.json"))}
+    for name in names:
+        if name not in folders:
+            sys.exit(f"{name} is not a folder in conformance/adapters: {', '.join(folders)}")
+    return [folders[name] for name in names or folders]
+
+
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
@@ -161,13 +194,12 @@ def main():
     cases = judge.select(HERE / "cases", None)
     machine = f"{processor()}, {platform.system()}"
     unavailable = {}
-    for folder in sorted((HERE / "adapters").iterdir()):
-        if (folder / "adapter.json").exists() and (not names or folder.name in names):
-            try:
-                run_adapter(folder, work, cases, machine)
-            except (Unavailable, judge.Unusable) as reason:
-                unavailable[folder.name] = str(reason)
-                print(f"skipped: {folder.name}: {reason}", flush=True)
+    for folder in adapters(names):
+        try:
+            run_adapter(folder, work, cases, machine)
+        except (Unavailable, judge.Unusable) as reason:
+            unavailable[folder.name] = str(reason)
+            print(f"skipped: {folder.name}: {reason}", flush=True)
     return 1 if names and unavailable else 0
 
 

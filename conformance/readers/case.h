@@ -31,7 +31,7 @@ static uint32_t *case_array(const char *text, const char *key, size_t *count) {
         if (*at == ']' && --depth == 0) break;
         if (*at != '"' && (*at < '0' || *at > '9')) continue;
         uint32_t value = (uint32_t)(*at == '"' ? strtoul(at + 1, &end, 16) : strtoul(at, &end, 10));
-        if (*count == room) out = realloc(out, (room = room ? 2 * room : 64) * sizeof *out);
+        if (*count == room) out = (uint32_t *)realloc(out, (room = room ? 2 * room : 64) * sizeof *out);
         if (!out) { fprintf(stderr, "out of memory\n"); exit(1); }
         out[(*count)++] = value;
         at = *at == '"' ? end : end - 1;
@@ -45,7 +45,7 @@ static Case read_case(const char *path) {
     if (!file) { fprintf(stderr, "%s cannot be read\n", path); exit(1); }
     fseek(file, 0, SEEK_END);
     size_t size = (size_t)ftell(file), count;
-    char *text = calloc(size + 1, 1);
+    char *text = (char *)calloc(size + 1, 1);
     rewind(file);
     if (!text || fread(text, 1, size, file) != size) { fprintf(stderr, "%s cannot be read\n", path); exit(1); }
     fclose(file);

@@ -89,15 +89,19 @@ class Elsewhere(unittest.TestCase):
         self.assertEqual(self.verdict()[0], 1)
 
     @unittest.skipUnless(shutil.which("cc"), "needs a C compiler")
-    def test_the_example_in_c(self):
+    def test_the_example_in_c_and_cpp(self):
         (code,) = blocks("FORMAT.md", "c")
-        shutil.rmtree(self.root / "results", ignore_errors=True)
-        (self.root / "results").mkdir()
-        (self.root / "adapter.c").write_text(code, encoding="utf-8")
-        self.call("cc", "-Wall", "-Wextra", "-Werror", "adapter.c", "-lm", "-o", "adapter")
-        for path in (self.root / "cases").glob("*.json"):
-            self.call("./adapter", path, self.root / "results" / path.name)
-        self.assertEqual(self.verdict()[0], 1)
+        for compiler, name in (("cc", "adapter.c"), ("c++", "adapter.cpp")):
+            with self.subTest(compiler):
+                if not shutil.which(compiler):
+                    self.skipTest(f"needs {compiler}")
+                shutil.rmtree(self.root / "results", ignore_errors=True)
+                (self.root / name).write_text(code, encoding="utf-8")
+                self.call(compiler, "-Wall", "-Wextra", "-Werror", name, "-lm", "-o", "adapter")
+                self.call("./adapter", "cases", "results")
+                code_of_judge, out = self.verdict()
+                self.assertEqual(code_of_judge, 1)
+                self.assertIn("1 skipped", out)
 
 
 if __name__ == "__main__":
