@@ -1,5 +1,6 @@
 //! `planTopology`: the arrays with which the shaders of `darboux/webgpu` evaluate tangents wherever the vertices are.
 
+use darboux::Context;
 use darboux::internal::gpu_plan::{PlanArrays, PlanRefusal};
 
 use crate::arena::with_arena;
@@ -11,10 +12,13 @@ use crate::options::tangent_options;
 pub extern "C" fn plan_topology(mode: u32, threshold: f32, max_members: usize) -> i32 {
     with_arena(|arena| {
         let Some(mesh) = arena.mesh() else { return -1 };
-        let topology = match PlanArrays::new(&mesh, &tangent_options(mode, threshold, 0), max_members) {
+        let options = tangent_options(mode, threshold, 0);
+        let topology = match PlanArrays::new(&mesh, &options, &mut Context::new(), max_members) {
             Ok(topology) => topology,
             Err(PlanRefusal::TooManyMembers { members, .. }) => return members as i32,
-            Err(PlanRefusal::QuadHalvesDiffer { .. } | PlanRefusal::OtherMethod) => return -1,
+            Err(PlanRefusal::QuadHalvesDiffer { .. } | PlanRefusal::OtherMethod | PlanRefusal::Failed(_)) => {
+                return -1;
+            }
         };
         let (sum_of_vertex, split_vertices) = match topology.sum_of_vertex(&mesh) {
             Ok(sums) => (sums, 0),

@@ -4,7 +4,7 @@
 //! difference of a component in ulp, the number of corners with another sign or in another group, and of corners that the CPU computed.
 
 use darboux::internal::stage_arrays::{NONE, Stages};
-use darboux::{Faces, MikkTSpaceOptions, Mode, TangentOptions, generate_tangents};
+use darboux::{Context, Faces, MikkTSpaceOptions, Mode, TangentOptions, generate_tangents};
 use darboux_gpu::{Gpu, GpuError, MikkTSpace};
 use darboux_tests::{Case, OwnedMesh, corpus, families};
 
@@ -97,7 +97,7 @@ fn ordered(x: f32) -> i64 {
 fn other_groups(kernels: &MikkTSpace, mesh: &OwnedMesh) -> Result<usize, GpuError> {
     let options = MikkTSpaceOptions::new().with_mode(Mode::Corrected);
     let found = kernels.stage_arrays(&mesh.view(), &options)?;
-    let core = Stages::new(&mesh.view(), &options, usize::MAX).expect("no limit");
+    let core = Stages::new(&mesh.view(), &options, &mut Context::new(), usize::MAX).unwrap().expect("no limit");
     let faces = &core.triangulation.good.face;
     let mut seeds = vec![NONE; mesh.corner_count()];
     for group in 0..core.groups.ends().len() {

@@ -31,9 +31,12 @@ pub enum GpuError {
         /// The message of the device.
         reason: String,
     },
+    /// The token of the call's context was cancelled.
+    #[error("the call was cancelled")]
+    Cancelled,
     /// Arguments that do not fit the mesh.
     #[error(transparent)]
-    Mesh(#[from] darboux::Error),
+    Mesh(darboux::Error),
     /// A stride or offset is not a multiple of 4.
     #[error("the stride or offset of the {what} is {bytes} bytes: use a multiple of 4")]
     UnalignedLayout {
@@ -152,6 +155,16 @@ impl GpuError {
             PlanRefusal::QuadHalvesDiffer { corners } => Self::QuadHalvesDiffer { corners },
             PlanRefusal::OtherMethod => Self::UnsupportedMethod,
             PlanRefusal::TooManyMembers { members, limit } => Self::TooManyMembers { members, limit },
+            PlanRefusal::Failed(error) => error.into(),
+        }
+    }
+}
+
+impl From<darboux::Error> for GpuError {
+    fn from(error: darboux::Error) -> Self {
+        match error {
+            darboux::Error::Cancelled => Self::Cancelled,
+            other => Self::Mesh(other),
         }
     }
 }

@@ -3,7 +3,7 @@
 //! The head of `shaders/split.wgsl` has the algorithm: a hash table finds equal corners, a prefix sum numbers the new vertices.
 
 use bytemuck::cast_slice;
-use darboux::{CornerTangents, Mesh, VertexSplit, split_vertices};
+use darboux::{Context, CornerTangents, Mesh, VertexSplit, split_vertices_with};
 use wgpu::{Buffer, BufferUsages, CommandEncoder, ComputePipeline, Device, Queue};
 
 use crate::device::adapters::Gpu;
@@ -67,26 +67,42 @@ impl Splitter {
     ///
     /// Errors: the tangents are of another number of corners; a buffer is past a limit of the device; the device is out of memory or lost.
     pub fn split_vertices(&self, mesh: &Mesh<'_>, corners: &CornerTangents) -> Result<VertexSplit, GpuError> {
+        self.split_vertices_with(mesh, corners, &mut Context::new())
+    }
+
+    /// As [`Splitter::split_vertices`], with a context. Further error: the context's token was cancelled; the device still finishes the
+    /// commands that it has.
+    pub fn split_vertices_with(
+        &self,
+        mesh: &Mesh<'_>,
+        corners: &CornerTangents,
+        context: &mut Context,
+    ) -> Result<VertexSplit, GpuError> {
         if corners.len() != mesh.corner_count() || corners.is_empty() {
-            return Ok(split_vertices(mesh, corners)?);
+            return Ok(split_vertices_with(mesh, corners, context)?);
         }
-        match with_error_scopes(&self.device, || self.run(mesh, corners))? {
+        match with_error_scopes(&self.device, || self.run(mesh, corners, context))? {
             Some(split) => Ok(split),
-            None => Ok(split_vertices(mesh, corners)?),
+            None => Ok(split_vertices_with(mesh, corners, context)?),
         }
     }
 
     /// None if a probe sequence of the hash table was too long; the CPU has no such limit.
-    fn run(&self, mesh: &Mesh<'_>, tangents: &CornerTangents) -> Result<Option<VertexSplit>, GpuError> {
+    fn run(
+        &self,
+        mesh: &Mesh<'_>,
+        tangents: &CornerTangents,
+        context: &Context,
+    ) -> Result<Option<VertexSplit>, GpuError> {
         let (device, queue) = (&self.device, &self.queue);
         let (vertex_count, corner_count) = (mesh.vertex_count() as u32, mesh.corner_count() as u32);
         let corners = CornerBuffers::new(device, mesh, tangents)?;
         let dispatches = self.number_new_vertices(&corners, corner_count);
         let record = |encoder: &mut CommandEncoder| dispatches.iter().for_each(|d| d.record(encoder));
         let sources = [&corners.failure_count, &corners.number_of_corner];
-        let [failures, numbers] = submit(device, queue, record, sources);
-        let new_vertices = numbers.read::<u32>(device)?[corner_count as usize];
-        if failures.read::<u32>(device)? != [0] {
+        let [failures, numbers] = submit(device, queue, record, sources, context)?;
+        let new_vertices = numbers.read::<u32>(device, context)?[corner_count as usize];
+        if failures.read::<u32>(device, context)? != [0] {
             return Ok(None);
         }
         let split_count = vertex_count + new_vertices;
@@ -109,11 +125,12 @@ impl Splitter {
             Dispatch::new(device, &self.assign, &all_buffers, corner_count),
         ];
         let record = |encoder: &mut CommandEncoder| dispatches.iter().for_each(|d| d.record(encoder));
-        let [indices, sources, tangents] = submit(device, queue, record, [&indices, &sources, &tangents]);
+        let [indices, sources, tangents] =
+            submit(device, queue, record, [&indices, &sources, &tangents], context)?;
         Ok(Some(VertexSplit {
-            tangent_of_vertex: tangents.read(device)?,
-            indices: indices.read(device)?,
-            source_of_vertex: sources.read(device)?,
+            tangent_of_vertex: tangents.read(device, context)?,
+            indices: indices.read(device, context)?,
+            source_of_vertex: sources.read(device, context)?,
         }))
     }
 

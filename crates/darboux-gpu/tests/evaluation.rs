@@ -7,7 +7,7 @@ use std::sync::Mutex;
 
 use common::{buffer, gpus, words_of};
 use darboux::internal::stage_arrays::{NONE, Stages};
-use darboux::{Frame, MikkTSpaceOptions, Mode, generate_frames};
+use darboux::{Context, Frame, MikkTSpaceOptions, Mode, generate_frames};
 use darboux_gpu::Gpu;
 use darboux_gpu::internal::{Arithmetic, Evaluation, EvaluationKernels, GroupedMesh};
 use darboux_tests::{Case, OwnedMesh, corpus, families};
@@ -52,7 +52,7 @@ impl Batch {
     fn add(&mut self, name: &str, mesh: &OwnedMesh, threshold: f32) {
         let view = mesh.view();
         let options = MikkTSpaceOptions::new().with_mode(Mode::Reference).with_threshold(threshold);
-        let stages = Stages::new(&view, &options, LIMIT).expect("small groups");
+        let stages = Stages::new(&view, &options, &mut Context::new(), LIMIT).unwrap().expect("small groups");
         let frames = generate_frames(&view, &options.into()).corners;
         let good = &stages.triangulation.good;
         let first_triangle = self.triangles();

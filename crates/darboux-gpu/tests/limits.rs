@@ -6,7 +6,8 @@ use std::io::Write;
 use std::sync::OnceLock;
 
 use common::{APART, APART_STRIDE, ENGINE, buffer, gpus, triangulated};
-use darboux::{TangentOptions, generate_tangents};
+use darboux::internal::cancel_checks::cancel_after;
+use darboux::{Context, TangentOptions, generate_tangents};
 use darboux_gpu::{
     Average, Destination, Gpu, GpuError, MeshBuffers, MikkTSpace, Planner, Precision, Search, Splitter,
 };
@@ -72,6 +73,19 @@ fn vertices_past_a_binding_are_split_into_submeshes() {
         ] {
             let of_cpu = has_the_bits_of_the_core(kernels, name, &mesh);
             assert!(of_cpu < mesh.corner_count(), "{name}");
+        }
+    }
+}
+
+/// As tests/cancel.rs, where each tile has its own vertices.
+#[test]
+fn submeshes_are_cancelled() {
+    let (mesh, options) = (families::grid(40, 9, false, true), TangentOptions::default());
+    for kernels in small_kernels() {
+        for checks in 0..10 {
+            let context = &mut Context::new().with_cancel(&cancel_after(checks));
+            let run = kernels.generate_tangents_with(&mesh.view(), &options, context);
+            assert_eq!(run.err(), Some(GpuError::Cancelled), "cancelled at check {checks}");
         }
     }
 }

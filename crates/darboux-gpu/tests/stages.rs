@@ -6,7 +6,7 @@ use std::collections::HashMap;
 
 use common::{gpus, kernels, triangulated};
 use darboux::internal::stage_arrays::{NONE, Stages, Triangulation};
-use darboux::{MikkTSpaceOptions, Mode};
+use darboux::{Context, MikkTSpaceOptions, Mode};
 use darboux_gpu::internal::StageArrays;
 use darboux_tests::{Case, OwnedMesh, corpus, families};
 
@@ -27,7 +27,7 @@ fn check(name: &str, mesh: &OwnedMesh, tally: &mut Tally) {
     }
     // In this mode the order of the last edges does not matter, which only the core reproduces.
     let options = MikkTSpaceOptions::new().with_mode(Mode::Corrected);
-    let core = Stages::new(&view, &options, usize::MAX).expect("no limit");
+    let core = Stages::new(&view, &options, &mut Context::new(), usize::MAX).unwrap().expect("no limit");
     for kernels in kernels() {
         let found = kernels.stage_arrays(&view, &options).unwrap_or_else(|error| panic!("{name}: {error}"));
         tally.meshes += 1;

@@ -1,31 +1,38 @@
-//! The stand-in for builds without the feature `gpu`: opening a GPU fails.
+//! The GPU of builds without the feature `gpu`: opening it fails, so no value of its type exists.
 
-use std::sync::atomic::AtomicBool;
-
-use darboux::{Mesh, TangentOptions, Tangents};
+use darboux::{Context, Mesh, TangentOptions, Tangents};
 
 use crate::commands::missing::missing_feature;
 
-/// A GPU; no value of this type exists.
-pub struct OpenGpu {
-    pub name: String,
-    pub is_software_unreported: AtomicBool,
-    never: std::convert::Infallible,
-}
+/// As the `OpenGpu` of builds with the feature `gpu`.
+pub enum OpenGpu {}
 
 /// Fails with the command line that installs GPU support.
 pub fn open() -> Result<&'static OpenGpu, String> {
     Err(missing_feature("--device gpu", "full"))
 }
 
-/// Fails with the command line that installs GPU support.
+/// Fails as [`open`].
 pub fn open_early() -> Result<(), String> {
     open().map(drop)
 }
 
 impl OpenGpu {
-    /// Cannot be called.
-    pub fn generate(&self, _: &Mesh<'_>, _: &TangentOptions, _: &mut Tangents) -> Result<usize, String> {
-        match self.never {}
+    pub fn name(&self) -> &str {
+        match *self {}
+    }
+
+    pub fn take_software_warning(&self) -> Option<String> {
+        match *self {}
+    }
+
+    pub fn generate(
+        &self,
+        _: &Mesh<'_>,
+        _: &TangentOptions,
+        _: &mut Context,
+        _: &mut Tangents,
+    ) -> Result<usize, String> {
+        match *self {}
     }
 }

@@ -1,9 +1,9 @@
 //! Opens the fastest adapter once per process and computes MikkTSpace tangents on it.
 
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
-use darboux::{Mesh, TangentOptions, Tangents};
+use darboux::{Context, Mesh, TangentOptions, Tangents};
 use darboux_gpu::{AdapterKind, Gpu, GpuTangents, MikkTSpace};
 
 use super::adapter::Adapter;
@@ -11,9 +11,9 @@ use super::driver_messages::without_driver_messages;
 
 /// The fastest adapter, with its compute pipelines compiled.
 pub struct OpenGpu {
-    pub name: String,
-    /// True until the warning that this adapter is software was printed; false for hardware.
-    pub is_software_unreported: AtomicBool,
+    name: String,
+    /// True until the warning that this adapter is software was taken; false for hardware.
+    is_software_unreported: AtomicBool,
     /// Locked for each mesh: several meshes at once may need more memory than the adapter has.
     pipelines: Mutex<MikkTSpace>,
 }
@@ -47,16 +47,31 @@ impl OpenGpu {
         Some(Self { name: gpu.name, is_software_unreported: AtomicBool::new(false), pipelines })
     }
 
-    /// Computes the tangents of a mesh and returns the number of corners that the CPU computed. Errors: the adapter fails.
+    /// The name of the adapter.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The warning that the adapter is software: once per process, and never for hardware.
+    pub fn take_software_warning(&self) -> Option<String> {
+        let is_due = self.is_software_unreported.swap(false, Ordering::Relaxed);
+        is_due.then(|| {
+            format!("{} is a software adapter; --device cpu gives the same bits in less time", self.name)
+        })
+    }
+
+    /// Computes the tangents of a mesh and returns the number of corners that the CPU computed. Errors: the adapter fails; the context's
+    /// token was cancelled.
     pub fn generate(
         &self,
         mesh: &Mesh<'_>,
         options: &TangentOptions,
+        context: &mut Context,
         out: &mut Tangents,
     ) -> Result<usize, String> {
         let pipelines = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
-        let generated = pipelines.generate_tangents(mesh, options).map_err(|error| error.to_string())?;
-        let GpuTangents { tangents, cpu_corners, .. } = generated;
+        let generated = pipelines.generate_tangents_with(mesh, options, context);
+        let GpuTangents { tangents, cpu_corners, .. } = generated.map_err(|error| error.to_string())?;
         *out = tangents;
         Ok(cpu_corners)
     }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use darboux::Context;
 use wgpu::{
     Adapter, Backends, Buffer, CommandEncoder, Device, DeviceDescriptor, DeviceType, Features, Instance,
     InstanceDescriptor, Queue,
@@ -152,8 +153,9 @@ impl Gpu {
         record: impl FnOnce(&mut CommandEncoder),
         buffer: &Buffer,
     ) -> Result<Vec<u8>, GpuError> {
-        let [copy] = readback::submit(&self.device, &self.queue, record, [buffer]);
-        copy.read(&self.device)
+        let context = &Context::new();
+        let [copy] = readback::submit(&self.device, &self.queue, record, [buffer], context)?;
+        copy.read(&self.device, context)
     }
 
     async fn of(adapter: &Adapter) -> Result<Self, GpuError> {

@@ -1,10 +1,14 @@
 //! Reads buffers back to the CPU, and turns wgpu's error scopes into [`GpuError`].
 
 use std::sync::mpsc;
+use std::time::Duration;
 
 use bytemuck::{AnyBitPattern, NoUninit};
+use darboux::Context;
+use darboux::internal::cancel_checks::check;
 use wgpu::{
-    Buffer, BufferDescriptor, BufferUsages, CommandEncoder, Device, ErrorFilter, MapMode, PollType, Queue,
+    Buffer, BufferDescriptor, BufferUsages, CommandEncoder, Device, ErrorFilter, MapMode, PollError, PollType,
+    Queue,
 };
 
 use crate::error::GpuError;
@@ -29,18 +33,24 @@ pub(crate) fn with_error_scopes<T>(
     }
 }
 
-/// Submits the commands of `record`, followed by copies of `sources`, which have `BufferUsages::COPY_SRC`.
+/// The time between two cancellation checks while the device works.
+const CHECK_INTERVAL: Duration = Duration::from_millis(10);
+
+/// Submits the commands of `record`, followed by copies of `sources`, which have `BufferUsages::COPY_SRC`. Errors: the context's token was
+/// cancelled.
 pub(crate) fn submit<const N: usize>(
     device: &Device,
     queue: &Queue,
     record: impl FnOnce(&mut CommandEncoder),
     sources: [&Buffer; N],
-) -> [Readback; N] {
+    context: &Context,
+) -> Result<[Readback; N], GpuError> {
+    check(context)?;
     let mut encoder = device.create_command_encoder(&Default::default());
     record(&mut encoder);
     let copies = sources.map(|buffer| Readback::record(device, &mut encoder, buffer));
     queue.submit([encoder.finish()]);
-    copies
+    Ok(copies)
 }
 
 /// A copy of a buffer that can be mapped for reading.
@@ -58,18 +68,34 @@ impl Readback {
         Self(copy)
     }
 
-    /// Waits for all submitted work and returns the elements. Errors: the device is lost.
-    pub fn read<T: AnyBitPattern + NoUninit>(self, device: &Device) -> Result<Vec<T>, GpuError> {
+    /// Waits for all submitted work and returns the elements. Errors: the device is lost; the context's token was cancelled.
+    pub fn read<T: AnyBitPattern + NoUninit>(
+        self,
+        device: &Device,
+        context: &Context,
+    ) -> Result<Vec<T>, GpuError> {
         let (sender, receiver) = mpsc::channel();
         self.0.map_async(MapMode::Read, .., move |mapped| {
             // The receiver is gone only if this function has already returned an error.
             let _ignored = sender.send(mapped.is_ok());
         });
-        let polled = device.poll(PollType::wait_indefinitely());
-        if polled.is_err() || receiver.recv() != Ok(true) {
+        wait(device, context)?;
+        if receiver.recv() != Ok(true) {
             return Err(GpuError::Lost);
         }
         let bytes = self.0.get_mapped_range(..).map_err(|_| GpuError::Lost)?;
         Ok(bytemuck::pod_collect_to_vec(&bytes))
+    }
+}
+
+/// Waits for all submitted work. Errors: the device is lost; the context's token was cancelled, after which the device still finishes that work.
+fn wait(device: &Device, context: &Context) -> Result<(), GpuError> {
+    loop {
+        check(context)?;
+        match device.poll(PollType::Wait { submission_index: None, timeout: Some(CHECK_INTERVAL) }) {
+            Ok(_) => return Ok(()),
+            Err(PollError::Timeout) => {}
+            Err(PollError::WrongSubmissionIndex(..)) => return Err(GpuError::Lost),
+        }
     }
 }

@@ -8,10 +8,11 @@
 //!
 //! What is common runs on the GPU; what is rare, and hard to parallelise with the same bits, runs on the CPU.
 
+use darboux::internal::cancel_checks::check;
 use darboux::internal::gpu_resume;
 use darboux::{
     Context, CornerTangents, Faces, Indices, Mesh, Method, MikkTSpaceOptions, TangentOptions, Tangents,
-    generate_tangents,
+    generate_tangents_with,
 };
 use wgpu::{CommandEncoder, Device, Queue};
 
@@ -116,24 +117,35 @@ impl MikkTSpace {
         mesh: &Mesh<'_>,
         options: &TangentOptions,
     ) -> Result<GpuTangents, GpuError> {
+        self.generate_tangents_with(mesh, options, &mut Context::new())
+    }
+
+    /// As [`MikkTSpace::generate_tangents`], with a context, whose limit of threads holds for the part of the CPU. Further error: the
+    /// context's token was cancelled. It is checked before each submission, every 10 ms while the device works, and on the CPU; the device
+    /// still finishes the commands that it has.
+    pub fn generate_tangents_with(
+        &self,
+        mesh: &Mesh<'_>,
+        options: &TangentOptions,
+        context: &mut Context,
+    ) -> Result<GpuTangents, GpuError> {
         let Method::MikkTSpace(mikkt) = &options.method else {
-            return Ok(GpuTangents::from_cpu(mesh, options, CpuFallback::Method));
+            return GpuTangents::from_cpu(mesh, options, context, CpuFallback::Method);
         };
         if !matches!(mesh.faces(), Faces::Triangles) {
-            return Ok(GpuTangents::from_cpu(mesh, options, CpuFallback::Faces));
+            return GpuTangents::from_cpu(mesh, options, context, CpuFallback::Faces);
         }
         if mesh.face_count() == 0 {
-            let tangents = generate_tangents(mesh, options);
+            let tangents = generate_tangents_with(mesh, options, context)?;
             return Ok(GpuTangents { tangents, cpu_corners: 0, cpu_fallback: None });
         }
         let indices = corner_indices(mesh);
-        let partial = with_error_scopes(&self.device, || self.run(mesh, &indices, mikkt))?;
+        let partial = with_error_scopes(&self.device, || self.run(mesh, &indices, mikkt, context))?;
         let Some(PartialTangents { welded_vertex, mut tangents }) = partial else {
-            return Ok(GpuTangents::from_cpu(mesh, options, CpuFallback::Values));
+            return GpuTangents::from_cpu(mesh, options, context, CpuFallback::Values);
         };
         let indexed = Mesh::triangles(mesh.positions(), mesh.normals(), mesh.uvs(), Indices::U32(&indices));
         let indexed = indexed.expect("the same triangles");
-        let context = &mut Context::new();
         let (report, cpu_corners) =
             gpu_resume::complete(&indexed, mikkt, welded_vertex, context, &mut tangents)?;
         let tangents = Tangents { corners: CornerTangents::from_per_corner(tangents), report };
@@ -147,7 +159,7 @@ impl MikkTSpace {
         mesh: &Mesh<'_>,
         options: &MikkTSpaceOptions,
     ) -> Result<StageArrays, GpuError> {
-        let (device, queue) = (&self.device, &self.queue);
+        let (device, queue, context) = (&self.device, &self.queue, &Context::new());
         with_error_scopes(device, || {
             let StageRecording { vertices, tile } = self.single_tile(mesh, options)?;
             let record = |encoder: &mut CommandEncoder| {
@@ -161,7 +173,7 @@ impl MikkTSpace {
                     .map(|name| tile.buffers.get(name));
             let sources = [failures, welded, corners, neighbours, flags, seeds];
             let [failures, welded, corners, neighbours, flags, seeds] =
-                submit(device, queue, record, sources).map(|copy| copy.read::<u32>(device));
+                submit(device, queue, record, sources, context)?.map(|copy| copy.read::<u32>(device, context));
             Ok(StageArrays {
                 failure_count: failures?[0],
                 welded_vertex: welded?,
@@ -197,14 +209,15 @@ impl MikkTSpace {
         mesh: &Mesh<'_>,
         indices: &[u32],
         options: &MikkTSpaceOptions,
+        context: &Context,
     ) -> Result<Option<PartialTangents>, GpuError> {
         let tile_corners = 3 * self.triangles_per_tile()?;
         let threshold_cosine = gpu_resume::threshold_cosine(options);
         let limit = largest_buffer(&self.device.limits());
         if UploadedVertices::byte_length(mesh.vertex_count()) > limit {
-            self.run_submeshes(mesh, indices, tile_corners, threshold_cosine)
+            self.run_submeshes(mesh, indices, tile_corners, threshold_cosine, context)
         } else {
-            self.run_tiles(mesh, indices, tile_corners, threshold_cosine)
+            self.run_tiles(mesh, indices, tile_corners, threshold_cosine, context)
         }
     }
 
@@ -224,22 +237,25 @@ impl MikkTSpace {
         indices: &[u32],
         tile_corners: usize,
         threshold_cosine: f32,
+        context: &Context,
     ) -> Result<Option<PartialTangents>, GpuError> {
         let (device, queue) = (&self.device, &self.queue);
         let vertices = UploadedVertices::new(device, &self.programs, mesh)?;
         let sources = ["failure_count", "welded_vertex"].map(|name| vertices.buffers.get(name));
-        let [failures, welded] = submit(device, queue, |encoder| vertices.record(encoder), sources);
-        if failures.read::<u32>(device)? != [0] {
+        let record = |encoder: &mut CommandEncoder| vertices.record(encoder);
+        let [failures, welded] = submit(device, queue, record, sources, context)?;
+        if failures.read::<u32>(device, context)? != [0] {
             return Ok(None);
         }
-        let welded_vertex = welded.read(device)?;
+        let welded_vertex = welded.read(device, context)?;
         let is_shared = shared_vertices(indices, &welded_vertex, tile_corners);
         let mut tangents = Vec::with_capacity(indices.len());
         for indices in indices.chunks(tile_corners) {
             let tile = Tile::new(device, &self.programs, &vertices, indices, &is_shared, threshold_cosine)?;
             let sources = [tile.buffers.get("tangent_of_corner")];
-            let [of_tile] = submit(device, queue, |encoder| tile.record(encoder), sources);
-            tangents.extend(of_tile.read::<[f32; 4]>(device)?);
+            let record = |encoder: &mut CommandEncoder| tile.record(encoder);
+            let [of_tile] = submit(device, queue, record, sources, context)?;
+            tangents.extend(of_tile.read::<[f32; 4]>(device, context)?);
         }
         Ok(Some(PartialTangents { welded_vertex, tangents }))
     }
@@ -251,9 +267,12 @@ impl MikkTSpace {
         indices: &[u32],
         tile_corners: usize,
         threshold_cosine: f32,
+        context: &Context,
     ) -> Result<Option<PartialTangents>, GpuError> {
         let (device, queue) = (&self.device, &self.queue);
+        check(context)?;
         let Some(welded_vertex) = weld_on_cpu(mesh) else { return Ok(None) };
+        check(context)?;
         let is_shared = shared_vertices(indices, &welded_vertex, tile_corners);
         let mut tangents = Vec::with_capacity(indices.len());
         for indices in indices.chunks(tile_corners) {
@@ -268,11 +287,11 @@ impl MikkTSpace {
                 tile.record(encoder);
             };
             let sources = [vertices.buffers.get("failure_count"), tile.buffers.get("tangent_of_corner")];
-            let [failures, of_tile] = submit(device, queue, record, sources);
-            if failures.read::<u32>(device)? != [0] {
+            let [failures, of_tile] = submit(device, queue, record, sources, context)?;
+            if failures.read::<u32>(device, context)? != [0] {
                 return Ok(None);
             }
-            tangents.extend(of_tile.read::<[f32; 4]>(device)?);
+            tangents.extend(of_tile.read::<[f32; 4]>(device, context)?);
         }
         Ok(Some(PartialTangents { welded_vertex, tangents }))
     }
@@ -288,12 +307,14 @@ fn shared_vertices(indices: &[u32], welded_vertex: &[u32], tile_corners: usize) 
 }
 
 impl GpuTangents {
-    fn from_cpu(mesh: &Mesh<'_>, options: &TangentOptions, fallback: CpuFallback) -> Self {
-        Self {
-            tangents: generate_tangents(mesh, options),
-            cpu_corners: mesh.corner_count(),
-            cpu_fallback: Some(fallback),
-        }
+    fn from_cpu(
+        mesh: &Mesh<'_>,
+        options: &TangentOptions,
+        context: &mut Context,
+        fallback: CpuFallback,
+    ) -> Result<Self, GpuError> {
+        let tangents = generate_tangents_with(mesh, options, context)?;
+        Ok(Self { tangents, cpu_corners: mesh.corner_count(), cpu_fallback: Some(fallback) })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use bytemuck::Zeroable;
 use darboux::internal::gpu_plan::{PlanArrays, VERTEX_MASK};
-use darboux::{Mesh, TangentOptions};
+use darboux::{Context, Mesh, TangentOptions};
 use wgpu::{Buffer, BufferUsages, ComputePipeline, Device};
 
 use crate::device::buffers::{buffer_with_contents, check_size, storage_buffer};
@@ -119,8 +119,18 @@ impl Planner {
     /// Errors: the method is not MikkTSpace; a corner of a quad averages the tangents of two triangles, or one triangle of a quad is
     /// degenerate; a vertex has too many triangles; a buffer is past a limit of the device.
     pub fn plan(&self, mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Plan, GpuError> {
-        let topology =
-            PlanArrays::new(mesh, options, MAX_ITERATIONS as usize).map_err(GpuError::of_refusal)?;
+        self.plan_with(mesh, options, &mut Context::new())
+    }
+
+    /// As [`Planner::plan`], with a context. Further error: the context's token was cancelled.
+    pub fn plan_with(
+        &self,
+        mesh: &Mesh<'_>,
+        options: &TangentOptions,
+        context: &mut Context,
+    ) -> Result<Plan, GpuError> {
+        let topology = PlanArrays::new(mesh, options, context, MAX_ITERATIONS as usize)
+            .map_err(GpuError::of_refusal)?;
         let of_corners = self.upload("sums of corners", &topology.sum_of_corner)?;
         let of_vertices = (topology.sum_of_vertex(mesh))
             .map_err(|vertices| GpuError::UnsplitVertices { vertices })

@@ -1,6 +1,12 @@
-//! Tokens that count how often calls check them: for tests of cancellation that depend on work and not on time.
+//! Checks of a context's token outside this crate, and tokens that count their checks: for tests of cancellation that depend on work and not on
+//! time.
 
-use crate::Cancel;
+use crate::{Cancel, Context, Error};
+
+/// Errors: the context's token was cancelled.
+pub fn check(context: &Context) -> Result<(), Error> {
+    context.limits().check()
+}
 
 /// A token that is cancelled by the check after `limit` checks.
 pub fn cancel_after(limit: usize) -> Cancel {

@@ -4,13 +4,15 @@
 
 use std::collections::HashMap;
 
+use crate::Context;
 use crate::CornerTangents;
+use crate::Error;
 use crate::Faces;
 use crate::Mesh;
 use crate::Method;
 use crate::Mode;
 use crate::TangentOptions;
-use crate::generate_tangents;
+use crate::generate_tangents_with;
 
 use crate::internal::stage_arrays::{CopySource, CornerCopy, NONE, Stages, Triangles};
 use crate::tangents::mikktspace::derivatives::doubled_area;
@@ -31,6 +33,8 @@ pub enum PlanRefusal {
     },
     /// The method is not MikkTSpace.
     OtherMethod,
+    /// The context's token was cancelled, or another error of the core.
+    Failed(Error),
     /// A sum, or all sums together, has more members than the limit.
     TooManyMembers {
         /// A lower bound of the number of members.
@@ -38,6 +42,12 @@ pub enum PlanRefusal {
         /// The limit.
         limit: usize,
     },
+}
+
+impl From<Error> for PlanRefusal {
+    fn from(error: Error) -> Self {
+        Self::Failed(error)
+    }
 }
 
 /// The arrays of a plan, in the layout of the shaders.
@@ -71,16 +81,21 @@ pub struct PlanArrays {
 
 impl PlanArrays {
     /// Computes the arrays. `most_members`: the limit of the members of one sum.
-    pub fn new(mesh: &Mesh<'_>, options: &TangentOptions, most_members: usize) -> Result<Self, PlanRefusal> {
+    pub fn new(
+        mesh: &Mesh<'_>,
+        options: &TangentOptions,
+        context: &mut Context,
+        most_members: usize,
+    ) -> Result<Self, PlanRefusal> {
         let Method::MikkTSpace(mikkt) = options.method else { return Err(PlanRefusal::OtherMethod) };
         let limit = 8 * mesh.corner_count() + (1 << 20);
         let too_many = |members, limit| PlanRefusal::TooManyMembers { members, limit };
-        let stages = Stages::new(mesh, &mikkt, limit).ok_or_else(|| too_many(limit + 1, limit))?;
+        let stages = Stages::new(mesh, &mikkt, context, limit)?.ok_or_else(|| too_many(limit + 1, limit))?;
         match corners_of_both_halves(&stages) {
             0 => {}
             corners => return Err(PlanRefusal::QuadHalvesDiffer { corners }),
         }
-        let base = generate_tangents(mesh, options).corners;
+        let base = generate_tangents_with(mesh, options, context)?.corners;
         let repairs = mikkt.mode != Mode::Reference;
         let mut sums = PlanSums::new(mesh, &stages);
         let sum_of_corner = sums.of_corners(mesh, &stages, &base, repairs);

@@ -2,7 +2,9 @@
 //!
 //! Not part of the API: these types change with the stages.
 
+use crate::Context;
 use crate::CornerFrames;
+use crate::Error;
 use crate::Frames;
 use crate::Mesh;
 use crate::MikkTSpaceOptions;
@@ -58,25 +60,37 @@ pub struct SubgroupSums {
 }
 
 impl Stages {
-    /// Runs every exact stage. `None` where the members of all sums would exceed `limit`.
-    pub fn new(mesh: &Mesh<'_>, options: &MikkTSpaceOptions, limit: usize) -> Option<Self> {
-        let limits = RunLimits::default();
+    /// Runs every exact stage. `None` where the members of all sums would exceed `limit`. Errors: the context's token was cancelled.
+    pub fn new(
+        mesh: &Mesh<'_>,
+        options: &MikkTSpaceOptions,
+        context: &mut Context,
+        limit: usize,
+    ) -> Result<Option<Self>, Error> {
+        let limits = context.limits();
         let triangulation = triangulate(mesh, limits);
+        limits.check()?;
         let neighbours = neighbours(&triangulation.good, edge_order(options), limits);
+        limits.check()?;
         let derivatives = quad_derivatives(&triangulation.good, &WeldedMesh::new(mesh), limits);
+        limits.check()?;
         let stages = (&neighbours[..], derivatives.clone());
         let grouped = GroupedMesh::from_stages(mesh, triangulation, stages, |_| true, (options, limits));
+        limits.check()?;
         let threshold_cosine = cosine_of_degrees(options.threshold);
-        Some(Self {
+        let sums = SubgroupSums::new(&grouped, (threshold_cosine, limits), mesh.corner_count(), limit);
+        limits.check()?;
+        let Some(sums) = sums else { return Ok(None) };
+        Ok(Some(Self {
             neighbours,
             derivatives,
             preserves: grouped.base.derivatives.iter().map(|derivative| derivative.preserves).collect(),
-            sums: SubgroupSums::new(&grouped, threshold_cosine, mesh.corner_count(), limit)?,
+            sums,
             copies: copies(&grouped.triangulation),
             threshold_cosine,
             groups: grouped.groups,
             triangulation: grouped.triangulation,
-        })
+        }))
     }
 }
 
@@ -89,10 +103,16 @@ pub fn frames(mesh: &Mesh<'_>, options: &MikkTSpaceOptions) -> Frames {
 }
 
 impl SubgroupSums {
-    fn new(grouped: &GroupedMesh, threshold_cosine: f32, corners: usize, limit: usize) -> Option<Self> {
+    /// `None` after cancellation, and where the members would exceed `limit`.
+    fn new(
+        grouped: &GroupedMesh,
+        (threshold_cosine, limits): (f32, RunLimits<'_>),
+        corners: usize,
+        limit: usize,
+    ) -> Option<Self> {
         let (good, groups, base) = (&grouped.triangulation.good, &grouped.groups, &grouped.base);
         let sums = Self { of_corner: vec![[NONE; 2]; corners], ..Self::default() };
-        let mut collector = SumCollector { grouped, members: Vec::new(), vertex: NONE, limit, sums };
+        let mut collector = SumCollector { grouped, members: Vec::new(), vertex: NONE, limits, limit, sums };
         let mut subgroups = SubgroupFinder::new(threshold_cosine);
         for group in 0..groups.len() {
             let members = groups.members(group);
@@ -115,6 +135,8 @@ struct SumCollector<'a> {
     /// The members of the current group, ascending, and its welded vertex.
     members: Vec<u32>,
     vertex: u32,
+    limits: RunLimits<'a>,
+    /// The most members of all sums.
     limit: usize,
     sums: SubgroupSums,
 }
@@ -147,6 +169,6 @@ impl SubgroupVisitor for SumCollector<'_> {
     }
 
     fn is_stopped(&self) -> bool {
-        self.sums.members.len() > self.limit
+        self.sums.members.len() > self.limit || self.limits.is_cancelled()
     }
 }

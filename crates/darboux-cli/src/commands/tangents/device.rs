@@ -1,7 +1,5 @@
 //! Computes the tangents of one file on the CPU or on a GPU, as `--device` asks.
 
-use std::sync::atomic::Ordering;
-
 use darboux::{Context, Mesh, Method, TangentOptions, Tangents, generate_tangents_with};
 
 use super::arguments::Device;
@@ -46,7 +44,7 @@ impl TangentDevice {
         context: &mut Context,
     ) -> Result<Tangents, String> {
         if self.wants_gpu(mesh, options) {
-            match self.generate_on_gpu(mesh, options) {
+            match self.generate_on_gpu(mesh, options, context) {
                 Err(why) if self.device == Device::Auto => self.gpu_error = Some(why),
                 done => return done,
             }
@@ -64,10 +62,16 @@ impl TangentDevice {
         }
     }
 
-    fn generate_on_gpu(&mut self, mesh: &Mesh<'_>, options: &TangentOptions) -> Result<Tangents, String> {
+    fn generate_on_gpu(
+        &mut self,
+        mesh: &Mesh<'_>,
+        options: &TangentOptions,
+        context: &mut Context,
+    ) -> Result<Tangents, String> {
         let opened = self.opened.get_or_insert_with(gpu::open).as_ref().map_err(Clone::clone)?;
         let mut tangents = Tangents::default();
-        self.corners_of_gpu += mesh.corner_count() - opened.generate(mesh, options, &mut tangents)?;
+        let cpu_corners = opened.generate(mesh, options, context, &mut tangents)?;
+        self.corners_of_gpu += mesh.corner_count() - cpu_corners;
         Ok(tangents)
     }
 
@@ -76,10 +80,8 @@ impl TangentDevice {
         if let Some(why) = &self.gpu_error {
             return Some(format!("the CPU computed the tangents because the GPU failed: {why}"));
         }
-        let Some(Ok(OpenGpu { name, is_software_unreported, .. })) = &self.opened else { return None };
-        is_software_unreported
-            .swap(false, Ordering::Relaxed)
-            .then(|| format!("{name} is a software adapter; --device cpu gives the same bits in less time"))
+        let Some(Ok(opened)) = &self.opened else { return None };
+        opened.take_software_warning()
     }
 
     /// `corners`: the number of computed corners, including those of morphed meshes, which the CPU always computes.
@@ -87,7 +89,7 @@ impl TangentDevice {
         match &self.opened {
             Some(Ok(opened)) => DeviceReport {
                 kind: "gpu",
-                adapter: Some(opened.name.clone()),
+                adapter: Some(opened.name().to_owned()),
                 corners,
                 cpu_corners: corners - self.corners_of_gpu,
             },
