@@ -19,6 +19,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
+use darboux_tests::models::further_models;
 
 use engines::Engine;
 use meshes::{Named, Size};
@@ -39,9 +40,9 @@ struct Arguments {
     /// Count instructions per triangle with callgrind instead.
     #[arg(long)]
     instructions: bool,
-    /// Folder with FlightHelmet and other large models.
-    #[arg(long, value_name = "FOLDER", default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/assets"))]
-    models: PathBuf,
+    /// Folder with FlightHelmet and other large models; by default the one that the environment variable DARBOUX_MODELS names.
+    #[arg(long, value_name = "FOLDER")]
+    models: Option<PathBuf>,
     /// Name of this machine in the record, instead of its processor's name.
     #[arg(long, value_name = "NAME")]
     machine: Option<String>,
@@ -98,15 +99,16 @@ fn select_meshes(arguments: &Arguments) -> Result<Vec<Named>, String> {
     let wanted = |name: &str| all || arguments.meshes.iter().any(|wanted| wanted == name);
     let mut found: Vec<Named> =
         meshes::made().filter(|name| wanted(name)).filter_map(|name| meshes::make(name, size)).collect();
-    if all || found.len() < arguments.meshes.len() {
-        found.extend(meshes::real(&arguments.models).into_iter().filter(|mesh| wanted(&mesh.name)));
+    if (all || found.len() < arguments.meshes.len())
+        && let Some(folder) = arguments.models.clone().or_else(further_models)
+    {
+        found.extend(meshes::real(&folder).into_iter().filter(|mesh| wanted(&mesh.name)));
     }
     if let Some(unknown) = arguments.meshes.iter().find(|name| !found.iter().any(|mesh| mesh.name == **name))
     {
         let made: Vec<&str> = meshes::made().collect();
-        let models = arguments.models.display();
         return Err(format!(
-            "there is no mesh {unknown}; there are {} and models in {models}",
+            "there is no mesh {unknown}; there are {} and the models of --models",
             made.join(", ")
         ));
     }
@@ -120,7 +122,7 @@ fn time(arguments: &Arguments, mut engines: Vec<Engine>, meshes: &[Named]) -> Re
         eprintln!("{}: {} triangles", mesh.name, mesh.triangles());
         let count = if arguments.quick { 3 } else { 7 };
         let mut measured = rounds::measure(mesh, &engines, count, arguments.node.as_deref());
-        rounds::add_memory(&mut measured, &engines, arguments.quick, &arguments.models);
+        rounds::add_memory(&mut measured, &engines, arguments.quick, arguments.models.as_deref());
         rows.extend(measured);
     }
     println!("{}", table::table(&rows));

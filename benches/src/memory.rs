@@ -12,9 +12,12 @@ use crate::engines::Engine;
 use crate::run::Tangent;
 
 /// The bytes that one call of an engine needs, measured in a child process; `None` if the system does not report them.
-pub fn of_a_child(engine: &str, mesh: &str, quick: bool, models: &Path) -> Option<f64> {
+pub fn of_a_child(engine: &str, mesh: &str, quick: bool, models: Option<&Path>) -> Option<f64> {
     let mut command = Command::new(std::env::current_exe().ok()?);
-    command.args(["--engines", engine, "--meshes", mesh, "--only-memory", "--models"]).arg(models);
+    command.args(["--engines", engine, "--meshes", mesh, "--only-memory"]);
+    if let Some(models) = models {
+        command.arg("--models").arg(models);
+    }
     if quick {
         command.arg("--quick");
     }

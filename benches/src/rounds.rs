@@ -143,7 +143,7 @@ impl Runner<'_> {
 const LARGE: usize = 20_000;
 
 /// Fills in the memory of the rows on large meshes whose engines run in this process.
-pub fn add_memory(rows: &mut [Row], engines: &[Engine], quick: bool, models: &Path) {
+pub fn add_memory(rows: &mut [Row], engines: &[Engine], quick: bool, models: Option<&Path>) {
     let countable = |row: &Row| {
         let engine = engines.iter().find(|engine| engine.name == row.engine);
         row.triangles >= LARGE

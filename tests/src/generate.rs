@@ -3,67 +3,7 @@
 //!
 //! A [`Dice`] makes all choices, from a seed in tests and from the fuzzer's bytes in fuzzing.
 
-use crate::{FaceSizes, OwnedMesh, families};
-
-/// A source of random choices. The same source always gives the same mesh.
-pub struct Dice<'a>(Source<'a>);
-
-enum Source<'a> {
-    Seed(u64),
-    Bytes(std::slice::Iter<'a, u8>),
-}
-
-impl<'a> Dice<'a> {
-    /// Choices from a seed (the splitmix64 sequence).
-    pub fn from_seed(seed: u64) -> Self {
-        Self(Source::Seed(seed))
-    }
-
-    /// Choices from bytes, followed by zeros.
-    pub fn from_bytes(bytes: &'a [u8]) -> Self {
-        Self(Source::Bytes(bytes.iter()))
-    }
-
-    fn bits(&mut self, bytes: usize) -> u64 {
-        match &mut self.0 {
-            Source::Seed(state) => {
-                *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-                let z = (*state ^ (*state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-                let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-                (z ^ (z >> 31)) >> (64 - 8 * bytes)
-            }
-            Source::Bytes(rest) => {
-                rest.by_ref().take(bytes).fold(0, |bits, &byte| bits << 8 | u64::from(byte))
-            }
-        }
-    }
-
-    /// A number below `limit`, which is at least 1 and at most 65,536.
-    pub fn below(&mut self, limit: usize) -> usize {
-        let bytes = if limit <= 256 { 1 } else { 2 };
-        self.bits(bytes) as usize % limit
-    }
-
-    /// True once in `n` times.
-    pub fn one_in(&mut self, n: usize) -> bool {
-        self.below(n) == n - 1
-    }
-
-    /// One of `choices`.
-    pub fn pick<T: Copy>(&mut self, choices: &[T]) -> T {
-        choices[self.below(choices.len())]
-    }
-
-    /// A number in [-1, 1).
-    pub fn uniform(&mut self) -> f32 {
-        self.bits(3) as f32 / (1 << 23) as f32 - 1.0
-    }
-
-    /// Any 32 bits as a float.
-    pub fn any_float(&mut self) -> f32 {
-        f32::from_bits(self.bits(4) as u32)
-    }
-}
+use crate::{Dice, FaceSizes, OwnedMesh, families};
 
 /// A mesh and a threshold to run it with.
 #[derive(Clone, Debug)]

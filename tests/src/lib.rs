@@ -17,8 +17,9 @@ pub mod shrink;
 
 pub use check::{all_modes, check_frames, split_and_plan};
 pub use compare::{Difference, assert_equal, first_difference};
+pub use darboux_dice::Dice;
 pub use engine::{Engine, engines};
-pub use generate::{Case, Dice};
+pub use generate::Case;
 pub use mesh::{FaceSizes, OwnedMesh};
 
 /// All methods, in the order of their numbers in C.

@@ -1,5 +1,6 @@
 //! Reads model files as meshes.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use darboux_io::LoadOptions;
@@ -7,6 +8,23 @@ use darboux_io::gltf::schema::Primitive;
 use darboux_io::gltf::{Document, IndexList};
 
 use crate::OwnedMesh;
+
+/// The folder of models beside those of the repository, which the environment variable `DARBOUX_MODELS` names; a relative path starts at the
+/// repository's root. `None` if the variable is not set, with a sentence past the test runner's capture.
+///
+/// # Panics
+/// The path is not a folder.
+pub fn further_models() -> Option<PathBuf> {
+    const VARIABLE: &str = "DARBOUX_MODELS";
+    let Some(path) = std::env::var_os(VARIABLE) else {
+        let what = "skipped: no further models; set DARBOUX_MODELS to a folder of .gltf and .glb files";
+        writeln!(std::io::stdout(), "{what}").expect("standard output");
+        return None;
+    };
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path);
+    assert!(folder.is_dir(), "{VARIABLE} is {}, which is not a folder", folder.display());
+    Some(folder)
+}
 
 /// All .gltf and .glb files below a folder, sorted.
 pub fn models(folder: &Path) -> Vec<PathBuf> {

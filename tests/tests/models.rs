@@ -1,10 +1,9 @@
-//! Real models compared with the reference, bit for bit: those of the repository, and a larger set beside it if present.
+//! Real models compared with the reference, bit for bit: those of the repository, and further ones.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use darboux::Mode;
-use darboux_tests::models::{meshes, models};
+use darboux_tests::models::{further_models, meshes, models};
 use darboux_tests::{Case, all_modes, assert_equal, engine, engines};
 
 fn root() -> PathBuf {
@@ -40,13 +39,8 @@ fn the_repository_s_models() {
 }
 
 #[test]
-fn the_larger_set() {
-    let folder = root().join("../shared/assets");
-    if !folder.is_dir() {
-        // Written past the test runner's capture, so that it is seen and counted.
-        writeln!(std::io::stdout(), "skipped: {} is absent", folder.display()).expect("standard output");
-        return;
-    }
+fn further_models_too() {
+    let Some(folder) = further_models() else { return };
     let (primitives, _) = compare(&folder);
     assert!(primitives > 100, "{primitives} primitives");
 }

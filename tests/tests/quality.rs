@@ -7,7 +7,7 @@ use darboux::{
     Method, MikkTSpaceOptions, TangentOptions, UvFidelity, generate_tangents, measure_uv_fidelity,
 };
 use darboux_tests::OwnedMesh;
-use darboux_tests::models::{meshes, models};
+use darboux_tests::models::{further_models, meshes, models};
 
 const METHODS: [Method; 8] = [
     Method::AngleArea,
@@ -75,9 +75,8 @@ fn measure_model(path: &Path) -> Option<[f64; COLUMNS.len()]> {
 #[test]
 #[ignore = "long: a table of many models"]
 fn table() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let folder = root.join("../shared/assets");
-    let folder = if folder.is_dir() { folder } else { root.join("assets") };
+    let of_repository = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets");
+    let folder = further_models().unwrap_or_else(of_repository);
     let mut out = std::io::stdout();
     let mut rows: Vec<(PathBuf, [f64; COLUMNS.len()])> = Vec::new();
     for path in models(&folder) {

@@ -6,7 +6,7 @@ use darboux::{
     CornerTangents, Mesh, Method, MikkTSpaceOptions, Mode, Recipe, RecipeMatch, RecipeRounding,
     RecipeWriting, TangentOptions, generate_tangents, recognise_recipe,
 };
-use darboux_tests::models::{meshes, models};
+use darboux_tests::models::{further_models, meshes, models};
 use darboux_tests::{METHODS, OwnedMesh, families};
 
 fn tangents(mesh: &Mesh<'_>, method: Method) -> Vec<[f32; 4]> {
@@ -75,8 +75,8 @@ fn every_recipe_is_recognised_on_regular_meshes() {
     assert_recognised("Möbius strip", &families::moebius(9, false));
 }
 
-fn assert_recognised_below(folder: &str) {
-    for path in models(&Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)) {
+fn assert_recognised_below(folder: &Path) {
+    for path in models(folder) {
         for (number, mesh) in meshes(&path) {
             assert_recognised(&format!("{} {number}", path.display()), &mesh);
         }
@@ -85,13 +85,15 @@ fn assert_recognised_below(folder: &str) {
 
 #[test]
 fn every_recipe_is_recognised_on_the_repository_s_models() {
-    assert_recognised_below("../assets");
+    assert_recognised_below(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets"));
 }
 
 #[test]
-#[ignore = "takes a minute: 695,539 triangles with every recipe"]
-fn every_recipe_is_recognised_on_the_larger_set() {
-    assert_recognised_below("../../shared/assets");
+#[ignore = "takes a minute: every recipe on every further model"]
+fn every_recipe_is_recognised_on_further_models() {
+    if let Some(folder) = further_models() {
+        assert_recognised_below(&folder);
+    }
 }
 
 #[test]
@@ -139,6 +141,36 @@ fn quantised_tangents_are_recognised() {
             let again = rounded(&tangents(&view, found.recipe.method), rounding);
             assert!(same_bits(&again, &made), "{method:?} found as {found:?}");
         }
+    }
+}
+
+/// The coarsest rounding that all tangents have, which is found whatever the method: bits that differ from every candidate.
+#[test]
+fn the_rounding_is_the_coarsest_that_explains_every_component() {
+    let mesh = families::grid(1, 1, false, false);
+    let found = |tangent: [f32; 4], other: [f32; 4]| {
+        let mut tangents = vec![tangent; mesh.corner_count()];
+        tangents[4] = other;
+        best(&mesh.view(), &tangents).recipe.rounding
+    };
+    use RecipeRounding::{Bits8, Bits16, Floats};
+    let [eighth, sixteenth] = [127.0, 32767.0].map(|largest: f32| [80.0 / largest, -1.0, 0.0, 1.0]);
+    let third = [1.0 / 3.0, -1.0, 0.0, 1.0];
+    let nan = [f32::NAN; 4];
+    // 0, 1 and -1 are multiples of everything and tell nothing.
+    let axis = [0.0, -1.0, -0.0, 1.0];
+    for (tangent, other, expected) in [
+        (axis, axis, Floats),
+        (nan, axis, Floats),
+        (third, third, Floats),
+        (eighth, eighth, Bits8),
+        (eighth, axis, Bits8),
+        (sixteenth, sixteenth, Bits16),
+        (eighth, third, Floats),
+        (sixteenth, third, Floats),
+        (eighth, [80.0 / 127.0, -1.0, 0.0, 1.0f32.next_down()], Floats),
+    ] {
+        assert_eq!(found(tangent, other), expected, "{tangent:?}, {other:?}");
     }
 }
 

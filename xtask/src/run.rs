@@ -11,11 +11,21 @@ pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("xtask lies in the repository's root")
 }
 
+/// The environment variable that names a folder of models beside those of the repository, for tests and benchmarks.
+const MODELS: &str = "DARBOUX_MODELS";
+
+/// The folder that [`MODELS`] names; without the variable `../shared/assets`, if it exists.
+pub fn further_models() -> Option<PathBuf> {
+    let beside = || Some(root().join("../shared/assets")).filter(|folder| folder.is_dir());
+    std::env::var_os(MODELS).map(|folder| root().join(folder)).or_else(beside)
+}
+
 /// A command that starts a program in the root. `line` holds its name and arguments, separated by spaces.
 pub fn program(line: &str) -> Command {
     let mut words = line.split_whitespace();
     let mut command = Command::new(words.next().expect("a program's name"));
     command.args(words).current_dir(root()).stdin(Stdio::null());
+    command.envs(further_models().map(|folder| (MODELS, folder)));
     command
 }
 

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
 
-use crate::run::{Outcome, files_below, program, root, run, shown, works};
+use crate::run::{Outcome, files_below, further_models, program, root, run, shown, works};
 
 /// The behaviour on a machine without node or npm.
 #[derive(Clone, Copy)]
@@ -15,9 +15,6 @@ pub enum WithoutNpm {
     /// Fail.
     Fail,
 }
-
-/// Folders of models: that of the repository, and a larger set that may be beside it.
-const MODELS: &[&str] = &["assets", "../shared/assets"];
 
 /// Adds tangents to every model and checks the outputs with validate/check.mjs.
 pub fn all_models(without_npm: WithoutNpm) -> Outcome {
@@ -33,7 +30,14 @@ pub fn all_models(without_npm: WithoutNpm) -> Outcome {
     }
     install()?;
     run(&mut program("cargo build --quiet --package darboux-cli --features full"))?;
-    MODELS.iter().enumerate().try_for_each(|(number, folder)| check(folder, number))
+    check(&root().join("assets"), "assets")?;
+    match further_models() {
+        Some(folder) => check(&folder, "further"),
+        None => {
+            println!("skipped: no further models; set DARBOUX_MODELS to a folder of .gltf and .glb files");
+            Ok(())
+        }
+    }
 }
 
 /// Installs the tools at the versions of the lock file if they are missing.
@@ -48,19 +52,15 @@ fn install() -> Outcome {
 }
 
 /// Runs the command on a folder of models, and on each model with output to the other container, and checks all outputs.
-fn check(folder: &str, number: usize) -> Outcome {
-    if !root().join(folder).is_dir() {
-        println!("skipped: {folder} is absent");
-        return Ok(());
-    }
-    let work = root().join(format!("target/models/{number}"));
+fn check(folder: &Path, name: &str) -> Outcome {
+    let work = root().join("target/models").join(name);
     if work.exists() {
         fs::remove_dir_all(&work)
             .map_err(|error| format!("{} cannot be removed: {error}", work.display()))?;
     }
     let out = work.join("same");
     let mut reports = vec![tangents(&[folder.as_ref(), "--out-dir".as_ref(), out.as_os_str()], &work, 0)?];
-    for model in files_below(&root().join(folder))? {
+    for model in files_below(folder)? {
         let other = match model.extension().and_then(|extension| extension.to_str()) {
             Some("glb") => "gltf",
             Some("gltf") => "glb",
@@ -73,9 +73,9 @@ fn check(folder: &str, number: usize) -> Outcome {
         let out = folder.join(format!("model.{other}"));
         reports.push(tangents(&[model.as_os_str(), "-o".as_ref(), out.as_os_str()], &work, number)?);
     }
-    println!("{folder}:");
+    println!("{}:", folder.display());
     run(program("node xtask/validate/check.mjs").args(reports))
-        .map_err(|_| format!("outputs for the models in {folder} are not as they must be; see above"))
+        .map_err(|_| format!("outputs for the models in {} are not as they must be; see above", folder.display()))
 }
 
 /// Runs `darboux tangents --overwrite` with these arguments; returns the path of its JSON report, which also lists failures.

@@ -1,13 +1,13 @@
-//! Every model goes through the command: those in the repository, and a larger set that may lie beside it.
+//! Every model goes through the command: those of the repository, and further ones.
 
 mod common;
 
 use std::collections::HashMap;
 use std::fs;
-use std::io::Write;
 use std::path::Path;
 
 use common::{asset, darboux, text};
+use darboux_tests::models::further_models;
 use serde_json::Value;
 
 #[test]
@@ -16,12 +16,9 @@ fn all_models_of_the_repository_get_their_tangents_and_keep_them() {
 }
 
 #[test]
-fn all_models_beside_the_repository_get_their_tangents_and_keep_them() {
-    let folder = asset("../../shared/assets");
-    if folder.is_dir() {
+fn all_further_models_get_their_tangents_and_keep_them() {
+    if let Some(folder) = further_models() {
         check(&folder);
-    } else {
-        let _said = writeln!(std::io::stdout(), "skipped: {} is absent", folder.display());
     }
 }
 

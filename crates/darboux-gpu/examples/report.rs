@@ -6,7 +6,7 @@
 use darboux::internal::stage_arrays::{NONE, Stages};
 use darboux::{Context, Faces, MikkTSpaceOptions, Mode, TangentOptions, generate_tangents};
 use darboux_gpu::{Gpu, GpuError, MikkTSpace};
-use darboux_tests::{Case, OwnedMesh, corpus, families};
+use darboux_tests::{Case, Dice, OwnedMesh, corpus, families};
 
 /// The row of an adapter.
 #[derive(Default)]
@@ -52,13 +52,10 @@ fn meshes() -> Vec<OwnedMesh> {
     meshes
 }
 
-fn noisy_grid(seed: u32) -> OwnedMesh {
+fn noisy_grid(seed: u64) -> OwnedMesh {
     let mut mesh = families::grid(40, 40, false, false);
-    let mut state = seed;
-    let mut noise = |x: &mut f32, size: f32| {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        *x += size * ((state >> 8) as f32 / (1 << 24) as f32 - 0.5);
-    };
+    let mut dice = Dice::from_seed(seed);
+    let mut noise = |x: &mut f32, size: f32| *x += 0.5 * size * dice.uniform();
     mesh.positions.as_flattened_mut().iter_mut().for_each(|x| noise(x, 0.01));
     mesh.normals.as_flattened_mut().iter_mut().for_each(|x| noise(x, 0.2));
     mesh.uvs.as_flattened_mut().iter_mut().for_each(|x| noise(x, 0.01));

@@ -299,6 +299,73 @@ fn uncompressed_fallbacks_are_used() {
     assert!(error.contains("meshes[0].primitives[0]: is compressed in part only"), "{error}");
 }
 
+/// draco.glb as JSON whose buffer is embedded, with bytes appended to it.
+fn draco_json(more: &[u8]) -> Value {
+    use base64::Engine;
+    let good = std::fs::read(asset("draco.glb")).unwrap();
+    let mut json = json_of(&good);
+    let start = 28 + u32::from_le_bytes(good[12..16].try_into().unwrap()) as usize;
+    let bytes = [&good[start..], more].concat();
+    let uri = base64::engine::general_purpose::STANDARD.encode(&bytes);
+    json["buffers"][0] = json!({"byteLength": bytes.len(), "uri": format!("data:;base64,{uri}")});
+    json
+}
+
+/// An accessor promises more or fewer elements than its stream has.
+#[test]
+fn counts_of_accessors_that_a_draco_stream_does_not_have_are_errors() {
+    let json = draco_json(&[]);
+    decode(&json).unwrap();
+    let primitive = &json["meshes"][0]["primitives"][0];
+    let indices = primitive["indices"].as_u64().unwrap() as usize;
+    let vertices = || primitive["attributes"].as_object().unwrap().values();
+    for change in [-3, 3, 3_000_000_000i64] {
+        let changed = |accessors: &[usize]| {
+            let mut json = json.clone();
+            for &accessor in accessors {
+                let count = &mut json["accessors"][accessor]["count"];
+                *count = json!(count.as_i64().unwrap() + change);
+            }
+            decode(&json).map(|_| ()).unwrap_err().to_string()
+        };
+        let error = changed(&[indices]);
+        assert!(error.contains(" indices but the stream has "), "{error}");
+        let all: Vec<usize> = vertices().map(|accessor| accessor.as_u64().unwrap() as usize).collect();
+        let error = changed(&all);
+        assert!(error.contains(" elements but the stream has "), "{error}");
+    }
+}
+
+/// The head of a stream promises two thousand million faces or vertices. The stream is an edgebreaker stream: the numbers of vertices and faces
+/// follow twelve bytes, as numbers of seven bits per byte.
+#[test]
+fn counts_in_the_head_of_a_draco_stream_that_it_cannot_hold_are_errors() {
+    const HEAD: usize = 12;
+    const MANY: [u8; 5] = [0xff, 0xff, 0xff, 0xff, 0x07];
+    let json = draco_json(&[]);
+    let view = &json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"]["bufferView"];
+    let view = view.as_u64().unwrap() as usize;
+    let [start, length] = ["byteOffset", "byteLength"]
+        .map(|member| json["bufferViews"][view][member].as_u64().unwrap_or(0) as usize);
+    let good = std::fs::read(asset("draco.glb")).unwrap();
+    let bin = 28 + u32::from_le_bytes(good[12..16].try_into().unwrap()) as usize;
+    let stream = &good[bin + start..][..length];
+    let number = |from: usize| from + 1 + stream[from..].iter().position(|byte| byte & 0x80 == 0).unwrap();
+    let (faces, end) = (number(HEAD), number(number(HEAD)));
+    for lie in [
+        [&stream[..HEAD], &MANY, &stream[faces..]].concat(),
+        [&stream[..faces], &MANY, &stream[end..]].concat(),
+    ] {
+        let offset = good.len() - bin;
+        let mut json = draco_json(&lie);
+        json["bufferViews"][view]["byteOffset"] = json!(offset);
+        json["bufferViews"][view]["byteLength"] = json!(lie.len());
+        let error = decode(&json).map(|_| ()).unwrap_err().to_string();
+        assert!(error.contains("the stream cannot be decoded ("), "{error}");
+        assert!(!error.contains("the decoder failed"), "no panic: {error}");
+    }
+}
+
 #[test]
 fn tangents_of_compressed_models_are_written_plain() {
     for (model, extension) in [("draco.glb", "draco"), ("meshopt.glb", "meshopt")] {

@@ -3,6 +3,7 @@
 
 use std::fs;
 
+use darboux_dice::Dice;
 use darboux_io::LoadOptions;
 use darboux_io::gltf::inspect;
 use darboux_io::obj::read;
@@ -38,17 +39,17 @@ const WORDS: [&[u8]; 22] = [
     b"\\",
 ];
 
-/// The text with some words replaced, removed or repeated. `random` gives numbers below its argument.
-fn mutated(text: &str, random: &mut impl FnMut(usize) -> usize) -> Vec<u8> {
+/// The text with some words replaced, removed or repeated.
+fn mutated(text: &str, dice: &mut Dice<'_>) -> Vec<u8> {
     let mut words: Vec<Vec<u8>> = text.split_inclusive([' ', '\n']).map(|word| word.into()).collect();
-    for _ in 0..1 + random(3) {
-        let at = random(words.len());
+    for _ in 0..1 + dice.below(3) {
+        let at = dice.below(words.len());
         let last = *words[at].last().expect("no word is empty");
-        words[at] = match random(8) {
+        words[at] = match dice.below(8) {
             0 => Vec::new(),
-            1 => words[at].repeat(1 + random(2000)),
-            2 => words[random(words.len())].clone(),
-            _ => WORDS[random(WORDS.len())].to_vec(),
+            1 => words[at].repeat(1 + dice.below(2000)),
+            2 => words[dice.below(words.len())].clone(),
+            _ => WORDS[dice.below(WORDS.len())].to_vec(),
         };
         words[at].push(last);
     }
@@ -59,16 +60,12 @@ fn mutated(text: &str, random: &mut impl FnMut(usize) -> usize) -> Vec<u8> {
 fn mutated_files_give_models_or_errors() {
     let folder = tempfile::tempdir().unwrap();
     let [obj, mtl] = ["a.obj", "a.mtl"].map(|name| folder.path().join(name));
-    let mut state = 1u64;
-    let mut random = |below: usize| {
-        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (state >> 33) as usize % below
-    };
+    let mut dice = Dice::from_seed(1);
     let [mut models, mut errors] = [0; 2];
     for case in 0..600 {
         let [text, library] = match case % 2 {
-            0 => [mutated(OBJ, &mut random), MTL.into()],
-            _ => [OBJ.into(), mutated(MTL, &mut random)],
+            0 => [mutated(OBJ, &mut dice), MTL.into()],
+            _ => [OBJ.into(), mutated(MTL, &mut dice)],
         };
         fs::write(&obj, text).unwrap();
         fs::write(&mtl, library).unwrap();

@@ -55,6 +55,7 @@ fn taps(from: u32, to: u32) -> Vec<Taps> {
 
 #[cfg(test)]
 mod tests {
+    use darboux_dice::Dice;
     use image::imageops::{self, FilterType};
 
     use super::*;
@@ -63,12 +64,8 @@ mod tests {
     #[test]
     fn halves_are_those_of_the_image_crate() {
         for [width, height] in [[8, 8], [7, 5], [1, 9], [2, 1], [33, 2]] {
-            let mut state = 7u32;
-            let mut byte = || {
-                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                (state >> 24) as u8
-            };
-            let texels: Vec<[u8; 4]> = (0..width * height).map(|_| [(); 4].map(|()| byte())).collect();
+            let mut dice = Dice::from_seed(7);
+            let texels: Vec<[u8; 4]> = (0..width * height).map(|_| dice.word().to_le_bytes()).collect();
             let half = halved(&RgbaImage { width, height, texels: texels.clone() });
             let image = image::RgbaImage::from_raw(width, height, texels.into_flattened()).unwrap();
             let expected = imageops::resize(&image, half.width, half.height, FilterType::Triangle);

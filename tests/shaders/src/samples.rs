@@ -1,5 +1,7 @@
 //! Random samples, and the rounding error that GPUs are allowed.
 
+use darboux_dice::Dice;
+
 use crate::vector::{D3, cross, doubles, length, singles, unit};
 
 /// One ulp of 1, the unit of all bounds. WGSL and Vulkan allow errors of 1 ulp for sums and products, 2.5 for quotients and 4.5 for square
@@ -7,18 +9,17 @@ use crate::vector::{D3, cross, doubles, length, singles, unit};
 pub const ULP: f64 = f32::EPSILON as f64;
 
 /// A deterministic sequence of random numbers.
-pub struct Random(u64);
+pub struct Random(Dice<'static>);
 
 impl Random {
     /// The sequence of a seed.
     pub fn new(seed: u64) -> Self {
-        Self(seed)
+        Self(Dice::from_seed(seed))
     }
 
     /// A random word.
     pub fn word(&mut self) -> u32 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 32) as u32
+        self.0.word()
     }
 
     /// A number in [-1, 1).

@@ -8,26 +8,38 @@ use crate::run::{Outcome, output_of, program, root};
 
 /// Each package of this repository, and the packages of this repository that it may import, tests and build scripts included.
 const MAY_IMPORT: &[(&str, &[&str])] = &[
-    ("darboux", &[]),
-    ("darboux-io", &["darboux"]),
+    ("darboux", &["darboux-dice"]),
+    ("darboux-io", &["darboux", "darboux-dice"]),
     ("darboux-gpu", &["darboux", "darboux-tests"]),
-    ("darboux-render", &["darboux", "darboux-io", "darboux-gpu"]),
+    ("darboux-render", &["darboux", "darboux-io", "darboux-gpu", "darboux-dice"]),
     ("darboux-check", &["darboux", "darboux-io", "darboux-tests"]),
     (
         "darboux-cli",
-        &["darboux", "darboux-io", "darboux-check", "darboux-gpu", "darboux-render", "darboux-cli"],
+        &[
+            "darboux",
+            "darboux-io",
+            "darboux-check",
+            "darboux-gpu",
+            "darboux-render",
+            "darboux-cli",
+            "darboux-tests",
+        ],
     ),
     ("darboux-c", &["darboux", "darboux-tests"]),
     ("darboux-mikktspace", &["darboux"]),
     ("darboux-js", &["darboux"]),
     ("darboux-viewer", &["darboux", "darboux-io"]),
     ("darboux-python", &["darboux", "darboux-io", "darboux-cli"]),
-    ("darboux-tests", &["darboux", "darboux-io", "darboux-cli"]),
-    ("darboux-shader-tests", &["darboux"]),
+    ("darboux-dice", &[]),
+    ("darboux-tests", &["darboux", "darboux-io", "darboux-dice"]),
+    ("darboux-shader-tests", &["darboux", "darboux-dice"]),
     ("darboux-benches", &["darboux", "darboux-io", "darboux-tests"]),
     ("darboux-fuzz", &["darboux", "darboux-c", "darboux-io", "darboux-tests"]),
     ("xtask", &[]),
 ];
+
+/// Packages that published packages may import in their tests only.
+const ONLY_IN_TESTS: &[&str] = &["darboux-dice", "darboux-tests"];
 
 /// The packages of the workspace and of `fuzz`, as `cargo metadata` describes them.
 pub fn all() -> Result<Vec<Value>, String> {
@@ -75,11 +87,16 @@ fn violations(package: &Value) -> Vec<String> {
         return vec![format!("{name} has no row in xtask/src/layers/packages.rs")];
     };
     let dependencies = package["dependencies"].as_array().map(Vec::as_slice).unwrap_or_default();
-    dependencies.iter().filter_map(|dependency| violation(name, allowed, dependency)).collect()
+    let is_published = package["publish"].is_null();
+    let violation = |dependency| violation((name, is_published), allowed, dependency);
+    dependencies.iter().filter_map(violation).collect()
 }
 
-fn violation(name: &str, allowed: &[&str], dependency: &Value) -> Option<String> {
+fn violation((name, is_published): (&str, bool), allowed: &[&str], dependency: &Value) -> Option<String> {
     let import = dependency["name"].as_str().unwrap_or_default();
+    if is_published && ONLY_IN_TESTS.contains(&import) && dependency["kind"] != "dev" {
+        return Some(format!("{name} may import {import} in its tests only"));
+    }
     if MAY_IMPORT.iter().any(|row| row.0 == import) {
         return (!allowed.contains(&import)).then(|| format!("{name} may not import {import}"));
     }

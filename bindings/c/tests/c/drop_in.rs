@@ -1,6 +1,5 @@
 //! Compares libdarboux_mikktspace with mikktspace.c: one program, built with each of them, must produce the same output.
 
-use std::io::Write;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -114,12 +113,8 @@ fn models_are_the_same() {
 #[test]
 #[ignore = "long"]
 fn the_larger_set_of_models_is_the_same() {
-    let folder = repository().join("../shared/assets");
-    if folder.is_dir() {
-        assert!(compare_models(&folder) > 100);
-    } else {
-        writeln!(std::io::stdout(), "skipped: {} is absent", folder.display()).expect("standard output");
-    }
+    let Some(folder) = models::further_models() else { return };
+    assert!(compare_models(&folder) > 100);
 }
 
 /// Returns the number of primitives that were compared.

@@ -9,9 +9,14 @@ use crate::terminal::Messages;
 
 /// The sentence about a part of the command that this build lacks.
 pub fn missing_feature(part: &str, feature: &str) -> String {
-    format!(
-        "{part} is not in this build of darboux; install it with `cargo install --path crates/darboux-cli --features {feature}`"
-    )
+    let package = package(env!("CARGO_MANIFEST_DIR"));
+    format!("{part} is not in this build of darboux; install it with `cargo install {package} --features {feature}`")
+}
+
+/// What `cargo install` is told to build. `folder`: where the sources of this build were; the folder of a package from a registry ends with
+/// its version, that of a checkout does not.
+fn package(folder: &str) -> &'static str {
+    if folder.ends_with("darboux-cli") { "--path crates/darboux-cli" } else { "darboux-cli" }
 }
 
 /// Accepts any arguments, so that the only message is the one about the missing subcommand.
@@ -26,4 +31,16 @@ pub struct MissingArguments {
 pub fn run(subcommand: &str, feature: &str) -> u8 {
     Messages::new(false).error(&missing_feature(&format!("`darboux {subcommand}`"), feature));
     exit::USAGE
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_line_installs_from_where_this_build_came() {
+        assert_eq!(package("/home/a/darboux/crates/darboux-cli"), "--path crates/darboux-cli");
+        assert_eq!(package(r"C:\darboux\crates\darboux-cli"), "--path crates/darboux-cli");
+        assert_eq!(package("/home/a/.cargo/registry/src/index.crates.io-1949cf8c6b5b557f/darboux-cli-0.1.0"), "darboux-cli");
+    }
 }

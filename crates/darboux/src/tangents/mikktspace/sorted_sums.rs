@@ -344,37 +344,38 @@ fn is_tie(before: f32, term: f32, after: f32) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use darboux_dice::Dice;
+
     use super::*;
 
     /// A number in [-1, 1) with `bits` binary digits.
-    fn number(state: &mut u32, bits: u32) -> f32 {
-        *state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (*state >> (32 - bits)) as f32 / (1u32 << (bits - 1)) as f32 - 1.0
+    fn number(dice: &mut Dice<'_>, bits: u32) -> f32 {
+        (dice.word() >> (32 - bits)) as f32 / (1u32 << (bits - 1)) as f32 - 1.0
     }
 
     /// Terms that grow, random walks, ties, tiny palettes, subnormal numbers.
-    fn term(state: &mut u32, kind: usize) -> f32 {
+    fn term(dice: &mut Dice<'_>, kind: usize) -> f32 {
         match kind {
-            0 => 1.0 + 0.1 * number(state, 23),
-            1 => number(state, 24),
-            2 => number(state, 5) + 1.0 + f32::EPSILON * number(state, 3),
-            3 => number(state, 2),
-            4 => 1e-3 * number(state, 24),
-            5 => number(state, 4) * f32::EPSILON,
-            _ => number(state, 12) * f32::MIN_POSITIVE,
+            0 => 1.0 + 0.1 * number(dice, 23),
+            1 => number(dice, 24),
+            2 => number(dice, 5) + 1.0 + f32::EPSILON * number(dice, 3),
+            3 => number(dice, 2),
+            4 => 1e-3 * number(dice, 24),
+            5 => number(dice, 4) * f32::EPSILON,
+            _ => number(dice, 12) * f32::MIN_POSITIVE,
         }
     }
 
     #[test]
     fn sums_are_those_of_adding_one_by_one() {
-        let mut state = 1;
+        let mut dice = Dice::from_seed(1);
         for round in 0..400 {
             let (kind, spread) = (round % 7, [0.0, 1e-6, 1e-3, 1.0, 30.0][round / 7 % 5]);
             let unit = if kind == 6 { 64.0 * f32::MIN_POSITIVE } else { spread };
-            let terms: Vec<f32> = (0..300).map(|_| term(&mut state, kind)).collect();
+            let terms: Vec<f32> = (0..300).map(|_| term(&mut dice, kind)).collect();
             let start = terms.iter().take(round).sum::<f32>();
             let mut values: Vec<f32> =
-                (0..500).map(|_| start + unit * number(&mut state, 20) + 0.0).collect();
+                (0..500).map(|_| start + unit * number(&mut dice, 20) + 0.0).collect();
             values.sort_unstable_by(f32::total_cmp);
             let expected: Vec<f32> =
                 values.iter().map(|&value| terms.iter().fold(value, |sum, term| sum + term)).collect();

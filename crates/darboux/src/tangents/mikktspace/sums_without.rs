@@ -253,38 +253,34 @@ impl<'a> Sweep<'a> {
 
 #[cfg(test)]
 mod tests {
+    use darboux_dice::Dice;
+
     use super::*;
 
-    /// A pseudo-random number below `count`.
-    fn below(state: &mut u32, count: usize) -> usize {
-        *state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        ((u64::from(*state) * count as u64) >> 32) as usize
-    }
-
     /// Terms whose lanes grow, walk at random, are mostly ties, or are zero. One in seven members adds nothing.
-    fn terms(state: &mut u32, count: usize) -> Vec<Option<TermLanes>> {
-        let number = |state: &mut u32, bits: u32| below(state, 1 << bits) as f32 / (1 << bits) as f32;
-        let lane = |state: &mut u32, lane: usize| match lane % 5 {
-            0 => 1.0 + 0.1 * number(state, 23),
-            1 => number(state, 24) - 0.5,
-            2 => number(state, 5) + f32::EPSILON * number(state, 3) - 0.5,
-            3 => number(state, 1) - 0.5,
+    fn terms(dice: &mut Dice<'_>, count: usize) -> Vec<Option<TermLanes>> {
+        let number = |dice: &mut Dice<'_>, bits: u32| (dice.word() >> (32 - bits)) as f32 / (1 << bits) as f32;
+        let mut lane = |lane: usize| match lane % 5 {
+            0 => 1.0 + 0.1 * number(dice, 23),
+            1 => number(dice, 24) - 0.5,
+            2 => number(dice, 5) + f32::EPSILON * number(dice, 3) - 0.5,
+            3 => number(dice, 1) - 0.5,
             _ => 0.0,
         };
-        let term = |at: usize| (at % 7 != 3).then(|| TermLanes(std::array::from_fn(|n| lane(state, n))));
+        let term = |at: usize| (at % 7 != 3).then(|| TermLanes(std::array::from_fn(&mut lane)));
         (0..count).map(term).collect()
     }
 
     /// Ascending ranges: few or many, single members or longer, up to the end or not.
-    fn ranges(state: &mut u32, count: usize) -> Vec<u32> {
-        let mut one_of = |choices: [usize; 3]| choices[below(state, 3)];
+    fn ranges(dice: &mut Dice<'_>, count: usize) -> Vec<u32> {
+        let mut one_of = |choices: [usize; 3]| dice.pick(&choices);
         let (most, longest, farthest) = (one_of([1, 3, 40]), one_of([1, 5, 700]), one_of([1, 30, 2000]));
         let mut ends: Vec<u32> = Vec::new();
-        let mut at = below(state, count);
+        let mut at = dice.below( count);
         while ends.len() < 2 * most && at < count {
-            let end = (at + 1 + below(state, longest)).min(count);
+            let end = (at + 1 + dice.below( longest)).min(count);
             ends.extend([at as u32, end as u32]);
-            at = end + 1 + below(state, farthest);
+            at = end + 1 + dice.below( farthest);
         }
         ends
     }
@@ -306,12 +302,12 @@ mod tests {
 
     #[test]
     fn sums_are_those_of_adding_one_by_one() {
-        let mut state = 1;
+        let mut dice = Dice::from_seed(1);
         for count in [1, 8, 200, 257, 384, 3000] {
-            let terms = terms(&mut state, count);
+            let terms = terms(&mut dice, count);
             let mut excluded = KeyTable::of_empty_key();
             for _ in 0..400 {
-                excluded.insert(&ranges(&mut state, count));
+                excluded.insert(&ranges(&mut dice, count));
             }
             assert_sums(&terms, &excluded);
         }
@@ -319,8 +315,8 @@ mod tests {
 
     #[test]
     fn sums_may_overflow() {
-        let mut state = 1;
-        let mut terms = terms(&mut state, 1000);
+        let mut dice = Dice::from_seed(1);
+        let mut terms = terms(&mut dice, 1000);
         terms[500] = Some(TermLanes([f32::MAX; LANES]));
         terms[700] = Some(TermLanes([1e38; LANES]));
         let mut excluded = KeyTable::of_empty_key();
