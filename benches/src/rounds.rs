@@ -59,10 +59,10 @@ impl Row {
 }
 
 /// The number of rounds of an engine whose first call took this many seconds. Slow engines get fewer; the slowest keep the time of the first call.
-const FEWER: [(f64, usize); 2] = [(10.0, 1), (3.0, 3)];
+const ROUNDS_OF_SLOW_ENGINES: [(f64, usize); 2] = [(10.0, 1), (3.0, 3)];
 
 /// A round of a fast engine on a small mesh is as many calls as take this many nanoseconds.
-const SHORTEST_ROUND: f64 = 2e7;
+const MIN_ROUND: f64 = 2e7;
 
 struct Runner<'a> {
     run: Box<dyn Run + 'a>,
@@ -118,9 +118,9 @@ fn start<'a>(
     let mut run = engine.start(mesh, node)?;
     let first = run.run(1)?;
     let answer = verdict(engine.method, expected, &run.tangents()?)?;
-    let fewer = FEWER.iter().find(|(seconds, _)| first.wall > seconds * 1e9);
+    let fewer = ROUNDS_OF_SLOW_ENGINES.iter().find(|(seconds, _)| first.wall > seconds * 1e9);
     let wanted = fewer.map_or(rounds, |(_, fewer)| rounds.min(*fewer));
-    let calls = (SHORTEST_ROUND / first.wall.max(1.0)).ceil().max(1.0) as usize;
+    let calls = (MIN_ROUND / first.wall.max(1.0)).ceil().max(1.0) as usize;
     let mut runner = Runner { run, calls, wanted, rounds: Vec::new() };
     if wanted == 1 {
         runner.rounds.push(first);

@@ -3,7 +3,9 @@
 //!
 //! A [`Dice`] makes all choices, from a seed in tests and from the fuzzer's bytes in fuzzing.
 
-use crate::{Dice, FaceSizes, OwnedMesh, families};
+use darboux_dice::Dice;
+
+use crate::{FaceSizes, OwnedMesh, families};
 
 /// A mesh and a threshold to run it with.
 #[derive(Clone, Debug)]

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
+use crate::npm;
 use crate::run::{Outcome, program, root, run, works};
 
 /// Makes glibc keep freed memory, so that no engine waits for fresh pages of the kernel, however it allocates.
@@ -41,16 +42,12 @@ fn node_packages() -> Result<Option<PathBuf>, String> {
     let (from, to) = (root().join("benches/node"), root().join("target/bench-node"));
     let cannot_write = |error| format!("{} cannot be written: {error}", to.display());
     fs::create_dir_all(&to).map_err(cannot_write)?;
-    let modified = |name| fs::metadata(to.join(name)).and_then(|file| file.modified()).ok();
     for name in ["package.json", "package-lock.json", "peers.mjs"] {
         let text = fs::read(from.join(name)).map_err(cannot_write)?;
         if fs::read(to.join(name)).ok().as_ref() != Some(&text) {
             fs::write(to.join(name), text).map_err(cannot_write)?;
         }
     }
-    let installed = modified("node_modules/.package-lock.json");
-    if installed.is_none() || installed < modified("package-lock.json") {
-        run(program("npm ci --no-audit --no-fund --loglevel=error").current_dir(&to))?;
-    }
+    npm::install("the benchmarks", &to)?;
     Ok(Some(to))
 }

@@ -54,7 +54,7 @@ const SMALL: Module = Module { entry: "tangents", features: "", is_small: true }
 const SIZE_FLAG: &str = "-Cllvm-args=-force-attribute=optsize";
 
 /// Part of the mangled name of every hot function: `Width::run`, which runs a kernel (`exec/simd.rs` of the core).
-const HOT: &str = "5Width3run";
+const HOT_FUNCTION: &str = "5Width3run";
 
 /// Makes the folder and runs the tests of the package.
 pub fn test(without: WithoutNpm) -> Outcome {
@@ -157,7 +157,7 @@ fn hot_functions(target: &Path) -> Result<BTreeSet<String>, String> {
         let (_, rest) = line.split_once('@')?;
         rest.split_once('(').map(|(name, _)| name.trim_matches('"'))
     });
-    Ok(defined.filter(|name| name.contains(HOT)).map(str::to_owned).collect())
+    Ok(defined.filter(|name| name.contains(HOT_FUNCTION)).map(str::to_owned).collect())
 }
 
 /// Flags that exclude functions from [`SIZE_FLAG`].
@@ -169,10 +169,10 @@ fn excluded(functions: &BTreeSet<String>) -> String {
 fn check_hot_functions(module: &Path, excluded: &BTreeSet<String>) -> Outcome {
     let read = fs::read(module).map_err(|error| format!("{} cannot be read: {error}", module.display()))?;
     let names = names(&read).map_err(|error| format!("{} has no names: {error}", module.display()))?;
-    let found: BTreeSet<&str> = names.into_iter().filter(|name| name.contains(HOT)).collect();
+    let found: BTreeSet<&str> = names.into_iter().filter(|name| name.contains(HOT_FUNCTION)).collect();
     if found.is_empty() || found.iter().any(|name| !excluded.contains(*name)) {
         return Err(format!(
-            "{}: a hot function (*{HOT}*) was optimised for size and is slow",
+            "{}: a hot function (*{HOT_FUNCTION}*) was optimised for size and is slow",
             module.display()
         ));
     }

@@ -22,10 +22,10 @@ use drawing::Figure;
 pub const FOLDER: &str = "docs/learn/figures";
 
 /// The name of a figure's file without `.svg`, and the function that draws it.
-type Drawn = (&'static str, fn() -> Figure);
+type FigureFile = (&'static str, fn() -> Figure);
 
 /// All figures.
-const FIGURES: &[Drawn] = &[
+const FIGURES: &[FigureFile] = &[
     ("texel", colours::texel),
     ("object-or-tangent", colours::object_or_tangent),
     ("uv-to-surface", derivatives::uv_to_surface),

@@ -10,7 +10,7 @@ use crate::run::{Outcome, files_below, program, root, run};
 use crate::shaders;
 
 /// The files and folders that are generated. Such a folder holds nothing else.
-const PLACES: &[&str] = &[
+const GENERATED_PATHS: &[&str] = &[
     "docs/cli.md",
     "docs/check.md",
     "crates/darboux-cli/generated",
@@ -27,7 +27,7 @@ const WRITERS: &[(&str, &str)] = &[("darboux-cli", "pages"), ("darboux-c", "head
 
 /// Writes all generated files into the repository.
 pub fn write() -> Outcome {
-    for place in PLACES {
+    for place in GENERATED_PATHS {
         remove(&root().join(place))?;
     }
     generate(root())
@@ -71,7 +71,7 @@ fn remove(path: &Path) -> Outcome {
 /// All generated files below `base`, by their path below it.
 fn read(base: &Path) -> Result<BTreeMap<PathBuf, Vec<u8>>, String> {
     let mut contents = BTreeMap::new();
-    for place in PLACES {
+    for place in GENERATED_PATHS {
         for path in files_below(&base.join(place))? {
             let bytes =
                 fs::read(&path).map_err(|error| format!("{} cannot be read: {error}", path.display()))?;

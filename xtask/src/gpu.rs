@@ -12,7 +12,7 @@ use crate::run::{Outcome, files_below, output_of, program, root, shown, target_f
 
 /// The parsed arguments.
 #[derive(Debug, Default, PartialEq)]
-pub struct Wanted<'a> {
+pub struct Arguments<'a> {
     /// The steps to run; all of [`STEPS`] if none is named.
     steps: Vec<&'static Step>,
     /// Build the programs without running them.
@@ -63,7 +63,7 @@ const BUILDS: [(&str, &str); 3] = [
 /// The file in the folder of programs that names the commit they were built from.
 const COMMIT: &str = "commit";
 
-impl<'a> Wanted<'a> {
+impl<'a> Arguments<'a> {
     /// Of words in any order: names of steps, `pack`, `--out FOLDER`, and options of the benchmark. Errors: `--out` without a folder, other
     /// words.
     pub fn new(words: &[&'a str]) -> Result<Self, String> {
@@ -88,7 +88,7 @@ impl<'a> Wanted<'a> {
 }
 
 /// Builds the programs unless this program was packed with them, runs all steps, and writes a file for each. Errors: a step failed.
-pub fn record(wanted: &Wanted<'_>) -> Outcome {
+pub fn record(wanted: &Arguments<'_>) -> Outcome {
     let packed = std::env::current_exe().ok().and_then(|own| own.parent().map(Path::to_owned));
     let folder = match packed.filter(|folder| folder.join(COMMIT).is_file()) {
         Some(folder) => folder,
@@ -231,13 +231,13 @@ mod tests {
 
     #[test]
     fn words_are_steps_and_what_the_benchmark_takes() {
-        let wanted = Wanted::new(&["tests", "--quick", "times", "--out", "here", "2000"]).expect("fine");
+        let wanted = Arguments::new(&["tests", "--quick", "times", "--out", "here", "2000"]).expect("fine");
         let steps: Vec<_> = wanted.steps.iter().map(|step| step.name).collect();
         assert_eq!((&steps[..], wanted.out), (&["tests", "times"][..], Some("here")));
         assert_eq!(wanted.options, ["--quick", "2000"]);
-        assert_eq!(Wanted::new(&[]).expect("fine").steps.len(), STEPS.len());
-        assert!(Wanted::new(&["--out"]).is_err());
-        assert!(Wanted::new(&["test"]).is_err_and(|why| why.starts_with("test is not a step")));
+        assert_eq!(Arguments::new(&[]).expect("fine").steps.len(), STEPS.len());
+        assert!(Arguments::new(&["--out"]).is_err());
+        assert!(Arguments::new(&["test"]).is_err_and(|why| why.starts_with("test is not a step")));
     }
 
     #[test]

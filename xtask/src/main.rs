@@ -85,7 +85,7 @@ fn main() -> ExitCode {
         ["bench", "--gpu", ref options @ ..] => bench::bench_gpu(options),
         ["bench", ref options @ ..] => bench::bench(options),
         ["maps", ref numbers @ ..] => bench::judge_maps(numbers),
-        ["gpu", ref words @ ..] => gpu::Wanted::new(words).and_then(|wanted| gpu::record(&wanted)),
+        ["gpu", ref words @ ..] => gpu::Arguments::new(words).and_then(|arguments| gpu::record(&arguments)),
         ["dist-c"] => dist_c::make(),
         ["dist-js"] => dist_js::make(),
         ["dist-viewer"] => dist_viewer::make(),

@@ -175,7 +175,7 @@ impl Soak {
         } else {
             damage(random, seed)
         };
-        let mut case = Case::new(["view", "--no-open", "--page", "page", &name]).acting(Action::View);
+        let mut case = Case::new(["view", "--no-open", "--page", "page", &name]).with_action(Action::View);
         case.name = "the viewer under hostile connections".into();
         case = case.file(name, bytes).file("page/index.html", "the page");
         companions.into_iter().fold(case, |case, (name, bytes)| case.file(name, bytes))

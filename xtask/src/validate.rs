@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
 
+use crate::npm;
 use crate::run::{Outcome, files_below, further_models, program, root, run, shown, works};
 
 /// The behaviour on a machine without node or npm.
@@ -28,7 +29,7 @@ pub fn all_models(without_npm: WithoutNpm) -> Outcome {
             }
         };
     }
-    install()?;
+    npm::install("the validator", &root().join("xtask/validate"))?;
     run(&mut program("cargo build --quiet --package darboux-cli --features full"))?;
     check(&root().join("assets"), "assets")?;
     match further_models() {
@@ -38,17 +39,6 @@ pub fn all_models(without_npm: WithoutNpm) -> Outcome {
             Ok(())
         }
     }
-}
-
-/// Installs the tools at the versions of the lock file if they are missing.
-fn install() -> Outcome {
-    let folder = root().join("xtask/validate");
-    let modified = |name| fs::metadata(folder.join(name)).and_then(|file| file.modified()).ok();
-    let installed = modified("node_modules/.package-lock.json");
-    if installed.is_some() && installed >= modified("package-lock.json") {
-        return Ok(());
-    }
-    run(program("npm ci --no-audit --no-fund --loglevel=error").current_dir(folder))
 }
 
 /// Runs the command on a folder of models, and on each model with output to the other container, and checks all outputs.
@@ -74,8 +64,9 @@ fn check(folder: &Path, name: &str) -> Outcome {
         reports.push(tangents(&[model.as_os_str(), "-o".as_ref(), out.as_os_str()], &work, number)?);
     }
     println!("{}:", folder.display());
-    run(program("node xtask/validate/check.mjs").args(reports))
-        .map_err(|_| format!("outputs for the models in {} are not as they must be; see above", folder.display()))
+    run(program("node xtask/validate/check.mjs").args(reports)).map_err(|_| {
+        format!("outputs for the models in {} are not as they must be; see above", folder.display())
+    })
 }
 
 /// Runs `darboux tangents --overwrite` with these arguments; returns the path of its JSON report, which also lists failures.

@@ -17,7 +17,7 @@ use crate::choices::{choice, tangent_options};
 use crate::convention::convention;
 use crate::normals::normal_options;
 use crate::numbers::{degrees, place};
-use crate::threads::attended;
+use crate::threads::run_interruptibly;
 
 const ENCODINGS: &[(&str, TangentEncoding)] = &[
     ("f32x4", TangentEncoding::F32x4),
@@ -222,7 +222,7 @@ impl Document {
     fn inspect<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.whole()?;
         let document = &mut self.document;
-        let infos = attended(py, 0, |_| gltf::inspect(document), |(): ()| Ok(()), || ())?;
+        let infos = run_interruptibly(py, 0, |_| gltf::inspect(document), |(): ()| Ok(()), || ())?;
         python_of(py, &infos.map_err(file_error)?)
     }
 
@@ -410,7 +410,7 @@ impl Document {
             Some(progress) => progress.call1((done, total)).map(drop),
             None => Ok(()),
         };
-        let edited = attended(py, 0, work, receive, || cancel.cancel())?;
+        let edited = run_interruptibly(py, 0, work, receive, || cancel.cancel())?;
         let summary = edited.map_err(file_error)?;
         self.is_half_done = false;
         python_of(py, &summary)

@@ -4,7 +4,7 @@ use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
 /// The largest number of threads; more could exhaust the machine.
-const MOST_THREADS: i64 = 1024;
+const MAX_THREADS: i64 = 1024;
 
 /// A number of threads.
 #[derive(Clone, Copy)]
@@ -25,7 +25,7 @@ impl<'py> FromPyObject<'_, 'py> for Threads {
     type Error = PyErr;
 
     fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        Ok(Self(whole("threads", &value, 1, MOST_THREADS)?))
+        Ok(Self(whole("threads", &value, 1, MAX_THREADS)?))
     }
 }
 

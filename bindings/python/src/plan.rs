@@ -34,12 +34,12 @@ pub struct Plan {
 }
 
 /// The vertices of a moved mesh.
-struct Moved<'py> {
+struct MovedVertices<'py> {
     positions: Rows<'py, 3>,
     normals: Rows<'py, 3>,
 }
 
-impl<'py> Moved<'py> {
+impl<'py> MovedVertices<'py> {
     fn new(positions: &Bound<'py, PyAny>, normals: &Bound<'py, PyAny>) -> PyResult<Self> {
         let positions = Rows::new("positions", "V", positions)?;
         Ok(Self { positions, normals: Rows::new("normals", "V", normals)? })
@@ -48,7 +48,7 @@ impl<'py> Moved<'py> {
 
 impl Plan {
     /// The mesh with these positions and normals. Errors: the arrays do not fit.
-    fn moved<'a>(&'a self, moved: &'a Moved<'_>) -> PyResult<Mesh<'a>> {
+    fn moved<'a>(&'a self, moved: &'a MovedVertices<'_>) -> PyResult<Mesh<'a>> {
         let indices = self.indices.as_ref().map_or(Indices::Unindexed, Indices::from);
         let (positions, normals) = (moved.positions.view()?, moved.normals.view()?);
         Mesh::with_faces(positions, normals, &self.uvs, indices, self.faces.view()).map_err(value_error)
@@ -127,7 +127,7 @@ impl Plan {
         threads: Option<Threads>,
         out: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let moved = Moved::new(positions, normals)?;
+        let moved = MovedVertices::new(positions, normals)?;
         let mesh = self.moved(&moved)?;
         let size = (self.corner_count(), self.is_slow);
         let filled = Target::new(py, out, self.corner_count())?.fill(py, |out| {
@@ -145,7 +145,7 @@ impl Plan {
         positions: &Bound<'_, PyAny>,
         normals: &Bound<'_, PyAny>,
     ) -> PyResult<usize> {
-        let moved = Moved::new(positions, normals)?;
+        let moved = MovedVertices::new(positions, normals)?;
         let mesh = self.moved(&moved)?;
         let size = (self.corner_count(), self.is_slow);
         let count = |context: &mut Context| self.plan.count_regrouped_with(&mesh, context);

@@ -107,16 +107,16 @@ pub fn generate_tangents<'py>(
     }
 }
 
-/// What calls with `out` keep from one to the next: who gives an array again and again wants nothing allocated. Two at once do not
-/// share it.
-static KEPT: Mutex<Option<Context>> = Mutex::new(None);
+/// The context that calls with `out` reuse, so that repeated calls allocate nothing. A call that runs at the same time as another one makes
+/// a context of its own.
+static KEPT_CONTEXT: Mutex<Option<Context>> = Mutex::new(None);
 
 fn take_context() -> Context {
-    KEPT.try_lock().ok().and_then(|mut kept| kept.take()).unwrap_or_default()
+    KEPT_CONTEXT.try_lock().ok().and_then(|mut kept| kept.take()).unwrap_or_default()
 }
 
 fn keep_context(context: Context) {
-    if let Ok(mut kept) = KEPT.try_lock() {
+    if let Ok(mut kept) = KEPT_CONTEXT.try_lock() {
         *kept = Some(context);
     }
 }

@@ -25,7 +25,7 @@ struct Pools {
 static POOLS: Mutex<Option<Pools>> = Mutex::new(None);
 
 /// Meshes with fewer corners run on the calling thread, because waking a pool costs more than it gains.
-const FEWEST_CORNERS: usize = 3 << 14;
+const MIN_CORNERS: usize = 3 << 14;
 
 /// Runs `work` without the GIL on this number of threads.
 pub fn limited<R: Send>(
@@ -68,7 +68,7 @@ pub fn cancellable<R: Send>(
     context: &mut Context,
     work: impl FnOnce(&mut Context) -> Result<R, darboux::Error> + Send,
 ) -> PyResult<R> {
-    if corners < FEWEST_CORNERS && !is_slow {
+    if corners < MIN_CORNERS && !is_slow {
         context.set_cancel(None);
         context.set_max_threads(1);
         return py.detach(|| work(context)).map_err(value_error);
@@ -77,16 +77,17 @@ pub fn cancellable<R: Send>(
     context.set_cancel(Some(&cancel));
     context.set_max_threads(usize::MAX);
     let work = |_: &Sender<()>| work(context);
-    attended(py, Threads::or_all(threads), work, |()| Ok(()), || cancel.cancel())?.map_err(value_error)
+    run_interruptibly(py, Threads::or_all(threads), work, |()| Ok(()), || cancel.cancel())?
+        .map_err(value_error)
 }
 
 /// The interval between checks for Ctrl-C while another thread works.
-const PATIENCE: Duration = Duration::from_millis(50);
+const CHECK_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Runs `work` on a pool without the GIL. This thread waits, passes messages of the work to `receive`, and checks for Ctrl-C.
 ///
 /// After Ctrl-C or an error of `receive`, it calls `stop` and waits for the work to end; the result is dropped. `threads`: as for [`pool`].
-pub fn attended<M: Send, R: Send>(
+pub fn run_interruptibly<M: Send, R: Send>(
     py: Python<'_>,
     threads: usize,
     work: impl FnOnce(&Sender<M>) -> R + Send,
@@ -103,7 +104,7 @@ pub fn attended<M: Send, R: Send>(
         loop {
             let message;
             (receiver, message) = py.detach(move || {
-                let message = receiver.recv_timeout(PATIENCE);
+                let message = receiver.recv_timeout(CHECK_INTERVAL);
                 (receiver, message)
             });
             let is_done = matches!(message, Err(RecvTimeoutError::Disconnected));

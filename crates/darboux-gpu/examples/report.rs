@@ -94,7 +94,8 @@ fn ordered(x: f32) -> i64 {
 fn other_groups(kernels: &MikkTSpace, mesh: &OwnedMesh) -> Result<usize, GpuError> {
     let options = MikkTSpaceOptions::new().with_mode(Mode::Corrected);
     let found = kernels.stage_arrays(&mesh.view(), &options)?;
-    let core = Stages::new(&mesh.view(), &options, &mut Context::new(), usize::MAX).unwrap().expect("no limit");
+    let core =
+        Stages::new(&mesh.view(), &options, &mut Context::new(), usize::MAX).unwrap().expect("no limit");
     let faces = &core.triangulation.good.face;
     let mut seeds = vec![NONE; mesh.corner_count()];
     for group in 0..core.groups.ends().len() {

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::bound::{Known, U, dot, known, length};
+use common::bound::{KnownFrame, U, dot, known, length};
 use common::{
     APART, APART_STRIDE, ENGINE, ENGINE_FRAME, Found, GpuFrame, Packed, Place, UNTOUCHED, frames, gpus, pack,
     run, triangulated,
@@ -72,10 +72,10 @@ fn compare(name: &str, mesh: &OwnedMesh, found: &[GpuFrame], tally: &mut Tally) 
     for corner in 0..mesh.corner_count() {
         let v = mesh.vertex_of_corner(corner);
         let (tangent, sign, bitangent) = found[v];
-        let Known::Frame { sign: right, tangent: tangent_bound, bitangent: bitangent_bound } = known[v]
+        let KnownFrame::Frame { sign: right, tangent: tangent_bound, bitangent: bitangent_bound } = known[v]
         else {
             tally.unsure +=
-                usize::from(known[v] == Known::Unsure && !std::mem::replace(&mut is_seen[v], true));
+                usize::from(known[v] == KnownFrame::Unsure && !std::mem::replace(&mut is_seen[v], true));
             continue;
         };
         assert_eq!(sign, right, "{name}, vertex {v}: sign");

@@ -25,7 +25,8 @@ struct Tally {
 fn check(planner: &Planner, gpu: &Gpu, name: &str, mesh: &OwnedMesh, tally: &mut Tally) {
     let mesh = &triangulated(mesh);
     let options = MikkTSpaceOptions::new().with_mode(Mode::Reference);
-    let stages = Stages::new(&mesh.view(), &options, &mut Context::new(), 1 << 22).unwrap().expect("small groups");
+    let stages =
+        Stages::new(&mesh.view(), &options, &mut Context::new(), 1 << 22).unwrap().expect("small groups");
     let bounds = bounds(&stages, mesh);
     let found = run(planner, gpu, [mesh, mesh], Mode::Reference, TangentsPer::Corner);
     let expected = darboux::generate_tangents(&mesh.view(), &options.into()).corners;

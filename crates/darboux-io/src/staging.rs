@@ -216,9 +216,9 @@ fn new_temporary(folder: &Path, run: Option<RunId>) -> io::Result<NamedTempFile>
 
 /// Deletes the temporary files of processes that were killed, the first time that this process writes into a folder.
 fn remove_abandoned_files_once(folder: &Path) {
-    static SEEN: LazyLock<Mutex<HashSet<PathBuf>>> = LazyLock::new(Mutex::default);
+    static CLEANED_FOLDERS: LazyLock<Mutex<HashSet<PathBuf>>> = LazyLock::new(Mutex::default);
     let Ok(folder) = folder.canonicalize() else { return };
-    if SEEN.lock().unwrap_or_else(PoisonError::into_inner).insert(folder.clone()) {
+    if CLEANED_FOLDERS.lock().unwrap_or_else(PoisonError::into_inner).insert(folder.clone()) {
         remove_abandoned_files(&folder);
     }
 }

@@ -7,7 +7,7 @@ use crate::math::V3;
 use crate::math_f64::{D3, cross, dot, length, unit};
 
 /// The maximum length of [`TangentDifference::worst`].
-const WORST: usize = 16;
+const MAX_WORST_CORNERS: usize = 16;
 
 /// The difference of two sets of tangents of one mesh. Angles are in degrees, between the xyz of one corner in both sets.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -106,7 +106,7 @@ pub fn measure_tangents_with(
     out.mean = angles.iter().map(|(_, angle)| angle).sum::<f64>() / (angles.len().max(1) as f64);
     out.min = angles.last().map_or(0.0, |(_, angle)| *angle);
     [out.max, out.p95, out.median] = [1.0, 0.95, 0.5].map(|part| quantile(&angles, part));
-    out.worst = angles.into_iter().take(WORST).filter(|(_, angle)| *angle > 0.0).collect();
+    out.worst = angles.into_iter().take(MAX_WORST_CORNERS).filter(|(_, angle)| *angle > 0.0).collect();
     Ok(out)
 }
 

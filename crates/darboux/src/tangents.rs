@@ -1,26 +1,18 @@
 //! The entry points of tangent generation, which run the method that the options name.
 
-pub(crate) mod angle_area;
-mod face;
 pub(crate) mod fast;
 mod frames;
-mod from_normal;
 pub(crate) mod generate;
 pub(crate) mod memory;
-mod mesh_slices;
-mod method;
-mod method_buffers;
 mod method_plan;
+pub(crate) mod methods;
 pub(crate) mod mikktspace;
-mod mirrored_edges;
 mod options;
 mod orthogonalize;
 mod output;
 mod repair;
 mod report;
 pub(crate) mod submesh;
-mod uv_derivatives;
-mod vertex_sums;
 
 use crate::Context;
 use crate::Error;

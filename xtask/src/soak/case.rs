@@ -99,7 +99,7 @@ impl Case {
         self
     }
 
-    pub fn acting(mut self, action: Action) -> Self {
+    pub fn with_action(mut self, action: Action) -> Self {
         self.action = action;
         self
     }

@@ -20,18 +20,18 @@ pub struct Limits {
 }
 
 /// A run that has ended.
-pub struct Ended {
+pub struct EndedRun {
     pub status: ExitStatus,
     pub stdout: Vec<u8>,
     pub stderr: Vec<u8>,
-    pub used: Used,
+    pub used: ResourceUse,
     /// The limit for which it was killed.
     pub over: Option<&'static str>,
 }
 
 /// What a run took.
 #[derive(Clone, Copy, Default)]
-pub struct Used {
+pub struct ResourceUse {
     pub processor: Duration,
     pub wall: Duration,
     /// The peak of resident bytes; 0 where the system does not say.
@@ -49,22 +49,22 @@ pub fn run(
     stdin: &[u8],
     limits: Limits,
     signal: Option<(Signal, Duration)>,
-) -> io::Result<Ended> {
+) -> io::Result<EndedRun> {
     let [input, output, messages] = ["stdin", "stdout", "stderr"].map(|name| folder.join(name));
     fs::write(&input, stdin)?;
     command.stdin(File::open(&input)?).stdout(File::create(&output)?).stderr(File::create(&messages)?);
     let mut child = command.spawn()?;
     let (status, used, over) = watch(&mut child, limits, signal)?;
-    Ok(Ended { status, stdout: fs::read(&output)?, stderr: fs::read(&messages)?, used, over })
+    Ok(EndedRun { status, stdout: fs::read(&output)?, stderr: fs::read(&messages)?, used, over })
 }
 
 fn watch(
     child: &mut Child,
     limits: Limits,
     mut signal: Option<(Signal, Duration)>,
-) -> io::Result<(ExitStatus, Used, Option<&'static str>)> {
+) -> io::Result<(ExitStatus, ResourceUse, Option<&'static str>)> {
     let start = Instant::now();
-    let mut used = Used::default();
+    let mut used = ResourceUse::default();
     let mut over = None;
     let mut pause = Duration::from_micros(200);
     loop {
@@ -87,7 +87,7 @@ fn watch(
     }
 }
 
-impl Used {
+impl ResourceUse {
     fn exceeds(&self, limits: Limits) -> Option<&'static str> {
         if self.memory > limits.memory {
             Some("memory")
@@ -107,7 +107,7 @@ pub fn send(child: &Child, signal: Signal) {
 }
 
 /// Updates what a running process has used so far, on systems with /proc.
-pub fn measure(id: u32, used: &mut Used) {
+pub fn measure(id: u32, used: &mut ResourceUse) {
     if let Ok(status) = fs::read_to_string(format!("/proc/{id}/status")) {
         let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")?.trim().strip_suffix(" kB"));
         if let Some(kilobytes) = peak.and_then(|number| number.trim().parse::<u64>().ok()) {
@@ -134,7 +134,7 @@ mod tests {
     const LIMITS: Limits =
         Limits { processor: Duration::from_secs(5), wall: Duration::from_millis(300), memory: 1 << 30 };
 
-    fn shell(line: &str, limits: Limits) -> Ended {
+    fn shell(line: &str, limits: Limits) -> EndedRun {
         let folder = tempfile::tempdir().expect("a folder");
         run(Command::new("sh").args(["-c", line]), folder.path(), b"in", limits, None).expect("a shell")
     }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::case::Case;
-use super::child::Used;
+use super::child::ResourceUse;
 use super::runner::Outcome;
 use super::tree;
 
@@ -21,7 +21,7 @@ struct Row {
     other: usize,
     signals: usize,
     reopened: usize,
-    used: Used,
+    used: ResourceUse,
     broken: BTreeMap<&'static str, usize>,
 }
 
@@ -39,8 +39,8 @@ pub struct Report {
 /// The time between two lines of progress.
 const INTERVAL: Duration = Duration::from_secs(10);
 
-/// How many cases are kept for each kind of case and of finding.
-const KEPT: usize = 3;
+/// How many cases are kept for each kind of case and of broken promise.
+const MAX_KEPT: usize = 3;
 
 impl Report {
     pub fn new(duration: Duration, keep: PathBuf) -> Self {
@@ -84,7 +84,7 @@ impl Report {
         for promise in &outcome.broken {
             let count = row.broken.entry(promise.kind).or_default();
             *count += 1;
-            if *count <= KEPT {
+            if *count <= MAX_KEPT {
                 let name = format!("{number}-{}", promise.kind.replace(' ', "-"));
                 println!("{}, {}: {}\n  {reproduce}", case.name, promise.kind, promise.detail.trim_end());
                 keep(&self.keep.join(name), case, &promise.detail, reproduce)?;

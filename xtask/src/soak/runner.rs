@@ -9,7 +9,7 @@ use std::{fs, io, thread};
 use rustix::process::Signal as SystemSignal;
 
 use super::case::{Action, Case, Content, Signal};
-use super::child::{self, Ended, Used};
+use super::child::{self, EndedRun, ResourceUse};
 use super::inputs::images::png_is_readable;
 use super::program::Program;
 use super::random::Random;
@@ -23,7 +23,7 @@ pub struct Outcome {
     /// The exit code of each run; `None` for one that a signal ended.
     pub codes: Vec<Option<i32>>,
     /// The most that a run used.
-    pub used: Used,
+    pub used: ResourceUse,
     /// How many runs were sent a signal.
     pub signals: usize,
     /// How many outputs were read again.
@@ -35,7 +35,7 @@ pub struct Outcome {
 const PROCESSES: usize = 4;
 
 /// The folders of a case that runs.
-struct Room<'a> {
+struct CaseFolders<'a> {
     program: &'a Program,
     case: &'a Case,
     /// The files of the case.
@@ -48,7 +48,7 @@ struct Room<'a> {
 pub fn run(program: &Program, case: &Case, random: &mut Random, folder: &Path) -> io::Result<Outcome> {
     let [files, streams] = ["case", "streams"].map(|name| folder.join(name));
     fs::create_dir_all(&streams)?;
-    let room = Room { program, case, files: &files, streams: &streams };
+    let room = CaseFolders { program, case, files: &files, streams: &streams };
     let mut outcome = Outcome::default();
     match case.action {
         Action::Run => room.run_once(&mut outcome).map(drop)?,
@@ -64,7 +64,7 @@ pub fn run(program: &Program, case: &Case, random: &mut Random, folder: &Path) -
     Ok(outcome)
 }
 
-impl Room<'_> {
+impl CaseFolders<'_> {
     /// The command line of the case, in its folder and with its limits.
     fn command(&self) -> Command {
         let mut command = match self.case.shell_limit {
@@ -126,7 +126,7 @@ impl Room<'_> {
     fn run_together(&self, outcome: &mut Outcome) -> io::Result<()> {
         tree::make(self.files, self.case)?;
         let before = tree::read(self.files)?;
-        let ended: Vec<io::Result<Ended>> = thread::scope(|scope| {
+        let ended: Vec<io::Result<EndedRun>> = thread::scope(|scope| {
             let start = |number: usize| {
                 let streams = self.streams.join(number.to_string());
                 scope.spawn(move || {
@@ -227,7 +227,7 @@ impl Room<'_> {
 }
 
 impl Outcome {
-    fn count(&mut self, ended: &Ended) {
+    fn count(&mut self, ended: &EndedRun) {
         self.codes.push(ended.status.code());
         self.used.memory = self.used.memory.max(ended.used.memory);
         self.used.processor = self.used.processor.max(ended.used.processor);

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use super::case::{Case, Content};
-use super::child::{Ended, Limits};
+use super::child::{EndedRun, Limits};
 use super::tree::{Tree, WORK, is_temporary};
 
 /// A promise that was broken.
@@ -45,7 +45,7 @@ pub fn limits(case: &Case) -> Limits {
 }
 
 /// All promises that a run broke, by its end, its messages and its files.
-pub fn judge(case: &Case, ended: &Ended, before: &Tree, after: &Tree) -> Vec<BrokenPromise> {
+pub fn judge(case: &Case, ended: &EndedRun, before: &Tree, after: &Tree) -> Vec<BrokenPromise> {
     let mut broken = Vec::new();
     end(case, ended, &mut broken);
     if ended.over.is_none() {
@@ -59,7 +59,7 @@ fn add(broken: &mut Vec<BrokenPromise>, kind: &'static str, detail: impl Into<St
     broken.push(BrokenPromise { kind, detail: detail.into() });
 }
 
-fn end(case: &Case, ended: &Ended, broken: &mut Vec<BrokenPromise>) {
+fn end(case: &Case, ended: &EndedRun, broken: &mut Vec<BrokenPromise>) {
     if let Some(limit) = ended.over {
         let used = ended.used;
         let detail = format!(
@@ -102,7 +102,7 @@ fn last_line(bytes: &[u8]) -> String {
     text.lines().next_back().unwrap_or_default().chars().take(300).collect()
 }
 
-fn messages(case: &Case, ended: &Ended, broken: &mut Vec<BrokenPromise>) {
+fn messages(case: &Case, ended: &EndedRun, broken: &mut Vec<BrokenPromise>) {
     let text = String::from_utf8_lossy(&ended.stderr);
     if text.contains("this is a defect of darboux") || text.contains("panicked at") {
         add(broken, "panic", last_line(&ended.stderr));
@@ -203,16 +203,22 @@ pub fn outputs<'a>(before: &'a Tree, after: &'a Tree) -> impl Iterator<Item = (&
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::soak::child::Used;
+    use crate::soak::child::ResourceUse;
 
-    fn ended(code: i32, stderr: &str) -> Ended {
+    fn ended(code: i32, stderr: &str) -> EndedRun {
         let status = std::process::ExitStatus::from_raw(code << 8);
-        Ended { status, stdout: Vec::new(), stderr: stderr.into(), used: Used::default(), over: None }
+        EndedRun {
+            status,
+            stdout: Vec::new(),
+            stderr: stderr.into(),
+            used: ResourceUse::default(),
+            over: None,
+        }
     }
 
-    fn kinds(case: &Case, ended: &Ended, after: &Tree) -> Vec<&'static str> {
+    fn kinds(case: &Case, ended: &EndedRun, after: &Tree) -> Vec<&'static str> {
         let before = Tree::from([("work/a.glb".into(), Content::Bytes(vec![1]))]);
-        judge(case, ended, &before, after).iter().map(|finding| finding.kind).collect()
+        judge(case, ended, &before, after).iter().map(|broken| broken.kind).collect()
     }
 
     fn tree(files: &[(&str, u8)]) -> Tree {

@@ -8,7 +8,7 @@ use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::child::{Used, measure};
+use super::child::{ResourceUse, measure};
 use super::random::Random;
 use super::verdict::BrokenPromise;
 
@@ -27,7 +27,7 @@ pub fn run(
     streams: &Path,
     input_size: u64,
     random: &mut Random,
-    used: &mut Used,
+    used: &mut ResourceUse,
     broken: &mut Vec<BrokenPromise>,
 ) -> io::Result<()> {
     let stdout = streams.join("stdout");
@@ -79,7 +79,7 @@ fn attack(
     host: &str,
     path: &str,
     random: &mut Random,
-    used: &mut Used,
+    used: &mut ResourceUse,
     broken: &mut Vec<BrokenPromise>,
 ) -> io::Result<()> {
     let mut add = |detail: String| broken.push(BrokenPromise { kind: "server", detail });

@@ -129,7 +129,7 @@ fn handles_and_results_may_be_null() {
 #[test]
 fn struct_sizes() {
     #[repr(C)]
-    struct Later<T> {
+    struct LaterVersion<T> {
         known: T,
         new: usize,
     }
@@ -143,8 +143,8 @@ fn struct_sizes() {
             darboux_generate_tangents(&view, options, null(), out.as_mut_ptr().cast(), count, 0, report)
         }
     };
-    let size = size_of::<Later<darboux_tangent_options>>();
-    let mut later = Later { known: darboux_tangent_options { size, ..default_options() }, new: 0 };
+    let size = size_of::<LaterVersion<darboux_tangent_options>>();
+    let mut later = LaterVersion { known: darboux_tangent_options { size, ..default_options() }, new: 0 };
     assert_eq!(run((&raw const later).cast(), null_mut()), darboux_status::Ok);
     later.new = 1;
     assert_eq!(run((&raw const later).cast(), null_mut()), darboux_status::StructSize);
@@ -156,11 +156,11 @@ fn struct_sizes() {
         );
     }
     // SAFETY: all fields are numbers or raw pointers, for which zeros are valid.
-    let mut report: Later<darboux_report> = unsafe { std::mem::zeroed() };
-    (report.known.size, report.new) = (size_of::<Later<darboux_report>>(), 77);
+    let mut report: LaterVersion<darboux_report> = unsafe { std::mem::zeroed() };
+    (report.known.size, report.new) = (size_of::<LaterVersion<darboux_report>>(), 77);
     assert_eq!(run(null(), (&raw mut report).cast()), darboux_status::Ok);
     assert_eq!((report.known.triangles, report.new), (count / 3, 77));
-    assert_eq!(report.known.size, size_of::<Later<darboux_report>>());
+    assert_eq!(report.known.size, size_of::<LaterVersion<darboux_report>>());
 }
 
 /// A random mesh struct over one buffer. `None` where an array would exceed the buffer, which the library cannot detect.

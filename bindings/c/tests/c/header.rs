@@ -13,11 +13,11 @@ use crate::agreement::{default_options, empty_mesh};
 use crate::support::{Link, build, folder, has, repository, run, source};
 
 /// A C expression with an integer value, and its value in Rust.
-type Fact = (String, usize);
+type CExpression = (String, usize);
 
 macro_rules! facts_of_structs {
     ($($name:ident { $($field:ident),* $(,)? })*) => {
-        fn facts_of_structs() -> Vec<Fact> {
+        fn facts_of_structs() -> Vec<CExpression> {
             let mut facts = Vec::new();
             $(
                 facts.push((format!("sizeof({})", stringify!($name)), size_of::<$name>()));
@@ -66,7 +66,7 @@ facts_of_structs! {
 
 macro_rules! facts_of_enums {
     ($($rust:ident as $c:literal { $($variant:ident = $suffix:literal),* $(,)? })*) => {
-        fn facts_of_enums() -> Vec<Fact> {
+        fn facts_of_enums() -> Vec<CExpression> {
             vec![$($((format!("{}_{}", $c, $suffix), $rust::$variant as usize)),*),*]
         }
     };
@@ -132,7 +132,8 @@ fn c_and_rust_agree() {
         "status",
     ];
     let enums = sizes.map(|name| (format!("sizeof(darboux_{name})"), size_of::<u32>()));
-    let facts: Vec<Fact> = facts_of_structs().into_iter().chain(facts_of_enums()).chain(enums).collect();
+    let facts: Vec<CExpression> =
+        facts_of_structs().into_iter().chain(facts_of_enums()).chain(enums).collect();
     let mut text = String::from(
         "#include <stdio.h>\n#include \"darboux.h\"\n\
          #ifdef __cplusplus\n#define alignof_ alignof\n#else\n#define alignof_ _Alignof\n#endif\n\
@@ -188,10 +189,10 @@ fn nothing_is_left_out() {
 }
 
 /// A call whose only variable argument is the value of an enumeration. Returns its status.
-type Asked = fn(u32) -> darboux_status;
+type EnumCall = fn(u32) -> darboux_status;
 
 /// Every enumeration, with all functions and fields that take it.
-const ASKED: &[(&str, Asked)] = &[
+const ENUM_CALLS: &[(&str, EnumCall)] = &[
     ("DARBOUX_METHOD", |method| tangents(0, darboux_tangent_options { method, ..default_options() })),
     ("DARBOUX_MODE", |mode| tangents(0, darboux_tangent_options { mode, ..default_options() })),
     ("DARBOUX_FACES", |faces| tangents(faces, default_options())),
@@ -304,10 +305,10 @@ fn along(axis: u32) -> (u32, u32, u32) {
 #[test]
 fn every_number_has_a_meaning() {
     let lists: HashSet<String> = facts_of_enums().into_iter().map(|(name, _)| list_of(&name)).collect();
-    let asked: HashSet<String> = ASKED.iter().map(|(list, _)| (*list).to_owned()).collect();
+    let asked: HashSet<String> = ENUM_CALLS.iter().map(|(list, _)| (*list).to_owned()).collect();
     let returned = "DARBOUX_STATUS".to_owned();
     assert_eq!(lists, asked.into_iter().chain([returned]).collect());
-    for (list, ask) in ASKED {
+    for (list, ask) in ENUM_CALLS {
         let numbers = facts_of_enums().into_iter().filter(|(name, _)| list_of(name) == *list);
         let numbers: Vec<u32> = numbers.map(|(_, number)| number as u32).collect();
         for &number in &numbers {
@@ -322,7 +323,7 @@ fn every_number_has_a_meaning() {
 
 /// The enumeration of a constant.
 fn list_of(name: &str) -> String {
-    let lists = ASKED.iter().map(|(list, _)| *list).chain(["DARBOUX_STATUS"]);
+    let lists = ENUM_CALLS.iter().map(|(list, _)| *list).chain(["DARBOUX_STATUS"]);
     let longest = lists.filter(|list| name.starts_with(&format!("{list}_"))).max_by_key(|list| list.len());
     longest.unwrap_or(name).to_owned()
 }

@@ -23,7 +23,7 @@ pub const RULES: &[MapRule] = &[
 ];
 
 /// The share of texels, in percent, above which vectors are worth a warning.
-const MANY: f64 = 5.0;
+const MAX_PERCENT: f64 = 5.0;
 
 fn unreadable(map: &Map) -> Option<Finding> {
     let problem = map.judgement.as_ref().err()?;
@@ -133,7 +133,7 @@ fn channels_swapped(map: &Map) -> Option<Finding> {
 fn not_unit(map: &Map) -> Option<Finding> {
     let judgement = judged(map).filter(|judgement| kind(judgement) == Kind::Normals)?;
     let share = percent(judgement, judgement.not_unit);
-    (share > MANY).then(|| {
+    (share > MAX_PERCENT).then(|| {
         Finding::new(Code::MapNotUnit, format!("{} texels are no unit vectors", judgement.not_unit))
             .with_count(judgement.not_unit)
             .with_evidence("texels", share, "%")
@@ -158,7 +158,7 @@ fn flat_off(map: &Map) -> Option<Finding> {
     let is_flat = code.iter().all(|code| (120..=136).contains(code));
     let is_off = code.iter().any(|code| !(127..=128).contains(code));
     let share = percent(judgement, judgement.commonest_count);
-    (is_flat && is_off && share > MANY).then(|| {
+    (is_flat && is_off && share > MAX_PERCENT).then(|| {
         let [red, green] = code;
         let lean = code.map(|code| (f64::from(code) - 127.5) / 127.5);
         let degrees = lean[0].hypot(lean[1]).min(1.0).asin().to_degrees();

@@ -27,7 +27,7 @@ pub const RULES: &[SurfaceRule] = &[
 const UNIT: f64 = 0.02;
 
 /// Degrees from the plane of the normal.
-const LEANING: [f64; 2] = [2.0, 15.0];
+const MAX_DEGREES_FROM_PLANE: [f64; 2] = [2.0, 15.0];
 
 fn missing(measured: &Measured<'_>) -> Vec<Finding> {
     let Surface { needs_tangents, tangents, .. } = measured.surface;
@@ -117,12 +117,12 @@ fn not_perpendicular(measured: &Measured<'_>) -> Vec<Finding> {
         }
     };
     let angles: Vec<f64> = (0..tangents.len()).map(angle).collect();
-    let found = indices_where(&angles, |angle| *angle > LEANING[0]);
+    let found = indices_where(&angles, |angle| *angle > MAX_DEGREES_FROM_PLANE[0]);
     if found.is_empty() {
         return Vec::new();
     }
     let worst = angles.iter().copied().fold(0.0, f64::max);
-    let severity = if worst > LEANING[1] { Severity::Error } else { Severity::Warning };
+    let severity = if worst > MAX_DEGREES_FROM_PLANE[1] { Severity::Error } else { Severity::Warning };
     let text = format!(
         "{} tangents are not perpendicular to their normals, by up to {worst:.1} degrees",
         found.len()

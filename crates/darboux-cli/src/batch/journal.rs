@@ -41,7 +41,7 @@ pub struct Record {
     /// The path relative to the folder.
     output: String,
     #[serde(flatten)]
-    origin: Origin,
+    origin: OutputInputs,
     /// The relative paths of all files written, and the BLAKE3 hashes of their contents.
     files: Vec<(String, String)>,
     /// The command's part of the report.
@@ -56,7 +56,7 @@ struct RunStart {
 
 /// Everything that an output depends on.
 #[derive(Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Origin {
+pub struct OutputInputs {
     command: String,
     version: String,
     options: String,
@@ -64,7 +64,7 @@ pub struct Origin {
     content: String,
 }
 
-impl Origin {
+impl OutputInputs {
     /// The current origin of an output of `input`. Errors: a file cannot be read.
     pub fn new(command: &str, options: String, input: &Path, reading: &ReadOptions) -> Result<Self, String> {
         let content = content_of(input, reading)
@@ -97,7 +97,7 @@ impl Record {
     pub fn new(
         folder: &Path,
         output: &Path,
-        origin: Origin,
+        origin: OutputInputs,
         written: &[String],
         summary: &impl Serialize,
     ) -> Result<Option<Self>, String> {
@@ -120,7 +120,7 @@ impl Record {
     }
 
     /// Whether the origin is the recorded one and every written file still has its recorded content.
-    pub fn is_up_to_date(&self, origin: &Origin, folder: &Path) -> bool {
+    pub fn is_up_to_date(&self, origin: &OutputInputs, folder: &Path) -> bool {
         let is_unchanged = |(path, hash): &(String, String)| {
             let is_inside = Path::new(path).is_relative();
             is_inside

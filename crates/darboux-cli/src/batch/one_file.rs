@@ -4,7 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use super::command::{FileCommand, ProcessedFile};
-use super::journal::{Origin, Record};
+use super::journal::{OutputInputs, Record};
 use super::plan::{Job, Output};
 use super::report::{FileReport, Status, SummarySource};
 use crate::inputs::Input;
@@ -69,7 +69,7 @@ fn resume<W: FileCommand>(
     progress: &FileProgress<'_>,
 ) -> Result<FinishedFile<W::Summary>, String> {
     // Hash the input first: if it changes during the work, the next run sees another hash.
-    let origin = Origin::new(W::NAME, command.options(), input, &command.files().reading)?;
+    let origin = OutputInputs::new(W::NAME, command.options(), input, &command.files().reading)?;
     if let Some(record) = record.filter(|record| record.is_up_to_date(&origin, folder)) {
         let report = FileReport {
             input: job.input.to_string(),

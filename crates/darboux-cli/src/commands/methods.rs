@@ -4,7 +4,7 @@ use crate::exit;
 use crate::terminal::{Messages, write_stdout};
 
 /// The explanation.
-const CHOICE: &str = "\
+const EXPLANATION: &str = "\
 A normal map stores directions relative to the tangents of the program that baked it: use the method of that program.
   mikktspace          the standard of bakers and engines (Blender, Substance, Marmoset, xNormal, Unity, Unreal, glTF); the default
   angle-area          follows the UVs most closely; for surfaces without a baked map: tiling maps, anisotropy, hair
@@ -20,7 +20,7 @@ A normal map stores directions relative to the tangents of the program that bake
 
 /// Runs the command and returns its exit code.
 pub fn run() -> u8 {
-    match write_stdout(CHOICE.as_bytes()) {
+    match write_stdout(EXPLANATION.as_bytes()) {
         Ok(()) => exit::DONE,
         Err(error) => {
             Messages::new(false).error(&format!("the text cannot be written: {error}"));

@@ -10,7 +10,9 @@ use crate::terminal::Messages;
 /// The sentence about a part of the command that this build lacks.
 pub fn missing_feature(part: &str, feature: &str) -> String {
     let package = package(env!("CARGO_MANIFEST_DIR"));
-    format!("{part} is not in this build of darboux; install it with `cargo install {package} --features {feature}`")
+    format!(
+        "{part} is not in this build of darboux; install it with `cargo install {package} --features {feature}`"
+    )
 }
 
 /// What `cargo install` is told to build. `folder`: where the sources of this build were; the folder of a package from a registry ends with
@@ -41,6 +43,9 @@ mod tests {
     fn the_line_installs_from_where_this_build_came() {
         assert_eq!(package("/home/a/darboux/crates/darboux-cli"), "--path crates/darboux-cli");
         assert_eq!(package(r"C:\darboux\crates\darboux-cli"), "--path crates/darboux-cli");
-        assert_eq!(package("/home/a/.cargo/registry/src/index.crates.io-1949cf8c6b5b557f/darboux-cli-0.1.0"), "darboux-cli");
+        assert_eq!(
+            package("/home/a/.cargo/registry/src/index.crates.io-1949cf8c6b5b557f/darboux-cli-0.1.0"),
+            "darboux-cli"
+        );
     }
 }

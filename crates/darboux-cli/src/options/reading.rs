@@ -31,9 +31,11 @@ impl ReadOptions {
     /// Opens a document with its files mapped into memory.
     #[expect(unsafe_code, reason = "mapping a file needs a promise about other processes")]
     pub fn open(&self, path: &Path) -> Result<Document, Error> {
-        // SAFETY: nothing can stop other processes from changing a file, so this is what happens then. The reader copies JSON before it
-        // parses it and checks every other number in the expression that uses it, so that changed bytes give a wrong result or an
-        // error. A file that is shortened ends this process by a signal (SIGBUS) before the output is renamed to its name.
+        // SAFETY: `open_mapped` requires that no process writes into the files or shortens them while the document exists. This process
+        // does not: it writes outputs to temporary files and renames them. The command cannot lock files against other processes, so it
+        // leaves that part to its user (docs/security.md says so). If a process does it anyway, changed bytes give a wrong result or an
+        // error, because JSON is copied before it is parsed and every other number is checked where it is used; a shortened file ends
+        // this process by SIGBUS before an output has its name.
         unsafe { Document::open_mapped(path, &self.load_options()) }
     }
 }

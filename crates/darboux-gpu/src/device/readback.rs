@@ -1,14 +1,13 @@
 //! Reads buffers back to the CPU, and turns wgpu's error scopes into [`GpuError`].
 
-use std::sync::mpsc;
-use std::time::Duration;
+use std::sync::mpsc::{self, TryRecvError};
+use std::time::{Duration, Instant};
 
 use bytemuck::{AnyBitPattern, NoUninit};
 use darboux::Context;
 use darboux::internal::cancel_checks::check;
 use wgpu::{
-    Buffer, BufferDescriptor, BufferUsages, CommandEncoder, Device, ErrorFilter, MapMode, PollError, PollType,
-    Queue,
+    Buffer, BufferDescriptor, BufferUsages, CommandEncoder, Device, ErrorFilter, MapMode, PollType, Queue,
 };
 
 use crate::error::GpuError;
@@ -33,8 +32,9 @@ pub(crate) fn with_error_scopes<T>(
     }
 }
 
-/// The time between two cancellation checks while the device works.
-const CHECK_INTERVAL: Duration = Duration::from_millis(10);
+/// The time between two checks of the device and of the token.
+const SHORTEST_SLEEP: Duration = Duration::from_micros(20);
+const LONGEST_SLEEP: Duration = Duration::from_millis(10);
 
 /// Submits the commands of `record`, followed by copies of `sources`, which have `BufferUsages::COPY_SRC`. Errors: the context's token was
 /// cancelled.
@@ -79,23 +79,27 @@ impl Readback {
             // The receiver is gone only if this function has already returned an error.
             let _ignored = sender.send(mapped.is_ok());
         });
-        wait(device, context)?;
-        if receiver.recv() != Ok(true) {
-            return Err(GpuError::Lost);
-        }
+        wait(device, &receiver, context)?;
         let bytes = self.0.get_mapped_range(..).map_err(|_| GpuError::Lost)?;
         Ok(bytemuck::pod_collect_to_vec(&bytes))
     }
 }
 
-/// Waits for all submitted work. Errors: the device is lost; the context's token was cancelled, after which the device still finishes that work.
-fn wait(device: &Device, context: &Context) -> Result<(), GpuError> {
+/// Waits until `is_mapped` says whether a buffer was mapped. Errors: it was not, because the device is lost; the context's token was cancelled,
+/// after which the device still finishes its work.
+///
+/// It polls, because a timed wait of wgpu 30 can panic while another thread waits for the same device. It sleeps for an eighth of the time so far,
+/// so that it finds the end of the work at most that much later.
+fn wait(device: &Device, is_mapped: &mpsc::Receiver<bool>, context: &Context) -> Result<(), GpuError> {
+    let start = Instant::now();
     loop {
         check(context)?;
-        match device.poll(PollType::Wait { submission_index: None, timeout: Some(CHECK_INTERVAL) }) {
-            Ok(_) => return Ok(()),
-            Err(PollError::Timeout) => {}
-            Err(PollError::WrongSubmissionIndex(..)) => return Err(GpuError::Lost),
+        device.poll(PollType::Poll).map_err(|_| GpuError::Lost)?;
+        match is_mapped.try_recv() {
+            Ok(true) => return Ok(()),
+            Ok(false) | Err(TryRecvError::Disconnected) => return Err(GpuError::Lost),
+            Err(TryRecvError::Empty) => {}
         }
+        std::thread::sleep((start.elapsed() / 8).clamp(SHORTEST_SLEEP, LONGEST_SLEEP));
     }
 }

@@ -121,7 +121,7 @@ impl MikkTSpace {
     }
 
     /// As [`MikkTSpace::generate_tangents`], with a context, whose limit of threads holds for the part of the CPU. Further error: the
-    /// context's token was cancelled. It is checked before each submission, every 10 ms while the device works, and on the CPU; the device
+    /// context's token was cancelled. It is checked before each submission, at least every 10 ms while the device works, and on the CPU; the device
     /// still finishes the commands that it has.
     pub fn generate_tangents_with(
         &self,
@@ -173,7 +173,8 @@ impl MikkTSpace {
                     .map(|name| tile.buffers.get(name));
             let sources = [failures, welded, corners, neighbours, flags, seeds];
             let [failures, welded, corners, neighbours, flags, seeds] =
-                submit(device, queue, record, sources, context)?.map(|copy| copy.read::<u32>(device, context));
+                submit(device, queue, record, sources, context)?
+                    .map(|copy| copy.read::<u32>(device, context));
             Ok(StageArrays {
                 failure_count: failures?[0],
                 welded_vertex: welded?,

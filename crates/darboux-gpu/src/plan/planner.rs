@@ -129,8 +129,8 @@ impl Planner {
         options: &TangentOptions,
         context: &mut Context,
     ) -> Result<Plan, GpuError> {
-        let topology = PlanArrays::new(mesh, options, context, MAX_ITERATIONS as usize)
-            .map_err(GpuError::of_refusal)?;
+        let topology =
+            PlanArrays::new(mesh, options, context, MAX_ITERATIONS as usize).map_err(GpuError::of_refusal)?;
         let of_corners = self.upload("sums of corners", &topology.sum_of_corner)?;
         let of_vertices = (topology.sum_of_vertex(mesh))
             .map_err(|vertices| GpuError::UnsplitVertices { vertices })

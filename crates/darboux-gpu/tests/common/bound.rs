@@ -13,13 +13,13 @@ const UNIT: f64 = 20.0 * U;
 /// Above this, and below its reciprocal, squares and cross products may overflow or underflow.
 const LARGEST: f64 = 1e15;
 /// Larger bounds are useless.
-pub const USEFUL: f64 = 0.1;
+pub const MAX_USEFUL_BOUND: f64 = 0.1;
 
 type V3 = [f64; 3];
 
 /// What the exact computation determines about the frame of a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Known {
+pub enum KnownFrame {
     /// The sign, and bounds for tangent and bitangent.
     Frame { sign: f32, tangent: f64, bitangent: f64 },
     /// The vertex has no triangle with a direction.
@@ -55,7 +55,7 @@ enum Triangle {
 }
 
 /// The determined frame of every vertex of a triangle mesh.
-pub fn known(mesh: &OwnedMesh) -> Vec<Known> {
+pub fn known(mesh: &OwnedMesh) -> Vec<KnownFrame> {
     let mut vertices = vec![Vertex::default(); mesh.positions.len()];
     for face in mesh.face_list() {
         let [a, b, c] = [face[0] as usize, face[1] as usize, face[2] as usize];
@@ -90,14 +90,14 @@ impl Sum {
 }
 
 impl Vertex {
-    fn known(&self, normal: V3) -> Known {
+    fn known(&self, normal: V3) -> KnownFrame {
         let [keeps, mirrors] = &self.sides;
         let (side, sign) = if mirrors.count > keeps.count { (mirrors, -1.0) } else { (keeps, 1.0) };
         if self.is_unsure {
-            return Known::Unsure;
+            return KnownFrame::Unsure;
         }
         if side.count == 0.0 {
-            return Known::Without;
+            return KnownFrame::Without;
         }
         let normal_size = length(normal);
         let is_plain = normal_size == 0.0 || (1.0 / LARGEST..LARGEST).contains(&normal_size);
@@ -105,10 +105,10 @@ impl Vertex {
         let normal = if normal_size > 0.0 { normal.map(|x| x / normal_size) } else { [0.0; 3] };
         let [tangent, bitangent] = [&side.tangent, &side.bitangent].map(|sum| sum.in_plane(normal));
         let cancels = length(side.tangent.value) < 3e-5 * side.count;
-        if is_plain && !cancels && tangent < USEFUL && bitangent < USEFUL {
-            Known::Frame { sign, tangent, bitangent }
+        if is_plain && !cancels && tangent < MAX_USEFUL_BOUND && bitangent < MAX_USEFUL_BOUND {
+            KnownFrame::Frame { sign, tangent, bitangent }
         } else {
-            Known::Unsure
+            KnownFrame::Unsure
         }
     }
 }
@@ -133,7 +133,11 @@ fn triangle(mesh: &OwnedMesh, vertices: [usize; 3]) -> Triangle {
     let sizes = [tangent_size, bitangent_size, length(edges[0]), length(edges[1]), length(edges[2])];
     let are_plain = sizes.iter().all(|size| (1.0 / LARGEST..LARGEST).contains(size))
         && (LARGEST.powi(-2)..LARGEST * LARGEST).contains(&area.abs());
-    if !are_plain || area.abs() <= area_error || tangent.1 > USEFUL || bitangent.1 > USEFUL {
+    if !are_plain
+        || area.abs() <= area_error
+        || tangent.1 > MAX_USEFUL_BOUND
+        || bitangent.1 > MAX_USEFUL_BOUND
+    {
         return Triangle::Unsure;
     }
     Triangle::Adds { side: usize::from(area < 0.0), tangent, bitangent }

@@ -182,9 +182,9 @@ fn split_primitives(text: &str) -> Vec<Vec<Box<RawValue>>> {
 }
 
 fn edited_primitive(text: &str, edit: impl FnOnce(&mut Map<String, Value>)) -> serde_json::Result<String> {
-    const UNDERSTOOD: [&str; 5] = ["attributes", "indices", "material", "mode", "targets"];
+    const KNOWN_MEMBERS: [&str; 5] = ["attributes", "indices", "material", "mode", "targets"];
     let mut before = Map::new();
-    for key in UNDERSTOOD {
+    for key in KNOWN_MEMBERS {
         if let Some(value) = json_text::member(text, key)? {
             before.insert(key.to_owned(), serde_json::from_str(value)?);
         }

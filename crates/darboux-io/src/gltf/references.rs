@@ -66,7 +66,7 @@ type Path = &'static [&'static str];
 
 const ANY: &str = "*";
 
-/// The paths of references in glTF 2.0 and in the extensions of [`KNOWN`].
+/// The paths of references in glTF 2.0 and in the extensions of [`KNOWN_EXTENSIONS`].
 const PATHS: &[(ReferenceKind, Path)] = &[
     (ReferenceKind::Accessor, &["meshes", ANY, "primitives", ANY, "attributes", ANY]),
     (ReferenceKind::Accessor, &["meshes", ANY, "primitives", ANY, "indices"]),
@@ -140,7 +140,7 @@ const PATHS: &[(ReferenceKind, Path)] = &[
 ];
 
 /// Extensions that refer to accessors and buffer views at [`PATHS`] only, or not at all.
-const KNOWN: &[&str] = &[
+const KNOWN_EXTENSIONS: &[&str] = &[
     "AGI_articulations",
     "AGI_stk_metadata",
     "CESIUM_RTC",
@@ -185,7 +185,7 @@ pub fn references(json: &str) -> Option<Vec<IndexReference>> {
 
 /// Checks that every reference in the JSON of a document refers to an element that exists.
 pub fn check(json: &str) -> Result<(), ContentError> {
-    let Found { references, counts, .. } = match scan(json) {
+    let ReferenceScan { references, counts, .. } = match scan(json) {
         Ok(found) => found,
         Err(Some(offset)) => {
             return Err(ContentError::invalid(
@@ -244,7 +244,7 @@ fn check_animations(json: &str) -> Result<(), ContentError> {
 
 /// What a scan of a document's JSON finds.
 #[derive(Default)]
-struct Found {
+struct ReferenceScan {
     references: Vec<IndexReference>,
     /// The lengths of the arrays of the root object.
     counts: BTreeMap<String, usize>,
@@ -253,8 +253,8 @@ struct Found {
 }
 
 /// Finds all references. The error is the offset of a value that is not an index, if that is the reason.
-fn scan(json: &str) -> Result<Found, Option<usize>> {
-    let mut found = Found::default();
+fn scan(json: &str) -> Result<ReferenceScan, Option<usize>> {
+    let mut found = ReferenceScan::default();
     let root = Scan { json, paths: PATHS.to_vec(), depth: 0, array: None, found: &mut found };
     match root.deserialize(&mut serde_json::Deserializer::from_str(json)) {
         Ok(()) => Ok(found),
@@ -306,8 +306,9 @@ fn path_at(json: &str, offset: usize) -> String {
 
 /// The first extension in `json`, in order of names, that may refer to accessors or buffer views at unknown paths.
 pub fn unknown_extension(json: &str) -> Option<String> {
-    let is_known =
-        |name: &str| KNOWN.contains(&name) || KNOWN_FAMILIES.iter().any(|family| name.starts_with(family));
+    let is_known = |name: &str| {
+        KNOWN_EXTENSIONS.contains(&name) || KNOWN_FAMILIES.iter().any(|family| name.starts_with(family))
+    };
     extension_names(json).into_iter().find(|name| !is_known(name))
 }
 
@@ -357,7 +358,7 @@ struct Scan<'t, 'f> {
     depth: usize,
     /// The name of this value, if it is a member of the root object.
     array: Option<String>,
-    found: &'f mut Found,
+    found: &'f mut ReferenceScan,
 }
 
 impl<'t> Scan<'t, '_> {

@@ -17,7 +17,7 @@ const IDENTITY: Matrix =
     [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
 /// The most places of meshes. Nodes may share instances, so that a small file can ask for any number.
-const MOST_PLACES: usize = 1 << 20;
+const MAX_PLACED_MESHES: usize = 1 << 20;
 
 /// The meshes and skins of the scene.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -142,8 +142,8 @@ impl Document {
             let Some(mesh) = self.place_node(&scenes, index, matrix)? else { continue };
             places = places.saturating_add(mesh.matrices.len());
             placed.meshes.push(mesh);
-            if places > MOST_PLACES {
-                let problem = format!("has meshes at more than {MOST_PLACES} places; remove instances");
+            if places > MAX_PLACED_MESHES {
+                let problem = format!("has meshes at more than {MAX_PLACED_MESHES} places; remove instances");
                 return Err(self.invalid("scene", problem));
             }
         }

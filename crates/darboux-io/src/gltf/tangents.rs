@@ -38,7 +38,7 @@ use super::{Document, ElementType, Progress};
 use crate::Error;
 use compute::{JobResult, Vertices};
 use groups::{Group, Job};
-use morph::{Misfits, Morph, Movement, Offsets};
+use morph::{Morph, Movement, Offsets, StaleCorners};
 use select::{TangentSelection, TangentVerdict};
 use split::Split;
 use write::{GroupAccessors, TangentWriter};
@@ -233,12 +233,12 @@ impl Run<'_, '_> {
         let tangents = write::push_tangents(document, old, self.options.encoding, &split.tangents);
         limits::check_output(document)?;
         let mut offset_accessors = HashMap::new();
-        let mut misfits: HashMap<(Movement, usize), Misfits> = HashMap::new();
+        let mut stale_corners: HashMap<(Movement, usize), StaleCorners> = HashMap::new();
         for (Morph { movement, old, jobs, .. }, moved) in offsets {
             let sparse = movement.accessors().all(|accessor| lacks_buffer_view(document, accessor));
             let accessor = push_vectors(document, old, ElementType::Vec3, &moved.of_vertex, sparse);
             offset_accessors.insert(movement, accessor);
-            misfits.extend(jobs.into_iter().map(|job| (movement, job)).zip(moved.misfits));
+            stale_corners.extend(jobs.into_iter().map(|job| (movement, job)).zip(moved.stale_corners));
         }
         let results = GroupAccessors { split: &split, lists, tangents, offsets: offset_accessors };
         let mut writer = TangentWriter::new(&self.accessors, self.options, group, results);
@@ -249,8 +249,10 @@ impl Run<'_, '_> {
                 self.summary.warnings.extend(foreign_extensions::warning(document, &candidate.name));
             }
             let morphed = writer.write(document, member, candidate)?;
-            let misfits = morphed.iter().filter_map(|&movement| misfits.get(&(movement, member.job)));
-            let misfits = misfits.fold(Misfits::default(), |sum, &misfits| sum + misfits);
+            let stale_corners =
+                morphed.iter().filter_map(|&movement| stale_corners.get(&(movement, member.job)));
+            let stale_corners =
+                stale_corners.fold(StaleCorners::default(), |sum, &stale_corners| sum + stale_corners);
             let (uv_set, uv_reason) = candidate.uv_set_and_reason();
             written.push((
                 member.candidate,
@@ -262,8 +264,8 @@ impl Run<'_, '_> {
                     vertices_before: split.old_vertex_count(),
                     vertices_after: split.vertex_count(),
                     morph_targets: morphed.len(),
-                    regrouped_corners: misfits.regrouped,
-                    conflicting_corners: misfits.conflicting,
+                    regrouped_corners: stale_corners.regrouped,
+                    conflicting_corners: stale_corners.conflicting,
                     counts: reports[member.job].into(),
                 },
             ));

@@ -8,14 +8,14 @@ use png::ColorType;
 /// The channels of x, y and, if it is stored, z: `rgb`, `rg`, `ag` (x in alpha, y in green), `la` (grey and alpha) and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Channels {
-    x: Letter,
-    y: Letter,
-    z: Option<Letter>,
+    x: PngChannel,
+    y: PngChannel,
+    z: Option<PngChannel>,
 }
 
 /// A channel of a PNG.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-enum Letter {
+enum PngChannel {
     Grey,
     Red,
     Green,
@@ -32,15 +32,15 @@ pub struct ChannelsError;
 
 impl Channels {
     /// x, y and z in red, green and blue.
-    pub const RGB: Self = Self { x: Letter::Red, y: Letter::Green, z: Some(Letter::Blue) };
+    pub const RGB: Self = Self { x: PngChannel::Red, y: PngChannel::Green, z: Some(PngChannel::Blue) };
 
-    fn letters(self) -> impl Iterator<Item = Letter> {
+    fn letters(self) -> impl Iterator<Item = PngChannel> {
         [self.x, self.y].into_iter().chain(self.z)
     }
 
     /// The indices of the channels in texels of this kind; none if one is missing.
     pub(super) fn indices(self, color: ColorType) -> Option<(usize, usize, Option<usize>)> {
-        let index = |letter: Letter| letters(color).find(letter.char());
+        let index = |letter: PngChannel| letters(color).find(letter.char());
         let z = self.z.map(index);
         Some((index(self.x)?, index(self.y)?, if z == Some(None) { return None } else { z.flatten() }))
     }
@@ -63,7 +63,7 @@ pub(super) fn letters(color: ColorType) -> &'static str {
     }
 }
 
-impl Letter {
+impl PngChannel {
     const ALL: [Self; 5] = [Self::Grey, Self::Red, Self::Green, Self::Blue, Self::Alpha];
 
     fn char(self) -> char {
@@ -81,8 +81,9 @@ impl FromStr for Channels {
     type Err = ChannelsError;
 
     fn from_str(text: &str) -> Result<Self, ChannelsError> {
-        let letters = text.chars().map(|char| Letter::ALL.into_iter().find(|letter| letter.char() == char));
-        let letters: Vec<Letter> = letters.collect::<Option<_>>().ok_or(ChannelsError)?;
+        let letters =
+            text.chars().map(|char| PngChannel::ALL.into_iter().find(|letter| letter.char() == char));
+        let letters: Vec<PngChannel> = letters.collect::<Option<_>>().ok_or(ChannelsError)?;
         let channels = match letters[..] {
             [x, y] => Self { x, y, z: None },
             [x, y, z] => Self { x, y, z: Some(z) },

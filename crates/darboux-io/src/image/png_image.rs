@@ -38,11 +38,11 @@ const DEFLATE_RATIO: usize = 1032;
 const COPIES: usize = 3;
 
 /// Chunks whose content depends on the channels of texels and their bit depth.
-const OF_TEXELS: [&[u8; 4]; 3] = [b"tRNS", b"bKGD", b"sBIT"];
+const CHUNKS_OF_TEXELS: [&[u8; 4]; 3] = [b"tRNS", b"bKGD", b"sBIT"];
 
 /// Chunks that are valid for colours only, or for greys only: palettes and profiles (PNG specification, third edition, 11.2.2 and
 /// 11.3.2.3).
-const OF_COLOURS: [&[u8; 4]; 4] = [b"PLTE", b"sPLT", b"hIST", b"iCCP"];
+const CHUNKS_OF_COLOURS: [&[u8; 4]; 4] = [b"PLTE", b"sPLT", b"hIST", b"iCCP"];
 
 impl PngImage {
     /// Reads a PNG. Errors: a file that cannot be read; a file that is not a PNG of a supported kind, or is damaged; more texels than
@@ -164,8 +164,8 @@ impl PngImage {
             match chunk.kind {
                 b"IHDR" => new.of(b"IHDR").for_each(|header| out.extend(header.bytes)),
                 b"IDAT" => texels.by_ref().for_each(|chunk| out.extend(chunk.bytes)),
-                kind if !of_same_kind && OF_TEXELS.contains(&kind) => {}
-                kind if !of_same_colours && OF_COLOURS.contains(&kind) => {}
+                kind if !of_same_kind && CHUNKS_OF_TEXELS.contains(&kind) => {}
+                kind if !of_same_colours && CHUNKS_OF_COLOURS.contains(&kind) => {}
                 _ => out.extend(chunk.bytes),
             }
         }

@@ -12,7 +12,7 @@ use crate::{Error, paths};
 const LONGEST_LINE: usize = 4096;
 
 /// The most paths that are looked up for one OBJ. Every word of a library may be a path, and each lookup asks the operating system.
-const MOST_LOOKUPS: usize = 100_000;
+const MAX_LOOKUPS: usize = 100_000;
 
 /// What is wrong with a file without faces.
 pub const NO_FACES: &str = "has no faces; is it an OBJ? Export it again";
@@ -89,7 +89,7 @@ impl FileLookup {
     /// Files are looked up in `folder`, links resolved.
     pub fn new(folder: PathBuf) -> Self {
         let (libraries, textures) = Default::default();
-        Self { folder, libraries, textures, left: Cell::new(MOST_LOOKUPS) }
+        Self { folder, libraries, textures, left: Cell::new(MAX_LOOKUPS) }
     }
 
     /// The libraries that a `mtllib` line names: one whose name may contain spaces, or several.
@@ -123,7 +123,7 @@ impl FileLookup {
     pub fn problem(&self, reference: &str) -> String {
         let shown = crate::error::shortened(reference);
         if self.left.get() == 0 {
-            format!("{shown:?} was not looked up, because the model names more than {MOST_LOOKUPS} files")
+            format!("{shown:?} was not looked up, because the model names more than {MAX_LOOKUPS} files")
         } else {
             format!("{shown:?} is not in the model's folder")
         }

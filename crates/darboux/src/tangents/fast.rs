@@ -174,7 +174,7 @@ impl FastPath {
         self.exceptions.clear();
         self.schedule.run(&input, self.weld.count, &mut self.workers, out);
         self.workers.iter_mut().for_each(|worker| self.exceptions.append(&mut worker.exceptions));
-        self.exceptions.settle(&list);
+        self.exceptions.sort(&list);
     }
 
     /// Makes the vertices of the reference's last edges undecided, where the order of these edges changes the result. `tail`: its cells

@@ -13,7 +13,9 @@ use crate::tangents::Report;
 use crate::tangents::TangentOptions;
 use crate::tangents::fast::{FastPath, UNDECIDED, triangle_count};
 use crate::tangents::memory::{FrameMemory, TangentMemory};
-use crate::tangents::method;
+use crate::tangents::methods;
+use crate::tangents::methods::buffers::MethodBuffers;
+use crate::tangents::mikktspace;
 use crate::tangents::output::{Output, fill};
 use crate::tangents::submesh;
 
@@ -81,7 +83,7 @@ pub fn generate_compact_frames<'a>(
         let frames = &mut memory.frames.frames;
         frames.resize(mesh.corner_count(), Frame::EMPTY);
         memory.frames.tangents.clear();
-        method::run(mesh, options.method, limits, &mut memory.sums, frames)
+        run_without_fast(mesh, options, limits, &mut memory.sums, frames)
     };
     limits.check()?;
     Ok(CompactFrames { mesh, fast: &memory.fast, memory: &memory.frames, limits, report })
@@ -190,7 +192,7 @@ fn run(
     out: &mut [Frame],
 ) -> Report {
     let Some(report) = run_fast(mesh, options, limits, memory) else {
-        return method::run(mesh, options.method, limits, &mut memory.sums, out);
+        return run_without_fast(mesh, options, limits, &mut memory.sums, out);
     };
     if limits.is_cancelled() {
         return report;
@@ -206,6 +208,19 @@ fn run(
         },
     );
     report
+}
+
+/// Runs the method that the options name; MikkTSpace by its exact stages.
+fn run_without_fast(
+    mesh: &Mesh<'_>,
+    options: &TangentOptions,
+    limits: RunLimits<'_>,
+    buffers: &mut MethodBuffers,
+    out: &mut [Frame],
+) -> Report {
+    methods::run(mesh, options.method, limits, buffers, out, |options, out| {
+        mikktspace::run(mesh, options, limits, out)
+    })
 }
 
 /// Leaves the frames in `memory` where the fast path applies; else returns `None`.

@@ -3,9 +3,11 @@
 use crate::CornerTangents;
 use crate::Mesh;
 use crate::exec::limits::RunLimits;
+use crate::tangents::fast::FastPath;
 use crate::tangents::memory::TangentMemory;
-use crate::tangents::method;
-use crate::tangents::options::{Method, MikkTSpaceOptions, TangentOptions};
+use crate::tangents::methods;
+use crate::tangents::mikktspace;
+use crate::tangents::options::{MikkTSpaceOptions, TangentOptions};
 use crate::tangents::report::Report;
 use crate::tangents::submesh;
 
@@ -32,7 +34,7 @@ pub(crate) fn generate(
     tangents
 }
 
-/// Chooses the method in the caller's code, so that a program whose method is constant links no other.
+/// Runs the method that the options name.
 #[inline(always)]
 pub(crate) fn run(
     mesh: &Mesh<'_>,
@@ -41,26 +43,23 @@ pub(crate) fn run(
     memory: &mut TangentMemory,
     out: &mut [[f32; 4]],
 ) -> Report {
-    match options.method {
-        Method::MikkTSpace(options) => mikktspace_of_corners(mesh, &options, limits, memory, out),
-        method => method::run(mesh, method, limits, &mut memory.sums, out),
-    }
+    let TangentMemory { fast, sums, .. } = memory;
+    methods::run(mesh, options.method, limits, sums, out, |options, out| {
+        run_mikktspace(mesh, options, limits, fast, out)
+    })
 }
 
-fn mikktspace_of_corners(
+/// Runs the fast path and completes it; the exact stages where the fast path does not apply.
+fn run_mikktspace(
     mesh: &Mesh<'_>,
     options: &MikkTSpaceOptions,
     limits: RunLimits<'_>,
-    memory: &mut TangentMemory,
+    fast: &mut FastPath,
     out: &mut [[f32; 4]],
 ) -> Report {
-    if memory.fast.run(mesh, options, limits, out) {
-        if limits.is_cancelled() {
-            Report::default()
-        } else {
-            submesh::decide(mesh, options, &memory.fast, limits, out)
-        }
-    } else {
-        method::mikktspace(mesh, options, limits, out)
+    match () {
+        () if !fast.run(mesh, options, limits, out) => mikktspace::run(mesh, options, limits, out),
+        () if limits.is_cancelled() => Report::default(),
+        () => submesh::decide(mesh, options, fast, limits, out),
     }
 }

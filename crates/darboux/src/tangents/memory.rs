@@ -2,7 +2,7 @@
 
 use crate::Frame;
 use crate::tangents::fast::FastPath;
-use crate::tangents::method_buffers::MethodBuffers;
+use crate::tangents::methods::buffers::MethodBuffers;
 
 /// The memory of every method and output.
 #[derive(Debug, Default)]

@@ -10,11 +10,11 @@ use crate::exec::limits::RunLimits;
 use crate::tangents::Method;
 use crate::tangents::MikkTSpaceOptions;
 use crate::tangents::TangentOptions;
-use crate::tangents::angle_area;
-use crate::tangents::angle_area::group_sums::GroupWeight;
 use crate::tangents::fast::{FastPath, FastPlan, triangle_count};
 use crate::tangents::generate::{Tangents, generate, run};
 use crate::tangents::memory::TangentMemory;
+use crate::tangents::methods::angle_area;
+use crate::tangents::methods::angle_area::group_sums::GroupWeight;
 use crate::tangents::mikktspace::{GroupedMesh, default_frames};
 use crate::tangents::submesh::UndecidedFaces;
 
@@ -22,7 +22,7 @@ use crate::tangents::submesh::UndecidedFaces;
 #[derive(Debug)]
 pub(crate) enum MethodPlan {
     /// MikkTSpace where the fast path applies: it has decided nearly all vertices.
-    Fast(Box<Decided>),
+    Fast(Box<FastMethodPlan>),
     /// MikkTSpace where the fast path does not apply: the general path has grouped the mesh.
     Stages(Box<GroupedMesh>),
     /// The methods angle-area and angle-edge, on the groups of MikkTSpace.
@@ -34,7 +34,7 @@ pub(crate) enum MethodPlan {
 /// The vertices that the fast path decided, the submesh of the others, and a copy of the mesh's vertices, from which the general path groups the
 /// mesh when a moved mesh invalidates the decisions.
 #[derive(Debug)]
-pub(crate) struct Decided {
+pub(crate) struct FastMethodPlan {
     options: MikkTSpaceOptions,
     fast: FastPlan,
     undecided: Option<UndecidedFaces>,
@@ -73,7 +73,7 @@ impl MethodPlan {
         base.report.triangles = triangle_count(mesh);
         let vertices = Vertices::new(mesh);
         (
-            Self::Fast(Box::new(Decided {
+            Self::Fast(Box::new(FastMethodPlan {
                 options: *options,
                 fast,
                 undecided,
@@ -117,7 +117,7 @@ impl MethodPlan {
     }
 }
 
-impl Decided {
+impl FastMethodPlan {
     fn evaluate(
         &self,
         mesh: &Mesh<'_>,

@@ -43,6 +43,7 @@ use crate::tangents::mikktspace::raw_frames::{DEFAULT_FRAME, RawFrames};
 use crate::tangents::mikktspace::repair_corners::repair_corners;
 use crate::tangents::mikktspace::signs::{mixed_sign_faces, unify_signs};
 use crate::tangents::mikktspace::welded_mesh::WeldedMesh;
+use crate::tangents::output::{Output, fill};
 use crate::tangents::repair::is_usable;
 use crate::tangents::report;
 
@@ -221,6 +222,19 @@ impl GroupedMesh {
             ..Report::default()
         }
     }
+}
+
+/// Computes the frames of all corners and writes what `out` holds of them. Returns an empty report after cancellation.
+pub(crate) fn run<O: Output>(
+    mesh: &Mesh<'_>,
+    options: &MikkTSpaceOptions,
+    limits: RunLimits<'_>,
+    out: &mut [O],
+) -> Report {
+    let Some(grouped) = GroupedMesh::new(mesh, options, limits) else { return Report::default() };
+    let (frames, report) = grouped.frames(mesh, limits);
+    fill(out, frames.iter().map(O::from_frame));
+    report
 }
 
 /// The edge order that the mode asks for.

@@ -25,7 +25,7 @@ use crate::util::hash_map::InsertionMap;
 use crate::util::radix_sort::{MAX_INSERTION_SORT, sort_by_key};
 
 /// The number of cells along the longest axis.
-pub(crate) const CELLS: usize = 2048;
+pub(crate) const CELL_COUNT: usize = 2048;
 
 /// Final ranges up to this size are compared pairwise.
 const SMALL_RANGE: usize = 24;
@@ -82,8 +82,8 @@ impl Cells {
     /// The cell of a position. Quotients that are NaN or exceed 32 bits go to cell 0, as the reference's cast does on x86-64.
     #[inline]
     pub fn at(&self, position: V3) -> usize {
-        let place = CELLS as f32 * ((position[self.axis] - self.low) / self.extent);
-        if (0.0..2_147_483_648.0).contains(&place) { (place as usize).min(CELLS - 1) } else { 0 }
+        let place = CELL_COUNT as f32 * ((position[self.axis] - self.low) / self.extent);
+        if (0.0..2_147_483_648.0).contains(&place) { (place as usize).min(CELL_COUNT - 1) } else { 0 }
     }
 }
 
@@ -119,11 +119,11 @@ impl CellBuckets {
         self.cells.extend(points.iter().map(|point| cells.at(point.position) as u16));
         // While filling, each entry of `ends` is the next free slot of its cell, and so grows from the cell's start to its end.
         self.ends.clear();
-        self.ends.resize(CELLS + 1, 0);
+        self.ends.resize(CELL_COUNT + 1, 0);
         for &cell in &self.cells {
             self.ends[usize::from(cell) + 1] += 1;
         }
-        for cell in 0..CELLS {
+        for cell in 0..CELL_COUNT {
             self.ends[cell + 1] += self.ends[cell];
         }
         self.points.resize(points.len(), Point::default());
@@ -132,7 +132,7 @@ impl CellBuckets {
             self.points[*next as usize] = point;
             *next += 1;
         }
-        self.ends.truncate(CELLS);
+        self.ends.truncate(CELL_COUNT);
     }
 
     /// The points of each cell, cell after cell.

@@ -95,7 +95,7 @@ fn few_open_files(random: &mut Random) -> Case {
 
 fn together() -> Case {
     let words = ["tangents", "models", "--out-dir", "out", "--force"];
-    with_models(Case::new(words), 6, 4).acting(Action::Together).expects(&[0], "")
+    with_models(Case::new(words), 6, 4).with_action(Action::Together).expects(&[0], "")
 }
 
 fn killed(random: &mut Random) -> Case {
@@ -106,5 +106,5 @@ fn killed(random: &mut Random) -> Case {
         &["normals", "models", "--overwrite", "--out-dir", "out", "--force"],
     ]);
     let signal = random.pick(&[Signal::Interrupt, Signal::Terminate, Signal::Kill, Signal::Kill]);
-    with_models(Case::new(words.iter().copied()), 8, 30).acting(Action::Kill(signal)).expects(&[0], "")
+    with_models(Case::new(words.iter().copied()), 8, 30).with_action(Action::Kill(signal)).expects(&[0], "")
 }

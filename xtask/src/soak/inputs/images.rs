@@ -60,7 +60,7 @@ pub fn flat_png(side: u32) -> Vec<u8> {
 /// A zlib stream of `count` zeros: one block of fixed Huffman codes (RFC 1951, 3.2.6), which repeats a zero by its longest match.
 fn compressed_zeros(count: usize) -> Vec<u8> {
     const LONGEST: usize = 258;
-    let mut bits = Bits { bytes: vec![0x78, 0x01], used: 0 };
+    let mut bits = BitWriter { bytes: vec![0x78, 0x01], used: 0 };
     bits.push(0b011, 3);
     let literals = 1 + (count - 1) % LONGEST;
     (0..literals).for_each(|_| bits.push(0b0000_1100, 8));
@@ -72,14 +72,14 @@ fn compressed_zeros(count: usize) -> Vec<u8> {
     bits.bytes
 }
 
-/// Bits from the lowest of each byte.
-struct Bits {
+/// BitWriter from the lowest of each byte.
+struct BitWriter {
     bytes: Vec<u8>,
     /// How many bits of the last byte are used; 0 means all.
     used: usize,
 }
 
-impl Bits {
+impl BitWriter {
     fn push(&mut self, bits: u32, count: usize) {
         for bit in 0..count {
             if self.used == 0 {

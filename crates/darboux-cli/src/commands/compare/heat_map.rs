@@ -17,7 +17,7 @@ const SCALE: usize = 24;
 
 const BACKGROUND: [u8; 3] = [16, 16, 16];
 /// After visiting this many texels, which takes some seconds, only the corners of triangles are drawn.
-const MOST_TEXELS: u64 = 1 << 30;
+const MAX_TEXELS: u64 = 1 << 30;
 
 /// The UV square [0, 1] with v down, as in glTF images. Triangles outside it are moved into it by whole numbers.
 pub struct HeatMap {
@@ -62,7 +62,7 @@ impl HeatMap {
         let [from, to] = bounds(points);
         let texels = ((to[0] - from[0]) * (to[1] - from[1])) as u64;
         if (0..2).any(|i| to[i] - from[i] > SIZE as f64)
-            || self.visited_texels.saturating_add(texels) > MOST_TEXELS
+            || self.visited_texels.saturating_add(texels) > MAX_TEXELS
         {
             self.too_large += 1;
             return;

@@ -24,9 +24,9 @@ const GAP: u32 = 8;
 /// The height of the colour scale and of the squares of colour, in pixels.
 const BAR: u32 = 10;
 /// The minimum width of the scale in pixels; its labels overlap in a narrower one.
-const NARROWEST_SCALE: u32 = 150;
+const MIN_SCALE_WIDTH: u32 = 150;
 /// A picture lower than this multiple of the legend gets no legend.
-const LEAST_PART: u32 = 6;
+const MIN_HEIGHT_RATIO: u32 = 6;
 /// The labels of the scale in degrees, the same as in the viewer.
 const LABELS: [f64; 5] = [0.01, 0.1, 1.0, 10.0, 180.0];
 
@@ -59,7 +59,7 @@ impl Legend {
         let needed = if has_scale { BAR + LINE + 2 * GAP } else { LINE + GAP };
         let needed = if keys.is_empty() { 0 } else { needed };
         let fits =
-            !arguments.no_legend && height >= LEAST_PART * needed && width >= NARROWEST_SCALE + 2 * GAP;
+            !arguments.no_legend && height >= MIN_HEIGHT_RATIO * needed && width >= MIN_SCALE_WIDTH + 2 * GAP;
         let light: u32 = options.background.iter().map(|&channel| u32::from(channel)).sum();
         Self {
             keys,
@@ -98,7 +98,7 @@ impl Legend {
         let mut left = GAP;
         if self.has_scale {
             let mut available = width.saturating_sub(2 * GAP + widths(keys));
-            if available < NARROWEST_SCALE {
+            if available < MIN_SCALE_WIDTH {
                 (keys, available) = (&[], width - 2 * GAP);
             }
             self.scale(&mut canvas, [left, height + GAP], available);
@@ -172,12 +172,12 @@ struct Canvas<'a> {
 impl Canvas<'_> {
     fn fill(&mut self, [left, top]: [u32; 2], [width, height]: [u32; 2], color: [u8; 3]) {
         for row in top..top + height {
-            (left..left + width).for_each(|column| self.put(column, row, color));
+            (left..left + width).for_each(|column| self.set_pixel(column, row, color));
         }
     }
 
     /// Sets a pixel; pixels outside the picture are ignored.
-    fn put(&mut self, column: u32, row: u32, color: [u8; 3]) {
+    fn set_pixel(&mut self, column: u32, row: u32, color: [u8; 3]) {
         let at = row as usize * self.width as usize + column as usize;
         if let Some(pixel) = self.pixels.get_mut(at).filter(|_| column < self.width) {
             *pixel = color;
@@ -199,7 +199,7 @@ impl DrawTarget for Canvas<'_> {
     fn draw_iter<I: IntoIterator<Item = Pixel<Rgb888>>>(&mut self, pixels: I) -> Result<(), Infallible> {
         for Pixel(Point { x, y }, color) in pixels {
             if let (Ok(column), Ok(row)) = (u32::try_from(x), u32::try_from(y)) {
-                self.put(column, row, [color.r(), color.g(), color.b()]);
+                self.set_pixel(column, row, [color.r(), color.g(), color.b()]);
             }
         }
         Ok(())

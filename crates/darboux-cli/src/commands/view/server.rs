@@ -41,11 +41,11 @@ const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
 /// A server on a random port of the loopback address.
 pub struct Server {
     listener: StdListener,
-    site: Arc<Site>,
+    served: Arc<ServedFiles>,
 }
 
 /// What is served, and to whom.
-struct Site {
+struct ServedFiles {
     page: Page,
     model: Option<ServedModel>,
     /// The server's address, as browsers send it in `Host`.
@@ -65,12 +65,12 @@ impl Server {
         let listener = StdListener::bind(SocketAddr::from((Ipv4Addr::LOCALHOST, 0))).map_err(failed)?;
         listener.set_nonblocking(true).map_err(failed)?;
         let host = listener.local_addr().map_err(failed)?.to_string();
-        Ok(Self { listener, site: Arc::new(Site { page, model, host, secret }) })
+        Ok(Self { listener, served: Arc::new(ServedFiles { page, model, host, secret }) })
     }
 
     /// The address of the page.
     pub fn address(&self) -> String {
-        let Site { host, secret, model, .. } = &*self.site;
+        let ServedFiles { host, secret, model, .. } = &*self.served;
         let name = model.iter().flat_map(ServedModel::names).next();
         let query = name.map_or(String::new(), |name| format!("?model={}", percent_encoded(&name)));
         format!("http://{host}/{secret}/{query}")
@@ -90,9 +90,9 @@ impl Server {
                 };
                 // Dropping the stream closes the connection.
                 let Ok(slot) = slots.clone().try_acquire_owned() else { continue };
-                let site = self.site.clone();
+                let served = self.served.clone();
                 task::spawn(async move {
-                    site.serve(stream).await;
+                    served.serve(stream).await;
                     drop(slot);
                 });
             }
@@ -100,12 +100,12 @@ impl Server {
     }
 }
 
-impl Site {
+impl ServedFiles {
     /// Responds to the one request of a connection.
     async fn serve(self: Arc<Self>, stream: TcpStream) {
         let service = service_fn(move |request| {
-            let site = self.clone();
-            async move { Ok::<_, Infallible>(site.respond(request).await) }
+            let served = self.clone();
+            async move { Ok::<_, Infallible>(served.respond(request).await) }
         });
         let connection = http1::Builder::new()
             .timer(TokioTimer::new())

@@ -16,7 +16,7 @@ struct AllExtensions {
 }
 
 /// Extensions that refer to materials, textures or attributes, or depend on the order of triangles only.
-const UNAFFECTED: [&str; 4] =
+const UNAFFECTED_EXTENSIONS: [&str; 4] =
     ["KHR_materials_variants", "KHR_draco_mesh_compression", "EXT_structural_metadata", "FB_ngon_encoding"];
 
 /// The extensions in the JSON of a primitive that may refer to vertices, by index or through accessors.
@@ -24,7 +24,7 @@ fn affected_extensions(primitive: &str) -> Vec<String> {
     let Ok(AllExtensions { extensions }) = serde_json::from_str(primitive) else { return Vec::new() };
     let affected = extensions.into_iter().filter(|(name, json)| match name.as_str() {
         "EXT_mesh_features" => numbers_vertices(json),
-        name => !UNAFFECTED.contains(&name) && mentions_vertices(json),
+        name => !UNAFFECTED_EXTENSIONS.contains(&name) && mentions_vertices(json),
     });
     affected.map(|(name, _)| name).collect()
 }

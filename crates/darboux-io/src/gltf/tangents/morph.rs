@@ -88,19 +88,19 @@ pub fn morphs(
 pub struct Offsets {
     pub of_vertex: Vec<[f32; 3]>,
     /// Counts for each of [`Morph::jobs`].
-    pub misfits: Vec<Misfits>,
+    pub stale_corners: Vec<StaleCorners>,
 }
 
 /// Corners of a morphed job whose tangent differs from that of a fresh computation.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Misfits {
+pub struct StaleCorners {
     /// Corners to which a computation without the groups of the base would give another tangent.
     pub regrouped: usize,
     /// Corners whose offset differs from that of their vertex, which corners with the same base tangent share.
     pub conflicting: usize,
 }
 
-impl Add for Misfits {
+impl Add for StaleCorners {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
@@ -128,7 +128,7 @@ pub fn offsets(
     let normals = moved(&vertices.normals, normal)?;
     let base = vertices.replace(positions.into(), normals.into());
     let mut field = OffsetField::new(split.vertex_count());
-    let mut misfits = Vec::with_capacity(morph.jobs.len());
+    let mut stale_corners = Vec::with_capacity(morph.jobs.len());
     for &job in &morph.jobs {
         let result = &results[job];
         let mesh = vertices.mesh(document, &morph.at, &group.jobs[job], &result.corners)?;
@@ -139,10 +139,10 @@ pub fn offsets(
         let tangents = evaluated.per_corner().iter().zip(result.tangents.per_corner());
         let corners = split.vertices(job, result).zip(tangents);
         let conflicting = corners.filter(|&(vertex, (moved, base))| !field.set(vertex, moved, base)).count();
-        misfits.push(Misfits { regrouped, conflicting });
+        stale_corners.push(StaleCorners { regrouped, conflicting });
     }
     vertices.replace(base.0, base.1);
-    Ok(Offsets { of_vertex: field.offsets, misfits })
+    Ok(Offsets { of_vertex: field.offsets, stale_corners })
 }
 
 /// The base plus the offsets of an accessor, if there is one. `at` is the JSON path of the target.

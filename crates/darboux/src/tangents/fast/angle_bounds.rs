@@ -13,7 +13,7 @@ use crate::tangents::fast::second_pass::{SecondPass, VertexQuantity};
 ///
 /// With u = 2^-24: directions are of unit length to 5 u, a dot product of two is right to 3 u, the squared diagonal, at most 4, to 5 u of
 /// itself, and the difference from 1 to 2 u. That is 25 u; the allowance is nearly seven times as much. Directions whose squares underflow
-/// have the mark `TROUBLE`, so their vertices are undecided.
+/// have the mark `NEEDS_GENERAL_PATH`, so their vertices are undecided.
 const MARGIN: f32 = 1e-5;
 
 /// The fast path does not run with thresholds of a larger cosine: it would decide hardly a vertex.

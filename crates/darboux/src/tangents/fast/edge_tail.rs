@@ -27,7 +27,7 @@
 //! when it finishes them, and lists their corners when it writes these (`exceptions.rs`).
 
 use crate::topology::neighbours::tail_order_matters;
-use crate::topology::weld::{Bounds, CELLS, CellBuckets, Cells, Point, for_each_final_range};
+use crate::topology::weld::{Bounds, CELL_COUNT, CellBuckets, Cells, Point, for_each_final_range};
 use crate::util::radix_sort::{first, pair, second, sort};
 
 use crate::tangents::fast::triangle_list::{TriangleBuffer, TriangleList};
@@ -44,7 +44,7 @@ pub(crate) struct TailCells {
     start: usize,
     cells: Cells,
     /// True for each cell that contains a vertex of the tail.
-    is_wanted: [bool; CELLS],
+    is_wanted: [bool; CELL_COUNT],
     /// The lowest and highest coordinate along the cells' axis at which a wanted cell can lie.
     low: f32,
     high: f32,
@@ -55,8 +55,13 @@ impl TailCells {
     fn new(list: &TriangleList<'_>, bounds: &Bounds, triangle: usize) -> Self {
         let start = list.face_of(triangle as u32).start as usize;
         let cells = Cells::of(bounds);
-        let mut tail =
-            Self { start, cells, is_wanted: [false; CELLS], low: f32::INFINITY, high: f32::NEG_INFINITY };
+        let mut tail = Self {
+            start,
+            cells,
+            is_wanted: [false; CELL_COUNT],
+            low: f32::INFINITY,
+            high: f32::NEG_INFINITY,
+        };
         for vertex in (start..list.count()).flat_map(|triangle| list.triangle(triangle as u32)) {
             let position = list.position(vertex);
             tail.is_wanted[cells.at(position)] = true;
@@ -64,7 +69,7 @@ impl TailCells {
             (tail.low, tail.high) = (tail.low.min(along), tail.high.max(along));
         }
         // One more cell on either side, and rounding.
-        let margin = 1.01 / CELLS as f32 * cells.extent + 1e-6 * (tail.low.abs() + tail.high.abs());
+        let margin = 1.01 / CELL_COUNT as f32 * cells.extent + 1e-6 * (tail.low.abs() + tail.high.abs());
         (tail.low, tail.high) = (tail.low - margin, tail.high + margin);
         tail
     }

@@ -11,9 +11,9 @@ use crate::tangents::fast::triangle_list::TriangleList;
 /// The lists of one thread, or of all threads together.
 #[derive(Debug, Default)]
 pub(crate) struct Exceptions {
-    /// Faces with an undecided vertex, in the numbering of [`Exceptions::note`]. After [`Exceptions::settle`]: their first triangles.
+    /// Faces with an undecided vertex, in the numbering of [`Exceptions::note`]. After [`Exceptions::sort`]: their first triangles.
     pub undecided: Vec<u32>,
-    /// Corners in the cells of the triangle tail. After [`Exceptions::settle`]: entries of the triangle list.
+    /// Corners in the cells of the triangle tail. After [`Exceptions::sort`]: entries of the triangle list.
     pub in_tail: Vec<Point>,
     sort_buffer: Vec<Point>,
 }
@@ -44,7 +44,7 @@ impl Exceptions {
     }
 
     /// Sorts both lists. Where faces were split, corners become triangles and entries of the triangle list.
-    pub fn settle(&mut self, list: &TriangleList<'_>) {
+    pub fn sort(&mut self, list: &TriangleList<'_>) {
         sort(&mut self.undecided);
         sort_by_key(&mut self.in_tail, |point| point.entry.into(), &mut self.sort_buffer);
         if !list.is_split() {

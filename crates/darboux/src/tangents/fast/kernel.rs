@@ -8,7 +8,7 @@
 use crate::math::{V3, acos, add, direction_in_plane, dot, length, not_zero, scale, sub};
 
 use crate::tangents::fast::proof::{
-    CLEAR_COMPONENT, LEAST_AREA_RATIO, difference, direction_marks, fingerprint, fingerprint_key,
+    CLEAR_COMPONENT, MIN_AREA_RATIO, difference, direction_marks, fingerprint, fingerprint_key,
     first_ray_count, marks, ray_marks,
 };
 
@@ -103,7 +103,7 @@ impl TriangleBlock {
     }
 
     /// Computes what corners add to bitangents and magnitudes from records. The result is unspecified for triangles with
-    /// [`marks::TROUBLE`].
+    /// [`marks::NEEDS_GENERAL_PATH`].
     #[inline(always)]
     pub fn evaluate_bitangents(&mut self) {
         self.unpack();
@@ -113,7 +113,7 @@ impl TriangleBlock {
     }
 
     /// Computes from records the directions of tangents and bitangents in the planes of the corners' normals: six numbers in `sum` and
-    /// `magnitude_sum`. The result is unspecified for triangles with [`marks::TROUBLE`].
+    /// `magnitude_sum`. The result is unspecified for triangles with [`marks::NEEDS_GENERAL_PATH`].
     #[inline(always)]
     pub fn evaluate_directions(&mut self) {
         self.unpack();
@@ -201,10 +201,10 @@ impl TriangleBlock {
                 & (t_length > f32::MIN_POSITIVE)
                 & (s_length / size > f32::MIN_POSITIVE)
                 & (t_length / size > f32::MIN_POSITIVE)
-                & (size > LEAST_AREA_RATIO * (left.abs() + right.abs()))
+                & (size > MIN_AREA_RATIO * (left.abs() + right.abs()))
                 & !(same(p0, p1) | same(p1, p2) | same(p2, p0));
             let orientation = if area > 0.0 { marks::PRESERVES } else { marks::MIRRORS };
-            self.face_marks[i] = orientation | if is_good { 0 } else { marks::TROUBLE };
+            self.face_marks[i] = orientation | if is_good { 0 } else { marks::NEEDS_GENERAL_PATH };
         }
     }
 
@@ -298,9 +298,10 @@ impl TriangleBlock {
                 }
                 if MARKS {
                     let is_unit = (squared > 1e-30) & (squared < 1e30);
-                    let trouble = if is_unit { 0 } else { marks::TROUBLE };
-                    self.marks[k][i] =
-                        self.face_marks[i] | trouble | direction_marks(s, CLEAR_COMPONENT) << marks::TANGENT;
+                    let unit_mark = if is_unit { 0 } else { marks::NEEDS_GENERAL_PATH };
+                    self.marks[k][i] = self.face_marks[i]
+                        | unit_mark
+                        | direction_marks(s, CLEAR_COMPONENT) << marks::TANGENT;
                 }
             }
         }
@@ -313,8 +314,9 @@ impl TriangleBlock {
                 let t = in_plane(self.normal(k, i), [self.t[0][i], self.t[1][i], self.t[2][i]]);
                 let size = t[0].abs() + t[1].abs() + t[2].abs();
                 let is_sized = (size > 1e-14) & (size < 1e14);
-                let trouble = if is_sized { 0 } else { marks::TROUBLE };
-                self.marks[k][i] |= trouble | direction_marks(t, CLEAR_COMPONENT * size) << marks::BITANGENT;
+                let size_mark = if is_sized { 0 } else { marks::NEEDS_GENERAL_PATH };
+                self.marks[k][i] |=
+                    size_mark | direction_marks(t, CLEAR_COMPONENT * size) << marks::BITANGENT;
             }
         }
     }

@@ -237,6 +237,20 @@ impl Task for ReadVertices<'_> {
     }
 }
 
+/// Loads up to [`BLOCK_SIZE`] triangles into a block and evaluates them. `first`: the number of the first of `vertices`, which contain all
+/// of theirs.
+#[inline(always)]
+fn evaluate<P: Pass>(
+    pass: P,
+    triangles: &[[u32; 3]],
+    (first, vertices): (u32, &[VertexAccumulator]),
+    block: &mut TriangleBlock,
+) {
+    block.set(triangles, first);
+    gather(block, triangles.len(), vertices);
+    pass.evaluate(block);
+}
+
 /// Adds triangles to their vertices, all of which are in `range`.
 pub(crate) struct AddTriangles<'a, P> {
     pub pass: P,
@@ -250,9 +264,7 @@ impl<P: Pass> Task for AddTriangles<'_, P> {
     fn run(self) {
         let VertexRange { first, vertices, marks } = self.range;
         for triangles in self.triangles.chunks(BLOCK_SIZE) {
-            self.block.set(triangles, first);
-            gather(self.block, triangles.len(), vertices);
-            self.pass.evaluate(self.block);
+            evaluate(self.pass, triangles, (first, vertices), self.block);
             self.pass.scatter(self.block, triangles.len(), vertices, marks);
         }
     }
@@ -272,9 +284,7 @@ impl<P: Pass> Task for StoreTerms<'_, P> {
     #[inline(always)]
     fn run(self) {
         for (triangles, out) in self.triangles.chunks(BLOCK_SIZE).zip(self.out.chunks_mut(BLOCK_SIZE)) {
-            self.block.set(triangles, 0);
-            gather(self.block, triangles.len(), self.vertices);
-            self.pass.evaluate(self.block);
+            evaluate(self.pass, triangles, (0, self.vertices), self.block);
             for k in 0..3 {
                 for (i, out) in out.iter_mut().take(BLOCK_SIZE).enumerate() {
                     out[k] = self.pass.stored_term(self.block, k, i);

@@ -29,14 +29,14 @@ pub(crate) mod marks {
     /// The triangle reverses the orientation of UV space.
     pub const MIRRORS: u32 = 1 << 21;
     /// The triangle or the corner is one that only the general path handles.
-    pub const TROUBLE: u32 = 1 << 22;
+    pub const NEEDS_GENERAL_PATH: u32 = 1 << 22;
 }
 
 /// The smallest ratio of a triangle's doubled UV area to the two products whose difference it is, at which the sign of the area is
 /// certain.
 ///
 /// Differences and products are right to 2^-24 each, three roundings per product and one for the sum: 2^-21 is twice that.
-pub(crate) const LEAST_AREA_RATIO: f32 = 1.0 / 2_097_152.0;
+pub(crate) const MIN_AREA_RATIO: f32 = 1.0 / 2_097_152.0;
 
 /// The smallest ratio of a direction's component to the direction's length at which the component counts as clearly positive or
 /// clearly negative.
@@ -125,7 +125,7 @@ pub(crate) fn decided_sign(found: u32, first_ray_count: f32, fingerprint: &[u32;
 /// Two unit vectors whose components on one axis are both above 1/16 have a dot product above -1 + 2 / 256.
 #[inline(always)]
 fn is_one_subgroup(found: u32) -> bool {
-    let orientation = found & (marks::PRESERVES | marks::MIRRORS | marks::TROUBLE);
+    let orientation = found & (marks::PRESERVES | marks::MIRRORS | marks::NEEDS_GENERAL_PATH);
     let has_axis = |shift: u32| found >> shift & marks::ALL_AXES != marks::ALL_AXES;
     (orientation == marks::PRESERVES) | (orientation == marks::MIRRORS)
         && has_axis(marks::TANGENT) & has_axis(marks::BITANGENT)

@@ -272,12 +272,12 @@ pub(crate) fn split_vertices(
     }
 }
 
-/// True where the halves of a quad have one orientation and UV areas of at least [`LEAST_AREA`]. `a`, `b`: their doubled areas.
+/// True where the halves of a quad have one orientation and UV areas of at least [`MIN_AREA`]. `a`, `b`: their doubled areas.
 #[inline(always)]
 fn have_one_orientation(a: f32, b: f32) -> bool {
-    (a > LEAST_AREA) & (b > LEAST_AREA) | (a < -LEAST_AREA) & (b < -LEAST_AREA)
+    (a > MIN_AREA) & (b > MIN_AREA) | (a < -MIN_AREA) & (b < -MIN_AREA)
 }
 
 /// No derivative divided by a larger UV area is infinite: derivatives of decided triangles have squares that are finite, so lengths up to
 /// 1.9e19.
-pub(crate) const LEAST_AREA: f32 = 1e-18;
+pub(crate) const MIN_AREA: f32 = 1e-18;

@@ -8,7 +8,7 @@ use crate::exec::threads::{self, split_range};
 use crate::exec::windows::{WINDOW, Window};
 use crate::tangents::fast::passes::{PassInput, Replay};
 use crate::tangents::fast::proof::UNDECIDED;
-use crate::tangents::fast::quads::{FaceSplit, LEAST_AREA, triangle_count};
+use crate::tangents::fast::quads::{FaceSplit, MIN_AREA, triangle_count};
 use crate::tangents::fast::state::{FastPath, triangle_list};
 use crate::tangents::fast::triangle_list::{TriangleList, WeldMap};
 use crate::tangents::fast::vertex_record::{VertexRecord, VertexSlices, position_of, record_of, same_bits};
@@ -100,7 +100,7 @@ fn largest_coordinate(list: &TriangleList<'_>) -> f32 {
     }
     let uvs = (0..list.mesh.corner_count())
         .flat_map(|corner| list.mesh.uvs().get(list.mesh.vertex_of_corner(corner)));
-    1e36 * LEAST_AREA / uvs.fold(0.0, |largest: f32, x| largest.max(x.abs()))
+    1e36 * MIN_AREA / uvs.fold(0.0, |largest: f32, x| largest.max(x.abs()))
 }
 
 impl FastPath {

@@ -218,14 +218,14 @@ impl<'a> TriangleList<'a> {
         }
     }
 
-    /// Sets [`marks::TROUBLE`] at the vertices of doubtful quads (see `quads.rs`) among `triangles`.
+    /// Sets [`marks::NEEDS_GENERAL_PATH`] at the vertices of doubtful quads (see `quads.rs`) among `triangles`.
     ///
     /// `first`: the vertex to which the first of `marks` belongs.
     pub fn mark_doubtful_quads(&self, triangles: Range<usize>, first: u32, marks: &mut [u32]) {
         for &half in self.split.doubtful_among(triangles) {
             for vertex in [half, half + 1].into_iter().flat_map(|half| self.triangle(half)) {
                 if let Some(marks) = marks.get_mut(vertex.wrapping_sub(first) as usize) {
-                    *marks |= marks::TROUBLE;
+                    *marks |= marks::NEEDS_GENERAL_PATH;
                 }
             }
         }

@@ -5,7 +5,7 @@
 //! Where they do not, the cell is divided again.
 
 use crate::topology::edge_sort::{Edges, tail_runs};
-use crate::topology::weld::{CELLS, Cells, Point, for_each_final_range};
+use crate::topology::weld::{CELL_COUNT, Cells, Point, for_each_final_range};
 use crate::util::radix_sort::sort;
 
 use crate::tangents::fast::edge_tail::{EdgeTail, LastEdges};
@@ -85,13 +85,13 @@ impl VertexNames {
         self.cell_of_vertex.clear();
         self.cell_of_vertex.extend((0..count).map(|vertex| cells.at(tail.list.position(vertex)) as u16));
         self.was_divided.clear();
-        self.was_divided.resize(CELLS, false);
+        self.was_divided.resize(CELL_COUNT, false);
         self.cell_ends.clear();
-        self.cell_ends.resize(CELLS + 1, 0);
+        self.cell_ends.resize(CELL_COUNT + 1, 0);
         for &vertex in &self.vertices {
             self.cell_ends[usize::from(self.cell_of_vertex[vertex as usize]) + 1] += 1;
         }
-        for cell in 0..CELLS {
+        for cell in 0..CELL_COUNT {
             self.cell_ends[cell + 1] += self.cell_ends[cell];
         }
         self.entries.resize(self.vertices.len(), 0);

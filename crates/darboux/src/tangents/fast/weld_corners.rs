@@ -13,7 +13,7 @@ use crate::tangents::fast::vertex_hash::{HashVertices, ValueRange};
 use crate::tangents::fast::vertex_record::{SliceBuffer, VertexRecord, VertexSlices, same_bits};
 
 /// The number of recent vertices that are compared before the table is searched.
-const RECENT: usize = if cfg!(small_limits) { 2 } else { 1 << 14 };
+const RECENT_VERTICES: usize = if cfg!(small_limits) { 2 } else { 1 << 14 };
 
 /// The distinct corners of a range of corners. The memory is reused from mesh to mesh.
 #[derive(Debug, Default)]
@@ -44,7 +44,7 @@ impl CornerWeld {
         distinct.clear(range.len());
         *value_range = ValueRange::default();
         recent.clear();
-        recent.resize(RECENT, 0);
+        recent.resize(RECENT_VERTICES, 0);
         for (start, welded) in range.step_by(WINDOW).zip(welded.chunks_mut(WINDOW)) {
             let slices = VertexSlices::of_corners(mesh, start..start + welded.len(), buffer);
             hashes.resize(welded.len(), 0);
@@ -143,7 +143,7 @@ impl Task for NumberCorners<'_> {
     #[inline(always)]
     fn run(self) {
         for ((corner, &hash), vertex) in self.records.iter().zip(self.hashes).zip(self.welded) {
-            let recent = &mut self.recent[hash as usize % RECENT];
+            let recent = &mut self.recent[hash as usize % RECENT_VERTICES];
             let is_recent =
                 self.distinct.records.get(*recent as usize).is_some_and(|record| same_bits(record, corner));
             if !is_recent {

@@ -42,7 +42,7 @@ pub(crate) struct HashWeld {
 }
 
 /// Corners are welded instead of vertices where there are more vertices per corner: most of them belong to other meshes then.
-const MOST_VERTICES_PER_CORNER: usize = 2;
+const MAX_VERTICES_PER_CORNER: usize = 2;
 
 impl HashWeld {
     /// Welds the vertices of an indexed mesh, or the corners of an unindexed one. None where the fast path does not apply.
@@ -50,7 +50,7 @@ impl HashWeld {
         self.welded.clear();
         self.copies = 0;
         self.per_corner = matches!(mesh.indices(), Indices::Unindexed)
-            || mesh.vertex_count() > MOST_VERTICES_PER_CORNER * mesh.corner_count();
+            || mesh.vertex_count() > MAX_VERTICES_PER_CORNER * mesh.corner_count();
         if self.per_corner {
             return self.weld_corners(mesh, width, workers);
         }

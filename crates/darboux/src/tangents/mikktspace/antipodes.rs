@@ -10,7 +10,7 @@ use crate::util::radix_sort::{first, pair, second, sort};
 ///
 /// Rounding changes the product and each square by at most 2e-7, so |a + b|^2 = |a|^2 + |b|^2 + 2 a b is at most
 /// 2 (1 + 1.2e-6) - 2 (1 - 2e-7) = 2.8e-6, which is (1.68e-3)^2.
-const REACH: f32 = 1.0 / 512.0;
+const MAX_DISTANCE: f32 = 1.0 / 512.0;
 /// The inverse of the cell size. A cell is twice the reach, so that a search visits at most two cells along each axis.
 const CELLS_PER_UNIT: f32 = 256.0;
 
@@ -113,7 +113,8 @@ impl AntipodeGrid {
 
     /// The ranges of directions in the cells within reach of `middle`.
     fn ranges_around(&self, middle: V3) -> impl Iterator<Item = (usize, usize)> {
-        let [[x0, x1], [y0, y1], [z0, z1]] = middle.map(|x| [cell_of(x - REACH), cell_of(x + REACH)]);
+        let [[x0, x1], [y0, y1], [z0, z1]] =
+            middle.map(|x| [cell_of(x - MAX_DISTANCE), cell_of(x + MAX_DISTANCE)]);
         let columns =
             (x0..=x1).flat_map(move |x| (y0..=y1).map(move |y| [cell([x, y, z0]), cell([x, y, z1])]));
         let end_before = |at: usize| if at == 0 { 0 } else { self.ends[at - 1] as usize };

@@ -374,8 +374,7 @@ mod tests {
             let unit = if kind == 6 { 64.0 * f32::MIN_POSITIVE } else { spread };
             let terms: Vec<f32> = (0..300).map(|_| term(&mut dice, kind)).collect();
             let start = terms.iter().take(round).sum::<f32>();
-            let mut values: Vec<f32> =
-                (0..500).map(|_| start + unit * number(&mut dice, 20) + 0.0).collect();
+            let mut values: Vec<f32> = (0..500).map(|_| start + unit * number(&mut dice, 20) + 0.0).collect();
             values.sort_unstable_by(f32::total_cmp);
             let expected: Vec<f32> =
                 values.iter().map(|&value| terms.iter().fold(value, |sum, term| sum + term)).collect();

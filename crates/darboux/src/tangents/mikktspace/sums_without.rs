@@ -259,7 +259,8 @@ mod tests {
 
     /// Terms whose lanes grow, walk at random, are mostly ties, or are zero. One in seven members adds nothing.
     fn terms(dice: &mut Dice<'_>, count: usize) -> Vec<Option<TermLanes>> {
-        let number = |dice: &mut Dice<'_>, bits: u32| (dice.word() >> (32 - bits)) as f32 / (1 << bits) as f32;
+        let number =
+            |dice: &mut Dice<'_>, bits: u32| (dice.word() >> (32 - bits)) as f32 / (1 << bits) as f32;
         let mut lane = |lane: usize| match lane % 5 {
             0 => 1.0 + 0.1 * number(dice, 23),
             1 => number(dice, 24) - 0.5,
@@ -276,11 +277,11 @@ mod tests {
         let mut one_of = |choices: [usize; 3]| dice.pick(&choices);
         let (most, longest, farthest) = (one_of([1, 3, 40]), one_of([1, 5, 700]), one_of([1, 30, 2000]));
         let mut ends: Vec<u32> = Vec::new();
-        let mut at = dice.below( count);
+        let mut at = dice.below(count);
         while ends.len() < 2 * most && at < count {
-            let end = (at + 1 + dice.below( longest)).min(count);
+            let end = (at + 1 + dice.below(longest)).min(count);
             ends.extend([at as u32, end as u32]);
-            at = end + 1 + dice.below( farthest);
+            at = end + 1 + dice.below(farthest);
         }
         ends
     }

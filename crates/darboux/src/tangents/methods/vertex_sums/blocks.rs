@@ -5,11 +5,11 @@ use std::ops::Range;
 
 use crate::exec::limits::RunLimits;
 use crate::exec::simd::Task;
-use crate::tangents::mesh_slices::{MeshSlices, TriangleInputs};
-use crate::tangents::uv_derivatives::Orientation;
-use crate::tangents::vertex_sums::side_sums::SkippedTriangles;
-use crate::tangents::vertex_sums::term_kernel::{TERM_BLOCK, TermBlock};
-use crate::tangents::vertex_sums::weighting::{SumRows, Weighting};
+use crate::tangents::methods::mesh_slices::{MeshSlices, TriangleInputs};
+use crate::tangents::methods::uv_derivatives::Orientation;
+use crate::tangents::methods::vertex_sums::side_sums::SkippedTriangles;
+use crate::tangents::methods::vertex_sums::term_kernel::{TERM_BLOCK, TermBlock};
+use crate::tangents::methods::vertex_sums::weighting::{SumRows, Weighting};
 
 /// Records the orientations of the triangles that one thread owns, and counts those that are skipped.
 pub(crate) struct OrientationRecorder<'a> {

@@ -5,8 +5,8 @@
 
 use crate::math::{length, scale};
 
-use crate::tangents::uv_derivatives::{ScaledDerivatives, size};
-use crate::tangents::vertex_sums::weighting::{SumRows, Weighting};
+use crate::tangents::methods::uv_derivatives::{ScaledDerivatives, size};
+use crate::tangents::methods::vertex_sums::weighting::{SumRows, Weighting};
 
 /// Each triangle adds dP/du and dP/dv. The two UV orientations have separate sums.
 pub(crate) struct Lengyel;

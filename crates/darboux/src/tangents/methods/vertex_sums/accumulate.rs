@@ -6,13 +6,13 @@ use std::ops::Range;
 
 use crate::exec::limits::RunLimits;
 use crate::exec::threads::{self, split_range, split_slice};
-use crate::tangents::mesh_slices::MeshSlices;
-use crate::tangents::uv_derivatives::{Orientation, ScaledDerivatives};
-use crate::tangents::vertex_sums::blocks::BlockOptions;
-use crate::tangents::vertex_sums::gather::gather_all;
-use crate::tangents::vertex_sums::scatter::{scatter_all, thread_ranges};
-use crate::tangents::vertex_sums::side_sums::SideSums;
-use crate::tangents::vertex_sums::weighting::{Weighting, term};
+use crate::tangents::methods::mesh_slices::MeshSlices;
+use crate::tangents::methods::uv_derivatives::{Orientation, ScaledDerivatives};
+use crate::tangents::methods::vertex_sums::blocks::BlockOptions;
+use crate::tangents::methods::vertex_sums::gather::gather_all;
+use crate::tangents::methods::vertex_sums::scatter::{scatter_all, thread_ranges};
+use crate::tangents::methods::vertex_sums::side_sums::SideSums;
+use crate::tangents::methods::vertex_sums::weighting::{Weighting, term};
 
 /// Computes all sums. The bits do not depend on the number of threads. The sums are unspecified after cancellation.
 pub(crate) fn accumulate<const N: usize, W: Weighting<N>>(

@@ -11,13 +11,13 @@ use crate::exec::threads::{self, split_slice};
 use crate::exec::windows::{
     Partition, Window, accumulate_bounds, overlap_too_much, partitions, triangles_of, windows_of,
 };
-use crate::tangents::mesh_slices::MeshSlices;
-use crate::tangents::uv_derivatives::Orientation;
-use crate::tangents::vertex_sums::blocks::{
+use crate::tangents::methods::mesh_slices::MeshSlices;
+use crate::tangents::methods::uv_derivatives::Orientation;
+use crate::tangents::methods::vertex_sums::blocks::{
     BlockOptions, OrientationRecorder, accumulate_into, for_each_block, orientation_bit, orientation_set,
 };
-use crate::tangents::vertex_sums::side_sums::{SideSums, SkippedTriangles};
-use crate::tangents::vertex_sums::weighting::{SumRows, Weighting};
+use crate::tangents::methods::vertex_sums::side_sums::{SideSums, SkippedTriangles};
+use crate::tangents::methods::vertex_sums::weighting::{SumRows, Weighting};
 
 /// The share of one thread.
 pub(crate) struct ThreadWork {

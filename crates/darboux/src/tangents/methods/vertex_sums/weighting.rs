@@ -4,8 +4,8 @@
 
 use crate::math::V3;
 
-use crate::tangents::mesh_slices::MeshSlices;
-use crate::tangents::uv_derivatives::{ScaledDerivatives, size};
+use crate::tangents::methods::mesh_slices::MeshSlices;
+use crate::tangents::methods::uv_derivatives::{ScaledDerivatives, size};
 
 /// A term or a sum as `N` rows of four lanes, so that one addition is `N` vector additions. Row 0 is a tangent and a weight; row 1 begins with
 /// a bitangent.

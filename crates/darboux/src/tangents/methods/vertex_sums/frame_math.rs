@@ -1,4 +1,4 @@
-//! Directions in the tangent plane and signs, as [`crate::tangents::vertex_sums::finish`] and its kernel compute them.
+//! Directions in the tangent plane and signs, as [`crate::tangents::methods::vertex_sums::finish`] and its kernel compute them.
 //!
 //! Each direction has a fast form in `f32` without branches, which also returns whether the result is reliable, and a precise form in `f64`
 //! for the rest.

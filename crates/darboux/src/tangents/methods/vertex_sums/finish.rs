@@ -19,21 +19,21 @@ use crate::math::V3;
 use crate::exec::limits::RunLimits;
 use crate::exec::threads::{self, split_range, split_slice};
 use crate::math_f64::unit;
-use crate::tangents::mesh_slices::MeshSlices;
-use crate::tangents::mirrored_edges::{
-    count_mirrored_edges, has_finite_normals, has_finite_vertices, survey_where, vertices_of_both,
+use crate::tangents::methods::mesh_slices::MeshSlices;
+use crate::tangents::methods::report_counts::{
+    count_irregular_where, count_mirrored_edges, has_finite_normals, has_finite_vertices, vertices_of_both,
 };
+use crate::tangents::methods::uv_derivatives::Orientation;
+use crate::tangents::methods::vertex_sums::frame_kernel::FrameBlock;
+use crate::tangents::methods::vertex_sums::frame_math::{
+    cancels, direction_across, precise_direction_across, sign_of, sure_tangent,
+};
+use crate::tangents::methods::vertex_sums::side_sums::SideSums;
+use crate::tangents::methods::vertex_sums::term_kernel::TERM_BLOCK;
+use crate::tangents::methods::vertex_sums::weighting::{SumRows, Weighting, adds};
 use crate::tangents::output::{Output, fill};
 use crate::tangents::repair::{across, direction, in_plane, mean_in_plane, perpendicular, u_direction_of};
 use crate::tangents::report::Report;
-use crate::tangents::uv_derivatives::Orientation;
-use crate::tangents::vertex_sums::frame_kernel::FrameBlock;
-use crate::tangents::vertex_sums::frame_math::{
-    cancels, direction_across, precise_direction_across, sign_of, sure_tangent,
-};
-use crate::tangents::vertex_sums::side_sums::SideSums;
-use crate::tangents::vertex_sums::term_kernel::TERM_BLOCK;
-use crate::tangents::vertex_sums::weighting::{SumRows, Weighting, adds};
 
 /// A vertex, and 0 for preserved or 1 for mirrored UV orientation.
 type Side = (u32, usize);
@@ -53,7 +53,7 @@ pub(crate) fn finish<const N: usize, W: Weighting<N>, O: Output>(
     let adds_all = slices.is_triangles() && sums.skipped.is_empty();
     let is_finite =
         if adds_all { has_finite_normals(slices, limits) } else { has_finite_vertices(slices, limits) };
-    let mut report = survey_where(mesh, slices, is_finite);
+    let mut report = count_irregular_where(mesh, slices, is_finite);
     report.degenerate_triangles = sums.skipped.degenerate;
     report.uv_degenerate_triangles = sums.skipped.uv_degenerate;
     let mut of_both = vertices_of_both(slices, &sums.orientation_of_face);

@@ -10,16 +10,16 @@ use crate::math::V3;
 use crate::exec::limits::RunLimits;
 use crate::exec::threads;
 use crate::tangents::Report;
-use crate::tangents::mesh_slices::MeshSlices;
-use crate::tangents::mirrored_edges::survey;
+use crate::tangents::methods::mesh_slices::MeshSlices;
+use crate::tangents::methods::report_counts::count_irregular;
+use crate::tangents::methods::uv_derivatives::is_degenerate;
 use crate::tangents::output::{Output, fill};
 use crate::tangents::repair::{across, direction, perpendicular};
-use crate::tangents::uv_derivatives::is_degenerate;
 
 /// Writes the frame of every vertex to its corners.
 pub(crate) fn run<O: Output>(mesh: &Mesh<'_>, limits: RunLimits<'_>, corners: &mut [O]) -> Report {
     let slices = MeshSlices::new(mesh);
-    let mut report = survey(mesh, &slices, limits);
+    let mut report = count_irregular(mesh, &slices, limits);
     let frame = |&normal: &V3| {
         let tangent = direction(normal).map_or([1.0, 0.0, 0.0], perpendicular).map(|x| x as f32);
         let bitangent = if O::IS_FULL { across(normal, tangent, 1.0) } else { [0.0; 3] };

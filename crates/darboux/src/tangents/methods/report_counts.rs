@@ -5,17 +5,17 @@ use crate::Mesh;
 use crate::exec::limits::RunLimits;
 use crate::exec::threads::{self, split_range};
 use crate::tangents::Report;
-use crate::tangents::mesh_slices::MeshSlices;
+use crate::tangents::methods::mesh_slices::MeshSlices;
+use crate::tangents::methods::uv_derivatives::Orientation;
 use crate::tangents::report;
-use crate::tangents::uv_derivatives::Orientation;
 
 /// The counts that do not depend on the method.
-pub(crate) fn survey(mesh: &Mesh<'_>, slices: &MeshSlices<'_>, limits: RunLimits<'_>) -> Report {
-    survey_where(mesh, slices, has_finite_vertices(slices, limits))
+pub(crate) fn count_irregular(mesh: &Mesh<'_>, slices: &MeshSlices<'_>, limits: RunLimits<'_>) -> Report {
+    count_irregular_where(mesh, slices, has_finite_vertices(slices, limits))
 }
 
-/// As [`survey`]. `is_finite`: true when all positions, normals and UVs are known to be finite.
-pub(crate) fn survey_where(mesh: &Mesh<'_>, slices: &MeshSlices<'_>, is_finite: bool) -> Report {
+/// As [`count_irregular`]. `is_finite`: true when all positions, normals and UVs are known to be finite.
+pub(crate) fn count_irregular_where(mesh: &Mesh<'_>, slices: &MeshSlices<'_>, is_finite: bool) -> Report {
     let is_supported = |face: &usize| matches!(slices.corners(*face).len(), 3 | 4);
     let supported = if slices.is_triangles() {
         slices.face_count()

@@ -5,8 +5,8 @@
 
 use crate::math::{V3, length, scale};
 
-use crate::tangents::uv_derivatives::ScaledDerivatives;
-use crate::tangents::vertex_sums::weighting::{SumRows, Weighting};
+use crate::tangents::methods::uv_derivatives::ScaledDerivatives;
+use crate::tangents::methods::vertex_sums::weighting::{SumRows, Weighting};
 
 /// Weights by area. The summed normal replaces an absent normal of the mesh.
 pub(crate) struct Area;

@@ -1,13 +1,13 @@
 //! Terms of a block of triangles: what they add to their vertices.
 //!
 //! Every quantity is an array with one lane per triangle, and loops have no branches, so that compilers vectorise them at any width. Each
-//! lane gives the bits of [`crate::tangents::vertex_sums::weighting::term`], which has the same source.
+//! lane gives the bits of [`crate::tangents::methods::vertex_sums::weighting::term`], which has the same source.
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
 
-use crate::tangents::mesh_slices::TriangleInputs;
-use crate::tangents::uv_derivatives::{Orientation, ScaledDerivatives};
-use crate::tangents::vertex_sums::weighting::{SumRows, Weighting, term_and_test};
+use crate::tangents::methods::mesh_slices::TriangleInputs;
+use crate::tangents::methods::uv_derivatives::{Orientation, ScaledDerivatives};
+use crate::tangents::methods::vertex_sums::weighting::{SumRows, Weighting, term_and_test};
 
 /// The number of triangles or vertices per block.
 pub(crate) const TERM_BLOCK: usize = if cfg!(small_limits) { 2 } else { 64 };

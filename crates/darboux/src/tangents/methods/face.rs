@@ -10,12 +10,12 @@ use crate::math_f64::unit;
 
 use crate::exec::limits::RunLimits;
 use crate::tangents::Report;
-use crate::tangents::mesh_slices::MeshSlices;
-use crate::tangents::mirrored_edges::{count_mirrored_edges, survey, vertices_of_both};
+use crate::tangents::methods::mesh_slices::MeshSlices;
+use crate::tangents::methods::report_counts::{count_irregular, count_mirrored_edges, vertices_of_both};
+use crate::tangents::methods::uv_derivatives::{Orientation, ScaledDerivatives, is_degenerate};
 use crate::tangents::output::{Output, fill};
 use crate::tangents::repair::{across, direction, in_plane, perpendicular};
 use crate::tangents::report::{are_finite, count_split_vertices};
-use crate::tangents::uv_derivatives::{Orientation, ScaledDerivatives, is_degenerate};
 
 /// The sums over the triangles of one face.
 #[derive(Clone, Copy, Default)]
@@ -32,7 +32,7 @@ struct Face {
 /// Writes the frame of every face to its corners.
 pub(crate) fn run<O: Output>(mesh: &Mesh<'_>, limits: RunLimits<'_>, corners: &mut [O]) -> Report {
     let slices = MeshSlices::new(mesh);
-    let mut report = survey(mesh, &slices, limits);
+    let mut report = count_irregular(mesh, &slices, limits);
     let faces = add_up(&slices, limits, &mut report);
     let mut orientations = Vec::with_capacity(faces.len());
     for number in limits.parts(0..faces.len()).flatten() {

@@ -27,16 +27,16 @@ use crate::topology::triangulate::triangulate;
 use crate::exec::limits::RunLimits;
 use crate::exec::threads;
 use crate::tangents::Report;
-use crate::tangents::angle_area::group_sums::{
+use crate::tangents::methods::angle_area::group_sums::{
     GroupBuffers, GroupFrame, GroupSum, GroupWeight, GroupedTriangles,
 };
-use crate::tangents::mesh_slices::MeshSlices;
+use crate::tangents::methods::mesh_slices::MeshSlices;
+use crate::tangents::methods::report_counts::count_irregular;
 use crate::tangents::mikktspace::derivatives::{
     Derivative, count_mirrored_edges, count_uv_degenerate, derivatives, derivatives_into, unify_quads,
 };
 use crate::tangents::mikktspace::groups::{Groups, build_groups};
 use crate::tangents::mikktspace::welded_mesh::WeldedMesh;
-use crate::tangents::mirrored_edges::survey;
 use crate::tangents::output::Output;
 use crate::tangents::repair::{across, direction, in_plane, mean_in_plane, perpendicular, u_direction_of};
 use crate::tangents::report::count_split_vertices;
@@ -116,7 +116,7 @@ impl AngleAreaPlan {
         unify_quads(good, &welded, &mut derivatives);
         let neighbours = neighbours(good, EdgeOrder::Complete, limits);
         limits.check().ok()?;
-        let mut report = survey(mesh, &slices, limits);
+        let mut report = count_irregular(mesh, &slices, limits);
         report.degenerate_triangles = triangulation.degenerate.len();
         report.uv_degenerate_triangles = count_uv_degenerate(good, &welded, &derivatives);
         report.mirrored_edges = count_mirrored_edges(&neighbours, &derivatives);
@@ -208,7 +208,7 @@ impl AngleAreaPlan {
         buffers: &GroupBuffers,
     ) -> GroupFrame {
         let GroupSum { s, t, magnitude, weight } = buffers.sums[group];
-        let normal = unless_zero(buffers.normals[group]);
+        let normal = normal_unless_zero(buffers.normals[group]);
         let sign = if self.groups.preserves(group) { 1.0 } else { -1.0 };
         // A sum of tangents that cancel is rounding error.
         let found = (length(s) > 1e-6 * weight).then(|| flat_direction_of(s, normal)).flatten();
@@ -243,16 +243,16 @@ impl AngleAreaPlan {
 /// Moves a tangent a quarter of a Jacobi step towards the fit. Larger steps overshoot where neighbouring tangents differ much; see
 /// docs/notes/methods.md.
 fn fit(group: &mut GroupFrame, normal: D3, (residual, weight): (D3, f64)) {
-    const PART: f64 = 0.25;
-    let moved = add_scaled(group.frame.tangent.map(f64::from), PART / weight, residual);
+    const STEP_SIZE: f64 = 0.25;
+    let moved = add_scaled(group.frame.tangent.map(f64::from), STEP_SIZE / weight, residual);
     if !group.repaired
-        && let Some(tangent) = flat_direction_of(moved, unless_zero(normal))
+        && let Some(tangent) = flat_direction_of(moved, normal_unless_zero(normal))
     {
         group.frame.tangent = tangent.map(|x| x as f32);
     }
 }
 
-fn unless_zero(normal: D3) -> Option<D3> {
+fn normal_unless_zero(normal: D3) -> Option<D3> {
     Some(normal).filter(|normal| *normal != [0.0; 3])
 }
 

@@ -1,6 +1,6 @@
 //! Tangents of a block of vertices from their sums.
 //!
-//! As in [`crate::tangents::vertex_sums::term_kernel`], every quantity is an array with one lane per element, and loops have no branches, so
+//! As in [`crate::tangents::methods::vertex_sums::term_kernel`], every quantity is an array with one lane per element, and loops have no branches, so
 //! that compilers vectorise them. Lanes that are not reliable are computed again one by one.
 
 #![allow(clippy::needless_range_loop, reason = "loops over lanes vectorise as they are written")]
@@ -10,9 +10,9 @@ use std::marker::PhantomData;
 use crate::math::V3;
 
 use crate::exec::simd::{Task, Width};
-use crate::tangents::vertex_sums::frame_math::{sign_of, sure_tangent};
-use crate::tangents::vertex_sums::term_kernel::{TERM_BLOCK, TermLane};
-use crate::tangents::vertex_sums::weighting::{SumRows, Weighting};
+use crate::tangents::methods::vertex_sums::frame_math::{sign_of, sure_tangent};
+use crate::tangents::methods::vertex_sums::term_kernel::{TERM_BLOCK, TermLane};
+use crate::tangents::methods::vertex_sums::weighting::{SumRows, Weighting};
 
 /// The arrays of one block, reused from block to block.
 pub(crate) struct FrameBlock {
@@ -57,7 +57,7 @@ impl FrameBlock {
         }
     }
 
-    /// True when the tangents of the first `count` vertices are reliable: equal to what [`crate::tangents::vertex_sums::finish`] computes one by one.
+    /// True when the tangents of the first `count` vertices are reliable: equal to what [`crate::tangents::methods::vertex_sums::finish`] computes one by one.
     pub fn are_sure(&self, count: usize) -> bool {
         self.sure[..count].iter().fold(1, |all, sure| all & sure) == 1
     }

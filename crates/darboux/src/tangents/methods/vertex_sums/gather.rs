@@ -7,14 +7,14 @@
 use crate::exec::limits::RunLimits;
 use crate::exec::threads::{self, split_range, split_slice};
 use crate::exec::windows::WINDOW;
-use crate::tangents::mesh_slices::MeshSlices;
-use crate::tangents::uv_derivatives::Orientation;
-use crate::tangents::vertex_sums::blocks::{
+use crate::tangents::methods::mesh_slices::MeshSlices;
+use crate::tangents::methods::uv_derivatives::Orientation;
+use crate::tangents::methods::vertex_sums::blocks::{
     BlockOptions, OrientationRecorder, accumulate_into, for_each_block, orientation_bit, orientation_set,
 };
-use crate::tangents::vertex_sums::side_sums::{SideSums, SkippedTriangles};
-use crate::tangents::vertex_sums::term_kernel::TermBlock;
-use crate::tangents::vertex_sums::weighting::{SumRows, Weighting};
+use crate::tangents::methods::vertex_sums::side_sums::{SideSums, SkippedTriangles};
+use crate::tangents::methods::vertex_sums::term_kernel::TermBlock;
+use crate::tangents::methods::vertex_sums::weighting::{SumRows, Weighting};
 
 /// Computes all sums and records all orientations.
 pub(crate) fn gather_all<const N: usize, W: Weighting<N>>(

@@ -2,11 +2,11 @@
 
 use crate::math::V3;
 
-use crate::tangents::mesh_slices::MeshSlices;
-use crate::tangents::method_buffers::{MethodBuffers, SumBuffers};
+use crate::tangents::methods::buffers::{MethodBuffers, SumBuffers};
+use crate::tangents::methods::mesh_slices::MeshSlices;
+use crate::tangents::methods::uv_derivatives::{Orientation, is_degenerate};
+use crate::tangents::methods::vertex_sums::weighting::SumRows;
 use crate::tangents::report::are_finite;
-use crate::tangents::uv_derivatives::{Orientation, is_degenerate};
-use crate::tangents::vertex_sums::weighting::SumRows;
 
 /// The result of accumulation.
 pub(crate) struct SideSums<const N: usize> {

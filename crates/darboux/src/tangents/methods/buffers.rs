@@ -1,8 +1,8 @@
 //! The buffers of the methods other than MikkTSpace, reused from run to run.
 
-use crate::tangents::angle_area::group_sums::GroupBuffers;
-use crate::tangents::uv_derivatives::Orientation;
-use crate::tangents::vertex_sums::weighting::SumRows;
+use crate::tangents::methods::angle_area::group_sums::GroupBuffers;
+use crate::tangents::methods::uv_derivatives::Orientation;
+use crate::tangents::methods::vertex_sums::weighting::SumRows;
 
 /// All buffers. Each method resizes those that it uses.
 #[derive(Debug, Default)]

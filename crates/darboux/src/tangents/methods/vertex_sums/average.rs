@@ -1,7 +1,7 @@
 //! The mean of the unit tangents and bitangents of the triangles around a vertex, all weighted alike.
 
-use crate::tangents::uv_derivatives::ScaledDerivatives;
-use crate::tangents::vertex_sums::weighting::{SumRows, Weighting};
+use crate::tangents::methods::uv_derivatives::ScaledDerivatives;
+use crate::tangents::methods::vertex_sums::weighting::{SumRows, Weighting};
 
 /// Every triangle has weight 1.
 pub(crate) struct Average;
