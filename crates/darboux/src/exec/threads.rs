@@ -1,6 +1,7 @@
 //! Work divided among threads. Every thread has its own memory, and writes its own part of the output.
 
 use std::ops::Range;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::exec::limits::RunLimits;
@@ -35,6 +36,16 @@ pub(crate) fn run<W: Send, P: Send>(
     for (worker, part) in workers.iter_mut().zip(parts) {
         job(worker, part);
     }
+}
+
+/// Calls a function with every element of a list, on so many threads. A thread that has finished an element takes the next one.
+pub(crate) fn for_each<T: Send>(threads: usize, list: &mut [T], with: impl Fn(&mut T) + Sync) {
+    let rest = Mutex::new(list.iter_mut());
+    run(&mut vec![(); threads], std::iter::repeat_n((), threads), |(), ()| {
+        while let Ok(Some(element)) = rest.lock().map(|mut rest| rest.next()) {
+            with(element);
+        }
+    });
 }
 
 /// The values of a function for all numbers below `count`, computed on all threads. There are fewer after cancellation.

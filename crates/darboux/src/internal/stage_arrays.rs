@@ -113,7 +113,7 @@ impl SubgroupSums {
         let (good, groups, base) = (&grouped.triangulation.good, &grouped.groups, &grouped.base);
         let sums = Self { of_corner: vec![[NONE; 2]; corners], ..Self::default() };
         let mut collector = SumCollector { grouped, members: Vec::new(), vertex: NONE, limits, limit, sums };
-        let mut subgroups = SubgroupFinder::new(threshold_cosine);
+        let mut subgroups = SubgroupFinder::new(threshold_cosine, limits);
         for group in 0..groups.len() {
             let members = groups.members(group);
             subgroups.load(good, members, &base.derivatives, base.normal_of_group[group]);

@@ -14,6 +14,7 @@ pub(crate) mod evaluate;
 pub(crate) mod groups;
 pub(crate) mod raw_frames;
 pub(crate) mod repair_corners;
+pub(crate) mod schedule;
 pub(crate) mod signs;
 pub(crate) mod sorted_sums;
 pub(crate) mod subgroups;

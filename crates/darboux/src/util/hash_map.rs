@@ -18,6 +18,11 @@ impl<T> InsertionMap<T> {
         Self { keys: KeyTable::new(), values: Vec::new() }
     }
 
+    /// A map that does not grow before it has `count` keys.
+    pub fn with_capacity(count: usize) -> Self {
+        Self { keys: KeyTable::with_capacity(count), values: Vec::with_capacity(count) }
+    }
+
     /// The value of `key`, which is inserted with the value `make()` if it is absent.
     pub fn get_or_insert_with(&mut self, key: &[u32], make: impl FnOnce() -> T) -> &mut T {
         let number = self.keys.insert(key);

@@ -3,6 +3,7 @@
 //! Unit vectors are stored in the cells of a cubic grid of 1/256. Vectors opposite to `v` lie in the cells around `-v`, and are compared
 //! with it in blocks, without branches.
 
+use crate::exec::simd::{Task, Width};
 use crate::math::{V3, dot, scale};
 use crate::util::radix_sort::{first, pair, second, sort};
 
@@ -23,11 +24,11 @@ pub(crate) struct AntipodeGrid {
     /// The cells that are not empty, and the end of each in the arrays below. Neighbouring cells along z are adjacent.
     cells: Vec<u32>,
     ends: Vec<u32>,
-    /// The indices and the coordinates of unit vectors, by cell.
+    /// The indices and the coordinates of unit vectors, by cell. Zeros follow, so that a block can begin at each of them.
     indices: Vec<u32>,
     axes: [Vec<f32>; 3],
-    /// The indices of directions that may be opposite to anything: long vectors and NaN.
-    irregular: Vec<u32>,
+    /// The directions that may be opposite to anything: long vectors and NaN.
+    irregular: Vec<(u32, V3)>,
 }
 
 enum Length {
@@ -61,7 +62,7 @@ impl AntipodeGrid {
             match Length::of(direction) {
                 Length::Unit => cells.push(pair(cell(direction.map(cell_of)), index)),
                 Length::Short => {}
-                Length::Irregular => grid.irregular.push(index),
+                Length::Irregular => grid.irregular.push((index, direction)),
             }
         }
         sort(&mut cells);
@@ -73,13 +74,21 @@ impl AntipodeGrid {
             }
             grid.ends.push(grid.indices.len() as u32);
         }
+        grid.indices.extend([0; BLOCK]);
+        grid.axes.iter_mut().for_each(|axis| axis.extend([0.0; BLOCK]));
         grid
     }
 
-    /// Calls `visit` with the indices of all directions that may be opposite to `direction`.
+    /// Appends the indices of all directions whose dot product with `direction` is not above -1 to `found`, some of them twice.
     ///
-    /// `None` where every direction may be, or more than `limit` directions would be compared.
-    pub fn for_each_opposite(&self, direction: V3, limit: usize, mut visit: impl FnMut(u32)) -> Option<()> {
+    /// `None` where comparing with every direction is needed: `direction` is long or NaN, or there are more than `limit` around its opposite.
+    pub fn find_opposites(
+        &self,
+        direction: V3,
+        limit: usize,
+        width: Width,
+        found: &mut Vec<u32>,
+    ) -> Option<()> {
         match Length::of(direction) {
             Length::Irregular => return None,
             Length::Short => {}
@@ -90,25 +99,13 @@ impl AntipodeGrid {
                     if count > limit {
                         return None;
                     }
-                    self.compare(direction, start, end, &mut visit);
+                    width.run(FindOpposites { grid: self, direction, start, end, found });
                 }
             }
         }
-        self.irregular.iter().for_each(|&index| visit(index));
+        let is_opposite = |other: &V3| !(dot(direction, *other) > -1.0);
+        found.extend(self.irregular.iter().filter(|(_, other)| is_opposite(other)).map(|(index, _)| *index));
         Some(())
-    }
-
-    /// Calls `visit` with the indices of the directions from `start` to `end` whose dot product with `direction` is -1 or less.
-    fn compare(&self, direction: V3, start: usize, end: usize, visit: &mut impl FnMut(u32)) {
-        let [x, y, z] = self.axes.each_ref().map(|axis| &axis[start..end]);
-        for (block, indices) in self.indices[start..end].chunks(BLOCK).enumerate() {
-            let from = block * BLOCK;
-            let [x, y, z] = [x, y, z].map(|axis| &axis[from..from + indices.len()]);
-            let is_opposite = |at: usize| dot(direction, [x[at], y[at], z[at]]) <= -1.0;
-            if (0..indices.len()).fold(false, |any, at| any | is_opposite(at)) {
-                (0..).zip(indices).filter(|(at, _)| is_opposite(*at)).for_each(|(_, &index)| visit(index));
-            }
-        }
     }
 
     /// The ranges of directions in the cells within reach of `middle`.
@@ -126,6 +123,40 @@ impl AntipodeGrid {
     }
 }
 
+/// Finds the directions whose dot product with `direction` is -1 or less, from `start` to the end of the block that `end` is in.
+struct FindOpposites<'a> {
+    grid: &'a AntipodeGrid,
+    direction: V3,
+    start: usize,
+    end: usize,
+    found: &'a mut Vec<u32>,
+}
+
+impl Task for FindOpposites<'_> {
+    #[inline(always)]
+    fn run(self) {
+        for from in (self.start..self.end).step_by(BLOCK) {
+            let [x, y, z] = self.grid.axes.each_ref().map(|axis| &axis[from..from + BLOCK]);
+            // Loops without closures, which would be compiled for narrow vectors.
+            let mut is_opposite = [false; BLOCK];
+            for at in 0..BLOCK {
+                is_opposite[at] = dot(self.direction, [x[at], y[at], z[at]]) <= -1.0;
+            }
+            let mut any = false;
+            for is_opposite in is_opposite {
+                any |= is_opposite;
+            }
+            if any {
+                for (at, is_opposite) in is_opposite.into_iter().enumerate() {
+                    if is_opposite {
+                        self.found.push(self.grid.indices[from + at]);
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// The cell of a coordinate in [-2, 2] along one axis.
 fn cell_of(x: f32) -> u32 {
     ((x + 2.0) * CELLS_PER_UNIT) as u32
@@ -139,6 +170,7 @@ fn cell([x, y, z]: [u32; 3]) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exec::simd::WidthLimit;
     use crate::math::normalized_unless_zero;
 
     #[test]
@@ -153,12 +185,17 @@ mod tests {
         let mut count = 0;
         for &direction in &directions[..4000] {
             let mut found = Vec::new();
-            grid.for_each_opposite(direction, usize::MAX, |index| found.push(index)).expect("of unit length");
+            let width = Width::widest(WidthLimit::default());
+            grid.find_opposites(direction, usize::MAX, width, &mut found).expect("of unit length");
             found.sort_unstable();
+            found.dedup();
             let opposite = |index: &u32| dot(direction, directions[*index as usize]) <= -1.0;
             let mut expected: Vec<u32> = (0..4000).filter(opposite).collect();
             count += expected.len();
-            expected.extend([4001, 4002]);
+            expected.push(4001);
+            if dot(direction, directions[4002]) <= -1.0 {
+                expected.push(4002);
+            }
             assert_eq!(found, expected, "{direction:?}");
         }
         assert!(count >= 1000, "{count}");

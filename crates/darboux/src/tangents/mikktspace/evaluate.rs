@@ -78,7 +78,7 @@ pub(crate) fn evaluate(
     let limits = options.limits;
     let mut evaluator =
         Evaluator { triangles, values, welded, terms, tangents, sign: 1.0, written, raw, limits };
-    let mut subgroups = SubgroupFinder::new(options.threshold_cosine);
+    let mut subgroups = SubgroupFinder::new(options.threshold_cosine, limits);
     for group in (0..groups.len()).take_while(|_| !limits.is_cancelled()) {
         let members = groups.members(group);
         subgroups.load(triangles, members, &membership.derivatives, membership.normal_of_group[group]);
@@ -137,7 +137,7 @@ impl SubgroupVisitor for Evaluator<'_> {
     type Value = SubgroupFrame;
 
     fn compute(&mut self, excluded: &KeyTable) -> Vec<SubgroupFrame> {
-        let sums = self.terms.sums_without(excluded, || self.limits.is_cancelled());
+        let sums = self.terms.sums_without(excluded, self.limits);
         let subgroup = |sum| SubgroupFrame { frame: frame(sum, self.sign), mean: OnceCell::new() };
         sums.iter().map(subgroup).collect()
     }

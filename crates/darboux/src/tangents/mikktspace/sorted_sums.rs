@@ -20,6 +20,7 @@
 //!
 //! No sum is -0: it begins with +0, and x + y is -0 only where both are. Sums and terms are finite.
 
+use crate::exec::simd::{Task, Width};
 use crate::util::radix_sort::sort_by_key;
 
 /// The longest slice whose sums are advanced one by one.
@@ -75,8 +76,8 @@ impl SortedSums {
     }
 
     /// Adds `terms`, in order, to every sum.
-    pub fn advance(&mut self, terms: &[f32]) {
-        self.runs.iter_mut().filter(|run| !run.sums.is_empty()).for_each(|run| run.advance(terms));
+    pub fn advance(&mut self, terms: &[f32], width: Width) {
+        self.runs.iter_mut().filter(|run| !run.sums.is_empty()).for_each(|run| run.advance(terms, width));
     }
 
     /// Stores sums with their owners.
@@ -110,6 +111,16 @@ impl SortedSums {
             self.runs[index] = self.merged(run, Run::default());
         }
         Some(sum)
+    }
+
+    /// Calls `visit` with every owner and its sum.
+    pub fn for_each(&self, mut visit: impl FnMut(u32, f32)) {
+        for run in &self.runs {
+            for at in 0..run.sums.len() {
+                let is_here = |owner: &&u32| self.place[**owner as usize] == (run.number, at as u32);
+                run.owners(at).iter().filter(is_here).for_each(|&owner| visit(owner, run.sum(at)));
+            }
+        }
     }
 
     fn new_run(&mut self) -> Run {
@@ -179,13 +190,13 @@ impl Run {
     }
 
     /// Adds `terms` to every sum. The run has sums.
-    fn advance(&mut self, terms: &[f32]) {
+    fn advance(&mut self, terms: &[f32], width: Width) {
         let (shift, have_equal_parity) = (self.shift, self.have_equal_parity);
         let mut slice = Slice { sums: &mut self.sums, shift, have_equal_parity };
         let added = slice.add_while_together(terms);
         if added < terms.len() {
             slice.apply_shift();
-            advance(slice.sums, &terms[added..], 0);
+            advance(slice.sums, &terms[added..], 0, width);
             slice.have_equal_parity = false;
         }
         (self.shift, self.have_equal_parity) = (slice.shift, slice.have_equal_parity);
@@ -245,7 +256,7 @@ impl<'a> Slice<'a> {
 }
 
 /// Adds `terms`, in order, to every value. `values` ascend, also afterwards. `departures`: how often the values left a binade before.
-fn advance(mut values: &mut [f32], terms: &[f32], departures: u32) {
+fn advance(mut values: &mut [f32], terms: &[f32], departures: u32, width: Width) {
     while values.len() > MAX_ONE_BY_ONE && departures <= MAX_DEPARTURES {
         let (first, last) = (values[0], values[values.len() - 1]);
         if first.to_bits() == last.to_bits() {
@@ -254,14 +265,14 @@ fn advance(mut values: &mut [f32], terms: &[f32], departures: u32) {
         let binade = binade(first);
         let count = values.partition_point(|&value| self::binade(value) == binade);
         let (slice, rest) = values.split_at_mut(count);
-        advance_binade(slice, terms, departures);
+        advance_binade(slice, terms, departures, width);
         values = rest;
     }
-    add_one_by_one(values, terms);
+    width.run(AddOneByOne { values, terms });
 }
 
 /// As [`advance`], for values of one binade.
-fn advance_binade(values: &mut [f32], mut terms: &[f32], departures: u32) {
+fn advance_binade(values: &mut [f32], mut terms: &[f32], departures: u32, width: Width) {
     let mut slice = Slice { sums: values, shift: 0, have_equal_parity: false };
     loop {
         terms = &terms[slice.add_while_together(terms)..];
@@ -271,29 +282,37 @@ fn advance_binade(values: &mut [f32], mut terms: &[f32], departures: u32) {
         for leaving in [below, above] {
             self::shift(leaving, shift);
             leaving.iter_mut().for_each(|value| *value += term);
-            advance(leaving, rest, departures + 1);
+            advance(leaving, rest, departures + 1, width);
         }
         if stay.len() <= MAX_ONE_BY_ONE {
             self::shift(stay, shift);
-            return add_one_by_one(stay, terms);
+            return width.run(AddOneByOne { values: stay, terms });
         }
         slice = Slice { sums: stay, shift, have_equal_parity };
     }
 }
 
 /// As [`advance`], one addition per value and term. The values of a block are added independently of each other, which vectorises.
-fn add_one_by_one(values: &mut [f32], terms: &[f32]) {
-    let (blocks, rest) = values.as_chunks_mut::<32>();
-    blocks.iter_mut().for_each(|block| add_to_block(block, terms));
-    rest.chunks_mut(8).for_each(|values| {
-        let mut block = [0.0; 8];
-        block[..values.len()].copy_from_slice(values);
-        add_to_block(&mut block, terms);
-        values.copy_from_slice(&block[..values.len()]);
-    });
+struct AddOneByOne<'a> {
+    values: &'a mut [f32],
+    terms: &'a [f32],
 }
 
-#[inline]
+impl Task for AddOneByOne<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let (blocks, rest) = self.values.as_chunks_mut::<64>();
+        blocks.iter_mut().for_each(|block| add_to_block(block, self.terms));
+        for values in rest.chunks_mut(16) {
+            let mut block = [0.0; 16];
+            block[..values.len()].copy_from_slice(values);
+            add_to_block(&mut block, self.terms);
+            values.copy_from_slice(&block[..values.len()]);
+        }
+    }
+}
+
+#[inline(always)]
 fn add_to_block<const N: usize>(block: &mut [f32; N], terms: &[f32]) {
     let mut sums = *block;
     for term in terms {
@@ -347,6 +366,7 @@ mod tests {
     use darboux_dice::Dice;
 
     use super::*;
+    use crate::exec::simd::WidthLimit;
 
     /// A number in [-1, 1) with `bits` binary digits.
     fn number(dice: &mut Dice<'_>, bits: u32) -> f32 {
@@ -378,7 +398,7 @@ mod tests {
             values.sort_unstable_by(f32::total_cmp);
             let expected: Vec<f32> =
                 values.iter().map(|&value| terms.iter().fold(value, |sum, term| sum + term)).collect();
-            advance(&mut values, &terms, 0);
+            advance(&mut values, &terms, 0, Width::widest(WidthLimit::default()));
             let bits = |values: &[f32]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
             assert_eq!(bits(&values), bits(&expected), "kind {kind}, spread {spread}");
         }

@@ -13,13 +13,19 @@
 //! if every direction is within half the threshold of the mean direction: nothing is excluded
 //! for each member, in the order in which the reference writes them:
 //!     excluded = members that it does not join
-//!         threshold 180 degrees: only exactly opposite directions are excluded; AntipodeGrid lists the candidates
+//!         threshold 180 degrees: only exactly opposite directions are excluded; AntipodeGrid lists them
 //!         smaller thresholds: compare with all members
 //!     compute each distinct subgroup once
 //! ```
 //!
+//! The excluded members of different members are found on several threads.
+//!
 //! Source: mikktspace.c, `GenerateTSpaces`.
 
+use std::ops::Range;
+
+use crate::exec::limits::RunLimits;
+use crate::exec::threads;
 use crate::math::{V3, direction_in_plane, dot};
 use crate::topology::triangles::Triangles;
 use crate::util::hash_map::{InsertionMap, KeyTable};
@@ -34,6 +40,10 @@ const SMALL_GROUP: usize = 8;
 /// The most distinct subgroups that are computed at once, and the most numbers in the lists of their excluded members: limits of the memory.
 const MAX_SUBGROUPS: usize = if cfg!(small_limits) { 20 } else { 1 << 18 };
 const MAX_WORDS: usize = if cfg!(small_limits) { 200 } else { 1 << 23 };
+
+/// The members whose excluded members are found between two barriers of the threads, and the most numbers in their lists.
+const PART: usize = if cfg!(small_limits) { 7 } else { 1 << 12 };
+const MAX_PART_WORDS: usize = MAX_WORDS / 8;
 
 /// The members whose pairs are compared between two checks of the visitor.
 const MEMBERS_PER_CHECK: usize = 64;
@@ -59,8 +69,9 @@ pub(crate) trait SubgroupVisitor {
 
 /// Finds the subgroups of one group at a time. The buffers are reused from group to group.
 #[derive(Debug, Default)]
-pub(crate) struct SubgroupFinder {
+pub(crate) struct SubgroupFinder<'a> {
     threshold_cosine: f32,
+    limits: RunLimits<'a>,
     /// The members, ascending. All arrays below have one entry per member.
     members: Vec<u32>,
     /// The directions of the tangents and of the bitangents in the tangent plane, as separate coordinates.
@@ -72,14 +83,34 @@ pub(crate) struct SubgroupFinder {
     antipodes: Option<[AntipodeGrid; 2]>,
     /// With `antipodes`: the first member that has the same subgroup for certain.
     representative: Vec<u32>,
-    /// Scratch memory of [`SubgroupFinder::find_excluded`].
-    joins: Vec<bool>,
-    candidates: Vec<u32>,
+    /// One per thread.
+    searches: Vec<Search>,
 }
 
-impl SubgroupFinder {
-    pub fn new(threshold_cosine: f32) -> Self {
-        Self { threshold_cosine, ..Self::default() }
+/// The excluded members of some members, found by one thread.
+#[derive(Debug, Default)]
+struct Search {
+    /// The lists of ranges, concatenated, and the end of each.
+    words: Vec<u32>,
+    ends: Vec<usize>,
+    scratch: Scratch,
+}
+
+/// Scratch memory of [`SubgroupFinder::find_excluded`].
+#[derive(Debug, Default)]
+struct Scratch {
+    joins: Vec<bool>,
+    opposites: Vec<u32>,
+    excluded: Vec<u32>,
+}
+
+/// In [`SubgroupFinder::subgroups_of`]: no subgroup has been assigned, or is about to be.
+const UNKNOWN: u32 = u32::MAX;
+const PENDING: u32 = u32::MAX - 1;
+
+impl<'a> SubgroupFinder<'a> {
+    pub fn new(threshold_cosine: f32, limits: RunLimits<'a>) -> Self {
+        Self { threshold_cosine, limits, ..Self::default() }
     }
 
     /// Loads the members of a group, in any order. `normal`: the group's normal.
@@ -137,22 +168,76 @@ impl SubgroupFinder {
     ) -> (KeyTable, Vec<u32>) {
         let mut distinct = KeyTable::with_capacity(members.len().min(MAX_SUBGROUPS));
         let mut of_member = Vec::new();
-        let mut of_representative = vec![u32::MAX; self.members.len()];
-        let mut excluded = Vec::new();
-        for (found, &member) in members.iter().enumerate().skip(first) {
-            visitor.show_progress(found);
+        let mut of_representative = vec![UNKNOWN; self.members.len()];
+        let mut part_size = PART;
+        while first + of_member.len() < members.len() {
+            let rest = &members[first + of_member.len()..];
+            let part = &rest[..part_size.min(rest.len())];
+            let found = self.subgroups_of(part, &mut distinct, &mut of_representative);
+            // Where lists are long, a part has about as many as their limit allows.
+            part_size = (2 * found.len()).clamp(1, PART);
+            of_member.extend(found);
+            visitor.show_progress(first + of_member.len());
             let is_full = distinct.len() >= MAX_SUBGROUPS || distinct.word_count() >= MAX_WORDS;
-            if is_full || visitor.is_stopped() {
+            if is_full || visitor.is_stopped() || self.limits.is_cancelled() {
                 break;
             }
-            let at = self.representative(self.members.partition_point(|&other| other < member));
-            if of_representative[at] == u32::MAX {
-                self.find_excluded(at, &mut excluded);
-                of_representative[at] = distinct.insert(&excluded) as u32;
-            }
-            of_member.push(of_representative[at]);
         }
         (distinct, of_member)
+    }
+
+    /// The subgroups of the first of some members: all, unless their lists become too long. Without cancellation there is at least one.
+    fn subgroups_of(
+        &mut self,
+        members: &[u32],
+        distinct: &mut KeyTable,
+        of_representative: &mut [u32],
+    ) -> Vec<u32> {
+        let representative =
+            |member| self.representative(self.members.partition_point(|&other| other < member));
+        let representatives: Vec<usize> = members.iter().map(|&member| representative(member)).collect();
+        let mut wanted = Vec::new();
+        for &at in &representatives {
+            if of_representative[at] == UNKNOWN {
+                of_representative[at] = PENDING;
+                wanted.push(at);
+            }
+        }
+        self.search(&wanted);
+        wanted.iter().for_each(|&at| of_representative[at] = UNKNOWN);
+        let lists = self.searches.iter().flat_map(Search::lists);
+        for (&at, excluded) in wanted.iter().zip(lists) {
+            of_representative[at] = distinct.insert(excluded) as u32;
+        }
+        let numbers = representatives.iter().map(|&at| of_representative[at]);
+        numbers.take_while(|&number| number != UNKNOWN).collect()
+    }
+
+    /// Finds the excluded members of some members, on several threads. After cancellation, and where the lists become too long, there are
+    /// lists for the first ones only.
+    fn search(&mut self, wanted: &[usize]) {
+        let mut searches = std::mem::take(&mut self.searches);
+        let threads = self.limits.thread_count(self.members.len());
+        searches.resize_with(threads, Search::default);
+        let parts = threads::split_range(0..wanted.len(), threads, 1);
+        let max_words = MAX_PART_WORDS / threads;
+        threads::run(&mut searches, parts.clone(), |search, range: Range<usize>| {
+            search.words.clear();
+            search.ends.clear();
+            for &at in &wanted[range] {
+                if search.words.len() > max_words || self.limits.is_cancelled() {
+                    break;
+                }
+                self.find_excluded(at, &mut search.scratch);
+                search.words.extend_from_slice(&search.scratch.excluded);
+                search.ends.push(search.words.len());
+            }
+        });
+        // Lists behind a thread that has not finished do not follow its lists.
+        let is_whole = |(search, part): &(&Search, Range<usize>)| search.ends.len() == part.len();
+        let whole = searches.iter().zip(parts).take_while(is_whole).count();
+        searches.truncate(whole + 1);
+        self.searches = searches;
     }
 
     /// True when every member joins every other. False when `visitor` has stopped the visit before that is known.
@@ -171,12 +256,12 @@ impl SubgroupFinder {
             AntipodeGrid::new(counted, |at| direction(axes, at as usize))
         }));
         self.find_representatives();
-        let mut excluded = Vec::new();
+        let mut scratch = Scratch::default();
         (0..count).all(|at| {
             goes_on(at) && {
                 self.representative(at) < at || {
-                    self.find_excluded(at, &mut excluded);
-                    excluded.is_empty()
+                    self.find_excluded(at, &mut scratch);
+                    scratch.excluded.is_empty()
                 }
             }
         })
@@ -186,7 +271,7 @@ impl SubgroupFinder {
     /// of a quad whose both halves are members, and members with NaN.
     fn find_representatives(&mut self) {
         let count = self.members.len();
-        let mut first = InsertionMap::new();
+        let mut first = InsertionMap::with_capacity(count);
         self.representative.clear();
         for at in 0..count {
             let has_other_half = (at > 0 && self.face[at - 1] == self.face[at])
@@ -203,54 +288,51 @@ impl SubgroupFinder {
         if self.antipodes.is_some() { self.representative[at] as usize } else { at }
     }
 
-    /// Writes the starts and ends of the ranges of members that member `at` does not join to `excluded`, ascending.
-    fn find_excluded(&mut self, at: usize, excluded: &mut Vec<u32>) {
+    /// Writes the starts and ends of the ranges of members that member `at` does not join to `scratch.excluded`, ascending.
+    fn find_excluded(&self, at: usize, scratch: &mut Scratch) {
+        let Scratch { joins, opposites, excluded } = scratch;
         excluded.clear();
         if self.joins_any[at] {
             return;
         }
-        if self.find_candidates(at).is_some() {
-            self.candidates.iter().for_each(|&other| push(excluded, other));
+        if self.find_opposites(at, opposites).is_some() {
+            let apart = opposites.iter().filter(|&&other| self.face[at] != self.face[other as usize]);
+            apart.for_each(|&other| push(excluded, other));
         } else {
-            self.compare_with_all(at);
-            let apart = (0..).zip(&self.joins).filter(|(_, joins)| !**joins);
+            self.compare_with_all(at, joins);
+            let apart = (0..).zip(&*joins).filter(|(_, joins)| !**joins);
             apart.for_each(|(other, _)| push(excluded, other));
         }
     }
 
-    /// Writes the members that member `at` does not join to `candidates`, ascending. `None` where comparing with all is needed or faster.
-    fn find_candidates(&mut self, at: usize) -> Option<()> {
+    /// Writes the members whose tangent or bitangent is opposite to that of member `at` to `opposites`, ascending. `None` where comparing with all
+    /// is needed or faster.
+    fn find_opposites(&self, at: usize, opposites: &mut Vec<u32>) -> Option<()> {
         let [of_s, of_t] = self.antipodes.as_ref()?;
-        let mut apart = std::mem::take(&mut self.candidates);
-        apart.clear();
-        let mut test = |other: u32| {
-            if !self.joins(at, other as usize) {
-                apart.push(other);
-            }
-        };
         // For more candidates than this, comparing with all is faster.
         let limit = self.members.len() / 8;
-        let found = of_s.for_each_opposite(direction(&self.s, at), limit, &mut test);
-        let found = found.and_then(|()| of_t.for_each_opposite(direction(&self.t, at), limit, &mut test));
-        sort(&mut apart);
-        apart.dedup();
-        self.candidates = apart;
-        found
+        let width = self.limits.width;
+        opposites.clear();
+        of_s.find_opposites(direction(&self.s, at), limit, width, opposites)?;
+        of_t.find_opposites(direction(&self.t, at), limit, width, opposites)?;
+        sort(opposites);
+        opposites.dedup();
+        Some(())
     }
 
     /// Writes to `joins` which members join member `at`, which is not UV-degenerate.
-    fn compare_with_all(&mut self, at: usize) {
+    fn compare_with_all(&self, at: usize, joins: &mut Vec<bool>) {
         let count = self.members.len();
         let ([sx, sy, sz], [tx, ty, tz]) =
             (self.s.each_ref().map(|x| &x[..count]), self.t.each_ref().map(|x| &x[..count]));
         let (s, t) = ([sx[at], sy[at], sz[at]], [tx[at], ty[at], tz[at]]);
-        self.joins.clear();
+        joins.clear();
         // Arithmetic on arrays without branches, which vectorises.
-        self.joins.extend((0..count).map(|other| {
+        joins.extend((0..count).map(|other| {
             (dot(s, [sx[other], sy[other], sz[other]]) > self.threshold_cosine)
                 & (dot(t, [tx[other], ty[other], tz[other]]) > self.threshold_cosine)
         }));
-        for (joins, (&any, &face)) in self.joins.iter_mut().zip(self.joins_any.iter().zip(&self.face)) {
+        for (joins, (&any, &face)) in joins.iter_mut().zip(self.joins_any.iter().zip(&self.face)) {
             *joins |= any | (face == self.face[at]);
         }
     }
@@ -286,6 +368,13 @@ impl SubgroupFinder {
             let direction = direction(axes, at);
             self.joins_any[at] || (is_unit(direction) && dot(direction, sum) > bound)
         })
+    }
+}
+
+impl Search {
+    fn lists(&self) -> impl Iterator<Item = &[u32]> {
+        let starts = [0].into_iter().chain(self.ends.iter().copied());
+        starts.zip(&self.ends).map(|(start, &end)| &self.words[start..end])
     }
 }
 

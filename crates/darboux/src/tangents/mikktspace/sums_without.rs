@@ -1,20 +1,27 @@
 //! Sums of a list of terms without some of them, for many subgroups at once: bit for bit what adding the others one by one gives.
 //!
-//! The list is passed once, in chunks. Subgroups that exclude terms of a chunk add its other terms one by one. All other subgroups add
-//! the same terms; per lane, their sums are kept in sorted runs, which advance together ([`crate::tangents::mikktspace::sorted_sums`]).
-//! Subgroups whose first excluded term comes later have the sum of all terms so far.
+//! The list is passed once per lane, in chunks. Subgroups that exclude terms of a chunk add its other terms one by one, many subgroups per
+//! instruction. All other subgroups add the same terms; their sums are kept in sorted runs, which advance together
+//! ([`crate::tangents::mikktspace::sorted_sums`]). Subgroups whose first excluded term comes later have the sum of all terms so far. Which
+//! subgroups are active in which chunk is the same for all lanes ([`crate::tangents::mikktspace::schedule`]).
 //!
 //! ```text
-//! for each chunk of terms:
-//!     active = subgroups that exclude a term of the chunk
-//!     remove the sums of active subgroups from the runs
-//!     advance all runs by the chunk
-//!     for each active subgroup: add the terms that it does not exclude
-//!     insert the sums of active subgroups that add all of the next chunk into the runs
+//! for each batch of chunks:
+//!     schedule the active subgroups of each chunk: those that exclude a term
+//!     for each lane, on several threads:
+//!         for each chunk:
+//!             remove the sums of active subgroups from the runs
+//!             advance all runs by the chunk
+//!             for each active subgroup: add the terms that it does not exclude
+//!             insert the sums of active subgroups that add all of the next chunk into the runs
 //! ```
 
-use std::ops::Range;
-
+use crate::exec::limits::RunLimits;
+use crate::exec::simd::{Task, Width};
+use crate::exec::threads;
+use crate::tangents::mikktspace::schedule::{
+    Activation, BLOCK, Batch, CHUNK, ScheduledChunk, Scheduler, SumPlace,
+};
 use crate::tangents::mikktspace::sorted_sums::SortedSums;
 use crate::util::hash_map::KeyTable;
 
@@ -25,14 +32,9 @@ pub(crate) const LANES: usize = 12;
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TermLanes(pub [f32; LANES]);
 
-/// The number of terms per chunk.
-const CHUNK: usize = if cfg!(small_limits) { 3 } else { 128 };
-
 /// Sorted sums must not overflow. Rounding to nearest moves a sum by at most as much as the term, because the sum before the addition is a
 /// float at that distance. So every sum is below twice the total, however many terms there are.
 const MAX_TOTAL: f64 = 1e20;
-
-const NONE: u32 = u32::MAX;
 
 /// A list of terms.
 #[derive(Debug, Default)]
@@ -60,16 +62,36 @@ impl TermList {
 
     /// The sum of all terms but those of each key of `excluded`, which has the starts and ends of ascending, disjoint ranges.
     ///
-    /// Sums are unspecified once `is_stopped` returned true.
-    pub fn sums_without(&self, excluded: &KeyTable, is_stopped: impl Fn() -> bool) -> Vec<TermLanes> {
+    /// Sums are unspecified after cancellation.
+    pub fn sums_without(&self, excluded: &KeyTable, limits: RunLimits<'_>) -> Vec<TermLanes> {
         if self.terms.len() <= 2 * CHUNK || !self.is_bounded() {
-            return self.sums_one_by_one(excluded, is_stopped);
+            return self.sums_one_by_one(excluded, limits);
         }
-        let mut sweep = Sweep::new(&self.terms, excluded);
-        (0..sweep.first_of_chunk.len())
-            .take_while(|_| !is_stopped())
-            .for_each(|chunk| sweep.add_chunk(chunk));
-        sweep.finish()
+        let mut scheduler = Scheduler::new(self.terms.len(), excluded);
+        let mut batch = Batch::default();
+        let mut sweeps = self.sweeps(excluded.len());
+        let threads = limits.thread_count(self.terms.len());
+        while !limits.is_cancelled() && scheduler.next_batch(&mut batch) {
+            threads::for_each(threads, &mut sweeps, |sweep| {
+                batch.chunks().for_each(|chunk| sweep.add_chunk(&chunk, limits.width));
+            });
+        }
+        let mut sums = vec![TermLanes::default(); excluded.len()];
+        sweeps.iter_mut().for_each(|sweep| sweep.finish(scheduler.places(), &mut sums));
+        sums
+    }
+
+    /// One sweep for each lane that is not zero throughout.
+    fn sweeps(&self, subgroup_count: usize) -> Vec<Sweep> {
+        let is_used = |lane: &usize| self.terms.iter().any(|term| term.0[*lane] != 0.0);
+        let sweep = |lane| Sweep {
+            lane,
+            terms: self.terms.iter().map(|term| term.0[lane]).collect(),
+            of_all: 0.0,
+            own: vec![0.0; subgroup_count],
+            sorted: SortedSums::new(subgroup_count),
+        };
+        (0..LANES).filter(is_used).map(sweep).collect()
     }
 
     /// True when no sum of terms can overflow or be NaN.
@@ -78,10 +100,10 @@ impl TermList {
         (0..LANES).all(|lane| total(lane) < MAX_TOTAL)
     }
 
-    fn sums_one_by_one(&self, excluded: &KeyTable, is_stopped: impl Fn() -> bool) -> Vec<TermLanes> {
+    fn sums_one_by_one(&self, excluded: &KeyTable, limits: RunLimits<'_>) -> Vec<TermLanes> {
         let mut sums = vec![TermLanes::default(); excluded.len()];
-        for (number, sum) in sums.iter_mut().enumerate().take_while(|_| !is_stopped()) {
-            sum.add_without(&self.terms, 0, excluded.key(number));
+        for (number, sum) in sums.iter_mut().enumerate().take_while(|_| !limits.is_cancelled()) {
+            sum.add_without(&self.terms, excluded.key(number));
         }
         sums
     }
@@ -95,159 +117,90 @@ impl TermLanes {
         }
     }
 
-    /// Adds the terms that are not in `excluded`. `first`: the index of the first term.
-    fn add_without(&mut self, terms: &[TermLanes], first: usize, excluded: &[u32]) {
-        let relative = |at: u32| (at as usize).saturating_sub(first).min(terms.len());
+    /// Adds the terms that are not in `excluded`.
+    fn add_without(&mut self, terms: &[TermLanes], excluded: &[u32]) {
         let mut at = 0;
-        for gap in excluded.chunks_exact(2) {
-            let [start, end] = [relative(gap[0]), relative(gap[1])];
-            if at < start {
-                terms[at..start].iter().for_each(|term| self.add(term));
-            }
-            at = end;
-            if at == terms.len() {
-                return;
-            }
+        for &[start, end] in excluded.as_chunks().0 {
+            terms[at..start as usize].iter().for_each(|term| self.add(term));
+            at = end as usize;
         }
         terms[at..].iter().for_each(|term| self.add(term));
     }
 }
 
-/// The state of one pass over the list. A subgroup has the number of its key.
-struct Sweep<'a> {
-    terms: &'a [TermLanes],
-    excluded: &'a KeyTable,
+/// The sums of one lane, while the list is passed. A subgroup has the number of its key.
+struct Sweep {
+    lane: usize,
+    terms: Vec<f32>,
     /// The sum of all terms so far.
-    of_all: TermLanes,
-    sums: Vec<TermLanes>,
-    /// Where each subgroup's current sum is.
-    place: Vec<SumPlace>,
-    /// The index of each subgroup's next excluded range in its key.
-    next_range: Vec<u32>,
-    /// The subgroups that are active in each chunk, as linked lists: the first one, and the next one in the same chunk.
-    first_of_chunk: Vec<u32>,
-    next_of_chunk: Vec<u32>,
-    /// The sums of every lane that is not zero throughout.
-    lanes: Vec<(usize, SortedSums)>,
+    of_all: f32,
+    /// The sums of the subgroups whose place is [`SumPlace::Own`].
+    own: Vec<f32>,
+    sorted: SortedSums,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum SumPlace {
-    /// In [`Sweep::of_all`]: no term has been excluded yet.
-    OfAll,
-    /// In [`Sweep::sums`].
-    Sums,
-    /// In [`Sweep::lanes`].
-    Lanes,
-}
-
-impl<'a> Sweep<'a> {
-    fn new(terms: &'a [TermLanes], excluded: &'a KeyTable) -> Self {
-        let count = excluded.len();
-        let is_used = |lane: &usize| terms.iter().any(|term| term.0[*lane] != 0.0);
-        let lanes = (0..LANES).filter(is_used).map(|lane| (lane, SortedSums::new(count))).collect();
-        let mut sweep = Self {
-            terms,
-            excluded,
-            of_all: TermLanes::default(),
-            sums: vec![TermLanes::default(); count],
-            place: vec![SumPlace::OfAll; count],
-            next_range: vec![0; count],
-            first_of_chunk: vec![NONE; terms.len().div_ceil(CHUNK)],
-            next_of_chunk: vec![NONE; count],
-            lanes,
-        };
-        for subgroup in 0..count as u32 {
-            if let Some(&[start, _]) = sweep.ranges(subgroup).first() {
-                sweep.activate_in(start as usize / CHUNK, subgroup);
-            }
-        }
-        sweep
-    }
-
-    /// The excluded ranges of a subgroup from the next one on.
-    fn ranges(&self, subgroup: u32) -> &'a [[u32; 2]] {
-        let (ranges, _) = self.excluded.key(subgroup as usize).as_chunks();
-        &ranges[self.next_range[subgroup as usize] as usize..]
-    }
-
-    fn activate_in(&mut self, chunk: usize, subgroup: u32) {
-        self.next_of_chunk[subgroup as usize] = std::mem::replace(&mut self.first_of_chunk[chunk], subgroup);
-    }
-
+impl Sweep {
     /// Adds the terms of a chunk to all sums.
-    fn add_chunk(&mut self, chunk: usize) {
-        let range = chunk * CHUNK..self.terms.len().min((chunk + 1) * CHUNK);
-        let active = self.active(chunk);
-        self.move_to_sums(&active);
-        let terms = &self.terms[range.clone()];
-        for (lane, sums) in &mut self.lanes {
-            sums.advance(&terms.iter().map(|term| term.0[*lane]).collect::<Vec<_>>());
-        }
-        let leaving: Vec<u32> = active
-            .into_iter()
-            .filter(|&subgroup| self.add_chunk_to_active(subgroup, range.clone()))
-            .collect();
-        terms.iter().for_each(|term| self.of_all.add(term));
-        self.move_to_lanes(&leaving);
-    }
-
-    fn active(&self, chunk: usize) -> Vec<u32> {
-        let listed = |subgroup: u32| (subgroup != NONE).then_some(subgroup);
-        let next = |&subgroup: &u32| listed(self.next_of_chunk[subgroup as usize]);
-        std::iter::successors(listed(self.first_of_chunk[chunk]), next).collect()
-    }
-
-    /// Moves the sums of subgroups to `sums`.
-    fn move_to_sums(&mut self, subgroups: &[u32]) {
-        for &subgroup in subgroups {
-            if self.place[subgroup as usize] == SumPlace::OfAll {
-                self.sums[subgroup as usize] = self.of_all;
+    fn add_chunk(&mut self, chunk: &ScheduledChunk<'_>, width: Width) {
+        let terms = &self.terms[chunk.first_term..];
+        let terms = &terms[..terms.len().min(CHUNK)];
+        for activation in chunk.activations {
+            let own = &mut self.own[activation.subgroup as usize];
+            match activation.from {
+                SumPlace::OfAll => *own = self.of_all,
+                SumPlace::Own => {}
+                SumPlace::Sorted => *own = self.sorted.remove(activation.subgroup).unwrap_or(*own),
             }
         }
-        let in_lanes = |subgroup: &&u32| self.place[**subgroup as usize] == SumPlace::Lanes;
-        for (lane, sums) in &mut self.lanes {
-            for &subgroup in subgroups.iter().filter(in_lanes) {
-                if let Some(sum) = sums.remove(subgroup) {
-                    self.sums[subgroup as usize].0[*lane] = sum;
+        self.sorted.advance(terms, width);
+        for (activations, excluded) in chunk.activations.chunks(BLOCK).zip(chunk.masks) {
+            let mut sums = [0.0; BLOCK];
+            for (sum, activation) in sums.iter_mut().zip(activations) {
+                *sum = self.own[activation.subgroup as usize];
+            }
+            width.run(AddIncluded { sums: &mut sums, terms, excluded });
+            for (sum, activation) in sums.iter().zip(activations) {
+                self.own[activation.subgroup as usize] = *sum;
+            }
+        }
+        self.of_all = terms.iter().fold(self.of_all, |sum, term| sum + term);
+        let leaving = chunk.activations.iter().filter(|activation| activation.leaves);
+        self.sorted
+            .insert(leaving.map(|&Activation { subgroup, .. }| (self.own[subgroup as usize], subgroup)));
+    }
+
+    /// Writes the sums of all subgroups. `places`: where they are.
+    fn finish(&mut self, places: &[SumPlace], sums: &mut [TermLanes]) {
+        for ((sum, own), place) in sums.iter_mut().zip(&self.own).zip(places) {
+            sum.0[self.lane] = if *place == SumPlace::OfAll { self.of_all } else { *own };
+        }
+        self.sorted.for_each(|owner, sum| sums[owner as usize].0[self.lane] = sum);
+    }
+}
+
+/// Adds terms to the sums of a block of subgroups, without those that each excludes.
+struct AddIncluded<'a> {
+    sums: &'a mut [f32; BLOCK],
+    terms: &'a [f32],
+    /// Bit i of a term's mask is set where sum i excludes it.
+    excluded: &'a [u32; CHUNK],
+}
+
+impl Task for AddIncluded<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let mut sums = *self.sums;
+        for (&term, &excluded) in self.terms.iter().zip(self.excluded) {
+            if excluded == 0 {
+                sums.iter_mut().for_each(|sum| *sum += term);
+            } else {
+                for (bit, sum) in sums.iter_mut().enumerate() {
+                    // Adding zero changes no sum, because no sum is -0.
+                    *sum += if excluded >> bit & 1 == 0 { term } else { 0.0 };
                 }
             }
         }
-        subgroups.iter().for_each(|&subgroup| self.place[subgroup as usize] = SumPlace::Sums);
-    }
-
-    /// Moves the sums of subgroups from `sums` to the lanes.
-    fn move_to_lanes(&mut self, subgroups: &[u32]) {
-        for (lane, sums) in &mut self.lanes {
-            sums.insert(subgroups.iter().map(|&subgroup| (self.sums[subgroup as usize].0[*lane], subgroup)));
-        }
-        subgroups.iter().for_each(|&subgroup| self.place[subgroup as usize] = SumPlace::Lanes);
-    }
-
-    /// Adds the terms of a chunk to the sum of an active subgroup. True when the subgroup adds all terms of the next chunk.
-    fn add_chunk_to_active(&mut self, subgroup: u32, range: Range<usize>) -> bool {
-        let ranges = self.ranges(subgroup);
-        self.sums[subgroup as usize].add_without(
-            &self.terms[range.clone()],
-            range.start,
-            ranges.as_flattened(),
-        );
-        let passed = ranges.iter().take_while(|gap| gap[1] as usize <= range.end).count();
-        self.next_range[subgroup as usize] += passed as u32;
-        let Some(&[start, end]) = ranges.get(passed) else { return range.end < self.terms.len() };
-        // The sum stays as it is up to the end of a range that reaches into the next chunk.
-        let is_inside = (start as usize) <= range.end;
-        let next = if is_inside { end } else { start } as usize / CHUNK;
-        if next < self.first_of_chunk.len() {
-            self.activate_in(next, subgroup);
-        }
-        !is_inside && start as usize >= range.end + CHUNK
-    }
-
-    fn finish(mut self) -> Vec<TermLanes> {
-        let all: Vec<u32> = (0..self.sums.len() as u32).collect();
-        self.move_to_sums(&all);
-        self.sums
+        *self.sums = sums;
     }
 }
 
@@ -289,7 +242,7 @@ mod tests {
     fn assert_sums(terms: &[Option<TermLanes>], excluded: &KeyTable) {
         let mut list = TermList::default();
         list.load(terms.iter().copied());
-        let found = list.sums_without(excluded, || false);
+        let found = list.sums_without(excluded, RunLimits::default());
         assert_eq!(found.len(), excluded.len());
         for (number, found) in found.iter().enumerate() {
             let (gaps, _) = excluded.key(number).as_chunks::<2>();
