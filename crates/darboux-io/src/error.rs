@@ -141,6 +141,11 @@ impl ContentError {
         Self { kind, at: shortened(at), problem: printable(problem) }
     }
 
+    /// What is wrong, as a clause whose subject is the place.
+    pub fn into_clause(self) -> String {
+        self.problem
+    }
+
     /// The error about `file`.
     pub fn in_file(self, file: &str) -> Error {
         let Self { kind, at, problem } = self;

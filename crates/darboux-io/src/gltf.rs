@@ -2,10 +2,10 @@
 //!
 //! ```text
 //! load, parse, container, buffers, resources, references   reading: the file, the JSON, the buffers, checks
-//! document, edits, edit_document, schema               a document, its edits, and the parts of its JSON
+//! document, edits, edit_document, edit_image, schema   a document, its edits, and the parts of its JSON
 //! accessors, stored_elements, elements                 accessors as arrays, and arrays as accessors
 //! tangents/, normals/, convert/, compression/          operations on documents; primitives/ is what they share
-//! inspect, compare, scene, materials                   descriptions of documents
+//! inspect, compare, scene, materials, image_uses       descriptions of documents
 //! json_text, output_layout, unused_data, save          writing: edited text, offsets, removal of unused data, files
 //! ```
 
@@ -17,10 +17,12 @@ pub(crate) mod container;
 mod convert;
 mod document;
 mod edit_document;
+mod edit_image;
 mod edits;
 mod element_type;
 mod elements;
 mod file_bytes;
+mod image_uses;
 mod inspect;
 mod json_text;
 mod load;
@@ -50,7 +52,7 @@ pub use inspect::{PrimitiveInfo, inspect};
 pub use materials::{Alpha, Appearance, TextureUse, Wrap};
 pub use normals::{
     AddNormalsOptions, NormalsOutcome, NormalsSummary, PrimitiveNormals, WrittenNormals, add_normals,
-    add_normals_with,
+    add_normals_to, add_normals_with,
 };
 pub use primitives::corners::PrimitiveCorners;
 pub use primitives::name::PrimitiveName;
@@ -59,5 +61,6 @@ pub use scene::{PlacedMesh, PlacedMeshes};
 pub use stored_elements::IndexList;
 pub use tangents::{
     AddTangentsOptions, Generate, PrimitiveTangents, ReportCounts, TangentEncoding, TangentsOutcome,
-    TangentsSummary, TangentsTotals, WrittenTangents, add_tangents, add_tangents_with, generate_on_cpu,
+    TangentsSummary, TangentsTotals, WrittenTangents, add_tangents, add_tangents_to, add_tangents_with,
+    generate_on_cpu,
 };

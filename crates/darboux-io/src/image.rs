@@ -9,8 +9,8 @@ mod rgba;
 mod srgb;
 
 pub use channels::{Channels, ChannelsError};
-pub use normal_map::{convert_normal_map, count_invalid_normals};
+pub use normal_map::{change_texels, convert_normal_map, count_invalid_normals};
 pub use png_image::PngImage;
 #[cfg(feature = "textures")]
 pub use rgba::{DecodeError, DecodeLimits, RgbaImage};
-pub use srgb::srgb_to_linear;
+pub use srgb::{linear_to_srgb, srgb_to_linear};

@@ -57,7 +57,7 @@ pub fn pair_tangents(a: &mut Document, b: &mut Document) -> Result<Vec<Pair>, Er
         return Err(b.invalid("meshes", problem));
     }
     let options = AddTangentsOptions::default().with_overwrite(true);
-    select(a, &options)?.candidates.iter().map(|candidate| pair(a, b, candidate)).collect()
+    select(a, &options, &|_| true)?.candidates.iter().map(|candidate| pair(a, b, candidate)).collect()
 }
 
 /// The number of triangles of every primitive with tangents, by the counts of its accessors.

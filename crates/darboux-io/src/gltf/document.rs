@@ -64,6 +64,11 @@ impl Document {
         self.options.budget(size, 0).bytes as u64
     }
 
+    /// The options that the document was read with.
+    pub fn load_options(&self) -> &LoadOptions {
+        &self.options
+    }
+
     /// The name of the document in messages.
     pub fn name(&self) -> &str {
         &self.name

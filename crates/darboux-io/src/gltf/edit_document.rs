@@ -11,6 +11,7 @@ use super::edits::NewView;
 use super::element_type::ComponentType;
 use super::elements::{Elements, NewAccessor, Target};
 use super::json_text;
+use super::primitives::append::index_elements;
 use super::schema;
 use crate::Error;
 
@@ -28,6 +29,25 @@ impl Document {
         }
         self.root.accessors.push(stored);
         self.root.accessors.len() - 1
+    }
+
+    /// Replaces the triangles of a primitive by others over the same vertices; strips and fans become lists.
+    ///
+    /// `corners`: the vertices of the triangles, three per triangle. Indices after the last complete triangle are dropped. Errors: no such
+    /// primitive.
+    pub fn set_triangles(&mut self, mesh: usize, primitive: usize, corners: Vec<u32>) -> Result<(), Error> {
+        let stored = self.root.meshes.get(mesh).and_then(|mesh| mesh.primitives.get(primitive));
+        let old = stored.and_then(|primitive| primitive.indices);
+        let kind = old.and_then(|old| self.root.accessors.get(old)).map(|old| old.component_type);
+        let elements = index_elements(kind, corners);
+        let new = NewAccessor::new(elements, Target::Indices).with_metadata_of(old);
+        let indices = self.push_in_place_of(old, new);
+        self.edit_primitive(mesh, primitive, |json| {
+            json.insert("indices".to_owned(), indices.into());
+            if json.get("mode").is_some_and(|mode| mode != 4) {
+                json.insert("mode".to_owned(), 4.into());
+            }
+        })
     }
 
     /// As [`Document::push_accessor`], unless the accessor `old`, which `new` would replace, has the same elements: then `old` is

@@ -1,6 +1,7 @@
 //! The edits of a document that have not been written yet.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
 
 use super::elements::Target;
 
@@ -15,6 +16,10 @@ pub struct Edits {
     pub required_extensions: Vec<&'static str>,
     pub new_accessors: Vec<String>,
     pub asset: Option<String>,
+    /// Edited images.
+    pub images: BTreeMap<usize, String>,
+    /// The new content of images that are files.
+    pub image_files: BTreeMap<usize, ImageFile>,
     /// Edited elements of `nodes`, `skins` and `animations`.
     pub scene: BTreeMap<&'static str, BTreeMap<usize, String>>,
     /// Accessors that primitives referred to before they were edited.
@@ -34,6 +39,15 @@ pub struct NewView {
     pub target: Option<Target>,
 }
 
+/// The new content of an image that is a file.
+#[derive(Debug)]
+pub struct ImageFile {
+    /// The path relative to the document's folder.
+    pub relative: PathBuf,
+    pub bytes: Vec<u8>,
+    pub media_type: String,
+}
+
 impl Edits {
     /// Whether there are no edits.
     pub fn is_empty(&self) -> bool {
@@ -45,6 +59,8 @@ impl Edits {
             removed_extensions,
             new_accessors,
             asset,
+            images,
+            image_files,
             scene,
             ..
         } = self;
@@ -55,6 +71,8 @@ impl Edits {
             && removed_extensions.is_empty()
             && new_accessors.is_empty()
             && asset.is_none()
+            && images.is_empty()
+            && image_files.is_empty()
             && scene.is_empty()
     }
 }

@@ -50,7 +50,7 @@ pub struct PrimitiveInfo {
 /// A compressed document is decompressed. Errors: invalid data of a primitive that can have tangents.
 pub fn inspect(document: &mut Document) -> Result<Vec<PrimitiveInfo>, Error> {
     let options = AddTangentsOptions::default().with_overwrite(true);
-    let selection = select_readable(document, &options)?;
+    let selection = select_readable(document, &options, &|_| true)?;
     let groups = groups::group(&CanonicalAccessors::new(document), selection.chosen());
     limits::check_triangles(document, groups::triangle_counts(&groups))?;
     let mut context = Context::new();

@@ -132,7 +132,7 @@ struct StoredTextureUse {
 
 #[derive(Deserialize)]
 #[serde(remote = "Self")]
-struct Texture {
+pub(super) struct Texture {
     sampler: Option<usize>,
     source: Option<usize>,
     #[serde(default)]
@@ -159,10 +159,19 @@ struct ImageSource {
 
 impl Texture {
     /// The image in the most common of its formats.
-    fn image(&self) -> Option<usize> {
+    pub(super) fn image(&self) -> Option<usize> {
+        self.source.or_else(|| self.others().next())
+    }
+
+    /// The number of formats.
+    pub(super) fn formats(&self) -> usize {
+        usize::from(self.source.is_some()) + self.others().count()
+    }
+
+    /// The images of extensions.
+    fn others(&self) -> impl Iterator<Item = usize> {
         let TextureExtensions { webp, avif, ktx2 } = &self.extensions;
-        let others = [webp, avif, ktx2].into_iter().flatten();
-        self.source.or_else(|| others.filter_map(|other| other.source).next())
+        [webp, avif, ktx2].into_iter().flatten().filter_map(|other| other.source)
     }
 }
 
@@ -254,6 +263,9 @@ impl Document {
     }
 
     fn find_image(&self, index: usize) -> Result<Cow<'_, [u8]>, ContentError> {
+        if let Some(file) = self.edits.image_files.get(&index) {
+            return Ok(file.bytes.as_slice().into());
+        }
         let at = format!("images[{index}]");
         let (uri, at) = match self.root.images.get(index) {
             Some(&Image { buffer_view: Some(view), .. }) => {

@@ -20,6 +20,7 @@ use std::collections::BTreeMap;
 use darboux::Context;
 
 use super::Document;
+use super::PrimitiveName;
 use super::Progress;
 use super::primitives::canonical::CanonicalAccessors;
 use super::primitives::limits;
@@ -47,7 +48,19 @@ pub fn add_normals_with(
     context: &mut Context,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<NormalsSummary, Error> {
-    let selection = select_readable(document, options)?;
+    add_normals_to(document, options, &|_| true, context, progress)
+}
+
+/// As [`add_normals_with`], for the primitives that `is_wanted` accepts. The others keep what they have, and do not count as parts of their
+/// meshes.
+pub fn add_normals_to(
+    document: &mut Document,
+    options: &AddNormalsOptions,
+    is_wanted: &dyn Fn(&PrimitiveName) -> bool,
+    context: &mut Context,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<NormalsSummary, Error> {
+    let selection = select_readable(document, options, is_wanted)?;
     let accessors = CanonicalAccessors::new(document);
     limits::check_triangles(document, selection.chosen().map(|(_, chosen)| chosen.triangle_count()))?;
     let parts = compute::shade(document, &accessors, &selection, (&options.normals, context), progress)?;
@@ -69,11 +82,15 @@ pub fn add_normals_with(
 }
 
 /// Selects the primitives. A compressed document is decompressed if any is selected.
-fn select_readable(document: &mut Document, options: &AddNormalsOptions) -> Result<NormalSelection, Error> {
-    let selection = select(document, options)?;
+fn select_readable(
+    document: &mut Document,
+    options: &AddNormalsOptions,
+    is_wanted: &dyn Fn(&PrimitiveName) -> bool,
+) -> Result<NormalSelection, Error> {
+    let selection = select(document, options, is_wanted)?;
     if selection.chosen().next().is_none() || !document.is_compressed() {
         return Ok(selection);
     }
     document.decompress()?;
-    select(document, options)
+    select(document, options, is_wanted)
 }

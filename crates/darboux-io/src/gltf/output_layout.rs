@@ -10,7 +10,7 @@ use serde_json::value::RawValue;
 
 use super::buffers::BufferSource;
 use super::document::Document;
-use super::edits::NewView;
+use super::edits::{ImageFile, NewView};
 use super::elements::Target;
 use super::json_text::{edit_array, keys, member, quoted, set_member};
 use super::resources::{UriTarget, encode_data_uri, image_type};
@@ -85,6 +85,17 @@ struct EmbeddedImage {
     index: usize,
     view: usize,
     media_type: String,
+}
+
+/// The URIs of the files that are written beside a `.gltf`; none for a GLB.
+#[derive(Debug, Default)]
+pub struct FileUris {
+    /// Those of the binary outputs.
+    pub binaries: Vec<String>,
+    /// Those of files that were copied under another name, by their paths.
+    pub renamed: HashMap<PathBuf, String>,
+    /// Those of images with new content, by their indices.
+    pub images: BTreeMap<usize, String>,
 }
 
 /// The layout of an output.
@@ -218,6 +229,11 @@ impl<'a> OutputLayout<'a> {
         let document = self.document;
         let mut embedded: HashMap<PathBuf, Option<(usize, &str)>> = HashMap::new();
         for (index, image) in document.root.images.iter().enumerate() {
+            if let Some(ImageFile { bytes, media_type, .. }) = document.edits.image_files.get(&index) {
+                let view = self.push_image(binary, Segment::Borrowed(bytes));
+                self.images.push(EmbeddedImage { index, view, media_type: media_type.clone() });
+                continue;
+            }
             let reference = image.uri.as_deref().map(|uri| document.resources.resolve(uri));
             let Some(Ok(UriTarget::File(located))) = reference else { continue };
             let stored = match embedded.get(&located.path) {
@@ -229,14 +245,8 @@ impl<'a> OutputLayout<'a> {
                             format!("cannot be read: {error}"),
                         )
                     })?;
-                    let stored = image_type(&bytes).map(|kind| {
-                        let length = bytes.len();
-                        let offset = binary.push(Segment::File(bytes));
-                        self.new_views.push(format!(
-                            "{{\"buffer\":0,\"byteOffset\":{offset},\"byteLength\":{length}}}"
-                        ));
-                        (document.root.buffer_views.len() + self.new_views.len() - 1, kind)
-                    });
+                    let kind = image_type(&bytes);
+                    let stored = kind.map(|kind| (self.push_image(binary, Segment::File(bytes)), kind));
                     embedded.insert(located.path, stored);
                     stored
                 }
@@ -249,13 +259,16 @@ impl<'a> OutputLayout<'a> {
         Ok(())
     }
 
-    /// The JSON of the output. `binary_uris` are the URIs of the binary outputs, none in a GLB. `renamed` maps the paths of files that
-    /// were copied under another name to their new URIs.
-    pub fn json(
-        &self,
-        binary_uris: &[String],
-        renamed: &HashMap<PathBuf, String>,
-    ) -> Result<String, ContentError> {
+    /// Appends an image. Returns the index of its buffer view.
+    fn push_image(&mut self, binary: &mut BinaryOutput<'a>, bytes: Segment<'a>) -> usize {
+        let length = bytes.len();
+        let offset = binary.push(bytes);
+        self.new_views.push(format!("{{\"buffer\":0,\"byteOffset\":{offset},\"byteLength\":{length}}}"));
+        self.document.root.buffer_views.len() + self.new_views.len() - 1
+    }
+
+    /// The JSON of the output.
+    pub fn json(&self, uris: &FileUris) -> Result<String, ContentError> {
         let edits = &self.document.edits;
         let mut root = self.document.text().to_owned();
         let mut set =
@@ -275,8 +288,8 @@ impl<'a> OutputLayout<'a> {
             }
             set("accessors", &|accessors| edit_array(accessors, &edits.accessors, &edits.new_accessors))?;
             set("bufferViews", &|views| self.views(views))?;
-            set("buffers", &|buffers| self.buffers(buffers, binary_uris, renamed))?;
-            set("images", &|images| self.images(images, renamed))?;
+            set("buffers", &|buffers| self.buffers(buffers, uris))?;
+            set("images", &|images| self.images(images, uris))?;
             for key in ["extensionsUsed", "extensionsRequired"] {
                 set(key, &|names| self.extensions(names))?;
             }
@@ -344,17 +357,12 @@ impl<'a> OutputLayout<'a> {
         Ok(moved)
     }
 
-    fn buffers(
-        &self,
-        buffers: &str,
-        binary_uris: &[String],
-        renamed: &HashMap<PathBuf, String>,
-    ) -> serde_json::Result<String> {
+    fn buffers(&self, buffers: &str, uris: &FileUris) -> serde_json::Result<String> {
         let old: Vec<&RawValue> = serde_json::from_str(buffers)?;
         let texts = self.document.buffer_texts()?;
         let mut written = Vec::with_capacity(self.output_buffers.len());
         for output_buffer in &self.output_buffers {
-            written.push(self.buffer(output_buffer, &texts, binary_uris, renamed)?);
+            written.push(self.buffer(output_buffer, &texts, uris)?);
         }
         let in_place = self
             .output_buffers
@@ -374,11 +382,10 @@ impl<'a> OutputLayout<'a> {
         &self,
         output_buffer: &OutputBuffer,
         texts: &[String],
-        binary_uris: &[String],
-        renamed: &HashMap<PathBuf, String>,
+        uris: &FileUris,
     ) -> serde_json::Result<String> {
         let new_file = format!("{{\"name\":{}}}", Buffer::NAME_FOR_NEW_DATA);
-        let new = if binary_uris.is_empty() { "{}" } else { &new_file };
+        let new = if uris.binaries.is_empty() { "{}" } else { &new_file };
         let text = output_buffer.source.map_or(new, |source| texts[source].as_str());
         match (&output_buffer.content, output_buffer.source) {
             (BufferContent::Binary(binary), _) => {
@@ -390,14 +397,14 @@ impl<'a> OutputLayout<'a> {
                 } else {
                     set_member(text, "byteLength", Some(&length.to_string()))?
                 };
-                set_member(&text, "uri", binary_uris.get(*binary).map(|uri| quoted(uri)).as_deref())
+                set_member(&text, "uri", uris.binaries.get(*binary).map(|uri| quoted(uri)).as_deref())
             }
             (BufferContent::DataUri, Some(source)) => {
                 let bytes = self.document.buffer(source, "").unwrap_or_default();
-                set_member(text, "uri", Some(&quoted(&encode_data_uri(bytes))))
+                set_member(text, "uri", Some(&quoted(&encode_data_uri("application/octet-stream", bytes))))
             }
             (_, source) => match source.map(|source| &self.document.buffer_sources[source]) {
-                Some(BufferSource::File(file)) => match renamed.get(&file.located.path) {
+                Some(BufferSource::File(file)) => match uris.renamed.get(&file.located.path) {
                     Some(uri) => set_member(text, "uri", Some(&quoted(uri))),
                     None => Ok(text.to_owned()),
                 },
@@ -406,22 +413,30 @@ impl<'a> OutputLayout<'a> {
         }
     }
 
-    fn images(&self, images: &str, renamed: &HashMap<PathBuf, String>) -> serde_json::Result<String> {
-        if self.images.is_empty() && renamed.is_empty() {
+    fn images(&self, images: &str, uris: &FileUris) -> serde_json::Result<String> {
+        let FileUris { renamed, images: new_files, .. } = uris;
+        let mut edited = self.document.edits.images.clone();
+        if self.images.is_empty() && renamed.is_empty() && edited.is_empty() {
             return Ok(images.to_owned());
         }
         let old: Vec<&RawValue> = serde_json::from_str(images)?;
-        let mut edited = BTreeMap::new();
+        let text = |edited: &BTreeMap<usize, String>, index: usize| {
+            edited.get(&index).cloned().unwrap_or_else(|| old[index].get().to_owned())
+        };
         for EmbeddedImage { index, view, media_type } in &self.images {
-            let text = set_member(old[*index].get(), "uri", None)?;
+            let text = set_member(&text(&edited, *index), "uri", None)?;
             let text = set_member(&text, "mimeType", Some(&quoted(media_type)))?;
             edited.insert(*index, set_member(&text, "bufferView", Some(&view.to_string()))?);
         }
-        for (i, image) in self.document.root.images.iter().enumerate().filter(|_| !renamed.is_empty()) {
+        for (&index, uri) in new_files {
+            edited.insert(index, set_member(&text(&edited, index), "uri", Some(&quoted(uri)))?);
+        }
+        for (index, image) in self.document.root.images.iter().enumerate().filter(|_| !renamed.is_empty()) {
             let reference = image.uri.as_deref().map(|uri| self.document.resources.resolve(uri));
             let Some(Ok(UriTarget::File(located))) = reference else { continue };
-            if let Some(uri) = renamed.get(&located.path) {
-                edited.insert(i, set_member(old[i].get(), "uri", Some(&quoted(uri)))?);
+            let uri = renamed.get(&located.path).filter(|_| !new_files.contains_key(&index));
+            if let Some(uri) = uri {
+                edited.insert(index, set_member(&text(&edited, index), "uri", Some(&quoted(uri)))?);
             }
         }
         edit_array(images, &edited, &[])

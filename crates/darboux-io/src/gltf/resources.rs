@@ -194,10 +194,10 @@ pub fn decode_data_uri(data: &str) -> Result<Vec<u8>, String> {
         .map_err(|error| format!("the data URI is not base64 ({error}); export the file again"))
 }
 
-/// The `data:` URI of a buffer.
-pub fn encode_data_uri(bytes: &[u8]) -> String {
+/// The `data:` URI of bytes of a media type.
+pub fn encode_data_uri(media_type: &str, bytes: &[u8]) -> String {
     let encoded = base64::engine::general_purpose::STANDARD.encode(bytes);
-    format!("data:application/octet-stream;base64,{encoded}")
+    format!("data:{media_type};base64,{encoded}")
 }
 
 /// The URI of a [`portable`] relative path.

@@ -9,7 +9,8 @@ use std::path::{Path, PathBuf};
 use super::buffers::BufferSource;
 use super::container::glb;
 use super::document::Document;
-use super::output_layout::OutputLayout;
+use super::edits::ImageFile;
+use super::output_layout::{FileUris, OutputLayout};
 use super::resources::{LocatedFile, UriTarget, encode_path, portable};
 use super::segments::{self, Segment};
 use crate::error::ContentError;
@@ -108,7 +109,7 @@ impl Document {
             self.container.other_chunks.iter().map(|(kind, range)| (*kind, &self.file[range.clone()]));
         let segments = || {
             let mut layout = OutputLayout::glb(self)?;
-            let json = layout.json(&[], &HashMap::new())?;
+            let json = layout.json(&FileUris::default())?;
             glb(json, layout.binaries.pop().map(|binary| binary.segments), chunks.collect())
         };
         segments().map_err(|error| error.in_file(self.name()))
@@ -125,7 +126,8 @@ impl Document {
         let in_file = |error: ContentError| error.in_file(self.name());
         let layout = OutputLayout::gltf(self).map_err(in_file)?;
         let kept = |buffer| !layout.unused_data.has_buffer(buffer) && self.replaced_file(buffer).is_none();
-        let renamed = self.copy_files(&self.files_of(kept), &mut names, staging)?;
+        let is_kept = |image| !self.edits.image_files.contains_key(&image);
+        let renamed = self.copy_files(&self.files_of(kept, is_kept), &mut names, staging)?;
         if !self.container.is_glb && !self.is_changed() && renamed.is_empty() {
             return Ok(self
                 .container
@@ -136,13 +138,14 @@ impl Document {
                 .collect());
         }
         let name = Path::new(target.file_stem().unwrap_or(OsStr::new("buffer"))).with_added_extension("bin");
-        let mut uris = Vec::new();
+        let mut uris = FileUris { renamed, ..FileUris::default() };
         for binary in &layout.binaries {
-            let write = |file: &mut File| segments::write(&binary.segments, file);
-            let relative = names.place(&name, staging, |file| holds(file, &binary.segments), write)?;
-            uris.push(encode_path(&relative));
+            uris.binaries.push(names.place_segments(&name, staging, &binary.segments)?);
         }
-        Ok(vec![Segment::Owned(layout.json(&uris, &renamed).map_err(in_file)?.into_bytes())])
+        for (&image, ImageFile { relative, bytes, .. }) in &self.edits.image_files {
+            uris.images.insert(image, names.place_segments(relative, staging, &[Segment::Borrowed(bytes)])?);
+        }
+        Ok(vec![Segment::Owned(layout.json(&uris).map_err(in_file)?.into_bytes())])
     }
 
     /// Copies the files that the document refers to into the output's folder, unless that is the document's folder. Returns the files
@@ -181,16 +184,21 @@ impl Document {
 
     /// The files that the document refers to, each once.
     fn files(&self) -> Vec<LocatedFile> {
-        self.files_of(|_| true)
+        self.files_of(|_| true, |_| true)
     }
 
-    /// As [`Document::files`], for some buffers and all images.
-    fn files_of(&self, is_wanted: impl Fn(usize) -> bool) -> Vec<LocatedFile> {
+    /// As [`Document::files`], for some buffers and some images.
+    fn files_of(
+        &self,
+        is_wanted_buffer: impl Fn(usize) -> bool,
+        is_wanted_image: impl Fn(usize) -> bool,
+    ) -> Vec<LocatedFile> {
         let buffers = self.buffer_sources.iter().enumerate().filter_map(|(buffer, store)| match store {
-            BufferSource::File(file) if is_wanted(buffer) => Some(file.located.clone()),
+            BufferSource::File(file) if is_wanted_buffer(buffer) => Some(file.located.clone()),
             _ => None,
         });
-        let uris = self.root.images.iter().filter_map(|image| image.uri.as_deref());
+        let wanted = self.root.images.iter().enumerate().filter(|(image, _)| is_wanted_image(*image));
+        let uris = wanted.filter_map(|(_, image)| image.uri.as_deref());
         let images = uris.filter_map(|uri| match self.resources.resolve(uri) {
             Ok(UriTarget::File(located)) => Some(located),
             _ => None,
@@ -219,6 +227,18 @@ struct FileNames<'a> {
 }
 
 impl FileNames<'_> {
+    /// Puts a new file into the folder, as [`FileNames::place`] does. Returns its URI.
+    fn place_segments(
+        &mut self,
+        wanted: &Path,
+        staging: &mut Staging,
+        segments: &[Segment<'_>],
+    ) -> Result<String, Error> {
+        let write = |file: &mut File| segments::write(segments, file);
+        let relative = self.place(wanted, staging, |file| holds(file, segments), write)?;
+        Ok(encode_path(&relative))
+    }
+
     /// Puts a file into the folder under the name `wanted` or, if that is taken, `wanted_1`, `wanted_2` and so on. An existing file for
     /// which `is_same` holds is used as it is. Returns the relative path.
     ///

@@ -34,7 +34,7 @@ use darboux::{Context, Method, Mode, Report};
 use super::primitives::append::{lacks_buffer_view, push_vectors};
 use super::primitives::canonical::CanonicalAccessors;
 use super::primitives::{foreign_extensions, limits};
-use super::{Document, ElementType, Progress};
+use super::{Document, ElementType, PrimitiveName, Progress};
 use crate::Error;
 use compute::{JobResult, Vertices};
 use groups::{Group, Job};
@@ -66,7 +66,19 @@ pub fn add_tangents_with(
     generate: &mut Generate<'_>,
     progress: &mut dyn FnMut(Progress),
 ) -> Result<TangentsSummary, Error> {
-    let selection = select_readable(document, options)?;
+    add_tangents_to(document, options, &|_| true, context, generate, progress)
+}
+
+/// As [`add_tangents_with`], for the primitives that `is_wanted` accepts. The others keep what they have.
+pub fn add_tangents_to(
+    document: &mut Document,
+    options: &AddTangentsOptions,
+    is_wanted: &dyn Fn(&PrimitiveName) -> bool,
+    context: &mut Context,
+    generate: &mut Generate<'_>,
+    progress: &mut dyn FnMut(Progress),
+) -> Result<TangentsSummary, Error> {
+    let selection = select_readable(document, options, is_wanted)?;
     let accessors = CanonicalAccessors::new(document);
     let groups = groups::group(&accessors, selection.chosen());
     limits::check_triangles(document, groups::triangle_counts(&groups))?;
@@ -87,13 +99,14 @@ pub fn add_tangents_with(
 pub(super) fn select_readable(
     document: &mut Document,
     options: &AddTangentsOptions,
+    is_wanted: &dyn Fn(&PrimitiveName) -> bool,
 ) -> Result<TangentSelection, Error> {
-    let selection = select::select(document, options)?;
+    let selection = select::select(document, options, is_wanted)?;
     if selection.is_empty() || !document.is_compressed() {
         return Ok(selection);
     }
     document.decompress()?;
-    select::select(document, options)
+    select::select(document, options, is_wanted)
 }
 
 /// The tangents of a group before they are written. They borrow nothing from the document.

@@ -170,6 +170,10 @@ fn edited(document: &Document) -> serde_json::Result<String> {
             root = set_member(&root, key, Some(&elements))?;
         }
     }
+    if let Some(images) = member(&root, "images")? {
+        let images = edit_array(images, &edits.images, &[])?;
+        root = set_member(&root, "images", Some(&images))?;
+    }
     let accessors = member(&root, "accessors")?.unwrap_or("[]");
     let accessors = edit_array(accessors, &edits.accessors, &edits.new_accessors)?;
     set_member(&root, "accessors", Some(&accessors).filter(|text| *text != "[]").map(String::as_str))

@@ -41,6 +41,45 @@ pub fn convert_normal_map(
     Ok(())
 }
 
+/// Changes red, green and blue of every texel, each a number from 0 to 1, and rounds to the image's bit depth. Alpha is kept.
+///
+/// Errors: the image does not have these channels.
+pub fn change_texels(image: &mut PngImage, change: impl Fn([f64; 3]) -> [f64; 3]) -> Result<(), Error> {
+    let Some((0, 1, Some(2))) = Channels::RGB.indices(image.color) else {
+        let problem = format!("has the channels {}, not rgb; save it as RGB", image.channels());
+        return Err(ContentError::invalid("", problem).in_file(image.name()));
+    };
+    let samples = image.color.samples();
+    let texels = match &image.texels {
+        Texels::Bytes(bytes) => {
+            let to_code = |x: f64| (255.0 * x.clamp(0.0, 1.0)).round() as u8;
+            Texels::Bytes(changed(bytes, samples, |code| f64::from(code) / 255.0, &change, to_code))
+        }
+        Texels::Words(words) => {
+            let to_code = |x: f64| (65535.0 * x.clamp(0.0, 1.0)).round() as u16;
+            Texels::Words(changed(words, samples, |code| f64::from(code) / 65535.0, &change, to_code))
+        }
+    };
+    image.is_changed |= texels != image.texels;
+    image.texels = texels;
+    Ok(())
+}
+
+fn changed<C: Channel>(
+    channels: &[C],
+    samples: usize,
+    to_number: impl Fn(C) -> f64,
+    change: impl Fn([f64; 3]) -> [f64; 3],
+    to_code: impl Fn(f64) -> C,
+) -> Vec<C> {
+    let mut channels = channels.to_vec();
+    for texel in channels.chunks_exact_mut(samples) {
+        let changed = change([texel[0], texel[1], texel[2]].map(&to_number));
+        texel.iter_mut().zip(changed).for_each(|(channel, x)| *channel = to_code(x));
+    }
+    channels
+}
+
 /// Counts the texels whose channels do not hold a unit normal ([`TexelLayout::holds_normal`]): nearly none in a normal map, most in a
 /// photograph, all if the image does not have the channels.
 pub fn count_invalid_normals(image: &PngImage, channels: Channels) -> usize {

@@ -72,6 +72,21 @@ impl PngImage {
         bytes.starts_with(&chunks::SIGNATURE)
     }
 
+    /// Why a file cannot be read as an image of this kind, judged by its header and the kinds of its chunks, as a clause whose subject is the
+    /// image; none if it can, unless its texels are damaged.
+    pub fn obstacle(file: &[u8]) -> Option<String> {
+        let checked = || {
+            let chunks = Chunks::split(file)?;
+            let kind = chunks.of(b"IHDR").next().and_then(Chunk::kind_of_texels);
+            let kind =
+                kind.and_then(|[depth, color]| Some((ColorType::from_u8(color)?, BitDepth::from_u8(depth)?)));
+            let (color, depth) =
+                kind.ok_or_else(|| ContentError::invalid("", "is not a complete PNG; save it again"))?;
+            refuse_unsupported(color, depth, &chunks)
+        };
+        checked().err().map(ContentError::into_clause)
+    }
+
     fn decode(name: &str, file: Vec<u8>, options: &LoadOptions) -> Result<Self, ContentError> {
         let broken = |error: png::DecodingError| {
             ContentError::invalid("", format!("is not a complete PNG: {error}; save it again"))

@@ -8,7 +8,7 @@ use crate::gltf::primitives::triangles::{TriangleMode, mode_name};
 use crate::gltf::schema::Primitive;
 use crate::gltf::{Document, PrimitiveName};
 
-/// Every primitive of a document, in its order, with a verdict.
+/// The wanted primitives of a document, in its order, each with a verdict.
 #[derive(Debug)]
 pub struct NormalSelection {
     pub candidates: Vec<NormalCandidate>,
@@ -69,13 +69,19 @@ impl NormalSelection {
 }
 
 /// Selects primitives. Errors: accessors that do not exist, unknown modes.
-pub fn select(document: &Document, options: &AddNormalsOptions) -> Result<NormalSelection, Error> {
+pub fn select(
+    document: &Document,
+    options: &AddNormalsOptions,
+    is_wanted: &dyn Fn(&PrimitiveName) -> bool,
+) -> Result<NormalSelection, Error> {
     let mut candidates = Vec::new();
     for (index, mesh) in document.meshes().iter().enumerate() {
         for (place, primitive) in mesh.primitives.iter().enumerate() {
             let name = PrimitiveName { mesh: index, mesh_name: mesh.name.clone(), primitive: place };
-            let verdict = judge(document, &name, primitive, options)?;
-            candidates.push(NormalCandidate { name, verdict });
+            if is_wanted(&name) {
+                let verdict = judge(document, &name, primitive, options)?;
+                candidates.push(NormalCandidate { name, verdict });
+            }
         }
     }
     Ok(NormalSelection { candidates })

@@ -13,7 +13,7 @@ use crate::gltf::schema::{Material, Primitive};
 use crate::gltf::{Document, PrimitiveName};
 use crate::{Error, OptionNames};
 
-/// Every primitive of a document, in its order, with a verdict.
+/// The wanted primitives of a document, in its order, each with a verdict.
 #[derive(Debug)]
 pub struct TangentSelection {
     pub candidates: Vec<TangentCandidate>,
@@ -87,13 +87,19 @@ impl TangentSelection {
 }
 
 /// Selects primitives. Errors: materials or accessors that do not exist, unknown modes.
-pub fn select(document: &Document, options: &AddTangentsOptions) -> Result<TangentSelection, Error> {
+pub fn select(
+    document: &Document,
+    options: &AddTangentsOptions,
+    is_wanted: &dyn Fn(&PrimitiveName) -> bool,
+) -> Result<TangentSelection, Error> {
     let mut warnings = Warnings::default();
     let mut candidates = Vec::new();
     for (index, mesh) in document.meshes().iter().enumerate() {
         for (place, primitive) in mesh.primitives.iter().enumerate() {
             let name = PrimitiveName { mesh: index, mesh_name: mesh.name.clone(), primitive: place };
-            candidates.push(candidate(document, name, primitive, options, &mut warnings)?);
+            if is_wanted(&name) {
+                candidates.push(candidate(document, name, primitive, options, &mut warnings)?);
+            }
         }
     }
     Ok(TangentSelection { candidates, warnings: warnings.sentences })
