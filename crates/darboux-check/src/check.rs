@@ -4,19 +4,20 @@ use std::collections::BTreeMap;
 
 use darboux::{BitangentDirection, MapJudgement};
 use darboux_io::Error;
-use darboux_io::gltf::{Document, PrimitiveCorners, inspect};
+use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveName, inspect};
 
 use crate::code::Code;
 use crate::finding::{Finding, Place};
 use crate::fit;
 use crate::map::Map;
+use crate::obstacles;
 use crate::rule::Measured;
 use crate::rules::{MAP_RULES, SURFACE_RULES, TEXTURE_RULES};
 use crate::severity::Severity;
 use crate::surface::Surface;
 
 /// What is checked.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct CheckOptions {
     /// Where the green of normal maps should point. Default: up, as glTF and OpenGL want it.
@@ -50,24 +51,62 @@ impl CheckOptions {
 /// Primitives with the same data are checked once. A compressed document is decompressed. An image that cannot be read is a finding.
 /// Errors: invalid data of the document.
 pub fn check_document(document: &mut Document, options: &CheckOptions) -> Result<Vec<Finding>, Error> {
-    let infos = inspect(document)?;
+    let mut findings = check_surfaces(document)?;
+    findings.extend(check_materials(document, options)?);
+    Ok(findings)
+}
+
+/// Checks every primitive with triangles.
+pub fn check_surfaces(document: &mut Document) -> Result<Vec<Finding>, Error> {
     let mut findings = Vec::new();
+    for_each_surface(document, |surface| findings.extend(check_surface(&surface)))?;
+    Ok(findings)
+}
+
+/// Reads the surfaces of a document one after the other; those with the same data once.
+pub fn for_each_surface(document: &mut Document, mut visit: impl FnMut(Surface)) -> Result<(), Error> {
+    let infos = inspect(document)?;
     for (corners, same_as) in distinct(document, document.corners()?) {
         let info = infos.iter().find(|info| info.name == *corners.name());
         let Some(info) = info.filter(|_| !corners.is_empty()) else { continue };
         let Some(mut surface) = Surface::read(document, &corners, info)? else { continue };
         surface.place.same_as = same_as;
-        findings.extend(check_surface(&surface));
+        visit(surface);
     }
-    findings.extend(check_materials(document, options)?);
-    Ok(findings)
+    Ok(())
 }
 
 /// Checks the file of an image that is a normal map.
 pub fn check_map(file: &[u8], options: &CheckOptions) -> CheckedMap {
     let map = Map::read(file, options.green);
-    let findings = MAP_RULES.iter().filter_map(|rule| rule(&map)).collect();
+    let obstacle = obstacles::of_image(file);
+    let findings = MAP_RULES.iter().filter_map(|rule| rule(&map));
+    let findings = findings.map(|finding| finding.with_obstacle(obstacle.clone())).collect();
     CheckedMap { judgement: map.judgement.ok(), findings }
+}
+
+/// Checks the file of an image as the normal map of a model, whatever maps the model has itself.
+///
+/// The findings on the map come first, then those on the model's tangents, normals and UVs. A finding about green says where the signs of the
+/// model's tangents are flipped, too, so that both mistakes cancel. Errors: invalid data of the document.
+pub fn check_map_on_model(
+    file: &[u8],
+    document: &mut Document,
+    options: &CheckOptions,
+) -> Result<CheckedMap, Error> {
+    let mut checked = check_map(file, options);
+    let mut on_surfaces = Vec::new();
+    for_each_surface(document, |mut surface| {
+        surface.needs_tangents = true;
+        on_surfaces.extend(check_surface(&surface));
+    })?;
+    if on_surfaces.iter().any(|finding| finding.code == Code::TangentSignFlipped) {
+        for finding in checked.findings.iter_mut().filter(|finding| finding.code == Code::MapGreenFlipped) {
+            finding.text += "; the signs w of the model are flipped, too, so that bumps look right until one of both is cured";
+        }
+    }
+    checked.findings.extend(on_surfaces);
+    Ok(checked)
 }
 
 /// The result of [`check_map`].
@@ -86,7 +125,9 @@ fn check_surface(surface: &Surface) -> Vec<Finding> {
     let findings = rules.flat_map(|rule| rule(&measured));
     let placed = |finding: Finding| {
         let severity = finding.severity.min(worst_severity(finding.code, surface));
-        Finding { place: surface.place.clone(), severity, ..finding }
+        let finding = Finding { place: surface.place.clone(), severity, ..finding };
+        let obstacle = obstacles::of_surface(&finding, surface);
+        finding.with_obstacle(obstacle)
     };
     findings.map(placed).collect()
 }
@@ -97,6 +138,34 @@ fn worst_severity(code: Code, surface: &Surface) -> Severity {
     if is_unread { Severity::Warning } else { Severity::Error }
 }
 
+/// What decides the findings about a primitive: its attributes, indices, mode and material.
+type SurfaceKey = (Vec<(String, usize)>, Option<usize>, u32, Option<usize>);
+
+fn surface_key(document: &Document, name: &PrimitiveName) -> SurfaceKey {
+    let primitive = &document.meshes()[name.mesh].primitives[name.primitive];
+    let attributes = primitive.attributes.iter().map(|(name, at)| (name.clone(), *at)).collect();
+    (attributes, primitive.indices, primitive.mode, primitive.material)
+}
+
+/// The primitives about which a finding is: the one that it names, and all with the same data.
+pub fn primitives_of(document: &Document, finding: &Finding) -> Vec<PrimitiveName> {
+    let Some(named) = &finding.place.primitive else { return Vec::new() };
+    if finding.place.same_as == 0 {
+        return vec![named.clone()];
+    }
+    let key = surface_key(document, named);
+    let mut names = Vec::new();
+    for (index, mesh) in document.meshes().iter().enumerate() {
+        for primitive in 0..mesh.primitives.len() {
+            let name = PrimitiveName { mesh: index, mesh_name: mesh.name.clone(), primitive };
+            if surface_key(document, &name) == key {
+                names.push(name);
+            }
+        }
+    }
+    names
+}
+
 /// The primitives that differ in data or material, each with the number of later ones that do not.
 fn distinct<'a>(
     document: &Document,
@@ -105,10 +174,7 @@ fn distinct<'a>(
     let mut places = BTreeMap::new();
     let mut found: Vec<(PrimitiveCorners<'a>, usize)> = Vec::new();
     for corners in primitives {
-        let name = corners.name();
-        let primitive = &document.meshes()[name.mesh].primitives[name.primitive];
-        let attributes: Vec<_> = primitive.attributes.iter().map(|(name, at)| (name.clone(), *at)).collect();
-        let key = (attributes, primitive.indices, primitive.mode, primitive.material);
+        let key = surface_key(document, corners.name());
         match places.get(&key) {
             Some(&place) => {
                 let (_, same_as): &mut (_, usize) = &mut found[place];
@@ -136,13 +202,24 @@ fn check_materials(document: &Document, options: &CheckOptions) -> Result<Vec<Fi
         }
     }
     for (image, material) in images {
-        let map = match document.image_bytes(image) {
-            Ok(bytes) => Map::read(&bytes, options.green),
-            Err(error) => Map { judgement: Err(format!("cannot be read ({error})")), wanted: options.green },
-        };
         let place = Place { image: Some(image), material: Some(material), ..Place::default() };
-        let found = MAP_RULES.iter().filter_map(|rule| rule(&map));
-        findings.extend(found.map(|finding| Finding { place: place.clone(), ..finding }));
+        let found = check_image(document, image, options);
+        findings.extend(found.into_iter().map(|finding| Finding { place: place.clone(), ..finding }));
     }
     Ok(findings)
+}
+
+/// Checks an image of a document as a normal map.
+fn check_image(document: &Document, image: usize, options: &CheckOptions) -> Vec<Finding> {
+    match document.image_bytes(image) {
+        Ok(bytes) => {
+            let obstacle = document.normal_map_obstacle(image).map(|clause| format!("the image {clause}"));
+            let findings = check_map(&bytes, options).findings.into_iter();
+            findings.map(|finding| finding.with_obstacle(obstacle.clone())).collect()
+        }
+        Err(error) => {
+            let map = Map { judgement: Err(format!("cannot be read ({error})")), wanted: options.green };
+            MAP_RULES.iter().filter_map(|rule| rule(&map)).collect()
+        }
+    }
 }

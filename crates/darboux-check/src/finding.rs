@@ -70,6 +70,8 @@ pub struct Finding {
     pub evidence: Vec<Evidence>,
     /// What is wrong here, in one sentence.
     pub text: String,
+    /// Why a repair leaves it, as a clause; none where [`fix_document`](crate::fix_document) or [`fix_map`](crate::fix_map) cures it.
+    pub left_because: Option<String>,
 }
 
 /// The most indices in [`Finding::first`].
@@ -86,7 +88,19 @@ impl Finding {
             first: Vec::new(),
             evidence: Vec::new(),
             text: text.into(),
+            left_because: Some(code.left().to_owned()).filter(|reason| !reason.is_empty()),
         }
+    }
+
+    /// Whether a repair cures it.
+    pub fn is_fixable(&self) -> bool {
+        self.left_because.is_none()
+    }
+
+    /// The same with a reason, if there is one, why a repair leaves it.
+    #[must_use]
+    pub fn with_obstacle(self, obstacle: Option<String>) -> Self {
+        Self { left_because: self.left_because.or(obstacle), ..self }
     }
 
     /// The same with a number of things, and the first of them.

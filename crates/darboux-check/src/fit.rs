@@ -109,11 +109,15 @@ fn count(surface: &Surface, tangents: &[[f32; 4]], uv_set: usize) -> Option<Coun
         expected.iter_mut().for_each(|tangent| tangent[3] = -tangent[3]);
     }
     let is_shared = on_mirrored_seams(surface, uv_set, &expected);
+    let uvs = surface.uv_sets.get(&uv_set)?;
+    // Faces without area in the UV set show no bumps, and their tangents are those of any neighbour.
+    let is_measured: Vec<bool> = surface.triangles().map(|triangle| uv_area(uvs, triangle) != 0.0).collect();
     let mut counts = Counts::default();
     for (corner, (&ours, &theirs)) in expected.iter().zip(tangents).enumerate() {
         let vertex = surface.vertex_of_corner[corner] as usize;
         let difference = CornerDifference::between(ours, theirs);
-        let Some(angle) = difference.angle.filter(|_| !is_shared[vertex]) else { continue };
+        let is_counted = is_measured[corner / 3] && !is_shared[vertex];
+        let Some(angle) = difference.angle.filter(|_| is_counted) else { continue };
         counts.corners += 1;
         let across = dot(cross(normals[vertex], xyz(ours)), xyz(theirs)).abs();
         let along = dot(xyz(ours), xyz(theirs));

@@ -1,7 +1,7 @@
 //! Finds what is wrong with the tangents, normals, UVs and normal maps of glTF models.
 //!
 //! A *rule* looks at one surface, map or material and returns findings; no rule knows another. [`Code`] lists all findings, with what each
-//! looks like on screen, how it comes about and the cure.
+//! looks like on screen, how it comes about and the cure. [`fix_document`] and [`fix_map`] repair what can be repaired without guessing.
 //!
 //! ```
 //! use std::path::Path;
@@ -22,13 +22,17 @@ mod check;
 mod code;
 mod finding;
 mod fit;
+mod fix;
 mod map;
+mod obstacles;
+mod orientation;
 mod rule;
 mod rules;
 mod severity;
 mod surface;
 
-pub use check::{CheckOptions, CheckedMap, check_document, check_map};
+pub use check::{CheckOptions, CheckedMap, check_document, check_map, check_map_on_model};
 pub use code::Code;
 pub use finding::{Evidence, Finding, Place};
+pub use fix::{FixOptions, FixedFinding, FixedMap, fix_document, fix_map};
 pub use severity::Severity;

@@ -6,6 +6,8 @@ mod tangents;
 mod transforms;
 mod uvs;
 
+pub use normals::UNIT as UNIT_NORMAL;
+
 use crate::rule::{MapRule, SurfaceRule, TextureRule};
 
 /// All rules about surfaces.

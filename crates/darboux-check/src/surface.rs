@@ -14,6 +14,10 @@ pub struct Surface {
     pub place: Place,
     /// Whether its material uses tangents.
     pub needs_tangents: bool,
+    /// Why tangents cannot be computed, as a sentence; none if they can.
+    pub ineligible: Option<String>,
+    /// Whether morph targets move its normals.
+    pub moves_normals: bool,
     /// The UV set that its tangents follow.
     pub uv_set: usize,
     /// The vertex of every corner, three corners per triangle.
@@ -37,10 +41,13 @@ impl Surface {
     ) -> Result<Option<Self>, Error> {
         let Some(positions) = vertices(document, corners, "POSITION")? else { return Ok(None) };
         let name = corners.name();
-        let attributes = &document.meshes()[name.mesh].primitives[name.primitive].attributes;
+        let primitive = &document.meshes()[name.mesh].primitives[name.primitive];
+        let attributes = &primitive.attributes;
         let mut surface = Self {
             place: Place { primitive: Some(name.clone()), material: corners.material(), ..Place::default() },
             needs_tangents: info.needs_tangents,
+            ineligible: info.ineligible.clone(),
+            moves_normals: primitive.targets.iter().any(|target| target.contains_key("NORMAL")),
             uv_set: info.uv_set,
             vertex_of_corner: corners.vertices().to_vec(),
             positions,

@@ -1,19 +1,20 @@
-//! Every mistake, made alone on healthy models, is named, and no other error is.
+//! Every mistake, made alone on healthy models, is named, no other error is, and the repair makes the healthy model of it.
 
 mod support;
 
 use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
 
 use darboux_check::{CheckOptions, Code, Finding, Severity, check_document, check_map};
 use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
-use darboux_tests::maps::table::Truth;
-use support::{Model, healthy_map, healthy_models, png};
-
-/// The codes of a model's findings of some severities.
-fn codes(findings: &[Finding], is_wanted: impl Fn(Severity) -> bool) -> BTreeSet<Code> {
-    findings.iter().filter(|finding| is_wanted(finding.severity)).map(|finding| finding.code).collect()
-}
+use support::flips::{FLIPS, errors};
+use support::maps::MAP_MISTAKES;
+use support::mistakes::MISTAKES;
+use support::models::{Model, healthy_models};
+use support::page::page;
+use support::table::{codes, pairs, table};
 
 fn check(model: &Model) -> Vec<Finding> {
     check_document(&mut model.document(), &CheckOptions::default()).expect("a valid document")
@@ -23,188 +24,51 @@ fn check(model: &Model) -> Vec<Finding> {
 fn healthy_models_have_no_error_and_no_warning() {
     for model in healthy_models() {
         let findings = check(&model);
-        assert_eq!(
-            codes(&findings, |severity| severity > Severity::Info),
-            BTreeSet::new(),
-            "{}: {findings:#?}",
-            model.name
-        );
+        let bad = codes(&findings, |severity| severity > Severity::Info);
+        assert_eq!(bad, BTreeSet::new(), "{}: {findings:#?}", model.name);
     }
 }
 
-/// Changes a healthy model; returns false where the mistake cannot be made on it.
-type Mistake = fn(&mut Model) -> bool;
-
-/// All mistakes in geometry and materials. Those in maps are below.
-const MISTAKES: &[(Code, Mistake)] = &[
-    (Code::TangentNotFinite, |model| {
-        model.tangents()[1][0] = f32::NAN;
-        true
-    }),
-    (Code::TangentZero, |model| {
-        model.tangents()[1] = [0.0, 0.0, 0.0, 1.0];
-        true
-    }),
-    (Code::TangentNotUnit, |model| {
-        model.tangents().iter_mut().for_each(|tangent| (0..3).for_each(|i| tangent[i] *= 1.5));
-        true
-    }),
-    (Code::TangentNotPerpendicular, |model| {
-        let normals = model.normals.clone().unwrap_or_default();
-        for (tangent, normal) in model.tangents().iter_mut().zip(normals) {
-            (0..3).for_each(|i| tangent[i] = 0.8 * tangent[i] + 0.6 * normal[i]);
-        }
-        true
-    }),
-    (Code::TangentSignNotOne, |model| {
-        model.tangents().iter_mut().for_each(|tangent| tangent[3] *= 0.5);
-        true
-    }),
-    (Code::TangentSharedAcrossMirror, |model| {
-        let Some((positions, normals, uvs, tangents, indices)) = model.unsplit.clone() else { return false };
-        model.positions = positions;
-        model.normals = Some(normals);
-        model.uvs = vec![uvs];
-        model.tangents = Some(tangents);
-        model.indices = indices;
-        true
-    }),
-    (Code::TangentSignFlipped, |model| {
-        model.tangents().iter_mut().for_each(|tangent| tangent[3] = -tangent[3]);
-        true
-    }),
-    (Code::TangentSignFlippedWhereMirrored, |model| {
-        model.tangents().iter_mut().for_each(|tangent| tangent[3] = 1.0);
-        model.unsplit.is_some()
-    }),
-    (Code::TangentRotated, |model| {
-        let normals = model.normals.clone().unwrap_or_default();
-        for (tangent, [a, b, c]) in model.tangents().iter_mut().zip(normals) {
-            let [x, y, z, w] = *tangent;
-            *tangent = [w * (b * z - c * y), w * (c * x - a * z), w * (a * y - b * x), w];
-        }
-        true
-    }),
-    (Code::TangentNegated, |model| {
-        model.tangents().iter_mut().for_each(|tangent| (0..3).for_each(|i| tangent[i] = -tangent[i]));
-        true
-    }),
-    (Code::TangentOtherUvSet, |model| {
-        if model.unsplit.is_some() {
-            return false;
-        }
-        // The texture uses a second set, turned by 40 degrees; the tangents follow the first.
-        let turned = |[u, v]: &[f32; 2]| [0.766 * u - 0.643 * v, 0.643 * u + 0.766 * v];
-        let second = model.uvs[0].iter().map(turned).collect();
-        model.uvs.push(second);
-        model.uv_set = 1;
-        true
-    }),
-    (Code::TangentMissing, |model| {
-        model.tangents = None;
-        true
-    }),
-    (Code::TangentUnused, |model| {
-        model.has_normal_map = false;
-        true
-    }),
-    (Code::NormalMissing, |model| {
-        model.normals = None;
-        true
-    }),
-    (Code::NormalNotFinite, |model| {
-        model.normals.iter_mut().for_each(|normals| normals[1][2] = f32::INFINITY);
-        true
-    }),
-    (Code::NormalNotUnit, |model| {
-        model.normals.iter_mut().flatten().for_each(|normal| *normal = normal.map(|x| 0.5 * x));
-        true
-    }),
-    (Code::NormalAgainstWinding, |model| {
-        model.indices.as_chunks_mut::<3>().0.iter_mut().for_each(|triangle| triangle.swap(1, 2));
-        true
-    }),
-    (Code::UvMissing, |model| {
-        model.uv_set = 3;
-        true
-    }),
-    (Code::UvDegenerate, |model| {
-        let vertices: Vec<usize> = model.indices[..3].iter().map(|&vertex| vertex as usize).collect();
-        let uv = model.uvs[0][vertices[0]];
-        vertices.into_iter().for_each(|vertex| model.uvs[0][vertex] = uv);
-        true
-    }),
-    (Code::TransformMirrors, |model| {
-        model.transform = Some([1.0, -1.0]);
-        true
-    }),
-];
-
 #[test]
-fn every_mistake_is_named_and_no_other_error() {
-    let models = healthy_models();
-    assert!(models.len() >= 10, "{} models", models.len());
-    for (code, make) in MISTAKES {
-        let mut made = 0;
-        for model in &models {
-            let mut model = model.clone();
-            if !make(&mut model) {
-                continue;
-            }
-            made += 1;
-            let findings = check(&model);
-            let all = codes(&findings, |_| true);
-            assert!(all.contains(code), "{code} on {}: {findings:#?}", model.name);
-            let errors = codes(&findings, |severity| severity == Severity::Error);
-            let others: Vec<&Code> = errors.iter().filter(|other| *other != code).collect();
-            assert!(others.is_empty(), "{code} on {} also gives {others:?}: {findings:#?}", model.name);
-        }
-        println!("{code}: named on {made} models");
-        assert!(made > 0, "{code}");
+fn every_mistake_is_named_alone_and_cured() {
+    let rows = table();
+    let pairs = pairs();
+    let failures: Vec<&String> = rows.iter().flat_map(|row| &row.failures).collect();
+    assert!(failures.is_empty(), "{failures:#?}");
+    for row in &rows {
+        assert!(row.models >= 10, "{}, {}: {} models", row.code, row.how, row.models);
+        assert_eq!((row.named, row.with_other_errors), (row.models, 0), "{}", row.code);
+        assert!(row.cured.is_none_or(|cured| cured == row.models), "{}", row.code);
     }
+    let (path, page) = (Path::new(env!("CARGO_MANIFEST_DIR")).join(PAGE), page(&rows, &pairs));
+    if std::env::var_os("WRITE_PAGES").is_some() {
+        fs::write(&path, &page).expect("the page can be written");
+    }
+    let committed = fs::read_to_string(&path).unwrap_or_default();
+    assert!(committed == page, "{PAGE} is not what is found now; write it again with WRITE_PAGES=1");
 }
 
-/// Each mistake in maps, as a change of the texels, and the codes that may come with it.
+/// The page of the table.
+const PAGE: &str = "../../docs/check-mistakes.md";
+
+/// Each of the six flips of handedness is named in its own way, except that the UV origin looks like the sign w.
 #[test]
-fn every_mistake_in_maps_is_named_and_no_other_error() {
-    let (case, map) = healthy_map();
-    let side = case.side as u32;
-    let through = |function: fn([f32; 3]) -> [f32; 3]| -> Vec<[u8; 3]> {
-        let change = |texel: &[u8; 3]| {
-            function(texel.map(|byte| f32::from(byte) / 255.0)).map(|x| (255.0 * x).round() as u8)
-        };
-        map.iter().map(change).collect()
-    };
-    let specks = || {
-        let mut texels = map.clone();
-        texels.iter_mut().step_by(900).for_each(|texel| texel[2] = 60);
-        texels
-    };
-    let photograph = || -> Vec<[u8; 3]> {
-        (0..map.len()).map(|i| [(i % 251) as u8 / 3, (i / 7 % 241) as u8 / 2, (i / 256) as u8 / 2]).collect()
-    };
-    let maps: Vec<(Code, Vec<[u8; 3]>)> = vec![
-        (Code::MapGreenFlipped, through(|[r, g, b]| [r, 1.0 - g, b])),
-        (Code::MapChannelsSwapped, through(|[r, g, b]| [g, r, b])),
-        (Code::MapSrgb, through(|texel| texel.map(|x| x.powf(1.0 / 2.2)))),
-        (Code::MapSrgb, through(|texel| texel.map(|x| x.powf(2.2)))),
-        (Code::MapHeight, through(|[r, ..]| [r; 3])),
-        (Code::MapObjectSpace, Truth::ObjectSpace.texels(&case)),
-        (Code::MapNotNormal, photograph()),
-        (Code::MapTwoChannel, through(|[r, g, _]| [r, g, 0.0])),
-        (Code::MapTwoChannel, through(|[r, g, _]| [r, g, 1.0])),
-        (Code::MapNotUnit, through(|texel| texel.map(|x| 0.5 + 0.8 * (x - 0.5)))),
-        (Code::MapNegativeZ, specks()),
-        (Code::MapFlatOff, through(|[r, g, b]| [r - 4.0 / 255.0, g, b])),
-        (Code::MapFlat, vec![[128, 128, 255]; map.len()]),
-    ];
-    for (code, texels) in maps {
-        let findings = check_map(&png(side, &texels), &CheckOptions::default()).findings;
-        assert!(codes(&findings, |_| true).contains(&code), "{code}: {findings:#?}");
-        let errors = codes(&findings, |severity| severity == Severity::Error);
-        assert!(errors.iter().all(|other| *other == code), "{code}: {findings:#?}");
+fn flips_of_handedness_are_told_apart() {
+    for healthy in healthy_models().iter().step_by(5) {
+        for flip in FLIPS {
+            let expected: BTreeSet<Code> = flip.codes.iter().copied().collect();
+            assert_eq!(errors(flip, healthy), expected, "{} on {}", flip.name, healthy.name);
+        }
     }
-    let mut file = png(side, &map);
+    let mut distinct: Vec<&[Code]> = FLIPS.iter().map(|flip| flip.codes).collect();
+    distinct.sort_unstable();
+    distinct.dedup();
+    assert_eq!(distinct.len(), FLIPS.len() - 1);
+}
+
+#[test]
+fn broken_images_are_named() {
+    let mut file = healthy_models().remove(0).map.file;
     assert_eq!(check_map(&file, &CheckOptions::default()).findings, []);
     file.truncate(file.len() / 2);
     for broken in [file, Vec::new(), b"no image".to_vec()] {
@@ -238,15 +102,15 @@ fn instances_with_the_same_data_are_reported_once() {
 }
 
 #[test]
-fn names_are_distinct_and_parse() {
+fn names_are_distinct_and_parse_and_every_mistake_is_in_the_table() {
     let names: BTreeSet<&str> = Code::ALL.iter().map(|code| code.name()).collect();
     assert_eq!(names.len(), Code::ALL.len());
     assert!(Code::ALL.iter().all(|code| code.name().parse() == Ok(*code)));
     assert!("tangent".parse::<Code>().is_err());
-    let made: BTreeSet<Code> = MISTAKES.iter().map(|(code, _)| *code).collect();
-    let in_maps = |code: &&Code| !code.name().starts_with("map-");
-    // Mirrored UVs are no mistake; the other two need other tangents than those of the list.
-    let rest = [Code::UvMirrored, Code::TangentOtherRecipe, Code::TangentSignMixed];
-    let without: Vec<&Code> = Code::ALL.iter().filter(in_maps).filter(|code| !made.contains(code)).collect();
+    let in_models = MISTAKES.iter().map(|mistake| mistake.code);
+    let made: BTreeSet<Code> = in_models.chain(MAP_MISTAKES.iter().map(|mistake| mistake.code)).collect();
+    // Mirrored UVs are no mistake, and a broken file is none in a map's texels.
+    let rest = [Code::UvMirrored, Code::MapUnreadable];
+    let without: Vec<&Code> = Code::ALL.iter().filter(|code| !made.contains(code)).collect();
     assert!(without.iter().all(|code| rest.contains(code)), "{without:?}");
 }

@@ -60,7 +60,10 @@ fn findings() -> String {
         .map(|code| format!("| [`{code}`](#{code}) | {} | {} |\n", code.severity(), code.meaning()));
     let sections = Code::ALL.iter().map(|code| {
         let [meaning, looks, cause, cure] = [code.meaning(), code.looks_like(), code.cause(), code.cure()];
-        format!("\n## {code}\n\n{meaning}\n\n*What it looks like:* {looks}\n\n*How it comes about:* {cause}\n\n*Cure:* {cure}\n")
+        let fix = code.fix();
+        format!(
+            "\n## {code}\n\n{meaning}\n\n*What it looks like:* {looks}\n\n*How it comes about:* {cause}\n\n*Cure:* {cure}\n\n*With `--fix`:* {fix}.\n"
+        )
     });
     include_str!("check.md").to_owned() + &table.chain(sections).collect::<String>()
 }

@@ -230,7 +230,12 @@ fn finish<W: FileCommand>(
             return exit::FAILED;
         }
     }
-    if report.totals.failed > 0 { exit::FAILED } else { exit::DONE }
+    let mut summaries = report.files.iter().filter_map(|file| file.summary.this_run());
+    if report.totals.failed > 0 || summaries.any(|summary| command.fails(summary)) {
+        exit::FAILED
+    } else {
+        exit::DONE
+    }
 }
 
 /// The number of warnings that were not printed.

@@ -55,7 +55,15 @@ pub enum Command {
     )]
     Convert(ConvertArguments),
     /// Say what is wrong with models and normal maps
-    #[command(long_about = check::ABOUT, after_long_help = check::EXAMPLES)]
+    #[command(
+        long_about = check::ABOUT,
+        after_long_help = check::EXAMPLES,
+        mut_arg("inputs", |inputs| inputs.help(check::INPUTS).required(false).required_unless_present("explain")),
+        mut_arg("output", |output| output.requires("fix")),
+        mut_arg("out_dir", |out_dir| out_dir.requires("fix")),
+        mut_arg("in_place", |in_place| in_place.requires("fix")),
+        mut_arg("force", |force| force.requires("fix"))
+    )]
     Check(CheckArguments),
     /// Compare the tangents of two files, or of a file and a method
     #[command(override_usage = compare::USAGE, long_about = compare::ABOUT, after_long_help = compare::EXAMPLES)]

@@ -1,4 +1,4 @@
-//! Reads and writes glTF documents. Errors are one sentence each.
+//! Reads and writes glTF documents and images. Errors are one sentence each.
 
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
@@ -6,6 +6,7 @@ use std::path::Path;
 use darboux::Convention;
 use darboux_io::Error;
 use darboux_io::gltf::Document;
+use darboux_io::image::PngImage;
 
 use crate::batch::plan::Output;
 use crate::batch::report::Status;
@@ -13,11 +14,42 @@ use crate::inputs::Input;
 use crate::interrupt;
 use crate::options::files::FileOptions;
 use crate::options::reading::ReadOptions;
+use crate::paths::is_png;
+use crate::terminal::write_stdout;
 use crate::text::command_line;
+
+/// An input that can be read several times: the content of standard input is kept.
+pub struct Source<'a> {
+    input: &'a Input,
+    stdin: Option<Vec<u8>>,
+}
+
+impl<'a> Source<'a> {
+    /// An input, whose content is read if it is standard input.
+    pub fn new(input: &'a Input) -> Result<Self, String> {
+        let stdin = match input {
+            Input::Stdin => Some(read_stdin()?),
+            Input::File(_) => None,
+        };
+        Ok(Self { input, stdin })
+    }
+
+    /// As [`load`].
+    pub fn load(&self, reading: &ReadOptions) -> Result<Document, String> {
+        match &self.stdin {
+            Some(bytes) => from_stdin(self.input, bytes.clone(), reading),
+            None => load_any(self.input, reading),
+        }
+        .and_then(|document| in_gltf_convention(self.input, document))
+    }
+}
 
 /// Reads a document and refuses one whose vertices are not in glTF's convention.
 pub fn load(input: &Input, reading: &ReadOptions) -> Result<Document, String> {
-    let document = load_any(input, reading)?;
+    in_gltf_convention(input, load_any(input, reading)?)
+}
+
+fn in_gltf_convention(input: &Input, document: Document) -> Result<Document, String> {
     let convention = document.convention().map_err(|error| error.to_string())?;
     if convention == Convention::GLTF {
         return Ok(document);
@@ -31,17 +63,17 @@ pub fn load(input: &Input, reading: &ReadOptions) -> Result<Document, String> {
 
 /// Reads a document in any convention. Standard input has no folder, so its buffers must be embedded.
 pub fn load_any(input: &Input, reading: &ReadOptions) -> Result<Document, String> {
-    let document = match input {
-        Input::File(path) if path.is_file() && is_other_format(path) => {
-            return Err(format!(
-                "{input}: this command reads glTF files only; export the model as .glb (darboux view and darboux render also read OBJ)"
-            ));
-        }
-        Input::File(path) => reading.open(path),
-        Input::Stdin => {
-            Document::from_bytes(&input.to_string(), read_stdin()?, None, &reading.load_options())
-        }
-    };
+    match input {
+        Input::File(path) if path.is_file() && is_other_format(path) => Err(format!(
+            "{input}: this command reads glTF files only; export the model as .glb (darboux view and darboux render also read OBJ)"
+        )),
+        Input::File(path) => reading.open(path).map_err(|error| error.to_string()),
+        Input::Stdin => from_stdin(input, read_stdin()?, reading),
+    }
+}
+
+fn from_stdin(input: &Input, bytes: Vec<u8>, reading: &ReadOptions) -> Result<Document, String> {
+    let document = Document::from_bytes(&input.to_string(), bytes, None, &reading.load_options());
     document.map_err(|error| error.to_string())
 }
 
@@ -89,6 +121,32 @@ pub fn save(
         written.map_err(sentence)?.iter().map(|path| path.display().to_string()).collect();
     let untouched = files.in_place && written.is_empty();
     Ok((if untouched { Status::Untouched } else { status }, written))
+}
+
+/// Writes an image and returns its status and the files written.
+pub fn save_image(
+    image: &PngImage,
+    output: &Output,
+    files: &FileOptions,
+) -> Result<(Status, Vec<String>), String> {
+    let sentence = |error: Error| error.to_string();
+    let status = if image.is_changed() { Status::Written } else { Status::Copied };
+    match output {
+        Output::Stdout => {
+            let bytes = image.to_bytes().map_err(sentence)?;
+            write_stdout(&bytes).map_err(|error| format!("{output}: cannot be written: {error}"))?;
+            Ok((status, Vec::new()))
+        }
+        Output::File(path) if !is_png(path) => {
+            Err(format!("{output}: the input is an image; the name of the output must end in .png"))
+        }
+        Output::File(_) if files.in_place && !image.is_changed() => Ok((Status::Untouched, Vec::new())),
+        Output::File(path) => {
+            let _guard = interrupt::writing();
+            let written = image.save(path, &files.save_options()).map_err(sentence)?;
+            Ok((status, vec![written.display().to_string()]))
+        }
+    }
 }
 
 /// Refuses to write a picture over a file that the inputs use.

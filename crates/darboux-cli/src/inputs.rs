@@ -42,7 +42,8 @@ pub struct UsageError(pub String);
 pub mod output_suffix {
     pub const TANGENTS: &str = "tangents";
     pub const NORMALS: &str = "normals";
-    pub const ALL: [&str; 2] = [TANGENTS, NORMALS];
+    pub const FIXED: &str = "fixed";
+    pub const ALL: [&str; 3] = [TANGENTS, NORMALS, FIXED];
 }
 
 /// Which models a folder search returns.

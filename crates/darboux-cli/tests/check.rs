@@ -54,7 +54,9 @@ fn options_choose_findings_and_the_exit_code() {
     let all = darboux(&["check", model, "--json", "--fail-on", "never"]).exits(0).json();
     let findings = all["files"][0]["findings"].as_array().expect("a list").clone();
     let code = findings[0]["code"].as_str().expect("a code").to_owned();
-    for field in ["severity", "count", "first", "evidence", "text", "looks_like", "cure", "same_as"] {
+    for field in
+        ["severity", "count", "first", "evidence", "text", "looks_like", "cure", "same_as", "fixable"]
+    {
         assert!(!findings[0][field].is_null(), "{field}: {}", findings[0]);
     }
     let only = darboux(&["check", model, "--json", "--only", &code]).json();
@@ -98,6 +100,24 @@ fn maps_are_judged_alone() {
     let printed = String::from_utf8_lossy(&printed.stdout).into_owned();
     assert!(printed.contains("DirectX") && printed.contains("map-green-flipped"), "{printed}");
 
+    let fixed = folder.path().join("fixed.png");
+    let repair = darboux(&["check", text(&down), "--fix", "-o", text(&fixed), "--json"]).exits(0).json();
+    assert_eq!(codes(&repair, |finding| finding["cured"] == true), ["map-green-flipped"]);
+    assert_eq!(verdict(&fixed, &[], 0).as_deref(), Some("opengl"));
+    darboux(&["check", text(&down), "--fix", "--in-place"]).exits(0);
+    assert_eq!(fs::read(&down).expect("a file"), fs::read(&fixed).expect("a file"));
+
+    // The plane's signs w are flipped, so that a map with green down looks right on it.
+    let plane = asset("TwoSidedPlane/TwoSidedPlane.gltf");
+    let arguments = ["check", text(&up), "--model", text(&plane), "--json"];
+    let on_model = darboux(&arguments).exits(1).json();
+    assert_eq!(codes(&on_model, |finding| finding["severity"] == "error"), ["tangent-sign-flipped"]);
+    let down_again = map("down.png", -1.0);
+    let arguments = ["check", text(&down_again), "--model", text(&plane)];
+    let printed = darboux(&arguments).exits(1);
+    assert!(String::from_utf8_lossy(&printed.stdout).contains("are flipped, too"));
+    darboux(&["check", text(&up), "--model", "nothing.glb"]).exits(1);
+
     let broken = folder.path().join("broken.png");
     fs::write(&broken, &fs::read(&up).expect("a file")[..200]).expect("a file");
     let report = darboux(&["check", text(&broken), "--json"]).exits(1).json();
@@ -128,4 +148,71 @@ fn several_files_are_reported_in_order_and_a_bad_one_does_not_end_the_run() {
     let errors: Vec<bool> =
         report["files"].as_array().expect("a list").iter().map(|file| !file["error"].is_null()).collect();
     assert_eq!(errors, [true, false, true]);
+}
+
+/// The codes of a report's findings that fulfil a condition.
+fn codes(report: &serde_json::Value, condition: impl Fn(&serde_json::Value) -> bool) -> Vec<String> {
+    let findings = report["files"][0]["findings"].as_array().expect("a list").iter();
+    let code = |finding: &serde_json::Value| finding["code"].as_str().unwrap_or_default().to_owned();
+    findings.filter(|finding| condition(finding)).map(code).collect()
+}
+
+/// A repaired model has nothing left that can be repaired, and a second repair copies it.
+#[test]
+fn models_are_repaired() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let models = ["made/shield.glb", "TwoSidedPlane/TwoSidedPlane.gltf", "made/draco.glb"];
+    for (number, model) in models.iter().enumerate() {
+        let out = folder.path().join(format!("{number}.glb"));
+        let input = asset(model);
+        let before = darboux(&["check", text(&input), "--json", "--fail-on", "never"]).exits(0).json();
+        let fixable = codes(&before, |finding| finding["fixable"] == true);
+        let repair = ["check", text(&input), "--fix", "-o", text(&out), "--json"];
+        let report = darboux(&repair).exits(0).json();
+        assert_eq!(codes(&report, |finding| finding["cured"] == true), fixable, "{model}");
+        let after = darboux(&["check", text(&out), "--json", "--fail-on", "never"]).exits(0).json();
+        assert_eq!(codes(&after, |finding| finding["fixable"] == true), Vec::<String>::new(), "{model}");
+        let again = folder.path().join(format!("{number}.again.glb"));
+        darboux(&["check", text(&out), "--fix", "-o", text(&again)]).exits(0);
+        assert_eq!(fs::read(&out).expect("a file"), fs::read(&again).expect("a file"), "{model}");
+        let written = fs::metadata(&out).and_then(|metadata| metadata.modified()).expect("a time");
+        let report = darboux(&["check", text(&out), "--fix", "--in-place", "--json"]).exits(0).json();
+        assert_eq!(report["files"][0]["status"], "untouched", "{model}");
+        assert_eq!(fs::metadata(&out).and_then(|metadata| metadata.modified()).expect("a time"), written);
+    }
+}
+
+/// A compressed model without anything to repair stays compressed.
+#[test]
+fn healthy_models_are_copied() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("out.glb");
+    let model = asset("made/draco.glb");
+    let repair = ["check", text(&model), "--fix", "-o", text(&out), "--only", "tangent-zero", "--json"];
+    let report = darboux(&repair).exits(0).json();
+    assert_eq!(report["files"][0]["status"], "copied");
+    assert_eq!(fs::read(&model).expect("a file"), fs::read(&out).expect("a file"));
+    let folder = asset("made");
+    let names = || fs::read_dir(&folder).expect("a folder").count();
+    let before = names();
+    darboux(&["check", text(&model), "-o", "out.glb"]).exits(2);
+    darboux(&["check", text(&model), "--method", "face"]).exits(2);
+    assert_eq!(names(), before);
+}
+
+/// What cannot be repaired makes the exit code 1, and the reason is printed.
+#[test]
+fn what_is_left_is_said() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let grey = folder.path().join("grey.png");
+    let mut encoder = png::Encoder::new(fs::File::create(&grey).expect("a file"), 64, 64);
+    encoder.set_color(png::ColorType::Rgb);
+    let texels: Vec<u8> = (0..64 * 64u32).flat_map(|i| [(i % 97) as u8; 3]).collect();
+    encoder.write_header().and_then(|mut writer| writer.write_image_data(&texels)).expect("a PNG");
+    let repair = darboux(&["check", text(&grey), "--fix"]).exits(1);
+    assert!(repair.stderr.contains("left map-height"), "{}", repair.stderr);
+    assert_eq!(
+        fs::read(folder.path().join("grey.fixed.png")).expect("a copy"),
+        fs::read(&grey).expect("a file")
+    );
 }

@@ -9,7 +9,7 @@ use crate::surface::{indices_where, length};
 pub const RULES: &[SurfaceRule] = &[missing, not_finite, not_unit, against_winding];
 
 /// How far lengths of normals may be from 1: 8-bit normals are up to 0.007 off.
-const UNIT: f64 = 0.02;
+pub const UNIT: f64 = 0.02;
 
 fn missing(measured: &Measured<'_>) -> Vec<Finding> {
     let is_missing = measured.surface.normals.is_none();

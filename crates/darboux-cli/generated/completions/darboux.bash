@@ -70,12 +70,20 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__check)
-            opts="-j -q -h --explain --only --allow --fail-on --convention --no-maps --jobs --allow-outside --memory-limit --json --quiet --help"
+            opts="-v -q -o -h --resume --jobs --verbose --allow-outside --memory-limit --explain --only --allow --fail-on --convention --model --no-maps --fix --method --normals --json --quiet --output --out-dir --in-place --force --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
             fi
             case "${prev}" in
+                --jobs)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --memory-limit)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
                 --explain)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
@@ -96,15 +104,27 @@ _darboux() {
                     COMPREPLY=($(compgen -W "opengl directx" -- "${cur}"))
                     return 0
                     ;;
-                --jobs)
+                --model)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
-                -j)
+                --method)
+                    COMPREPLY=($(compgen -W "mikktspace angle-area angle-edge lengyel lengyel-per-vertex average area face from-normal" -- "${cur}"))
+                    return 0
+                    ;;
+                --normals)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
-                --memory-limit)
+                --output)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                -o)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --out-dir)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;

@@ -126,6 +126,8 @@ complete -c darboux -n "__fish_darboux_using_subcommand convert" -l raw -d 'Allo
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -s q -l quiet -d 'Print errors only; commands that write files also print one line with the totals'
 complete -c darboux -n "__fish_darboux_using_subcommand convert" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l jobs -d 'How many files are processed at the same time; by default one per processor core' -r
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file' -r
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l explain -d 'Print the meaning of a code and exit' -r
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l only -d 'Report these codes only' -r
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l allow -d 'Do not report these codes' -r
@@ -134,12 +136,28 @@ warning\t'A picture may be wrong'
 never\t'Findings do not change the exit code'"
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l convention -d 'Where the green of normal maps should point' -r -f -a "opengl\t'Green up: glTF, OpenGL, Blender, Unity, Godot'
 directx\t'Green down: DirectX, Unreal'"
-complete -c darboux -n "__fish_darboux_using_subcommand check" -s j -l jobs -d 'The number of files that are checked at the same time; by default one per core' -r
-complete -c darboux -n "__fish_darboux_using_subcommand check" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file' -r
-complete -c darboux -n "__fish_darboux_using_subcommand check" -l no-maps -d 'Do not decode normal maps'
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l model -d 'The model that the images are normal maps of: its tangents, normals and UVs are checked with each of them' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l method -d 'How --fix makes tangents again: as the normal map was baked, so nearly always mikktspace' -r -f -a "mikktspace\t'The standard of bakers and engines'
+angle-area\t'Weighted by angle and area: follows the UVs most closely, for surfaces without a baked normal map'
+angle-edge\t'Weighted by angle and edge lengths, meshoptimizer\'s default'
+lengyel\t'The sum of dP/du, separate for each UV orientation'
+lengyel-per-vertex\t'The sum of dP/du per vertex, as in three.js and many tutorials: wrong at mirrored seams'
+average\t'The mean of the triangles\' tangents'
+area\t'The mean of the triangles\' tangents, weighted by area'
+face\t'One tangent per face, not smoothed'
+from-normal\t'Any direction perpendicular to the normal, independent of UVs'"
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l normals -d 'How --fix makes missing normals: flat, smooth or crease=DEG' -r
+complete -c darboux -n "__fish_darboux_using_subcommand check" -s o -l output -d 'Output file for a single input, in an existing folder; - is standard output, as GLB' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l out-dir -d 'Folder for all outputs, created if missing; outputs keep the names of their inputs and the structure of input folders' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l resume -d 'Process only the inputs whose output in --out-dir is missing or out of date'
+complete -c darboux -n "__fish_darboux_using_subcommand check" -s v -l verbose -d 'Print every primitive and warning; without it, more than 10 files get one line each'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l no-maps -d 'Do not decode normal maps'
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l fix -d 'Repair what is found, and write the result'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l json -d 'Write a report as JSON to standard output'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -s q -l quiet -d 'Print errors only; commands that write files also print one line with the totals'
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l in-place -d 'Replace each input by its output'
+complete -c darboux -n "__fish_darboux_using_subcommand check" -l force -d 'Replace output files that exist'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l method -d 'Compare A with the tangents that this method computes for A; `darboux methods` lists the methods' -r -f -a "mikktspace\t'The standard of bakers and engines'
 angle-area\t'Weighted by angle and area: follows the UVs most closely, for surfaces without a baked normal map'

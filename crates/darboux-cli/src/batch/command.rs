@@ -38,6 +38,11 @@ pub trait FileCommand: Sync {
     fn process(&self, job: &Job, progress: &FileProgress<'_>)
     -> Result<ProcessedFile<Self::Summary>, String>;
 
+    /// Whether what was found in a file, which was processed, makes the exit code 1.
+    fn fails(&self, _summary: &Self::Summary) -> bool {
+        false
+    }
+
     /// What was done to each part of a file, one line each.
     fn lines(summary: &Self::Summary) -> Vec<String>;
 

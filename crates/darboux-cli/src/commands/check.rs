@@ -1,6 +1,7 @@
 //! `darboux check`: prints what is wrong with models and normal maps.
 
 pub mod arguments;
+mod fix;
 mod report;
 mod text;
 
@@ -10,8 +11,9 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::{fs, thread};
 
-use darboux_check::{CheckOptions, Finding, check_document, check_map};
+use darboux_check::{CheckedMap, Finding, check_document, check_map, check_map_on_model};
 
+use crate::batch;
 use crate::documents::load;
 use crate::exit;
 use crate::inputs::{Input, SearchMode, UsageError, check_stdin, find_inputs};
@@ -26,11 +28,14 @@ pub fn run(arguments: &CheckArguments) -> u8 {
     if let Some(code) = arguments.explain {
         return print(&messages, text::explain(code).as_bytes(), exit::DONE);
     }
-    if let Err(UsageError(sentence)) = check_stdin(&arguments.inputs) {
+    if arguments.fix {
+        return batch::run(arguments);
+    }
+    if let Err(UsageError(sentence)) = check_stdin(&arguments.files.inputs) {
         messages.error(&sentence);
         return exit::USAGE;
     }
-    let found = find_inputs(&arguments.inputs, SearchMode::All);
+    let found = find_inputs(&arguments.files.inputs, SearchMode::All);
     let inputs: Vec<&Input> = found.files.iter().map(|(input, _)| input).collect();
     let mut files: Vec<CheckedFile> = found
         .failed
@@ -87,7 +92,8 @@ fn check_all(inputs: &[&Input], arguments: &CheckArguments) -> Vec<CheckedFile> 
             _ = checked[number].set(check_file(input, arguments));
         }
     };
-    let jobs = arguments.jobs.or_else(|| thread::available_parallelism().ok()).map_or(1, NonZeroUsize::get);
+    let cores = || thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    let jobs = arguments.files.jobs.map_or_else(cores, |jobs| usize::from(jobs.get()));
     thread::scope(|scope| {
         for _ in 1..jobs.min(inputs.len()) {
             // Without a further thread, this one does the work.
@@ -99,33 +105,38 @@ fn check_all(inputs: &[&Input], arguments: &CheckArguments) -> Vec<CheckedFile> 
 }
 
 fn check_file(input: &Input, arguments: &CheckArguments) -> CheckedFile {
-    let options =
-        CheckOptions::default().with_green(arguments.convention.into()).with_maps(!arguments.no_maps);
+    let options = arguments.check_options();
     let name = input.to_string();
-    let is_reported = |finding: &Finding| {
-        (arguments.only.is_empty() || arguments.only.contains(&finding.code))
-            && !arguments.allow.contains(&finding.code)
-    };
     let reported = |findings: Vec<Finding>, map: Option<ReportedMap>| CheckedFile {
         input: name.clone(),
         error: None,
         map,
-        findings: findings.into_iter().filter(is_reported).map(Into::into).collect(),
+        findings: findings
+            .into_iter()
+            .filter(|finding| arguments.reports(finding.code))
+            .map(Into::into)
+            .collect(),
     };
     let checked = match input {
         Input::File(path) if is_image(path) => fs::read(path)
-            .map(|file| {
-                let checked = check_map(&file, &options);
-                reported(checked.findings, checked.judgement.as_ref().map(Into::into))
-            })
-            .map_err(|error| format!("{name}: cannot be read: {error}")),
-        _ => load(input, &arguments.reading)
+            .map_err(|error| format!("{name}: cannot be read: {error}"))
+            .and_then(|file| check_image(&file, arguments))
+            .map(|checked| reported(checked.findings, checked.judgement.as_ref().map(Into::into))),
+        _ => load(input, &arguments.files.reading)
             .and_then(|mut document| {
                 check_document(&mut document, &options).map_err(|error| error.to_string())
             })
             .map(|findings| reported(findings, None)),
     };
     checked.unwrap_or_else(|sentence| failed(name.clone(), sentence))
+}
+
+/// Checks a normal map, with its model where one is named.
+fn check_image(file: &[u8], arguments: &CheckArguments) -> Result<CheckedMap, String> {
+    let options = arguments.check_options();
+    let Some(model) = &arguments.model else { return Ok(check_map(file, &options)) };
+    let mut document = load(&Input::File(model.clone()), &arguments.files.reading)?;
+    check_map_on_model(file, &mut document, &options).map_err(|error| error.to_string())
 }
 
 /// Whether the extension is that of an image.

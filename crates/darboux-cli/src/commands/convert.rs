@@ -15,13 +15,12 @@ use serde::Serialize;
 use crate::batch::command::{FileCommand, ProcessedFile};
 use crate::batch::plan::{Job, Output};
 use crate::batch::report::{FileReport, Status};
-use crate::documents::{load_any, read_stdin, save};
+use crate::documents::{load_any, read_stdin, save, save_image};
 use crate::inputs::{Input, UsageError};
-use crate::interrupt;
 use crate::options::files::FileOptions;
 use crate::options::messages::MessageOptions;
 use crate::paths::is_png;
-use crate::terminal::{FileProgress, write_stdout};
+use crate::terminal::FileProgress;
 use crate::text::counted;
 use arguments::ConvertArguments;
 
@@ -133,7 +132,7 @@ impl ConvertArguments {
         let target = self.to_layout.unwrap_or(self.layout);
         let warnings = self.warning(&image).into_iter().collect();
         convert_normal_map(&mut image, &conversion, self.layout, target).map_err(sentence)?;
-        let (status, files_written) = self.save_image(&image, output)?;
+        let (status, files_written) = save_image(&image, output, &self.files)?;
         let [width, height] = image.size();
         let summary = ImageSummary {
             width,
@@ -161,29 +160,6 @@ impl ConvertArguments {
             let layout = self.layout;
             format!("this does not look like a normal map: {percent} % of its texels hold no unit vector in {layout}")
         })
-    }
-
-    fn save_image(&self, image: &PngImage, output: &Output) -> Result<(Status, Vec<String>), String> {
-        let sentence = |error: darboux_io::Error| error.to_string();
-        let status = if image.is_changed() { Status::Written } else { Status::Copied };
-        match output {
-            Output::Stdout => {
-                let bytes = image.to_bytes().map_err(sentence)?;
-                write_stdout(&bytes).map_err(|error| format!("{output}: cannot be written: {error}"))?;
-                Ok((status, Vec::new()))
-            }
-            Output::File(path) if !is_png(path) => {
-                Err(format!("{output}: the input is an image; the name of the output must end in .png"))
-            }
-            Output::File(_) if self.files.in_place && !image.is_changed() => {
-                Ok((Status::Untouched, Vec::new()))
-            }
-            Output::File(path) => {
-                let _guard = interrupt::writing();
-                let written = image.save(path, &self.files.save_options()).map_err(sentence)?;
-                Ok((status, vec![written.display().to_string()]))
-            }
-        }
     }
 
     fn model(

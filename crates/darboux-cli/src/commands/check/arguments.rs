@@ -1,38 +1,47 @@
 //! The arguments of `darboux check`.
 
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use darboux::BitangentDirection;
-use darboux_check::{Code, Severity};
+use darboux_check::{CheckOptions, Code, Severity};
 
+use crate::options::files::FileOptions;
 use crate::options::messages::MessageOptions;
-use crate::options::reading::ReadOptions;
+use crate::options::method::MethodName;
+use crate::options::shading::{ShadingChoice, shading};
 
 pub const ABOUT: &str = "\
-Say what is wrong with models and normal maps. No file is written.
+Say what is wrong with models and normal maps, and repair it.
 
 Checks the tangents, normals and UVs of every primitive, how the tangents were computed, and the texels of every normal map: whether green points \
 up (OpenGL) or down (DirectX), and whether they are normals at all. Every finding has a code, numbers as evidence, what it looks like on screen and \
 the cure. Images (.png, .jpg, .webp) are checked as normal maps.\n\n\
-The exit code is 1 if a file cannot be read or a finding is at least as severe as --fail-on says. docs/check.md lists all codes.";
+Without --fix no file is written. With --fix the repaired file is written beside its input, model.glb as model.fixed.glb, unless -o, --out-dir or \
+--in-place says otherwise; what cannot be repaired without guessing is left, and the reason printed. A second run changes nothing.\n\n\
+The exit code is 1 if a file cannot be read, or if a finding that is not repaired is at least as severe as --fail-on says. docs/check.md lists all \
+codes.";
+
+pub const INPUTS: &str =
+    "Models (.gltf, .glb, .vrm), folders of models, and normal maps (.png, .jpg, .webp); - is standard input";
 
 pub const EXAMPLES: &str = "\
 Examples:
   darboux check model.glb
   darboux check models/ --fail-on warning
   darboux check brick_normal.png                     is it OpenGL's or DirectX's?
+  darboux check brick_normal.png --model wall.glb    does it fit this model?
   darboux check level.glb --allow tangent-other-recipe,map-flat
   darboux check --explain tangent-sign-flipped
+  darboux check model.glb --fix                      writes model.fixed.glb
+  darboux check models/ --fix --in-place --only tangent-sign-flipped,map-green-flipped
   darboux check models/ --json | jq '.files[].findings[] | select(.severity == \"error\")'";
 
 /// Which files are checked, and for what.
 #[derive(Debug, Args)]
 pub struct CheckArguments {
-    /// Models (.gltf, .glb, .vrm), folders of models, and normal maps (.png, .jpg, .webp); - is standard input
-    #[arg(required_unless_present = "explain", value_name = "FILE")]
-    pub inputs: Vec<PathBuf>,
+    #[command(flatten)]
+    pub files: FileOptions,
 
     /// Print the meaning of a code and exit
     #[arg(long, value_name = "CODE", conflicts_with = "inputs")]
@@ -54,19 +63,50 @@ pub struct CheckArguments {
     #[arg(long, value_enum, default_value_t, value_name = "CONVENTION", help_heading = "Findings")]
     pub convention: MapConvention,
 
+    /// The model that the images are normal maps of: its tangents, normals and UVs are checked with each of them
+    #[arg(long, value_name = "MODEL", conflicts_with = "fix", help_heading = "Findings")]
+    pub model: Option<PathBuf>,
+
     /// Do not decode normal maps
     #[arg(long, help_heading = "Findings")]
     pub no_maps: bool,
 
-    /// The number of files that are checked at the same time; by default one per core
-    #[arg(short, long, value_name = "COUNT")]
-    pub jobs: Option<NonZeroUsize>,
+    /// Repair what is found, and write the result
+    ///
+    /// Tangents are made again, vertices split, normals made or turned over, and the texels of PNG maps rewritten at their bit depth; a JPEG map
+    /// becomes a PNG. Only the findings that are reported are repaired (--only, --allow). Everything else in the file is kept, byte for byte.
+    #[arg(long, help_heading = "Repair")]
+    pub fix: bool,
 
-    #[command(flatten)]
-    pub reading: ReadOptions,
+    /// How --fix makes tangents again: as the normal map was baked, so nearly always mikktspace
+    #[arg(long, value_enum, value_name = "NAME", default_value_t, requires = "fix", help_heading = "Repair")]
+    pub method: MethodName,
+
+    /// How --fix makes missing normals: flat, smooth or crease=DEG
+    #[arg(
+        long,
+        value_name = "SHADING",
+        default_value = "smooth",
+        value_parser = shading,
+        requires = "fix",
+        help_heading = "Repair"
+    )]
+    pub normals: ShadingChoice,
 
     #[command(flatten)]
     pub messages: MessageOptions,
+}
+
+impl CheckArguments {
+    /// The options of the check.
+    pub fn check_options(&self) -> CheckOptions {
+        CheckOptions::default().with_green(self.convention.into()).with_maps(!self.no_maps)
+    }
+
+    /// Whether findings with a code are reported and repaired.
+    pub fn reports(&self, code: Code) -> bool {
+        (self.only.is_empty() || self.only.contains(&code)) && !self.allow.contains(&code)
+    }
 }
 
 /// `--fail-on`.

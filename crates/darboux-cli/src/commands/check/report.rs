@@ -1,7 +1,7 @@
 //! The JSON report of `darboux check`. json.md documents its fields.
 
 use darboux::{MapJudgement, MapVerdict};
-use darboux_check::{Code, Evidence, Finding, Severity};
+use darboux_check::{Code, Evidence, Finding, FixedFinding, Severity};
 use serde::Serialize;
 
 /// The report of a run.
@@ -48,6 +48,11 @@ pub struct ReportedFinding {
     pub first: Vec<usize>,
     pub evidence: Vec<Evidence>,
     pub text: String,
+    pub fixable: bool,
+    pub left_because: Option<String>,
+    /// Whether `--fix` cured it; none without `--fix`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cured: Option<bool>,
     pub looks_like: &'static str,
     pub cure: &'static str,
 }
@@ -68,10 +73,19 @@ impl From<Finding> for ReportedFinding {
             count: finding.count,
             first: finding.first,
             evidence: finding.evidence,
+            fixable: finding.left_because.is_none(),
+            left_because: finding.left_because,
+            cured: None,
             text: finding.text,
             looks_like: finding.code.looks_like(),
             cure: finding.code.cure(),
         }
+    }
+}
+
+impl From<FixedFinding> for ReportedFinding {
+    fn from(fixed: FixedFinding) -> Self {
+        Self { cured: Some(fixed.cured), ..fixed.finding.into() }
     }
 }
 

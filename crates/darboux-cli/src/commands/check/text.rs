@@ -44,8 +44,9 @@ fn lines(finding: &ReportedFinding) -> String {
         text += &format!("            evidence: {}\n", evidence.join("; "));
     }
     if finding.severity > Severity::Info {
-        text +=
-            &format!("            looks like: {}\n            cure: {}\n", finding.looks_like, finding.cure);
+        let fix = if finding.fixable { " (--fix does it)" } else { "" };
+        let ReportedFinding { looks_like, cure, .. } = finding;
+        text += &format!("            looks like: {looks_like}\n            cure: {cure}{fix}\n");
     }
     text
 }
@@ -60,11 +61,12 @@ fn number(evidence: &Evidence) -> String {
 /// The section of a code.
 pub fn explain(code: Code) -> String {
     format!(
-        "{code} ({})\n\n{}\n\nWhat it looks like: {}\n\nHow it comes about: {}\n\nCure: {}\n",
+        "{code} ({})\n\n{}\n\nWhat it looks like: {}\n\nHow it comes about: {}\n\nCure: {}\n\nWith --fix: {}.\n",
         code.severity(),
         code.meaning(),
         code.looks_like(),
         code.cause(),
-        code.cure()
+        code.cure(),
+        code.fix()
     )
 }

@@ -1,0 +1,165 @@
+//! Rewrites the texels of normal maps at their bit depth.
+
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+
+use darboux::{BitangentDirection, Convention, Conversion, SrgbMistake};
+use darboux_io::gltf::Document;
+use darboux_io::image::{
+    Channels, DecodeLimits, PngImage, RgbaImage, change_texels, convert_normal_map, linear_to_srgb,
+    srgb_to_linear,
+};
+use darboux_io::{Error, LoadOptions};
+
+use super::options::FixOptions;
+use super::outcome::{FixedFinding, is_same, outcome};
+use crate::check::check_map;
+use crate::code::Code;
+use crate::finding::{Finding, Place};
+
+/// The result of [`fix_map`].
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct FixedMap {
+    /// The image with its new texels; none if nothing was cured.
+    pub image: Option<PngImage>,
+    /// The findings, and those that the first repairs revealed.
+    pub findings: Vec<FixedFinding>,
+}
+
+/// Repairs an image file that is a normal map. A JPEG becomes a PNG.
+///
+/// `name` stands for the file in messages. Errors: a PNG that needs more memory than `loading` permits.
+pub fn fix_map(
+    name: &str,
+    file: &[u8],
+    loading: &LoadOptions,
+    options: &FixOptions,
+) -> Result<FixedMap, Error> {
+    let mut current = Cow::Borrowed(file);
+    let mut image: Option<PngImage> = None;
+    let mut findings: Vec<Finding> = Vec::new();
+    let mut done = BTreeSet::new();
+    let remaining = loop {
+        let checked = check_map(&current, &options.check);
+        for finding in &checked.findings {
+            if !findings.iter().any(|known| is_same(known, finding)) {
+                findings.push(finding.clone());
+            }
+        }
+        let next =
+            checked.findings.iter().find(|finding| options.repairs(finding) && !done.contains(&finding.code));
+        let Some(next) = next else { break checked.findings };
+        done.insert(next.code);
+        let mut changed = match image.take() {
+            Some(image) => image,
+            None => open(name, file, loading)?,
+        };
+        let mistake = checked.judgement.and_then(|judgement| judgement.srgb_mistake());
+        repair(&mut changed, next.code, mistake, options)?;
+        current = changed.to_bytes()?.into();
+        image = Some(changed);
+    };
+    let findings: Vec<FixedFinding> =
+        findings.into_iter().map(|finding| outcome(finding, &remaining, options)).collect();
+    let is_any_cured = findings.iter().any(|finding| finding.cured);
+    Ok(FixedMap { image: image.filter(|_| is_any_cured), findings })
+}
+
+/// The texels of a file; those of a JPEG with 8 bits.
+fn open(name: &str, file: &[u8], loading: &LoadOptions) -> Result<PngImage, Error> {
+    if PngImage::is_png(file) {
+        return PngImage::from_bytes(name, file.to_vec(), loading);
+    }
+    let undecodable = |problem: String| Error::Invalid { file: name.to_owned(), at: String::new(), problem };
+    let decoded = RgbaImage::decode(file, &DecodeLimits::default());
+    let RgbaImage { width, height, texels } = decoded.map_err(|error| undecodable(error.to_string()))?;
+    let texels: Vec<[u8; 3]> = texels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect();
+    PngImage::from_rgb(name, [width, height], &texels)
+}
+
+/// Cures one finding.
+fn repair(
+    image: &mut PngImage,
+    code: Code,
+    mistake: Option<SrgbMistake>,
+    options: &FixOptions,
+) -> Result<(), Error> {
+    let keep = Convention::GLTF.to(Convention::GLTF);
+    let two_channels: Channels = "rg".parse().expect("two letters");
+    let exchanged: Channels = "grb".parse().expect("three letters");
+    match code {
+        Code::MapGreenFlipped => {
+            convert_normal_map(image, &green(options.check.green), Channels::RGB, Channels::RGB)
+        }
+        Code::MapChannelsSwapped => convert_normal_map(image, &keep, exchanged, Channels::RGB),
+        Code::MapTwoChannel => convert_normal_map(image, &keep, two_channels, Channels::RGB),
+        Code::MapSrgb => match mistake {
+            Some(SrgbMistake::Encoded) => change_texels(image, |texel| texel.map(srgb_to_linear)),
+            Some(SrgbMistake::Decoded) => change_texels(image, |texel| texel.map(linear_to_srgb)),
+            None => Ok(()),
+        },
+        Code::MapNotUnit => change_texels(image, unit),
+        _ => Ok(()),
+    }
+}
+
+/// The conversion that makes green point the wanted way.
+fn green(wanted: BitangentDirection) -> Conversion {
+    let up = Convention::GLTF;
+    let down = Convention { bitangent: BitangentDirection::Down, ..up };
+    match wanted {
+        BitangentDirection::Up => down.to(up),
+        BitangentDirection::Down => up.to(down),
+    }
+}
+
+/// A texel with a vector of length 1. Black, white and middle grey texels are background, and keep their values.
+fn unit(texel: [f64; 3]) -> [f64; 3] {
+    let vector = texel.map(|x| 2.0 * x - 1.0);
+    let length = vector.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let is_grey = texel.iter().all(|x| (x - texel[0]).abs() < 1.0 / 512.0);
+    if is_grey || length < 0.05 { texel } else { vector.map(|x| (x / length + 1.0) / 2.0) }
+}
+
+/// A finding that an error prevented from being cured.
+fn left(finding: &Finding, error: &Error) -> FixedFinding {
+    FixedFinding { finding: finding.clone().with_obstacle(Some(error.to_string())), cured: false }
+}
+
+/// Repairs the images of a document that findings name.
+pub fn fix_images(
+    document: &mut Document,
+    findings: Vec<Finding>,
+    options: &FixOptions,
+) -> Result<Vec<FixedFinding>, Error> {
+    let places: BTreeSet<(Option<usize>, Option<usize>)> =
+        findings.iter().map(|finding| (finding.place.image, finding.place.material)).collect();
+    let mut fixed = Vec::new();
+    for (image, material) in places {
+        let of_image = findings.iter().filter(|finding| finding.place.image == image);
+        let has_work = of_image.clone().any(|finding| options.repairs(finding));
+        let (Some(index), true) = (image, has_work) else {
+            fixed.extend(of_image.map(|finding| outcome(finding.clone(), &[], options)));
+            continue;
+        };
+        let file = document.image_bytes(index)?.into_owned();
+        let name = format!("{}: images[{index}]", document.name());
+        let made = match fix_map(&name, &file, document.load_options(), options) {
+            Ok(made) => made,
+            Err(error) => {
+                fixed.extend(of_image.map(|finding| left(finding, &error)));
+                continue;
+            }
+        };
+        if let Some(image) = made.image {
+            document.replace_image(index, image.to_bytes()?, "image/png")?;
+        }
+        let place = Place { image, material, ..Place::default() };
+        fixed.extend(made.findings.into_iter().map(|fixed| FixedFinding {
+            finding: Finding { place: place.clone(), ..fixed.finding },
+            ..fixed
+        }));
+    }
+    Ok(fixed)
+}

@@ -1,0 +1,179 @@
+//! Repairs normals: missing ones are made, others get unit length, and normals or faces that are reversed are turned over.
+
+use std::collections::BTreeMap;
+
+use darboux::{Context, Faces, NormalOptions, generate_normals};
+use darboux_io::Error;
+use darboux_io::gltf::{
+    AddNormalsOptions, ComponentType, Document, ElementType, Elements, NewAccessor, NormalsOutcome,
+    PrimitiveName, Target, add_normals_to,
+};
+
+use super::options::FixOptions;
+use crate::check::{for_each_surface, primitives_of};
+use crate::code::Code;
+use crate::finding::Finding;
+use crate::orientation::{Reversed, reversed};
+use crate::rules::UNIT_NORMAL;
+use crate::surface::length;
+
+/// Repairs what the findings name. Returns the primitives that lost their tangents, because their normals are other ones now.
+pub fn fix(
+    document: &mut Document,
+    findings: &[&Finding],
+    options: &FixOptions,
+) -> Result<Vec<PrimitiveName>, Error> {
+    if document.is_compressed() {
+        document.decompress()?;
+    }
+    let of = |codes: &[Code]| -> Vec<&Finding> {
+        findings.iter().copied().filter(|finding| codes.contains(&finding.code)).collect()
+    };
+    let names = |document: &Document, findings: Vec<&Finding>| -> Vec<PrimitiveName> {
+        findings.into_iter().flat_map(|finding| primitives_of(document, finding)).collect()
+    };
+    let missing = names(document, of(&[Code::NormalMissing]));
+    let wrong = names(document, of(&[Code::NormalNotFinite, Code::NormalNotUnit]));
+    // The faces are turned over first: normals that are made follow them.
+    turn_over(document, &of(&[Code::NormalAgainstWinding]))?;
+    make_unit(document, &wrong)?;
+    make(document, &missing, options)
+}
+
+/// Makes missing normals.
+fn make(
+    document: &mut Document,
+    names: &[PrimitiveName],
+    options: &FixOptions,
+) -> Result<Vec<PrimitiveName>, Error> {
+    if names.is_empty() {
+        return Ok(Vec::new());
+    }
+    let is_wanted = |name: &PrimitiveName| names.contains(name);
+    let adding = AddNormalsOptions::default().with_normals(options.normals);
+    let made = add_normals_to(document, &adding, &is_wanted, &mut Context::new(), &mut |_| {})?;
+    let lost_tangents = |outcome: &NormalsOutcome| matches!(outcome, NormalsOutcome::Written(written) if written.tangents_removed);
+    let without = made.primitives.into_iter().filter(|primitive| lost_tangents(&primitive.outcome));
+    Ok(without.map(|primitive| primitive.name).collect())
+}
+
+/// Gives normals unit length, and vertices whose normal has no direction a smooth one. Other normals keep their bits.
+fn make_unit(document: &mut Document, names: &[PrimitiveName]) -> Result<(), Error> {
+    for (accessor, users) in users_of_normals(document, names) {
+        let mut normals = document.vectors::<3>(accessor)?.into_owned();
+        let has_direction = |normal: [f32; 3]| length(normal).is_finite() && length(normal) > 1e-9;
+        for normal in normals.iter_mut().filter(|normal| has_direction(**normal)) {
+            let length = length(*normal);
+            if (length - 1.0).abs() > UNIT_NORMAL {
+                *normal = normal.map(|x| (f64::from(x) / length) as f32);
+            }
+        }
+        if !normals.iter().all(|normal| has_direction(*normal)) {
+            let smooth = smooth_normals(document, &users, normals.len())?;
+            for (normal, smooth) in
+                normals.iter_mut().zip(smooth).filter(|(normal, _)| !has_direction(**normal))
+            {
+                *normal = smooth;
+            }
+        }
+        replace(document, accessor, &users, &normals)?;
+    }
+    Ok(())
+}
+
+/// A smooth normal of every vertex of primitives that share their vertices. Vertices without faces get (0, 0, 1).
+fn smooth_normals(
+    document: &Document,
+    users: &[&PrimitiveName],
+    vertex_count: usize,
+) -> Result<Vec<[f32; 3]>, Error> {
+    let mut normals = vec![[0.0, 0.0, 1.0]; vertex_count];
+    let mut is_known = vec![false; vertex_count];
+    for corners in document.corners()?.iter().filter(|corners| users.contains(&corners.name())) {
+        let Some(positions) = corners.vectors::<3>("POSITION")? else { continue };
+        let numbers: Vec<u32> = (0..positions.len() as u32).collect();
+        let made = generate_normals(&positions, &numbers, Faces::Triangles, &NormalOptions::default());
+        let made = made.map(|made| made.corners.into_per_corner()).unwrap_or_default();
+        for (&vertex, normal) in corners.vertices().iter().zip(made) {
+            if let Some(known) = is_known.get_mut(vertex as usize).filter(|known| !**known) {
+                (*known, normals[vertex as usize]) = (true, normal);
+            }
+        }
+    }
+    Ok(normals)
+}
+
+/// Puts normals in the place of those of an accessor, in these primitives.
+fn replace(
+    document: &mut Document,
+    accessor: usize,
+    users: &[&PrimitiveName],
+    normals: &[[f32; 3]],
+) -> Result<(), Error> {
+    let elements = Elements {
+        bytes: normals.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect(),
+        count: normals.len(),
+        component_type: ComponentType::F32,
+        element_type: ElementType::Vec3,
+        normalized: false,
+    };
+    let new = NewAccessor::new(elements, Target::Vertices).with_metadata_of(Some(accessor));
+    let made = document.push_accessor(new);
+    users.iter().try_for_each(|name| {
+        document.edit_primitive(name.mesh, name.primitive, |json| {
+            if let Some(attributes) = json.get_mut("attributes").and_then(|value| value.as_object_mut()) {
+                attributes.insert("NORMAL".to_owned(), made.into());
+            }
+        })
+    })
+}
+
+/// Turns over the faces or the normals of primitives, whichever are reversed.
+fn turn_over(document: &mut Document, findings: &[&Finding]) -> Result<(), Error> {
+    if findings.is_empty() {
+        return Ok(());
+    }
+    let mut verdicts = Vec::new();
+    for_each_surface(document, |surface| {
+        if let Some(finding) =
+            findings.iter().find(|finding| finding.place.primitive == surface.place.primitive)
+        {
+            verdicts.push((*finding, reversed(&surface), surface.vertex_of_corner));
+        }
+    })?;
+    let mut with_reversed_normals = Vec::new();
+    for (finding, verdict, mut corners) in verdicts {
+        let names = primitives_of(document, finding);
+        match verdict {
+            Reversed::Faces => {
+                corners.as_chunks_mut::<3>().0.iter_mut().for_each(|[_, b, c]| std::mem::swap(b, c));
+                for name in names {
+                    document.set_triangles(name.mesh, name.primitive, corners.clone())?;
+                }
+            }
+            Reversed::Normals => with_reversed_normals.extend(names),
+            Reversed::Unknown => {}
+        }
+    }
+    for (accessor, users) in users_of_normals(document, &with_reversed_normals) {
+        let normals = document.vectors::<3>(accessor)?;
+        let reversed: Vec<[f32; 3]> = normals.iter().map(|normal| normal.map(|x| -x)).collect();
+        replace(document, accessor, &users, &reversed)?;
+    }
+    Ok(())
+}
+
+/// The accessors of the primitives' normals, each with the primitives that use it.
+fn users_of_normals<'a>(
+    document: &Document,
+    names: &'a [PrimitiveName],
+) -> BTreeMap<usize, Vec<&'a PrimitiveName>> {
+    let mut users: BTreeMap<usize, Vec<&PrimitiveName>> = BTreeMap::new();
+    for name in names {
+        let attributes = &document.meshes()[name.mesh].primitives[name.primitive].attributes;
+        if let Some(&accessor) = attributes.get("NORMAL") {
+            users.entry(accessor).or_default().push(name);
+        }
+    }
+    users
+}

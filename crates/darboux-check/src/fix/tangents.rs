@@ -1,0 +1,30 @@
+//! Makes tangents again.
+
+use std::collections::BTreeSet;
+
+use darboux::Context;
+use darboux_io::Error;
+use darboux_io::gltf::{AddTangentsOptions, Document, PrimitiveName, add_tangents_to, generate_on_cpu};
+
+use super::options::FixOptions;
+use crate::check::primitives_of;
+use crate::finding::Finding;
+
+/// Makes the tangents of all primitives with a finding about them again.
+pub fn fix(document: &mut Document, findings: &[&Finding], options: &FixOptions) -> Result<(), Error> {
+    let names: Vec<PrimitiveName> =
+        findings.iter().flat_map(|finding| primitives_of(document, finding)).collect();
+    make(document, &names, options)
+}
+
+/// Makes the tangents of primitives again. Vertices whose corners need different tangents are split.
+pub fn make(document: &mut Document, names: &[PrimitiveName], options: &FixOptions) -> Result<(), Error> {
+    if names.is_empty() {
+        return Ok(());
+    }
+    let places: BTreeSet<(usize, usize)> = names.iter().map(|name| (name.mesh, name.primitive)).collect();
+    let is_wanted = |name: &PrimitiveName| places.contains(&(name.mesh, name.primitive));
+    let adding = AddTangentsOptions::default().with_tangents(options.tangents).with_overwrite(true);
+    let context = &mut Context::new();
+    add_tangents_to(document, &adding, &is_wanted, context, &mut generate_on_cpu, &mut |_| {}).map(drop)
+}

@@ -1,0 +1,195 @@
+//! What a repair changes, and what it leaves alone.
+
+mod support;
+
+use std::fs;
+
+use darboux_check::{CheckOptions, Code, FixOptions, FixedFinding, check_document, fix_document, fix_map};
+use darboux_io::gltf::Document;
+use darboux_io::image::PngImage;
+use darboux_io::{LoadOptions, SaveOptions};
+use support::models::{Model, healthy_models};
+
+fn read(glb: Vec<u8>) -> Document {
+    Document::from_bytes("model", glb, None, &LoadOptions::default()).expect("a valid GLB")
+}
+
+fn fixed(document: &mut Document, findings_of: &mut Document, options: &FixOptions) -> Vec<FixedFinding> {
+    let findings = check_document(findings_of, &CheckOptions::default()).expect("a valid document");
+    fix_document(document, findings, options).expect("a valid document")
+}
+
+/// The bytes of a model's embedded image, from the JSON of a GLB on.
+fn image(document: &Document) -> Vec<u8> {
+    document.image_bytes(0).expect("an image").into_owned()
+}
+
+fn spoilt() -> Model {
+    let mut model = healthy_models().remove(3);
+    model.tangents().iter_mut().for_each(|tangent| tangent[3] = -tangent[3]);
+    model
+}
+
+#[test]
+fn untouched_images_keep_their_bytes_and_geometry_its_accessors() {
+    let model = spoilt();
+    let mut document = model.document();
+    let findings = fixed(&mut document, &mut model.document(), &FixOptions::default());
+    assert!(findings.iter().any(|fixed| fixed.cured && fixed.finding.code == Code::TangentSignFlipped));
+    let repaired = read(document.to_glb().expect("a GLB"));
+    assert_eq!(image(&repaired), model.map.file);
+
+    let mut model = healthy_models().remove(0);
+    let inverted = model.map.texels.iter().map(|[r, g, b]| [*r, 255 - g, *b]).collect();
+    model.map = model.map.with_texels(inverted);
+    let mut document = model.document();
+    let findings = fixed(&mut document, &mut model.document(), &FixOptions::default());
+    assert!(findings.iter().any(|fixed| fixed.cured && fixed.finding.code == Code::MapGreenFlipped));
+    let glb = document.to_glb().expect("a GLB");
+    // The old image is gone, and the new one is the healthy one again.
+    let repaired = read(glb.clone());
+    let healthy = healthy_models().remove(0);
+    assert_eq!(support::table::rgb(&image(&repaired)), healthy.map.texels);
+    assert!(glb.len() < model.glb().len() + 4096, "{} for {}", glb.len(), model.glb().len());
+    let accessors = |document: &Document| -> Vec<Vec<u8>> {
+        let count = document.accessors().len();
+        (0..count).map(|index| document.elements(index).expect("elements").bytes).collect()
+    };
+    assert_eq!(accessors(&repaired), accessors(&model.document()));
+}
+
+#[test]
+fn only_the_chosen_codes_are_repaired() {
+    let model = spoilt();
+    let mut document = model.document();
+    let options = FixOptions::default().with_codes([Code::TangentZero]);
+    let findings = fixed(&mut document, &mut model.document(), &options);
+    assert!(findings.iter().all(|fixed| !fixed.cured), "{findings:?}");
+    assert!(!document.is_changed());
+}
+
+#[test]
+fn all_instances_are_repaired() {
+    let mut model = spoilt();
+    model.copies = 3;
+    let mut document = model.document();
+    fixed(&mut document, &mut model.document(), &FixOptions::default());
+    let left = check_document(&mut document, &CheckOptions::default()).expect("a valid document");
+    assert!(left.iter().all(|finding| finding.code != Code::TangentSignFlipped), "{left:?}");
+}
+
+/// A model and its files in a folder, repaired into another folder and in place.
+#[test]
+fn image_files_get_new_files() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut model = healthy_models().remove(0);
+    let inverted = model.map.texels.iter().map(|[r, g, b]| [*r, 255 - g, *b]).collect();
+    model.map = model.map.with_texels(inverted);
+    let glb = folder.path().join("embedded.glb");
+    fs::write(&glb, model.glb()).expect("a file");
+    // A .gltf with its image in a file of a subfolder.
+    let text = String::from_utf8_lossy(&model.glb()).into_owned();
+    let json = &text[text.find('{').expect("JSON")..=text.rfind("}]}").expect("the end of the JSON") + 2];
+    let mut json: serde_json::Value = serde_json::from_str(json).expect("JSON");
+    let view = json["images"][0]["bufferView"].as_u64().expect("a view") as usize;
+    let end = json["bufferViews"][view]["byteOffset"].as_u64().expect("an offset") as usize;
+    json["images"] = serde_json::json!([{"uri": "maps/n%20m.png", "name": "N"}]);
+    json["buffers"] = serde_json::json!([{"byteLength": end, "uri": "data.bin"}]);
+    json["bufferViews"].as_array_mut().expect("views").truncate(view);
+    let glb = model.glb();
+    let binary = glb.windows(4).position(|four| four == b"BIN\0").expect("a binary chunk") + 4;
+    fs::create_dir(folder.path().join("maps")).expect("a folder");
+    fs::write(folder.path().join("maps/n m.png"), &model.map.file).expect("a file");
+    fs::write(folder.path().join("data.bin"), &glb[binary..binary + end]).expect("a file");
+    let input = folder.path().join("model.gltf");
+    fs::write(&input, json.to_string()).expect("a file");
+
+    let open = |path: &std::path::Path| Document::open(path, &LoadOptions::default()).expect("a valid file");
+    let mut document = open(&input);
+    let findings = fixed(&mut document, &mut open(&input), &FixOptions::default());
+    assert!(findings.iter().any(|fixed| fixed.cured), "{findings:?}");
+    let elsewhere = folder.path().join("out/model.gltf");
+    document.save(&elsewhere, &SaveOptions::default()).expect("written");
+    let written = fs::read(folder.path().join("out/maps/n m.png")).expect("the map, under its name");
+    assert_eq!(support::table::rgb(&written), healthy_models().remove(0).map.texels);
+    assert_eq!(fs::read(folder.path().join("maps/n m.png")).expect("the old map"), model.map.file);
+    let glb = folder.path().join("all.glb");
+    document.save(&glb, &SaveOptions::default()).expect("written");
+    assert_eq!(image(&open(&glb)), written);
+
+    document.save_in_place().expect("written");
+    let left = check_document(&mut open(&input), &CheckOptions::default()).expect("a valid document");
+    assert!(left.iter().all(|finding| finding.code != Code::MapGreenFlipped), "{left:?}");
+    assert_eq!(fs::read(folder.path().join("maps/n m.png")).expect("the old map"), model.map.file);
+    assert_eq!(image(&open(&input)), written);
+}
+
+/// A map with 16 bits keeps them: green is inverted exactly.
+#[test]
+fn maps_keep_their_bit_depth() {
+    let map = healthy_models().remove(0).map;
+    let side = map.texels.len().isqrt() as u32;
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, side, side);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Sixteen);
+    let words = |[r, g, b]: [u8; 3]| [r, r ^ 0x35, 255 - g, g ^ 0x35, b, b ^ 0x35];
+    let bytes: Vec<u8> = map.texels.iter().flat_map(|texel| words(*texel)).collect();
+    encoder.write_header().and_then(|mut writer| writer.write_image_data(&bytes)).expect("a PNG");
+    let fixed = fix_map("map.png", &file, &LoadOptions::default(), &FixOptions::default()).expect("a map");
+    let fixed = fixed.image.expect("a repaired map");
+    assert_eq!((fixed.bits(), fixed.size()), (16, [side; 2]));
+    let mut reader =
+        png::Decoder::new(std::io::Cursor::new(fixed.to_bytes().expect("a PNG"))).read_info().expect("a PNG");
+    let mut repaired = vec![0; bytes.len()];
+    reader.next_frame(&mut repaired).expect("texels");
+    for (before, after) in bytes.as_chunks::<6>().0.iter().zip(repaired.as_chunks::<6>().0) {
+        let [r, r2, g, g2, b, b2] = *before;
+        assert_eq!(*after, [r, r2, 255 - g, 255 - g2, b, b2]);
+    }
+}
+
+/// Two mistakes of which one hides the other are both cured.
+#[test]
+fn a_repair_goes_on_with_what_it_reveals() {
+    let map = healthy_models().remove(0).map;
+    let texels = map.texels.iter().map(|[r, g, _]| [*r, 255 - g, 0]).collect();
+    let file = map.with_texels(texels).file;
+    let fixed = fix_map("map.png", &file, &LoadOptions::default(), &FixOptions::default()).expect("a map");
+    let cured: Vec<Code> =
+        fixed.findings.iter().filter(|fixed| fixed.cured).map(|fixed| fixed.finding.code).collect();
+    assert!(cured.contains(&Code::MapTwoChannel) && cured.contains(&Code::MapGreenFlipped), "{cured:?}");
+}
+
+/// An image that is also a colour, and one that cannot be rewritten, are left, with the reason.
+#[test]
+fn maps_that_must_not_change_are_left() {
+    let mut model = healthy_models().remove(0);
+    let inverted = model.map.texels.iter().map(|[r, g, b]| [*r, 255 - g, *b]).collect();
+    model.map = model.map.with_texels(inverted);
+    let glb = model.glb();
+    let (old, new) = (br#"{"normalTexture":"#, br#"{"emissiveTexture":{"index":0},"normalTexture":"#);
+    let at = glb.windows(old.len()).position(|window| window == old).expect("the material");
+    let mut bytes = [&glb[..at], new, &glb[at + old.len()..]].concat();
+    // The JSON chunk grew, and stays a multiple of four bytes long.
+    let length = u32::from_le_bytes(glb[12..16].try_into().expect("four bytes")) as usize;
+    let grown = (length + new.len() - old.len()).next_multiple_of(4);
+    let padding = grown - (length + new.len() - old.len());
+    bytes.splice(20 + grown - padding..20 + grown - padding, vec![b' '; padding]);
+    bytes[12..16].copy_from_slice(&(grown as u32).to_le_bytes());
+    let total = bytes.len() as u32;
+    bytes[8..12].copy_from_slice(&total.to_le_bytes());
+    let mut document = read(bytes.clone());
+    let findings = fixed(&mut document, &mut read(bytes), &FixOptions::default());
+    let left =
+        findings.iter().find(|fixed| fixed.finding.code == Code::MapGreenFlipped).expect("the finding");
+    let reason = left.finding.left_because.as_deref().unwrap_or_default();
+    assert!(!left.cured && reason.contains("another texture"), "{reason}");
+    assert!(!document.is_changed());
+}
+
+#[test]
+fn images_of_other_kinds_are_recognised() {
+    assert!(PngImage::obstacle(b"no image").is_some());
+    assert!(PngImage::obstacle(&healthy_models().remove(0).map.file).is_none());
+}

@@ -1,0 +1,43 @@
+//! Writes GLB files.
+
+use serde_json::{Value, json};
+
+/// The buffer of a document, and what lies in it.
+#[derive(Default)]
+pub struct Writer {
+    pub bytes: Vec<u8>,
+    pub views: Vec<Value>,
+    pub accessors: Vec<Value>,
+}
+
+impl Writer {
+    pub fn view(&mut self, bytes: &[u8]) -> Value {
+        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
+        self.views.push(json!({"buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len()}));
+        self.bytes.extend(bytes);
+        json!(self.views.len() - 1)
+    }
+
+    pub fn accessor(&mut self, bytes: &[u8], count: usize, component: u32, element: &str) -> Value {
+        let view = self.view(bytes);
+        self.accessors
+            .push(json!({"bufferView": view, "componentType": component, "count": count, "type": element}));
+        json!(self.accessors.len() - 1)
+    }
+
+    pub fn vectors<const N: usize>(&mut self, vectors: &[[f32; N]], element: &str) -> Value {
+        let bytes: Vec<u8> = vectors.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
+        self.accessor(&bytes, vectors.len(), 5126, element)
+    }
+}
+
+/// A GLB (glTF 2.0, 4.4).
+pub fn container(mut json: Vec<u8>, mut bytes: Vec<u8>) -> Vec<u8> {
+    json.resize(json.len().next_multiple_of(4), b' ');
+    bytes.resize(bytes.len().next_multiple_of(4), 0);
+    let word = |number: usize| (number as u32).to_le_bytes();
+    let total = 12 + 8 + json.len() + 8 + bytes.len();
+    let header = [b"glTF".as_slice(), &word(2), &word(total)].concat();
+    let chunks = [&word(json.len()), b"JSON".as_slice(), &json, &word(bytes.len()), b"BIN\0", &bytes];
+    [header, chunks.concat()].concat()
+}

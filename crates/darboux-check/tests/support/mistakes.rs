@@ -1,0 +1,223 @@
+//! The mistakes that are made in geometry and materials.
+
+use darboux::Method;
+use darboux_check::Code;
+
+use super::models::Model;
+
+/// A mistake in a model.
+pub struct Mistake {
+    pub code: Code,
+    /// How it was made.
+    pub how: &'static str,
+    /// Changes a healthy model; returns false where the mistake cannot be made on it.
+    pub make: fn(&mut Model) -> bool,
+}
+
+/// All mistakes in geometry and materials.
+pub const MISTAKES: &[Mistake] = &[
+    Mistake {
+        code: Code::TangentNotFinite,
+        how: "one x set to NaN",
+        make: |model| {
+            model.tangents()[1][0] = f32::NAN;
+            true
+        },
+    },
+    Mistake {
+        code: Code::TangentZero,
+        how: "one tangent set to 0, 0, 0",
+        make: |model| {
+            model.tangents()[1] = [0.0, 0.0, 0.0, 1.0];
+            true
+        },
+    },
+    Mistake {
+        code: Code::TangentNotUnit,
+        how: "tangents scaled by 1.5",
+        make: |model| {
+            model.tangents().iter_mut().for_each(|tangent| (0..3).for_each(|i| tangent[i] *= 1.5));
+            true
+        },
+    },
+    Mistake {
+        code: Code::TangentNotPerpendicular,
+        how: "tangents leaned by 37 degrees",
+        make: |model| {
+            let normals = model.normals.clone().unwrap_or_default();
+            for (tangent, normal) in model.tangents().iter_mut().zip(normals) {
+                (0..3).for_each(|i| tangent[i] = 0.8 * tangent[i] + 0.6 * normal[i]);
+            }
+            true
+        },
+    },
+    Mistake {
+        code: Code::TangentSignNotOne,
+        how: "w halved",
+        make: |model| {
+            model.tangents().iter_mut().for_each(|tangent| tangent[3] *= 0.5);
+            true
+        },
+    },
+    Mistake {
+        code: Code::TangentSignMixed,
+        how: "w of one vertex flipped",
+        make: |model| {
+            let middle = model.indices[model.indices.len() / 2] as usize;
+            let tangent = &mut model.tangents()[middle];
+            tangent[3] = -tangent[3];
+            // On a smaller model one vertex is too large a part.
+            model.positions.len() > 100
+        },
+    },
+    Mistake {
+        code: Code::TangentSharedAcrossMirror,
+        how: "tangents of corners written through the unsplit index list",
+        make: |model| {
+            let Some((positions, normals, uvs, tangents, indices)) = model.unsplit.clone() else {
+                return false;
+            };
+            (model.positions, model.normals, model.uvs) = (positions, Some(normals), uvs);
+            (model.tangents, model.indices) = (Some(tangents), indices);
+            true
+        },
+    },
+    Mistake {
+        code: Code::TangentSignFlipped,
+        how: "w negated",
+        make: |model| {
+            model.tangents().iter_mut().for_each(|tangent| tangent[3] = -tangent[3]);
+            true
+        },
+    },
+    Mistake {
+        code: Code::TangentSignFlippedWhereMirrored,
+        how: "w set to 1",
+        make: |model| {
+            model.tangents().iter_mut().for_each(|tangent| tangent[3] = 1.0);
+            model.unsplit.is_some()
+        },
+    },
+    Mistake {
+        code: Code::TangentRotated,
+        how: "bitangents stored",
+        make: |model| {
+            let normals = model.normals.clone().unwrap_or_default();
+            for (tangent, [a, b, c]) in model.tangents().iter_mut().zip(normals) {
+                let [x, y, z, w] = *tangent;
+                *tangent = [w * (b * z - c * y), w * (c * x - a * z), w * (a * y - b * x), w];
+            }
+            true
+        },
+    },
+    Mistake {
+        code: Code::TangentNegated,
+        how: "tangents negated",
+        make: |model| {
+            model.tangents().iter_mut().for_each(|tangent| (0..3).for_each(|i| tangent[i] = -tangent[i]));
+            true
+        },
+    },
+    Mistake {
+        code: Code::TangentOtherUvSet,
+        how: "tangents of TEXCOORD_0, where the texture uses another set",
+        make: |model| {
+            if model.uv_set == 0 {
+                return false;
+            }
+            let computed = model.computed(Method::default(), 0);
+            for (tangent, [x, y, z, _]) in model.tangents().iter_mut().zip(computed) {
+                *tangent = [x, y, z, tangent[3]];
+            }
+            true
+        },
+    },
+    Mistake {
+        code: Code::TangentOtherRecipe,
+        how: "averages weighted by area",
+        make: |model| {
+            let computed = model.computed(Method::Area, model.uv_set);
+            let of_mikktspace = model.tangents.clone().unwrap_or_default();
+            let angle = |(a, b): (&[f32; 4], &[f32; 4])| (0..3).map(|i| a[i] * b[i]).sum::<f32>();
+            let cosine = computed.iter().zip(&of_mikktspace).map(angle).fold(1.0, f32::min);
+            model.tangents = Some(computed);
+            // Half a degree is a difference that can be seen.
+            cosine < 0.75f32.to_radians().cos()
+        },
+    },
+    Mistake {
+        code: Code::TangentMissing,
+        how: "tangents removed",
+        make: |model| {
+            model.tangents = None;
+            true
+        },
+    },
+    Mistake {
+        code: Code::TangentUnused,
+        how: "normal map removed",
+        make: |model| {
+            model.has_normal_map = false;
+            true
+        },
+    },
+    Mistake {
+        code: Code::NormalMissing,
+        how: "normals removed",
+        make: |model| {
+            model.normals = None;
+            true
+        },
+    },
+    Mistake {
+        code: Code::NormalNotFinite,
+        how: "one z set to infinity",
+        make: |model| {
+            model.normals.iter_mut().for_each(|normals| normals[1][2] = f32::INFINITY);
+            true
+        },
+    },
+    Mistake {
+        code: Code::NormalNotUnit,
+        how: "normals halved",
+        make: |model| {
+            model.normals.iter_mut().flatten().for_each(|normal| *normal = normal.map(|x| 0.5 * x));
+            true
+        },
+    },
+    Mistake {
+        code: Code::NormalAgainstWinding,
+        how: "two corners of every face exchanged",
+        make: |model| {
+            model.indices.as_chunks_mut::<3>().0.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+            true
+        },
+    },
+    Mistake {
+        code: Code::UvMissing,
+        how: "texCoord set to 3",
+        make: |model| {
+            model.uv_set = 3;
+            true
+        },
+    },
+    Mistake {
+        code: Code::UvDegenerate,
+        how: "UVs of one face made equal",
+        make: |model| {
+            let vertices = model.detach_first_face();
+            let uvs = &mut model.uvs[model.uv_set];
+            let uv = uvs[vertices[0]];
+            vertices.into_iter().for_each(|vertex| uvs[vertex] = uv);
+            true
+        },
+    },
+    Mistake {
+        code: Code::TransformMirrors,
+        how: "KHR_texture_transform with scale 1, -1",
+        make: |model| {
+            model.transform = Some([1.0, -1.0]);
+            true
+        },
+    },
+];

@@ -1,0 +1,237 @@
+//! Makes every mistake on every model, checks and repairs it, and counts what came out.
+
+use std::collections::BTreeSet;
+
+use darboux_check::{
+    CheckOptions, Code, Finding, FixOptions, Severity, check_document, check_map, fix_document, fix_map,
+};
+use darboux_io::LoadOptions;
+use darboux_io::gltf::{Document, pair_tangents};
+
+use super::maps::{MAP_MISTAKES, Map, MapMistake};
+use super::mistakes::{MISTAKES, Mistake};
+use super::models::{Model, healthy_models};
+
+/// What came out for one mistake.
+pub struct Row {
+    pub code: Code,
+    pub how: &'static str,
+    /// The models that the mistake was made on.
+    pub models: usize,
+    /// Those where the check named it.
+    pub named: usize,
+    /// Those where the check named another error.
+    pub with_other_errors: usize,
+    /// Those that the repair made equal to the healthy model; none where the repair leaves the mistake.
+    pub cured: Option<usize>,
+    /// What went wrong, one sentence each.
+    pub failures: Vec<String>,
+}
+
+/// The codes of findings of some severities.
+pub fn codes(findings: &[Finding], is_wanted: impl Fn(Severity) -> bool) -> BTreeSet<Code> {
+    findings.iter().filter(|finding| is_wanted(finding.severity)).map(|finding| finding.code).collect()
+}
+
+/// The check of everything but texels, which takes longest.
+pub fn without_maps() -> CheckOptions {
+    CheckOptions::default().with_maps(false)
+}
+
+/// The table of all mistakes.
+pub fn table() -> Vec<Row> {
+    let models = healthy_models();
+    let in_models = MISTAKES.iter().map(|mistake| row(mistake, &models));
+    let in_maps = MAP_MISTAKES.iter().map(|mistake| map_row(mistake, &models));
+    in_models.chain(in_maps).collect()
+}
+
+fn row(mistake: &Mistake, models: &[Model]) -> Row {
+    let Mistake { code, how, make } = *mistake;
+    let mut row = Row::new(code, how);
+    for healthy in models {
+        let mut model = healthy.clone();
+        if !make(&mut model) {
+            continue;
+        }
+        row.models += 1;
+        let findings = check_document(&mut model.document(), &without_maps()).expect("a valid document");
+        row.count(&healthy.name, &findings);
+        if row.cured.is_none() {
+            continue;
+        }
+        match cured(&model, findings, healthy) {
+            Ok(()) => *row.cured.get_or_insert(0) += 1,
+            Err(problem) => row.failures.push(format!("{code} on {}: {problem}", healthy.name)),
+        }
+    }
+    row
+}
+
+/// Repairs a model, and compares it with the healthy one.
+fn cured(model: &Model, findings: Vec<Finding>, healthy: &Model) -> Result<(), String> {
+    let options = FixOptions::default().with_check(without_maps());
+    let repair = |glb: Vec<u8>, findings| {
+        let mut document = Document::from_bytes("repaired", glb, None, &LoadOptions::default())?;
+        fix_document(&mut document, findings, &options)?;
+        document.to_glb()
+    };
+    let once = repair(model.glb(), findings).map_err(|error| error.to_string())?;
+    let mut document =
+        Document::from_bytes("repaired", once.clone(), None, &LoadOptions::default()).expect("a valid GLB");
+    let left = check_document(&mut document, &without_maps()).expect("a valid document");
+    if let Some(finding) = left.iter().find(|finding| finding.is_fixable()) {
+        return Err(format!("{} is still there: {}", finding.code, finding.text));
+    }
+    if repair(once.clone(), left).map_err(|error| error.to_string())? != once {
+        return Err("a second repair changes the file".to_owned());
+    }
+    equal(&mut healthy.document(), &mut document)
+}
+
+/// Whether two documents of one model have the same tangents, bit for bit, and the same normals to rounding.
+fn equal(healthy: &mut Document, repaired: &mut Document) -> Result<(), String> {
+    for pair in pair_tangents(healthy, repaired).map_err(|error| error.to_string())? {
+        let corners = pair.corners.map_err(|unpaired| unpaired.reason)?;
+        let [ours, theirs] = &corners.tangents;
+        let differing = ours.iter().zip(theirs).filter(|(a, b)| a.map(f32::to_bits) != b.map(f32::to_bits));
+        match (corners.moved, differing.count()) {
+            (0, 0) => {}
+            (moved, tangents) => return Err(format!("{moved} corners moved, {tangents} tangents differ")),
+        }
+    }
+    let normals = |document: &Document| -> Vec<[f32; 3]> {
+        let corners = document.corners().expect("valid indices");
+        corners
+            .iter()
+            .flat_map(|corners| corners.vectors("NORMAL").expect("normals").unwrap_or_default())
+            .collect()
+    };
+    let [ours, theirs] = [normals(healthy), normals(repaired)];
+    let distance = |(a, b): (&[f32; 3], &[f32; 3])| (0..3).map(|i| (a[i] - b[i]).abs()).fold(0.0, f32::max);
+    // A normal that is scaled and normalised again is off by a rounding of each step.
+    let worst = ours.iter().zip(&theirs).map(distance).fold(0.0, f32::max);
+    let is_equal = ours.len() == theirs.len() && worst <= 2.0 * f32::EPSILON;
+    if is_equal { Ok(()) } else { Err(format!("normals differ by {worst}")) }
+}
+
+fn map_row(mistake: &MapMistake, models: &[Model]) -> Row {
+    let MapMistake { code, how, make, tolerance } = *mistake;
+    let mut row = Row::new(code, how);
+    assert_eq!(row.cured.is_some(), tolerance.is_some(), "{code}");
+    for healthy in models {
+        row.models += 1;
+        let map = make(&healthy.map);
+        let findings = check_map(&map.file, &CheckOptions::default()).findings;
+        row.count(&healthy.name, &findings);
+        let Some(tolerance) = tolerance else { continue };
+        match cured_map(&map, &healthy.map, tolerance) {
+            Ok(()) => *row.cured.get_or_insert(0) += 1,
+            Err(problem) => row.failures.push(format!("{code} on the map of {}: {problem}", healthy.name)),
+        }
+    }
+    row
+}
+
+/// Repairs a map, and compares its texels with the healthy ones.
+fn cured_map(map: &Map, healthy: &Map, tolerance: u8) -> Result<(), String> {
+    let fixed = fix_map("map.png", &map.file, &LoadOptions::default(), &FixOptions::default());
+    let fixed = fixed.map_err(|error| error.to_string())?;
+    let image = fixed.image.ok_or("nothing was repaired")?;
+    let file = image.to_bytes().map_err(|error| error.to_string())?;
+    let left = check_map(&file, &CheckOptions::default()).findings;
+    if let Some(finding) = left.iter().find(|finding| finding.is_fixable()) {
+        return Err(format!("{} is still there: {}", finding.code, finding.text));
+    }
+    let texels = rgb(&file);
+    let difference = |(a, b): (&[u8; 3], &[u8; 3])| (0..3).map(|i| a[i].abs_diff(b[i])).max().unwrap_or(0);
+    let worst = texels.iter().zip(&healthy.texels).map(difference).max().unwrap_or(0);
+    let is_equal = texels.len() == healthy.texels.len() && worst <= tolerance;
+    if is_equal { Ok(()) } else { Err(format!("texels differ by up to {worst}, more than {tolerance}")) }
+}
+
+/// The texels of a PNG.
+pub fn rgb(file: &[u8]) -> Vec<[u8; 3]> {
+    let image = darboux_io::image::RgbaImage::decode(file, &Default::default()).expect("an image");
+    image.texels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect()
+}
+
+impl Row {
+    fn new(code: Code, how: &'static str) -> Self {
+        let cured = (code.fix() == "cured").then_some(0);
+        Self { code, how, models: 0, named: 0, with_other_errors: 0, cured, failures: Vec::new() }
+    }
+
+    /// Counts a check of a model.
+    fn count(&mut self, model: &str, findings: &[Finding]) {
+        let code = self.code;
+        let (all, errors) =
+            (codes(findings, |_| true), codes(findings, |severity| severity == Severity::Error));
+        self.named += usize::from(all.contains(&code));
+        if !all.contains(&code) {
+            self.failures.push(format!("{code} on {model} is not named: {findings:?}"));
+        }
+        let others: Vec<&Code> = errors.iter().filter(|other| **other != code).collect();
+        self.with_other_errors += usize::from(!others.is_empty());
+        if !others.is_empty() {
+            self.failures.push(format!("{code} on {model} also gives {others:?}"));
+        }
+    }
+}
+
+/// Two mistakes on one model, and which of them the check named.
+pub struct PairRow {
+    pub codes: [Code; 2],
+    pub named: [bool; 2],
+    /// What is named instead.
+    pub instead: BTreeSet<Code>,
+}
+
+/// All pairs of mistakes that are repaired, the second made after the first, on a mirrored model with two UV sets.
+pub fn pairs() -> Vec<PairRow> {
+    let models = healthy_models();
+    let is_rich = |model: &&Model| model.unsplit.is_some() && model.uv_set > 0 && model.name.contains("wavy");
+    let healthy = models.iter().find(is_rich).expect("a mirrored model with two UV sets");
+    let mut rows = Vec::new();
+    for (number, first) in MISTAKES.iter().enumerate() {
+        for second in
+            MISTAKES[number + 1..].iter().filter(|_| is_paired(first)).filter(|second| is_paired(second))
+        {
+            let mut model = healthy.clone();
+            if !((first.make)(&mut model) && make_if_possible(second, &mut model)) {
+                continue;
+            }
+            let found = check_document(&mut model.document(), &without_maps()).expect("a valid document");
+            let all = codes(&found, |_| true);
+            let pair = [first.code, second.code];
+            let above_info = codes(&found, |severity| severity > Severity::Info);
+            let instead = above_info.into_iter().filter(|code| !pair.contains(code)).collect();
+            rows.push(PairRow { codes: pair, named: pair.map(|code| all.contains(&code)), instead });
+        }
+    }
+    rows
+}
+
+/// Mistakes that are repaired make pairs; those that remove data leave nothing for another one.
+fn is_paired(mistake: &Mistake) -> bool {
+    let removes = [Code::TangentMissing, Code::NormalMissing];
+    mistake.code.fix() == "cured" && !removes.contains(&mistake.code)
+}
+
+/// Makes a mistake on a model that has another one.
+fn make_if_possible(mistake: &Mistake, model: &mut Model) -> bool {
+    // The mistake at the seam replaces the whole model, and with it the other mistake.
+    mistake.code != Code::TangentSharedAcrossMirror && (mistake.make)(model)
+}
+
+/// The repaired document of a model, and what the check still finds in it.
+pub fn repaired(model: &Model) -> (Document, Vec<Finding>) {
+    let findings = check_document(&mut model.document(), &CheckOptions::default()).expect("a valid document");
+    let mut document = model.document();
+    fix_document(&mut document, findings, &FixOptions::default()).expect("a valid document");
+    let glb = document.to_glb().expect("a GLB");
+    let mut document =
+        Document::from_bytes("repaired", glb, None, &LoadOptions::default()).expect("a valid GLB");
+    let left = check_document(&mut document, &CheckOptions::default()).expect("a valid document");
+    (document, left)
+}
