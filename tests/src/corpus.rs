@@ -118,3 +118,15 @@ pub fn read_folder(folder: &Path) -> Vec<CorpusCase> {
     cases.sort_by(|a, b| a.name.cmp(&b.name));
     cases
 }
+
+/// A result file of the suite: seconds, and tangent and sign per corner.
+pub fn result_text(seconds: f64, tangents: &[[f32; 4]]) -> String {
+    format!("{{\"seconds\": {seconds:?},\n\"tangents\": {}}}\n", rows_text(tangents.iter().copied()))
+}
+
+/// Rows of numbers as JSON; NaN and infinities as strings.
+pub fn rows_text<const N: usize>(rows: impl Iterator<Item = [f32; N]>) -> String {
+    let number = |x: &f32| if x.is_finite() { format!("{x:?}") } else { format!("\"{x}\"").to_lowercase() };
+    let row = |row: [f32; N]| format!("[{}]", row.iter().map(number).collect::<Vec<_>>().join(", "));
+    format!("[{}]", rows.map(row).collect::<Vec<_>>().join(",\n"))
+}

@@ -4,10 +4,12 @@ use std::path::PathBuf;
 use std::process::Command;
 
 use crate::run::{Outcome, program, root, run, target_folder, works};
+use crate::{dist_c, dist_js, python};
 
 /// `cargo xtask conformance`: runs every adapter that this machine has, and rebuilds the table and the page.
 ///
-/// `--regenerate` writes the expected values of all cases instead, and `--new` proposes cases from a differential run.
+/// `--wrong` runs them on wrong inputs and as wrong builds instead, `--regenerate` writes the expected values of all cases, and `--new`
+/// proposes cases from a differential run. Our own interfaces are built first where their adapters are among those that run.
 pub fn task(words: &[&str]) -> Outcome {
     match words {
         ["--regenerate"] => {
@@ -17,15 +19,18 @@ pub fn task(words: &[&str]) -> Outcome {
         ["--new", rest @ ..] => {
             compute_reference()?;
             let mut proposer = program("python3 conformance/propose.py");
-            run(proposer.arg(folder("")?).args(rest).env("DARBOUX_TOOL", tool()?))
+            run(proposer.arg(folder("")?).args(rest).envs(interfaces(rest)?))
         }
-        names => {
-            compute_reference()?;
-            let mut runner = program("python3 conformance/run.py");
-            run(runner.arg(folder("")?).args(names).envs(interfaces()?))?;
-            run(&mut program("python3 conformance/page.py"))
-        }
+        ["--wrong", names @ ..] => adapters("python3 conformance/wrong.py", names),
+        names => adapters("python3 conformance/run.py", names),
     }
+}
+
+/// Runs a script on adapters, and rebuilds the table and the page.
+fn adapters(script: &str, names: &[&str]) -> Outcome {
+    compute_reference()?;
+    let done = run(program(script).arg(folder("")?).args(names).envs(interfaces(names)?));
+    done.and(run(&mut program("python3 conformance/page.py")))
 }
 
 /// The step of `ci`: the tests of the judge, the expected values of every case, and every mode of Darboux.
@@ -35,6 +40,7 @@ pub fn check() -> Outcome {
         return Ok(());
     }
     run(&mut program("python3 -m unittest discover --start-directory conformance/tests"))?;
+    run(&mut program("python3 conformance/page.py --check"))?;
     compute_reference()?;
     run(program("python3 conformance/regenerate.py").arg(folder("reference")?).arg("--check"))?;
     for (mode, level) in [("reference", "bits"), ("repaired", "angle"), ("corrected", "angle")] {
@@ -58,17 +64,37 @@ fn compute_reference() -> Outcome {
     run(computer()?.arg(cases).arg(folder("reference")?))
 }
 
-/// The environment variables with which the adapters of our own interfaces find them. Interfaces that are not built are left out.
-fn interfaces() -> Result<Vec<(&'static str, PathBuf)>, String> {
+/// The environment variables with which the adapters of our own interfaces find them. Those of the named adapters are built, of all if none
+/// is named; interfaces that cannot be built here are left out, and the scripts say which adapters that skips.
+fn interfaces(names: &[&str]) -> Result<Vec<(&'static str, PathBuf)>, String> {
     let target = target_folder()?;
     let built = [
         ("DARBOUX_TOOL", tool()?),
+        ("DARBOUX_GPU", target.join("debug/examples/conformance")),
         ("DARBOUX_C", target.join("dist-c/darboux")),
         ("DARBOUX_PYTHON", target.join("python/bin/python")),
         ("DARBOUX_NPM", target.join("dist-js/darboux")),
     ];
+    let is_wanted = |own: &[&str]| names.is_empty() || own.iter().any(|name| names.contains(name));
+    for (own, build) in BUILDS {
+        if is_wanted(own) {
+            build().unwrap_or_else(|message| println!("skipped: {}: {message}", own.join(", ")));
+        }
+    }
     Ok(built.into_iter().filter(|(_, path)| path.exists()).collect())
 }
+
+/// Adapters of our own, and what builds the interface that they run.
+type Build = (&'static [&'static str], fn() -> Outcome);
+
+const BUILDS: [Build; 4] = [
+    (&["darboux-gpu"], || {
+        run(&mut program("cargo build --quiet --package darboux-gpu --example conformance"))
+    }),
+    (&["darboux-c"], dist_c::make),
+    (&["darboux-python"], || python::with_package().map(|_| ())),
+    (&["darboux-npm", "darboux-webgpu"], dist_js::make),
+];
 
 /// The program that computes cases with mikktspace.c and with Darboux: `CASES RESULTS [MODE]`.
 fn computer() -> Result<Command, String> {

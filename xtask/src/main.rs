@@ -38,8 +38,9 @@ checks
   docs [PAGE ...]  run the code blocks of the documentation, twice
   validate         check the command's outputs for all models with independent tools (needs node and npm)
   soak [...]       run the command on damaged and hostile files (Unix); options: soak --help
-  conformance [ADAPTER ...] | --regenerate | --new A B [MESHES [SEED]]
+  conformance [ADAPTER ...] | --wrong [ADAPTER ...] | --regenerate | --new A B [MESHES [SEED]]
                    judge every implementation that this machine can install (conformance/), and rebuild the table and the page;
+                   run the same on wrong inputs and as wrong builds, which the suite must notice;
                    write the expected values of all cases; propose new cases from a differential run
   acos             compare the core's acos with the platform's on every float of [-1, 1]
   arm              run the tests of bits on emulated 64-bit Arm (Debian: needs gcc and g++ for aarch64-linux-gnu, qemu-user; rustup)

@@ -8,7 +8,7 @@ use std::time::Instant;
 use std::{env, fs};
 
 use darboux::{Frame, MikkTSpaceOptions, Mode, generate_frames, generate_tangents};
-use darboux_tests::corpus::{CorpusCase, read_folder};
+use darboux_tests::corpus::{CorpusCase, read_folder, result_text, rows_text};
 use darboux_tests::engine;
 
 /// The repetitions of large cases, of which the fastest counts.
@@ -46,12 +46,12 @@ fn reference(CorpusCase { mesh, threshold, .. }: &CorpusCase) -> String {
         let options = MikkTSpaceOptions::new().with_mode(mode).with_threshold(*threshold);
         generate_frames(&mesh.view(), &options.into()).corners.into_per_corner()
     });
-    let tangents = |frames: &[Frame]| rows(frames.iter().map(Frame::tangent_and_sign));
+    let tangents = |frames: &[Frame]| rows_text(frames.iter().map(Frame::tangent_and_sign));
     format!(
         "{{\"seconds\": {seconds:?},\n\"tangents\": {},\n\"bitangents\": {},\n\"magnitudes\": {},\n\"repaired\": {},\n\"corrected\": {}}}\n",
         tangents(&frames),
-        rows(frames.iter().map(|frame| frame.bitangent)),
-        rows(frames.iter().map(|frame| frame.magnitude)),
+        rows_text(frames.iter().map(|frame| frame.bitangent)),
+        rows_text(frames.iter().map(|frame| frame.magnitude)),
         tangents(&repaired),
         tangents(&corrected),
     )
@@ -68,12 +68,5 @@ fn darboux(CorpusCase { class, mesh, threshold, .. }: &CorpusCase, mode: Mode) -
     for _ in 1..if class == "large" { REPETITIONS } else { 1 } {
         seconds = seconds.min(run().0);
     }
-    format!("{{\"seconds\": {seconds:?},\n\"tangents\": {}}}\n", rows(tangents.into_iter()))
-}
-
-/// Rows of numbers as JSON; NaN and infinities as strings.
-fn rows<const N: usize>(rows: impl Iterator<Item = [f32; N]>) -> String {
-    let number = |x: &f32| if x.is_finite() { format!("{x:?}") } else { format!("\"{x}\"").to_lowercase() };
-    let row = |row: [f32; N]| format!("[{}]", row.iter().map(number).collect::<Vec<_>>().join(", "));
-    format!("[{}]", rows.map(row).collect::<Vec<_>>().join(",\n"))
+    result_text(seconds, &tangents)
 }
