@@ -54,3 +54,16 @@ pub fn tangent_options(method: &str, mode: &str, threshold: f32) -> PyResult<Tan
 pub fn is_slow(options: &TangentOptions) -> bool {
     matches!(options.method, Method::MikkTSpace(mikkt) if mikkt.threshold < MikkTSpaceOptions::new().threshold)
 }
+
+/// The name of a method and, for MikkTSpace, that of its mode.
+pub fn method_name(method: Method) -> (&'static str, Option<&'static str>) {
+    let mode = match method {
+        Method::MikkTSpace(options) => {
+            MODES.iter().find(|(_, mode)| *mode == options.mode).map(|(name, _)| *name)
+        }
+        _ => None,
+    };
+    let is_same = |known: &Method| std::mem::discriminant(known) == std::mem::discriminant(&method);
+    let name = METHODS.iter().find(|(_, known)| is_same(known)).map_or("unknown", |(name, _)| *name);
+    (name, mode)
+}

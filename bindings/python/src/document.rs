@@ -93,7 +93,7 @@ pub fn loads(
 }
 
 /// The options of the reader, with the names of Python's parameters for messages.
-fn load_options(memory_limit: Option<u32>) -> LoadOptions {
+pub fn load_options(memory_limit: Option<u32>) -> LoadOptions {
     let limit = memory_limit.map(|mebibytes| MemoryLimit::bytes(u64::from(mebibytes) << 20));
     let names = OptionNames::default()
         .with_memory_limit("memory_limit=")
@@ -424,7 +424,7 @@ fn python_of<'py>(py: Python<'py>, value: &impl Serialize) -> PyResult<Bound<'py
 }
 
 /// Converts an error of darboux-io: an OSError for errors of the operating system, otherwise a ValueError.
-fn file_error(error: darboux_io::Error) -> PyErr {
+pub fn file_error(error: darboux_io::Error) -> PyErr {
     let sentence = error.to_string();
     match error {
         darboux_io::Error::Read { source, .. } | darboux_io::Error::Write { source, .. } => {

@@ -29,7 +29,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("darboux-mikktspace", &["darboux"]),
     ("darboux-js", &["darboux"]),
     ("darboux-viewer", &["darboux", "darboux-io"]),
-    ("darboux-python", &["darboux", "darboux-io", "darboux-cli"]),
+    ("darboux-python", &["darboux", "darboux-io", "darboux-check", "darboux-cli"]),
     ("darboux-dice", &[]),
     ("darboux-tests", &["darboux", "darboux-io", "darboux-dice"]),
     ("darboux-shader-tests", &["darboux", "darboux-dice"]),

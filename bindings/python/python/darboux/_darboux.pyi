@@ -7,9 +7,12 @@ import numpy.typing as npt
 
 from ._results import (
     Converted,
+    Finding,
     Frames,
+    MapJudgement,
     NormalReport,
     NormalSplit,
+    RecipeMatch,
     Report,
     TangentDifference,
     UvFidelity,
@@ -33,6 +36,7 @@ __all__ = [
     "Document",
     "Plan",
     "__version__",
+    "check",
     "convert",
     "dumps",
     "failed_task",
@@ -40,12 +44,14 @@ __all__ = [
     "frame_to_quaternion",
     "generate_normals",
     "generate_tangents",
+    "judge_normal_map",
     "load",
     "loads",
     "measure_tangents",
     "measure_uv_fidelity",
     "normal_from_octahedral",
     "normal_to_octahedral",
+    "recognise_recipe",
     "run",
     "run_task",
     "save",
@@ -272,3 +278,22 @@ def tangent_to_diamond(normals: npt.ArrayLike, tangents: npt.ArrayLike) -> npt.N
 def tangent_from_diamond(normals: npt.ArrayLike, codes: npt.NDArray[np.uint16]) -> _Floats: ...
 def frame_to_quaternion(normals: npt.ArrayLike, tangents: npt.ArrayLike) -> npt.NDArray[np.int16]: ...
 def frame_from_quaternion(codes: npt.NDArray[np.int16]) -> Tuple[_Floats, _Floats]: ...
+
+def check(
+    path: _Path,
+    *,
+    convention: Literal["opengl", "directx"] = "opengl",
+    maps: bool = True,
+    allow_outside: bool = False,
+    memory_limit: Optional[int] = None,
+) -> List[Finding]: ...
+def judge_normal_map(texels: npt.ArrayLike) -> MapJudgement: ...
+def recognise_recipe(
+    positions: npt.ArrayLike,
+    normals: npt.ArrayLike,
+    uvs: npt.ArrayLike,
+    indices: Optional[npt.ArrayLike],
+    tangents: npt.ArrayLike,
+    *,
+    faces: Optional[npt.ArrayLike] = None,
+) -> List[RecipeMatch]: ...

@@ -120,6 +120,98 @@ class UvFidelity(NamedTuple):
     """Triangles that were not: without area, or without a dP/du."""
 
 
+class FindingPlace(NamedTuple):
+    """Where a finding is, by indices of the document; None for what does not apply. A map that is checked alone has no place."""
+
+    mesh: Optional[int]
+    """The mesh."""
+    primitive: Optional[int]
+    """The primitive of the mesh."""
+    material: Optional[int]
+    """The material."""
+    image: Optional[int]
+    """The image."""
+    same_as: int
+    """The number of further primitives with the same data."""
+
+
+class Finding(NamedTuple):
+    """One thing that is wrong with a file. docs/check.md explains every code."""
+
+    code: str
+    """The kind, such as 'tangent-sign-flipped'. Codes are stable."""
+    severity: str
+    """'error': a picture is wrong; 'warning': it may be; 'info'."""
+    place: FindingPlace
+    """Where it is."""
+    number: int
+    """The number of vertices, corners, triangles or texels that show it, as the text says."""
+    first: List[int]
+    """The indices of the first ones."""
+    evidence: List[Tuple[str, float, str]]
+    """Numbers: what was measured, the value and its unit."""
+    text: str
+    """What is wrong, in one sentence."""
+    looks_like: str
+    """What it looks like on screen."""
+    cure: str
+    """The cure."""
+    fixable: bool
+    """Whether `darboux check --fix` cures it."""
+
+
+class MapJudgement(NamedTuple):
+    """The verdict on a normal map. Counts leave out black, white and middle grey texels."""
+
+    verdict: str
+    """'opengl' (green up), 'directx' (green down), 'no_gradient', 'flat' or 'cannot_tell'."""
+    confidence: float
+    """For 'opengl' and 'directx' an estimate of the probability that the verdict is right, 0.5 to 0.999."""
+    correlation: float
+    """The correlation of the mixed derivatives, from -1 (DirectX) to 1 (OpenGL)."""
+    z_score: float
+    """The correlation in units of its standard error."""
+    log_energy_ratio: float
+    """Negative where red and green are exchanged."""
+    texels: int
+    """All texels."""
+    background: int
+    """Black, white and middle grey texels."""
+    not_unit: int
+    """Texels whose length is not in [0.9, 1.1]."""
+    negative_z: int
+    """Texels with z below -1/100."""
+    grey: int
+    """Texels whose three channels are nearly equal."""
+    not_normal: int
+    """Texels that cannot be normals."""
+
+
+class RecipeMatch(NamedTuple):
+    """How well a way of computing tangents explains given ones."""
+
+    method: str
+    """As the parameter of generate_tangents."""
+    mode: Optional[str]
+    """The mode of 'mikktspace'."""
+    flips_v: bool
+    """Whether they were computed with 1 - v."""
+    writing: str
+    """'corners': every corner has its own; 'last-corner' or 'first-corner' of each vertex decides."""
+    bits: int
+    """Bits per component: 32 (floats), 16 or 8."""
+    corners: int
+    """All corners."""
+    identical: int
+    """Corners with equal bits after rounding."""
+    close: int
+    """Corners within 0.1 degrees (1 degree for 8 bits) and with equal signs."""
+    sign_flips: int
+    """Corners whose signs differ."""
+    worst: float
+    """The largest angle in degrees."""
+
+
 class Converted(NamedTuple):
     """Vertex data in another convention; None for what was not given."""
 

@@ -1,0 +1,244 @@
+//! Checks files, judges normal maps and recognises recipes.
+
+use std::path::PathBuf;
+
+use darboux::{
+    BitangentDirection, Context, MapJudgement, MapVerdict, RecipeMatch, RecipeRounding, RecipeWriting,
+    TexelLayout, recognise_recipe_with,
+};
+use darboux_check::{CheckOptions, Finding, check_document, check_map};
+use darboux_io::gltf;
+use numpy::prelude::*;
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+
+use crate::arrays::{Rows, array_of, packed, shape_text};
+use crate::choices::{choice, method_name};
+use crate::document::{file_error, load_options};
+use crate::mesh::{MeshArrays, value_error};
+use crate::results::named;
+use crate::threads::cancellable;
+
+const CONVENTIONS: &[(&str, BitangentDirection)] =
+    &[("opengl", BitangentDirection::Up), ("directx", BitangentDirection::Down)];
+
+/// Say what is wrong with the tangents, normals, UVs and normal maps of a model, or with a normal map.
+///
+/// Parameters
+/// ----------
+/// path : path-like
+///     A .glb or .gltf file, or an image (.png, .jpg, .webp), which is checked as a normal map.
+/// convention : str
+///     Where the green of normal maps should point: 'opengl' (up, as in glTF) or 'directx' (down).
+/// maps : bool
+///     Decode and judge the normal maps of a model.
+/// allow_outside, memory_limit
+///     As in load.
+///
+/// Returns
+/// -------
+/// list of Finding
+///     Empty for a healthy file.
+///
+/// Raises
+/// ------
+/// OSError, ValueError
+///     As load. An image that cannot be decoded is a finding.
+#[pyfunction]
+#[pyo3(signature = (path, *, convention="opengl", maps=true, allow_outside=false, memory_limit=None))]
+pub fn check<'py>(
+    py: Python<'py>,
+    path: PathBuf,
+    convention: &str,
+    maps: bool,
+    allow_outside: bool,
+    memory_limit: Option<u32>,
+) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    let green = choice("convention", convention, CONVENTIONS)?;
+    let options = CheckOptions::default().with_green(green).with_maps(maps);
+    let is_image = path.extension().is_some_and(|extension| {
+        ["png", "jpg", "jpeg", "webp"].iter().any(|image| extension.eq_ignore_ascii_case(image))
+    });
+    let found = if is_image {
+        let file = py.detach(|| std::fs::read(&path));
+        let unread = |source| file_error(darboux_io::Error::Read { file: path.clone(), source });
+        let file = file.map_err(unread)?;
+        Ok(py.detach(|| check_map(&file, &options).findings))
+    } else {
+        let loading = load_options(memory_limit).with_allow_outside(allow_outside);
+        py.detach(|| check_document(&mut gltf::Document::open(&path, &loading)?, &options))
+    };
+    found.map_err(file_error)?.into_iter().map(|found| finding(py, found)).collect()
+}
+
+fn finding(py: Python<'_>, finding: Finding) -> PyResult<Bound<'_, PyAny>> {
+    let Finding { code, severity, place, count, first, evidence, text, left_because, .. } = finding;
+    let primitive = place.primitive.as_ref();
+    let evidence = evidence.iter().map(|number| (number.what, number.value, number.unit));
+    let position = (
+        primitive.map(|name| name.mesh),
+        primitive.map(|name| name.primitive),
+        place.material,
+        place.image,
+        place.same_as,
+    );
+    let place = named(py, "FindingPlace", position)?;
+    let fields = (
+        code.name(),
+        severity.to_string(),
+        place,
+        count,
+        first,
+        evidence.collect::<Vec<_>>(),
+        text,
+        code.looks_like(),
+        code.cure(),
+        left_because.is_none(),
+    );
+    named(py, "Finding", fields)
+}
+
+/// Judge a normal map by its texels: whether green points up (OpenGL) or down (DirectX), and whether they are normals at all.
+///
+/// Parameters
+/// ----------
+/// texels : (H, W, 2), (H, W, 3) or (H, W, 4) array_like of uint8 or uint16
+///     The top row first; x, y and, if stored, z in the first channels. Alpha is ignored.
+///
+/// Returns
+/// -------
+/// MapJudgement
+///
+/// Raises
+/// ------
+/// TypeError, ValueError
+///     Another type or shape.
+#[pyfunction]
+pub fn judge_normal_map<'py>(py: Python<'py>, texels: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    let array = array_of("texels", texels)?;
+    let shape = array.shape().to_vec();
+    if !matches!(shape[..], [_, _, 2..=4]) {
+        let shape = shape_text(&shape);
+        return Err(PyValueError::new_err(format!("texels must have shape (H, W, 2 to 4), not {shape}")));
+    }
+    let (size, channels) = ([shape[1], shape[0]], shape[2]);
+    let judged = match (array.dtype().kind(), array.dtype().itemsize()) {
+        (b'u', 1) => {
+            let texels = packed::<u8>(&array)?;
+            let texels = texels.as_slice()?;
+            py.detach(|| judged(texels, size, channels))
+        }
+        (b'u', 2) => {
+            let texels = packed::<u16>(&array)?;
+            let texels = texels.as_slice()?;
+            py.detach(|| judged(texels, size, channels))
+        }
+        _ => {
+            let kind = array.dtype();
+            return Err(PyTypeError::new_err(format!("texels must hold uint8 or uint16, not {kind}")));
+        }
+    };
+    judgement(py, &judged.map_err(value_error)?)
+}
+
+fn judged<C: darboux::Channel>(
+    texels: &[C],
+    size: [usize; 2],
+    channels: usize,
+) -> Result<MapJudgement, darboux::Error> {
+    match channels {
+        2 => darboux::judge_normal_map(texels.as_chunks().0, size, TexelLayout::RG),
+        3 => darboux::judge_normal_map(texels.as_chunks().0, size, TexelLayout::RGB),
+        _ => darboux::judge_normal_map(texels.as_chunks().0, size, TexelLayout::RGBA),
+    }
+}
+
+fn judgement<'py>(py: Python<'py>, judgement: &MapJudgement) -> PyResult<Bound<'py, PyAny>> {
+    let verdict = match judgement.verdict {
+        MapVerdict::OpenGl => "opengl",
+        MapVerdict::DirectX => "directx",
+        MapVerdict::NoGradient => "no_gradient",
+        MapVerdict::Flat => "flat",
+        _ => "cannot_tell",
+    };
+    let numbers =
+        [judgement.confidence, judgement.correlation, judgement.z_score, judgement.log_energy_ratio];
+    let [confidence, correlation, z_score, log_energy_ratio] = numbers.map(f64::from);
+    let fields = (
+        verdict,
+        confidence,
+        correlation,
+        z_score,
+        log_energy_ratio,
+        judgement.texels,
+        judgement.background,
+        judgement.not_unit,
+        judgement.negative_z,
+        judgement.grey,
+        judgement.not_normal,
+    );
+    named(py, "MapJudgement", fields)
+}
+
+/// Rank the ways in which the tangents of a mesh could have been computed, the best one first.
+///
+/// Parameters
+/// ----------
+/// positions, normals, uvs, indices, faces
+///     As for generate_tangents.
+/// tangents : (C, 4) array_like
+///     One per corner, with the sign that generate_tangents returns.
+///
+/// Returns
+/// -------
+/// list of RecipeMatch
+///
+/// Raises
+/// ------
+/// TypeError, ValueError
+///     As for generate_tangents; the number of corners differs.
+#[pyfunction]
+#[pyo3(signature = (positions, normals, uvs, indices, tangents, *, faces=None))]
+pub fn recognise_recipe<'py>(
+    py: Python<'py>,
+    positions: &Bound<'py, PyAny>,
+    normals: &Bound<'py, PyAny>,
+    uvs: &Bound<'py, PyAny>,
+    indices: Option<&Bound<'py, PyAny>>,
+    tangents: &Bound<'py, PyAny>,
+    faces: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    let arrays = MeshArrays::new(positions, normals, uvs, indices, faces)?;
+    let tangents = Rows::new("tangents", "C", tangents)?;
+    let (mesh, tangents) = (arrays.view()?, tangents.packed()?);
+    let work = |context: &mut Context| recognise_recipe_with(&mesh, &tangents, context);
+    let matches = cancellable(py, None, (mesh.corner_count(), false), &mut Context::new(), work)?;
+    matches.iter().map(|found| recipe(py, found)).collect()
+}
+
+fn recipe<'py>(py: Python<'py>, found: &RecipeMatch) -> PyResult<Bound<'py, PyAny>> {
+    let (method, mode) = method_name(found.recipe.method);
+    let writing = match found.recipe.writing {
+        RecipeWriting::LastCorner => "last-corner",
+        RecipeWriting::FirstCorner => "first-corner",
+        _ => "corners",
+    };
+    let bits = match found.recipe.rounding {
+        RecipeRounding::Bits8 => 8,
+        RecipeRounding::Bits16 => 16,
+        _ => 32,
+    };
+    let fields = (
+        method,
+        mode,
+        found.recipe.flips_v,
+        writing,
+        bits,
+        found.corners,
+        found.identical,
+        found.close,
+        found.sign_flips,
+        found.worst,
+    );
+    named(py, "RecipeMatch", fields)
+}

@@ -1,0 +1,68 @@
+"""What is wrong with files, maps and tangents."""
+
+from pathlib import Path
+
+import darboux
+import numpy as np
+import pytest
+
+from conftest import ROOT, Mesh, grid
+
+ASSETS = ROOT / "assets"
+
+
+def bumps(side: int, up: float) -> np.ndarray:
+    """A normal map of bumps; `up` is 1 for OpenGL and -1 for DirectX."""
+    y, x = np.mgrid[0:side, 0:side] / 5.0
+    normal = np.stack([-np.cos(x) * np.sin(y) / 5, up * np.sin(x) * np.cos(y) / 5, np.ones_like(x)], -1)
+    normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
+    return np.round(127.5 + 127.5 * normal).astype(np.uint8)
+
+
+def test_models_are_checked() -> None:
+    findings = darboux.check(ASSETS / "made/shield.glb")
+    errors = [finding for finding in findings if finding.severity == "error"]
+    assert [finding.code for finding in errors] == ["tangent-shared-across-mirror"]
+    assert errors[0].fixable and errors[0].place.mesh == 0 and errors[0].number > 0
+    assert all(isinstance(finding, darboux.Finding) for finding in findings)
+    healthy = darboux.check(str(ASSETS / "NormalTangentTest/NormalTangentTest.glb"), maps=False)
+    assert all(finding.severity != "error" for finding in healthy)
+
+
+def test_maps_are_checked_and_judged(tmp_path: Path) -> None:
+    image = pytest.importorskip("PIL.Image")
+    path = tmp_path / "down.png"
+    image.fromarray(bumps(128, -1.0)).save(path)
+    assert [finding.code for finding in darboux.check(path)] == ["map-green-flipped"]
+    assert darboux.check(path, convention="directx") == []
+    for up, verdict in [(1.0, "opengl"), (-1.0, "directx")]:
+        texels = bumps(128, up)
+        wide = texels.astype(np.uint16) * 257
+        for given in (texels, texels[..., :2], np.dstack([texels, texels[..., 0]]), wide):
+            judgement = darboux.judge_normal_map(given)
+            assert judgement.verdict == verdict and judgement.texels == 128 * 128
+    assert darboux.judge_normal_map(np.full((32, 32, 3), 128, np.uint8)).verdict != "opengl"
+
+
+def test_recipes_are_recognised(sheet: Mesh) -> None:
+    for method in ("mikktspace", "angle-edge", "lengyel", "area", "face"):
+        tangents = darboux.generate_tangents(*sheet.arrays, method=method)
+        best = darboux.recognise_recipe(*sheet.arrays, tangents)[0]
+        assert (best.method, best.identical, best.worst) == (method, best.corners, 0.0)
+        assert (best.mode == "repaired") == (method == "mikktspace")
+
+
+def test_wrong_input_is_refused() -> None:
+    with pytest.raises(FileNotFoundError, match="nothing.glb"):
+        darboux.check("nothing.glb")
+    with pytest.raises(FileNotFoundError, match="nothing.png"):
+        darboux.check("nothing.png")
+    with pytest.raises(ValueError, match="convention is 'metal'"):
+        darboux.check("a.glb", convention="metal")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match=r"\(H, W, 2 to 4\)"):
+        darboux.judge_normal_map(np.zeros((4, 4), np.uint8))
+    with pytest.raises(TypeError, match="float64"):
+        darboux.judge_normal_map(np.zeros((4, 4, 3)))
+    mesh = grid(2, 2)
+    with pytest.raises(ValueError, match="tangents"):
+        darboux.recognise_recipe(*mesh.arrays, np.zeros((3, 4)))
