@@ -121,6 +121,52 @@ typedef uint32_t darboux_mode;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+/// What the texels of a normal map say about its green channel.
+enum darboux_map_verdict
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /// Green points up, as glTF and OpenGL want it (or red and green are both inverted).
+  DARBOUX_MAP_VERDICT_OPENGL = 0,
+  /// Green points down, as DirectX wants it (or red is inverted).
+  DARBOUX_MAP_VERDICT_DIRECTX = 1,
+  /// The texels are not the slope of a surface.
+  DARBOUX_MAP_VERDICT_NO_GRADIENT = 2,
+  /// All texels are the same but for rounding.
+  DARBOUX_MAP_VERDICT_FLAT = 3,
+  /// There is too little evidence.
+  DARBOUX_MAP_VERDICT_CANNOT_TELL = 4,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum darboux_map_verdict darboux_map_verdict;
+#else
+typedef uint32_t darboux_map_verdict;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/// How the tangents of corners became tangents of vertices.
+enum darboux_recipe_writing
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /// Every corner has its own tangent.
+  DARBOUX_RECIPE_WRITING_CORNERS = 0,
+  /// Every vertex has the tangent of its last corner. Mirrored seams break.
+  DARBOUX_RECIPE_WRITING_LAST_CORNER = 1,
+  /// Every vertex has the tangent of its first corner.
+  DARBOUX_RECIPE_WRITING_FIRST_CORNER = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum darboux_recipe_writing darboux_recipe_writing;
+#else
+typedef uint32_t darboux_recipe_writing;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
 /// How corners are grouped into faces.
 enum darboux_faces
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -592,6 +638,62 @@ typedef struct darboux_uv_fidelity {
   size_t unmeasured_triangles;
 } darboux_uv_fidelity;
 
+/// The verdict on a normal map and the counts behind it. Counts leave out black, white and middle grey texels.
+typedef struct darboux_map_judgement {
+  /// sizeof(darboux_map_judgement), set by the caller. 0: the size in version 0.1.
+  size_t size;
+  /// The verdict.
+  darboux_map_verdict verdict;
+  /// For OPENGL and DIRECTX an estimate of the probability that the verdict is right, 0.5 to 0.999.
+  float confidence;
+  /// The correlation of the mixed derivatives, from -1 (DirectX) to 1 (OpenGL).
+  float correlation;
+  /// The correlation in units of its standard error.
+  float z_score;
+  /// Half the logarithm of the unmixed derivatives' energy over that of the mixed ones. Negative where red and green are exchanged.
+  float log_energy_ratio;
+  /// The mean length of the vectors.
+  float mean_length;
+  /// All texels.
+  size_t texels;
+  /// Black, white and middle grey texels.
+  size_t background;
+  /// Texels whose length is not in [0.9, 1.1].
+  size_t not_unit;
+  /// Texels with z below -1/100; 0 for two channels.
+  size_t negative_z;
+  /// Texels whose three channels are nearly equal; 0 for two channels.
+  size_t grey;
+  /// Texels that cannot be normals.
+  size_t not_normal;
+} darboux_map_judgement;
+
+/// How well a way of computing tangents explains given ones.
+typedef struct darboux_recipe_match {
+  /// The method.
+  darboux_method method;
+  /// The mode of MikkTSpace; 0 for other methods.
+  darboux_mode mode;
+  /// 1 where the tangents were computed with 1 - v and the sign negated, else 0.
+  uint32_t flips_v;
+  /// How corners share the tangents of vertices.
+  darboux_recipe_writing writing;
+  /// Bits per component: 32 (floats), 16 or 8 (signed normalised integers).
+  uint32_t bits;
+  /// Space for a field of a later version.
+  uint32_t reserved;
+  /// The number of corners.
+  size_t corners;
+  /// Corners whose four components are equal after rounding.
+  size_t identical;
+  /// Corners within 0.1 degrees (1 degree for 8 bits) and with equal signs.
+  size_t close;
+  /// Corners whose signs differ.
+  size_t sign_flips;
+  /// The largest angle in degrees.
+  double worst;
+} darboux_recipe_match;
+
 /// The convention of a mesh and of its normal map. NULL or all zeros: glTF.
 typedef struct darboux_convention {
   /// sizeof(darboux_convention). 0: the size in version 0.1.
@@ -841,6 +943,34 @@ darboux_status darboux_measure_uv_fidelity(const struct darboux_mesh *mesh,
                                            size_t tangent_stride,
                                            const struct darboux_context *context,
                                            struct darboux_uv_fidelity *fidelity);
+
+/// Judges a normal map by its texels: whether green points up (OpenGL) or down (DirectX), and whether they are normals at all.
+///
+/// `texels`: `height` rows of `width` texels, the top row first; each texel has `channels` channels of `bits` bits. `bits`: 8 or 16 (native
+/// byte order, aligned). `channels`: 2 (x, y), 3 (x, y, z) or 4 (x, y, z, ignored). `row_stride`: bytes from one row to the next; 0 for packed.
+/// `judgement`: receives the verdict. Errors: a null pointer, other `bits` or `channels`, alignment, a stride smaller than a row.
+darboux_status darboux_judge_normal_map(const uint8_t *texels,
+                                        uint32_t bits,
+                                        uint32_t channels,
+                                        size_t width,
+                                        size_t height,
+                                        size_t row_stride,
+                                        struct darboux_map_judgement *judgement);
+
+/// Ranks the ways in which the tangents of a mesh could have been computed, the best one first.
+///
+/// `mesh`: normals and UVs are required. `tangents`: C by 4 floats, with the sign that darboux_generate_tangents gives. `tangent_count`: C.
+/// `tangent_stride`: bytes from one tangent to the next; 0 for packed. `context`: threads and a cancellation flag; NULL for the calling thread
+/// alone. `matches`: receives the best matches, at most `capacity`. `match_count`: receives the number of matches that exist, which may be
+/// larger; may be NULL. Errors: those of the mesh; another number of tangents than corners.
+darboux_status darboux_recognise_recipe(const struct darboux_mesh *mesh,
+                                        const float *tangents,
+                                        size_t tangent_count,
+                                        size_t tangent_stride,
+                                        const struct darboux_context *context,
+                                        struct darboux_recipe_match *matches,
+                                        size_t capacity,
+                                        size_t *match_count);
 
 /// Encodes tangents in a compressed format.
 ///

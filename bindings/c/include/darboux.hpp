@@ -369,6 +369,26 @@ inline darboux_tangent_difference measure_tangents(floats<4> a, floats<4> b, con
   return difference;
 }
 
+/// The verdict on a normal map of `height` rows of `width` texels with `channels` channels of `bits` bits.
+inline darboux_map_judgement judge_normal_map(
+    const void *texels, std::uint32_t bits, std::uint32_t channels, std::size_t width, std::size_t height, std::size_t row_stride = 0) {
+  auto judgement = detail::sized<darboux_map_judgement>();
+  check(darboux_judge_normal_map(static_cast<const std::uint8_t *>(texels), bits, channels, width, height, row_stride, &judgement));
+  return judgement;
+}
+
+/// All recipes of the tangents, the best one first.
+inline std::vector<darboux_recipe_match> recognise_recipe(
+    const mesh &mesh, floats<4> tangents, const context *context = nullptr) {
+  const darboux_mesh view = mesh.view();
+  std::vector<darboux_recipe_match> matches(64);
+  std::size_t count = 0;
+  check(darboux_recognise_recipe(
+      &view, tangents.data(), tangents.size(), tangents.stride(), detail::get(context), matches.data(), matches.size(), &count));
+  matches.resize(count < matches.size() ? count : matches.size());
+  return matches;
+}
+
 inline darboux_uv_fidelity measure_uv_fidelity(const mesh &mesh, floats<4> tangents, const context *context = nullptr) {
   const darboux_mesh view = mesh.view();
   auto fidelity = detail::sized<darboux_uv_fidelity>();

@@ -1,8 +1,8 @@
 //! Enumerations of the C interface. Callers pass them as `uint32_t`, so that an invalid value is an error instead of undefined behaviour.
 
 use darboux::{
-    Axis, BitangentDirection, Convention, Method, Mode, NormalWeight, Shading, SignRule, SmoothingSeams,
-    TangentDirection, UvOrigin, Winding,
+    Axis, BitangentDirection, Convention, MapVerdict, Method, Mode, NormalWeight, RecipeWriting, Shading,
+    SignRule, SmoothingSeams, TangentDirection, UvOrigin, Winding,
 };
 
 use crate::status::{Error, darboux_status};
@@ -41,6 +41,34 @@ pub enum ModeCode {
     Reference = 1,
     /// As REPAIRED, with complete edge matching and one sign per face.
     Corrected = 2,
+}
+
+/// What the texels of a normal map say about its green channel.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MapVerdictCode {
+    /// Green points up, as glTF and OpenGL want it (or red and green are both inverted).
+    Opengl = 0,
+    /// Green points down, as DirectX wants it (or red is inverted).
+    Directx = 1,
+    /// The texels are not the slope of a surface.
+    NoGradient = 2,
+    /// All texels are the same but for rounding.
+    Flat = 3,
+    /// There is too little evidence.
+    CannotTell = 4,
+}
+
+/// How the tangents of corners became tangents of vertices.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RecipeWritingCode {
+    /// Every corner has its own tangent.
+    Corners = 0,
+    /// Every vertex has the tangent of its last corner. Mirrored seams break.
+    LastCorner = 1,
+    /// Every vertex has the tangent of its first corner.
+    FirstCorner = 2,
 }
 
 /// How corners are grouped into faces.
@@ -204,6 +232,10 @@ pub enum ProgramCode {
 pub type darboux_method = u32;
 /// The value of a [`ModeCode`].
 pub type darboux_mode = u32;
+/// The value of a [`MapVerdictCode`].
+pub type darboux_map_verdict = u32;
+/// The value of a [`RecipeWritingCode`].
+pub type darboux_recipe_writing = u32;
 /// The value of a [`FacesCode`].
 pub type darboux_faces = u32;
 /// The value of a [`ShadingCode`].
@@ -257,6 +289,54 @@ from_code!(mode, "darboux_mode", ModeCode => Mode {
     Reference => Mode::Reference,
     Corrected => Mode::Corrected,
 });
+/// The code of a method.
+pub(crate) fn method_code(method: Method) -> darboux_method {
+    let code = match method {
+        Method::MikkTSpace(_) => MethodCode::Mikktspace,
+        Method::AngleArea => MethodCode::AngleArea,
+        Method::AngleEdge => MethodCode::AngleEdge,
+        Method::Lengyel => MethodCode::Lengyel,
+        Method::LengyelPerVertex => MethodCode::LengyelPerVertex,
+        Method::Average => MethodCode::Average,
+        Method::Area => MethodCode::Area,
+        Method::Face => MethodCode::Face,
+        _ => MethodCode::FromNormal,
+    };
+    code as u32
+}
+
+/// The code of a mode.
+pub(crate) fn mode_code(mode: Mode) -> darboux_mode {
+    let code = match mode {
+        Mode::Reference => ModeCode::Reference,
+        Mode::Corrected => ModeCode::Corrected,
+        _ => ModeCode::Repaired,
+    };
+    code as u32
+}
+
+/// The code of a verdict.
+pub(crate) fn map_verdict(verdict: MapVerdict) -> darboux_map_verdict {
+    let code = match verdict {
+        MapVerdict::OpenGl => MapVerdictCode::Opengl,
+        MapVerdict::DirectX => MapVerdictCode::Directx,
+        MapVerdict::NoGradient => MapVerdictCode::NoGradient,
+        MapVerdict::Flat => MapVerdictCode::Flat,
+        _ => MapVerdictCode::CannotTell,
+    };
+    code as u32
+}
+
+/// The code of a writing.
+pub(crate) fn recipe_writing(writing: RecipeWriting) -> darboux_recipe_writing {
+    let code = match writing {
+        RecipeWriting::LastCorner => RecipeWritingCode::LastCorner,
+        RecipeWriting::FirstCorner => RecipeWritingCode::FirstCorner,
+        _ => RecipeWritingCode::Corners,
+    };
+    code as u32
+}
+
 from_code!(faces, "darboux_faces", FacesCode => FacesCode {
     Triangles => FacesCode::Triangles,
     Quads => FacesCode::Quads,

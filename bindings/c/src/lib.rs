@@ -31,6 +31,8 @@ mod normals;
 
 mod measure;
 
+mod recognise;
+
 mod encode;
 
 mod convention;
@@ -51,6 +53,7 @@ pub use measure::*;
 pub use mesh::darboux_mesh;
 pub use normals::*;
 pub use plan::*;
+pub use recognise::*;
 pub use split::*;
 pub use status::{darboux_last_error, darboux_status, darboux_version};
 pub use tangents::*;

@@ -170,6 +170,43 @@ pub(crate) unsafe fn bytes_mut<'a>(
     }
 }
 
+/// Slices of `count` rows of `width` elements. Rows are `stride` bytes apart (0: packed). Errors: as for [`slice`]; a stride smaller than a
+/// row or that leaves rows unaligned.
+///
+/// # Safety
+///
+/// `data` points to as many rows, which do not change while the slices are used; every bit pattern is a valid `T`.
+pub(crate) unsafe fn row_slices<'a, T: 'a>(
+    what: &str,
+    data: *const u8,
+    count: usize,
+    width: usize,
+    stride: usize,
+) -> Result<impl Iterator<Item = &'a [T]>, Error> {
+    let row = width.saturating_mul(size_of::<T>());
+    let stride = stride_of(what, stride, row)?;
+    bytes(what, data, row, stride, if row == 0 { 0 } else { count })?;
+    if !data.cast::<T>().is_aligned() || !stride.is_multiple_of(align_of::<T>()) {
+        let message = format!("the rows of {what} must lie at multiples of {} bytes", align_of::<T>());
+        return Err(Error::new(darboux_status::Alignment, message));
+    }
+    let count = if row == 0 { 0 } else { count };
+    // SAFETY: not null, aligned, inside the array, whose size was computed without overflow; the rest is the caller's promise.
+    Ok((0..count).map(move |at| unsafe { std::slice::from_raw_parts(data.add(at * stride).cast(), width) }))
+}
+
+/// Writes a value where `to` is not null.
+///
+/// # Safety
+///
+/// `to` is null or writable.
+pub(crate) unsafe fn put<T>(to: *mut T, value: T) {
+    if !to.is_null() {
+        // SAFETY: the caller's promise.
+        unsafe { to.write_unaligned(value) }
+    }
+}
+
 /// A view of `count` elements of `N` floats, `stride` bytes apart (0: packed), with any alignment. `data` may be null where `count` is 0.
 /// Errors: a null pointer, a stride smaller than an element, a size overflow.
 ///

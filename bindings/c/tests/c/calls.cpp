@@ -94,6 +94,10 @@ static void tangents() {
   const auto difference = darboux::measure_tangents(darboux::field(corners, &Vertex::tangent), made.corners);
   expect(difference.identical == 12 && difference.max == 0, "difference");
   expect(darboux::measure_uv_fidelity(mesh, made.corners).area == 2, "fidelity");
+  const auto recipes = darboux::recognise_recipe(mesh, made.corners);
+  expect(recipes.front().method == DARBOUX_METHOD_MIKKTSPACE && recipes.front().identical == recipes.front().corners, "recipe");
+  const unsigned char texels[3 * 16] = {};
+  expect(darboux::judge_normal_map(texels, 8, 3, 4, 4).texels == 16, "judgement");
 }
 
 static void faces() {

@@ -54,6 +54,13 @@ facts_of_structs! {
         worst_angles,
     }
     darboux_uv_fidelity { size, mean, root_mean_square, area, unmeasured_triangles }
+    darboux_map_judgement {
+        size, verdict, confidence, correlation, z_score, log_energy_ratio, mean_length, texels, background, not_unit,
+        negative_z, grey, not_normal,
+    }
+    darboux_recipe_match {
+        method, mode, flips_v, writing, bits, reserved, corners, identical, close, sign_flips, worst,
+    }
     darboux_convention { size, right, up, front, winding, uv_origin, tangent, bitangent, sign }
     darboux_frame_arrays {
         size, count, normals, normal_stride, tangents, tangent_stride, out_normals, out_normal_stride, out_tangents,
@@ -84,6 +91,12 @@ facts_of_enums! {
         Average = "AVERAGE", Area = "AREA", Face = "FACE", FromNormal = "FROM_NORMAL", AngleEdge = "ANGLE_EDGE",
     }
     ModeCode as "DARBOUX_MODE" { Repaired = "REPAIRED", Reference = "REFERENCE", Corrected = "CORRECTED" }
+    MapVerdictCode as "DARBOUX_MAP_VERDICT" {
+        Opengl = "OPENGL", Directx = "DIRECTX", NoGradient = "NO_GRADIENT", Flat = "FLAT", CannotTell = "CANNOT_TELL",
+    }
+    RecipeWritingCode as "DARBOUX_RECIPE_WRITING" {
+        Corners = "CORNERS", LastCorner = "LAST_CORNER", FirstCorner = "FIRST_CORNER",
+    }
     FacesCode as "DARBOUX_FACES" { Triangles = "TRIANGLES", Quads = "QUADS", Mixed = "MIXED" }
     ShadingCode as "DARBOUX_SHADING" { Smooth = "SMOOTH", Flat = "FLAT" }
     NormalWeightCode as "DARBOUX_NORMAL_WEIGHT" { Angle = "ANGLE", Area = "AREA", AngleArea = "ANGLE_AREA" }
@@ -117,6 +130,8 @@ fn c_and_rust_agree() {
     let sizes = [
         "method",
         "mode",
+        "map_verdict",
+        "recipe_writing",
         "faces",
         "shading",
         "normal_weight",
@@ -306,8 +321,8 @@ fn along(axis: u32) -> (u32, u32, u32) {
 fn every_number_has_a_meaning() {
     let lists: HashSet<String> = facts_of_enums().into_iter().map(|(name, _)| list_of(&name)).collect();
     let asked: HashSet<String> = ENUM_CALLS.iter().map(|(list, _)| (*list).to_owned()).collect();
-    let returned = "DARBOUX_STATUS".to_owned();
-    assert_eq!(lists, asked.into_iter().chain([returned]).collect());
+    let returned = RETURNED.map(str::to_owned);
+    assert_eq!(lists, asked.into_iter().chain(returned).collect());
     for (list, ask) in ENUM_CALLS {
         let numbers = facts_of_enums().into_iter().filter(|(name, _)| list_of(name) == *list);
         let numbers: Vec<u32> = numbers.map(|(_, number)| number as u32).collect();
@@ -321,9 +336,12 @@ fn every_number_has_a_meaning() {
     }
 }
 
+/// Enumerations that functions return only.
+const RETURNED: [&str; 3] = ["DARBOUX_STATUS", "DARBOUX_MAP_VERDICT", "DARBOUX_RECIPE_WRITING"];
+
 /// The enumeration of a constant.
 fn list_of(name: &str) -> String {
-    let lists = ENUM_CALLS.iter().map(|(list, _)| *list).chain(["DARBOUX_STATUS"]);
+    let lists = ENUM_CALLS.iter().map(|(list, _)| *list).chain(RETURNED);
     let longest = lists.filter(|list| name.starts_with(&format!("{list}_"))).max_by_key(|list| list.len());
     longest.unwrap_or(name).to_owned()
 }

@@ -8,5 +8,6 @@ mod conventions;
 mod drop_in;
 mod header;
 mod programs;
+mod recognise;
 mod speed;
 mod support;
