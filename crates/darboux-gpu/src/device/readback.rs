@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use bytemuck::{AnyBitPattern, NoUninit};
 use darboux::Context;
-use darboux::internal::cancel_checks::check;
+use darboux::internal::cancel_checks::{check, has_token};
 use wgpu::{
     Buffer, BufferDescriptor, BufferUsages, CommandEncoder, Device, ErrorFilter, MapMode, PollType, Queue,
 };
@@ -88,9 +88,13 @@ impl Readback {
 /// Waits until `is_mapped` says whether a buffer was mapped. Errors: it was not, because the device is lost; the context's token was cancelled,
 /// after which the device still finishes its work.
 ///
-/// It polls, because a timed wait of wgpu 30 can panic while another thread waits for the same device. It sleeps for an eighth of the time so far,
-/// so that it finds the end of the work at most that much later.
+/// Without a token it blocks. With one it polls, because a timed wait of wgpu 30 can panic while another thread waits for the same device; it
+/// sleeps for an eighth of the time so far, so that it finds the end of the work at most that much later.
 fn wait(device: &Device, is_mapped: &mpsc::Receiver<bool>, context: &Context) -> Result<(), GpuError> {
+    if !has_token(context) {
+        device.poll(PollType::wait_indefinitely()).map_err(|_| GpuError::Lost)?;
+        return if is_mapped.recv() == Ok(true) { Ok(()) } else { Err(GpuError::Lost) };
+    }
     let start = Instant::now();
     loop {
         check(context)?;

@@ -8,6 +8,11 @@ pub fn check(context: &Context) -> Result<(), Error> {
     context.limits().check()
 }
 
+/// Whether calls with this context can be cancelled.
+pub fn has_token(context: &Context) -> bool {
+    context.limits().cancel.is_some()
+}
+
 /// A token that is cancelled by the check after `limit` checks.
 pub fn cancel_after(limit: usize) -> Cancel {
     Cancel::after_checks(limit)
