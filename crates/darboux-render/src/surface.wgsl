@@ -108,8 +108,8 @@ fn transformed_uv(uv: vec2f, axes: vec4f, origin: vec2f) -> vec2f {
 
 @fragment
 fn shade(in: Varyings, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
-    let base = material.base_color * filtered(base_texture, base_sampler, in.uvs.xy);
-    let texel = filtered(normal_texture, normal_sampler, in.uvs.zw).xyz;
+    let base = material.base_color * textureSample(base_texture, base_sampler, in.uvs.xy);
+    let texel = textureSample(normal_texture, normal_sampler, in.uvs.zw).xyz;
     let facet = cross(dpdx(in.eye), dpdy(in.eye));
     let to_eye = unit_or(vec3f(0.0, 0.0, picture.distance) - in.eye, vec3f(0.0, 0.0, 1.0));
     let facing = select(abs(dot(unit_or(facet, to_eye), to_eye)), 1.0, picture.is_layout != 0u);
@@ -123,14 +123,6 @@ fn shade(in: Varyings, @builtin(front_facing) is_front: bool) -> @location(0) ve
 }
 
 const LAYOUT_ALPHA: f32 = 0.6;
-
-// A sample of a texture. Steps of UVs between pixels count as at most 1, at which a pixel shows the mean of a whole image anyway: software adapters
-// visit every repetition of the image below a pixel, which takes minutes where UVs grow to thousands.
-fn filtered(image: texture_2d<f32>, image_sampler: sampler, uv: vec2f) -> vec4f {
-    let step_x = clamp(dpdx(uv), vec2f(-1.0, -1.0), vec2f(1.0, 1.0));
-    let step_y = clamp(dpdy(uv), vec2f(-1.0, -1.0), vec2f(1.0, 1.0));
-    return textureSampleGrad(image, image_sampler, uv, step_x, step_y);
-}
 
 // The unit normal in eye space, with the normal map applied.
 fn surface_normal(in: Varyings, texel: vec3f) -> vec3f {

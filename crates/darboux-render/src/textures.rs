@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use darboux_gpu::Gpu;
+use darboux_gpu::{AdapterKind, Gpu};
 use darboux_io::gltf::{Document, TextureUse, Wrap};
 use darboux_io::image::{DecodeLimits, RgbaImage};
 use wgpu::{
@@ -19,6 +19,10 @@ const BYTES_PER_TEXEL: u64 = 4;
 
 /// What a texel takes while it is decoded: four channels of 16 bits.
 const BYTES_WHILE_DECODING: u64 = 8;
+
+/// The most samples along the longer side of a pixel's footprint. Software adapters do without: they visit every texel below a pixel, which
+/// takes minutes where UVs grow to thousands, or where a triangle is seen so nearly edge-on that its interpolated UVs overflow.
+const MAX_ANISOTROPY: u16 = 8;
 
 /// The meaning of a texture's texels.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -152,7 +156,7 @@ pub fn sampler(gpu: &Gpu, used: Option<&TextureUse>) -> Sampler {
         mag_filter: if is_nearest { FilterMode::Nearest } else { FilterMode::Linear },
         min_filter: FilterMode::Linear,
         mipmap_filter: MipmapFilterMode::Linear,
-        anisotropy_clamp: if is_nearest { 1 } else { 8 },
+        anisotropy_clamp: if is_nearest || gpu.kind() == AdapterKind::Software { 1 } else { MAX_ANISOTROPY },
         ..Default::default()
     })
 }
