@@ -53,13 +53,14 @@ impl Messages {
             thread::sleep(PROGRESS_DELAY);
             if !progress.is_finished() {
                 progress.set_draw_target(ProgressDrawTarget::stderr());
-                progress.enable_steady_tick(FRAME);
             }
             while !progress.is_finished() {
                 let of_vertex = vertex.percent();
                 let prefix =
                     of_vertex.map(|percent| format!("{percent} % of a vertex with very many faces, "));
                 progress.set_prefix(prefix.unwrap_or_default());
+                // Not `enable_steady_tick`: it starts a thread of its own, and panics where the system refuses one.
+                progress.tick();
                 thread::sleep(FRAME);
             }
         };

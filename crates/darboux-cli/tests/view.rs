@@ -26,8 +26,12 @@ impl Drop for Viewer {
 impl Viewer {
     /// Shows a model in a page of one file.
     fn start(folder: &Path, model: &Path) -> Self {
+        Self::start_with(Command::new(env!("CARGO_BIN_EXE_darboux")), folder, model)
+    }
+
+    fn start_with(mut command: Command, folder: &Path, model: &Path) -> Self {
         fs::write(folder.join("index.html"), "the page").expect("a page");
-        let mut child = Command::new(env!("CARGO_BIN_EXE_darboux"))
+        let mut child = command
             .args(["view", "--no-open", "--page"])
             .args([folder, model])
             .stdout(Stdio::piped())
@@ -84,6 +88,20 @@ fn the_page_and_the_model_are_behind_the_secret() {
         assert_eq!(viewer.get(host, path).0, 403, "{path}");
     }
     assert_eq!(viewer.get("evil.example", &format!("/{secret}/")).0, 403);
+}
+
+/// A thread whose stack is larger than the address space cannot start.
+#[test]
+fn without_threads_every_request_is_answered() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_darboux"));
+    command.env("RUST_MIN_STACK", (1u64 << 50).to_string());
+    let viewer = Viewer::start_with(command, folder.path(), &asset("made/shield.glb"));
+    let (host, secret) = viewer.parts();
+    for _ in 0..3 {
+        assert_eq!(viewer.get(host, &format!("/{secret}/")), (200, b"the page".to_vec()));
+        assert_eq!(viewer.get(host, &format!("/{secret}/model/0")).0, 200);
+    }
 }
 
 #[test]

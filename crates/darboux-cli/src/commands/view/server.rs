@@ -8,6 +8,7 @@ use std::convert::Infallible;
 use std::io;
 use std::net::{Ipv4Addr, SocketAddr, TcpListener as StdListener};
 use std::sync::Arc;
+use std::thread;
 use std::time::Duration;
 
 use http_body_util::Full;
@@ -19,7 +20,7 @@ use hyper::service::service_fn;
 use hyper::{Method, Request, Response, StatusCode};
 use hyper_util::rt::{TokioIo, TokioTimer};
 use tokio::net::{TcpListener, TcpStream};
-use tokio::sync::Semaphore;
+use tokio::sync::{Semaphore, oneshot};
 use tokio::{runtime, task, time};
 
 use super::model::ServedModel;
@@ -119,10 +120,7 @@ impl ServedFiles {
 
     async fn respond(self: Arc<Self>, request: Request<Incoming>) -> Response<Full<Bytes>> {
         let (head, _unread_body) = request.into_parts();
-        // Files are read on another thread, so that other connections go on.
-        let parts = task::spawn_blocking(move || self.response_parts(&head)).await;
-        let (status, media_type, body) = parts
-            .unwrap_or_else(|_| (StatusCode::INTERNAL_SERVER_ERROR, TEXT, b"the request failed".to_vec()));
+        let (status, media_type, body) = self.read(Arc::new(head)).await;
         let mut response = Response::new(Full::new(Bytes::from(body)));
         *response.status_mut() = status;
         let headers = response.headers_mut();
@@ -130,6 +128,21 @@ impl ServedFiles {
         headers.insert(CACHE_CONTROL, HeaderValue::from_static("no-store"));
         headers.insert(X_CONTENT_TYPE_OPTIONS, HeaderValue::from_static("nosniff"));
         response
+    }
+
+    /// Reads the files for a response on another thread, so that other connections go on; on this one where the system refuses a thread.
+    async fn read(self: Arc<Self>, head: Arc<Parts>) -> ResponseParts {
+        let (sender, receiver) = oneshot::channel();
+        let (site, head_of_thread) = (self.clone(), head.clone());
+        let read = move || {
+            let _client_may_be_gone = sender.send(site.response_parts(&head_of_thread));
+        };
+        match thread::Builder::new().spawn(read) {
+            Ok(_) => receiver.await.unwrap_or_else(|_| {
+                (StatusCode::INTERNAL_SERVER_ERROR, TEXT, b"the request failed".to_vec())
+            }),
+            Err(_) => self.response_parts(&head),
+        }
     }
 
     fn response_parts(&self, head: &Parts) -> ResponseParts {
