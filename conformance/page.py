@@ -67,7 +67,7 @@ def markdown(all_of_them):
     ]
     machines = sorted({s["machine"] for s in all_of_them})
     lines += ["", f"Machine: {'; '.join(machines)}. What they are installed from: " + "; ".join(f"{s['name']}: {s['package']}" for s in all_of_them) + ".", ""]
-    lines += ["[WRONG.md](../conformance/WRONG.md) shows that the suite can fail each of them.", "", "## Reports", ""]
+    lines += ["[WRONG.md](../conformance/WRONG.md) shows on which of them wrong inputs and wrong builds were tried, and how many cases noticed.", "", "## Reports", ""]
     lines += [f"- [{title(path)}](../conformance/reports/{path.name})" for path in sorted((HERE / "reports").glob("*.md")) if path.name != "README.md"]
     lines += ["", "## Not in the table", "", "| implementation | reason |", "|---|---|"]
     lines += [f"| {name} | {reason} |" for name, reason in unavailable()]
@@ -102,10 +102,10 @@ def wrong_builds(all_of_them):
     lines = [
         "# Wrong builds and wrong inputs",
         "",
-        "Made by `cargo xtask conformance --wrong` (`python3 conformance/wrong.py`): proof that each adapter reads its cases and that the suite can fail it.",
+        "Made by `cargo xtask conformance --wrong` (`python3 conformance/wrong.py`): proof that an adapter reads its cases and that the suite can fail it.",
         "A cell says how many cases of the class notice what is wrong, of how many that the adapter runs: such a case passes a level less, or more of its",
         "corners have a wrong sign or a wrong angle. `-`: the adapter runs no case of the class. 0: the mistake changes nothing there, because the",
-        "implementation makes it already (one tangent per vertex, no sign) or is as far from the reference without it.",
+        "implementation makes it already (one tangent per vertex, no sign) or is as far from the reference without it. `not run`: there is no proof yet.",
         "",
         "| wrong input | what is wrong |",
         "|---|---|",
@@ -117,7 +117,10 @@ def wrong_builds(all_of_them):
         "|---|" + "--:|" * len(heads) + "---|",
     ]
     for s in all_of_them:
-        proof = s.get("wrong") or {"inputs": {}, "build": None}
+        proof = s.get("wrong")
+        if not proof:
+            lines.append(f"| {s['name']} {s['version']} |" + " not run |" * (len(heads) + 1))
+            continue
         cells = ["/".join(map(str, proof["inputs"][change.name])) if change.name in proof["inputs"] else "-" for change in wrong.CHANGES]
         build = proof["build"]
         cells.append(f"{build['noticed']}/{build['cases']} {build['class']}: {build['what']}" if build else "-")

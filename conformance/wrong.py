@@ -3,7 +3,7 @@
     python3 conformance/wrong.py WORK [NAME ...]
 
 WORK and NAME are those of run.py, which must have run the adapters before. Counts are kept in the summaries in results/, and page.py makes
-WRONG.md of them. Exit code 1 if an adapter fails nowhere because of its wrong build or its wrong inputs.
+WRONG.md of them. Exit code 1 if no case of an adapter notices exchanged u and v, or its wrong build.
 
 A wrong input changes a case before the adapter, or the result after it, as a mistake of an integration would. The wrong build of an adapter
 is the member "wrong" of its run in adapter.json: "old" becomes "new" in a "file" of the adapter, of its node_modules, or of a Rust crate
