@@ -102,7 +102,7 @@ pub fn check_map_on_model(
     })?;
     if on_surfaces.iter().any(|finding| finding.code == Code::TangentSignFlipped) {
         for finding in checked.findings.iter_mut().filter(|finding| finding.code == Code::MapGreenFlipped) {
-            finding.text += "; the signs w of the model are flipped, too, so that bumps look right until one of both is cured";
+            finding.text += "; the signs w of the model are flipped, too, so that bumps look right until one of the two mistakes is cured";
         }
     }
     checked.findings.extend(on_surfaces);

@@ -22,8 +22,8 @@ use outcome::{is_same, outcome};
 /// Repairs a document.
 ///
 /// `findings`: those of [`check_document`](crate::check_document) with the same options on the same document. Returns these findings, and
-/// those that the first repairs revealed. Data that no finding names is kept, byte for byte. Errors: invalid data; more memory than the
-/// limit permits. After an error the document is unspecified: drop it.
+/// those that the first repairs revealed. Data that no finding names is kept, byte for byte; a compressed document is decompressed if its
+/// geometry is repaired. Errors: invalid data; more memory than the limit permits. After an error the document is unspecified: drop it.
 pub fn fix_document(
     document: &mut Document,
     findings: Vec<Finding>,

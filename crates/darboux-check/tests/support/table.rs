@@ -223,15 +223,3 @@ fn make_if_possible(mistake: &Mistake, model: &mut Model) -> bool {
     // The mistake at the seam replaces the whole model, and with it the other mistake.
     mistake.code != Code::TangentSharedAcrossMirror && (mistake.make)(model)
 }
-
-/// The repaired document of a model, and what the check still finds in it.
-pub fn repaired(model: &Model) -> (Document, Vec<Finding>) {
-    let findings = check_document(&mut model.document(), &CheckOptions::default()).expect("a valid document");
-    let mut document = model.document();
-    fix_document(&mut document, findings, &FixOptions::default()).expect("a valid document");
-    let glb = document.to_glb().expect("a GLB");
-    let mut document =
-        Document::from_bytes("repaired", glb, None, &LoadOptions::default()).expect("a valid GLB");
-    let left = check_document(&mut document, &CheckOptions::default()).expect("a valid document");
-    (document, left)
-}

@@ -41,7 +41,7 @@ pub struct Record {
     /// The path relative to the folder.
     output: String,
     #[serde(flatten)]
-    origin: OutputInputs,
+    inputs: OutputInputs,
     /// The relative paths of all files written, and the BLAKE3 hashes of their contents.
     files: Vec<(String, String)>,
     /// The command's part of the report.
@@ -65,7 +65,7 @@ pub struct OutputInputs {
 }
 
 impl OutputInputs {
-    /// The current origin of an output of `input`. Errors: a file cannot be read.
+    /// What the output of `input` depends on now. Errors: a file cannot be read.
     pub fn new(command: &str, options: String, input: &Path, reading: &ReadOptions) -> Result<Self, String> {
         let content = content_of(input, reading)
             .map_err(|(file, error)| format!("{}: cannot be read: {error}", file.display()))?;
@@ -97,7 +97,7 @@ impl Record {
     pub fn new(
         folder: &Path,
         output: &Path,
-        origin: OutputInputs,
+        inputs: OutputInputs,
         written: &[String],
         summary: &impl Serialize,
     ) -> Result<Option<Self>, String> {
@@ -116,18 +116,18 @@ impl Record {
             Ok(Value::Object(summary)) => summary,
             _ => Map::new(),
         };
-        Ok(Some(Self { output, origin, files, summary }))
+        Ok(Some(Self { output, inputs, files, summary }))
     }
 
-    /// Whether the origin is the recorded one and every written file still has its recorded content.
-    pub fn is_up_to_date(&self, origin: &OutputInputs, folder: &Path) -> bool {
+    /// Whether the inputs are the recorded ones and every written file still has its recorded content.
+    pub fn is_up_to_date(&self, inputs: &OutputInputs, folder: &Path) -> bool {
         let is_unchanged = |(path, hash): &(String, String)| {
             let is_inside = Path::new(path).is_relative();
             is_inside
                 && hash_of(&folder.join(path), Links::Follow)
                     .is_ok_and(|found| found.to_hex().as_str() == hash)
         };
-        self.origin == *origin && self.files.iter().all(is_unchanged)
+        self.inputs == *inputs && self.files.iter().all(is_unchanged)
     }
 }
 

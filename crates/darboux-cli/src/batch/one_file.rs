@@ -69,8 +69,8 @@ fn resume<W: FileCommand>(
     progress: &FileProgress<'_>,
 ) -> Result<FinishedFile<W::Summary>, String> {
     // Hash the input first: if it changes during the work, the next run sees another hash.
-    let origin = OutputInputs::new(W::NAME, command.options(), input, &command.files().reading)?;
-    if let Some(record) = record.filter(|record| record.is_up_to_date(&origin, folder)) {
+    let inputs = OutputInputs::new(W::NAME, command.options(), input, &command.files().reading)?;
+    if let Some(record) = record.filter(|record| record.is_up_to_date(&inputs, folder)) {
         let report = FileReport {
             input: job.input.to_string(),
             output: Some(job.output.to_string()),
@@ -82,7 +82,7 @@ fn resume<W: FileCommand>(
         return Ok(FinishedFile { report, record: None });
     }
     let processed = command.process(job, progress)?;
-    let record = Record::new(folder, output, origin, &processed.files_written, &processed.summary)?;
+    let record = Record::new(folder, output, inputs, &processed.files_written, &processed.summary)?;
     Ok(FinishedFile { report: report_of(job, processed), record })
 }
 

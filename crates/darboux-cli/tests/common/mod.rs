@@ -85,7 +85,7 @@ fn run<A: AsRef<std::ffi::OsStr>>(mut command: Command, arguments: &[A], stdin: 
         .expect("the command starts");
     let mut pipe = child.stdin.take().expect("a pipe");
     std::thread::scope(|scope| {
-        // A command that does not read its input closes the pipe: which is not an error.
+        // A command that does not read its input closes the pipe, which is not an error.
         scope.spawn(move || pipe.write_all(stdin));
         let Output { status, stdout, stderr } = child.wait_with_output().expect("the command ends");
         let code = status.code().expect("the command ends by itself");

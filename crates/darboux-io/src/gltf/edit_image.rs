@@ -26,7 +26,7 @@ impl Document {
     /// documents may refer to it. Errors: the image does not exist, or its content cannot be read.
     pub fn replace_image(&mut self, index: usize, bytes: Vec<u8>, media_type: &str) -> Result<(), Error> {
         let replaced = self.set_image(index, bytes, media_type);
-        replaced.map_err(|fault| fault.in_file(self.name()))
+        replaced.map_err(|error| error.in_file(self.name()))
     }
 
     fn set_image(&mut self, index: usize, bytes: Vec<u8>, media_type: &str) -> Result<(), ContentError> {

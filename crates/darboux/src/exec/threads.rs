@@ -38,7 +38,9 @@ pub(crate) fn run<W: Send, P: Send>(
     }
 }
 
-/// Calls a function with every element of a list, on so many threads. A thread that has finished an element takes the next one.
+/// Calls a function with every element of a list. A thread that has finished an element takes the next one.
+///
+/// `threads`: the number of threads, at least 1.
 pub(crate) fn for_each<T: Send>(threads: usize, list: &mut [T], with: impl Fn(&mut T) + Sync) {
     let rest = Mutex::new(list.iter_mut());
     run(&mut vec![(); threads], std::iter::repeat_n((), threads), |(), ()| {

@@ -74,7 +74,8 @@ pub struct CheckArguments {
     /// Repair what is found, and write the result
     ///
     /// Tangents are made again, vertices split, normals made or turned over, and the texels of PNG maps rewritten at their bit depth; a JPEG map
-    /// becomes a PNG. Only the findings that are reported are repaired (--only, --allow). Everything else in the file is kept, byte for byte.
+    /// in a model becomes a PNG. Only the findings that are reported are repaired (--only, --allow). Everything else in the file is kept, byte for
+    /// byte; a compressed model is decompressed if its geometry is repaired.
     #[arg(long, help_heading = "Repair")]
     pub fix: bool,
 

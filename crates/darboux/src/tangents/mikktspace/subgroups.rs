@@ -104,8 +104,9 @@ struct Scratch {
     excluded: Vec<u32>,
 }
 
-/// In [`SubgroupFinder::subgroups_of`]: no subgroup has been assigned, or is about to be.
+/// In [`SubgroupFinder::subgroups_of`]: no subgroup has been assigned.
 const UNKNOWN: u32 = u32::MAX;
+/// As [`UNKNOWN`], while the member is among those that are searched next.
 const PENDING: u32 = u32::MAX - 1;
 
 impl<'a> SubgroupFinder<'a> {
