@@ -178,7 +178,8 @@ unsafe fn judged<C: Channel, const N: usize>(
 ) -> Result<MapJudgement, Error> {
     // SAFETY: the caller's promise.
     let rows = unsafe { pointers::row_slices::<[C; N]>("texels", texels, height, width, row_stride) }?;
-    let mut judge = NormalMapJudge::new(width, layout);
+    // Without rows a width promises nothing, and must allocate nothing.
+    let mut judge = NormalMapJudge::new(if height == 0 { 0 } else { width }, layout);
     rows.for_each(|row| judge.push_row(row));
     Ok(judge.judgement())
 }

@@ -6,6 +6,7 @@ mod maps;
 mod normals;
 mod options;
 mod outcome;
+mod pairs;
 mod tangents;
 
 pub use maps::{FixedMap, fix_map};
@@ -18,6 +19,7 @@ use darboux_io::gltf::Document;
 use crate::check::check_surfaces;
 use crate::finding::Finding;
 use outcome::{is_same, outcome};
+use pairs::LeftPairs;
 
 /// Repairs a document.
 ///
@@ -29,16 +31,19 @@ pub fn fix_document(
     findings: Vec<Finding>,
     options: &FixOptions,
 ) -> Result<Vec<FixedFinding>, Error> {
-    let (on_images, on_surfaces) = findings.into_iter().partition(|finding| finding.place.image.is_some());
-    let mut fixed = fix_surfaces(document, on_surfaces, options)?;
-    fixed.extend(maps::fix_images(document, on_images, options)?);
+    let (on_images, on_surfaces): (Vec<Finding>, Vec<Finding>) =
+        findings.into_iter().partition(|finding| finding.place.image.is_some());
+    let left = LeftPairs::new(document, &on_images, &on_surfaces, options)?;
+    let mut fixed = fix_surfaces(document, left.mark(on_surfaces), &left, options)?;
+    fixed.extend(maps::fix_images(document, left.mark(on_images), options)?);
     Ok(fixed)
 }
 
-/// Repairs normals and tangents.
+/// Repairs normals and tangents, but those in `left`.
 fn fix_surfaces(
     document: &mut Document,
     mut findings: Vec<Finding>,
+    left: &LeftPairs,
     options: &FixOptions,
 ) -> Result<Vec<FixedFinding>, Error> {
     let is_about_normals = |finding: &&Finding| finding.code.name().starts_with("normal-");
@@ -48,7 +53,7 @@ fn fix_surfaces(
     if !of_normals.is_empty() {
         let without_tangents = normals::fix(document, &of_normals, options)?;
         tangents::make(document, &without_tangents, options)?;
-        current = check_surfaces(document)?;
+        current = left.mark(check_surfaces(document)?);
     }
     let of_tangents: Vec<&Finding> =
         current.iter().filter(|finding| !is_about_normals(finding)).filter(is_wanted).collect();

@@ -68,6 +68,25 @@ fn only_the_chosen_codes_are_repaired() {
     assert!(!document.is_changed());
 }
 
+/// Flipped signs and flipped green look right together. One of them alone would be wrong.
+#[test]
+fn half_of_a_pair_that_cancels_is_left() {
+    let mut model = spoilt();
+    let inverted = model.map.texels.iter().map(|[r, g, b]| [*r, 255 - g, *b]).collect();
+    model.map = model.map.with_texels(inverted);
+    for code in [Code::TangentSignFlipped, Code::MapGreenFlipped] {
+        let mut document = model.document();
+        let options = FixOptions::default().with_codes([code]);
+        let findings = fixed(&mut document, &mut model.document(), &options);
+        let left = findings.iter().find(|fixed| fixed.finding.code == code).expect("the finding");
+        let reason = left.finding.left_because.as_deref().unwrap_or_default();
+        assert!(!left.cured && reason.contains("both or none"), "{code:?}: {reason}");
+        assert!(!document.is_changed());
+    }
+    let findings = fixed(&mut model.document(), &mut model.document(), &FixOptions::default());
+    assert_eq!(findings.iter().filter(|fixed| fixed.cured).count(), 2, "{findings:?}");
+}
+
 #[test]
 fn all_instances_are_repaired() {
     let mut model = spoilt();

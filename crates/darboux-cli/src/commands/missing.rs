@@ -15,10 +15,16 @@ pub fn missing_feature(part: &str, feature: &str) -> String {
     )
 }
 
-/// What `cargo install` is told to build. `folder`: where the sources of this build were; the folder of a package from a registry ends with
-/// its version, that of a checkout does not.
+/// What `cargo install` is told to build. `folder`: where the sources of this build were. The folder of a package from a registry ends with its
+/// version; cargo keeps what `cargo install --git` builds in a folder of its own, of which a user knows only the address.
 fn package(folder: &str) -> &'static str {
-    if folder.ends_with("darboux-cli") { "--path crates/darboux-cli" } else { "darboux-cli" }
+    let is_checkout = folder.ends_with("darboux-cli");
+    let is_of_git = folder.contains("/git/checkouts/") || folder.contains(r"\git\checkouts\");
+    match (is_checkout, is_of_git) {
+        (true, true) => "--git ADDRESS darboux-cli",
+        (true, false) => "--path crates/darboux-cli",
+        (false, _) => "darboux-cli",
+    }
 }
 
 /// Accepts any arguments, so that the only message is the one about the missing subcommand.
@@ -46,6 +52,10 @@ mod tests {
         assert_eq!(
             package("/home/a/.cargo/registry/src/index.crates.io-1949cf8c6b5b557f/darboux-cli-0.1.0"),
             "darboux-cli"
+        );
+        assert_eq!(
+            package("/home/a/.cargo/git/checkouts/darboux-5af0e1/2f1aa36/crates/darboux-cli"),
+            "--git ADDRESS darboux-cli"
         );
     }
 }
