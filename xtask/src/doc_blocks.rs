@@ -25,7 +25,7 @@ const PAGES: &[&str] = &["README.md", "bindings/python/README.md"];
 const NOTES: &str = "docs/notes";
 
 /// Languages whose blocks are text, output or fragments of shaders.
-const NOT_RUN: &[&str] = &["glsl", "hlsl", "json", "text", "wgsl"];
+const NOT_RUN: &[&str] = &["glsl", "hlsl", "json", "text", "wgsl", "yaml"];
 
 /// Runs the blocks of the named pages, or of all. Errors: a block fails, a page has a block in a language that nothing runs.
 pub fn run(names: &[&str]) -> Outcome {
