@@ -4,7 +4,9 @@ mod support;
 
 use std::fs;
 
-use darboux_check::{CheckOptions, Code, FixOptions, FixedFinding, check_document, fix_document, fix_map};
+use darboux_check::{
+    CheckOptions, Code, FixOptions, FixedFinding, Severity, check_document, fix_document, fix_map,
+};
 use darboux_io::gltf::Document;
 use darboux_io::image::PngImage;
 use darboux_io::{LoadOptions, SaveOptions};
@@ -178,6 +180,26 @@ fn a_repair_goes_on_with_what_it_reveals() {
     let cured: Vec<Code> =
         fixed.findings.iter().filter(|fixed| fixed.cured).map(|fixed| fixed.finding.code).collect();
     assert!(cured.contains(&Code::MapTwoChannel) && cured.contains(&Code::MapGreenFlipped), "{cured:?}");
+}
+
+/// A nearly flat map that was encoded as sRGB: blue is 1 everywhere, so that the encoding is seen only after blue was made again.
+#[test]
+fn a_repair_that_makes_a_map_worse_is_not_kept() {
+    let size = [256, 256];
+    let texels: Vec<[u8; 3]> = (0..256u32 * 256)
+        .map(|i| {
+            let (x, y) = (f64::from(i % 256) / 9.0, f64::from(i / 256) / 7.0);
+            let encoded = |slope: f64| (188.0 + 6.0 * slope).round() as u8;
+            [encoded(x.cos() * y.sin()), encoded(x.sin() * y.cos()), 255]
+        })
+        .collect();
+    let file = PngImage::from_rgb("map", size, &texels).and_then(|image| image.to_bytes()).expect("a PNG");
+    let fixed = fix_map("map", &file, &LoadOptions::default(), &FixOptions::default()).expect("a map");
+    let Some(image) = fixed.image else { return };
+    let after =
+        fix_map("map", &image.to_bytes().expect("a PNG"), &LoadOptions::default(), &FixOptions::default());
+    let errors = after.expect("a map").findings;
+    assert!(errors.iter().all(|fixed| fixed.finding.severity < Severity::Error), "{errors:?}");
 }
 
 /// An image that is also a colour, and one that cannot be rewritten, are left, with the reason.

@@ -16,6 +16,7 @@ use super::outcome::{FixedFinding, is_same, outcome};
 use crate::check::check_map;
 use crate::code::Code;
 use crate::finding::{Finding, Place};
+use crate::severity::Severity;
 
 /// The result of [`fix_map`].
 #[derive(Debug)]
@@ -40,6 +41,7 @@ pub fn fix_map(
     let mut image: Option<PngImage> = None;
     let mut findings: Vec<Finding> = Vec::new();
     let mut done = BTreeSet::new();
+    let known = check_map(file, &options.check).findings;
     let remaining = loop {
         let checked = check_map(&current, &options.check);
         for finding in &checked.findings {
@@ -60,10 +62,21 @@ pub fn fix_map(
         current = changed.to_bytes()?.into();
         image = Some(changed);
     };
+    if let Some(worse) = remaining.iter().find(|left| is_new_error(left, &known)) {
+        let reason = Some(format!("its repair would end in {}", worse.code.name()));
+        let left =
+            |finding: Finding| FixedFinding { finding: finding.with_obstacle(reason.clone()), cured: false };
+        return Ok(FixedMap { image: None, findings: known.into_iter().map(left).collect() });
+    }
     let findings: Vec<FixedFinding> =
         findings.into_iter().map(|finding| outcome(finding, &remaining, options)).collect();
     let is_any_cured = findings.iter().any(|finding| finding.cured);
     Ok(FixedMap { image: image.filter(|_| is_any_cured), findings })
+}
+
+/// Whether a repair has made an image worse: an error that it did not have before.
+fn is_new_error(left: &Finding, known: &[Finding]) -> bool {
+    left.severity == Severity::Error && !known.iter().any(|known| is_same(known, left))
 }
 
 /// The texels of a file; those of a JPEG with 8 bits.
