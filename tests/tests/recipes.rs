@@ -7,7 +7,7 @@ use darboux::{
     RecipeWriting, TangentOptions, generate_tangents, recognise_recipe,
 };
 use darboux_tests::models::{further_models, meshes, models};
-use darboux_tests::{METHODS, OwnedMesh, families};
+use darboux_tests::{Dice, METHODS, OwnedMesh, families};
 
 fn tangents(mesh: &Mesh<'_>, method: Method) -> Vec<[f32; 4]> {
     generate_tangents(mesh, &TangentOptions::from(method)).corners.into_per_corner()
@@ -122,6 +122,76 @@ fn flipped_v_is_recognised_where_its_rounding_shows() {
     let found = best(&mesh.view(), &made);
     let Recipe { method, flips_v, .. } = found.recipe;
     assert_eq!((method, flips_v, found.identical), (Method::default(), true, made.len()));
+}
+
+/// A grid of irregular quads.
+fn irregular_quads() -> OwnedMesh {
+    let mut dice = Dice::from_seed(7);
+    let mut mesh = families::grid(12, 9, true, false);
+    for position in &mut mesh.positions {
+        position[2] += 0.02 * dice.uniform();
+    }
+    for uv in &mut mesh.uvs {
+        *uv = uv.map(|x| x + 0.004 * dice.uniform());
+    }
+    mesh
+}
+
+/// As Unity makes them: MikkTSpace on quads, which are cut afterwards, here always along the same diagonal.
+#[test]
+fn tangents_of_quads_that_were_cut_are_recognised() {
+    let quads = irregular_quads();
+    let made = tangents(&quads.view(), Method::default());
+    let corners: Vec<usize> =
+        (0..made.len() / 4).flat_map(|quad| [0, 1, 2, 0, 2, 3].map(|corner| 4 * quad + corner)).collect();
+    let indices = corners.iter().map(|&corner| quads.vertex_of_corner(corner) as u32).collect();
+    let triangles = OwnedMesh {
+        positions: quads.positions.clone(),
+        normals: quads.normals.clone(),
+        uvs: quads.uvs.clone(),
+        indices: Some(indices),
+        ..OwnedMesh::default()
+    };
+    let cut: Vec<[f32; 4]> = corners.iter().map(|&corner| made[corner]).collect();
+    let found = best(&triangles.view(), &cut);
+    assert!(found.recipe.from_quads && found.close == found.corners, "{found:?}");
+    assert_eq!(found.recipe.method, Method::default());
+    let whole = best(&triangles.view(), &tangents(&triangles.view(), Method::default()));
+    assert!(!whole.recipe.from_quads && whole.identical == whole.corners, "{whole:?}");
+}
+
+/// As Maya makes them, here in f64: unit tangents in the plane of the corner's normal, summed per vertex.
+#[test]
+fn averages_of_projected_tangents_are_recognised() {
+    let mesh = families::sphere(12, 17, false);
+    let unit = |v: [f64; 3]| v.map(|x| x / v.iter().map(|x| x * x).sum::<f64>().sqrt());
+    let in_plane = |v: [f64; 3], normal: [f64; 3]| {
+        let lean: f64 = (0..3).map(|i| v[i] * normal[i]).sum();
+        unit([0, 1, 2].map(|i| v[i] - lean * normal[i]))
+    };
+    let normals: Vec<[f64; 3]> = mesh.normals.iter().map(|normal| unit(normal.map(f64::from))).collect();
+    let mut sums = vec![[0.0; 3]; mesh.positions.len()];
+    let vertices: Vec<usize> = (0..mesh.corner_count()).map(|corner| mesh.vertex_of_corner(corner)).collect();
+    let mut signs = Vec::new();
+    for triangle in vertices.as_chunks::<3>().0 {
+        let [p, q, r] = triangle.map(|vertex| mesh.positions[vertex].map(f64::from));
+        let [a, b, c] = triangle.map(|vertex| mesh.uvs[vertex].map(f64::from));
+        let [v1, v2] = [b[1] - a[1], c[1] - a[1]];
+        let sign = ((b[0] - a[0]) * v2 - (c[0] - a[0]) * v1).signum();
+        let along_u = unit([0, 1, 2].map(|i| sign * (v2 * (q[i] - p[i]) - v1 * (r[i] - p[i]))));
+        for &vertex in triangle {
+            let tangent = in_plane(along_u, normals[vertex]);
+            (0..3).for_each(|i| sums[vertex][i] += tangent[i]);
+        }
+        signs.extend([sign; 3]);
+    }
+    let tangent = |(&vertex, sign): (&usize, f64)| {
+        let [x, y, z] = unit(sums[vertex]).map(|x| x as f32);
+        [x, y, z, sign as f32]
+    };
+    let made: Vec<[f32; 4]> = vertices.iter().zip(signs).map(tangent).collect();
+    let found = best(&mesh.view(), &made);
+    assert_eq!((found.recipe.method, found.close), (Method::Average, found.corners), "{found:?}");
 }
 
 /// As gltfpack stores them: signed normalised integers.

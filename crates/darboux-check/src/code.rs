@@ -223,6 +223,13 @@ codes! {
         "None needed."
         "it is no mistake"
     }
+    UvOverlapping "uv-overlapping" Info {
+        "Faces share UV space with other faces."
+        "Nothing, if the same texels are wanted on all of them; otherwise a bake shows the bumps of one part on another."
+        "Parts were mirrored or stacked to save texture space, or parts of the unwrapping collided."
+        "None needed. For a bake, move all but one of the parts by a whole tile."
+        "it is no mistake"
+    }
     MapGreenFlipped "map-green-flipped" Error {
         "The normal map's green points the wrong way for the format."
         "Dents look like bumps when the light is above or below, and right when it is beside."

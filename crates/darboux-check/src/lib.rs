@@ -26,6 +26,7 @@ mod fix;
 mod map;
 mod obstacles;
 mod orientation;
+mod overlap;
 mod rule;
 mod rules;
 mod severity;

@@ -1,96 +1,30 @@
 //! Recognises how the tangents of a mesh were made: computes them in every way that programs use, and compares.
 
+mod compare;
+mod definition;
+mod quads;
+
+use self::compare::{bits, compare, rounded};
+pub use self::definition::{Recipe, RecipeMatch, RecipeRounding, RecipeWriting};
+use self::quads::QuadMesh;
 use crate::Context;
 use crate::Error;
 use crate::Mesh;
 use crate::exec::limits::RunLimits;
 use crate::mesh::Strided;
+use crate::tangents::TangentOptions;
 use crate::tangents::generate::run;
 use crate::tangents::memory::TangentMemory;
-use crate::tangents::{Method, MikkTSpaceOptions, Mode, TangentOptions};
 
-/// A way of making the tangents of a file.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Recipe {
-    /// How the tangents were computed.
-    pub method: Method,
-    /// True where they were computed with 1 - v instead of v, and the sign negated. Only rounding differs.
-    pub flips_v: bool,
-    /// How corners share the tangents of vertices.
-    pub writing: RecipeWriting,
-    /// How the tangents were rounded.
-    pub rounding: RecipeRounding,
-}
-
-/// How the tangents of corners became tangents of vertices.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum RecipeWriting {
-    /// Every corner has its own tangent: vertices were split where needed.
-    Corners,
-    /// Every vertex has the tangent of its last corner, as a loop has it that writes through the index list. Mirrored seams break.
-    LastCorner,
-    /// Every vertex has the tangent of its first corner.
-    FirstCorner,
-}
-
-/// How the components of tangents were rounded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum RecipeRounding {
-    /// They are 32-bit floats.
-    Floats,
-    /// To multiples of 1/127: signed normalised 8-bit integers.
-    Bits8,
-    /// To multiples of 1/32767: signed normalised 16-bit integers.
-    Bits16,
-}
-
-/// How well a recipe explains tangents.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct RecipeMatch {
-    /// The recipe.
-    pub recipe: Recipe,
-    /// The number of corners.
-    pub corners: usize,
-    /// Corners whose four components are equal, after the recipe's rounding.
-    pub identical: usize,
-    /// Corners whose xyz differ by at most 0.1 degrees (1 degree for 8 bits) and whose signs are equal.
-    pub close: usize,
-    /// Corners whose signs differ.
-    pub sign_flips: usize,
-    /// The largest angle in degrees; 180 where a tangent is zero or not finite in one of the sets only.
-    pub worst: f64,
-}
-
-/// The methods in the order of preference among equals, and whether v is flipped.
-const METHODS: [(Method, bool); 11] = {
-    const fn mode(mode: Mode) -> Method {
-        Method::MikkTSpace(MikkTSpaceOptions::new().with_mode(mode))
-    }
-    [
-        (mode(Mode::Repaired), false),
-        (mode(Mode::Reference), false),
-        (mode(Mode::Corrected), false),
-        (mode(Mode::Repaired), true),
-        (Method::AngleEdge, false),
-        (Method::AngleArea, false),
-        (Method::Lengyel, false),
-        (Method::LengyelPerVertex, false),
-        (Method::Average, false),
-        (Method::Area, false),
-        (Method::Face, false),
-    ]
-};
+/// The share of close corners from which on quads are not tried: another recipe explains the tangents.
+const EXPLAINED: f64 = 0.99;
 
 /// Ranks the recipes that could have made the tangents of a mesh, the best one first.
 ///
-/// The order is by identical corners, then by close ones, then by the largest angle; then simpler recipes come first. Every method is listed;
-/// a writing to vertices is listed only where it changes the tangents of corners. For several UV sets, call it once per set and compare the
-/// best matches. `tangents`: one per corner, unit xyz and sign as MikkTSpace has it for the UVs as given
-/// ([`Convention::generated`](crate::Convention::generated)). Errors: another number of tangents than corners.
+/// The order is by the sum of identical and close corners, then by the largest angle; then simpler recipes come first. Every method is listed;
+/// a writing to vertices only where it changes the tangents of corners, and quads only where no other recipe is close at 99 % of the corners.
+/// For several UV sets, call it once per set and compare the best matches. `tangents`: one per corner, unit xyz and sign as MikkTSpace has it for
+/// the UVs as given ([`Convention::generated`](crate::Convention::generated)). Errors: another number of tangents than corners.
 ///
 /// ```
 /// use darboux::{Mesh, Method, RecipeWriting, TangentOptions, generate_tangents, recognise_recipe};
@@ -118,37 +52,75 @@ pub fn recognise_recipe_with(
     Error::check_input("tangents", mesh.corner_count(), tangents.len())?;
     let (limits, memory) = context.limits_and_memory();
     let rounding = rounding_of(tangents);
-    let mut matches = Vec::new();
+    let mut ranking = Ranking::new(mesh, tangents, limits);
     let mut candidate = vec![[0.0; 4]; tangents.len()];
-    for (method, flips_v) in METHODS {
-        compute(mesh, method, flips_v, limits, memory, &mut candidate)?;
-        let recipe = Recipe { method, flips_v, writing: RecipeWriting::Corners, rounding };
-        let of_corners = compare(recipe, &candidate, tangents);
-        matches.push(of_corners);
-        for writing in [RecipeWriting::LastCorner, RecipeWriting::FirstCorner] {
-            let Some(written) = written_to_vertices(mesh, &candidate, writing) else { continue };
-            limits.check()?;
-            matches.push(compare(Recipe { writing, ..recipe }, &written, tangents));
-        }
+    for recipe in Recipe::all(rounding) {
+        compute(mesh, &recipe, limits, memory, &mut candidate)?;
+        ranking.add(recipe, &candidate)?;
     }
-    // The sort is stable.
-    matches.sort_by(|a, b| {
-        b.identical.cmp(&a.identical).then(b.close.cmp(&a.close)).then(a.worst.total_cmp(&b.worst))
-    });
-    Ok(matches)
+    if !ranking.is_explained()
+        && let Some(quads) = QuadMesh::recover(mesh, limits)?
+    {
+        compute_on_quads(mesh, &quads, limits, memory, &mut candidate)?;
+        ranking.add(Recipe::quads(rounding), &candidate)?;
+    }
+    Ok(ranking.sorted())
 }
 
-/// Computes the tangents of all corners by a method, with v or with 1 - v.
+/// The matches found so far.
+struct Ranking<'a> {
+    mesh: &'a Mesh<'a>,
+    tangents: &'a [[f32; 4]],
+    limits: RunLimits<'a>,
+    writers: Option<Writers>,
+    matches: Vec<RecipeMatch>,
+    /// Reused: the tangents of a recipe after they were written to vertices.
+    written: Vec<[f32; 4]>,
+}
+
+impl<'a> Ranking<'a> {
+    fn new(mesh: &'a Mesh<'a>, tangents: &'a [[f32; 4]], limits: RunLimits<'a>) -> Self {
+        let writers = Writers::new(mesh);
+        let written = vec![[0.0; 4]; if writers.is_some() { tangents.len() } else { 0 }];
+        Self { mesh, tangents, limits, writers, matches: Vec::new(), written }
+    }
+
+    /// Adds a recipe, and what becomes of its tangents when they are written to vertices.
+    fn add(&mut self, recipe: Recipe, candidate: &[[f32; 4]]) -> Result<(), Error> {
+        let Self { mesh, tangents, limits, writers, matches, written } = self;
+        matches.push(compare(recipe, candidate, tangents, limits.width));
+        for writing in [RecipeWriting::LastCorner, RecipeWriting::FirstCorner] {
+            limits.check()?;
+            if writers.as_ref().is_some_and(|writers| writers.write(mesh, candidate, writing, written)) {
+                matches.push(compare(Recipe { writing, ..recipe }, written, tangents, limits.width));
+            }
+        }
+        Ok(())
+    }
+
+    fn is_explained(&self) -> bool {
+        self.matches.iter().any(|found| found.close as f64 >= EXPLAINED * found.corners as f64)
+    }
+
+    fn sorted(mut self) -> Vec<RecipeMatch> {
+        // A few identical corners are chance, and many are worth more than many close ones.
+        let score = |found: &RecipeMatch| (found.identical + found.close, found.identical);
+        // The sort is stable.
+        self.matches.sort_by(|a, b| score(b).cmp(&score(a)).then(a.worst.total_cmp(&b.worst)));
+        self.matches
+    }
+}
+
+/// Computes the tangents of all corners by a recipe, as floats and without writing to vertices.
 fn compute(
     mesh: &Mesh<'_>,
-    method: Method,
-    flips_v: bool,
+    recipe: &Recipe,
     limits: RunLimits<'_>,
     memory: &mut TangentMemory,
     out: &mut [[f32; 4]],
 ) -> Result<(), Error> {
-    let options = TangentOptions::from(method);
-    if flips_v {
+    let options = TangentOptions::from(recipe.method);
+    if recipe.flips_v {
         let uvs: Vec<[f32; 2]> = (0..mesh.vertex_count())
             .map(|vertex| {
                 let [u, v] = mesh.uvs().get(vertex);
@@ -170,24 +142,61 @@ fn compute(
     limits.check()
 }
 
-/// The tangents of corners after they were written through the index list. `None` where that changes nothing.
-fn written_to_vertices(
+/// Computes MikkTSpace's tangents on quads. `out`: the tangents of the corners of the triangles.
+fn compute_on_quads(
     mesh: &Mesh<'_>,
-    tangents: &[[f32; 4]],
-    writing: RecipeWriting,
-) -> Option<Vec<[f32; 4]>> {
-    const NONE: u32 = u32::MAX;
-    let mut corner_of_vertex = vec![NONE; mesh.vertex_count()];
-    for corner in 0..tangents.len() {
-        let slot = &mut corner_of_vertex[mesh.vertex_of_corner(corner)];
-        if writing == RecipeWriting::LastCorner || *slot == NONE {
-            *slot = corner as u32;
+    quads: &QuadMesh,
+    limits: RunLimits<'_>,
+    memory: &mut TangentMemory,
+    out: &mut [[f32; 4]],
+) -> Result<(), Error> {
+    let mut tangents = vec![[0.0; 4]; quads.corner_count()];
+    run(&quads.mesh(mesh)?, &TangentOptions::default(), limits, memory, &mut tangents);
+    limits.check()?;
+    out.iter_mut().zip(&quads.corner_of_corner).for_each(|(out, &corner)| *out = tangents[corner as usize]);
+    Ok(())
+}
+
+/// The corners whose tangents vertices get when tangents are written through the index list.
+struct Writers {
+    first_corner: Vec<u32>,
+    last_corner: Vec<u32>,
+}
+
+impl Writers {
+    /// None where every vertex has one corner at most, so that nothing is shared.
+    fn new(mesh: &Mesh<'_>) -> Option<Self> {
+        const NONE: u32 = u32::MAX;
+        let none = || vec![NONE; mesh.vertex_count()];
+        let mut writers = Self { first_corner: none(), last_corner: none() };
+        let mut is_shared = false;
+        for corner in 0..mesh.corner_count() {
+            let vertex = mesh.vertex_of_corner(corner);
+            let first = &mut writers.first_corner[vertex];
+            is_shared |= *first != NONE;
+            *first = if *first == NONE { corner as u32 } else { *first };
+            writers.last_corner[vertex] = corner as u32;
         }
+        is_shared.then_some(writers)
     }
-    let source = |corner| corner_of_vertex[mesh.vertex_of_corner(corner)] as usize;
-    let is_same = |corner: usize| bits(tangents[source(corner)]) == bits(tangents[corner]);
-    let differs = !(0..tangents.len()).all(is_same);
-    differs.then(|| (0..tangents.len()).map(|corner| tangents[source(corner)]).collect())
+
+    /// Writes the tangents of corners to vertices and back; false where that changes nothing.
+    fn write(
+        &self,
+        mesh: &Mesh<'_>,
+        tangents: &[[f32; 4]],
+        writing: RecipeWriting,
+        out: &mut [[f32; 4]],
+    ) -> bool {
+        let corner_of_vertex =
+            if writing == RecipeWriting::FirstCorner { &self.first_corner } else { &self.last_corner };
+        let mut differs = false;
+        for (corner, (out, tangent)) in out.iter_mut().zip(tangents).enumerate() {
+            *out = tangents[corner_of_vertex[mesh.vertex_of_corner(corner)] as usize];
+            differs |= *out != *tangent && bits(*out) != bits(*tangent);
+        }
+        differs
+    }
 }
 
 /// The coarsest rounding that all tangents have. Floats where all components are 0, 1 or -1, which every rounding keeps: they tell nothing,
@@ -200,60 +209,4 @@ fn rounding_of(tangents: &[[f32; 4]]) -> RecipeRounding {
         |rounding| tangents.iter().all(|&tangent| bits(rounded(tangent, rounding)) == bits(tangent));
     let coarser = [RecipeRounding::Bits8, RecipeRounding::Bits16];
     coarser.into_iter().find(|&rounding| is_rounded(rounding)).unwrap_or(RecipeRounding::Floats)
-}
-
-/// The nearest tangent whose components are multiples of 1/127 or 1/32767.
-fn rounded(tangent: [f32; 4], rounding: RecipeRounding) -> [f32; 4] {
-    let largest = match rounding {
-        RecipeRounding::Floats => return tangent,
-        RecipeRounding::Bits8 => 127.0,
-        RecipeRounding::Bits16 => 32767.0,
-    };
-    tangent.map(|x| (x * largest).round() / largest)
-}
-
-/// The bits, with one zero and one NaN.
-fn bits(tangent: [f32; 4]) -> [u32; 4] {
-    tangent.map(|x| if x.is_nan() { f32::NAN.to_bits() } else { (x + 0.0).to_bits() })
-}
-
-fn compare(recipe: Recipe, candidate: &[[f32; 4]], tangents: &[[f32; 4]]) -> RecipeMatch {
-    let close_degrees: f64 = if recipe.rounding == RecipeRounding::Bits8 { 1.0 } else { 0.1 };
-    let limit = close_degrees.to_radians().sin().powi(2);
-    let mut out =
-        RecipeMatch { recipe, corners: tangents.len(), identical: 0, close: 0, sign_flips: 0, worst: 0.0 };
-    let mut worst = 0.0f64;
-    for (&ours, &theirs) in candidate.iter().zip(tangents) {
-        let is_flipped = (ours[3] < 0.0) != (theirs[3] < 0.0);
-        out.sign_flips += usize::from(is_flipped);
-        let is_identical = bits(rounded(ours, recipe.rounding)) == bits(theirs);
-        let turn = if is_identical { 0.0 } else { turn(ours, theirs) };
-        out.identical += usize::from(is_identical);
-        out.close += usize::from(turn <= limit && !is_flipped);
-        worst = worst.max(turn);
-    }
-    out.worst = degrees(worst);
-    out
-}
-
-/// A number that grows with the angle: the squared sine up to 90 degrees, 2 minus it above.
-fn turn(a: [f32; 4], b: [f32; 4]) -> f64 {
-    let [[ax, ay, az, _], [bx, by, bz, _]] = [a, b].map(|v| v.map(f64::from));
-    let cross = [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx];
-    let dot = ax * bx + ay * by + az * bz;
-    let squares = (ax * ax + ay * ay + az * az) * (bx * bx + by * by + bz * bz);
-    let sine = cross.iter().map(|x| x * x).sum::<f64>() / squares;
-    match () {
-        () if !sine.is_finite() => 2.0,
-        () if dot >= 0.0 => sine,
-        () => 2.0 - sine,
-    }
-}
-
-fn degrees(turn: f64) -> f64 {
-    if turn <= 1.0 {
-        turn.sqrt().min(1.0).asin().to_degrees()
-    } else {
-        180.0 - (2.0 - turn).max(0.0).sqrt().asin().to_degrees()
-    }
 }

@@ -1,6 +1,6 @@
 //! Rules about tangents: values, signs, directions, and how they were computed.
 
-use darboux::{Convention, Method, RecipeMatch, recognise_recipe};
+use darboux::{Convention, Method, Recipe, RecipeMatch, recognise_recipe};
 
 use crate::code::Code;
 use crate::finding::Finding;
@@ -197,7 +197,9 @@ fn other_recipe(measured: &Measured<'_>) -> Vec<Finding> {
     let to_generated = Convention::GLTF.to(Convention::GLTF.generated());
     let tangents: Vec<[f32; 4]> = tangents.iter().map(|tangent| to_generated.tangent(*tangent)).collect();
     let Ok(matches) = recognise_recipe(&mesh, &tangents) else { return Vec::new() };
-    let is_mikktspace = |found: &&RecipeMatch| matches!(found.recipe.method, Method::MikkTSpace(_));
+    let is_mikktspace = |found: &&RecipeMatch| {
+        matches!(found.recipe.method, Method::MikkTSpace(_)) && !found.recipe.from_quads
+    };
     let (Some(best), Some(mikktspace)) = (matches.first(), matches.iter().find(is_mikktspace)) else {
         return Vec::new();
     };
@@ -206,7 +208,7 @@ fn other_recipe(measured: &Measured<'_>) -> Vec<Finding> {
         return Vec::new();
     }
     let text = if close(best) >= 90.0 && !is_mikktspace(&best) {
-        format!("the tangents were computed by {}", name(best.recipe.method))
+        format!("the tangents were computed by {}", name(&best.recipe))
     } else {
         "the tangents were computed in a way that is not recognised".to_owned()
     };
@@ -221,15 +223,18 @@ fn other_recipe(measured: &Measured<'_>) -> Vec<Finding> {
     ]
 }
 
-/// A method by the programs that use it.
-fn name(method: Method) -> &'static str {
-    match method {
+/// A recipe by the programs that use it.
+fn name(recipe: &Recipe) -> &'static str {
+    match recipe.method {
+        Method::MikkTSpace(_) if recipe.from_quads => {
+            "MikkTSpace before quads were cut into triangles (Unity and other importers)"
+        }
         Method::MikkTSpace(_) => "MikkTSpace",
         Method::AngleArea => "sums weighted by angle and area",
         Method::AngleEdge => "sums weighted by angle and edges (meshoptimizer, gltfpack, Godot 4.6)",
         Method::Lengyel => "Lengyel's sums, split at mirrored seams",
         Method::LengyelPerVertex => "Lengyel's sums per vertex (three.js and many tutorials)",
-        Method::Average => "averages of the triangles' tangents",
+        Method::Average => "averages of the triangles' tangents (Maya)",
         Method::Area => "averages weighted by area",
         Method::Face => "one tangent per face",
         _ => "another method",

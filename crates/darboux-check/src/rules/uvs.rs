@@ -2,10 +2,11 @@
 
 use crate::code::Code;
 use crate::finding::Finding;
+use crate::overlap;
 use crate::rule::{Measured, SurfaceRule};
 use crate::surface::{Surface, cross, length, sub, uv_area};
 
-pub const RULES: &[SurfaceRule] = &[missing, degenerate, mirrored];
+pub const RULES: &[SurfaceRule] = &[missing, degenerate, mirrored, overlapping];
 
 fn missing(measured: &Measured<'_>) -> Vec<Finding> {
     let Surface { needs_tangents, uv_sets, uv_set, .. } = measured.surface;
@@ -48,4 +49,24 @@ fn mirrored(measured: &Measured<'_>) -> Vec<Finding> {
     }
     let text = format!("{} triangles have mirrored UVs", found.len());
     vec![Finding::new(Code::UvMirrored, text).with_items(&found)]
+}
+
+/// Triangles that share UV space with others.
+fn overlapping(measured: &Measured<'_>) -> Vec<Finding> {
+    let surface = measured.surface;
+    let Some(uvs) = surface.uv_sets.get(&surface.uv_set).filter(|_| surface.needs_tangents) else {
+        return Vec::new();
+    };
+    let found = overlap::overlapping(uvs, surface.triangles());
+    if found.triangles.is_empty() {
+        return Vec::new();
+    }
+    let at_least = if found.is_complete { "" } else { "at least " };
+    let count = found.triangles.len();
+    let text = format!("{at_least}{count} triangles share area in TEXCOORD_{} with others", surface.uv_set);
+    vec![Finding::new(Code::UvOverlapping, text).with_items(&found.triangles).with_evidence(
+        "their part of the UV area",
+        100.0 * found.area_share,
+        "%",
+    )]
 }

@@ -1,0 +1,263 @@
+//! Finds the triangles that share area with other triangles in UV space.
+//!
+//! Every pair of triangles that could meet is tested exactly (by separating edges). The pairs come from square grids, one per power of two:
+//!
+//! ```text
+//! for each triangle, the largest first:
+//!     for each grid of the same or a larger cell size:
+//!         test the triangles in the cells that the triangle's bounding box meets
+//!     put the triangle into the cells of the smallest grid whose cells are as large as its bounding box: at most four
+//! ```
+//!
+//! UVs are taken as they are, without wrapping: parts that were moved by a whole tile do not overlap, and bakers leave them out.
+
+use std::collections::{BTreeMap, HashMap};
+use std::hash::{BuildHasherDefault, Hasher};
+
+/// A triangle in UV space.
+type Triangle = [[f64; 2]; 3];
+
+/// The result.
+#[derive(Debug, PartialEq)]
+pub struct Overlaps {
+    /// The numbers of the triangles that share area with another one, ascending.
+    pub triangles: Vec<usize>,
+    /// Their part of the area of all triangles in UV space.
+    pub area_share: f64,
+    /// Whether all pairs were tested. Thousands of long thin triangles beside each other are not.
+    pub is_complete: bool,
+}
+
+/// Pairs that are tested per triangle, on average, before the search stops; and for small meshes.
+const TESTS_PER_TRIANGLE: usize = 128;
+const FREE_TESTS: usize = 1 << 20;
+
+/// How far triangles may reach into each other in units of the last place of their coordinates: UVs are rounded to 32-bit floats.
+const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
+
+/// Finds overlapping triangles. Triangles without area, or with UVs that are not finite, overlap nothing.
+pub fn overlapping(uvs: &[[f32; 2]], triangles: impl Iterator<Item = [usize; 3]>) -> Overlaps {
+    let triangles: Vec<Triangle> =
+        triangles.map(|triangle| triangle.map(|vertex| uvs[vertex].map(f64::from))).collect();
+    let areas: Vec<f64> = triangles.iter().map(|triangle| doubled_area(triangle).abs()).collect();
+    let mut search = Search::new(&triangles);
+    let mut order: Vec<(i32, u32)> = (0u32..)
+        .zip(&triangles)
+        .filter(|(number, _)| areas[*number as usize] > 0.0 && areas[*number as usize].is_finite())
+        .map(|(number, triangle)| (level(triangle), number))
+        .collect();
+    // Triangles in the order of the file are near each other, so the sort keeps that order.
+    order.sort_by_key(|(level, _)| std::cmp::Reverse(*level));
+    for (level, number) in order {
+        search.add(level, number);
+    }
+    let found: Vec<usize> = (0..triangles.len()).filter(|&number| search.is_overlapping[number]).collect();
+    let sum = |numbers: &mut dyn Iterator<Item = usize>| numbers.map(|number| areas[number]).sum::<f64>();
+    let all = sum(&mut (0..triangles.len()).filter(|&number| areas[number].is_finite()));
+    Overlaps {
+        area_share: if all > 0.0 { sum(&mut found.iter().copied()) / all } else { 0.0 },
+        triangles: found,
+        is_complete: search.tests_left > 0,
+    }
+}
+
+/// The triangles of a cell. Those that overlap something already are tested only until one of them is found to overlap.
+#[derive(Default)]
+struct Cell {
+    free: Vec<u32>,
+    overlapping: Vec<u32>,
+}
+
+type Cells = HashMap<[i64; 2], Cell, BuildHasherDefault<CellHasher>>;
+
+struct Search<'a> {
+    triangles: &'a [Triangle],
+    is_overlapping: Vec<bool>,
+    /// The grids by the exponent of their cell size.
+    grids: BTreeMap<i32, Cells>,
+    tests_left: usize,
+}
+
+impl<'a> Search<'a> {
+    fn new(triangles: &'a [Triangle]) -> Self {
+        let tests_left = FREE_TESTS + TESTS_PER_TRIANGLE.saturating_mul(triangles.len());
+        Self { triangles, is_overlapping: vec![false; triangles.len()], grids: BTreeMap::new(), tests_left }
+    }
+
+    /// Tests a triangle against those that were added before, none of which is in a finer grid, and adds it.
+    fn add(&mut self, level: i32, number: u32) {
+        let [low, high] = bounds(&self.triangles[number as usize]);
+        let mut is_overlapping = false;
+        for (&exponent, cells) in &mut self.grids {
+            for place in places(low, high, exponent) {
+                let Some(cell) = cells.get_mut(&place) else { continue };
+                let mut test = |other: u32| {
+                    self.tests_left = self.tests_left.saturating_sub(1);
+                    self.tests_left > 0
+                        && share_area(&self.triangles[number as usize], &self.triangles[other as usize])
+                };
+                let mut at = 0;
+                while at < cell.free.len() {
+                    let other = cell.free[at];
+                    let other_is_overlapping = &mut self.is_overlapping[other as usize];
+                    if !*other_is_overlapping && test(other) {
+                        (*other_is_overlapping, is_overlapping) = (true, true);
+                    }
+                    if *other_is_overlapping {
+                        cell.overlapping.push(cell.free.swap_remove(at));
+                    } else {
+                        at += 1;
+                    }
+                }
+                is_overlapping = is_overlapping || cell.overlapping.iter().any(|&other| test(other));
+            }
+        }
+        self.is_overlapping[number as usize] = is_overlapping;
+        let cells = self.grids.entry(level).or_default();
+        for place in places(low, high, level) {
+            let cell = cells.entry(place).or_default();
+            if is_overlapping { &mut cell.overlapping } else { &mut cell.free }.push(number);
+        }
+    }
+}
+
+/// The cells of a grid that a box meets.
+fn places(low: [f64; 2], high: [f64; 2], exponent: i32) -> impl Iterator<Item = [i64; 2]> {
+    let size = 2.0f64.powi(exponent);
+    let [first, last] = [low, high].map(|corner| corner.map(|x| (x / size).floor() as i64));
+    (first[0]..=last[0]).flat_map(move |i| (first[1]..=last[1]).map(move |j| [i, j]))
+}
+
+/// The exponent of the smallest power of two that is not below the longer side of the bounding box.
+fn level(triangle: &Triangle) -> i32 {
+    let [low, high] = bounds(triangle);
+    (high[0] - low[0]).max(high[1] - low[1]).log2().ceil() as i32
+}
+
+fn bounds(triangle: &Triangle) -> [[f64; 2]; 2] {
+    let by = |choose: fn(f64, f64) -> f64| {
+        [0, 1].map(|i| choose(choose(triangle[0][i], triangle[1][i]), triangle[2][i]))
+    };
+    [by(f64::min), by(f64::max)]
+}
+
+fn doubled_area([a, b, c]: &Triangle) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+/// Whether two triangles with area have more in common than a line, up to rounding.
+fn share_area(a: &Triangle, b: &Triangle) -> bool {
+    let largest = a.iter().chain(b).flatten().fold(0.0f64, |largest, x| largest.max(x.abs()));
+    let tolerance = ROUNDING * largest;
+    !has_separating_edge(a, b, tolerance) && !has_separating_edge(b, a, tolerance)
+}
+
+/// Whether all of `b` lies on the outer side of an edge of `a`.
+fn has_separating_edge(a: &Triangle, b: &Triangle, tolerance: f64) -> bool {
+    let inner = doubled_area(a).signum();
+    (0..3).any(|i| {
+        let (start, end) = (a[i], a[(i + 1) % 3]);
+        let [x, y] = [end[0] - start[0], end[1] - start[1]];
+        let reach = tolerance * x.hypot(y);
+        b.iter().all(|at| inner * (x * (at[1] - start[1]) - y * (at[0] - start[0])) <= reach)
+    })
+}
+
+/// Multiplies and adds: the keys are two small integers, and nobody chooses them to collide at more than the cost that `tests_left` bounds.
+#[derive(Default)]
+struct CellHasher(u64);
+
+impl Hasher for CellHasher {
+    fn finish(&self) -> u64 {
+        self.0 ^ self.0 >> 32
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|&byte| self.write_i64(byte.into()));
+    }
+
+    fn write_i64(&mut self, number: i64) {
+        self.0 = (self.0.rotate_left(5) ^ number as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use darboux_tests::Dice;
+
+    fn found(uvs: &[[f32; 2]]) -> Vec<usize> {
+        overlapping(uvs, (0..uvs.len() / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2])).triangles
+    }
+
+    const CORNER: [[f32; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+
+    fn moved(triangle: [[f32; 2]; 3], [u, v]: [f32; 2]) -> [[f32; 2]; 3] {
+        triangle.map(|[x, y]| [x + u, y + v])
+    }
+
+    #[test]
+    fn neighbours_do_not_overlap_and_stacks_do() {
+        let other_half = [[1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let folded = [[1.0, 0.0], [0.0, 1.0], [0.2, 0.2]];
+        assert_eq!(found(&[CORNER, other_half].concat()), [0usize; 0]);
+        assert_eq!(found(&[CORNER, folded].concat()), [0, 1]);
+        assert_eq!(found(&[CORNER, CORNER, moved(CORNER, [1.0, 0.0])].concat()), [0, 1]);
+        let inside = CORNER.map(|[u, v]| [0.1 + 0.001 * u, 0.1 + 0.001 * v]);
+        assert_eq!(found(&[inside, moved(CORNER, [5.0, 5.0]), CORNER].concat()), [0, 2]);
+        let crossing = [[-1.0, 0.4], [3.0, 0.41], [-1.0, 0.42]];
+        assert_eq!(found(&[CORNER, crossing].concat()), [0, 1]);
+        let line = [[0.0, 0.0], [0.5, 0.0], [1.0, 0.0]];
+        let nowhere = [[0.0, 0.0], [f32::NAN, 0.0], [0.0, f32::INFINITY]];
+        assert_eq!(found(&[CORNER, line, nowhere].concat()), [0usize; 0]);
+    }
+
+    #[test]
+    fn the_area_is_that_of_the_overlapping_triangles() {
+        let uvs = [CORNER, CORNER, moved(CORNER, [2.0, 0.0]), moved(CORNER, [4.0, 0.0])].concat();
+        let found = overlapping(&uvs, (0..4).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]));
+        assert_eq!((found.area_share, found.is_complete), (0.5, true));
+    }
+
+    /// The grids lose no pair: the same as when all pairs are tested. Coordinates are few, so that many edges and corners touch.
+    #[test]
+    fn grids_find_what_all_pairs_give() {
+        for seed in 0..300 {
+            let mut dice = Dice::from_seed(seed);
+            let count = 2 + dice.below(40);
+            let scale = dice.pick(&[1.0, 0.01, 1000.0]);
+            let mut corner = |[u, v]: [f32; 2], size: f32| {
+                [0, 1].map(|i| scale * ([u, v][i] + size * dice.below(5) as f32))
+            };
+            let uvs: Vec<[f32; 2]> = (0..count)
+                .flat_map(|i| {
+                    let at = [(i * 7 % 11) as f32, (i * 5 % 13) as f32];
+                    let size = [0.25, 0.5, 3.0][i % 3];
+                    [corner(at, size), corner(at, size), corner(at, size)]
+                })
+                .collect();
+            let triangles: Vec<Triangle> =
+                uvs.as_chunks::<3>().0.iter().map(|triangle| triangle.map(|uv| uv.map(f64::from))).collect();
+            let has_area = |i: usize| doubled_area(&triangles[i]) != 0.0;
+            let meets = |i: usize| {
+                (0..count).any(|j| i != j && has_area(j) && share_area(&triangles[i], &triangles[j]))
+            };
+            let expected: Vec<usize> = (0..count).filter(|&i| has_area(i) && meets(i)).collect();
+            assert_eq!(found(&uvs), expected, "seed {seed}");
+        }
+    }
+
+    /// Stacks are found at once, and a fan of slivers stops the search.
+    #[test]
+    fn large_inputs_take_bounded_time() {
+        let stack: Vec<[f32; 2]> = (0..3_000).flat_map(|i| moved(CORNER, [1e-6 * i as f32, 0.0])).collect();
+        assert_eq!(found(&stack).len(), 3_000);
+        let around = |i: usize| {
+            let (sin, cos) = (i as f32 / 8_000.0).sin_cos();
+            [cos, sin]
+        };
+        let fan: Vec<[f32; 2]> = (0..8_000).flat_map(|i| [[0.0, 0.0], around(i), around(i + 1)]).collect();
+        let found = overlapping(&fan, (0..8_000).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]));
+        assert!(found.triangles.is_empty() && !found.is_complete);
+    }
+}

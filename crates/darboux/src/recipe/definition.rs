@@ -1,0 +1,94 @@
+//! [`Recipe`]: a way of making tangents; and how well one explains those of a file.
+
+use crate::tangents::{Method, MikkTSpaceOptions, Mode};
+
+/// A way of making the tangents of a file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Recipe {
+    /// How the tangents were computed.
+    pub method: Method,
+    /// True where they were computed with 1 - v instead of v, and the sign negated. Only rounding differs.
+    pub flips_v: bool,
+    /// True where they were computed before quads were cut into triangles, as Unity and other importers do. Which triangles were quads is an
+    /// estimate from their shapes.
+    pub from_quads: bool,
+    /// How corners share the tangents of vertices.
+    pub writing: RecipeWriting,
+    /// How the tangents were rounded.
+    pub rounding: RecipeRounding,
+}
+
+/// How the tangents of corners became tangents of vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum RecipeWriting {
+    /// Every corner has its own tangent: vertices were split where needed.
+    Corners,
+    /// Every vertex has the tangent of its last corner, as a loop has it that writes through the index list. Mirrored seams break.
+    LastCorner,
+    /// Every vertex has the tangent of its first corner.
+    FirstCorner,
+}
+
+/// How the components of tangents were rounded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum RecipeRounding {
+    /// They are 32-bit floats.
+    Floats,
+    /// To multiples of 1/127: signed normalised 8-bit integers.
+    Bits8,
+    /// To multiples of 1/32767: signed normalised 16-bit integers.
+    Bits16,
+}
+
+/// How well a recipe explains tangents.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct RecipeMatch {
+    /// The recipe.
+    pub recipe: Recipe,
+    /// The number of corners.
+    pub corners: usize,
+    /// Corners whose four components are equal, after the recipe's rounding.
+    pub identical: usize,
+    /// Corners whose xyz differ by at most 0.1 degrees (1 degree for 8 bits) and whose signs are equal.
+    pub close: usize,
+    /// Corners whose signs differ.
+    pub sign_flips: usize,
+    /// The largest angle in degrees; 180 where a tangent is zero or not finite in one of the sets only.
+    pub worst: f64,
+}
+
+impl Recipe {
+    /// A method on the triangles as they are.
+    const fn new(method: Method, rounding: RecipeRounding) -> Self {
+        let writing = RecipeWriting::Corners;
+        Self { method, flips_v: false, from_quads: false, writing, rounding }
+    }
+
+    /// The recipes in the order of preference among equals.
+    pub(crate) fn all(rounding: RecipeRounding) -> [Self; 11] {
+        let of = |method| Self::new(method, rounding);
+        let mode = |mode| of(MikkTSpaceOptions::new().with_mode(mode).into());
+        [
+            mode(Mode::Repaired),
+            mode(Mode::Reference),
+            mode(Mode::Corrected),
+            Self { flips_v: true, ..mode(Mode::Repaired) },
+            of(Method::AngleEdge),
+            of(Method::AngleArea),
+            of(Method::Lengyel),
+            of(Method::LengyelPerVertex),
+            of(Method::Average),
+            of(Method::Area),
+            of(Method::Face),
+        ]
+    }
+
+    /// MikkTSpace on quads.
+    pub(crate) fn quads(rounding: RecipeRounding) -> Self {
+        Self { from_quads: true, ..Self::new(Method::default(), rounding) }
+    }
+}
