@@ -1,11 +1,10 @@
 """Wrong variants of the twin, one changed operation each, and the table of the cases that notice them.
 
-    python3 conformance/mutations.py            compares conformance/MUTATIONS.md with a new run; exit code 1 if it differs
-    python3 conformance/mutations.py --write    writes it
-
+The table is conformance/MUTATIONS.md; this fails if a new run gives another one.
 A case notices a mutation when any bit of any tangent differs from what it expects. Every mutation names the class that must notice it.
 """
 
+import argparse
 import math
 import multiprocessing
 import sys
@@ -664,8 +663,11 @@ def table(cases):
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--write", action="store_true", help="write the table instead of comparing it")
+    given = parser.parse_args()
     text, faults = table([case for case in casefile.read_all() if case["class"] != "large"])
-    if "--write" in sys.argv[1:]:
+    if given.write:
         TABLE.write_text(text, encoding="utf-8")
     elif TABLE.read_text(encoding="utf-8") != text:
         faults.append(f"{TABLE.name} is out of date: run python3 conformance/mutations.py --write")

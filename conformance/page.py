@@ -1,9 +1,7 @@
 """Writes docs/conformance.md, results/index.html and WRONG.md from the summaries in results/.
-
-    python3 conformance/page.py            writes them
-    python3 conformance/page.py --check    exit code 1 if they are out of date
 """
 
+import argparse
 import html
 import json
 import sys
@@ -239,9 +237,12 @@ def fitted(rows):
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--check", action="store_true", help="write nothing; fail if one of them is out of date")
+    given = parser.parse_args()
     found = summaries()
     written = {PAGE: page(found), TABLE: markdown(found), WRONG: wrong_builds(found)}
-    if "--check" in sys.argv[1:]:
+    if given.check:
         old = [path.name for path, text in written.items() if not path.exists() or path.read_text(encoding="utf-8") != text]
         if old:
             sys.exit(f"{' and '.join(old)} are out of date: run python3 conformance/page.py")

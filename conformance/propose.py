@@ -1,11 +1,9 @@
 """Proposes cases: random meshes on which two implementations differ, shrunk to the smallest that still shows it.
 
-    python3 conformance/propose.py WORK A B [MESHES [SEED]]
-
-WORK: the folder of run.py. A and B: ids of results, as darboux-reference or bevy_mikktspace. The proposals are written to WORK/proposed with
-the values of the twin as expected; give them a name and sentences, and move them to cases/.
+The proposals are written to WORK/proposed with the values of the twin as expected; give them a name and sentences, and move them to cases/.
 """
 
+import argparse
 import json
 import math
 import random
@@ -96,12 +94,21 @@ class Pair:
                 yield case
 
 
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("work", metavar="WORK", type=Path, help="the folder of run.py")
+    parser.add_argument("first", metavar="A", help="the id of results, as darboux-reference or bevy_mikktspace")
+    parser.add_argument("second", metavar="B", help="another id")
+    parser.add_argument("meshes", metavar="MESHES", type=int, nargs="?", default=500, help="how many random meshes are tried; by default 500")
+    parser.add_argument("seed", metavar="SEED", type=int, nargs="?", default=1, help="where the random numbers start; by default 1")
+    return parser.parse_args()
+
+
 def main():
-    if len(sys.argv) < 4:
-        sys.exit(__doc__)
-    work, meshes, seed = Path(sys.argv[1]).resolve(), *(int(word) for word in (sys.argv[4:] + ["500", "1"][len(sys.argv[4:]) :]))
+    given = arguments()
+    work, meshes, seed = given.work.resolve(), given.meshes, given.seed
     shutil.copytree(run.HERE / "readers", work / "readers", dirs_exist_ok=True)
-    pair, dice = Pair(work, sys.argv[2:4]), random.Random(seed)
+    pair, dice = Pair(work, [given.first, given.second]), random.Random(seed)
     found = list(pair.differing([draw(dice) for _ in range(meshes)]))
     print(f"{len(found)} of {meshes} random meshes differ")
     out = work / "proposed"

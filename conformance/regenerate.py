@@ -1,9 +1,7 @@
 """Writes the expected values of every case from a folder of results of mikktspace.c; `cargo xtask conformance --regenerate` runs it.
-
-    python3 conformance/regenerate.py RESULTS           writes the cases
-    python3 conformance/regenerate.py RESULTS --check   exit code 1 where a case would change
 """
 
+import argparse
 import hashlib
 import json
 import sys
@@ -32,21 +30,23 @@ def without_equal_modes(rows):
 
 
 def main():
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("results", metavar="RESULTS", type=Path, help="the folder with what mikktspace.c gives")
+    parser.add_argument("--check", action="store_true", help="change nothing; fail if something would change")
+    given = parser.parse_args()
     changed = []
     for path in sorted(casefile.CASES.glob("*.json")):
         case, before = casefile.read(path), path.read_text(encoding="utf-8")
-        result = json.loads((Path(sys.argv[1]) / path.name).read_text(encoding="utf-8"))
+        result = json.loads((given.results / path.name).read_text(encoding="utf-8"))
         case["expected"] = expected(case, result)
         if case["class"] == "large":
             case["corners"] = len(result["tangents"])
         casefile.write(path, case)
         if path.read_text(encoding="utf-8") != before:
             changed.append(case["name"])
-            if "--check" in sys.argv[2:]:
+            if given.check:
                 path.write_text(before, encoding="utf-8")
-    if "--check" in sys.argv[2:] and changed:
+    if given.check and changed:
         sys.exit(f"these cases are not what mikktspace.c gives: {', '.join(changed)}")
     print(f"{len(changed)} cases changed")
 

@@ -1,13 +1,11 @@
 """Runs the adapters that this machine can install, judges them, and keeps a summary of each in results/.
 
-    python3 conformance/run.py WORK [NAME ...]
-
-WORK is a folder for what is installed and written; WORK/cases is made if it is missing. NAME: adapters, all if none is given. An adapter
-is a folder of adapters/ with adapter.json and one of: run.mjs and package.json (npm), run.py and requirements.txt (venv and pip),
-Cargo.toml (cargo), Makefile (make). It runs as `ADAPTER [ARGUMENTS] CASES RESULTS`. In adapter.json, "debian" lists packages of Debian that must
-be installed, "needs" environment variables that must be set, and "wrong" the wrong build of wrong.py.
+WORK gets what is installed and written; WORK/cases is made if it is missing. An adapter is a folder of adapters/ with adapter.json and one of:
+run.mjs and package.json (npm), run.py and requirements.txt (venv and pip), Cargo.toml (cargo), Makefile (make). It runs as
+`ADAPTER [ARGUMENTS] CASES RESULTS`. In adapter.json, "debian" lists packages of Debian that must be installed, "needs" environment variables that must be set, and "wrong" the wrong build of wrong.py.
 """
 
+import argparse
 import contextlib
 import datetime
 import json
@@ -184,10 +182,18 @@ def adapters(names):
     return [folders[name] for name in names or folders]
 
 
+def arguments(text):
+    """The folder WORK and the names of the command line; `text` is its help."""
+    parser = argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("work", metavar="WORK", type=Path, help="a folder, which is made if it is missing")
+    parser.add_argument("names", metavar="NAME", nargs="*", help="folders of adapters/; all if none is given")
+    given = parser.parse_args()
+    given.work.mkdir(parents=True, exist_ok=True)
+    return given.work.resolve(), given.names
+
+
 def main():
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    work, names = Path(sys.argv[1]).resolve(), sys.argv[2:]
+    work, names = arguments(__doc__)
     if not (work / "cases").is_dir():
         generate.write_folder(work / "cases", True)
     shutil.copytree(HERE / "readers", work / "readers", dirs_exist_ok=True)

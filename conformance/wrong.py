@@ -1,7 +1,5 @@
 """Proves of every adapter that the suite can fail it: the adapter runs on wrong inputs, and as a wrong build with one operation changed.
 
-    python3 conformance/wrong.py WORK [NAME ...]
-
 WORK and NAME are those of run.py, which must have run the adapters before. Counts are kept in the summaries in results/, and page.py makes
 WRONG.md of them. Exit code 1 if no case of an adapter notices exchanged u and v, or its wrong build.
 
@@ -257,9 +255,7 @@ def prove(folder, work):
 
 
 def main():
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    work, names = Path(sys.argv[1]).resolve(), sys.argv[2:]
+    work, names = run.arguments(__doc__)
     blind = []
     for folder in run.adapters(names):
         try:
