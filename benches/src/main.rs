@@ -2,6 +2,7 @@
 //!
 //! `cargo xtask bench` builds and starts it.
 
+mod baseline;
 mod callbacks;
 mod check;
 mod engines;
@@ -40,6 +41,9 @@ struct Arguments {
     /// Count instructions per triangle with callgrind instead.
     #[arg(long)]
     instructions: bool,
+    /// Compare the counts of our engines with the committed ones, or replace these.
+    #[arg(long, value_name = "TASK", conflicts_with_all = ["engines", "meshes"])]
+    baseline: Option<baseline::Task>,
     /// Folder with FlightHelmet and other large models; by default the one that the environment variable DARBOUX_MODELS names.
     #[arg(long, value_name = "FOLDER")]
     models: Option<PathBuf>,
@@ -76,6 +80,10 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<(), String> {
+    if let Some(task) = arguments.baseline {
+        let engines = rounds::select(&baseline::ENGINES.map(str::to_owned))?;
+        return baseline::run(task, &instructions::count(&engines)?);
+    }
     let engines = rounds::select(&arguments.engines)?;
     if arguments.instructions {
         return count_instructions(arguments, &engines);

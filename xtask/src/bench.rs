@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::PathBuf;
+use std::process::Command;
 
 use crate::npm;
 use crate::run::{Outcome, program, root, run, works};
@@ -12,14 +13,29 @@ const ALLOCATOR: &str =
 
 /// `cargo xtask bench`: `arguments` go to the benchmark, whose `--help` explains them.
 pub fn bench(arguments: &[&str]) -> Outcome {
-    let mut command = program("cargo run --quiet --profile bench-room --package darboux-benches --");
+    let mut command = native();
     command.args(arguments);
-    // As mikktspace.c is meant to be built: without its assertions.
-    command.env("CFLAGS", "-DNDEBUG").env("GLIBC_TUNABLES", ALLOCATOR);
     if let Some(folder) = node_packages()? {
         command.arg("--node").arg(folder);
     }
     run(&mut command)
+}
+
+/// The step of `ci`: no change takes more instructions than the committed counts say.
+pub fn check_instructions() -> Outcome {
+    if !cfg!(all(target_arch = "x86_64", target_os = "linux")) || !works(&mut program("valgrind --version")) {
+        println!("skipped: instructions are counted on x86-64 Linux with valgrind");
+        return Ok(());
+    }
+    run(native().args(["--baseline", "check"]))
+}
+
+/// The benchmark without the engines of npm.
+fn native() -> Command {
+    let mut command = program("cargo run --quiet --profile bench-room --package darboux-benches --");
+    // As mikktspace.c is meant to be built: without its assertions.
+    command.env("CFLAGS", "-DNDEBUG").env("GLIBC_TUNABLES", ALLOCATOR);
+    command
 }
 
 /// `cargo xtask bench --gpu`: `arguments` go to the example that measures every adapter.

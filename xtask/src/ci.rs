@@ -8,8 +8,8 @@ use crate::python::WithoutPython;
 use crate::run::{Outcome, program, root, run, shown, works};
 use crate::validate::WithoutNpm;
 use crate::{
-    conformance, default_build, dist_js, dist_viewer, doc_blocks, generated, layers, links, packages, python,
-    validate,
+    bench, conformance, default_build, dist_js, dist_viewer, doc_blocks, generated, layers, links, packages,
+    python, validate,
 };
 
 type Step = (&'static str, fn() -> Outcome);
@@ -26,6 +26,7 @@ const QUICK: &[Step] = &[
     ("packages", || packages::install(packages::FOR_TESTS)),
     ("tests", || test("cargo test --workspace")),
     ("small limits", small_limits),
+    ("instructions", bench::check_instructions),
     ("conformance suite", conformance::check),
     ("python", || python::test(without_python())),
     ("npm package", || dist_js::test(without_npm())),
