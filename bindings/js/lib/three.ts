@@ -24,13 +24,14 @@ ready.then(() => (isReady = true), () => {});
 /** Does nothing, because nothing has to be released. Callers of three.js's module call it. */
 export function dispose(): void {}
 
-/** Options of {@link computeTangents}: those of `darboux`, and two more. */
+/** What decides the sign of tangents: a texture of three.js, or any object with its `flipY`. */
+export interface NormalMap {
+  /** Whether v points up the image. `TextureLoader` sets true; glTF, and with it `GLTFLoader`, has false. */
+  readonly flipY: boolean;
+}
+
+/** Options of {@link computeTangents}: those of `darboux`, and one more. */
 export interface ComputeTangentsOptions extends Omit<TangentOptions, 'faces'> {
-  /**
-   * Default: true, as in three.js's `computeMikkTSpaceTangents`. This is right where v points down the image, as in glTF (textures with
-   * `flipY = false`). Pass false where v points up (`flipY = true`, which three.js's image loaders set).
-   */
-  negateSign?: boolean | null;
   /** The name of the attribute with the UVs of the normal map. Default: 'uv'. */
   uv?: string | null;
 }
@@ -44,16 +45,22 @@ type Attribute = BufferAttribute | InterleavedBufferAttribute;
  *
  * Await `ready` first. A material that GLTFLoader made for a geometry without tangents has a negated `normalScale.y`: negate it again.
  *
+ * @param normalMap The texture that will be drawn with these tangents, or `{ flipY }`. Green points up the image; with `flipY = false` v points
+ * down, so the signs are negated, as in three.js's `computeMikkTSpaceTangents`.
  * @returns The geometry.
- * @throws Error without position, normal or UVs; RangeError where lengths do not fit together or an index is out of range.
+ * @throws TypeError without `normalMap.flipY`; Error without position, normal or UVs; RangeError where lengths do not fit together or an index
+ * is out of range.
  */
-export function computeTangents<G extends BufferGeometry>(geometry: G, options?: ComputeTangentsOptions | null): G {
-  const { negateSign, uv, ...rest } = options ?? {};
+export function computeTangents<G extends BufferGeometry>(geometry: G, normalMap: NormalMap, options?: ComputeTangentsOptions | null): G {
+  const { uv, ...rest } = options ?? {};
+  if (typeof normalMap?.flipY !== 'boolean') {
+    throw new TypeError('computeTangents needs the normal map, whose flipY decides the sign: pass material.normalMap, { flipY: true } for images of TextureLoader, or { flipY: false } for glTF');
+  }
   const normal = attribute(geometry, 'normal');
   const arrays = [floats(attribute(geometry, 'position'), 3), floats(normal, 3), floats(attribute(geometry, uv ?? 'uv'), 2)] as const;
   const index = geometry.index && integers(geometry.index.array);
   const tangents = generateTangents(...arrays, index, rest);
-  if (negateSign ?? true) for (let at = 3; at < tangents.length; at += 4) tangents[at]! *= -1;
+  if (!normalMap.flipY) for (let at = 3; at < tangents.length; at += 4) tangents[at]! *= -1;
   const { array } = normal;
   const codes = normal.normalized && (array instanceof Int8Array || array instanceof Int16Array) ? array : null;
   // Tangents are rounded before vertices are split, so that tangents that become equal share a vertex.

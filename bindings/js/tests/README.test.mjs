@@ -27,9 +27,10 @@ test('vertices of a mirrored seam', async () => {
 });
 
 test('a geometry of three.js', async () => {
-  const { geometry, mesh } = await run(2, 'geometry, mesh');
+  const { geometry, mesh, separate } = await run(2, 'geometry, mesh, separate');
   assert.deepEqual([geometry.getAttribute('tangent').count, geometry.index === null], [geometry.getAttribute('position').count, false]);
   assert.equal(mesh.geometry, geometry);
+  assert.deepEqual([separate.index, separate.getAttribute('tangent').count], [null, 64 * 8 * 6]);
 });
 
 test('the module that three.js expects', async () => {

@@ -31,6 +31,9 @@ function ofCorners(geometry, name) {
   return Array.from(array);
 }
 
+/** Textures of glTF files. */
+const GLTF = { flipY: false };
+
 test('computeMikkTSpaceTangents has the same result with this module as with its own', () => {
   assert.equal(darboux.isReady, true);
   const [ours, expected] = [darboux, { isReady: true, generateTangents: theirs }].map((module) => computeMikkTSpaceTangents(knot(), module));
@@ -39,11 +42,11 @@ test('computeMikkTSpaceTangents has the same result with this module as with its
 });
 
 test('an indexed geometry stays indexed and its corners have the tangents of three.js\'s function', () => {
-  for (const negateSign of [true, false]) {
+  for (const flipY of [true, false]) {
     const [ours, expected] = [knot(), knot()];
     const before = ours.getAttribute('position').count;
-    assert.equal(computeTangents(ours, { negateSign }), ours);
-    computeMikkTSpaceTangents(expected, darboux, negateSign);
+    assert.equal(computeTangents(ours, { flipY }), ours);
+    computeMikkTSpaceTangents(expected, darboux, !flipY);
     assert.deepEqual(ofCorners(ours, 'tangent'), Array.from(expected.getAttribute('tangent').array));
     assert.deepEqual(ofCorners(ours, 'position'), Array.from(expected.getAttribute('position').array));
     // No vertex was copied.
@@ -68,7 +71,7 @@ test('at a mirrored seam vertices are copied with all their attributes', () => {
   const morphed = split.toNonIndexed().morphAttributes.position[0].array;
   const groups = structuredClone(split.groups);
 
-  computeTangents(split);
+  computeTangents(split, GLTF);
   assert.equal(split.getAttribute('position').count, 8);
   assert.deepEqual(names.map((name) => ofCorners(split, name)), before);
   assert.deepEqual(split.toNonIndexed().morphAttributes.position[0].array, morphed);
@@ -87,10 +90,10 @@ test('indices widen when vertices outgrow them, and a geometry computed twice is
   const [bytes, extra] = [Uint8Array.from(indices), 254 - 6];
   const longer = (array, width) => Float32Array.of(...array, ...new Float32Array(width * extra));
   const wide = geometry([longer(positions, 3), longer(normals, 3), longer(uvs, 2), bytes]);
-  computeTangents(wide);
+  computeTangents(wide, GLTF);
   assert.equal(wide.getAttribute('position').count, 256);
   assert.equal(wide.index.array.constructor, Uint32Array);
-  computeTangents(wide);
+  computeTangents(wide, GLTF);
   assert.equal(wide.getAttribute('position').count, 256);
 });
 
@@ -104,8 +107,8 @@ test('interleaved and quantised geometry has the tangents of its values', () => 
     interleaved.setAttribute(name, new THREE.InterleavedBufferAttribute(buffer, width, offset, normalized));
   }
   const plain = geometry(mirrored());
-  computeTangents(plain);
-  computeTangents(interleaved);
+  computeTangents(plain, GLTF);
+  computeTangents(interleaved, GLTF);
   const [position, tangent] = ['position', 'tangent'].map((name) => interleaved.getAttribute(name));
   assert.deepEqual([position.count, position.data.stride, position.data], [8, 8, interleaved.getAttribute('uv').data]);
   assert.deepEqual([tangent.array.constructor, tangent.normalized], [Int16Array, true]);
@@ -117,22 +120,31 @@ test('options select UVs and method', () => {
   const [positions, normals, uvs, indices] = mirrored();
   const other = geometry([positions, normals, new Float32Array(uvs.length), indices]);
   other.setAttribute('uv1', attribute(uvs, 2));
-  computeTangents(other, { uv: 'uv1', method: 'lengyel' });
+  computeTangents(other, GLTF, { uv: 'uv1', method: 'lengyel' });
   assert.deepEqual(other.getAttribute('tangent').array.slice(0, 4), Float32Array.of(-1, 0, 0, 1));
 });
 
 test('without an index every vertex has its own tangent', () => {
   const expanded = geometry(mirrored()).toNonIndexed();
-  computeTangents(expanded);
+  computeTangents(expanded, GLTF);
   assert.deepEqual([expanded.index, expanded.getAttribute('tangent').count], [null, 12]);
+});
+
+test('without the normal map the sign is not guessed', () => {
+  const materials = [new THREE.MeshStandardMaterial(), new THREE.MeshStandardMaterial({ normalMap: new THREE.DataTexture() })];
+  for (const missing of [undefined, null, {}, materials[0].normalMap, materials[1], { negateSign: true }]) {
+    assert.throws(() => computeTangents(knot(), missing), /^TypeError: computeTangents needs the normal map, /);
+  }
+  const [up, down] = [new THREE.Texture(), new THREE.DataTexture()].map((texture) => computeTangents(knot(), texture).getAttribute('tangent').array);
+  assert.deepEqual(Array.from(up), Array.from(down, (x, at) => (at % 4 === 3 ? -x : x)));
 });
 
 test('missing attributes are named', () => {
   const bare = new THREE.BufferGeometry().setAttribute('position', attribute(new Float32Array(9), 3));
-  assert.throws(() => computeTangents(bare), /^Error: the geometry has no attribute 'normal'; /);
+  assert.throws(() => computeTangents(bare, GLTF), /^Error: the geometry has no attribute 'normal'; /);
   const far = geometry(mirrored());
   far.setAttribute('uv', new THREE.GLBufferAttribute(null, 5126, 2, 4, 6));
-  assert.throws(() => computeTangents(far), /^Error: the attribute 'uv' is on the GPU; /);
+  assert.throws(() => computeTangents(far, GLTF), /^Error: the attribute 'uv' is on the GPU; /);
   const wrong = geometry(mirrored()).setIndex(attribute(Uint16Array.of(0, 1, 6), 1));
-  assert.throws(() => computeTangents(wrong), /^RangeError: index 6 at place 2 is out of range: there are 6 vertices$/);
+  assert.throws(() => computeTangents(wrong, GLTF), /^RangeError: index 6 at place 2 is out of range: there are 6 vertices$/);
 });

@@ -7,7 +7,7 @@ import { generateTangents, ready, type MikkTSpaceOptions } from 'darboux/tangent
 import { computeTangents } from 'darboux/three';
 import { generateTangents as onGpu, openDevice, shaders, type GpuTangents } from 'darboux/webgpu';
 import type { Document } from '@gltf-transform/core';
-import type { SphereGeometry } from 'three';
+import { Texture, type SphereGeometry } from 'three';
 import { computeMikkTSpaceTangents } from 'three/addons/utils/BufferGeometryUtils.js';
 
 const loaded: Promise<void> = ready;
@@ -35,7 +35,9 @@ export async function adapters(document: Document, sphere: SphereGeometry): Prom
   transform({ mode: 'reference' });
   await mikktspace.ready;
   computeMikkTSpaceTangents(sphere, mikktspace);
-  return computeTangents(sphere, { uv: 'uv1', negateSign: false, method: 'angle-area' });
+  // @ts-expect-error: the sign is not guessed
+  computeTangents(sphere);
+  return computeTangents(sphere, new Texture(), { uv: 'uv1', method: 'angle-area' });
 }
 
 export async function tangentsOnGpu(buffer: GPUBuffer): Promise<number> {

@@ -65,10 +65,10 @@ function sides(geometry, normalScale = [1, 1]) {
 /** The mirrored squares with the tangents of each adapter. */
 export const mirroredSquares = {
   async 'darboux/three, v down'() {
-    return sides(computeTangents(geometry(mirrored())));
+    return sides(computeTangents(geometry(mirrored()), { flipY: false }));
   },
   async 'darboux/three, v up'() {
-    return sides(computeTangents(geometry(mirrored()), { negateSign: false }));
+    return sides(computeTangents(geometry(mirrored()), { flipY: true }));
   },
   async 'darboux/mikktspace in three.js, v down'() {
     return sides(computeMikkTSpaceTangents(geometry(mirrored()), mikktspace));
@@ -113,10 +113,10 @@ async function loaded(bytes) {
 /** For a coarse sphere with a normal map, the number of pixels that differ from those with derivatives, and from those with rotated tangents. */
 export function standardMaterial() {
   const sphere = () => new THREE.SphereGeometry(0.9, 12, 8);
-  const turned = computeTangents(sphere(), { negateSign: false });
+  const turned = computeTangents(sphere(), { flipY: true });
   const { array } = turned.getAttribute('tangent');
   for (let at = 0; at < array.length; at += 4) array.subarray(at, at + 3).forEach((x, i) => (array[at + i] = -x));
-  const pictures = [sphere(), computeTangents(sphere(), { negateSign: false }), turned].map((geometry) =>
+  const pictures = [sphere(), computeTangents(sphere(), { flipY: true }), turned].map((geometry) =>
     render(geometry, new THREE.MeshStandardMaterial({ normalMap: normalMap(), roughness: 0.4 })),
   );
   const [derivatives, ours, other] = pictures.map(({ pixels }) => pixels);
