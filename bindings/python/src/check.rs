@@ -7,7 +7,7 @@ use darboux::{
     TexelLayout, recognise_recipe_with,
 };
 use darboux_check::{CheckOptions, Finding, check_document, check_map};
-use darboux_io::gltf;
+use darboux_io::{FileKind, gltf};
 use numpy::prelude::*;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -56,10 +56,7 @@ pub fn check<'py>(
 ) -> PyResult<Vec<Bound<'py, PyAny>>> {
     let green = choice("convention", convention, CONVENTIONS)?;
     let options = CheckOptions::default().with_green(green).with_maps(maps);
-    let is_image = path.extension().is_some_and(|extension| {
-        ["png", "jpg", "jpeg", "webp"].iter().any(|image| extension.eq_ignore_ascii_case(image))
-    });
-    let found = if is_image {
+    let found = if FileKind::of(&path).is_some_and(FileKind::is_decoded_image) {
         let file = py.detach(|| std::fs::read(&path));
         let unread = |source| file_error(darboux_io::Error::Read { file: path.clone(), source });
         let file = file.map_err(unread)?;

@@ -23,7 +23,7 @@ def test_models_are_checked() -> None:
     findings = darboux.check(ASSETS / "made/shield.glb")
     errors = [finding for finding in findings if finding.severity == "error"]
     assert [finding.code for finding in errors] == ["tangent-shared-across-mirror"]
-    assert errors[0].fixable and errors[0].place.mesh == 0 and errors[0].number > 0
+    assert errors[0].fixable and errors[0].place.mesh == 0 and errors[0].count > 0
     assert all(isinstance(finding, darboux.Finding) for finding in findings)
     healthy = darboux.check(str(ASSETS / "NormalTangentTest/NormalTangentTest.glb"), maps=False)
     assert all(finding.severity != "error" for finding in healthy)

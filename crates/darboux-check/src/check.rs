@@ -85,28 +85,30 @@ pub fn check_map(file: &[u8], options: &CheckOptions) -> CheckedMap {
     CheckedMap { judgement: map.judgement.ok(), findings }
 }
 
-/// Checks the file of an image as the normal map of a model, whatever maps the model has itself.
-///
-/// The findings on the map come first, then those on the model's tangents, normals and UVs. A finding about green says where the signs of the
-/// model's tangents are flipped, too, so that both mistakes cancel. Errors: invalid data of the document.
-pub fn check_map_on_model(
-    file: &[u8],
-    document: &mut Document,
-    options: &CheckOptions,
-) -> Result<CheckedMap, Error> {
-    let mut checked = check_map(file, options);
-    let mut on_surfaces = Vec::new();
+/// Checks the tangents, normals and UVs of a model that normal maps are to be put on, whatever maps it has itself. Errors: invalid data of the
+/// document.
+pub fn check_model_of_maps(document: &mut Document) -> Result<Vec<Finding>, Error> {
+    let mut findings = Vec::new();
     for_each_surface(document, |mut surface| {
         surface.needs_tangents = true;
-        on_surfaces.extend(check_surface(&surface));
+        findings.extend(check_surface(&surface));
     })?;
-    if on_surfaces.iter().any(|finding| finding.code == Code::TangentSignFlipped) {
+    Ok(findings)
+}
+
+/// Checks the file of an image as the normal map of a model. `on_model`: the result of [`check_model_of_maps`].
+///
+/// The findings on the map come first, then those on the model. A finding about green says where the signs of the model's tangents are flipped,
+/// too, so that both mistakes cancel.
+pub fn check_map_on_model(file: &[u8], on_model: &[Finding], options: &CheckOptions) -> CheckedMap {
+    let mut checked = check_map(file, options);
+    if on_model.iter().any(|finding| finding.code == Code::TangentSignFlipped) {
         for finding in checked.findings.iter_mut().filter(|finding| finding.code == Code::MapGreenFlipped) {
-            finding.text += "; the signs w of the model are flipped, too, so that bumps look right until one of the two mistakes is cured";
+            finding.text += "; the signs w of the model are flipped, too, so that bumps look right until one of the two mistakes is repaired";
         }
     }
-    checked.findings.extend(on_surfaces);
-    Ok(checked)
+    checked.findings.extend(on_model.iter().cloned());
+    checked
 }
 
 /// The result of [`check_map`].

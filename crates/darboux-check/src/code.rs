@@ -7,10 +7,18 @@ use serde::{Serialize, Serializer};
 
 use crate::severity::Severity;
 
-/// Defines the codes and their sections from one list: what it means, what it looks like, how it comes about, the cure, and why a repair leaves
-/// it (empty where it does not).
+/// What a repair does with a finding, as a clause.
+#[derive(Clone, Copy)]
+enum Fix {
+    /// What it changes.
+    Repair(&'static str),
+    /// Why it changes nothing.
+    Leave(&'static str),
+}
+
+/// Defines the codes and their sections from one list: what it means, what it looks like, how it comes about, the cure, and what a repair does.
 macro_rules! codes {
-    ($($code:ident $name:literal $severity:ident { $meaning:literal $looks:literal $cause:literal $cure:literal $left:literal })*) => {
+    ($($code:ident $name:literal $severity:ident { $meaning:literal $looks:literal $cause:literal $cure:literal $fix:ident $clause:literal })*) => {
         /// The kind of a finding. The names are stable.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[non_exhaustive]
@@ -47,22 +55,29 @@ macro_rules! codes {
                 match self { $(Self::$code => $cause,)* }
             }
 
-            /// The cure.
+            /// The cure: what the reader can do, in a modelling program, a baker or with this command.
             pub fn cure(self) -> &'static str {
                 match self { $(Self::$code => $cure,)* }
             }
 
-            /// What a repair does, as a clause: that it cures it, or why it leaves it.
-            pub fn fix(self) -> String {
-                match self.left() {
-                    "" => "cured".to_owned(),
-                    reason => format!("left, because {reason}"),
+            /// What a repair changes, as a clause; none where it leaves the finding.
+            pub fn repair(self) -> Option<&'static str> {
+                match self.fix() {
+                    Fix::Repair(clause) => Some(clause),
+                    Fix::Leave(_) => None,
                 }
             }
 
-            /// Why a repair leaves it, as a clause; empty where it cures it.
-            pub(crate) fn left(self) -> &'static str {
-                match self { $(Self::$code => $left,)* }
+            /// Why a repair leaves the finding, as a clause; none where it repairs it.
+            pub fn left_because(self) -> Option<&'static str> {
+                match self.fix() {
+                    Fix::Repair(_) => None,
+                    Fix::Leave(clause) => Some(clause),
+                }
+            }
+
+            fn fix(self) -> Fix {
+                match self { $(Self::$code => Fix::$fix($clause),)* }
             }
         }
     };
@@ -74,252 +89,273 @@ codes! {
         "Black or flickering spots, or holes, where the vertex is used."
         "An exporter divided by a UV area of zero."
         "Compute the tangents again: `darboux tangents --overwrite`."
-        ""
+        Repair "the tangents are computed again"
     }
     TangentZero "tangent-zero" Error {
         "Tangents have length zero."
         "Black spots or NaN in shaders that normalise the tangent; bumps vanish in others."
         "glTF-Transform writes zeros for faces without UV area (its issue 1859); so does the reference code of MikkTSpace."
         "Compute the tangents again: `darboux tangents --overwrite`; the default mode repairs such corners."
-        ""
+        Repair "the tangents are computed again"
     }
     TangentNotUnit "tangent-not-unit" Error {
         "Tangents do not have length 1."
         "Bumps along u are too strong or too weak in shaders that do not normalise."
         "A scaled node was applied to the tangents, or they were averaged without being normalised."
         "Compute the tangents again: `darboux tangents --overwrite`."
-        ""
+        Repair "the tangents are computed again"
     }
     TangentNotPerpendicular "tangent-not-perpendicular" Error {
         "Tangents lean towards or away from their normals."
         "Bumps are lit from a wrong side, more so at grazing angles."
         "Normals were changed after tangents were computed, for example by smoothing or by weighting."
         "Compute the tangents again: `darboux tangents --overwrite`."
-        ""
+        Repair "the tangents are computed again"
     }
     TangentSignNotOne "tangent-sign-not-one" Error {
         "The sign w of tangents is neither 1 nor -1."
         "Bumps along v vanish (w = 0) or are scaled."
         "Tangents were exported with three components, or interpolated."
         "Compute the tangents again: `darboux tangents --overwrite`."
-        ""
+        Repair "the tangents are computed again"
     }
     TangentSignMixed "tangent-sign-mixed" Warning {
         "Faces have corners with both signs."
         "The bitangent turns over within the face: a smeared band."
         "Tangents were computed per vertex on a mesh with mirrored UVs (three.js computeTangents, many tutorials)."
         "Compute the tangents again: `darboux tangents --overwrite` splits the vertices."
-        ""
+        Repair "the tangents are computed again, and vertices split where their corners need different ones"
     }
     TangentSharedAcrossMirror "tangent-shared-across-mirror" Error {
         "One vertex serves both sides of a mirrored UV seam, so that it has a wrong tangent on one of them."
         "A line along the middle of the model where every second bump is lit from the wrong side."
         "Tangents of corners were written through the old index list (nvpro-samples/vk_gltf_renderer 33), or computed per vertex."
         "Split the vertices: `darboux tangents --overwrite`."
-        ""
+        Repair "the vertices are split, and the tangents computed again"
     }
     TangentSignFlipped "tangent-sign-flipped" Error {
         "The sign w is that of the other convention everywhere."
         "Bumps are lit as if green were inverted: from below instead of from above."
         "The exporter did not negate w for glTF's v axis, which points down, or negated it twice (filament 528, three.js 11438)."
         "Compute the tangents again: `darboux tangents --overwrite`."
-        ""
+        Repair "the tangents are computed again"
     }
     TangentSignFlippedWhereMirrored "tangent-sign-flipped-where-mirrored" Error {
         "The sign w is right on one side of the mirrored UVs and wrong on the other."
         "One half of a mirrored model looks right, the other one is lit from the wrong side."
         "The sign was dropped on the way: all w are equal (assimp 1892)."
         "Compute the tangents again: `darboux tangents --overwrite`."
-        ""
+        Repair "the tangents are computed again"
+    }
+    TangentSignPartlyFlipped "tangent-sign-partly-flipped" Error {
+        "The sign w is wrong on a part of the surface."
+        "Some faces are lit as if green were inverted: their bumps look like dents when the light is above or below."
+        "Parts with different conventions were joined, or vertices were merged or moved without their signs."
+        "Compute the tangents again: `darboux tangents --overwrite`."
+        Repair "the tangents are computed again"
     }
     TangentRotated "tangent-rotated" Error {
         "Tangents point along v instead of u."
         "Bumps are lit as if the map were turned by 90 degrees."
         "Bitangents were stored as tangents, or u and v were exchanged."
         "Compute the tangents again: `darboux tangents --overwrite`."
-        ""
+        Repair "the tangents are computed again"
     }
     TangentNegated "tangent-negated" Error {
         "Tangents point against u."
         "Bumps are lit from the wrong side along u."
         "The u axis was mirrored after the tangents were computed, or tangents were negated with the handedness."
         "Compute the tangents again: `darboux tangents --overwrite`."
-        ""
+        Repair "the tangents are computed again"
     }
     TangentOtherUvSet "tangent-other-uv-set" Error {
         "Tangents follow another UV set than the normal texture."
         "Bumps are lit from directions that change from chart to chart."
         "The exporter computed tangents for the first UV set only (KhronosGroup/glTF 1637)."
         "Compute the tangents again: `darboux tangents --overwrite` takes the set of the normal texture."
-        ""
+        Repair "the tangents are computed again for the UV set of the normal texture"
     }
     TangentOtherRecipe "tangent-other-recipe" Warning {
         "Tangents were computed in another way than MikkTSpace."
         "Smooth shading differs a little from the bake: faint gradients and seams on low-poly models."
         "meshoptimizer's and gltfpack's default weights, three.js computeTangents, averages of an own importer (glTF-Blender-IO 2226)."
         "If the map was baked with MikkTSpace: `darboux tangents --overwrite`. If it was made for these tangents, keep them."
-        ""
+        Repair "the tangents are computed again by MikkTSpace, or by the method that `--method` names"
     }
     TangentMissing "tangent-missing" Info {
         "The material has a normal map and the primitive has no tangents."
         "Every renderer makes its own tangents; seams and gradients differ from one to the next."
         "The exporter's option for tangents was off."
         "`darboux tangents`."
-        ""
+        Repair "tangents are computed"
     }
     TangentUnused "tangent-unused" Info {
         "Nothing in the material reads the tangents."
         "Nothing; they cost 16 bytes per vertex."
         "The exporter writes tangents always."
         "Leave them out when exporting, if no other material is put on the mesh."
-        "another material may need them"
+        Leave "another material may need them"
+    }
+    PositionNotFinite "position-not-finite" Error {
+        "Positions contain NaN or infinity."
+        "Faces are missing, or stretch across the picture; the whole model may vanish, because its bounds are not finite."
+        "A division by zero in a modifier, a simulation or an exporter."
+        "Find these vertices in the modelling program, and delete or move them."
+        Leave "where these vertices should be is not in the file"
     }
     NormalMissing "normal-missing" Info {
         "The primitive has no normals."
         "Renderers draw flat faces."
         "The exporter's option for normals was off, or flat shading is wanted."
         "`darboux normals`, unless flat shading is wanted."
-        ""
+        Repair "normals are computed where a normal map needs tangents"
     }
     NormalNotFinite "normal-not-finite" Error {
         "Normals contain NaN or infinity."
         "Black or flickering spots."
         "An exporter divided by a face area of zero."
         "`darboux normals --overwrite`."
-        ""
+        Repair "normals without a direction are computed from the faces around them"
     }
     NormalNotUnit "normal-not-unit" Warning {
         "Normals do not have length 1."
         "Lighting is too strong or too weak in shaders that do not normalise; black spots where the length is zero."
         "A scaled node was applied to the normals."
         "`darboux normals --overwrite`, or normalise on export."
-        ""
+        Repair "the normals are scaled to length 1; those without a direction are computed from the faces around them"
     }
     NormalAgainstWinding "normal-against-winding" Error {
         "Normals point to the back of their faces."
-        "The surface is dark where it faces the light, or is culled."
-        "The model was mirrored without reversing its faces, or its faces were reversed without its normals."
+        "The surface, or a part of it, is dark where it faces the light, or is culled."
+        "The model or a part of it was mirrored without reversing its faces, or its faces were reversed without its normals."
         "Recompute normals outside in the modelling program and export again."
-        ""
+        Repair "the faces or the normals are turned over, whichever are reversed"
     }
     UvMissing "uv-missing" Error {
         "The normal texture uses a UV set that the primitive does not have."
         "The normal map is not shown, or one texel of it is smeared over the surface."
         "The set was removed as unused, or the material was made for another mesh."
         "Export the UV set, or change the texture's texCoord."
-        "the UVs are not in the file"
+        Leave "the UVs are not in the file"
+    }
+    UvNotFinite "uv-not-finite" Error {
+        "UVs contain NaN or infinity."
+        "The faces show a random texel, or are black, because their UVs and tangents cannot be computed with."
+        "An unwrapping tool or an exporter divided by a length or an area of zero."
+        "Unwrap these faces again."
+        Leave "UVs are made in a modelling program"
     }
     UvDegenerate "uv-degenerate" Warning {
         "Faces have no area in UV space."
         "The map is smeared to a line on these faces, and their tangents are arbitrary."
         "UVs were not unwrapped there, or were snapped to texels."
         "Unwrap these faces."
-        "UVs are made in a modelling program"
+        Leave "UVs are made in a modelling program"
     }
     UvMirrored "uv-mirrored" Info {
         "Faces have mirrored UVs."
         "Nothing, if the tangents carry the sign."
         "Texture space was saved by mirroring."
         "None needed."
-        "it is no mistake"
+        Leave "it is no mistake"
     }
     UvOverlapping "uv-overlapping" Info {
         "Faces share UV space with other faces."
         "Nothing, if the same texels are wanted on all of them; otherwise a bake shows the bumps of one part on another."
         "Parts were mirrored or stacked to save texture space, or parts of the unwrapping collided."
         "None needed. For a bake, move all but one of the parts by a whole tile."
-        "it is no mistake"
+        Leave "it is no mistake"
     }
     MapGreenFlipped "map-green-flipped" Error {
         "The normal map's green points the wrong way for the format."
         "Dents look like bumps when the light is above or below, and right when it is beside."
         "A DirectX map was put into glTF, which wants OpenGL's (glTF-Sample-Models PR 336, BabylonJS/Exporters 940, glTF-Blender-IO 2626)."
         "`darboux convert map.png --from directx --to opengl`."
-        ""
+        Repair "green is inverted"
     }
     MapChannelsSwapped "map-channels-swapped" Error {
         "Red and green of the normal map seem to be exchanged."
         "Bumps are lit as if the map were turned by 90 degrees and mirrored."
         "Channels were packed in another order."
         "Exchange red and green: `darboux convert map.png --from opengl --to opengl --layout grb --to-layout rgb`."
-        ""
+        Repair "red and green are exchanged"
     }
     MapSrgb "map-srgb" Error {
         "The normal map's values went through the transfer function of sRGB once too often."
         "The whole surface leans to one side; lighting is too flat or too strong."
         "The map was saved or imported as a colour image (glTFast 67, UnityGLTF 362)."
         "Export the map again as non-colour data (linear, raw)."
-        ""
+        Repair "the texels are decoded from sRGB or encoded, whichever was missed"
     }
     MapHeight "map-height" Error {
         "A grey height or bump map is in the slot of the normal map."
         "The surface leans to one corner everywhere and looks noisy."
         "A bump map was put into the normal slot."
         "Bake or compute a normal map from the height map."
-        "a normal map has to be made from it first"
+        Leave "a normal map has to be made from it first"
     }
     MapObjectSpace "map-object-space" Error {
         "The normal map is in object space."
         "Light comes from a different direction on every side of the model."
         "The baker was set to object or world space."
         "Bake in tangent space."
-        "the map has to be baked again"
+        Leave "the map has to be baked again"
     }
     MapNotNormal "map-not-normal" Error {
         "The image in the slot of the normal map holds no normals."
         "Lighting is random."
         "Another texture was put into the slot."
         "Put the normal map into the slot."
-        "the right image is not in the file"
+        Leave "the right image is not in the file"
     }
     MapTwoChannel "map-two-channel" Error {
         "The normal map stores x and y only, and the format wants three channels."
         "Bumps are far too strong or the surface is black, as z is wrong."
         "The map was packed for an engine that reconstructs z (BC5, DXT5nm)."
         "`darboux convert map.png --from opengl --to opengl --layout rg --to-layout rgb`."
-        ""
+        Repair "blue is computed from red and green"
     }
     MapNotUnit "map-not-unit" Warning {
         "Vectors of the normal map do not have length 1."
         "Lighting is weaker or stronger in renderers that do not normalise, and bumps are too flat or too steep."
         "The map was blended, scaled or resized without being normalised."
         "Normalise the map in the program that made it."
-        ""
+        Repair "the vectors are scaled to length 1"
     }
     MapNegativeZ "map-negative-z" Warning {
         "Vectors of the normal map point below the surface."
         "Dark or bright specks."
         "The map was sharpened, painted on, or baked through the surface (KhronosGroup/glTF 2368)."
         "Bake again with a fitting cage, or clamp blue to at least 128."
-        "where these texels should point is lost"
+        Leave "where these texels should point is lost"
     }
     MapFlatOff "map-flat-off" Warning {
         "The flat parts of the normal map lean to one side."
         "A faint seam or gradient between charts, most visible in reflections."
         "The flat colour was painted by hand or shifted by a colour profile."
         "Fill flat parts with 128, 128, 255."
-        "the surface may lean so on purpose"
+        Leave "the surface may lean so on purpose"
     }
     MapFlat "map-flat" Info {
         "The normal map is flat."
         "Nothing; it costs memory."
         "A placeholder was left in."
         "Leave the map out."
-        "it makes no picture wrong"
+        Leave "it makes no picture wrong"
     }
     MapUnreadable "map-unreadable" Error {
         "The image of the normal map cannot be decoded."
         "The normal map is not shown, or the model does not load."
         "The file is damaged, missing, or in a format without a decoder here."
         "Save the image again as PNG, JPEG or WebP."
-        "there are no texels to repair"
+        Leave "there are no texels to repair"
     }
     TransformMirrors "transform-mirrors" Warning {
         "KHR_texture_transform turns or mirrors the normal texture."
         "Renderers disagree on whether tangents follow the transformed UVs, so that some light the bumps from a wrong side."
         "The texture was rotated or scaled by a negative number in the material."
         "Apply the transform to the UVs, or see `darboux tangents --apply-texture-transform`."
-        "renderers disagree on what is right"
+        Leave "renderers disagree on what is right"
     }
 }
 

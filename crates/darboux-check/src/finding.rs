@@ -70,7 +70,7 @@ pub struct Finding {
     pub evidence: Vec<Evidence>,
     /// What is wrong here, in one sentence.
     pub text: String,
-    /// Why a repair leaves it, as a clause; none where [`fix_document`](crate::fix_document) or [`fix_map`](crate::fix_map) cures it.
+    /// Why a repair leaves it, as a clause; none where [`fix_document`](crate::fix_document) or [`fix_map`](crate::fix_map) repairs it.
     pub left_because: Option<String>,
 }
 
@@ -88,11 +88,11 @@ impl Finding {
             first: Vec::new(),
             evidence: Vec::new(),
             text: text.into(),
-            left_because: Some(code.left().to_owned()).filter(|reason| !reason.is_empty()),
+            left_because: code.left_because().map(str::to_owned),
         }
     }
 
-    /// Whether a repair cures it.
+    /// Whether it can be repaired.
     pub fn is_fixable(&self) -> bool {
         self.left_because.is_none()
     }

@@ -4,7 +4,7 @@
 
 use darboux::CornerDifference;
 
-use crate::surface::{Surface, cross, dot, uv_area, xyz};
+use crate::surface::{Surface, cross, dot, indices_where, length, sub, uv_area, xyz};
 
 /// How the tangents of a file differ from MikkTSpace's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,10 +15,14 @@ pub enum Difference {
     SignFlipped,
     /// The signs are flipped on mirrored parts only, or on unmirrored parts only.
     SignFlippedWhereMirrored,
+    /// The signs of some triangles are flipped at all corners.
+    SignPartlyFlipped,
     /// They point along the bitangents.
     Rotated,
     /// They point the opposite way.
     Negated,
+    /// Some point the opposite way.
+    PartlyNegated,
     /// They follow another UV set.
     OtherUvSet(usize),
     /// None of these.
@@ -28,10 +32,13 @@ pub enum Difference {
 /// The measurement.
 pub struct Fit {
     pub difference: Difference,
-    /// The measured corners: usable tangents of vertices that do not lie on mirrored seams.
-    pub corners: usize,
-    /// The corners that support the difference.
+    /// What was measured: corners with usable tangents whose vertices do not lie on mirrored seams; triangles or vertices for a difference of a
+    /// part of the surface.
+    pub measured: usize,
+    /// Those that support the difference.
     pub supporting: usize,
+    /// The numbers of these triangles or vertices.
+    pub items: Vec<usize>,
 }
 
 /// The smallest share of the corners that decides.
@@ -51,6 +58,9 @@ struct Counts {
     close: usize,
     /// Per orientation (unmirrored, mirrored): corners, and those whose sign differs.
     signs: [[usize; 2]; 2],
+    /// Triangles with three measured corners, and the numbers of those whose three signs differ.
+    triangles: usize,
+    flipped_triangles: Vec<usize>,
 }
 
 /// Measures; none where the surface has no tangents, normals or UVs.
@@ -59,7 +69,8 @@ pub fn measure(surface: &Surface) -> Option<Fit> {
     let own = count(surface, &tangents, surface.uv_set)?;
     let share = |part: usize| part as f64 / own.corners.max(1) as f64;
     let flips = own.signs[0][1] + own.signs[1][1];
-    let fit = |difference, supporting| Fit { difference, corners: own.corners, supporting };
+    let fit =
+        |difference, supporting| Fit { difference, measured: own.corners, supporting, items: Vec::new() };
     if own.corners == 0 {
         return Some(fit(Difference::Unknown, 0));
     }
@@ -70,15 +81,59 @@ pub fn measure(surface: &Surface) -> Option<Fit> {
         }
     }
     if share(own.along) >= MIN_SHARE {
-        let difference = by_signs(&own);
-        let supporting = if difference == Difference::None { own.along } else { flips };
-        return Some(fit(difference, supporting));
+        return Some(match by_signs(&own) {
+            Difference::None => partly(surface, &own).unwrap_or_else(|| fit(Difference::None, own.along)),
+            difference => fit(difference, flips),
+        });
     }
     Some(match () {
         () if share(own.against) >= MIN_SHARE => fit(Difference::Negated, own.against),
         () if share(own.across) >= MIN_SHARE => fit(Difference::Rotated, own.across),
-        () => fit(Difference::Unknown, 0),
+        () => partly(surface, &own).unwrap_or_else(|| fit(Difference::Unknown, 0)),
     })
+}
+
+/// A difference of a part of the surface.
+fn partly(surface: &Surface, counts: &Counts) -> Option<Fit> {
+    let fit = |difference, items: Vec<usize>, measured| {
+        let supporting = items.len();
+        (supporting > 0).then_some(Fit { difference, measured, supporting, items })
+    };
+    let negated = || fit(Difference::PartlyNegated, against_u(surface), surface.positions.len());
+    fit(Difference::SignPartlyFlipped, counts.flipped_triangles.clone(), counts.triangles).or_else(negated)
+}
+
+/// The cosine to the u direction below which a tangent points against it. Sums of unit u directions with positive weights, as all methods
+/// take them, have a positive cosine to one of them at least; the rest is rounding.
+const AGAINST: f64 = -0.1;
+
+/// The vertices whose tangent points against the u direction of every triangle around it that has an area in space and in UV space.
+fn against_u(surface: &Surface) -> Vec<usize> {
+    let (Some(tangents), Some(uvs)) = (&surface.tangents, surface.uv_sets.get(&surface.uv_set)) else {
+        return Vec::new();
+    };
+    let mut largest_cosine = vec![f64::NEG_INFINITY; tangents.len()];
+    for triangle in surface.triangles() {
+        let Some(along_u) = u_direction(surface, uvs, triangle) else { continue };
+        for vertex in triangle {
+            let tangent = xyz(tangents[vertex]);
+            let cosine = dot(along_u, tangent) / (length(along_u) * length(tangent));
+            // A tangent without a direction has a finding of its own, and NaN makes it no other one.
+            largest_cosine[vertex] = if cosine.is_nan() { 1.0 } else { largest_cosine[vertex].max(cosine) };
+        }
+    }
+    indices_where(&largest_cosine, |cosine| cosine.is_finite() && *cosine < AGAINST)
+}
+
+/// The derivative of the position along u, up to a positive factor; none where a triangle has no area.
+fn u_direction(surface: &Surface, uvs: &[[f32; 2]], triangle: [usize; 3]) -> Option<[f32; 3]> {
+    let [a, b, c] = triangle.map(|vertex| surface.positions[vertex]);
+    let area = uv_area(uvs, triangle);
+    let [s, t, r] = triangle.map(|vertex| f64::from(uvs[vertex][1]));
+    let [to_b, to_c] = [sub(b, a), sub(c, a)];
+    let along = |i: usize| ((r - s) * f64::from(to_b[i]) - (t - s) * f64::from(to_c[i])) * area.signum();
+    let direction = [0, 1, 2].map(|i| along(i) as f32);
+    (area != 0.0 && length(direction) > 0.0).then_some(direction)
 }
 
 fn by_signs(counts: &Counts) -> Difference {
@@ -105,15 +160,24 @@ fn by_signs(counts: &Counts) -> Difference {
 fn count(surface: &Surface, tangents: &[[f32; 4]], uv_set: usize) -> Option<Counts> {
     let (mut expected, normals) = (surface.expected_tangents(uv_set)?, surface.normals.as_ref()?);
     // MikkTSpace's sign is that of the UV area, which changes with the order of the corners; what is lit depends on the normal alone.
-    if surface.is_wound_against_normals() {
-        expected.iter_mut().for_each(|tangent| tangent[3] = -tangent[3]);
+    let turned = surface.is_wound_against_normals();
+    let mut turned = vec![turned; expected.len() / 3];
+    surface.triangles_against_normals().into_iter().for_each(|triangle| turned[triangle] = true);
+    for (corners, _) in expected.as_chunks_mut::<3>().0.iter_mut().zip(&turned).filter(|(_, turned)| **turned)
+    {
+        corners.iter_mut().for_each(|tangent| tangent[3] = -tangent[3]);
     }
     let is_shared = on_mirrored_seams(surface, uv_set, &expected);
     let uvs = surface.uv_sets.get(&uv_set)?;
-    // Faces without area in the UV set show no bumps, and their tangents are those of any neighbour.
-    let is_measured: Vec<bool> = surface.triangles().map(|triangle| uv_area(uvs, triangle) != 0.0).collect();
+    let is_measured: Vec<bool> =
+        surface.triangles().map(|triangle| is_measured(surface, uvs, triangle)).collect();
     let mut counts = Counts::default();
+    // Of the current triangle: measured corners, and those whose sign differs.
+    let mut of_triangle = [0, 0];
     for (corner, (&ours, &theirs)) in expected.iter().zip(tangents).enumerate() {
+        if corner % 3 == 0 {
+            of_triangle = [0, 0];
+        }
         let vertex = surface.vertex_of_corner[corner] as usize;
         let difference = CornerDifference::between(ours, theirs);
         let is_counted = is_measured[corner / 3] && !is_shared[vertex];
@@ -130,17 +194,31 @@ fn count(surface: &Surface, tangents: &[[f32; 4]], uv_set: usize) -> Option<Coun
         let of_orientation = &mut counts.signs[usize::from(ours[3] < 0.0)];
         of_orientation[0] += 1;
         of_orientation[1] += usize::from(difference.flips_sign);
+        of_triangle = [of_triangle[0] + 1, of_triangle[1] + usize::from(difference.flips_sign)];
+        if of_triangle[0] == 3 {
+            counts.triangles += 1;
+        }
+        if of_triangle[1] == 3 {
+            counts.flipped_triangles.push(corner / 3);
+        }
     }
     Some(counts)
 }
 
-/// Per vertex whether its corners have both signs. Triangles without area in the UV set do not count: they show no bumps, and their sign is that of
-/// any neighbour.
+/// Whether a triangle has an area in the UV set. Without one it shows no bumps, and its tangents and their sign are those of any neighbour; with
+/// NaN or infinity they are arbitrary.
+fn is_measured(surface: &Surface, uvs: &[[f32; 2]], triangle: [usize; 3]) -> bool {
+    let area = uv_area(uvs, triangle);
+    let is_placed = |vertex: usize| surface.positions[vertex].iter().all(|x| x.is_finite());
+    area != 0.0 && area.is_finite() && triangle.into_iter().all(is_placed)
+}
+
+/// Per vertex whether the corners of measured triangles have both signs.
 pub fn on_mirrored_seams(surface: &Surface, uv_set: usize, expected: &[[f32; 4]]) -> Vec<bool> {
     let mut seen = vec![[false; 2]; surface.positions.len()];
     let Some(uvs) = surface.uv_sets.get(&uv_set) else { return vec![false; seen.len()] };
     for (triangle, tangents) in surface.triangles().zip(expected.as_chunks::<3>().0) {
-        if uv_area(uvs, triangle) == 0.0 {
+        if !is_measured(surface, uvs, triangle) {
             continue;
         }
         for (vertex, tangent) in triangle.into_iter().zip(tangents) {

@@ -27,13 +27,17 @@ mod map;
 mod obstacles;
 mod orientation;
 mod overlap;
+mod parts;
 mod rule;
 mod rules;
 mod severity;
 mod surface;
+mod text;
 
-pub use check::{CheckOptions, CheckedMap, check_document, check_map, check_map_on_model};
+pub use check::{
+    CheckOptions, CheckedMap, check_document, check_map, check_map_on_model, check_model_of_maps,
+};
 pub use code::Code;
 pub use finding::{Evidence, Finding, Place};
-pub use fix::{FixOptions, FixedFinding, FixedMap, fix_document, fix_map};
+pub use fix::{FixOptions, FixedDocument, FixedFinding, FixedMap, fix_document, fix_map};
 pub use severity::Severity;

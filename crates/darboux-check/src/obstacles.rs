@@ -17,6 +17,10 @@ pub fn of_surface(finding: &Finding, surface: &Surface) -> Option<String> {
         Code::NormalNotFinite | Code::NormalNotUnit if surface.moves_normals => {
             Some("morph targets move these normals".to_owned())
         }
+        Code::NormalAgainstWinding if finding.severity < Severity::Error => Some(
+            "only a part of the surface is reversed, and nothing says whether its faces or its normals are"
+                .to_owned(),
+        ),
         Code::NormalAgainstWinding => match reversed(surface) {
             Reversed::Faces => None,
             Reversed::Normals if surface.moves_normals => Some("morph targets move these normals".to_owned()),

@@ -2,6 +2,7 @@
 
 mod maps;
 mod normals;
+mod positions;
 mod tangents;
 mod transforms;
 mod uvs;
@@ -11,7 +12,7 @@ pub use normals::UNIT as UNIT_NORMAL;
 use crate::rule::{MapRule, SurfaceRule, TextureRule};
 
 /// All rules about surfaces.
-pub const SURFACE_RULES: &[&[SurfaceRule]] = &[tangents::RULES, normals::RULES, uvs::RULES];
+pub const SURFACE_RULES: &[&[SurfaceRule]] = &[tangents::RULES, positions::RULES, normals::RULES, uvs::RULES];
 
 /// All rules about normal maps.
 pub const MAP_RULES: &[MapRule] = maps::RULES;

@@ -102,6 +102,16 @@ impl Surface {
         6 * self.triangles_against_normals().len() > self.vertex_of_corner.len()
     }
 
+    /// Those of some vertices that triangles use, in the same order.
+    pub fn used(&self, vertices: Vec<usize>) -> Vec<usize> {
+        if vertices.is_empty() {
+            return vertices;
+        }
+        let mut is_used = vec![false; self.positions.len()];
+        self.vertex_of_corner.iter().for_each(|&vertex| is_used[vertex as usize] = true);
+        vertices.into_iter().filter(|&vertex| is_used[vertex]).collect()
+    }
+
     /// The indices of the triangles whose vertices fulfil a condition.
     pub fn triangles_where(&self, mut condition: impl FnMut([usize; 3]) -> bool) -> Vec<usize> {
         let numbered = self.triangles().enumerate();

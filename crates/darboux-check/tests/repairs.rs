@@ -2,8 +2,10 @@
 
 mod support;
 
+use std::collections::BTreeSet;
 use std::fs;
 
+use darboux::{Method, TangentOptions};
 use darboux_check::{
     CheckOptions, Code, FixOptions, FixedFinding, Severity, check_document, fix_document, fix_map,
 };
@@ -11,6 +13,7 @@ use darboux_io::gltf::Document;
 use darboux_io::image::PngImage;
 use darboux_io::{LoadOptions, SaveOptions};
 use support::models::{Model, healthy_models};
+use support::table::codes;
 
 fn read(glb: Vec<u8>) -> Document {
     Document::from_bytes("model", glb, None, &LoadOptions::default()).expect("a valid GLB")
@@ -18,7 +21,7 @@ fn read(glb: Vec<u8>) -> Document {
 
 fn fixed(document: &mut Document, findings_of: &mut Document, options: &FixOptions) -> Vec<FixedFinding> {
     let findings = check_document(findings_of, &CheckOptions::default()).expect("a valid document");
-    fix_document(document, findings, options).expect("a valid document")
+    fix_document(document, findings, options).expect("a valid document").findings
 }
 
 /// The bytes of a model's embedded image, from the JSON of a GLB on.
@@ -37,7 +40,7 @@ fn untouched_images_keep_their_bytes_and_geometry_its_accessors() {
     let model = spoilt();
     let mut document = model.document();
     let findings = fixed(&mut document, &mut model.document(), &FixOptions::default());
-    assert!(findings.iter().any(|fixed| fixed.cured && fixed.finding.code == Code::TangentSignFlipped));
+    assert!(findings.iter().any(|fixed| fixed.repaired && fixed.finding.code == Code::TangentSignFlipped));
     let repaired = read(document.to_glb().expect("a GLB"));
     assert_eq!(image(&repaired), model.map.file);
 
@@ -46,7 +49,7 @@ fn untouched_images_keep_their_bytes_and_geometry_its_accessors() {
     model.map = model.map.with_texels(inverted);
     let mut document = model.document();
     let findings = fixed(&mut document, &mut model.document(), &FixOptions::default());
-    assert!(findings.iter().any(|fixed| fixed.cured && fixed.finding.code == Code::MapGreenFlipped));
+    assert!(findings.iter().any(|fixed| fixed.repaired && fixed.finding.code == Code::MapGreenFlipped));
     let glb = document.to_glb().expect("a GLB");
     // The old image is gone, and the new one is the healthy one again.
     let repaired = read(glb.clone());
@@ -66,7 +69,7 @@ fn only_the_chosen_codes_are_repaired() {
     let mut document = model.document();
     let options = FixOptions::default().with_codes([Code::TangentZero]);
     let findings = fixed(&mut document, &mut model.document(), &options);
-    assert!(findings.iter().all(|fixed| !fixed.cured), "{findings:?}");
+    assert!(findings.iter().all(|fixed| !fixed.repaired), "{findings:?}");
     assert!(!document.is_changed());
 }
 
@@ -82,11 +85,11 @@ fn half_of_a_pair_that_cancels_is_left() {
         let findings = fixed(&mut document, &mut model.document(), &options);
         let left = findings.iter().find(|fixed| fixed.finding.code == code).expect("the finding");
         let reason = left.finding.left_because.as_deref().unwrap_or_default();
-        assert!(!left.cured && reason.contains("both or none"), "{code:?}: {reason}");
+        assert!(!left.repaired && reason.contains("both or none"), "{code:?}: {reason}");
         assert!(!document.is_changed());
     }
     let findings = fixed(&mut model.document(), &mut model.document(), &FixOptions::default());
-    assert_eq!(findings.iter().filter(|fixed| fixed.cured).count(), 2, "{findings:?}");
+    assert_eq!(findings.iter().filter(|fixed| fixed.repaired).count(), 2, "{findings:?}");
 }
 
 #[test]
@@ -128,7 +131,7 @@ fn image_files_get_new_files() {
     let open = |path: &std::path::Path| Document::open(path, &LoadOptions::default()).expect("a valid file");
     let mut document = open(&input);
     let findings = fixed(&mut document, &mut open(&input), &FixOptions::default());
-    assert!(findings.iter().any(|fixed| fixed.cured), "{findings:?}");
+    assert!(findings.iter().any(|fixed| fixed.repaired), "{findings:?}");
     let elsewhere = folder.path().join("out/model.gltf");
     document.save(&elsewhere, &SaveOptions::default()).expect("written");
     let written = fs::read(folder.path().join("out/maps/n m.png")).expect("the map, under its name");
@@ -170,16 +173,19 @@ fn maps_keep_their_bit_depth() {
     }
 }
 
-/// Two mistakes of which one hides the other are both cured.
+/// Two mistakes of which one hides the other are both repaired.
 #[test]
 fn a_repair_goes_on_with_what_it_reveals() {
     let map = healthy_models().remove(0).map;
     let texels = map.texels.iter().map(|[r, g, _]| [*r, 255 - g, 0]).collect();
     let file = map.with_texels(texels).file;
     let fixed = fix_map("map.png", &file, &LoadOptions::default(), &FixOptions::default()).expect("a map");
-    let cured: Vec<Code> =
-        fixed.findings.iter().filter(|fixed| fixed.cured).map(|fixed| fixed.finding.code).collect();
-    assert!(cured.contains(&Code::MapTwoChannel) && cured.contains(&Code::MapGreenFlipped), "{cured:?}");
+    let repaired: Vec<Code> =
+        fixed.findings.iter().filter(|fixed| fixed.repaired).map(|fixed| fixed.finding.code).collect();
+    assert!(
+        repaired.contains(&Code::MapTwoChannel) && repaired.contains(&Code::MapGreenFlipped),
+        "{repaired:?}"
+    );
 }
 
 /// A nearly flat map that was encoded as sRGB: blue is 1 everywhere, so that the encoding is seen only after blue was made again.
@@ -225,7 +231,7 @@ fn maps_that_must_not_change_are_left() {
     let left =
         findings.iter().find(|fixed| fixed.finding.code == Code::MapGreenFlipped).expect("the finding");
     let reason = left.finding.left_because.as_deref().unwrap_or_default();
-    assert!(!left.cured && reason.contains("another texture"), "{reason}");
+    assert!(!left.repaired && reason.contains("another texture"), "{reason}");
     assert!(!document.is_changed());
 }
 
@@ -233,4 +239,73 @@ fn maps_that_must_not_change_are_left() {
 fn images_of_other_kinds_are_recognised() {
     assert!(PngImage::obstacle(b"no image").is_some());
     assert!(PngImage::obstacle(&healthy_models().remove(0).map.file).is_none());
+}
+
+/// Tangents of another method than MikkTSpace that were asked for are written once: the finding stays, and a second repair changes nothing.
+#[test]
+fn another_method_is_not_called_a_repair() {
+    let mut model = healthy_models().remove(1);
+    model.tangents = Some(model.computed(Method::Face, model.uv_set));
+    let options = FixOptions::default().with_tangents(TangentOptions::from(Method::Area));
+    let repair = |document: &mut Document, again: &mut Document| {
+        let findings = check_document(again, &CheckOptions::default()).expect("a valid document");
+        fix_document(document, findings, &options).expect("a valid document")
+    };
+    let mut document = model.document();
+    let first = repair(&mut document, &mut model.document());
+    let recipe = first.findings.iter().find(|fixed| fixed.finding.code == Code::TangentOtherRecipe);
+    let recipe = recipe.expect("the finding");
+    assert!(first.is_changed && !recipe.repaired);
+    assert!(recipe.finding.left_because.as_deref().is_some_and(|reason| reason.contains("asked for")));
+    let glb = document.to_glb().expect("a GLB");
+    let mut document = read(glb.clone());
+    let second = repair(&mut document, &mut read(glb));
+    assert!(!second.is_changed && !document.is_changed(), "{:?}", second.findings);
+}
+
+/// A repair that ends in an error that was not there is taken back; that of another primitive of the file is kept.
+#[test]
+fn repairs_add_no_errors() {
+    for spoil in [
+        |model: &mut Model| model.positions[1][0] = f32::NAN,
+        |model: &mut Model| {
+            model.uvs[model.uv_set][1][0] = f32::NAN;
+        },
+    ] {
+        for healthy in healthy_models() {
+            let mut model = healthy.clone();
+            spoil(&mut model);
+            model.tangents = None;
+            let errors = |document: &mut Document| {
+                let findings = check_document(document, &CheckOptions::default()).expect("a valid document");
+                codes(&findings, |severity| severity == Severity::Error)
+            };
+            let before = errors(&mut model.document());
+            let mut document = model.document();
+            fixed(&mut document, &mut model.document(), &FixOptions::default());
+            let after = errors(&mut document);
+            assert!(after.is_subset(&before), "{}: {after:?} after {before:?}", model.name);
+        }
+    }
+}
+
+/// Primitives that shared their indices share those of the faces that were turned over.
+#[test]
+fn turned_faces_stay_shared() {
+    let mut model =
+        healthy_models().into_iter().find(|model| model.name == "sphere").expect("a closed model");
+    model.indices.as_chunks_mut::<3>().0.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+    model.copies = 3;
+    let mut document = model.document();
+    let findings = fixed(&mut document, &mut model.document(), &FixOptions::default());
+    assert!(findings.iter().any(|fixed| fixed.repaired && fixed.finding.code == Code::NormalAgainstWinding));
+    let indices = |document: &Document| -> BTreeSet<Option<usize>> {
+        document
+            .meshes()
+            .iter()
+            .flat_map(|mesh| &mesh.primitives)
+            .map(|primitive| primitive.indices)
+            .collect()
+    };
+    assert_eq!(indices(&document).len(), 1);
 }

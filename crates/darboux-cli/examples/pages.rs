@@ -60,7 +60,8 @@ fn findings() -> String {
         .map(|code| format!("| [`{code}`](#{code}) | {} | {} |\n", code.severity(), code.meaning()));
     let sections = Code::ALL.iter().map(|code| {
         let [meaning, looks, cause, cure] = [code.meaning(), code.looks_like(), code.cause(), code.cure()];
-        let fix = code.fix();
+        let left = || format!("left, because {}", code.left_because().unwrap_or_default());
+        let fix = code.repair().map_or_else(left, str::to_owned);
         format!(
             "\n## {code}\n\n{meaning}\n\n*What it looks like:* {looks}\n\n*How it comes about:* {cause}\n\n*Cure:* {cure}\n\n*With `--fix`:* {fix}.\n"
         )

@@ -26,7 +26,7 @@ use command::FileCommand;
 use journal::Journal;
 use one_file::{FinishedFile, JournalEntry, process_file};
 use plan::{Job, Output, OutputRules, plan_jobs};
-use report::{BatchReport, FileReport, Status};
+use report::{BatchReport, FileReport, Status, SummarySource};
 
 /// With more files than this, each file gets one line.
 const MAX_DETAILED_FILES: usize = 10;
@@ -186,7 +186,13 @@ fn journal_entry<'a>(journal: Option<&'a Journal>, job: &Job) -> Option<JournalE
 /// Prints what was done to a file. `brief`: in one line, with the number of warnings.
 fn print_file<W: FileCommand>(report: &FileReport<W::Summary>, brief: bool, messages: &Messages) {
     let (Some(output), FileReport { input, summary, .. }) = (&report.output, report) else { return };
-    let Some(summary) = summary.this_run() else { return messages.say(&format!("{input}: up to date")) };
+    let summary = match summary {
+        SummarySource::ThisRun(summary) => summary,
+        SummarySource::Journal(recorded) => {
+            let note = W::note_up_to_date(recorded).map(|note| format!(", {note}")).unwrap_or_default();
+            return messages.say(&format!("{input}: up to date{note}"));
+        }
+    };
     let outcome = match report.status {
         Status::Copied => format!("{input} -> {output}: unchanged copy"),
         Status::Written if input != output => format!("{input} -> {output}"),
@@ -201,6 +207,11 @@ fn print_file<W: FileCommand>(report: &FileReport<W::Summary>, brief: bool, mess
         return messages.say(&format!("{outcome}{separator}{total}{warnings}"));
     }
     messages.say(&outcome);
+    let further: Vec<&str> =
+        report.files_written.iter().map(String::as_str).filter(|file| file != output).collect();
+    if !further.is_empty() {
+        messages.say(&format!("  also written: {}", further.join(", ")));
+    }
     W::lines(summary).iter().for_each(|line| messages.say(&format!("  {line}")));
     warnings.iter().for_each(|warning| messages.warn(&format!("{input}: {warning}")));
 }
@@ -230,8 +241,7 @@ fn finish<W: FileCommand>(
             return exit::FAILED;
         }
     }
-    let mut summaries = report.files.iter().filter_map(|file| file.summary.this_run());
-    if report.totals.failed > 0 || summaries.any(|summary| command.fails(summary)) {
+    if report.totals.failed > 0 || report.files.iter().any(|file| command.fails(&file.summary)) {
         exit::FAILED
     } else {
         exit::DONE

@@ -14,6 +14,11 @@ pub fn is_png(path: &Path) -> bool {
     FileKind::of(path) == Some(FileKind::Png)
 }
 
+/// Whether the extension is that of an image that can be decoded.
+pub fn is_image(path: &Path) -> bool {
+    FileKind::of(path).is_some_and(FileKind::is_decoded_image)
+}
+
 /// One spelling for all paths of a file, whether the file exists yet or not.
 pub fn canonical(path: &Path) -> PathBuf {
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());

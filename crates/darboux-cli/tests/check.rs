@@ -102,7 +102,7 @@ fn maps_are_judged_alone() {
 
     let fixed = folder.path().join("fixed.png");
     let repair = darboux(&["check", text(&down), "--fix", "-o", text(&fixed), "--json"]).exits(0).json();
-    assert_eq!(codes(&repair, |finding| finding["cured"] == true), ["map-green-flipped"]);
+    assert_eq!(codes(&repair, |finding| finding["repaired"] == true), ["map-green-flipped"]);
     assert_eq!(verdict(&fixed, &[], 0).as_deref(), Some("opengl"));
     darboux(&["check", text(&down), "--fix", "--in-place"]).exits(0);
     assert_eq!(fs::read(&down).expect("a file"), fs::read(&fixed).expect("a file"));
@@ -169,7 +169,7 @@ fn models_are_repaired() {
         let fixable = codes(&before, |finding| finding["fixable"] == true);
         let repair = ["check", text(&input), "--fix", "-o", text(&out), "--json"];
         let report = darboux(&repair).exits(0).json();
-        assert_eq!(codes(&report, |finding| finding["cured"] == true), fixable, "{model}");
+        assert_eq!(codes(&report, |finding| finding["repaired"] == true), fixable, "{model}");
         let after = darboux(&["check", text(&out), "--json", "--fail-on", "never"]).exits(0).json();
         assert_eq!(codes(&after, |finding| finding["fixable"] == true), Vec::<String>::new(), "{model}");
         let again = folder.path().join(format!("{number}.again.glb"));
@@ -215,4 +215,128 @@ fn what_is_left_is_said() {
         fs::read(folder.path().join("grey.fixed.png")).expect("a copy"),
         fs::read(&grey).expect("a file")
     );
+}
+
+/// A normal map of bumps; `up` is 1 for OpenGL and -1 for DirectX.
+fn bumps(up: f32) -> image::RgbImage {
+    image::RgbImage::from_fn(128, 128, |x, y| {
+        let (x, y) = (x as f32 / 5.0, y as f32 / 5.0);
+        let normal = [-x.cos() * y.sin() / 5.0, up * x.sin() * y.cos() / 5.0, 1.0];
+        let length = normal.iter().map(|x| x * x).sum::<f32>().sqrt();
+        image::Rgb(normal.map(|x| (127.5 + 127.5 * x / length).round() as u8))
+    })
+}
+
+/// A JPEG is repaired into a PNG, a WebP is left, and a healthy image is not written.
+#[test]
+fn images_that_are_no_png() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let save = |name: &str, up: f32| {
+        let path = folder.path().join(name);
+        bumps(up).save(&path).expect("an image");
+        path
+    };
+    let [jpeg, webp] = ["down.jpg", "flipped.webp"].map(|name| save(name, -1.0));
+    for (path, fixable, code) in [(&jpeg, true, 0), (&webp, false, 1)] {
+        let report = darboux(&["check", text(path), "--json"]).exits(1).json();
+        assert_eq!(
+            codes(&report, |finding| finding["fixable"] == fixable),
+            ["map-green-flipped"],
+            "{report}"
+        );
+        let report = darboux(&["check", text(path), "--fix", "--json"]).exits(code).json();
+        assert_eq!(
+            codes(&report, |finding| finding["repaired"] == fixable),
+            ["map-green-flipped"],
+            "{report}"
+        );
+    }
+    let fixed = folder.path().join("down.fixed.png");
+    darboux(&["check", text(&fixed)]).exits(0);
+    let before = fs::read(&jpeg).expect("a file");
+    let refused = darboux(&["check", text(&jpeg), "--fix", "--in-place"]).exits(1);
+    assert!(refused.stderr.contains("use -o FILE.png"), "{}", refused.stderr);
+    assert_eq!(fs::read(&jpeg).expect("a file"), before);
+
+    let count = || fs::read_dir(&folder).expect("a folder").count();
+    for name in ["up.jpg", "up.webp"] {
+        let path = save(name, 1.0);
+        let files = count();
+        for arguments in [&[][..], &["--in-place"]] {
+            let report =
+                darboux(&[&["check", text(&path), "--fix", "--json"], arguments].concat()).exits(0).json();
+            assert_eq!(report["files"][0]["status"], "untouched", "{name}");
+        }
+        assert_eq!(count(), files, "{name}");
+    }
+    let broken = folder.path().join("broken.png");
+    fs::write(&broken, "no image").expect("a file");
+    let found = |arguments: &[&str]| {
+        let report = darboux(&[&["check", text(&broken), "--json"], arguments].concat()).exits(1).json();
+        report["files"][0]["findings"][0]["text"].clone()
+    };
+    assert_eq!(found(&[]), found(&["--fix"]));
+}
+
+/// `--model` is for images, and a mistyped code gets a suggestion.
+#[test]
+fn wrong_arguments_are_refused_with_what_to_do() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let map = folder.path().join("map.png");
+    bumps(1.0).save(&map).expect("an image");
+    let plane = asset("TwoSidedPlane/TwoSidedPlane.gltf");
+    let refused = darboux(&["check", text(&map), text(&plane), "--model", text(&plane)]).exits(2);
+    assert!(refused.stderr.contains("is no image"), "{}", refused.stderr);
+    let mistyped = darboux(&["check", text(&map), "--only", "tangent-sing-flipped"]).exits(2);
+    assert!(mistyped.stderr.contains("'tangent-sign-flipped'"), "{}", mistyped.stderr);
+}
+
+/// The exit code of a run that resumes another one is that of the whole work.
+#[test]
+fn findings_that_an_earlier_run_left_count() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("out");
+    // The UV set of its normal texture is missing, which no repair makes up for.
+    let model = folder.path().join("model.gltf");
+    let json = fs::read_to_string(asset("Morphing/morphing.gltf")).expect("a model");
+    let mut json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    json["materials"] = serde_json::json!([{"normalTexture": {"index": 0, "texCoord": 7}}]);
+    json["textures"] = serde_json::json!([{"source": 0}]);
+    json["images"] = serde_json::json!([{"uri": "data:image/png;base64,"}]);
+    for primitive in json["meshes"][0]["primitives"].as_array_mut().expect("primitives") {
+        primitive["material"] = serde_json::json!(0);
+    }
+    fs::write(&model, json.to_string()).expect("a file");
+    for name in fs::read_dir(asset("Morphing")).expect("a folder").filter_map(Result::ok) {
+        if name.path().extension().is_some_and(|extension| extension == "bin") {
+            fs::copy(name.path(), folder.path().join(name.file_name())).expect("a copy");
+        }
+    }
+    let run = ["check", text(&model), "--fix", "--out-dir", text(&out), "--resume", "--only", "uv-missing"];
+    let first = darboux(&run).exits(1);
+    assert!(first.stderr.contains("left uv-missing"), "{}", first.stderr);
+    let again = darboux(&run).exits(1);
+    assert!(again.stderr.contains("up to date, 1 finding left"), "{}", again.stderr);
+    assert!(again.stderr.contains("0 findings repaired, 1 left"), "{}", again.stderr);
+    darboux(&[&run[..], &["--fail-on", "never"]].concat()).exits(0);
+}
+
+/// A line names the repair, and the files that were written beside the output.
+#[test]
+fn repairs_and_files_are_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let plane = asset("TwoSidedPlane/TwoSidedPlane.gltf");
+    let out = folder.path().join("plane.gltf");
+    let repair = darboux(&["check", text(&plane), "--fix", "-o", text(&out)]).exits(0);
+    let lines = &repair.stderr;
+    assert!(
+        lines.contains(
+            "repaired tangent-sign-flipped: all signs w are flipped; the tangents are computed again"
+        ),
+        "{lines}"
+    );
+    assert!(lines.contains("also written: ") && lines.contains("plane.bin"), "{lines}");
+    let checked = darboux(&["check", text(&out)]).exits(0);
+    let checked = String::from_utf8_lossy(&checked.stdout).into_owned();
+    assert!(!checked.contains("info") || checked.contains("cure: "), "{checked}");
 }

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! load, parse, container, buffers, resources, references   reading: the file, the JSON, the buffers, checks
-//! document, edits, edit_document, edit_image, schema   a document, its edits, and the parts of its JSON
+//! document, edits, edit_document, edit_image,
+//! checkpoint, schema                                   a document, its edits, and the parts of its JSON
 //! accessors, stored_elements, elements                 accessors as arrays, and arrays as accessors
 //! tangents/, normals/, convert/, compression/          operations on documents; primitives/ is what they share
 //! inspect, compare, scene, materials, image_uses       descriptions of documents
@@ -11,6 +12,7 @@
 
 mod accessors;
 mod buffers;
+mod checkpoint;
 mod compare;
 mod compression;
 pub(crate) mod container;
@@ -43,6 +45,7 @@ mod stored_elements;
 mod tangents;
 mod unused_data;
 
+pub use checkpoint::Checkpoint;
 pub use compare::{Pair, PairedCorners, Unpaired, pair_tangents};
 pub use convert::{ConversionSummary, convert_vertices};
 pub use document::Document;

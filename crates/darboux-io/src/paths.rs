@@ -20,7 +20,11 @@ pub enum FileKind {
     Gltf,
     /// `.png`.
     Png,
-    /// An image format that is not read here: lossy, or rare for normal maps.
+    /// `.jpg`, `.jpeg`.
+    Jpeg,
+    /// `.webp`.
+    WebP,
+    /// An image format without a decoder here.
     OtherImage,
 }
 
@@ -31,8 +35,11 @@ impl FileKind {
             "glb" | "vrm" => Some(Self::Glb),
             "gltf" => Some(Self::Gltf),
             "png" => Some(Self::Png),
-            "avif" | "bmp" | "dds" | "exr" | "jpeg" | "jpg" | "ktx2" | "psd" | "tga" | "tif" | "tiff"
-            | "webp" => Some(Self::OtherImage),
+            "jpeg" | "jpg" => Some(Self::Jpeg),
+            "webp" => Some(Self::WebP),
+            "avif" | "bmp" | "dds" | "exr" | "ktx2" | "psd" | "tga" | "tif" | "tiff" => {
+                Some(Self::OtherImage)
+            }
             _ => None,
         }
     }
@@ -40,6 +47,11 @@ impl FileKind {
     /// Whether files of this kind hold models.
     pub fn is_model(self) -> bool {
         matches!(self, Self::Glb | Self::Gltf)
+    }
+
+    /// Whether files of this kind are images that can be decoded (feature `textures`).
+    pub fn is_decoded_image(self) -> bool {
+        matches!(self, Self::Png | Self::Jpeg | Self::WebP)
     }
 }
 

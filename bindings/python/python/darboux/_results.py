@@ -144,8 +144,8 @@ class Finding(NamedTuple):
     """'error': a picture is wrong; 'warning': it may be; 'info'."""
     place: FindingPlace
     """Where it is."""
-    number: int
-    """The number of vertices, corners, triangles or texels that show it, as the text says."""
+    count: int  # type: ignore[assignment]
+    """The number of vertices, corners, triangles or texels that show it, as the text says. (It hides the method of tuples.)"""
     first: List[int]
     """The indices of the first ones."""
     evidence: List[Tuple[str, float, str]]
@@ -157,7 +157,7 @@ class Finding(NamedTuple):
     cure: str
     """The cure."""
     fixable: bool
-    """Whether `darboux check --fix` cures it."""
+    """Whether `darboux check --fix` repairs it."""
 
 
 class MapJudgement(NamedTuple):

@@ -22,7 +22,7 @@ use crate::severity::Severity;
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct FixedMap {
-    /// The image with its new texels; none if nothing was cured.
+    /// The image with its new texels; none if nothing was repaired.
     pub image: Option<PngImage>,
     /// The findings, and those that the first repairs revealed.
     pub findings: Vec<FixedFinding>,
@@ -64,14 +64,16 @@ pub fn fix_map(
     };
     if let Some(worse) = remaining.iter().find(|left| is_new_error(left, &known)) {
         let reason = Some(format!("its repair would end in {}", worse.code.name()));
-        let left =
-            |finding: Finding| FixedFinding { finding: finding.with_obstacle(reason.clone()), cured: false };
+        let left = |finding: Finding| FixedFinding {
+            finding: finding.with_obstacle(reason.clone()),
+            repaired: false,
+        };
         return Ok(FixedMap { image: None, findings: known.into_iter().map(left).collect() });
     }
     let findings: Vec<FixedFinding> =
         findings.into_iter().map(|finding| outcome(finding, &remaining, options)).collect();
-    let is_any_cured = findings.iter().any(|finding| finding.cured);
-    Ok(FixedMap { image: image.filter(|_| is_any_cured), findings })
+    let is_any_repaired = findings.iter().any(|finding| finding.repaired);
+    Ok(FixedMap { image: image.filter(|_| is_any_repaired), findings })
 }
 
 /// Whether a repair has made an image worse: an error that it did not have before.
@@ -91,7 +93,7 @@ fn open(name: &str, file: &[u8], loading: &LoadOptions) -> Result<PngImage, Erro
     PngImage::from_rgb(name, [width, height], &texels)
 }
 
-/// Cures one finding.
+/// Repairs one finding.
 fn repair(
     image: &mut PngImage,
     code: Code,
@@ -135,9 +137,9 @@ fn unit(texel: [f64; 3]) -> [f64; 3] {
     if is_grey || length < 0.05 { texel } else { vector.map(|x| (x / length + 1.0) / 2.0) }
 }
 
-/// A finding that an error prevented from being cured.
+/// A finding that an error prevented from being repaired.
 fn left(finding: &Finding, error: &Error) -> FixedFinding {
-    FixedFinding { finding: finding.clone().with_obstacle(Some(error.to_string())), cured: false }
+    FixedFinding { finding: finding.clone().with_obstacle(Some(error.to_string())), repaired: false }
 }
 
 /// Repairs the images of a document that findings name.

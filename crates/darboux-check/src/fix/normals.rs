@@ -142,14 +142,13 @@ fn turn_over(document: &mut Document, findings: &[&Finding]) -> Result<(), Error
         }
     })?;
     let mut with_reversed_normals = Vec::new();
+    let mut turned = TurnedIndices::new();
     for (finding, verdict, mut corners) in verdicts {
         let names = primitives_of(document, finding);
         match verdict {
             Reversed::Faces => {
                 corners.as_chunks_mut::<3>().0.iter_mut().for_each(|[_, b, c]| std::mem::swap(b, c));
-                for name in names {
-                    document.set_triangles(name.mesh, name.primitive, corners.clone())?;
-                }
+                turn_faces(document, &names, &corners, &mut turned)?;
             }
             Reversed::Normals => with_reversed_normals.extend(names),
             Reversed::Unknown => {}
@@ -162,6 +161,42 @@ fn turn_over(document: &mut Document, findings: &[&Finding]) -> Result<(), Error
     }
     Ok(())
 }
+
+/// The new accessor of indices, by what decides them: the old accessor, the mode and the number of corners.
+type TurnedIndices = BTreeMap<(Option<usize>, u32, usize), usize>;
+
+/// Gives primitives the triangles `corners`. Primitives that shared their indices share the new ones.
+fn turn_faces(
+    document: &mut Document,
+    names: &[PrimitiveName],
+    corners: &[u32],
+    turned: &mut TurnedIndices,
+) -> Result<(), Error> {
+    for name in names {
+        let stored = |document: &Document| {
+            let primitive = &document.meshes()[name.mesh].primitives[name.primitive];
+            (primitive.indices, primitive.mode)
+        };
+        let (old, mode) = stored(document);
+        let key = (old, mode, corners.len());
+        match turned.get(&key) {
+            Some(&indices) => document.edit_primitive(name.mesh, name.primitive, |json| {
+                json.insert("indices".to_owned(), indices.into());
+                if json.contains_key("mode") {
+                    json.insert("mode".to_owned(), TRIANGLES.into());
+                }
+            })?,
+            None => {
+                document.set_triangles(name.mesh, name.primitive, corners.to_vec())?;
+                turned.extend(stored(document).0.map(|indices| (key, indices)));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The mode of triangle lists (glTF 2.0, 5.24.4).
+const TRIANGLES: u32 = 4;
 
 /// The accessors of the primitives' normals, each with the primitives that use it.
 fn users_of_normals<'a>(

@@ -13,8 +13,8 @@ pub struct FixedFinding {
     /// The finding before the repair; [`Finding::left_because`] says why it is still there.
     #[serde(flatten)]
     pub finding: Finding,
-    /// Whether it was cured.
-    pub cured: bool,
+    /// Whether it was repaired.
+    pub repaired: bool,
 }
 
 /// Whether two findings say the same of the same place.
@@ -25,17 +25,21 @@ pub fn is_same(a: &Finding, b: &Finding) -> bool {
 
 /// What became of a finding. `remaining`: the findings after the repair.
 pub fn outcome(finding: Finding, remaining: &[Finding], options: &FixOptions) -> FixedFinding {
+    let left = |finding: Finding, reason: String| FixedFinding {
+        finding: finding.with_obstacle(Some(reason)),
+        repaired: false,
+    };
     if !options.repairs(&finding) {
-        let reason = Some("its code is not among those to repair".to_owned());
-        return FixedFinding { finding: finding.with_obstacle(reason), cured: false };
+        return left(finding, "its code is not among those to repair".to_owned());
     }
-    let is_asked_for = finding.code == Code::TangentOtherRecipe && options.asks_for_other_recipe();
-    match remaining.iter().find(|left| is_same(left, &finding)).filter(|_| !is_asked_for) {
-        None => FixedFinding { finding, cured: true },
-        Some(left) => {
-            let reason =
-                left.left_because.clone().unwrap_or_else(|| "the repair did not remove it".to_owned());
-            FixedFinding { finding: finding.with_obstacle(Some(reason)), cured: false }
+    match remaining.iter().find(|left| is_same(left, &finding)) {
+        None => FixedFinding { finding, repaired: true },
+        Some(_) if finding.code == Code::TangentOtherRecipe && options.asks_for_other_recipe() => {
+            left(finding, "another method than MikkTSpace was asked for".to_owned())
+        }
+        Some(same) => {
+            let reason = same.left_because.clone();
+            left(finding, reason.unwrap_or_else(|| "the repair did not remove it".to_owned()))
         }
     }
 }

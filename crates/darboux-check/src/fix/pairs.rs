@@ -1,4 +1,4 @@
-//! Flipped signs w and flipped green in the normal map cancel each other: bumps look right, and would be inverted if only one were cured.
+//! Flipped signs w and flipped green in the normal map cancel each other: bumps look right, and would be inverted if only one were repaired.
 
 use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveName};
@@ -8,7 +8,7 @@ use crate::code::Code;
 use crate::finding::Finding;
 
 const REASON: &str =
-    "flipped signs w and flipped green cancel here, and one of them is left; cure both or none";
+    "flipped signs w and flipped green cancel here, and one of them is left; repair both or none";
 
 /// The primitives and images that are left because of which one half of such a pair is left.
 #[derive(Debug, Default)]

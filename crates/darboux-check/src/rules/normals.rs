@@ -2,9 +2,11 @@
 
 use crate::code::Code;
 use crate::finding::Finding;
+use crate::parts::reversed_parts;
 use crate::rule::{Measured, SurfaceRule};
 use crate::severity::Severity;
 use crate::surface::{indices_where, length};
+use crate::text::counted;
 
 pub const RULES: &[SurfaceRule] = &[missing, not_finite, not_unit, against_winding];
 
@@ -27,8 +29,11 @@ fn not_finite(measured: &Measured<'_>) -> Vec<Finding> {
         return Vec::new();
     }
     vec![
-        Finding::new(Code::NormalNotFinite, format!("{} normals contain NaN or infinity", found.len()))
-            .with_items(&found),
+        Finding::new(
+            Code::NormalNotFinite,
+            counted(found.len(), "normal contains NaN or infinity", "normals contain NaN or infinity"),
+        )
+        .with_items(&found),
     ]
 }
 
@@ -40,7 +45,7 @@ fn not_unit(measured: &Measured<'_>) -> Vec<Finding> {
     }
     let smallest = found.iter().map(|&vertex| length(normals[vertex])).fold(f64::INFINITY, f64::min);
     let severity = if smallest < 0.1 { Severity::Error } else { Severity::Warning };
-    let text = format!("{} normals have another length than 1", found.len());
+    let text = counted(found.len(), "normal has another length than 1", "normals have another length than 1");
     vec![Finding::new(Code::NormalNotUnit, text).with_items(&found).with_severity(severity).with_evidence(
         "smallest length",
         smallest,
@@ -48,18 +53,29 @@ fn not_unit(measured: &Measured<'_>) -> Vec<Finding> {
     )]
 }
 
-/// Most faces have normals at all corners that point to their back.
+/// Most faces, or all faces of some connected parts, have normals that point to their back.
 fn against_winding(measured: &Measured<'_>) -> Vec<Finding> {
     let surface = measured.surface;
-    if !surface.is_wound_against_normals() {
+    let found = surface.triangles_against_normals();
+    if found.is_empty() {
         return Vec::new();
     }
-    let found = surface.triangles_against_normals();
-    let share = 300.0 * found.len() as f64 / surface.vertex_of_corner.len() as f64;
-    let text = format!("the normals of {} triangles point to their back", found.len());
-    vec![Finding::new(Code::NormalAgainstWinding, text).with_items(&found).with_evidence(
-        "triangles",
-        share,
-        "%",
-    )]
+    let finding = |triangles: &[usize], place: String| {
+        let share = 300.0 * triangles.len() as f64 / surface.vertex_of_corner.len() as f64;
+        let what = counted(triangles.len(), "triangle", "triangles");
+        let verb = if triangles.len() == 1 { "points to its back" } else { "point to their back" };
+        let text = format!("the normals of {what}{place} {verb}");
+        let finding = Finding::new(Code::NormalAgainstWinding, text).with_items(triangles);
+        finding.with_evidence("part of all triangles", share, "%")
+    };
+    if surface.is_wound_against_normals() {
+        return vec![finding(&found, String::new())];
+    }
+    let reversed = reversed_parts(surface);
+    if reversed.triangles.is_empty() {
+        return Vec::new();
+    }
+    let parts = counted(reversed.all_parts, "connected part", "connected parts");
+    let partly = finding(&reversed.triangles, format!(", in {} of {parts},", reversed.parts));
+    vec![partly.with_severity(Severity::Warning)]
 }

@@ -8,6 +8,7 @@ use crate::fit::{Difference, Fit, on_mirrored_seams};
 use crate::rule::{Measured, SurfaceRule};
 use crate::severity::Severity;
 use crate::surface::{Surface, dot, indices_where, length, xyz};
+use crate::text::counted;
 
 pub const RULES: &[SurfaceRule] = &[
     missing,
@@ -25,6 +26,10 @@ pub const RULES: &[SurfaceRule] = &[
 
 /// How far lengths of tangents may be from 1: 8-bit tangents are up to 0.007 off.
 const UNIT: f64 = 0.02;
+
+/// The share of triangles, in percent, above which flipped signs are an error: each shows dents for bumps, and one in a hundred is seen on a
+/// model that fills the screen. Fewer may be slivers, whose UV area is rounding, so that programs differ in their sign.
+const MAX_PERCENT_OF_SIGNS: f64 = 1.0;
 
 /// Degrees from the plane of the normal.
 const MAX_DEGREES_FROM_PLANE: [f64; 2] = [2.0, 15.0];
@@ -46,23 +51,21 @@ fn unused(measured: &Measured<'_>) -> Vec<Finding> {
     is_unused.then(finding).into_iter().collect()
 }
 
-/// A finding about the vertices whose tangents fulfil a condition.
+/// A finding about the vertices whose tangents fulfil a condition. `one`, `many`: what is said of one tangent, and of several.
 fn vertices(
     surface: &Surface,
     code: Code,
     condition: impl Fn([f32; 4]) -> bool,
-    text: impl Fn(usize) -> String,
+    [one, many]: [&str; 2],
 ) -> Vec<Finding> {
     let Some(tangents) = &surface.tangents else { return Vec::new() };
     let found = indices_where(tangents, |tangent| condition(*tangent));
     if found.is_empty() {
         return Vec::new();
     }
-    vec![Finding::new(code, text(found.len())).with_items(&found).with_evidence(
-        "vertices",
-        found.len() as f64,
-        "vertices",
-    )]
+    let share = 100.0 * found.len() as f64 / tangents.len() as f64;
+    let finding = Finding::new(code, counted(found.len(), one, many)).with_items(&found);
+    vec![finding.with_evidence("part of all vertices", share, "%")]
 }
 
 fn is_finite(tangent: [f32; 4]) -> bool {
@@ -78,29 +81,27 @@ fn not_finite(measured: &Measured<'_>) -> Vec<Finding> {
         measured.surface,
         Code::TangentNotFinite,
         |tangent| !is_finite(tangent),
-        |count| format!("{count} tangents contain NaN or infinity"),
+        ["tangent contains NaN or infinity", "tangents contain NaN or infinity"],
     )
 }
 
 fn zero(measured: &Measured<'_>) -> Vec<Finding> {
     let is_zero = |tangent| is_finite(tangent) && !has_length(tangent);
-    vertices(measured.surface, Code::TangentZero, is_zero, |count| {
-        format!("{count} tangents have length zero")
-    })
+    let text = ["tangent has length zero", "tangents have length zero"];
+    vertices(measured.surface, Code::TangentZero, is_zero, text)
 }
 
 fn not_unit(measured: &Measured<'_>) -> Vec<Finding> {
     let is_other = |tangent| has_length(tangent) && (length(xyz(tangent)) - 1.0).abs() > UNIT;
-    vertices(measured.surface, Code::TangentNotUnit, is_other, |count| {
-        format!("{count} tangents have another length than 1")
-    })
+    let text = ["tangent has another length than 1", "tangents have another length than 1"];
+    vertices(measured.surface, Code::TangentNotUnit, is_other, text)
 }
 
 fn sign_not_one(measured: &Measured<'_>) -> Vec<Finding> {
     let is_other = |tangent: [f32; 4]| is_finite(tangent) && (tangent[3].abs() - 1.0).abs() > 0.01;
-    vertices(measured.surface, Code::TangentSignNotOne, is_other, |count| {
-        format!("{count} tangents have a sign w that is neither 1 nor -1")
-    })
+    let text =
+        ["tangent has a sign w that is neither 1 nor -1", "tangents have a sign w that is neither 1 nor -1"];
+    vertices(measured.surface, Code::TangentSignNotOne, is_other, text)
 }
 
 fn not_perpendicular(measured: &Measured<'_>) -> Vec<Finding> {
@@ -123,10 +124,12 @@ fn not_perpendicular(measured: &Measured<'_>) -> Vec<Finding> {
     }
     let worst = angles.iter().copied().fold(0.0, f64::max);
     let severity = if worst > MAX_DEGREES_FROM_PLANE[1] { Severity::Error } else { Severity::Warning };
-    let text = format!(
-        "{} tangents are not perpendicular to their normals, by up to {worst:.1} degrees",
-        found.len()
+    let tangents = counted(
+        found.len(),
+        "tangent is not perpendicular to its normal",
+        "tangents are not perpendicular to their normals",
     );
+    let text = format!("{tangents}, by up to {worst:.1} degrees");
     vec![
         Finding::new(Code::TangentNotPerpendicular, text)
             .with_items(&found)
@@ -143,7 +146,8 @@ fn shared_across_mirror(measured: &Measured<'_>) -> Vec<Finding> {
     if found.is_empty() {
         return Vec::new();
     }
-    let text = format!("{} vertices serve both sides of mirrored UV seams", found.len());
+    let vertices = counted(found.len(), "vertex serves", "vertices serve");
+    let text = format!("{vertices} both sides of mirrored UV seams");
     vec![Finding::new(Code::TangentSharedAcrossMirror, text).with_items(&found)]
 }
 
@@ -157,20 +161,29 @@ fn sign_mixed(measured: &Measured<'_>) -> Vec<Finding> {
     if found.is_empty() {
         return Vec::new();
     }
-    let text = format!("{} triangles have corners with both signs", found.len());
+    let triangles = counted(found.len(), "triangle has", "triangles have");
+    let text = format!("{triangles} corners with both signs");
     vec![Finding::new(Code::TangentSignMixed, text).with_items(&found)]
 }
 
 /// The rules that one measurement decides: at most one of them is true.
 fn direction_or_sign(measured: &Measured<'_>) -> Vec<Finding> {
-    let Some(Fit { difference, corners, supporting, .. }) = measured.fit else { return Vec::new() };
+    let Some(Fit { difference, supporting, measured: all, items }) = &measured.fit else { return Vec::new() };
     let set = measured.surface.uv_set;
-    let (code, text) = match difference {
+    let (code, text) = match *difference {
         Difference::None | Difference::Unknown => return Vec::new(),
         Difference::SignFlipped => (Code::TangentSignFlipped, "all signs w are flipped".to_owned()),
         Difference::SignFlippedWhereMirrored => {
             let text = "the signs w are right on one side of the mirrored UVs and flipped on the other";
             (Code::TangentSignFlippedWhereMirrored, text.to_owned())
+        }
+        Difference::SignPartlyFlipped => {
+            let signs = counted(*supporting, "triangle", "triangles");
+            (Code::TangentSignPartlyFlipped, format!("the signs w of all corners of {signs} are flipped"))
+        }
+        Difference::PartlyNegated => {
+            let tangents = counted(*supporting, "tangent points", "tangents point");
+            (Code::TangentNegated, format!("{tangents} against u"))
         }
         Difference::Rotated => (Code::TangentRotated, "the tangents point along v".to_owned()),
         Difference::Negated => (Code::TangentNegated, "the tangents point against u".to_owned()),
@@ -179,14 +192,22 @@ fn direction_or_sign(measured: &Measured<'_>) -> Vec<Finding> {
             (Code::TangentOtherUvSet, text)
         }
     };
-    let share = 100.0 * supporting as f64 / corners.max(1) as f64;
-    vec![Finding::new(code, text).with_count(supporting).with_evidence("corners that show it", share, "%")]
+    let part = match difference {
+        Difference::SignPartlyFlipped => "part of all triangles",
+        Difference::PartlyNegated => "part of all vertices",
+        _ => "part of all corners",
+    };
+    let share = 100.0 * *supporting as f64 / (*all).max(1) as f64;
+    let is_small = *difference == Difference::SignPartlyFlipped && share <= MAX_PERCENT_OF_SIGNS;
+    let severity = if is_small { Severity::Warning } else { code.severity() };
+    let finding = Finding::new(code, text).with_items(items).with_count(*supporting);
+    vec![finding.with_severity(severity).with_evidence(part, share, "%")]
 }
 
 fn other_recipe(measured: &Measured<'_>) -> Vec<Finding> {
     let surface = measured.surface;
     let is_fit = measured.fit.as_ref().is_some_and(|fit| {
-        matches!(fit.difference, Difference::None | Difference::Unknown) && fit.corners > 0
+        matches!(fit.difference, Difference::None | Difference::Unknown) && fit.measured > 0
     });
     let (Some(mesh), Some(tangents)) = (surface.mesh(surface.uv_set), surface.corner_tangents()) else {
         return Vec::new();
@@ -207,20 +228,31 @@ fn other_recipe(measured: &Measured<'_>) -> Vec<Finding> {
     if is_mikktspace(&best) && close(best) >= 99.0 || best.corners == 0 {
         return Vec::new();
     }
-    let text = if close(best) >= 90.0 && !is_mikktspace(&best) {
-        format!("the tangents were computed by {}", name(&best.recipe))
-    } else {
-        "the tangents were computed in a way that is not recognised".to_owned()
+    let differing = mikktspace.corners - mikktspace.close;
+    let (text, nearest) = match () {
+        () if is_mikktspace(&best) => {
+            let corners = counted(differing, "corner differs", "corners differ");
+            (format!("most tangents are those of MikkTSpace, but {corners}"), None)
+        }
+        () if close(best) >= 90.0 => {
+            let text = format!("the tangents were computed by {}", name(&best.recipe));
+            (text, Some("corners within 0.1 degrees of this method"))
+        }
+        () => {
+            let text = "the tangents are not those of any method that Darboux knows";
+            (text.to_owned(), Some("corners within 0.1 degrees of the nearest known method"))
+        }
     };
     let severity = if mikktspace.worst > 0.5 { Severity::Warning } else { Severity::Info };
-    vec![
-        Finding::new(Code::TangentOtherRecipe, text)
-            .with_severity(severity)
-            .with_count(mikktspace.corners - mikktspace.close)
-            .with_evidence("corners within 0.1 degrees of MikkTSpace", close(mikktspace), "%")
-            .with_evidence("largest angle to MikkTSpace", mikktspace.worst, "degrees")
-            .with_evidence("corners within 0.1 degrees of the best recipe", close(best), "%"),
-    ]
+    let finding = Finding::new(Code::TangentOtherRecipe, text)
+        .with_severity(severity)
+        .with_count(differing)
+        .with_evidence("corners within 0.1 degrees of MikkTSpace", close(mikktspace), "%")
+        .with_evidence("largest angle to MikkTSpace", mikktspace.worst, "degrees");
+    vec![match nearest {
+        Some(what) => finding.with_evidence(what, close(best), "%"),
+        None => finding,
+    }]
 }
 
 /// A recipe by the programs that use it.

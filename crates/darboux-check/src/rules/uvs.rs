@@ -4,9 +4,11 @@ use crate::code::Code;
 use crate::finding::Finding;
 use crate::overlap;
 use crate::rule::{Measured, SurfaceRule};
-use crate::surface::{Surface, cross, length, sub, uv_area};
+use crate::severity::Severity;
+use crate::surface::{Surface, cross, indices_where, length, sub, uv_area};
+use crate::text::counted;
 
-pub const RULES: &[SurfaceRule] = &[missing, degenerate, mirrored, overlapping];
+pub const RULES: &[SurfaceRule] = &[missing, not_finite, degenerate, mirrored, overlapping];
 
 fn missing(measured: &Measured<'_>) -> Vec<Finding> {
     let Surface { needs_tangents, uv_sets, uv_set, .. } = measured.surface;
@@ -17,6 +19,21 @@ fn missing(measured: &Measured<'_>) -> Vec<Finding> {
         Code::UvMissing,
         format!("its normal texture uses TEXCOORD_{uv_set}, which it does not have"),
     )]
+}
+
+/// UVs of any set: every texture may use it. Those of the normal texture decide the tangents, too.
+fn not_finite(measured: &Measured<'_>) -> Vec<Finding> {
+    let surface = measured.surface;
+    let of_set = |(&set, uvs): (&usize, &Vec<[f32; 2]>)| {
+        let found = surface.used(indices_where(uvs, |uv| !uv.iter().all(|x| x.is_finite())));
+        let decides = surface.needs_tangents && set == surface.uv_set;
+        let severity = if decides { Severity::Error } else { Severity::Warning };
+        let what = counted(found.len(), "vertex has", "vertices have");
+        let text = format!("{what} NaN or infinity in TEXCOORD_{set}");
+        let finding = || Finding::new(Code::UvNotFinite, text).with_items(&found).with_severity(severity);
+        (!found.is_empty()).then(finding)
+    };
+    surface.uv_sets.iter().filter_map(of_set).collect()
 }
 
 /// Triangles with an area in space and none in UV space.
@@ -32,7 +49,8 @@ fn degenerate(measured: &Measured<'_>) -> Vec<Finding> {
     if found.is_empty() {
         return Vec::new();
     }
-    let text = format!("{} triangles have no area in TEXCOORD_{}", found.len(), surface.uv_set);
+    let triangles = counted(found.len(), "triangle has", "triangles have");
+    let text = format!("{triangles} no area in TEXCOORD_{}", surface.uv_set);
     vec![Finding::new(Code::UvDegenerate, text).with_items(&found)]
 }
 
@@ -47,7 +65,7 @@ fn mirrored(measured: &Measured<'_>) -> Vec<Finding> {
     if found.is_empty() {
         return Vec::new();
     }
-    let text = format!("{} triangles have mirrored UVs", found.len());
+    let text = counted(found.len(), "triangle has mirrored UVs", "triangles have mirrored UVs");
     vec![Finding::new(Code::UvMirrored, text).with_items(&found)]
 }
 
@@ -65,7 +83,7 @@ fn overlapping(measured: &Measured<'_>) -> Vec<Finding> {
     let count = found.triangles.len();
     let text = format!("{at_least}{count} triangles share area in TEXCOORD_{} with others", surface.uv_set);
     vec![Finding::new(Code::UvOverlapping, text).with_items(&found.triangles).with_evidence(
-        "their part of the UV area",
+        "part of the UV area",
         100.0 * found.area_share,
         "%",
     )]

@@ -1,5 +1,7 @@
 //! The mistakes that are made in geometry and materials.
 
+use std::collections::BTreeSet;
+
 use darboux::Method;
 use darboux_check::Code;
 
@@ -99,6 +101,18 @@ pub const MISTAKES: &[Mistake] = &[
         },
     },
     Mistake {
+        code: Code::TangentSignPartlyFlipped,
+        how: "w negated in the first 44 % of the triangles",
+        make: |model| {
+            let corners = model.indices.len() / 3 * 44 / 100 * 3;
+            let spoilt: BTreeSet<u32> = model.indices[..corners].iter().copied().collect();
+            let tangents = model.tangents();
+            spoilt.into_iter().for_each(|vertex| tangents[vertex as usize][3] *= -1.0);
+            // On a mirrored model the first triangles may be all that are mirrored.
+            model.unsplit.is_none()
+        },
+    },
+    Mistake {
         code: Code::TangentRotated,
         how: "bitangents stored",
         make: |model| {
@@ -115,6 +129,16 @@ pub const MISTAKES: &[Mistake] = &[
         how: "tangents negated",
         make: |model| {
             model.tangents().iter_mut().for_each(|tangent| (0..3).for_each(|i| tangent[i] = -tangent[i]));
+            true
+        },
+    },
+    Mistake {
+        code: Code::TangentNegated,
+        how: "one tangent negated",
+        make: |model| {
+            let middle = model.indices[model.indices.len() / 2] as usize;
+            let tangent = &mut model.tangents()[middle];
+            (0..3).for_each(|i| tangent[i] = -tangent[i]);
             true
         },
     },
@@ -162,6 +186,14 @@ pub const MISTAKES: &[Mistake] = &[
         },
     },
     Mistake {
+        code: Code::PositionNotFinite,
+        how: "one x set to NaN",
+        make: |model| {
+            model.positions[1][0] = f32::NAN;
+            true
+        },
+    },
+    Mistake {
         code: Code::NormalMissing,
         how: "normals removed",
         make: |model| {
@@ -198,6 +230,14 @@ pub const MISTAKES: &[Mistake] = &[
         how: "texCoord set to 3",
         make: |model| {
             model.uv_set = 3;
+            true
+        },
+    },
+    Mistake {
+        code: Code::UvNotFinite,
+        how: "one u set to infinity",
+        make: |model| {
+            model.uvs[model.uv_set][1][0] = f32::INFINITY;
             true
         },
     },

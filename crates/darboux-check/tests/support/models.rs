@@ -195,6 +195,20 @@ impl Model {
         new
     }
 
+    /// Adds a copy of the surface beside it whose faces are turned over, as when a mirrored part was joined.
+    pub fn add_reversed_copy(&mut self) {
+        let count = self.positions.len();
+        let width = self.positions.iter().fold(0.0f32, |width, position| width.max(position[0].abs()));
+        self.positions.extend_from_within(..);
+        self.positions[count..].iter_mut().for_each(|position| position[0] += 4.0 * width);
+        self.normals.iter_mut().for_each(|normals| normals.extend_from_within(..));
+        self.tangents.iter_mut().for_each(|tangents| tangents.extend_from_within(..));
+        self.uvs.iter_mut().for_each(|uvs| uvs.extend_from_within(..));
+        let turned = self.indices.as_chunks::<3>().0.iter().flat_map(|[a, b, c]| [a, c, b]);
+        let turned: Vec<u32> = turned.map(|vertex| vertex + count as u32).collect();
+        self.indices.extend(turned);
+    }
+
     /// The model as a GLB, read.
     pub fn document(&self) -> Document {
         Document::from_bytes(&self.name, self.glb(), None, &LoadOptions::default()).expect("a valid GLB")

@@ -11,10 +11,10 @@ use super::table::{PairRow, Row};
 pub fn page(rows: &[Row], pairs: &[PairRow]) -> String {
     let mut text = include_str!("page.md").to_owned();
     text += "| mistake | how it was made | models | named | with other errors | equal after `--fix` |\n|---|---|---|---|---|---|\n";
-    for Row { code, how, models, named, with_other_errors, cured, .. } in rows {
-        let cured = cured.map_or_else(|| "left".to_owned(), |cured| cured.to_string());
+    for Row { code, how, models, named, with_other_errors, repaired, .. } in rows {
+        let repaired = repaired.map_or_else(|| "left".to_owned(), |repaired| repaired.to_string());
         let link = link(*code);
-        writeln!(text, "| {link} | {how} | {models} | {named} | {with_other_errors} | {cured} |")
+        writeln!(text, "| {link} | {how} | {models} | {named} | {with_other_errors} | {repaired} |")
             .expect("text");
     }
     text += include_str!("flips.md");

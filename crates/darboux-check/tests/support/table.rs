@@ -23,7 +23,7 @@ pub struct Row {
     /// Those where the check named another error.
     pub with_other_errors: usize,
     /// Those that the repair made equal to the healthy model; none where the repair leaves the mistake.
-    pub cured: Option<usize>,
+    pub repaired: Option<usize>,
     /// What went wrong, one sentence each.
     pub failures: Vec<String>,
 }
@@ -57,11 +57,11 @@ fn row(mistake: &Mistake, models: &[Model]) -> Row {
         row.models += 1;
         let findings = check_document(&mut model.document(), &without_maps()).expect("a valid document");
         row.count(&healthy.name, &findings);
-        if row.cured.is_none() {
+        if row.repaired.is_none() {
             continue;
         }
-        match cured(&model, findings, healthy) {
-            Ok(()) => *row.cured.get_or_insert(0) += 1,
+        match repaired_model(&model, findings, healthy) {
+            Ok(()) => *row.repaired.get_or_insert(0) += 1,
             Err(problem) => row.failures.push(format!("{code} on {}: {problem}", healthy.name)),
         }
     }
@@ -69,7 +69,7 @@ fn row(mistake: &Mistake, models: &[Model]) -> Row {
 }
 
 /// Repairs a model, and compares it with the healthy one.
-fn cured(model: &Model, findings: Vec<Finding>, healthy: &Model) -> Result<(), String> {
+fn repaired_model(model: &Model, findings: Vec<Finding>, healthy: &Model) -> Result<(), String> {
     let options = FixOptions::default().with_check(without_maps());
     let repair = |glb: Vec<u8>, findings| {
         let mut document = Document::from_bytes("repaired", glb, None, &LoadOptions::default())?;
@@ -118,15 +118,15 @@ fn equal(healthy: &mut Document, repaired: &mut Document) -> Result<(), String> 
 fn map_row(mistake: &MapMistake, models: &[Model]) -> Row {
     let MapMistake { code, how, make, tolerance } = *mistake;
     let mut row = Row::new(code, how);
-    assert_eq!(row.cured.is_some(), tolerance.is_some(), "{code}");
+    assert_eq!(row.repaired.is_some(), tolerance.is_some(), "{code}");
     for healthy in models {
         row.models += 1;
         let map = make(&healthy.map);
         let findings = check_map(&map.file, &CheckOptions::default()).findings;
         row.count(&healthy.name, &findings);
         let Some(tolerance) = tolerance else { continue };
-        match cured_map(&map, &healthy.map, tolerance) {
-            Ok(()) => *row.cured.get_or_insert(0) += 1,
+        match repaired_map(&map, &healthy.map, tolerance) {
+            Ok(()) => *row.repaired.get_or_insert(0) += 1,
             Err(problem) => row.failures.push(format!("{code} on the map of {}: {problem}", healthy.name)),
         }
     }
@@ -134,7 +134,7 @@ fn map_row(mistake: &MapMistake, models: &[Model]) -> Row {
 }
 
 /// Repairs a map, and compares its texels with the healthy ones.
-fn cured_map(map: &Map, healthy: &Map, tolerance: u8) -> Result<(), String> {
+fn repaired_map(map: &Map, healthy: &Map, tolerance: u8) -> Result<(), String> {
     let fixed = fix_map("map.png", &map.file, &LoadOptions::default(), &FixOptions::default());
     let fixed = fixed.map_err(|error| error.to_string())?;
     let image = fixed.image.ok_or("nothing was repaired")?;
@@ -158,8 +158,8 @@ pub fn rgb(file: &[u8]) -> Vec<[u8; 3]> {
 
 impl Row {
     fn new(code: Code, how: &'static str) -> Self {
-        let cured = (code.fix() == "cured").then_some(0);
-        Self { code, how, models: 0, named: 0, with_other_errors: 0, cured, failures: Vec::new() }
+        let repaired = code.repair().is_some().then_some(0);
+        Self { code, how, models: 0, named: 0, with_other_errors: 0, repaired, failures: Vec::new() }
     }
 
     /// Counts a check of a model.
@@ -215,7 +215,7 @@ pub fn pairs() -> Vec<PairRow> {
 /// Mistakes that are repaired make pairs; those that remove data leave nothing for another one.
 fn is_paired(mistake: &Mistake) -> bool {
     let removes = [Code::TangentMissing, Code::NormalMissing];
-    mistake.code.fix() == "cured" && !removes.contains(&mistake.code)
+    mistake.code.repair().is_some() && !removes.contains(&mistake.code)
 }
 
 /// Makes a mistake on a model that has another one.

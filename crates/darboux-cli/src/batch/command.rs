@@ -1,9 +1,10 @@
 //! The interface of the subcommands that write one output file for each input file.
 
 use serde::Serialize;
+use serde_json::{Map, Value};
 
 use super::plan::Job;
-use super::report::{FileReport, Status};
+use super::report::{FileReport, Status, SummarySource};
 use crate::inputs::UsageError;
 use crate::options::files::FileOptions;
 use crate::options::messages::MessageOptions;
@@ -29,7 +30,9 @@ pub trait FileCommand: Sync {
     fn messages(&self) -> &MessageOptions;
 
     /// Refuses arguments that contradict each other.
-    fn check(&self) -> Result<(), UsageError>;
+    fn check(&self) -> Result<(), UsageError> {
+        Ok(())
+    }
 
     /// The options that affect outputs, as text; the journal compares these texts.
     fn options(&self) -> String;
@@ -38,9 +41,14 @@ pub trait FileCommand: Sync {
     fn process(&self, job: &Job, progress: &FileProgress<'_>)
     -> Result<ProcessedFile<Self::Summary>, String>;
 
-    /// Whether what was found in a file, which was processed, makes the exit code 1.
-    fn fails(&self, _summary: &Self::Summary) -> bool {
+    /// Whether what was found in a file, in this run or in an earlier one, makes the exit code 1.
+    fn fails(&self, _summary: &SummarySource<Self::Summary>) -> bool {
         false
+    }
+
+    /// What a run says of a file that an earlier run processed, in addition; `recorded` is the summary of that run.
+    fn note_up_to_date(_recorded: &Map<String, Value>) -> Option<String> {
+        None
     }
 
     /// What was done to each part of a file, one line each.

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use crate::inputs::{FoundInputs, Input, UsageError, check_stdin};
 use crate::options::files::FileOptions;
-use crate::paths::{canonical, is_model, is_png, refuse_missing_folder};
+use crate::paths::{canonical, is_image, is_model, is_png, refuse_missing_folder};
 
 /// Where a file is written to.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -46,6 +46,11 @@ pub struct OutputRules<'a> {
 impl OutputRules<'_> {
     fn accepts(self, path: &Path) -> bool {
         is_model(path) || (self.images && is_png(path))
+    }
+
+    /// The extension of the output of an input whose own extension cannot be written.
+    fn extension_for(self, input: &Path) -> &'static str {
+        if self.images && is_image(input) { "png" } else { "glb" }
     }
 }
 
@@ -134,12 +139,12 @@ fn output_of(options: &FileOptions, rules: OutputRules<'_>, input: &Input, folde
             let name = || Path::new(path.file_name().unwrap_or_default());
             let below = folder.and_then(|folder| path.strip_prefix(folder).ok());
             let output = out_dir.join(below.unwrap_or_else(name));
-            if rules.accepts(&output) { output } else { output.with_extension("glb") }
+            if rules.accepts(&output) { output } else { output.with_extension(rules.extension_for(path)) }
         }
         None if options.in_place => path.clone(),
         None => {
             let extension = if rules.accepts(path) { path.extension() } else { None };
-            let extension = extension.unwrap_or(OsStr::new("glb"));
+            let extension = extension.unwrap_or(OsStr::new(rules.extension_for(path)));
             let mut name = path.file_stem().unwrap_or_default().to_os_string();
             name.push(format!(".{}.", rules.suffix));
             name.push(extension);

@@ -6,18 +6,20 @@ mod report;
 mod text;
 
 use std::num::NonZeroUsize;
-use std::path::Path;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::{fs, thread};
 
-use darboux_check::{CheckedMap, Finding, check_document, check_map, check_map_on_model};
+use darboux_check::{
+    CheckOptions, CheckedMap, Finding, check_document, check_map, check_map_on_model, check_model_of_maps,
+};
 
 use crate::batch;
 use crate::documents::load;
 use crate::exit;
 use crate::inputs::{Input, SearchMode, UsageError, check_stdin, find_inputs};
 use crate::json::{VERSION, to_json};
+use crate::paths::is_image;
 use crate::terminal::{Messages, write_stdout};
 use arguments::CheckArguments;
 use report::{CheckReport, CheckedFile, ReportedMap};
@@ -37,12 +39,19 @@ pub fn run(arguments: &CheckArguments) -> u8 {
     }
     let found = find_inputs(&arguments.files.inputs, SearchMode::All);
     let inputs: Vec<&Input> = found.files.iter().map(|(input, _)| input).collect();
+    let model = match Model::of(arguments, &inputs) {
+        Ok(model) => model,
+        Err(UsageError(sentence)) => {
+            messages.error(&sentence);
+            return exit::USAGE;
+        }
+    };
     let mut files: Vec<CheckedFile> = found
         .failed
         .iter()
         .map(|(path, reason)| failed(path.display().to_string(), format!("{}: {reason}", path.display())))
         .collect();
-    files.extend(check_all(&inputs, arguments));
+    files.extend(check_all(&inputs, arguments, &model));
     files.iter().filter_map(|file| file.error.as_ref()).for_each(|error| messages.error(error));
     let code = exit_code(&files, arguments);
     let text = match (arguments.messages.json, arguments.messages.quiet) {
@@ -81,7 +90,7 @@ fn exit_code(files: &[CheckedFile], arguments: &CheckArguments) -> u8 {
 }
 
 /// Checks files, several at the same time, in the order of the inputs.
-fn check_all(inputs: &[&Input], arguments: &CheckArguments) -> Vec<CheckedFile> {
+fn check_all(inputs: &[&Input], arguments: &CheckArguments, model: &Model) -> Vec<CheckedFile> {
     let next = AtomicUsize::new(0);
     let checked: Vec<OnceLock<CheckedFile>> = inputs.iter().map(|_| OnceLock::new()).collect();
     let work = || {
@@ -89,7 +98,7 @@ fn check_all(inputs: &[&Input], arguments: &CheckArguments) -> Vec<CheckedFile> 
             let number = next.fetch_add(1, Ordering::Relaxed);
             let Some(input) = inputs.get(number) else { return };
             // Every number is taken once.
-            _ = checked[number].set(check_file(input, arguments));
+            _ = checked[number].set(check_file(input, arguments, model));
         }
     };
     let cores = || thread::available_parallelism().map_or(1, NonZeroUsize::get);
@@ -104,7 +113,7 @@ fn check_all(inputs: &[&Input], arguments: &CheckArguments) -> Vec<CheckedFile> 
     checked.into_iter().filter_map(OnceLock::into_inner).collect()
 }
 
-fn check_file(input: &Input, arguments: &CheckArguments) -> CheckedFile {
+fn check_file(input: &Input, arguments: &CheckArguments, model: &Model) -> CheckedFile {
     let options = arguments.check_options();
     let name = input.to_string();
     let reported = |findings: Vec<Finding>, map: Option<ReportedMap>| CheckedFile {
@@ -120,7 +129,7 @@ fn check_file(input: &Input, arguments: &CheckArguments) -> CheckedFile {
     let checked = match input {
         Input::File(path) if is_image(path) => fs::read(path)
             .map_err(|error| format!("{name}: cannot be read: {error}"))
-            .and_then(|file| check_image(&file, arguments))
+            .and_then(|file| model.check_image(&file, &options))
             .map(|checked| reported(checked.findings, checked.judgement.as_ref().map(Into::into))),
         _ => load(input, &arguments.files.reading)
             .and_then(|mut document| {
@@ -131,20 +140,32 @@ fn check_file(input: &Input, arguments: &CheckArguments) -> CheckedFile {
     checked.unwrap_or_else(|sentence| failed(name.clone(), sentence))
 }
 
-/// Checks a normal map, with its model where one is named.
-fn check_image(file: &[u8], arguments: &CheckArguments) -> Result<CheckedMap, String> {
-    let options = arguments.check_options();
-    let Some(model) = &arguments.model else { return Ok(check_map(file, &options)) };
-    let mut document = load(&Input::File(model.clone()), &arguments.files.reading)?;
-    check_map_on_model(file, &mut document, &options).map_err(|error| error.to_string())
-}
+/// The model that images are checked on: its findings, or why it cannot be read; none without `--model`.
+struct Model(Option<Result<Vec<Finding>, String>>);
 
-/// Whether the extension is that of an image.
-fn is_image(path: &Path) -> bool {
-    let is_one_of = |extension: &std::ffi::OsStr| {
-        ["png", "jpg", "jpeg", "webp"].iter().any(|image| extension.eq_ignore_ascii_case(image))
-    };
-    path.extension().is_some_and(is_one_of)
+impl Model {
+    /// Reads and checks the model once for all images. Errors: an input is no image.
+    fn of(arguments: &CheckArguments, inputs: &[&Input]) -> Result<Self, UsageError> {
+        let Some(model) = &arguments.model else { return Ok(Self(None)) };
+        let is_image = |input: &Input| matches!(input, Input::File(path) if is_image(path));
+        if let Some(other) = inputs.iter().find(|input| !is_image(input)) {
+            return Err(UsageError(format!(
+                "--model names the model of normal maps, and {other} is no image (.png, .jpg, .webp); check models without it"
+            )));
+        }
+        let document = load(&Input::File(model.clone()), &arguments.files.reading);
+        let check = |mut document| check_model_of_maps(&mut document).map_err(|error| error.to_string());
+        Ok(Self(Some(document.and_then(check))))
+    }
+
+    /// Checks a normal map, on the model where there is one.
+    fn check_image(&self, file: &[u8], options: &CheckOptions) -> Result<CheckedMap, String> {
+        match &self.0 {
+            None => Ok(check_map(file, options)),
+            Some(Ok(on_model)) => Ok(check_map_on_model(file, on_model, options)),
+            Some(Err(sentence)) => Err(sentence.clone()),
+        }
+    }
 }
 
 fn failed(input: String, sentence: String) -> CheckedFile {

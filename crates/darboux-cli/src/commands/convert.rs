@@ -103,7 +103,7 @@ impl FileCommand for ConvertArguments {
             Input::File(path) if is_png(path) || starts_as_png(path) => {
                 self.image(PngImage::open(path, &options).map_err(sentence)?, &job.output)
             }
-            Input::File(path) if FileKind::of(path) == Some(FileKind::OtherImage) => {
+            Input::File(path) if FileKind::of(path).is_some_and(|kind| !kind.is_model()) => {
                 Err(format!("{}: only PNG images can be converted; save it as a PNG first", path.display()))
             }
             Input::File(_) => self.model(load_any(&job.input, &self.files.reading)?, job, progress),

@@ -12,7 +12,7 @@ use crate::batch::command::{FileCommand, ProcessedFile};
 use crate::batch::plan::Job;
 use crate::batch::report::FileReport;
 use crate::documents::{load, save};
-use crate::inputs::{UsageError, output_suffix};
+use crate::inputs::output_suffix;
 use crate::options::files::FileOptions;
 use crate::options::messages::MessageOptions;
 use crate::terminal::FileProgress;
@@ -35,10 +35,6 @@ impl FileCommand for NormalsArguments {
 
     fn messages(&self) -> &MessageOptions {
         &self.messages
-    }
-
-    fn check(&self) -> Result<(), UsageError> {
-        Ok(())
     }
 
     fn options(&self) -> String {

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use super::elements::Target;
 
 /// Edits of the JSON, as the new text of elements by their index, and new bytes.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Edits {
     pub primitives: BTreeMap<(usize, usize), String>,
     pub accessors: BTreeMap<usize, String>,
@@ -32,7 +32,7 @@ pub struct Edits {
 }
 
 /// A new buffer view and its bytes.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct NewView {
     pub bytes: Vec<u8>,
     pub stride: Option<usize>,
@@ -40,7 +40,7 @@ pub struct NewView {
 }
 
 /// The new content of an image that is a file.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct ImageFile {
     /// The path relative to the document's folder.
     pub relative: PathBuf,

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use darboux::BitangentDirection;
 use darboux_check::{CheckOptions, Code, Severity};
@@ -18,7 +19,7 @@ Checks the tangents, normals and UVs of every primitive, how the tangents were c
 up (OpenGL) or down (DirectX), and whether they are normals at all. Every finding has a code, numbers as evidence, what it looks like on screen and \
 the cure. Images (.png, .jpg, .webp) are checked as normal maps.\n\n\
 Without --fix no file is written. With --fix the repaired file is written beside its input, model.glb as model.fixed.glb, unless -o, --out-dir or \
---in-place says otherwise; what cannot be repaired without guessing is left, and the reason printed. A second run changes nothing.\n\n\
+--in-place says otherwise; what cannot be repaired without guessing is left, and the reason printed. Nothing is left to repair in the repaired file.\n\n\
 The exit code is 1 if a file cannot be read, or if a finding that is not repaired is at least as severe as --fail-on says. docs/check.md lists all \
 codes.";
 
@@ -44,15 +45,29 @@ pub struct CheckArguments {
     pub files: FileOptions,
 
     /// Print the meaning of a code and exit
-    #[arg(long, value_name = "CODE", conflicts_with = "inputs")]
+    #[arg(long, value_name = "CODE", value_parser = code(), hide_possible_values = true, conflicts_with = "inputs")]
     pub explain: Option<Code>,
 
     /// Report these codes only
-    #[arg(long, value_name = "CODE,...", value_delimiter = ',', help_heading = "Findings")]
+    #[arg(
+        long,
+        value_name = "CODE,...",
+        value_delimiter = ',',
+        value_parser = code(),
+        hide_possible_values = true,
+        help_heading = "Findings"
+    )]
     pub only: Vec<Code>,
 
     /// Do not report these codes
-    #[arg(long, value_name = "CODE,...", value_delimiter = ',', help_heading = "Findings")]
+    #[arg(
+        long,
+        value_name = "CODE,...",
+        value_delimiter = ',',
+        value_parser = code(),
+        hide_possible_values = true,
+        help_heading = "Findings"
+    )]
     pub allow: Vec<Code>,
 
     /// The severity from which on a finding makes the exit code 1
@@ -74,7 +89,7 @@ pub struct CheckArguments {
     /// Repair what is found, and write the result
     ///
     /// Tangents are made again, vertices split, normals made or turned over, and the texels of PNG maps rewritten at their bit depth; a JPEG map
-    /// in a model becomes a PNG. Only the findings that are reported are repaired (--only, --allow). Everything else in the file is kept, byte for
+    /// becomes a PNG. Only the findings that are reported are repaired (--only, --allow). Everything else in the file is kept, byte for
     /// byte; a compressed model is decompressed if its geometry is repaired.
     #[arg(long, help_heading = "Repair")]
     pub fix: bool,
@@ -96,6 +111,11 @@ pub struct CheckArguments {
 
     #[command(flatten)]
     pub messages: MessageOptions,
+}
+
+/// Parses a code; clap suggests the most similar one for another word.
+fn code() -> impl TypedValueParser<Value = Code> {
+    PossibleValuesParser::new(Code::ALL.iter().map(|code| code.name())).try_map(|name| name.parse())
 }
 
 impl CheckArguments {

@@ -1,4 +1,4 @@
-//! `darboux check --fix`: repairs models and normal maps, and says what was cured.
+//! `darboux check --fix`: repairs models and normal maps, and says what was repaired.
 
 use std::fs;
 use std::path::Path;
@@ -6,19 +6,19 @@ use std::path::Path;
 use darboux::TangentOptions;
 use darboux_check::{Code, FixOptions, FixedFinding, Severity, check_document, fix_document, fix_map};
 use darboux_io::image::PngImage;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 
 use super::arguments::CheckArguments;
-use super::is_image;
 use super::report::ReportedFinding;
 use crate::batch::command::{FileCommand, ProcessedFile};
 use crate::batch::plan::Job;
-use crate::batch::report::FileReport;
+use crate::batch::report::{FileReport, Status, SummarySource};
 use crate::documents::{Source, save, save_image};
-use crate::inputs::{Input, UsageError, output_suffix};
+use crate::inputs::{Input, output_suffix};
 use crate::options::files::FileOptions;
 use crate::options::messages::MessageOptions;
-use crate::paths::is_png;
+use crate::paths::{is_image, is_png};
 use crate::terminal::FileProgress;
 use crate::text::counted;
 
@@ -47,10 +47,6 @@ impl FileCommand for CheckArguments {
         &self.messages
     }
 
-    fn check(&self) -> Result<(), UsageError> {
-        Ok(())
-    }
-
     fn options(&self) -> String {
         format!("{:?}", self.fix_options())
     }
@@ -62,9 +58,14 @@ impl FileCommand for CheckArguments {
         }
     }
 
-    fn fails(&self, summary: &FixSummary) -> bool {
-        let left = summary.findings.iter().filter(|finding| finding.cured == Some(false));
-        left.into_iter().any(|finding| self.fail_on.includes(finding.severity))
+    fn fails(&self, summary: &SummarySource<FixSummary>) -> bool {
+        let mut left = Outcome::all_of(summary).into_iter().filter(|finding| !finding.repaired);
+        left.any(|finding| self.fail_on.includes(finding.severity))
+    }
+
+    fn note_up_to_date(recorded: &Map<String, Value>) -> Option<String> {
+        let left = Outcome::recorded(recorded).iter().filter(|finding| finding.is_left()).count();
+        (left > 0).then(|| format!("{} left", counted(left, "finding", "findings")))
     }
 
     fn lines(summary: &FixSummary) -> Vec<String> {
@@ -76,26 +77,54 @@ impl FileCommand for CheckArguments {
     }
 
     fn total(files: &[FileReport<FixSummary>]) -> String {
-        let findings = || {
-            let summaries = files.iter().filter_map(|file| file.summary.this_run());
-            summaries.flat_map(|summary| &summary.findings)
-        };
-        let cured = findings().filter(|finding| finding.cured == Some(true)).count();
-        let left = findings().filter(|finding| is_left(finding)).count();
-        format!("{} cured, {left} left", counted(cured, "finding", "findings"))
+        let this_run = files.iter().filter_map(|file| file.summary.this_run());
+        let repaired =
+            this_run.flat_map(|summary| &summary.findings).filter(|finding| finding.repaired == Some(true));
+        let all: Vec<Outcome> = files.iter().flat_map(|file| Outcome::all_of(&file.summary)).collect();
+        let left = all.iter().filter(|finding| finding.is_left()).count();
+        let infos = all.iter().filter(|finding| !finding.repaired && !finding.is_left()).count();
+        let repaired = counted(repaired.count(), "finding repaired", "findings repaired");
+        format!("{repaired}, {left} left, {infos} worth knowing")
     }
 }
 
-/// Whether a finding is worth mentioning that it was not cured.
-fn is_left(finding: &ReportedFinding) -> bool {
-    finding.cured == Some(false) && finding.severity > Severity::Info
+/// What became of a finding, in this run or in an earlier one.
+#[derive(Clone, Copy, Deserialize)]
+struct Outcome {
+    severity: Severity,
+    repaired: bool,
+}
+
+impl Outcome {
+    fn all_of(summary: &SummarySource<FixSummary>) -> Vec<Self> {
+        match summary {
+            SummarySource::ThisRun(summary) => summary.findings.iter().map(Self::of).collect(),
+            SummarySource::Journal(recorded) => Self::recorded(recorded),
+        }
+    }
+
+    fn of(finding: &ReportedFinding) -> Self {
+        Self { severity: finding.severity, repaired: finding.repaired == Some(true) }
+    }
+
+    /// From the journal, which nobody but this command writes.
+    fn recorded(summary: &Map<String, Value>) -> Vec<Self> {
+        let findings = summary.get("findings").cloned();
+        findings.and_then(|findings| serde_json::from_value(findings).ok()).unwrap_or_default()
+    }
+
+    /// Whether it is worth mentioning that the finding was not repaired.
+    fn is_left(self) -> bool {
+        !self.repaired && self.severity > Severity::Info
+    }
 }
 
 fn line(finding: &ReportedFinding) -> Option<String> {
-    let ReportedFinding { place, code, text, cured, left_because, .. } = finding;
-    match (cured, left_because) {
-        (Some(true), _) => Some(format!("{place}: cured {code}: {text}")),
-        (_, Some(reason)) if is_left(finding) => Some(format!("{place}: left {code}: {text}; {reason}")),
+    let ReportedFinding { place, code, text, left_because, .. } = finding;
+    let outcome = Outcome::of(finding);
+    match (code.repair(), left_because) {
+        (Some(repair), _) if outcome.repaired => Some(format!("{place}: repaired {code}: {text}; {repair}")),
+        (_, Some(reason)) if outcome.is_left() => Some(format!("{place}: left {code}: {text}; {reason}")),
         _ => None,
     }
 }
@@ -117,29 +146,31 @@ impl CheckArguments {
         let findings = check_document(&mut source.load(reading)?, &self.check_options()).map_err(sentence)?;
         let mut document = source.load(reading)?;
         let fixed = fix_document(&mut document, findings, &self.fix_options()).map_err(sentence)?;
-        let is_changed = fixed.iter().any(|fixed| fixed.cured);
-        if !is_changed {
+        if !fixed.is_changed {
             document = source.load(reading)?;
         }
         let warnings = document.warnings().to_vec();
-        let (status, files_written) = save(&document, &job.output, &self.files, is_changed)?;
-        Ok(ProcessedFile { status, files_written, summary: self.summary(fixed, warnings) })
+        let (status, files_written) = save(&document, &job.output, &self.files, fixed.is_changed)?;
+        Ok(ProcessedFile { status, files_written, summary: self.summary(fixed.findings, warnings) })
     }
 
     fn fix_image(&self, path: &Path, job: &Job) -> Result<ProcessedFile<FixSummary>, String> {
         let name = path.display().to_string();
-        if !is_png(path) {
-            return Err(format!("{name}: only PNG maps are repaired; save it as a PNG first"));
-        }
         let sentence = |error: darboux_io::Error| error.to_string();
         let file = fs::read(path).map_err(|error| format!("{name}: cannot be read: {error}"))?;
         let loading = self.files.reading.load_options();
         let fixed = fix_map(&name, &file, &loading, &self.fix_options()).map_err(sentence)?;
-        let image = match fixed.image {
-            Some(image) => image,
-            None => PngImage::from_bytes(&name, file, &loading).map_err(sentence)?,
+        if fixed.image.is_some() && self.files.in_place && !is_png(path) {
+            return Err(format!(
+                "{name}: is repaired into a PNG, which cannot take its place; use -o FILE.png"
+            ));
+        }
+        let image = fixed.image.or_else(|| PngImage::from_bytes(&name, file, &loading).ok());
+        let (status, files_written) = match image {
+            Some(image) => save_image(&image, &job.output, &self.files)?,
+            // Without a repair there is nothing to write but a copy, and copies are made of PNG images that can be written again.
+            None => (Status::Untouched, Vec::new()),
         };
-        let (status, files_written) = save_image(&image, &job.output, &self.files)?;
         Ok(ProcessedFile { status, files_written, summary: self.summary(fixed.findings, Vec::new()) })
     }
 

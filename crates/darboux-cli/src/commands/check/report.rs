@@ -50,9 +50,9 @@ pub struct ReportedFinding {
     pub text: String,
     pub fixable: bool,
     pub left_because: Option<String>,
-    /// Whether `--fix` cured it; none without `--fix`.
+    /// Whether `--fix` repaired it; none without `--fix`.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub cured: Option<bool>,
+    pub repaired: Option<bool>,
     pub looks_like: &'static str,
     pub cure: &'static str,
 }
@@ -75,7 +75,7 @@ impl From<Finding> for ReportedFinding {
             evidence: finding.evidence,
             fixable: finding.left_because.is_none(),
             left_because: finding.left_because,
-            cured: None,
+            repaired: None,
             text: finding.text,
             looks_like: finding.code.looks_like(),
             cure: finding.code.cure(),
@@ -85,7 +85,7 @@ impl From<Finding> for ReportedFinding {
 
 impl From<FixedFinding> for ReportedFinding {
     fn from(fixed: FixedFinding) -> Self {
-        Self { cured: Some(fixed.cured), ..fixed.finding.into() }
+        Self { repaired: Some(fixed.repaired), ..fixed.finding.into() }
     }
 }
 

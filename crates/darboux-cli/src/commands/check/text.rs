@@ -43,10 +43,17 @@ fn lines(finding: &ReportedFinding) -> String {
     if !evidence.is_empty() {
         text += &format!("            evidence: {}\n", evidence.join("; "));
     }
+    let ReportedFinding { looks_like, cure, .. } = finding;
     if finding.severity > Severity::Info {
-        let fix = if finding.fixable { " (--fix does it)" } else { "" };
-        let ReportedFinding { looks_like, cure, .. } = finding;
-        text += &format!("            looks like: {looks_like}\n            cure: {cure}{fix}\n");
+        text += &format!("            looks like: {looks_like}\n");
+    }
+    text += &format!("            cure: {cure}\n");
+    match &finding.left_because {
+        None => text += "            --fix repairs it\n",
+        Some(reason) if finding.severity > Severity::Info => {
+            text += &format!("            --fix leaves it: {reason}\n")
+        }
+        Some(_) => {}
     }
     text
 }
@@ -67,6 +74,14 @@ pub fn explain(code: Code) -> String {
         code.looks_like(),
         code.cause(),
         code.cure(),
-        code.fix()
+        with_fix(code)
     )
+}
+
+/// What `--fix` does with findings of a code, as a clause.
+fn with_fix(code: Code) -> String {
+    match (code.repair(), code.left_because()) {
+        (Some(repair), _) => repair.to_owned(),
+        (None, reason) => format!("left, because {}", reason.unwrap_or_default()),
+    }
 }
