@@ -85,15 +85,15 @@ _darboux() {
                     return 0
                     ;;
                 --explain)
-                    COMPREPLY=($(compgen -f "${cur}"))
+                    COMPREPLY=($(compgen -W "tangent-not-finite tangent-zero tangent-not-unit tangent-not-perpendicular tangent-sign-not-one tangent-sign-mixed tangent-shared-across-mirror tangent-sign-flipped tangent-sign-flipped-where-mirrored tangent-sign-partly-flipped tangent-rotated tangent-negated tangent-other-uv-set tangent-other-recipe tangent-missing tangent-unused position-not-finite normal-missing normal-not-finite normal-not-unit normal-against-winding uv-missing uv-not-finite uv-degenerate uv-mirrored uv-overlapping map-green-flipped map-channels-swapped map-srgb map-height map-object-space map-not-normal map-two-channel map-not-unit map-negative-z map-flat-off map-flat map-unreadable transform-mirrors" -- "${cur}"))
                     return 0
                     ;;
                 --only)
-                    COMPREPLY=($(compgen -f "${cur}"))
+                    COMPREPLY=($(compgen -W "tangent-not-finite tangent-zero tangent-not-unit tangent-not-perpendicular tangent-sign-not-one tangent-sign-mixed tangent-shared-across-mirror tangent-sign-flipped tangent-sign-flipped-where-mirrored tangent-sign-partly-flipped tangent-rotated tangent-negated tangent-other-uv-set tangent-other-recipe tangent-missing tangent-unused position-not-finite normal-missing normal-not-finite normal-not-unit normal-against-winding uv-missing uv-not-finite uv-degenerate uv-mirrored uv-overlapping map-green-flipped map-channels-swapped map-srgb map-height map-object-space map-not-normal map-two-channel map-not-unit map-negative-z map-flat-off map-flat map-unreadable transform-mirrors" -- "${cur}"))
                     return 0
                     ;;
                 --allow)
-                    COMPREPLY=($(compgen -f "${cur}"))
+                    COMPREPLY=($(compgen -W "tangent-not-finite tangent-zero tangent-not-unit tangent-not-perpendicular tangent-sign-not-one tangent-sign-mixed tangent-shared-across-mirror tangent-sign-flipped tangent-sign-flipped-where-mirrored tangent-sign-partly-flipped tangent-rotated tangent-negated tangent-other-uv-set tangent-other-recipe tangent-missing tangent-unused position-not-finite normal-missing normal-not-finite normal-not-unit normal-against-winding uv-missing uv-not-finite uv-degenerate uv-mirrored uv-overlapping map-green-flipped map-channels-swapped map-srgb map-height map-object-space map-not-normal map-two-channel map-not-unit map-negative-z map-flat-off map-flat map-unreadable transform-mirrors" -- "${cur}"))
                     return 0
                     ;;
                 --fail-on)
