@@ -139,10 +139,7 @@ def run_adapter(folder, work, cases, machine):
             raise Unavailable(f"the environment variable {variable} is not set; cargo xtask conformance sets it")
     command = install(folder, work, log)
     for run in adapter["runs"]:
-        results = work / "results" / run["id"]
-        shutil.rmtree(results, ignore_errors=True)
-        results.parent.mkdir(exist_ok=True)
-        call([*command, *run["arguments"], work / "cases", results], log, cwd=work)
+        results = compute(command, run, work, log)
         summary = summarize(adapter, run, cases, results, machine)
         file = summary_file(adapter, run)
         if file.exists():
@@ -152,6 +149,22 @@ def run_adapter(folder, work, cases, machine):
         totals = {level: sum(own["levels"][level] for own in summary["classes"].values()) for level in judge.LEVELS}
         judged = sum(own["cases"] - own["skipped"] for own in summary["classes"].values())
         print(f"{run['name']} {summary['version']}: of {judged} cases " + ", ".join(f"{n} at {level}" for level, n in totals.items()) + f"; {summary.get('ns_per_triangle', '-')} ns per triangle", flush=True)
+
+
+def prepare(work):
+    """Writes what adapters read: the cases, and the readers that they compile or import."""
+    if not (work / "cases").is_dir():
+        generate.write_folder(work / "cases", True)
+    shutil.copytree(HERE / "readers", work / "readers", dirs_exist_ok=True)
+
+
+def compute(command, run, work, log):
+    """The folder with the results of a run of an adapter."""
+    results = work / "results" / run["id"]
+    shutil.rmtree(results, ignore_errors=True)
+    results.parent.mkdir(exist_ok=True)
+    call([*command, *run["arguments"], work / "cases", results], log, cwd=work)
+    return results
 
 
 def summary_file(adapter, run):
@@ -194,9 +207,7 @@ def arguments(text):
 
 def main():
     work, names = arguments(__doc__)
-    if not (work / "cases").is_dir():
-        generate.write_folder(work / "cases", True)
-    shutil.copytree(HERE / "readers", work / "readers", dirs_exist_ok=True)
+    prepare(work)
     cases = judge.select(HERE / "cases", None)
     machine = f"{processor()}, {platform.system()}"
     unavailable = {}

@@ -1,6 +1,6 @@
 """Proves of every adapter that the suite can fail it: the adapter runs on wrong inputs, and as a wrong build with one operation changed.
 
-WORK and NAME are those of run.py, which must have run the adapters before. Counts are kept in the summaries in results/, and page.py makes
+Results that run.py left in WORK are used, others are computed. Counts are kept in the summaries in results/, and page.py makes
 WRONG.md of them. Exit code 1 if no case of an adapter notices exchanged u and v, or its wrong build.
 
 A wrong input changes a case before the adapter, or the result after it, as a mistake of an integration would. The wrong build of an adapter
@@ -134,12 +134,12 @@ def corners_of_faces(case):
 class Adapter:
     """An adapter with one of its runs, and what it gives for the right cases."""
 
-    def __init__(self, folder, entry, work):
+    def __init__(self, folder, entry, work, command):
         self.folder, self.entry, self.work = folder, entry, work
         self.log = work / f"{folder.name}-wrong.log"
         self.right = work / "results" / entry["id"]
         if not self.right.is_dir():
-            raise run.Unavailable(f"{self.right} is missing: run the adapter with run.py first")
+            run.compute(command, entry, work, self.log)
         cases = [case for case in judge.select(run.HERE / "cases", None) if case["class"] != "large"]
         self.cases = {case["name"]: case for case in cases}
         self.verdicts = {verdict["name"]: verdict for verdict in judge.judge(cases, self.right, "bits", False)}
@@ -241,7 +241,7 @@ def prove(folder, work):
     command = run.install(folder, work, work / f"{folder.name}-wrong.log")
     blind = []
     for entry in adapter["runs"]:
-        proof = Adapter(folder, entry, work)
+        proof = Adapter(folder, entry, work, command)
         inputs, wrong = proof.count_inputs(command), proof.count_build()
         file = run.summary_file(adapter, entry)
         summary = json.loads(file.read_text(encoding="utf-8"))
@@ -256,6 +256,7 @@ def prove(folder, work):
 
 def main():
     work, names = run.arguments(__doc__)
+    run.prepare(work)
     blind = []
     for folder in run.adapters(names):
         try:

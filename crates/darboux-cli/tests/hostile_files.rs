@@ -7,8 +7,12 @@ mod common;
 
 use std::fs;
 use std::path::Path;
+use std::process::Stdio;
+use std::time::Duration;
 
-use common::{darboux, darboux_with, darboux_with_addresses, folder_with, has_adapter, names_in, text};
+use common::{
+    darboux, darboux_with, darboux_with_addresses, folder_with, has_adapter, names_in, program, text,
+};
 use serde_json::{Value, json};
 
 /// A square of two triangles with normals and UVs: the JSON, and its buffer.
@@ -386,5 +390,57 @@ fn without_threads_the_results_are_the_same() {
             darboux_with(&[("RUST_MIN_STACK", &stack)], words).exits(0).stdout,
             darboux(words).exits(0).stdout
         );
+    }
+}
+
+/// A grid of `side` by `side` squares with normals and UVs, which takes a while.
+fn grid(side: u32) -> Vec<u8> {
+    let vertices = (0..=side).flat_map(|i| (0..=side).map(move |j| [i as f32, j as f32]));
+    let vertices: Vec<[f32; 2]> = vertices.map(|place| place.map(|x| x / side as f32)).collect();
+    let of_square = |i: u32, j: u32| {
+        let [a, b] = [0, 1].map(|next| (i + next) * (side + 1) + j);
+        [a, b, b + 1, a, b + 1, a + 1]
+    };
+    let indices: Vec<u32> = (0..side).flat_map(|i| (0..side).flat_map(move |j| of_square(i, j))).collect();
+    let positions = vertices.iter().flat_map(|&[x, y]| [x, y, 0.0]);
+    let normals = vertices.iter().flat_map(|_| [0.0, 0.0, 1.0]);
+    let floats = positions.chain(normals).chain(vertices.iter().flatten().copied());
+    let bytes: Vec<u8> =
+        floats.flat_map(f32::to_le_bytes).chain(indices.iter().flat_map(|i| i.to_le_bytes())).collect();
+    let (mut json, _) = square();
+    let count = vertices.len();
+    let lengths = [12 * count, 12 * count, 8 * count, 4 * indices.len()];
+    for (view, length) in lengths.iter().enumerate() {
+        let start: usize = lengths[..view].iter().sum();
+        json["bufferViews"][view] = json!({ "buffer": 0, "byteOffset": start, "byteLength": length });
+        json["accessors"][view]["count"] = json!(if view == 3 { indices.len() } else { count });
+    }
+    json["buffers"][0]["byteLength"] = json!(bytes.len());
+    glb(&json, &bytes)
+}
+
+/// Another program empties a model while the command works on it, at several moments.
+#[test]
+fn a_file_that_is_shortened_meanwhile_does_not_end_the_batch() {
+    let model = grid(200);
+    for moment in [2, 5, 10, 15, 20, 30, 40, 60] {
+        let folder = folder_with(&["made/shield.glb"]);
+        let path = folder.path().join("a.glb");
+        fs::write(&path, &model).expect("a model");
+        let mut command = program();
+        command.args(["tangents", "a.glb", "shield.glb", "--jobs", "1", "--out-dir", "out"]);
+        let child =
+            command.current_dir(folder.path()).stderr(Stdio::piped()).spawn().expect("the command starts");
+        std::thread::sleep(Duration::from_millis(moment));
+        let file = fs::File::options().write(true).open(&path).expect("the model");
+        file.set_len(4096).expect("a shorter model");
+        let output = child.wait_with_output().expect("the command ends");
+        let told = String::from_utf8_lossy(&output.stderr);
+        let expected = match output.status.code() {
+            Some(0) => vec!["a.glb", "shield.glb"],
+            Some(1) => vec!["shield.glb"],
+            other => panic!("after {moment} ms: {other:?}, {told}"),
+        };
+        assert_eq!(names_in(&folder.path().join("out")), expected, "after {moment} ms: {told}");
     }
 }

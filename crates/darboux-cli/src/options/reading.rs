@@ -28,7 +28,7 @@ impl ReadOptions {
             .with_option_names(option_names())
     }
 
-    /// Opens a document with its files mapped into memory.
+    /// Opens a document, with large files mapped into memory.
     #[expect(unsafe_code, reason = "mapping a file needs a promise about other processes")]
     pub fn open(&self, path: &Path) -> Result<Document, Error> {
         // SAFETY: `open_mapped` requires that no process writes into the files or shortens them while the document exists. This process

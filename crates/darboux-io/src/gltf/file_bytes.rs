@@ -1,4 +1,4 @@
-//! The content of a file: read into memory or, on request, mapped, so that a large model is neither copied nor read twice.
+//! The content of a file: read into memory or, on request and if it is large, mapped, so that it is neither copied nor read twice.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -17,6 +17,10 @@ pub enum FileBytes {
     Read(Vec<u8>),
 }
 
+/// Files below this size are always read: that takes a twentieth of a second, and no other process can change what was read.
+#[cfg(unix)]
+const MAPPED_FROM: u64 = if cfg!(small_limits) { 1 } else { 256 << 20 };
+
 /// How files are brought into memory: read by default.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FileAccess {
@@ -24,7 +28,7 @@ pub struct FileAccess {
 }
 
 impl FileAccess {
-    /// Files are mapped where the system can.
+    /// Large files are mapped where the system can.
     ///
     /// # Safety
     /// While a mapped file is in use, no process may write into it or shorten it.
@@ -45,14 +49,17 @@ impl FileAccess {
     }
 }
 
-/// The mapped file; none if the system cannot map it.
+/// The mapped file; none if it is small, or the system cannot map it.
 #[cfg(unix)]
 #[expect(unsafe_code, reason = "another process could change a mapped file")]
 fn map(file: &File) -> Option<FileBytes> {
+    if file.metadata().ok()?.len() < MAPPED_FROM {
+        return None;
+    }
     // SAFETY: only `FileAccess::mapped` makes a value that maps, and its caller has promised that no process changes the file. The map is only
     // read, and this crate never writes into a file that exists: outputs are new files, renamed when they are complete.
     let mapped = unsafe { memmap2::Mmap::map(file) }.ok()?;
-    (!mapped.is_empty()).then_some(FileBytes::Mapped(mapped))
+    Some(FileBytes::Mapped(mapped))
 }
 
 /// None: on other systems a mapped file cannot be replaced, as writing in place does.

@@ -24,8 +24,8 @@ impl Document {
         Self::open_with(path, options, FileAccess::default())
     }
 
-    /// As [`Document::open`], with files mapped where the system can: large files are not copied, and parts that are not needed are
-    /// not read.
+    /// As [`Document::open`], with files of 256 MiB and more mapped where the system can: they are not copied, and parts that are not
+    /// needed are not read.
     ///
     /// # Safety
     /// Until the document is dropped, no process may write into its files or shorten them. A process that shortens a file ends this
