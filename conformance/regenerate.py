@@ -1,4 +1,4 @@
-"""Writes the expected values of every case from a folder of results of mikktspace.c; `cargo xtask conformance --regenerate` runs it.
+"""Writes the expected values of every case from a folder of results of mikktspace.c, and of Darboux's modes `repaired` and `corrected`; `cargo xtask conformance --regenerate` runs it.
 """
 
 import argparse

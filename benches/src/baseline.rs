@@ -1,4 +1,4 @@
-//! The committed instruction counts: no change loses speed unnoticed.
+//! The committed instruction counts: no change makes the AVX2 or the 128-bit code slower unnoticed.
 //!
 //! Counts differ between compilers by more than changes do, so they hold for one version of rustc. Between processors of x86-64 they do not:
 //! valgrind has AVX2 and no AVX-512.

@@ -1,6 +1,7 @@
 // The page of the conformance suite, from the file system: light, dark and on a phone.
 
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
@@ -40,7 +41,8 @@ test('a failing case unfolds with its sentence, numbers and pictures', async () 
     };
   });
   assert.match(drawn.words, /corners differ/);
-  assert.match(drawn.words, /\./);
+  const { failure } = JSON.parse(readFileSync(new URL('../../conformance/cases/mirrored-pair.json', import.meta.url), 'utf8'));
+  assert.ok(drawn.words.includes(failure), drawn.words);
   assert.equal(drawn.pictures.length, 3);
   assert.ok(drawn.pictures[0] > 20, `the reference has ${drawn.pictures[0]} shades`);
   assert.deepEqual(faults, []);
@@ -49,7 +51,7 @@ test('a failing case unfolds with its sentence, numbers and pictures', async () 
 test('every picture can be drawn', async () => {
   const { page, faults } = await open({});
   const [cases, blank] = await page.evaluate(() => {
-    const all = Array.from(document.querySelectorAll('details.case[data-case]')).slice(0, 200);
+    const all = Array.from(document.querySelectorAll('details.case[data-case]'));
     all.forEach(draw);
     return [all.length, all.filter((details) => details.querySelectorAll('canvas').length !== 3).length];
   });

@@ -1,4 +1,4 @@
-//! What is wrong with a file is said in one sentence; nothing is written, and other files are done nevertheless.
+//! Files that the command refuses: one sentence each, no output, and the other files of the batch are processed.
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! docs/conventions.md says what the presets are.
+//! The table of presets in docs/conventions.md agrees with the code.
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! Every model goes through the command: those of the repository, and further ones.
+//! Runs `darboux tangents` on every model of the repository and of `DARBOUX_MODELS`, and checks the outputs.
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! Runs that go on where an earlier one was stopped, and several files at a time.
+//! `--resume` continues a run that was stopped, and `--jobs` processes several files at the same time.
 
 mod common;
 

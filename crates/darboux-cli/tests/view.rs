@@ -1,4 +1,4 @@
-//! `darboux view`: who gets what from its server.
+//! The server of `darboux view`: what it serves, what it refuses, and how it bears hostile connections.
 
 mod common;
 

@@ -48,7 +48,7 @@ pub enum Error {
         source: darboux::Error,
     },
     /// The operating system refuses to read a file.
-    #[error("{}: cannot be read: {source}", file.display())]
+    #[error("{}: cannot be read: {source}{}", file.display(), advice_on_reading(source))]
     Read {
         /// The file.
         file: PathBuf,
@@ -56,7 +56,7 @@ pub enum Error {
         source: io::Error,
     },
     /// The operating system refuses to write a file.
-    #[error("{}: cannot be written: {source}", file.display())]
+    #[error("{}: cannot be written: {source}{}", file.display(), advice_on_writing(source))]
     Write {
         /// The file.
         file: PathBuf,
@@ -155,5 +155,23 @@ impl ContentError {
             ContentErrorKind::Unsupported => Error::Unsupported { file, at, problem },
             ContentErrorKind::Resource => Error::Resource { file, at, problem },
         }
+    }
+}
+/// What to do about a file that cannot be read, as a clause; empty where the system's reason says all.
+fn advice_on_reading(reason: &io::Error) -> &'static str {
+    match reason.kind() {
+        io::ErrorKind::NotFound => "; check its name and folder",
+        io::ErrorKind::PermissionDenied => "; change its permissions",
+        _ => "",
+    }
+}
+
+/// As [`advice_on_reading`], for a file that cannot be written.
+fn advice_on_writing(reason: &io::Error) -> &'static str {
+    match reason.kind() {
+        io::ErrorKind::NotFound => "; make its folder first",
+        io::ErrorKind::PermissionDenied => "; change the permissions of its folder",
+        io::ErrorKind::StorageFull => "; free some space",
+        _ => "",
     }
 }

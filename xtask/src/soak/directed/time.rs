@@ -7,7 +7,7 @@ use crate::soak::inputs::model::Mesh;
 use crate::soak::random::Random;
 
 pub const CASES: &[(&str, Make)] = &[
-    ("a fan with random turns", |random| Ok(fan(random, 100_000, "180"))),
+    ("a fan with random turns", |random| Ok(fan(random, 200_000, "180"))),
     // Below 180 degrees the time grows with the square of the size, as docs/security.md says.
     ("a fan with a threshold", |random| Ok(fan(random, 20_000, "90"))),
 ];

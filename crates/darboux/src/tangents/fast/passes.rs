@@ -43,7 +43,7 @@ pub(crate) trait Pass: Copy + Sync {
     /// Computes what the corners of a block's triangles add to their vertices.
     fn evaluate(self, block: &mut TriangleBlock);
 
-    /// Adds an evaluated block's first `count` triangles to `vertices`, which contain all of theirs.
+    /// Adds an evaluated block's first `count` triangles to `vertices`, which contain all vertices of these triangles.
     fn scatter(
         self,
         block: &TriangleBlock,
@@ -238,7 +238,7 @@ impl Task for ReadVertices<'_> {
 }
 
 /// Loads up to [`BLOCK_SIZE`] triangles into a block and evaluates them. `first`: the number of the first of `vertices`, which contain all
-/// of theirs.
+/// vertices of these triangles.
 #[inline(always)]
 fn evaluate<P: Pass>(
     pass: P,
