@@ -13,7 +13,7 @@ mod tangents;
 
 pub use maps::{FixedMap, fix_map};
 pub use options::FixOptions;
-pub use outcome::FixedFinding;
+pub use outcome::{FixedDocument, FixedFinding};
 
 use darboux_io::Error;
 use darboux_io::gltf::Document;
@@ -21,16 +21,6 @@ use darboux_io::gltf::Document;
 use crate::finding::Finding;
 use attempt::fix_surfaces;
 use pairs::LeftPairs;
-
-/// The result of [`fix_document`].
-#[derive(Clone, Debug, Default, PartialEq)]
-#[non_exhaustive]
-pub struct FixedDocument {
-    /// The findings, and those that the first repairs revealed.
-    pub findings: Vec<FixedFinding>,
-    /// Whether a repair was kept. If none was, the document differs from its file at most by being decompressed.
-    pub is_changed: bool,
-}
 
 /// Repairs a document.
 ///

@@ -2,11 +2,11 @@
 
 mod compare;
 mod definition;
-mod quads;
+mod recovered_quads;
 
 use self::compare::{bits, compare, rounded};
 pub use self::definition::{Recipe, RecipeMatch, RecipeRounding, RecipeWriting};
-use self::quads::QuadMesh;
+use self::recovered_quads::QuadMesh;
 use crate::Context;
 use crate::Error;
 use crate::Mesh;

@@ -6,9 +6,9 @@ use darboux_io::Error;
 use darboux_io::gltf::{Document, PrimitiveName};
 
 use super::options::FixOptions;
-use super::outcome::{FixedFinding, outcome};
+use super::outcome::{FixedDocument, FixedFinding, outcome};
 use super::pairs::LeftPairs;
-use super::{FixedDocument, normals, tangents};
+use super::{normals, tangents};
 use crate::check::{check_surfaces, primitives_of};
 use crate::finding::Finding;
 use crate::severity::Severity;

@@ -1,4 +1,4 @@
-//! [`FixedFinding`]: a finding and what became of it.
+//! The results of repairs: each finding with whether it was repaired.
 
 use serde::Serialize;
 
@@ -15,6 +15,16 @@ pub struct FixedFinding {
     pub finding: Finding,
     /// Whether it was repaired.
     pub repaired: bool,
+}
+
+/// The result of [`fix_document`](crate::fix_document).
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct FixedDocument {
+    /// The findings, and those that the first repairs revealed.
+    pub findings: Vec<FixedFinding>,
+    /// Whether a repair was kept. If none was, the document differs from its file at most by being decompressed.
+    pub is_changed: bool,
 }
 
 /// Whether two findings say the same of the same place.

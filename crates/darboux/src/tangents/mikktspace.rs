@@ -14,11 +14,11 @@ pub(crate) mod evaluate;
 pub(crate) mod groups;
 pub(crate) mod raw_frames;
 pub(crate) mod repair_corners;
-pub(crate) mod schedule;
 pub(crate) mod signs;
 pub(crate) mod sorted_sums;
 pub(crate) mod subgroups;
 pub(crate) mod sums_without;
+pub(crate) mod term_chunks;
 pub(crate) mod welded_mesh;
 
 use crate::Frame;

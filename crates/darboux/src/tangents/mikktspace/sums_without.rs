@@ -19,10 +19,10 @@
 use crate::exec::limits::RunLimits;
 use crate::exec::simd::{Task, Width};
 use crate::exec::threads;
-use crate::tangents::mikktspace::schedule::{
+use crate::tangents::mikktspace::sorted_sums::SortedSums;
+use crate::tangents::mikktspace::term_chunks::{
     Activation, BLOCK, Batch, CHUNK, ScheduledChunk, Scheduler, SumPlace,
 };
-use crate::tangents::mikktspace::sorted_sums::SortedSums;
 use crate::util::hash_map::KeyTable;
 
 /// The number of lanes of a term.
