@@ -1,6 +1,6 @@
-//! Writes a healthy model, and the same with each mistake that shows in a picture, into a folder: HEALTHY.glb and CODE.glb.
+//! Writes a healthy model, and the same with each mistake that can be made on it, into a folder: healthy.glb and CODE.glb.
 //!
-//! docs/check.md shows them as `darboux render` draws them; CONTRIBUTING.md says how they are drawn again.
+//! docs/check.md shows those that look different, as `darboux render` draws them; CONTRIBUTING.md says how they are drawn again.
 
 #[path = "../tests/support/mod.rs"]
 mod support;
@@ -12,21 +12,7 @@ use std::path::Path;
 use darboux_check::Code;
 use support::maps::MAP_MISTAKES;
 use support::mistakes::MISTAKES;
-use support::models::shown_model;
-
-/// The mistakes that show.
-const SHOWN: &[Code] = &[
-    Code::TangentSharedAcrossMirror,
-    Code::TangentSignFlipped,
-    Code::TangentSignFlippedWhereMirrored,
-    Code::TangentRotated,
-    Code::TangentNegated,
-    Code::NormalAgainstWinding,
-    Code::MapGreenFlipped,
-    Code::MapChannelsSwapped,
-    Code::MapSrgb,
-    Code::MapTwoChannel,
-];
+use support::models::{Model, shown_model};
 
 fn main() -> io::Result<()> {
     let Some(folder) = std::env::args_os().nth(1) else {
@@ -35,16 +21,26 @@ fn main() -> io::Result<()> {
     let folder = Path::new(&folder);
     fs::create_dir_all(folder)?;
     let healthy = shown_model();
-    fs::write(folder.join("healthy.glb"), healthy.glb())?;
-    for code in SHOWN {
-        let mut model = healthy.clone();
-        if let Some(mistake) = MISTAKES.iter().find(|mistake| mistake.code == *code) {
-            (mistake.make)(&mut model);
+    let healthy_file = healthy.glb();
+    fs::write(folder.join("healthy.glb"), &healthy_file)?;
+    for code in Code::ALL {
+        let file = spoilt(&healthy, *code).glb();
+        if file != healthy_file {
+            fs::write(folder.join(format!("{code}.glb")), file)?;
         }
-        if let Some(mistake) = MAP_MISTAKES.iter().find(|mistake| mistake.code == *code) {
-            model.map = (mistake.make)(&model.map);
-        }
-        fs::write(folder.join(format!("{code}.glb")), model.glb())?;
     }
     Ok(())
+}
+
+/// The model with the first mistake of a code.
+fn spoilt(healthy: &Model, code: Code) -> Model {
+    let mut model = healthy.clone();
+    if let Some(mistake) = MISTAKES.iter().find(|mistake| mistake.code == code) {
+        // Whether the mistake is good for the table of mistakes does not matter here.
+        (mistake.make)(&mut model);
+    }
+    if let Some(mistake) = MAP_MISTAKES.iter().find(|mistake| mistake.code == code) {
+        model.map = (mistake.make)(&model.map);
+    }
+    model
 }

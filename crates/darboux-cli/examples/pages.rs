@@ -23,7 +23,8 @@ fn main() -> io::Result<()> {
     write_man_pages(&command, &generated.join("man"))?;
     write_completions(&mut command, &generated.join("completions"))?;
     create_dir_all(root.join("docs"))?;
-    write(root.join("docs/check.md"), findings())?;
+    let pictures = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/check");
+    write(root.join("docs/check.md"), findings(&pictures))?;
     write(root.join("docs/cli.md"), reference(&mut command))
 }
 
@@ -53,20 +54,63 @@ fn reference(command: &mut Command) -> String {
     text + "\n" + include_str!("../src/json.md")
 }
 
-/// Every finding with its explanation.
-fn findings() -> String {
+/// What people say when they see a finding, and where.
+const SAID: &[(Code, &str)] = &[
+    (Code::TangentZero, "the model has black triangles (glTF-Transform 1859)"),
+    (
+        Code::TangentSharedAcrossMirror,
+        "there is a seam where the texture is mirrored (nvpro-samples/vk_gltf_renderer 33)",
+    ),
+    (
+        Code::TangentSignFlipped,
+        "normal maps look upside down in one viewer and right in another (three.js 25263, filament 528)",
+    ),
+    (
+        Code::TangentSignFlippedWhereMirrored,
+        "one half of the model is lit from the wrong side (assimp 1892, its PR 6322)",
+    ),
+    (
+        Code::TangentOtherRecipe,
+        "the shading is not that of the program that baked the map (glTF-Blender-IO 2226, Godot 86131 and 114508)",
+    ),
+    (
+        Code::TangentMissing,
+        "tangents get lost at export, and a warning names no model (glTF-Blender-IO 172, playcanvas 2787, bevy 11831)",
+    ),
+    (Code::UvMissing, "the map is on the second UV set, and the exporter knows one (KhronosGroup/glTF 1637)"),
+    (
+        Code::MapGreenFlipped,
+        "bumps are dents; hours went into debugging the shader (glTF-Sample-Models PR 336, BabylonJS/Exporters 940)",
+    ),
+    (Code::MapSrgb, "normal maps look washed out or too strong after the import (glTFast 67, UnityGLTF 362)"),
+    (Code::MapNegativeZ, "is a normal that points inwards allowed at all? (KhronosGroup/glTF 2368)"),
+];
+
+/// Every finding with its explanation. `pictures`: the folder docs/check of the repository.
+fn findings(pictures: &Path) -> String {
     let table = Code::ALL
         .iter()
         .map(|code| format!("| [`{code}`](#{code}) | {} | {} |\n", code.severity(), code.meaning()));
-    let sections = Code::ALL.iter().map(|code| {
-        let [meaning, looks, cause, cure] = [code.meaning(), code.looks_like(), code.cause(), code.cure()];
-        let left = || format!("left, because {}", code.left_because().unwrap_or_default());
-        let fix = code.repair().map_or_else(left, str::to_owned);
-        format!(
-            "\n## {code}\n\n{meaning}\n\n*What it looks like:* {looks}\n\n*How it comes about:* {cause}\n\n*Cure:* {cure}\n\n*With `--fix`:* {fix}.\n"
-        )
-    });
+    let sections = Code::ALL.iter().map(|code| finding(*code, pictures));
     include_str!("check.md").to_owned() + &table.chain(sections).collect::<String>()
+}
+
+/// The section of a finding, with its picture if there is one.
+fn finding(code: Code, pictures: &Path) -> String {
+    let [meaning, looks, cause, cure] = [code.meaning(), code.looks_like(), code.cause(), code.cure()];
+    let mut text = format!("\n## {code}\n\n{meaning}\n\n");
+    if pictures.join(code.name()).with_extension("png").exists() {
+        text += &format!(
+            "| healthy | {code} |\n|---|---|\n| ![healthy](check/healthy.png) | ![{code}](check/{code}.png) |\n\n"
+        );
+    }
+    text += &format!("*What it looks like:* {looks}\n\n");
+    if let Some((_, said)) = SAID.iter().find(|(known, _)| *known == code) {
+        text += &format!("*What people say:* {said}.\n\n");
+    }
+    let left = || format!("left, because {}", code.left_because().unwrap_or_default());
+    let fix = code.repair().map_or_else(left, str::to_owned);
+    text + &format!("*How it comes about:* {cause}\n\n*Cure:* {cure}\n\n*With `--fix`:* {fix}.\n")
 }
 
 fn section(name: &str, command: &mut Command) -> String {
