@@ -1,8 +1,12 @@
 //! Generates normal maps whose convention is known, as tools make them and files store them.
 
+pub mod calibration;
 pub mod damage;
+pub mod outcome;
+pub mod page;
 pub mod surfaces;
 pub mod table;
+pub mod truth;
 
 use crate::Dice;
 use damage::{Storage, Texel};
@@ -30,7 +34,7 @@ pub enum Difference {
     Forward,
     /// The slope at the middle of the texel, as a baker samples it.
     Point,
-    /// The mean of the slopes at four points of the texel.
+    /// The mean of the slopes over the texel, along two lines.
     Supersampled,
 }
 
@@ -74,14 +78,33 @@ struct Chart {
     origin: [f32; 2],
 }
 
+/// Of every 200 maps, how many have which side. The time per map grows with the square of the side.
+pub const SHARES: [(usize, u64); 5] = [(256, 125), (512, 54), (1024, 16), (2048, 4), (4096, 1)];
+
+/// The side of a numbered map. 37 has no factor in common with 200, so that the sides are spread over all surfaces.
+fn side_of(number: u64) -> usize {
+    let mut place = number * 37 % 200;
+    let found = SHARES.iter().find(|(_, share)| {
+        let is_here = place < *share;
+        place = place.saturating_sub(*share);
+        is_here
+    });
+    found.map_or(256, |(side, _)| *side)
+}
+
+/// The slopes of a generated map, before it is stored.
+pub struct Relief<'a> {
+    case: &'a MapCase,
+    /// The slopes along u and (upwards) v of every texel; none outside all charts.
+    slopes: Vec<Option<[f32; 2]>>,
+}
+
 impl MapCase {
     /// The case of a number. Sides are at most `largest_side`.
     pub fn new(seed: u64, largest_side: usize) -> Self {
         let mut dice = Dice::from_seed(seed);
         let mut unit = || (Dice::uniform(&mut dice) + 1.0) / 2.0;
-        // Every side twice as large has a quarter of the maps, so that all sides take the same time.
-        let side = 256usize << (-0.5 * unit().max(1e-3).log2()) as usize;
-        let side = side.min(largest_side).min(4096);
+        let side = side_of(seed).min(largest_side);
         let mut between = |low: f32, high: f32| low * (high / low).powf(unit());
         let feature = between(12.0, side as f32 / 4.0);
         let slope = between(0.03, 0.9);
@@ -122,33 +145,22 @@ impl MapCase {
         }
     }
 
-    /// The texels, the top row first; green points up (OpenGL), or down with `flips_green`.
-    pub fn texels(&self, flips_green: bool) -> Vec<[u8; 3]> {
+    /// The slopes of the map, scaled to [`Self::slope`].
+    pub fn relief(&self) -> Relief<'_> {
         let mut dice = Dice::from_seed(self.seed ^ 0x5bd1_e995);
-        let slopes = self.slopes(&mut dice);
-        let inside = slopes.iter().flatten();
-        let (sum, count) = inside
+        let mut slopes = self.slopes(&mut dice);
+        let (sum, count) = slopes
+            .iter()
+            .flatten()
             .fold((0.0f64, 0usize), |(sum, count), [p, q]| (sum + f64::from(p * p + q * q) / 2.0, count + 1));
         let strength = self.slope / ((sum / count.max(1) as f64).sqrt() as f32).max(1e-12);
-        let green = if flips_green { -1.0 } else { 1.0 };
-        let background = match self.background {
-            Background::Flat | Background::Padded => [127.5, 127.5, 255.0],
-            Background::Black => [0.0; 3],
-            Background::Grey => [127.5; 3],
-        };
-        let texel = |slope: &Option<[f32; 2]>| match slope {
-            Some(slope) => {
-                let [p, q] = slope.map(|slope| slope * strength);
-                let length = (p * p + q * q + 1.0).sqrt();
-                [-p, -q * green, 1.0].map(|x| (x / length + 1.0) * 127.5)
-            }
-            None => background,
-        };
-        let mut texels: Vec<Texel> = slopes.iter().map(texel).collect();
-        if self.noise > 0.0 {
-            damage::add_noise(&mut dice, self.noise, &mut texels);
-        }
-        self.storage.store([self.side; 2], texels)
+        slopes.iter_mut().flatten().flatten().for_each(|slope| *slope *= strength);
+        Relief { case: self, slopes }
+    }
+
+    /// The texels, the top row first; green points up (OpenGL), or down with `flips_green`.
+    pub fn texels(&self, flips_green: bool) -> Vec<[u8; 3]> {
+        self.relief().texels(flips_green)
     }
 
     /// The slopes along u and (upwards) v of every texel; none outside all charts.
@@ -156,32 +168,16 @@ impl MapCase {
         let charts = self.charts(dice);
         let mut slopes = vec![None; self.side * self.side];
         for chart in &charts {
+            let heights = Heights::new(self, chart);
             for y in chart.y.clone() {
                 for x in chart.x.clone() {
-                    slopes[y * self.side + x] = Some(self.slope_at(chart, [x as f32 + 0.5, y as f32 + 0.5]));
+                    let [along_u, along_v] = heights.differences(x, y);
+                    let p = along_u / chart.scale[0];
+                    slopes[y * self.side + x] = Some([p, (along_v - chart.shear * p) / chart.scale[1]]);
                 }
             }
         }
         slopes
-    }
-
-    fn slope_at(&self, chart: &Chart, [x, y]: [f32; 2]) -> [f32; 2] {
-        let slope = |x, y, left: f32, right: f32| {
-            let along_u = self.height(chart, x + right, y) - self.height(chart, x - left, y);
-            let along_v = self.height(chart, x, y - right) - self.height(chart, x, y + left);
-            let p = along_u / ((left + right) * chart.scale[0]);
-            [p, (along_v / (left + right) - chart.shear * p) / chart.scale[1]]
-        };
-        match self.difference {
-            Difference::Central => slope(x, y, 1.0, 1.0),
-            Difference::Forward => slope(x, y, 0.0, 1.0),
-            Difference::Point => slope(x, y, 0.1, 0.1),
-            Difference::Supersampled => {
-                let offsets = [[-0.25, -0.25], [0.25, -0.25], [-0.25, 0.25], [0.25, 0.25]];
-                let at = offsets.map(|[dx, dy]| slope(x + dx, y + dy, 0.2, 0.2));
-                [0, 1].map(|i| at.iter().map(|slope| slope[i]).sum::<f32>() / 4.0)
-            }
-        }
     }
 
     /// The height at a texel; rows count downwards, v upwards.
@@ -237,5 +233,75 @@ impl MapCase {
             rotation: [angle.cos(), angle.sin()],
             origin: [0, 1].map(|_| 100.0 + 50.0 * dice.uniform()),
         }
+    }
+}
+
+/// The heights of a chart.
+struct Heights<'a> {
+    case: &'a MapCase,
+    chart: &'a Chart,
+    /// The heights at the middles of the texels of the chart and of one texel around it; empty where differences are finer.
+    middles: Vec<f32>,
+}
+
+impl<'a> Heights<'a> {
+    fn new(case: &'a MapCase, chart: &'a Chart) -> Self {
+        let is_coarse = matches!(case.difference, Difference::Central | Difference::Forward);
+        let [columns, rows] = [&chart.x, &chart.y].map(|range| range.len() + 2);
+        let height = |i: usize| {
+            let [x, y] = [chart.x.start + i % columns, chart.y.start + i / columns];
+            case.height(chart, x as f32 - 0.5, y as f32 - 0.5)
+        };
+        let middles = (0..if is_coarse { columns * rows } else { 0 }).map(height).collect();
+        Self { case, chart, middles }
+    }
+
+    /// The differences of the height per texel along u and (upwards) v.
+    fn differences(&self, x: usize, y: usize) -> [f32; 2] {
+        let columns = self.chart.x.len() + 2;
+        let middle = |dx: usize, dy: usize| {
+            self.middles[(y - self.chart.y.start + dy) * columns + x - self.chart.x.start + dx]
+        };
+        let at = |dx: f32, dy: f32| self.case.height(self.chart, x as f32 + 0.5 + dx, y as f32 + 0.5 + dy);
+        match self.case.difference {
+            Difference::Central => [(middle(2, 1) - middle(0, 1)) / 2.0, (middle(1, 0) - middle(1, 2)) / 2.0],
+            Difference::Forward => [middle(2, 1) - middle(1, 1), middle(1, 0) - middle(1, 1)],
+            Difference::Point => [(at(0.1, 0.0) - at(-0.1, 0.0)) / 0.2, (at(0.0, -0.1) - at(0.0, 0.1)) / 0.2],
+            Difference::Supersampled => {
+                let mean = |difference: &dyn Fn(f32) -> f32| (difference(-0.25) + difference(0.25)) / 2.0;
+                [mean(&|d| at(0.5, d) - at(-0.5, d)), mean(&|d| at(d, -0.5) - at(d, 0.5))]
+            }
+        }
+    }
+}
+
+impl Relief<'_> {
+    /// The case that it was made for.
+    pub fn case(&self) -> &MapCase {
+        self.case
+    }
+
+    /// The texels, the top row first; green points up (OpenGL), or down with `flips_green`.
+    pub fn texels(&self, flips_green: bool) -> Vec<[u8; 3]> {
+        let case = self.case;
+        let green = if flips_green { -1.0 } else { 1.0 };
+        let background = match case.background {
+            Background::Flat | Background::Padded => [127.5, 127.5, 255.0],
+            Background::Black => [0.0; 3],
+            Background::Grey => [127.5; 3],
+        };
+        let texel = |slope: &Option<[f32; 2]>| match slope {
+            Some([p, q]) => {
+                let length = (p * p + q * q + 1.0).sqrt();
+                [-p, -q * green, 1.0].map(|x| (x / length + 1.0) * 127.5)
+            }
+            None => background,
+        };
+        let mut texels: Vec<Texel> = self.slopes.iter().map(texel).collect();
+        if case.noise > 0.0 {
+            let mut dice = Dice::from_seed(case.seed ^ 0x27d4_eb2f);
+            damage::add_noise(&mut dice, case.noise, &mut texels);
+        }
+        case.storage.store([case.side; 2], texels)
     }
 }

@@ -4,7 +4,9 @@ use darboux::{
     Channel, Error, MapJudgement, MapVerdict, NormalMapJudge, SrgbMistake, TexelLayout, judge_normal_map,
 };
 use darboux_tests::maps::damage::Storage;
-use darboux_tests::maps::table::{ConfusionTable, Truth, judge};
+use darboux_tests::maps::outcome::{MapSet, Success};
+use darboux_tests::maps::table::failures;
+use darboux_tests::maps::truth::Truth;
 use darboux_tests::maps::{Background, MapCase};
 
 /// A map of bumps without background or damage.
@@ -16,6 +18,10 @@ fn plain() -> MapCase {
     case
 }
 
+fn judge(truth: Truth, case: &MapCase) -> MapJudgement {
+    judged(&truth.texels(case), TexelLayout::RGB)
+}
+
 fn judged<C: Channel, const N: usize>(texels: &[[C; N]], layout: TexelLayout<N>) -> MapJudgement {
     judge_normal_map(texels, [256, 256], layout).expect("the map is whole")
 }
@@ -23,13 +29,33 @@ fn judged<C: Channel, const N: usize>(texels: &[[C; N]], layout: TexelLayout<N>)
 /// Every surface, several charts, stretches, kinds of noise and of compression. `cargo xtask maps` judges thousands.
 #[test]
 fn generated_maps_get_the_right_verdict() {
-    let table = ConfusionTable::make(0..27, 256, &Truth::ALL, 1.0);
-    println!("{table}");
-    assert!(table.failures.is_empty(), "{:#?}", table.failures);
-    for (truth, [_, wrong, undecided]) in Truth::ALL.iter().zip(table.counts) {
-        let is_hard = *truth == Truth::Noise;
-        assert!(wrong == 0 && (is_hard || undecided == 0), "{truth:?}: {wrong} wrong, {undecided} undecided");
+    let set = MapSet { largest_side: 256, slope: 1.0 };
+    let cases: Vec<_> = (0..27).map(|number| (number, Truth::ALL.to_vec())).collect();
+    let outcomes = set.judge_all(&cases, std::thread::available_parallelism().map_or(1, usize::from));
+    assert_eq!(outcomes.len(), 27 * Truth::ALL.len());
+    assert_eq!(failures(&set, &outcomes), "");
+    for outcome in outcomes {
+        let is_hard = outcome.truth == Truth::Noise && outcome.success() == Success::Undecided;
+        assert!(is_hard || outcome.success() == Success::Right, "{outcome:?}");
     }
+}
+
+/// A run that was stopped in the middle of a line gives the same outcomes as one that was not.
+#[test]
+fn a_stopped_run_goes_on_where_it_was() {
+    let set = MapSet { largest_side: 256, slope: 1.0 };
+    let cases: Vec<_> = (0..3).map(|number| (number, Truth::ALL[..2].to_vec())).collect();
+    let file = std::env::temp_dir().join(format!("darboux-maps-{}.csv", std::process::id()));
+    let whole = set.judge_into(&file, &cases, 1).expect("a writable folder");
+    let text = std::fs::read_to_string(&file).expect("it was written");
+    std::fs::write(&file, &text[..text.len() - 40]).expect("a writable file");
+    assert_eq!(set.judge_into(&file, &cases, 1).expect("a writable folder"), whole);
+    let read = set.judge_into(&file, &cases[1..], 1).expect("a writable folder");
+    assert_eq!(read, whole[2..]);
+    let other = MapSet { largest_side: 512, slope: 1.0 };
+    let error = other.judge_into(&file, &cases, 1).expect_err("the file belongs to another set");
+    assert!(error.to_string().contains("remove it"), "{error}");
+    std::fs::remove_file(&file).expect("it was written");
 }
 
 /// The statistic is odd: with green inverted exactly, its bits are the same but for the sign.

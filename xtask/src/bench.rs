@@ -44,9 +44,15 @@ pub fn bench_gpu(arguments: &[&str]) -> Outcome {
     run(program(line).args(arguments))
 }
 
-/// `cargo xtask maps`: prints how generated normal maps are judged. `numbers` go to the program.
-pub fn judge_maps(numbers: &[&str]) -> Outcome {
-    run(program("cargo run --quiet --release --package darboux-tests --bin maps --").args(numbers))
+/// `cargo xtask maps`: prints how generated normal maps are judged. `options` go to the program.
+pub fn judge_maps(options: &[&str]) -> Outcome {
+    run(program("cargo run --quiet --release --package darboux-tests --bin maps --").args(options))
+}
+
+/// `cargo xtask maps --real`: prints how the normal maps below folders are judged.
+pub fn judge_real_maps(folders: &[&str]) -> Outcome {
+    let line = "cargo run --quiet --release --package darboux-check --example real_maps --";
+    run(program(line).args(folders))
 }
 
 /// Installs the packages of benches/node at the versions of its lock file; none on a machine without node and npm.

@@ -51,9 +51,9 @@ generated files
 
 measurements
   bench [...]      time every engine on every mesh; options: bench --help
-  maps [COUNT] [LARGEST_SIDE] [SLOPE]
-                   judge generated normal maps (default: 2000, 4096, 1) and print which verdicts are right, and how sure they were;
-                   SLOPE below 1 makes all maps flatter
+  maps [...]       judge generated normal maps, and print how often the verdicts are right, and how sure they were; options: maps --help
+  maps --real FOLDER ...
+                   print the verdicts on the normal maps below folders, as they are and with green inverted
   bench --gpu      time everything on every adapter: [--quick] [TRIANGLES ...]
   gpu [...]        on a machine with a GPU: record its tests, report and times in benches/record/gpu:
                    [pack] [--out FOLDER] [devices] [tests] [command] [report] [times] [long] [options of bench --gpu]
@@ -85,8 +85,9 @@ fn main() -> ExitCode {
         ["validate"] => validate::all_models(validate::WithoutNpm::Fail),
         ["bench", "--gpu", ref options @ ..] => bench::bench_gpu(options),
         ["bench", ref options @ ..] => bench::bench(options),
-        ["maps", ref numbers @ ..] => bench::judge_maps(numbers),
         ["gpu", ref words @ ..] => gpu::Arguments::new(words).and_then(|arguments| gpu::record(&arguments)),
+        ["maps", "--real", ref folders @ ..] => bench::judge_real_maps(folders),
+        ["maps", ref options @ ..] => bench::judge_maps(options),
         ["dist-c"] => dist_c::make(),
         ["dist-js"] => dist_js::make(),
         ["dist-viewer"] => dist_viewer::make(),

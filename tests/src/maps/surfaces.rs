@@ -76,11 +76,13 @@ fn value_noise(seed: u32, [x, y]: [f32; 2]) -> f32 {
 }
 
 fn octaves(seed: u32, gain: f32, [x, y]: [f32; 2], count: u32) -> f32 {
-    let octave = |i: u32| {
-        let frequency = 1.93f32.powi(i as i32);
-        gain.powi(i as i32) * value_noise(seed.wrapping_add(i * 977), [x * frequency, y * frequency])
-    };
-    (0..count).map(octave).sum()
+    let (mut sum, mut frequency, mut amplitude) = (0.0, 1.0, 1.0);
+    for i in 0..count {
+        sum += amplitude * value_noise(seed.wrapping_add(i * 977), [x * frequency, y * frequency]);
+        frequency *= 1.93;
+        amplitude *= gain;
+    }
+    sum
 }
 
 fn bricks(seed: u32, [x, y]: [f32; 2]) -> f32 {
@@ -181,10 +183,12 @@ fn tiles(seed: u32, [x, y]: [f32; 2]) -> f32 {
 fn terrain(seed: u32, gain: f32, [x, y]: [f32; 2]) -> f32 {
     let bend = |k: u32| value_noise(seed ^ k, [x * 0.7, y * 0.7]) - 0.5;
     let [x, y] = [x + 0.8 * bend(7), y + 0.8 * bend(13)];
-    let octave = |i: u32| {
-        let frequency = 2.07f32.powi(i as i32);
+    let (mut sum, mut frequency, mut amplitude) = (0.0, 1.0, 1.0);
+    for i in 0..5 {
         let noise = value_noise(seed.wrapping_add(i * 71), [x * frequency, y * frequency]);
-        gain.powi(i as i32) * (1.0 - (2.0 * noise - 1.0).abs())
-    };
-    (0..5).map(octave).sum()
+        sum += amplitude * (1.0 - (2.0 * noise - 1.0).abs());
+        frequency *= 2.07;
+        amplitude *= gain;
+    }
+    sum
 }

@@ -99,11 +99,11 @@ impl<const N: usize> NormalMapJudge<N> {
         judgement.correlation = evidence.correlation as f32;
         judgement.z_score = evidence.z_score as f32;
         judgement.log_energy_ratio = evidence.log_energy_ratio as f32;
+        judgement.is_exchanged = evidence.is_exchanged();
         judgement.verdict = match () {
             () if self.texel_counts.is_flat() => MapVerdict::Flat,
-            () if judgement.is_grey() || judgement.is_object_space() || judgement.holds_no_normals() => {
-                MapVerdict::NoGradient
-            }
+            () if judgement.is_grey() || judgement.is_object_space() => MapVerdict::NoGradient,
+            () if judgement.holds_no_normals() && !evidence.is_clear_gradient() => MapVerdict::NoGradient,
             () => evidence.verdict(),
         };
         judgement.confidence = match judgement.verdict {

@@ -3,9 +3,6 @@
 /// The smallest absolute z score that decides between OpenGL and DirectX.
 pub(super) const MIN_Z_SCORE: f32 = 4.0;
 
-/// The largest log energy ratio of exchanged channels.
-pub(super) const MAX_EXCHANGED_RATIO: f32 = -0.1;
-
 /// What the texels of a normal map say about its green channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
@@ -30,8 +27,9 @@ pub enum MapVerdict {
 pub struct MapJudgement {
     /// The verdict.
     pub verdict: MapVerdict,
-    /// For OpenGL and DirectX an estimate of the probability that the verdict is right, from 0.5 to 0.999; for `CannotTell` that of the likelier
-    /// of the two; 1 for the other verdicts. The estimate is provisional: it comes from nearly flat generated maps, not from real ones.
+    /// For OpenGL and DirectX an estimate of the probability that the verdict is right, from 0.5 to 0.998, as if red and green were exchanged in
+    /// every second map; for `CannotTell` that of the likelier of the two, at most 0.95; 1 for the other verdicts. The estimate was fitted to
+    /// generated maps.
     pub confidence: f32,
     /// The mean correlation of the tiles, from -1 (DirectX) to 1 (OpenGL), of the map or of one of its halvings: of those whose mean has
     /// the sign of `z_score`, the one whose mean is largest in units of its standard error.
@@ -42,6 +40,8 @@ pub struct MapJudgement {
     pub z_score: f32,
     /// Half the natural logarithm of the energy of the unmixed derivatives over that of the mixed ones. Negative for exchanged channels.
     pub log_energy_ratio: f32,
+    /// Whether that is certain enough.
+    pub(super) is_exchanged: bool,
     /// The texels of the map.
     pub texels: usize,
     /// Black, white and middle grey texels.
@@ -111,16 +111,20 @@ impl MapJudgement {
 
     /// True where red and green seem to be exchanged: mixed derivatives have more energy than unmixed ones.
     pub fn has_exchanged_channels(&self) -> bool {
-        self.verdict == MapVerdict::NoGradient
-            && self.log_energy_ratio <= MAX_EXCHANGED_RATIO
-            && self.z_score.abs() >= MIN_Z_SCORE
+        self.verdict == MapVerdict::NoGradient && self.is_exchanged
     }
 
-    /// The transfer function that was applied once too often, judged by the commonest texel.
+    /// The transfer function that was applied once too often, judged by the commonest texel and by the mean: maps do not lean on average.
     pub fn srgb_mistake(&self) -> Option<SrgbMistake> {
-        let is_near = |code: u8| self.commonest.iter().all(|&channel| channel.abs_diff(code) <= 3);
+        let is_common = self.share(self.commonest_count) >= 0.01;
+        let [x, y, z] = self.mean.map(|x| (x + 1.0) * 127.5);
+        let is_near = |code: u8| {
+            let mean_is_near = [x, y].iter().all(|mean| (mean - f32::from(code)).abs() <= 3.0);
+            let commonest_is_near = self.commonest.iter().all(|&channel| channel.abs_diff(code) <= 3);
+            is_common && commonest_is_near || mean_is_near && z > 192.0
+        };
         match () {
-            () if self.is_grey() || self.share(self.commonest_count) < 0.01 => None,
+            () if self.is_grey() => None,
             () if is_near(188) => Some(SrgbMistake::Encoded),
             () if is_near(55) => Some(SrgbMistake::Decoded),
             () => None,

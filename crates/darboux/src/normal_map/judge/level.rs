@@ -35,6 +35,7 @@ pub struct TileSums {
     pub squared_correlations: f64,
     /// Half the logarithm of the energy of the unmixed derivatives over that of the mixed ones.
     pub log_energy_ratios: f64,
+    pub squared_log_energy_ratios: f64,
     /// The squares of all four derivatives, and the number of texels.
     pub energy: f64,
     pub texels: f64,
@@ -154,7 +155,9 @@ impl TileSums {
         self.correlations += correlation;
         self.squared_correlations += correlation * correlation;
         // The floor stands for the rounding of texels.
-        self.log_energy_ratios += ((unmixed + 1e-9) / (mixed + 1e-9)).ln() / 2.0;
+        let log_energy_ratio = ((unmixed + 1e-9) / (mixed + 1e-9)).ln() / 2.0;
+        self.log_energy_ratios += log_energy_ratio;
+        self.squared_log_energy_ratios += log_energy_ratio * log_energy_ratio;
         self.energy += p_v + q_u + p_u + q_v;
         self.texels += f64::from(count);
     }

@@ -1,6 +1,6 @@
 //! Combines the correlations of all tiles and all levels of a normal map into one score and its confidence.
 
-use super::judgement::{MAX_EXCHANGED_RATIO, MIN_Z_SCORE, MapVerdict};
+use super::judgement::{MIN_Z_SCORE, MapVerdict};
 use super::level::{Level, TileSums};
 
 /// The fewest tiles of a level that has a z score.
@@ -9,8 +9,33 @@ const MIN_TILES: usize = 16;
 /// The fewest tiles of a level that shows that there is no gradient.
 const MIN_TILES_FOR_NO_GRADIENT: usize = 256;
 
-/// The smallest mean square of differences that is neither rounding nor compression: six codes of 8 bits.
-const MIN_SIGNAL: f64 = (12.0 / 255.0) * (12.0 / 255.0);
+/// The smallest mean square of differences that is neither rounding nor compression: eight codes of 8 bits.
+const MIN_SIGNAL: f64 = (16.0 / 255.0) * (16.0 / 255.0);
+
+/// The smallest absolute mean correlation that decides. The z score knows chance only, while details finer than a texel (aliasing) and
+/// compression shift the mean by some hundredths.
+const MIN_CORRELATION: f64 = 0.07;
+
+/// From this absolute z score on, smaller correlations decide, too: they come from large maps with much noise.
+const CLEAR_Z_SCORE: f64 = 6.5;
+
+/// The largest z score of a level of the other sign, as a part of the z score. Where levels contradict each other, details are finer than a texel.
+const MAX_CONTRADICTION: f64 = 2.0 / 3.0;
+
+/// The largest log energy ratio of exchanged channels, and its largest z score. That of a gradient is not negative, so the sign of the correlation
+/// needs less certainty than otherwise: this absolute z score.
+const MAX_EXCHANGED_RATIO: f64 = -0.02;
+const MAX_EXCHANGED_RATIO_Z_SCORE: f64 = -3.0;
+const MIN_EXCHANGED_Z_SCORE: f64 = 2.0;
+
+/// The steepness of the confidence over the z score, less that of the level that contradicts it most.
+const STEEPNESS: f64 = 0.8;
+
+/// The steepness of the confidence that red and green are not exchanged, over the z score of the log energy ratio.
+const EXCHANGE_STEEPNESS: f64 = 2.0;
+
+/// The largest confidence of a verdict, and of the likelier sign without one.
+const MAX_CONFIDENCES: [f64; 2] = [0.998, 0.95];
 
 /// The evidence of all levels.
 #[derive(Clone, Copy, Debug, Default)]
@@ -19,8 +44,11 @@ pub struct Evidence {
     pub correlation: f64,
     /// The largest of the levels' z scores, or all of them combined.
     pub z_score: f64,
-    /// The log energy ratio of the level of `correlation`.
+    /// The largest absolute z score of a level whose sign is not that of `z_score`.
+    contradiction: f64,
+    /// The log energy ratio of the level of `correlation`, and its mean over its standard error.
     pub log_energy_ratio: f64,
+    ratio_z_score: f64,
     /// Whether a gradient would be visible: enough tiles, with differences that are more than rounding and compression.
     has_enough_signal: bool,
 }
@@ -42,10 +70,13 @@ pub fn combine_levels(levels: &[Level]) -> Evidence {
     let has_enough_signal = |sums: &&TileSums| {
         sums.tiles >= MIN_TILES_FOR_NO_GRADIENT && sums.energy > MIN_SIGNAL * sums.texels * 4.0
     };
+    let against = sums.iter().map(|sums| -sums.z_score() * z_score.signum());
     Evidence {
         correlation: clearest.mean(clearest.correlations),
         z_score,
+        contradiction: against.fold(0.0, f64::max),
         log_energy_ratio: clearest.mean(clearest.log_energy_ratios),
+        ratio_z_score: clearest.z_score_of(clearest.log_energy_ratios, clearest.squared_log_energy_ratios),
         has_enough_signal: sums.iter().any(has_enough_signal),
     }
 }
@@ -55,36 +86,66 @@ impl TileSums {
         sum / self.tiles as f64
     }
 
-    /// The mean correlation over its standard error. A floor of the variance keeps few equal tiles from certainty.
+    /// The mean correlation over its standard error.
     fn z_score(&self) -> f64 {
-        let mean = self.mean(self.correlations);
-        let variance = (self.mean(self.squared_correlations) - mean * mean).max(0.01);
+        self.z_score_of(self.correlations, self.squared_correlations)
+    }
+
+    /// The mean over its standard error of values with these sums. A floor of the variance keeps few equal tiles from certainty.
+    fn z_score_of(&self, sum: f64, squares: f64) -> f64 {
+        let mean = self.mean(sum);
+        let variance = (self.mean(squares) - mean * mean).max(0.01);
         mean / (variance / (self.tiles - 1) as f64).sqrt()
     }
 }
 
 impl Evidence {
+    /// Whether there is a gradient so clear that texels that are no normals belong to a background that compression has blurred.
+    pub fn is_clear_gradient(&self) -> bool {
+        self.z_score.abs() >= 4.0 * f64::from(MIN_Z_SCORE)
+            && self.correlation.abs() >= 0.3
+            && self.log_energy_ratio >= 0.1
+    }
+
     pub fn verdict(&self) -> MapVerdict {
+        let has_sign = self.z_score.abs() >= MIN_Z_SCORE.into();
         match () {
-            () if self.z_score.abs() >= MIN_Z_SCORE.into()
-                && self.log_energy_ratio <= MAX_EXCHANGED_RATIO.into() =>
-            {
-                MapVerdict::NoGradient
-            }
-            () if self.z_score >= MIN_Z_SCORE.into() => MapVerdict::OpenGl,
-            () if self.z_score <= -f64::from(MIN_Z_SCORE) => MapVerdict::DirectX,
-            () if self.has_enough_signal => MapVerdict::NoGradient,
+            () if self.is_exchanged() => MapVerdict::NoGradient,
+            () if self.is_decided() && self.z_score > 0.0 => MapVerdict::OpenGl,
+            () if self.is_decided() => MapVerdict::DirectX,
+            () if !has_sign && self.has_enough_signal => MapVerdict::NoGradient,
             () => MapVerdict::CannotTell,
         }
     }
 
-    /// An estimate of the probability that the sign of the z score is right.
+    /// Whether red and green seem to be exchanged.
+    pub fn is_exchanged(&self) -> bool {
+        self.log_energy_ratio <= MAX_EXCHANGED_RATIO
+            && self.ratio_z_score <= MAX_EXCHANGED_RATIO_Z_SCORE
+            && self.z_score.abs() >= MIN_EXCHANGED_Z_SCORE
+    }
+
+    fn is_decided(&self) -> bool {
+        let z_score = self.z_score.abs();
+        let is_strong = self.correlation.abs() >= MIN_CORRELATION || z_score >= CLEAR_Z_SCORE;
+        z_score >= MIN_Z_SCORE.into() && is_strong && self.contradiction <= MAX_CONTRADICTION * z_score
+    }
+
+    /// An estimate of the probability that the verdict is right; without one, that the sign of the z score is right.
     ///
-    /// The curve is provisional: a logistic function whose steepness was chosen on the generated maps of `cargo xtask maps`, made nearly flat
-    /// (SLOPE 0.03) so that some signs are wrong. It was not fitted to real maps. It stays below 1 because compression can have a direction
-    /// of its own.
+    /// Logistic functions. The first steepness was fitted to generated maps with even numbers and tested on those with odd ones, many of them
+    /// so flat that some signs are wrong; the second one to the energy ratios of such maps, as if every second map were exchanged
+    /// (`cargo xtask maps`). The estimate stays below 1 because compression and details finer than a texel can have a direction of
+    /// their own.
     pub fn confidence(&self) -> f64 {
-        (1.0 / (1.0 + (-0.9 * self.z_score.abs()).exp())).min(0.999)
+        let logistic = |x: f64| 1.0 / (1.0 + (-x).exp());
+        let of_sign = logistic(STEEPNESS * (self.z_score.abs() - self.contradiction));
+        let [largest, largest_without_verdict] = MAX_CONFIDENCES;
+        match self.is_decided() {
+            true => of_sign.min(largest) * logistic(EXCHANGE_STEEPNESS * self.ratio_z_score),
+            false => of_sign.min(largest_without_verdict),
+        }
+        .max(0.5)
     }
 }
 
@@ -113,5 +174,20 @@ mod tests {
             assert!((clear.z_score * sign - 5.0).abs() < 1e-9, "{clear:?}");
             assert!((clear.correlation * sign - 0.05).abs() < 1e-9, "{clear:?}");
         }
+    }
+
+    /// Contradicting levels and small correlations decide nothing.
+    #[test]
+    fn aliased_maps_get_no_verdict() {
+        let verdict = |z_scores: &[f64]| {
+            let levels: Vec<Level> = z_scores.iter().map(|&z_score| level(z_score)).collect();
+            combine_levels(&levels).verdict()
+        };
+        assert_eq!(verdict(&[20.0, 3.0]), MapVerdict::OpenGl);
+        assert_eq!(verdict(&[-20.0, 10.0]), MapVerdict::DirectX);
+        assert_eq!(verdict(&[-20.0, 15.0]), MapVerdict::CannotTell);
+        // Mean correlations of 0.06 and 0.07.
+        assert_eq!(verdict(&[6.0]), MapVerdict::CannotTell);
+        assert_eq!(verdict(&[7.0]), MapVerdict::OpenGl);
     }
 }

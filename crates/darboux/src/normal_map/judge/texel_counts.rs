@@ -165,6 +165,7 @@ impl TexelCounts {
             correlation: 0.0,
             z_score: 0.0,
             log_energy_ratio: 0.0,
+            is_exchanged: false,
             texels: self.texels,
             background: self.kinds.background,
             not_unit: self.kinds.not_unit,
