@@ -4,9 +4,11 @@ use std::collections::BTreeMap;
 
 use darboux::{BitangentDirection, MapJudgement};
 use darboux_io::Error;
-use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveName, inspect};
+use darboux_io::gltf::{Appearance, Document, PrimitiveCorners, PrimitiveName, inspect};
+use darboux_io::image::RgbaImage;
 
 use crate::code::Code;
+use crate::facets::FacetVotes;
 use crate::finding::{Finding, Place};
 use crate::fit;
 use crate::map::Map;
@@ -69,7 +71,7 @@ pub fn for_each_surface(document: &mut Document, mut visit: impl FnMut(Surface))
     for (corners, same_as) in distinct(document, document.corners()?) {
         let info = infos.iter().find(|info| info.name == *corners.name());
         let Some(info) = info.filter(|_| !corners.is_empty()) else { continue };
-        let Some(mut surface) = Surface::read(document, &corners, info)? else { continue };
+        let Some(mut surface) = Surface::read(document, &corners, Some(info))? else { continue };
         surface.place.same_as = same_as;
         visit(surface);
     }
@@ -78,7 +80,16 @@ pub fn for_each_surface(document: &mut Document, mut visit: impl FnMut(Surface))
 
 /// Checks the file of an image that is a normal map.
 pub fn check_map(file: &[u8], options: &CheckOptions) -> CheckedMap {
-    let map = Map::read(file, options.green);
+    check_map_with(file, options, |_| FacetVotes::default())
+}
+
+/// As [`check_map`]; `vote` gives the votes of the meshes that use the map.
+fn check_map_with(
+    file: &[u8],
+    options: &CheckOptions,
+    vote: impl FnOnce(&RgbaImage) -> FacetVotes,
+) -> CheckedMap {
+    let map = Map::read(file, options.green, vote);
     let obstacle = obstacles::of_image(file);
     let findings = MAP_RULES.iter().filter_map(|rule| rule(&map));
     let findings = findings.map(|finding| finding.with_obstacle(obstacle.clone())).collect();
@@ -194,7 +205,8 @@ fn distinct<'a>(
 /// Checks materials and the images of their normal maps, each image once.
 fn check_materials(document: &Document, options: &CheckOptions) -> Result<Vec<Finding>, Error> {
     let (mut findings, mut images) = (Vec::new(), BTreeMap::new());
-    for (index, appearance) in document.appearances()?.iter().enumerate() {
+    let appearances = document.appearances()?;
+    for (index, appearance) in appearances.iter().enumerate() {
         let Some(texture) = &appearance.normal_texture else { continue };
         let place = Place { material: Some(index), ..Place::default() };
         let found = TEXTURE_RULES.iter().filter_map(|rule| rule(texture));
@@ -205,23 +217,41 @@ fn check_materials(document: &Document, options: &CheckOptions) -> Result<Vec<Fi
     }
     for (image, material) in images {
         let place = Place { image: Some(image), material: Some(material), ..Place::default() };
-        let found = check_image(document, image, options);
+        let found = check_image(document, &appearances, image, options)?;
         findings.extend(found.into_iter().map(|finding| Finding { place: place.clone(), ..finding }));
     }
     Ok(findings)
 }
 
-/// Checks an image of a document as a normal map.
-fn check_image(document: &Document, image: usize, options: &CheckOptions) -> Vec<Finding> {
-    match document.image_bytes(image) {
-        Ok(bytes) => {
-            let obstacle = document.normal_map_obstacle(image).map(|clause| format!("the image {clause}"));
-            let findings = check_map(&bytes, options).findings.into_iter();
-            findings.map(|finding| finding.with_obstacle(obstacle.clone())).collect()
-        }
+/// Checks an image of a document as a normal map. `appearances`: of all materials. Errors: invalid data of the primitives that use it.
+fn check_image(
+    document: &Document,
+    appearances: &[Appearance],
+    image: usize,
+    options: &CheckOptions,
+) -> Result<Vec<Finding>, Error> {
+    let bytes = match document.image_bytes(image) {
+        Ok(bytes) => bytes,
         Err(error) => {
-            let map = Map { judgement: Err(format!("cannot be read ({error})")), wanted: options.green };
-            MAP_RULES.iter().filter_map(|rule| rule(&map)).collect()
+            let map = Map::unreadable(format!("cannot be read ({error})"), options.green);
+            return Ok(MAP_RULES.iter().filter_map(|rule| rule(&map)).collect());
+        }
+    };
+    let mut users = Vec::new();
+    for (corners, _) in distinct(document, document.corners()?) {
+        let appearance = corners.material().and_then(|material| appearances.get(material));
+        let texture = appearance.and_then(|appearance| appearance.normal_texture.as_ref());
+        if let Some(texture) = texture.filter(|texture| texture.image == Some(image))
+            && let Some(surface) = Surface::read(document, &corners, None)?
+        {
+            users.push((surface, texture));
         }
     }
+    let checked = check_map_with(&bytes, options, |image| {
+        let mut votes = FacetVotes::default();
+        users.iter().for_each(|(surface, texture)| votes.add(surface, Some(texture), image));
+        votes
+    });
+    let obstacle = document.normal_map_obstacle(image).map(|clause| format!("the image {clause}"));
+    Ok(checked.findings.into_iter().map(|finding| finding.with_obstacle(obstacle.clone())).collect())
 }

@@ -273,6 +273,13 @@ codes! {
         "`darboux convert map.png --from directx --to opengl`."
         Repair "green is inverted"
     }
+    MapRedFlipped "map-red-flipped" Error {
+        "The normal map's red points the wrong way, judged by the mesh that it was baked for."
+        "Dents look like bumps when the light is from the side, and right when it is above or below."
+        "The baker was set to -X, or the map was mirrored without inverting red."
+        "`darboux check model.glb --fix`, or bake again with +X."
+        Repair "red is inverted"
+    }
     MapChannelsSwapped "map-channels-swapped" Error {
         "Red and green of the normal map seem to be exchanged."
         "Bumps are lit as if the map were turned by 90 degrees and mirrored."

@@ -20,6 +20,7 @@
 
 mod check;
 mod code;
+mod facets;
 mod finding;
 mod fit;
 mod fix;

@@ -33,11 +33,11 @@ pub struct Surface {
 
 impl Surface {
     /// Reads a primitive; none where it has no positions. All attributes have as many elements, or the document would not have opened.
-    /// Errors: invalid accessors; an index out of range.
+    /// `info`: where it is absent, the surface does not need tangents, and they follow the first UV set. Errors: invalid accessors; an index out of range.
     pub fn read(
         document: &Document,
         corners: &PrimitiveCorners<'_>,
-        info: &PrimitiveInfo,
+        info: Option<&PrimitiveInfo>,
     ) -> Result<Option<Self>, Error> {
         let Some(positions) = vertices(document, corners, "POSITION")? else { return Ok(None) };
         let name = corners.name();
@@ -45,10 +45,10 @@ impl Surface {
         let attributes = &primitive.attributes;
         let mut surface = Self {
             place: Place { primitive: Some(name.clone()), material: corners.material(), ..Place::default() },
-            needs_tangents: info.needs_tangents,
-            ineligible: info.ineligible.clone(),
+            needs_tangents: info.is_some_and(|info| info.needs_tangents),
+            ineligible: info.and_then(|info| info.ineligible.clone()),
             moves_normals: primitive.targets.iter().any(|target| target.contains_key("NORMAL")),
-            uv_set: info.uv_set,
+            uv_set: info.map_or(0, |info| info.uv_set),
             vertex_of_corner: corners.vertices().to_vec(),
             positions,
             normals: vertices(document, corners, "NORMAL")?,

@@ -9,6 +9,7 @@ use std::path::Path;
 use darboux_check::{CheckOptions, Code, Finding, Severity, check_document, check_map};
 use darboux_io::LoadOptions;
 use darboux_io::gltf::Document;
+use support::baked::{BAKED_MISTAKES, baked_models};
 use support::flips::{FLIPS, errors};
 use support::maps::MAP_MISTAKES;
 use support::mistakes::MISTAKES;
@@ -25,6 +26,16 @@ fn healthy_models_have_no_error_and_no_warning() {
     for model in healthy_models() {
         let findings = check(&model);
         let bad = codes(&findings, |severity| severity > Severity::Info);
+        assert_eq!(bad, BTreeSet::new(), "{}: {findings:#?}", model.name);
+    }
+}
+
+/// Maps that were baked for their models have no error, and the facets of a model say nothing about other maps.
+#[test]
+fn baked_maps_have_no_error() {
+    for model in baked_models() {
+        let findings = check(&model);
+        let bad = codes(&findings, |severity| severity == Severity::Error);
         assert_eq!(bad, BTreeSet::new(), "{}: {findings:#?}", model.name);
     }
 }
@@ -124,7 +135,9 @@ fn names_are_distinct_and_parse_and_every_mistake_is_in_the_table() {
     assert!(Code::ALL.iter().all(|code| code.name().parse() == Ok(*code)));
     assert!("tangent".parse::<Code>().is_err());
     let in_models = MISTAKES.iter().map(|mistake| mistake.code);
-    let made: BTreeSet<Code> = in_models.chain(MAP_MISTAKES.iter().map(|mistake| mistake.code)).collect();
+    let in_maps = MAP_MISTAKES.iter().map(|mistake| mistake.code);
+    let in_baked_maps = BAKED_MISTAKES.iter().map(|mistake| mistake.code);
+    let made: BTreeSet<Code> = in_models.chain(in_maps).chain(in_baked_maps).collect();
     // Mirrored UVs are no mistake, and a broken file is none in a map's texels.
     let rest = [Code::UvMirrored, Code::UvOverlapping, Code::MapUnreadable];
     let without: Vec<&Code> = Code::ALL.iter().filter(|code| !made.contains(code)).collect();

@@ -7,7 +7,7 @@ use std::fs;
 
 use darboux::{Method, TangentOptions};
 use darboux_check::{
-    CheckOptions, Code, FixOptions, FixedFinding, Severity, check_document, fix_document, fix_map,
+    CheckOptions, Code, FixOptions, FixedFinding, Severity, check_document, check_map, fix_document, fix_map,
 };
 use darboux_io::gltf::Document;
 use darboux_io::image::PngImage;
@@ -188,24 +188,46 @@ fn a_repair_goes_on_with_what_it_reveals() {
     );
 }
 
-/// A nearly flat map that was encoded as sRGB: blue is 1 everywhere, so that the encoding is seen only after blue was made again.
+/// The encoding leaves blue at 255 everywhere, as if the map had two channels.
+#[test]
+fn a_nearly_flat_map_that_was_encoded_as_srgb_is_repaired() {
+    let slopes = (0..256u32 * 256).map(|i| {
+        let (x, y) = (f64::from(i % 256) / 9.0, f64::from(i / 256) / 7.0);
+        [-x.cos() * y.sin(), x.sin() * y.cos()]
+    });
+    let codes: Vec<[f64; 3]> = slopes
+        .map(|[x, y]| [x, y].map(|slope| (188.0 + 6.0 * slope).round()))
+        .map(|[r, g]| [r, g, 255.0])
+        .collect();
+    let texels: Vec<[u8; 3]> = codes.iter().map(|texel| texel.map(|code| code as u8)).collect();
+    let file =
+        PngImage::from_rgb("map", [256; 2], &texels).and_then(|image| image.to_bytes()).expect("a PNG");
+    let found = check_map(&file, &CheckOptions::default()).findings;
+    assert!(found.iter().any(|finding| finding.code == Code::MapSrgb), "{found:?}");
+    let fixed = fix_map("map", &file, &LoadOptions::default(), &FixOptions::default()).expect("a map");
+    assert!(fixed.findings.iter().any(|fixed| fixed.repaired && fixed.finding.code == Code::MapSrgb));
+    let repaired = fixed.image.expect("a repaired map").to_bytes().expect("a PNG");
+    let left = check_map(&repaired, &CheckOptions::default()).findings;
+    assert!(left.iter().all(|finding| finding.severity < Severity::Error), "{left:?}");
+    for (decoded, encoded) in support::table::rgb(&repaired).iter().zip(&codes) {
+        let expected = encoded.map(|code| 255.0 * ((code / 255.0 + 0.055) / 1.055).powf(2.4));
+        assert_eq!(decoded.map(f64::from), expected.map(f64::round));
+    }
+}
+
+/// Two mistakes, of which only one may be repaired, which would reveal the other.
 #[test]
 fn a_repair_that_makes_a_map_worse_is_not_kept() {
-    let size = [256, 256];
-    let texels: Vec<[u8; 3]> = (0..256u32 * 256)
-        .map(|i| {
-            let (x, y) = (f64::from(i % 256) / 9.0, f64::from(i / 256) / 7.0);
-            let encoded = |slope: f64| (188.0 + 6.0 * slope).round() as u8;
-            [encoded(x.cos() * y.sin()), encoded(x.sin() * y.cos()), 255]
-        })
-        .collect();
-    let file = PngImage::from_rgb("map", size, &texels).and_then(|image| image.to_bytes()).expect("a PNG");
-    let fixed = fix_map("map", &file, &LoadOptions::default(), &FixOptions::default()).expect("a map");
-    let Some(image) = fixed.image else { return };
-    let after =
-        fix_map("map", &image.to_bytes().expect("a PNG"), &LoadOptions::default(), &FixOptions::default());
-    let errors = after.expect("a map").findings;
-    assert!(errors.iter().all(|fixed| fixed.finding.severity < Severity::Error), "{errors:?}");
+    let map = healthy_models().remove(0).map;
+    let texels = map.texels.iter().map(|[r, g, _]| [*g, *r, 0]).collect();
+    let options = FixOptions::default().with_codes([Code::MapTwoChannel]);
+    let file = map.with_texels(texels).file;
+    let fixed = fix_map("map.png", &file, &LoadOptions::default(), &options).expect("a map");
+    assert!(fixed.image.is_none(), "{:?}", fixed.findings);
+    let left =
+        fixed.findings.iter().find(|fixed| fixed.finding.code == Code::MapTwoChannel).expect("the finding");
+    let reason = left.finding.left_because.as_deref().unwrap_or_default();
+    assert!(!left.repaired && reason.contains("would end in map-channels-swapped"), "{reason}");
 }
 
 /// An image that is also a colour, and one that cannot be rewritten, are left, with the reason.

@@ -1,9 +1,8 @@
 //! Rewrites the texels of normal maps at their bit depth.
 
-use std::borrow::Cow;
 use std::collections::BTreeSet;
 
-use darboux::{BitangentDirection, Convention, Conversion, SrgbMistake};
+use darboux::{BitangentDirection, Convention, Conversion, SrgbMistake, TangentDirection};
 use darboux_io::gltf::Document;
 use darboux_io::image::{
     Channels, DecodeLimits, PngImage, RgbaImage, change_texels, convert_normal_map, linear_to_srgb,
@@ -13,7 +12,7 @@ use darboux_io::{Error, LoadOptions};
 
 use super::options::FixOptions;
 use super::outcome::{FixedFinding, is_same, outcome};
-use crate::check::check_map;
+use crate::check::{CheckedMap, check_map};
 use crate::code::Code;
 use crate::finding::{Finding, Place};
 use crate::severity::Severity;
@@ -37,18 +36,26 @@ pub fn fix_map(
     loading: &LoadOptions,
     options: &FixOptions,
 ) -> Result<FixedMap, Error> {
-    let mut current = Cow::Borrowed(file);
+    fix_checked(name, file, check_map(file, &options.check), loading, options)
+}
+
+/// Repairs an image file whose findings are known: meshes may have helped to find them.
+fn fix_checked(
+    name: &str,
+    file: &[u8],
+    mut checked: CheckedMap,
+    loading: &LoadOptions,
+    options: &FixOptions,
+) -> Result<FixedMap, Error> {
+    let known = checked.findings.clone();
+    // Red is inverted before anything is checked again: without the mesh, inverted red looks as inverted green.
+    if known.iter().any(|finding| finding.code == Code::MapRedFlipped && !options.repairs(finding)) {
+        return Ok(all_left(known, "its red is inverted, and only that is certain while it is left"));
+    }
     let mut image: Option<PngImage> = None;
-    let mut findings: Vec<Finding> = Vec::new();
     let mut done = BTreeSet::new();
-    let known = check_map(file, &options.check).findings;
+    let mut findings = known.clone();
     let remaining = loop {
-        let checked = check_map(&current, &options.check);
-        for finding in &checked.findings {
-            if !findings.iter().any(|known| is_same(known, finding)) {
-                findings.push(finding.clone());
-            }
-        }
         let next =
             checked.findings.iter().find(|finding| options.repairs(finding) && !done.contains(&finding.code));
         let Some(next) = next else { break checked.findings };
@@ -59,21 +66,31 @@ pub fn fix_map(
         };
         let mistake = checked.judgement.and_then(|judgement| judgement.srgb_mistake());
         repair(&mut changed, next.code, mistake, options)?;
-        current = changed.to_bytes()?.into();
+        checked = check_map(&changed.to_bytes()?, &options.check);
         image = Some(changed);
+        for finding in &checked.findings {
+            if !findings.iter().any(|known| is_same(known, finding)) {
+                findings.push(finding.clone());
+            }
+        }
     };
     if let Some(worse) = remaining.iter().find(|left| is_new_error(left, &known)) {
-        let reason = Some(format!("its repair would end in {}", worse.code.name()));
-        let left = |finding: Finding| FixedFinding {
-            finding: finding.with_obstacle(reason.clone()),
-            repaired: false,
-        };
-        return Ok(FixedMap { image: None, findings: known.into_iter().map(left).collect() });
+        let reason = format!("its repair would end in {}", worse.code.name());
+        return Ok(all_left(known, &reason));
     }
     let findings: Vec<FixedFinding> =
         findings.into_iter().map(|finding| outcome(finding, &remaining, options)).collect();
     let is_any_repaired = findings.iter().any(|finding| finding.repaired);
     Ok(FixedMap { image: image.filter(|_| is_any_repaired), findings })
+}
+
+/// An image that is not changed, and why.
+fn all_left(findings: Vec<Finding>, reason: &str) -> FixedMap {
+    let left = |finding: Finding| FixedFinding {
+        finding: finding.with_obstacle(Some(reason.to_owned())),
+        repaired: false,
+    };
+    FixedMap { image: None, findings: findings.into_iter().map(left).collect() }
 }
 
 /// Whether a repair has made an image worse: an error that it did not have before.
@@ -106,6 +123,10 @@ fn repair(
     match code {
         Code::MapGreenFlipped => {
             convert_normal_map(image, &green(options.check.green), Channels::RGB, Channels::RGB)
+        }
+        Code::MapRedFlipped => {
+            let left = Convention { tangent: TangentDirection::Left, ..Convention::GLTF };
+            convert_normal_map(image, &left.to(Convention::GLTF), Channels::RGB, Channels::RGB)
         }
         Code::MapChannelsSwapped => convert_normal_map(image, &keep, exchanged, Channels::RGB),
         Code::MapTwoChannel => convert_normal_map(image, &keep, two_channels, Channels::RGB),
@@ -160,7 +181,11 @@ pub fn fix_images(
         };
         let file = document.image_bytes(index)?.into_owned();
         let name = format!("{}: images[{index}]", document.name());
-        let made = match fix_map(&name, &file, document.load_options(), options) {
+        let place = Place { image, material, ..Place::default() };
+        let findings =
+            of_image.clone().map(|finding| Finding { place: Place::default(), ..finding.clone() }).collect();
+        let checked = CheckedMap { findings, ..check_map(&file, &options.check) };
+        let made = match fix_checked(&name, &file, checked, document.load_options(), options) {
             Ok(made) => made,
             Err(error) => {
                 fixed.extend(of_image.map(|finding| left(finding, &error)));
@@ -170,7 +195,6 @@ pub fn fix_images(
         if let Some(image) = made.image {
             document.replace_image(index, image.to_bytes()?, "image/png")?;
         }
-        let place = Place { image, material, ..Place::default() };
         fixed.extend(made.findings.into_iter().map(|fixed| FixedFinding {
             finding: Finding { place: place.clone(), ..fixed.finding },
             ..fixed

@@ -3,6 +3,7 @@
 use darboux::{BitangentDirection, MapJudgement, MapVerdict, SrgbMistake};
 
 use crate::code::Code;
+use crate::facets::Arrangement;
 use crate::finding::Finding;
 use crate::map::Map;
 use crate::rule::MapRule;
@@ -14,6 +15,7 @@ pub const RULES: &[MapRule] = &[
     srgb,
     not_normal,
     two_channel,
+    red_flipped,
     green_flipped,
     channels_swapped,
     not_unit,
@@ -49,8 +51,9 @@ enum Kind {
 fn kind(judgement: &MapJudgement) -> Kind {
     match () {
         () if judgement.is_grey() => Kind::Grey,
-        () if judgement.is_two_channel() => Kind::TwoChannel,
+        // The encoding turns a nearly flat map's blue into 255 everywhere, as in a map of two channels, and flat texels tell them apart.
         () if judgement.srgb_mistake().is_some() => Kind::Srgb,
+        () if judgement.is_two_channel() => Kind::TwoChannel,
         () if judgement.is_object_space() => Kind::ObjectSpace,
         () if judgement.holds_no_normals() && judgement.verdict == MapVerdict::NoGradient => Kind::Other,
         () => Kind::Normals,
@@ -103,30 +106,108 @@ fn two_channel(map: &Map) -> Option<Finding> {
     Some(Finding::new(Code::MapTwoChannel, "its blue channel has one value only"))
 }
 
-fn green_flipped(map: &Map) -> Option<Finding> {
+/// Which channels point the wrong way.
+struct Inverted {
+    red: bool,
+    green: bool,
+}
+
+/// The arrangement that the derivatives show: that of a map with no (or both) channels inverted, or with one.
+fn arrangement(judgement: &MapJudgement) -> Option<Arrangement> {
+    match judgement.verdict {
+        MapVerdict::OpenGl => Some(Arrangement::Same),
+        MapVerdict::DirectX => Some(Arrangement::GreenInverted),
+        _ => None,
+    }
+}
+
+/// The derivatives tell whether one channel is inverted or none (or both); the facets of the mesh tell which, if they can.
+fn inverted(judgement: &MapJudgement, map: &Map) -> Option<Inverted> {
+    let arrangement = arrangement(judgement)?;
+    let red = map.facets.decide(arrangement) == Some(false);
+    let wants_down = map.wanted == BitangentDirection::Down;
+    let is_down = (arrangement == Arrangement::GreenInverted) != red;
+    Some(Inverted { red, green: is_down != wants_down })
+}
+
+/// The finding with the evidence for the direction of the channels.
+fn with_directions(finding: Finding, judgement: &MapJudgement, map: &Map) -> Finding {
+    let finding = finding
+        .with_evidence("confidence", 100.0 * f64::from(judgement.confidence), "%")
+        .with_evidence("correlation of the mixed derivatives", judgement.correlation.into(), "")
+        .with_evidence("z score", judgement.z_score.into(), "");
+    match arrangement(judgement).filter(|arrangement| map.facets.decide(*arrangement).is_some()) {
+        Some(arrangement) => {
+            finding.with_evidence("z score of the mesh's facets", map.facets.z_score(arrangement), "")
+        }
+        None => finding,
+    }
+}
+
+/// The judgement on a map whose channels have directions, unless red and green are exchanged.
+fn directed(map: &Map) -> Option<&MapJudgement> {
     let judgement =
         judged(map).filter(|judgement| matches!(kind(judgement), Kind::Normals | Kind::TwoChannel))?;
-    let (flipped, program) = match map.wanted {
-        BitangentDirection::Up => (MapVerdict::DirectX, "DirectX (green down) instead of OpenGL (green up)"),
-        BitangentDirection::Down => (MapVerdict::OpenGl, "OpenGL (green up) instead of DirectX (green down)"),
+    (!facets_show_exchange(judgement, map)).then_some(judgement)
+}
+
+fn green_flipped(map: &Map) -> Option<Finding> {
+    let judgement = directed(map)?;
+    let program = match map.wanted {
+        BitangentDirection::Up => "DirectX (green down) instead of OpenGL (green up)",
+        BitangentDirection::Down => "OpenGL (green up) instead of DirectX (green down)",
     };
-    (judgement.verdict == flipped).then(|| {
-        Finding::new(Code::MapGreenFlipped, format!("it is in the convention of {program}"))
-            .with_evidence("confidence", 100.0 * f64::from(judgement.confidence), "%")
-            .with_evidence("correlation of the mixed derivatives", judgement.correlation.into(), "")
-            .with_evidence("z score", judgement.z_score.into(), "")
+    inverted(judgement, map)?.green.then(|| {
+        let finding = Finding::new(Code::MapGreenFlipped, format!("it is in the convention of {program}"));
+        with_directions(finding, judgement, map)
     })
+}
+
+fn red_flipped(map: &Map) -> Option<Finding> {
+    let judgement = directed(map)?;
+    inverted(judgement, map)?.red.then(|| {
+        let finding = Finding::new(
+            Code::MapRedFlipped,
+            "its red is inverted: its texels lean against the faces of the mesh",
+        );
+        with_directions(finding, judgement, map)
+    })
+}
+
+/// The arrangements that the sign of the derivatives permits: red and green at their places, and exchanged.
+fn candidates(judgement: &MapJudgement) -> [Arrangement; 2] {
+    match judgement.z_score > 0.0 {
+        true => [Arrangement::Same, Arrangement::Exchanged],
+        false => [Arrangement::GreenInverted, Arrangement::ExchangedAndInverted],
+    }
+}
+
+/// Whether the texels follow the facets of the mesh with red and green exchanged, and not otherwise.
+fn facets_show_exchange(judgement: &MapJudgement, map: &Map) -> bool {
+    let [straight, exchanged] =
+        candidates(judgement).map(|arrangement| map.facets.z_score(arrangement).abs());
+    let decided = candidates(judgement).map(|arrangement| map.facets.decide(arrangement).is_some());
+    decided[1] && exchanged > 2.0 * straight
 }
 
 fn channels_swapped(map: &Map) -> Option<Finding> {
     let judgement = judged(map).filter(|judgement| kind(judgement) == Kind::Normals)?;
-    judgement.has_exchanged_channels().then(|| {
-        Finding::new(
-            Code::MapChannelsSwapped,
-            "its derivatives are those of a map with red and green exchanged",
-        )
+    let by_derivatives = judgement.has_exchanged_channels();
+    let by_facets = facets_show_exchange(judgement, map);
+    let text = match (by_derivatives, by_facets) {
+        (false, false) => return None,
+        (true, _) => "its derivatives are those of a map with red and green exchanged",
+        (false, true) => "its texels follow the faces of the mesh with red and green exchanged",
+    };
+    let finding = Finding::new(Code::MapChannelsSwapped, text)
         .with_evidence("half the log of unmixed over mixed energy", judgement.log_energy_ratio.into(), "")
-        .with_evidence("z score", judgement.z_score.into(), "")
+        .with_evidence("z score", judgement.z_score.into(), "");
+    Some(match by_facets {
+        true => {
+            let z_score = map.facets.z_score(candidates(judgement)[1]);
+            finding.with_evidence("z score of the mesh's facets", z_score, "")
+        }
+        false => finding,
     })
 }
 

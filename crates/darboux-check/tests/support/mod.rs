@@ -2,6 +2,7 @@
 
 #![allow(dead_code, reason = "each test file and the example use their part")]
 
+pub mod baked;
 pub mod container;
 pub mod flips;
 pub mod maps;

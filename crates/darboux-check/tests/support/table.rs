@@ -8,6 +8,7 @@ use darboux_check::{
 use darboux_io::LoadOptions;
 use darboux_io::gltf::{Document, pair_tangents};
 
+use super::baked;
 use super::maps::{MAP_MISTAKES, Map, MapMistake};
 use super::mistakes::{MISTAKES, Mistake};
 use super::models::{Model, healthy_models};
@@ -43,7 +44,7 @@ pub fn table() -> Vec<Row> {
     let models = healthy_models();
     let in_models = MISTAKES.iter().map(|mistake| row(mistake, &models));
     let in_maps = MAP_MISTAKES.iter().map(|mistake| map_row(mistake, &models));
-    in_models.chain(in_maps).collect()
+    in_models.chain(in_maps).chain(baked::rows()).collect()
 }
 
 fn row(mistake: &Mistake, models: &[Model]) -> Row {
@@ -157,7 +158,7 @@ pub fn rgb(file: &[u8]) -> Vec<[u8; 3]> {
 }
 
 impl Row {
-    fn new(code: Code, how: &'static str) -> Self {
+    pub fn new(code: Code, how: &'static str) -> Self {
         let repaired = code.repair().is_some().then_some(0);
         Self { code, how, models: 0, named: 0, with_other_errors: 0, repaired, failures: Vec::new() }
     }
