@@ -20,7 +20,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 const [modules, out, version, ...entries] = process.argv.slice(2);
 
 /** The entries of the whole package, each with a WebAssembly module of its name. */
-const ALL_ENTRIES = ['darboux', 'tangents'];
+const ALL_ENTRIES = ['darboux', 'tangents', 'check'];
 
 /** The other entries of the whole package. Most import one of the above. */
 const ADAPTERS = entries.length === ALL_ENTRIES.length ? ['three', 'gltf-transform', 'mikktspace', 'webgpu'] : [];
@@ -54,17 +54,21 @@ function run(program, ...words) {
   });
 }
 
-/** Functions of the standard library that end a call, and those that format messages which WebAssembly cannot print. */
-const PANICS = /^_R.*(4core3fmt|9panicking\d|_fail$|_failed$|17rust_begin_unwind|15panic_with_hook|12handle_error|18handle_alloc_error|17capacity_overflow|8rust_oom)/;
+/** Functions of the standard library that format messages. Only `check` returns any. */
+const MESSAGES = /^_R.*4core3fmt/;
+
+/** Functions of the standard library that end a call. */
+const PANICS = /^_R.*(9panicking\d|_fail$|_failed$|17rust_begin_unwind|15panic_with_hook|12handle_error|18handle_alloc_error|17capacity_overflow|8rust_oom)/;
 
 /** Replaces the bodies of panics by traps. Their messages, which nothing can print, are not linked then. */
-function trapPanics(from, to) {
+function trapPanics(entry, from, to) {
+  const isTrapped = (name) => PANICS.test(name) || (entry !== 'check' && MESSAGES.test(name));
   const module = binaryen.readBinary(readFileSync(from));
   // Keeps the names of functions, which wasm-opt sorts by.
   binaryen.setDebugInfo(true);
   for (let at = 0; at < module.getNumFunctions(); at++) {
     const pointer = module.getFunctionByIndex(at);
-    if (PANICS.test(binaryen.getFunctionInfo(pointer).name)) binaryen.Function(pointer).body = module.unreachable();
+    if (isTrapped(binaryen.getFunctionInfo(pointer).name)) binaryen.Function(pointer).body = module.unreachable();
   }
   writeFileSync(to, module.emitBinary());
   module.dispose();
@@ -77,12 +81,12 @@ const deflatedPath = (path) => `${path}.deflated`;
 /** Shrinks and deflates a module, unless the same module was shrunk before. */
 async function shrink(entry, form) {
   const [source, path] = [join(modules, `${entry}.${form}.wasm`), shrunkPath(entry, form)];
-  const key = createHash('sha256').update(readFileSync(source)).update(`${FEATURES} ${PANICS} ${trapPanics} ${shrink}`).digest('hex');
+  const key = createHash('sha256').update(readFileSync(source)).update(`${FEATURES} ${PANICS} ${MESSAGES} ${trapPanics} ${shrink}`).digest('hex');
   const keyPath = `${path}.key`;
   if (existsSync(keyPath) && readFileSync(keyPath, 'utf8') === key) return;
   mkdirSync(dirname(path), { recursive: true });
   await step(`shrink the module of ${entry} (${form})`, async () => {
-    trapPanics(source, path);
+    trapPanics(entry, source, path);
     const features = [...FEATURES, ...(form === 'simd' ? ['simd'] : [])].map((name) => `--enable-${name}`);
     // Functions with one caller are not inlined: similar functions compress better side by side, and no hot loop contains a call.
     // Functions sorted by name lie beside those of the same module, which compresses better.

@@ -50,6 +50,9 @@ pub const FULL: Module = Module { entry: "darboux", features: "full", is_small: 
 /// The module of `darboux/tangents`.
 const SMALL: Module = Module { entry: "tangents", features: "", is_small: true };
 
+/// The module of `darboux/check`.
+const CHECK: Module = Module { entry: "check", features: "check", is_small: false };
+
 /// Optimises every function for size. The hot functions are excluded by name.
 const SIZE_FLAG: &str = "-Cllvm-args=-force-attribute=optsize";
 
@@ -62,15 +65,15 @@ pub fn test(without: WithoutNpm) -> Outcome {
         println!("skipped: the npm package needs node and npm");
         return Ok(());
     }
-    make_folder(&folder()?, &[FULL, SMALL])?;
+    make_folder(&folder()?, &[FULL, SMALL, CHECK])?;
     run(program("npm test").current_dir(root().join("bindings/js")))
 }
 
 /// `cargo xtask dist-js`: makes the folder and prints its absolute path as the last line.
 pub fn make() -> Outcome {
-    eprintln!("dist-js makes the npm package: 4 WebAssembly modules, bundled with TypeScript");
+    eprintln!("dist-js makes the npm package: 6 WebAssembly modules, bundled with TypeScript");
     let folder = folder()?;
-    make_folder(&folder, &[FULL, SMALL])?;
+    make_folder(&folder, &[FULL, SMALL, CHECK])?;
     println!("{}", folder.display());
     Ok(())
 }

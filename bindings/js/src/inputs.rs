@@ -83,7 +83,7 @@ pub extern "C" fn welded_vertices(vertices: usize) -> *mut u32 {
 }
 
 /// Gives an array exactly this length without allocating more than that, and returns its address.
-fn resized<T: Clone + Default>(array: &mut Vec<T>, len: usize) -> *mut T {
+pub(crate) fn resized<T: Clone + Default>(array: &mut Vec<T>, len: usize) -> *mut T {
     array.reserve_exact(len.saturating_sub(array.len()));
     array.resize(len, T::default());
     array.as_mut_ptr()

@@ -11,6 +11,10 @@ mod mesh_arrays;
 mod options;
 mod tangents;
 
+#[cfg(feature = "check")]
+mod check;
+#[cfg(feature = "check")]
+mod check_arrays;
 #[cfg(feature = "full")]
 mod encode;
 #[cfg(feature = "full")]

@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
+import { fileURLToPath } from 'node:url';
 
 const readme = readFileSync(new URL('../README.md', import.meta.url), 'utf8');
 const examples = [...readme.matchAll(/```js\n([^]*?)```/g)].map(([, code]) => code);
@@ -41,6 +42,15 @@ test('the module that three.js expects', async () => {
 test('a document of glTF-Transform', async () => {
   const { document } = await run(4, 'document');
   assert.equal(document.getRoot().listAccessors().length, 0);
+});
+
+test('what is wrong with a model', async () => {
+  const before = process.cwd();
+  process.chdir(fileURLToPath(new URL('../../..', import.meta.url)));
+  const { errors, repaired, left } = await run(7, 'errors, repaired, left').finally(() => process.chdir(before));
+  assert.deepEqual(errors.map(({ code }) => code), ['tangent-shared-across-mirror']);
+  assert.ok(repaired.length > 0);
+  assert.ok(left.every(({ severity, leftBecause }) => severity !== 'error' && leftBecause));
 });
 
 test('in place of npm mikktspace', async () => {

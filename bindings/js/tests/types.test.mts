@@ -1,6 +1,7 @@
 // Compiled, never run: what users may write, and what they may not.
 
 import { encodeTangents, generateTangents as generateAny, measureTangents, splitVertices } from 'darboux';
+import { check, judgeNormalMap, type Finding } from 'darboux/check';
 import { tangents as transform } from 'darboux/gltf-transform';
 import * as mikktspace from 'darboux/mikktspace';
 import { generateTangents, ready, type MikkTSpaceOptions } from 'darboux/tangents';
@@ -50,4 +51,9 @@ export async function tangentsOnGpu(buffer: GPUBuffer): Promise<number> {
   return cpuCorners + tangents.length + texts.length;
 }
 
-export { diamond, largest, loaded, octahedral, sources, tangents };
+const findings: Finding[] = check(new Uint8Array(), { green: 'down' });
+// @ts-expect-error: another direction
+check(new Uint8Array(), { green: 'left' });
+const verdict: 'opengl' | 'directx' | 'no-gradient' | 'flat' | 'cannot-tell' = judgeNormalMap(new Uint8ClampedArray(16), 2, 2).verdict;
+
+export { diamond, findings, largest, loaded, octahedral, sources, tangents, verdict };

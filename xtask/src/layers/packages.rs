@@ -27,7 +27,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ),
     ("darboux-c", &["darboux", "darboux-tests"]),
     ("darboux-mikktspace", &["darboux"]),
-    ("darboux-js", &["darboux"]),
+    ("darboux-js", &["darboux", "darboux-io", "darboux-check"]),
     ("darboux-viewer", &["darboux", "darboux-io"]),
     ("darboux-python", &["darboux", "darboux-io", "darboux-check", "darboux-cli"]),
     ("darboux-dice", &[]),

@@ -1,6 +1,6 @@
 //! Rules about tangents: values, signs, directions, and how they were computed.
 
-use darboux::{Convention, Method, Recipe, RecipeMatch, recognise_recipe};
+use darboux::{Convention, Method, Recipe, RecipeMatch, RecipeRounding, recognise_recipe};
 
 use crate::code::Code;
 use crate::finding::Finding;
@@ -236,18 +236,21 @@ fn other_recipe(measured: &Measured<'_>) -> Vec<Finding> {
         }
         () if close(best) >= 90.0 => {
             let text = format!("the tangents were computed by {}", name(&best.recipe));
-            (text, Some("corners within 0.1 degrees of this method"))
+            (text, Some("corners within 0.1 degrees (1 with 8 bits) of this method"))
         }
         () => {
-            let text = "the tangents are not those of any method that Darboux knows";
-            (text.to_owned(), Some("corners within 0.1 degrees of the nearest known method"))
+            let is_coarse = best.recipe.rounding == RecipeRounding::Bits8;
+            let coarse =
+                if is_coarse { ", or the file's numbers are rounded too coarsely to tell" } else { "" };
+            let text = format!("the tangents are not those of any method that Darboux knows{coarse}");
+            (text, Some("corners within 0.1 degrees (1 with 8 bits) of the nearest known method"))
         }
     };
     let severity = if mikktspace.worst > 0.5 { Severity::Warning } else { Severity::Info };
     let finding = Finding::new(Code::TangentOtherRecipe, text)
         .with_severity(severity)
         .with_count(differing)
-        .with_evidence("corners within 0.1 degrees of MikkTSpace", close(mikktspace), "%")
+        .with_evidence("corners within 0.1 degrees (1 with 8 bits) of MikkTSpace", close(mikktspace), "%")
         .with_evidence("largest angle to MikkTSpace", mikktspace.worst, "degrees");
     vec![match nearest {
         Some(what) => finding.with_evidence(what, close(best), "%"),

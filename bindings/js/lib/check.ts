@@ -1,0 +1,235 @@
+// `darboux/check`: what is wrong with models and normal maps, and how tangents were computed. It has a WebAssembly module of its own.
+
+import { checkType, optionsOf, rowCount } from './core/checks.js';
+import { checkedMesh, indexError, writeArrays, writeMesh } from './core/mesh.js';
+import { load, type Exports } from './core/wasm-module.js';
+import type { Faces, Indices, Method, Mode } from './types.js';
+import simd from './wasm/check.simd.wasm';
+
+/** The functions of the module; bindings/js/src/check.rs documents them. */
+interface CheckExports extends Exports {
+  file_bytes(bytes: number): number;
+  tangents_to_recognise(corners: number): number;
+  check_file(isMap: number, isGreenDown: number, judgesMaps: number, repairs: number): number;
+  judge_normal_map(isWide: number, channels: number, width: number, height: number): number;
+  recognise_recipe(): number;
+  json_length(): number;
+  repaired_file(): number;
+  repaired_length(): number;
+}
+
+/** Options of {@link check} and {@link fix}. */
+export interface CheckOptions {
+  /** Where the green of normal maps should point: 'up' (glTF, OpenGL) or 'down' (DirectX). Default: 'up'. */
+  green?: 'up' | 'down' | null;
+  /** Whether the normal maps of a model are decoded and judged. Default: true. */
+  maps?: boolean | null;
+}
+
+/** A number that supports a finding. */
+export interface Evidence {
+  what: string;
+  value: number;
+  /** `degrees`, `corners`, `%` and so on; empty for ratios. */
+  unit: string;
+}
+
+/** One thing that is wrong. docs/check.md explains every code. Indices are those of the glTF document. */
+export interface Finding {
+  code: string;
+  severity: 'error' | 'warning' | 'info';
+  mesh: number | null;
+  meshName: string | null;
+  primitive: number | null;
+  /** The number of further primitives with the same data. */
+  sameAs: number;
+  material: number | null;
+  image: number | null;
+  /** The number of vertices, corners, triangles or texels that show it, as the text says, and the indices of the first ones. */
+  count: number;
+  first: number[];
+  evidence: Evidence[];
+  /** What is wrong, in one sentence. */
+  text: string;
+  /** What it looks like on screen. */
+  looksLike: string;
+  cure: string;
+  /** Why {@link fix} leaves it; null where it repairs it. */
+  leftBecause: string | null;
+  /** Whether {@link fix} repaired it. */
+  repaired?: boolean;
+}
+
+/** The verdict on a normal map. Counts leave out black, white and middle grey texels. */
+export interface MapJudgement {
+  /** Green points up ('opengl') or down ('directx'). */
+  verdict: 'opengl' | 'directx' | 'no-gradient' | 'flat' | 'cannot-tell';
+  /** For 'opengl' and 'directx' an estimate of the probability that the verdict is right, 0.5 to 0.999. */
+  confidence: number;
+  /** From -1 (DirectX) to 1 (OpenGL). */
+  correlation: number;
+  /** The correlation in units of its standard error. */
+  zScore: number;
+  /** Negative where red and green are exchanged. */
+  logEnergyRatio: number;
+  texels: number;
+  background: number;
+  notUnit: number;
+  negativeZ: number;
+  grey: number;
+  notNormal: number;
+}
+
+/** How well a way of computing tangents explains given ones. */
+export interface RecipeMatch {
+  method: Method;
+  /** The mode of 'mikktspace'; else null. */
+  mode: Mode | null;
+  /** Whether the tangents were computed with 1 - v. */
+  flipsV: boolean;
+  /** 'corners': every corner has its own; otherwise the last or the first corner of each vertex decides. */
+  writing: 'corners' | 'last-corner' | 'first-corner';
+  /** Bits per component: 32 (floats), 16 or 8. */
+  bits: 32 | 16 | 8;
+  corners: number;
+  /** Corners with equal bits after rounding. */
+  identical: number;
+  /** Corners within 0.1 degrees (1 degree for 8 bits) and with equal signs. */
+  close: number;
+  signFlips: number;
+  /** The largest angle in degrees. */
+  worst: number;
+}
+
+const checkModule = load<CheckExports>(simd, () => import('./check.scalar.js'));
+
+/** Resolves when the other functions can be called. */
+export const ready: Promise<void> = checkModule.ready;
+
+/**
+ * Says what is wrong with the tangents, normals, UVs and normal maps of a model, or with a normal map.
+ *
+ * @param file The bytes of a GLB, of a glTF whose buffers and images are embedded, or of an image (PNG, JPEG, WebP), which is a normal map. Draco
+ * is decompressed, meshopt is not: decompress such a file first, for example with glTF-Transform.
+ * @returns The findings, grouped by place; empty for a healthy file.
+ * @throws TypeError for another type. Error for a file that cannot be read; an image that cannot be decoded is a finding.
+ */
+export function check(file: Uint8Array, options?: CheckOptions | null): Finding[] {
+  return checkModule.call((exports) => findings(exports, file, isImage(file), options, false));
+}
+
+/**
+ * Repairs a model: tangents, normals, and the texels of embedded PNG and JPEG normal maps.
+ *
+ * @param file As for {@link check}, but no image.
+ * @returns The repaired GLB, null where nothing was repaired, and all findings with what became of each.
+ * @throws As {@link check}.
+ */
+export function fix(
+  file: Uint8Array,
+  options?: CheckOptions | null,
+): { file: Uint8Array<ArrayBuffer> | null; findings: Finding[] } {
+  return checkModule.call((exports) => {
+    const found = findings(exports, file, false, options, true);
+    const length = exports.repaired_length() >>> 0;
+    const repaired = new Uint8Array(exports.memory.buffer, exports.repaired_file() >>> 0, length).slice();
+    return { file: length ? repaired : null, findings: found };
+  });
+}
+
+function findings(exports: CheckExports, file: Uint8Array, isMap: boolean, options: CheckOptions | null | undefined, repairs: boolean): Finding[] {
+  checkType('file', file, ['Uint8Array']);
+  const { green, maps } = optionsOf(options);
+  if (green != null && green !== 'up' && green !== 'down') throw new RangeError(`green is '${green}'; it must be 'up' or 'down'`);
+  writeBytes(exports, file);
+  const address = exports.check_file(Number(isMap), Number(green === 'down'), Number(maps ?? true), Number(repairs));
+  const checked = readJson<{ findings?: StoredFinding[]; error?: string }>(exports, address);
+  if (checked.error !== undefined) throw new Error(checked.error);
+  return checked.findings!.map(finding);
+}
+
+/** A finding as the module writes it; members about a mesh are absent where it concerns none. */
+type StoredFinding = Omit<Finding, 'mesh' | 'meshName' | 'primitive' | 'sameAs' | 'looksLike' | 'leftBecause'> & {
+  mesh?: number;
+  mesh_name?: string | null;
+  primitive?: number;
+  same_as: number;
+  looks_like: string;
+  left_because: string | null;
+};
+
+function finding({ mesh, mesh_name, primitive, same_as: sameAs, looks_like: looksLike, left_because: leftBecause, ...rest }: StoredFinding): Finding {
+  return { ...rest, mesh: mesh ?? null, meshName: mesh_name ?? null, primitive: primitive ?? null, sameAs, looksLike, leftBecause };
+}
+
+/** Whether a file starts as a PNG, a JPEG or a WebP image does. */
+function isImage(file: Uint8Array): boolean {
+  const starts = [[0x89, 0x50, 0x4e, 0x47], [0xff, 0xd8, 0xff], [0x52, 0x49, 0x46, 0x46]];
+  return starts.some((start) => start.every((byte, at) => file[at] === byte));
+}
+
+/**
+ * Judges a normal map by its texels: whether green points up or down, and whether they are normals at all.
+ *
+ * @param texels The channels of all texels, the top row first; x, y and, if stored, z come first. Alpha is ignored. The data of an `ImageData`
+ * has 4 channels.
+ * @param channels 2 to 4 channels per texel. Default: 4.
+ * @throws TypeError for an array of another type. RangeError for another length than width times height times channels.
+ */
+export function judgeNormalMap(
+  texels: Uint8Array | Uint8ClampedArray | Uint16Array,
+  width: number,
+  height: number,
+  channels: 2 | 3 | 4 = 4,
+): MapJudgement {
+  checkType('texels', texels, ['Uint8Array', 'Uint8ClampedArray', 'Uint16Array']);
+  if (![2, 3, 4].includes(channels)) throw new RangeError(`channels is ${channels}; it must be 2, 3 or 4`);
+  if (texels.length !== width * height * channels) {
+    throw new RangeError(`texels has a length of ${texels.length}, not width * height * channels, which is ${width * height * channels}`);
+  }
+  const isWide = texels.BYTES_PER_ELEMENT === 2;
+  return checkModule.call((exports) => {
+    writeBytes(exports, new Uint8Array(texels.buffer, texels.byteOffset, texels.byteLength));
+    return readJson(exports, exports.judge_normal_map(Number(isWide), channels, width, height));
+  });
+}
+
+/**
+ * Ranks the ways in which the tangents of a mesh could have been computed, the best one first.
+ *
+ * @param positions 3 per vertex.
+ * @param normals 3 per vertex.
+ * @param uvs 2 per vertex.
+ * @param indices The vertex of each corner; null where corners are vertices.
+ * @param tangents 4 per corner, with the sign that `generateTangents` returns.
+ * @throws As `generateTangents`; RangeError for another number of tangents than corners.
+ */
+export function recogniseRecipe(
+  positions: Float32Array,
+  normals: Float32Array,
+  uvs: Float32Array,
+  indices: Indices | null | undefined,
+  tangents: Float32Array,
+  options?: { faces?: Faces | null } | null,
+): RecipeMatch[] {
+  const mesh = checkedMesh(positions, [['normals', normals, 3], ['uvs', uvs, 2]], indices, optionsOf(options).faces);
+  const rows = rowCount('tangents', tangents, 4);
+  if (rows !== mesh.corners) throw new RangeError(`there are ${rows} tangents but ${mesh.corners} corners; give one per corner`);
+  return checkModule.call((exports) => {
+    writeMesh(exports, mesh);
+    writeArrays(exports, [[tangents, exports.tangents_to_recognise(rows)]]);
+    const address = exports.recognise_recipe();
+    if (!address) throw indexError(mesh);
+    return readJson(exports, address);
+  });
+}
+
+function writeBytes(exports: CheckExports, bytes: Uint8Array): void {
+  const address = exports.file_bytes(bytes.length) >>> 0;
+  new Uint8Array(exports.memory.buffer, address, bytes.length).set(bytes);
+}
+
+function readJson<T>(exports: CheckExports, address: number): T {
+  const bytes = new Uint8Array(exports.memory.buffer, address >>> 0, exports.json_length() >>> 0);
+  return JSON.parse(new TextDecoder().decode(bytes)) as T;
+}

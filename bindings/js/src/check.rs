@@ -1,0 +1,267 @@
+//! `darboux/check`: what is wrong with models and normal maps, and how tangents were computed.
+
+use darboux::{
+    BitangentDirection, Channel, MapJudgement, MapVerdict, Method, Mode, RecipeMatch, RecipeRounding,
+    RecipeWriting, TexelLayout,
+};
+use darboux_check::{CheckOptions, Finding, FixOptions, check_document, check_map, fix_document};
+use darboux_io::LoadOptions;
+use darboux_io::gltf::Document;
+use serde::Serialize;
+
+use crate::arena::with_arena;
+use crate::mesh_arrays::rows;
+
+/// The bytes of a file, or texels.
+#[unsafe(no_mangle)]
+pub extern "C" fn file_bytes(bytes: usize) -> *mut u8 {
+    with_arena(|arena| crate::inputs::resized(&mut arena.check.bytes, bytes))
+}
+
+/// The tangents whose recipe is asked for: four floats per corner.
+#[unsafe(no_mangle)]
+pub extern "C" fn tangents_to_recognise(corners: usize) -> *mut f32 {
+    with_arena(|arena| crate::inputs::resized(&mut arena.check.tangents, 4 * corners))
+}
+
+/// The number of bytes of the last result.
+#[unsafe(no_mangle)]
+pub extern "C" fn json_length() -> usize {
+    with_arena(|arena| arena.check.json.len())
+}
+
+/// The address of the repaired file.
+#[unsafe(no_mangle)]
+pub extern "C" fn repaired_file() -> *const u8 {
+    with_arena(|arena| arena.check.repaired.as_ptr())
+}
+
+/// The number of bytes of the repaired file; 0 where nothing was repaired.
+#[unsafe(no_mangle)]
+pub extern "C" fn repaired_length() -> usize {
+    with_arena(|arena| arena.check.repaired.len())
+}
+
+/// A finding, and whether it was repaired.
+#[derive(Serialize)]
+struct Reported {
+    #[serde(flatten)]
+    finding: Finding,
+    looks_like: &'static str,
+    cure: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    repaired: Option<bool>,
+}
+
+/// The result of a check: findings, or why the file cannot be read.
+#[derive(Serialize)]
+enum Checked {
+    #[serde(rename = "findings")]
+    Findings(Vec<Reported>),
+    #[serde(rename = "error")]
+    Error(String),
+}
+
+/// Checks the file of a model or, with `is_map`, of a normal map; with `repairs`, repairs the model. Returns the address of the JSON.
+#[unsafe(no_mangle)]
+pub extern "C" fn check_file(
+    is_map: bool,
+    is_green_down: bool,
+    judges_maps: bool,
+    repairs: bool,
+) -> *const u8 {
+    let green = if is_green_down { BitangentDirection::Down } else { BitangentDirection::Up };
+    let options = CheckOptions::default().with_green(green).with_maps(judges_maps);
+    with_arena(|arena| {
+        let arrays = &mut arena.check;
+        arrays.repaired.clear();
+        let checked = if is_map {
+            Ok(check_map(&arrays.bytes, &options)
+                .findings
+                .into_iter()
+                .map(|found| reported(found, None))
+                .collect())
+        } else {
+            check_model(&arrays.bytes, options, repairs, &mut arrays.repaired)
+        };
+        let checked = match checked {
+            Ok(findings) => Checked::Findings(findings),
+            Err(error) => Checked::Error(error.to_string()),
+        };
+        arrays.put_json(&checked)
+    })
+}
+
+fn check_model(
+    file: &[u8],
+    options: CheckOptions,
+    repairs: bool,
+    repaired: &mut Vec<u8>,
+) -> Result<Vec<Reported>, darboux_io::Error> {
+    let read = || Document::from_bytes("the model", file.to_vec(), None, &LoadOptions::default());
+    let findings = check_document(&mut read()?, &options)?;
+    if !repairs {
+        return Ok(findings.into_iter().map(|found| reported(found, None)).collect());
+    }
+    let mut document = read()?;
+    let fixed = fix_document(&mut document, findings, &FixOptions::default().with_check(options))?;
+    if fixed.is_changed {
+        *repaired = document.to_glb()?;
+    }
+    Ok(fixed.findings.into_iter().map(|fixed| reported(fixed.finding, Some(fixed.repaired))).collect())
+}
+
+fn reported(finding: Finding, repaired: Option<bool>) -> Reported {
+    let (looks_like, cure) = (finding.code.looks_like(), finding.code.cure());
+    Reported { finding, looks_like, cure, repaired }
+}
+
+/// The verdict on a normal map.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Judged {
+    verdict: &'static str,
+    confidence: f32,
+    correlation: f32,
+    z_score: f32,
+    log_energy_ratio: f32,
+    texels: usize,
+    background: usize,
+    not_unit: usize,
+    negative_z: usize,
+    grey: usize,
+    not_normal: usize,
+}
+
+/// Judges the texels in the bytes: `channels` channels of 8 bits or, with `is_wide`, of 16. Returns the address of the JSON, or null for another
+/// number of texels than width times height.
+#[unsafe(no_mangle)]
+pub extern "C" fn judge_normal_map(is_wide: bool, channels: usize, width: usize, height: usize) -> *const u8 {
+    with_arena(|arena| {
+        let (bytes, size) = (&arena.check.bytes, [width, height]);
+        let judged = if is_wide {
+            let words: Vec<u16> = bytes.as_chunks().0.iter().map(|&word| u16::from_le_bytes(word)).collect();
+            judge(&words, size, channels)
+        } else {
+            judge(bytes, size, channels)
+        };
+        let Ok(judgement) = judged else { return std::ptr::null() };
+        arena.check.put_json(&Judged::from(judgement))
+    })
+}
+
+fn judge<C: Channel>(
+    texels: &[C],
+    size: [usize; 2],
+    channels: usize,
+) -> Result<MapJudgement, darboux::Error> {
+    match channels {
+        2 => darboux::judge_normal_map(texels.as_chunks().0, size, TexelLayout::RG),
+        3 => darboux::judge_normal_map(texels.as_chunks().0, size, TexelLayout::RGB),
+        _ => darboux::judge_normal_map(texels.as_chunks().0, size, TexelLayout::RGBA),
+    }
+}
+
+impl From<MapJudgement> for Judged {
+    fn from(judgement: MapJudgement) -> Self {
+        let verdict = match judgement.verdict {
+            MapVerdict::OpenGl => "opengl",
+            MapVerdict::DirectX => "directx",
+            MapVerdict::NoGradient => "no-gradient",
+            MapVerdict::Flat => "flat",
+            _ => "cannot-tell",
+        };
+        let MapJudgement { confidence, correlation, z_score, log_energy_ratio, texels, background, .. } =
+            judgement;
+        let MapJudgement { not_unit, negative_z, grey, not_normal, .. } = judgement;
+        Self {
+            verdict,
+            confidence,
+            correlation,
+            z_score,
+            log_energy_ratio,
+            texels,
+            background,
+            not_unit,
+            negative_z,
+            grey,
+            not_normal,
+        }
+    }
+}
+
+/// A recipe and how well it explains the tangents.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Recognised {
+    method: &'static str,
+    mode: Option<&'static str>,
+    flips_v: bool,
+    writing: &'static str,
+    bits: u32,
+    corners: usize,
+    identical: usize,
+    close: usize,
+    sign_flips: usize,
+    worst: f64,
+}
+
+/// Ranks the recipes of the tangents. Returns the address of the JSON, or null where an index is out of range.
+#[unsafe(no_mangle)]
+pub extern "C" fn recognise_recipe() -> *const u8 {
+    with_arena(|arena| {
+        let Some(mesh) = arena.vertices.mesh(&arena.surface) else { return std::ptr::null() };
+        let Ok(found) = darboux::recognise_recipe(&mesh, rows(&arena.check.tangents)) else {
+            return std::ptr::null();
+        };
+        let recognised: Vec<Recognised> = found.iter().map(Recognised::from).collect();
+        arena.check.put_json(&recognised)
+    })
+}
+
+impl From<&RecipeMatch> for Recognised {
+    fn from(found: &RecipeMatch) -> Self {
+        let mode = match found.recipe.method {
+            Method::MikkTSpace(options) => Some(match options.mode {
+                Mode::Reference => "reference",
+                Mode::Corrected => "corrected",
+                _ => "repaired",
+            }),
+            _ => None,
+        };
+        Self {
+            method: name(found.recipe.method),
+            mode,
+            flips_v: found.recipe.flips_v,
+            writing: match found.recipe.writing {
+                RecipeWriting::LastCorner => "last-corner",
+                RecipeWriting::FirstCorner => "first-corner",
+                _ => "corners",
+            },
+            bits: match found.recipe.rounding {
+                RecipeRounding::Bits8 => 8,
+                RecipeRounding::Bits16 => 16,
+                _ => 32,
+            },
+            corners: found.corners,
+            identical: found.identical,
+            close: found.close,
+            sign_flips: found.sign_flips,
+            worst: found.worst,
+        }
+    }
+}
+
+fn name(method: Method) -> &'static str {
+    match method {
+        Method::MikkTSpace(_) => "mikktspace",
+        Method::AngleArea => "angle-area",
+        Method::AngleEdge => "angle-edge",
+        Method::Lengyel => "lengyel",
+        Method::LengyelPerVertex => "lengyel-per-vertex",
+        Method::Average => "average",
+        Method::Area => "area",
+        Method::Face => "face",
+        _ => "from-normal",
+    }
+}

@@ -1,0 +1,24 @@
+//! Inputs and outputs that only the functions of `darboux/check` have.
+
+use serde::Serialize;
+
+/// The inputs and results of these functions.
+#[derive(Default)]
+pub struct CheckArrays {
+    /// The bytes of a file, or texels.
+    pub bytes: Vec<u8>,
+    /// Four floats per corner.
+    pub tangents: Vec<f32>,
+    /// The result, as JSON.
+    pub json: String,
+    /// The repaired file; empty where nothing was repaired.
+    pub repaired: Vec<u8>,
+}
+
+impl CheckArrays {
+    /// Keeps a result as JSON. Returns its address.
+    pub fn put_json(&mut self, result: &impl Serialize) -> *const u8 {
+        self.json = serde_json::to_string(result).unwrap_or_default();
+        self.json.as_ptr()
+    }
+}

@@ -1,0 +1,66 @@
+// `darboux/check`: findings, repairs, verdicts on maps, recipes.
+
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import * as darboux from 'darboux';
+import { formsOf } from './forms.mjs';
+import { grid, square } from './meshes.mjs';
+
+const forms = await formsOf('darboux/check');
+await darboux.ready;
+const asset = (path) => new Uint8Array(readFileSync(fileURLToPath(new URL(`../../../assets/${path}`, import.meta.url))));
+const errors = (findings) => findings.filter(({ severity }) => severity === 'error').map(({ code }) => code);
+
+/** A normal map of bumps with 4 channels; `up` is 1 for OpenGL and -1 for DirectX. */
+function bumps(side, up) {
+  const texel = (_, at) => {
+    const [x, y] = [(at % side) / 5, Math.floor(at / side) / 5];
+    const normal = [(-Math.cos(x) * Math.sin(y)) / 5, (up * Math.sin(x) * Math.cos(y)) / 5, 1];
+    return [...normal.map((c) => Math.round(127.5 + (127.5 * c) / Math.hypot(...normal))), 255];
+  };
+  return Uint8ClampedArray.from(Array.from({ length: side * side }, texel).flat());
+}
+
+for (const [name, { check, fix, judgeNormalMap, recogniseRecipe }] of Object.entries(forms)) {
+  test(`${name}: a broken model is named and repaired`, () => {
+    const shield = asset('made/shield.glb');
+    assert.deepEqual(errors(check(shield)), ['tangent-shared-across-mirror']);
+    const fixed = fix(shield);
+    assert.ok(fixed.findings.find(({ code }) => code === 'tangent-shared-across-mirror').repaired);
+    assert.deepEqual(errors(check(fixed.file)), []);
+    assert.equal(fix(fixed.file).file, null);
+  });
+
+  test(`${name}: maps are judged`, () => {
+    for (const [up, verdict] of [[1, 'opengl'], [-1, 'directx']]) {
+      const texels = bumps(128, up);
+      assert.equal(judgeNormalMap(texels, 128, 128).verdict, verdict);
+      assert.equal(judgeNormalMap(Uint16Array.from(texels, (c) => 257 * c), 128, 128).verdict, verdict);
+      const two = Uint8Array.from(texels.filter((_, at) => at % 4 < 2));
+      assert.equal(judgeNormalMap(two, 128, 128, 2).verdict, verdict);
+    }
+  });
+
+  test(`${name}: recipes are recognised`, () => {
+    const mesh = grid(12, 9);
+    for (const method of ['mikktspace', 'angle-edge', 'area', 'face']) {
+      const tangents = darboux.generateTangents(...mesh, { method });
+      const [best] = recogniseRecipe(...mesh, tangents);
+      assert.equal(best.method, method);
+      assert.equal(best.identical, best.corners);
+    }
+  });
+
+  test(`${name}: wrong input is refused`, () => {
+    assert.throws(() => check(new Uint8Array([1, 2, 3])), /the model/);
+    assert.throws(() => check('model.glb'), TypeError);
+    assert.throws(() => check(asset('made/shield.glb'), { green: 'left' }), RangeError);
+    assert.deepEqual(errors(check(new Uint8Array([0x89, 0x50, 0x4e, 0x47]))), ['map-unreadable']);
+    assert.throws(() => judgeNormalMap(new Uint8Array(7), 1, 2), RangeError);
+    const [positions, normals, uvs] = square();
+    assert.throws(() => recogniseRecipe(positions, normals, uvs, null, new Float32Array(4)), RangeError);
+    assert.throws(() => recogniseRecipe(positions, normals, uvs, new Uint16Array([0, 1, 9]), new Float32Array(12)), /index 9/);
+  });
+}
