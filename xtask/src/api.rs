@@ -12,7 +12,7 @@ use crate::run::{Outcome, program, run, target_folder};
 
 /// The libraries whose API is listed.
 pub const PACKAGES: &[&str] =
-    &["darboux", "darboux-io", "darboux-check", "darboux-gpu", "darboux-render", "darboux-cli"];
+    &["darboux", "darboux-io", "darboux-check", "darboux-bake", "darboux-gpu", "darboux-render", "darboux-cli"];
 
 /// The folder of the lists, from the repository's root.
 const FOLDER: &str = "docs/api";

@@ -3,6 +3,7 @@
 pub mod cancel_checks;
 pub mod gpu_plan;
 pub mod gpu_resume;
+pub mod jobs;
 pub mod stage_arrays;
 pub mod vertex_progress;
 pub mod width_limit;

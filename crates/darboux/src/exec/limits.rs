@@ -64,6 +64,12 @@ impl<'a> RunLimits<'a> {
         // The pool is asked last, because asking starts its threads.
         if most > 1 { pool_threads().min(most) } else { 1 }
     }
+
+    /// How many threads share a list of jobs, each of which is worth waking a thread.
+    pub fn thread_count_of_jobs(&self, jobs: usize) -> usize {
+        let most = jobs.min(self.max_threads);
+        if most > 1 { pool_threads().min(most) } else { 1 }
+    }
 }
 
 /// The number of threads of the current thread pool; 1 where no pool can be started.

@@ -1,0 +1,180 @@
+//! The entry point: runs the stages.
+
+use std::sync::Mutex;
+
+use darboux::Context;
+use darboux::internal::jobs;
+
+use crate::band::Bake;
+use crate::bvh;
+use crate::high::HighGroup;
+use crate::images::{Band, Images, TexelState, bytes_of_images};
+use crate::layout::{BLOCK, Layout, MAX_SIDE};
+use crate::samples::{MAX_SAMPLES_PER_AXIS, pattern};
+use crate::{BakeError, BakeOptions, BakeReport, HighSurface, LowSurface, padding};
+
+/// The share of a run that is done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BakeProgress {
+    /// Rows of blocks that are finished.
+    pub done: usize,
+    /// All rows of blocks.
+    pub total: usize,
+}
+
+/// The result of [`bake`].
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Baked {
+    /// The images that were chosen.
+    pub images: Images,
+    /// The counts of the run.
+    pub report: BakeReport,
+}
+
+/// Bakes the detail of the high surfaces into images over the UVs of the low surfaces.
+///
+/// From every sample of every texel that a low triangle covers, a ray passes from outside through the low surface; its first hit on a high
+/// surface of the same group gives the content. The first triangle, in the order of surfaces and triangles, owns texels that several cover;
+/// texels without a hit are filled from around. The images have the same bits for every number of threads. `progress` is called on any
+/// thread, after each row of blocks.
+///
+/// Errors: options out of range; no triangles; more memory than the limit; the context's token was cancelled.
+///
+/// ```
+/// use darboux::{Context, Mesh, TangentOptions, generate_tangents};
+/// use darboux_bake::{BakeOptions, HighSurface, LowSurface, bake};
+///
+/// let positions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+/// let uvs = [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]];
+/// let indices = [0u16, 1, 2, 0, 2, 3];
+/// let mesh = Mesh::triangles(&positions, &[[0.0, 0.0, 1.0]; 4], &uvs, &indices)?;
+/// let tangents = generate_tangents(&mesh, &TangentOptions::default()).corners;
+/// let low = LowSurface::new(mesh, tangents.per_corner())?;
+///
+/// // A roof that rises to the right by one half: its normal leans to the left.
+/// let roof = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.5], [1.0, 1.0, 0.5], [0.0, 1.0, 0.0]];
+/// let high = HighSurface::new(&roof, None, &indices)?;
+///
+/// let options = BakeOptions::new([16, 16], [1.0, 1.0]);
+/// let baked = bake(&[low], &[high], &options, &mut Context::new(), &mut |_| {})?;
+/// let [x, y, z] = baked.images.normal.expect("was chosen")[0];
+/// assert!((x / z + 0.5).abs() < 1e-6 && y.abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn bake(
+    low: &[LowSurface<'_>],
+    high: &[HighSurface<'_>],
+    options: &BakeOptions,
+    context: &mut Context,
+    progress: &mut (dyn FnMut(BakeProgress) + Send),
+) -> Result<Baked, BakeError> {
+    check_options(options)?;
+    check_surfaces(low, high)?;
+    let limit = check_memory(high, options)?;
+    let layout = Layout::new(low, options.size, options.surface_convention, limit)?;
+    let groups = group_surfaces(low, high, context)?;
+    let mut images = Images::background(options)?;
+    let stages = Bake {
+        low,
+        groups: &groups,
+        layout: &layout,
+        options,
+        conversion: options.surface_convention.generated().to(options.map_convention),
+        samples: pattern(options.samples_per_axis),
+    };
+    let mut report = bake_bands(&stages, &mut images, context, progress)?;
+    fill(&mut images, options.padding, context)?;
+    count_triangles(&mut report, low, high, &layout, &groups);
+    Ok(Baked { images, report })
+}
+
+fn check_options(options: &BakeOptions) -> Result<(), BakeError> {
+    let BakeOptions { size, samples_per_axis, distance, maps, .. } = *options;
+    if size.iter().any(|&side| side == 0 || side > MAX_SIDE) {
+        return Err(BakeError::Size { size });
+    }
+    if samples_per_axis == 0 || samples_per_axis > MAX_SAMPLES_PER_AXIS {
+        return Err(BakeError::Samples { found: samples_per_axis });
+    }
+    let is_distance = |x: &f32| x.is_finite() && *x >= 0.0;
+    if !distance.iter().all(is_distance) || distance == [0.0; 2] {
+        return Err(BakeError::Distance { found: distance });
+    }
+    if maps.is_empty() { Err(BakeError::NoMaps) } else { Ok(()) }
+}
+
+fn check_surfaces(low: &[LowSurface<'_>], high: &[HighSurface<'_>]) -> Result<(), BakeError> {
+    if low.iter().all(|surface| surface.triangle_count() == 0) {
+        return Err(BakeError::NoLowTriangles);
+    }
+    if high.iter().all(|surface| surface.triangle_count() == 0) {
+        return Err(BakeError::NoHighTriangles);
+    }
+    Ok(())
+}
+
+/// Returns the bytes that are left for lists whose length is not known yet. Errors: more memory than the limit.
+fn check_memory(high: &[HighSurface<'_>], options: &BakeOptions) -> Result<u64, BakeError> {
+    let triangles: u64 = high.iter().map(|surface| surface.triangle_count() as u64).sum();
+    let needed = bytes_of_images(options) + triangles * bvh::BYTES_PER_TRIANGLE;
+    match options.memory_limit {
+        Some(limit) if needed > limit => Err(BakeError::Memory { needed, limit: Some(limit) }),
+        Some(limit) => Ok(limit - needed),
+        None => Ok(u64::MAX),
+    }
+}
+
+/// The high surfaces by group, for every group of the low surfaces.
+fn group_surfaces<'a>(
+    low: &[LowSurface<'_>],
+    high: &[HighSurface<'a>],
+    context: &Context,
+) -> Result<Vec<HighGroup<'a>>, BakeError> {
+    let count = low.iter().map(|surface| surface.group + 1).max().unwrap_or(0);
+    (0..count).map(|group| HighGroup::new(high, group, context)).collect()
+}
+
+/// Bakes all bands of the images, on all threads.
+fn bake_bands(
+    stages: &Bake<'_>,
+    images: &mut Images,
+    context: &Context,
+    progress: &mut (dyn FnMut(BakeProgress) + Send),
+) -> Result<BakeReport, BakeError> {
+    let mut bands: Vec<(Band<'_>, BakeReport)> =
+        images.bands(BLOCK).into_iter().map(|band| (band, BakeReport::default())).collect();
+    let (total, progress) = (bands.len(), Mutex::new((0, progress)));
+    jobs::for_each(context, &mut bands, |(band, report)| {
+        *report = stages.band(band);
+        if let Ok(mut progress) = progress.lock() {
+            let (done, tell) = &mut *progress;
+            *done += 1;
+            tell(BakeProgress { done: *done, total });
+        }
+    })?;
+    Ok(bands.into_iter().map(|(_, report)| report).fold(BakeReport::default(), BakeReport::plus))
+}
+
+/// Stage 7: fills texels without a hit.
+fn fill(images: &mut Images, padding: Option<u32>, context: &Context) -> Result<(), BakeError> {
+    if images.states.contains(&TexelState::Baked) {
+        let width = images.size[0] as usize;
+        images.copy_texels(&padding::sources(&images.states, width, padding, context)?);
+    }
+    Ok(())
+}
+
+fn count_triangles(
+    report: &mut BakeReport,
+    low: &[LowSurface<'_>],
+    high: &[HighSurface<'_>],
+    layout: &Layout,
+    groups: &[HighGroup<'_>],
+) {
+    report.low_triangles = low.iter().map(|surface| surface.triangle_count() as u64).sum();
+    report.degenerate_triangles = layout.degenerate as u64;
+    report.oversized_triangles = layout.oversized as u64;
+    report.high_triangles = high.iter().map(|surface| surface.triangle_count() as u64).sum();
+    report.non_finite_triangles = groups.iter().map(|group| group.non_finite as u64).sum();
+}

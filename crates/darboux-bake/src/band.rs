@@ -1,0 +1,183 @@
+//! Stages 2 to 6 for a band of the image: coverage, rays, hits, frames, texels.
+
+use darboux::Conversion;
+
+use crate::bvh::{Hit, Sides, Stack};
+use crate::coverage::{Coverage, TEXELS};
+use crate::face::{Face, SurfacePoint};
+use crate::frame::ShadingFrame;
+use crate::high::HighGroup;
+use crate::images::{Band, TexelState};
+use crate::layout::{BLOCK, Layout, steps};
+use crate::occlusion::Opening;
+use crate::rays::{SampleRay, point_at, ray_of};
+use crate::samples::STEPS;
+use crate::texel::{Sample, TexelSums};
+use crate::vector::narrow;
+use crate::{BakeOptions, BakeReport, LowSurface, MapKind};
+
+/// What all bands share.
+pub struct Bake<'a> {
+    pub low: &'a [LowSurface<'a>],
+    pub groups: &'a [HighGroup<'a>],
+    pub layout: &'a Layout,
+    pub options: &'a BakeOptions,
+    pub conversion: Conversion,
+    /// The places of samples within a texel.
+    pub samples: Vec<[i64; 2]>,
+}
+
+/// The memory of one band.
+struct Scratch {
+    coverage: Coverage,
+    sums: Vec<TexelSums>,
+    stack: Stack,
+    rays: u64,
+}
+
+impl Bake<'_> {
+    /// Bakes a band; returns the counts of its texels.
+    pub fn band(&self, band: &mut Band<'_>) -> BakeReport {
+        let mut scratch = Scratch {
+            coverage: Coverage::new(),
+            sums: vec![TexelSums::default(); TEXELS],
+            stack: Stack::new(),
+            rays: 0,
+        };
+        let mut report = BakeReport::default();
+        for column in 0..self.layout.blocks_per_row() {
+            scratch.sums.fill(TexelSums::default());
+            for &sample in &self.samples {
+                self.cover([column, band.row / BLOCK], sample, &mut scratch.coverage);
+                self.sample([column * BLOCK, band.row], sample, &mut scratch);
+            }
+            self.store(column * BLOCK, &scratch.sums, band, &mut report);
+        }
+        report.rays = scratch.rays;
+        report
+    }
+
+    /// Stage 2: finds the triangle of every sample of a block.
+    fn cover(&self, [column, row]: [usize; 2], sample: [i64; 2], coverage: &mut Coverage) {
+        coverage.clear();
+        let first = [column, row].map(|at| (at * BLOCK) as i64 * STEPS);
+        for placed in self.layout.block(column, row) {
+            let corners = steps(self.layout.texels(&self.low[placed.surface as usize], placed));
+            coverage.add(*placed, corners.map(|corner| [corner[0] - first[0], corner[1] - first[1]]), sample);
+        }
+    }
+
+    /// Stages 3 to 5: follows the rays of a block's samples.
+    fn sample(&self, first: [usize; 2], sample: [i64; 2], scratch: &mut Scratch) {
+        let mut last: Option<Face> = None;
+        for texel in 0..TEXELS {
+            let Some(placed) = scratch.coverage.owners[texel] else { continue };
+            let face = match last {
+                Some(face) if face.placed == placed => face,
+                _ => Face::new(self.layout, self.low, placed),
+            };
+            last = Some(face);
+            let sums = &mut scratch.sums[texel];
+            sums.is_charted = true;
+            sums.is_overlapped |= scratch.coverage.overlaps[texel];
+            let at = [first[0] + texel % BLOCK, first[1] + texel / BLOCK];
+            let place = [0, 1].map(|i| at[i] as f64 + sample[i] as f64 / STEPS as f64);
+            let point = face.point(place);
+            let Some(ray) = ray_of(&point, self.options.distance) else { continue };
+            scratch.rays += 1;
+            let group = &self.groups[face.group];
+            let sides = if self.options.back_faces { Sides::Both } else { Sides::Front };
+            match group.bvh.nearest(&ray.ray, sides, &mut scratch.stack) {
+                Some(hit) => {
+                    let texel = (at[1] * self.layout.size[0] + at[0]) as i64;
+                    let seed = ((texel * STEPS + sample[1]) * STEPS + sample[0]) as u64;
+                    if let Some(found) = self.found(group, &point, &ray, &hit, seed, &mut scratch.stack) {
+                        sums.add(&found);
+                    }
+                }
+                None if sides == Sides::Front => {
+                    sums.hits_back |= group.bvh.nearest(&ray.ray, Sides::Both, &mut scratch.stack).is_some();
+                }
+                None => {}
+            }
+        }
+    }
+
+    /// What a hit adds to its texel.
+    fn found(
+        &self,
+        group: &HighGroup<'_>,
+        point: &SurfacePoint,
+        ray: &SampleRay,
+        hit: &Hit,
+        seed: u64,
+        stack: &mut Stack,
+    ) -> Option<Sample> {
+        let BakeOptions { maps, bitangent, occlusion_rays, occlusion_distance, .. } = *self.options;
+        let high = group.point(hit)?;
+        let position = point_at(&ray.ray, hit.distance);
+        let opening = || Opening { position, normal: high.normal, face_normal: high.face_normal, seed };
+        Some(Sample {
+            normal: ShadingFrame::new(point, bitangent).to_tangent_space(high.normal),
+            object_normal: high.normal,
+            height: ray.surface - f64::from(hit.distance),
+            occlusion: match maps.has(MapKind::Occlusion) {
+                true => opening().share(&group.bvh, occlusion_rays, occlusion_distance, stack),
+                false => 1.0,
+            },
+            position,
+            is_inverted: high.is_inverted,
+        })
+    }
+
+    /// Stage 6: stores the texels of a block.
+    fn store(&self, first: usize, sums: &[TexelSums], band: &mut Band<'_>, report: &mut BakeReport) {
+        let width = self.layout.size[0];
+        let rows = band.states.len() / width;
+        for row in 0..rows.min(BLOCK) {
+            for column in first..width.min(first + BLOCK) {
+                let sums = &sums[row * BLOCK + column - first];
+                let at = row * width + column;
+                band.states[at] = sums.state();
+                count(sums, report);
+                if sums.state() == TexelState::Baked {
+                    self.store_texel(at, sums, band, report);
+                }
+            }
+        }
+    }
+
+    fn store_texel(&self, at: usize, sums: &TexelSums, band: &mut Band<'_>, report: &mut BakeReport) {
+        let texel = sums.resolve();
+        report.below_horizon_texels += u64::from(texel.normal[2] < 0.0);
+        if let Some(image) = &mut band.normal {
+            let sign = |inverts| if inverts { -1.0 } else { 1.0 };
+            let [x, y, z] = narrow(texel.normal);
+            image[at] =
+                [sign(self.conversion.inverts_red()) * x, sign(self.conversion.inverts_green()) * y, z];
+        }
+        if let Some(image) = &mut band.object_normal {
+            image[at] = self.conversion.vector(narrow(texel.object_normal));
+        }
+        if let Some(image) = &mut band.height {
+            image[at] = texel.height as f32;
+        }
+        if let Some(image) = &mut band.occlusion {
+            image[at] = texel.occlusion as f32;
+        }
+        if let Some(image) = &mut band.position {
+            image[at] = self.conversion.vector(narrow(texel.position));
+        }
+    }
+}
+
+fn count(sums: &TexelSums, report: &mut BakeReport) {
+    let is_missed = sums.state() == TexelState::Missed;
+    report.texels += 1;
+    report.charted_texels += u64::from(sums.is_charted);
+    report.missed_texels += u64::from(is_missed);
+    report.back_facing_texels += u64::from(is_missed && sums.hits_back);
+    report.overlapping_texels += u64::from(sums.is_overlapped);
+    report.inverted_texels += u64::from(sums.is_inverted);
+    report.frameless_texels += u64::from(sums.is_frameless);
+}

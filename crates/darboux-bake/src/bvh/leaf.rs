@@ -1,0 +1,78 @@
+//! Leaves: four triangles, tested at once.
+
+use super::ray::{Hit, PreparedRay, Sides};
+
+/// Triangles per leaf.
+pub const SIZE: usize = 4;
+
+/// No triangle.
+const ABSENT: u32 = u32::MAX;
+
+/// Up to four triangles.
+#[derive(Clone, Copy, Debug)]
+pub struct Leaf {
+    /// `corners[corner][axis][triangle]`. Absent triangles are points, which no ray hits.
+    corners: [[[f32; SIZE]; 3]; 3],
+    ids: [u32; SIZE],
+}
+
+impl Leaf {
+    pub const EMPTY: Self = Self { corners: [[[0.0; SIZE]; 3]; 3], ids: [ABSENT; SIZE] };
+
+    pub fn set(&mut self, place: usize, id: u32, corners: [[f32; 3]; 3]) {
+        self.ids[place] = id;
+        for (stored, corner) in self.corners.iter_mut().zip(corners) {
+            for (stored, x) in stored.iter_mut().zip(corner) {
+                stored[place] = x;
+            }
+        }
+    }
+
+    pub fn triangle_count(&self) -> usize {
+        self.ids.iter().filter(|&&id| id != ABSENT).count()
+    }
+
+    /// The nearest hit that is nearer than `best`, or as near with a smaller number.
+    ///
+    /// The test of S. Woop et al., "Watertight Ray/Triangle Intersection": the corners are sheared so that the ray is the last axis. The edge
+    /// functions of an edge that two triangles share differ in their sign alone, so that no ray passes between the triangles.
+    #[inline(always)]
+    pub fn nearest(&self, ray: &PreparedRay, sides: Sides, best: Option<Hit>) -> Option<Hit> {
+        let [first, second, last] = ray.axes;
+        let [shear_x, shear_y, scale] = ray.shear;
+        let mut sheared = [[[0f32; SIZE]; 3]; 3];
+        for (sheared, corner) in sheared.iter_mut().zip(&self.corners) {
+            for i in 0..SIZE {
+                let z = corner[last][i] - ray.origin[last];
+                sheared[0][i] = (corner[first][i] - ray.origin[first]) - shear_x * z;
+                sheared[1][i] = (corner[second][i] - ray.origin[second]) - shear_y * z;
+                sheared[2][i] = scale * z;
+            }
+        }
+        let [a, b, c] = &sheared;
+        let edge = |p: &[[f32; SIZE]; 3], q: &[[f32; SIZE]; 3]| -> [f32; SIZE] {
+            std::array::from_fn(|i| p[0][i] * q[1][i] - p[1][i] * q[0][i])
+        };
+        let [u, v, w] = [edge(c, b), edge(a, c), edge(b, a)];
+        let sum: [f32; SIZE] = std::array::from_fn(|i| u[i] + v[i] + w[i]);
+        let depth: [f32; SIZE] = std::array::from_fn(|i| u[i] * a[2][i] + v[i] * b[2][i] + w[i] * c[2][i]);
+        let mut found = best;
+        for i in 0..SIZE {
+            let is_positive = (u[i] >= 0.0) & (v[i] >= 0.0) & (w[i] >= 0.0);
+            let is_negative = (u[i] <= 0.0) & (v[i] <= 0.0) & (w[i] <= 0.0);
+            let is_front = sum[i] > 0.0;
+            if !(is_positive | is_negative) || sum[i] == 0.0 || (sides == Sides::Front && !is_front) {
+                continue;
+            }
+            let distance = depth[i] / sum[i];
+            let is_nearer = found.is_none_or(|best| {
+                distance < best.distance || (distance == best.distance && self.ids[i] < best.triangle)
+            });
+            if distance >= 0.0 && distance <= ray.length && is_nearer {
+                let weights = [u[i], v[i], w[i]].map(|edge| edge / sum[i]);
+                found = Some(Hit { distance, triangle: self.ids[i], weights, is_front });
+            }
+        }
+        found
+    }
+}

@@ -1,0 +1,92 @@
+//! Traversal: nearest hits, and whether there is any.
+
+use super::Bvh;
+use super::build::MAX_DEPTH;
+use super::node::Child;
+use super::ray::{Hit, PreparedRay, Ray, Sides};
+
+/// A node leaves at most three children on the stack.
+const STACK: usize = 3 * MAX_DEPTH + 1;
+
+/// The children that wait, each with the distance of its box. Rays reuse it one after the other.
+pub struct Stack {
+    entries: [(f32, Child); STACK],
+    len: usize,
+}
+
+impl Stack {
+    pub const fn new() -> Self {
+        Self { entries: [(0.0, Child::Node(0)); STACK], len: 0 }
+    }
+
+    fn push(&mut self, entry: (f32, Child)) {
+        self.entries[self.len] = entry;
+        self.len += 1;
+    }
+
+    fn pop(&mut self) -> Option<(f32, Child)> {
+        self.len = self.len.checked_sub(1)?;
+        Some(self.entries[self.len])
+    }
+}
+
+impl Bvh {
+    /// The nearest hit of a ray. Of hits at the same distance, that of the triangle with the smallest number.
+    pub fn nearest(&self, ray: &Ray, sides: Sides, stack: &mut Stack) -> Option<Hit> {
+        self.search(ray, sides, false, stack)
+    }
+
+    /// Whether a ray hits any triangle, from either side.
+    pub fn is_blocked(&self, ray: &Ray, stack: &mut Stack) -> bool {
+        self.search(ray, Sides::Both, true, stack).is_some()
+    }
+
+    /// `is_any`: returns the first hit that is found.
+    #[inline(always)]
+    fn search(&self, ray: &Ray, sides: Sides, is_any: bool, stack: &mut Stack) -> Option<Hit> {
+        if self.nodes.is_empty() {
+            return None;
+        }
+        let ray = PreparedRay::new(ray, &self.bounds);
+        let mut best: Option<Hit> = None;
+        let mut limit = ray.length;
+        stack.len = 0;
+        stack.push((0.0, Child::Node(0)));
+        while let Some((entry, child)) = stack.pop() {
+            if entry > limit {
+                continue;
+            }
+            match child {
+                Child::Leaf(index) => {
+                    best = self.leaves[index as usize].nearest(&ray, sides, best);
+                    if let Some(hit) = best {
+                        limit = hit.distance;
+                        if is_any {
+                            break;
+                        }
+                    }
+                }
+                Child::Node(index) => self.push_children(index, &ray, limit, stack),
+            }
+        }
+        best
+    }
+
+    /// Pushes the children whose boxes a ray enters, the nearest one last.
+    #[inline(always)]
+    fn push_children(&self, index: u32, ray: &PreparedRay, limit: f32, stack: &mut Stack) {
+        let node = &self.nodes[index as usize];
+        let entries = node.entries(ray, limit);
+        let first = stack.len;
+        for (place, entry) in entries.into_iter().enumerate() {
+            if entry < f32::INFINITY {
+                stack.push((entry, node.child(place)));
+                let mut at = stack.len - 1;
+                while at > first && stack.entries[at - 1].0 < entry {
+                    stack.entries.swap(at - 1, at);
+                    at -= 1;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! [`BakeError`]: why a map was not baked.
+
+use std::fmt;
+
+use crate::layout::MAX_SIDE;
+use crate::samples::MAX_SAMPLES_PER_AXIS;
+
+/// The error of [`bake`](crate::bake()) and of the surfaces that it takes. Degenerate geometry is no error: the report counts it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum BakeError {
+    /// Arrays of a surface do not fit together, or the call was cancelled.
+    Mesh(darboux::Error),
+    /// A surface has other faces than triangles.
+    NotTriangles,
+    /// A cage has another number of positions than the low surface has vertices.
+    Cage {
+        /// The number of vertices.
+        vertices: usize,
+        /// The number of positions found.
+        found: usize,
+    },
+    /// A side of the image is 0 or too large.
+    Size {
+        /// Texels per row, and rows.
+        size: [u32; 2],
+    },
+    /// The number of samples per axis is 0 or too large.
+    Samples {
+        /// The number found.
+        found: u32,
+    },
+    /// A distance is negative or not finite, or both are zero.
+    Distance {
+        /// The distances found.
+        found: [f32; 2],
+    },
+    /// The set of maps is empty.
+    NoMaps,
+    /// The low surfaces have no triangle.
+    NoLowTriangles,
+    /// The high surfaces have no triangle.
+    NoHighTriangles,
+    /// More triangles than 32-bit numbers can count, with room for marks.
+    TooManyTriangles {
+        /// The number of triangles.
+        found: u64,
+    },
+    /// The run needs more memory than the limit, or than the system has.
+    Memory {
+        /// The bytes that the run needs.
+        needed: u64,
+        /// The limit in bytes; none if the system refused the memory.
+        limit: Option<u64>,
+    },
+}
+
+impl From<darboux::Error> for BakeError {
+    fn from(error: darboux::Error) -> Self {
+        Self::Mesh(error)
+    }
+}
+
+impl fmt::Display for BakeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Mesh(error) => error.fmt(f),
+            Self::NotTriangles => f.write_str("the surface has faces that are not triangles; triangulate it"),
+            Self::Cage { vertices, found } => write!(
+                f,
+                "the cage has {found} vertices but the low surface has {vertices}; make the cage by moving the vertices of the low surface only"
+            ),
+            Self::Size { size: [width, height] } => {
+                write!(
+                    f,
+                    "an image of {width} x {height} texels cannot be made; its sides can have 1 to {MAX_SIDE}"
+                )
+            }
+            Self::Samples { found } => {
+                write!(f, "{found} samples per axis cannot be taken; choose 1 to {MAX_SAMPLES_PER_AXIS}")
+            }
+            Self::Distance { found: [outwards, inwards] } => write!(
+                f,
+                "rays cannot begin {outwards} outside the low surface and end {inwards} inside it; give two finite distances of which none is negative and one is positive"
+            ),
+            Self::NoMaps => f.write_str("no map was chosen; choose at least one"),
+            Self::NoLowTriangles => {
+                f.write_str("the low model has no triangles; check that it was exported with its meshes")
+            }
+            Self::NoHighTriangles => {
+                f.write_str("the high model has no triangles; check that it was exported with its meshes")
+            }
+            Self::TooManyTriangles { found } => {
+                write!(f, "{found} triangles are too many: the limit is {MAX_TRIANGLES}; split the model")
+            }
+            Self::Memory { needed, limit: Some(limit) } => write!(
+                f,
+                "the bake needs {} MiB of memory, which is more than the limit of {} MiB; choose a smaller size or fewer maps, or raise the limit",
+                mebibytes(needed),
+                mebibytes(limit)
+            ),
+            Self::Memory { needed, limit: None } => write!(
+                f,
+                "the bake needs {} MiB of memory, which the system refuses; choose a smaller size or fewer maps",
+                mebibytes(needed)
+            ),
+        }
+    }
+}
+
+/// The most triangles of the low surfaces, and of the high surfaces of a group.
+pub const MAX_TRIANGLES: u64 = (1 << 30) - 1;
+
+fn mebibytes(bytes: u64) -> u64 {
+    bytes.div_ceil(1 << 20)
+}
+
+impl std::error::Error for BakeError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Mesh(error) => Some(error),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! The high surfaces of a group, with the hierarchy that finds hits on them.
+
+use darboux::Context;
+
+use crate::bvh::{Bvh, Hit};
+use crate::error::MAX_TRIANGLES;
+use crate::vector::{Vector, cross, dot, sub, unit, weighted, wide};
+use crate::{BakeError, HighSurface};
+
+/// The high surfaces of one group.
+pub struct HighGroup<'a> {
+    surfaces: Vec<HighSurface<'a>>,
+    /// The number of the first triangle of every surface.
+    starts: Vec<u32>,
+    pub bvh: Bvh,
+    /// The number of triangles with corners that are not finite.
+    pub non_finite: usize,
+}
+
+/// The high surface at a hit.
+#[derive(Clone, Copy, Debug)]
+pub struct HighPoint {
+    /// The interpolated normal, or that of the triangle's plane where there is none; unit length.
+    pub normal: Vector,
+    /// The normal of the triangle's plane, towards the ray's origin; unit length.
+    pub face_normal: Vector,
+    /// Whether the interpolated normal points to the back of its triangle.
+    pub is_inverted: bool,
+}
+
+impl<'a> HighGroup<'a> {
+    /// Builds the hierarchy over the surfaces of a group. Errors: too many triangles; the context's token was cancelled.
+    pub fn new(all: &[HighSurface<'a>], group: usize, context: &Context) -> Result<Self, BakeError> {
+        let surfaces: Vec<_> = all.iter().filter(|surface| surface.group == group).copied().collect();
+        let count: u64 = surfaces.iter().map(|surface| surface.triangle_count() as u64).sum();
+        if count > MAX_TRIANGLES {
+            return Err(BakeError::TooManyTriangles { found: count });
+        }
+        let mut starts = Vec::new();
+        let mut next = 0;
+        for surface in &surfaces {
+            starts.push(next);
+            next += surface.triangle_count() as u32;
+        }
+        let corners = |triangle: u32| {
+            let (surface, triangle) = find(&starts, triangle);
+            surfaces[surface].corners(triangle)
+        };
+        let bvh = Bvh::build(count as u32, &corners, context)?;
+        let non_finite = count as usize - bvh.triangle_count();
+        Ok(Self { surfaces, starts, bvh, non_finite })
+    }
+
+    /// The surface at a hit. With back faces the normal is turned to the side from which the ray came.
+    pub fn point(&self, hit: &Hit) -> Option<HighPoint> {
+        let (surface, triangle) = find(&self.starts, hit.triangle);
+        let surface = &self.surfaces[surface];
+        let [a, b, c] = surface.corners(triangle).map(wide);
+        let side = if hit.is_front { 1.0 } else { -1.0 };
+        let face_normal = unit(cross(sub(b, a), sub(c, a)))?.map(|x| side * x);
+        let interpolated = unit(weighted(hit.weights.map(f64::from), surface.normals(triangle)));
+        let normal = interpolated.map_or(face_normal, |normal| normal.map(|x| side * x));
+        Some(HighPoint { normal, face_normal, is_inverted: dot(normal, face_normal) < 0.0 })
+    }
+}
+
+/// The surface and the place in it of a triangle of a group.
+fn find(starts: &[u32], triangle: u32) -> (usize, usize) {
+    let surface = starts.partition_point(|&start| start <= triangle) - 1;
+    (surface, (triangle - starts[surface]) as usize)
+}

@@ -1,0 +1,179 @@
+//! Stage 1: where the triangles of the low surfaces lie in the image, and which triangles each block of texels needs.
+
+use darboux::{Convention, UvOrigin};
+
+use crate::samples::STEPS;
+use crate::{BakeError, LowSurface};
+
+/// The largest width and height of an image.
+pub const MAX_SIDE: u32 = 1 << 15;
+
+/// Texels per side of a block.
+pub const BLOCK: usize = 32;
+
+/// The most tiles of the UV plane that a triangle may touch along an axis. Places in steps then stay below 2^27, and their products below 2^55.
+const MAX_TILES: i64 = 16;
+
+/// A triangle of a low surface in one tile of the UV plane. Triangles in other tiles than the first are moved into it, as a repeated texture
+/// shows them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Placed {
+    pub surface: u32,
+    pub triangle: u32,
+    /// The tile, whose upper left corner becomes that of the image.
+    pub tile: [i32; 2],
+}
+
+/// The triangles of every block of the image.
+#[derive(Debug)]
+pub struct Layout {
+    pub size: [usize; 2],
+    uv_origin: UvOrigin,
+    placed: Vec<Placed>,
+    /// Where the list of each block begins in `lists`, and the end of the last one.
+    starts: Vec<u64>,
+    /// The places in `placed`, in the order of surfaces and triangles.
+    lists: Vec<u32>,
+    pub degenerate: usize,
+    pub oversized: usize,
+}
+
+impl Layout {
+    /// Places all triangles. Those without an area, not finite or across too many tiles are left out and counted.
+    ///
+    /// Errors: more memory than `limit` bytes.
+    pub fn new(
+        low: &[LowSurface<'_>],
+        [width, height]: [u32; 2],
+        convention: Convention,
+        limit: u64,
+    ) -> Result<Self, BakeError> {
+        let mut layout = Self {
+            size: [width as usize, height as usize],
+            uv_origin: convention.uv_origin,
+            placed: Vec::new(),
+            starts: Vec::new(),
+            lists: Vec::new(),
+            degenerate: 0,
+            oversized: 0,
+        };
+        for (surface, low) in low.iter().enumerate() {
+            for triangle in 0..low.triangle_count() {
+                layout.place(low, surface as u32, triangle as u32);
+            }
+        }
+        layout.fill_blocks(low, limit)?;
+        Ok(layout)
+    }
+
+    /// Adds a triangle for every tile that its bounding box touches.
+    fn place(&mut self, low: &LowSurface<'_>, surface: u32, triangle: u32) {
+        let placed = Placed { surface, triangle, tile: [0; 2] };
+        let texels = self.texels(low, &placed);
+        if !texels.as_flattened().iter().all(|x| x.is_finite()) {
+            self.degenerate += 1;
+            return;
+        }
+        let [from, to] = bounds(texels);
+        let first = [0, 1].map(|i| (from[i] / self.size[i] as f64).floor());
+        // A triangle that ends at the border of a tile does not touch the next one.
+        let last = [0, 1].map(|i| ((to[i] / self.size[i] as f64).ceil() - 1.0).max(first[i]));
+        let is_near = |x: &f64| x.abs() < f64::from(1 << 24);
+        if !first.iter().chain(&last).all(is_near) || (0..2).any(|i| last[i] - first[i] >= MAX_TILES as f64) {
+            self.oversized += 1;
+            return;
+        }
+        let at_first = Placed { tile: first.map(|x| x as i32), ..placed };
+        if area(steps(self.texels(low, &at_first))) == 0 {
+            self.degenerate += 1;
+            return;
+        }
+        for y in first[1] as i32..=last[1] as i32 {
+            for x in first[0] as i32..=last[0] as i32 {
+                self.placed.push(Placed { tile: [x, y], ..placed });
+            }
+        }
+    }
+
+    /// The corners of a triangle in texels from the upper left corner of the image.
+    pub fn texels(&self, low: &LowSurface<'_>, placed: &Placed) -> [[f64; 2]; 3] {
+        let size = self.size.map(|side| side as f64);
+        [0, 1, 2].map(|corner| {
+            let vertex = low.mesh.vertex_of_corner(3 * placed.triangle as usize + corner);
+            let [u, v] = low.mesh.uvs().get(vertex).map(f64::from);
+            let v = if self.uv_origin == UvOrigin::BottomLeft { 1.0 - v } else { v };
+            [0, 1].map(|i| ([u, v][i] - f64::from(placed.tile[i])) * size[i])
+        })
+    }
+
+    /// Sorts the triangles into blocks: counts, starts, lists.
+    fn fill_blocks(&mut self, low: &[LowSurface<'_>], limit: u64) -> Result<(), BakeError> {
+        let mut counts = vec![0u64; self.block_count() + 1];
+        for placed in &self.placed {
+            self.visit_blocks(&low[placed.surface as usize], placed, |block| counts[block] += 1);
+        }
+        let mut sum = 0;
+        for count in &mut counts {
+            sum += std::mem::replace(count, sum);
+        }
+        let needed = 4 * sum + 16 * self.placed.len() as u64;
+        if needed > limit {
+            return Err(BakeError::Memory { needed, limit: Some(limit) });
+        }
+        let mut lists = vec![0; sum as usize];
+        let mut ends = counts.clone();
+        for (index, placed) in self.placed.iter().enumerate() {
+            self.visit_blocks(&low[placed.surface as usize], placed, |block| {
+                lists[ends[block] as usize] = index as u32;
+                ends[block] += 1;
+            });
+        }
+        (self.starts, self.lists) = (counts, lists);
+        Ok(())
+    }
+
+    /// Visits the blocks that the bounding box of a triangle touches.
+    fn visit_blocks(&self, low: &LowSurface<'_>, placed: &Placed, mut visit: impl FnMut(usize)) {
+        let [from, to] = bounds(self.texels(low, placed));
+        let range = |i: usize| {
+            let last = self.size[i] - 1;
+            let texel = |x: f64| (x.max(0.0) as usize).min(last);
+            texel(from[i].floor()) / BLOCK..texel(to[i].ceil()) / BLOCK + 1
+        };
+        for y in range(1) {
+            for x in range(0) {
+                visit(y * self.blocks_per_row() + x);
+            }
+        }
+    }
+
+    pub fn blocks_per_row(&self) -> usize {
+        self.size[0].div_ceil(BLOCK)
+    }
+
+    fn block_count(&self) -> usize {
+        self.blocks_per_row() * self.size[1].div_ceil(BLOCK)
+    }
+
+    /// The triangles of a block, in the order of surfaces and triangles. Some may not cover any of its texels.
+    pub fn block(&self, column: usize, row: usize) -> impl Iterator<Item = &Placed> {
+        let block = row * self.blocks_per_row() + column;
+        let range = self.starts[block] as usize..self.starts[block + 1] as usize;
+        self.lists[range].iter().map(|&index| &self.placed[index as usize])
+    }
+}
+
+/// The corners in steps: multiples of 1 / [`STEPS`] texel.
+pub fn steps(texels: [[f64; 2]; 3]) -> [[i64; 2]; 3] {
+    texels.map(|corner| corner.map(|x| (x * STEPS as f64).round() as i64))
+}
+
+/// Twice the area, positive where the corners turn from x to y.
+pub fn area([a, b, c]: [[i64; 2]; 3]) -> i64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+/// The least and the greatest coordinates.
+fn bounds([a, b, c]: [[f64; 2]; 3]) -> [[f64; 2]; 2] {
+    [[0, 1].map(|i| a[i].min(b[i]).min(c[i])), [0, 1].map(|i| a[i].max(b[i]).max(c[i]))]
+}

@@ -1,0 +1,57 @@
+//! [`BakeReport`]: what happened to texels, rays and triangles.
+
+/// The counts of a run. A texel counts where at least one of its samples does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct BakeReport {
+    /// The texels of the image.
+    pub texels: u64,
+    /// Texels that the charts cover.
+    pub charted_texels: u64,
+    /// Charted texels without any hit. They are filled from around.
+    pub missed_texels: u64,
+    /// Those of the missed texels whose rays hit triangles from behind: the high mesh is inside out there, or has a hole.
+    pub back_facing_texels: u64,
+    /// Texels that more than one triangle covers. The first triangle owns them.
+    pub overlapping_texels: u64,
+    /// Texels at which the normal of the high mesh points to the back of its triangle: normals or winding are inverted there.
+    pub inverted_texels: u64,
+    /// Texels at which tangent, bitangent and normal of the low mesh do not span space. Their normal is (0, 0, 1).
+    pub frameless_texels: u64,
+    /// Texels whose normal points below the low surface (z < 0), which maps of two channels cannot hold.
+    pub below_horizon_texels: u64,
+    /// Rays of samples.
+    pub rays: u64,
+    /// Triangles of the low surfaces.
+    pub low_triangles: u64,
+    /// Triangles of the low surfaces without an area in the image, or with UVs that are not finite. They are not baked.
+    pub degenerate_triangles: u64,
+    /// Triangles of the low surfaces across more than 16 tiles of UVs. They are not baked.
+    pub oversized_triangles: u64,
+    /// Triangles of the high surfaces.
+    pub high_triangles: u64,
+    /// Triangles of the high surfaces with positions that are not finite. No ray hits them.
+    pub non_finite_triangles: u64,
+}
+
+impl BakeReport {
+    /// The sums of both.
+    pub(crate) fn plus(self, other: Self) -> Self {
+        Self {
+            texels: self.texels + other.texels,
+            charted_texels: self.charted_texels + other.charted_texels,
+            missed_texels: self.missed_texels + other.missed_texels,
+            back_facing_texels: self.back_facing_texels + other.back_facing_texels,
+            overlapping_texels: self.overlapping_texels + other.overlapping_texels,
+            inverted_texels: self.inverted_texels + other.inverted_texels,
+            frameless_texels: self.frameless_texels + other.frameless_texels,
+            below_horizon_texels: self.below_horizon_texels + other.below_horizon_texels,
+            rays: self.rays + other.rays,
+            low_triangles: self.low_triangles + other.low_triangles,
+            degenerate_triangles: self.degenerate_triangles + other.degenerate_triangles,
+            oversized_triangles: self.oversized_triangles + other.oversized_triangles,
+            high_triangles: self.high_triangles + other.high_triangles,
+            non_finite_triangles: self.non_finite_triangles + other.non_finite_triangles,
+        }
+    }
+}

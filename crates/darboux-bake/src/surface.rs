@@ -1,0 +1,116 @@
+//! The surfaces that are baked: borrowed meshes in one space.
+
+use darboux::{Error, Faces, Indices, Mesh, NormalOptions, Strided, generate_normals};
+
+use crate::BakeError;
+use crate::vector::{add_scaled, narrow, wide};
+
+/// A surface that receives the detail: triangles with normals, UVs and tangents.
+#[derive(Clone, Copy, Debug)]
+pub struct LowSurface<'a> {
+    pub(crate) mesh: Mesh<'a>,
+    pub(crate) tangents: &'a [[f32; 4]],
+    pub(crate) cage: Option<Strided<'a, 3>>,
+    pub(crate) group: usize,
+}
+
+impl<'a> LowSurface<'a> {
+    /// A surface of group 0 without a cage.
+    ///
+    /// `tangents`: one per corner, as [`darboux::generate_tangents`] gives them for the mesh, or as a renderer will read them from the file,
+    /// converted to [`Convention::generated`](darboux::Convention::generated) of the surface's convention. Errors: faces that are not
+    /// triangles; another number of tangents than corners.
+    pub fn new(mesh: Mesh<'a>, tangents: &'a [[f32; 4]]) -> Result<Self, BakeError> {
+        if !matches!(mesh.faces(), Faces::Triangles) {
+            return Err(BakeError::NotTriangles);
+        }
+        if tangents.len() != mesh.corner_count() {
+            let (expected, found) = (mesh.corner_count(), tangents.len());
+            return Err(Error::InputLength { what: "tangents", expected, found }.into());
+        }
+        Ok(Self { mesh, tangents, cage: None, group: 0 })
+    }
+
+    /// This surface with a cage, from which rays begin: the mesh with its vertices moved.
+    ///
+    /// `positions`: one per vertex of the mesh. [`inflated_cage`] makes one. Errors: another number of positions.
+    pub fn with_cage(self, positions: impl Into<Strided<'a, 3>>) -> Result<Self, BakeError> {
+        let positions = positions.into();
+        if positions.len() != self.mesh.vertex_count() {
+            return Err(BakeError::Cage { vertices: self.mesh.vertex_count(), found: positions.len() });
+        }
+        Ok(Self { cage: Some(positions), ..self })
+    }
+
+    /// This surface in another group: its rays hit high surfaces of the same group only.
+    #[must_use]
+    pub fn with_group(self, group: usize) -> Self {
+        Self { group, ..self }
+    }
+
+    pub(crate) fn triangle_count(&self) -> usize {
+        self.mesh.face_count()
+    }
+}
+
+/// A surface that has the detail: triangles, with or without normals.
+#[derive(Clone, Copy, Debug)]
+pub struct HighSurface<'a> {
+    /// Without UVs; normals are zeros where there are none.
+    pub(crate) mesh: Mesh<'a>,
+    pub(crate) group: usize,
+}
+
+impl<'a> HighSurface<'a> {
+    /// A surface of group 0.
+    ///
+    /// `positions`: V by 3; `normals`: V by 3, or none, which makes every triangle flat; `indices`: 3 per triangle, counter-clockwise as seen
+    /// from the front. Errors: lengths that differ, an index out of range, corners that are not whole triangles.
+    pub fn new(
+        positions: impl Into<Strided<'a, 3>>,
+        normals: Option<Strided<'a, 3>>,
+        indices: impl Into<Indices<'a>>,
+    ) -> Result<Self, BakeError> {
+        let positions = positions.into();
+        let normals = normals.unwrap_or_else(|| Strided::repeated(&[0.0; 3], positions.len()));
+        let uvs = Strided::repeated(&[0.0; 2], positions.len());
+        Ok(Self { mesh: Mesh::triangles(positions, normals, uvs, indices)?, group: 0 })
+    }
+
+    /// This surface in another group.
+    #[must_use]
+    pub fn with_group(self, group: usize) -> Self {
+        Self { group, ..self }
+    }
+
+    pub(crate) fn triangle_count(&self) -> usize {
+        self.mesh.face_count()
+    }
+
+    pub(crate) fn corners(&self, triangle: usize) -> [[f32; 3]; 3] {
+        [0, 1, 2].map(|corner| self.mesh.positions().get(self.mesh.vertex_of_corner(3 * triangle + corner)))
+    }
+
+    pub(crate) fn normals(&self, triangle: usize) -> [[f32; 3]; 3] {
+        [0, 1, 2].map(|corner| self.mesh.normals().get(self.mesh.vertex_of_corner(3 * triangle + corner)))
+    }
+}
+
+/// The vertices of a mesh, moved outwards by `offset`: a cage without gaps.
+///
+/// Vertices at equal positions move in the same direction, the mean of the normals of their faces weighted by angle, also where the normals of
+/// the mesh differ as at hard edges. Vertices that no corner uses stay. Errors: faces that are not triangles.
+pub fn inflated_cage(mesh: &Mesh<'_>, offset: f32) -> Result<Vec<[f32; 3]>, BakeError> {
+    if !matches!(mesh.faces(), Faces::Triangles) {
+        return Err(BakeError::NotTriangles);
+    }
+    let directions = generate_normals(mesh.positions(), mesh.indices(), mesh.faces(), &NormalOptions::new())?;
+    let mut cage: Vec<[f32; 3]> =
+        (0..mesh.vertex_count()).map(|vertex| mesh.positions().get(vertex)).collect();
+    for (corner, &direction) in directions.corners.per_corner().iter().enumerate() {
+        let vertex = mesh.vertex_of_corner(corner);
+        let from = wide(mesh.positions().get(vertex));
+        cage[vertex] = narrow(add_scaled(from, f64::from(offset), wide(direction)));
+    }
+    Ok(cage)
+}

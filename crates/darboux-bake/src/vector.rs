@@ -1,0 +1,57 @@
+//! Vectors in double precision.
+
+pub type Vector = [f64; 3];
+
+pub fn wide(v: [f32; 3]) -> Vector {
+    v.map(f64::from)
+}
+
+pub fn narrow(v: Vector) -> [f32; 3] {
+    v.map(|x| x as f32)
+}
+
+pub fn sub(a: Vector, b: Vector) -> Vector {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+pub fn scale(factor: f64, v: Vector) -> Vector {
+    v.map(|x| factor * x)
+}
+
+/// a + factor * b.
+pub fn add_scaled(a: Vector, factor: f64, b: Vector) -> Vector {
+    [a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]]
+}
+
+pub fn dot(a: Vector, b: Vector) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub fn cross(a: Vector, b: Vector) -> Vector {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+pub fn length(v: Vector) -> f64 {
+    dot(v, v).sqrt()
+}
+
+/// `v`, normalised. `None` for zero and for vectors that are not finite.
+pub fn unit(v: Vector) -> Option<Vector> {
+    let length = length(v);
+    (length > 0.0 && length.is_finite()).then(|| v.map(|x| x / length))
+}
+
+/// The sum of three vectors with weights: a value at a point of a triangle from those at its corners.
+pub fn weighted<const N: usize>(weights: [f64; 3], corners: [[f32; N]; 3]) -> [f64; N] {
+    let [a, b, c] = corners.map(|corner| corner.map(f64::from));
+    std::array::from_fn(|i| weights[0] * a[i] + weights[1] * b[i] + weights[2] * c[i])
+}
+
+/// Two unit vectors that with the unit `normal` make a right-handed frame (T. Duff et al., "Building an Orthonormal Basis, Revisited",
+/// JCGT 6(1), 2017, listing 3).
+pub fn perpendiculars([x, y, z]: Vector) -> [Vector; 2] {
+    let sign = 1f64.copysign(z);
+    let a = -1.0 / (sign + z);
+    let b = x * y * a;
+    [[1.0 + sign * x * x * a, sign * b, -sign * x], [b, sign + y * y * a, -y]]
+}
