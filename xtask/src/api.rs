@@ -11,8 +11,15 @@ use std::process::{Command, ExitCode};
 use crate::run::{Outcome, program, run, target_folder};
 
 /// The libraries whose API is listed.
-pub const PACKAGES: &[&str] =
-    &["darboux", "darboux-io", "darboux-check", "darboux-bake", "darboux-gpu", "darboux-render", "darboux-cli"];
+pub const PACKAGES: &[&str] = &[
+    "darboux",
+    "darboux-io",
+    "darboux-check",
+    "darboux-bake",
+    "darboux-gpu",
+    "darboux-render",
+    "darboux-cli",
+];
 
 /// The folder of the lists, from the repository's root.
 const FOLDER: &str = "docs/api";

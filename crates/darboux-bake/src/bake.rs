@@ -6,12 +6,12 @@ use darboux::Context;
 use darboux::internal::jobs;
 
 use crate::band::Bake;
-use crate::bvh;
 use crate::high::HighGroup;
-use crate::images::{Band, Images, TexelState, bytes_of_images};
-use crate::layout::{BLOCK, Layout, MAX_SIDE};
-use crate::samples::{MAX_SAMPLES_PER_AXIS, pattern};
-use crate::{BakeError, BakeOptions, BakeReport, HighSurface, LowSurface, padding};
+use crate::images::{Band, Images, TexelState};
+use crate::layout::{BLOCK, Layout};
+use crate::limits::{MAX_SAMPLES_PER_AXIS, MAX_SIDE};
+use crate::samples::pattern;
+use crate::{BakeError, BakeOptions, BakeReport, HighSurface, LowSurface, memory, padding};
 
 /// The share of a run that is done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,10 +71,11 @@ pub fn bake(
 ) -> Result<Baked, BakeError> {
     check_options(options)?;
     check_surfaces(low, high)?;
-    let limit = check_memory(high, options)?;
+    let needed = memory::needed(high, options);
+    let limit = check_memory(needed, options.memory_limit)?;
     let layout = Layout::new(low, options.size, options.surface_convention, limit)?;
     let groups = group_surfaces(low, high, context)?;
-    let mut images = Images::background(options)?;
+    let mut images = Images::background(options, needed)?;
     let stages = Bake {
         low,
         groups: &groups,
@@ -115,10 +116,8 @@ fn check_surfaces(low: &[LowSurface<'_>], high: &[HighSurface<'_>]) -> Result<()
 }
 
 /// Returns the bytes that are left for lists whose length is not known yet. Errors: more memory than the limit.
-fn check_memory(high: &[HighSurface<'_>], options: &BakeOptions) -> Result<u64, BakeError> {
-    let triangles: u64 = high.iter().map(|surface| surface.triangle_count() as u64).sum();
-    let needed = bytes_of_images(options) + triangles * bvh::BYTES_PER_TRIANGLE;
-    match options.memory_limit {
+fn check_memory(needed: u64, limit: Option<u64>) -> Result<u64, BakeError> {
+    match limit {
         Some(limit) if needed > limit => Err(BakeError::Memory { needed, limit: Some(limit) }),
         Some(limit) => Ok(limit - needed),
         None => Ok(u64::MAX),

@@ -2,8 +2,7 @@
 
 use std::fmt;
 
-use crate::layout::MAX_SIDE;
-use crate::samples::MAX_SAMPLES_PER_AXIS;
+use crate::limits::{MAX_SAMPLES_PER_AXIS, MAX_SIDE, MAX_TRIANGLES};
 
 /// The error of [`bake`](crate::bake()) and of the surfaces that it takes. Degenerate geometry is no error: the report counts it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -107,9 +106,6 @@ impl fmt::Display for BakeError {
         }
     }
 }
-
-/// The most triangles of the low surfaces, and of the high surfaces of a group.
-pub const MAX_TRIANGLES: u64 = (1 << 30) - 1;
 
 fn mebibytes(bytes: u64) -> u64 {
     bytes.div_ceil(1 << 20)

@@ -32,7 +32,8 @@ impl ShadingFrame {
     pub fn to_tangent_space(self, normal: Vector) -> Option<Vector> {
         let Self { tangent: t, bitangent: b, normal: n } = self;
         let volume = dot(t, cross(b, n));
-        if !(volume.abs() > LEAST_VOLUME * length(t) * length(b) * length(n)) {
+        let spans_space = volume.abs() > LEAST_VOLUME * length(t) * length(b) * length(n);
+        if !spans_space {
             return None;
         }
         let solution = [dot(normal, cross(b, n)), dot(normal, cross(n, t)), dot(normal, cross(t, b))];

@@ -3,7 +3,7 @@
 use darboux::Context;
 
 use crate::bvh::{Bvh, Hit};
-use crate::error::MAX_TRIANGLES;
+use crate::limits::MAX_TRIANGLES;
 use crate::vector::{Vector, cross, dot, sub, unit, weighted, wide};
 use crate::{BakeError, HighSurface};
 

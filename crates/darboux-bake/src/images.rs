@@ -36,10 +36,9 @@ pub struct Images {
 }
 
 impl Images {
-    /// Images of the background. Errors: the system refuses the memory.
-    pub(crate) fn background(options: &BakeOptions) -> Result<Self, BakeError> {
+    /// Images of the background. `needed`: the bytes of the run, for the error. Errors: the system refuses the memory.
+    pub(crate) fn background(options: &BakeOptions, needed: u64) -> Result<Self, BakeError> {
         let count = options.size.map(|side| side as usize).iter().product();
-        let needed = bytes_of_images(options);
         let vectors = |kind, background| {
             let filled = options.maps.has(kind).then(|| filled(count, background));
             filled.transpose().map_err(|_| BakeError::Memory { needed, limit: None })
@@ -134,15 +133,4 @@ fn filled<T: Clone>(count: usize, element: T) -> Result<Vec<T>, std::collections
     list.try_reserve_exact(count)?;
     list.resize(count, element);
     Ok(list)
-}
-
-/// The bytes of the images and of what filling them needs.
-pub(crate) fn bytes_of_images(options: &BakeOptions) -> u64 {
-    let texels = u64::from(options.size[0]) * u64::from(options.size[1]);
-    let bytes = |kind: &MapKind| match kind {
-        MapKind::Height | MapKind::Occlusion => 4,
-        MapKind::Normal | MapKind::ObjectNormal | MapKind::Position => 12,
-    };
-    let of_maps: u64 = MapKind::ALL.iter().filter(|&&kind| options.maps.has(kind)).map(bytes).sum();
-    texels * (of_maps + size_of::<TexelState>() as u64 + crate::padding::BYTES_PER_TEXEL)
 }

@@ -5,9 +5,6 @@ use darboux::{Convention, UvOrigin};
 use crate::samples::STEPS;
 use crate::{BakeError, LowSurface};
 
-/// The largest width and height of an image.
-pub const MAX_SIDE: u32 = 1 << 15;
-
 /// Texels per side of a block.
 pub const BLOCK: usize = 32;
 

@@ -1,8 +1,5 @@
 //! The places of samples within a texel.
 
-/// The most samples per texel and axis: 256 samples per texel.
-pub const MAX_SAMPLES_PER_AXIS: u32 = 16;
-
 /// Steps per texel and axis: places of samples and corners of triangles are multiples of 1 / 256 texel, so that the test whether a triangle
 /// covers a sample is exact.
 pub const STEPS: i64 = 256;
@@ -17,6 +14,7 @@ pub fn pattern(per_axis: u32) -> Vec<[i64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::limits::MAX_SAMPLES_PER_AXIS;
 
     #[test]
     fn one_sample_is_the_centre_and_more_are_spread_evenly() {

@@ -48,6 +48,11 @@ impl<'a> LowSurface<'a> {
         Self { group, ..self }
     }
 
+    /// The mesh.
+    pub fn mesh(&self) -> &Mesh<'a> {
+        &self.mesh
+    }
+
     pub(crate) fn triangle_count(&self) -> usize {
         self.mesh.face_count()
     }
@@ -85,6 +90,11 @@ impl<'a> HighSurface<'a> {
 
     pub(crate) fn triangle_count(&self) -> usize {
         self.mesh.face_count()
+    }
+
+    /// The mesh. Its UVs are zeros, and so are its normals where there are none.
+    pub fn mesh(&self) -> &Mesh<'a> {
+        &self.mesh
     }
 
     pub(crate) fn corners(&self, triangle: usize) -> [[f32; 3]; 3] {

@@ -2,6 +2,8 @@
 
 use clap::{Parser, Subcommand};
 
+#[cfg(feature = "bake")]
+use crate::commands::bake::arguments::{self as bake, BakeArguments};
 use crate::commands::check::arguments::{self as check, CheckArguments};
 use crate::commands::compare::arguments::{self as compare, CompareArguments};
 use crate::commands::completions::arguments::{self as completions, CompletionsArguments};
@@ -9,7 +11,7 @@ use crate::commands::convert::arguments::{self as convert, ConvertArguments};
 #[cfg(feature = "gpu")]
 use crate::commands::devices::arguments::{self as devices, DevicesArguments};
 use crate::commands::inspect::arguments::{self as inspect, InspectArguments};
-#[cfg(not(all(feature = "gpu", feature = "view")))]
+#[cfg(not(all(feature = "bake", feature = "gpu", feature = "view")))]
 use crate::commands::missing::MissingArguments;
 use crate::commands::normals::arguments::{self as normals, NormalsArguments};
 #[cfg(feature = "gpu")]
@@ -65,6 +67,10 @@ pub enum Command {
         mut_arg("force", |force| force.requires("fix"))
     )]
     Check(CheckArguments),
+    /// Bake the detail of high-poly models into maps of a low-poly model
+    #[cfg(feature = "bake")]
+    #[command(long_about = bake::ABOUT, after_long_help = bake::EXAMPLES)]
+    Bake(BakeArguments),
     /// Compare the tangents of two files, or of a file and a method
     #[command(override_usage = compare::USAGE, long_about = compare::ABOUT, after_long_help = compare::EXAMPLES)]
     Compare(CompareArguments),
@@ -88,6 +94,9 @@ pub enum Command {
     /// Print the completion script of a shell
     #[command(long_about = completions::ABOUT, after_long_help = completions::EXAMPLES)]
     Completions(CompletionsArguments),
+    #[cfg(not(feature = "bake"))]
+    #[command(hide = true)]
+    Bake(MissingArguments),
     #[cfg(not(feature = "gpu"))]
     #[command(hide = true)]
     Render(MissingArguments),

@@ -1,5 +1,7 @@
 //! The subcommands: each has its arguments in `arguments.rs` and its entry point beside it.
 
+#[cfg(feature = "bake")]
+pub mod bake;
 pub mod check;
 pub mod compare;
 pub mod completions;
@@ -8,7 +10,7 @@ pub mod convert;
 pub mod devices;
 pub mod inspect;
 pub mod methods;
-#[cfg(not(all(feature = "gpu", feature = "view")))]
+#[cfg(not(all(feature = "bake", feature = "gpu", feature = "view")))]
 pub mod missing;
 pub mod normals;
 #[cfg(feature = "gpu")]

@@ -44,6 +44,8 @@ where
             Command::Check(arguments) => commands::check::run(arguments),
             Command::Compare(arguments) => commands::compare::run(arguments),
             Command::Inspect(arguments) => commands::inspect::run(arguments),
+            #[cfg(feature = "bake")]
+            Command::Bake(arguments) => commands::bake::run(arguments),
             Command::Methods => commands::methods::run(),
             Command::Completions(arguments) => commands::completions::run(arguments),
             #[cfg(feature = "gpu")]
@@ -52,6 +54,8 @@ where
             Command::View(arguments) => commands::view::run(arguments),
             #[cfg(feature = "gpu")]
             Command::Devices(arguments) => commands::devices::run(arguments),
+            #[cfg(not(feature = "bake"))]
+            Command::Bake(_) => commands::missing::run("bake", "full"),
             #[cfg(not(feature = "gpu"))]
             Command::Render(_) => commands::missing::run("render", "full"),
             #[cfg(not(feature = "view"))]

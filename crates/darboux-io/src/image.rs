@@ -10,7 +10,7 @@ mod srgb;
 
 pub use channels::{Channels, ChannelsError};
 pub use normal_map::{change_texels, convert_normal_map, count_invalid_normals};
-pub use png_image::PngImage;
+pub use png_image::{PngImage, Sample};
 #[cfg(feature = "textures")]
 pub use rgba::{DecodeError, DecodeLimits, RgbaImage};
 pub use srgb::{linear_to_srgb, srgb_to_linear};

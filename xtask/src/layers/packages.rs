@@ -20,6 +20,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
             "darboux",
             "darboux-io",
             "darboux-check",
+            "darboux-bake",
             "darboux-gpu",
             "darboux-render",
             "darboux-cli",

@@ -1,9 +1,9 @@
 //! Traversal: nearest hits, and whether there is any.
 
-use super::Bvh;
 use super::build::MAX_DEPTH;
 use super::node::Child;
 use super::ray::{Hit, PreparedRay, Ray, Sides};
+use super::tree::Bvh;
 
 /// A node leaves at most three children on the stack.
 const STACK: usize = 3 * MAX_DEPTH + 1;

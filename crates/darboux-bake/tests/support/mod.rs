@@ -135,7 +135,10 @@ impl Shape {
         for cell in 0..cells * cells {
             let corner = (cell / cells * side + cell % cells) as u32;
             let below = corner + side as u32;
-            shape.indices.extend([corner, below, below + 1, corner, below + 1, corner + 1]);
+            shape.indices.extend(match mirrored && is_in_second_half(cell % cells, cells) {
+                false => [corner, below, below + 1, corner, below + 1, corner + 1],
+                true => [corner, below, corner + 1, corner + 1, below, below + 1],
+            });
         }
         shape
     }
@@ -151,6 +154,12 @@ impl Shape {
     pub fn high(&self) -> HighSurface<'_> {
         HighSurface::new(&self.positions, Some((&self.normals).into()), &self.indices).expect("a valid mesh")
     }
+}
+
+/// Whether a column of cells lies in the half of a mirrored shape whose diagonals are mirrored, too: otherwise the halves are different meshes,
+/// and one map cannot be right for both.
+pub fn is_in_second_half(column: usize, cells: usize) -> bool {
+    2 * column >= cells
 }
 
 /// Bakes one shape onto another.

@@ -30,6 +30,7 @@ complete -c darboux -n "__fish_darboux_needs_command" -f -a "tangents" -d 'Add t
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "normals" -d 'Add normals to glTF and GLB files'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "convert" -d 'Convert normal maps and models between conventions'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "check" -d 'Say what is wrong with models and normal maps'
+complete -c darboux -n "__fish_darboux_needs_command" -f -a "bake" -d 'Bake the detail of high-poly models into maps of a low-poly model'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "compare" -d 'Compare the tangents of two files, or of a file and a method'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "inspect" -d 'Show the contents of each primitive and the difficulties for its tangents'
 complete -c darboux -n "__fish_darboux_needs_command" -f -a "render" -d 'Draw a model or its tangents into a PNG'
@@ -273,6 +274,53 @@ complete -c darboux -n "__fish_darboux_using_subcommand check" -s q -l quiet -d 
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l in-place -d 'Replace each input by its output'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -l force -d 'Replace output files that exist'
 complete -c darboux -n "__fish_darboux_using_subcommand check" -s h -l help -d 'Print help (see more with \'--help\')'
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l high -d 'The high models, which have the detail' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -s o -l output -d 'The map, in an existing folder; with several maps the name of each is added, as in crate.ao.png' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l map -d 'The maps to bake; several at once share their rays' -r -f -a "normal\t'Normals in tangent space'
+object-normal\t'Normals in the space of the scene'
+height\t'The distance of the high surface from the low one; half grey is none'
+ao\t'Ambient occlusion: white is open'
+position\t'Positions, from 0 to 1 in the box around the high model'"
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l size -d 'Texels per side, or width and height' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l bits -d 'Bits per channel; by default 16 for heights and positions, 8 for the others' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l samples -d 'Samples per texel: 1, 4, 9, 16 and so on up to 256' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l convention -d 'The convention of the maps: directions of red and green, axes of object-space normals and positions' -r -f -a "gltf\t''
+opengl\t''
+directx\t''
+blender\t''
+unity\t''
+unreal\t''
+godot\t''
+threejs\t''
+maya\t''
+3dsmax\t''"
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l padding -d 'Fill texels outside the charts up to this distance only, in texels; without it all are filled' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l ao-rays -d 'Rays of ambient occlusion per sample' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l ao-distance -d 'How far surfaces occlude each other, in the models\' unit; without it any distance' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l distance -d 'Rays along the interpolated normals: how far outside they begin, and how far inside they end' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l cage-offset -d 'Rays from a cage: the low model, moved outwards by this distance along smooth normals, so that hard edges leave no gaps; they end as far inside' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l cage -d 'Rays from a cage that is a file: the low model with its vertices moved; they end inside as far as --cage-offset would' -r -F
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l method -d 'How tangents are computed; by default those of the low model\'s file are used, and mikktspace if it has none' -r -f -a "mikktspace\t'The standard of bakers and engines'
+angle-area\t'Weighted by angle and area: follows the UVs most closely, for surfaces without a baked normal map'
+angle-edge\t'Weighted by angle and edge lengths, meshoptimizer\'s default'
+lengyel\t'The sum of dP/du, separate for each UV orientation'
+lengyel-per-vertex\t'The sum of dP/du per vertex, as in three.js and many tutorials: wrong at mirrored seams'
+average\t'The mean of the triangles\' tangents'
+area\t'The mean of the triangles\' tangents, weighted by area'
+face\t'One tangent per face, not smoothed'
+from-normal\t'Any direction perpendicular to the normal, independent of UVs'"
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l bitangent -d 'How the renderer rebuilds the bitangent' -r -f -a "pixel\t'Per pixel from the interpolated normal and tangent, as glTF, MikkTSpace, Blender, Unreal and Unity'
+vertex\t'Per vertex, then interpolated'"
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l uv-set -d 'The UV set n of TEXCOORD_n; by default that of the material\'s normal map' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l normals -d 'Generate missing normals of the low model first: flat, smooth or crease=DEG; keep generates none' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l jobs -d 'How many threads work; by default one per processor core' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l memory-limit -d 'The maximum memory for decoding a file, in MiB; by default 256 MiB plus 64 times the size of the file' -r
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l back-faces -d 'Let rays hit triangles from behind'
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l force -d 'Replace maps that exist'
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l allow-outside -d 'Allow a glTF\'s buffers and images outside its folder'
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -l json -d 'Write a report as JSON to standard output'
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -s q -l quiet -d 'Print errors only; commands that write files also print one line with the totals'
+complete -c darboux -n "__fish_darboux_using_subcommand bake" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c darboux -n "__fish_darboux_using_subcommand compare" -l method -d 'Compare A with the tangents that this method computes for A; `darboux methods` lists the methods' -r -f -a "mikktspace\t'The standard of bakers and engines'
 angle-area\t'Weighted by angle and area: follows the UVs most closely, for surfaces without a baked normal map'
 angle-edge\t'Weighted by angle and edge lengths, meshoptimizer\'s default'

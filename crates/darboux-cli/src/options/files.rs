@@ -67,7 +67,8 @@ fn new_run() -> RunId {
     RunId(RandomState::new().build_hasher().finish())
 }
 
-fn jobs(text: &str) -> Result<NonZero<u16>, &'static str> {
+/// Parses a number of jobs.
+pub fn jobs(text: &str) -> Result<NonZero<u16>, &'static str> {
     text.parse().map_err(|_| "expected a number from 1 to 65535")
 }
 

@@ -12,7 +12,7 @@ use crate::error::ContentError;
 use crate::staging::Staging;
 use crate::{Error, SaveOptions, paths};
 
-/// A PNG with 8 or 16 bits per channel: grey with alpha, RGB or RGBA.
+/// A PNG with 8 or 16 bits per channel: grey with alpha, RGB or RGBA; grey alone where it is made here.
 #[derive(Debug)]
 pub struct PngImage {
     name: String,
@@ -26,9 +26,35 @@ pub struct PngImage {
 
 /// The channels of all texels, row after row, the top row first.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Texels {
+pub enum Texels {
     Bytes(Vec<u8>),
     Words(Vec<u16>),
+}
+
+/// The type of a PNG's channels: `u8` or `u16`.
+pub trait Sample: sealed::Sample {}
+
+impl Sample for u8 {}
+impl Sample for u16 {}
+
+mod sealed {
+    use super::Texels;
+
+    pub trait Sample: Copy {
+        fn texels(channels: &[Self]) -> Texels;
+    }
+
+    impl Sample for u8 {
+        fn texels(channels: &[Self]) -> Texels {
+            Texels::Bytes(channels.to_vec())
+        }
+    }
+
+    impl Sample for u16 {
+        fn texels(channels: &[Self]) -> Texels {
+            Texels::Words(channels.to_vec())
+        }
+    }
 }
 
 /// The greatest compression ratio of deflate (RFC 1951): 258 bytes in two bits.
@@ -59,12 +85,24 @@ impl PngImage {
         Self::decode(name, bytes, options).map_err(|error| error.in_file(name))
     }
 
-    /// An image of 8-bit RGB texels, row after row, the top row first. Errors: the number of texels is not `width` times `height`.
-    pub fn from_rgb(name: &str, [width, height]: [u32; 2], texels: &[[u8; 3]]) -> Result<Self, Error> {
-        let texels = Texels::Bytes(texels.as_flattened().to_vec());
-        let file = encoded([width, height], ColorType::Rgb, &texels).map_err(|error| error.in_file(name))?;
-        let (name, color) = (name.to_owned(), ColorType::Rgb);
-        Ok(Self { name, file, width, height, color, texels, is_changed: false })
+    /// An image of RGB texels, row after row, the top row first. Errors: the number of texels is not `width` times `height`.
+    pub fn from_rgb<S: Sample>(name: &str, size: [u32; 2], texels: &[[S; 3]]) -> Result<Self, Error> {
+        Self::from_channels(name, size, ColorType::Rgb, S::texels(texels.as_flattened()))
+    }
+
+    /// An image of grey texels, as [`PngImage::from_rgb`].
+    pub fn from_grey<S: Sample>(name: &str, size: [u32; 2], texels: &[S]) -> Result<Self, Error> {
+        Self::from_channels(name, size, ColorType::Grayscale, S::texels(texels))
+    }
+
+    fn from_channels(
+        name: &str,
+        [width, height]: [u32; 2],
+        color: ColorType,
+        texels: Texels,
+    ) -> Result<Self, Error> {
+        let file = encoded([width, height], color, &texels).map_err(|error| error.in_file(name))?;
+        Ok(Self { name: name.to_owned(), file, width, height, color, texels, is_changed: false })
     }
 
     /// Whether a file that begins with `bytes` is a PNG.
@@ -141,7 +179,7 @@ impl PngImage {
         }
     }
 
-    /// The letters of the channels: `la`, `rgb` or `rgba`.
+    /// The letters of the channels: `l`, `la`, `rgb` or `rgba`.
     pub fn channels(&self) -> &'static str {
         channels::letters(self.color)
     }

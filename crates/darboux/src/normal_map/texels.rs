@@ -100,6 +100,17 @@ impl<const N: usize> TexelLayout<N> {
         [x, y, z].map(|component| component as f32)
     }
 
+    /// Encodes a vector with components from -1 to 1, each as the nearest code. Channels without a component have the maximum value.
+    pub fn texel<C: Channel>(&self, [x, y, z]: [f32; 3]) -> [C; N] {
+        let mut texel = [C::LARGEST; N];
+        texel[self.x] = C::nearest(f64::from(x));
+        texel[self.y] = C::nearest(f64::from(y));
+        if let Some(channel) = self.z {
+            texel[channel] = C::nearest(f64::from(z));
+        }
+        texel
+    }
+
     /// True when a texel can be a normal of a tangent-space map: its length is in [0.5, 1.2], as filtering and rounding leave it, and z is at
     /// least -0.1.
     pub fn holds_normal<C: Channel>(&self, texel: [C; N]) -> bool {

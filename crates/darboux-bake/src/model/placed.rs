@@ -1,0 +1,83 @@
+//! Primitives of a document where the scene has them.
+
+use std::borrow::Cow;
+
+use darboux::Transform;
+use darboux_io::Error;
+use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveName};
+
+/// A matrix for column vectors, in columns.
+pub type Matrix = [[f64; 4]; 4];
+
+/// The matrices of all places of every mesh, by the index of the mesh. A skinned mesh has the pose in which it is stored.
+pub fn places(document: &Document) -> Result<Vec<Vec<Matrix>>, Error> {
+    let mut places = vec![Vec::new(); document.meshes().len()];
+    for mesh in document.placed_meshes()?.meshes {
+        if let Some(places) = places.get_mut(mesh.mesh) {
+            places.extend(mesh.matrices);
+        }
+    }
+    Ok(places)
+}
+
+/// The values of an attribute at every vertex of a primitive; none if it does not have it. Errors: invalid data.
+pub fn vertices<'a, const N: usize>(
+    document: &'a Document,
+    name: &PrimitiveName,
+    semantic: &str,
+) -> Result<Option<Cow<'a, [[f32; N]]>>, Error> {
+    let attributes = &document.meshes()[name.mesh].primitives[name.primitive].attributes;
+    attributes.get(semantic).map(|&accessor| document.vectors(accessor)).transpose()
+}
+
+/// Positions and normals of a primitive at a place, and the vertices of its triangles.
+#[derive(Clone, Debug)]
+pub struct PlacedPrimitive<'a> {
+    pub positions: Cow<'a, [[f32; 3]]>,
+    pub normals: Option<Cow<'a, [[f32; 3]]>>,
+    pub indices: Cow<'a, [u32]>,
+    /// None at a place without a matrix.
+    pub transform: Option<Transform>,
+}
+
+impl<'a> PlacedPrimitive<'a> {
+    /// Reads a primitive; none where it has no positions. A mirroring matrix reverses the triangles. Errors: invalid data.
+    pub fn read(
+        document: &'a Document,
+        corners: &'a PrimitiveCorners<'a>,
+        matrix: &Matrix,
+    ) -> Result<Option<Self>, Error> {
+        let Some(positions) = vertices(document, corners.name(), "POSITION")? else { return Ok(None) };
+        let normals = vertices(document, corners.name(), "NORMAL")?;
+        let indices = Cow::Borrowed(corners.vertices());
+        let primitive = Self { positions, normals, indices, transform: None };
+        Ok(Some(if is_identity(matrix) { primitive } else { primitive.moved(matrix) }))
+    }
+
+    fn moved(mut self, matrix: &Matrix) -> Self {
+        let [a, b, c, d] = matrix;
+        let transform = Transform::new([a, b, c].map(|column| [0, 1, 2].map(|row| column[row] as f32)));
+        for position in self.positions.to_mut() {
+            let [x, y, z] = position.map(f64::from);
+            *position = [0, 1, 2].map(|i| (a[i] * x + b[i] * y + c[i] * z + d[i]) as f32);
+        }
+        for normal in self.normals.iter_mut().flat_map(Cow::to_mut) {
+            *normal = transform.normal(*normal);
+        }
+        if transform.orientation() < 0.0 {
+            reverse(self.indices.to_mut());
+        }
+        self.transform = Some(transform);
+        self
+    }
+}
+
+/// Reverses triangles, given by one element per corner.
+pub fn reverse<T>(corners: &mut [T]) {
+    corners.as_chunks_mut::<3>().0.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+}
+
+fn is_identity(matrix: &Matrix) -> bool {
+    let expected = |column: usize, row: usize| f64::from(u8::from(column == row));
+    matrix.iter().enumerate().all(|(i, column)| column.iter().enumerate().all(|(k, &x)| x == expected(i, k)))
+}

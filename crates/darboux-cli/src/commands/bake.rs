@@ -1,0 +1,9 @@
+//! `darboux bake`: maps of a low-poly model from the detail of high-poly ones.
+
+pub mod arguments;
+mod cage;
+mod report;
+mod run;
+mod write;
+
+pub use run::run;

@@ -1,0 +1,252 @@
+//! The arguments of `darboux bake`.
+
+use std::num::NonZero;
+use std::path::PathBuf;
+
+use clap::{ArgGroup, Args, ValueEnum};
+use darboux::Convention;
+use darboux_bake::{Bitangent, MapKind};
+
+use crate::options::convention::{ConventionParser, NamedConvention};
+use crate::options::files::jobs;
+use crate::options::messages::MessageOptions;
+use crate::options::method::MethodName;
+use crate::options::reading::ReadOptions;
+use crate::options::shading::{NormalsChoice, normals_choice};
+
+pub const ABOUT: &str = "\
+Bake the detail of high-poly models into maps of a low-poly model.
+
+From every texel of the low model a ray passes from outside through its surface; the first surface of the high models that it hits gives the \
+content. A normal map holds those normals in the tangent frames that renderers will use, so that the low model is shaded as the high one is. The \
+frames are those in the file of the low model; if it has no tangents, run darboux tangents on it before it is used.
+
+All models are placed as their scenes have them; skinned meshes have the pose in which they are stored. Texels that several triangles cover \
+belong to the first one. Texels outside the UV charts are filled from the nearest chart, so that no background shows at a distance. The maps are \
+the same for every number of threads.";
+
+pub const EXAMPLES: &str = "\
+Examples:
+  darboux bake low.glb --high high.glb -o normal.png
+  darboux bake low.glb --high a.glb b.glb -o crate.png --map normal,ao --size 2048
+  darboux bake low.glb --high high.glb -o n.png --samples 16 --bits 16
+  darboux bake low.glb --high high.glb -o n.png --distance 0.05,0.02
+  darboux bake low.glb --high high.glb -o n.png --convention unreal   green down
+  darboux bake low.glb --high high.glb -o height.png --map height --json";
+
+/// What is baked, and how.
+#[derive(Debug, Args)]
+#[command(group = ArgGroup::new("rays").args(["distance", "cage_offset", "cage"]))]
+pub struct BakeArguments {
+    /// The low model (.gltf, .glb, .vrm), which gets the maps
+    #[arg(value_name = "LOW")]
+    pub low: PathBuf,
+
+    /// The high models, which have the detail
+    #[arg(long, value_name = "HIGH", required = true, num_args = 1..)]
+    pub high: Vec<PathBuf>,
+
+    /// The map, in an existing folder; with several maps the name of each is added, as in crate.ao.png
+    #[arg(short, long, value_name = "PNG")]
+    pub output: PathBuf,
+
+    /// The maps to bake; several at once share their rays
+    #[arg(
+        long,
+        value_enum,
+        value_name = "MAPS",
+        value_delimiter = ',',
+        default_value = "normal",
+        help_heading = "Maps"
+    )]
+    pub map: Vec<MapChoice>,
+
+    /// Texels per side, or width and height
+    #[arg(long, value_name = "N|WxH", default_value = "1024", value_parser = size, help_heading = "Maps")]
+    pub size: [u32; 2],
+
+    /// Bits per channel; by default 16 for heights and positions, 8 for the others
+    #[arg(long, value_name = "8|16", value_parser = bits, help_heading = "Maps")]
+    pub bits: Option<u8>,
+
+    /// Samples per texel: 1, 4, 9, 16 and so on up to 256
+    #[arg(long, value_name = "NUMBER", default_value = "1", value_parser = samples_per_axis, help_heading = "Maps")]
+    pub samples: SamplesPerAxis,
+
+    /// The convention of the maps: directions of red and green, axes of object-space normals and positions
+    #[arg(long, value_name = "NAME", default_value = "gltf", value_parser = ConventionParser, help_heading = "Maps")]
+    pub convention: NamedConvention,
+
+    /// Fill texels outside the charts up to this distance only, in texels; without it all are filled
+    #[arg(long, value_name = "TEXELS", help_heading = "Maps")]
+    pub padding: Option<u32>,
+
+    /// Rays of ambient occlusion per sample
+    #[arg(long, value_name = "NUMBER", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=65536), help_heading = "Maps")]
+    pub ao_rays: u32,
+
+    /// How far surfaces occlude each other, in the models' unit; without it any distance
+    #[arg(long, value_name = "DISTANCE", value_parser = distance, help_heading = "Maps")]
+    pub ao_distance: Option<f32>,
+
+    /// Rays along the interpolated normals: how far outside they begin, and how far inside they end
+    #[arg(long, value_name = "OUT,IN", value_parser = two_distances, help_heading = "Rays")]
+    pub distance: Option<[f32; 2]>,
+
+    /// Rays from a cage: the low model, moved outwards by this distance along smooth normals, so that hard edges leave no gaps; they end as far
+    /// inside
+    ///
+    /// Without any of these options the distance is 2 % of the diagonal of the low model's box, and is printed.
+    #[arg(long, value_name = "DISTANCE", value_parser = distance, help_heading = "Rays")]
+    pub cage_offset: Option<f32>,
+
+    /// Rays from a cage that is a file: the low model with its vertices moved; they end inside as far as --cage-offset would
+    #[arg(long, value_name = "FILE", help_heading = "Rays")]
+    pub cage: Option<PathBuf>,
+
+    /// Let rays hit triangles from behind
+    ///
+    /// By default such triangles are transparent, so that a hole in the high model does not show its far wall.
+    #[arg(long, help_heading = "Rays")]
+    pub back_faces: bool,
+
+    /// How tangents are computed; by default those of the low model's file are used, and mikktspace if it has none
+    #[arg(long, value_enum, value_name = "NAME", help_heading = "Frames")]
+    pub method: Option<MethodName>,
+
+    /// How the renderer rebuilds the bitangent
+    #[arg(long, value_enum, value_name = "HOW", default_value_t, help_heading = "Frames")]
+    pub bitangent: BitangentChoice,
+
+    /// The UV set n of TEXCOORD_n; by default that of the material's normal map
+    #[arg(long, value_name = "N", help_heading = "Frames")]
+    pub uv_set: Option<usize>,
+
+    /// Generate missing normals of the low model first: flat, smooth or crease=DEG; keep generates none
+    ///
+    /// Its renderer must use the same normals: `darboux normals` writes them.
+    #[arg(long, value_name = "SHADING", default_value = "keep", value_parser = normals_choice, help_heading = "Frames")]
+    pub normals: NormalsChoice,
+
+    /// How many threads work; by default one per processor core
+    #[arg(long, value_name = "NUMBER", value_parser = jobs)]
+    pub jobs: Option<NonZero<u16>>,
+
+    /// Replace maps that exist
+    #[arg(long)]
+    pub force: bool,
+
+    #[command(flatten)]
+    pub reading: ReadOptions,
+
+    #[command(flatten)]
+    pub messages: MessageOptions,
+}
+
+/// `--map`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum MapChoice {
+    /// Normals in tangent space
+    Normal,
+    /// Normals in the space of the scene
+    ObjectNormal,
+    /// The distance of the high surface from the low one; half grey is none
+    Height,
+    /// Ambient occlusion: white is open
+    Ao,
+    /// Positions, from 0 to 1 in the box around the high model
+    Position,
+}
+
+impl MapChoice {
+    /// The name on the command line.
+    pub fn name(self) -> String {
+        self.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
+    }
+
+    /// The kind of the library.
+    pub fn kind(self) -> MapKind {
+        match self {
+            Self::Normal => MapKind::Normal,
+            Self::ObjectNormal => MapKind::ObjectNormal,
+            Self::Height => MapKind::Height,
+            Self::Ao => MapKind::Occlusion,
+            Self::Position => MapKind::Position,
+        }
+    }
+
+    /// Bits per channel without `--bits`.
+    pub fn default_bits(self) -> u8 {
+        match self {
+            Self::Height | Self::Position => 16,
+            Self::Normal | Self::ObjectNormal | Self::Ao => 8,
+        }
+    }
+}
+
+/// `--bitangent`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum BitangentChoice {
+    /// Per pixel from the interpolated normal and tangent, as glTF, MikkTSpace, Blender, Unreal and Unity
+    #[default]
+    Pixel,
+    /// Per vertex, then interpolated
+    Vertex,
+}
+
+impl From<BitangentChoice> for Bitangent {
+    fn from(choice: BitangentChoice) -> Self {
+        match choice {
+            BitangentChoice::Pixel => Self::PerPixel,
+            BitangentChoice::Vertex => Self::PerVertex,
+        }
+    }
+}
+
+/// `--samples`, as samples per axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SamplesPerAxis(pub u32);
+
+impl BakeArguments {
+    /// The convention of the maps.
+    pub fn map_convention(&self) -> Convention {
+        self.convention.convention
+    }
+}
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let side = |text: &str| text.parse().ok().filter(|side| (1..=32768).contains(side));
+    let sides = match text.split_once('x') {
+        Some((width, height)) => side(width).zip(side(height)),
+        None => side(text).map(|side| (side, side)),
+    };
+    sides.map(<[u32; 2]>::from).ok_or_else(|| "expected 1 to 32768, or a size such as 2048x1024".to_owned())
+}
+
+fn bits(text: &str) -> Result<u8, String> {
+    match text {
+        "8" => Ok(8),
+        "16" => Ok(16),
+        _ => Err("expected 8 or 16".to_owned()),
+    }
+}
+
+fn samples_per_axis(text: &str) -> Result<SamplesPerAxis, String> {
+    let per_axis = (1..=16).find(|per_axis| (per_axis * per_axis).to_string() == text);
+    per_axis
+        .map(SamplesPerAxis)
+        .ok_or_else(|| "expected a square number from 1 to 256, such as 16".to_owned())
+}
+
+fn distance(text: &str) -> Result<f32, String> {
+    let number = text.parse().ok().filter(|x: &f32| x.is_finite() && *x > 0.0);
+    number.ok_or_else(|| "expected a number above 0".to_owned())
+}
+
+fn two_distances(text: &str) -> Result<[f32; 2], String> {
+    let number = |text: &str| text.trim().parse().ok().filter(|x: &f32| x.is_finite() && *x >= 0.0);
+    let both = text.split_once(',').and_then(|(out, inside)| Some([number(out)?, number(inside)?]));
+    both.filter(|both| *both != [0.0; 2]).ok_or_else(|| {
+        "expected two numbers such as 0.05,0.02, of which none is negative and one is above 0".to_owned()
+    })
+}

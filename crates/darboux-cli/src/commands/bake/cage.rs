@@ -1,0 +1,119 @@
+//! Where rays begin: at a distance along the normals, on a cage that is made here, or on one that is a file.
+
+use darboux_bake::{BakeError, LowSurface, inflated_cage};
+use darboux_io::gltf::Document;
+use serde::Serialize;
+
+use super::arguments::BakeArguments;
+use crate::documents::load;
+use crate::inputs::Input;
+
+/// The distance without options, as a share of the diagonal of the low model's box.
+const DEFAULT_SHARE: f64 = 0.02;
+
+/// How rays are chosen. In the models' unit.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Rays {
+    Normals { outwards: f32, inwards: f32 },
+    Cage { offset: f32, is_default: bool },
+    CageFile { inwards: f32 },
+}
+
+impl Rays {
+    /// The choice of the command line; a distance from the model's size without one.
+    pub fn choose(arguments: &BakeArguments, diagonal: f64) -> Self {
+        let by_size = (DEFAULT_SHARE * diagonal).max(f64::from(f32::MIN_POSITIVE)) as f32;
+        match (arguments.distance, arguments.cage_offset, &arguments.cage) {
+            (Some([outwards, inwards]), ..) => Self::Normals { outwards, inwards },
+            (_, Some(offset), _) => Self::Cage { offset, is_default: false },
+            (_, _, Some(_)) => Self::CageFile { inwards: by_size },
+            _ => Self::Cage { offset: by_size, is_default: true },
+        }
+    }
+
+    /// The distances of the library.
+    pub fn distance(&self) -> [f32; 2] {
+        match *self {
+            Self::Normals { outwards, inwards } => [outwards, inwards],
+            Self::Cage { offset, .. } => [offset; 2],
+            Self::CageFile { inwards } => [0.0, inwards],
+        }
+    }
+
+    /// A clause about the rays.
+    pub fn describe(&self) -> String {
+        match self {
+            Self::Normals { outwards, inwards } => {
+                format!("rays along normals from {outwards} outside to {inwards} inside")
+            }
+            Self::Cage { offset, is_default } => {
+                let why = if *is_default { ", 2 % of the model's diagonal" } else { "" };
+                format!("a cage at a distance of {offset}{why}")
+            }
+            Self::CageFile { inwards } => format!("a cage from a file, to {inwards} inside"),
+        }
+    }
+}
+
+/// The positions of the cages of all surfaces; empty where rays follow normals.
+pub struct Cages(Vec<Vec<[f32; 3]>>);
+
+impl Cages {
+    /// Makes or reads the cages. Errors are one sentence each.
+    pub fn read(arguments: &BakeArguments, rays: &Rays, low: &[LowSurface<'_>]) -> Result<Self, String> {
+        match (rays, &arguments.cage) {
+            (Rays::Normals { .. }, _) => Ok(Self(Vec::new())),
+            (Rays::CageFile { .. }, Some(path)) => {
+                let mut document = load(&Input::File(path.clone()), &arguments.reading)?;
+                let sentence = |error: darboux_io::Error| error.to_string();
+                document.decompress().map_err(sentence)?;
+                of_document(&document, low).map(Self)
+            }
+            _ => {
+                let cages = low.iter().map(|surface| inflated_cage(surface.mesh(), rays.distance()[0]));
+                cages.collect::<Result<_, BakeError>>().map(Self).map_err(|error| error.to_string())
+            }
+        }
+    }
+
+    /// The surfaces with their cages.
+    pub fn around<'a>(&'a self, low: Vec<LowSurface<'a>>) -> Result<Vec<LowSurface<'a>>, BakeError> {
+        if self.0.is_empty() {
+            return Ok(low);
+        }
+        low.into_iter().zip(&self.0).map(|(surface, cage)| surface.with_cage(cage)).collect()
+    }
+}
+
+/// The positions of the cage's primitives, which must have the vertices of the low model's, in the same order.
+fn of_document(document: &Document, low: &[LowSurface<'_>]) -> Result<Vec<Vec<[f32; 3]>>, String> {
+    let sentence = |error: darboux_io::Error| error.to_string();
+    let corners = document.corners().map_err(sentence)?;
+    let cage = darboux_bake::HighModel::read(document, &corners).map_err(sentence)?;
+    let surfaces = cage.surfaces().map_err(sentence)?;
+    if surfaces.len() != low.len() {
+        return Err(format!(
+            "{}: the cage has {} primitives but the low model has {}; make the cage by moving the vertices of the low model only",
+            document.name(),
+            surfaces.len(),
+            low.len()
+        ));
+    }
+    let pairs = surfaces.iter().zip(low).enumerate();
+    pairs
+        .map(|(index, (cage, low))| {
+            let [found, expected] = [cage.mesh(), low.mesh()].map(|mesh| mesh.vertex_count());
+            let [cage_corners, low_corners] = [cage.mesh(), low.mesh()].map(|mesh| mesh.corner_count());
+            if found != expected || cage_corners != low_corners {
+                return Err(format!(
+                    "{}: primitive {index} of the cage has {found} vertices and {} triangles but that of the low model has {expected} and {}; make the cage by moving the vertices of the low model only",
+                    document.name(),
+                    cage_corners / 3,
+                    low_corners / 3
+                ));
+            }
+            Ok((0..found).map(|vertex| cage.mesh().positions().get(vertex)).collect())
+        })
+        .collect()
+}

@@ -1,0 +1,84 @@
+//! What is unusual about a bake, and what to change.
+
+use darboux_bake::{BakeReport, HighModel, LowModel};
+
+use crate::commands::bake::arguments::BakeArguments;
+use crate::text::counted;
+
+/// The share of charted texels without a hit, or with inverted normals, from which on there is a warning.
+const NOTABLE: f64 = 0.01;
+
+/// Warnings about the models, before the bake.
+pub fn of_models(low: &LowModel<'_>, low_name: &str, high: &[HighModel<'_>]) -> Vec<String> {
+    let flat: usize = high.iter().map(HighModel::flat_count).sum();
+    let counts = [
+        (
+            low.repeated_meshes,
+            "mesh is in the scene more than once; its first place is baked",
+            "meshes are in the scene more than once; their first places are baked",
+        ),
+        (
+            low.without_uvs,
+            "primitive has no UVs of the chosen set and is not baked",
+            "primitives have no UVs of the chosen set and are not baked",
+        ),
+    ];
+    let of_low = counts.into_iter().filter(|(count, ..)| *count > 0);
+    let of_low = of_low.map(|(count, one, many)| format!("{low_name}: {}", counted(count, one, many)));
+    let of_high = (flat > 0).then(|| {
+        let subject = counted(flat, "primitive of the high models has", "primitives of the high models have");
+        format!("{subject} no normals, so every triangle is flat, as glTF requires; darboux normals --smooth makes smooth ones")
+    });
+    of_low.chain(of_high).collect()
+}
+
+/// Warnings about the result.
+pub fn of_report(report: &BakeReport, arguments: &BakeArguments) -> Vec<String> {
+    let share = |count: u64| count as f64 / report.charted_texels.max(1) as f64;
+    let percent = |count: u64| format!("{:.1} %", 100.0 * share(count));
+    let mut warnings = Vec::new();
+    if report.charted_texels == 0 {
+        warnings.push("no triangle of the low model covers a texel; check its UVs".to_owned());
+    }
+    if share(report.missed_texels) > NOTABLE {
+        let missed = percent(report.missed_texels);
+        let why = match () {
+            () if 2 * report.back_facing_texels > report.missed_texels => {
+                "most of these rays meet the high models from behind, so their faces are turned inside out; turn them, or use --back-faces"
+            }
+            () if arguments.distance.is_some() => {
+                "begin rays farther outside or end them farther inside (--distance), or use a cage (--cage-offset), and check that the models lie on each other"
+            }
+            () => "choose a larger --cage-offset, and check that the models lie on each other",
+        };
+        warnings.push(format!("the rays of {missed} of the texels hit nothing: {why}"));
+    }
+    if share(report.inverted_texels) > NOTABLE {
+        warnings.push(format!(
+            "at {} of the texels the normals of the high models point to the back of their triangles; make them again with darboux normals --overwrite",
+            percent(report.inverted_texels)
+        ));
+    }
+    if report.overlapping_texels > 0 {
+        warnings.push(format!(
+            "{} covered by several triangles of the low model, of which the first is baked; charts may share texels only where their surfaces are equal",
+            counted(usize::try_from(report.overlapping_texels).unwrap_or(usize::MAX), "texel is", "texels are")
+        ));
+    }
+    let left_out = [
+        (
+            report.oversized_triangles,
+            "triangle of the low model spans more than 16 tiles of UVs and is not baked",
+            "triangles of the low model span more than 16 tiles of UVs and are not baked",
+        ),
+        (
+            report.non_finite_triangles,
+            "triangle of the high models has positions that are not finite",
+            "triangles of the high models have positions that are not finite",
+        ),
+    ];
+    for (count, one, many) in left_out.into_iter().filter(|(count, ..)| *count > 0) {
+        warnings.push(counted(usize::try_from(count).unwrap_or(usize::MAX), one, many));
+    }
+    warnings
+}

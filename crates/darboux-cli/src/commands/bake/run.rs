@@ -1,0 +1,180 @@
+//! Runs `darboux bake`: reads the models, bakes, writes the maps, reports.
+
+use std::path::Path;
+
+use darboux::Context;
+use darboux_bake::{
+    BakeOptions, BakeProgress, Baked, HighModel, HighSurface, LowModel, LowModelOptions, LowSurface, MapSet,
+    bake,
+};
+use darboux_io::gltf::{AddNormalsOptions, Document, add_normals};
+
+use super::arguments::BakeArguments;
+use super::cage::{Cages, Rays};
+use super::report::{BakeReport, advice, summary};
+use super::write::{outputs, refuse_outputs, write_maps};
+use crate::documents::load;
+use crate::inputs::Input;
+use crate::json::{VERSION, to_json};
+use crate::terminal::{Messages, write_stdout};
+use crate::{exit, interrupt};
+
+/// Runs the command and returns its exit code.
+pub fn run(arguments: &BakeArguments) -> u8 {
+    let messages = Messages::new(arguments.messages.quiet);
+    if let Err(sentence) = check_usage(arguments) {
+        messages.error(&sentence);
+        return exit::USAGE;
+    }
+    interrupt::wait_for_writes();
+    let done = bake_files(arguments, &messages);
+    messages.end_progress();
+    let report = match done {
+        Ok(report) => report,
+        Err(sentence) => {
+            messages.error(&sentence);
+            return exit::FAILED;
+        }
+    };
+    report.warnings.iter().for_each(|warning| messages.warn(warning));
+    summary(&report).iter().for_each(|line| messages.say(line));
+    let told = match arguments.messages.json {
+        true => to_json(&report).map_err(std::io::Error::from).and_then(|text| write_stdout(&text)),
+        false => Ok(()),
+    };
+    if let Err(error) = told {
+        messages.error(&format!("the report cannot be written: {error}"));
+        return exit::FAILED;
+    }
+    exit::DONE
+}
+
+fn check_usage(arguments: &BakeArguments) -> Result<(), String> {
+    let mut inputs = arguments.high.iter().chain([&arguments.low]).chain(&arguments.cage);
+    if inputs.any(|path| path == Path::new("-")) {
+        return Err("models on standard input cannot be baked; save them to files first".to_owned());
+    }
+    refuse_outputs(arguments)
+}
+
+/// Reads, bakes and writes. Errors are one sentence each.
+fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<BakeReport, String> {
+    let sentence = |error: darboux_io::Error| error.to_string();
+    let mut warnings = Vec::new();
+    let low_document = open_low(arguments, &mut warnings)?;
+    let mut high_documents = Vec::new();
+    for path in &arguments.high {
+        let mut document = load(&Input::File(path.clone()), &arguments.reading)?;
+        document.decompress().map_err(sentence)?;
+        warnings.extend(document.warnings().iter().cloned());
+        high_documents.push(document);
+    }
+    refuse_used(arguments, high_documents.iter().chain([&low_document]))?;
+
+    let low_corners = low_document.corners().map_err(sentence)?;
+    let low = LowModel::read(&low_document, &low_corners, &low_options(arguments)).map_err(sentence)?;
+    let high_corners: Vec<_> =
+        high_documents.iter().map(Document::corners).collect::<Result<_, _>>().map_err(sentence)?;
+    let highs: Vec<HighModel<'_>> = high_documents
+        .iter()
+        .zip(&high_corners)
+        .map(|(document, corners)| HighModel::read(document, corners))
+        .collect::<Result<_, _>>()
+        .map_err(sentence)?;
+    warnings.extend(advice::of_models(&low, low_document.name(), &highs));
+
+    let rays = Rays::choose(arguments, low.diagonal());
+    let surfaces = low.surfaces().map_err(sentence)?;
+    let cages = Cages::read(arguments, &rays, &surfaces)?;
+    let surfaces = cages.around(surfaces).map_err(|error| error.to_string())?;
+    let mut high_surfaces = Vec::new();
+    for high in &highs {
+        high_surfaces.extend(high.surfaces().map_err(sentence)?);
+    }
+    let options = options(arguments, &rays);
+    let baked = bake_surfaces(arguments, messages, &surfaces, &high_surfaces, &options)?;
+    let maps = write_maps(arguments, &baked.images, &options)?;
+    warnings.extend(advice::of_report(&baked.report, arguments));
+    Ok(BakeReport {
+        command: "bake",
+        version: VERSION,
+        low: arguments.low.display().to_string(),
+        high: arguments.high.iter().map(|path| path.display().to_string()).collect(),
+        size: arguments.size,
+        samples: arguments.samples.0 * arguments.samples.0,
+        rays,
+        maps,
+        counts: baked.report.into(),
+        warnings,
+    })
+}
+
+/// The low model, with generated normals where that was asked for.
+fn open_low(arguments: &BakeArguments, warnings: &mut Vec<String>) -> Result<Document, String> {
+    let sentence = |error: darboux_io::Error| error.to_string();
+    let mut document = load(&Input::File(arguments.low.clone()), &arguments.reading)?;
+    document.decompress().map_err(sentence)?;
+    warnings.extend(document.warnings().iter().cloned());
+    if let Some(options) = arguments.normals.options() {
+        let options = AddNormalsOptions::default().with_normals(options);
+        warnings.extend(add_normals(&mut document, &options, &mut |_| {}).map_err(sentence)?.warnings);
+    }
+    Ok(document)
+}
+
+fn low_options(arguments: &BakeArguments) -> LowModelOptions {
+    let tangents = arguments.method.map(|method| darboux::Method::from(method).into());
+    LowModelOptions::default().with_uv_set(arguments.uv_set).with_tangents(tangents)
+}
+
+/// Refuses to write a map over a file that the models use.
+fn refuse_used<'a>(
+    arguments: &BakeArguments,
+    documents: impl Iterator<Item = &'a Document>,
+) -> Result<(), String> {
+    let outputs = outputs(arguments);
+    for document in documents {
+        if let Some(output) = outputs.iter().map(|(_, path)| path).find(|path| document.uses_file(path)) {
+            return Err(format!("{}: is used by {}; choose another name", output.display(), document.name()));
+        }
+    }
+    Ok(())
+}
+
+fn options(arguments: &BakeArguments, rays: &Rays) -> BakeOptions {
+    let kinds: Vec<_> = arguments.map.iter().map(|map| map.kind()).collect();
+    BakeOptions::new(arguments.size, rays.distance())
+        .with_maps(MapSet::of(&kinds))
+        .with_samples_per_axis(arguments.samples.0)
+        .with_back_faces(arguments.back_faces)
+        .with_bitangent(arguments.bitangent.into())
+        .with_map_convention(arguments.convention.convention)
+        .with_padding(arguments.padding)
+        .with_occlusion(arguments.ao_rays, arguments.ao_distance.unwrap_or(f32::INFINITY))
+        .with_memory_limit(available_memory())
+}
+
+fn bake_surfaces(
+    arguments: &BakeArguments,
+    messages: &Messages,
+    low: &[LowSurface<'_>],
+    high: &[HighSurface<'_>],
+    options: &BakeOptions,
+) -> Result<Baked, String> {
+    let mut context = Context::new();
+    if let Some(jobs) = arguments.jobs {
+        context.set_max_threads(usize::from(jobs.get()));
+    }
+    messages.start(1 << 20);
+    let progress = messages.file(&arguments.output.display().to_string(), 1 << 20);
+    let mut tell = move |BakeProgress { done, total }: BakeProgress| progress.set(done, total);
+    bake(low, high, options, &mut context, &mut tell).map_err(|error| error.to_string())
+}
+
+/// The bytes that the system can give without swapping; none where it does not say.
+fn available_memory() -> Option<u64> {
+    let info = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = info.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let kibibytes: u64 = line.trim().strip_suffix(" kB")?.trim().parse().ok()?;
+    Some(kibibytes << 10)
+}

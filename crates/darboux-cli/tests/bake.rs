@@ -1,0 +1,264 @@
+//! `darboux bake`: what it writes, what it advises and what it refuses.
+
+mod common;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+
+use common::{Run, asset, darboux, names_in, text};
+
+/// A square plate over [0, 1] x [0, 1] with heights at x = 0 and x = 1, as the bytes of a GLB.
+fn plate(heights: [f32; 2], attributes: &[&str], scale: f32) -> Vec<u8> {
+    let places = [[0.0f32, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let positions: Vec<f32> = places.iter().flat_map(|p| [p[0], p[1], heights[p[0] as usize]]).collect();
+    let normals: Vec<f32> = places.iter().flat_map(|_| [0.0, 0.0, 1.0]).collect();
+    let uvs: Vec<f32> = places.iter().flat_map(|p| [p[0], 1.0 - p[1]]).collect();
+    let mut bytes: Vec<u8> = Vec::new();
+    let mut views = Vec::new();
+    // Against the UVs, so that they are told from computed ones.
+    let tangents: Vec<f32> = places.iter().flat_map(|_| [0.0, 1.0, 0.0, 1.0]).collect();
+    for floats in [&positions, &normals, &uvs, &tangents] {
+        views.push(json!({"buffer": 0, "byteOffset": bytes.len(), "byteLength": 4 * floats.len()}));
+        bytes.extend(floats.iter().flat_map(|x| x.to_le_bytes()));
+    }
+    views.push(json!({"buffer": 0, "byteOffset": bytes.len(), "byteLength": 12}));
+    bytes.extend([0u16, 1, 2, 0, 2, 3].iter().flat_map(|i| i.to_le_bytes()));
+    let all = json!({"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2, "TANGENT": 3});
+    let kept: serde_json::Map<String, Value> =
+        attributes.iter().map(|&name| (name.to_owned(), all[name].clone())).collect();
+    let json = json!({
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0, "scale": [scale, scale, scale]}],
+        "meshes": [{"primitives": [{"attributes": kept, "indices": 4}]}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, heights[0].min(heights[1])], "max": [1, 1, heights[0].max(heights[1])]},
+            {"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC3"},
+            {"bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC2"},
+            {"bufferView": 3, "componentType": 5126, "count": 4, "type": "VEC4"},
+            {"bufferView": 4, "componentType": 5123, "count": 6, "type": "SCALAR"},
+        ],
+        "bufferViews": views,
+        "buffers": [{"byteLength": bytes.len()}],
+    });
+    let mut text = json.to_string().into_bytes();
+    text.resize(text.len().next_multiple_of(4), b' ');
+    let mut glb = b"glTF\x02\0\0\0".to_vec();
+    glb.extend(((28 + text.len() + bytes.len()) as u32).to_le_bytes());
+    for (kind, chunk) in [(b"JSON", &text), (b"BIN\0", &bytes)] {
+        glb.extend((chunk.len() as u32).to_le_bytes());
+        glb.extend(kind);
+        glb.extend(chunk);
+    }
+    glb
+}
+
+const FULL: [&str; 3] = ["POSITION", "NORMAL", "TEXCOORD_0"];
+
+/// A folder with a flat low model and a high model whose roof rises by one half.
+struct Pair {
+    folder: tempfile::TempDir,
+}
+
+impl Pair {
+    fn new() -> Self {
+        let pair = Self { folder: tempfile::tempdir().expect("a folder") };
+        fs::write(pair.path("low.glb"), plate([0.0, 0.0], &FULL, 1.0)).expect("a file");
+        fs::write(pair.path("high.glb"), plate([0.0, 0.5], &["POSITION"], 1.0)).expect("a file");
+        pair
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn bake(&self, more: &[&str]) -> Run {
+        let [low, high, map] = ["low.glb", "high.glb", "map.png"].map(|name| self.path(name));
+        let all = [
+            "bake",
+            text(&low),
+            "--high",
+            text(&high),
+            "-o",
+            text(&map),
+            "--size",
+            "16",
+            "--cage-offset",
+            "1",
+        ];
+        darboux(&[&all, more].concat())
+    }
+
+    /// The channels of the first texel of a PNG, from 0 to 1, and its bits per channel.
+    fn texel(&self, name: &str) -> (Vec<f64>, u8) {
+        let file = std::io::BufReader::new(fs::File::open(self.path(name)).expect("a map"));
+        let mut reader = png::Decoder::new(file).read_info().expect("a PNG");
+        let mut bytes = vec![0; reader.output_buffer_size().expect("a size")];
+        let info = reader.next_frame(&mut bytes).expect("texels");
+        let samples = info.color_type.samples();
+        match info.bit_depth {
+            png::BitDepth::Sixteen => {
+                let words = bytes.as_chunks::<2>().0[..samples].iter();
+                (words.map(|&word| f64::from(u16::from_be_bytes(word)) / 65535.0).collect(), 16)
+            }
+            _ => (bytes[..samples].iter().map(|&byte| f64::from(byte) / 255.0).collect(), 8),
+        }
+    }
+}
+
+fn near(a: &[f64], b: &[f64], by: f64) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= by)
+}
+
+#[test]
+fn a_normal_map_is_written_and_not_replaced_unasked() {
+    let pair = Pair::new();
+    let run = pair.bake(&[]).exits(0);
+    assert!(run.stderr.contains("map.png: normal, 16 x 16, 8 bits"), "{}", run.stderr);
+    assert!(run.stderr.contains("2 triangles onto 2, a cage at a distance of 1"), "{}", run.stderr);
+    assert!(run.stderr.contains("no normals, so every triangle is flat"), "{}", run.stderr);
+    // The normal leans by atan 0.5 against red; a code is nearest to it.
+    let leaning = [0.5 - 0.5 / 5f64.sqrt(), 0.5, 0.5 + 1.0 / 5f64.sqrt()];
+    assert!(near(&pair.texel("map.png").0, &leaning, 0.5 / 255.0 + 1e-6), "{:?}", pair.texel("map.png"));
+    assert!(pair.bake(&[]).exits(2).stderr.contains("exists; use --force to replace it"));
+    pair.bake(&["--force", "--bits", "16"]).exits(0);
+    let (texel, bits) = pair.texel("map.png");
+    assert!(bits == 16 && near(&texel, &leaning, 0.5 / 65535.0 + 1e-6), "{texel:?}");
+    assert_eq!(names_in(pair.folder.path()), ["high.glb", "low.glb", "map.png"]);
+}
+
+#[test]
+fn several_maps_share_a_run() {
+    let pair = Pair::new();
+    let report = pair.bake(&["--map", "normal,object-normal,height,ao,position", "--json"]).exits(0).json();
+    let maps = report["maps"].as_array().expect("a list");
+    let named: Vec<_> = maps.iter().map(|map| (map["map"].as_str(), map["bits"].as_u64())).collect();
+    assert_eq!(
+        named,
+        [
+            (Some("normal"), Some(8)),
+            (Some("object-normal"), Some(8)),
+            (Some("height"), Some(16)),
+            (Some("ao"), Some(8)),
+            (Some("position"), Some(16)),
+        ]
+    );
+    // The centre of the first texel is at x = 1/32, y = 31/32; the roof is there 1/64 high.
+    assert_eq!(maps[2]["range"], json!([[-1.0, 1.0]]));
+    assert!(near(&pair.texel("map.height.png").0, &[0.5 + 0.5 / 64.0], 1e-5));
+    assert_eq!(pair.texel("map.ao.png").0, [1.0]);
+    let [x, y, z] =
+        [0, 1, 2].map(|axis| [0, 1].map(|end| maps[4]["range"][axis][end].as_f64().expect("a number")));
+    assert!(
+        near(&x, &[1.0 / 32.0, 31.0 / 32.0], 1e-6)
+            && near(&y, &x, 1e-6)
+            && near(&z, &[1.0 / 64.0, 31.0 / 64.0], 1e-6)
+    );
+    assert!(near(&pair.texel("map.position.png").0, &[0.0, 1.0, 0.0], 1e-4));
+    assert_eq!((&report["counts"]["rays"], &report["counts"]["missed_texels"]), (&256.into(), &0.into()));
+    assert_eq!(report["rays"], json!({"kind": "cage", "offset": 1.0, "is_default": false}));
+}
+
+#[test]
+fn the_default_distance_follows_the_size_of_the_model() {
+    let pair = Pair::new();
+    let [low, high, map] = ["low.glb", "high.glb", "map.png"].map(|name| pair.path(name));
+    fs::write(&high, plate([0.0, 0.01], &FULL, 1.0)).expect("a file");
+    let line = ["bake", text(&low), "--high", text(&high), "-o", text(&map), "--size", "8", "--json"];
+    let report = darboux(&line).exits(0).json();
+    let offset = report["rays"]["offset"].as_f64().expect("a number");
+    assert!((offset - 0.02 * 2f64.sqrt()).abs() < 1e-6 && report["rays"]["is_default"] == true, "{report}");
+}
+
+#[test]
+fn scenes_place_models() {
+    let pair = Pair::new();
+    // Both models twice as large: the same map.
+    pair.bake(&[]).exits(0);
+    let before = fs::read(pair.path("map.png")).expect("a map");
+    fs::write(pair.path("low.glb"), plate([0.0, 0.0], &FULL, 2.0)).expect("a file");
+    fs::write(pair.path("high.glb"), plate([0.0, 0.5], &["POSITION"], 2.0)).expect("a file");
+    pair.bake(&["--force"]).exits(0);
+    assert!(fs::read(pair.path("map.png")).expect("a map") == before);
+    // Mirrored along all axes, the roof lies below the plate and faces down as it does.
+    fs::write(pair.path("low.glb"), plate([0.0, 0.0], &FULL, -1.0)).expect("a file");
+    fs::write(pair.path("high.glb"), plate([0.0, 0.5], &["POSITION"], -1.0)).expect("a file");
+    pair.bake(&["--force"]).exits(0);
+    assert!(fs::read(pair.path("map.png")).expect("a map") == before);
+}
+
+#[test]
+fn a_bake_that_misses_says_what_to_change() {
+    let pair = Pair::new();
+    let [low, high, map] = ["low.glb", "high.glb", "map.png"].map(|name| pair.path(name));
+    let bake = |more: &[&str]| {
+        let all = ["bake", text(&low), "--high", text(&high), "-o", text(&map), "--size", "16", "--force"];
+        darboux(&[&all, more].concat()).exits(0).stderr
+    };
+    let missed = bake(&["--distance", "0.2,0.2"]);
+    assert!(
+        missed.contains("the rays of 62.5 % of the texels hit nothing: begin rays farther outside"),
+        "{missed}"
+    );
+    let missed = bake(&["--cage-offset", "0.2"]);
+    assert!(missed.contains("choose a larger --cage-offset"), "{missed}");
+    fs::write(&high, plate([0.0, 0.5], &["POSITION"], 1.0).iter().copied().collect::<Vec<u8>>())
+        .expect("a file");
+    assert!(!bake(&["--distance", "1,1"]).contains("hit nothing"));
+}
+
+#[test]
+fn a_cage_is_the_low_model_moved() {
+    let pair = Pair::new();
+    let cage = pair.path("cage.glb");
+    fs::write(&cage, plate([1.0, 1.0], &FULL, 1.0)).expect("a file");
+    let [low, high, map] = ["low.glb", "high.glb", "map.png"].map(|name| pair.path(name));
+    let line = |cage: &Path| {
+        let all = ["bake", text(&low), "--high", text(&high), "-o", text(&map), "--size", "16", "--force"];
+        darboux(&[&all[..], &["--cage", text(cage), "--json"]].concat())
+    };
+    let report = line(&cage).exits(0).json();
+    assert_eq!(
+        (&report["counts"]["missed_texels"], &report["rays"]["kind"]),
+        (&0.into(), &"cage_file".into())
+    );
+    let other = line(&asset("NormalTangentTest/NormalTangentTest.glb")).exits(1).stderr;
+    assert!(other.contains("make the cage by moving the vertices of the low model only"), "{other}");
+}
+
+#[test]
+fn wrong_use_is_refused() {
+    let pair = Pair::new();
+    let says = |more: &[&str], code: i32, what: &str| {
+        let stderr = pair.bake(more).exits(code).stderr;
+        assert!(stderr.contains(what), "{stderr}");
+    };
+    says(&["--distance", "1,1"], 2, "cannot be used with");
+    says(&["--samples", "5"], 2, "expected a square number");
+    says(&["--bits", "12"], 2, "expected 8 or 16");
+    says(&["--map", "curvature"], 2, "possible values");
+    says(&["--uv-set", "3"], 1, "the low model has no triangles");
+    fs::write(pair.path("low.glb"), plate([0.0, 0.0], &["POSITION", "TEXCOORD_0"], 1.0)).expect("a file");
+    says(&[], 1, "has no normals");
+    pair.bake(&["--normals", "smooth"]).exits(0);
+    let low = pair.path("low.glb");
+    let onto_itself = darboux(&["bake", text(&low), "--high", text(&low), "-o", text(&low), "--force"]);
+    assert!(onto_itself.exits(2).stderr.contains("must end in .png"));
+    let from_stdin = darboux(&["bake", "-", "--high", text(&low), "-o", "map.png"]).exits(2);
+    assert!(from_stdin.stderr.contains("save them to files first"));
+}
+
+#[test]
+fn tangents_come_from_the_file_unless_a_method_is_named() {
+    let pair = Pair::new();
+    fs::write(pair.path("low.glb"), plate([0.0, 0.0], &["POSITION", "NORMAL", "TEXCOORD_0", "TANGENT"], 1.0))
+        .expect("a file");
+    let [leaning, upright] = [0.5 + 0.5 / 5f64.sqrt(), 0.5 + 1.0 / 5f64.sqrt()];
+    // The file's tangents point up and its bitangents to the left, where the normal leans.
+    pair.bake(&["--bits", "16"]).exits(0);
+    assert!(near(&pair.texel("map.png").0, &[0.5, leaning, upright], 1e-5), "{:?}", pair.texel("map.png"));
+    pair.bake(&["--bits", "16", "--force", "--method", "mikktspace"]).exits(0);
+    assert!(near(&pair.texel("map.png").0, &[1.0 - leaning, 0.5, upright], 1e-5));
+}
