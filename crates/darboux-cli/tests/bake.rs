@@ -11,6 +11,11 @@ use common::{Run, asset, darboux, names_in, text};
 
 /// A square plate over [0, 1] x [0, 1] with heights at x = 0 and x = 1, as the bytes of a GLB.
 fn plate(heights: [f32; 2], attributes: &[&str], scale: f32) -> Vec<u8> {
+    named_plate(heights, attributes, scale, "plate")
+}
+
+/// As [`plate`], with a name of its node.
+fn named_plate(heights: [f32; 2], attributes: &[&str], scale: f32, name: &str) -> Vec<u8> {
     let places = [[0.0f32, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     let positions: Vec<f32> = places.iter().flat_map(|p| [p[0], p[1], heights[p[0] as usize]]).collect();
     let normals: Vec<f32> = places.iter().flat_map(|_| [0.0, 0.0, 1.0]).collect();
@@ -31,7 +36,7 @@ fn plate(heights: [f32; 2], attributes: &[&str], scale: f32) -> Vec<u8> {
     let json = json!({
         "asset": {"version": "2.0"},
         "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0, "scale": [scale, scale, scale]}],
+        "nodes": [{"name": name, "mesh": 0, "scale": [scale, scale, scale]}],
         "meshes": [{"primitives": [{"attributes": kept, "indices": 4}]}],
         "accessors": [
             {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, heights[0].min(heights[1])], "max": [1, 1, heights[0].max(heights[1])]},
@@ -226,6 +231,26 @@ fn a_cage_is_the_low_model_moved() {
     );
     let other = line(&asset("NormalTangentTest/NormalTangentTest.glb")).exits(1).stderr;
     assert!(other.contains("make the cage by moving the vertices of the low model only"), "{other}");
+}
+
+#[test]
+fn names_decide_what_parts_see() {
+    let pair = Pair::new();
+    fs::write(pair.path("low.glb"), named_plate([0.0, 0.0], &FULL, 1.0, "Roof_low")).expect("a file");
+    let other = pair.path("other.glb");
+    fs::write(pair.path("high.glb"), named_plate([0.0, 0.5], &FULL, 1.0, "roof_high")).expect("a file");
+    fs::write(&other, named_plate([0.75, 0.75], &FULL, 1.0, "floor_high")).expect("a file");
+    let heights = |more: &[&str]| {
+        let all = ["--high", text(&other), "--force", "--map", "height"];
+        pair.bake(&[&all, more].concat()).exits(0);
+        pair.texel("map.png").0[0]
+    };
+    // From 1 inside to 1 outside: the floor covers the roof.
+    assert!((heights(&[]) - 0.875).abs() < 1e-4);
+    assert!((heights(&["--match", "name"]) - (0.5 + 0.5 / 64.0)).abs() < 1e-4);
+    fs::write(pair.path("low.glb"), named_plate([0.0, 0.0], &FULL, 1.0, "Wall_low")).expect("a file");
+    let alone = pair.bake(&["--force", "--match", "name"]).exits(1);
+    assert!(alone.stderr.contains("no part of the high models belongs to Wall_low"), "{}", alone.stderr);
 }
 
 #[test]

@@ -19,8 +19,8 @@ impl<'a> HighModel<'a> {
         let places = places(document)?;
         let mut parts = Vec::new();
         for corners in corners {
-            for matrix in places.get(corners.name().mesh).into_iter().flatten() {
-                let primitive = PlacedPrimitive::read(document, corners, matrix)?;
+            for place in places.get(corners.name().mesh).into_iter().flatten() {
+                let primitive = PlacedPrimitive::read(document, corners, place)?;
                 parts.extend(primitive.map(|primitive| (corners.name().clone(), primitive)));
             }
         }
@@ -44,6 +44,11 @@ impl<'a> HighModel<'a> {
             BakeError::Mesh(source) => Error::Mesh { file, at, source },
             other => Error::Unsupported { file, at, problem: other.to_string() },
         }
+    }
+
+    /// The name of each surface: that of its node, or else of its mesh; empty if neither has one.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.parts.iter().map(|(_, part)| part.part_name.as_str())
     }
 
     /// The number of primitives without normals, whose triangles are flat.

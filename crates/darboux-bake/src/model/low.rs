@@ -68,8 +68,8 @@ impl<'a> LowModel<'a> {
         model.repeated_meshes = places.iter().filter(|places| places.len() > 1).count();
         for corners in corners.iter().filter(|corners| !corners.is_empty()) {
             let name = corners.name();
-            let Some(matrix) = places.get(name.mesh).and_then(|places| places.first()) else { continue };
-            let Some(primitive) = PlacedPrimitive::read(document, corners, matrix)? else { continue };
+            let Some(place) = places.get(name.mesh).and_then(|places| places.first()) else { continue };
+            let Some(primitive) = PlacedPrimitive::read(document, corners, place)? else { continue };
             let appearance = corners.material().and_then(|material| appearances.get(material));
             let of_map = appearance.map_or(0, |appearance| appearance.tangent_uv_set);
             let uv_set = options.uv_set.unwrap_or(of_map);
@@ -111,9 +111,9 @@ impl<'a> LowModel<'a> {
         Ok(surfaces)
     }
 
-    /// The number of primitives that are baked.
-    pub fn part_count(&self) -> usize {
-        self.parts.len()
+    /// The name of each surface: that of its node, or else of its mesh; empty if neither has one.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.parts.iter().map(|part| part.primitive.part_name.as_str())
     }
 
     /// The diagonal of the box around the model, in units of its positions.

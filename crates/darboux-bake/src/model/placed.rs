@@ -9,12 +9,21 @@ use darboux_io::gltf::{Document, PrimitiveCorners, PrimitiveName};
 /// A matrix for column vectors, in columns.
 pub type Matrix = [[f64; 4]; 4];
 
-/// The matrices of all places of every mesh, by the index of the mesh. A skinned mesh has the pose in which it is stored.
-pub fn places(document: &Document) -> Result<Vec<Vec<Matrix>>, Error> {
+/// A place of a mesh in the scene.
+#[derive(Clone, Debug)]
+pub struct Place {
+    pub matrix: Matrix,
+    /// The name of the node.
+    pub node_name: Option<String>,
+}
+
+/// The places of every mesh, by the index of the mesh. A skinned mesh has the pose in which it is stored.
+pub fn places(document: &Document) -> Result<Vec<Vec<Place>>, Error> {
     let mut places = vec![Vec::new(); document.meshes().len()];
     for mesh in document.placed_meshes()?.meshes {
         if let Some(places) = places.get_mut(mesh.mesh) {
-            places.extend(mesh.matrices);
+            let place = |matrix| Place { matrix, node_name: mesh.node_name.clone() };
+            places.extend(mesh.matrices.iter().copied().map(place));
         }
     }
     Ok(places)
@@ -33,6 +42,8 @@ pub fn vertices<'a, const N: usize>(
 /// Positions and normals of a primitive at a place, and the vertices of its triangles.
 #[derive(Clone, Debug)]
 pub struct PlacedPrimitive<'a> {
+    /// The name of the node, or else of the mesh; empty if neither has one.
+    pub part_name: String,
     pub positions: Cow<'a, [[f32; 3]]>,
     pub normals: Option<Cow<'a, [[f32; 3]]>>,
     pub indices: Cow<'a, [u32]>,
@@ -45,13 +56,15 @@ impl<'a> PlacedPrimitive<'a> {
     pub fn read(
         document: &'a Document,
         corners: &'a PrimitiveCorners<'a>,
-        matrix: &Matrix,
+        place: &Place,
     ) -> Result<Option<Self>, Error> {
         let Some(positions) = vertices(document, corners.name(), "POSITION")? else { return Ok(None) };
         let normals = vertices(document, corners.name(), "NORMAL")?;
         let indices = Cow::Borrowed(corners.vertices());
-        let primitive = Self { positions, normals, indices, transform: None };
-        Ok(Some(if is_identity(matrix) { primitive } else { primitive.moved(matrix) }))
+        let part_name = place.node_name.as_ref().or(corners.name().mesh_name.as_ref());
+        let part_name = part_name.cloned().unwrap_or_default();
+        let primitive = Self { part_name, positions, normals, indices, transform: None };
+        Ok(Some(if is_identity(&place.matrix) { primitive } else { primitive.moved(&place.matrix) }))
     }
 
     fn moved(mut self, matrix: &Matrix) -> Self {

@@ -159,6 +159,7 @@ Register-ArgumentCompleter -Native -CommandName 'darboux' -ScriptBlock {
             [CompletionResult]::new('--distance', '--distance', [CompletionResultType]::ParameterName, 'Rays along the interpolated normals: how far outside they begin, and how far inside they end')
             [CompletionResult]::new('--cage-offset', '--cage-offset', [CompletionResultType]::ParameterName, 'Rays from a cage: the low model, moved outwards by this distance along smooth normals, so that hard edges leave no gaps; they end as far inside')
             [CompletionResult]::new('--cage', '--cage', [CompletionResultType]::ParameterName, 'Rays from a cage that is a file: the low model with its vertices moved; they end inside as far as --cage-offset would')
+            [CompletionResult]::new('--match', '--match', [CompletionResultType]::ParameterName, 'Which high parts the rays of a low part can hit')
             [CompletionResult]::new('--method', '--method', [CompletionResultType]::ParameterName, 'How tangents are computed; by default those of the low model''s file are used, and mikktspace if it has none')
             [CompletionResult]::new('--bitangent', '--bitangent', [CompletionResultType]::ParameterName, 'How the renderer rebuilds the bitangent')
             [CompletionResult]::new('--uv-set', '--uv-set', [CompletionResultType]::ParameterName, 'The UV set n of TEXCOORD_n; by default that of the material''s normal map')

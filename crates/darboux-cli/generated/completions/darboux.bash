@@ -73,7 +73,7 @@ _darboux() {
             return 0
             ;;
         darboux__subcmd__bake)
-            opts="-o -q -h --high --output --map --size --bits --samples --convention --padding --ao-rays --ao-distance --distance --cage-offset --cage --back-faces --method --bitangent --uv-set --normals --jobs --force --allow-outside --memory-limit --json --quiet --help"
+            opts="-o -q -h --high --output --map --size --bits --samples --convention --padding --ao-rays --ao-distance --distance --cage-offset --cage --match --back-faces --method --bitangent --uv-set --normals --jobs --force --allow-outside --memory-limit --json --quiet --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
@@ -133,6 +133,10 @@ _darboux() {
                     ;;
                 --cage)
                     COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --match)
+                    COMPREPLY=($(compgen -W "nearest name" -- "${cur}"))
                     return 0
                     ;;
                 --method)

@@ -2,6 +2,7 @@
 
 pub mod arguments;
 mod cage;
+mod matching;
 mod report;
 mod run;
 mod write;

@@ -33,6 +33,8 @@ pub struct PlacedMeshes {
 pub struct PlacedMesh {
     /// The index of the mesh.
     pub mesh: usize,
+    /// The name of the node, if it has one.
+    pub node_name: Option<String>,
     /// The transforms from the mesh to the scene, in columns: one per instance of `EXT_mesh_gpu_instancing`, otherwise one. The identity
     /// for a skinned mesh.
     pub matrices: Vec<[[f64; 4]; 4]>,
@@ -77,6 +79,7 @@ struct Scene {
 #[derive(Deserialize)]
 #[serde(remote = "Self")]
 struct Node {
+    name: Option<String>,
     mesh: Option<usize>,
     skin: Option<usize>,
     weights: Option<Vec<f64>>,
@@ -135,7 +138,9 @@ impl Document {
         let mut placed = PlacedMeshes { meshes: Vec::new(), skins: vec![Vec::new(); scenes.skins.len()] };
         if scenes.nodes.is_empty() {
             let all = scenes.meshes.iter().enumerate();
-            placed.meshes.extend(all.map(|(mesh, own)| place(mesh, None, &own.weights, vec![IDENTITY])));
+            placed
+                .meshes
+                .extend(all.map(|(mesh, own)| place(mesh, None, None, &own.weights, vec![IDENTITY])));
         }
         let mut places: usize = 0;
         for &(index, matrix) in &nodes {
@@ -175,7 +180,8 @@ impl Document {
             }
             (None, None) => vec![matrix],
         };
-        Ok(Some(place(mesh, node.skin, node.weights.as_ref().unwrap_or(&own.weights), matrices)))
+        let weights = node.weights.as_ref().unwrap_or(&own.weights);
+        Ok(Some(place(mesh, node.name.clone(), node.skin, weights, matrices)))
     }
 
     /// The joint matrices of a skin. `at` is its JSON path; `nodes` has the transforms of the nodes in the scene, by index.
@@ -252,9 +258,16 @@ fn placed_nodes(Scenes { scene, scenes, nodes, .. }: &Scenes) -> Result<Vec<(usi
     Ok(placed)
 }
 
-fn place(mesh: usize, skin: Option<usize>, weights: &[f64], matrices: Vec<Matrix>) -> PlacedMesh {
+fn place(
+    mesh: usize,
+    node_name: Option<String>,
+    skin: Option<usize>,
+    weights: &[f64],
+    matrices: Vec<Matrix>,
+) -> PlacedMesh {
     let is_morphed = weights.iter().any(|&weight| weight != 0.0);
-    PlacedMesh { mesh, matrices, skin, weights: if is_morphed { weights.to_vec() } else { Vec::new() } }
+    let weights = if is_morphed { weights.to_vec() } else { Vec::new() };
+    PlacedMesh { mesh, node_name, matrices, weights, skin }
 }
 
 /// The nodes without a parent.

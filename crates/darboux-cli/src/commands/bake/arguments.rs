@@ -31,6 +31,7 @@ Examples:
   darboux bake low.glb --high a.glb b.glb -o crate.png --map normal,ao --size 2048
   darboux bake low.glb --high high.glb -o n.png --samples 16 --bits 16
   darboux bake low.glb --high high.glb -o n.png --distance 0.05,0.02
+  darboux bake low.glb --high high.glb -o n.png --match name          crate_low from crate_high
   darboux bake low.glb --high high.glb -o n.png --convention unreal   green down
   darboux bake low.glb --high high.glb -o height.png --map height --json";
 
@@ -103,6 +104,10 @@ pub struct BakeArguments {
     /// Rays from a cage that is a file: the low model with its vertices moved; they end inside as far as --cage-offset would
     #[arg(long, value_name = "FILE", help_heading = "Rays")]
     pub cage: Option<PathBuf>,
+
+    /// Which high parts the rays of a low part can hit
+    #[arg(long = "match", value_enum, value_name = "HOW", default_value_t, help_heading = "Rays")]
+    pub matching: MatchChoice,
 
     /// Let rays hit triangles from behind
     ///
@@ -182,6 +187,16 @@ impl MapChoice {
             Self::Normal | Self::ObjectNormal | Self::Ao => 8,
         }
     }
+}
+
+/// `--match`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum MatchChoice {
+    /// All of them: the first that a ray meets
+    #[default]
+    Nearest,
+    /// Those of the same name: crate_low gets the detail of crate_high and crate_high_bolts. The names of nodes count, or else of meshes
+    Name,
 }
 
 /// `--bitangent`.

@@ -9,8 +9,9 @@ use darboux_bake::{
 };
 use darboux_io::gltf::{AddNormalsOptions, Document, add_normals};
 
-use super::arguments::BakeArguments;
+use super::arguments::{BakeArguments, MatchChoice};
 use super::cage::{Cages, Rays};
+use super::matching::group_by_name;
 use super::report::{BakeReport, advice, summary};
 use super::write::{outputs, refuse_outputs, write_maps};
 use crate::documents::load;
@@ -86,10 +87,13 @@ fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<BakeRepo
     let rays = Rays::choose(arguments, low.diagonal());
     let surfaces = low.surfaces().map_err(sentence)?;
     let cages = Cages::read(arguments, &rays, &surfaces)?;
-    let surfaces = cages.around(surfaces).map_err(|error| error.to_string())?;
+    let mut surfaces = cages.around(surfaces).map_err(|error| error.to_string())?;
     let mut high_surfaces = Vec::new();
     for high in &highs {
         high_surfaces.extend(high.surfaces().map_err(sentence)?);
+    }
+    if arguments.matching == MatchChoice::Name {
+        warnings.extend(group_by_name((&low, &mut surfaces), (&highs, &mut high_surfaces))?);
     }
     let options = options(arguments, &rays);
     let baked = bake_surfaces(arguments, messages, &surfaces, &high_surfaces, &options)?;

@@ -1,0 +1,69 @@
+//! Pairs parts of the low and the high models by their names.
+
+/// Which parts belong together.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct NameMatch {
+    /// The group of each low part, from 0.
+    pub group_of_low: Vec<usize>,
+    /// The group of each high part; none for parts that belong to no low part.
+    pub group_of_high: Vec<Option<usize>>,
+    /// The low parts to which no high part belongs, by their places.
+    pub low_without_high: Vec<usize>,
+}
+
+/// Pairs parts by their names: `crate_low` with `crate_high`, `crate_high_bolts` and so on.
+///
+/// What precedes the last `_low` or `_high` counts, in upper or lower case; of other names all but a number after a point, as in `crate.001`.
+/// Low parts of the same name share a group.
+pub fn match_names(low: &[&str], high: &[&str]) -> NameMatch {
+    let mut bases: Vec<String> = Vec::new();
+    let mut group = |name: &&str| {
+        let base = base_name(name);
+        bases.iter().position(|other| *other == base).unwrap_or_else(|| {
+            bases.push(base);
+            bases.len() - 1
+        })
+    };
+    let group_of_low: Vec<usize> = low.iter().map(&mut group).collect();
+    let find = |name: &&str| {
+        let base = base_name(name);
+        bases.iter().position(|other| *other == base)
+    };
+    let group_of_high: Vec<Option<usize>> = high.iter().map(find).collect();
+    let is_alone = |&part: &usize| !group_of_high.contains(&Some(group_of_low[part]));
+    let low_without_high = (0..low.len()).filter(is_alone).collect();
+    NameMatch { group_of_low, group_of_high, low_without_high }
+}
+
+/// What of a name counts.
+fn base_name(name: &str) -> String {
+    let name = name.to_lowercase();
+    let end = ["_low", "_high"].iter().filter_map(|suffix| name.rfind(suffix)).max();
+    match (end, name.rsplit_once('.')) {
+        (Some(end), _) => name[..end].to_owned(),
+        (None, Some((base, number))) if number.bytes().all(|digit| digit.is_ascii_digit()) => base.to_owned(),
+        _ => name,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_are_paired_by_what_precedes_low_and_high() {
+        let low = ["Crate_low", "lid_LOW.001", "handle", "wheel_low"];
+        let high = ["crate_high", "crate_high_bolts", "Lid_High", "handle.002", "axle_high"];
+        let found = match_names(&low, &high);
+        assert_eq!(found.group_of_low, [0, 1, 2, 3]);
+        assert_eq!(found.group_of_high, [Some(0), Some(0), Some(1), Some(2), None]);
+        assert_eq!(found.low_without_high, [3]);
+    }
+
+    #[test]
+    fn parts_of_one_name_share_a_group() {
+        let found = match_names(&["a_low", "b", "A_Low.001"], &[]);
+        assert_eq!(found.group_of_low, [0, 1, 0]);
+        assert_eq!(found.low_without_high, [0, 1, 2]);
+    }
+}
