@@ -1,13 +1,10 @@
 """Makes the cases of class large: meshes from a seed, with numbers that are the same in every language.
 
-    python3 conformance/generate.py FOLDER          writes the large cases with their vertices to FOLDER
-    python3 conformance/generate.py FOLDER --all    writes every case, as adapters need them
-
 All choices come from one generator of 32-bit integers. Every number is an integer divided by a power of two, or (in unit normals)
 the quotient of two integers, rounded once to single precision.
 """
 
-import sys
+import argparse
 from pathlib import Path
 
 import casefile
@@ -196,7 +193,13 @@ def write_folder(folder, every):
     print(f"{written} cases are in {folder}")
 
 
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", metavar="FOLDER", type=Path, help="where the cases go; it is made if it is missing")
+    parser.add_argument("--all", action="store_true", help="copy the small cases, too, as adapters need them")
+    given = parser.parse_args()
+    write_folder(given.folder, given.all)
+
+
 if __name__ == "__main__":
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    write_folder(Path(sys.argv[1]), "--all" in sys.argv[2:])
+    main()
