@@ -72,11 +72,10 @@ impl Bake<'_> {
         let mut last: Option<Face> = None;
         for texel in 0..TEXELS {
             let Some(placed) = scratch.coverage.owners[texel] else { continue };
-            let face = match last {
-                Some(face) if face.placed == placed => face,
-                _ => Face::new(self.layout, self.low, placed),
-            };
-            last = Some(face);
+            if last.as_ref().is_none_or(|face| face.placed != placed) {
+                last = Some(Face::new(self.layout, self.low, placed));
+            }
+            let Some(face) = &last else { continue };
             let sums = &mut scratch.sums[texel];
             sums.is_charted = true;
             sums.is_overlapped |= scratch.coverage.overlaps[texel];

@@ -16,6 +16,10 @@ pub struct Face {
     bitangents: [[f32; 3]; 3],
     cage: Option<[[f32; 3]; 3]>,
     texels: [[f64; 2]; 3],
+    /// Twice the signed area in texels.
+    area: f64,
+    /// The unit normal of the plane, counter-clockwise; zero where the triangle has no area.
+    face_normal: Vector,
 }
 
 /// A point on a low surface. The interpolated vectors are not normalised, as in a renderer's fragment shader.
@@ -41,22 +45,26 @@ impl Face {
         let vertices = corners.map(|corner| low.mesh.vertex_of_corner(corner));
         let normals = vertices.map(|vertex| low.mesh.normals().get(vertex));
         let tangents = corners.map(|corner| low.tangents[corner]);
+        let positions = vertices.map(|vertex| low.mesh.positions().get(vertex));
+        let texels = layout.texels(low, &placed);
+        let [a, b, c] = positions.map(wide);
         Self {
             placed,
             group: low.group,
-            positions: vertices.map(|vertex| low.mesh.positions().get(vertex)),
+            positions,
             normals,
             tangents,
             bitangents: [0, 1, 2].map(|i| bitangent(normals[i], tangents[i])),
             cage: low.cage.map(|cage| vertices.map(|vertex| cage.get(vertex))),
-            texels: layout.texels(low, &placed),
+            texels,
+            area: area(texels),
+            face_normal: unit(cross(sub(b, a), sub(c, a))).unwrap_or_default(),
         }
     }
 
     /// The point at a place of the image, in texels. A place outside the triangle, where rounding has put it, moves to its edge.
     pub fn point(&self, at: [f64; 2]) -> SurfacePoint {
         let weights = self.weights(at);
-        let [a, b, c] = self.positions.map(wide);
         let [x, y, z, sign] = weighted(weights, self.tangents);
         SurfacePoint {
             position: weighted(weights, self.positions),
@@ -65,23 +73,25 @@ impl Face {
             sign,
             bitangent: weighted(weights, self.bitangents),
             cage: self.cage.map(|cage| weighted(weights, cage)),
-            face_normal: unit(cross(sub(b, a), sub(c, a))).unwrap_or_default(),
+            face_normal: self.face_normal,
         }
     }
 
     /// The barycentric coordinates of a place, none of them negative.
     fn weights(&self, at: [f64; 2]) -> [f64; 3] {
         let [a, b, c] = self.texels;
-        let area = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
-            (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
-        };
-        let whole = area(a, b, c);
-        if whole == 0.0 {
+        if self.area == 0.0 {
             return [1.0 / 3.0; 3];
         }
-        let weights = [area(at, b, c), area(a, at, c), area(a, b, at)].map(|part| (part / whole).max(0.0));
+        let parts = [area([at, b, c]), area([a, at, c]), area([a, b, at])];
+        let weights = parts.map(|part| (part / self.area).max(0.0));
         scale(1.0 / weights.iter().sum::<f64>(), weights)
     }
+}
+
+/// Twice the signed area of a triangle.
+fn area([a, b, c]: [[f64; 2]; 3]) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
 /// w * cross(N, T).
