@@ -79,7 +79,8 @@ def install(folder, work, log):
 def start(target, work, log):
     """Builds an installed adapter where it must be built, and gives the command that starts it."""
     if (target / "Cargo.toml").exists():
-        built = work / "cargo"
+        # One folder for the adapters and another for their wrong copies, whose programs have the same names.
+        built = work / f"cargo-{target.parent.name}"
         call(["cargo", "build", "--quiet", "--release", "--manifest-path", target / "Cargo.toml", "--target-dir", built], log)
         return [built / "release" / target.name]
     if (target / "Makefile").exists():
