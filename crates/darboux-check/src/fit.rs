@@ -115,6 +115,10 @@ fn against_u(surface: &Surface) -> Vec<usize> {
     let mut largest_cosine = vec![f64::NEG_INFINITY; tangents.len()];
     for triangle in surface.triangles() {
         let Some(along_u) = u_direction(surface, uvs, triangle) else { continue };
+        if is_sliver(uvs, triangle) {
+            triangle.into_iter().for_each(|vertex| largest_cosine[vertex] = 1.0);
+            continue;
+        }
         for vertex in triangle {
             let tangent = xyz(tangents[vertex]);
             let cosine = dot(along_u, tangent) / (length(along_u) * length(tangent));
@@ -123,6 +127,16 @@ fn against_u(surface: &Surface) -> Vec<usize> {
         }
     }
     indices_where(&largest_cosine, |cosine| cosine.is_finite() && *cosine < AGAINST)
+}
+
+/// Whether a triangle is so thin in UV space that rounding its UVs, as compression does, could turn its u direction over.
+fn is_sliver(uvs: &[[f32; 2]], triangle: [usize; 3]) -> bool {
+    let [a, b, c] = triangle.map(|vertex| uvs[vertex]);
+    let squared = |[p, q]: [[f32; 2]; 2]| {
+        (f64::from(p[0]) - f64::from(q[0])).powi(2) + (f64::from(p[1]) - f64::from(q[1])).powi(2)
+    };
+    let longest = [[a, b], [b, c], [c, a]].map(squared).into_iter().fold(0.0, f64::max);
+    uv_area(uvs, triangle).abs() < 0.02 * longest
 }
 
 /// The derivative of the position along u, up to a positive factor; none where a triangle has no area.

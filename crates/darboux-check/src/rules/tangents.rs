@@ -27,9 +27,10 @@ pub const RULES: &[SurfaceRule] = &[
 /// How far lengths of tangents may be from 1: 8-bit tangents are up to 0.007 off.
 const UNIT: f64 = 0.02;
 
-/// The share of triangles, in percent, above which flipped signs are an error: each shows dents for bumps, and one in a hundred is seen on a
-/// model that fills the screen. Fewer may be slivers, whose UV area is rounding, so that programs differ in their sign.
-const MAX_PERCENT_OF_SIGNS: f64 = 1.0;
+/// The share in percent above which flipped signs of some triangles, or negated tangents of some vertices, are an error: each shows dents for
+/// bumps, and one in a hundred is seen on a model that fills the screen. Fewer may be slivers, whose UV area is rounding, so that programs
+/// differ in their sign.
+const MAX_PERCENT_OF_PART: f64 = 1.0;
 
 /// Degrees from the plane of the normal.
 const MAX_DEGREES_FROM_PLANE: [f64; 2] = [2.0, 15.0];
@@ -198,7 +199,8 @@ fn direction_or_sign(measured: &Measured<'_>) -> Vec<Finding> {
         _ => "part of all corners",
     };
     let share = 100.0 * *supporting as f64 / (*all).max(1) as f64;
-    let is_small = *difference == Difference::SignPartlyFlipped && share <= MAX_PERCENT_OF_SIGNS;
+    let is_partly = matches!(difference, Difference::SignPartlyFlipped | Difference::PartlyNegated);
+    let is_small = is_partly && share <= MAX_PERCENT_OF_PART;
     let severity = if is_small { Severity::Warning } else { code.severity() };
     let finding = Finding::new(code, text).with_items(items).with_count(*supporting);
     vec![finding.with_severity(severity).with_evidence(part, share, "%")]
