@@ -7,6 +7,7 @@ mod callbacks;
 mod check;
 mod engines;
 mod instructions;
+mod judging;
 mod lengyel;
 mod memory;
 mod meshes;
@@ -23,6 +24,7 @@ use clap::Parser;
 use darboux_tests::models::further_models;
 
 use engines::Engine;
+use judging::Sizes;
 use meshes::{Named, Size};
 
 /// Times tangent generators, each checked against mikktspace.c.
@@ -44,6 +46,12 @@ struct Arguments {
     /// Compare the counts of our engines with the committed ones, or replace these.
     #[arg(long, value_name = "TASK", conflicts_with_all = ["engines", "meshes"])]
     baseline: Option<baseline::Task>,
+    /// Time the check of a normal map against decoding it, and the recognition of a recipe against computing tangents, instead.
+    #[arg(long)]
+    check: bool,
+    /// Texels per side of the map of --check.
+    #[arg(long, default_value_t = 4096, value_name = "N")]
+    map_side: usize,
     /// Folder with FlightHelmet and other large models; by default the one that the environment variable DARBOUX_MODELS names.
     #[arg(long, value_name = "FOLDER")]
     models: Option<PathBuf>,
@@ -84,6 +92,9 @@ fn run(arguments: &Arguments) -> Result<(), String> {
         let engines = rounds::select(&baseline::ENGINES.map(str::to_owned))?;
         return baseline::run(task, &instructions::count(&engines)?);
     }
+    if arguments.check {
+        return time_check(arguments);
+    }
     let engines = rounds::select(&arguments.engines)?;
     if arguments.instructions {
         return count_instructions(arguments, &engines);
@@ -98,6 +109,24 @@ fn run(arguments: &Arguments) -> Result<(), String> {
         return engines[0].start(&meshes[0].mesh, None)?.run(calls).map(drop);
     }
     time(arguments, engines, &meshes)
+}
+
+fn time_check(arguments: &Arguments) -> Result<(), String> {
+    if arguments.only_memory {
+        let times = judging::memory_of_this_process(arguments.map_side);
+        println!("{}", times.map_or("n/a".into(), |times| times.to_string()));
+        return Ok(());
+    }
+    let (triangles, rounds) = if arguments.quick { (100_000, 3) } else { (1_000_000, 9) };
+    let rows = judging::measure(&Sizes { side: arguments.map_side, triangles }, rounds);
+    println!("{}", judging::table(&rows));
+    println!(
+        "ms: processor time; ratio: to the first task in the same round; memory: the peak over the file and the decoded map"
+    );
+    if !arguments.quick {
+        println!("recorded in {}", record::checks(&rows, arguments.machine.as_deref())?.display());
+    }
+    Ok(())
 }
 
 /// The meshes with these names, or all if there are none. Errors: unknown names.

@@ -7,6 +7,7 @@ use std::thread::available_parallelism;
 
 use crate::engines::{MESHOPT, REFERENCE};
 use crate::instructions::{Counts, MESHES};
+use crate::judging;
 use crate::rounds::{Row, times_over};
 
 const HEADER: &str = "date,commit,mesh,triangles,engine,version,threads,rounds,cpu_ns_min,cpu_ns_median,wall_ns_min,\
@@ -30,6 +31,26 @@ pub fn instructions(rows: &[Counts], machine: Option<&str>) -> Result<PathBuf, S
     });
     let header = "date,commit,mesh,engine,instructions_per_triangle";
     write(machine, &format!("{date}-instructions.csv"), header, lines)
+}
+
+/// Writes the times of checks and returns the file's path.
+pub fn checks(rows: &[judging::Row], machine: Option<&str>) -> Result<PathBuf, String> {
+    let (date, commit) = (date(), commit());
+    let lines = rows.iter().map(|row| {
+        let [times, ratios] = [&row.rounds, &row.ratios].map(|values| judging::spread(values));
+        let shown = |values: [f64; 3]| values.map(|value| format!("{value:.3}")).join(",");
+        let memory = row.memory.map_or(String::new(), |times| format!("{times:.3}"));
+        format!(
+            "{date},{commit},\"{}\",{},{},{},{},{memory}",
+            row.subject,
+            row.task,
+            row.rounds.len(),
+            shown(times),
+            shown(ratios)
+        )
+    });
+    let header = "date,commit,subject,task,rounds,cpu_ms_min,cpu_ms_median,cpu_ms_max,ratio_min,ratio_median,ratio_max,memory";
+    write(machine, &format!("{date}-check.csv"), header, lines)
 }
 
 fn line(rows: &[Row], row: &Row) -> String {

@@ -62,13 +62,13 @@ pub fn instructions(rows: &[Counts]) -> Table {
     table
 }
 
-fn empty(header: &[&str]) -> Table {
+pub fn empty(header: &[&str]) -> Table {
     let mut table = Table::new();
     table.load_style(presets::ASCII_MARKDOWN).set_header(header.to_vec());
     table
 }
 
-fn align_right(table: &mut Table, column: usize) {
+pub fn align_right(table: &mut Table, column: usize) {
     if let Some(column) = table.column_mut(column) {
         column.set_cell_alignment(CellAlignment::Right);
     }

@@ -15,6 +15,7 @@ Judges generated normal maps and prints how often the verdicts are right, and ho
   --gentle N         nearly flat fields, on which the confidence is tested (default: 1000)
   --largest-side N   (default: 4096)
   --threads N        (default: one per core)
+  --known            leave out the maps whose verdicts are not in the results yet
   --results FOLDER   keep the verdicts there; a run that was stopped goes on where it was (default: target/maps)
   --page FILE        write the page there";
 
@@ -23,6 +24,7 @@ struct Arguments {
     gentle: u64,
     largest_side: usize,
     threads: usize,
+    is_known_only: bool,
     results: PathBuf,
     page: Option<PathBuf>,
 }
@@ -52,12 +54,17 @@ impl Arguments {
             gentle: 1000,
             largest_side: 4096,
             threads: std::thread::available_parallelism().map_or(1, usize::from),
+            is_known_only: false,
             results: PathBuf::from("target/maps"),
             page: None,
         };
         while let Some(word) = words.next() {
             if word == "--help" {
                 return Ok(None);
+            }
+            if word == "--known" {
+                arguments.is_known_only = true;
+                continue;
             }
             let value = words.next().ok_or_else(|| format!("{word} needs a value"))?;
             let number = || value.parse::<u64>().map_err(|_| format!("{word}: {value} is no number"));
@@ -107,11 +114,18 @@ fn judged(
     let file = |name: &str| arguments.results.join(format!("{name}.csv"));
     // The smallest maps first, so that most of the table is there soon.
     cases.sort_by_key(|(number, _)| set.case(*number).side);
-    let mut outcomes = set.judge_into(&file(name), &cases, arguments.threads).map_err(fail)?;
+    let judge = |set: MapSet, file: PathBuf, mut cases: Vec<(u64, Vec<Truth>)>| {
+        if arguments.is_known_only {
+            let known = set.known(&file)?;
+            cases.retain(|(number, _)| known.iter().any(|outcome| outcome.number == *number));
+        }
+        set.judge_into(&file, &cases, arguments.threads)
+    };
+    let mut outcomes = judge(set, file(name), cases).map_err(fail)?;
     if set.slope == 1.0 {
         let small = MapSet { largest_side: set.largest_side.min(512), ..set };
         let cases: Vec<_> = numbers.step_by(10).map(|number| (number, Truth::ALL[2..].to_vec())).collect();
-        let others = small.judge_into(&file("no-gradient"), &cases, arguments.threads).map_err(fail)?;
+        let others = judge(small, file("no-gradient"), cases).map_err(fail)?;
         outcomes.extend(others);
     }
     Ok(Judged { set, outcomes })

@@ -3,7 +3,7 @@
 use super::outcome::Outcome;
 
 /// The largest confidence that is stated. Of the outcomes of one table, so few are wrong that a larger one could not be tested.
-const LARGEST: f64 = 0.999;
+const LARGEST: f64 = 0.998;
 
 /// A range of stated confidences.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -123,6 +123,11 @@ impl MapSet {
         Ok(outcomes)
     }
 
+    /// The outcomes that `file` holds. Errors: as [`Self::judge_into`].
+    pub fn known(&self, file: &Path) -> Result<Vec<Outcome>, Error> {
+        self.open(file).map(|(outcomes, _)| outcomes)
+    }
+
     /// The first line of a results file.
     fn header(&self) -> String {
         format!("sides up to {}, slopes times {}", self.largest_side, self.slope)

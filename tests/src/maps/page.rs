@@ -43,8 +43,8 @@ pub fn page(regular: &Judged, gentle: &Judged) -> String {
 
 `judge_normal_map` (and with it `darboux check`) was run on {fields} generated height fields, each stored with green up and with green down. Every
 field has a surface, a feature size, a root of the mean squared slope from 0.03 to 0.9, up to 41 charts (turned, mirrored, sheared, some with gaps of
-another colour between them), a stretch of the UVs up to 8:1, noise of up to 2 codes, and a storage. Of 200 fields {shares} texels: the time
-grows with the square of the side. The maps of the second kind below, which are no gradients, have sides of at most 512. The seeds are fixed: the same program
+another colour between them), a stretch of the UVs up to 8:1, noise of up to 2 codes, and a storage. Of 200 numbers {shares} texels: the time
+grows with the square of the side, and the large ones are judged last. The maps of the second kind below, which are no gradients, have sides of at most 512. The seeds are fixed: the same program
 gives the same page.
 
 Of the gradients {decided_percent:.2} % are decided, and {wrong_percent:.2} % wrongly.
@@ -57,9 +57,10 @@ Of the gradients {decided_percent:.2} % are decided, and {wrong_percent:.2} % wr
 {others}
 ## Confidence
 
-The confidence is 1 / (1 + exp(-k |z|)), at most 99.9 %, where z is the z score and k was fitted by maximum likelihood to fields of even
-numbers. This is how it does on the fields of odd numbers. They include {gentle_fields} fields whose slopes are {slope} times as large, about one code of 8 bits, and whose sides are at most {gentle_side}:
-without them hardly any sign is wrong. The fit to the even numbers gives k = {even:.2}; the odd ones alone would give {odd:.2}.
+The confidence is 1 / (1 + exp(-0.8 d)), at most 99.8 %, or 95 % without a verdict, where d is the z score less that of the level that contradicts it most. Where the
+texels do not rule out that red and green are exchanged, it is lower. This is how it does on the fields of odd numbers. They include {gentle_fields} fields whose slopes are {slope} times as large, about one code of 8 bits, and whose sides are at most {gentle_side}:
+without them hardly any sign is wrong. With the z score alone in the place of d, the likeliest factor in the place of 0.8 is
+{even:.2} for the fields of even numbers and {odd:.2} for those of odd ones.
 
 {calibration}",
         fields = numbers(regular),

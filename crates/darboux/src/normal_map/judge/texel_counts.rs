@@ -85,13 +85,14 @@ impl TexelCounts {
         let mut lanes = [[0.0f32; LANES]; 4];
         let mut counts = [[0u32; LANES]; 6];
         let mut range = [[f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]];
-        let chunks = x.chunks(LANES).zip(y.chunks(LANES)).zip(z.chunks(LANES));
-        for ((x, y), z) in chunks {
-            let mut vectors = [[f32::NAN; LANES]; 3];
-            for (lanes, values) in vectors.iter_mut().zip([x, y, z]) {
-                lanes[..values.len()].copy_from_slice(values);
-            }
-            let [x, y, z] = vectors;
+        let ((x, x_rest), (y, y_rest), (z, z_rest)) = (x.as_chunks(), y.as_chunks(), z.as_chunks());
+        let rest = [x_rest, y_rest, z_rest].map(|values| {
+            let mut lanes = [f32::NAN; LANES];
+            lanes[..values.len()].copy_from_slice(values);
+            lanes
+        });
+        let whole = x.iter().zip(y).zip(z).map(|((x, y), z)| [x, y, z]);
+        for [x, y, z] in whole.chain([rest.each_ref()]) {
             for i in 0..LANES {
                 let length = (x[i] * x[i] + y[i] * y[i] + z[i] * z[i]).sqrt();
                 let differences = (x[i] - y[i]).abs().max((y[i] - z[i]).abs());
