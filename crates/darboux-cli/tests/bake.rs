@@ -209,7 +209,7 @@ fn a_bake_that_misses_says_what_to_change() {
     );
     let missed = bake(&["--cage-offset", "0.2"]);
     assert!(missed.contains("choose a larger --cage-offset"), "{missed}");
-    fs::write(&high, plate([0.0, 0.5], &["POSITION"], 1.0).to_vec()).expect("a file");
+    fs::write(&high, plate([0.0, 0.5], &["POSITION"], 1.0)).expect("a file");
     assert!(!bake(&["--distance", "1,1"]).contains("hit nothing"));
 }
 
