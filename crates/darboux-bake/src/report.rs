@@ -1,7 +1,9 @@
 //! [`BakeReport`]: what happened to texels, rays and triangles.
 
+use serde::Serialize;
+
 /// The counts of a run. A texel counts where at least one of its samples does.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct BakeReport {
     /// The texels of the image.

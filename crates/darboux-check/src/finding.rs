@@ -42,6 +42,7 @@ impl fmt::Display for Place {
 
 /// A number that supports a finding.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Evidence {
     /// What was measured.
     pub what: &'static str,

@@ -18,8 +18,8 @@ use std::thread;
 use std::time::Instant;
 
 use crate::inputs::{SearchMode, UsageError, find_inputs};
-use crate::json::to_json;
-use crate::terminal::{Messages, stdout_is_terminal, write_stdout};
+use crate::json::print_report;
+use crate::terminal::{Messages, stdout_is_terminal};
 use crate::text::{counted, nonzero_counts};
 use crate::{exit, interrupt};
 use command::FileCommand;
@@ -234,12 +234,9 @@ fn finish<W: FileCommand>(
         let warnings = hidden_warnings(command, &report, brief);
         messages.summary(&format!("{total} in {done}{failed}; {seconds:.2} s{warnings}"));
     }
-    if command.messages().json {
-        let written = to_json(&report).map_err(std::io::Error::from).and_then(|text| write_stdout(&text));
-        if let Err(error) = written {
-            messages.error(&format!("the report cannot be written: {error}"));
-            return exit::FAILED;
-        }
+    let printed = print_report(&report, command.messages().json, messages);
+    if printed != exit::DONE {
+        return printed;
     }
     if report.totals.failed > 0 || report.files.iter().any(|file| command.fails(&file.summary)) {
         exit::FAILED

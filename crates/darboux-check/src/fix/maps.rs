@@ -133,7 +133,7 @@ fn repair(
         Code::MapSrgb => match mistake {
             Some(SrgbMistake::Encoded) => change_texels(image, |texel| texel.map(srgb_to_linear)),
             Some(SrgbMistake::Decoded) => change_texels(image, |texel| texel.map(linear_to_srgb)),
-            None => Ok(()),
+            _ => Ok(()),
         },
         Code::MapNotUnit => change_texels(image, unit),
         _ => Ok(()),

@@ -87,6 +87,7 @@ fn srgb(map: &Map) -> Option<Finding> {
     let what = match judgement.srgb_mistake()? {
         SrgbMistake::Encoded => "encoded",
         SrgbMistake::Decoded => "decoded",
+        _ => return None,
     };
     let text = format!(
         "its commonest texel is {red}, {green} instead of 128, 128: linear values were {what} as sRGB"

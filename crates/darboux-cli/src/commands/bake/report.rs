@@ -19,48 +19,8 @@ pub struct BakeReport {
     pub samples: u32,
     pub rays: Rays,
     pub maps: Vec<WrittenMap>,
-    pub counts: Counts,
+    pub counts: darboux_bake::BakeReport,
     pub warnings: Vec<String>,
-}
-
-/// The counts of the library, as JSON.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct Counts {
-    pub texels: u64,
-    pub charted_texels: u64,
-    pub missed_texels: u64,
-    pub back_facing_texels: u64,
-    pub overlapping_texels: u64,
-    pub inverted_texels: u64,
-    pub frameless_texels: u64,
-    pub below_horizon_texels: u64,
-    pub rays: u64,
-    pub low_triangles: u64,
-    pub degenerate_triangles: u64,
-    pub oversized_triangles: u64,
-    pub high_triangles: u64,
-    pub non_finite_triangles: u64,
-}
-
-impl From<darboux_bake::BakeReport> for Counts {
-    fn from(report: darboux_bake::BakeReport) -> Self {
-        Self {
-            texels: report.texels,
-            charted_texels: report.charted_texels,
-            missed_texels: report.missed_texels,
-            back_facing_texels: report.back_facing_texels,
-            overlapping_texels: report.overlapping_texels,
-            inverted_texels: report.inverted_texels,
-            frameless_texels: report.frameless_texels,
-            below_horizon_texels: report.below_horizon_texels,
-            rays: report.rays,
-            low_triangles: report.low_triangles,
-            degenerate_triangles: report.degenerate_triangles,
-            oversized_triangles: report.oversized_triangles,
-            high_triangles: report.high_triangles,
-            non_finite_triangles: report.non_finite_triangles,
-        }
-    }
 }
 
 /// What was done, one line per map, and one for the run.

@@ -16,8 +16,8 @@ use super::report::{BakeReport, advice, summary};
 use super::write::{outputs, refuse_outputs, write_maps};
 use crate::documents::load;
 use crate::inputs::Input;
-use crate::json::{VERSION, to_json};
-use crate::terminal::{Messages, write_stdout};
+use crate::json::{VERSION, print_report};
+use crate::terminal::Messages;
 use crate::{exit, interrupt};
 
 /// Runs the command and returns its exit code.
@@ -39,15 +39,7 @@ pub fn run(arguments: &BakeArguments) -> u8 {
     };
     report.warnings.iter().for_each(|warning| messages.warn(warning));
     summary(&report).iter().for_each(|line| messages.say(line));
-    let told = match arguments.messages.json {
-        true => to_json(&report).map_err(std::io::Error::from).and_then(|text| write_stdout(&text)),
-        false => Ok(()),
-    };
-    if let Err(error) = told {
-        messages.error(&format!("the report cannot be written: {error}"));
-        return exit::FAILED;
-    }
-    exit::DONE
+    print_report(&report, arguments.messages.json, &messages)
 }
 
 fn check_usage(arguments: &BakeArguments) -> Result<(), String> {
@@ -108,7 +100,7 @@ fn bake_files(arguments: &BakeArguments, messages: &Messages) -> Result<BakeRepo
         samples: arguments.samples.0 * arguments.samples.0,
         rays,
         maps,
-        counts: baked.report.into(),
+        counts: baked.report,
         warnings,
     })
 }

@@ -59,7 +59,7 @@ fn lines(finding: &ReportedFinding) -> String {
 }
 
 fn number(evidence: &Evidence) -> String {
-    let Evidence { what, value, unit } = evidence;
+    let Evidence { what, value, unit, .. } = evidence;
     let digits = if value.fract() == 0.0 { 0 } else { 3 };
     let space = if unit.is_empty() { "" } else { " " };
     format!("{what} {value:.digits$}{space}{unit}")

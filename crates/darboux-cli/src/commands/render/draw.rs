@@ -19,10 +19,10 @@ use crate::documents::{load, refuse_used};
 use crate::gpu::without_driver_messages;
 use crate::heat_scale::{ENDS, FLIP, RAMP};
 use crate::inputs::Input;
-use crate::json::{VERSION, to_json};
+use crate::json::{VERSION, print_report};
 use crate::options::method::MethodName;
 use crate::paths::{is_png, refuse_missing_folder};
-use crate::terminal::{Messages, write_stdout};
+use crate::terminal::Messages;
 use crate::text::counted;
 use crate::{exit, interrupt};
 
@@ -64,15 +64,7 @@ pub fn run(arguments: &RenderArguments) -> u8 {
     let RenderReport { output, view, size: [width, height], triangles, adapter, .. } = &report;
     let triangles = counted(*triangles as usize, "triangle", "triangles");
     messages.say(&format!("{output}: {view}, {width} x {height}, {triangles}, drawn by {adapter}"));
-    let told = match arguments.messages.json {
-        true => to_json(&report).map_err(std::io::Error::from).and_then(|text| write_stdout(&text)),
-        false => Ok(()),
-    };
-    if let Err(error) = told {
-        messages.error(&format!("the report cannot be written: {error}"));
-        return exit::FAILED;
-    }
-    exit::DONE
+    print_report(&report, arguments.messages.json, &messages)
 }
 
 /// Refuses arguments that contradict each other or have no effect.

@@ -74,6 +74,7 @@ pub struct MapJudgement {
 
 /// A mistake in the handling of the transfer function of sRGB.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum SrgbMistake {
     /// Linear values were encoded: the flat texel is near 188.
     Encoded,
