@@ -69,6 +69,24 @@ fn inverted_green_negates_the_score() {
     assert_eq!(up.confidence, down.confidence);
 }
 
+/// The tiles of a level cover the map, and their mean is the correlation of the judgement.
+#[test]
+fn tiles_vote_for_the_verdict() {
+    for (is_down, sign) in [(false, 1.0), (true, -1.0)] {
+        let texels = plain().texels(is_down);
+        let mut judge = NormalMapJudge::new(256, TexelLayout::RGB);
+        texels.chunks_exact(256).for_each(|row| judge.push_row(row));
+        let (judgement, tiles) = (judge.judgement(), judge.tiles());
+        assert_eq!(tiles.side * tiles.columns, 256);
+        assert_eq!(tiles.correlations.len(), tiles.columns * tiles.columns);
+        let votes: Vec<f64> = tiles.correlations.iter().flatten().map(|&vote| f64::from(vote)).collect();
+        let mean = votes.iter().sum::<f64>() / votes.len() as f64;
+        // The judgement and the votes are rounded to single precision.
+        assert!((mean - f64::from(judgement.correlation)).abs() < 1e-6, "{mean}, {}", judgement.correlation);
+        assert!(mean * sign > 0.0);
+    }
+}
+
 #[test]
 fn layouts_and_depths_agree() {
     let texels = plain().texels(false);

@@ -1,6 +1,6 @@
 // The settings that the controls choose and the scene draws by.
 
-import type { Source } from './surface/sources';
+import type { Shown } from './surface/sources';
 
 /** What the colours of the surface show. */
 export const PAINTS = ['shaded', 'tangent', 'bitangent', 'normal', 'sign', 'angle'] as const;
@@ -23,8 +23,8 @@ export const VECTORS = ['tangent', 'bitangent', 'normal'] as const;
 export type VectorName = (typeof VECTORS)[number];
 
 export interface Settings {
-  /** The sources of tangents on the left and on the right. */
-  sources: readonly [Source, Source];
+  /** What the left and the right side show. */
+  sources: readonly [Shown, Shown];
   paint: Paint;
   vectors: Record<VectorName, boolean>;
   /** The length of lines, relative to the model's radius. */

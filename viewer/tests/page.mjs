@@ -2,6 +2,7 @@
 
 import { readFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
+import { createRequire } from 'node:module';
 import { dirname, extname, join, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { chromium } from 'playwright-core';
@@ -66,7 +67,8 @@ export class Viewer {
   async settled() {
     await this.page.waitForFunction(() => {
       const text = (id) => document.getElementById(id).textContent;
-      return document.getElementById('progress').hidden && (text('status') || text('error'));
+      const isChecked = document.getElementById('findings').ariaBusy === 'false';
+      return isChecked && document.getElementById('progress').hidden && (text('status') || text('error'));
     });
     // The page draws in the next animation frame.
     await this.page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
@@ -79,6 +81,19 @@ export class Viewer {
   /** The lines of the report by their kind. */
   report() {
     return this.page.$$eval('#report li', (items) => Object.fromEntries(items.map((item) => [item.dataset.kind, item.textContent])));
+  }
+
+  /** The findings of the check: code, severity and sentence. */
+  findings() {
+    return this.page.$$eval('#findings li', (items) => items.map((item) => ({ code: item.dataset.code, severity: item.dataset.severity, text: item.innerText })));
+  }
+
+  /** The findings of the rules for accessible pages. */
+  async violations() {
+    const axe = await readFile(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+    await this.page.evaluate(axe);
+    const { violations } = await this.page.evaluate(() => globalThis.axe.run());
+    return violations.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)]);
   }
 
   async choose(id, source) {

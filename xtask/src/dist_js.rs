@@ -51,7 +51,7 @@ pub const FULL: Module = Module { entry: "darboux", features: "full", is_small: 
 const SMALL: Module = Module { entry: "tangents", features: "", is_small: true };
 
 /// The module of `darboux/check`.
-const CHECK: Module = Module { entry: "check", features: "check", is_small: false };
+pub const CHECK: Module = Module { entry: "check", features: "check", is_small: false };
 
 /// Optimises every function for size. The hot functions are excluded by name.
 const SIZE_FLAG: &str = "-Cllvm-args=-force-attribute=optsize";

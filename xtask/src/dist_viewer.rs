@@ -1,7 +1,7 @@
 //! `cargo xtask dist-viewer`: the viewer's page as static files, which `darboux view` serves.
 //!
 //! ```text
-//! at the same time:  make the npm package, with the entry that the page imports
+//! at the same time:  make the npm package, with the entries that the page imports
 //!                    compile the page's own WebAssembly module (reading and writing glTF)
 //!                    install the npm packages of the page
 //! then (build.mjs):  shrink the module, check types, bundle the page
@@ -10,7 +10,7 @@
 use std::path::{Path, PathBuf};
 use std::thread;
 
-use crate::dist_js::{self, FULL, TRIPLE};
+use crate::dist_js::{self, CHECK, FULL, TRIPLE};
 use crate::npm;
 use crate::progress::step;
 use crate::run::{Outcome, program, root, run, target_folder, to_stderr, works};
@@ -21,11 +21,11 @@ const CHROMIUM: &str = "/usr/bin/chromium";
 
 /// `cargo xtask dist-viewer`: makes the page and prints its absolute folder as the last line.
 pub fn make() -> Outcome {
-    eprintln!("dist-viewer makes the page: 3 WebAssembly modules, bundled with TypeScript and three.js");
+    eprintln!("dist-viewer makes the page: 5 WebAssembly modules, bundled with TypeScript and three.js");
     let package = target_folder()?.join("dist-viewer/darboux");
     thread::scope(|scope| {
         let page = scope.spawn(prepare);
-        dist_js::make_folder(&package, &[FULL])?;
+        dist_js::make_folder(&package, &[FULL, CHECK])?;
         page.join().expect("compiling does not panic")
     })?;
     println!("{}", bundle(&package)?.display());

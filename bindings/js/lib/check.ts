@@ -48,6 +48,8 @@ export interface Finding {
   /** The number of vertices, corners, triangles or texels that show it, as the text says, and the indices of the first ones. */
   count: number;
   first: number[];
+  /** What {@link first} numbers, where it has elements. */
+  firstAre: 'triangles' | 'vertices';
   evidence: Evidence[];
   /** What is wrong, in one sentence. */
   text: string;
@@ -78,6 +80,17 @@ export interface MapJudgement {
   negativeZ: number;
   grey: number;
   notNormal: number;
+  tiles: MapTiles;
+}
+
+/** The tiles of a normal map and how each votes, at the size of the map whose mean is {@link MapJudgement.correlation}. */
+export interface MapTiles {
+  /** The texels of the map along a side of a tile. */
+  side: number;
+  /** The tiles of a row. Tile i begins `side * (i % columns)` texels from the left and `side * Math.floor(i / columns)` from the top. */
+  columns: number;
+  /** From -1 (DirectX) to 1 (OpenGL), the top row first; null where a tile has no vote: one value, or mostly background or borders. */
+  correlations: (number | null)[];
 }
 
 /** How well a way of computing tangents explains given ones. */
@@ -149,17 +162,20 @@ function findings(exports: CheckExports, file: Uint8Array, isMap: boolean, optio
 }
 
 /** A finding as the module writes it; members about a mesh are absent where it concerns none. */
-type StoredFinding = Omit<Finding, 'mesh' | 'meshName' | 'primitive' | 'sameAs' | 'looksLike' | 'leftBecause'> & {
+type StoredFinding = Omit<Finding, 'mesh' | 'meshName' | 'primitive' | 'sameAs' | 'looksLike' | 'leftBecause' | 'firstAre'> & {
   mesh?: number;
   mesh_name?: string | null;
   primitive?: number;
   same_as: number;
   looks_like: string;
   left_because: string | null;
+  first_are: 'triangles' | 'vertices';
 };
 
-function finding({ mesh, mesh_name, primitive, same_as: sameAs, looks_like: looksLike, left_because: leftBecause, ...rest }: StoredFinding): Finding {
-  return { ...rest, mesh: mesh ?? null, meshName: mesh_name ?? null, primitive: primitive ?? null, sameAs, looksLike, leftBecause };
+function finding(stored: StoredFinding): Finding {
+  const { mesh = null, mesh_name: meshName = null, primitive = null, ...others } = stored;
+  const { same_as: sameAs, looks_like: looksLike, left_because: leftBecause, first_are: firstAre, ...rest } = others;
+  return { ...rest, mesh, meshName, primitive, sameAs, looksLike, leftBecause, firstAre };
 }
 
 /** Whether a file starts as a PNG, a JPEG or a WebP image does. */

@@ -1,8 +1,8 @@
 //! `darboux/check`: what is wrong with models and normal maps, and how tangents were computed.
 
 use darboux::{
-    BitangentDirection, Channel, MapJudgement, MapVerdict, Method, Mode, RecipeMatch, RecipeRounding,
-    RecipeWriting, TexelLayout,
+    BitangentDirection, Channel, MapJudgement, MapTiles, MapVerdict, Method, Mode, NormalMapJudge,
+    RecipeMatch, RecipeRounding, RecipeWriting, TexelLayout,
 };
 use darboux_check::{CheckOptions, Finding, FixOptions, check_document, check_map, fix_document};
 use darboux_io::LoadOptions;
@@ -49,6 +49,7 @@ struct Reported {
     finding: Finding,
     looks_like: &'static str,
     cure: &'static str,
+    first_are: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     repaired: Option<bool>,
 }
@@ -113,7 +114,8 @@ fn check_model(
 
 fn reported(finding: Finding, repaired: Option<bool>) -> Reported {
     let (looks_like, cure) = (finding.code.looks_like(), finding.code.cure());
-    Reported { finding, looks_like, cure, repaired }
+    let first_are = if finding.code.counts_triangles() { "triangles" } else { "vertices" };
+    Reported { finding, looks_like, cure, first_are, repaired }
 }
 
 /// The verdict on a normal map.
@@ -131,6 +133,15 @@ struct Judged {
     negative_z: usize,
     grey: usize,
     not_normal: usize,
+    tiles: Tiles,
+}
+
+/// The tiles of a normal map.
+#[derive(Serialize)]
+struct Tiles {
+    side: usize,
+    columns: usize,
+    correlations: Vec<Option<f32>>,
 }
 
 /// Judges the texels in the bytes: `channels` channels of 8 bits or, with `is_wide`, of 16. Returns the address of the JSON, or null for another
@@ -145,25 +156,35 @@ pub extern "C" fn judge_normal_map(is_wide: bool, channels: usize, width: usize,
         } else {
             judge(bytes, size, channels)
         };
-        let Ok(judgement) = judged else { return std::ptr::null() };
-        arena.check.put_json(&Judged::from(judgement))
+        let Some((judgement, tiles)) = judged else { return std::ptr::null() };
+        arena.check.put_json(&Judged::new(judgement, tiles))
     })
 }
 
-fn judge<C: Channel>(
-    texels: &[C],
-    size: [usize; 2],
-    channels: usize,
-) -> Result<MapJudgement, darboux::Error> {
+fn judge<C: Channel>(texels: &[C], size: [usize; 2], channels: usize) -> Option<(MapJudgement, MapTiles)> {
     match channels {
-        2 => darboux::judge_normal_map(texels.as_chunks().0, size, TexelLayout::RG),
-        3 => darboux::judge_normal_map(texels.as_chunks().0, size, TexelLayout::RGB),
-        _ => darboux::judge_normal_map(texels.as_chunks().0, size, TexelLayout::RGBA),
+        2 => judge_rows(texels.as_chunks().0, size, TexelLayout::RG),
+        3 => judge_rows(texels.as_chunks().0, size, TexelLayout::RGB),
+        _ => judge_rows(texels.as_chunks().0, size, TexelLayout::RGBA),
     }
 }
 
-impl From<MapJudgement> for Judged {
-    fn from(judgement: MapJudgement) -> Self {
+/// None for another number of texels than width times height.
+fn judge_rows<C: Channel, const N: usize>(
+    texels: &[[C; N]],
+    [width, height]: [usize; 2],
+    layout: TexelLayout<N>,
+) -> Option<(MapJudgement, MapTiles)> {
+    if width.checked_mul(height) != Some(texels.len()) {
+        return None;
+    }
+    let mut judge = NormalMapJudge::new(width, layout);
+    texels.chunks_exact(width.max(1)).for_each(|row| judge.push_row(row));
+    Some((judge.judgement(), judge.tiles()))
+}
+
+impl Judged {
+    fn new(judgement: MapJudgement, tiles: MapTiles) -> Self {
         let verdict = match judgement.verdict {
             MapVerdict::OpenGl => "opengl",
             MapVerdict::DirectX => "directx",
@@ -186,6 +207,7 @@ impl From<MapJudgement> for Judged {
             negative_z,
             grey,
             not_normal,
+            tiles: Tiles { side: tiles.side, columns: tiles.columns, correlations: tiles.correlations },
         }
     }
 }

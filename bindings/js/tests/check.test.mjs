@@ -27,6 +27,8 @@ for (const [name, { check, fix, judgeNormalMap, recogniseRecipe }] of Object.ent
   test(`${name}: a broken model is named and repaired`, () => {
     const shield = asset('made/shield.glb');
     assert.deepEqual(errors(check(shield)), ['tangent-shared-across-mirror']);
+    const of = (code) => check(shield).find((finding) => finding.code === code).firstAre;
+    assert.deepEqual([of('tangent-shared-across-mirror'), of('tangent-sign-mixed')], ['vertices', 'triangles']);
     const fixed = fix(shield);
     assert.ok(fixed.findings.find(({ code }) => code === 'tangent-shared-across-mirror').repaired);
     assert.deepEqual(errors(check(fixed.file)), []);
@@ -36,7 +38,10 @@ for (const [name, { check, fix, judgeNormalMap, recogniseRecipe }] of Object.ent
   test(`${name}: maps are judged`, () => {
     for (const [up, verdict] of [[1, 'opengl'], [-1, 'directx']]) {
       const texels = bumps(128, up);
-      assert.equal(judgeNormalMap(texels, 128, 128).verdict, verdict);
+      const { verdict: told, tiles } = judgeNormalMap(texels, 128, 128);
+      assert.equal(told, verdict);
+      assert.equal(tiles.correlations.length, (128 / tiles.side) * tiles.columns);
+      assert.ok(tiles.correlations.every((vote) => vote * up > 0), 'all tiles agree');
       assert.equal(judgeNormalMap(Uint16Array.from(texels, (c) => 257 * c), 128, 128).verdict, verdict);
       const two = Uint8Array.from(texels.filter((_, at) => at % 4 < 2));
       assert.equal(judgeNormalMap(two, 128, 128, 2).verdict, verdict);

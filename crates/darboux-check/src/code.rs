@@ -366,6 +366,22 @@ codes! {
     }
 }
 
+impl Code {
+    /// Whether its findings count triangles and [`Finding::first`](crate::Finding::first) holds the numbers of triangles. Those of other findings on
+    /// a mesh are vertices.
+    pub fn counts_triangles(self) -> bool {
+        matches!(
+            self,
+            Self::TangentSignMixed
+                | Self::TangentSignPartlyFlipped
+                | Self::NormalAgainstWinding
+                | Self::UvDegenerate
+                | Self::UvMirrored
+                | Self::UvOverlapping
+        )
+    }
+}
+
 impl fmt::Display for Code {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name())

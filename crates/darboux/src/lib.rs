@@ -70,7 +70,7 @@ pub use measure::{
 };
 pub use mesh::{Faces, Indices, Mesh, Strided};
 pub use normal_map::{
-    Channel, MapJudgement, MapVerdict, NormalMapJudge, SrgbMistake, TexelLayout, judge_normal_map,
+    Channel, MapJudgement, MapTiles, MapVerdict, NormalMapJudge, SrgbMistake, TexelLayout, judge_normal_map,
     repack_texels,
 };
 pub use normals::{

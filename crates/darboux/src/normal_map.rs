@@ -3,5 +3,5 @@
 mod judge;
 mod texels;
 
-pub use judge::{MapJudgement, MapVerdict, NormalMapJudge, SrgbMistake, judge_normal_map};
+pub use judge::{MapJudgement, MapTiles, MapVerdict, NormalMapJudge, SrgbMistake, judge_normal_map};
 pub use texels::{Channel, TexelLayout, repack_texels};

@@ -5,8 +5,9 @@ import { type GLTF, GLTFLoader, type GLTFLoaderPlugin, type GLTFParser } from 't
 
 import { counted } from '../plural';
 import { TANGENT_TARGETS } from '../scene/morph-and-skin';
-import { call } from '../worker/client';
+import { call } from '../worker/surfaces';
 import type { FileBundle } from './file-bundle';
+import { setOrigin } from './origin';
 
 /** An opened .gltf or .glb. */
 export interface Gltf {
@@ -33,13 +34,21 @@ function withoutKtx2({ json }: GLTFParser, onMissing: () => void): GLTFLoaderPlu
   return { name: KTX2, loadTexture };
 }
 
-/** Stores the tangent offsets of morph targets, which three.js ignores, in the user data of geometries. */
-async function storeTangentTargets({ scene, parser }: GLTF): Promise<void> {
+/** The members of a primitive that are read here. */
+interface JsonPrimitive {
+  material?: number;
+  targets?: Record<string, number>[];
+}
+
+/** Stores what three.js ignores: the origins of meshes, and the tangent offsets of morph targets. */
+async function storeIgnored({ scene, parser }: GLTF): Promise<void> {
   const meshes: Mesh[] = [];
   scene.traverse((object) => object instanceof Mesh && meshes.push(object));
   for (const mesh of meshes) {
     const { meshes: index, primitives = 0 } = parser.associations.get(mesh) ?? {};
-    const targets: Record<string, number>[] = parser.json.meshes?.[index!]?.primitives[primitives].targets ?? [];
+    const primitive: JsonPrimitive | undefined = parser.json.meshes?.[index!]?.primitives[primitives];
+    if (primitive) setOrigin(mesh, { mesh: index!, primitive: primitives, material: primitive.material ?? null });
+    const targets = primitive?.targets ?? [];
     const read = targets.map(({ TANGENT }) => (TANGENT === undefined ? undefined : parser.getDependency('accessor', TANGENT)));
     mesh.geometry.userData[TANGENT_TARGETS] = await Promise.all(read);
   }
@@ -56,7 +65,7 @@ export async function openGltf(name: string, bytes: Uint8Array<ArrayBuffer>, bun
   const loader = new GLTFLoader(manager).register((parser) => withoutKtx2(parser, () => ktx2++));
   try {
     const gltf = await loader.parseAsync(file.buffer, '');
-    await storeTangentTargets(gltf);
+    await storeIgnored(gltf);
     const warnings = [];
     if (ktx2) warnings.push(`${counted(ktx2, 'texture in KTX 2 is', 'textures in KTX 2 are')} left out, because this page has no decoder for it`);
     if (lost) warnings.push(`${counted(lost, 'texture', 'textures')} missing or not decodable`);

@@ -7,6 +7,7 @@ import { OBJLoader } from 'three/addons/loaders/OBJLoader.js';
 import { counted } from '../plural';
 import { isColored } from './image-colours';
 import { resolvePath, type FileBundle } from './file-bundle';
+import { setExportedOrigins } from './origin';
 
 /** An opened OBJ. */
 export interface Obj {
@@ -39,6 +40,7 @@ export async function openObj(name: string, bytes: Uint8Array<ArrayBuffer>, bund
     if (!(object instanceof Mesh)) return;
     object.material = Array.isArray(object.material) ? object.material.map(standardOf) : standardOf(object.material);
   });
+  setExportedOrigins(scene);
   const warnings = missing.map((library) => `${library} is not among the files, and its materials are missing`);
   if (lost) warnings.push(`${counted(lost, 'texture', 'textures')} missing or not decodable`);
   for (const material of heights) warnings.push(`the bump map of ${material} is grey, so it is a height map, which is not shown`);

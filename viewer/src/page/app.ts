@@ -1,26 +1,32 @@
 // The application: opens models, computes tangents, and draws them by the settings.
 
-import { Matrix3, Vector3 } from 'three';
+import type { Finding } from 'darboux/check';
+import { Box3, Matrix3, Sphere, Vector3 } from 'three';
 
+import { openGltf } from '../files/gltf';
 import { openModel, type Model } from '../files/model';
-import { repairedGlb } from '../files/export-glb';
+import { withTangents } from '../files/export-glb';
 import { PlaceMarker } from '../scene/place-marker';
 import { partsOf, placesOf, uvSquare, type Part } from '../scene/model-parts';
-import { ModelView } from '../scene/model-view';
+import { dispose, empty, ModelView, type Side } from '../scene/model-view';
 import { Viewport } from '../scene/viewport';
 import type { Comparison } from '../surface/comparison';
-import { SOURCE_NAMES } from '../surface/sources';
-import { call } from '../worker/client';
-import { connectControls, offerSources, settings } from './controls';
+import { SOURCE_NAMES, type Shown, type Source } from '../surface/sources';
+import { call } from '../worker/surfaces';
+import { chooseRepaired, connectControls, offerSources, settings } from './controls';
 import { element, numberOf } from './elements';
+import { Examination } from './examination';
+import { placeOf } from './findings-panel';
 import { connectKeys, connectLightDrag } from './keyboard';
 import { showLegend } from './legend';
+import { connectSheet, connectSplit } from './layout';
 import { connectOpening, type FindFiles } from './opening';
 import { clearReport, showReport, type Found } from './report-list';
 import { nameLike, save } from './download';
 import { clearError, showDone, showError, showProgress } from './status';
 import { connectTheme } from './theme';
 import { counted } from '../plural';
+import type { Place } from '../surface/places';
 
 /** The radius around a place of the report that is in view, relative to the model's radius. */
 const CLOSE_UP = 0.12;
@@ -30,6 +36,14 @@ const CONTEXT_LOST = 'The connection to the graphics card was lost, perhaps beca
 export class App {
   private readonly viewport = new Viewport(element('view'));
   private readonly view = new ModelView();
+  /** The repaired model. */
+  private readonly repairedView = new ModelView();
+  private sides: [Side, Side] = [empty(), empty()];
+  private readonly examination = new Examination({
+    visit: (finding, n) => this.visitFinding(finding, n),
+    showRepaired: (file) => this.showRepaired(file),
+    attempt: (work) => this.attempt(work),
+  });
   private readonly marker = new PlaceMarker();
   private model: Model | null = null;
   private parts: Part[] = [];
@@ -45,15 +59,11 @@ export class App {
     connectKeys(this.viewport);
     connectLightDrag();
     connectControls({ sources: () => this.attempt(() => this.compare()), look: () => this.build(), light: () => this.light() });
-    this.connectSplit();
+    connectSplit(() => this.moveSplit());
+    connectSheet();
     element('save-picture').addEventListener('click', () => this.attempt(() => this.savePicture()));
     element('save-model').addEventListener('click', () => this.attempt(() => this.saveModel()));
     connectOpening((find) => this.attempt(() => this.open(find)));
-  }
-
-  private connectSplit(): void {
-    element('split').addEventListener('input', () => this.moveSplit());
-    this.moveSplit();
   }
 
   private moveSplit(): void {
@@ -85,7 +95,7 @@ export class App {
       if (isOutdated()) return;
       // Stops the comparison of the model before.
       this.comparing++;
-      await call('open', parts.map((part) => part.surface));
+      await call('open', 'given', parts.map((part) => part.surface));
       if (isOutdated()) return;
       this.setModel(model, parts);
       await this.compare();
@@ -94,6 +104,7 @@ export class App {
       this.light();
       showReport(await this.findings(isOutdated), (finding, place) => this.visit(finding, place));
       showDone(this.summary());
+      await this.examination.examine(model);
     } catch (error) {
       if (!isOutdated()) throw error;
     }
@@ -127,7 +138,7 @@ export class App {
     const comparisons: Comparison[] = [];
     for (const [at, part] of this.parts.entries()) {
       showProgress(`Computing tangents of ${part.name}`, this.fraction(at));
-      comparisons.push(await call('compare', at, sources));
+      comparisons.push(await call('compare', 'given', at, ownSources(sources)));
       if (turn !== this.comparing) return;
     }
     this.view.setParts(this.parts, comparisons);
@@ -153,9 +164,25 @@ export class App {
   /** Rebuilds the drawing by the settings. */
   private build(): void {
     const now = settings();
-    this.view.build(now, this.viewport.radius);
-    this.viewport.show(this.view.sides, now.layout);
+    this.sides.forEach(dispose);
+    const viewOf = (shown: Shown) => (shown === 'repaired' ? this.repairedView : this.view);
+    this.sides = [viewOf(now.sources[0]).side(0, now, this.viewport.radius), viewOf(now.sources[1]).side(1, now, this.viewport.radius)];
+    this.viewport.show(this.sides, now.layout);
     showLegend(now);
+  }
+
+  /** Opens the repaired file and shows it on the right. */
+  private async showRepaired(file: Uint8Array<ArrayBuffer>): Promise<void> {
+    const turn = this.opening;
+    showProgress('Opening the repaired model', null);
+    const { scene } = await openGltf('the repaired model', file, new Map());
+    const parts = partsOf(scene, 'gltf');
+    await call('open', 'repaired', parts.map((part) => part.surface));
+    const comparisons = await Promise.all(parts.map((_, at) => call('compare', 'repaired', at, ['file', 'file'])));
+    if (turn !== this.opening) return;
+    this.repairedView.setParts(parts, comparisons);
+    chooseRepaired(this.parts.some((part) => part.surface.tangents));
+    await this.compare();
   }
 
   private light(): void {
@@ -169,8 +196,41 @@ export class App {
     const at = new Vector3().fromArray(places, place * 6).applyMatrix4(matrix);
     const normal = new Vector3().fromArray(places, place * 6 + 3).applyMatrix3(new Matrix3().getNormalMatrix(matrix));
     this.marker.showAt(at);
-    this.viewport.look(at, CLOSE_UP * this.viewport.radius, normal.lengthSq() > 0 ? normal : new Vector3(0, 0, 1), true);
+    this.viewport.look(at, CLOSE_UP * this.viewport.radius, facing(normal), true);
     return at.toArray();
+  }
+
+  /** Moves the camera to the n-th place of a finding, or to its whole part. */
+  private async visitFinding(finding: Finding, n: number): Promise<{ text: string; count: number }> {
+    const { mesh, primitive, material, first, firstAre } = finding;
+    const title = `${placeOf(finding)}: ${finding.text}`;
+    const isHere = ({ origin }: Part) => (mesh === null ? origin?.material === material : origin?.mesh === mesh && origin.primitive === primitive);
+    const part = this.parts.findIndex(isHere);
+    if (part < 0) return { text: `${title}, which the scene does not show`, count: 1 };
+    const places = await call('places', part, firstAre, first);
+    const turn = places.length ? n % places.length : 0;
+    const at = places.length ? this.visitPlace(part, places[turn]) : this.visitPart(part);
+    const number = places.length ? `, ${firstAre === 'triangles' ? 'triangle' : 'vertex'} ${first[turn]}, place ${turn + 1} of ${places.length}` : '';
+    return { text: `${title}${number}, at (${rounded(at)})`, count: places.length };
+  }
+
+  private visitPlace(part: number, { position, normal, corners }: Place): number[] {
+    const [matrix] = placesOf(this.parts[part]);
+    const at = new Vector3(...position).applyMatrix4(matrix);
+    const direction = new Vector3(...normal).applyMatrix3(new Matrix3().getNormalMatrix(matrix));
+    const size = corners ? new Box3().setFromArray(corners).applyMatrix4(matrix).getSize(new Vector3()).length() : 0;
+    this.marker.showAt(at, corners, matrix);
+    this.viewport.look(at, Math.min(this.viewport.radius, Math.max(CLOSE_UP * this.viewport.radius, size)), facing(direction), true);
+    return at.toArray();
+  }
+
+  /** Shows the whole of a part, and marks its box. */
+  private visitPart(part: number): number[] {
+    const box = this.view.boundsOfPart(part);
+    const { center, radius } = box.getBoundingSphere(new Sphere());
+    this.marker.showBox(box);
+    this.viewport.look(center, Math.max(radius, CLOSE_UP * this.viewport.radius), new Vector3(0.35, 0.3, 1), true);
+    return center.toArray();
   }
 
   private async savePicture(): Promise<void> {
@@ -180,10 +240,26 @@ export class App {
   private async saveModel(): Promise<void> {
     if (!this.model) throw new Error('There is no model to save.');
     showProgress('Writing tangents', null);
-    const { bytes, description } = await repairedGlb(this.model);
+    const { bytes, description } = await withTangents(this.model);
     save(nameLike(this.model.name, '.tangents.glb'), new Blob([bytes], { type: 'model/gltf-binary' }));
     const { written, skipped } = description.totals;
     const lines = [`Tangents written to ${counted(written, 'primitive', 'primitives')}, ${skipped} skipped`, ...description.warnings];
     showDone(lines.join('. '));
   }
+}
+
+/** A direction to look from: the normal, or along z where there is none. */
+function facing(normal: Vector3): Vector3 {
+  return normal.lengthSq() > 0 ? normal : new Vector3(0, 0, 1);
+}
+
+/** The sources of the open model's comparison: a side that shows the repaired model takes that of the other side. */
+function ownSources([left, right]: readonly [Shown, Shown]): [Source, Source] {
+  const [a, b] = [left, right].map((shown) => (shown === 'repaired' ? null : shown));
+  return [a ?? b ?? 'file', b ?? a ?? 'file'];
+}
+
+/** Coordinates as text. Single precision has about seven decimal digits. */
+function rounded(at: number[]): string {
+  return at.map((x) => Number(x.toPrecision(7))).join(', ');
 }

@@ -1,6 +1,6 @@
 // The controls of the page: fills them, reads them, and reports changes.
 
-import { SOURCES, SOURCE_NAMES, type Source } from '../surface/sources';
+import { SOURCES, SOURCE_NAMES, type Shown } from '../surface/sources';
 import { element, isOn, numberOf } from './elements';
 import { PAINTS, VECTORS, type Paint, type Settings } from '../settings';
 
@@ -12,6 +12,9 @@ const PAINT_NAMES: Record<Paint, string> = {
   sign: 'Sign',
   angle: 'Angle between left and right',
 };
+
+/** The choices of a side. */
+const SHOWN: Shown[] = [...SOURCES, 'repaired'];
 
 const MISTAKES = ['green', 'w', 'v'] as const;
 
@@ -36,7 +39,7 @@ export interface Changes {
 export function connectControls(changes: Changes): void {
   for (const [id, source] of [['left', 'mikktspace'], ['right', 'derivatives']] as const) {
     const select = element<HTMLSelectElement>(id);
-    select.append(...SOURCES.map((source) => new Option(SOURCE_NAMES[source], source)));
+    select.append(...SHOWN.map((shown) => new Option(SOURCE_NAMES[shown], shown)));
     select.value = source;
     select.addEventListener('change', changes.sources);
   }
@@ -85,14 +88,36 @@ export function offerSources(hasFile: boolean): void {
     file.text = hasFile ? SOURCE_NAMES.file : `${SOURCE_NAMES.file} (none)`;
   }
   [left.value, right.value] = hasFile ? ['file', 'mikktspace'] : ['mikktspace', 'derivatives'];
+  for (const select of [left, right]) hideRepaired(select, true);
+}
+
+/** Offers the repaired model and shows the file as it is on the left and the repaired model on the right. */
+export function chooseRepaired(hasFile: boolean): void {
+  const [left, right] = ['left', 'right'].map((id) => element<HTMLSelectElement>(id));
+  for (const select of [left, right]) hideRepaired(select, false);
+  [left.value, right.value] = [hasFile ? 'file' : 'derivatives', 'repaired'];
+}
+
+function hideRepaired(select: HTMLSelectElement, isHidden: boolean): void {
+  const option = select.options[SHOWN.indexOf('repaired')];
+  option.hidden = option.disabled = isHidden;
+}
+
+/** Offers the angle between the sides only where both show the same model. */
+function offerAngle(isOffered: boolean): void {
+  const angle = document.querySelector<HTMLInputElement>('input[name=paint][value=angle]')!;
+  angle.disabled = !isOffered;
+  if (!isOffered && angle.checked) document.querySelector<HTMLInputElement>('input[name=paint]')!.checked = true;
 }
 
 /** The settings of all controls. */
 export function settings(): Settings {
-  const source = (id: string) => element<HTMLSelectElement>(id).value as Source;
+  const source = (id: string) => element<HTMLSelectElement>(id).value as Shown;
+  const sources = [source('left'), source('right')] as const;
+  offerAngle(!sources.includes('repaired'));
   const paint = document.querySelector<HTMLInputElement>('input[name=paint]:checked')!.value as Paint;
   return {
-    sources: [source('left'), source('right')],
+    sources,
     paint,
     vectors: { tangent: isOn('lines-tangent'), bitangent: isOn('lines-bitangent'), normal: isOn('lines-normal') },
     length: numberOf('length') / 100,

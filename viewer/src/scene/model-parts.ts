@@ -11,6 +11,7 @@ import {
   SkinnedMesh,
 } from 'three';
 
+import { originOf, type Origin } from '../files/origin';
 import type { GivenSurface } from '../surface/surface';
 import { floatsOf, type Attribute } from './attribute-floats';
 import { morphedShape, skinOf } from './morph-and-skin';
@@ -26,6 +27,8 @@ export interface Copy {
 /** A mesh of the model, in the pose of its scene. */
 export interface Part {
   name: string;
+  /** The primitive of the document; null where it is unknown. */
+  origin: Origin | null;
   geometry: BufferGeometry;
   material: MeshStandardMaterial;
   /** The name of the attribute with the UVs of the normal map. */
@@ -62,7 +65,9 @@ function partsOfMesh(mesh: Mesh, kind: 'gltf' | 'obj'): Part[] {
     const surface = surfaceOf(mesh, uvName, start, count, kind === 'gltf');
     const name = [mesh.name || 'mesh', ranges.length > 1 && (material.name || at + 1)].filter(Boolean).join(' / ');
     const isGreenNegated = kind === 'gltf' && !surface.tangents;
-    return { name, geometry, material, uvName, copies, surface, isGreenNegated };
+    const own = originOf(mesh);
+    const origin = own && { ...own, primitive: own.primitive + (ranges.length > 1 ? at : 0) };
+    return { name, origin, geometry, material, uvName, copies, surface, isGreenNegated };
   });
 }
 

@@ -28,9 +28,8 @@ export interface Side {
   layout: Group;
 }
 
+/** A model, and the objects that show it. */
 export class ModelView {
-  /** The left and the right side. */
-  sides: [Side, Side] = [empty(), empty()];
   private parts: ComparedPart[] = [];
 
   /** Replaces the parts. */
@@ -43,23 +42,21 @@ export class ModelView {
     });
   }
 
-  /** The bounding box of all copies of all parts. */
+  /** The bounding box of all parts. */
   bounds(): Box3 {
-    const all = new Box3();
-    for (const { part, comparison } of this.parts) {
-      const own = boundsOf(comparison.positions);
-      if (!own.isEmpty()) placesOf(part).forEach((place) => all.union(own.clone().applyMatrix4(place)));
-    }
+    return this.parts.reduce((all, _, at) => all.union(this.boundsOfPart(at)), new Box3());
+  }
+
+  /** The bounding box of all copies of a part. */
+  boundsOfPart(at: number): Box3 {
+    const { part, comparison } = this.parts[at];
+    const [all, own] = [new Box3(), boundsOf(comparison.positions)];
+    if (!own.isEmpty()) placesOf(part).forEach((place) => all.union(own.clone().applyMatrix4(place)));
     return all;
   }
 
-  /** Rebuilds both sides. `radius` is that of the model. */
-  build(settings: Settings, radius: number): void {
-    this.sides.forEach(dispose);
-    this.sides = [this.side(0, settings, radius), this.side(1, settings, radius)];
-  }
-
-  private side(at: 0 | 1, settings: Settings, radius: number): Side {
+  /** Builds a side: 0 is the left one. `radius` is that of the model. */
+  side(at: 0 | 1, settings: Settings, radius: number): Side {
     const side = empty();
     const mistakes = at === 1 ? settings.mistakes : NONE;
     for (const compared of this.parts) {
@@ -145,12 +142,13 @@ function layoutMesh(geometry: BufferGeometry, material: Material): Mesh {
   return mesh;
 }
 
-function empty(): Side {
+/** A side without objects. */
+export function empty(): Side {
   return { model: new Group(), layout: new Group() };
 }
 
-/** Frees materials and line geometries. Other geometries and textures are shared, and stay. */
-function dispose({ model, layout }: Side): void {
+/** Removes a side. Frees materials and line geometries; other geometries and textures are shared, and stay. */
+export function dispose({ model, layout }: Side): void {
   for (const object of [...model.children, ...layout.children] as (Mesh | LineSegments)[]) {
     if (object instanceof LineSegments) object.geometry.dispose();
     for (const material of [object.material].flat() as Material[]) material.dispose();

@@ -10,13 +10,17 @@ export const SOURCES = ['file', 'mikktspace', 'angle-area', 'lengyel', 'derivati
 
 export type Source = (typeof SOURCES)[number];
 
+/** What a side shows: a source of tangents on the open model, or the repaired model as it is. */
+export type Shown = Source | 'repaired';
+
 /** The names on the page. */
-export const SOURCE_NAMES: Record<Source, string> = {
+export const SOURCE_NAMES: Record<Shown, string> = {
   file: 'In the file',
   mikktspace: 'MikkTSpace',
   'angle-area': 'Angle and area',
   lengyel: 'Lengyel',
   derivatives: 'Shader derivatives',
+  repaired: 'Repaired file',
 };
 
 /** The tangent of every corner, 4 floats each, with the sign convention of the file's format. Null where the file has no tangents. */

@@ -1,6 +1,6 @@
-// The page's side of the worker thread: calls functions of worker.ts.
+// The page's side of a worker thread: calls functions of the worker.
 
-import type { Call, Reply, WorkerFunctions } from './worker';
+import type { Call, Functions, Reply } from './calls';
 
 /** A call without a reply yet. */
 interface PendingCall {
@@ -8,29 +8,29 @@ interface PendingCall {
   reject(error: Error): void;
 }
 
-const pending = new Map<number, PendingCall>();
-let callCount = 0;
+/** Calls a function of a worker. Errors: those of the function. */
+export type Caller<F extends Functions> = <K extends keyof F & string>(name: K, ...args: Parameters<F[K]>) => Promise<Awaited<ReturnType<F[K]>>>;
 
-const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' });
-
-worker.addEventListener('message', ({ data }: MessageEvent<Reply>) => {
-  const { resolve, reject } = pending.get(data.id)!;
-  pending.delete(data.id);
-  if ('error' in data) reject(new Error(data.error));
-  else resolve(data.result);
-});
-
-worker.addEventListener('error', (event) => {
-  const error = new Error(event.message || 'the worker thread cannot start');
-  for (const { reject } of pending.values()) reject(error);
-  pending.clear();
-});
-
-/** Calls a function of the worker. Errors: those of the function. */
-export function call<K extends keyof WorkerFunctions>(name: K, ...args: Parameters<WorkerFunctions[K]>): Promise<Awaited<ReturnType<WorkerFunctions[K]>>> {
-  const id = callCount++;
-  return new Promise((resolve, reject) => {
-    pending.set(id, { resolve: resolve as PendingCall['resolve'], reject });
-    worker.postMessage({ id, name, args } satisfies Call<K>);
+/** Connects a worker with the functions `F`. */
+export function callerOf<F extends Functions>(worker: Worker): Caller<F> {
+  const pending = new Map<number, PendingCall>();
+  let callCount = 0;
+  worker.addEventListener('message', ({ data }: MessageEvent<Reply>) => {
+    const { resolve, reject } = pending.get(data.id)!;
+    pending.delete(data.id);
+    if ('error' in data) reject(new Error(data.error));
+    else resolve(data.result);
   });
+  worker.addEventListener('error', (event) => {
+    const error = new Error(event.message || 'the worker thread cannot start');
+    for (const { reject } of pending.values()) reject(error);
+    pending.clear();
+  });
+  return (name, ...args) => {
+    const id = callCount++;
+    return new Promise((resolve, reject) => {
+      pending.set(id, { resolve: resolve as PendingCall['resolve'], reject });
+      worker.postMessage({ id, name, args } satisfies Call);
+    });
+  };
 }

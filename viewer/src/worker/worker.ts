@@ -8,11 +8,22 @@ import { makeSelfContained } from '../files/self-contained';
 import { compareSources, type Comparison } from '../surface/comparison';
 import type { Source } from '../surface/sources';
 import { findings, type Finding } from '../surface/findings';
+import { placesOf, type Place } from '../surface/places';
 import { skinned } from '../surface/skinning';
 import { completed, morphed, type GivenSurface, type Surface } from '../surface/surface';
+import { answer } from './calls';
 
-/** For each part of the model, its surface in the file, and the surface after morph targets. */
-let surfaces: { stored: Surface; morphed: Surface }[] = [];
+/** The surface of a part in the file, and after morph targets. */
+interface StoredSurface {
+  stored: Surface;
+  morphed: Surface;
+}
+
+/** The open model, and the same after its repair. */
+export type ModelName = 'given' | 'repaired';
+
+/** The parts of the models. */
+const surfaces: Record<ModelName, StoredSurface[]> = { given: [], repaired: [] };
 
 /** The functions that the page can call. */
 const functions = {
@@ -26,60 +37,32 @@ const functions = {
     return repair(name, bytes);
   },
 
-  /** Replaces the surfaces by those of another model. */
-  open(given: GivenSurface[]): void {
-    surfaces = given.map((surface) => {
+  /** Replaces the surfaces of a model. */
+  open(model: ModelName, given: GivenSurface[]): void {
+    surfaces[model] = given.map((surface) => {
       const stored = completed(surface);
       return { stored, morphed: surface.shape ? morphed(surface) : stored };
     });
   },
 
   /** Prepares a part for drawing with two sources of tangents. */
-  compare(part: number, sources: readonly [Source, Source]): Comparison {
-    return compareSources(surfaces[part].morphed, sources);
+  compare(model: ModelName, part: number, sources: readonly [Source, Source]): Comparison {
+    return compareSources(surfaces[model][part].morphed, sources);
   },
 
-  /** Finds the faults of a part. */
+  /** Finds the faults of a part of the open model. */
   report(part: number): Finding[] {
-    const { stored, morphed } = surfaces[part];
+    const { stored, morphed } = surfaces.given[part];
     return findings(stored, skinned(morphed));
+  },
+
+  /** The triangles or vertices of the open model's part with these numbers, in its pose. */
+  places(part: number, kind: 'triangles' | 'vertices', numbers: number[]): Place[] {
+    return placesOf(skinned(surfaces.given[part].morphed), kind, numbers);
   },
 };
 
 export type WorkerFunctions = typeof functions;
 
-/** A call of a function, with a number that the reply repeats. */
-export interface Call<K extends keyof WorkerFunctions = keyof WorkerFunctions> {
-  id: number;
-  name: K;
-  args: Parameters<WorkerFunctions[K]>;
-}
-
-/** The reply to a call: a result, or the message of an error. */
-export type Reply = { id: number; result: unknown } | { id: number; error: string };
-
-addEventListener('message', async ({ data }: MessageEvent<Call>) => {
-  const { id, name, args } = data;
-  try {
-    await ready;
-    const result = await (functions[name] as (...args: unknown[]) => unknown)(...args);
-    postMessage({ id, result } satisfies Reply, { transfer: transferableBuffers(result) });
-  } catch (error) {
-    postMessage({ id, error: error instanceof Error ? error.message : String(error) } satisfies Reply);
-  }
-});
-
-/** The buffers of all arrays in a result. They are transferred to the page instead of copied. */
-function transferableBuffers(result: unknown): ArrayBuffer[] {
-  const found = new Set<ArrayBuffer>();
-  const collect = (value: unknown): void => {
-    if (ArrayBuffer.isView(value)) found.add(value.buffer as ArrayBuffer);
-    else if (value && typeof value === 'object') Object.values(value).forEach(collect);
-  };
-  collect(result);
-  // Buffers of the stored surfaces stay here.
-  for (const surface of surfaces.flatMap(({ stored, morphed }) => [stored, morphed])) {
-    for (const value of Object.values(surface)) if (ArrayBuffer.isView(value)) found.delete(value.buffer as ArrayBuffer);
-  }
-  return [...found];
-}
+// Buffers of the stored surfaces stay here.
+answer(functions, ready, () => surfaces);

@@ -20,7 +20,7 @@ mod level;
 mod score;
 mod texel_counts;
 
-pub use self::judgement::{MapJudgement, MapVerdict, SrgbMistake};
+pub use self::judgement::{MapJudgement, MapTiles, MapVerdict, SrgbMistake};
 use self::level::Level;
 use self::texel_counts::TexelCounts;
 use super::texels::{Channel, TexelLayout};
@@ -111,6 +111,17 @@ impl<const N: usize> NormalMapJudge<N> {
             _ => evidence.confidence() as f32,
         };
         judgement
+    }
+
+    /// The tiles of the rows so far and their votes.
+    pub fn tiles(&self) -> MapTiles {
+        let index = score::combine_levels(&self.levels).level;
+        let correlations = self.levels.get(index).map_or(&[][..], |level| &level.correlations);
+        MapTiles {
+            side: level::TILE << index,
+            columns: (self.width >> index) / level::TILE,
+            correlations: correlations.iter().map(|&vote| (!vote.is_nan()).then_some(vote)).collect(),
+        }
     }
 }
 

@@ -72,6 +72,20 @@ pub struct MapJudgement {
     pub near_flat: Option<[u8; 2]>,
 }
 
+/// The tiles of a normal map and how each of them votes between OpenGL and DirectX, at the size of the map whose mean is
+/// [`MapJudgement::correlation`].
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct MapTiles {
+    /// The texels of the map along a side of a tile.
+    pub side: usize,
+    /// The tiles of a row. Tile i begins `side * (i % columns)` texels from the left and `side * (i / columns)` from the top.
+    pub columns: usize,
+    /// The correlation of each tile, from -1 (DirectX) to 1 (OpenGL), the top row first; none where a tile has no vote, because it has one
+    /// value, or mostly background or borders of charts.
+    pub correlations: Vec<Option<f32>>,
+}
+
 /// A mistake in the handling of the transfer function of sRGB.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]

@@ -25,6 +25,8 @@ pub struct Level {
     /// A row of the next level.
     half: [Vec<f32>; 2],
     pub tile_sums: TileSums,
+    /// The correlation of every tile, row after row; NaN where it has none.
+    pub correlations: Vec<f32>,
 }
 
 /// Sums over the tiles of a level.
@@ -76,6 +78,7 @@ impl Level {
             columns: std::array::from_fn(|_| row()),
             half: std::array::from_fn(|_| vec![0.0; width / 2]),
             tile_sums: TileSums::default(),
+            correlations: Vec::new(),
         }
     }
 
@@ -125,7 +128,8 @@ impl Level {
         for tile in 0..self.width / TILE {
             let columns = tile * TILE..(tile + 1) * TILE;
             let sums = self.columns.each_ref().map(|sums| sums[columns.clone()].iter().sum::<f32>());
-            self.tile_sums.add(sums);
+            let correlation = self.tile_sums.add(sums);
+            self.correlations.push(correlation.map_or(f32::NAN, |correlation| correlation as f32));
         }
         self.columns.iter_mut().for_each(|sums| sums.fill(0.0));
     }
@@ -144,11 +148,12 @@ impl Level {
 }
 
 impl TileSums {
-    fn add(&mut self, [product, p_v, q_u, p_u, q_v, count]: [f32; SUM_COUNT]) {
+    /// Adds a tile and returns its correlation; none where it has too few texels or no derivatives.
+    fn add(&mut self, [product, p_v, q_u, p_u, q_v, count]: [f32; SUM_COUNT]) -> Option<f64> {
         let [product, p_v, q_u, p_u, q_v] = [product, p_v, q_u, p_u, q_v].map(f64::from);
         let (mixed, unmixed) = (p_v * q_u, p_u * q_v);
         if count < MIN_TEXELS || !(mixed > 0.0) {
-            return;
+            return None;
         }
         let correlation = product / mixed.sqrt();
         self.tiles += 1;
@@ -160,5 +165,6 @@ impl TileSums {
         self.squared_log_energy_ratios += log_energy_ratio * log_energy_ratio;
         self.energy += p_v + q_u + p_u + q_v;
         self.texels += f64::from(count);
+        Some(correlation)
     }
 }

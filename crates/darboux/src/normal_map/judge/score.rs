@@ -42,6 +42,8 @@ const MAX_CONFIDENCES: [f64; 2] = [0.998, 0.95];
 pub struct Evidence {
     /// The mean correlation of the clearest level whose sign is that of `z_score`.
     pub correlation: f64,
+    /// The index of that level.
+    pub level: usize,
     /// The largest of the levels' z scores, or all of them combined.
     pub z_score: f64,
     /// The largest absolute z score of a level whose sign is not that of `z_score`.
@@ -59,20 +61,26 @@ pub struct Evidence {
 /// The levels are halvings of one map and depend on each other, so the combined score is not that of a standard normal variable, as it
 /// would be for independent levels.
 pub fn combine_levels(levels: &[Level]) -> Evidence {
-    let sums: Vec<&TileSums> =
-        levels.iter().map(|level| &level.tile_sums).filter(|sums| sums.tiles >= MIN_TILES).collect();
-    let largest_by =
-        |key: &dyn Fn(f64) -> f64| sums.iter().max_by(|a, b| key(a.z_score()).total_cmp(&key(b.z_score())));
-    let Some(largest) = largest_by(&f64::abs) else { return Evidence::default() };
-    let combined = sums.iter().map(|sums| sums.z_score()).sum::<f64>() / (sums.len() as f64).sqrt();
+    let sums: Vec<(usize, &TileSums)> = levels
+        .iter()
+        .map(|level| &level.tile_sums)
+        .enumerate()
+        .filter(|(_, sums)| sums.tiles >= MIN_TILES)
+        .collect();
+    let largest_by = |key: &dyn Fn(f64) -> f64| {
+        sums.iter().copied().max_by(|(_, a), (_, b)| key(a.z_score()).total_cmp(&key(b.z_score())))
+    };
+    let Some((index, largest)) = largest_by(&f64::abs) else { return Evidence::default() };
+    let combined = sums.iter().map(|(_, sums)| sums.z_score()).sum::<f64>() / (sums.len() as f64).sqrt();
     let z_score = if combined.abs() > largest.z_score().abs() { combined } else { largest.z_score() };
-    let clearest = largest_by(&|score| score * z_score).unwrap_or(largest);
-    let has_enough_signal = |sums: &&TileSums| {
+    let (level, clearest) = largest_by(&|score| score * z_score).unwrap_or((index, largest));
+    let has_enough_signal = |(_, sums): &(usize, &TileSums)| {
         sums.tiles >= MIN_TILES_FOR_NO_GRADIENT && sums.energy > MIN_SIGNAL * sums.texels * 4.0
     };
-    let against = sums.iter().map(|sums| -sums.z_score() * z_score.signum());
+    let against = sums.iter().map(|(_, sums)| -sums.z_score() * z_score.signum());
     Evidence {
         correlation: clearest.mean(clearest.correlations),
+        level,
         z_score,
         contradiction: against.fold(0.0, f64::max),
         log_energy_ratio: clearest.mean(clearest.log_energy_ratios),

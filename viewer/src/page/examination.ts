@@ -1,0 +1,86 @@
+// Checks the open model, lists the findings, and repairs it.
+
+import type { Finding } from 'darboux/check';
+
+import { checker } from '../check/client';
+import { documentOf } from '../files/export-glb';
+import type { Model } from '../files/model';
+import { nameLike, save } from './download';
+import { element } from './elements';
+import { showChecking, showCheckFailed, showFindings, type Visit } from './findings-panel';
+import { connectMaps, showMaps, visitMap, type ShownMap } from './map-panel';
+
+/** What the application does for an examination. */
+export interface Host {
+  /** Leads to a place of a finding on a mesh. */
+  visit: Visit;
+  /** Shows the repaired file beside the open one. */
+  showRepaired(file: Uint8Array<ArrayBuffer>): Promise<void>;
+  /** Runs a task, and shows its error. */
+  attempt(work: () => Promise<void>): Promise<void>;
+}
+
+export class Examination {
+  private model: Model | null = null;
+  private maps: ShownMap[] = [];
+  private repaired: Uint8Array<ArrayBuffer> | null = null;
+
+  constructor(private readonly host: Host) {
+    connectMaps();
+    element('repair').addEventListener('click', () => host.attempt(() => this.repair()));
+    element('save-repaired').addEventListener('click', () => this.save());
+  }
+
+  /** Checks a model. An error of the check is shown in place of the findings: the model stays usable. */
+  async examine(model: Model): Promise<void> {
+    [this.model, this.maps, this.repaired] = [model, [], null];
+    showChecking();
+    showMaps([]);
+    try {
+      const file = await documentOf(model);
+      const findings = await checker('check', file);
+      if (this.model !== model) return;
+      showFindings(findings, this.visit);
+      const maps = await checker('judgeMaps', file);
+      if (this.model !== model) return;
+      this.maps = maps.map((map) => ({ ...map, isRepaired: false }));
+      showMaps(this.maps);
+    } catch (error) {
+      if (this.model === model) showCheckFailed(error instanceof Error ? error.message : String(error));
+    }
+  }
+
+  /** Repairs the model and shows what became of each finding. */
+  private async repair(): Promise<void> {
+    const model = this.model!;
+    element('findings').ariaBusy = 'true';
+    const { file, findings } = await checker('repair', await documentOf(model));
+    if (this.model !== model) return;
+    if (file) await this.show(file, findings);
+    showFindings(findings, this.visit);
+  }
+
+  private async show(file: Uint8Array<ArrayBuffer>, findings: Finding[]): Promise<void> {
+    this.repaired = file;
+    await this.host.showRepaired(file);
+    const changed = new Set(findings.filter(({ repaired }) => repaired).map(({ image }) => image));
+    const after = (await checker('judgeMaps', file)).filter(({ image }) => changed.has(image));
+    const isSame = (map: ShownMap) => (other: { image: number }) => other.image === map.image;
+    showMaps(this.maps.flatMap((map) => [map, ...after.filter(isSame(map)).map((one) => ({ ...one, isRepaired: true }))]));
+  }
+
+  private save(): void {
+    if (!this.repaired) return;
+    save(nameLike(this.model!.name, '.repaired.glb'), new Blob([this.repaired], { type: 'model/gltf-binary' }));
+  }
+
+  /** Leads to a place on a mesh, or to a map. */
+  private readonly visit: Visit = async (finding, n) => {
+    if (finding.mesh === null && finding.image !== null) {
+      const text = visitMap(finding.image) ? `The normal map, image ${finding.image}` : `Image ${finding.image} is not shown`;
+      return { text, count: 1 };
+    }
+    return this.host.visit(finding, n);
+  };
+}
+

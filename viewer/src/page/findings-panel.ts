@@ -1,0 +1,118 @@
+// The list of findings: what is wrong with the model, what it looks like, the cure, and the evidence on demand.
+
+import type { Finding } from 'darboux/check';
+
+import { counted } from '../plural';
+import { element } from './elements';
+import { severityIcon } from './severity-icon';
+
+const SEVERITIES = ['error', 'warning', 'info'] as const;
+
+const SEVERITY_NAMES = { error: 'Error', warning: 'Warning', info: 'Note' } as const;
+
+/** Leads to the n-th place of a finding. Returns a sentence about it, and the number of places. */
+export type Visit = (finding: Finding, n: number) => Promise<{ text: string; count: number }>;
+
+/** Whether a repair would remove a finding. */
+export function isRepairable({ leftBecause }: Finding): boolean {
+  return leftBecause === null;
+}
+
+/** Says that the check runs; screen readers and tests wait for its end. */
+export function showChecking(): void {
+  element('findings').replaceChildren();
+  element('findings').ariaBusy = 'true';
+  element('findings-summary').textContent = 'Checking the model and its normal maps …';
+  element('repair').hidden = element('save-repaired').hidden = true;
+}
+
+/** Lists findings, the worst first. */
+export function showFindings(findings: Finding[], visit: Visit): void {
+  const sorted = [...findings].sort((a, b) => SEVERITIES.indexOf(a.severity) - SEVERITIES.indexOf(b.severity));
+  element('findings').replaceChildren(...sorted.map((finding) => row(finding, visit)));
+  element('findings').ariaBusy = 'false';
+  element('findings-summary').textContent = summary(findings);
+  const repairable = findings.filter(isRepairable).length;
+  const isDone = findings.some(({ repaired }) => repaired !== undefined);
+  element('repair').hidden = !repairable || isDone;
+  element('repair').textContent = `Repair ${counted(repairable, 'finding', 'findings')}`;
+  element('save-repaired').hidden = !isDone;
+}
+
+/** Says why there are no findings. */
+export function showCheckFailed(reason: string): void {
+  element('findings').ariaBusy = 'false';
+  element('findings-summary').textContent = `The check ended early: ${reason}`;
+}
+
+function summary(findings: Finding[]): string {
+  const names = { error: ['error', 'errors'], warning: ['warning', 'warnings'], info: ['note', 'notes'] } as const;
+  const parts = SEVERITIES.map((severity) => [findings.filter((finding) => finding.severity === severity).length, ...names[severity]] as const);
+  const said = parts.filter(([count]) => count).map(([count, one, many]) => counted(count, one, many));
+  const repaired = findings.filter((finding) => finding.repaired).length;
+  if (!said.length) return 'Nothing is wrong.';
+  return repaired ? `${said.join(', ')}; ${repaired} of them repaired.` : `${said.join(', ')}.`;
+}
+
+function row(finding: Finding, visit: Visit): HTMLElement {
+  const item = document.createElement('li');
+  item.dataset.code = finding.code;
+  item.dataset.severity = finding.severity;
+  const head = document.createElement('button');
+  head.type = 'button';
+  head.className = 'finding';
+  const severity = text('strong', SEVERITY_NAMES[finding.severity], 'severity');
+  severity.prepend(severityIcon(finding.severity));
+  head.append(severity, text('span', `${placeOf(finding)}: ${finding.text}.`));
+  let next = 0;
+  head.addEventListener('click', async () => {
+    const { text, count } = await visit(finding, next);
+    next = (next + 1) % Math.max(count, 1);
+    element('status').textContent = text;
+  });
+  item.append(head, ...became(finding), paragraph('Looks like', finding.looksLike), paragraph('Cure', finding.cure), evidence(finding));
+  return item;
+}
+
+/** What the repair did. */
+function became({ repaired, leftBecause }: Finding): HTMLElement[] {
+  if (repaired === undefined) return [];
+  const sentence = repaired ? '✓ Repaired.' : `– Left, because ${leftBecause ?? 'nothing was repaired'}.`;
+  return [text('p', sentence, repaired ? 'repaired' : 'left')];
+}
+
+/** Where a finding is, in words. */
+export function placeOf({ mesh, meshName, primitive, sameAs, material, image }: Finding): string {
+  const same = sameAs ? ` and ${sameAs} with the same data` : '';
+  if (mesh !== null) return `${meshName ?? `Mesh ${mesh}`}${primitive ? `, primitive ${primitive}` : ''}${same}`;
+  if (image !== null) return `Image ${image}`;
+  return material === null ? 'The image' : `Material ${material}`;
+}
+
+function evidence({ code, count, first, firstAre, evidence: numbers, leftBecause, repaired }: Finding): HTMLElement {
+  const details = document.createElement('details');
+  const list = document.createElement('dl');
+  const add = (what: string, value: string) => list.append(text('dt', what), text('dd', value));
+  add('Code', code);
+  add('Count', count.toLocaleString('en'));
+  if (first.length) add(`First ${firstAre}`, first.join(', '));
+  for (const { what, value, unit } of numbers) add(what, `${Number(value.toPrecision(4)).toLocaleString('en')} ${unit}`.trim());
+  if (leftBecause !== null && repaired === undefined) add('Not repaired here, because', leftBecause);
+  details.append(text('summary', 'Evidence'), list);
+  return details;
+}
+
+function paragraph(label: string, sentence: string): HTMLElement {
+  const out = document.createElement('p');
+  // Names of commands are between backticks.
+  const parts = sentence.split('`').map((part, at) => (at % 2 ? text('code', part) : part));
+  out.append(text('b', `${label}: `), ...parts);
+  return out;
+}
+
+function text(tag: string, content: string, className = ''): HTMLElement {
+  const out = document.createElement(tag);
+  out.textContent = content;
+  if (className) out.className = className;
+  return out;
+}

@@ -1,0 +1,66 @@
+// The page on a phone, a tablet and a desktop, dark and light: the model is in view, nothing is cut off, and the rules for accessible pages hold.
+
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+
+import { browser, serve, Viewer } from './page.mjs';
+
+let server, chromium;
+
+before(async () => ([server, chromium] = [await serve(), await browser()]));
+
+after(async () => {
+  await chromium?.close();
+  server?.close();
+});
+
+const SCREENS = { phone: [390, 844, true], tablet: [768, 1024, true], desktop: [1280, 800, false] };
+
+for (const [name, [width, height, isTouched]] of Object.entries(SCREENS)) {
+  test(`${name}: the model comes first, and the panel is beside or below it`, async () => {
+    const viewer = await Viewer.open(chromium, server.address, { viewport: { width, height }, hasTouch: isTouched, isMobile: isTouched });
+    const box = (selector) => viewer.page.locator(selector).boundingBox();
+    const [view, panel] = [await box('#view'), await box('#panel')];
+    assert.ok(view.width * view.height > 0.4 * width * height, `the view has ${view.width} x ${view.height}`);
+    if (isTouched) {
+      assert.equal(view.width, width);
+      assert.ok(panel.y >= view.y + view.height - 1, 'the panel is below');
+    }
+    assert.ok(panel.height > 200 && panel.y + panel.height <= height + 1);
+    assert.equal(await viewer.page.evaluate(() => document.documentElement.scrollWidth), width, 'nothing is wider than the screen');
+    for (const colorScheme of ['light', 'dark']) {
+      await viewer.page.emulateMedia({ colorScheme });
+      assert.deepEqual(await viewer.violations(), [], colorScheme);
+    }
+    if (isTouched) await touches(viewer, view);
+    assert.deepEqual(viewer.faults, []);
+    await viewer.close();
+  });
+}
+
+/** The line between the sides follows a finger, a finger turns the model, and the sheet can be closed. */
+async function touches(viewer, view) {
+  const session = await viewer.page.context().newCDPSession(viewer.page);
+  const drag = async (from, to) => {
+    const point = ([x, y]) => [{ x, y }];
+    await session.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: point(from) });
+    for (const part of [0.25, 0.5, 0.75, 1]) {
+      const at = from.map((x, i) => x + part * (to[i] - x));
+      await session.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: point(at) });
+    }
+    await session.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+    await viewer.settled();
+  };
+  const middle = view.y + 0.4 * view.height;
+  await drag([view.width / 2, middle], [0.25 * view.width, middle]);
+  const split = Number(await viewer.page.inputValue('#split'));
+  assert.ok(Math.abs(split - 25) < 1, `the line is at ${split} percent`);
+  const before = await viewer.picture();
+  await drag([0.6 * view.width, middle], [0.9 * view.width, middle]);
+  assert.ok((await viewer.picture()).differs(before) > 0.05, 'the model turned');
+  await viewer.page.tap('#sheet');
+  await viewer.page.waitForSelector('#sheet[aria-expanded=false]');
+  const taller = (await viewer.page.locator('#view').boundingBox()).height;
+  assert.ok(taller > 1.3 * view.height, `${taller} after ${view.height}`);
+  await viewer.page.tap('#sheet');
+}
